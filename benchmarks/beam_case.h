@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bullet_fem/fem/material.h"
+#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/vec3.h"
+
+namespace bullet_fem
+{
+
+/// The dynamic clamped beam that every method of the benchmark runs: 4 x 1 x 1 m along x, cells split into six tets
+/// around the diagonal (0,0,0)-(1,1,1), clamped at x = 0, falling from rest under its own weight.
+struct BeamCase
+{
+    std::vector<Vec3> m_positions;    ///< rest positions X [m]
+    std::vector<Tet> m_tets;          ///< elements of positive orientation
+    std::vector<int> m_clampedNodes;  ///< nodes that never move
+    int m_tipNode = 0;                ///< the node at (4, 0, 0) whose height z is reported
+    Material m_material;              ///< E, nu, rho, alpha, beta
+    Vec3 m_gravity = {0, 0, -9.81};   ///< g [m/s2]
+    double m_step = 1.0 / 60;         ///< h [s], > 0
+    int m_steps = 60;                 ///< steps to run, >= 1
+};
+
+/// What one method did with a BeamCase; one entry a step in every array.
+struct BeamRun
+{
+    std::string m_method;
+    double m_tolerance = 0;             ///< |b - A dv| / |b| asked for [-]; 0 where the method has no such setting
+    double m_tipBound = 1e-3;           ///< tip error [-] up to which the run counts as the same answer
+    double m_mass = 0;                  ///< mass of the free nodes [kg]
+    double m_setupSeconds = 0;          ///< everything before the first step [s]
+    std::vector<double> m_stepSeconds;  ///< wall time of the step alone [s]
+    std::vector<int> m_iterations;      ///< CG iterations, 1 for the direct mode
+    std::vector<double> m_residuals;    ///< true |b - A dv| / |b| after the solve [-]
+    std::vector<double> m_tipHeights;   ///< z of the tip node after the step [m]
+};
+
+/// The beam with cubic cells of side 1 / cellsPerMetre [m], cellsPerMetre in [1, 32]: 24 cellsPerMetre^3 tets.
+/// Throws std::invalid_argument.
+BeamCase makeBeamCase(int cellsPerMetre, const Material& material);
+
+/// Lumped node masses, rho V / 4 from each tet at a node [kg]; clamped nodes too.
+std::vector<double> lumpedNodeMasses(const BeamCase& beam);
+
+}  // namespace bullet_fem

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/shape_distance.h"
+
+namespace bullet_fem
+{
+
+/// What a search for contacts found besides them.
+struct ContactSearchReport
+{
+    bool m_unknownShape = false;  ///< a shape without contact support was left out
+    bool m_limited = false;       ///< more points than allowed were found; those with the smallest gaps were kept
+};
+
+/// Remembers that Bullet's broad phase found the two overlapping. May be called by several threads at once.
+void recordTouching(FemSoftBody& fem, const btCollisionObject& object);
+
+/// Finds where a FEM body's surface touches the objects recorded, or may do so within the step. Against every shape:
+/// surface nodes. Against convex shapes, where the nodes do not lie over one flat face: the middles of edges and
+/// triangles, and, where the shape lies between all of these, the nearest points of edges and triangles. Points that
+/// are fixed in the surface come first because the nearest point wanders where edges or faces are parallel, and contact
+/// forces with it. Gaps are measured from the positions at the start of the step to the objects' present poses; what
+/// separates faster than it could close within the step is left out (speculative contact). Impulses of the last step
+/// are taken over as guesses. Scratch grows with the number of shapes, never shrinks.
+class ContactFinder
+{
+public:
+    /// After solveFreeMotion: fem.m_contacts and fem.m_origins become those of this step, with m_body = bodyIndex, at
+    /// most maxContacts. fem.m_touching is emptied.
+    ContactSearchReport find(FemSoftBody& fem, int bodyIndex, double step, int maxContacts, RigidObstacles& obstacles);
+
+private:
+    struct Leaf
+    {
+        const btCollisionObject* m_object;
+        int m_index;  // among the object's leaves
+        int m_obstacle;
+        double m_friction;
+        double m_reach;  // distance at which this leaf may be touched within the step [m]
+    };
+
+    /// What is tested against: a leaf, the object's motion, the step.
+    struct Target
+    {
+        const ShapeLeaf& m_shape;
+        const Leaf& m_leaf;
+        const Obstacle& m_obstacle;
+        double m_step;
+    };
+    using Weights = std::array<double, 3>;
+
+    void findOnNodes(FemSoftBody& fem, const Target& target);
+    void findOnEdges(FemSoftBody& fem, const Target& target);
+    void findOnTriangles(FemSoftBody& fem, const Target& target);
+    bool overOneFace(const FemSoftBody& fem, int a, int b) const;
+    double gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
+                 SurfaceDistance& d) const;
+    double gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point, SurfaceDistance& d) const;
+    double considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, double nearest);
+    void consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, const SurfaceDistance& d);
+    bool limit(int maxContacts);
+    void takeOverImpulses(const FemSoftBody& fem);
+
+    btAlignedObjectArray<ShapeLeaf> m_leaves;
+    std::vector<ContactPoint> m_contacts;
+    std::vector<ContactOrigin> m_origins;
+    std::vector<int> m_order;
+    double m_size = 0;       // cube root of the body's volume [m]
+    double m_advantage = 0;  // by which a nearest point must beat the fixed ones [m]
+    double m_band = 0;       // gaps below this are contacts though nothing closes them [m]
+    int m_bodyIndex = 0;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "LinearMath/btVector3.h"
+#include "bullet_bridge/model_library.h"
+#include "bullet_bridge/surface_features.h"
+#include "bullet_fem/fem/contact_solver.h"
+
+class btCollisionObject;
+class btSoftBody;
+
+namespace bullet_fem
+{
+
+/// Where a contact point came from: how it is recognised in the next step.
+struct ContactOrigin
+{
+    const btCollisionObject* m_object = nullptr;
+    int m_objectId = 0;  ///< broadphase id; orders the contacts
+    int m_leaf = 0;      ///< leaf of the object's shape
+    int m_feature = 0;   ///< surface node; beyond those edges, triangles, and nearest points of triangles
+
+    bool operator<(const ContactOrigin& b) const
+    {
+        if (m_objectId != b.m_objectId) return m_objectId < b.m_objectId;
+        return m_leaf != b.m_leaf ? m_leaf < b.m_leaf : m_feature < b.m_feature;
+    }
+};
+
+/// What was last written to the btSoftBody's nodes: a component that differs was written by the user since.
+struct WrittenNodes
+{
+    std::vector<btVector3> m_x, m_v;
+    std::vector<btScalar> m_inverseMass;
+};
+
+/// Nodes whose motion is prescribed.
+struct NodePins
+{
+    std::vector<Vec3> m_velocity;            ///< that the user gave a pinned node [m/s]
+    std::vector<Vec3> m_position;            ///< where a moved or targeted node shall be at the end of the step [m]
+    std::vector<unsigned char> m_hasTarget;  ///< 1: kinematic by setNodeTarget
+    std::vector<unsigned char> m_moved;      ///< 1: pinned and moved by the user since the last step
+};
+
+/// A btSoftBody and the finite-element body that moves it.
+struct FemSoftBody
+{
+    FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
+                std::shared_ptr<ComplianceCache> compliance);
+
+    btSoftBody* m_softBody;
+    std::uint64_t m_mark;  ///< on the btSoftBody: see body_mark.h
+    Body m_body;
+    std::shared_ptr<ComplianceCache> m_compliance;
+    WrittenNodes m_written;
+    NodePins m_pins;
+    double m_contactOffset = 0;  ///< [m]
+
+    std::mutex m_touchingMutex;                        ///< guards m_touching while Bullet's threads collide
+    std::vector<const btCollisionObject*> m_touching;  ///< overlapping rigid objects of this step
+
+    std::vector<ContactPoint> m_contacts;  ///< of the last step
+    std::vector<ContactOrigin> m_origins;  ///< one a contact, ascending
+    SurfaceFeatures m_features;            ///< of the mesh's surface
+    std::vector<double> m_nodeGap;         ///< scratch of the contact search, one a node
+    std::vector<Vec3> m_nodeNormal;        ///< likewise
+    std::vector<double> m_edgeGap;         ///< likewise, one a surface edge: at its middle
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/model_library.h"
+
+#include <algorithm>
+
+#include "bullet_fem/fem/contact_solver.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Share of an edge by which rest positions may differ: what single precision loses some hundred metres from the origin.
+constexpr double kSameShape = 1e-4;
+
+bool sameUpToTranslation(const TetMesh& a, const TetMesh& b)
+{
+    if (a.nodeCount() != b.nodeCount() || a.tets() != b.tets()) return false;
+    const std::vector<Vec3>&X = a.restPositions(), &Y = b.restPositions();
+    const double tolerance = kSameShape * a.meanEdgeLength();
+    for (std::size_t i = 1; i < X.size(); ++i)
+        if (norm((X[i] - X[0]) - (Y[i] - Y[0])) > tolerance) return false;
+    return true;
+}
+
+template <typename Entry, typename Pointer>
+void dropDead(std::vector<Entry>& entries, Pointer Entry::*pointer)
+{
+    const auto dead = [pointer](const Entry& e) { return (e.*pointer).expired(); };
+    entries.erase(std::remove_if(entries.begin(), entries.end(), dead), entries.end());
+}
+
+}  // namespace
+
+std::shared_ptr<const RestShape> ModelLibrary::restShape(const TetMesh& mesh, const Material& material,
+                                                         const std::vector<double>& filled)
+{
+    dropDead(m_shapes, &Shape::m_shape);
+    for (const Shape& entry : m_shapes)
+        if (const auto shape = entry.m_shape.lock())
+            if (shape->m_material == material && entry.m_filled == filled && sameUpToTranslation(shape->m_mesh, mesh))
+                return shape;
+    const auto shape = std::make_shared<const RestShape>(mesh, material, filled);
+    m_shapes.push_back({shape, filled});
+    return shape;
+}
+
+std::shared_ptr<const BodyModel> ModelLibrary::model(const std::shared_ptr<const RestShape>& shape,
+                                                     const FactorInput& input)
+{
+    dropDead(m_models, &Model::m_model);
+    for (const Model& entry : m_models)
+        if (auto model = entry.m_model.lock())
+            if (model->sharedShape() == shape && model->factorInput() == input) return model;
+    auto model = BodyModel::create(shape, input);
+    m_models.push_back({model, {}});
+    return model;
+}
+
+std::shared_ptr<ComplianceCache> ModelLibrary::compliance(const std::shared_ptr<const BodyModel>& model)
+{
+    for (Model& entry : m_models)
+    {
+        if (entry.m_model.lock() != model) continue;
+        if (auto cache = entry.m_compliance.lock()) return cache;
+        auto cache = makeComplianceCache(model);
+        entry.m_compliance = cache;
+        return cache;
+    }
+    return makeComplianceCache(model);
+}
+
+}  // namespace bullet_fem

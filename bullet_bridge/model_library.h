@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bullet_fem/fem/body_model.h"
+
+namespace bullet_fem
+{
+
+class ComplianceCache;
+
+/// Finds the models that bodies can share: the same elements, material, masses, pins and step, and rest positions that
+/// differ by a translation, up to the rounding of Bullet's single precision. Models live as long as a body uses them.
+class ModelLibrary
+{
+public:
+    /// A shape like this, an old one if there is one. Throws what RestShape's constructor throws.
+    std::shared_ptr<const RestShape> restShape(const TetMesh& mesh, const Material& material,
+                                               const std::vector<double>& filled);
+
+    /// A model of that shape; factors if there is none yet. Throws what BodyModel::create throws.
+    std::shared_ptr<const BodyModel> model(const std::shared_ptr<const RestShape>& shape, const FactorInput& input);
+
+    /// The compliance cache that the bodies of a model share.
+    std::shared_ptr<ComplianceCache> compliance(const std::shared_ptr<const BodyModel>& model);
+
+private:
+    struct Shape
+    {
+        std::weak_ptr<const RestShape> m_shape;
+        std::vector<double> m_filled;
+    };
+    struct Model
+    {
+        std::weak_ptr<const BodyModel> m_model;
+        std::weak_ptr<ComplianceCache> m_compliance;
+    };
+    std::vector<Shape> m_shapes;
+    std::vector<Model> m_models;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/node_exchange.h"
+
+#include <algorithm>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/soft_body_mesh.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kFarthest = 1e6;  // [m]; beyond it Bullet's broadphase gives a body up
+
+bool isUsable(const Vec3& x)
+{
+    return isFinite(x) && std::max({std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)}) < kFarthest;
+}
+
+bool sameBits(const btVector3& a, const btVector3& b)
+{
+    return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
+}
+
+// Loads the components of `user` that differ from `written` into `value`.
+void loadChanged(const btVector3& user, const btVector3& written, Vec3& value)
+{
+    for (int c = 0; c < 3; ++c)
+        if (user[c] != written[c]) value[c] = user[c];
+}
+
+void readMass(FemSoftBody& fem, int i, NodeReadReport& report)
+{
+    const btScalar inverse = fem.m_softBody->m_nodes[i].m_im;
+    BodyState& state = fem.m_body.m_state;
+    state.m_fixed[i] = inverse == 0 || fem.m_pins.m_hasTarget[i];
+    if (inverse == fem.m_written.m_inverseMass[i]) return;
+    if (inverse < 0 || !std::isfinite(inverse) || (inverse > 0 && !std::isfinite(1 / inverse)))
+    {
+        report.m_badMass = true;
+        fem.m_softBody->m_nodes[i].m_im = fem.m_written.m_inverseMass[i];
+        return;
+    }
+    fem.m_written.m_inverseMass[i] = inverse;
+    if (inverse > 0) state.m_mass[i] = 1 / double(inverse);
+}
+
+// True if the user moved most of the free nodes: then the body was put elsewhere, and its pinned nodes jump with it.
+bool wasTeleported(const FemSoftBody& fem)
+{
+    int freeNodes = 0, moved = 0;
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        if (fem.m_body.m_state.m_fixed[i]) continue;
+        ++freeNodes;
+        moved += !sameBits(fem.m_softBody->m_nodes[i].m_x, fem.m_written.m_x[i]);
+    }
+    return 2 * moved > freeNodes;
+}
+
+void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report)
+{
+    btSoftBody::Node& node = fem.m_softBody->m_nodes[i];
+    BodyState& state = fem.m_body.m_state;
+    btVector3 &writtenX = fem.m_written.m_x[i], &writtenV = fem.m_written.m_v[i];
+    if (sameBits(node.m_x, writtenX) && sameBits(node.m_v, writtenV)) return;
+
+    Vec3 x = state.m_x[i], v = state.m_v[i];
+    loadChanged(node.m_x, writtenX, x);
+    loadChanged(node.m_v, writtenV, v);
+    if (!isUsable(x) || !isUsable(v))
+    {
+        report.m_restored = true;
+        node.m_x = writtenX;
+        node.m_v = writtenV;
+        return;
+    }
+    if (!state.m_fixed[i])
+    {
+        state.m_x[i] = x;
+        state.m_v[i] = v;
+    }
+    else
+    {
+        if (!sameBits(node.m_v, writtenV)) fem.m_pins.m_velocity[i] = v;
+        if (teleported)
+            state.m_x[i] = x;
+        else if (!sameBits(node.m_x, writtenX))
+            fem.m_pins.m_position[i] = x, fem.m_pins.m_moved[i] = 1;
+    }
+    writtenX = node.m_x;
+    writtenV = node.m_v;
+}
+
+}  // namespace
+
+NodeReadReport readNodes(FemSoftBody& fem)
+{
+    NodeReadReport report;
+    const bool teleported = wasTeleported(fem);
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        const bool wasFixed = fem.m_body.m_state.m_fixed[i];
+        readMass(fem, i, report);
+        if (fem.m_body.m_state.m_fixed[i] && !wasFixed) fem.m_pins.m_velocity[i] = {};
+        readMotion(fem, i, teleported, report);
+    }
+    report.m_stalePins = fem.m_body.m_model->factorInput().m_fixed != fem.m_body.m_state.m_fixed;
+    return report;
+}
+
+double factorMismatch(const FemSoftBody& fem, double step)
+{
+    const FactorInput& input = fem.m_body.m_model->factorInput();
+    double mismatch = std::max(step / input.m_step, input.m_step / step);
+    for (std::size_t i = 0; i < input.m_mass.size(); ++i)
+    {
+        const double ratio = fem.m_body.m_state.m_mass[i] / input.m_mass[i];
+        mismatch = std::max({mismatch, ratio, 1 / ratio});
+    }
+    return mismatch;
+}
+
+bool readLoads(FemSoftBody& fem, double step)
+{
+    btSoftBody& soft = *fem.m_softBody;
+    const BodyState& state = fem.m_body.m_state;
+    StepLoads& loads = fem.m_body.m_loads;
+    bool finite = true;
+    Vec3 gravity = soft.m_worldInfo ? vec3(soft.m_worldInfo->m_gravity) : Vec3();
+    if (!isFinite(gravity)) gravity = {}, finite = false;
+    for (int i = 0; i < soft.m_nodes.size(); ++i)
+    {
+        Vec3 force = vec3(soft.m_nodes[i].m_f);
+        if (!isFinite(force)) force = {}, finite = false;
+        loads.m_force[i] = force + state.m_mass[i] * gravity;
+        soft.m_nodes[i].m_f.setZero();
+
+        if (!state.m_fixed[i]) continue;
+        const bool goes = fem.m_pins.m_hasTarget[i] || fem.m_pins.m_moved[i];
+        loads.m_targetVelocity[i] =
+            goes ? (1 / step) * (fem.m_pins.m_position[i] - state.m_x[i]) : fem.m_pins.m_velocity[i];
+        fem.m_pins.m_moved[i] = 0;
+    }
+    // Bullet multiplies velocities by 1 - kDP a step; the implicit rate alpha that does the same is kDP / (h (1 -
+    // kDP)).
+    const double kDP = soft.m_cfg.kDP;
+    loads.m_massDamping = kDP > 0 ? std::min(kDP, 0.999) / (step * (1 - std::min(kDP, 0.999))) : 0;
+    return finite;
+}
+
+void writeNodes(FemSoftBody& fem)
+{
+    const BodyState& state = fem.m_body.m_state;
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        btSoftBody::Node& node = fem.m_softBody->m_nodes[i];
+        node.m_q = node.m_x;
+        node.m_vn = node.m_v;
+        node.m_x = fem.m_written.m_x[i] = bulletVector(state.m_x[i]);
+        node.m_v = fem.m_written.m_v[i] = bulletVector(state.m_v[i]);
+    }
+}
+
+void setSweptBounds(FemSoftBody& fem, double step, double margin)
+{
+    const BodyState& state = fem.m_body.m_state;
+    const Vec3 fall = fem.m_softBody->m_worldInfo ? step * vec3(fem.m_softBody->m_worldInfo->m_gravity) : Vec3();
+    Vec3 lowest = {1e30, 1e30, 1e30}, highest = {-1e30, -1e30, -1e30};
+    for (int i : fem.m_body.m_model->mesh().surfaceNodes())
+    {
+        const Vec3 now = state.m_x[i], then = now + step * (state.m_v[i] + fall);
+        for (int c = 0; c < 3; ++c)
+        {
+            lowest[c] = std::min({lowest[c], now[c], then[c]});
+            highest[c] = std::max({highest[c], now[c], then[c]});
+        }
+    }
+    const double wide = margin + fem.m_contactOffset;
+    fem.m_softBody->m_bounds[0] = bulletVector(lowest - Vec3{wide, wide, wide});
+    fem.m_softBody->m_bounds[1] = bulletVector(highest + Vec3{wide, wide, wide});
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/soft_body_mesh.h"
+
+#include <algorithm>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+
+namespace bullet_fem
+{
+
+TetMesh tetMeshOf(const btSoftBody& body)
+{
+    std::vector<Vec3> positions(body.m_nodes.size());
+    for (int i = 0; i < body.m_nodes.size(); ++i) positions[i] = vec3(body.m_nodes[i].m_x) - vec3(body.m_nodes[0].m_x);
+    std::vector<Tet> tets(body.m_tetras.size());
+    for (int e = 0; e < body.m_tetras.size(); ++e)
+        for (int a = 0; a < 4; ++a) tets[e][a] = static_cast<int>(body.m_tetras[e].m_n[a] - &body.m_nodes[0]);
+    return TetMesh(std::move(positions), std::move(tets));
+}
+
+std::vector<double> filledFractionsOf(const btSoftBody& body)
+{
+    std::vector<double> filled(body.m_tetras.size(), 1.0);
+    bool all = true;
+    for (int e = 0; e < body.m_tetras.size(); ++e)
+    {
+        const double stored = body.m_tetras[e].m_c1;
+        if (!(stored > 0 && stored < 1)) continue;
+        filled[e] = stored;
+        all = false;
+    }
+    if (all) filled.clear();
+    return filled;
+}
+
+double massScaleOf(const btSoftBody& body)
+{
+    const double stored = body.m_tetras.size() > 0 ? double(body.m_tetras[0].m_c2) : 0;
+    return stored > 0 && std::isfinite(stored) ? stored : 1;
+}
+
+void storeFill(btSoftBody& body, int tet, double fraction, double massScale)
+{
+    body.m_tetras[tet].m_c1 = static_cast<btScalar>(fraction);
+    body.m_tetras[tet].m_c2 = static_cast<btScalar>(massScale);
+}
+
+Material unsetMaterialOf(const btSoftBody& body)
+{
+    const btSoftBody::Material* spring = body.m_tetras.size() > 0 ? body.m_tetras[0].m_material : nullptr;
+    const double kLST = spring ? std::clamp(double(spring->m_kLST), 1e-3, 1.0) : 1.0;
+    Material material;
+    material.m_youngModulus = 1e6 * (std::isfinite(kLST) ? kLST : 1.0);
+    material.m_density = 0;
+    material.m_stiffnessDamping = 0.005;
+    return material;
+}
+
+std::vector<double> massesOf(const TetMesh& mesh, const std::vector<double>& filled, double density)
+{
+    std::vector<double> mass(mesh.nodeCount(), 0.0);
+    for (int e = 0; e < mesh.tetCount(); ++e)
+        for (int node : mesh.tets()[e])
+            mass[node] += density * mesh.tetVolume(e) * (filled.empty() ? 1.0 : filled[e]) / 4;
+    return mass;
+}
+
+std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<double>& volumeShare, bool& repaired)
+{
+    double knownMass = 0, knownVolume = 0;
+    std::vector<double> mass(volumeShare.size(), 0.0);
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+    {
+        const double inverse = body.m_nodes[i].m_im;
+        const bool usable = inverse > 0 && std::isfinite(inverse) && std::isfinite(1 / inverse);
+        repaired = repaired || !(usable || inverse == 0);
+        if (!usable) continue;
+        mass[i] = 1 / inverse;
+        knownMass += mass[i];
+        knownVolume += volumeShare[i];
+    }
+    const double density = knownVolume > 0 ? knownMass / knownVolume : 1000;
+    for (std::size_t i = 0; i < mass.size(); ++i)
+        if (!(mass[i] > 0)) mass[i] = density * volumeShare[i];
+    return mass;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/material.h"
+#include "bullet_fem/fem/tet_mesh.h"
+
+class btSoftBody;
+
+namespace bullet_fem
+{
+
+/// The tetrahedra of a btSoftBody with its present node positions as rest shape, node 0 at the origin (so that bodies
+/// far away lose nothing). Node and element order are the body's. Throws std::invalid_argument, see TetMesh.
+TetMesh tetMeshOf(const btSoftBody& body);
+
+/// Filled fraction of every element as a cage's helper stored it (see storeFill); empty if all are 1.
+std::vector<double> filledFractionsOf(const btSoftBody& body);
+
+/// Factor on all masses that makes a cage as heavy as its surface's volume; 1 for other bodies.
+double massScaleOf(const btSoftBody& body);
+
+/// Stores an element's filled fraction and the mass scale in btSoftBody::Tetra::m_c1 and m_c2, fields that Bullet
+/// serialises and no longer uses. 0, their value after appendTetra, means 1.
+void storeFill(btSoftBody& body, int tet, double fraction, double massScale);
+
+/// What a body is made of while nobody has said so: E = 1e6 kLST Pa (kLST in [1e-3, 1]), nu .3, beta .005 s, own
+/// masses.
+Material unsetMaterialOf(const btSoftBody& body);
+
+/// Masses that a density gives the nodes: sum of rho V_e filled_e / 4 [kg].
+std::vector<double> massesOf(const TetMesh& mesh, const std::vector<double>& filled, double density);
+
+/// Node masses [kg] from Bullet's inverse masses. Pinned nodes (inverse mass 0) get their share of the volume at the
+/// body's mean density; so do nodes whose inverse mass is negative, NaN or infinite, and then `repaired` is set.
+std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<double>& volumeShare, bool& repaired);
+
+}  // namespace bullet_fem

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Zlib
+# Installs the libraries, the public headers and a package configuration: find_package(BulletFEM) then gives
+# BulletFEM::plugin and the others.
+include(CMakePackageConfigHelpers)
+
+set(_targets bulletfem_cholesky bulletfem_fem bulletfem_bullet_bridge bulletfem_plugin)
+if(BULLETFEM_BUILD_IO)
+    list(APPEND _targets bulletfem_io)
+endif()
+set(_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/BulletFEM)
+
+install(TARGETS ${_targets} EXPORT BulletFEMTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT BulletFEMTargets NAMESPACE BulletFEM:: DESTINATION ${_config_dir})
+install(DIRECTORY include/bullet_fem DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+configure_package_config_file(cmake/BulletFEMConfig.cmake.in "${PROJECT_BINARY_DIR}/BulletFEMConfig.cmake"
+    INSTALL_DESTINATION ${_config_dir})
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/BulletFEMConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/BulletFEMConfig.cmake" "${PROJECT_BINARY_DIR}/BulletFEMConfigVersion.cmake"
+    cmake/FindCHOLMOD.cmake cmake/FindBulletFloat.cmake DESTINATION ${_config_dir})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Zlib
+# shellcheck shell=bash disable=SC2034
+# Sourced by demos/run.sh and tests/run.sh: Debian packages, installed only if they are missing.
+
+# What every build of this project needs. Assimp's CMake targets name zlib's library without depending on its package.
+build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libsuitesparse-dev libassimp-dev zlib1g-dev
+    libcli11-dev)
+
+say() { printf '== %s\n' "$*"; }
+fail() { printf 'error: %s\n' "$*" >&2; exit 1; }
+
+# as_root <command>...: runs it as root, through sudo if need be.
+as_root()
+{
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    elif command -v sudo >/dev/null; then
+        sudo "$@"
+    else
+        fail "this must be run as root, and there is no sudo: $*"
+    fi
+}
+
+is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+# install_packages <package>...: installs those that are missing, and touches nothing if none is.
+install_packages()
+{
+    local missing=() package
+    if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+        fail "apt-get not found: install by hand what these Debian packages hold, then use cmake --preset release: $*"
+    fi
+    for package in "$@"; do
+        is_installed "$package" || missing+=("$package")
+    done
+    if [ ${#missing[@]} -eq 0 ]; then
+        say "all packages are installed"
+        return
+    fi
+    say "installing ${missing[*]}"
+    as_root apt-get update
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends "${missing[@]}"
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace bullet_fem
+{
+
+/// What the user may choose. Lengths are those of the scene, after scaling.
+struct DropOptions
+{
+    std::string m_meshFile;  ///< OFF, OBJ, STL or PLY
+    std::string m_outputFolder = "out/drop";
+    double m_scale = 0;             ///< multiplies the file's positions [-]; 0: the longest side becomes 1 m
+    double m_cellSize = 0;          ///< edge of a lattice cube [m]; 0: chosen for a few thousand tets
+    double m_youngModulus = 1e6;    ///< E [Pa], in [1, 1e13]
+    double m_poissonRatio = 0.4;    ///< nu [-], in [0, 0.49]
+    double m_density = 1000;        ///< rho [kg/m3], in [1, 1e6]
+    double m_seconds = 4;           ///< simulated time [s], in [1e-4, 3600]
+    double m_step = 1.0 / 60;       ///< h [s], in [1e-4, 0.1]
+    double m_framesPerSecond = 30;  ///< of the written series [1/s], in [0.01, 1e4]
+};
+
+/// Reads the command line. Of an option given twice the later value counts. Returns the program's exit code if it is to
+/// end now: 0 after --help, 2 after a message on stderr about a bad option.
+std::optional<int> parseOptions(int argc, char** argv, DropOptions& options);
+
+}  // namespace bullet_fem

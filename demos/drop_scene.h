@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h"
+#include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
+#include "btBulletDynamicsCommon.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "demos/drop_options.h"
+#include "demos/drop_size.h"
+
+class btSoftBody;
+
+namespace bullet_fem
+{
+
+/// A soft body above a tilted box on a plane, and rigid boxes above all. y is up. All lengths but the body's own are
+/// multiples of the body's longest side, so the scene looks alike at any scale.
+class DropScene
+{
+public:
+    /// Builds the world and factors the body for options.m_step.
+    /// Throws std::runtime_error on a bad file, std::invalid_argument on a bad surface, cell or material.
+    DropScene(const DropOptions& options, const DropSize& size);
+    ~DropScene();
+    DropScene(const DropScene&) = delete;
+    DropScene& operator=(const DropScene&) = delete;
+
+    void step();  ///< by options.m_step
+
+    const btSoftBody& softBody() const { return *m_softBody; }
+    const btFemStepReport& report() const { return m_fem.stepReport(m_softBody.get()); }
+    const btAlignedObjectArray<btFemContact>& contacts() const { return m_fem.contacts(m_softBody.get()); }
+    /// The tilted box first, which is static; then those that fall.
+    const std::vector<std::unique_ptr<btRigidBody>>& boxes() const { return m_boxes; }
+    btVector3 gravity() const { return m_world.getGravity(); }  ///< [m/s2]
+    double length() const { return m_length; }                  ///< longest side of the body at the start [m]
+    double stepSize() const { return m_step; }                  ///< h [s]
+
+private:
+    void addPlane();
+    void addRamp();
+    void addSoftBody(const DropOptions& options, const DropSize& size);
+    void addFallingBoxes();
+    btRigidBody* addBox(const btVector3& halfExtents, const btTransform& pose, double density);
+
+    double m_length, m_step;
+    btSoftBodyRigidBodyCollisionConfiguration m_configuration;
+    btCollisionDispatcher m_dispatcher{&m_configuration};
+    btDbvtBroadphase m_broadphase;
+    btSequentialImpulseConstraintSolver m_rigidSolver;
+    btFemSoftBodySolver m_fem;
+    btSoftRigidDynamicsWorld m_world{&m_dispatcher, &m_broadphase, &m_rigidSolver, &m_configuration, &m_fem};
+    std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
+    std::unique_ptr<btRigidBody> m_plane;
+    std::vector<std::unique_ptr<btRigidBody>> m_boxes;
+    std::unique_ptr<btSoftBody> m_softBody;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "demos/progress_line.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace bullet_fem
+{
+
+ProgressLine::ProgressLine() : m_onTerminal(isatty(STDOUT_FILENO) != 0) {}
+
+void ProgressLine::show(double done, const std::string& text)
+{
+    const int parts = m_onTerminal ? 100 : 10;
+    const int part = static_cast<int>(done * parts + 1e-9);
+    if (part == m_shown) return;
+    m_shown = part;
+    m_width = std::max(m_width, text.size());
+    std::printf(m_onTerminal ? "\r%3d %%  %-*s" : "%3d %%  %-*s\n", part * 100 / parts, static_cast<int>(m_width),
+                text.c_str());
+    std::fflush(stdout);
+}
+
+void ProgressLine::finish()
+{
+    if (m_onTerminal && m_shown >= 0) std::printf("\n");
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Zlib
+# Installs what is missing (Debian 12, as root or with sudo), builds the drop demo and runs it on a scanned elephant.
+# Further arguments go to the demo: demos/run.sh --young 2e5 --seconds 2
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$root/cmake/install_packages.sh"
+
+mesh_package=libcgal-demo
+mesh_archive=usr/share/doc/libcgal-dev/data.tar.gz
+mesh_in_archive=data/meshes/elephant.off
+build=$root/build/demo # of its own, so that neither script changes the options of the other's
+mesh=$build/$mesh_in_archive
+
+# Takes the mesh out of its package. The package need not be installed: slim images leave out /usr/share/doc.
+extract_mesh()
+{
+    local folder
+    mkdir -p "$build"
+    if [ -r "/$mesh_archive" ]; then
+        tar -xzf "/$mesh_archive" -C "$build" "$mesh_in_archive"
+        return
+    fi
+    folder=$(mktemp -d "$build/package.XXXXXX")
+    (
+        cd "$folder"
+        apt-get download "$mesh_package" || { as_root apt-get update && apt-get download "$mesh_package"; }
+        dpkg-deb --fsys-tarfile ./*.deb | tar -xO "./$mesh_archive" | tar -xz -C "$build" "$mesh_in_archive"
+    ) || fail "cannot get $mesh_in_archive from the package $mesh_package"
+    rm -r "$folder"
+}
+
+install_packages "${build_packages[@]}"
+
+if [ ! -s "$mesh" ]; then
+    say "extracting $mesh_in_archive from $mesh_package"
+    extract_mesh
+fi
+
+say "building in $build"
+(cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
+cmake --build "$build" --target bulletfem_drop --parallel "$(nproc)"
+
+say "running the demo; its frames go to $root/out/drop unless --out says otherwise"
+"$build/demos/bulletfem_drop" --mesh "$mesh" --out "$root/out/drop" "$@"

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/rest_shape.h"
+
+namespace bullet_fem
+{
+
+/// A symmetric matrix of 3x3 blocks, one row of blocks a node; both triangles are stored, columns ascend.
+struct BlockMatrix
+{
+    std::vector<int> m_rowStart;  ///< node count + 1 entries
+    std::vector<int> m_column;
+    std::vector<Mat3> m_block;
+
+    int nodeCount() const { return static_cast<int>(m_rowStart.size()) - 1; }
+    Mat3& at(int row, int column);
+    const Mat3& at(int row, int column) const { return const_cast<BlockMatrix*>(this)->at(row, column); }
+};
+
+/// The 3x3 blocks K_ab = V (lambda g_a g_b^T + mu g_b g_a^T + mu (g_a . g_b) I) of an element's rest stiffness
+/// K_e = V B^T C B [N/m], nodes a, b in 0..3.
+Mat3 elementStiffnessBlock(const RestElement& element, int a, int b);
+
+/// The rest stiffness K [N/m], assembled over all nodes.
+BlockMatrix assembleRestStiffness(const RestShape& shape);
+
+}  // namespace bullet_fem

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/cage_fill.h"
+
+#include <cmath>
+
+#include "fem/message.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+using Weights = std::array<double, 4>;
+
+/// Barycentric weights of points spread evenly over a tet: the additive recurrence with the powers of 1 / g,
+/// g^4 = g + 1 [Roberts 2018], in the unit cube, mapped to the tet so that volumes keep their ratio: planes parallel to
+/// the face opposite node 0 cut the volume by the cube root, lines in them the area by the square root.
+std::vector<Weights> spreadSamples(int count)
+{
+    constexpr double g = 1.2207440846057596;
+    std::vector<Weights> samples;
+    for (int n = 1; n <= count; ++n)
+    {
+        const double s = std::cbrt(std::fmod(0.5 + n / g, 1)), t = std::sqrt(std::fmod(0.5 + n / (g * g), 1)),
+                     u = std::fmod(0.5 + n / (g * g * g), 1);
+        samples.push_back({1 - s, s * (1 - t), s * t * u, s * t * (1 - u)});
+    }
+    return samples;
+}
+
+class Filler
+{
+public:
+    Filler(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)
+        : m_lattice(lattice),
+          m_winding(winding),
+          m_closed(closed),
+          m_settings(settings),
+          m_samples(spreadSamples(settings.m_fillSamples)),
+          m_whole(lattice.cubeCount(), 0)
+    {
+    }
+
+    CageFill run()
+    {
+        findWholeTets();
+        m_fill.m_kept.assign(m_lattice.cubeCount(), 0);
+        for (int cube = 0; cube < m_lattice.cubeCount(); ++cube)
+            for (int tet = 0; tet < 5; ++tet)
+            {
+                const double fraction = fractionOf(cube, tet);
+                if (fraction > 0 || m_lattice.entered(cube) >> tet & 1) keep({cube, tet, fraction});
+            }
+        m_fill.m_insideVolume = m_outward + m_inward;
+        m_fill.m_insideOut = m_inward > m_outward;
+        m_fill.m_selfIntersecting = m_overlapping || (m_inward > 0 && m_outward > 0);
+        return std::move(m_fill);
+    }
+
+private:
+    static constexpr std::uint8_t kAll = 31;  // the five tets of a cube
+
+    /// The untouched tets that are inside as a whole: cheap, so that too many are refused before any is sampled.
+    void findWholeTets()
+    {
+        double atLeast = 0;
+        for (int cube = 0, previous = -1; cube < m_lattice.cubeCount(); previous = cube++)
+        {
+            const bool sameAsPrevious = m_closed && cube % m_lattice.cubes()[0] != 0 && m_lattice.touched(cube) == 0 &&
+                                        m_lattice.touched(previous) == 0;
+            if (sameAsPrevious)
+            {
+                m_whole[cube] = m_whole[previous];
+                if (m_whole[cube]) tally(m_lastWinding, 1);
+            }
+            else
+                findWholeTetsOf(cube);
+            atLeast += bits(m_whole[cube] | m_lattice.entered(cube));
+            if (atLeast > m_settings.m_maxTets) rejectTooMany(atLeast);
+        }
+    }
+
+    void findWholeTetsOf(int cube)
+    {
+        if (m_lattice.touched(cube) == 0)
+        {
+            const std::array<Vec3, 4> x = m_lattice.corners(cube, 4);  // the middle tet: its centre is the cube's
+            m_lastWinding = windingAt((x[0] + x[1] + x[2] + x[3]) * 0.25);
+            // Around an open surface the winding number falls off smoothly: a value near 1/2 needs samples.
+            if (m_closed || std::abs(std::abs(m_lastWinding) - 0.5) > 0.25)
+            {
+                m_whole[cube] = inside(m_lastWinding) ? kAll : 0;
+                if (m_whole[cube]) tally(m_lastWinding, 1);
+                return;
+            }
+        }
+        for (int tet = 0; tet < 5; ++tet)
+        {
+            if (m_lattice.touched(cube) >> tet & 1) continue;
+            const std::array<Vec3, 4> x = m_lattice.corners(cube, tet);
+            const double w = windingAt((x[0] + x[1] + x[2] + x[3]) * 0.25);
+            if (!m_closed && std::abs(std::abs(w) - 0.5) < 0.25)
+                m_unsure.push_back(5LL * cube + tet);
+            else if (inside(w))
+            {
+                m_whole[cube] |= static_cast<std::uint8_t>(1 << tet);
+                tally(w, CageLattice::tetVolume(tet));
+            }
+        }
+    }
+
+    double fractionOf(int cube, int tet)
+    {
+        if (m_whole[cube] >> tet & 1) return 1;
+        const bool unsure = m_nextUnsure < m_unsure.size() && m_unsure[m_nextUnsure] == 5LL * cube + tet;
+        if (unsure) ++m_nextUnsure;
+        if (!unsure && !(m_lattice.touched(cube) >> tet & 1)) return 0;
+        const std::array<Vec3, 4> x = m_lattice.corners(cube, tet);
+        int hits = 0;
+        for (const Weights& w : m_samples)
+        {
+            const double winding = windingAt(x[0] * w[0] + x[1] * w[1] + x[2] * w[2] + x[3] * w[3]);
+            if (!inside(winding)) continue;
+            ++hits;
+            tally(winding, CageLattice::tetVolume(tet) / m_settings.m_fillSamples);
+        }
+        return static_cast<double>(hits) / m_settings.m_fillSamples;
+    }
+
+    void keep(const FilledTet& tet)
+    {
+        if (m_fill.m_tets.size() == static_cast<std::size_t>(m_settings.m_maxTets))
+            rejectTooMany(m_settings.m_maxTets + 1.0);
+        m_fill.m_tets.push_back(tet);
+        m_fill.m_kept[tet.m_cube] |= static_cast<std::uint8_t>(1 << tet.m_tet);
+    }
+
+    double windingAt(const Vec3& p)
+    {
+        ++m_fill.m_sampleCount;
+        return m_winding.at(p);
+    }
+
+    void tally(double winding, double volume)
+    {
+        (winding > 0 ? m_outward : m_inward) += volume;
+        if (std::abs(winding) > 1.5) m_overlapping = true;
+    }
+
+    static bool inside(double winding) { return std::abs(winding) >= 0.5; }
+    static int bits(unsigned mask)
+    {
+        return (mask & 1) + (mask >> 1 & 1) + (mask >> 2 & 1) + (mask >> 3 & 1) + (mask >> 4 & 1);
+    }
+
+    [[noreturn]] void rejectTooMany(double atLeast) const
+    {
+        reject("the cage's cell size of ", m_lattice.cellSize(), " m gives at least ", atLeast,
+               " elements, outside [1, ", m_settings.m_maxTets, "]; use larger cells (", m_lattice.safeCellSize(),
+               " m is sure to fit) or raise m_maxTets");
+    }
+
+    const CageLattice& m_lattice;
+    const WindingNumber& m_winding;
+    const bool m_closed;
+    const CageSettings& m_settings;
+    const std::vector<Weights> m_samples;
+    std::vector<std::uint8_t> m_whole;  // per cube: a bit for each tet that is inside and untouched
+    std::vector<long long> m_unsure;    // 5 cube + tet, ascending: untouched, but near winding number 1/2
+    std::size_t m_nextUnsure = 0;
+    double m_lastWinding = 0;
+    double m_outward = 0, m_inward = 0;  // volume of positive and of negative winding number, in lattice units
+    bool m_overlapping = false;
+    CageFill m_fill;
+};
+
+}  // namespace
+
+CageFill fillCage(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)
+{
+    return Filler(lattice, winding, closed, settings).run();
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/cage_lattice.h"
+
+#include <algorithm>
+
+#include "fem/cell_split.h"
+#include "fem/message.h"
+#include "fem/triangle_overlap.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kSlack = 1e-9;          // what counts as touching, in lattice units
+constexpr double kMostCubesPerTet = 20;  // bounds memory: room for cages that fill 1 / 100 of their box
+constexpr double kMostCubes = 2e7;
+
+double cubesAlong(double extent, double cellSize)
+{
+    return std::max(1.0, std::ceil(extent / cellSize - kSlack));
+}
+
+double cubesIn(const Vec3& extent, double cellSize)
+{
+    return cubesAlong(extent.x, cellSize) * cubesAlong(extent.y, cellSize) * cubesAlong(extent.z, cellSize);
+}
+
+/// About the least cell size with which the box has at most `most` cubes, rounded up by one in a thousand.
+double leastCellSize(const Vec3& extent, double most)
+{
+    double fits = std::max({extent.x, extent.y, extent.z}), fails = fits / (2 * kMostCubes);
+    for (int n = 0; n < 100; ++n)
+    {
+        const double middle = std::sqrt(fits * fails);
+        (cubesIn(extent, middle) <= most ? fits : fails) = middle;
+    }
+    return 1.001 * fits;
+}
+
+void checkSettings(const CageSettings& settings)
+{
+    if (settings.m_maxTets < 5 || settings.m_maxTets > 5'000'000)
+        reject("the most elements of a cage is ", settings.m_maxTets,
+               ", outside [5, 5000000]; choose another m_maxTets");
+    if (!(settings.m_fillFloor > 0 && settings.m_fillFloor <= 1))
+        reject("the least filled fraction of a cage is ", settings.m_fillFloor,
+               ", outside (0, 1]; choose another m_fillFloor, 0.05 is usual");
+    if (settings.m_fillSamples < 8 || settings.m_fillSamples > 4096)
+        reject("the samples for an element's filled fraction are ", settings.m_fillSamples,
+               ", outside [8, 4096]; choose another m_fillSamples, 64 is usual");
+}
+
+}  // namespace
+
+CageLattice::CageLattice(const SurfaceInspection& surface, const CageSettings& settings)
+    : m_cellSize(settings.m_cellSize)
+{
+    checkSettings(settings);
+    const Vec3 extent = surface.m_high - surface.m_low;
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    const double most = std::min(kMostCubes, kMostCubesPerTet * settings.m_maxTets);
+    const double least = std::min(leastCellSize(extent, most), longest);
+    m_safeCellSize = std::min(leastCellSize(extent, std::floor(settings.m_maxTets / 5.0)), longest);
+    if (!(m_cellSize > 0 && m_cellSize <= longest) || cubesIn(extent, m_cellSize) > most)
+        reject("the cage's cell size is ", m_cellSize, " m, outside [", least, ", ", longest,
+               "] m for this surface (at most ", most, " cubes, at least one along the longest side); ", m_safeCellSize,
+               " m is sure to fit, ", std::max(m_safeCellSize, longest / 10), " m is a good start");
+
+    for (int a = 0; a < 3; ++a)
+    {
+        m_cubes[a] = static_cast<int>(cubesAlong(extent[a], m_cellSize));
+        m_origin[a] = (surface.m_low[a] + surface.m_high[a]) / 2 - m_cubes[a] * m_cellSize / 2;
+    }
+    m_touched.assign(cubeCount(), 0);
+    m_entered.assign(cubeCount(), 0);
+}
+
+std::array<int, 3> CageLattice::place(int cube) const
+{
+    return {cube % m_cubes[0], cube / m_cubes[0] % m_cubes[1], cube / m_cubes[0] / m_cubes[1]};
+}
+
+int CageLattice::node(int cube, int tet, int corner) const
+{
+    const auto [i, j, k] = place(cube);
+    const int c = kFiveTets[(i + j + k) & 1][tet][corner];
+    return ((k + (c >> 2 & 1)) * (m_cubes[1] + 1) + j + (c >> 1 & 1)) * (m_cubes[0] + 1) + i + (c & 1);
+}
+
+Vec3 CageLattice::nodePlace(int node) const
+{
+    const int nx = m_cubes[0] + 1, ny = m_cubes[1] + 1;
+    return {1.0 * (node % nx), 1.0 * (node / nx % ny), 1.0 * (node / nx / ny)};
+}
+
+std::array<Vec3, 4> CageLattice::corners(int cube, int tet) const
+{
+    return {nodePlace(node(cube, tet, 0)), nodePlace(node(cube, tet, 1)), nodePlace(node(cube, tet, 2)),
+            nodePlace(node(cube, tet, 3))};
+}
+
+void CageLattice::markSurface(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles)
+{
+    for (const Triangle& t : triangles)
+    {
+        const TriangleCorners triangle = {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+        std::array<int, 3> low, high;  // the cubes of its bounding box
+        for (int a = 0; a < 3; ++a)
+        {
+            const auto [least, most] = std::minmax({triangle[0][a], triangle[1][a], triangle[2][a]});
+            low[a] = std::clamp(static_cast<int>(std::floor(least - kSlack)), 0, m_cubes[a] - 1);
+            high[a] = std::clamp(static_cast<int>(std::floor(most + kSlack)), 0, m_cubes[a] - 1);
+        }
+        markTriangle(triangle, low, high);
+    }
+}
+
+/// Halves the block of cubes [low, high] until one is left, so that a large triangle costs what it touches.
+void CageLattice::markTriangle(const std::array<Vec3, 3>& triangle, const std::array<int, 3>& low,
+                               const std::array<int, 3>& high)
+{
+    if (!triangleMeetsBox(triangle, {1.0 * low[0], 1.0 * low[1], 1.0 * low[2]},
+                          {high[0] + 1.0, high[1] + 1.0, high[2] + 1.0}, kSlack))
+        return;
+    int axis = 0;
+    for (int a = 1; a < 3; ++a)
+        if (high[a] - low[a] > high[axis] - low[axis]) axis = a;
+    if (high[axis] > low[axis])
+    {
+        std::array<int, 3> lowerHigh = high, upperLow = low;
+        lowerHigh[axis] = (low[axis] + high[axis]) / 2;
+        upperLow[axis] = lowerHigh[axis] + 1;
+        markTriangle(triangle, low, lowerHigh);
+        markTriangle(triangle, upperLow, high);
+        return;
+    }
+    const int at = cube(low);
+    for (int tet = 0; tet < 5; ++tet)
+    {
+        if (m_entered[at] >> tet & 1 || !triangleMeetsTet(triangle, corners(at, tet), kSlack)) continue;
+        m_touched[at] |= static_cast<std::uint8_t>(1 << tet);
+        if (triangleMeetsTet(triangle, corners(at, tet), -kSlack)) m_entered[at] |= static_cast<std::uint8_t>(1 << tet);
+    }
+}
+
+}  // namespace bullet_fem

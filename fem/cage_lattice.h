@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bullet_fem/fem/cage.h"
+#include "fem/surface_inspection.h"
+
+namespace bullet_fem
+{
+
+/// A lattice of cubes around a surface, each split into five tets. "Lattice units": one cube is [0, 1]^3 there.
+class CageLattice
+{
+public:
+    /// Centres the lattice on the bounding box. Throws std::invalid_argument on settings out of range and on a cell
+    /// size that is longer than the surface or gives more cubes than m_maxTets can need.
+    CageLattice(const SurfaceInspection& surface, const CageSettings& settings);
+
+    /// Sets the touched and entered tets of every cube. Vertices in lattice units.
+    void markSurface(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
+
+    int cubeCount() const { return m_cubes[0] * m_cubes[1] * m_cubes[2]; }
+    const std::array<int, 3>& cubes() const { return m_cubes; }
+    int cube(const std::array<int, 3>& ijk) const { return (ijk[2] * m_cubes[1] + ijk[1]) * m_cubes[0] + ijk[0]; }
+    std::array<int, 3> place(int cube) const;
+    double cellSize() const { return m_cellSize; }          ///< [m]
+    double safeCellSize() const { return m_safeCellSize; }  ///< one at which the whole box is within m_maxTets [m]
+
+    Vec3 toLattice(const Vec3& x) const { return (x - m_origin) * (1 / m_cellSize); }  ///< from metres
+    Vec3 toWorld(const Vec3& u) const { return m_origin + u * m_cellSize; }            ///< to metres
+
+    /// Number of node `corner` of a tet among the lattice's nodes, x fastest.
+    int node(int cube, int tet, int corner) const;
+    int nodeCount() const { return (m_cubes[0] + 1) * (m_cubes[1] + 1) * (m_cubes[2] + 1); }
+    Vec3 nodePlace(int node) const;                        ///< in lattice units
+    std::array<Vec3, 4> corners(int cube, int tet) const;  ///< in lattice units, positively oriented
+    static double tetVolume(int tet) { return tet == 4 ? 1.0 / 3 : 1.0 / 6; }  ///< in lattice units
+
+    /// Bit t is set if a triangle comes to tet t within rounding: it must be sampled.
+    unsigned touched(int cube) const { return m_touched[cube]; }
+    /// Bit t is set if a triangle enters the inner of tet t: it must be kept. A subset of touched().
+    unsigned entered(int cube) const { return m_entered[cube]; }
+
+private:
+    void markTriangle(const std::array<Vec3, 3>& triangle, const std::array<int, 3>& low,
+                      const std::array<int, 3>& high);
+
+    Vec3 m_origin;
+    double m_cellSize = 0;
+    double m_safeCellSize = 0;
+    std::array<int, 3> m_cubes = {};
+    std::vector<std::uint8_t> m_touched, m_entered;  // per cube, a bit for each of its tets
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/rigid_momentum.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Inverse of an inertia tensor; along axes without inertia (a piece collapsed to a point or a line) it stays bounded.
+// What is below `rounding` [kg m2] is none.
+Mat3 boundedInverse(const Mat3& inertia, double rounding)
+{
+    const double size = trace(inertia);
+    if (!(size > rounding)) return {};
+    return inverse(inertia + Mat3::diagonal(1e-14 * size));
+}
+
+double damping(const Body& body)
+{
+    return body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
+}
+
+}  // namespace
+
+void RigidMomentum::prescribe(const Body& body, double step)
+{
+    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    const int n = body.m_model->nodeCount();
+    for (Piece& piece : m_pieces) piece = Piece();
+    for (int i = 0; i < n; ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        if (s.m_fixed[i]) piece.m_free = false;
+        piece.m_mass += s.m_mass[i];
+        piece.m_center += s.m_mass[i] * s.m_x[i];
+    }
+    for (Piece& piece : m_pieces) piece.m_center *= 1 / piece.m_mass;
+
+    const double alpha = damping(body), share = step / (1 + step * alpha);
+    for (int i = 0; i < n; ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        const Vec3 r = s.m_x[i] - piece.m_center, p = s.m_mass[i] * s.m_v[i];
+        const Vec3 prescribed = p + share * (body.m_loads.m_force[i] - alpha * p);
+        piece.m_linear += prescribed;
+        piece.m_angular += cross(r, prescribed);
+        piece.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+    }
+    for (Piece& piece : m_pieces)
+        piece.m_inverseInertia =
+            boundedInverse(piece.m_inverseInertia, 1e-24 * piece.m_mass * dot(piece.m_center, piece.m_center));
+}
+
+void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step)
+{
+    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const double share = 1 / (1 + step * damping(body));
+    for (std::size_t i = 0; i < impulses.size(); ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        piece.m_linear += share * impulses[i];
+        piece.m_angular += cross(body.m_state.m_x[i] - piece.m_center, share * impulses[i]);
+    }
+}
+
+void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
+{
+    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    for (Piece& piece : m_pieces)
+    {
+        piece.m_linearVelocity = piece.m_linear;
+        piece.m_angularVelocity = piece.m_angular;
+    }
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        const Vec3 p = s.m_mass[i] * velocity[i];
+        piece.m_linearVelocity -= p;
+        piece.m_angularVelocity -= cross(s.m_x[i] - piece.m_center, p);
+    }
+    for (Piece& piece : m_pieces)
+    {
+        piece.m_linearVelocity *= 1 / piece.m_mass;
+        piece.m_angularVelocity = piece.m_inverseInertia * piece.m_angularVelocity;
+    }
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+    {
+        const Piece& piece = m_pieces[component[i]];
+        if (piece.m_free)
+            velocity[i] += piece.m_linearVelocity + cross(piece.m_angularVelocity, s.m_x[i] - piece.m_center);
+    }
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/body.h"
+
+namespace bullet_fem
+{
+
+/// The momentum that external impulses prescribe for every connected piece of a body without fixed nodes. The warped
+/// stiffness has no torque balance about the deformed positions and conjugate gradients stop early; both leak momentum,
+/// and a rigid motion of six unknowns a piece puts it back.
+class RigidMomentum
+{
+public:
+    explicit RigidMomentum(const TetMesh& mesh) : m_pieces(mesh.componentCount()) {}
+
+    /// Sets the prescription to that of the loads: (1 + h alpha)(p' - p) = h (F - alpha p), and the same for angular
+    /// momentum about the centre of mass at the state's positions. alpha includes the loads' extra damping.
+    void prescribe(const Body& body, double step);
+
+    /// Adds node impulses J [N s] to the prescription.
+    void addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step);
+
+    /// Adds to `velocity` the rigid motion that gives every free piece its prescribed momentum.
+    void restore(const Body& body, std::vector<Vec3>& velocity);
+
+private:
+    struct Piece
+    {
+        bool m_free = true;
+        double m_mass = 0;
+        Vec3 m_center;             // [m]
+        Vec3 m_linear, m_angular;  // prescribed [kg m/s], [kg m2/s]
+        Mat3 m_inverseInertia;     // [1/(kg m2)]; zero where the piece has collapsed to a point
+        Vec3 m_linearVelocity, m_angularVelocity;
+    };
+    std::vector<Piece> m_pieces;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/fem/stepping.h"
+
+#include <algorithm>
+
+#include "fem/step_scratch.h"
+#include "fem/warped_elements.h"
+#include "fem/warped_system.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+double massDamping(const Body& body)
+{
+    return body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
+}
+
+// h |f_ext| over the free nodes: what b is measured against where it tends to zero.
+double loadImpulseNorm(const Body& body, double h)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < body.m_loads.m_force.size(); ++i)
+        if (!body.m_state.m_fixed[i]) sum += dot(body.m_loads.m_force[i], body.m_loads.m_force[i]);
+    return h * std::sqrt(sum);
+}
+
+// b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v), and the tension of every element for A.
+void assembleRightSide(const Body& body, const StepSettings& settings, StepScratch& scratch)
+{
+    const RestShape& shape = body.m_model->shape();
+    const BodyState& s = body.m_state;
+    const double h = settings.m_step, alpha = massDamping(body);
+    std::vector<Vec3>& b = scratch.m_rightSide;
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] = body.m_loads.m_force[i] - alpha * s.m_mass[i] * s.m_v[i];
+    addElasticForces(shape, s.m_x, s.m_v, h + shape.m_material.m_stiffnessDamping, s.m_elementRotation, b,
+                     &scratch.m_tension);
+    if (!settings.m_tension) std::fill(scratch.m_tension.begin(), scratch.m_tension.end(), std::array<double, 6>{});
+    for (Vec3& bi : b) bi *= h;
+}
+
+// Fixed nodes: dv_p = v_target - v moves to the right-hand side, b_f -= A_fp dv_p, and b_p = 0.
+void eliminateFixedNodes(const Body& body, const WarpedSystem& A, StepScratch& scratch)
+{
+    const BodyState& s = body.m_state;
+    std::vector<Vec3>&dv = scratch.m_increment, &b = scratch.m_rightSide, &Adv = scratch.m_solver.m_Ap;
+    bool moving = false;
+    for (std::size_t i = 0; i < dv.size(); ++i)
+    {
+        dv[i] = s.m_fixed[i] ? body.m_loads.m_targetVelocity[i] - s.m_v[i] : Vec3();
+        moving = moving || dot(dv[i], dv[i]) > 0;
+    }
+    if (moving)
+    {
+        A.applyUnconstrained(dv, Adv);
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] -= Adv[i];
+    }
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (s.m_fixed[i]) b[i] = {};
+}
+
+// The increment that starts the solve: the rigid motion that momentum prescribes on free pieces, zero on the others.
+void guessIncrement(const Body& body, StepScratch& scratch)
+{
+    std::vector<Vec3>& dv = scratch.m_increment;
+    dv = scratch.m_velocity;
+    scratch.m_momentum.restore(body, dv);
+    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= scratch.m_velocity[i];
+}
+
+// Solves A dv = b and adds dv to the velocities of the free nodes.
+SolveReport solveIncrement(const Body& body, const StepSettings& settings, double floor, StepScratch& scratch)
+{
+    guessIncrement(body, scratch);
+    ConjugateGradientStop stop;
+    stop.m_tolerance = settings.m_tolerance;
+    stop.m_floor = floor;
+    stop.m_maxIterations = settings.m_direct ? 1 : settings.m_maxIterations;
+    const SolveReport report =
+        solveConjugateGradients(WarpedSystem(body, settings.m_step), WarpedPreconditioner(body, settings.m_warp),
+                                scratch.m_rightSide, stop, scratch.m_solver, scratch.m_increment);
+    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
+        if (!body.m_state.m_fixed[i]) scratch.m_velocity[i] += scratch.m_increment[i];
+    if (settings.m_momentumCorrection) scratch.m_momentum.restore(body, scratch.m_velocity);
+    return report;
+}
+
+}  // namespace
+
+SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    const WarpedSystem A(body, settings.m_step);
+
+    updateElementRotations(body.m_model->shape(), body.m_state.m_x, body.m_state.m_elementRotation);
+    updateWarpRotations(body);
+    assembleRightSide(body, settings, scratch);
+    eliminateFixedNodes(body, A, scratch);
+    scratch.m_momentum.prescribe(body, settings.m_step);
+    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
+        scratch.m_velocity[i] = body.m_state.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : body.m_state.m_v[i];
+    return solveIncrement(body, settings, 1e-3 * loadImpulseNorm(body, settings.m_step), scratch);
+}
+
+SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    for (std::size_t i = 0; i < impulses.size(); ++i)
+        scratch.m_rightSide[i] = body.m_state.m_fixed[i] ? Vec3() : impulses[i];
+    scratch.m_momentum.addImpulses(body, scratch.m_rightSide, settings.m_step);
+    return solveIncrement(body, settings, 0, scratch);
+}
+
+Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    WarpedPreconditioner(body, settings.m_warp).apply(impulses, scratch.m_increment);
+    Vec3 angularMomentum;
+    for (std::size_t i = 0; i < scratch.m_push.size(); ++i)
+    {
+        scratch.m_push[i] += scratch.m_increment[i];
+        angularMomentum +=
+            cross(settings.m_step * scratch.m_increment[i], body.m_state.m_mass[i] * scratch.m_velocity[i]);
+    }
+    return angularMomentum;
+}
+
+void finishStep(Body& body, const StepSettings& settings)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
+    {
+        body.m_state.m_v[i] = scratch.m_velocity[i];
+        body.m_state.m_x[i] += settings.m_step * (scratch.m_velocity[i] + scratch.m_push[i]);
+        scratch.m_push[i] = {};
+    }
+}
+
+SolveReport step(Body& body, const StepSettings& settings)
+{
+    const SolveReport report = solveFreeMotion(body, settings);
+    finishStep(body, settings);
+    return report;
+}
+
+const std::vector<Vec3>& velocity(const Body& body)
+{
+    return body.m_workspace.scratch().m_velocity;
+}
+
+}  // namespace bullet_fem

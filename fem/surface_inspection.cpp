@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/surface_inspection.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "fem/message.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kFlat = 1e-6;            // thickness over length below which a surface is a sheet
+constexpr double kMostOneSided = 0.9;     // |vector area| / area of an open surface: 1 flat, 1/2 hemisphere, 0 closed
+constexpr double kMostMisoriented = 0.1;  // of all edges; one flipped patch passes, random orientation does not
+constexpr double kLeastRelativeSize = 1e-7;  // size over distance from the origin, for digits enough
+
+void checkSoup(const SurfaceMesh& surface)
+{
+    const std::size_t most = std::numeric_limits<int>::max() / 3, vertices = surface.m_vertices.size();
+    if (surface.m_triangles.empty()) reject("the surface has 0 triangles; at least 4 are needed to enclose a volume");
+    if (surface.m_triangles.size() > most || vertices > most)
+        reject("the surface has ", vertices, " vertices and ", surface.m_triangles.size(), " triangles, more than ",
+               most, "; decimate it");
+    for (std::size_t i = 0; i < vertices; ++i)
+        if (!isFinite(surface.m_vertices[i]))
+            reject("surface vertex ", i, " is (", surface.m_vertices[i].x, ", ", surface.m_vertices[i].y, ", ",
+                   surface.m_vertices[i].z, "), which is not finite; give finite coordinates [m]");
+    for (std::size_t t = 0; t < surface.m_triangles.size(); ++t)
+        for (const int i : surface.m_triangles[t])
+            if (i < 0 || i >= static_cast<int>(vertices))
+                reject("surface triangle ", t, " uses vertex ", i, ", outside [0, ", static_cast<int>(vertices) - 1,
+                       "]; count vertices from 0 and give a position for each");
+}
+
+void measureBounds(const SurfaceMesh& surface, SurfaceInspection& result)
+{
+    result.m_used.assign(surface.m_vertices.size(), 0);
+    result.m_low = result.m_high = surface.m_vertices[surface.m_triangles[0][0]];
+    for (const Triangle& triangle : surface.m_triangles)
+        for (const int i : triangle)
+        {
+            result.m_used[i] = 1;
+            for (int a = 0; a < 3; ++a)
+            {
+                result.m_low[a] = std::min(result.m_low[a], surface.m_vertices[i][a]);
+                result.m_high[a] = std::max(result.m_high[a], surface.m_vertices[i][a]);
+            }
+        }
+    const double size = norm(result.m_high - result.m_low);
+    double farthest = 0;
+    for (int a = 0; a < 3; ++a) farthest = std::max({farthest, std::abs(result.m_low[a]), std::abs(result.m_high[a])});
+    if (!(farthest < 1e50))
+        reject("the surface reaches ", farthest, " m from the origin, outside [0, 1e50); scale it to metres");
+    if (size > 0 && size < kLeastRelativeSize * farthest)
+        reject("the surface is ", size, " m long and ", farthest, " m from the origin, less than ", kLeastRelativeSize,
+               " of that distance; move it nearer to the origin");
+}
+
+/// The used vertex for which `measure` is greatest.
+template <typename Measure>
+Vec3 extremeVertex(const SurfaceMesh& surface, const std::vector<char>& used, Measure measure)
+{
+    Vec3 best;
+    double most = -1;
+    for (std::size_t i = 0; i < used.size(); ++i)
+    {
+        const double value = used[i] ? measure(surface.m_vertices[i]) : -1;
+        if (value > most) most = value, best = surface.m_vertices[i];
+    }
+    return best;
+}
+
+/// Largest distance of a used vertex from the plane through three far apart ones [m].
+double thickness(const SurfaceMesh& surface, const std::vector<char>& used, const Vec3& low)
+{
+    const Vec3 a = extremeVertex(surface, used, [&](const Vec3& x) { return norm(x - low); });
+    const Vec3 b = extremeVertex(surface, used, [&](const Vec3& x) { return norm(x - a); });
+    const Vec3 c = extremeVertex(surface, used, [&](const Vec3& x) { return norm(cross(b - a, x - a)); });
+    const Vec3 n = cross(b - a, c - a);
+    if (norm(n) == 0) return 0;
+    const auto distance = [&](const Vec3& x) { return std::abs(dot(n, x - a)) / norm(n); };
+    return distance(extremeVertex(surface, used, distance));
+}
+
+/// For every vertex the lowest vertex at the same place: files without shared vertices are closed as well.
+std::vector<int> weldCoincident(const std::vector<Vec3>& x)
+{
+    const auto key = [&](int i) { return std::tie(x[i].x, x[i].y, x[i].z); };
+    std::vector<int> order(x.size()), first(x.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
+    for (std::size_t n = 0; n < order.size(); ++n)
+        first[order[n]] = n > 0 && key(order[n]) == key(order[n - 1]) ? first[order[n - 1]] : order[n];
+    return first;
+}
+
+/// Edges that are not passed equally often both ways, and those of them that have more than one triangle.
+void countEdges(const SurfaceMesh& surface, SurfaceInspection& result)
+{
+    const std::vector<int> welded = weldCoincident(surface.m_vertices);
+    std::vector<std::array<int, 3>> edges;  // lower vertex, higher vertex, +1 or -1
+    edges.reserve(3 * surface.m_triangles.size());
+    for (const Triangle& t : surface.m_triangles)
+        for (int a = 0; a < 3; ++a)
+        {
+            const int i = welded[t[a]], j = welded[t[(a + 1) % 3]];
+            if (i != j) edges.push_back({std::min(i, j), std::max(i, j), i < j ? 1 : -1});
+        }
+    std::sort(edges.begin(), edges.end());
+    int total = 0, misoriented = 0;
+    for (std::size_t e = 0; e < edges.size(); ++total)
+    {
+        const std::size_t first = e;
+        int sum = 0;
+        for (; e < edges.size() && edges[e][0] == edges[first][0] && edges[e][1] == edges[first][1]; ++e)
+            sum += edges[e][2];
+        result.m_openEdges += sum != 0;
+        misoriented += sum != 0 && e - first > 1;
+    }
+    if (misoriented > kMostMisoriented * total)
+        reject("the surface is not oriented: at ", misoriented, " of ", total,
+               " edges the triangles turn against each other, at most ", kMostMisoriented,
+               " of them may; order the vertices of all triangles counter-clockwise seen from outside");
+}
+
+}  // namespace
+
+SurfaceInspection inspectSurface(const SurfaceMesh& surface)
+{
+    checkSoup(surface);
+    SurfaceInspection result;
+    measureBounds(surface, result);
+
+    Vec3 vectorArea;
+    for (const Triangle& t : surface.m_triangles)
+    {
+        const Vec3 area = 0.5 * cross(surface.m_vertices[t[1]] - surface.m_vertices[t[0]],
+                                      surface.m_vertices[t[2]] - surface.m_vertices[t[0]]);
+        vectorArea += area;
+        result.m_area += norm(area);
+    }
+    countEdges(surface, result);
+
+    const double size = norm(result.m_high - result.m_low), thick = thickness(surface, result.m_used, result.m_low);
+    if (!(thick > kFlat * size) || !(result.m_area > 0))
+        reject("the surface has no inside: it is flat, ", thick, " m thick and ", size, " m long, at least ", kFlat,
+               " of the length is needed; give a closed surface");
+    const double oneSided = norm(vectorArea) / result.m_area;
+    if (result.m_openEdges > 0 && oneSided > kMostOneSided)
+        reject("the surface has no inside: it is wide open, with ", result.m_openEdges,
+               " open edges and |vector area| / area = ", oneSided, ", outside [0, ", kMostOneSided,
+               "]; close its holes");
+    return result;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/triangle_overlap.h"
+
+#include <algorithm>
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// A convex solid by its corners and the directions of its edges and face normals.
+template <int Corners, int Edges, int Normals>
+struct Solid
+{
+    std::array<Vec3, Corners> m_corners;
+    std::array<Vec3, Edges> m_edges;
+    std::array<Vec3, Normals> m_normals;
+};
+
+template <std::size_t N>
+void project(const std::array<Vec3, N>& points, const Vec3& axis, double& low, double& high)
+{
+    low = high = dot(points[0], axis);
+    for (std::size_t i = 1; i < N; ++i)
+    {
+        const double s = dot(points[i], axis);
+        low = std::min(low, s);
+        high = std::max(high, s);
+    }
+}
+
+template <typename SolidType>
+bool meets(const TriangleCorners& triangle, const SolidType& solid, double slack)
+{
+    const auto apart = [&](const Vec3& axis)
+    {
+        const double length = norm(axis);
+        if (length < 1e-14) return false;  // parallel edges or a degenerate triangle: no direction
+        double lowA, highA, lowB, highB;
+        project(triangle, axis, lowA, highA);
+        project(solid.m_corners, axis, lowB, highB);
+        return std::max(lowA - highB, lowB - highA) > slack * length;
+    };
+    for (const Vec3& normal : solid.m_normals)
+        if (apart(normal)) return false;
+    const Vec3 sides[] = {triangle[1] - triangle[0], triangle[2] - triangle[1], triangle[0] - triangle[2]};
+    if (apart(cross(sides[0], sides[1]))) return false;
+    for (const Vec3& side : sides)
+        for (const Vec3& edge : solid.m_edges)
+            if (apart(cross(side, edge))) return false;
+    return true;
+}
+
+}  // namespace
+
+bool triangleMeetsBox(const TriangleCorners& triangle, const Vec3& low, const Vec3& high, double slack)
+{
+    constexpr std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+    Solid<8, 3, 3> box{{}, axes, axes};
+    for (int c = 0; c < 8; ++c)
+        box.m_corners[c] = {c & 1 ? high.x : low.x, c & 2 ? high.y : low.y, c & 4 ? high.z : low.z};
+    return meets(triangle, box, slack);
+}
+
+bool triangleMeetsTet(const TriangleCorners& triangle, const std::array<Vec3, 4>& tet, double slack)
+{
+    const Vec3 a = tet[1] - tet[0], b = tet[2] - tet[0], c = tet[3] - tet[0];
+    return meets(triangle,
+                 Solid<4, 6, 4>{
+                     tet, {a, b, c, b - a, c - a, c - b}, {cross(a, b), cross(b, c), cross(c, a), cross(b - a, c - a)}},
+                 slack);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <array>
+
+#include "bullet_fem/fem/vec3.h"
+
+namespace bullet_fem
+{
+
+using TriangleCorners = std::array<Vec3, 3>;
+
+/// True if the triangle comes within `slack` of the solid; with a negative slack, if it enters it deeper than that.
+/// By separating axes, so exact but for rounding; degenerate triangles count as the segment or point they are.
+bool triangleMeetsBox(const TriangleCorners& triangle, const Vec3& low, const Vec3& high, double slack);
+bool triangleMeetsTet(const TriangleCorners& triangle, const std::array<Vec3, 4>& tet, double slack);
+
+}  // namespace bullet_fem

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "LinearMath/btVector3.h"
+#include "bullet_fem/fem/cage.h"
+
+class btSoftBody;
+struct btSoftBodyWorldInfo;
+
+/// Makes tetrahedral soft bodies. All have water's density (1000 kg/m3) until setMaterial says otherwise, outward
+/// boundary faces for collision and drawing, no links; the caller owns them. All throw std::invalid_argument
+/// (std::runtime_error for files) naming value, range and remedy.
+struct btFemHelpers
+{
+    /// A cage of lattice cells of `cellSize` [m] around the closed surface of an OFF, OBJ, STL or PLY file, which
+    /// follows the cage as m_renderNodes and m_renderFaces. What collides is the cage's surface, up to a cell outside
+    /// the file's. `scale` [-], > 0, multiplies the file's positions.
+    static btSoftBody* createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
+                                             btScalar scale = btScalar(1));
+
+    /// The same from a surface in memory.
+    static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
+                                         const bullet_fem::CageSettings& settings);
+
+    /// From a tetrahedral mesh, in the order of its nodes and elements.
+    static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh);
+
+    /// From `nodeCount` positions [m] and 4 `tetCount` node indices, in the given order. Elements of negative
+    /// orientation are turned.
+    static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
+                                         const int* tets, int tetCount);
+
+    /// A box around `center` with half extents [m], each > 0, of about `cellSize` [m] cells.
+    static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,
+                                 btScalar cellSize);
+
+    /// Moves m_renderNodes with the body; the solver does so after every step.
+    static void updateEmbeddedSurface(btSoftBody* body);
+};

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "LinearMath/btVector3.h"
+
+class btCollisionObject;
+
+/// How much a body is worth: what its factor is turned with, and whether it is iterated to the tolerance.
+enum class btFemDetail
+{
+    nodalWarp,   ///< one rotation a node; the default
+    globalWarp,  ///< the body's one rotation, as in the paper; for nearly rigid bodies
+    direct  ///< one iteration a step, for bodies nobody looks at; a body that touches something is iterated all the
+            ///< same
+};
+
+/// What happened in a step, or to a body at set-up. Several may be set at once.
+enum btFemFlags
+{
+    BT_FEM_NOT_CONVERGED =
+        1 << 0,                    ///< the iteration cap came before the tolerance: usable; raise the cap or refactor()
+    BT_FEM_BREAKDOWN = 1 << 1,     ///< the system was not solvable to rounding: best iterate kept; look at masses and E
+    BT_FEM_STALE_FACTOR = 1 << 2,  ///< step, masses or pins are not the factor's: more iterations; refactor()
+    BT_FEM_RESTORED = 1 << 3,      ///< NaN or infinity in m_x, m_v or m_f: the last good values were put back
+    BT_FEM_BAD_MASS = 1 << 4,  ///< an inverse mass was negative, NaN or infinite: the node got its share of the volume
+    BT_FEM_BAD_STEP = 1 << 5,  ///< the step was not in [1e-6, 1] s: the body stood still
+    BT_FEM_REJECTED = 1 << 6,  ///< the mesh or material is unusable (see m_message): Bullet's springs move the body
+    BT_FEM_ADDED_TWICE = 1 << 7,  ///< the world holds the body more than once: it is stepped once; remove it once
+    BT_FEM_OTHER_WORLD =
+        1 << 8,  ///< the body was added to a second world or solver, which steps it; remove it from one
+    BT_FEM_TURNED_TETS = 1 << 9,      ///< elements of negative orientation were turned
+    BT_FEM_SEVERAL_PIECES = 1 << 10,  ///< the mesh is not connected: every piece moves on its own
+    BT_FEM_UNKNOWN_SHAPE =
+        1 << 11,  ///< it overlaps a shape without contact support (triangle mesh, heightfield): no contact
+    BT_FEM_CONTACT_LIMIT = 1 << 12,  ///< more contact points than the solver info allows: the deepest were kept
+    BT_FEM_REFACTORED = 1 << 13  ///< it touches something while step or masses were 1.5 times off: factored on the spot
+};
+
+/// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.
+struct btFemStepReport
+{
+    int m_flags = 0;             ///< btFemFlags
+    const char* m_message = "";  ///< why the body was rejected; owned by the solver, valid until the body is removed
+    int m_nodes = 0, m_tets = 0;
+    int m_iterations = 0;               ///< conjugate gradient iterations of the free motion
+    btScalar m_residual = 0;            ///< its true |b - A dv| / |b| [-]
+    int m_contactIterations = 0;        ///< of the corrective solves after contact
+    int m_contactSweeps = 0;            ///< Gauss-Seidel sweeps of the contact group this body was in
+    int m_contacts = 0;                 ///< contact points
+    btScalar m_deepestPenetration = 0;  ///< at the start of the step [m], >= 0
+    long m_factorEntries = 0;           ///< entries of the factor, fill included
+    btScalar m_factorSeconds = 0;       ///< wall time that factoring took, when it was made [s]
+    btScalar m_freeMotionMs = 0;        ///< wall time of forces, rotations and the free solve [ms]
+    btScalar m_contactMs = 0;           ///< wall time of contacts of all bodies of the step [ms]
+};
+
+/// A contact point of the last step.
+struct btFemContact
+{
+    btVector3 m_point;    ///< on the soft surface at the start of the step, world [m]
+    btVector3 m_normal;   ///< unit, from the other body to the soft one
+    btScalar m_gap = 0;   ///< signed distance at the start of the step [m]; negative inside
+    btVector3 m_impulse;  ///< on the soft body: normal and friction [N s]; the other body got the opposite
+    const btCollisionObject* m_other = nullptr;
+    int m_nodes[3] = {0, 0, 0};         ///< soft nodes that carry the point
+    btScalar m_weights[3] = {1, 0, 0};  ///< barycentric [-], sum 1
+};

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "BulletSoftBody/btDefaultSoftBodySolver.h"
+#include "bullet_fem/btFemMaterial.h"
+#include "bullet_fem/btFemReports.h"
+
+class btSoftBody;
+
+/// Settings of a solver; fixed for its life.
+struct btFemSolverInfo
+{
+    btScalar m_tolerance = btScalar(1e-3);  ///< relative residual of the linear solves [-], in [1e-8, 0.5]
+    int m_maxIterations = 100;              ///< conjugate gradient iterations a solve, in [1, 10000]
+    int m_contactRounds = 2;                ///< corrective solves after contact, in [1, 10]
+    int m_contactSweeps = 50;               ///< Gauss-Seidel sweeps a round, in [1, 1000]
+    int m_maxContacts = 2000;        ///< contact points a body, in [8, 20000]; their compliance is a dense matrix
+    btScalar m_erp = btScalar(0.2);  ///< share of a penetration taken back a step [-], in [0, 1]
+    btScalar m_maxPushVelocity = btScalar(1);  ///< speed at which penetration is taken back at most [m/s], in [0, 1000]
+
+    /// True if every value is in its range; else `why` (if given) names the value, the range and the remedy.
+    bool valid(std::string* why = nullptr) const;
+};
+
+/// Makes every tetrahedral btSoftBody of a btSoftRigidDynamicsWorld a corotational finite-element body: give it to the
+/// world's constructor in place of the default solver. Bodies without tetrahedra keep Bullet's behaviour, bit for bit.
+///
+/// Lifetime: outlives its world. Threads: call from the thread that steps the world; processCollision may be called by
+/// Bullet's threads. Allocates when a body is first stepped, when the number of contacts grows, and on calls of its own
+/// methods; not otherwise.
+///
+/// Bodies are known by address and broadphase proxy. What is set for a body that is not in the world at the next step
+/// is forgotten; its rest shape is the one it has when it is first stepped or prepared.
+class btFemSoftBodySolver : public btDefaultSoftBodySolver
+{
+public:
+    /// Throws std::invalid_argument if !info.valid().
+    explicit btFemSoftBodySolver(const btFemSolverInfo& info = btFemSolverInfo());
+    ~btFemSoftBodySolver() override;
+    btFemSoftBodySolver(const btFemSoftBodySolver&) = delete;
+    btFemSoftBodySolver& operator=(const btFemSoftBodySolver&) = delete;
+
+    /// Gives a body its material, before or after addSoftBody, at any time; a density > 0 sets the masses of nodes that
+    /// are not pinned, now. Without it a body has E = 1e6 kLST Pa, nu .3, beta .005 s and its own masses. Throws
+    /// std::invalid_argument on a bad material or a body without (usable) tetrahedra.
+    void setMaterial(btSoftBody* body, const btFemMaterial& material);
+
+    /// Chooses between accuracy and speed for a body; nodalWarp unless called.
+    void setDetail(btSoftBody* body, btFemDetail detail);
+
+    /// Takes the present shape as the rest shape, unless the body has one, and factors now for a step of fixedTimeStep
+    /// [s], in [1e-6, 1], so that the first step does not hitch. Throws std::invalid_argument on a bad step or mesh.
+    void prepare(btSoftBody* body, btScalar fixedTimeStep);
+
+    /// Factors anew for the present masses and pins and the last step size. Throws std::invalid_argument if the body is
+    /// not FEM.
+    void refactor(btSoftBody* body);
+
+    /// Makes a node go to a world position within the next step, and stay there; its mass is kept for when it is let
+    /// go. Throws std::invalid_argument on a node index out of range or a position that is not finite.
+    void setNodeTarget(btSoftBody* body, int node, const btVector3& position);
+    /// Lets the node go.
+    void clearNodeTarget(btSoftBody* body, int node);
+
+    /// Keeps the surface this far from others [m], in [0, 1e3]; 0 unless called. Bullet's shape margin is ignored.
+    void setContactOffset(btSoftBody* body, btScalar metres);
+
+    /// Drops all that is known of a body: before deleting one that was never added.
+    void forget(btSoftBody* body);
+
+    /// True if the body's tetrahedra can become finite elements: what setMaterial and prepare throw about; else `why`
+    /// (if given) has their message. For engines without exceptions.
+    static bool valid(const btSoftBody* body, std::string* why = nullptr);
+
+    /// True if the body is moved by finite elements.
+    bool isFem(const btSoftBody* body) const;
+
+    /// The last step of a body; empty if it is not known.
+    const btFemStepReport& stepReport(const btSoftBody* body) const;
+
+    /// Contact points of the last step; empty if the body is not known. Valid until the next step; kept while it
+    /// sleeps.
+    const btAlignedObjectArray<btFemContact>& contacts(const btSoftBody* body) const;
+
+    /// Mean force of another body on this one during the last step: sum of impulses / h [N].
+    btVector3 contactForce(const btSoftBody* body, const btCollisionObject* other) const;
+
+    // Called by the world.
+    void optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate = false) override;
+    void predictMotion(btScalar timeStep) override;
+    void processCollision(btSoftBody* body, const btCollisionObjectWrapper* other) override;
+    void processCollision(btSoftBody* body, btSoftBody* other) override;
+    void solveConstraints(btScalar timeStep) override;
+    void updateSoftBodies() override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};

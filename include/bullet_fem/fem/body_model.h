@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_fem/fem/rest_shape.h"
+
+namespace bullet_fem
+{
+
+class RestFactor;
+
+/// What a rest factor is built for. Bodies that agree in all of it share one model.
+struct FactorInput
+{
+    std::vector<double> m_mass;  ///< per node [kg], finite and > 0
+    std::vector<unsigned char>
+        m_fixed;               ///< per node, 1 where the velocity is prescribed (pinned); those are eliminated
+    double m_step = 1.0 / 60;  ///< h [s], in [1e-6, 1]
+
+    friend bool operator==(const FactorInput& a, const FactorInput& b)
+    {
+        return a.m_step == b.m_step && a.m_mass == b.m_mass && a.m_fixed == b.m_fixed;
+    }
+};
+
+/// Figures of a factorization.
+struct FactorReport
+{
+    std::string m_backend;   ///< library that ordered and factored
+    std::string m_ordering;  ///< METIS or AMD
+    long m_entries = 0;      ///< entries of L, fill included
+    int m_supernodes = 0;    ///< dense panels that L is packed in
+    double m_seconds = 0;    ///< wall time of assembly, ordering, factorization and packing [s]
+};
+
+/// A body's const half: its rest shape and the factor of A0 = (1 + h alpha) M + (h^2 + h beta) K. Immutable, so it may
+/// be shared by bodies and threads.
+class BodyModel
+{
+public:
+    /// Builds the factor. Not thread-safe with itself (METIS uses the global random generator). Throws
+    /// std::invalid_argument naming the value on a bad step, mass or array size, std::runtime_error if A0 cannot be
+    /// factored.
+    static std::shared_ptr<const BodyModel> create(std::shared_ptr<const RestShape> shape, FactorInput input);
+    ~BodyModel();
+
+    const RestShape& shape() const { return *m_shape; }
+    const std::shared_ptr<const RestShape>& sharedShape() const { return m_shape; }
+    const TetMesh& mesh() const { return m_shape->m_mesh; }
+    const FactorInput& factorInput() const { return m_input; }
+    const RestFactor& factor() const { return *m_factor; }
+    const FactorReport& factorReport() const { return m_report; }
+    int nodeCount() const { return m_shape->m_mesh.nodeCount(); }
+
+private:
+    BodyModel() = default;
+    std::shared_ptr<const RestShape> m_shape;
+    FactorInput m_input;
+    std::unique_ptr<const RestFactor> m_factor;
+    FactorReport m_report;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/fem/body.h"
+
+namespace bullet_fem
+{
+
+/// One linearly implicit Euler step, in the three parts that constraints need. None of them allocates or throws; all
+/// run on the caller's thread, and different bodies may be stepped by different threads.
+///
+///     A dv = b        A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T
+///                     b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v)
+///
+/// with K' = sum R_e K_e R_e^T and the tensile geometric stiffness T (docs/theory.md).
+
+/// Rotations, system and the free velocities v + dv, as if nothing touched the body. Nodes marked fixed get their
+/// target velocity. The result stands in velocity(body) and is not yet the state's.
+SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
+
+/// Adds the response A^-1 J to velocity(body), for impulses J on the nodes [N s]; those on fixed nodes are ignored.
+/// To be called after solveFreeMotion, any number of times.
+SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
+
+/// Adds h P J to the displacement of this step without a trace in the velocities: position correction, J [N s]. Returns
+/// the angular momentum about the origin that the body gains by being elsewhere with its velocities [kg m2/s].
+Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
+
+/// v <- velocity(body), x <- x + h v, and the pushes.
+void finishStep(Body& body, const StepSettings& settings);
+
+/// solveFreeMotion and finishStep: a step of a body that touches nothing.
+SolveReport step(Body& body, const StepSettings& settings);
+
+/// Velocities during the step [m/s], one a node: valid from solveFreeMotion to finishStep.
+const std::vector<Vec3>& velocity(const Body& body);
+
+/// Linear and angular momentum about the origin [kg m/s, kg m2/s] of a state.
+Vec3 linearMomentum(const BodyState& state);
+Vec3 angularMomentum(const BodyState& state);
+
+/// Kinetic energy plus the warped elastic energy 1/2 sum (x R - X)^T K_e (R^T x - X) [J].
+double mechanicalEnergy(const Body& body);
+
+}  // namespace bullet_fem

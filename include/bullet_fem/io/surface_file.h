@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <string>
+
+#include "bullet_fem/fem/surface_mesh.h"
+
+namespace bullet_fem
+{
+
+/// Reads a triangle surface from an OFF, OBJ, STL or PLY file; other formats are refused. Polygons become triangles,
+/// equal vertices are joined (STL has none shared), all meshes of the file become one. `scale` [-], > 0, multiplies
+/// positions (files have no unit; this library's is the metre). Vertices are joined if their positions are exactly
+/// equal; triangles that lose a corner by that, lines, points and unused vertices are dropped. OBJ and STL come in
+/// single precision. Throws std::runtime_error naming the file and the cause: missing, unreadable, unknown ending, cut
+/// short, an index out of range, a vertex that is not finite, no triangle. Throws std::invalid_argument if scale is not
+/// positive and finite.
+SurfaceMesh readSurfaceFile(const std::string& path, double scale = 1);
+
+}  // namespace bullet_fem

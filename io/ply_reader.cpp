@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+
+// Assimp 5.2's own PLY reader never returns from a header that is cut short, invents faces when the file is, and
+// allocates what the header claims: hence this one.
+#include <array>
+#include <climits>
+#include <cstdint>
+#include <cstring>
+
+#include "fem/message.h"
+#include "io/number_text.h"
+#include "io/polygon_mesh.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+enum class Encoding
+{
+    text,
+    littleEndian,
+    bigEndian
+};
+
+struct NumberType
+{
+    enum Kind
+    {
+        signedInteger,
+        unsignedInteger,
+        floating
+    } kind;
+    int size;  ///< [bytes]
+};
+
+struct Property
+{
+    std::string name;
+    NumberType type;
+    bool isList = false;
+    NumberType countType{};
+};
+
+struct Element
+{
+    std::string name;
+    std::int64_t count = 0;
+    std::vector<Property> properties;
+};
+
+struct Header
+{
+    Encoding encoding = Encoding::text;
+    std::vector<Element> elements;
+};
+
+NumberType parseType(std::string_view word)
+{
+    struct Named
+    {
+        const char *name, *alias;
+        NumberType type;
+    };
+    static const Named types[] = {
+        {"char", "int8", {NumberType::signedInteger, 1}},   {"uchar", "uint8", {NumberType::unsignedInteger, 1}},
+        {"short", "int16", {NumberType::signedInteger, 2}}, {"ushort", "uint16", {NumberType::unsignedInteger, 2}},
+        {"int", "int32", {NumberType::signedInteger, 4}},   {"uint", "uint32", {NumberType::unsignedInteger, 4}},
+        {"float", "float32", {NumberType::floating, 4}},    {"double", "float64", {NumberType::floating, 8}}};
+    for (const Named& t : types)
+        if (word == t.name || word == t.alias) return t.type;
+    throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a PLY number type");
+}
+
+Encoding parseEncoding(std::string_view word)
+{
+    if (word == "ascii") return Encoding::text;
+    if (word == "binary_little_endian") return Encoding::littleEndian;
+    if (word == "binary_big_endian") return Encoding::bigEndian;
+    throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a PLY encoding");
+}
+
+Property parseProperty(std::string_view line)
+{
+    Property property;
+    std::string_view word = takeWord(line);
+    property.isList = word == "list";
+    if (property.isList)
+    {
+        property.countType = parseType(takeWord(line));
+        word = takeWord(line);
+    }
+    property.type = parseType(word);
+    property.name = takeWord(line);
+    return property;
+}
+
+/// Takes the header, with the line break after end_header, off the front of `bytes`.
+Header takeHeader(std::string_view& bytes)
+{
+    Header header;
+    for (bool first = true;; first = false)
+    {
+        const std::size_t length = bytes.find('\n');
+        if (length == std::string_view::npos) throw std::runtime_error("the header has no end_header line");
+        std::string_view line = bytes.substr(0, length);
+        bytes.remove_prefix(length + 1);
+        const std::string_view key = takeWord(line);
+        if (first != (key == "ply")) throw std::runtime_error("a PLY file has 'ply' on its first line, and only there");
+        if (key == "end_header") return header;
+        if (key == "format")
+            header.encoding = parseEncoding(takeWord(line));
+        else if (key == "element")
+        {
+            Element element;
+            element.name = takeWord(line);
+            element.count = parseNumber<std::int64_t>(takeWord(line), "an element count");
+            header.elements.push_back(element);
+        }
+        else if (key == "property" && !header.elements.empty())
+            header.elements.back().properties.push_back(parseProperty(line));
+        else if (!key.empty() && key != "ply" && key != "comment" && key != "obj_info")
+            throw std::runtime_error("unexpected '" + std::string(key.substr(0, 40)) + "' in the header");
+    }
+}
+
+/// Numbers of the body, one after the other.
+class Body
+{
+public:
+    Body(std::string_view bytes, Encoding encoding) : m_rest(bytes), m_encoding(encoding) {}
+
+    double next(NumberType type)
+    {
+        if (m_encoding == Encoding::text)
+        {
+            const std::string_view word = takeWord(m_rest);
+            if (word.empty()) throw std::runtime_error("the file ends too early");
+            return parseNumber<double>(word, "a number");
+        }
+        return nextBinary(type);
+    }
+    /// A count or an index: a whole number in [0, 2^31).
+    int nextIndex(NumberType type)
+    {
+        const double value = next(type);
+        if (!(value >= 0 && value <= INT_MAX) || value != static_cast<int>(value))
+            throw std::runtime_error(message(value, " is not a count or a vertex index"));
+        return static_cast<int>(value);
+    }
+
+private:
+    double nextBinary(NumberType type)
+    {
+        const auto size = static_cast<std::size_t>(type.size);
+        if (m_rest.size() < size) throw std::runtime_error("the file ends too early");
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < size; ++i)
+        {
+            const std::size_t from = m_encoding == Encoding::bigEndian ? i : size - 1 - i;
+            bits = bits << 8 | static_cast<unsigned char>(m_rest[from]);
+        }
+        m_rest.remove_prefix(size);
+        return toNumber(bits, type);
+    }
+    static double toNumber(std::uint64_t bits, NumberType type)
+    {
+        if (type.kind == NumberType::floating && type.size == 8)
+        {
+            double value;
+            std::memcpy(&value, &bits, sizeof value);
+            return value;
+        }
+        if (type.kind == NumberType::floating)
+        {
+            const auto bits32 = static_cast<std::uint32_t>(bits);
+            float value;
+            std::memcpy(&value, &bits32, sizeof value);
+            return value;
+        }
+        const double modulus = static_cast<double>(std::uint64_t{1} << 8 * type.size);
+        const auto value = static_cast<double>(bits);
+        return type.kind == NumberType::signedInteger && value >= modulus / 2 ? value - modulus : value;
+    }
+
+    std::string_view m_rest;
+    Encoding m_encoding;
+};
+
+/// One vertex, face or other thing; what is not a position or a corner is read and forgotten.
+void readItem(Body& body, const Element& element, PolygonMesh& mesh)
+{
+    const bool isVertex = element.name == "vertex", isFace = element.name == "face";
+    Vec3 x;
+    for (const Property& property : element.properties)
+    {
+        if (property.isList)
+        {
+            const bool corners = isFace && (property.name == "vertex_indices" || property.name == "vertex_index");
+            const int count = body.nextIndex(property.countType);
+            for (int i = 0; i < count; ++i)
+            {
+                if (corners)
+                    mesh.m_corners.push_back(body.nextIndex(property.type));
+                else
+                    body.next(property.type);
+            }
+            continue;
+        }
+        const double value = body.next(property.type);
+        if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
+            x[property.name[0] - 'x'] = value;
+    }
+    if (isVertex) mesh.m_positions.push_back(x);
+    if (isFace) mesh.closeFace();
+}
+
+void checkVertexProperties(const Element& element)
+{
+    for (const char* axis : {"x", "y", "z"})
+    {
+        int count = 0;
+        for (const Property& property : element.properties) count += property.name == axis && !property.isList;
+        if (count != 1)
+            throw std::runtime_error("element 'vertex' has " + std::to_string(count) + " properties '" + axis +
+                                     "', not one");
+    }
+}
+
+}  // namespace
+
+PolygonMesh readPly(std::string_view bytes)
+{
+    const Header header = takeHeader(bytes);
+    Body body(bytes, header.encoding);
+    PolygonMesh mesh;
+    for (const Element& element : header.elements)
+    {
+        if (element.name == "vertex") checkVertexProperties(element);
+        if (element.properties.empty()) continue;  // nothing to read, whatever the count
+        for (std::int64_t i = 0; i < element.count; ++i)
+        {
+            try
+            {
+                readItem(body, element, mesh);
+            }
+            catch (const std::runtime_error& error)
+            {
+                throw std::runtime_error(element.name + " " + std::to_string(i) + " of " +
+                                         std::to_string(element.count) + ": " + error.what());
+            }
+        }
+    }
+    return mesh;
+}
+
+}  // namespace bullet_fem

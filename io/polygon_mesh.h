@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bullet_fem/fem/vec3.h"
+
+namespace bullet_fem
+{
+
+/// What a file says, before triangulation and welding: positions and polygons. Indices may still be out of range.
+struct PolygonMesh
+{
+    std::vector<Vec3> m_positions;
+    std::vector<int> m_corners;          ///< vertex indices of all polygons, one polygon after the other
+    std::vector<std::size_t> m_faceEnd;  ///< one past the last corner of every polygon in m_corners
+
+    void closeFace() { m_faceEnd.push_back(m_corners.size()); }
+};
+
+/// Each reader throws an exception whose text is the cause alone; the caller puts the file's name before it.
+/// Memory grows with what was read, never with a count that a header claims.
+
+/// Reads the text of an OFF file: OFF, COFF, NOFF and STOFF in text form; comments, blank lines and colours are
+/// skipped.
+PolygonMesh readOff(std::string_view text);
+
+/// Reads the bytes of a PLY file, text or binary of both byte orders; only x, y, z and the faces' corners are kept.
+PolygonMesh readPly(std::string_view bytes);
+
+/// Reads an OBJ or STL file through Assimp, in single precision. No other file (materials) is opened.
+PolygonMesh readWithAssimp(const std::string& path);
+
+}  // namespace bullet_fem

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/btFemBodyRegistry.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body_mark.h"
+#include "bullet_bridge/node_exchange.h"
+#include "bullet_bridge/soft_body_mesh.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+constexpr int kInTwoWorlds = 2;  // claims of a body by its former world that two living worlds alone can make
+
+FactorInput factorInput(const btFemEntry& entry, double step)
+{
+    FactorInput input;
+    input.m_mass = entry.m_fem->m_body.m_state.m_mass;
+    input.m_fixed = entry.m_fem->m_body.m_state.m_fixed;
+    input.m_step = step;
+    return input;
+}
+
+Material materialOf(const btFemEntry& entry)
+{
+    return entry.m_materialGiven ? entry.m_material : unsetMaterialOf(*entry.m_softBody);
+}
+
+// True if the tetrahedra still join the nodes that the mesh was made of.
+bool topologyAsBuilt(const btSoftBody& soft, const TetMesh& mesh)
+{
+    if (soft.m_nodes.size() != mesh.nodeCount() || soft.m_tetras.size() != mesh.tetCount()) return false;
+    for (int e = 0; e < soft.m_tetras.size(); ++e)
+    {
+        const Tet& tet = mesh.tets()[e];
+        // Turned elements have their last two nodes swapped.
+        for (int a = 0; a < 4; ++a)
+        {
+            const int node = static_cast<int>(soft.m_tetras[e].m_n[a] - &soft.m_nodes[0]);
+            if (node != tet[a] && !(a >= 2 && node == tet[5 - a])) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
+{
+    const auto isIt = [body](const auto& entry) { return entry->m_softBody == body; };
+    return std::find_if(m_entries.begin(), m_entries.end(), isIt) - m_entries.begin();
+}
+
+btFemEntry* btFemBodyRegistry::find(const btSoftBody* body)
+{
+    const std::size_t k = indexOf(body);
+    return k < m_entries.size() ? m_entries[k].get() : nullptr;
+}
+
+btFemEntry& btFemBodyRegistry::entry(btSoftBody* body)
+{
+    if (!body)
+        throw std::invalid_argument("the soft body is null; give a body made by btFemHelpers or btSoftBodyHelpers");
+    if (btFemEntry* known = find(body))
+    {
+        if (isAnotherBody(*known)) *known = btFemEntry(body);
+        return *known;
+    }
+    m_entries.push_back(std::make_unique<btFemEntry>(body));
+    return *m_entries.back();
+}
+
+void btFemBodyRegistry::forget(const btSoftBody* body)
+{
+    m_entries.erase(std::remove_if(m_entries.begin(), m_entries.end(),
+                                   [body](const auto& entry) { return entry->m_softBody == body; }),
+                    m_entries.end());
+}
+
+// Something else lives at the address, or the body was cut or refined.
+bool btFemBodyRegistry::isAnotherBody(const btFemEntry& entry) const
+{
+    return entry.m_fem && (!hasMark(*entry.m_softBody, entry.m_fem->m_mark) ||
+                           !topologyAsBuilt(*entry.m_softBody, entry.m_fem->m_body.m_model->mesh()));
+}
+
+// A world that holds a body of another one takes it over. Worlds that take it from each other both hold it; once may be
+// a new world at the address of a deleted one.
+void btFemBodyRegistry::claim(btFemEntry& entry, const void* world, const btSoftBodySolver* solver)
+{
+    if (entry.m_world && entry.m_world != world && entry.m_handedBack < kInTwoWorlds)
+    {
+        entry.m_handedBack = entry.m_formerWorld == world ? entry.m_handedBack + 1 : 0;
+        entry.m_formerWorld = entry.m_world;
+        entry.m_world = world;
+    }
+    if (!entry.m_world) entry.m_world = world;
+    const bool otherSolver = entry.m_softBody->getSoftBodySolver() != solver;
+    if (entry.m_handedBack >= kInTwoWorlds || otherSolver) entry.m_report.m_flags |= BT_FEM_OTHER_WORLD;
+    entry.m_present = entry.m_world == world && !otherSolver;
+}
+
+void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver)
+{
+    const void* world = &softBodies;
+    m_held.assign(m_entries.size(), 0);
+    for (const auto& entry : m_entries)
+    {
+        entry->m_present = false;
+        entry->m_report.m_flags = 0;
+    }
+    for (int i = 0; i < softBodies.size(); ++i)
+    {
+        btSoftBody* soft = softBodies[i];
+        std::size_t known = indexOf(soft);
+        if (known < m_entries.size() && m_held[known])
+        {
+            m_entries[known]->m_report.m_flags |= BT_FEM_ADDED_TWICE;
+            continue;
+        }
+        if (known < m_entries.size() && isAnotherBody(*m_entries[known])) *m_entries[known] = btFemEntry(soft);
+        if (known == m_entries.size() && soft->m_tetras.size() == 0) continue;
+        if (known == m_entries.size())
+        {
+            entry(soft);
+            m_held.push_back(0);
+        }
+        m_held[known] = 1;
+        claim(*m_entries[known], world, solver);
+    }
+    // What this world, or none, has and the world does not hold is gone, and must not be looked at.
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < m_entries.size(); ++k)
+    {
+        const bool gone = !m_held[k] && (m_entries[k]->m_world == world || !m_entries[k]->m_world);
+        if (!gone) std::swap(m_entries[kept++], m_entries[k]);
+    }
+    m_entries.resize(kept);
+}
+
+void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
+{
+    btSoftBody& soft = *entry.m_softBody;
+    if (soft.m_tetras.size() == 0)
+        throw std::invalid_argument(
+            "the soft body has no tetrahedra; make it with btFemHelpers, or leave it to Bullet's springs");
+    const std::vector<double> filled = filledFractionsOf(soft);
+    if (entry.m_fem)
+    {
+        // The factor is for the masses and pins of now; a new density has just changed the masses.
+        const NodeReadReport read = readNodes(*entry.m_fem);
+        entry.m_report.m_flags |= (read.m_restored ? BT_FEM_RESTORED : 0) | (read.m_badMass ? BT_FEM_BAD_MASS : 0);
+        const auto shape = m_library.restShape(entry.m_fem->m_body.m_model->mesh(), materialOf(entry), filled);
+        entry.m_fem->m_body.setModel(m_library.model(shape, factorInput(entry, step)));
+        entry.m_fem->m_compliance = m_library.compliance(entry.m_fem->m_body.m_model);
+        entry.m_materialChanged = false;
+        return;
+    }
+
+    const TetMesh mesh = tetMeshOf(soft);
+    const auto shape = m_library.restShape(mesh, materialOf(entry), filled);
+    FactorInput input;
+    bool repaired = false;
+    input.m_mass = sanitisedMasses(soft, massesOf(mesh, filled, 1), repaired);
+    for (int i = 0; i < soft.m_nodes.size(); ++i) input.m_fixed.push_back(soft.m_nodes[i].m_im == 0);
+    input.m_step = step;
+    const auto model = m_library.model(shape, input);
+    entry.m_fem = std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model));
+    entry.m_fem->m_contactOffset = entry.m_contactOffset;
+    entry.m_materialChanged = false;
+    entry.m_setUpFlags = (mesh.turnedCount() > 0 ? BT_FEM_TURNED_TETS : 0) |
+                         (mesh.componentCount() > 1 ? BT_FEM_SEVERAL_PIECES : 0) | (repaired ? BT_FEM_BAD_MASS : 0);
+}
+
+void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)
+{
+    try
+    {
+        setUp(entry, step);
+    }
+    catch (const std::exception& error)
+    {
+        entry.m_message = error.what();
+        entry.m_rejected = !entry.m_fem;  // a body that moved already keeps its old material
+        entry.m_materialChanged = false;
+    }
+}
+
+void btFemBodyRegistry::refactor(btFemEntry& entry, double step)
+{
+    Body& body = entry.m_fem->m_body;
+    body.setModel(m_library.model(body.m_model->sharedShape(), factorInput(entry, step)));
+    entry.m_fem->m_compliance = m_library.compliance(body.m_model);
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/model_library.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+
+/// All that the solver knows of one btSoftBody.
+struct btFemEntry
+{
+    explicit btFemEntry(btSoftBody* softBody) : m_softBody(softBody) {}
+
+    btSoftBody* m_softBody;
+    const void* m_world = nullptr;        // array of soft bodies of the world that steps it; null while not in a world
+    const void* m_formerWorld = nullptr;  // the one it was taken over from
+    int m_handedBack = 0;                 // times that the former world claimed it again
+    bool m_present = false;               // the world being stepped holds it, and shall step it
+
+    // What the user asked for.
+    bullet_fem::Material m_material;
+    bool m_materialGiven = false;
+    bool m_materialChanged = false;  // the model does not have it yet
+    btFemDetail m_detail = btFemDetail::nodalWarp;
+    double m_contactOffset = 0;  // [m]
+
+    // What became of it. Without m_fem and without m_rejected it was not tried yet.
+    std::unique_ptr<bullet_fem::FemSoftBody> m_fem;
+    bool m_rejected = false;
+    std::string m_message;
+    int m_setUpFlags = 0;  // flags that hold until the body is set up anew
+
+    btFemStepReport m_report;
+    btAlignedObjectArray<btFemContact> m_contacts;
+    double m_lastStep = 0;  // [s]
+};
+
+/// The bodies of a solver, by address. Removal from a world is silent and addresses are reused, so every step compares
+/// what is known with what the world holds.
+class btFemBodyRegistry
+{
+public:
+    btFemEntry* find(const btSoftBody* body);
+    const btFemEntry* find(const btSoftBody* body) const { return const_cast<btFemBodyRegistry*>(this)->find(body); }
+
+    /// The entry of a body, made if there is none. Throws std::invalid_argument on null.
+    btFemEntry& entry(btSoftBody* body);
+
+    void forget(const btSoftBody* body);
+
+    /// Makes the entries those of the world's bodies: drops entries of bodies that left it or never came, and those
+    /// whose address now holds another body; makes entries for new ones with tetrahedra; flags bodies added twice or
+    /// elsewhere.
+    void synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver);
+
+    /// Makes the body a FEM body with its present shape as rest shape, factored for `step` [s]; or, if it is one, gives
+    /// it a changed material. Throws std::invalid_argument or std::runtime_error.
+    void setUp(btFemEntry& entry, double step);
+
+    /// setUp for use within a step: a failure is written to the entry, and the body left to Bullet.
+    void trySetUp(btFemEntry& entry, double step);
+
+    /// Factors anew for the present masses, pins and `step` [s].
+    void refactor(btFemEntry& entry, double step);
+
+    const std::vector<std::unique_ptr<btFemEntry>>& entries() const { return m_entries; }
+
+private:
+    std::size_t indexOf(const btSoftBody* body) const;
+    bool isAnotherBody(const btFemEntry& entry) const;
+    void claim(btFemEntry& entry, const void* world, const btSoftBodySolver* solver);
+
+    std::vector<std::unique_ptr<btFemEntry>> m_entries;  // in the order in which they became known
+    std::vector<unsigned char> m_held;                   // per entry: the world being stepped holds it
+    bullet_fem::ModelLibrary m_library;
+};

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/btFemHelpers.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_fem/fem/generators.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+constexpr double kWaterDensity = 1000;  // [kg/m3]
+
+std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const TetMesh& mesh,
+                                       const std::vector<double>& filled, double massScale)
+{
+    btAlignedObjectArray<btVector3> positions;
+    btAlignedObjectArray<btScalar> masses;
+    const std::vector<double> mass = massesOf(mesh, filled, kWaterDensity * massScale);
+    for (int i = 0; i < mesh.nodeCount(); ++i)
+    {
+        positions.push_back(bulletVector(mesh.restPositions()[i]));
+        masses.push_back(static_cast<btScalar>(mass[i]));
+    }
+    auto body = std::make_unique<btSoftBody>(&worldInfo, mesh.nodeCount(), &positions[0], &masses[0]);
+    body->m_tetras.reserve(mesh.tetCount());
+    for (const Tet& tet : mesh.tets()) body->appendTetra(tet[0], tet[1], tet[2], tet[3]);
+    body->m_faces.reserve(static_cast<int>(mesh.surface().size()));
+    for (const Triangle& t : mesh.surface()) body->appendFace(t[0], t[1], t[2]);
+    body->initializeDmInverse();
+    for (std::size_t e = 0; e < filled.size(); ++e) storeFill(*body, static_cast<int>(e), filled[e], massScale);
+    body->updateNormals();
+    return body;
+}
+
+// Bullet's fields for a surface that follows the tetrahedra.
+void embed(btSoftBody& body, const SurfaceMesh& surface, const Cage& cage)
+{
+    const int vertexCount = static_cast<int>(surface.m_vertices.size());
+    body.m_renderNodes.resize(vertexCount);
+    body.m_renderNodesParents.resize(vertexCount);
+    body.m_renderNodesInterpolationWeights.resize(vertexCount);
+    for (int v = 0; v < vertexCount; ++v)
+    {
+        const Embedding& embedding = cage.m_embedding[v];
+        const Tet& tet = cage.m_mesh.tets()[embedding.m_tet];
+        for (int a = 0; a < 4; ++a)
+        {
+            body.m_renderNodesParents[v].push_back(&body.m_nodes[tet[a]]);
+            body.m_renderNodesInterpolationWeights[v][a] = static_cast<btScalar>(embedding.m_weights[a]);
+        }
+    }
+    for (const Triangle& t : surface.m_triangles)
+    {
+        btSoftBody::RenderFace face;
+        for (int a = 0; a < 3; ++a) face.m_n[a] = &body.m_renderNodes[t[a]];
+        body.m_renderFaces.push_back(face);
+    }
+    btFemHelpers::updateEmbeddedSurface(&body);
+}
+
+}  // namespace
+
+btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, const SurfaceMesh& surface,
+                                            const CageSettings& settings)
+{
+    const Cage cage = makeCage(surface, settings);
+    std::unique_ptr<btSoftBody> body = softBodyOf(worldInfo, cage.m_mesh, cage.m_filled, cage.m_massScale);
+    embed(*body, surface, cage);
+    return body.release();
+}
+
+btSoftBody* btFemHelpers::createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const TetMesh& mesh)
+{
+    if (mesh.tetCount() == 0)
+        throw std::invalid_argument("createFromTetMesh: the mesh is empty; build it from elements");
+    return softBodyOf(worldInfo, mesh, {}, 1).release();
+}
+
+btSoftBody* btFemHelpers::createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
+                                            const int* tets, int tetCount)
+{
+    if (!positions || !tets || nodeCount < 4 || tetCount < 1)
+        throw std::invalid_argument("createFromTetMesh: " + std::to_string(nodeCount) + " nodes and " +
+                                    std::to_string(tetCount) +
+                                    " tets given; at least 4 and 1 are needed, neither null");
+    std::vector<Vec3> X(nodeCount);
+    for (int i = 0; i < nodeCount; ++i) X[i] = vec3(positions[i]);
+    std::vector<Tet> elements(tetCount);
+    for (int e = 0; e < tetCount; ++e) std::copy(tets + 4 * e, tets + 4 * e + 4, elements[e].begin());
+    return createFromTetMesh(worldInfo, TetMesh(std::move(X), std::move(elements)));
+}
+
+btSoftBody* btFemHelpers::createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center,
+                                    const btVector3& halfExtents, btScalar cellSize)
+{
+    const Vec3 size = 2.0 * vec3(halfExtents);
+    std::array<int, 3> cells;
+    for (int c = 0; c < 3; ++c)
+    {
+        const double count = std::round(size[c] / double(cellSize));
+        if (!(cellSize > 0) || !(size[c] > 0) || !(count <= 1000))
+            throw std::invalid_argument("createBox: half extent " + std::to_string(size[c] / 2) + " m with cells of " +
+                                        std::to_string(cellSize) +
+                                        " m; both must be > 0 and give at most 1000 cells along each axis");
+        cells[c] = std::max(1, static_cast<int>(count));
+    }
+    return createFromTetMesh(worldInfo, makeBox(size, cells, vec3(center) - 0.5 * size));
+}
+
+void btFemHelpers::updateEmbeddedSurface(btSoftBody* body)
+{
+    if (!body || body->m_renderNodesParents.size() != body->m_renderNodes.size()) return;
+    if (body->m_renderNodes.size() > 0) body->interpolateRenderMesh();
+}

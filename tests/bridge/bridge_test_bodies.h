@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_fem/fem/generators.h"
+
+namespace bullet_fem
+{
+
+/// A btSoftBody of a cube's tetrahedra outside any world, 1 kg a node.
+struct TestBox
+{
+    explicit TestBox(const Vec3& origin = {})
+    {
+        const TetMesh mesh = makeBox({1, 1, 1}, {2, 2, 2}, origin);
+        btAlignedObjectArray<btVector3> positions;
+        for (const Vec3& X : mesh.restPositions()) positions.push_back(bulletVector(X));
+        m_body = std::make_unique<btSoftBody>(&m_info, positions.size(), &positions[0], nullptr);
+        for (const Tet& t : mesh.tets()) m_body->appendTetra(t[0], t[1], t[2], t[3]);
+    }
+
+    btSoftBodyWorldInfo m_info;
+    std::unique_ptr<btSoftBody> m_body;
+};
+
+inline FactorInput factorInputOf(const btSoftBody& body)
+{
+    FactorInput input;
+    input.m_mass.assign(body.m_nodes.size(), 1.0);
+    input.m_fixed.assign(body.m_nodes.size(), 0);
+    return input;
+}
+
+/// The body as FEM of the unset material, for a step of 1/60 s.
+inline FemSoftBody makeFemSoftBody(btSoftBody& body)
+{
+    const auto shape = std::make_shared<const RestShape>(tetMeshOf(body), unsetMaterialOf(body));
+    const auto model = BodyModel::create(shape, factorInputOf(body));
+    return FemSoftBody(body, model, makeComplianceCache(model));
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "bridge/bridge_test_bodies.h"
+#include "btBulletDynamicsCommon.h"
+#include "bullet_fem/fem/stepping.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kStep = 1.0 / 60;
+
+class ContactFinderTest : public ::testing::Test
+{
+protected:
+    ContactFinderTest()
+    {
+        m_info.m_broadphase = nullptr;
+        m_ball.setCollisionShape(&m_sphere);
+        m_ground.setCollisionShape(&m_plane);
+        m_ground.setFriction(btScalar(0.5));
+        m_box.m_body->m_worldInfo = &m_info;
+        m_box.m_body->m_cfg.kDF = btScalar(0.8);
+    }
+    const std::vector<ContactPoint>& find(const btCollisionObject& object, int most = 1000)
+    {
+        recordTouching(m_fem, object);
+        solveFreeMotion(m_fem.m_body, StepSettings());
+        m_obstacles.clear();
+        m_report = m_finder.find(m_fem, 0, kStep, most, m_obstacles);
+        return m_fem.m_contacts;
+    }
+
+    btSoftBodyWorldInfo m_info;
+    TestBox m_box;  // the unit cube, two cells a side
+    FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
+    btStaticPlaneShape m_plane{btVector3(0, 0, 1), 0};
+    btSphereShape m_sphere{btScalar(0.1)};
+    btCollisionObject m_ground, m_ball;
+    RigidObstacles m_obstacles;
+    ContactFinder m_finder;
+    ContactSearchReport m_report;
+};
+
+TEST_F(ContactFinderTest, theNodesOfAFaceTouchThePlaneBelow)
+{
+    const auto& contacts = find(m_ground);
+    ASSERT_EQ(contacts.size(), 9u);
+    for (const ContactPoint& c : contacts)
+    {
+        EXPECT_NEAR(c.m_gap, 0, 1e-12);
+        EXPECT_NEAR(c.m_normal.z, 1, 1e-12);
+        EXPECT_NEAR(c.m_friction, 0.4, 1e-7) << "kDF times the rigid body's friction";
+        EXPECT_EQ(c.m_nodes[0], c.m_nodes[1]);
+    }
+}
+
+TEST_F(ContactFinderTest, whatCannotBeReachedWithinTheStepIsLeftOut)
+{
+    for (Vec3& x : m_fem.m_body.m_state.m_x) x.z += 0.5;
+    EXPECT_TRUE(find(m_ground).empty());
+    for (Vec3& v : m_fem.m_body.m_state.m_v) v.z = -40;  // 0.67 m a step
+    EXPECT_EQ(find(m_ground).size(), 9u);
+    for (Vec3& v : m_fem.m_body.m_state.m_v) v.z = 40;
+    EXPECT_TRUE(find(m_ground).empty());
+}
+
+TEST_F(ContactFinderTest, aBallBetweenTheFixedPointsTouchesTheNearestPointOfATriangle)
+{
+    // The nodes are 0.25 m away, and no middle of an edge or triangle is the nearest point.
+    m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.3), btScalar(0.26), btScalar(1.09)));
+    const auto& contacts = find(m_ball);
+    const auto deepest = std::min_element(contacts.begin(), contacts.end(),
+                                          [](const auto& a, const auto& b) { return a.m_gap < b.m_gap; });
+    ASSERT_NE(deepest, contacts.end());
+    EXPECT_NEAR(deepest->m_gap, -0.01, 1e-6);
+    EXPECT_NEAR(deepest->m_normal.z, -1, 1e-6);
+    EXPECT_NEAR(deepest->m_weights[0] + deepest->m_weights[1] + deepest->m_weights[2], 1, 1e-12);
+    EXPECT_NEAR(deepest->m_point.x, 0.3, 1e-6);
+    EXPECT_NEAR(deepest->m_point.y, 0.26, 1e-6);
+}
+
+TEST_F(ContactFinderTest, aCurvedShapeIsTouchedByPointsThatAreFixedInTheSurface)
+{
+    btSphereShape large(30);
+    m_ball.setCollisionShape(&large);
+    m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.41), btScalar(0.37), btScalar(-30)));
+    for (const ContactPoint& c : find(m_ball))
+        for (double w : c.m_weights) EXPECT_TRUE(w == 0 || w == 0.5 || w == 1 || std::abs(w - 1.0 / 3) < 1e-12) << w;
+    EXPECT_GT(m_fem.m_contacts.size(), 9u);
+}
+
+TEST_F(ContactFinderTest, theOffsetIsTakenOffTheGap)
+{
+    m_fem.m_contactOffset = 0.02;
+    for (const ContactPoint& c : find(m_ground)) EXPECT_NEAR(c.m_gap, -0.02, 1e-12);
+}
+
+TEST_F(ContactFinderTest, impulsesOfTheLastStepAreTakenOver)
+{
+    find(m_ground);
+    m_fem.m_contacts[4].m_impulse = {1, 2, 3};
+    const int node = m_fem.m_contacts[4].m_nodes[0];
+    find(m_ground);
+    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_EQ(c.m_impulse.y, c.m_nodes[0] == node ? 2 : 0);
+}
+
+TEST_F(ContactFinderTest, theDeepestAreKeptWhereThereAreTooMany)
+{
+    Vec3& deep = m_fem.m_body.m_state.m_x[4];
+    deep.z -= 0.01;
+    const auto& contacts = find(m_ground, 8);
+    EXPECT_EQ(contacts.size(), 8u);
+    EXPECT_TRUE(m_report.m_limited);
+    double deepest = 0;
+    for (const ContactPoint& c : contacts) deepest = std::min(deepest, c.m_gap);
+    EXPECT_NEAR(deepest, -0.01, 1e-9);
+}
+
+TEST_F(ContactFinderTest, shapesWithoutSupportAreReported)
+{
+    btEmptyShape empty;
+    m_ground.setCollisionShape(&empty);
+    EXPECT_TRUE(find(m_ground).empty());
+    EXPECT_TRUE(m_report.m_unknownShape);
+}
+
+TEST_F(ContactFinderTest, objectsRecordedByManyThreadsAreFoundOnce)
+{
+    std::vector<btCollisionObject> objects(16);
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back(
+            [&]
+            {
+                for (const btCollisionObject& object : objects) recordTouching(m_fem, object);
+            });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(m_fem.m_touching.size(), objects.size());
+    m_fem.m_touching.clear();
+}
+
+}  // namespace
+}  // namespace bullet_fem

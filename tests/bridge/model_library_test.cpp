@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/model_library.h"
+
+#include <gtest/gtest.h>
+
+#include "bridge/bridge_test_bodies.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+class ModelLibraryTest : public ::testing::Test
+{
+protected:
+    std::shared_ptr<const BodyModel> modelOf(const btSoftBody& body, const Material& material, double step = 1.0 / 60)
+    {
+        FactorInput input = factorInputOf(body);
+        input.m_step = step;
+        return m_library.model(m_library.restShape(tetMeshOf(body), material, filledFractionsOf(body)), input);
+    }
+    ModelLibrary m_library;
+};
+
+TEST_F(ModelLibraryTest, copiesOfABodyElsewhereShareModelAndCompliance)
+{
+    const TestBox a, b({btScalar(37.3), btScalar(-12.1), 5});
+    const auto first = modelOf(*a.m_body, Material()), second = modelOf(*b.m_body, Material());
+    EXPECT_EQ(first, second);
+    const auto compliance = m_library.compliance(first);
+    EXPECT_EQ(compliance, m_library.compliance(second));
+}
+
+TEST_F(ModelLibraryTest, anotherMaterialStepOrShapeIsAnotherModel)
+{
+    const TestBox a;
+    TestBox stretched;
+    stretched.m_body->scale(btVector3(1, 1, btScalar(1.01)));
+    const auto model = modelOf(*a.m_body, Material());
+    EXPECT_NE(model, modelOf(*a.m_body, Material::wood()));
+    EXPECT_NE(model, modelOf(*a.m_body, Material(), 1.0 / 30));
+    EXPECT_NE(model, modelOf(*stretched.m_body, Material()));
+    TestBox hollow;
+    storeFill(*hollow.m_body, 0, 0.5, 1.5);
+    EXPECT_NE(model, modelOf(*hollow.m_body, Material()));
+}
+
+TEST_F(ModelLibraryTest, modelsDieWithTheirLastBody)
+{
+    const TestBox a;
+    std::weak_ptr<const BodyModel> observed = modelOf(*a.m_body, Material());
+    EXPECT_TRUE(observed.expired());
+}
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/node_exchange.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bridge/bridge_test_bodies.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kStep = 1.0 / 60;
+
+class NodeExchange : public ::testing::Test
+{
+protected:
+    NodeExchange() { writeNodes(m_fem); }
+
+    BodyState& state() { return m_fem.m_body.m_state; }
+    btSoftBody::Node& node(int i) { return m_box.m_body->m_nodes[i]; }
+
+    TestBox m_box;
+    FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
+};
+
+TEST_F(NodeExchange, loadsOnlyTheComponentsThatTheUserWrote)
+{
+    state().m_x[3] = {1.00000000123, 2.00000000456, 3.00000000789};  // more digits than Bullet's float holds
+    writeNodes(m_fem);
+    node(3).m_x.setY(5);
+    readNodes(m_fem);
+    EXPECT_EQ(state().m_x[3].x, 1.00000000123);
+    EXPECT_EQ(state().m_x[3].y, 5);
+    EXPECT_EQ(state().m_x[3].z, 3.00000000789);
+}
+
+TEST_F(NodeExchange, keepsThePreviousPositionAndVelocityInBulletsFields)
+{
+    const btVector3 before = node(2).m_x;
+    state().m_x[2] += Vec3{1, 0, 0};
+    state().m_v[2] = {0, 7, 0};
+    writeNodes(m_fem);
+    EXPECT_EQ(node(2).m_q, before);
+    EXPECT_EQ(node(2).m_vn, btVector3(0, 0, 0));
+    EXPECT_EQ(node(2).m_v, btVector3(0, 7, 0));
+}
+
+TEST_F(NodeExchange, aMovedPinIsReachedWithinTheStepAndThenStands)
+{
+    node(0).m_im = 0;
+    readNodes(m_fem);
+    node(0).m_x += btVector3(btScalar(0.5), 0, 0);
+    const Vec3 start = state().m_x[0];
+    readNodes(m_fem);
+    EXPECT_EQ(state().m_x[0].x, start.x) << "the pin must not jump";
+    readLoads(m_fem, kStep);
+    EXPECT_NEAR(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0.5 / kStep, 1e-5);
+    readLoads(m_fem, kStep);
+    EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0);
+}
+
+TEST_F(NodeExchange, aBodyMovedAsAWholeTakesItsPinsAlong)
+{
+    node(0).m_im = 0;
+    readNodes(m_fem);
+    for (int i = 0; i < m_box.m_body->m_nodes.size(); ++i) node(i).m_x += btVector3(0, 0, 4);
+    const double before = state().m_x[0].z;
+    readNodes(m_fem);
+    EXPECT_NEAR(state().m_x[0].z, before + 4, 1e-6);
+    readLoads(m_fem, kStep);
+    EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].z, 0);
+}
+
+TEST_F(NodeExchange, aPinnedNodeThatIsGivenAVelocityKeepsIt)
+{
+    node(0).m_im = 0;
+    node(0).m_v = btVector3(0, 2, 0);
+    readNodes(m_fem);
+    for (int step = 0; step < 3; ++step)
+    {
+        readLoads(m_fem, kStep);
+        EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].y, 2);
+    }
+}
+
+TEST_F(NodeExchange, pinningAMovingNodeStopsIt)
+{
+    state().m_v[0] = {3, 0, 0};
+    writeNodes(m_fem);
+    node(0).m_im = 0;
+    readNodes(m_fem);
+    readLoads(m_fem, kStep);
+    EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0);
+}
+
+TEST_F(NodeExchange, restoresWhatIsNotFinite)
+{
+    const btVector3 good = node(4).m_x;
+    node(4).m_x.setX(std::numeric_limits<btScalar>::quiet_NaN());
+    node(5).m_v.setZ(std::numeric_limits<btScalar>::infinity());
+    EXPECT_TRUE(readNodes(m_fem).m_restored);
+    EXPECT_EQ(node(4).m_x, good);
+    EXPECT_EQ(node(5).m_v, btVector3(0, 0, 0));
+    EXPECT_FALSE(readNodes(m_fem).m_restored);
+}
+
+TEST_F(NodeExchange, dropsForcesThatAreNotFinite)
+{
+    node(1).m_f = btVector3(std::numeric_limits<btScalar>::quiet_NaN(), 0, 0);
+    node(2).m_f = btVector3(6, 0, 0);
+    EXPECT_FALSE(readLoads(m_fem, kStep));
+    EXPECT_EQ(m_fem.m_body.m_loads.m_force[1].x, 0);
+    EXPECT_EQ(m_fem.m_body.m_loads.m_force[2].x, 6);
+    EXPECT_EQ(node(2).m_f, btVector3(0, 0, 0));
+}
+
+TEST_F(NodeExchange, takesNewMassesAndKeepsTheOldOnesForBadOnes)
+{
+    const double old = state().m_mass[1];
+    node(0).m_im = btScalar(0.25);
+    node(1).m_im = -1;
+    const NodeReadReport report = readNodes(m_fem);
+    EXPECT_TRUE(report.m_badMass);
+    EXPECT_EQ(state().m_mass[0], 4);
+    EXPECT_EQ(state().m_mass[1], old);
+}
+
+TEST_F(NodeExchange, measuresHowFarTheFactorIsOff)
+{
+    EXPECT_NEAR(factorMismatch(m_fem, kStep), 1, 1e-12);
+    EXPECT_NEAR(factorMismatch(m_fem, kStep / 4), 4, 1e-12);
+    state().m_mass[7] *= 10;
+    EXPECT_NEAR(factorMismatch(m_fem, kStep), 10, 1e-12);
+}
+
+TEST_F(NodeExchange, turnsBulletsDampingIntoTheRateThatDoesTheSame)
+{
+    m_box.m_body->m_cfg.kDP = btScalar(0.5);
+    readLoads(m_fem, kStep);
+    EXPECT_NEAR(1 / (1 + kStep * m_fem.m_body.m_loads.m_massDamping), 0.5, 1e-12);
+}
+
+TEST_F(NodeExchange, boundsHoldTheMotionToCome)
+{
+    for (Vec3& v : state().m_v) v = {60, 0, 0};
+    setSweptBounds(m_fem, kStep, 0.1);
+    double highest = -1e9;
+    for (const Vec3& x : state().m_x) highest = std::max(highest, x.x);
+    EXPECT_NEAR(m_box.m_body->m_bounds[1].x(), highest + 1 + 0.1, 1e-5);
+}
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/rigid_obstacles.h"
+
+#include <gtest/gtest.h>
+
+#include "btBulletDynamicsCommon.h"
+#include "bullet_bridge/bullet_vectors.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kStep = 1.0 / 60;
+
+class RigidObstaclesTest : public ::testing::Test
+{
+protected:
+    btSphereShape m_sphere{1};
+    btRigidBody m_body{btRigidBody::btRigidBodyConstructionInfo(2, nullptr, &m_sphere, btVector3(1, 1, 1))};
+    RigidObstacles m_obstacles;
+
+    ContactPoint contact(const Vec3& impulse, const Vec3& point)
+    {
+        ContactPoint result;
+        result.m_obstacle = m_obstacles.indexOf(m_body, kStep);
+        result.m_impulse = impulse;
+        result.m_point = point;
+        return result;
+    }
+};
+
+TEST_F(RigidObstaclesTest, aDynamicBodyIsSeenWithTheVelocityOfItsNextStep)
+{
+    m_body.setGravity(btVector3(0, 0, -6));
+    m_body.setLinearVelocity(btVector3(1, 0, 0));
+    const Obstacle obstacle = m_obstacles.obstacles()[m_obstacles.indexOf(m_body, 0.5)];
+    EXPECT_NEAR(obstacle.m_linearVelocity.z, -3, 1e-6);
+    EXPECT_NEAR(obstacle.m_linearVelocity.x, 1, 1e-6);
+    EXPECT_NEAR(obstacle.m_inverseMass.x, 0.5, 1e-6);
+}
+
+TEST_F(RigidObstaclesTest, anObjectHasOneObstacle)
+{
+    EXPECT_EQ(m_obstacles.indexOf(m_body, kStep), m_obstacles.indexOf(m_body, kStep));
+    EXPECT_EQ(m_obstacles.obstacles().size(), 1u);
+}
+
+TEST_F(RigidObstaclesTest, lockedAxesFeelNoImpulse)
+{
+    m_body.setLinearFactor(btVector3(1, 1, 0));
+    m_body.setAngularFactor(btVector3(0, 0, 1));
+    m_obstacles.applyReactions({contact({-2, 0, -2}, {0, 1, 0})}, kStep);
+    EXPECT_NEAR(m_body.getLinearVelocity().x(), 1, 1e-6);
+    EXPECT_EQ(m_body.getLinearVelocity().z(), 0);
+    EXPECT_EQ(m_body.getAngularVelocity().x(), 0);
+    EXPECT_NEAR(m_body.getAngularVelocity().z(), -2, 1e-6);
+}
+
+TEST_F(RigidObstaclesTest, impulsesBelowTheRoundingOfFloatAddUp)
+{
+    m_body.setLinearVelocity(btVector3(1, 0, 0));
+    const double tiny = 2e-8;  // each changes the velocity by 1e-8, a sixth of what float can add to 1
+    for (int step = 0; step < 1000; ++step)
+    {
+        m_obstacles.clear();
+        m_obstacles.applyReactions({contact({-tiny, 0, 0}, {0, 0, 0})}, kStep);
+    }
+    EXPECT_NEAR(m_body.getLinearVelocity().x(), 1 + 1e-5, 2e-7);
+}
+
+TEST_F(RigidObstaclesTest, impulsesWakeABody)
+{
+    m_body.setActivationState(ISLAND_SLEEPING);
+    m_obstacles.applyReactions({contact({-1, 0, 0}, {0, 0, 0})}, kStep);
+    EXPECT_TRUE(m_body.isActive());
+}
+
+TEST_F(RigidObstaclesTest, aPushMovesTheBodyAndLeavesItsVelocityAlone)
+{
+    m_obstacles.indexOf(m_body, kStep);
+    m_obstacles.obstacles()[0].m_pushLinear = {0, 6, 0};
+    m_obstacles.applyReactions({}, kStep);
+    EXPECT_NEAR(m_body.getCenterOfMassPosition().y(), 0.1, 1e-6);
+    EXPECT_EQ(m_body.getLinearVelocity(), btVector3(0, 0, 0));
+}
+
+TEST_F(RigidObstaclesTest, staticAndKinematicBodiesCannotBeMoved)
+{
+    m_body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    m_body.setInterpolationLinearVelocity(btVector3(0, 3, 0));
+    const Obstacle obstacle = m_obstacles.obstacles()[m_obstacles.indexOf(m_body, kStep)];
+    EXPECT_EQ(obstacle.m_inverseMass.x, 0);
+    EXPECT_EQ(obstacle.m_linearVelocity.y, 3);
+    m_obstacles.applyReactions({contact({5, 5, 5}, {0, 0, 0})}, kStep);
+    EXPECT_EQ(m_body.getLinearVelocity(), btVector3(0, 0, 0));
+}
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "bullet_fem/fem/body_model.h"
+#include "fem/sparse_cholesky.h"
+
+namespace bullet_fem
+{
+
+// The method's matrices once more, dense and from the textbook's formulas: nothing here calls the code under test.
+
+/// The entries of node vectors one after the other.
+Eigen::VectorXd flat(const std::vector<Vec3>& u);
+std::vector<Vec3> nodes(const Eigen::VectorXd& u);
+Eigen::Matrix3d dense(const Mat3& a);
+
+/// K_e = V B^T C B [N/m] with the 6x12 strain-displacement matrix B of engineering strains.
+Eigen::MatrixXd textbookElementStiffness(const std::array<Vec3, 4>& X, const Material& material);
+
+/// Sum over e of R_e K_e R_e^T [N/m], by assembly.
+Eigen::MatrixXd denseStiffness(const TetMesh& mesh, const Material& material, const std::vector<Mat3>& R);
+
+/// A0 = (1 + h alpha) M + (h^2 + h beta) K over all nodes [kg].
+Eigen::MatrixXd denseRestSystem(const RestShape& shape, const FactorInput& input);
+
+/// A without the rows and columns of the fixed nodes, which get ones on the diagonal.
+Eigen::MatrixXd constrained(Eigen::MatrixXd A, const std::vector<unsigned char>& fixed);
+
+/// The lower triangle of A; entries that are exactly 0 are left out but on the diagonal.
+SparseLower sparseLower(const Eigen::MatrixXd& A);
+
+/// The lower triangle as a dense matrix.
+Eigen::MatrixXd denseLower(const SparseLower& L);
+
+/// Matrices with the patterns that a factorization meets. Symmetric, positive definite, condition below 100.
+Eigen::MatrixXd diagonalMatrix(int n);
+Eigen::MatrixXd fullMatrix(int n);
+Eigen::MatrixXd tridiagonalMatrix(int n);
+Eigen::MatrixXd arrowMatrix(int n);    ///< first row, first column and diagonal
+Eigen::MatrixXd gridMatrix(int side);  ///< 3x3 blocks on a square grid of side^2 nodes, as a mesh gives them
+
+}  // namespace bullet_fem

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/fem/surface_mesh.h"
+
+namespace bullet_fem
+{
+
+/// Closed surfaces with outward triangles, made for tests.
+SurfaceMesh boxSurface(const Vec3& low, const Vec3& high);                 ///< 12 triangles, two a side
+SurfaceMesh sphereSurface(double radius, const Vec3& centre, int levels);  ///< icosahedron, split `levels` times
+SurfaceMesh torusSurface(double major, double minor, int around);          ///< around z; around x around / 2 quads
+
+/// Both triangle soups in one.
+SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b);
+/// Every triangle turned.
+SurfaceMesh flipped(SurfaceMesh surface);
+/// Without the triangles from `first` to before `last`.
+SurfaceMesh without(SurfaceMesh surface, int first, int last);
+
+}  // namespace bullet_fem

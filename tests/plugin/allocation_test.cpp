@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// A program of its own: the counter replaces malloc.
+#include <gtest/gtest.h>
+
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/scene_measures.h"
+#include "plugin/soft_world.h"
+#include "support/allocation_counter.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// Counts what is allocated inside the solver's virtuals; Bullet's own allocations around them are not ours.
+class CountingSolver : public btFemSoftBodySolver
+{
+public:
+    void optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool forceUpdate = false) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::optimize(bodies, forceUpdate);
+        m_allocations += counter.count();
+    }
+    void predictMotion(btScalar timeStep) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::predictMotion(timeStep);
+        m_allocations += counter.count();
+    }
+    void processCollision(btSoftBody* body, const btCollisionObjectWrapper* other) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::processCollision(body, other);
+        m_allocations += counter.count();
+    }
+    void processCollision(btSoftBody* body, btSoftBody* other) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::processCollision(body, other);
+        m_allocations += counter.count();
+    }
+    void solveConstraints(btScalar timeStep) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::solveConstraints(timeStep);
+        m_allocations += counter.count();
+    }
+    void updateSoftBodies() override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::updateSoftBodies();
+        m_allocations += counter.count();
+    }
+
+    long m_allocations = 0;
+};
+
+btSoftBody& addCube(SoftWorld& world, const btVector3& center)
+{
+    return world.addSoft(btFemHelpers::createBox(world.info(), center, btVector3(0.5, 0.5, 0.5), btScalar(0.25)));
+}
+
+// Steps without growth of the contact count must not allocate; the first two may. Returns the steps that were looked
+// at.
+int expectNoAllocations(CountingSolver& fem, SoftWorld& world, const std::vector<btSoftBody*>& bodies, int steps)
+{
+    std::vector<int> mostContacts(bodies.size(), 0);
+    int checked = 0;
+    for (int k = 0; k < steps; ++k)
+    {
+        fem.m_allocations = 0;
+        world.step();
+        bool grown = k < 2;
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+        {
+            const int contacts = fem.contacts(bodies[b]).size();
+            grown = grown || contacts > mostContacts[b];
+            mostContacts[b] = std::max(mostContacts[b], contacts);
+        }
+        if (grown) continue;
+        ++checked;
+        EXPECT_EQ(fem.m_allocations, 0) << "step " << k;
+    }
+    return checked;
+}
+
+TEST(Allocations, TheFirstStepMakesSome)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    addCube(world, btVector3(0, 0, 0));
+    world.step();
+    EXPECT_GT(fem.m_allocations, 100);  // the counter counts
+}
+
+TEST(Allocations, NoneForABodyInFlight)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addCube(world, btVector3(0, 0, 0));
+    cube.setMass(0, 0);
+    EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 60), 58);
+}
+
+TEST(Allocations, NoneForACubeAtRestOnABox)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& cube = addCube(world, btVector3(0, 0, btScalar(0.501)));
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 120), 110);
+    EXPECT_GT(fem.contacts(&cube).size(), 0);
+}
+
+TEST(Allocations, NoneForACubeThatSlides)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    const btQuaternion tilt(btVector3(0, 1, 0), btScalar(0.5));
+    RigidSettings settings;
+    settings.m_transform = btTransform(tilt, quatRotate(tilt, btVector3(0, 0, -1)));
+    world.addRigid(new btBoxShape(btVector3(30, 30, 1)), settings);
+    btSoftBody& cube = addCube(world, btVector3(0, 0, btScalar(0.5)));
+    cube.rotate(tilt);
+    cube.m_cfg.kDF = btScalar(0.3);
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 120), 100);
+    EXPECT_GT(norm(velocityOf(cube)), 1);
+}
+
+TEST(Allocations, NoneForSeveralBodiesAndARigidOneOnTop)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addPlane();
+    btSoftBody& first = addCube(world, btVector3(0, 0, btScalar(0.501)));
+    btSoftBody& second = addCube(world, btVector3(3, 0, btScalar(0.501)));
+    RigidSettings stone;
+    stone.m_mass = 50;
+    stone.m_transform = at(0, 0, btScalar(1.21));
+    world.addRigid(new btBoxShape(btVector3(btScalar(0.2), btScalar(0.2), btScalar(0.2))), stone);
+    EXPECT_GT(expectNoAllocations(fem, world, {&first, &second}, 120), 60);
+}
+
+}  // namespace
+}  // namespace bullet_fem

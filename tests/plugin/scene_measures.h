@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/btFemReports.h"
+#include "bullet_fem/fem/vec3.h"
+
+class btCollisionObject;
+class btRigidBody;
+class btSoftBody;
+class btFemSoftBodySolver;
+
+namespace bullet_fem
+{
+
+/// Linear momentum [kg m/s], angular momentum about the origin [kg m2/s] and kinetic energy [J].
+struct Motion
+{
+    Vec3 m_linear, m_angular;
+    double m_energy = 0;
+
+    Motion& operator+=(const Motion& b);
+};
+
+/// Sums over the nodes that are not pinned.
+Motion motionOf(const btSoftBody& body);
+Motion motionOf(const btRigidBody& body);
+
+/// [kg], of the nodes that are not pinned.
+double massOf(const btSoftBody& body);
+Vec3 centerOf(const btSoftBody& body);    ///< centre of mass [m]
+Vec3 velocityOf(const btSoftBody& body);  ///< of the centre of mass [m/s]
+
+double lowestHeight(const btSoftBody& body);        ///< smallest z of a node [m]
+double fastestNode(const btSoftBody& body);         ///< [m/s]
+bool allFinite(const btSoftBody& body);             ///< m_x, m_v, m_q and m_f of every node
+std::vector<Vec3> edgesOf(const btSoftBody& body);  ///< from node 0 to every node [m]
+
+/// Largest difference between two lists of vectors.
+double largestDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
+
+/// Positions and velocities of all nodes, to the bit.
+std::vector<float> bitsOf(const btSoftBody& body);
+
+/// Sum of the impulses that a body felt in the last step, of `other` alone if it is given [N s].
+Vec3 impulseOn(const btFemSoftBodySolver& solver, const btSoftBody& body, const btCollisionObject* other = nullptr);
+
+}  // namespace bullet_fem

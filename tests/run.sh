@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Zlib
+# Installs what is missing (Debian 12, as root or with sudo), builds everything and runs all tests.
+# Further arguments go to ctest: tests/run.sh -R SurfaceFile
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$root/cmake/install_packages.sh"
+
+build=$root/build/release
+
+install_packages "${build_packages[@]}" libgtest-dev libgmock-dev libbenchmark-dev \
+    nlohmann-json3-dev
+
+say "building in $build"
+(cd "$root" && cmake --preset release)
+cmake --build "$build" --parallel "$(nproc)"
+
+say "running the tests"
+ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)" "$@"
