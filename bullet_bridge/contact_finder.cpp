@@ -60,15 +60,6 @@ bool overlaps(const Vec3& low, const Vec3& high, const ShapeLeaf& shape, double 
     return true;
 }
 
-// True if the bounds of three points are within `reach` of the shape's.
-bool boundsAreNear(const ShapeLeaf& shape, double reach, const std::array<Vec3, 3>& points)
-{
-    Vec3 low = points[0], high = low;
-    for (int a = 1; a < 3; ++a)
-        for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], points[a][c]), high[c] = std::max(high[c], points[a][c]);
-    return overlaps(low, high, shape, reach);
-}
-
 Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, const std::array<double, 3>& w)
 {
     return w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]];
@@ -148,6 +139,18 @@ bool ContactFinder::overOneFace(const FemSoftBody& fem, int a, int b) const
            dot(fem.m_nodeNormal[a], fem.m_nodeNormal[b]) > 1 - 1e-9;
 }
 
+// False if no point of a triangle (or edge) can be within reach: its middle is farther by more than its corners are
+// away.
+bool ContactFinder::isNear(const Target& target, const std::array<Vec3, 3>& corners) const
+{
+    const Vec3 middle = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
+    double radius = 0;
+    for (const Vec3& corner : corners) radius = std::max(radius, norm(corner - middle));
+    const double reach = target.m_leaf.m_reach + radius;
+    SurfaceDistance d;
+    return overlaps(middle, middle, target.m_shape, reach) && pointShapeDistance(target.m_shape, middle, reach, d);
+}
+
 void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
 {
     const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
@@ -157,8 +160,7 @@ void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
     {
         const auto [a, b] = fem.m_features.m_edges[k];
         fem.m_edgeGap[k] = kNotNear;
-        if (!boundsAreNear(target.m_shape, target.m_leaf.m_reach, {x[a], x[b], x[a]}) || overOneFace(fem, a, b))
-            continue;
+        if (overOneFace(fem, a, b) || !isNear(target, {x[a], x[b], x[a]})) continue;
         SurfaceDistance d;
         fem.m_edgeGap[k] = gapAt(fem, target, {a, b, a}, {0.5, 0.5, 0}, d);
         if (fem.m_edgeGap[k] < kNotNear) consider(fem, target, firstFeature + k, {a, b, a}, d);
@@ -176,8 +178,8 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
     for (int k = 0; k < triangleCount; ++k)
     {
         const Triangle& t = mesh.surface()[k];
-        if (!boundsAreNear(target.m_shape, target.m_leaf.m_reach, {x[t[0]], x[t[1]], x[t[2]]})) continue;
         if (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2])) continue;
+        if (!isNear(target, {x[t[0]], x[t[1]], x[t[2]]})) continue;
         SurfaceDistance d;
         double nearest = gapAt(fem, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
         if (nearest < kNotNear) consider(fem, target, firstFeature + k, t, d);

@@ -57,6 +57,7 @@ private:
     void findOnNodes(FemSoftBody& fem, const Target& target);
     void findOnEdges(FemSoftBody& fem, const Target& target);
     void findOnTriangles(FemSoftBody& fem, const Target& target);
+    bool isNear(const Target& target, const std::array<Vec3, 3>& corners) const;
     bool overOneFace(const FemSoftBody& fem, int a, int b) const;
     double gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
                  SurfaceDistance& d) const;

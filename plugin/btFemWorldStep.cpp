@@ -242,6 +242,7 @@ void btFemWorldStep::splitContacts(const ContactReport& report, double milliseco
         entry.m_report.m_contacts = static_cast<int>(fem.m_contacts.size());
         entry.m_report.m_contactSweeps = report.m_sweeps;
         entry.m_report.m_contactIterations = report.m_iterations;
+        entry.m_report.m_contactViolation = static_cast<btScalar>(report.m_violation);
         if (!report.m_converged) entry.m_report.m_flags |= BT_FEM_NOT_CONVERGED;
         double deepest = 0;
         for (std::size_t k = 0; k < fem.m_contacts.size(); ++k)

@@ -43,11 +43,13 @@ struct btFemStepReport
     int m_flags = 0;             ///< btFemFlags
     const char* m_message = "";  ///< why the body was rejected; owned by the solver, valid until the body is removed
     int m_nodes = 0, m_tets = 0;
-    int m_iterations = 0;               ///< conjugate gradient iterations of the free motion
-    btScalar m_residual = 0;            ///< its true |b - A dv| / |b| [-]
-    int m_contactIterations = 0;        ///< of the corrective solves after contact
-    int m_contactSweeps = 0;            ///< Gauss-Seidel sweeps of the contact group this body was in
-    int m_contacts = 0;                 ///< contact points
+    int m_iterations = 0;         ///< conjugate gradient iterations of the free motion
+    btScalar m_residual = 0;      ///< its true |b - A dv| / |b| [-]
+    int m_contactIterations = 0;  ///< of the corrective solves after contact
+    int m_contactSweeps = 0;      ///< Gauss-Seidel sweeps of the contact group this body was in
+    int m_contacts = 0;           ///< contact points
+    btScalar m_contactViolation =
+        0;  ///< largest speed at which a point still closes faster than its gap allows [m/s], >= 0
     btScalar m_deepestPenetration = 0;  ///< at the start of the step [m], >= 0
     long m_factorEntries = 0;           ///< entries of the factor, fill included
     btScalar m_factorSeconds = 0;       ///< wall time that factoring took, when it was made [s]
