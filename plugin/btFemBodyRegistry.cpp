@@ -193,7 +193,11 @@ void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)
 
 void btFemBodyRegistry::refactor(btFemEntry& entry, double step)
 {
-    Body& body = entry.m_fem->m_body;
-    body.setModel(m_library.model(body.m_model->sharedShape(), factorInput(entry, step)));
-    entry.m_fem->m_compliance = m_library.compliance(body.m_model);
+    FemSoftBody& fem = *entry.m_fem;
+    const auto model = m_library.model(fem.m_body.m_model->sharedShape(), factorInput(entry, step));
+    if (model == fem.m_body.m_model) return;
+    entry.m_formerModel = fem.m_body.m_model;
+    entry.m_formerCompliance = fem.m_compliance;
+    fem.m_body.setModel(model);
+    fem.m_compliance = m_library.compliance(model);
 }

@@ -31,6 +31,8 @@ struct btFemEntry
 
     // What became of it. Without m_fem and without m_rejected it was not tried yet.
     std::unique_ptr<bullet_fem::FemSoftBody> m_fem;
+    std::shared_ptr<const bullet_fem::BodyModel> m_formerModel;       // kept, so that a step size that comes and goes
+    std::shared_ptr<bullet_fem::ComplianceCache> m_formerCompliance;  // is not factored for again and again
     bool m_rejected = false;
     std::string m_message;
     int m_setUpFlags = 0;  // flags that hold until the body is set up anew

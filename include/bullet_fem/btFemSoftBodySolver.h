@@ -33,8 +33,10 @@ struct btFemSolverInfo
 /// Bullet's threads. Allocates when a body is first stepped, when the number of contacts grows, and on calls of its own
 /// methods; not otherwise.
 ///
-/// Bodies are known by address and broadphase proxy. What is set for a body that is not in the world at the next step
-/// is forgotten; its rest shape is the one it has when it is first stepped or prepared.
+/// Bodies are known by address and by a mark that they get when they are first stepped or prepared, in a field of their
+/// first tetrahedron that Bullet 3.24 does not use (m_tetras[0].m_c0; cages also use m_c1 and m_c2 of all). What is set
+/// for a body that is not in the world at the next step is forgotten; its rest shape is the one it has when it is first
+/// stepped or prepared.
 class btFemSoftBodySolver : public btDefaultSoftBodySolver
 {
 public:

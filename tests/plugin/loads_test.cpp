@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
@@ -163,6 +165,28 @@ TEST(Steps, AChangingStepIsFlaggedAsStaleAndRefactorMendsThat)
     fem.refactor(&cube);
     world.step(1, btScalar(1) / 100);
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
+    EXPECT_TRUE(allFinite(cube));
+}
+
+// A body that touches something is factored anew when the step is far off; a step that comes and goes finds its old
+// factor.
+TEST(Steps, ThatComeAndGoInContactAreFactoredForOnce)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    world.addPlane(btScalar(-0.501));
+    btSoftBody& cube = addCube(world);
+    world.step(30);
+    std::set<btScalar> factorizations;  // by how long they took
+    int refactored = 0;
+    for (int k = 0; k < 40; ++k)
+    {
+        world.step(1, btScalar(1) / (k % 2 == 0 ? 60 : 120));
+        factorizations.insert(fem.stepReport(&cube).m_factorSeconds);
+        refactored += (fem.stepReport(&cube).m_flags & BT_FEM_REFACTORED) != 0;
+    }
+    EXPECT_EQ(refactored, 39);
+    EXPECT_EQ(factorizations.size(), 2u);
     EXPECT_TRUE(allFinite(cube));
 }
 
