@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/rest_factor.h"
+#include "fem/factor/rest_factor.h"
 #include "fem/step_scratch.h"
 
 namespace bullet_fem

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "fem/factor/rest_factor.h"
 #include "fem/message.h"
-#include "fem/rest_factor.h"
 
 namespace bullet_fem
 {

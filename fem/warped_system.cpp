@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fem/rest_factor.h"
+#include "fem/factor/rest_factor.h"
 #include "fem/rotation.h"
 #include "fem/step_scratch.h"
 #include "fem/warped_elements.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/compliance_cache.h"
+#include "fem/contact/compliance_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "fem/dense_system.h"
 #include "fem/elasticity_scenes.h"
-#include "fem/rest_factor.h"
+#include "fem/factor/rest_factor.h"
 #include "support/allocation_counter.h"
 
 namespace bullet_fem

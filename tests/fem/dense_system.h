@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
-#include "fem/sparse_cholesky.h"
+#include "fem/factor/sparse_cholesky.h"
 
 namespace bullet_fem
 {

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "fem/block_matrix.h"
+#include "fem/factor/block_matrix.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/sparse_cholesky.h"
+#include "fem/factor/sparse_cholesky.h"
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/winding_number.h"
+#include "fem/cage/winding_number.h"
 
 #include <gtest/gtest.h>
 
+#include "fem/cage/triangle_overlap.h"
 #include "fem/test_surfaces.h"
-#include "fem/triangle_overlap.h"
 
 namespace bullet_fem
 {

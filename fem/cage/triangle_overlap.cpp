@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/triangle_overlap.h"
+#include "fem/cage/triangle_overlap.h"
 
 #include <algorithm>
 

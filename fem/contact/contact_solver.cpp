@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bullet_fem/fem/stepping.h"
-#include "fem/contact_rows.h"
+#include "fem/contact/contact_rows.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/block_matrix.h"
+#include "fem/factor/block_matrix.h"
 
 #include <algorithm>
 #include <cassert>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/cage_lattice.h"
-#include "fem/winding_number.h"
+#include "fem/cage/cage_lattice.h"
+#include "fem/cage/winding_number.h"
 
 namespace bullet_fem
 {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "fem/cage_fill.h"
-#include "fem/cage_lattice.h"
+#include "fem/cage/cage_fill.h"
+#include "fem/cage/cage_lattice.h"
+#include "fem/cage/surface_inspection.h"
 #include "fem/message.h"
-#include "fem/surface_inspection.h"
 
 namespace bullet_fem
 {

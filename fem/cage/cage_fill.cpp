@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/cage_fill.h"
+#include "fem/cage/cage_fill.h"
 
 #include <cmath>
 

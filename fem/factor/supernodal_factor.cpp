@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/supernodal_factor.h"
+#include "fem/factor/supernodal_factor.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
-#include "fem/supernodal_factor.h"
+#include "fem/factor/supernodal_factor.h"
 
 namespace bullet_fem
 {

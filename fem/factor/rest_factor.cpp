@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/rest_factor.h"
+#include "fem/factor/rest_factor.h"
 
 #include <algorithm>
 
-#include "fem/block_matrix.h"
+#include "fem/factor/block_matrix.h"
 
 namespace bullet_fem
 {

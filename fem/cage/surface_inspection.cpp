@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/surface_inspection.h"
+#include "fem/cage/surface_inspection.h"
 
 #include <algorithm>
 #include <limits>

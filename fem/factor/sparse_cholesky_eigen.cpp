@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/sparse_cholesky.h"
+#include "fem/factor/sparse_cholesky.h"
 
 namespace bullet_fem
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/contact_rows.h"
+#include "fem/contact/contact_rows.h"
 
 #include <algorithm>
 
 #include "bullet_fem/fem/stepping.h"
-#include "fem/rest_factor.h"
+#include "fem/factor/rest_factor.h"
 #include "fem/step_scratch.h"
 #include "fem/warped_system.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/cage.h"
-#include "fem/surface_inspection.h"
+#include "fem/cage/surface_inspection.h"
 
 namespace bullet_fem
 {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/contact_solver.h"
-#include "fem/compliance_cache.h"
+#include "fem/contact/compliance_cache.h"
 
 namespace bullet_fem
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/compliance_cache.h"
+#include "fem/contact/compliance_cache.h"
 
 #include <algorithm>
 
-#include "fem/rest_factor.h"
+#include "fem/factor/rest_factor.h"
 
 namespace bullet_fem
 {

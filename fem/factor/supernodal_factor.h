@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fem/sparse_cholesky.h"
+#include "fem/factor/sparse_cholesky.h"
 
 namespace bullet_fem
 {

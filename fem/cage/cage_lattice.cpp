@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/cage_lattice.h"
+#include "fem/cage/cage_lattice.h"
 
 #include <algorithm>
 
+#include "fem/cage/triangle_overlap.h"
 #include "fem/cell_split.h"
 #include "fem/message.h"
-#include "fem/triangle_overlap.h"
 
 namespace bullet_fem
 {
