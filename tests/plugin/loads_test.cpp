@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
@@ -188,6 +189,27 @@ TEST(Steps, ThatComeAndGoInContactAreFactoredForOnce)
     EXPECT_EQ(refactored, 39);
     EXPECT_EQ(factorizations.size(), 2u);
     EXPECT_TRUE(allFinite(cube));
+}
+
+// --- What can be asked without exceptions ---
+
+TEST(Valid, SaysWhatSetMaterialWouldThrowAbout)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    std::string why;
+    EXPECT_TRUE(btFemSoftBodySolver::valid(&addCube(world), &why)) << why;
+    EXPECT_FALSE(btFemSoftBodySolver::valid(nullptr, &why));
+    EXPECT_NE(why.find("null"), std::string::npos) << why;
+
+    const btVector3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    btSoftBody flat(&world.info(), 4, corners, nullptr);
+    EXPECT_FALSE(btFemSoftBodySolver::valid(&flat, &why));
+    EXPECT_NE(why.find("no tetrahedra"), std::string::npos) << why;
+    flat.appendTetra(0, 1, 2, 3);
+    EXPECT_FALSE(btFemSoftBodySolver::valid(&flat, &why));
+    EXPECT_NE(why.find("element 0"), std::string::npos) << why;
+    EXPECT_FALSE(btFemSoftBodySolver::valid(&flat));
 }
 
 }  // namespace
