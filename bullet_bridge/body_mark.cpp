@@ -11,11 +11,13 @@ namespace bullet_fem
 namespace
 {
 
+constexpr btScalar kIsMark = btScalar(0xFE3);
+
 // As two whole numbers that single precision holds exactly, and a third that says that this is a mark.
 btVector3 coded(std::uint64_t mark)
 {
     constexpr std::uint64_t kLow = (1u << 24) - 1;
-    return {btScalar(mark & kLow), btScalar(mark >> 24 & kLow), btScalar(0xFE3)};
+    return {btScalar(mark & kLow), btScalar(mark >> 24 & kLow), kIsMark};
 }
 
 }  // namespace
@@ -26,6 +28,11 @@ std::uint64_t markBody(btSoftBody& body)
     const std::uint64_t mark = ++last;
     body.m_tetras[0].m_c0[0] = coded(mark);
     return mark;
+}
+
+bool isMarked(const btSoftBody& body)
+{
+    return body.m_tetras.size() > 0 && body.m_tetras[0].m_c0[0].z() == kIsMark;
 }
 
 bool hasMark(const btSoftBody& body, std::uint64_t mark)

@@ -14,6 +14,9 @@ namespace bullet_fem
 /// uses (btSoftBody::Tetra::m_c0), dies with its body. Thread-safe for different bodies.
 std::uint64_t markBody(btSoftBody& body);
 
+/// True if the body bears any mark: it is, or once was, moved by finite elements.
+bool isMarked(const btSoftBody& body);
+
 /// True if the body bears this mark.
 bool hasMark(const btSoftBody& body, std::uint64_t mark);
 

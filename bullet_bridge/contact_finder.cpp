@@ -10,6 +10,7 @@
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/soft_joints.h"
 #include "bullet_fem/fem/stepping.h"
 
 namespace bullet_fem
@@ -17,10 +18,12 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kBand = 0.05;         // share of a mean edge that the contact band is wide
-constexpr double kAdvantage = 0.003;   // share of a mean edge by which a nearest point must beat the fixed ones
-constexpr double kSlop = 5e-5;         // share of the body's size by which it may sink in
-constexpr double kMovableSlop = 1e-3;  // the same for movable objects: position corrections spend angular momentum
+constexpr double kBand = 0.05;            // share of a mean edge that the contact band is wide
+constexpr double kAdvantage = 0.003;      // share of a mean edge by which a nearest point must beat the fixed ones
+constexpr double kSlop = 5e-5;            // share of the body's size by which it may sink in
+constexpr double kMovableSlop = 1e-4;     // the same for movable objects: position corrections spend angular momentum
+constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
+constexpr double kLeastLikeness = -2;     // of a contact and the one that it was in the last step; 1 is the same
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
 
 // Bullet's broad phase still knows the pair: neither was removed from the world since it was recorded.
@@ -60,9 +63,38 @@ bool overlaps(const Vec3& low, const Vec3& high, const ShapeLeaf& shape, double 
     return true;
 }
 
+// To where the object was before Bullet moved it.
+void moveBack(btAlignedObjectArray<ShapeLeaf>& leaves, const Obstacle& obstacle, double step)
+{
+    const Vec3 present = obstacle.m_center + step * obstacle.m_linearVelocity;
+    for (int l = 0; l < leaves.size(); ++l)
+        leaves[l] = movedBack(leaves[l], {present, obstacle.m_linearVelocity, obstacle.m_angularVelocity}, step);
+}
+
 Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, const std::array<double, 3>& w)
 {
     return w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]];
+}
+
+// True if the surface looks against the normal at a feature: one of its triangles does, or their mean. A point next to
+// the side wall of a box that lies on the surface is near that wall, but the surface does not face it.
+bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
+{
+    constexpr double kAgainst = -0.5;  // cosine
+    const std::vector<Triangle>& triangles = fem.m_body.m_model->mesh().surface();
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const SurfaceFeatures& features = fem.m_features;
+    Vec3 mean;
+    for (int k = features.m_firstAround[nodes[0]]; k < features.m_firstAround[nodes[0] + 1]; ++k)
+    {
+        const Triangle& t = triangles[features.m_around[k]];
+        const auto has = [&t](int node) { return t[0] == node || t[1] == node || t[2] == node; };
+        if (!has(nodes[1]) || !has(nodes[2])) continue;
+        const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+        if (dot(area, normal) < kAgainst * norm(area)) return true;
+        mean += area;
+    }
+    return dot(mean, normal) <= kAgainst * norm(mean);
 }
 
 }  // namespace
@@ -74,16 +106,25 @@ void recordTouching(FemSoftBody& fem, const btCollisionObject& object)
         fem.m_touching.push_back(&object);
 }
 
+void recordTouching(FemSoftBody& fem, const btSoftBody& other)
+{
+    const std::lock_guard<std::mutex> lock(fem.m_touchingMutex);
+    if (std::find(fem.m_touchingSoft.begin(), fem.m_touchingSoft.end(), &other) == fem.m_touchingSoft.end())
+        fem.m_touchingSoft.push_back(&other);
+}
+
 ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double step, int maxContacts,
                                         RigidObstacles& obstacles)
 {
     ContactSearchReport report;
     m_contacts.clear();
     m_origins.clear();
+    m_sheetSides.clear();
+    m_measured = false;
     m_bodyIndex = bodyIndex;
-    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();
-    m_band = kBand * edge;
-    m_advantage = kAdvantage * edge;
+    m_edge = fem.m_body.m_model->mesh().meanEdgeLength();
+    m_band = kBand * m_edge;
+    m_advantage = kAdvantage * m_edge;
     m_size = std::cbrt(fem.m_body.m_model->mesh().volume());
     std::vector<const btCollisionObject*>& touching = fem.m_touching;
     touching.erase(std::remove_if(touching.begin(), touching.end(),
@@ -97,26 +138,30 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
     {
         m_leaves.resize(0);
         report.m_unknownShape = collectShapeLeaves(*object, m_leaves) > 0 || report.m_unknownShape;
-        const int index = obstacles.indexOf(*object, step);
+        const int index = obstacles.indexForContact(*object, step, fem.m_body);
         const Obstacle& obstacle = obstacles.obstacles()[index];
+        if (obstacles.isRewound(index)) moveBack(m_leaves, obstacle, step);
+        const Surface surface = surfaceOf(*fem.m_softBody, *object);
         for (int l = 0; l < m_leaves.size(); ++l)
         {
             const ShapeLeaf& shape = m_leaves[l];
-            const double friction = double(fem.m_softBody->m_cfg.kDF) * object->getFriction();
-            const Leaf leaf = {object, l, index, std::max(0.0, friction),
-                               softReach + step * fastestPoint(obstacle, shape)};
+            const Leaf leaf = {object, l, index, surface, softReach + step * fastestPoint(obstacle, shape)};
             const Target target = {shape, leaf, obstacle, step};
-            findOnNodes(fem, target);
+            if (shape.m_shape->isConvex() && findOnPaths(fem, target)) continue;
+            if (shape.m_shape->isConcave() && !shape.m_shape->isInfinite())
+                findOnSheets(fem, target);
+            else
+                findOnNodes(fem, target);
             if (!shape.m_shape->isConvex()) continue;
             findOnEdges(fem, target);
             findOnTriangles(fem, target);
         }
     }
-    touching.clear();
     report.m_limited = limit(maxContacts);
     takeOverImpulses(fem);
     fem.m_contacts.assign(m_contacts.begin(), m_contacts.end());
     fem.m_origins.assign(m_origins.begin(), m_origins.end());
+    fem.m_sheetSides.assign(m_sheetSides.begin(), m_sheetSides.end());
     return report;
 }
 
@@ -227,27 +272,55 @@ double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const 
     return gapAsTheStepBegan(fem, target, point, d);
 }
 
+// What Bullet's contacts take of both sides, with the soft body's friction coefficient. Values that are no numbers
+// count as 0.
+ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const btCollisionObject& object)
+{
+    const auto atLeastZero = [](double value) { return value > 0 ? value : 0; };
+    Surface surface;
+    surface.m_friction = atLeastZero(double(soft.m_cfg.kDF) * object.getFriction());
+    surface.m_restitution = std::min(1.0, atLeastZero(double(soft.getRestitution()) * object.getRestitution()));
+    if (!(object.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING)) return surface;
+    if (!(object.getContactStiffness() < kRigidStiffness)) return surface;
+    surface.m_stiffness = atLeastZero(object.getContactStiffness());
+    surface.m_damping = atLeastZero(object.getContactDamping());
+    return surface;
+}
+
 // Keeps a point that touches, or would if nothing pushed until the end of the step.
 void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                              const SurfaceDistance& d)
 {
+    const Vec3 point = interpolated(fem.m_body.m_state.m_x, nodes, d.m_barycentric);
+    const Vec3 relative =
+        interpolated(velocity(fem.m_body), nodes, d.m_barycentric) - target.m_obstacle.velocityAt(point);
+    if (d.m_gap > m_band && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band) return;
+    if (d.m_gap > -m_band && !faces(fem, nodes, d.m_normal)) return;
+    keep(fem, target, feature, nodes, d);
+}
+
+// Null where the surface is anchored to the object.
+ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
+                                  const SurfaceDistance& d)
+{
+    for (int node : nodes)
+        if (isAnchoredTo(fem, node, *target.m_leaf.m_object)) return nullptr;
     const Vec3& inverseMass = target.m_obstacle.m_inverseMass;
     ContactPoint contact;
     contact.m_point = interpolated(fem.m_body.m_state.m_x, nodes, d.m_barycentric);
-    const Vec3 relative =
-        interpolated(velocity(fem.m_body), nodes, d.m_barycentric) - target.m_obstacle.velocityAt(contact.m_point);
-    if (d.m_gap > m_band && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band) return;
-    contact.m_body = m_bodyIndex;
+    contact.m_soft = {m_bodyIndex, nodes, d.m_barycentric};
     contact.m_obstacle = target.m_leaf.m_obstacle;
-    contact.m_nodes = nodes;
-    contact.m_weights = d.m_barycentric;
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap;
     contact.m_slop = (dot(inverseMass, inverseMass) > 0 ? kMovableSlop : kSlop) * m_size;
-    contact.m_friction = target.m_leaf.m_friction;
+    contact.m_friction = target.m_leaf.m_surface.m_friction;
+    contact.m_restitution = target.m_leaf.m_surface.m_restitution;
+    contact.m_stiffness = target.m_leaf.m_surface.m_stiffness;
+    contact.m_damping = target.m_leaf.m_surface.m_damping;
     m_contacts.push_back(contact);
     const btCollisionObject* object = target.m_leaf.m_object;
     m_origins.push_back({object, broadphaseId(*object), target.m_leaf.m_index, feature});
+    return &m_contacts.back();
 }
 
 // Keeps the maxContacts points of smallest gap, in their order.
@@ -271,14 +344,24 @@ bool ContactFinder::limit(int maxContacts)
     return true;
 }
 
-// The contacts of a feature with a leaf are one; both lists ascend.
+// Both lists ascend. Of several contacts of a feature with a leaf, the one before is that of the most similar normal
+// and place.
 void ContactFinder::takeOverImpulses(const FemSoftBody& fem)
 {
     for (std::size_t k = 0; k < m_origins.size(); ++k)
     {
-        const auto old = std::lower_bound(fem.m_origins.begin(), fem.m_origins.end(), m_origins[k]);
-        if (old == fem.m_origins.end() || m_origins[k] < *old) continue;
-        m_contacts[k].m_impulse = fem.m_contacts[old - fem.m_origins.begin()].m_impulse;
+        const auto range = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), m_origins[k]);
+        double best = kLeastLikeness;
+        for (auto old = range.first; old != range.second; ++old)
+        {
+            const ContactPoint& contact = fem.m_contacts[old - fem.m_origins.begin()];
+            const double likeness =
+                dot(contact.m_normal, m_contacts[k].m_normal) - norm(contact.m_point - m_contacts[k].m_point) / m_size;
+            if (likeness <= best) continue;
+            best = likeness;
+            m_contacts[k].m_impulse = contact.m_impulse;
+            m_contacts[k].m_slip = contact.m_slip;
+        }
     }
 }
 

@@ -15,9 +15,11 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
       m_mark(markBody(softBody)),
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
-      m_features(m_body.m_model->mesh())
+      m_features(m_body.m_model->mesh()),
+      m_surface(m_body.m_model->mesh())
 {
     const int n = softBody.m_nodes.size();
+    m_restOrigin = vec3(softBody.m_nodes[0].m_x);
     m_pins.m_velocity.resize(n);
     m_pins.m_position.resize(n);
     m_pins.m_hasTarget.assign(n, 0);

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "LinearMath/btVector3.h"
+#include "bullet_bridge/held_joint.h"
 #include "bullet_bridge/model_library.h"
+#include "bullet_bridge/soft_surface.h"
 #include "bullet_bridge/surface_features.h"
 #include "bullet_fem/fem/contact_solver.h"
 
@@ -22,14 +24,30 @@ namespace bullet_fem
 struct ContactOrigin
 {
     const btCollisionObject* m_object = nullptr;
-    int m_objectId = 0;  ///< broadphase id; orders the contacts
-    int m_leaf = 0;      ///< leaf of the object's shape
-    int m_feature = 0;   ///< surface node; beyond those edges, triangles, and nearest points of triangles
+    int m_objectId = 0;   ///< broadphase id; orders the contacts
+    int m_leaf = 0;       ///< leaf of the object's shape
+    int m_feature = 0;    ///< surface node; beyond those edges, triangles, and nearest points of triangles
+    int m_part = -1;      ///< Bullet's number of a mesh's part; -1: not a mesh
+    int m_triangle = -1;  ///< and of a triangle in it
 
     bool operator<(const ContactOrigin& b) const
     {
         if (m_objectId != b.m_objectId) return m_objectId < b.m_objectId;
         return m_leaf != b.m_leaf ? m_leaf < b.m_leaf : m_feature < b.m_feature;
+    }
+};
+
+/// Where a surface node was seen last near a concave shape, whose sheets have two sides.
+struct SheetSide
+{
+    int m_objectId = 0, m_leaf = 0, m_node = 0;  ///< as in ContactOrigin
+    Vec3 m_position;                             ///< in the leaf's frame [m]
+    Vec3 m_safe;                                 ///< likewise, on the right side of all sheets [m]
+
+    bool operator<(const SheetSide& b) const
+    {
+        if (m_objectId != b.m_objectId) return m_objectId < b.m_objectId;
+        return m_leaf != b.m_leaf ? m_leaf < b.m_leaf : m_node < b.m_node;
     }
 };
 
@@ -58,6 +76,7 @@ struct FemSoftBody
     btSoftBody* m_softBody;
     std::uint64_t m_mark;  ///< on the btSoftBody: see body_mark.h
     Body m_body;
+    Vec3 m_restOrigin;  ///< of node 0 when the body became FEM; the mesh's rest positions are relative to it [m]
     std::shared_ptr<ComplianceCache> m_compliance;
     WrittenNodes m_written;
     NodePins m_pins;
@@ -66,9 +85,15 @@ struct FemSoftBody
     std::mutex m_touchingMutex;                        ///< guards m_touching while Bullet's threads collide
     std::vector<const btCollisionObject*> m_touching;  ///< overlapping rigid objects of this step
 
+    std::vector<const btSoftBody*> m_touchingSoft;  ///< overlapping FEM bodies of this step; itself: self contact
+
+    HeldJoints m_joints;  ///< what holds the body
+
     std::vector<ContactPoint> m_contacts;  ///< of the last step
     std::vector<ContactOrigin> m_origins;  ///< one a contact, ascending
+    std::vector<SheetSide> m_sheetSides;   ///< of the last step, ascending
     SurfaceFeatures m_features;            ///< of the mesh's surface
+    SoftSurface m_surface;                 ///< for contact with soft bodies; update() it before they are searched
     std::vector<double> m_nodeGap;         ///< scratch of the contact search, one a node
     std::vector<Vec3> m_nodeNormal;        ///< likewise
     std::vector<double> m_edgeGap;         ///< likewise, one a surface edge: at its middle

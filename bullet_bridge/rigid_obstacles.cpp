@@ -5,8 +5,11 @@
 #include <algorithm>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "LinearMath/btTransformUtil.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/swept_distance.h"
+#include "bullet_fem/fem/stepping.h"
 
 namespace bullet_fem
 {
@@ -21,6 +24,11 @@ Mat3 mat3(const btMatrix3x3& m)
     return result;
 }
 
+Vec3 scaled(const Vec3& a, const Vec3& b)
+{
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
 // A rigid body that impulses can move; null for static, kinematic and foreign objects.
 btRigidBody* movable(const btCollisionObject& object)
 {
@@ -32,7 +40,7 @@ Obstacle immovable(const btCollisionObject& object)
 {
     Obstacle obstacle;
     obstacle.m_center = vec3(object.getWorldTransform().getOrigin());
-    if (object.isKinematicObject())
+    if (object.isKinematicObject() && object.isActive())  // Bullet no longer moves one that fell asleep
     {
         obstacle.m_linearVelocity = vec3(object.getInterpolationLinearVelocity());
         obstacle.m_angularVelocity = vec3(object.getInterpolationAngularVelocity());
@@ -40,10 +48,23 @@ Obstacle immovable(const btCollisionObject& object)
     return obstacle;
 }
 
-// Adds `change` to a Bullet velocity, with what rounding cut off before, and keeps what it cuts off now. A component at
-// a time, through memory: GCC 12 vectorises the narrowing of three components and the widening that follows into
-// nothing.
-btVector3 added(const btVector3& velocity, const Vec3& change, Vec3& remainder)
+// The motion of a multibody's link, which impulses do not reach: it is taken for an immovable object that moves.
+// `scratch` grows with the number of links.
+void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>& scratch, Obstacle& obstacle)
+{
+    const std::size_t count = link.m_multiBody->getNumLinks() + 1, k = link.m_link + 1;
+    if (scratch.size() < 2 * count) scratch.resize(2 * count);
+    link.m_multiBody->compTreeLinkVelocities(&scratch[0], &scratch[count]);
+    const btMatrix3x3& fromLink = link.getWorldTransform().getBasis();
+    obstacle.m_angularVelocity = vec3(fromLink * scratch[k]);
+    obstacle.m_linearVelocity = vec3(fromLink * scratch[count + k]);
+}
+
+}  // namespace
+
+// A component at a time, through memory: GCC 12 vectorises the narrowing of three components and the widening that
+// follows into nothing.
+btVector3 addedExactly(const btVector3& velocity, const Vec3& change, Vec3& remainder)
 {
     btVector3 result(0, 0, 0);
     for (int c = 0; c < 3; ++c)
@@ -56,17 +77,32 @@ btVector3 added(const btVector3& velocity, const Vec3& change, Vec3& remainder)
     return result;
 }
 
-}  // namespace
-
 int broadphaseId(const btCollisionObject& object)
 {
     return object.getBroadphaseHandle() ? object.getBroadphaseHandle()->m_uniqueId : -1;
 }
 
-void RigidObstacles::clear()
+void RigidObstacles::beginStep()
 {
+    m_remainders.erase(
+        std::remove_if(m_remainders.begin(), m_remainders.end(), [](const Remainder& r) { return !r.m_used; }),
+        m_remainders.end());
+    for (Remainder& r : m_remainders) r.m_used = false;
+    m_before.clear();
+    m_lastRewound.swap(m_rewound);
+    m_rewound.clear();
+}
+
+void RigidObstacles::clear(RigidPhase phase)
+{
+    m_phase = phase;
     m_obstacles.clear();
     m_sources.clear();
+}
+
+btRigidBody* RigidObstacles::movableBody(int obstacle) const
+{
+    return movable(*m_sources[obstacle].m_object);
 }
 
 int RigidObstacles::indexOf(const btCollisionObject& object, double step)
@@ -75,6 +111,8 @@ int RigidObstacles::indexOf(const btCollisionObject& object, double step)
         if (m_sources[k].m_object == &object) return static_cast<int>(k);
     m_sources.push_back({&object, broadphaseId(object), {}, {}});
     Obstacle obstacle = immovable(object);
+    const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(&object);
+    if (link && link->m_multiBody) setLinkVelocity(*link, m_linkVelocities, obstacle);
     if (const btRigidBody* body = movable(object))
     {
         const Mat3 factor = {{{body->getAngularFactor().x(), 0, 0},
@@ -83,58 +121,158 @@ int RigidObstacles::indexOf(const btCollisionObject& object, double step)
         obstacle.m_inverseMass = body->getInvMass() * vec3(body->getLinearFactor());
         obstacle.m_inverseInertia = factor * mat3(body->getInvInertiaTensorWorld()) * factor;
         obstacle.m_center = vec3(body->getCenterOfMassPosition());
-        obstacle.m_linearVelocity = vec3(body->getLinearVelocity()) + step * vec3(body->getGravity());
+        obstacle.m_linearVelocity = vec3(body->getLinearVelocity());
         obstacle.m_angularVelocity = vec3(body->getAngularVelocity());
+        if (m_phase == RigidPhase::moved)
+        {
+            obstacle.m_linearVelocity += step * vec3(body->getGravity());
+            addSupport(*body, step, obstacle);
+        }
+        else
+        {
+            obstacle.m_linearVelocity += step * body->getInvMass() * vec3(body->getTotalForce());
+            obstacle.m_angularVelocity += step * (obstacle.m_inverseInertia * vec3(body->getTotalTorque()));
+        }
     }
     m_obstacles.push_back(obstacle);
     return static_cast<int>(m_obstacles.size()) - 1;
+}
+
+void RigidObstacles::noteBeforeSolve(const btCollisionObject& object)
+{
+    const btRigidBody* body = movable(object);
+    if (!body) return;
+    const std::lock_guard<std::mutex> lock(m_beforeMutex);
+    m_before.push_back({&object, vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())});
+}
+
+// A body on a floor does not fall in the next step, and gives no way to what presses on it. What Bullet's contacts and
+// joints did to it in this step is what they will do in the next, as far as it withstands gravity and what soft bodies
+// gave it before; the rest, such as an impact, is over.
+void RigidObstacles::addSupport(const btRigidBody& body, double step, Obstacle& obstacle)
+{
+    const auto before =
+        std::find_if(m_before.begin(), m_before.end(), [&](const Before& b) { return b.m_object == &body; });
+    if (before == m_before.end()) return;
+    const auto part = [](const Vec3& done, const Vec3& needed)
+    {
+        const double whole = dot(needed, needed);
+        return whole > 0 ? std::clamp(dot(done, needed) / whole, 0.0, 1.0) * needed : Vec3();
+    };
+    const Remainder& memory = remainderOf(broadphaseId(body));
+    const Vec3 gravity = step * vec3(body.getGravity());
+    const Vec3 forces = step * body.getInvMass() * vec3(body.getTotalForce());
+    const Vec3 torques = step * (obstacle.m_inverseInertia * vec3(body.getTotalTorque()));
+    obstacle.m_linearVelocity +=
+        part(vec3(body.getLinearVelocity()) - before->m_linear - forces, -(gravity + memory.m_linearGiven));
+    obstacle.m_angularVelocity +=
+        part(vec3(body.getAngularVelocity()) - before->m_angular - torques, -memory.m_angularGiven);
+}
+
+// What gravity gives in a step is not speed: resting bodies have it as well. Bullet clears the hit fraction of those
+// that its own continuous collision has stopped on their way. What is not rewound is seen one step ahead: a body that
+// changed over near a surface would skip a step, and may be thinner than its way in it.
+bool RigidObstacles::mustRewind(const btRigidBody& body, double step, const Body& soft) const
+{
+    if (body.getHitFraction() == 0) return false;
+    if (std::find(m_lastRewound.begin(), m_lastRewound.end(), broadphaseId(body)) != m_lastRewound.end()) return true;
+    const btTransform& present = body.getWorldTransform();
+    const ShapeLeaf whole = {body.getCollisionShape(), {mat3(present.getBasis()), vec3(present.getOrigin())}, {}, {}};
+    const RigidMotion motion = {vec3(present.getOrigin()), vec3(body.getLinearVelocity()),
+                                vec3(body.getAngularVelocity())};
+    double speed = 0;
+    for (int i : soft.m_model->mesh().surfaceNodes())
+        speed = std::max(speed, norm(velocity(soft)[i] - motion.m_linearVelocity));
+    return isFast(SweptShape(whole, motion, step), speed - 2 * step * norm(vec3(body.getGravity())),
+                  soft.m_model->mesh().meanEdgeLength());
+}
+
+int RigidObstacles::indexForContact(const btCollisionObject& object, double step, const Body& soft)
+{
+    const std::size_t known = m_sources.size();
+    const int index = indexOf(object, step);
+    const btRigidBody* body = movable(object);
+    if (m_sources.size() == known || m_phase != RigidPhase::moved || !body || !mustRewind(*body, step, soft))
+        return index;
+    Obstacle& obstacle = m_obstacles[index];
+    obstacle.m_linearVelocity = vec3(body->getLinearVelocity());
+    obstacle.m_center -= step * obstacle.m_linearVelocity;
+    m_sources[index].m_rewound = true;
+    m_rewound.push_back(m_sources[index].m_objectId);
+    return index;
 }
 
 RigidObstacles::Remainder& RigidObstacles::remainderOf(int objectId)
 {
     for (Remainder& r : m_remainders)
         if (r.m_objectId == objectId) return r;
-    m_remainders.push_back({objectId, {}, {}, true});
+    m_remainders.push_back({objectId, {}, {}, true, {}, {}});
     return m_remainders.back();
 }
 
-void RigidObstacles::applyReactions(const std::vector<ContactPoint>& contacts, double step)
+void RigidObstacles::addReaction(int obstacle, const Vec3& impulse, const Vec3& point)
 {
-    for (const ContactPoint& contact : contacts)
-    {
-        Source& source = m_sources[contact.m_obstacle];
-        source.m_linearImpulse -= contact.m_impulse;
-        source.m_angularImpulse -= cross(contact.m_point - m_obstacles[contact.m_obstacle].m_center, contact.m_impulse);
-    }
-    for (std::size_t k = 0; k < m_sources.size(); ++k) m_sources[k].m_angularImpulse += m_obstacles[k].m_angularImpulse;
-    for (Remainder& r : m_remainders) r.m_used = false;
-    for (std::size_t k = 0; k < m_sources.size(); ++k)
-        if (btRigidBody* body = movable(*m_sources[k].m_object)) applyTo(*body, m_sources[k], m_obstacles[k], step);
-    m_remainders.erase(
-        std::remove_if(m_remainders.begin(), m_remainders.end(), [](const Remainder& r) { return !r.m_used; }),
-        m_remainders.end());
+    if (obstacle < 0) return;
+    m_sources[obstacle].m_linearImpulse += impulse;
+    m_sources[obstacle].m_angularImpulse += cross(point - m_obstacles[obstacle].m_center, impulse);
 }
 
-void RigidObstacles::applyTo(btRigidBody& body, const Source& source, const Obstacle& obstacle, double step)
+void RigidObstacles::addJointReaction(const JointEnd& end, const Vec3& impulse)
+{
+    if (end.m_obstacle < 0) return;
+    if (end.m_angular)
+        m_sources[end.m_obstacle].m_angularImpulse += impulse;
+    else
+        addReaction(end.m_obstacle, impulse, end.m_point);
+}
+
+void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
+{
+    for (const ContactPoint& contact : problem.m_contacts)
+        addReaction(contact.m_obstacle, -contact.m_impulse, contact.m_point + contact.m_approach);
+    for (const Joint& joint : problem.m_joints)
+    {
+        addJointReaction(joint.m_a, joint.m_impulse);
+        addJointReaction(joint.m_b, -joint.m_impulse);
+    }
+    for (std::size_t k = 0; k < m_sources.size(); ++k)
+    {
+        Source& source = m_sources[k];
+        const Obstacle& obstacle = m_obstacles[k];
+        btRigidBody* body = movable(*source.m_object);
+        if (!body) continue;
+        source.m_angularImpulse += obstacle.m_angularImpulse;
+        if (dot(source.m_linearImpulse, source.m_linearImpulse) +
+                dot(source.m_angularImpulse, source.m_angularImpulse) >
+            0)
+        {
+            if (m_phase == RigidPhase::moved) addToVelocity(*body, source, obstacle);
+            if (!body->isActive()) body->activate();  // islands know when one that is awake may rest
+        }
+        Vec3 linear = obstacle.m_pushLinear, angular = obstacle.m_pushAngular;
+        if (source.m_rewound)  // it went with the old velocity where it should have gone with the new
+        {
+            linear += scaled(obstacle.m_inverseMass, source.m_linearImpulse);
+            angular += obstacle.m_inverseInertia * source.m_angularImpulse;
+        }
+        if (dot(linear, linear) + dot(angular, angular) == 0) continue;
+        btTransform pushed;
+        btTransformUtil::integrateTransform(body->getCenterOfMassTransform(), bulletVector(linear),
+                                            bulletVector(angular), btScalar(step), pushed);
+        body->setCenterOfMassTransform(pushed);
+    }
+}
+
+void RigidObstacles::addToVelocity(btRigidBody& body, const Source& source, const Obstacle& obstacle)
 {
     Remainder& remainder = remainderOf(source.m_objectId);
     remainder.m_used = true;
-    const Vec3& J = source.m_linearImpulse;
-    if (dot(J, J) + dot(source.m_angularImpulse, source.m_angularImpulse) > 0)
-    {
-        const Vec3 dv = {obstacle.m_inverseMass.x * J.x, obstacle.m_inverseMass.y * J.y,
-                         obstacle.m_inverseMass.z * J.z};
-        body.setLinearVelocity(added(body.getLinearVelocity(), dv, remainder.m_linear));
-        body.setAngularVelocity(
-            added(body.getAngularVelocity(), obstacle.m_inverseInertia * source.m_angularImpulse, remainder.m_angular));
-        body.activate();
-    }
-    if (dot(obstacle.m_pushLinear, obstacle.m_pushLinear) + dot(obstacle.m_pushAngular, obstacle.m_pushAngular) == 0)
-        return;
-    btTransform pushed;
-    btTransformUtil::integrateTransform(body.getCenterOfMassTransform(), bulletVector(obstacle.m_pushLinear),
-                                        bulletVector(obstacle.m_pushAngular), btScalar(step), pushed);
-    body.setCenterOfMassTransform(pushed);
+    remainder.m_linearGiven = scaled(obstacle.m_inverseMass, source.m_linearImpulse);
+    remainder.m_angularGiven = obstacle.m_inverseInertia * source.m_angularImpulse;
+    body.setLinearVelocity(addedExactly(body.getLinearVelocity(),
+                                        scaled(obstacle.m_inverseMass, source.m_linearImpulse), remainder.m_linear));
+    body.setAngularVelocity(addedExactly(body.getAngularVelocity(), obstacle.m_inverseInertia * source.m_angularImpulse,
+                                         remainder.m_angular));
 }
 
 }  // namespace bullet_fem

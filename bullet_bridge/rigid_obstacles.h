@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <mutex>
 #include <vector>
 
+#include "LinearMath/btVector3.h"
 #include "bullet_fem/fem/contact_solver.h"
 
 class btCollisionObject;
@@ -12,46 +14,96 @@ class btRigidBody;
 namespace bullet_fem
 {
 
-/// The rigid side of a step's contacts: turns Bullet's collision objects into obstacles, and hands the reactions back.
-/// What single precision cuts off a rigid body's velocity is carried to the next step.
+/// When the rigid side is looked at.
+enum class RigidPhase
+{
+    moved,   ///< Bullet has solved and moved the rigid bodies; they feel the soft ones after that
+    solving  ///< Bullet's rigid solver is about to solve them, together with the soft ones
+};
+
+/// The rigid side of a step's contacts and joints: turns Bullet's collision objects into obstacles, and hands the
+/// reactions back. What single precision cuts off a rigid body's velocity is carried to the next step.
 class RigidObstacles
 {
 public:
-    /// Forgets the objects of the last step; remainders are kept.
-    void clear();
+    /// What single precision cut off a body's velocity.
+    struct Remainder
+    {
+        int m_objectId;
+        Vec3 m_linear, m_angular;            ///< [m/s], [rad/s]
+        bool m_used;                         ///< in this step
+        Vec3 m_linearGiven, m_angularGiven;  ///< what soft bodies gave it in the last step [m/s], [rad/s]
+    };
 
-    /// Index of an object's obstacle, made when first asked for. `step` [s] is the world's. The rigid solver has
-    /// already moved dynamic bodies, so their rows use the velocity that they will have next: v + h g.
+    /// Forgets the remainders of bodies that were not touched in the last step.
+    void beginStep();
+
+    /// Remembers how fast a body is before Bullet's rigid solver. May be called by several threads at once.
+    void noteBeforeSolve(const btCollisionObject& object);
+
+    /// Forgets all obstacles.
+    void clear(RigidPhase phase = RigidPhase::moved);
+
+    /// Index of an object's obstacle, made when first asked for. `step` [s] is the world's. Rows use the velocity that
+    /// a dynamic body will have next without soft bodies: in phase `moved` v + h g, and what other rigid bodies hold it
+    /// with (see addSupport); else v and what all its forces add.
     int indexOf(const btCollisionObject& object, double step);
+
+    /// The same for contacts with a soft body, after its free motion. Where the two move fast relative to each other
+    /// (as isFast() has it) in phase `moved`, the rigid one is rewound: its obstacle is where Bullet moved it from,
+    /// with the velocity that it moved with. It stays so as long as it is asked for in every step. One that was asked
+    /// for before in this step stays as it is.
+    int indexForContact(const btCollisionObject& object, double step, const Body& soft);
+
+    /// True if Bullet has moved the object already, but its obstacle is as the step began.
+    bool isRewound(int obstacle) const { return m_sources[obstacle].m_rewound; }
 
     std::vector<Obstacle>& obstacles() { return m_obstacles; }
     const std::vector<Obstacle>& obstacles() const { return m_obstacles; }
+    const btCollisionObject& object(int obstacle) const { return *m_sources[obstacle].m_object; }
 
-    /// Adds the impulses of the contacts to the rigid bodies' velocities, in double and once, wakes those that felt
-    /// any, and moves them by the position corrections.
-    void applyReactions(const std::vector<ContactPoint>& contacts, double step);
+    /// The rigid body of an obstacle that impulses can move; null for others.
+    btRigidBody* movableBody(int obstacle) const;
+    Remainder& remainder(int obstacle) { return remainderOf(m_sources[obstacle].m_objectId); }
+
+    /// Moves the bodies by the position corrections, and rewound ones by what their change of velocity makes, and wakes
+    /// those that felt impulses; in phase `moved` also adds these to their velocities, in double and once. `problem` is
+    /// the one solved, with these obstacles.
+    void applyReactions(const ContactProblem& problem, double step);
 
 private:
     struct Source
     {
         const btCollisionObject* m_object;
         int m_objectId;
-        Vec3 m_linearImpulse, m_angularImpulse;  // of all contacts, on the rigid body
-    };
-    struct Remainder
-    {
-        int m_objectId;
-        Vec3 m_linear, m_angular;  // [m/s], [rad/s]
-        bool m_used;
+        Vec3 m_linearImpulse, m_angularImpulse;  // of all contacts and joints, on the rigid body
+        bool m_rewound = false;
     };
 
-    void applyTo(btRigidBody& body, const Source& source, const Obstacle& obstacle, double step);
+    void addReaction(int obstacle, const Vec3& impulse, const Vec3& point);
+    void addJointReaction(const JointEnd& end, const Vec3& impulse);
+    void addToVelocity(btRigidBody& body, const Source& source, const Obstacle& obstacle);
+    void addSupport(const btRigidBody& body, double step, Obstacle& obstacle);
+    bool mustRewind(const btRigidBody& body, double step, const Body& soft) const;
     Remainder& remainderOf(int objectId);
 
+    RigidPhase m_phase = RigidPhase::moved;
     std::vector<Obstacle> m_obstacles;
     std::vector<Source> m_sources;
     std::vector<Remainder> m_remainders;
+    struct Before
+    {
+        const btCollisionObject* m_object;
+        Vec3 m_linear, m_angular;
+    };
+    std::mutex m_beforeMutex;
+    std::vector<Before> m_before;               // velocities before Bullet's rigid solver
+    std::vector<int> m_rewound, m_lastRewound;  // ids of the objects in this step and in the last
+    std::vector<btVector3> m_linkVelocities;    // scratch
 };
+
+/// Adds `change` to a Bullet velocity, with what rounding cut off before, and keeps what it cuts off now.
+btVector3 addedExactly(const btVector3& velocity, const Vec3& change, Vec3& remainder);
 
 /// Bullet's id of an object in its broadphase: unique in a world and never reused; -1 outside a world.
 int broadphaseId(const btCollisionObject& object);

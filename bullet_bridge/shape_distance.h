@@ -23,7 +23,8 @@ struct Pose
     Vec3 toLocal(const Vec3& world) const { return transposeTimes(m_rotation, world - m_origin); }
 };
 
-/// One shape of a collision object that is not a compound, with its world placement.
+/// One shape of a collision object that is not a compound, with its world placement. Convex, a static plane, or a sheet
+/// of triangles: triangle mesh, scaled or multimaterial triangle mesh, heightfield, part of a GImpact mesh.
 struct ShapeLeaf
 {
     const btCollisionShape* m_shape = nullptr;
@@ -31,9 +32,10 @@ struct ShapeLeaf
     Vec3 m_boundsMin, m_boundsMax;  ///< world bounds with the shape's margin [m]; a plane's are infinite
 };
 
-/// Appends the leaves of an object's shape, through compounds of any depth; allocates only when `leaves` must grow.
-/// Returns the number of leaves of a kind that shapeDistance() does not know (they are left out): concave shapes other
-/// than the static plane, empty shapes, convex hulls and multi-spheres without points, soft bodies.
+/// Appends the leaves of an object's shape, through compounds of any depth, Bullet's and GImpact's; allocates only when
+/// `leaves` must grow. Returns the number of leaves of a kind that is not known (they are left out): empty and signed
+/// distance shapes, convex hulls and multi-spheres without points, triangle meshes whose tree was not built or that are
+/// scaled to nothing, soft bodies.
 int collectShapeLeaves(const btCollisionObject& object, btAlignedObjectArray<ShapeLeaf>& leaves);
 
 /// Where a point of a soft surface is nearest to a rigid shape. The nearest point of the rigid shape is the soft point
@@ -51,6 +53,10 @@ struct SurfaceDistance
 ///  - sphere, capsule: it is the radius. Closed form;
 ///  - cone: around radius and height (0.04 m unless set, so Bullet's cone is larger than its sizes). Closed form;
 ///  - static plane: none, as for Bullet's rigid bodies. Closed form; behind the plane is inside at any depth;
+///  - sheets of triangles are not asked here but by sheet_touch.h. There the margin is on both sides of the sheet, 0
+///  for
+///    meshes and heightfields and 0.01 m for GImpact unless set: where Bullet's boxes and hulls come to rest (its
+///    spheres ignore it). Of a scaled mesh it is its own, not the original's;
 ///  - convex hull and every other btConvexShape: around the shape. By GJK, inside the shape proper by EPA, in
 ///    double; exact for shapes that have corners only, to 2e-5 of their size for those with round sides.
 /// False, and `distance` untouched, if farther than maxDistance [m] (> 0) or not finite. Never allocates.

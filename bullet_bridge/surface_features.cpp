@@ -3,6 +3,7 @@
 #include "bullet_bridge/surface_features.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace bullet_fem
 {
@@ -24,6 +25,14 @@ SurfaceFeatures::SurfaceFeatures(const TetMesh& mesh)
                 static_cast<int>(std::lower_bound(m_edges.begin(), m_edges.end(), edgeOf(t, k)) - m_edges.begin());
         m_triangleEdges.push_back(edges);
     }
+    m_firstAround.assign(mesh.nodeCount() + 1, 0);
+    for (const Triangle& t : mesh.surface())
+        for (int node : t) ++m_firstAround[node + 1];
+    std::partial_sum(m_firstAround.begin(), m_firstAround.end(), m_firstAround.begin());
+    m_around.resize(3 * mesh.surface().size());
+    std::vector<int> next(m_firstAround.begin(), m_firstAround.end() - 1);
+    for (std::size_t k = 0; k < mesh.surface().size(); ++k)
+        for (int node : mesh.surface()[k]) m_around[next[node]++] = static_cast<int>(k);
 }
 
 }  // namespace bullet_fem

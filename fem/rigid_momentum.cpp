@@ -65,6 +65,11 @@ void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impul
     }
 }
 
+void RigidMomentum::addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step)
+{
+    m_pieces[body.m_model->mesh().nodeComponent()[node]].m_angular += (1 / (1 + step * damping(body))) * impulse;
+}
+
 void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
 {
     const std::vector<int>& component = body.m_model->mesh().nodeComponent();

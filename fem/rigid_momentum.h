@@ -24,6 +24,9 @@ public:
     /// Adds node impulses J [N s] to the prescription.
     void addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step);
 
+    /// Adds an angular impulse [N m s] to the prescription of the piece that a node belongs to.
+    void addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step);
+
     /// Adds to `velocity` the rigid motion that gives every free piece its prescribed momentum.
     void restore(const Body& body, std::vector<Vec3>& velocity);
 

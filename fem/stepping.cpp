@@ -113,6 +113,13 @@ SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const S
     return solveIncrement(body, settings, 0, scratch);
 }
 
+void addVelocity(Body& body, const std::vector<Vec3>& change)
+{
+    std::vector<Vec3>& v = body.m_workspace.scratch().m_velocity;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (!body.m_state.m_fixed[i]) v[i] += change[i];
+}
+
 Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();

@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
+#include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"
+#include "bullet_bridge/concave_dispatch.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "plugin/btFemContactTest.h"
+#include "plugin/btFemManifolds.h"
 
 using namespace bullet_fem;
 
@@ -143,6 +148,26 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
     m_entries.resize(kept);
 }
 
+bool btFemBodyRegistry::worldHolds(const btSoftBody& body, const btCollisionObject* object)
+{
+    m_worldObjects.read(body);
+    return m_worldObjects.holds(object);
+}
+
+// Takes effect at the next collision detection.
+void btFemBodyRegistry::registerWithDispatcher(btSoftBody& body) const
+{
+    if (!body.m_worldInfo) return;
+    btDispatcher* dispatcher = body.m_worldInfo->m_dispatcher;
+    dispatchConcaveShapesOnce(dispatcher);
+    if (m_showsManifolds) btFemManifolds::showIn(dispatcher);
+    answerContactTests(dispatcher);
+    // What it overlapped before it was FEM has Bullet's algorithms.
+    btBroadphaseInterface* broadphase = body.m_worldInfo->m_broadphase;
+    if (dispatcher && broadphase && body.getBroadphaseHandle())
+        broadphase->getOverlappingPairCache()->cleanProxyFromPairs(body.getBroadphaseHandle(), dispatcher);
+}
+
 void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
 {
     btSoftBody& soft = *entry.m_softBody;
@@ -171,6 +196,7 @@ void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
     input.m_step = step;
     const auto model = m_library.model(shape, input);
     entry.m_fem = std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model));
+    registerWithDispatcher(soft);
     entry.m_fem->m_contactOffset = entry.m_contactOffset;
     entry.m_materialChanged = false;
     entry.m_setUpFlags = (mesh.turnedCount() > 0 ? BT_FEM_TURNED_TETS : 0) |

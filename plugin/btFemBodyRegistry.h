@@ -9,7 +9,18 @@
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/model_library.h"
+#include "bullet_bridge/world_objects.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/btFemSleeping.h"
+
+/// How far a body has come in a step.
+enum class btFemStage
+{
+    none,       ///< between steps
+    predicted,  ///< in predictMotion
+    free,       ///< its free motion is solved; contact is not
+    solved      ///< contact is solved too, within the rigid solver
+};
 
 /// All that the solver knows of one btSoftBody.
 struct btFemEntry
@@ -37,9 +48,15 @@ struct btFemEntry
     std::string m_message;
     int m_setUpFlags = 0;  // flags that hold until the body is set up anew
 
+    btFemStage m_stage = btFemStage::none;
     btFemStepReport m_report;
     btAlignedObjectArray<btFemContact> m_contacts;
+    btAlignedObjectArray<btFemTouch> m_touches;
+    btAlignedObjectArray<btFemAnchorReport> m_anchors;
     double m_lastStep = 0;  // [s]
+    btFemSleep m_sleep;
+
+    bool isStepped() const { return m_present && m_fem; }
 };
 
 /// The bodies of a solver, by address. Removal from a world is silent and addresses are reused, so every step compares
@@ -47,6 +64,9 @@ struct btFemEntry
 class btFemBodyRegistry
 {
 public:
+    /// Whether dispatchers of FEM bodies get their manifolds.
+    explicit btFemBodyRegistry(bool showsManifolds) : m_showsManifolds(showsManifolds) {}
+
     btFemEntry* find(const btSoftBody* body);
     const btFemEntry* find(const btSoftBody* body) const { return const_cast<btFemBodyRegistry*>(this)->find(body); }
 
@@ -72,12 +92,20 @@ public:
 
     const std::vector<std::unique_ptr<btFemEntry>>& entries() const { return m_entries; }
 
+    /// True if the world that holds the body holds the object, too, or if that cannot be known. The world is looked at
+    /// once after every forgetWorld.
+    bool worldHolds(const btSoftBody& body, const btCollisionObject* object);
+    void forgetWorld() { m_worldObjects.forget(); }
+
 private:
     std::size_t indexOf(const btSoftBody* body) const;
     bool isAnotherBody(const btFemEntry& entry) const;
+    void registerWithDispatcher(btSoftBody& body) const;
     void claim(btFemEntry& entry, const void* world, const btSoftBodySolver* solver);
 
+    bool m_showsManifolds;
     std::vector<std::unique_ptr<btFemEntry>> m_entries;  // in the order in which they became known
     std::vector<unsigned char> m_held;                   // per entry: the world being stepped holds it
     bullet_fem::ModelLibrary m_library;
+    bullet_fem::WorldObjects m_worldObjects;
 };

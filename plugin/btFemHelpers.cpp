@@ -37,6 +37,7 @@ std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Tet
     body->initializeDmInverse();
     for (std::size_t e = 0; e < filled.size(); ++e) storeFill(*body, static_cast<int>(e), filled[e], massScale);
     body->updateNormals();
+    body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;  // as users of solids expect; Bullet's default is none
     return body;
 }
 

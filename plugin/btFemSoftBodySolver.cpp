@@ -10,8 +10,12 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/soft_joints.h"
 #include "bullet_fem/btFemHelpers.h"
+#include "plugin/btFemAttachments.h"
 #include "plugin/btFemBodyRegistry.h"
+#include "plugin/btFemCoupling.h"
+#include "plugin/btFemManifolds.h"
 #include "plugin/btFemMaterialConversion.h"
 #include "plugin/btFemWorldStep.h"
 
@@ -19,7 +23,12 @@ using namespace bullet_fem;
 
 struct btFemSoftBodySolver::Impl
 {
-    explicit Impl(const btFemSolverInfo& info) : m_step(info) {}
+    explicit Impl(const btFemSolverInfo& info)
+        : m_registry(info.m_manifolds),
+          m_step(info),
+          m_manifolds(info.m_manifolds ? std::make_shared<btFemManifolds>() : nullptr)
+    {
+    }
 
     btFemEntry& femEntry(const btSoftBody* body, const char* caller)
     {
@@ -54,8 +63,11 @@ struct btFemSoftBodySolver::Impl
     const btAlignedObjectArray<btSoftBody*>* m_worldBodies = nullptr;  // of the world being stepped
     btFemBodyRegistry m_registry;
     btFemWorldStep m_step;
+    const std::shared_ptr<btFemManifolds> m_manifolds;  // null: not shown
     const btFemStepReport m_noReport;
     const btAlignedObjectArray<btFemContact> m_noContacts;
+    const btAlignedObjectArray<btFemTouch> m_noTouches;
+    const btAlignedObjectArray<btFemAnchorReport> m_noAnchors;
 };
 
 namespace
@@ -84,6 +96,15 @@ bool ignoresRigidBodies(const btSoftBody& body)
     return (body.m_cfg.collisions & (Flags::RVSmask | Flags::RVDFmask)) == 0 || !body.hasContactResponse();
 }
 
+// Bodies collide with each other if both have a flag for it in common; a body with itself by CL_SELF.
+bool collide(const btSoftBody& a, const btSoftBody& b)
+{
+    using Flags = btSoftBody::fCollision;
+    const int mask = &a == &b ? static_cast<int>(Flags::CL_SELF) : Flags::SVSmask & ~Flags::CL_SELF;
+    return (a.m_cfg.collisions & b.m_cfg.collisions & mask) != 0 && a.hasContactResponse() && b.hasContactResponse() &&
+           !ignoresCollision(a, b) && !ignoresCollision(b, a);
+}
+
 bool check(bool good, std::string* why, const char* name, double value, const char* range)
 {
     if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;
@@ -101,7 +122,7 @@ bool btFemSolverInfo::valid(std::string* why) const
            check(m_contactRounds >= 1 && m_contactRounds <= 10, why, "m_contactRounds", m_contactRounds,
                  "[1, 10]; 2 is usual") &&
            check(m_contactSweeps >= 1 && m_contactSweeps <= 1000, why, "m_contactSweeps", m_contactSweeps,
-                 "[1, 1000]; 50 is usual") &&
+                 "[1, 1000]; 200 is usual") &&
            check(m_maxContacts >= 8 && m_maxContacts <= 20000, why, "m_maxContacts", m_maxContacts,
                  "[8, 20000]; 2000 is usual") &&
            check(m_erp >= 0 && m_erp <= 1, why, "m_erp", m_erp, "[0, 1]; 0.2 is usual") &&
@@ -168,6 +189,45 @@ void btFemSoftBodySolver::clearNodeTarget(btSoftBody* body, int node)
     entry.m_fem->m_pins.m_hasTarget[node] = 0;
 }
 
+void btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions)
+{
+    setTargets(*m_impl->femEntry(body, "setNodeTargets").m_fem, {nodes, count}, positions);
+}
+
+void btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest)
+{
+    setTargets(*m_impl->femEntry(body, "setNodeTargets").m_fem, {nodes, count}, fromRest);
+}
+
+void btFemSoftBodySolver::clearNodeTargets(btSoftBody* body, const int* nodes, int count)
+{
+    clearTargets(*m_impl->femEntry(body, "clearNodeTargets").m_fem, {nodes, count});
+}
+
+int btFemSoftBodySolver::attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB)
+{
+    const FemSoftBody& other = *m_impl->femEntry(b, "attachNodes").m_fem;
+    return attachNode(*m_impl->femEntry(a, "attachNodes").m_fem, nodeA, other, {nodeB, nodeB, nodeB, nodeB},
+                      {1, 0, 0, 0});
+}
+
+int btFemSoftBodySolver::attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4])
+{
+    const FemSoftBody& other = *m_impl->femEntry(b, "attachNodeToTet").m_fem;
+    if (tetB < 0 || tetB >= b->m_tetras.size() || !weights)
+        throw std::invalid_argument("attachNodeToTet: tetrahedron " + std::to_string(tetB) + " is not in [0, " +
+                                    std::to_string(b->m_tetras.size()) + "), or the weights are null");
+    std::array<int, 4> nodes;
+    for (int k = 0; k < 4; ++k) nodes[k] = static_cast<int>(b->m_tetras[tetB].m_n[k] - &b->m_nodes[0]);
+    return attachNode(*m_impl->femEntry(a, "attachNodeToTet").m_fem, nodeA, other, nodes,
+                      {weights[0], weights[1], weights[2], weights[3]});
+}
+
+void btFemSoftBodySolver::detach(btSoftBody* a, int attachment)
+{
+    detachNode(*m_impl->femEntry(a, "detach").m_fem, attachment);
+}
+
 void btFemSoftBodySolver::setContactOffset(btSoftBody* body, btScalar metres)
 {
     if (!(metres >= 0 && metres <= 1000))
@@ -220,6 +280,18 @@ const btAlignedObjectArray<btFemContact>& btFemSoftBodySolver::contacts(const bt
     return entry ? entry->m_contacts : m_impl->m_noContacts;
 }
 
+const btAlignedObjectArray<btFemAnchorReport>& btFemSoftBodySolver::anchors(const btSoftBody* body) const
+{
+    const btFemEntry* entry = m_impl->m_registry.find(body);
+    return entry ? entry->m_anchors : m_impl->m_noAnchors;
+}
+
+const btAlignedObjectArray<btFemTouch>& btFemSoftBodySolver::touches(const btSoftBody* body) const
+{
+    const btFemEntry* entry = m_impl->m_registry.find(body);
+    return entry ? entry->m_touches : m_impl->m_noTouches;
+}
+
 btVector3 btFemSoftBodySolver::contactForce(const btSoftBody* body, const btCollisionObject* other) const
 {
     const btFemEntry* entry = m_impl->m_registry.find(body);
@@ -228,6 +300,22 @@ btVector3 btFemSoftBodySolver::contactForce(const btSoftBody* body, const btColl
     for (int k = 0; k < entry->m_contacts.size(); ++k)
         if (entry->m_contacts[k].m_other == other) sum += entry->m_contacts[k].m_impulse;
     return sum / static_cast<btScalar>(entry->m_lastStep);
+}
+
+btFemContactGroup* btFemCoupling::beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
+                                             double step)
+{
+    return fem.m_impl->m_step.beginGroup(fem.m_impl->m_registry, bodies, count, step);
+}
+
+const btFemEntry* btFemCoupling::entry(const btFemSoftBodySolver& fem, const btSoftBody& body)
+{
+    return fem.m_impl->m_registry.find(&body);
+}
+
+std::shared_ptr<btFemManifolds> btFemCoupling::manifolds(const btFemSoftBodySolver& fem)
+{
+    return fem.m_impl->m_manifolds;
 }
 
 void btFemSoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate)
@@ -251,14 +339,21 @@ void btFemSoftBodySolver::processCollision(btSoftBody* body, const btCollisionOb
     if (!entry || entry->m_rejected)
         btDefaultSoftBodySolver::processCollision(body, other);
     else if (entry->m_present && entry->m_fem && !ignoresRigidBodies(*body) &&
-             other->getCollisionObject()->hasContactResponse())
+             other->getCollisionObject()->hasContactResponse() &&
+             !ignoresCollision(*body, *other->getCollisionObject()))
+    {
+        wakeIfPushed(*entry, *other->getCollisionObject());
         recordTouching(*entry->m_fem, *other->getCollisionObject());
+        m_impl->m_step.noteBeforeSolve(*other->getCollisionObject());
+    }
 }
 
 void btFemSoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
 {
+    const bool fem = isFem(body), otherFem = isFem(other);
     // Bullet's handlers would move a FEM body's nodes behind its back.
-    if (!isFem(body) && !isFem(other)) btDefaultSoftBodySolver::processCollision(body, other);
+    if (!fem && !otherFem) return btDefaultSoftBodySolver::processCollision(body, other);
+    if (fem && otherFem && collide(*body, *other)) recordTouching(*m_impl->m_registry.find(body)->m_fem, *other);
 }
 
 void btFemSoftBodySolver::solveConstraints(btScalar timeStep)
@@ -276,4 +371,6 @@ void btFemSoftBodySolver::updateSoftBodies()
     for (const auto& entry : m_impl->m_registry.entries())
         if (entry->m_present && entry->m_fem && entry->m_softBody->isActive())
             btFemHelpers::updateEmbeddedSurface(entry->m_softBody);
+    updateSleep(m_impl->m_registry);
+    if (m_impl->m_manifolds) m_impl->m_manifolds->update();
 }

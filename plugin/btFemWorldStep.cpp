@@ -3,32 +3,23 @@
 #include "plugin/btFemWorldStep.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/cluster_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_fem/fem/stepping.h"
+#include "plugin/btFemStopwatch.h"
+#include "plugin/btFemTouches.h"
 
 using namespace bullet_fem;
 
 namespace
 {
 
-constexpr double kSameFactor = 1 + 1e-5;    // ratio of step or mass up to which a factor is not called stale
+constexpr double kSameFactor = 1 + 1e-5;  // ratio of step or mass up to which a factor is not called stale
+constexpr double kReach = 0.6;            // mean edges around a body: rigid ones go half of one ahead of their contacts
 constexpr double kRefactorInContact = 1.5;  // and beyond which a body that touches something is factored anew
-
-class Stopwatch
-{
-public:
-    double milliseconds() const
-    {
-        return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
-};
 
 // What predictMotion of btSoftBody does besides moving nodes, without resetting the links' rest lengths.
 void refreshBulletConstants(btSoftBody& soft, double step)
@@ -81,22 +72,6 @@ void note(btFemEntry& entry, const SolveReport& solved)
     if (solved.m_stop == SolveStop::breakdown) entry.m_report.m_flags |= BT_FEM_BREAKDOWN;
 }
 
-btFemContact publicContact(const ContactPoint& point, const ContactOrigin& origin)
-{
-    btFemContact contact;
-    contact.m_point = bulletVector(point.m_point);
-    contact.m_normal = bulletVector(point.m_normal);
-    contact.m_gap = static_cast<btScalar>(point.m_gap);
-    contact.m_impulse = bulletVector(point.m_impulse);
-    contact.m_other = origin.m_object;
-    for (int a = 0; a < 3; ++a)
-    {
-        contact.m_nodes[a] = point.m_nodes[a];
-        contact.m_weights[a] = static_cast<btScalar>(point.m_weights[a]);
-    }
-    return contact;
-}
-
 }  // namespace
 
 bool isUsableStep(double step)
@@ -117,9 +92,18 @@ StepSettings btFemWorldStep::settingsOf(const btFemEntry& entry) const
 
 void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
 {
+    wakeDisturbedBodies(registry);
+    m_group.beginStep();
     for (const auto& pointer : registry.entries())
     {
         btFemEntry& entry = *pointer;
+        entry.m_stage = btFemStage::predicted;
+        if (entry.m_present) ageTouches(entry);
+        if (entry.m_fem)
+        {
+            entry.m_fem->m_touching.clear();
+            entry.m_fem->m_touchingSoft.clear();
+        }
         btSoftBody& soft = *entry.m_softBody;
         if (!entry.m_present || entry.m_rejected || !soft.isActive()) continue;
         const double h = bodyStep(entry, step);
@@ -137,9 +121,12 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         }
         refreshBulletConstants(soft, h);
         soft.applyForces();
-        setSweptBounds(*entry.m_fem, h, 0.1 * entry.m_fem->m_body.m_model->mesh().meanEdgeLength());
-        entry.m_fem->m_touching.clear();
+        markForces(entry);
+        if (soft.m_cfg.collisions & btSoftBody::fCollision::CL_SELF) entry.m_fem->m_touchingSoft.push_back(&soft);
+        setSweptBounds(*entry.m_fem, h, kReach * entry.m_fem->m_body.m_model->mesh().meanEdgeLength());
     }
+    for (const auto& entry : registry.entries())  // also of bodies that sleep, or have just become FEM
+        if (entry->m_present && entry->m_fem) hideClusterJoints(*entry->m_fem);
 }
 
 void btFemWorldStep::readBody(btFemEntry& entry)
@@ -150,38 +137,78 @@ void btFemWorldStep::readBody(btFemEntry& entry)
     if (read.m_stalePins) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
 }
 
-void btFemWorldStep::collectActive(btFemBodyRegistry& registry, double worldStep)
+// Makes a body ready for its step; false if it stands still. A body is started once a step.
+bool btFemWorldStep::start(btFemEntry& entry, double worldStep)
 {
-    m_active.clear();
-    for (const auto& pointer : registry.entries())
+    if (!entry.m_present || entry.m_stage != btFemStage::predicted) return false;
+    if (!entry.m_fem || entry.m_softBody->isActive()) clearReport(entry);
+    if (!entry.m_fem || !entry.m_softBody->isActive()) return false;
+    entry.m_lastStep = bodyStep(entry, worldStep);
+    if (!isUsableStep(entry.m_lastStep))
     {
-        btFemEntry& entry = *pointer;
-        if (!entry.m_present) continue;
-        if (!entry.m_fem || entry.m_softBody->isActive()) clearReport(entry);
-        if (!entry.m_fem || !entry.m_softBody->isActive()) continue;
-        entry.m_lastStep = bodyStep(entry, worldStep);
-        if (isUsableStep(entry.m_lastStep))
-            m_active.push_back(&entry);
-        else
-            entry.m_report.m_flags |= BT_FEM_BAD_STEP;
+        entry.m_report.m_flags |= BT_FEM_BAD_STEP;
+        return false;
     }
+    readBody(entry);  // once more: callbacks may have written since predict
+    solveFree(entry);
+    return true;
+}
+
+btFemContactGroup* btFemWorldStep::beginGroup(btFemBodyRegistry& registry, btCollisionObject* const* bodies, int count,
+                                              double step)
+{
+    completeWokenBodies(registry);
+    m_active.clear();
+    for (int k = 0; k < count; ++k)
+    {
+        const btSoftBody* soft = btSoftBody::upcast(bodies[k]);
+        btFemEntry* entry = soft ? registry.find(soft) : nullptr;
+        if (entry && start(*entry, step)) m_active.push_back(entry);
+    }
+    if (m_active.empty()) return nullptr;
+    for (btFemEntry* entry : m_active) entry->m_stage = btFemStage::free;
+    m_group.collect({m_active, registry, step, RigidPhase::solving});
+    if (m_group.isEmpty() || !m_group.holdsOnly(bodies, count)) return nullptr;
+    for (btFemEntry* entry : m_active) entry->m_stage = btFemStage::solved;
+    return &m_group;
 }
 
 void btFemWorldStep::solve(btFemBodyRegistry& registry, double step)
 {
-    collectActive(registry, step);
-    for (btFemEntry* entry : m_active)
-    {
-        readBody(*entry);  // once more: callbacks may have written since predict
-        solveFree(*entry);
-    }
-    solveContacts(step);
+    completeWokenBodies(registry);
+    m_active.clear();
+    for (const auto& entry : registry.entries())
+        if (start(*entry, step) || (entry->m_present && entry->m_stage == btFemStage::free))
+            m_active.push_back(entry.get());
+    m_group.collect({m_active, registry, step, RigidPhase::moved});
+    m_group.solve();
+    for (const auto& entry : registry.entries())
+        if (entry->m_present && entry->m_stage == btFemStage::solved)
+        {
+            readChanges(*entry);
+            m_active.push_back(entry.get());
+        }
     for (btFemEntry* entry : m_active) finish(*entry);
+    for (const auto& entry : registry.entries())
+    {
+        entry->m_stage = btFemStage::none;
+        if (entry->m_present && entry->m_fem) showClusterJoints(*entry->m_fem);
+    }
+}
+
+// What callbacks wrote since the body was solved within the rigid solver.
+void btFemWorldStep::readChanges(btFemEntry& entry)
+{
+    const std::vector<Vec3>& v = entry.m_fem->m_body.m_state.m_v;
+    m_change.assign(v.begin(), v.end());
+    readBody(entry);
+    for (std::size_t i = 0; i < v.size(); ++i) m_change[i] = v[i] - m_change[i];
+    addVelocity(entry.m_fem->m_body, m_change);
 }
 
 void btFemWorldStep::solveFree(btFemEntry& entry)
 {
-    const Stopwatch watch;
+    const btFemStopwatch watch;
     FemSoftBody& fem = *entry.m_fem;
     if (!readLoads(fem, entry.m_lastStep)) entry.m_report.m_flags |= BT_FEM_RESTORED;
     if (factorMismatch(fem, entry.m_lastStep) > kSameFactor) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
@@ -191,67 +218,6 @@ void btFemWorldStep::solveFree(btFemEntry& entry)
     entry.m_report.m_iterations = solved.m_iterations;
     entry.m_report.m_residual = static_cast<btScalar>(solved.m_residual);
     entry.m_report.m_freeMotionMs = static_cast<btScalar>(watch.milliseconds());
-}
-
-void btFemWorldStep::solveContacts(double step)
-{
-    const Stopwatch watch;
-    findContacts(step);
-    ContactSettings settings;
-    settings.m_step.m_step = step;
-    settings.m_step.m_tolerance = m_info.m_tolerance;
-    settings.m_step.m_maxIterations = m_info.m_maxIterations;
-    settings.m_rounds = m_info.m_contactRounds;
-    settings.m_sweeps = m_info.m_contactSweeps;
-    settings.m_pushFraction = m_info.m_erp;
-    settings.m_maxPushVelocity = m_info.m_maxPushVelocity;
-    const ContactReport report = m_solver.solve(m_contactBodies, m_rigid.obstacles(), m_contacts, settings);
-    m_rigid.applyReactions(m_contacts, step);
-    splitContacts(report, watch.milliseconds());
-}
-
-void btFemWorldStep::findContacts(double step)
-{
-    m_rigid.clear();
-    m_contacts.clear();
-    m_contactBodies.clear();
-    for (std::size_t b = 0; b < m_active.size(); ++b)
-    {
-        FemSoftBody& fem = *m_active[b]->m_fem;
-        const ContactSearchReport found = m_finder.find(fem, static_cast<int>(b), step, m_info.m_maxContacts, m_rigid);
-        if (found.m_unknownShape) m_active[b]->m_report.m_flags |= BT_FEM_UNKNOWN_SHAPE;
-        if (found.m_limited) m_active[b]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
-        m_contactBodies.push_back({&fem.m_body, fem.m_compliance.get()});
-        m_contacts.insert(m_contacts.end(), fem.m_contacts.begin(), fem.m_contacts.end());
-    }
-}
-
-// Gives every body its share of the contacts and of the report back.
-void btFemWorldStep::splitContacts(const ContactReport& report, double milliseconds)
-{
-    auto next = m_contacts.begin();
-    for (std::size_t b = 0; b < m_active.size(); ++b)
-    {
-        btFemEntry& entry = *m_active[b];
-        FemSoftBody& fem = *entry.m_fem;
-        entry.m_report.m_contactMs = static_cast<btScalar>(milliseconds);
-        entry.m_contacts.resize(0);
-        std::copy(next, next + fem.m_contacts.size(), fem.m_contacts.begin());
-        next += fem.m_contacts.size();
-        if (fem.m_contacts.empty()) continue;
-        entry.m_report.m_contacts = static_cast<int>(fem.m_contacts.size());
-        entry.m_report.m_contactSweeps = report.m_sweeps;
-        entry.m_report.m_contactIterations = report.m_iterations;
-        entry.m_report.m_contactViolation = static_cast<btScalar>(report.m_violation);
-        if (!report.m_converged) entry.m_report.m_flags |= BT_FEM_NOT_CONVERGED;
-        double deepest = 0;
-        for (std::size_t k = 0; k < fem.m_contacts.size(); ++k)
-        {
-            entry.m_contacts.push_back(publicContact(fem.m_contacts[k], fem.m_origins[k]));
-            deepest = std::max(deepest, -fem.m_contacts[k].m_gap);
-        }
-        entry.m_report.m_deepestPenetration = static_cast<btScalar>(deepest);
-    }
 }
 
 void btFemWorldStep::finish(btFemEntry& entry)

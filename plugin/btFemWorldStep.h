@@ -4,40 +4,45 @@
 
 #include <vector>
 
-#include "bullet_bridge/contact_finder.h"
 #include "plugin/btFemBodyRegistry.h"
+#include "plugin/btFemContactGroup.h"
 
-/// One step of all FEM bodies of a world, in the two places where Bullet calls its soft body solver: before collision
-/// detection and after the rigid bodies have moved. Scratch only; what lasts is in the registry.
+/// One step of all FEM bodies of a world, in the places where Bullet calls its soft body solver: before collision
+/// detection and after the rigid bodies have moved; and, with a btFemConstraintSolver, where it solves the rigid
+/// bodies. Scratch only; what lasts is in the registry.
 class btFemWorldStep
 {
 public:
-    explicit btFemWorldStep(const btFemSolverInfo& info) : m_info(info) {}
+    explicit btFemWorldStep(const btFemSolverInfo& info) : m_info(info), m_group(info) {}
 
     /// Before collision detection: sets new bodies up, takes over what the user wrote, lets Bullet add wind and
     /// pressure to m_f, and gives the broad phase the bounds of the motion to come.
     void predict(btFemBodyRegistry& registry, double step);
 
-    /// After it: free motion, contact, correction, and the new positions. `step` [s].
+    /// In collision detection: remembers a rigid body as it is before the rigid solver.
+    void noteBeforeSolve(const btCollisionObject& object) { m_group.noteBeforeSolve(object); }
+
+    /// Within the rigid solver, before it sets up a group of islands: free motion of the FEM bodies among `bodies` and
+    /// their contacts. Null if the rigid solver has nothing to do with them: none, or none that touches anything, or
+    /// one that holds on to a rigid body of another group. `step` [s].
+    btFemContactGroup* beginGroup(btFemBodyRegistry& registry, btCollisionObject* const* bodies, int count,
+                                  double step);
+    /// After the rigid bodies have moved: free motion, contact and correction of the bodies that were not in a group;
+    /// the new positions of all. `step` [s].
     void solve(btFemBodyRegistry& registry, double step);
 
 private:
-    void collectActive(btFemBodyRegistry& registry, double worldStep);
+    bool start(btFemEntry& entry, double worldStep);
     void readBody(btFemEntry& entry);
+    void readChanges(btFemEntry& entry);
     void solveFree(btFemEntry& entry);
-    void solveContacts(double step);
-    void findContacts(double step);
-    void splitContacts(const bullet_fem::ContactReport& report, double milliseconds);
     void finish(btFemEntry& entry);
     bullet_fem::StepSettings settingsOf(const btFemEntry& entry) const;
 
     btFemSolverInfo m_info;
     std::vector<btFemEntry*> m_active;
-    std::vector<bullet_fem::ContactBody> m_contactBodies;
-    std::vector<bullet_fem::ContactPoint> m_contacts;
-    bullet_fem::ContactFinder m_finder;
-    bullet_fem::RigidObstacles m_rigid;
-    bullet_fem::ContactSolver m_solver;
+    std::vector<bullet_fem::Vec3> m_change;  // scratch [m/s]
+    btFemContactGroup m_group;
 };
 
 /// True if a step [s] is one that bodies can be stepped with.

@@ -5,73 +5,111 @@
 #include <vector>
 
 #include "bullet_fem/fem/contact_solver.h"
-#include "fem/contact/compliance_cache.h"
+#include "fem/contact/body_ends.h"
 
 namespace bullet_fem
 {
 
-/// The rows of all contacts of a step: their compliance W, their relative velocities, and Gauss-Seidel sweeps over
-/// both. Grows with the number of contacts, never shrinks.
+/// The rows of all contacts and joints of a problem, and sweeps over them. Every row is a triple of impulses between
+/// two ends. Grows with the problem, never shrinks.
 class ContactRows
 {
 public:
-    /// W_kl = sum w_a w_b R_a (A0^-1)_ab R_b^T for contacts k, l of one body, and the frame of every contact.
-    void assemble(const std::vector<ContactBody>& bodies, const std::vector<Obstacle>& obstacles,
-                  const std::vector<ContactPoint>& contacts, const StepSettings& step);
+    /// Ends, frames and compliance of all rows, from free velocities of bodies and present ones of obstacles.
+    void assemble(ContactProblem& problem, const ContactSettings& settings);
 
-    /// Gives the obstacles the reactions of the impulses that the contacts start with.
-    void warmStart(const std::vector<ContactPoint>& contacts, std::vector<Obstacle>& obstacles) const;
+    /// Gives the obstacles the reactions of the impulses that the rows start with.
+    void warmStart();
 
-    /// Relative velocities from the bodies' true ones, which hold the `applied` impulses, plus W times the rest.
-    void measureVelocities(const std::vector<ContactBody>& bodies, const std::vector<ContactPoint>& contacts,
-                           const std::vector<Vec3>& applied);
+    /// Brings the ends' velocities up to the bodies' true ones.
+    void measure();
 
-    /// Compares the velocities that the rows predicted for the impulses beyond `applied` with the bodies' true ones,
-    /// and scales W of a body up where it was too stiff: then the next sweeps overshoot no more. To be called after the
-    /// corrective solve, before measureVelocities.
-    void learnCompliance(const std::vector<ContactBody>& bodies, const std::vector<Obstacle>& obstacles,
-                         const std::vector<ContactPoint>& contacts, const std::vector<Vec3>& applied);
+    /// One sweep; the velocities of ends and obstacles follow. Gauss-Seidel while all bodies have a dense compliance,
+    /// else an accelerated projected gradient step on all rows at once. Returns the largest change of an impulse over
+    /// the largest impulse.
+    double sweep();
 
-    /// The largest speed [m/s] at which a contact closes faster than its gap allows, from the bodies' true velocities.
-    double worstViolation(const std::vector<ContactBody>& bodies, const std::vector<Obstacle>& obstacles,
-                          const std::vector<ContactPoint>& contacts) const;
+    /// Solves the bodies' true systems for what is new.
+    void apply(ContactReport& report);
 
-    /// Projected Gauss-Seidel on normal and friction impulses; the obstacles' velocities follow. Returns the sweeps
+    /// Largest change of an impulse since the last call, over the largest impulse.
+    double changeOfRound();
+
+    /// The largest speed [m/s] at which a contact closes faster than allowed, from the bodies' true velocities.
+    double worstViolation() const;
+
+    /// Hands the impulses to the contacts and joints, and the slip of what sticks.
+    void store();
+
+    /// True if a penetration exceeds its slop.
+    bool needPush() const;
+
+    /// Takes penetration back: the same rows once more, for the velocities of position correction. Returns the sweeps
     /// made.
-    int sweep(std::vector<Obstacle>& obstacles, std::vector<ContactPoint>& contacts, const ContactSettings& settings);
-
-    /// True if a penetration exceeds the slop.
-    static bool needPush(const std::vector<ContactPoint>& contacts);
-
-    /// The same on normals alone, for the velocities that take penetration back; `push` receives the impulses that
-    /// would make them. Returns the sweeps made.
-    int sweepPush(std::vector<Obstacle>& obstacles, const std::vector<ContactPoint>& contacts,
-                  const ContactSettings& settings, std::vector<Vec3>& push);
+    int push();
 
 private:
+    struct RowEnd
+    {
+        int m_body = -1, m_end = -1;  // soft
+        int m_obstacle = -1;          // rigid
+        bool m_angular = false;
+        Vec3 m_arm;  // from the obstacle's centre [m]
+    };
     struct Row
     {
-        Vec3 m_velocity;  // of the soft side, as predicted [m/s]
-        Vec3 m_before;    // the same before the impulses of this round
-        Vec3 m_arm;       // from the obstacle's centre to the point [m]
-        Mat3 m_diagonal;  // own compliance, obstacle included [1/kg]
-        Vec3 m_tangent[2];
-        double m_normalCompliance, m_tangentCompliance;  // the largest in the tangent plane [1/kg]
+        bool m_joint = false;
+        RowEnd m_a, m_b;
+        Mat3 m_compliance;     // of the relative velocity to the impulse [1/kg]
+        Vec3 m_axes[3];        // normal and tangents; a joint's axes
+        Vec3 m_rowCompliance;  // of every axis; a contact's tangents share the largest of their plane
+        Vec3 m_target;         // relative velocity along the axes: at least (normal), exactly (joint) [m/s]
+        Vec3 m_limit;          // of a joint's impulses
+        double m_friction = 0;
+        double m_softness = 0;                          // of a joint, as a share of its compliance
+        Vec3 m_yield;                                   // compliance added along the axes [1/kg]
+        Vec3 m_impulse;                                 // on end a
+        Vec3 m_roundImpulse;                            // at the end of the last round
+        Vec3 m_lastImpulse, m_lastVelocity, m_pending;  // of the sweeps at once
+        bool m_idle = false;                            // nothing can move: no compliance
     };
 
-    void assembleBody(const ContactBody& body, int bodyIndex, const std::vector<ContactPoint>& contacts, Warp warp);
-    void prepareRows(const std::vector<Obstacle>& obstacles, const std::vector<ContactPoint>& contacts);
-    void prepareRow(const Obstacle& obstacle, const ContactPoint& contact, Row& row) const;
-    void addResponse(int contact, const Vec3& impulse);
-    const Mat3& W(int k, int l) const;
+    void addContactRow(const ContactPoint& contact);
+    void addJointRow(const Joint& joint);
+    RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
+    RowEnd jointEnd(const JointEnd& end);
+    RowEnd rigidEnd(int obstacle, const Vec3& point) const;
+    void finishRow(Row& row) const;
+    void setContactTarget(Row& row, const ContactPoint& contact) const;
+    Vec3 priorVelocity(const Row& row, const ContactPoint& contact) const;
 
-    std::vector<Row> m_rows;
-    std::vector<Mat3> m_W;                  // for every body its block, row-major over its contacts
-    std::vector<int> m_bodyFirst;           // first contact of every body, and one past the last
-    std::vector<std::size_t> m_blockStart;  // of every body's block in m_W
-    std::vector<int> m_bodyOfContact;
-    std::vector<int> m_touched;  // nodes of one body
-    double m_step = 0;
+    Vec3 velocity(const RowEnd& end) const;
+    Vec3 velocity(const Row& row) const { return velocity(row.m_a) - velocity(row.m_b); }
+    Vec3 trueVelocity(const Row& row) const;
+    Vec3 newSlip(const Row& row, const ContactPoint& contact) const;
+    Mat3 compliance(const RowEnd& end) const;
+    void react(const RowEnd& end, const Vec3& impulse);
+    void change(Row& row, const Vec3& impulse);
+    void flush();
+
+    Vec3 solveContact(const Row& row, const Vec3& impulse, Vec3 velocity, double step) const;
+    Vec3 solveJoint(const Row& row, const Vec3& impulse, Vec3 velocity, double step) const;
+    Vec3 solveRow(const Row& row, const Vec3& impulse, const Vec3& velocity, double step) const;
+    void restart();
+    double sweepInTurn();
+    double sweepAtOnce();
+    void chooseStep();
+    void preparePush();
+    void payBack(std::size_t body, const Vec3& gained);
+
+    ContactProblem* m_problem = nullptr;
+    ContactSettings m_settings;
+    std::vector<BodyEnds> m_bodies;
+    std::vector<Row> m_rows;                          // of the contacts, then of the joints
+    bool m_inTurn = true;                             // Gauss-Seidel
+    double m_momentum = 0, m_gradient2 = 0;           // of the sweeps in turn
+    double m_gradientStep = 1, m_acceleration = 1;    // of the sweeps at once
+    std::vector<Vec3> m_savedLinear, m_savedAngular;  // of the obstacles, while their pushes are solved for
 };
 
 }  // namespace bullet_fem

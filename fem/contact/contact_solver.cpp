@@ -2,9 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/contact_solver.h"
 
-#include <algorithm>
-
-#include "bullet_fem/fem/stepping.h"
 #include "fem/contact/contact_rows.h"
 
 namespace bullet_fem
@@ -15,58 +12,31 @@ std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyM
     return std::make_shared<ComplianceCache>(std::move(model));
 }
 
+void ContactProblem::clear()
+{
+    m_bodies.clear();
+    m_obstacles.clear();
+    m_contacts.clear();
+    m_joints.clear();
+    m_handleNodes.clear();
+    m_handleBlocks.clear();
+}
+
 struct ContactSolver::Scratch
 {
     ContactRows m_rows;
-    std::vector<Vec3> m_applied;       // per contact: what the bodies' velocities already hold [N s]
-    std::vector<Vec3> m_news;          // per contact: what a round adds [N s]
-    std::vector<Vec3> m_nodeImpulses;  // of one body [N s]
+    ContactProblem* m_problem = nullptr;
+    ContactSettings m_settings;
+    ContactReport m_report;
+    double m_change = 1;  // of the impulses in the last round, relative
+    bool m_empty = true;
 };
 
 namespace
 {
 
-// Node impulses J^T lambda of one body's contacts.
-void gatherNodeImpulses(const std::vector<ContactPoint>& contacts, const std::vector<Vec3>& impulse, int body,
-                        std::vector<Vec3>& nodeImpulses)
-{
-    std::fill(nodeImpulses.begin(), nodeImpulses.end(), Vec3());
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-        if (contacts[k].m_body == body)
-            for (int a = 0; a < 3; ++a) nodeImpulses[contacts[k].m_nodes[a]] += contacts[k].m_weights[a] * impulse[k];
-}
-
-// Largest change of an impulse, relative to the largest impulse.
-double relativeChange(const std::vector<ContactPoint>& contacts, const std::vector<Vec3>& applied)
-{
-    double change = 0, largest = 0;
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-    {
-        change = std::max(change, norm(contacts[k].m_impulse - applied[k]));
-        largest = std::max(largest, norm(contacts[k].m_impulse));
-    }
-    return largest > 0 ? change / largest : 0;
-}
-
-bool isZero(const std::vector<Vec3>& values)
-{
-    return std::all_of(values.begin(), values.end(), [](const Vec3& v) { return dot(v, v) == 0; });
-}
-
-// Displacing a moving body changes its angular momentum about the origin. The obstacles that it was pushed off take the
-// opposite, in proportion to the push.
-void payBack(const Vec3& gained, int body, const std::vector<ContactPoint>& contacts, const std::vector<Vec3>& push,
-             std::vector<Obstacle>& obstacles)
-{
-    double total = 0;
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-        if (contacts[k].m_body == body) total += norm(push[k]);
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-        if (contacts[k].m_body == body)
-            obstacles[contacts[k].m_obstacle].m_angularImpulse -= (norm(push[k]) / total) * gained;
-}
-
-// The same for an obstacle's own displacement, h pushLinear x m v; then its spin changes by the sum of all.
+// An obstacle's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
+// all.
 void payBackOwn(Obstacle& obstacle, double h)
 {
     const Vec3& w = obstacle.m_inverseMass;
@@ -86,57 +56,73 @@ void payBackOwn(Obstacle& obstacle, double h)
 ContactSolver::ContactSolver() : m_scratch(std::make_unique<Scratch>()) {}
 ContactSolver::~ContactSolver() = default;
 
-ContactReport ContactSolver::solve(const std::vector<ContactBody>& bodies, std::vector<Obstacle>& obstacles,
-                                   std::vector<ContactPoint>& contacts, const ContactSettings& settings)
+ContactReport ContactSolver::solve(ContactProblem& problem, const ContactSettings& settings)
 {
-    ContactReport report;
-    report.m_contacts = static_cast<int>(contacts.size());
-    for (Obstacle& obstacle : obstacles) obstacle.m_pushLinear = obstacle.m_pushAngular = {};
-    if (contacts.empty()) return report;
-    ContactRows& rows = m_scratch->m_rows;
-    std::vector<Vec3>&applied = m_scratch->m_applied, &news = m_scratch->m_news,
-    &nodeImpulses = m_scratch->m_nodeImpulses;
-    const int bodyCount = static_cast<int>(bodies.size());
-
-    rows.assemble(bodies, obstacles, contacts, settings.m_step);
-    applied.assign(contacts.size(), Vec3());
-    news.resize(contacts.size());
-    rows.warmStart(contacts, obstacles);
-    for (double change = 1; report.m_rounds < settings.m_rounds ||
-                            (report.m_rounds < settings.m_maxRounds && change > settings.m_roundTolerance);
-         ++report.m_rounds)
+    begin(problem, settings);
+    while (wantsRound())
     {
-        rows.measureVelocities(bodies, contacts, applied);
-        report.m_sweeps += rows.sweep(obstacles, contacts, settings);
-        change = relativeChange(contacts, applied);
-        for (std::size_t k = 0; k < contacts.size(); ++k) news[k] = contacts[k].m_impulse - applied[k];
-        for (int b = 0; b < bodyCount; ++b)
+        for (int s = 0; s < settings.m_sweeps && sweep() > settings.m_sweepTolerance; ++s)
         {
-            nodeImpulses.resize(bodies[b].m_body->m_state.m_x.size());
-            gatherNodeImpulses(contacts, news, b, nodeImpulses);
-            if (isZero(nodeImpulses)) continue;
-            const SolveReport solved = applyImpulses(*bodies[b].m_body, nodeImpulses, settings.m_step);
-            report.m_iterations += solved.m_iterations;
-            report.m_converged = report.m_converged && solved.m_stop == SolveStop::converged;
         }
-        rows.learnCompliance(bodies, obstacles, contacts, applied);
-        for (std::size_t k = 0; k < contacts.size(); ++k) applied[k] = contacts[k].m_impulse;
+        correct();
     }
+    return finish();
+}
 
-    report.m_violation = rows.worstViolation(bodies, obstacles, contacts);
-    if (!rows.needPush(contacts)) return report;
-    rows.measureVelocities(bodies, contacts, applied);
-    report.m_sweeps += rows.sweepPush(obstacles, contacts, settings, applied);
-    for (int b = 0; b < bodyCount; ++b)
-    {
-        nodeImpulses.resize(bodies[b].m_body->m_state.m_x.size());
-        gatherNodeImpulses(contacts, applied, b, nodeImpulses);
-        if (isZero(nodeImpulses)) continue;
-        const Vec3 gained = applyPush(*bodies[b].m_body, nodeImpulses, settings.m_step);
-        payBack(gained, b, contacts, applied, obstacles);
-    }
-    for (Obstacle& obstacle : obstacles) payBackOwn(obstacle, settings.m_step.m_step);
-    return report;
+void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settings)
+{
+    Scratch& s = *m_scratch;
+    s.m_problem = &problem;
+    s.m_settings = settings;
+    s.m_report = {};
+    s.m_report.m_contacts = static_cast<int>(problem.m_contacts.size());
+    s.m_empty = problem.m_contacts.empty() && problem.m_joints.empty();
+    for (Obstacle& obstacle : problem.m_obstacles)
+        obstacle.m_pushLinear = obstacle.m_pushAngular = obstacle.m_angularImpulse = {};
+    if (s.m_empty) return;
+    s.m_rows.assemble(problem, settings);
+    s.m_change = 1;
+    s.m_rows.warmStart();
+    s.m_rows.measure();
+}
+
+bool ContactSolver::wantsRound() const
+{
+    const Scratch& s = *m_scratch;
+    if (s.m_empty) return false;
+    const int rounds = s.m_report.m_rounds;
+    return rounds < s.m_settings.m_rounds ||
+           (rounds < s.m_settings.m_maxRounds && s.m_change > s.m_settings.m_roundTolerance);
+}
+
+double ContactSolver::sweep()
+{
+    Scratch& s = *m_scratch;
+    if (s.m_empty) return 0;
+    ++s.m_report.m_sweeps;
+    return s.m_rows.sweep();
+}
+
+void ContactSolver::correct()
+{
+    Scratch& s = *m_scratch;
+    if (s.m_empty) return;
+    ++s.m_report.m_rounds;
+    s.m_change = s.m_rows.changeOfRound();
+    s.m_rows.apply(s.m_report);
+    s.m_rows.measure();
+}
+
+ContactReport ContactSolver::finish()
+{
+    Scratch& s = *m_scratch;
+    if (s.m_empty) return s.m_report;
+    s.m_report.m_violation = s.m_rows.worstViolation();
+    s.m_rows.store();
+    if (!s.m_rows.needPush()) return s.m_report;
+    s.m_report.m_sweeps += s.m_rows.push();
+    for (Obstacle& obstacle : s.m_problem->m_obstacles) payBackOwn(obstacle, s.m_settings.m_step.m_step);
+    return s.m_report;
 }
 
 }  // namespace bullet_fem

@@ -34,6 +34,8 @@ enum btFemFlags
     BT_FEM_UNKNOWN_SHAPE =
         1 << 11,  ///< it overlaps a shape without contact support (triangle mesh, heightfield): no contact
     BT_FEM_CONTACT_LIMIT = 1 << 12,  ///< more contact points than the solver info allows: the deepest were kept
+    BT_FEM_LOST_ANCHOR = 1 << 14,  ///< the other end of an anchor or joint left the world: it was removed from the body
+    BT_FEM_BAD_ANCHOR = 1 << 15,   ///< an anchor to a foreign node, or to a soft body that is not FEM: ignored
     BT_FEM_REFACTORED = 1 << 13  ///< it touches something while step or masses were 1.5 times off: factored on the spot
 };
 
@@ -60,11 +62,37 @@ struct btFemStepReport
 /// A contact point of the last step.
 struct btFemContact
 {
-    btVector3 m_point;    ///< on the soft surface at the start of the step, world [m]
-    btVector3 m_normal;   ///< unit, from the other body to the soft one
-    btScalar m_gap = 0;   ///< signed distance at the start of the step [m]; negative inside
-    btVector3 m_impulse;  ///< on the soft body: normal and friction [N s]; the other body got the opposite
-    const btCollisionObject* m_other = nullptr;
+    btVector3 m_point;             ///< on the soft surface at the start of the step, world [m]; between soft bodies the
+                                   ///< middle of both surfaces
+    btVector3 m_normal;            ///< unit, from the other body to this one
+    btScalar m_gap = 0;            ///< signed distance at the start of the step [m]; negative inside
+    btVector3 m_impulse;           ///< on this body: normal and friction [N s]; the other body got the opposite
+    btScalar m_normalImpulse = 0;  ///< its part along m_normal [N s], >= 0
+    btVector3 m_frictionImpulse;   ///< its other part, in the tangent plane [N s]
+    const btCollisionObject* m_other = nullptr;  ///< the body itself for self contact
+    int m_part = -1, m_index = -1;      ///< part and triangle of a mesh, part 0 and child of a compound; else -1
     int m_nodes[3] = {0, 0, 0};         ///< soft nodes that carry the point
     btScalar m_weights[3] = {1, 0, 0};  ///< barycentric [-], sum 1
+};
+
+/// Where a touch stands.
+enum class btFemTouchState
+{
+    began,    ///< in the last step
+    lasting,  ///< it began before
+    ended     ///< the last step found none; told once
+};
+
+/// A body and an object that it touches, in the last step. A touch begins with a point that carries an impulse or has
+/// no gap, and lasts until no point carries an impulse and all gaps exceed a hundredth of the body's mean edge, so that
+/// bodies at rest do not flicker. An object that left the world, or was deleted, is touched no more.
+struct btFemTouch
+{
+    const btCollisionObject* m_other = nullptr;  ///< the body itself for self contact; once the touch has ended it may
+                                                 ///< be deleted: compare it, never follow it
+    int m_otherId = -1;  ///< its m_uniqueId in the broadphase: another object at the same address has another
+    btFemTouchState m_state = btFemTouchState::began;
+    int m_points = 0;              ///< contact points that touch; 0 once it has ended
+    btVector3 m_impulse{0, 0, 0};  ///< sum over them, on this body [N s]
+    btScalar m_normalImpulse = 0;  ///< sum of their normal impulses [N s], >= 0; those of a grip do not cancel
 };

@@ -6,10 +6,12 @@
 #include <string>
 
 #include "BulletSoftBody/btDefaultSoftBodySolver.h"
+#include "bullet_fem/btFemAnchors.h"
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/btFemReports.h"
 
 class btSoftBody;
+struct btFemCoupling;
 
 /// Settings of a solver; fixed for its life.
 struct btFemSolverInfo
@@ -17,10 +19,17 @@ struct btFemSolverInfo
     btScalar m_tolerance = btScalar(1e-3);  ///< relative residual of the linear solves [-], in [1e-8, 0.5]
     int m_maxIterations = 100;              ///< conjugate gradient iterations a solve, in [1, 10000]
     int m_contactRounds = 2;                ///< corrective solves after contact, in [1, 10]
-    int m_contactSweeps = 50;               ///< Gauss-Seidel sweeps a round, in [1, 1000]
+    int m_contactSweeps = 200;              ///< Gauss-Seidel sweeps a round at most, in [1, 1000]
     int m_maxContacts = 2000;        ///< contact points a body, in [8, 20000]; their compliance is a dense matrix
     btScalar m_erp = btScalar(0.2);  ///< share of a penetration taken back a step [-], in [0, 1]
     btScalar m_maxPushVelocity = btScalar(1);  ///< speed at which penetration is taken back at most [m/s], in [0, 1000]
+    /// Whether Bullet's dispatcher shows a btPersistentManifold of every FEM body and other object that touch: the four
+    /// deepest points of the last step with their impulses. The rigid object is the first, the soft body the second;
+    /// Bullet's rigid solver leaves the manifolds alone, but an active kinematic object keeps awake what touches it, as
+    /// it does with rigid bodies. Self contact has none. Bullet's contact callbacks are called; what they change has no
+    /// effect. The body's m_worldInfo must have the world's dispatcher, also for contactTest and contactPairTest, which
+    /// tell the last step's contact points of FEM bodies in any case.
+    bool m_manifolds = false;
 
     /// True if every value is in its range; else `why` (if given) names the value, the range and the remedy.
     bool valid(std::string* why = nullptr) const;
@@ -32,6 +41,11 @@ struct btFemSolverInfo
 /// Lifetime: outlives its world. Threads: call from the thread that steps the world; processCollision may be called by
 /// Bullet's threads. Allocates when a body is first stepped, when the number of contacts grows, and on calls of its own
 /// methods; not otherwise.
+///
+/// Bodies sleep like Bullet's rigid ones: after 2 s (gDeactivationTime) in which no node was faster than
+/// m_sleepingThreshold (.04 m/s), with their island. Asleep they keep velocity 0, contacts and reports, those of cost
+/// zeroed; what the user writes, or a change around them, wakes them. setActivationState(DISABLE_DEACTIVATION) keeps
+/// a body awake.
 ///
 /// Bodies are known by address and by a mark that they get when they are first stepped or prepared, in a field of their
 /// first tetrahedron that Bullet 3.24 does not use (m_tetras[0].m_c0; cages also use m_c1 and m_c2 of all). What is set
@@ -68,6 +82,25 @@ public:
     /// Lets the node go.
     void clearNodeTarget(btSoftBody* body, int node);
 
+    /// The same for `count` nodes at once: to positions, or to where `fromRest` moves the places that they had when the
+    /// body was first stepped or prepared. Throws std::invalid_argument like setNodeTarget, before any node has got a
+    /// target.
+    void setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions);
+    void setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest);
+    /// Lets them go.
+    void clearNodeTargets(btSoftBody* body, const int* nodes, int count);
+
+    /// Ties a node to a node of another FEM body, or of the same one, until detach() or until one of them leaves the
+    /// world; what lies apart is drawn together. Anchors to rigid bodies are made by Bullet's own appendAnchor, joints
+    /// of clusters by its appendLinearJoint and appendAngularJoint. Returns a handle, > 0. Throws std::invalid_argument
+    /// on a body that is not FEM, or a node out of range.
+    int attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB);
+    /// Ties a node to a point of tetrahedron tetB of another body, with barycentric weights [-] of sum 1. Throws
+    /// std::invalid_argument likewise.
+    int attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4]);
+    /// Unties what attachNodes or attachNodeToTet of body `a` returned; nothing if that is gone.
+    void detach(btSoftBody* a, int attachment);
+
     /// Keeps the surface this far from others [m], in [0, 1e3]; 0 unless called. Bullet's shape margin is ignored.
     void setContactOffset(btSoftBody* body, btScalar metres);
 
@@ -88,6 +121,15 @@ public:
     /// sleeps.
     const btAlignedObjectArray<btFemContact>& contacts(const btSoftBody* body) const;
 
+    /// Anchors, attachments and joints of the last step with their impulses; empty if the body is not known. Valid
+    /// until the next step; kept while it sleeps.
+    const btAlignedObjectArray<btFemAnchorReport>& anchors(const btSoftBody* body) const;
+
+    /// What the body touches, in the order in which it came; empty if the body is not known. Valid until the next step;
+    /// of a body that sleeps what lasts is kept. A step is one of Bullet's sub-steps: who takes several at a time and
+    /// must not miss one looks from the world's tick callback, which sees the touches of the sub-step before.
+    const btAlignedObjectArray<btFemTouch>& touches(const btSoftBody* body) const;
+
     /// Mean force of another body on this one during the last step: sum of impulses / h [N].
     btVector3 contactForce(const btSoftBody* body, const btCollisionObject* other) const;
 
@@ -100,6 +142,7 @@ public:
     void updateSoftBodies() override;
 
 private:
+    friend struct btFemCoupling;
     struct Impl;
     std::unique_ptr<Impl> m_impl;
 };

@@ -59,8 +59,31 @@ TEST_F(ContactFinderTest, theNodesOfAFaceTouchThePlaneBelow)
         EXPECT_NEAR(c.m_gap, 0, 1e-12);
         EXPECT_NEAR(c.m_normal.z, 1, 1e-12);
         EXPECT_NEAR(c.m_friction, 0.4, 1e-7) << "kDF times the rigid body's friction";
-        EXPECT_EQ(c.m_nodes[0], c.m_nodes[1]);
+        EXPECT_EQ(c.m_soft.m_nodes[0], c.m_soft.m_nodes[1]);
     }
+}
+
+TEST_F(ContactFinderTest, restitutionIsTheProductOfBothAtMostOne)
+{
+    EXPECT_EQ(find(m_ground).at(0).m_restitution, 0);
+    m_box.m_body->setRestitution(btScalar(0.5));
+    m_ground.setRestitution(btScalar(0.5));
+    EXPECT_EQ(find(m_ground).at(0).m_restitution, 0.25);
+    m_ground.setRestitution(8);
+    EXPECT_EQ(find(m_ground).at(0).m_restitution, 1);
+    m_ground.setRestitution(-1);
+    EXPECT_EQ(find(m_ground).at(0).m_restitution, 0);
+}
+
+TEST_F(ContactFinderTest, contactSpringsAreTheRigidObjectsWhereItHasThem)
+{
+    EXPECT_EQ(find(m_ground).at(0).m_stiffness, 0);
+    m_ground.setContactStiffnessAndDamping(1024, 8);
+    EXPECT_EQ(find(m_ground).at(0).m_stiffness, 1024);
+    EXPECT_EQ(find(m_ground).at(0).m_damping, 8);
+    m_ground.setContactStiffnessAndDamping(BT_LARGE_FLOAT, 8);
+    EXPECT_EQ(find(m_ground).at(0).m_stiffness, 0) << "rigid";
+    EXPECT_EQ(find(m_ground).at(0).m_damping, 0);
 }
 
 TEST_F(ContactFinderTest, whatCannotBeReachedWithinTheStepIsLeftOut)
@@ -83,7 +106,7 @@ TEST_F(ContactFinderTest, aBallBetweenTheFixedPointsTouchesTheNearestPointOfATri
     ASSERT_NE(deepest, contacts.end());
     EXPECT_NEAR(deepest->m_gap, -0.01, 1e-6);
     EXPECT_NEAR(deepest->m_normal.z, -1, 1e-6);
-    EXPECT_NEAR(deepest->m_weights[0] + deepest->m_weights[1] + deepest->m_weights[2], 1, 1e-12);
+    EXPECT_NEAR(deepest->m_soft.m_weights[0] + deepest->m_soft.m_weights[1] + deepest->m_soft.m_weights[2], 1, 1e-12);
     EXPECT_NEAR(deepest->m_point.x, 0.3, 1e-6);
     EXPECT_NEAR(deepest->m_point.y, 0.26, 1e-6);
 }
@@ -94,7 +117,8 @@ TEST_F(ContactFinderTest, aCurvedShapeIsTouchedByPointsThatAreFixedInTheSurface)
     m_ball.setCollisionShape(&large);
     m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.41), btScalar(0.37), btScalar(-30)));
     for (const ContactPoint& c : find(m_ball))
-        for (double w : c.m_weights) EXPECT_TRUE(w == 0 || w == 0.5 || w == 1 || std::abs(w - 1.0 / 3) < 1e-12) << w;
+        for (double w : c.m_soft.m_weights)
+            EXPECT_TRUE(w == 0 || w == 0.5 || w == 1 || std::abs(w - 1.0 / 3) < 1e-12) << w;
     EXPECT_GT(m_fem.m_contacts.size(), 9u);
 }
 
@@ -108,9 +132,9 @@ TEST_F(ContactFinderTest, impulsesOfTheLastStepAreTakenOver)
 {
     find(m_ground);
     m_fem.m_contacts[4].m_impulse = {1, 2, 3};
-    const int node = m_fem.m_contacts[4].m_nodes[0];
+    const int node = m_fem.m_contacts[4].m_soft.m_nodes[0];
     find(m_ground);
-    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_EQ(c.m_impulse.y, c.m_nodes[0] == node ? 2 : 0);
+    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_EQ(c.m_impulse.y, c.m_soft.m_nodes[0] == node ? 2 : 0);
 }
 
 TEST_F(ContactFinderTest, theDeepestAreKeptWhereThereAreTooMany)

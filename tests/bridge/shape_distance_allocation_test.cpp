@@ -9,6 +9,8 @@
 #include "BulletCollision/CollisionShapes/btCompoundShape.h"
 #include "LinearMath/btAlignedAllocator.h"
 #include "bridge/bridge_test_shapes.h"
+#include "bridge/concave_test_shapes.h"
+#include "bullet_bridge/sheet_touch.h"
 
 namespace
 {
@@ -88,6 +90,46 @@ TEST(ShapeDistanceAllocation, NothingIsAllocatedOnceTheLeavesHaveRoom)
     EXPECT_EQ(allocations, 0);
     EXPECT_EQ(found, 200 * leaves.size());
     EXPECT_GT(inside, 300);
+}
+
+TEST(SheetTouchAllocation, NothingIsAllocatedOnceTheScratchHasGrown)
+{
+    btAlignedAllocSetCustom(countedAlloc, countedFree);
+    btAlignedAllocSetCustomAligned(countedAlignedAlloc, countedFree);
+    GridSettings hills;
+    hills.m_height = [](btScalar x, btScalar y) { return btScalar(0.2) * btCos(3 * x) * btCos(4 * y); };
+    for (const NamedConcave& named : concaveShapes())
+    {
+        const ConcaveShape shape = named.m_make(hills);
+        const ShapeLeaf leaf = leafOf(shape.shape());
+        TriangleSoup soup;
+        std::vector<SheetTouch> touches;
+        std::size_t found = 0;
+        const auto search = [&]
+        {
+            soup.collect(leaf, {-2, -2, -4}, {2, 2, 4});
+            for (double x = -1.5; x < 1.5; x += 0.1)
+            {
+                SheetProbe probe;
+                probe.m_position = probe.m_rightSide = {x, 0.3, 0.25 + named.m_height};
+                probe.m_path = {0.3, 0.1, -0.3};
+                probe.m_band = 0.05;
+                findPointTouches(soup, probe, touches);
+                found += touches.size();
+                SheetFeature feature;
+                feature.m_corners = {probe.m_position, {x + 0.3, 0.4, 0.1}, {x + 0.1, 0.7, 0.1}};
+                feature.m_outward = {0, 0, -1};
+                feature.m_reach = feature.m_depth = 0.5;
+                findCornerTouches(soup, feature, touches);
+                findEdgeTouches(soup, feature, touches);
+            }
+        };
+        search();
+        allocations = 0;
+        search();
+        EXPECT_EQ(allocations, 0) << named;
+        EXPECT_GT(found, 0u);
+    }
 }
 
 }  // namespace bullet_fem

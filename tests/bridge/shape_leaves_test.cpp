@@ -6,6 +6,7 @@
 #include "BulletCollision/CollisionShapes/btCompoundShape.h"
 #include "BulletCollision/CollisionShapes/btEmptyShape.h"
 #include "BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h"
+#include "BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h"
 #include "BulletCollision/CollisionShapes/btTriangleMesh.h"
 #include "BulletCollision/Gimpact/btGImpactShape.h"
 #include "bridge/bridge_test_shapes.h"
@@ -137,31 +138,70 @@ TEST(ShapeLeaves, ScaledCompoundsAreSeenScaled)
     EXPECT_NEAR(c.gap(0, {8, 0, 5}), 3, 1e-12);
 }
 
-TEST(ShapeLeaves, UnknownKindsAreCountedAndLeftOut)
+TEST(ShapeLeaves, ConcaveShapesAreLeavesAndGImpactIsItsParts)
 {
     btTriangleMesh mesh;
     mesh.addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0));
     btBvhTriangleMeshShape triangles(&mesh, true);
+    btScaledBvhTriangleMeshShape scaled(&triangles, btVector3(2, 2, 2));
     btGImpactMeshShape gimpact(&mesh);
     gimpact.updateBound();
     const btScalar heights[4] = {0, 0, 0, 0};
     btHeightfieldTerrainShape terrain(2, 2, heights, 1, -1, 1, 1, PHY_FLOAT, false);
+    btStaticPlaneShape plane(btVector3(0, 1, 0), 0);
+    btCompoundShape compound;
+    for (btCollisionShape* shape : std::initializer_list<btCollisionShape*>{&triangles, &scaled, &gimpact, &terrain})
+        compound.addChildShape(moved(0, 0, 1), shape);
+    compound.addChildShape(moved(0, 0, 0), &plane);
+    const Collected c(compound, moved(0, 0, 0));
+    EXPECT_EQ(c.m_unknown, 0);
+    ASSERT_EQ(c.m_leaves.size(), 5);
+    EXPECT_EQ(c.m_leaves[0].m_shape, &triangles);
+    EXPECT_EQ(c.m_leaves[1].m_shape, &scaled);
+    EXPECT_EQ(c.m_leaves[2].m_shape, gimpact.getMeshPart(0));
+    EXPECT_EQ(c.m_leaves[3].m_shape, &terrain);
+    EXPECT_EQ(c.m_leaves[2].m_pose.m_origin.z, 1);
+    EXPECT_NEAR(c.m_leaves[1].m_boundsMax.x, 2, 1e-4);
+    EXPECT_TRUE(std::isinf(c.m_leaves[4].m_boundsMax.x));
+}
+
+TEST(ShapeLeaves, AGImpactCompoundIsItsChildren)
+{
+    btSphereShape sphere(1);
+    btGImpactCompoundShape children;
+    children.addChildShape(moved(0, 0, 5), &sphere);
+    children.updateBound();
+    const Collected c(children, moved(1, 0, 0));
+    EXPECT_EQ(c.m_unknown, 0);
+    EXPECT_NEAR(c.gap(0, {1, 0, 8}), 2, 1e-12);
+}
+
+TEST(ShapeLeaves, BoundsOfScaledMeshesHaveTheirOwnMargin)
+{
+    btTriangleMesh mesh;
+    mesh.addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0));
+    btBvhTriangleMeshShape triangles(&mesh, true);
+    btScaledBvhTriangleMeshShape scaled(&triangles, btVector3(2, 2, 2));
+    scaled.setMargin(btScalar(0.5));
+    const Collected c(scaled, moved(0, 0, 0));
+    EXPECT_GE(c.m_leaves.at(0).m_boundsMax.z, 0.5);
+}
+
+TEST(ShapeLeaves, UnknownKindsAreCountedAndLeftOut)
+{
+    btTriangleMesh mesh;
+    mesh.addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0));
+    btBvhTriangleMeshShape noTree(&mesh, true, false);
     btEmptyShape empty;
     btConvexHullShape noPoints;
     btSphereShape sphere(1);
-    btStaticPlaneShape plane(btVector3(0, 1, 0), 0);
     btCompoundShape compound;
-    for (btCollisionShape* shape : {static_cast<btCollisionShape*>(&triangles),
-                                    static_cast<btCollisionShape*>(&gimpact), static_cast<btCollisionShape*>(&terrain),
-                                    static_cast<btCollisionShape*>(&empty), static_cast<btCollisionShape*>(&noPoints),
-                                    static_cast<btCollisionShape*>(&sphere), static_cast<btCollisionShape*>(&plane)})
+    for (btCollisionShape* shape : std::initializer_list<btCollisionShape*>{&noTree, &empty, &noPoints, &sphere})
         compound.addChildShape(moved(0, 0, 0), shape);
     const Collected c(compound, moved(0, 0, 0));
-    EXPECT_EQ(c.m_unknown, 5);
-    ASSERT_EQ(c.m_leaves.size(), 2);
+    EXPECT_EQ(c.m_unknown, 3);
+    ASSERT_EQ(c.m_leaves.size(), 1);
     EXPECT_EQ(c.m_leaves[0].m_shape, &sphere);
-    EXPECT_EQ(c.m_leaves[1].m_shape, &plane);
-    EXPECT_TRUE(std::isinf(c.m_leaves[1].m_boundsMax.x));
 }
 
 }  // namespace bullet_fem

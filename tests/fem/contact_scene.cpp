@@ -10,9 +10,9 @@ namespace bullet_fem
 ContactScene::ContactScene(double young, const Mat3& turn)
     : m_turn(turn),
       m_body(makeBody(makeBox({1, 1, 1}, {2, 2, 2}), elasticMaterial(young, 0.3))),
-      m_cache(makeComplianceCache(m_body.m_model)),
-      m_obstacles(1)
+      m_cache(makeComplianceCache(m_body.m_model))
 {
+    m_obstacles.resize(1);
     for (Vec3& x : m_body.m_state.m_x) x = m_turn * x;
     m_settings.m_step.m_tolerance = 1e-9;
     m_settings.m_step.m_maxIterations = 200;
@@ -23,7 +23,8 @@ ContactScene::ContactScene(double young, const Mat3& turn)
 void ContactScene::touchNode(int node, double gap, double friction)
 {
     ContactPoint contact;
-    contact.m_nodes = {node, node, node};
+    contact.m_soft = {0, {node, node, node}, {1, 0, 0}};
+    contact.m_obstacle = 0;
     contact.m_point = m_body.m_state.m_x[node];
     contact.m_normal = m_turn * Vec3{0, 0, 1};
     contact.m_gap = gap;
@@ -44,13 +45,14 @@ void ContactScene::setVelocity(const Vec3& v)
 ContactReport ContactScene::solve()
 {
     solveFreeMotion(m_body, m_settings.m_step);
-    return m_solver.solve({{&m_body, m_cache.get()}}, m_obstacles, m_contacts, m_settings);
+    m_problem.m_bodies = {{&m_body, m_cache.get()}};
+    return m_solver.solve(m_problem, m_settings);
 }
 
 Vec3 ContactScene::relativeVelocity(const ContactPoint& contact) const
 {
     Vec3 v = -m_obstacles[contact.m_obstacle].velocityAt(contact.m_point);
-    for (int a = 0; a < 3; ++a) v += contact.m_weights[a] * velocity(m_body)[contact.m_nodes[a]];
+    for (int a = 0; a < 3; ++a) v += contact.m_soft.m_weights[a] * velocity(m_body)[contact.m_soft.m_nodes[a]];
     return v;
 }
 

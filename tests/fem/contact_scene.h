@@ -40,8 +40,9 @@ struct ContactScene
     Mat3 m_turn;
     Body m_body;
     std::shared_ptr<ComplianceCache> m_cache;
-    std::vector<Obstacle> m_obstacles;
-    std::vector<ContactPoint> m_contacts;
+    ContactProblem m_problem;
+    std::vector<Obstacle>& m_obstacles = m_problem.m_obstacles;
+    std::vector<ContactPoint>& m_contacts = m_problem.m_contacts;
     ContactSettings m_settings;
     ContactSolver m_solver;
 };

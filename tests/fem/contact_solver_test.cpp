@@ -77,9 +77,10 @@ TEST(Contact, OnAFaceStopsThePointInIt)
     ContactScene scene;
     scene.setVelocity({0, 0, -2});
     ContactPoint contact;
-    contact.m_nodes = {0, 1, 4};
-    contact.m_weights = {0.2, 0.3, 0.5};
-    for (int a = 0; a < 3; ++a) contact.m_point += contact.m_weights[a] * scene.m_body.m_state.m_x[contact.m_nodes[a]];
+    contact.m_obstacle = 0;
+    contact.m_soft = {0, {0, 1, 4}, {0.2, 0.3, 0.5}};
+    for (int a = 0; a < 3; ++a)
+        contact.m_point += contact.m_soft.m_weights[a] * scene.m_body.m_state.m_x[contact.m_soft.m_nodes[a]];
     contact.m_normal = {0, 0, 1};
     scene.m_contacts = {contact};
     scene.solve();
@@ -165,19 +166,22 @@ TEST(Contacts, OfSeveralBodiesDoNotMix)
     b.setVelocity({3, 0, -1});
     a.touchLowerFace(0, 0.2);
     b.touchLowerFace(0, 0.4);
-    std::vector<Obstacle> obstacles(2);
-    std::vector<ContactPoint> contacts = a.m_contacts;
+    ContactProblem problem;
+    problem.m_bodies = {
+        {&a.m_body, a.m_cache.get()}, {&quiet.m_body, quiet.m_cache.get()}, {&b.m_body, b.m_cache.get()}};
+    problem.m_obstacles.resize(2);
+    std::vector<ContactPoint>& contacts = problem.m_contacts;
+    contacts = a.m_contacts;
     for (ContactPoint contact : b.m_contacts)
     {
-        contact.m_body = 2;
+        contact.m_soft.m_body = 2;
         contact.m_obstacle = 1;
         contacts.push_back(contact);
     }
     for (ContactScene* scene : {&a, &quiet, &b}) solveFreeMotion(scene->m_body, scene->m_settings.m_step);
     const std::vector<Vec3> untouched = velocity(quiet.m_body);
     ContactSolver solver;
-    solver.solve({{&a.m_body, a.m_cache.get()}, {&quiet.m_body, quiet.m_cache.get()}, {&b.m_body, b.m_cache.get()}},
-                 obstacles, contacts, a.m_settings);
+    solver.solve(problem, a.m_settings);
     EXPECT_EQ(largestDistance(velocity(quiet.m_body), untouched), 0);
     a.solve();
     b.solve();

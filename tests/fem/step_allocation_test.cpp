@@ -78,17 +78,16 @@ TEST(ContactAllocations, ThereAreNoneAfterAStepWithAsManyContacts)
     ContactScene scene;
     scene.setVelocity({1, 0, -2});
     scene.touchLowerFace(-0.01, 0.5);
-    const std::vector<ContactBody> bodies = {{&scene.m_body, scene.m_cache.get()}};
-    solveFreeMotion(scene.m_body, scene.m_settings.m_step);
-    scene.m_solver.solve(bodies, scene.m_obstacles, scene.m_contacts, scene.m_settings);
+    scene.solve();
     finishStep(scene.m_body, scene.m_settings.m_step);
 
-    std::vector<ContactPoint> fewer(scene.m_contacts.begin() + 4, scene.m_contacts.end());
+    ContactProblem fewer = scene.m_problem;
+    fewer.m_contacts.erase(fewer.m_contacts.begin(), fewer.m_contacts.begin() + 4);
     const AllocationCounter counter;
     for (int k = 0; k < 10; ++k)
     {
         solveFreeMotion(scene.m_body, scene.m_settings.m_step);
-        scene.m_solver.solve(bodies, scene.m_obstacles, k % 2 ? fewer : scene.m_contacts, scene.m_settings);
+        scene.m_solver.solve(k % 2 ? fewer : scene.m_problem, scene.m_settings);
         finishStep(scene.m_body, scene.m_settings.m_step);
     }
     EXPECT_EQ(counter.count(), 0);
@@ -100,18 +99,16 @@ TEST(ContactAllocations, ThereAreNoneWhenContactsWander)
     ContactScene scene;
     const std::vector<int> surface = scene.m_body.m_model->mesh().surfaceNodes();
     for (int k = 0; k < 3; ++k) scene.touchNode(surface[k], 0, 0.5);
-    const std::vector<ContactBody> bodies = {{&scene.m_body, scene.m_cache.get()}};
-    solveFreeMotion(scene.m_body, scene.m_settings.m_step);
-    scene.m_solver.solve(bodies, scene.m_obstacles, scene.m_contacts, scene.m_settings);
+    scene.solve();
     const AllocationCounter counter;
     for (std::size_t k = 0; k < surface.size(); ++k)
     {
         for (ContactPoint& contact : scene.m_contacts)
         {
-            const int node = surface[(contact.m_nodes[0] + 5 * k) % surface.size()];
-            contact.m_nodes = {node, node, node};
+            const int node = surface[(contact.m_soft.m_nodes[0] + 5 * k) % surface.size()];
+            contact.m_soft.m_nodes = {node, node, node};
         }
-        scene.m_solver.solve(bodies, scene.m_obstacles, scene.m_contacts, scene.m_settings);
+        scene.m_solver.solve(scene.m_problem, scene.m_settings);
     }
     EXPECT_EQ(counter.count(), 0);
 }

@@ -18,6 +18,8 @@ namespace
 class CountingSolver : public btFemSoftBodySolver
 {
 public:
+    using btFemSoftBodySolver::btFemSoftBodySolver;
+
     void optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool forceUpdate = false) override
     {
         const AllocationCounter counter;
@@ -142,6 +144,41 @@ TEST(Allocations, NoneForSeveralBodiesAndARigidOneOnTop)
     stone.m_transform = at(0, 0, btScalar(1.21));
     world.addRigid(new btBoxShape(btVector3(btScalar(0.2), btScalar(0.2), btScalar(0.2))), stone);
     EXPECT_GT(expectNoAllocations(fem, world, {&first, &second}, 120), 60);
+}
+
+TEST(Allocations, NoneForBodiesThatAreHeld)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    btSoftBody &upper = addCube(world, btVector3(0, 0, 0)), &lower = addCube(world, btVector3(0, 0, btScalar(-1.2)));
+    RigidSettings settings;
+    settings.m_transform = at(0, 0, 2);
+    btRigidBody& ceiling = world.addRigid(new btSphereShape(btScalar(0.1)), settings);
+    upper.appendAnchor(0, &ceiling);
+    upper.appendDeformableAnchor(1, &ceiling);
+    upper.m_collisionDisabledObjects.push_back(&lower);
+    upper.generateClusters(1);
+    lower.generateClusters(1);
+    btSoftBody::LJoint::Specs joint;
+    joint.position = btVector3(0, 0, btScalar(-0.6));
+    lower.appendLinearJoint(joint, &upper);
+    fem.prepare(&upper, kStep);
+    fem.prepare(&lower, kStep);
+    fem.attachNodes(&upper, 2, &lower, 3);
+    EXPECT_GT(expectNoAllocations(fem, world, {&upper, &lower}, 60), 40);
+    EXPECT_EQ(fem.anchors(&upper).size(), 4);
+}
+
+TEST(Allocations, NoneForManifoldsThatLast)
+{
+    btFemSolverInfo info;
+    info.m_manifolds = true;
+    CountingSolver fem(info);
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& cube = addCube(world, btVector3(0, 0, btScalar(0.501)));
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 120), 110);
+    EXPECT_EQ(world.world().getDispatcher()->getNumManifolds(), 1);
 }
 
 }  // namespace

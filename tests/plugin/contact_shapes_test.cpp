@@ -113,6 +113,21 @@ btRigidBody& addNestedCompound(SoftWorld& world)
     return addStatic(world, outer, at(0, 0, -2));
 }
 
+btRigidBody& addMultiSphere(SoftWorld& world)  // a bar with round ends, wider in the middle
+{
+    const btVector3 centers[] = {btVector3(-2, 0, -2), btVector3(0, 0, -3), btVector3(2, 0, -2)};
+    const btScalar radii[] = {2, 3, 2};
+    return addStatic(world, new btMultiSphereShape(centers, radii, 3), btTransform::getIdentity());
+}
+btRigidBody& addHullWithMargin(SoftWorld& world)  // which Bullet adds to its size
+{
+    auto* hull = new btConvexHullShape;
+    for (const btScalar sx : {-1, 1})
+        for (const btScalar sy : {-1, 1})
+            for (const btScalar sz : {-1, 1}) hull->addPoint(btVector3(sx, sy, sz));
+    return addStatic(world, hull, at(0, 0, -1 - hull->getMargin()));
+}
+
 class RestOnShape : public testing::TestWithParam<GroundCase>
 {
 };
@@ -133,20 +148,17 @@ TEST_P(RestOnShape, IsCarriedToTheWeightAndNothingPasses)
     const double weight = massOf(cube) * kGravity;
     world.step(300);
     double largestError = 0, deepest = 0;
-    Vec3 meanForce;
     for (int frame = 0; frame < 60; ++frame)
     {
         world.step();
         const Vec3 force = vec3(fem.contactForce(&cube, &ground));
-        meanForce += (1.0 / 60) * force;
         largestError = std::max(largestError, norm(force - Vec3{0, 0, weight}) / weight);
         deepest = std::max(deepest, double(fem.stepReport(&cube).m_deepestPenetration));
     }
-    EXPECT_LT(norm(meanForce - Vec3{0, 0, weight}), 0.01 * weight);
-    EXPECT_LT(largestError, 0.01);
+    EXPECT_LT(largestError, 1e-3);
     EXPECT_GT(fem.stepReport(&cube).m_contacts, 0);
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
-    EXPECT_LT(deepest, 1e-3);
+    EXPECT_LT(deepest, 1e-4);  // of its size, 1 m
     const Vec3 center = centerOf(cube);
     EXPECT_LT(std::hypot(center.x, center.y), 0.02);
     EXPECT_LT(center.z, 0.5);
@@ -160,17 +172,37 @@ INSTANTIATE_TEST_SUITE_P(Shapes, RestOnShape,
                                          GroundCase{"lyingCylinder", addLyingCylinder, 0.06},
                                          GroundCase{"coneUpsideDown", addConeUpsideDown, 0},
                                          GroundCase{"bluntCone", addBluntCone, 0.06}, GroundCase{"hull", addHull, 0},
+                                         GroundCase{"hullWithMargin", addHullWithMargin, 0},
+                                         GroundCase{"multiSphere", addMultiSphere, 0.08},
                                          GroundCase{"plane", addPlane, 0}, GroundCase{"compound", addCompound, 0.02},
                                          GroundCase{"nestedCompound", addNestedCompound, 0.02}),
                          [](const auto& scene) { return scene.param.m_name; });
+
+/// A shape of the user's own, of a type that only he knows.
+class OwnShape : public btConcaveShape
+{
+public:
+    OwnShape() { m_shapeType = CUSTOM_CONCAVE_SHAPE_TYPE; }
+    void getAabb(const btTransform& transform, btVector3& low, btVector3& high) const override
+    {
+        low = transform.getOrigin() - btVector3(5, 5, 1);
+        high = transform.getOrigin() + btVector3(5, 5, 0);
+    }
+    void processAllTriangles(btTriangleCallback*, const btVector3&, const btVector3&) const override {}
+    void setLocalScaling(const btVector3&) override {}
+    const btVector3& getLocalScaling() const override { return m_scaling; }
+    void calculateLocalInertia(btScalar, btVector3& inertia) const override { inertia.setZero(); }
+    const char* getName() const override { return "own"; }
+
+private:
+    btVector3 m_scaling{1, 1, 1};
+};
 
 TEST(UnknownShape, IsFlaggedAndNotTouched)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
-    btTriangleMesh mesh;
-    mesh.addTriangle(btVector3(-5, -5, 0), btVector3(5, -5, 0), btVector3(0, 5, 0));
-    world.addRigid(new btBvhTriangleMeshShape(&mesh, true));
+    world.addRigid(new OwnShape);
     btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.55)),
                                                              btVector3(0.5, 0.5, 0.5), btScalar(0.5)));
     int flags = 0;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "bullet_fem/btFemSoftBodySolver.h"
+
 namespace bullet_fem
 {
 
@@ -13,6 +15,14 @@ SoftWorld::SoftWorld(btSoftBodySolver& solver, const btVector3& gravity)
 {
     m_world->setGravity(gravity);
     m_world->getWorldInfo().m_gravity = gravity;
+}
+
+SoftWorld::SoftWorld(btFemSoftBodySolver& solver, Coupling coupling, const btVector3& gravity)
+    : SoftWorld(solver, gravity)
+{
+    if (coupling == Coupling::swap) return;
+    m_coupledSolver = std::make_unique<btFemConstraintSolver>(&solver);
+    m_world->setConstraintSolver(m_coupledSolver.get());
 }
 
 SoftWorld::~SoftWorld()

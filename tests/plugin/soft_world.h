@@ -9,6 +9,7 @@
 #include "BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h"
 #include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
 #include "btBulletDynamicsCommon.h"
+#include "bullet_fem/btFemConstraintSolver.h"
 
 namespace bullet_fem
 {
@@ -26,6 +27,13 @@ struct RigidSettings
     btVector3 m_spin{0, 0, 0};      ///< [rad/s]
 };
 
+/// How rigid bodies are solved.
+enum class Coupling
+{
+    swap,    ///< by Bullet's own solver: they feel the soft bodies after they have moved
+    coupled  ///< by a btFemConstraintSolver, together with the soft bodies
+};
+
 /// A btSoftRigidDynamicsWorld that deletes its bodies, their shapes and motion states. Gravity is along -z, for rigid
 /// and soft bodies alike; nothing falls asleep.
 class SoftWorld
@@ -33,6 +41,7 @@ class SoftWorld
 public:
     /// The solver must outlive the world.
     explicit SoftWorld(btSoftBodySolver& solver, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
+    SoftWorld(btFemSoftBodySolver& solver, Coupling coupling, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
     ~SoftWorld();
     SoftWorld(const SoftWorld&) = delete;
     SoftWorld& operator=(const SoftWorld&) = delete;
@@ -70,6 +79,7 @@ private:
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<btSoftBody*> m_soft;
     std::vector<btRigidBody*> m_rigid;
+    std::unique_ptr<btFemConstraintSolver> m_coupledSolver;  // in place of m_rigidSolver; null if not coupled
 };
 
 /// A placement without rotation.

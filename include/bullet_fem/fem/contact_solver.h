@@ -32,19 +32,33 @@ struct Obstacle
     Vec3 velocityAt(const Vec3& point) const { return m_linearVelocity + cross(m_angularVelocity, point - m_center); }
 };
 
-/// A point of a soft surface that touches an obstacle, or may do so within the step.
+/// A point of a soft surface: barycentric in at most three surface nodes of a body.
+struct SurfacePoint
+{
+    int m_body = -1;                              ///< index into the bodies of the solve; -1: none
+    std::array<int, 3> m_nodes = {0, 0, 0};       ///< unused ones repeat the first
+    std::array<double, 3> m_weights = {1, 0, 0};  ///< [-], sum 1
+};
+
+/// Where a soft surface touches an obstacle, another soft body or itself, or may do so within the step.
 struct ContactPoint
 {
-    int m_body = 0;                               ///< index into the bodies of the solve; contacts are sorted by it
-    int m_obstacle = 0;                           ///< index into the obstacles of the solve
-    std::array<int, 3> m_nodes = {0, 0, 0};       ///< surface nodes of the body; unused ones repeat the first
-    std::array<double, 3> m_weights = {1, 0, 0};  ///< barycentric [-], sum 1
-    Vec3 m_point;                                 ///< where both sides feel the impulse: the soft point [m]
-    Vec3 m_normal;                                ///< unit, from the obstacle to the soft surface
-    double m_gap = 0;                             ///< signed distance at the start [m]; negative inside
-    double m_slop = 0;                            ///< penetration that is left alone [m], >= 0
-    double m_friction = 0;                        ///< Coulomb's coefficient [-], >= 0
-    Vec3 m_impulse;                               ///< on the soft body [N s]: a guess before, the answer after
+    SurfacePoint m_soft;   ///< feels the impulse
+    SurfacePoint m_other;  ///< feels the opposite, where the other side is soft; its m_body is -1 otherwise
+    int m_obstacle = -1;   ///< index into the obstacles of the solve, where the other side is rigid; -1 otherwise
+    Vec3 m_point;       ///< where both sides feel the impulse: the soft point, between two soft ones their middle [m]
+    Vec3 m_approach;    ///< added to m_point for the arm of an obstacle that it meets later in the step: what they come
+                        ///< closer until then [m]
+    Vec3 m_normal;      ///< unit, from the other side to m_soft
+    double m_gap = 0;   ///< signed distance at the start [m]; negative inside
+    double m_slop = 0;  ///< penetration that is left alone [m], >= 0
+    double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
+    double m_restitution = 0;  ///< share of the closing speed that is given back [-], in [0, 1]
+    double m_stiffness = 0;    ///< of a contact spring in place of the rigid contact [N/m], >= 0; 0: rigid
+    double m_damping = 0;      ///< of that spring [N s/m], >= 0
+    Vec3 m_impulse;            ///< on m_soft [N s]: a guess before, the answer after
+    Vec3 m_slip;  ///< displacement of a point that sticks, in the tangent plane [m]: taken back within some steps; that
+                  ///< of the last step before, the new one after
 };
 
 /// A body with its compliance cache.
@@ -60,11 +74,14 @@ struct ContactSettings
     int m_rounds = 2;      ///< corrective solves at least, in [1, 100]
     int m_maxRounds = 10;  ///< and at most, while a round still changes impulses by more than m_roundTolerance
     double m_roundTolerance = 5e-3;  ///< of the largest impulse [-], > 0
-    int m_sweeps = 50;               ///< Gauss-Seidel sweeps a round at most, in [1, 1000]
+    int m_sweeps = 50;               ///< sweeps a round at most, in [1, 1000]
     double m_sweepTolerance =
-        1e-9;  ///< stop sweeping when the largest change of an impulse is this share of the largest [-]
+        1e-9;                ///< stop sweeping when the largest change of an impulse is this share of the largest [-]
+    int m_denseLimit = 400;  ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
     double m_pushFraction = 0.2;   ///< share of a penetration that is taken back a step [-], in [0, 1]
     double m_maxPushVelocity = 1;  ///< [m/s], >= 0
+    double m_slipFraction = 0.2;   ///< share of the slip of a sticking point that is taken back a step [-], in [0, 1]
+    double m_restitutionVelocity = 0.2;  ///< closing speed below which nothing is given back [m/s], >= 0
 };
 
 struct ContactReport
@@ -77,24 +94,82 @@ struct ContactReport
     bool m_converged = true;  ///< all corrective solves met their tolerance
 };
 
-/// Frictional contact in compliance space. After solveFreeMotion of every body, finds impulses with
+/// One end of a joint: a point or a group of nodes of a soft body, or a rigid obstacle.
+struct JointEnd
+{
+    int m_body = -1;         ///< soft end: index into the bodies of the solve
+    int m_first = 0;         ///< soft end: its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
+    int m_count = 0;         ///< and its velocity is the sum of m_handleBlocks times theirs
+    int m_obstacle = -1;     ///< rigid end: index into the obstacles; the end of neither is fixed in the world
+    Vec3 m_point;            ///< rigid end: where it is held [m]
+    bool m_angular = false;  ///< rigid end: its velocity is the angular one, and impulses are angular
+};
+
+/// Holds the relative velocity of two ends, a - b, at a wanted value along three axes: anchors, attachments, motors.
+struct Joint
+{
+    static constexpr double kUnlimited = 1e300;
+
+    JointEnd m_a, m_b;
+    std::array<Vec3, 3> m_axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< orthonormal
+    Vec3 m_wanted;  ///< relative velocity along the axes [m/s] or [rad/s]: error correction, motor speed
+    Vec3 m_limit = {kUnlimited, kUnlimited, kUnlimited};  ///< largest impulse along every axis, >= 0; 0: axis is free
+    double m_softness = 0;  ///< compliance added, as a share of the joint's own [-], >= 0; 0: rigid
+    Vec3 m_impulse;         ///< on end a, world axes [N s] or [N m s]: a guess before, the answer after
+};
+
+/// All that is solved together: bodies, what they touch, and what holds them. Vectors are kept to be used again.
+struct ContactProblem
+{
+    std::vector<ContactBody> m_bodies;
+    std::vector<Obstacle> m_obstacles;
+    std::vector<ContactPoint> m_contacts;
+    std::vector<Joint> m_joints;
+    std::vector<int> m_handleNodes;
+    std::vector<Mat3> m_handleBlocks;
+
+    void clear();
+};
+
+/// Frictional contact and joints in compliance space. After solveFreeMotion of every body, finds impulses with
 ///     normal: lambda_n >= 0, n . v + max(gap, 0) / h >= 0, complementary
 ///     friction: |lambda_t| <= mu lambda_n, opposite to the sliding velocity where it slides (Coulomb's disc)
-/// for relative velocities v of soft against rigid. Their response is approximated by W = J P J^T with the warped rest
-/// factor P for the sweeps, and solved for with the true system between rounds; where W turns out too stiff (a stale
-/// factor), it is scaled up, and where it is too soft, more rounds follow. The same impulses act on both sides, so
-/// momentum is conserved however good W is. Penetration is taken back as a displacement.
-/// The scratch grows with the number of contacts and never shrinks.
+///     joints: v = wanted, |lambda| <= limit
+/// for relative velocities v. Their response is approximated by W = J P J^T with the warped rest factor P for the
+/// sweeps, and solved for with the true system between rounds; where W turns out too stiff (a stale factor), it is
+/// scaled up, and where it is too soft, more rounds follow. The same impulses act on both sides, so momentum is
+/// conserved however good W is. Penetration is taken back as a displacement.
+///
+/// solve() does it all. Who sweeps rows of its own in between, such as those between rigid bodies, calls its parts:
+/// begin, then while wantsRound sweep ... sweep, correct, and at the end finish; it may read and write the obstacles'
+/// velocities between any two of them. The scratch grows with the number of contacts and never shrinks. Deterministic:
+/// the order of contacts decides.
 class ContactSolver
 {
 public:
     ContactSolver();
     ~ContactSolver();
 
-    /// Bodies must have had solveFreeMotion with settings.m_step. Adds the contacts' response to their velocities, and
-    /// to the obstacles'. Deterministic: the order of contacts decides.
-    ContactReport solve(const std::vector<ContactBody>& bodies, std::vector<Obstacle>& obstacles,
-                        std::vector<ContactPoint>& contacts, const ContactSettings& settings);
+    /// Bodies must have had solveFreeMotion with settings.m_step. Adds the response of contacts and joints to their
+    /// velocities, and to the obstacles'.
+    ContactReport solve(ContactProblem& problem, const ContactSettings& settings);
+
+    /// Gives the obstacles the reactions of the guessed impulses, and measures. `problem` must live until finish.
+    void begin(ContactProblem& problem, const ContactSettings& settings);
+
+    /// One sweep over all rows; the obstacles' velocities follow. Returns the largest change of an impulse over the
+    /// largest impulse.
+    double sweep();
+
+    /// Ends a round: solves the true systems for the impulses that are new since the last call.
+    void correct();
+
+    /// True if another round is to be made: fewer than m_rounds were, or the last one changed impulses by more than
+    /// m_roundTolerance.
+    bool wantsRound() const;
+
+    /// Takes penetration back, and reports.
+    ContactReport finish();
 
 private:
     struct Scratch;

@@ -23,6 +23,9 @@ SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
 /// To be called after solveFreeMotion, any number of times.
 SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
 
+/// Adds to velocity(body), one change a node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
+void addVelocity(Body& body, const std::vector<Vec3>& change);
+
 /// Adds h P J to the displacement of this step without a trace in the velocities: position correction, J [N s]. Returns
 /// the angular momentum about the origin that the body gains by being elsewhere with its velocities [kg m2/s].
 Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);

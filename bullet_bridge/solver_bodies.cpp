@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/solver_bodies.h"
+
+#include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+
+namespace bullet_fem
+{
+
+void SolverBodies::begin(RigidObstacles& rigid, btAlignedObjectArray<btSolverBody>& pool)
+{
+    m_pool = &pool;
+    m_links.assign(rigid.obstacles().size(), Link());
+    for (std::size_t k = 0; k < m_links.size(); ++k)
+    {
+        const btRigidBody* body = rigid.movableBody(static_cast<int>(k));
+        if (!body || body->getCompanionId() < 0 || body->getCompanionId() >= pool.size()) continue;
+        const RigidObstacles::Remainder& remainder = rigid.remainder(static_cast<int>(k));
+        m_links[k].m_solverBody = body->getCompanionId();
+        m_links[k].m_linearRemainder = remainder.m_linear;
+        m_links[k].m_angularRemainder = remainder.m_angular;
+    }
+}
+
+void SolverBodies::read(std::vector<Obstacle>& obstacles)
+{
+    for (std::size_t k = 0; k < m_links.size(); ++k)
+    {
+        Link& link = m_links[k];
+        if (link.m_solverBody < 0) continue;
+        const btSolverBody& body = (*m_pool)[link.m_solverBody];
+        link.m_linear = vec3(body.m_linearVelocity) + vec3(body.m_deltaLinearVelocity) +
+                        vec3(body.m_externalForceImpulse) + link.m_linearRemainder;
+        link.m_angular = vec3(body.m_angularVelocity) + vec3(body.m_deltaAngularVelocity) +
+                         vec3(body.m_externalTorqueImpulse) + link.m_angularRemainder;
+        obstacles[k].m_linearVelocity = link.m_linear;
+        obstacles[k].m_angularVelocity = link.m_angular;
+    }
+}
+
+void SolverBodies::write(const std::vector<Obstacle>& obstacles)
+{
+    for (std::size_t k = 0; k < m_links.size(); ++k)
+    {
+        Link& link = m_links[k];
+        if (link.m_solverBody < 0) continue;
+        btSolverBody& body = (*m_pool)[link.m_solverBody];
+        body.m_deltaLinearVelocity = addedExactly(
+            body.m_deltaLinearVelocity, obstacles[k].m_linearVelocity - link.m_linear, link.m_linearRemainder);
+        body.m_deltaAngularVelocity = addedExactly(
+            body.m_deltaAngularVelocity, obstacles[k].m_angularVelocity - link.m_angular, link.m_angularRemainder);
+    }
+}
+
+void SolverBodies::end(RigidObstacles& rigid)
+{
+    for (std::size_t k = 0; k < m_links.size(); ++k)
+    {
+        if (m_links[k].m_solverBody < 0) continue;
+        RigidObstacles::Remainder& remainder = rigid.remainder(static_cast<int>(k));
+        remainder.m_linear = m_links[k].m_linearRemainder;
+        remainder.m_angular = m_links[k].m_angularRemainder;
+        remainder.m_used = true;
+    }
+}
+
+}  // namespace bullet_fem

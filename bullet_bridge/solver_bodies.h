@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "BulletDynamics/ConstraintSolver/btSolverBody.h"
+#include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/rigid_obstacles.h"
+
+namespace bullet_fem
+{
+
+/// Carries velocities between the obstacles of a contact problem and the bodies of Bullet's rigid solver while it
+/// iterates. A solver body's velocity is m_linearVelocity + delta + m_externalForceImpulse in single precision; what it
+/// cannot hold is kept here and added again.
+class SolverBodies
+{
+public:
+    /// To be called when the solver has set its bodies up: from then on obstacle k is solver body
+    /// rigid.movableBody(k)->getCompanionId() of `pool`. Starts from what was cut off in the last step.
+    void begin(RigidObstacles& rigid, btAlignedObjectArray<btSolverBody>& pool);
+
+    /// The solver bodies' velocities become the obstacles'.
+    void read(std::vector<Obstacle>& obstacles);
+
+    /// What was added to the obstacles' velocities since read() is added to the solver bodies'.
+    void write(const std::vector<Obstacle>& obstacles);
+
+    /// Keeps what was cut off for the next step.
+    void end(RigidObstacles& rigid);
+
+private:
+    struct Link
+    {
+        int m_solverBody = -1;                       // -1: immovable
+        Vec3 m_linear, m_angular;                    // as read
+        Vec3 m_linearRemainder, m_angularRemainder;  // cut off
+    };
+
+    btAlignedObjectArray<btSolverBody>* m_pool = nullptr;
+    std::vector<Link> m_links;
+};
+
+}  // namespace bullet_fem

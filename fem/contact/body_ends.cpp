@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/body_ends.h"
+
+#include <algorithm>
+
+#include "bullet_fem/fem/stepping.h"
+#include "fem/factor/rest_factor.h"
+#include "fem/step_scratch.h"
+#include "fem/warped_system.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kTooStiff = 1.1;        // W may be too stiff by this factor before it is scaled
+constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
+constexpr double kLargestScaling = 100;  // in one round
+constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
+constexpr double kForgetting = 0.99;     // of what was learnt, a step
+constexpr int kSamples = 4;              // ends that the diagonal of W is estimated from
+
+}  // namespace
+
+void BodyEnds::clear(const ContactBody& body)
+{
+    m_body = body;
+    m_ends.clear();
+}
+
+int BodyEnds::addPoint(const SurfacePoint& point, const Vec3& at)
+{
+    End end;
+    end.m_point = point;
+    m_ends.push_back(end);
+    m_ends.back().m_offset = at - read(end, m_body.m_body->m_state.m_x);
+    return size() - 1;
+}
+
+int BodyEnds::addGroup(const int* nodes, const Mat3* blocks, int count)
+{
+    End end;
+    end.m_nodes = nodes;
+    end.m_blocks = blocks;
+    end.m_count = count;
+    m_ends.push_back(end);
+    return size() - 1;
+}
+
+Vec3 BodyEnds::read(const End& end, const std::vector<Vec3>& nodeValues) const
+{
+    Vec3 sum;
+    if (isGroup(end))
+        for (int i = 0; i < end.m_count; ++i) sum += end.m_blocks[i] * nodeValues[end.m_nodes[i]];
+    else
+        for (int a = 0; a < 3; ++a) sum += end.m_point.m_weights[a] * nodeValues[end.m_point.m_nodes[a]];
+    return sum;
+}
+
+void BodyEnds::scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& nodeImpulses) const
+{
+    if (isGroup(end))
+        for (int i = 0; i < end.m_count; ++i) nodeImpulses[end.m_nodes[i]] += transposeTimes(end.m_blocks[i], impulse);
+    else
+        for (int a = 0; a < 3; ++a) nodeImpulses[end.m_point.m_nodes[a]] += end.m_point.m_weights[a] * impulse;
+}
+
+void BodyEnds::assemble(Warp warp, int denseLimit)
+{
+    const std::size_t nodes = m_body.m_body->m_state.m_x.size();
+    double& learnt = m_body.m_body->m_workspace.scratch().m_complianceScale;
+    learnt = std::max(1.0, kForgetting * learnt);
+    m_scale = learnt;
+    m_warp = warp;
+    m_dense = size() <= denseLimit;
+    m_velocity.assign(m_ends.size(), Vec3());
+    m_impulse.assign(m_ends.size(), Vec3());
+    m_applied.assign(m_ends.size(), Vec3());
+    m_seen.assign(m_ends.size(), Vec3());
+    m_before.assign(m_ends.size(), Vec3());
+    m_nodeIn.assign(nodes, Vec3());
+    m_nodeOut.assign(nodes, Vec3());
+    if (m_dense)
+        formDense(warp);
+    else
+        estimateDiagonal(warp);
+}
+
+void BodyEnds::formDense(Warp warp)
+{
+    const std::size_t order = 3 * m_ends.size();
+    if (m_W.size() < order * order) m_W.resize(order * order);
+    m_touched.clear();
+    for (const End& end : m_ends)
+        if (!isGroup(end)) m_touched.insert(m_touched.end(), end.m_point.m_nodes.begin(), end.m_point.m_nodes.end());
+    std::sort(m_touched.begin(), m_touched.end());
+    m_touched.erase(std::unique(m_touched.begin(), m_touched.end()), m_touched.end());
+    m_body.m_compliance->request(m_touched);
+    m_placeOfNode.resize(m_nodeIn.size());
+    for (std::size_t t = 0; t < m_touched.size(); ++t) m_placeOfNode[m_touched[t]] = static_cast<int>(t);
+    m_column.resize(m_touched.size());
+    for (int e = 0; e < size(); ++e)
+        if (isGroup(m_ends[e]))
+            formGroupColumns(e, warp);
+        else
+            formPointColumns(e, warp);
+    // What single precision and the warp left asymmetric would feed energy to the sweeps.
+    for (std::size_t i = 0; i < order; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+        {
+            const bool group = isGroup(m_ends[j / 3]);  // its column knows the points; theirs do not know it
+            m_W[j * order + i] = m_W[i * order + j] = group ? m_W[j * order + i] : m_W[i * order + j];
+        }
+}
+
+// Columns of a point: R_t (sum_b w_b (A0^-1)_tb R_b^T) at the touched nodes t, read at the other points.
+void BodyEnds::formPointColumns(int e, Warp warp)
+{
+    const WarpedPreconditioner P(*m_body.m_body, warp);
+    const RestFactor& factor = m_body.m_body->m_model->factor();
+    const std::vector<unsigned char>& fixed = m_body.m_body->m_state.m_fixed;
+    const SurfacePoint& source = m_ends[e].m_point;
+    for (std::size_t t = 0; t < m_touched.size(); ++t)
+    {
+        const int i = m_touched[t];
+        Mat3 sum, own;  // own: of nodes that are not in the factor
+        for (int b = 0; b < 3; ++b)
+        {
+            const int j = source.m_nodes[b];
+            if (source.m_weights[b] == 0 || fixed[i] || fixed[j]) continue;
+            if (factor.position(i) >= 0 && factor.position(j) >= 0)
+                sum += source.m_weights[b] * timesTranspose(m_body.m_compliance->block(i, j), P.rotation(j));
+            else if (i == j)
+                own += Mat3::diagonal(source.m_weights[b] / factor.diagonal(i));
+        }
+        m_column[t] = m_scale * (P.rotation(i) * sum + own);
+    }
+    const std::size_t order = 3 * m_ends.size();
+    for (int f = 0; f < size(); ++f)
+    {
+        Mat3 w;
+        if (!isGroup(m_ends[f]))
+            for (int a = 0; a < 3; ++a)
+                if (m_ends[f].m_point.m_weights[a] != 0)
+                    w += m_ends[f].m_point.m_weights[a] * m_column[m_placeOfNode[m_ends[f].m_point.m_nodes[a]]];
+        for (int c = 0; c < 3; ++c)
+            for (int i = 0; i < 3; ++i) m_W[(3 * e + c) * order + 3 * f + i] = static_cast<float>(w(i, c));
+    }
+}
+
+void BodyEnds::formGroupColumns(int e, Warp warp)
+{
+    const WarpedPreconditioner P(*m_body.m_body, warp);
+    const std::size_t order = 3 * m_ends.size();
+    for (int c = 0; c < 3; ++c)
+    {
+        Vec3 unit;
+        unit[c] = 1;
+        std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
+        scatter(m_ends[e], unit, m_nodeIn);
+        P.apply(m_nodeIn, m_nodeOut);
+        for (int f = 0; f < size(); ++f)
+        {
+            const Vec3 w = m_scale * read(m_ends[f], m_nodeOut);
+            for (int i = 0; i < 3; ++i) m_W[(3 * e + c) * order + 3 * f + i] = static_cast<float>(w[i]);
+        }
+    }
+}
+
+// The mean of some blocks W_ee, turned to the world axes of none: contact rows are scaled by it alone.
+void BodyEnds::estimateDiagonal(Warp warp)
+{
+    const WarpedPreconditioner P(*m_body.m_body, warp);
+    double sum = 0;
+    for (int k = 0; k < kSamples; ++k)
+    {
+        const End& end = m_ends[static_cast<std::size_t>(k) * (m_ends.size() - 1) / (kSamples - 1)];
+        const Vec3 ones = {1, 1, 1};
+        std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
+        scatter(end, ones, m_nodeIn);
+        P.apply(m_nodeIn, m_nodeOut);
+        sum += dot(ones, read(end, m_nodeOut)) / 3;
+    }
+    m_meanDiagonal = Mat3::diagonal(sum / kSamples);
+}
+
+Mat3 BodyEnds::compliance(int e, int f) const
+{
+    if (!m_dense) return e == f ? m_scale * m_meanDiagonal : Mat3();
+    const std::size_t order = 3 * m_ends.size();
+    Mat3 w;
+    for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 3; ++i) w(i, c) = m_W[(3 * f + c) * order + 3 * e + i];
+    return w;
+}
+
+Vec3 BodyEnds::trueVelocity(int e) const
+{
+    return read(m_ends[e], bullet_fem::velocity(*m_body.m_body));
+}
+
+void BodyEnds::respond(int e, const Vec3& impulse)
+{
+    const std::size_t order = 3 * m_ends.size();
+    double* v = &m_velocity[0].x;
+    const float *w0 = &m_W[3 * e * order], *w1 = w0 + order, *w2 = w1 + order;
+    for (std::size_t i = 0; i < order; ++i) v[i] += w0[i] * impulse.x + w1[i] * impulse.y + w2[i] * impulse.z;
+}
+
+void BodyEnds::push(int e, const Vec3& impulse)
+{
+    m_impulse[e] += impulse;
+    if (!m_dense) return;
+    respond(e, impulse);
+    m_seen[e] = m_impulse[e];
+}
+
+void BodyEnds::flush()
+{
+    if (m_dense || m_ends.empty()) return;
+    bool any = false;
+    std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
+    for (int e = 0; e < size(); ++e)
+    {
+        const Vec3 impulse = m_impulse[e] - m_seen[e];
+        if (dot(impulse, impulse) == 0) continue;
+        any = true;
+        scatter(m_ends[e], impulse, m_nodeIn);
+        m_seen[e] = m_impulse[e];
+    }
+    if (!any) return;
+    WarpedPreconditioner(*m_body.m_body, m_warp).apply(m_nodeIn, m_nodeOut);
+    for (int e = 0; e < size(); ++e) m_velocity[e] += m_scale * read(m_ends[e], m_nodeOut);
+}
+
+void BodyEnds::measure()
+{
+    for (int e = 0; e < size(); ++e)
+    {
+        m_velocity[e] = m_before[e] = trueVelocity(e);
+        m_seen[e] = m_applied[e];
+        const Vec3 rest = m_impulse[e] - m_applied[e];
+        if (!m_dense || dot(rest, rest) == 0) continue;
+        m_seen[e] = m_impulse[e];
+    }
+    if (m_dense)
+        for (int e = 0; e < size(); ++e)
+        {
+            const Vec3 rest = m_impulse[e] - m_applied[e];
+            if (dot(rest, rest) > 0) respond(e, rest);
+        }
+    flush();
+}
+
+// Node impulses that the body's true velocities do not hold yet; false if there are none.
+bool BodyEnds::gatherNew()
+{
+    bool any = false;
+    std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
+    for (int e = 0; e < size(); ++e)
+    {
+        const Vec3 impulse = m_impulse[e] - m_applied[e];
+        if (dot(impulse, impulse) == 0) continue;
+        any = true;
+        scatter(m_ends[e], impulse, m_nodeIn);
+    }
+    return any;
+}
+
+SolveReport BodyEnds::apply(const StepSettings& settings)
+{
+    if (!gatherNew()) return {};
+    // Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin.
+    RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
+    for (int e = 0; e < size(); ++e)
+        if (!isGroup(m_ends[e]))
+            momentum.addAngularImpulse(*m_body.m_body, m_ends[e].m_point.m_nodes[0],
+                                       cross(m_ends[e].m_offset, m_impulse[e] - m_applied[e]), settings.m_step);
+    const SolveReport report = applyImpulses(*m_body.m_body, m_nodeIn, settings);
+    double trueWork = 0, predictedWork = 0;  // of the new impulses on the velocities that they made
+    m_allWork = 0;                           // of all impulses, roughly
+    for (int e = 0; e < size(); ++e)
+    {
+        const Vec3 impulse = m_impulse[e] - m_applied[e];
+        trueWork += dot(impulse, trueVelocity(e) - m_before[e]);
+        predictedWork += dot(impulse, m_velocity[e] - m_before[e]);
+        m_allWork += dot(m_impulse[e], compliance(e, e) * m_impulse[e]);
+        m_applied[e] = m_impulse[e];
+    }
+    learn(trueWork, predictedWork);
+    return report;
+}
+
+void BodyEnds::learn(double trueWork, double predictedWork)
+{
+    if (!(predictedWork > kNoise * m_allWork) || !(trueWork > kTooStiff * predictedWork)) return;
+    const double factor = std::min(kScaleMargin * trueWork / predictedWork, kLargestScaling);
+    m_scale *= factor;
+    m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
+    if (!m_dense) return;
+    const std::size_t order = 3 * m_ends.size();
+    for (std::size_t i = 0; i < order * order; ++i) m_W[i] *= static_cast<float>(factor);
+}
+
+void BodyEnds::beginPush()
+{
+    std::fill(m_velocity.begin(), m_velocity.end(), Vec3());
+    std::fill(m_impulse.begin(), m_impulse.end(), Vec3());
+    std::fill(m_applied.begin(), m_applied.end(), Vec3());
+    std::fill(m_seen.begin(), m_seen.end(), Vec3());
+}
+
+Vec3 BodyEnds::applyPush(const StepSettings& settings)
+{
+    return gatherNew() ? bullet_fem::applyPush(*m_body.m_body, m_nodeIn, settings) : Vec3();
+}
+
+void BodyEnds::spin(const Vec3& angularImpulse, const StepSettings& settings)
+{
+    if (dot(angularImpulse, angularImpulse) == 0) return;
+    StepScratch& scratch = m_body.m_body->m_workspace.scratch();
+    const int node = isGroup(m_ends[0]) ? m_ends[0].m_nodes[0] : m_ends[0].m_point.m_nodes[0];
+    scratch.m_momentum.addAngularImpulse(*m_body.m_body, node, angularImpulse, settings.m_step);
+    scratch.m_momentum.restore(*m_body.m_body, scratch.m_velocity);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/contact_solver.h"
+#include "fem/contact/compliance_cache.h"
+
+namespace bullet_fem
+{
+
+/// The places of one soft body where contacts and joints pull, and how all of them move when one is pushed: velocities
+/// u = u_true + W (lambda - applied), with W_ef = J_e P J_f^T for the warped rest factor P. Up to a limit W is a dense
+/// matrix, formed from cached columns of A0^-1; beyond it P itself is applied, to all new impulses at once. Grows with
+/// the number of ends, never shrinks.
+class BodyEnds
+{
+public:
+    /// Forgets all ends.
+    void clear(const ContactBody& body);
+
+    /// Adds a point of the surface, whose impulse counts as acting at `at` [m]; returns its index.
+    int addPoint(const SurfacePoint& point, const Vec3& at);
+
+    /// Adds a group of nodes; returns its index. Its nodes and blocks must live until the step is over.
+    int addGroup(const int* nodes, const Mat3* blocks, int count);
+
+    /// Forms W, dense for at most denseLimit ends.
+    void assemble(Warp warp, int denseLimit);
+
+    int size() const { return static_cast<int>(m_ends.size()); }
+    bool isDense() const { return m_dense; }
+    const Body& body() const { return *m_body.m_body; }
+
+    /// W_ef; of a body that is not dense only an estimate of W_ee, and zero for e != f.
+    Mat3 compliance(int e, int f) const;
+
+    /// As predicted [m/s].
+    const Vec3& velocity(int e) const { return m_velocity[e]; }
+
+    /// From the true velocities of the body [m/s].
+    Vec3 trueVelocity(int e) const;
+
+    /// Adds an impulse to an end. The velocities follow at once if dense, else with flush().
+    void push(int e, const Vec3& impulse);
+    void flush();
+
+    /// Takes the velocities from the body, which holds the impulses applied so far, and adds W times the rest.
+    void measure();
+
+    /// Solves the body's true system for the impulses that are not applied yet; then W learns from it: where it was too
+    /// stiff, it is scaled up. A report without iterations if there was nothing to do.
+    SolveReport apply(const StepSettings& settings);
+
+    /// Forgets velocities and impulses, to solve for position corrections; applyPush then makes them. Returns the
+    /// angular momentum that the body gained by being elsewhere [kg m2/s].
+    void beginPush();
+    Vec3 applyPush(const StepSettings& settings);
+
+    /// Changes the body's angular momentum by a rigid spin, where it is free [N m s].
+    void spin(const Vec3& angularImpulse, const StepSettings& settings);
+
+private:
+    struct End
+    {
+        SurfacePoint m_point;
+        const int* m_nodes = nullptr;  // of a group
+        const Mat3* m_blocks = nullptr;
+        int m_count = 0;
+        Vec3 m_offset;  // from where the nodes feel the impulse to where it acts [m]
+    };
+
+    bool isGroup(const End& end) const { return end.m_nodes != nullptr; }
+    Vec3 read(const End& end, const std::vector<Vec3>& nodeValues) const;
+    void scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& nodeImpulses) const;
+    void formDense(Warp warp);
+    void formPointColumns(int e, Warp warp);
+    void formGroupColumns(int e, Warp warp);
+    void estimateDiagonal(Warp warp);
+    void respond(int e, const Vec3& impulse);
+    bool gatherNew();
+    void learn(double trueWork, double predictedWork);
+
+    ContactBody m_body;
+    Warp m_warp = Warp::nodal;
+    bool m_dense = true;
+    std::vector<End> m_ends;
+    std::vector<Vec3> m_velocity;  // per end
+    std::vector<Vec3> m_impulse;   // per end, all
+    std::vector<Vec3> m_applied;   // per end, in the body's true velocities
+    std::vector<Vec3> m_seen;      // per end, in m_velocity
+    std::vector<Vec3> m_before;    // per end: velocity before the impulses of this round
+    std::vector<float> m_W;        // 3 size() columns of 3 size()
+    std::vector<int> m_touched;    // nodes of the points
+    std::vector<int> m_placeOfNode;
+    std::vector<Mat3> m_column;             // response of the touched nodes
+    std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes
+    Mat3 m_meanDiagonal;                    // not dense: estimate of W_ee, without the learnt scale
+    double m_scale = 1;                     // learnt
+    double m_allWork = 0;                   // of the impulses so far, roughly [J]
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h"
+
+class btFemContactGroup;
+class btFemSoftBodySolver;
+
+/// Bullet's rigid solver with the FEM bodies in it: contacts and joints of soft bodies are swept together with those
+/// between rigid bodies, so stacks of rigid on soft on rigid converge within a step, rest, and sleep. Give it to the
+/// world's constructor in place of btSequentialImpulseConstraintSolver, with the same btFemSoftBodySolver as soft body
+/// solver; islands without FEM bodies are solved bit for bit as before. In those with FEM bodies Bullet's rigid rows
+/// are warm-started fully, with friction in two fixed directions, and swept as often as the soft ones.
+///
+/// Without it the rigid bodies feel a step's soft contacts after they have moved: momentum is exact all the same, and
+/// static supports are, but a rigid body at rest on a soft one reads a velocity of g h and stacks do not sleep.
+class btFemConstraintSolver : public btSequentialImpulseConstraintSolver
+{
+public:
+    /// `fem` must be the world's soft body solver and outlive this one. Throws std::invalid_argument if it is null.
+    explicit btFemConstraintSolver(btFemSoftBodySolver* fem);
+
+    btScalar solveGroup(btCollisionObject** bodies, int numBodies, btPersistentManifold** manifolds, int numManifolds,
+                        btTypedConstraint** constraints, int numConstraints, const btContactSolverInfo& info,
+                        btIDebugDraw* debugDrawer, btDispatcher* dispatcher) override;
+
+protected:
+    btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int numBodies,
+                                               btPersistentManifold** manifolds, int numManifolds,
+                                               btTypedConstraint** constraints, int numConstraints,
+                                               const btContactSolverInfo& info, btIDebugDraw* debugDrawer) override;
+
+private:
+    struct Islands
+    {
+        btCollisionObject** m_bodies;
+        int m_bodyCount;
+        btPersistentManifold** m_manifolds;
+        int m_manifoldCount;
+        btTypedConstraint** m_constraints;
+        int m_constraintCount;
+    };
+    void select(const Islands& all, bool withFem);
+
+    btFemSoftBodySolver* m_fem;
+    btFemContactGroup* m_group = nullptr;      // FEM bodies of the islands being solved; null if there are none
+    std::vector<int> m_tags;                   // islands with FEM bodies
+    std::vector<btCollisionObject*> m_bodies;  // what select() picked
+    std::vector<btPersistentManifold*> m_manifolds;
+    std::vector<btTypedConstraint*> m_constraints;
+};

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/btFemConstraintSolver.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/btFemCoupling.h"
+
+using namespace bullet_fem;
+
+btFemConstraintSolver::btFemConstraintSolver(btFemSoftBodySolver* fem) : m_fem(fem)
+{
+    if (!fem)
+        throw std::invalid_argument(
+            "btFemConstraintSolver: the FEM solver is null; give the btFemSoftBodySolver of the world");
+}
+
+btScalar btFemConstraintSolver::solveGroup(btCollisionObject** bodies, int numBodies, btPersistentManifold** manifolds,
+                                           int numManifolds, btTypedConstraint** constraints, int numConstraints,
+                                           const btContactSolverInfo& info, btIDebugDraw* debugDrawer,
+                                           btDispatcher* dispatcher)
+{
+    btFemContactGroup* group = btFemCoupling::beginGroup(*m_fem, bodies, numBodies, info.m_timeStep);
+    if (!group)
+        return btSequentialImpulseConstraintSolver::solveGroup(bodies, numBodies, manifolds, numManifolds, constraints,
+                                                               numConstraints, info, debugDrawer, dispatcher);
+    // Bullet hands small islands over together; those without FEM bodies are solved as if they were alone.
+    const Islands all = {bodies, numBodies, manifolds, numManifolds, constraints, numConstraints};
+    for (const bool withFem : {false, true})
+    {
+        select(all, withFem);
+        if (m_bodies.empty()) continue;
+        btContactSolverInfo settings = info;
+        if (withFem)
+        {
+            // What rests starts from the last step's impulses, friction included: soft bodies carry far, and the rigid
+            // rows must not begin anew every time.
+            settings.m_warmstartingFactor = 1;
+            settings.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
+                                     SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+            m_group = group;
+        }
+        btSequentialImpulseConstraintSolver::solveGroup(m_bodies.data(), static_cast<int>(m_bodies.size()),
+                                                        m_manifolds.data(), static_cast<int>(m_manifolds.size()),
+                                                        m_constraints.data(), static_cast<int>(m_constraints.size()),
+                                                        settings, debugDrawer, dispatcher);
+    }
+    m_group->moveRigid();
+    m_group = nullptr;
+    return 0;
+}
+
+// Picks the islands with FEM bodies, or those without. What joins two objects is in the island of the movable one.
+void btFemConstraintSolver::select(const Islands& all, bool withFem)
+{
+    m_tags.clear();
+    for (int k = 0; k < all.m_bodyCount; ++k)
+        if (btSoftBody::upcast(all.m_bodies[k])) m_tags.push_back(all.m_bodies[k]->getIslandTag());
+    const auto isSelected = [&](const btCollisionObject& a, const btCollisionObject& b)
+    {
+        const int tag = a.getIslandTag() >= 0 ? a.getIslandTag() : b.getIslandTag();
+        return (std::find(m_tags.begin(), m_tags.end(), tag) != m_tags.end()) == withFem;
+    };
+    m_bodies.clear();
+    m_manifolds.clear();
+    m_constraints.clear();
+    for (int k = 0; k < all.m_bodyCount; ++k)
+        if (isSelected(*all.m_bodies[k], *all.m_bodies[k])) m_bodies.push_back(all.m_bodies[k]);
+    for (int k = 0; k < all.m_manifoldCount; ++k)
+        if (isSelected(*all.m_manifolds[k]->getBody0(), *all.m_manifolds[k]->getBody1()))
+            m_manifolds.push_back(all.m_manifolds[k]);
+    for (int k = 0; k < all.m_constraintCount; ++k)
+        if (isSelected(all.m_constraints[k]->getRigidBodyA(), all.m_constraints[k]->getRigidBodyB()))
+            m_constraints.push_back(all.m_constraints[k]);
+}
+
+// Rounds of sweeps over all rows, the rigid ones first, then the soft ones; after every round the soft bodies' true
+// response.
+btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int numBodies,
+                                                                  btPersistentManifold** manifolds, int numManifolds,
+                                                                  btTypedConstraint** constraints, int numConstraints,
+                                                                  const btContactSolverInfo& info,
+                                                                  btIDebugDraw* debugDrawer)
+{
+    if (!m_group)
+        return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
+            bodies, numBodies, manifolds, numManifolds, constraints, numConstraints, info, debugDrawer);
+
+    solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
+                                                  numConstraints, info, debugDrawer);
+    const ContactSettings& settings = m_group->settings();
+    const int sweeps = std::max(settings.m_sweeps, info.m_numIterations);
+    const int last = std::max(0, info.m_numIterations - 1);  // Bullet does not solve contacts in later iterations
+    m_group->begin(m_tmpSolverBodyPool);
+    while (m_group->wantsRound())
+    {
+        for (int sweep = 0; sweep < sweeps; ++sweep)
+        {
+            const btScalar residual =
+                solveSingleIteration(std::min(sweep, last), bodies, numBodies, manifolds, numManifolds, constraints,
+                                     numConstraints, info, debugDrawer);
+            const double soft = m_group->sweep();
+            if (soft <= settings.m_sweepTolerance && residual <= info.m_leastSquaresResidualThreshold) break;
+        }
+        m_group->correct();
+    }
+    m_group->finish();
+    return 0;
+}

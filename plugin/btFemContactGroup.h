@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_bridge/contact_finder.h"
+#include "bullet_bridge/soft_joints.h"
+#include "bullet_bridge/soft_pair_finder.h"
+#include "bullet_bridge/solver_bodies.h"
+#include "plugin/btFemBodyRegistry.h"
+
+/// FEM bodies that are solved together: what they touch, what holds them, and their reports. Scratch only.
+class btFemContactGroup
+{
+public:
+    explicit btFemContactGroup(const btFemSolverInfo& info) : m_info(info) {}
+
+    /// What is solved together, when, and all bodies that are known.
+    struct Scope
+    {
+        const std::vector<btFemEntry*>& m_entries;
+        const btFemBodyRegistry& m_registry;
+        double m_step;  ///< of the world [s]
+        bullet_fem::RigidPhase m_phase;
+    };
+
+    /// At the start of a world's step.
+    void beginStep();
+
+    /// Remembers a rigid body as it is before Bullet's rigid solver. May be called by several threads at once.
+    void noteBeforeSolve(const btCollisionObject& object) { m_rigid.noteBeforeSolve(object); }
+
+    /// Finds contacts and joints of bodies that have had their free motion.
+    void collect(const Scope& scope);
+
+    /// True if there is nothing to solve.
+    bool isEmpty() const { return m_problem.m_contacts.empty() && m_problem.m_joints.empty(); }
+
+    /// True if every rigid body that the group can move is one of `bodies`, and no joint joins it to other soft bodies
+    /// that are awake.
+    bool holdsOnly(btCollisionObject* const* bodies, int count) const;
+
+    /// After Bullet's rigid solver: solves and hands the reactions to the rigid bodies.
+    void solve();
+
+    /// Within Bullet's rigid solver, on its solver bodies: begin, then while wantsRound sweep ... sweep, correct, and
+    /// at the end finish; after the rigid solver has written its bodies back, moveRigid.
+    void begin(btAlignedObjectArray<btSolverBody>& pool);
+    double sweep();
+    bool wantsRound() const { return m_solver.wantsRound(); }
+    void correct();
+    void finish();
+    void moveRigid();
+
+    const bullet_fem::ContactSettings& settings() const { return m_settings; }
+
+private:
+    void collectRigid();
+    void collectSoft();
+    void collectPair(std::size_t a, std::size_t b);
+    void collectJoints(const Scope& scope);
+    void report(const bullet_fem::ContactReport& report);
+    void reportBody(btFemEntry& entry, const bullet_fem::ContactReport& report) const;
+    void reportSoftContact(std::size_t k);
+
+    btFemSolverInfo m_info;
+    double m_step = 0;  // [s]
+    std::vector<btFemEntry*> m_entries;
+    bullet_fem::ContactSettings m_settings;
+    bullet_fem::ContactFinder m_finder;
+    bullet_fem::SoftPairFinder m_pairFinder;
+    std::vector<bullet_fem::ContactPoint> m_softContacts;  // after the rigid ones in the problem
+    std::vector<bullet_fem::SoftPairOrigin> m_softOrigins;
+    bullet_fem::SoftJoints m_joints;
+    std::vector<bullet_fem::FemSoftBody*> m_bodies, m_outside;
+    bool m_reachesOut = false;  // joined to soft bodies that should be in the group
+    std::vector<bullet_fem::JointFlags> m_jointFlags;
+    bullet_fem::RigidObstacles m_rigid;
+    bullet_fem::SolverBodies m_solverBodies;
+    bullet_fem::ContactProblem m_problem;
+    bullet_fem::ContactSolver m_solver;
+    double m_milliseconds = 0;  // spent so far on the group
+};

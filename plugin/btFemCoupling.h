@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+
+#include "plugin/btFemContactGroup.h"
+
+class btFemManifolds;
+class btFemSoftBodySolver;
+
+/// What btFemConstraintSolver and Bullet's dispatcher may do with a btFemSoftBodySolver, and nobody else.
+struct btFemCoupling
+{
+    /// See btFemWorldStep::beginGroup.
+    static btFemContactGroup* beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
+                                         double step);
+    /// All that is known of a body; null if nothing is.
+    static const btFemEntry* entry(const btFemSoftBodySolver& fem, const btSoftBody& body);
+    /// Null unless btFemSolverInfo::m_manifolds is set.
+    static std::shared_ptr<btFemManifolds> manifolds(const btFemSoftBodySolver& fem);
+};

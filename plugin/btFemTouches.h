@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/btFemReports.h"
+
+struct btFemEntry;
+
+/// As a step begins: what began goes on, and what ended is forgotten.
+void ageTouches(btFemEntry& entry);
+
+/// After contact is solved and the body's contact points are listed: what it touches now. `together` are the bodies
+/// that it was solved with. The objects of contact points must be alive; those of touches need not be. Allocates when
+/// the body touches more than ever.
+void updateTouches(btFemEntry& entry, const std::vector<btFemEntry*>& together);
+
+/// Gap up to which a touch that began lasts without an impulse [m]: so wide that a body at rest, which may lift off by
+/// rounding for a step, goes on touching.
+btScalar touchSlack(const btFemEntry& entry);
+
+/// True if the point touches, or nearly does: it carries an impulse, or its gap is at most `slack` [m].
+inline bool isTouch(const btFemContact& contact, btScalar slack)
+{
+    return contact.m_normalImpulse > 0 || contact.m_gap <= slack;
+}
+
+/// The touch of a body with an object that is in the world; null if they do not touch.
+const btFemTouch* touchWith(const btFemEntry& entry, const btCollisionObject* other);

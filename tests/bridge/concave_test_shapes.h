@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h"
+#include "BulletCollision/CollisionShapes/btMultimaterialTriangleMeshShape.h"
+#include "BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h"
+#include "BulletCollision/Gimpact/btGImpactShape.h"
+#include "btBulletDynamicsCommon.h"
+
+namespace bullet_fem
+{
+
+/// How a grid of triangles is laid out.
+struct GridSettings
+{
+    int m_cells = 10;         ///< along either side
+    btScalar m_halfSize = 2;  ///< [m]
+    bool m_randomWinding = true;
+    std::function<btScalar(btScalar, btScalar)> m_height = [](btScalar, btScalar) { return btScalar(0); };
+};
+
+/// A square about the z axis, two triangles a cell.
+inline void addGrid(btTriangleMesh& mesh, const GridSettings& settings)
+{
+    std::mt19937 random(3);
+    const btScalar cell = 2 * settings.m_halfSize / btScalar(settings.m_cells);
+    const auto corner = [&](int i, int j)
+    {
+        const btScalar x = btScalar(i) * cell - settings.m_halfSize, y = btScalar(j) * cell - settings.m_halfSize;
+        return btVector3(x, y, settings.m_height(x, y));
+    };
+    const auto add = [&](const btVector3& a, const btVector3& b, const btVector3& c)
+    {
+        if (settings.m_randomWinding && random() % 2)
+            mesh.addTriangle(a, c, b);
+        else
+            mesh.addTriangle(a, b, c);
+    };
+    for (int i = 0; i < settings.m_cells; ++i)
+        for (int j = 0; j < settings.m_cells; ++j)
+        {
+            add(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1));
+            add(corner(i, j), corner(i + 1, j + 1), corner(i, j + 1));
+        }
+}
+
+/// A concave shape with all that it is made of.
+struct ConcaveShape
+{
+    std::unique_ptr<btTriangleMesh> m_mesh = std::make_unique<btTriangleMesh>();
+    std::vector<btScalar> m_heights;
+    std::vector<std::unique_ptr<btCollisionShape>> m_parts;  ///< the last is the shape
+
+    btCollisionShape& shape() const { return *m_parts.back(); }
+    template <class Shape, class... Arguments>
+    Shape& make(Arguments&&... arguments)
+    {
+        auto shape = std::make_unique<Shape>(std::forward<Arguments>(arguments)...);
+        Shape& made = *shape;
+        m_parts.push_back(std::move(shape));
+        return made;
+    }
+};
+
+inline ConcaveShape makeTriangleMesh(const GridSettings& settings = {})
+{
+    ConcaveShape shape;
+    addGrid(*shape.m_mesh, settings);
+    shape.make<btBvhTriangleMeshShape>(shape.m_mesh.get(), true);
+    return shape;
+}
+
+/// Four times as large, and scaled down again, mirrored in x.
+inline ConcaveShape makeScaledMesh(GridSettings settings = {})
+{
+    settings.m_halfSize *= 4;
+    ConcaveShape shape;
+    addGrid(*shape.m_mesh, settings);
+    auto& mesh = shape.make<btBvhTriangleMeshShape>(shape.m_mesh.get(), true);
+    shape.make<btScaledBvhTriangleMeshShape>(&mesh, btVector3(btScalar(-0.25), btScalar(0.25), 1));
+    return shape;
+}
+
+inline ConcaveShape makeMultimaterialMesh(const GridSettings& settings = {})
+{
+    ConcaveShape shape;
+    addGrid(*shape.m_mesh, settings);
+    shape.make<btMultimaterialTriangleMeshShape>(shape.m_mesh.get(), true);
+    return shape;
+}
+
+/// Without GImpact's margin of 1 cm.
+inline ConcaveShape makeGImpact(const GridSettings& settings = {})
+{
+    ConcaveShape shape;
+    addGrid(*shape.m_mesh, settings);
+    auto& mesh = shape.make<btGImpactMeshShape>(shape.m_mesh.get());
+    mesh.setMargin(0);
+    mesh.updateBound();
+    return shape;
+}
+
+/// Flat, its upper side at z = 0; the cells are scaled to those of the grid.
+inline ConcaveShape makeHeightfield(const GridSettings& settings = {}, bool flip = false)
+{
+    ConcaveShape shape;
+    const int points = settings.m_cells + 1;
+    const btScalar cell = 2 * settings.m_halfSize / btScalar(settings.m_cells);
+    for (int j = 0; j < points; ++j)
+        for (int i = 0; i < points; ++i)
+            shape.m_heights.push_back(
+                settings.m_height(btScalar(i) * cell - settings.m_halfSize, btScalar(j) * cell - settings.m_halfSize));
+    auto& field = shape.make<btHeightfieldTerrainShape>(points, points, shape.m_heights.data(), btScalar(1),
+                                                        btScalar(-1), btScalar(1), 2, PHY_FLOAT, flip);
+    field.setLocalScaling(btVector3(cell, cell, 1));
+    return shape;
+}
+
+/// In a compound in a compound, at offsets whose sum is z = -2.
+inline ConcaveShape makeNested(const GridSettings& settings = {})
+{
+    ConcaveShape shape = makeTriangleMesh(settings);
+    btCollisionShape& mesh = shape.shape();
+    auto& inner = shape.make<btCompoundShape>();
+    btTransform place = btTransform::getIdentity();
+    place.setOrigin({btScalar(0.125), 0, btScalar(-1.5)});
+    inner.addChildShape(place, &mesh);
+    auto& outer = shape.make<btCompoundShape>();
+    place.setOrigin({btScalar(-0.125), 0, btScalar(-0.5)});
+    outer.addChildShape(place, &inner);
+    return shape;
+}
+
+/// One of Bullet's ways to say the same sheet.
+struct NamedConcave
+{
+    std::string m_name;
+    std::function<ConcaveShape(const GridSettings&)> m_make;
+    btScalar m_height = 0;  ///< of the sheet above the object's origin [m]
+};
+
+inline std::ostream& operator<<(std::ostream& out, const NamedConcave& shape)
+{
+    return out << shape.m_name;
+}
+
+inline std::vector<NamedConcave> concaveShapes()
+{
+    return {{"triangleMesh", [](const GridSettings& s) { return makeTriangleMesh(s); }},
+            {"scaledMesh", [](const GridSettings& s) { return makeScaledMesh(s); }},
+            {"multimaterialMesh", [](const GridSettings& s) { return makeMultimaterialMesh(s); }},
+            {"gimpact", [](const GridSettings& s) { return makeGImpact(s); }},
+            {"heightfield", [](const GridSettings& s) { return makeHeightfield(s); }},
+            {"flippedHeightfield", [](const GridSettings& s) { return makeHeightfield(s, true); }},
+            {"meshInCompound", [](const GridSettings& s) { return makeNested(s); }, -2}};
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bridge/bridge_test_bodies.h"
+#include "btBulletDynamicsCommon.h"
+#include "bullet_bridge/contact_finder.h"
+#include "bullet_fem/fem/stepping.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kStep = 1.0 / 60;
+
+/// What moves far within the step: contacts where paths meet.
+class ContactPathsTest : public ::testing::Test
+{
+protected:
+    ContactPathsTest()
+    {
+        m_info.m_broadphase = nullptr;
+        m_info.m_gravity.setZero();
+        m_box.m_body->m_worldInfo = &m_info;
+        m_ball.setCollisionShape(&m_sphere);
+        m_ball.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    }
+    /// With the ball at `start` as the step begins; a kinematic object has moved when contacts are looked for.
+    const std::vector<ContactPoint>& findFrom(const Vec3& start, const Vec3& velocity)
+    {
+        m_ball.getWorldTransform().setOrigin(bulletVector(start + kStep * velocity));
+        m_ball.setInterpolationLinearVelocity(bulletVector(velocity));
+        recordTouching(m_fem, m_ball);
+        solveFreeMotion(m_fem.m_body, StepSettings());
+        m_obstacles.clear();
+        m_finder.find(m_fem, 0, kStep, 1000, m_obstacles);
+        return m_fem.m_contacts;
+    }
+
+    btSoftBodyWorldInfo m_info;
+    TestBox m_box;  // the unit cube, two cells a side
+    FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
+    btSphereShape m_sphere{btScalar(0.0625)};
+    btCollisionObject m_ball;
+    RigidObstacles m_obstacles;
+    ContactFinder m_finder;
+};
+
+std::vector<ContactPoint>::const_iterator deepest(const std::vector<ContactPoint>& contacts)
+{
+    return std::min_element(contacts.begin(), contacts.end(),
+                            [](const auto& a, const auto& b) { return a.m_gap < b.m_gap; });
+}
+
+}  // namespace
+
+TEST_F(ContactPathsTest, aBallMeetsThePointThatItFliesTo)
+{
+    // Down to the upper face and, if nothing stops it, on through the lower one.
+    const auto& contacts = findFrom({0.3, 0.2, 1.5625}, {0, 0, -120});
+    const auto first = deepest(contacts);
+    ASSERT_NE(first, contacts.end());
+    EXPECT_NEAR(first->m_gap, 0.5, 1e-5);
+    EXPECT_NEAR(first->m_normal.z, -1, 1e-6);
+    EXPECT_NEAR(norm(first->m_point - Vec3{0.3, 0.2, 1}), 0, 1e-5);
+    for (const ContactPoint& c : contacts) EXPECT_LT(std::hypot(c.m_point.x - 0.3, c.m_point.y - 0.2), 0.0626);
+}
+
+TEST_F(ContactPathsTest, theArmIsThatOfTheTouch)
+{
+    const auto& contacts = findFrom({-0.2, 0.2, 1.5625}, {60, 0, -60});
+    ASSERT_FALSE(contacts.empty());
+    const Vec3 centre = m_obstacles.obstacles()[0].m_center;
+    for (const ContactPoint& c : contacts)
+        EXPECT_NEAR(norm(c.m_point + c.m_approach - centre - 0.0625 * c.m_normal), 0, 1e-5);
+}
+
+TEST_F(ContactPathsTest, whatLiesBesideThePathIsNoContact)
+{
+    EXPECT_TRUE(findFrom({-1, 0.5, 1.07}, {200, 0, 0}).empty()) << "8 mm over the face";
+    EXPECT_FALSE(findFrom({-1, 0.5, 1.06}, {200, 0, 0}).empty());
+    EXPECT_TRUE(findFrom({0.5, 0.5, 1.07}, {0, 0, 100}).empty()) << "it leaves";
+}
+
+TEST_F(ContactPathsTest, whatTouchesAsTheStepBeginsHasTheGapOfThatTime)
+{
+    const auto& contacts = findFrom({0.3, 0.2, 1.05}, {0, 0, -120});
+    const auto first = deepest(contacts);
+    ASSERT_NE(first, contacts.end());
+    EXPECT_NEAR(first->m_gap, -0.0125, 1e-5);
+    EXPECT_NEAR(norm(first->m_approach - Vec3{0, 0, -2}), 0, 1e-5) << "the object is 2 m farther on";
+}
+
+TEST_F(ContactPathsTest, whatGravityGivesInAStepIsNotFast)
+{
+    const auto fromTheBeginning = [](const ContactPoint& c) { return norm(c.m_approach) == 0; };
+    const double speed = 0.3 / kStep;  // more than half of the ball's diameter and of an edge in a step
+    m_info.m_gravity.setValue(0, 0, btScalar(-speed / kStep));
+    const auto slow = findFrom({0.3, 0.2, 1.1}, {0, 0, -speed});
+    EXPECT_FALSE(slow.empty());
+    EXPECT_TRUE(std::all_of(slow.begin(), slow.end(), fromTheBeginning));
+    m_info.m_gravity.setZero();
+    const auto fast = findFrom({0.3, 0.2, 1.1}, {0, 0, -speed});
+    EXPECT_FALSE(fast.empty());
+    EXPECT_TRUE(std::none_of(fast.begin(), fast.end(), fromTheBeginning));
+}
+
+}  // namespace bullet_fem

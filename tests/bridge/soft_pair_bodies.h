@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <algorithm>
+
+#include "bridge/bridge_test_bodies.h"
+#include "bullet_bridge/soft_pair_finder.h"
+
+namespace bullet_fem
+{
+
+/// Turns about all axes.
+inline Mat3 testRotation(double a, double b, double c)
+{
+    const Mat3 x = {{{1, 0, 0}, {0, std::cos(a), -std::sin(a)}, {0, std::sin(a), std::cos(a)}}};
+    const Mat3 y = {{{std::cos(b), 0, std::sin(b)}, {0, 1, 0}, {-std::sin(b), 0, std::cos(b)}}};
+    const Mat3 z = {{{std::cos(c), -std::sin(c), 0}, {std::sin(c), std::cos(c), 0}, {0, 0, 1}}};
+    return x * y * z;
+}
+
+/// A FEM body of any mesh, outside any world, whose surface can be put anywhere.
+class PairBody
+{
+public:
+    explicit PairBody(const TetMesh& mesh) : m_soft(softBodyOf(m_info, mesh)), m_fem(makeFemSoftBody(*m_soft))
+    {
+        m_x = mesh.restPositions();
+        m_v.resize(m_x.size());
+    }
+
+    PairBody& move(const Vec3& by)
+    {
+        for (Vec3& x : m_x) x += by;
+        return *this;
+    }
+    PairBody& turn(const Mat3& R)
+    {
+        for (Vec3& x : m_x) x = R * x;
+        for (Vec3& v : m_v) v = R * v;
+        return *this;
+    }
+    PairBody& throwAt(const Vec3& v)
+    {
+        m_v.assign(m_v.size(), v);
+        return *this;
+    }
+    template <class Map>
+    PairBody& bend(Map map)
+    {
+        for (Vec3& x : m_x) x = map(x);
+        return *this;
+    }
+
+    FemSoftBody& ready()
+    {
+        m_fem.m_surface.update(m_x, m_v, 1.0 / 60);
+        return m_fem;
+    }
+
+    std::vector<Vec3> m_x, m_v;
+
+private:
+    static std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& info, const TetMesh& mesh)
+    {
+        btAlignedObjectArray<btVector3> positions;
+        for (const Vec3& X : mesh.restPositions()) positions.push_back(bulletVector(X));
+        auto body = std::make_unique<btSoftBody>(&info, positions.size(), &positions[0], nullptr);
+        for (const Tet& t : mesh.tets()) body->appendTetra(t[0], t[1], t[2], t[3]);
+        return body;
+    }
+
+    btSoftBodyWorldInfo m_info;
+
+public:
+    std::unique_ptr<btSoftBody> m_soft;
+    FemSoftBody m_fem;
+};
+
+/// What a finder finds between two bodies, or within one.
+struct PairContacts
+{
+    PairContacts(PairBody& a, PairBody& b, int most = 100000)
+    {
+        a.ready();
+        b.ready();
+        const SoftPairSide first = {a.m_fem, 0}, second = {b.m_fem, &a == &b ? 0 : 1};
+        m_report = m_finder.find(first, second, most, m_contacts, m_origins);
+    }
+
+    int count(SoftPairKind kind) const
+    {
+        return static_cast<int>(std::count_if(m_origins.begin(), m_origins.end(),
+                                              [&](const SoftPairOrigin& o) { return o.m_kind == kind; }));
+    }
+
+    SoftPairFinder m_finder;
+    SoftPairReport m_report;
+    std::vector<ContactPoint> m_contacts;
+    std::vector<SoftPairOrigin> m_origins;
+};
+
+}  // namespace bullet_fem

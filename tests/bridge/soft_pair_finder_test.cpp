@@ -1,0 +1,587 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/soft_pair_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "bridge/soft_pair_bodies.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kExact = 1e-12;  // of lengths about 1 m in double
+
+TetMesh cube(int cells = 2)
+{
+    return makeBox({1, 1, 1}, {cells, cells, cells});
+}
+
+Vec3 at(const std::vector<Vec3>& x, const SurfacePoint& p)
+{
+    return p.m_weights[0] * x[p.m_nodes[0]] + p.m_weights[1] * x[p.m_nodes[1]] + p.m_weights[2] * x[p.m_nodes[2]];
+}
+
+// All normals are along z, from the lower body (1) to the upper one (0) or opposite, and gaps are `gap`.
+void expectAlongZ(const PairContacts& found, double gap)
+{
+    for (const ContactPoint& c : found.m_contacts)
+    {
+        EXPECT_NEAR(c.m_normal.z, c.m_soft.m_body == 0 ? 1 : -1, kExact);
+        EXPECT_NEAR(c.m_gap, gap, kExact);
+    }
+}
+
+TEST(SoftPairFinder, NodesOfEitherCubeTouchTheOthersFace)
+{
+    PairBody upper(cube(3)), lower(cube(2));
+    upper.move({0.2, 0.3, 1.001});
+    const PairContacts found(upper, lower);
+    EXPECT_EQ(found.count(SoftPairKind::nodeOfFirst), 9) << "3 x 3 of 4 x 4 nodes are over the lower cube";
+    EXPECT_EQ(found.count(SoftPairKind::nodeOfSecond), 4);
+    EXPECT_EQ(found.count(SoftPairKind::edges), 2) << "where the rims cross";
+    expectAlongZ(found, 0.001);
+    for (const ContactPoint& c : found.m_contacts)
+    {
+        const Vec3 a = at(c.m_soft.m_body ? lower.m_x : upper.m_x, c.m_soft);
+        const Vec3 b = at(c.m_other.m_body ? lower.m_x : upper.m_x, c.m_other);
+        EXPECT_LT(norm(a - b - c.m_gap * c.m_normal), kExact);
+        EXPECT_LT(norm(0.5 * (a + b) - c.m_point), kExact);
+    }
+}
+
+class FlushCubes : public testing::TestWithParam<Vec3>
+{
+};
+
+TEST_P(FlushCubes, HoldEachOtherUpAndDoNotSqueezeEachOtherAside)
+{
+    PairBody upper(cube()), lower(cube());
+    upper.move(Vec3{0, 0, 1} + GetParam());
+    const PairContacts found(upper, lower);
+    EXPECT_EQ(found.m_contacts.size(), 9u) << "every pair of nodes once";
+    expectAlongZ(found, GetParam().z);
+}
+
+INSTANTIATE_TEST_SUITE_P(Offsets, FlushCubes,
+                         testing::Values(Vec3{0, 0, 0}, Vec3{1e-7, 0, -1e-6}, Vec3{-1e-6, 1e-7, -1e-7},
+                                         Vec3{1e-7, 1e-7, 1e-6}, Vec3{0, -1e-5, -1e-3}, Vec3{1e-5, 0, 1e-3}));
+
+TEST(SoftPairFinder, CrossingBarsTouchWhereTheirRimsCross)
+{
+    PairBody upper(makeBox({3, 0.5, 0.5}, {1, 1, 1})), lower(makeBox({0.5, 3, 0.5}, {1, 1, 1}));
+    upper.move({-1.2, 1.1, 0.501});
+    const PairContacts found(upper, lower);
+    EXPECT_EQ(found.count(SoftPairKind::edges), 4);
+    EXPECT_EQ(found.m_contacts.size(), 4u) << "no node is near";
+    expectAlongZ(found, 0.001);
+    upper.move({0, 0, -0.101});
+    const PairContacts sunk(upper, lower);
+    EXPECT_EQ(sunk.count(SoftPairKind::edges), 4);
+    expectAlongZ(sunk, -0.1);
+}
+
+TEST(SoftPairFinder, EdgesOnEdgesTouchAlongTheirCommonNormal)
+{
+    PairBody upper(makeBox({2, 1, 1}, {1, 1, 1}, {-1, -0.5, -0.5})),
+        lower(makeBox({2, 1, 1}, {1, 1, 1}, {-1, -0.5, -0.5}));
+    upper.turn(testRotation(0.7, 0, 0));  // stands on an edge along x
+    lower.turn(testRotation(0.75, 0, 0)).turn(testRotation(0, 0, 1.1));
+    double lowest = 1, highest = -1;
+    for (const Vec3& x : upper.m_x) lowest = std::min(lowest, x.z);
+    for (const Vec3& x : lower.m_x) highest = std::max(highest, x.z);
+    upper.move({0, 0, highest - lowest + 0.004});
+    const PairContacts found(upper, lower);
+    ASSERT_EQ(found.m_contacts.size(), 1u);
+    EXPECT_EQ(found.m_origins[0].m_kind, SoftPairKind::edges);
+    expectAlongZ(found, 0.004);
+}
+
+TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
+{
+    for (double gap : {0.01, 1e-6, -1e-6, -0.01, -0.2})
+    {
+        PairBody tip(TetMesh({{0.3, 0.41, 0}, {0.2, 0.3, 0.5}, {0.4, 0.3, 0.5}, {0.3, 0.6, 0.5}}, {{0, 1, 2, 3}}));
+        PairBody block(cube());
+        tip.move({0, 0, 1 + gap});
+        const PairContacts found(tip, block);
+        ASSERT_EQ(found.m_contacts.size(), 1u) << gap;
+        expectAlongZ(found, gap);
+        EXPECT_EQ(found.m_contacts[0].m_soft.m_body, 0);
+        EXPECT_EQ(found.m_contacts[0].m_other.m_body, 1);
+        EXPECT_EQ(found.m_contacts[0].m_obstacle, -1);
+    }
+}
+
+TEST(SoftPairFinder, ATipNearTheFarSideOfAThinPlateIsNotDeepInside)
+{
+    PairBody tip(TetMesh({{0.3, 0.41, 0}, {0.2, 0.3, 0.5}, {0.4, 0.3, 0.5}, {0.3, 0.6, 0.5}}, {{0, 1, 2, 3}}));
+    PairBody plate(makeBox({1, 1, 0.05}, {4, 4, 1}, {0, 0, -0.05}));
+    tip.move({0, 0, 0.002});
+    const PairContacts above(tip, plate);
+    ASSERT_EQ(above.m_contacts.size(), 1u);
+    expectAlongZ(above, 0.002);
+}
+
+TEST(SoftPairFinder, FindsWhatClosesWithinTheStepAndNothingElse)
+{
+    PairBody upper(cube()), lower(cube());
+    upper.move({0.1, 0.1, 1.1});
+    EXPECT_TRUE(PairContacts(upper, lower).m_contacts.empty());
+    upper.throwAt({0, 0, -10});  // 0.17 m a step
+    lower.throwAt({0, 0, -3});
+    const PairContacts closing(upper, lower);
+    EXPECT_GE(closing.m_contacts.size(), 8u);
+    expectAlongZ(closing, 0.1);
+    lower.throwAt({0, 0, -11});  // runs away
+    EXPECT_TRUE(PairContacts(upper, lower).m_contacts.empty());
+    // What both have in common does not matter.
+    upper.throwAt({300, 0, -10});
+    lower.throwAt({300, 0, -3});
+    EXPECT_EQ(PairContacts(upper, lower).m_contacts.size(), closing.m_contacts.size());
+}
+
+TEST(SoftPairFinder, FastBodiesMeetThinPlatesManyThicknessesAway)
+{
+    PairBody ball(makeSphere(0.1, 4)), plate(makeBox({1, 1, 0.01}, {5, 5, 1}, {-0.5, -0.5, -0.01}));
+    ball.move({0.03, 0.02, 0.25}).throwAt({3, 0, -40});  // 0.67 m a step
+    const PairContacts found(ball, plate);
+    EXPECT_GE(found.count(SoftPairKind::nodeOfFirst), 25) << "the lower half of the ball's nodes";
+    for (const ContactPoint& c : found.m_contacts)
+    {
+        EXPECT_NEAR(std::fabs(c.m_normal.z), 1, kExact);
+        EXPECT_GT(c.m_gap, 0);
+        EXPECT_NEAR(c.m_gap,
+                    at(c.m_soft.m_body ? plate.m_x : ball.m_x, c.m_soft).z -
+                        at(c.m_other.m_body ? plate.m_x : ball.m_x, c.m_other).z,
+                    kExact);
+    }
+    ball.throwAt({40, 0, -3});  // flies past
+    EXPECT_TRUE(PairContacts(ball, plate).m_contacts.empty());
+}
+
+TEST(SoftPairFinder, FastCrossingBarsMeet)
+{
+    PairBody upper(makeBox({3, 0.1, 0.1}, {1, 1, 1})), lower(makeBox({0.1, 3, 0.1}, {1, 1, 1}));
+    upper.move({-1.2, 1.1, 0.5}).throwAt({0, 0, -60});
+    const PairContacts found(upper, lower);
+    EXPECT_GE(found.count(SoftPairKind::edges), 4);
+    expectAlongZ(found, 0.4);
+}
+
+TEST(SoftPairFinder, WhatOverlapsAtTheStartIsLedOutTheShortWay)
+{
+    for (double depth : {0.05, 0.2, 0.45})
+    {
+        PairBody upper(cube(4)), lower(cube(4));
+        upper.move({0.13, 0.07, 1 - depth});
+        const PairContacts found(upper, lower);
+        int up = 0;
+        for (const ContactPoint& c : found.m_contacts)
+        {
+            EXPECT_TRUE(isFinite(c.m_normal));
+            EXPECT_NEAR(norm(c.m_normal), 1, kExact);
+            EXPECT_GE(c.m_gap, -depth - kExact);
+            EXPECT_LT(c.m_gap, 0.02);
+            if (c.m_gap < -1e-9) up += std::fabs(c.m_normal.z) > 0.99;
+        }
+        EXPECT_GE(up, 8) << depth;
+    }
+}
+
+// A tetrahedron whose first node, at the origin, points in the direction (-1, 0, -1).
+TetMesh obliqueTip()
+{
+    return TetMesh({{0, 0, 0}, {0.3, 0.1, 0.1}, {0.1, 0.1, 0.3}, {0.2, -0.1, 0.2}}, {{0, 1, 2, 3}});
+}
+
+TEST(SoftPairFinder, InsideAnEdgeTheNearerFaceLeadsOut)
+{
+    PairBody tip(obliqueTip()), block(cube(4));
+    tip.move({0.98, 0.4, 0.99});  // 0.02 under one face, 0.01 under the other
+    const PairContacts found(tip, block);
+    ASSERT_EQ(found.count(SoftPairKind::nodeOfFirst), 1);
+    EXPECT_NEAR(found.m_contacts[0].m_normal.z, 1, kExact);
+    EXPECT_NEAR(found.m_contacts[0].m_gap, -0.01, kExact);
+}
+
+TEST(SoftPairFinder, OnARimOneFaceCarries)
+{
+    PairBody tip(obliqueTip()), block(cube(4));
+    tip.move({1 + 1e-6, 0.4, 1 + 1e-6});
+    const PairContacts found(tip, block);
+    ASSERT_EQ(found.m_contacts.size(), 1u);
+    EXPECT_NEAR(found.m_contacts[0].m_gap, 1e-6, kExact);
+}
+
+TEST(SoftPairFinder, ATipSunkIntoTheFloorOfAGrooveIsHeldByItsWallToo)
+{
+    PairBody corner(makeBox({1, 1, 1}, {2, 2, 2}));
+    std::vector<Tet> tets;
+    for (const Tet& t : corner.m_fem.m_body.m_model->mesh().tets())  // without the cells beyond x = 0.5, z = 0.5
+    {
+        Vec3 middle;
+        for (int i : t) middle += 0.25 * corner.m_x[i];
+        if (!(middle.x > 0.5 && middle.z > 0.5)) tets.push_back(t);
+    }
+    std::vector<Vec3> X = corner.m_x;
+    for (int i = static_cast<int>(X.size()) - 1; i >= 0; --i)
+    {
+        const auto uses = [&](const Tet& t) { return std::find(t.begin(), t.end(), i) != t.end(); };
+        if (std::any_of(tets.begin(), tets.end(), uses)) continue;
+        X.erase(X.begin() + i);
+        for (Tet& t : tets)
+            for (int& j : t) j -= j > i;
+    }
+    PairBody tip(obliqueTip()), groove(TetMesh(X, tets));
+    for (const Vec3& at : {Vec3{0.501, 0.4, 0.4999}, Vec3{0.4999, 0.4, 0.501}, Vec3{0.4999, 0.4, 0.499}})
+    {
+        tip.m_x = tip.m_fem.m_body.m_model->mesh().restPositions();
+        tip.move(at);
+        const PairContacts found(tip, groove);
+        ASSERT_EQ(found.count(SoftPairKind::nodeOfFirst), 2);
+        for (const ContactPoint& c : {found.m_contacts[0], found.m_contacts[1]})
+        {
+            EXPECT_NEAR(std::max(c.m_normal.x, c.m_normal.z), 1, kExact);
+            EXPECT_NEAR(c.m_gap, c.m_normal.x > 0.5 ? at.x - 0.5 : at.z - 0.5, kExact);
+        }
+    }
+}
+
+// Four nearly equal faces meet under the tip: none of them comes first.
+TEST(SoftPairFinder, OverAFlatCornerTheMeanNormalIsUsed)
+{
+    PairBody tip(TetMesh({{0, 0, 0}, {-0.1, -0.11, 0.5}, {0.1, -0.1, 0.5}, {0, 0.2, 0.5}}, {{0, 1, 2, 3}}));
+    PairBody block(makeBox({1, 1, 1}, {2, 2, 2}, {-0.5, -0.5, -1}));
+    block.bend([](const Vec3& x) { return norm(x) == 0 ? Vec3{0, 0, -0.02} : x; });
+    tip.move({0, 0, -0.019});
+    const PairContacts found(tip, block);
+    ASSERT_EQ(found.m_contacts.size(), 1u);
+    EXPECT_NEAR(found.m_contacts[0].m_normal.z, 1, kExact);
+    EXPECT_NEAR(found.m_contacts[0].m_gap, 0.001, 0.04 * 0.04 * 0.001) << "to the slope of the dent squared";
+}
+
+TEST(SoftPairFinder, OfTwoLayersTheFirstStopsAFastTip)
+{
+    PairBody tip(TetMesh({{0.4, 0.15, 1}, {0.3, 0.1, 1.5}, {0.5, 0.1, 1.5}, {0.4, 0.25, 1.5}}, {{0, 1, 2, 3}}));
+    tip.throwAt({0, 0, -90});  // 1.5 m a step
+    PairBody strip(makeBox({2, 0.3, 0.1}, {20, 3, 1}));
+    strip.bend([](const Vec3& X) { return X.x <= 1 ? X + Vec3{0, 0, 0.4 * X.x} : Vec3{2 - X.x, X.y, 0.7 - X.z}; });
+    const PairContacts found(tip, strip);
+    ASSERT_EQ(found.count(SoftPairKind::nodeOfFirst), 1);
+    EXPECT_NEAR(found.m_contacts[0].m_gap, 0.3, 1e-9) << "the layer at z = 0.7 is level";
+}
+
+TEST(SoftPairFinder, EdgesThatDoNotFaceEachOtherDoNotTouch)
+{
+    PairBody upper(makeBox({3, 0.5, 0.5}, {1, 1, 1})), lower(makeBox({0.5, 3, 0.02}, {1, 1, 1}));
+    upper.move({-1.2, 1.1, 0.021});
+    const PairContacts found(upper, lower);  // the lower edges of the plate are in reach
+    EXPECT_EQ(found.m_contacts.size(), 4u);
+    expectAlongZ(found, 0.001);
+}
+
+// An edge that rises outwards from a point under the face crosses the rim in a direction that separates nothing.
+TEST(SoftPairFinder, AnEdgeAcrossARimTouchesItBetweenTheNormalsOfItsFacesOnly)
+{
+    PairBody tip(TetMesh({{0.9, 0.4, 0.98}, {1.3, 0.45, 1.08}, {1, 0.2, 1.5}, {1.1, 0.7, 1.5}}, {{0, 1, 2, 3}}));
+    PairBody block(cube(4));
+    const PairContacts found(tip, block);
+    ASSERT_EQ(found.m_contacts.size(), 1u);
+    expectAlongZ(found, -0.02);
+}
+
+TEST(SoftPairFinder, WhatOverlapsALittleSidewaysIsNotLiftedUp)
+{
+    PairBody a(cube(1)), b(cube(1));
+    a.move({0.99, 0.3, 0.7});
+    const PairContacts found(a, b);
+    ASSERT_FALSE(found.m_contacts.empty());
+    for (const ContactPoint& c : found.m_contacts)
+    {
+        EXPECT_NEAR(std::fabs(c.m_normal.x), 1, kExact);
+        EXPECT_NEAR(c.m_gap, -0.01, kExact);
+    }
+}
+
+// Both ways of asking find the same points.
+TEST(SoftPairFinder, ExchangingTheBodiesChangesTheOrderOnly)
+{
+    PairBody a(makeSphere(0.5, 6)), b(makeSphere(0.4, 4));
+    b.turn(testRotation(1, 2, 3)).move({0.3, 0.3, 0.76});
+    const PairContacts ab(a, b), ba(b, a);
+    ASSERT_EQ(ab.m_contacts.size(), ba.m_contacts.size());
+    ASSERT_GE(ab.m_contacts.size(), 6u);
+    for (const ContactPoint& c : ab.m_contacts)
+        EXPECT_EQ(
+            std::count_if(ba.m_contacts.begin(), ba.m_contacts.end(),
+                          [&](const ContactPoint& d)
+                          { return norm(c.m_point - d.m_point) < kExact && std::fabs(c.m_gap - d.m_gap) < kExact; }),
+            1);
+}
+
+class PlacedPairs : public testing::TestWithParam<int>
+{
+};
+
+// Turned and moved as one, to 100 m away, a pair has the same contacts.
+TEST_P(PlacedPairs, TouchAtTheSamePoints)
+{
+    PairBody a(makeSphere(0.5, 6)), b(cube(3));
+    b.turn(testRotation(0.3, 0.2, 0.1)).move({-0.5, -0.45, 0.37});
+    b.throwAt({0, 0, -1});
+    const PairContacts here(a, b);
+    const double seed = GetParam();
+    const Mat3 R = testRotation(seed, 2.1 * seed, 0.7 * seed);
+    const Vec3 away = {100, -50 * seed, 30};
+    a.turn(R).move(away);
+    b.turn(R).move(away);
+    const PairContacts there(a, b);
+    ASSERT_EQ(here.m_contacts.size(), there.m_contacts.size());
+    ASSERT_GE(here.m_contacts.size(), 5u);
+    for (std::size_t k = 0; k < here.m_contacts.size(); ++k)
+    {
+        EXPECT_NEAR(here.m_contacts[k].m_gap, there.m_contacts[k].m_gap, 1e-12) << "100 m resolve 1.4e-14 m";
+        EXPECT_LT(norm(R * here.m_contacts[k].m_normal - there.m_contacts[k].m_normal), 1e-11);
+        EXPECT_EQ(here.m_origins[k].m_feature, there.m_origins[k].m_feature);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Turns, PlacedPairs, testing::Values(1, 2, 3));
+
+// The sum of the solid angles of all triangles is 4 pi inside [van Oosterom and Strackee 1983].
+bool isInside(const SoftSurface& surface, const Vec3& p)
+{
+    double sum = 0;
+    for (const Triangle& t : surface.triangles())
+    {
+        const Vec3 a = surface.position()[t[0]] - p, b = surface.position()[t[1]] - p, c = surface.position()[t[2]] - p;
+        const double A = norm(a), B = norm(b), C = norm(c);
+        sum += 2 * std::atan2(dot(a, cross(b, c)), A * B * C + dot(a, b) * C + dot(b, c) * A + dot(c, a) * B);
+    }
+    return sum > 6;
+}
+
+double signedDistance(const SoftSurface& surface, const Vec3& p)
+{
+    double least = 1e9;
+    for (std::size_t t = 0; t < surface.triangles().size(); ++t)
+        least = std::min(least, norm(p - nearestOnTriangle(surface.tree().corners(static_cast<int>(t)), p).m_point));
+    return isInside(surface, p) ? -least : least;
+}
+
+// Against all pairs: the nodes of two overlapping balls that are within the band or inside.
+TEST(SoftPairFinder, FindsWhatAllPairsFind)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int scene = 0; scene < 20; ++scene)
+    {
+        PairBody a(makeSphere(0.5, 8)), b(makeSphere(0.4, 6));
+        const Vec3 direction = {uniform(random), uniform(random), uniform(random)};
+        b.turn(testRotation(3 * uniform(random), 3 * uniform(random), 3 * uniform(random)));
+        b.move((0.8 / norm(direction)) * direction);
+        const PairContacts found(a, b);
+        const double band = 0.05 * std::min(a.m_fem.m_surface.meanEdge(), b.m_fem.m_surface.meanEdge());
+        int expected = 0;
+        for (int i : b.m_fem.m_surface.nodes())
+        {
+            const double distance = signedDistance(a.m_fem.m_surface, b.m_x[i]);
+            if (distance > 0.99 * band) continue;
+            ++expected;
+            double nearest = 1e9;
+            for (std::size_t k = 0; k < found.m_contacts.size(); ++k)
+                if (found.m_origins[k].m_kind == SoftPairKind::nodeOfSecond && found.m_origins[k].m_feature == i)
+                    nearest = std::min(nearest, std::fabs(found.m_contacts[k].m_gap - distance));
+            EXPECT_LT(nearest, 1e-2 * std::fabs(distance) + kExact) << "mean normals of nearly flat edges";
+        }
+        EXPECT_GT(expected, 3);
+    }
+}
+
+class UndeformedBodies : public testing::TestWithParam<int>
+{
+protected:
+    static TetMesh mesh(int k)
+    {
+        if (k == 0) return cube(4);
+        if (k == 1) return makeSphere(0.5, 12);
+        if (k == 2) return makeBox({2, 2, 0.1}, {20, 20, 1});
+        if (k == 3) return makeBox({2, 2, 0.02}, {20, 20, 1});  // flat cells
+        if (k == 4) return makeBox({1, 1, 0.3}, {3, 3, 3});     // three flat cells
+        return makeCylinder(0.05, 2, 2, 40);
+    }
+};
+
+TEST_P(UndeformedBodies, DoNotTouchThemselves)
+{
+    PairBody body(mesh(GetParam()));
+    EXPECT_TRUE(PairContacts(body, body).m_contacts.empty());
+}
+
+TEST_P(UndeformedBodies, DoNotTouchThemselvesBentStretchedOrSqueezedALittle)
+{
+    PairBody body(mesh(GetParam()));
+    body.bend([](const Vec3& x) { return Vec3{std::sin(x.x) * (1 + x.z), x.y, (1 + x.z) * std::cos(x.x)}; });
+    EXPECT_TRUE(PairContacts(body, body).m_contacts.empty());
+    PairBody squeezed(mesh(GetParam()));
+    squeezed.bend([](const Vec3& x) { return Vec3{1.3 * x.x, x.y, 0.6 * x.z}; });
+    EXPECT_TRUE(PairContacts(squeezed, squeezed).m_contacts.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, UndeformedBodies, testing::Range(0, 6));
+
+// Folds a strip along x about the line x = 1 into two layers, `distance` apart inside, with a round fold.
+Vec3 folded(const Vec3& X, double distance)
+{
+    const double r = 0.5 * distance, s = X.x - 1, half = 0.5 * 3.14159265358979 * r;
+    if (s <= -half) return {s + half, X.y, X.z};
+    const double roof = r - (X.z - 0.1);  // radius of this layer; the axis is r above the strip's top at z = 0.1
+    const double angle = std::min(s + half, 2 * half) / r;
+    const double beyond = std::max(0.0, s - half);
+    return {roof * std::sin(angle) - beyond, X.y, 0.1 + r - roof * std::cos(angle)};
+}
+
+TEST(SoftPairFinder, TheLayersOfAFoldedStripTouch)
+{
+    PairBody strip(makeBox({2, 0.3, 0.1}, {20, 3, 1}));
+    for (double distance : {0.004, -0.004, -0.03})
+    {
+        PairBody body(makeBox({2, 0.3, 0.1}, {20, 3, 1}));
+        // Two layers above each other: the far half turned over onto the near one.
+        body.bend([&](const Vec3& X) { return X.x <= 1 ? X : Vec3{2 - X.x + 0.03, X.y, 0.2 + distance - X.z}; });
+        const PairContacts found(body, body);
+        int between = 0;
+        for (const ContactPoint& c : found.m_contacts)
+        {
+            EXPECT_NEAR(std::fabs(c.m_normal.z), 1, 1e-9);
+            EXPECT_NEAR(c.m_gap, distance, 1e-9);
+            ++between;
+        }
+        EXPECT_GE(between, 40) << distance;
+    }
+    strip.bend([](const Vec3& X) { return folded(X, 0.35); });
+    EXPECT_TRUE(PairContacts(strip, strip).m_contacts.empty()) << "folded, but far apart";
+}
+
+// A slit narrower than an edge: close at rest, but not connected by a short way.
+TEST(SoftPairFinder, TheSidesOfANarrowSlitTouchWhenItCloses)
+{
+    const TetMesh box = makeBox({1, 0.2, 1}, {10, 2, 10});
+    std::vector<Vec3> X = box.restPositions();
+    std::vector<Tet> tets;
+    for (const Tet& t : box.tets())  // leaves out the cells around x = 0.55, from z = 0.2 upwards
+    {
+        const Vec3 middle = 0.25 * (X[t[0]] + X[t[1]] + X[t[2]] + X[t[3]]);
+        if (!(middle.x > 0.5 && middle.x < 0.6 && middle.z > 0.2)) tets.push_back(t);
+    }
+    std::vector<int> index(X.size(), -1);
+    std::vector<Vec3> used;
+    for (Tet& t : tets)
+        for (int& i : t)
+        {
+            if (index[i] < 0)
+            {
+                index[i] = static_cast<int>(used.size());
+                used.push_back(X[i]);
+            }
+            i = index[i];
+        }
+    PairBody body(TetMesh(used, tets));
+    EXPECT_TRUE(PairContacts(body, body).m_contacts.empty());
+    body.bend([](const Vec3& x) { return x.x < 0.55 ? x + Vec3{0.099 * x.z, 0, 0} : x; });  // closes at the top
+    const PairContacts found(body, body);
+    EXPECT_GE(found.m_contacts.size(), 3u);
+}
+
+TEST(SoftPairFinder, MaterialsOfBothMakeTheContact)
+{
+    PairBody upper(cube()), lower(cube());
+    upper.move({0.1, 0.1, 1});
+    upper.m_soft->m_cfg.kDF = btScalar(0.25);
+    lower.m_soft->m_cfg.kDF = btScalar(0.75);
+    upper.m_soft->setRestitution(btScalar(0.5));
+    lower.m_soft->setRestitution(btScalar(0.25));
+    upper.m_fem.m_contactOffset = 0.01;
+    const PairContacts found(upper, lower);
+    ASSERT_FALSE(found.m_contacts.empty());
+    for (const ContactPoint& c : found.m_contacts)
+    {
+        EXPECT_EQ(c.m_friction, 0.75);
+        EXPECT_EQ(c.m_restitution, 0.125);
+        EXPECT_NEAR(c.m_gap, -0.01, kExact);
+    }
+    upper.m_soft->m_cfg.kDF = lower.m_soft->m_cfg.kDF = -1;
+    EXPECT_EQ(PairContacts(upper, lower).m_contacts[0].m_friction, 0);
+}
+
+TEST(SoftPairFinder, KeepsTheDeepestWhereTooManyAreFound)
+{
+    PairBody upper(cube()), lower(cube());
+    upper.turn(testRotation(0, 0.01, 0)).move({0.1, 0.1, 1});
+    const PairContacts all(upper, lower), some(upper, lower, 3);
+    EXPECT_TRUE(some.m_report.m_limited);
+    ASSERT_EQ(some.m_contacts.size(), 3u);
+    double worst = -1;
+    for (const ContactPoint& c : some.m_contacts) worst = std::max(worst, c.m_gap);
+    EXPECT_EQ(std::count_if(all.m_contacts.begin(), all.m_contacts.end(),
+                            [&](const ContactPoint& c) { return c.m_gap < worst; }),
+              2);
+}
+
+TEST(SoftPairFinder, TakesOverTheImpulsesOfTheLastStepToTheNextFace)
+{
+    PairBody upper(cube()), lower(cube(4));
+    upper.move({0.1, 0.1, 1});
+    PairContacts found(upper, lower);
+    for (std::size_t k = 0; k < found.m_contacts.size(); ++k) found.m_contacts[k].m_impulse = {0, 0, 1.0 + double(k)};
+    const std::vector<ContactPoint> before = found.m_contacts;
+    const std::vector<SoftPairOrigin> origins = found.m_origins;
+    EXPECT_TRUE(std::is_sorted(origins.begin(), origins.end()));
+    found.m_finder.remember(before, origins);
+    found.m_finder.beginStep();
+    upper.move({0.21, 0, 0}).ready();  // nodes lie over other triangles now
+    found.m_contacts.clear();
+    found.m_origins.clear();
+    found.m_finder.find({upper.m_fem, 0}, {lower.m_fem, 1}, 1000, found.m_contacts, found.m_origins);
+    int taken = 0, fresh = 0;
+    for (std::size_t k = 0; k < found.m_contacts.size(); ++k)
+    {
+        const SoftPairOrigin& now = found.m_origins[k];
+        const auto isSame = [&](const SoftPairOrigin& last)
+        {
+            return last.m_kind == now.m_kind && last.m_feature == now.m_feature &&
+                   (last.m_kind != SoftPairKind::edges || last.m_otherFeature == now.m_otherFeature);
+        };
+        const auto last = std::find_if(origins.begin(), origins.end(), isSame);
+        const bool isFresh = last == origins.end();
+        EXPECT_EQ(found.m_contacts[k].m_impulse.z, isFresh ? 0 : before[last - origins.begin()].m_impulse.z);
+        (isFresh ? fresh : taken) += 1;
+    }
+    EXPECT_GE(fresh, 1);
+    EXPECT_GE(taken, 4);
+}
+
+TEST(SoftPairFinder, CollapsedAndNonFiniteSurfacesGiveNoNonFiniteContacts)
+{
+    PairBody body(cube()), flat(cube()), point(cube()), broken(cube());
+    flat.bend([](const Vec3& x) { return Vec3{x.x, x.y, 1}; });
+    point.bend([](const Vec3&) { return Vec3{0.3, 0.3, 1}; });
+    broken.move({0, 0, 1});
+    broken.m_x[3].x = std::numeric_limits<double>::quiet_NaN();
+    broken.m_v[5].y = std::numeric_limits<double>::infinity();
+    for (PairBody* other : {&flat, &point, &broken})
+        for (const PairContacts& found : {PairContacts(body, *other), PairContacts(*other, *other)})
+            for (const ContactPoint& c : found.m_contacts)
+            {
+                EXPECT_TRUE(isFinite(c.m_normal) && isFinite(c.m_point) && std::isfinite(c.m_gap));
+                EXPECT_NEAR(norm(c.m_normal), 1, 1e-9);
+            }
+}
+
+}  // namespace
+}  // namespace bullet_fem

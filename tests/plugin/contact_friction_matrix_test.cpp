@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/scene_measures.h"
+#include "plugin/soft_world.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kSoftFriction = 0.5, kRigidFriction = 0.8;
+constexpr double kFriction = kSoftFriction * kRigidFriction;  // Coulomb's mu [-]
+
+struct FrictionCase
+{
+    double m_steepness;  // tan(slope) / mu [-]
+    double m_young;      // [Pa]
+    int m_stepsPerSecond;
+    bool m_plane;  // else a box
+};
+
+std::string nameOf(const testing::TestParamInfo<FrictionCase>& info)
+{
+    const FrictionCase& c = info.param;
+    return "steepness" + std::to_string(int(100 * c.m_steepness + 0.5)) + (c.m_young > 1e6 ? "stiff" : "soft") + "At" +
+           std::to_string(c.m_stepsPerSecond) + "Hz" + (c.m_plane ? "OnAPlane" : "OnABox");
+}
+
+/// A cube of 1 m on a ground that falls towards +x. The swap alone: the ground is static.
+class FrictionMatrix : public testing::TestWithParam<FrictionCase>
+{
+protected:
+    explicit FrictionMatrix(double massDamping = 0)
+    {
+        const btQuaternion tilt(btVector3(0, 1, 0), btScalar(m_slope));
+        const btVector3 normal = quatRotate(tilt, btVector3(0, 0, 1));
+        m_normal = vec3(normal);
+        m_downhill = vec3(quatRotate(tilt, btVector3(1, 0, 0)));
+        RigidSettings settings;
+        settings.m_friction = btScalar(kRigidFriction);
+        if (!GetParam().m_plane) settings.m_transform = btTransform(tilt, -normal);
+        m_world.addRigid(GetParam().m_plane ? static_cast<btCollisionShape*>(new btStaticPlaneShape(normal, 0))
+                                            : new btBoxShape(btVector3(40, 40, 1)),
+                         settings);
+        btSoftBody* cube = btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(0.5)),
+                                                   btVector3(0.5, 0.5, 0.5), btScalar(0.25));
+        cube->rotate(tilt);
+        cube->m_cfg.kDF = btScalar(kSoftFriction);
+        btFemMaterial material;
+        material.m_youngModulus = btScalar(GetParam().m_young);
+        material.m_massDamping = btScalar(massDamping);
+        m_fem.setMaterial(cube, material);
+        m_cube = &m_world.addSoft(cube);
+    }
+
+    void step(int count) { m_world.step(count, btScalar(m_h)); }
+    int steps(double seconds) const { return static_cast<int>(seconds / m_h + 0.5); }
+    double downhillSpeed() const { return dot(velocityOf(*m_cube), m_downhill); }
+
+    double frictionOverNormal() const
+    {
+        const Vec3 J = impulseOn(m_fem, *m_cube);
+        return norm(J - dot(J, m_normal) * m_normal) / dot(J, m_normal);
+    }
+
+    // Acceleration that Coulomb's law leaves [m/s2].
+    double expectedAcceleration() const { return kGravity * (std::sin(m_slope) - kFriction * std::cos(m_slope)); }
+
+    const double m_h = 1.0 / GetParam().m_stepsPerSecond;                  // [s]
+    const double m_slope = std::atan(GetParam().m_steepness * kFriction);  // [rad]
+    btFemSoftBodySolver m_fem;
+    SoftWorld m_world{m_fem};
+    Vec3 m_normal, m_downhill;
+    btSoftBody* m_cube = nullptr;
+};
+
+using Sliding = FrictionMatrix;
+
+/// Damped: by its stiffness damping alone the softer cube would swing for half a minute.
+class Sticking : public FrictionMatrix
+{
+protected:
+    Sticking() : FrictionMatrix(5) {}
+};
+
+TEST_P(Sliding, FrictionIsMuTimesTheNormalForceAndTheRestAccelerates)
+{
+    step(steps(2));
+    const double before = downhillSpeed();
+    double largest = 0, deepest = 0;
+    for (int frame = 0; frame < steps(1); ++frame)
+    {
+        step(1);
+        largest = std::max(largest, std::fabs(frictionOverNormal() / kFriction - 1));
+        deepest = std::max(deepest, double(m_fem.stepReport(m_cube).m_deepestPenetration));
+    }
+    EXPECT_LT(largest, 5e-4);
+    EXPECT_LT(deepest, 1e-4);
+    EXPECT_NEAR(downhillSpeed() - before, expectedAcceleration(), 0.01 * kGravity * std::sin(m_slope));
+}
+
+TEST_P(Sticking, DoesNotCreepAndFrictionBalancesTheSlope)
+{
+    step(steps(4));
+    const Vec3 start = centerOf(*m_cube);
+    double fastest = 0, ratioError = 0;
+    for (int frame = 0; frame < steps(1); ++frame)
+    {
+        step(1);
+        fastest = std::max(fastest, norm(velocityOf(*m_cube)));
+        ratioError = std::max(ratioError, std::fabs(frictionOverNormal() / std::tan(m_slope) - 1));
+    }
+    EXPECT_LT(fastest, 1e-4);
+    EXPECT_LT(norm(centerOf(*m_cube) - start), 1e-4);  // after 1 s
+    EXPECT_LT(ratioError, 1e-3);
+}
+
+std::vector<FrictionCase> cases(const std::vector<double>& steepness)
+{
+    std::vector<FrictionCase> all;
+    for (const double s : steepness)
+        for (const double young : {1e5, 1e7})
+            for (const int rate : {60, 240})
+                for (const bool plane : {true, false}) all.push_back({s, young, rate, plane});
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Contact, Sliding, testing::ValuesIn(cases({1.05, 1.3, 2})), nameOf);
+INSTANTIATE_TEST_SUITE_P(Contact, Sticking, testing::ValuesIn(cases({0.95})), nameOf);
+
+}  // namespace
+}  // namespace bullet_fem
