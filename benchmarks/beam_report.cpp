@@ -10,34 +10,12 @@
 #include <numeric>
 #include <utility>
 
+#include "benchmarks/figures.h"
+
 namespace bullet_fem
 {
 namespace
 {
-
-double median(std::vector<double> values)
-{
-    const auto middle = values.begin() + values.size() / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-/// Largest of values >= 0; NaN if one of them is.
-double largest(const std::vector<double>& values)
-{
-    double result = 0;
-    for (double value : values)
-        if (!(value <= result) && !std::isnan(result)) result = value;
-    return result;
-}
-
-template <class... Values>
-void print(std::ostream& out, const char* format, Values... values)
-{
-    char line[256];
-    std::snprintf(line, sizeof line, format, values...);
-    out << line;
-}
 
 std::string toleranceText(const BeamFigures& row)
 {

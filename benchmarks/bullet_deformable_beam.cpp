@@ -2,31 +2,18 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "benchmarks/bullet_deformable_beam.h"
 
-#include <BulletSoftBody/btDeformableBodySolver.h>
-#include <BulletSoftBody/btDeformableGravityForce.h>
-#include <BulletSoftBody/btDeformableLinearElasticityForce.h>
-#include <BulletSoftBody/btDeformableMultiBodyConstraintSolver.h>
-#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
-#include <BulletSoftBody/btSoftBody.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
-#include <btBulletDynamicsCommon.h>
-
-#include <chrono>
 #include <cmath>
 #include <memory>
+
+#include "benchmarks/bullet_deformable_world.h"
+#include "benchmarks/figures.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-using Clock = std::chrono::steady_clock;
 using VectorArray = btAlignedObjectArray<btVector3>;
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Bullet's force, which also counts Bullet's CG iterations: one product with the stiffness each, and one before the
 /// first.
@@ -53,10 +40,10 @@ struct AuditedDeformableSolver : btDeformableBodySolver
     {
         m_force->m_products = 0;
         btDeformableBodySolver::solveDeformableConstraints(step);
-        const Clock::time_point start = Clock::now();
+        const Stopwatch watch;
         m_iterations = m_force->m_products - 1;
         measureResidual(step);
-        m_auditSeconds = secondsSince(start);
+        m_auditSeconds = watch.seconds();
     }
 
 private:
@@ -87,78 +74,37 @@ private:
     }
 };
 
-btVector3 toBullet(const Vec3& a)
-{
-    return btVector3(btScalar(a.x), btScalar(a.y), btScalar(a.z));
-}
-
-/// A deformable world with one soft body in it, as Bullet's deformable demos set it up.
+/// A deformable world with one soft body in it.
 class DeformableBeamWorld
 {
 public:
-    explicit DeformableBeamWorld(const BeamCase& beam)
-        : m_dispatcher(&m_configuration), m_gravityForce(toBullet(beam.m_gravity))
-    {
-        m_rigidSolver.setDeformableSolver(&m_solver);
-        m_world = std::make_unique<btDeformableMultiBodyDynamicsWorld>(&m_dispatcher, &m_broadphase, &m_rigidSolver,
-                                                                       &m_configuration, &m_solver);
-        m_world->setImplicit(true);
-        // without projection the implicit solve gives NaN, which Bullet turns into standing still
-        m_world->setUseProjection(true);
-        m_world->setGravity(toBullet(beam.m_gravity));
-        m_world->getWorldInfo().m_gravity = toBullet(beam.m_gravity);
-
-        addBody(beam);
-        addForces(beam.m_material);
-        m_solver.m_force = &m_elasticForce;
-    }
-
-    ~DeformableBeamWorld() { m_world->removeSoftBody(m_body.get()); }
-
-    void step(double h) { m_world->stepSimulation(btScalar(h), 0); }  // 0: no sub-steps, exactly one step of h
-
-    const btSoftBody& body() const { return *m_body; }
-    const AuditedDeformableSolver& solver() const { return m_solver; }
-
-private:
-    void addBody(const BeamCase& beam)
+    explicit DeformableBeamWorld(const BeamCase& beam) : m_world(m_solver, beam.m_gravity)
     {
         const std::vector<double> masses = lumpedNodeMasses(beam);
-        m_body = std::make_unique<btSoftBody>(&m_world->getWorldInfo(), 0, nullptr, nullptr);
+        m_body = std::make_unique<btSoftBody>(&m_world.world().getWorldInfo(), 0, nullptr, nullptr);
         for (std::size_t i = 0; i < masses.size(); ++i)
             m_body->appendNode(toBullet(beam.m_positions[i]), btScalar(masses[i]));
         for (int i : beam.m_clampedNodes) m_body->setMass(i, 0);
         for (const Tet& tet : beam.m_tets) m_body->appendTetra(tet[0], tet[1], tet[2], tet[3]);
 
-        // appendTetra leaves out what the deformable forces read
-        m_body->m_tetraScratches.resize(m_body->m_tetras.size());
-        m_body->m_tetraScratchesTn.resize(m_body->m_tetras.size());
-        m_body->initializeDmInverse();
-
         m_body->getCollisionShape()->setMargin(btScalar(1e-4));
         m_body->m_cfg.collisions = 0;  // the time is to be that of the finite elements alone
         m_body->setSelfCollision(false);
-        m_body->setActivationState(DISABLE_DEACTIVATION);
-        m_world->addSoftBody(m_body.get());
+        m_world.add(*m_body, m_elasticForce, beam.m_material);
+        m_solver.m_force = &m_elasticForce;
     }
 
-    /// Bullet's damping is the same Rayleigh damping alpha M + beta K', so alpha and beta go over as they are.
-    void addForces(const Material& material)
-    {
-        m_elasticForce.setLameParameters(btScalar(material.lameMu()), btScalar(material.lameLambda()));
-        m_elasticForce.setDamping(btScalar(material.m_massDamping), btScalar(material.m_stiffnessDamping));
-        m_world->addForce(m_body.get(), &m_elasticForce);
-        m_world->addForce(m_body.get(), &m_gravityForce);
-    }
+    ~DeformableBeamWorld() { m_world.world().removeSoftBody(m_body.get()); }
 
-    btSoftBodyRigidBodyCollisionConfiguration m_configuration;
-    btCollisionDispatcher m_dispatcher;
-    btDbvtBroadphase m_broadphase;
+    void step(double h) { m_world.step(h); }
+
+    const btSoftBody& body() const { return *m_body; }
+    const AuditedDeformableSolver& solver() const { return m_solver; }
+
+private:
     AuditedDeformableSolver m_solver;
-    btDeformableMultiBodyConstraintSolver m_rigidSolver;
     CountingElasticityForce m_elasticForce;
-    btDeformableGravityForce m_gravityForce;
-    std::unique_ptr<btDeformableMultiBodyDynamicsWorld> m_world;
+    BulletDeformableWorld m_world;
     std::unique_ptr<btSoftBody> m_body;
 };
 
@@ -170,17 +116,17 @@ BeamRun runBulletDeformable(const BeamCase& beam)
     run.m_method = "bullet";
     run.m_tipBound = 6e-3;  // what its other point of linearisation makes of the same model
 
-    const Clock::time_point setUp = Clock::now();
+    const Stopwatch setUp;
     DeformableBeamWorld world(beam);
-    run.m_setupSeconds = secondsSince(setUp);
+    run.m_setupSeconds = setUp.seconds();
     for (int i = 0; i < world.body().m_nodes.size(); ++i)
         if (world.body().m_nodes[i].m_im > 0) run.m_mass += 1.0 / world.body().m_nodes[i].m_im;
 
     for (int step = 0; step < beam.m_steps; ++step)
     {
-        const Clock::time_point start = Clock::now();
+        const Stopwatch watch;
         world.step(beam.m_step);
-        run.m_stepSeconds.push_back(secondsSince(start) - world.solver().m_auditSeconds);
+        run.m_stepSeconds.push_back(watch.seconds() - world.solver().m_auditSeconds);
         run.m_iterations.push_back(world.solver().m_iterations);
         run.m_residuals.push_back(world.solver().m_relativeResidual);
         run.m_tipHeights.push_back(world.body().m_nodes[beam.m_tipNode].m_x.z());

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <vector>
+
+namespace bullet_fem
+{
+
+// What the benchmarks' reports have in common.
+
+/// The middle value, the upper one of two; `values` must not be empty.
+inline double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + values.size() / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Largest of values >= 0; NaN if one of them is.
+inline double largest(const std::vector<double>& values)
+{
+    double result = 0;
+    for (double value : values)
+        if (!(value <= result) && !std::isnan(result)) result = value;
+    return result;
+}
+
+/// printf to a stream; at most 255 characters.
+template <class... Values>
+void print(std::ostream& out, const char* format, Values... values)
+{
+    char line[256];
+    std::snprintf(line, sizeof line, format, values...);
+    out << line;
+}
+
+/// Wall time since it was made.
+class Stopwatch
+{
+public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+
+private:
+    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+}  // namespace bullet_fem
