@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "LinearMath/btVector3.h"
-#include "bullet_bridge/held_joint.h"
+#include "bullet_bridge/joints/held_joint.h"
 #include "bullet_bridge/model_library.h"
-#include "bullet_bridge/soft_surface.h"
-#include "bullet_bridge/surface_features.h"
+#include "bullet_bridge/soft_pairs/soft_surface.h"
+#include "bullet_bridge/soft_pairs/surface_features.h"
 #include "bullet_fem/fem/contact_solver.h"
 
 class btCollisionObject;

@@ -8,7 +8,7 @@
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "LinearMath/btTransformUtil.h"
 #include "bullet_bridge/bullet_vectors.h"
-#include "bullet_bridge/swept_distance.h"
+#include "bullet_bridge/shapes/swept_distance.h"
 #include "bullet_fem/fem/stepping.h"
 
 namespace bullet_fem

@@ -8,8 +8,8 @@
 
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/joints/world_objects.h"
 #include "bullet_bridge/model_library.h"
-#include "bullet_bridge/world_objects.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/btFemSleeping.h"
 

@@ -24,12 +24,14 @@ btScalar btFemConstraintSolver::solveGroup(btCollisionObject** bodies, int numBo
                                            const btContactSolverInfo& info, btIDebugDraw* debugDrawer,
                                            btDispatcher* dispatcher)
 {
-    btFemContactGroup* group = btFemCoupling::beginGroup(*m_fem, bodies, numBodies, info.m_timeStep);
+    const Islands all = {bodies, numBodies, manifolds, numManifolds, constraints, numConstraints};
+    select(all, true);
+    btFemContactGroup* group =
+        btFemCoupling::beginGroup(*m_fem, m_bodies.data(), static_cast<int>(m_bodies.size()), info.m_timeStep);
     if (!group)
         return btSequentialImpulseConstraintSolver::solveGroup(bodies, numBodies, manifolds, numManifolds, constraints,
                                                                numConstraints, info, debugDrawer, dispatcher);
     // Bullet hands small islands over together; those without FEM bodies are solved as if they were alone.
-    const Islands all = {bodies, numBodies, manifolds, numManifolds, constraints, numConstraints};
     for (const bool withFem : {false, true})
     {
         select(all, withFem);
@@ -54,7 +56,7 @@ btScalar btFemConstraintSolver::solveGroup(btCollisionObject** bodies, int numBo
     return 0;
 }
 
-// Picks the islands with FEM bodies, or those without. What joins two objects is in the island of the movable one.
+// Picks the islands with soft bodies, or those without. What joins two objects is in the island of the movable one.
 void btFemConstraintSolver::select(const Islands& all, bool withFem)
 {
     m_tags.clear();

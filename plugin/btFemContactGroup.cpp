@@ -180,9 +180,11 @@ void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool)
 
 double btFemContactGroup::sweep()
 {
+    const btFemStopwatch watch;
     m_solverBodies.read(m_problem.m_obstacles);
     const double change = m_solver.sweep();
     m_solverBodies.write(m_problem.m_obstacles);
+    m_milliseconds += watch.milliseconds();
     return change;
 }
 

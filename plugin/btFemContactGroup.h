@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "bullet_bridge/contact_finder.h"
-#include "bullet_bridge/soft_joints.h"
-#include "bullet_bridge/soft_pair_finder.h"
+#include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_bridge/joints/soft_joints.h"
+#include "bullet_bridge/soft_pairs/soft_pair_finder.h"
 #include "bullet_bridge/solver_bodies.h"
 #include "plugin/btFemBodyRegistry.h"
 

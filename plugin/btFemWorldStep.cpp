@@ -6,7 +6,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
-#include "bullet_bridge/cluster_joints.h"
+#include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_fem/fem/stepping.h"
 #include "plugin/btFemStopwatch.h"

@@ -16,7 +16,8 @@ class btFemSoftBodySolver;
 /// are warm-started fully, with friction in two fixed directions, and swept as often as the soft ones.
 ///
 /// Without it the rigid bodies feel a step's soft contacts after they have moved: momentum is exact all the same, and
-/// static supports are, but a rigid body at rest on a soft one reads a velocity of g h and stacks do not sleep.
+/// static supports are, but a rigid body at rest on a soft one reads a velocity of g h, and stacks in which the soft
+/// bodies are as heavy as the rigid ones fall.
 class btFemConstraintSolver : public btSequentialImpulseConstraintSolver
 {
 public:
@@ -47,7 +48,7 @@ private:
 
     btFemSoftBodySolver* m_fem;
     btFemContactGroup* m_group = nullptr;      // FEM bodies of the islands being solved; null if there are none
-    std::vector<int> m_tags;                   // islands with FEM bodies
+    std::vector<int> m_tags;                   // islands with soft bodies
     std::vector<btCollisionObject*> m_bodies;  // what select() picked
     std::vector<btPersistentManifold*> m_manifolds;
     std::vector<btTypedConstraint*> m_constraints;

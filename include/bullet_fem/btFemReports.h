@@ -31,9 +31,9 @@ enum btFemFlags
         1 << 8,  ///< the body was added to a second world or solver, which steps it; remove it from one
     BT_FEM_TURNED_TETS = 1 << 9,      ///< elements of negative orientation were turned
     BT_FEM_SEVERAL_PIECES = 1 << 10,  ///< the mesh is not connected: every piece moves on its own
-    BT_FEM_UNKNOWN_SHAPE =
-        1 << 11,  ///< it overlaps a shape without contact support (triangle mesh, heightfield): no contact
-    BT_FEM_CONTACT_LIMIT = 1 << 12,  ///< more contact points than the solver info allows: the deepest were kept
+    BT_FEM_UNKNOWN_SHAPE = 1 << 11,   ///< it overlaps a shape without contact support (empty, signed distance field,
+                                      ///< custom concave): no contact
+    BT_FEM_CONTACT_LIMIT = 1 << 12,   ///< more contact points than the solver info allows: the deepest were kept
     BT_FEM_LOST_ANCHOR = 1 << 14,  ///< the other end of an anchor or joint left the world: it was removed from the body
     BT_FEM_BAD_ANCHOR = 1 << 15,   ///< an anchor to a foreign node, or to a soft body that is not FEM: ignored
     BT_FEM_REFACTORED = 1 << 13  ///< it touches something while step or masses were 1.5 times off: factored on the spot
@@ -70,9 +70,9 @@ struct btFemContact
     btScalar m_normalImpulse = 0;  ///< its part along m_normal [N s], >= 0
     btVector3 m_frictionImpulse;   ///< its other part, in the tangent plane [N s]
     const btCollisionObject* m_other = nullptr;  ///< the body itself for self contact
-    int m_part = -1, m_index = -1;      ///< part and triangle of a mesh, part 0 and child of a compound; else -1
-    int m_nodes[3] = {0, 0, 0};         ///< soft nodes that carry the point
-    btScalar m_weights[3] = {1, 0, 0};  ///< barycentric [-], sum 1
+    int m_part = -1, m_index = -1;               ///< part and triangle of a mesh; -1 for other shapes
+    int m_nodes[3] = {0, 0, 0};                  ///< soft nodes that carry the point
+    btScalar m_weights[3] = {1, 0, 0};           ///< barycentric [-], sum 1
 };
 
 /// Where a touch stands.

@@ -16,12 +16,12 @@ struct btFemCoupling;
 /// Settings of a solver; fixed for its life.
 struct btFemSolverInfo
 {
-    btScalar m_tolerance = btScalar(1e-3);  ///< relative residual of the linear solves [-], in [1e-8, 0.5]
-    int m_maxIterations = 100;              ///< conjugate gradient iterations a solve, in [1, 10000]
-    int m_contactRounds = 2;                ///< corrective solves after contact, in [1, 10]
-    int m_contactSweeps = 200;              ///< Gauss-Seidel sweeps a round at most, in [1, 1000]
-    int m_maxContacts = 2000;        ///< contact points a body, in [8, 20000]; their compliance is a dense matrix
-    btScalar m_erp = btScalar(0.2);  ///< share of a penetration taken back a step [-], in [0, 1]
+    btScalar m_tolerance = btScalar(1e-3);     ///< relative residual of the linear solves [-], in [1e-8, 0.5]
+    int m_maxIterations = 100;                 ///< conjugate gradient iterations a solve, in [1, 10000]
+    int m_contactRounds = 2;                   ///< corrective solves after contact, in [1, 10]
+    int m_contactSweeps = 200;                 ///< Gauss-Seidel sweeps a round at most, in [1, 1000]
+    int m_maxContacts = 2000;                  ///< contact points a body, in [8, 20000]
+    btScalar m_erp = btScalar(0.2);            ///< share of a penetration taken back a step [-], in [0, 1]
     btScalar m_maxPushVelocity = btScalar(1);  ///< speed at which penetration is taken back at most [m/s], in [0, 1000]
     /// Whether Bullet's dispatcher shows a btPersistentManifold of every FEM body and other object that touch: the four
     /// deepest points of the last step with their impulses. The rigid object is the first, the soft body the second;

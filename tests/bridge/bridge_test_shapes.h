@@ -20,7 +20,7 @@
 #include "BulletCollision/CollisionShapes/btSphereShape.h"
 #include "BulletCollision/CollisionShapes/btStaticPlaneShape.h"
 #include "bullet_bridge/bullet_vectors.h"
-#include "bullet_bridge/shape_distance.h"
+#include "bullet_bridge/shapes/shape_distance.h"
 
 namespace bullet_fem
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/cluster_joints.h"
+#include "bullet_bridge/joints/cluster_joints.h"
 
 #include <gtest/gtest.h>
 
 #include "bridge/joint_test_world.h"
-#include "bullet_bridge/cluster_motion.h"
+#include "bullet_bridge/joints/cluster_motion.h"
 
 namespace bullet_fem
 {

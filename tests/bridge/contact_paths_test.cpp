@@ -6,7 +6,7 @@
 
 #include "bridge/bridge_test_bodies.h"
 #include "btBulletDynamicsCommon.h"
-#include "bullet_bridge/contact_finder.h"
+#include "bullet_bridge/contact/contact_finder.h"
 #include "bullet_fem/fem/stepping.h"
 
 namespace bullet_fem

@@ -9,7 +9,7 @@
 #include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
 #include "bridge/bridge_test_bodies.h"
 #include "btBulletDynamicsCommon.h"
-#include "bullet_bridge/soft_joints.h"
+#include "bullet_bridge/joints/soft_joints.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_joints.h"
+#include "bullet_bridge/joints/soft_joints.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "LinearMath/btTransformUtil.h"
 #include "bridge/joint_test_world.h"
-#include "bullet_bridge/node_attachments.h"
+#include "bullet_bridge/joints/node_attachments.h"
 
 namespace bullet_fem
 {

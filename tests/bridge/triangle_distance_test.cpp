@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "bridge/bridge_test_shapes.h"
-#include "bullet_bridge/convex_core.h"
+#include "bullet_bridge/shapes/convex_core.h"
 
 namespace bullet_fem
 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/triangle_proximity.h"
+#include "bullet_bridge/soft_pairs/triangle_proximity.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "bullet_bridge/surface_tree.h"
+#include "bullet_bridge/soft_pairs/surface_tree.h"
 #include "bullet_fem/fem/generators.h"
 
 namespace bullet_fem

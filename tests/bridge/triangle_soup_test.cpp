@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/triangle_soup.h"
+#include "bullet_bridge/shapes/triangle_soup.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "bridge/bridge_test_bodies.h"
 #include "bridge/bridge_test_shapes.h"
 #include "bridge/concave_test_shapes.h"
-#include "bullet_bridge/contact_finder.h"
+#include "bullet_bridge/contact/contact_finder.h"
 #include "bullet_fem/fem/stepping.h"
 
 namespace bullet_fem

@@ -121,5 +121,29 @@ TEST(CoupledStep, TakesOverVelocitiesThatATickCallbackWrites)
     EXPECT_NEAR(velocityOf(cube).x, 1, 1e-3);
 }
 
+// The anchored body's bounds are far from the cube's, so it is in an island without FEM bodies.
+TEST(CoupledStep, HandsReactionsToABodyOfAnotherIsland)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem, Coupling::coupled, btVector3(0, 0, 0));
+    SoftBox box;
+    box.m_size = {0.2, 0.2, 0.2};
+    box.m_cells = {2, 2, 2};
+    btSoftBody& cube = addSoftBox(world, fem, box);
+    RigidSettings settings;
+    settings.m_mass = 5;
+    settings.m_transform = at(3, 0, 0);
+    settings.m_velocity = btVector3(0, 1, 0);
+    btRigidBody& ball = world.addRigid(new btSphereShape(btScalar(0.1)), settings);
+    btVector3 pivot = cube.m_nodes[0].m_x - btVector3(3, 0, 0);
+    cube.appendAnchor(0, &ball, pivot);
+    const Motion before = motionOf(ball);
+    world.step(60);
+    Motion after = motionOf(cube);
+    EXPECT_GT(norm(after.m_linear), 0.1);
+    after += motionOf(ball);
+    EXPECT_LE(norm(after.m_linear - before.m_linear), 1e-5 * norm(before.m_linear));
+}
+
 }  // namespace
 }  // namespace bullet_fem

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact/contact_finder.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
+#include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
+#include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/joints/soft_joints.h"
+#include "bullet_fem/fem/stepping.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kBand = 0.05;            // share of a mean edge that the contact band is wide
+constexpr double kAdvantage = 0.003;      // share of a mean edge by which a nearest point must beat the fixed ones
+constexpr double kSlop = 5e-5;            // share of the body's size by which it may sink in
+constexpr double kMovableSlop = 1e-4;     // the same for movable objects: position corrections spend angular momentum
+constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
+constexpr double kLeastLikeness = -2;     // of a contact and the one that it was in the last step; 1 is the same
+constexpr double kNotNear = std::numeric_limits<double>::infinity();
+
+// Bullet's broad phase still knows the pair: neither was removed from the world since it was recorded.
+bool stillOverlapping(const btSoftBody& soft, const btCollisionObject* object)
+{
+    btBroadphaseInterface* broadphase = soft.m_worldInfo ? soft.m_worldInfo->m_broadphase : nullptr;
+    if (!broadphase || !broadphase->getOverlappingPairCache()) return true;
+    const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i)
+    {
+        const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
+        if ((a == &soft && b == object) || (b == &soft && a == object)) return true;
+    }
+    return false;
+}
+
+double fastestNode(const Body& body)
+{
+    double fastest = 0;
+    for (int i : body.m_model->mesh().surfaceNodes())
+        fastest = std::max(fastest, dot(velocity(body)[i], velocity(body)[i]));
+    return std::sqrt(fastest);
+}
+
+// Bound on the speed of any of an object's points near the body: its centre's, and its spin over the distance.
+double fastestPoint(const Obstacle& obstacle, const ShapeLeaf& shape)
+{
+    const double spin = norm(obstacle.m_angularVelocity);
+    const double size = spin > 0 ? norm(shape.m_boundsMax - shape.m_boundsMin) : 0;  // a plane has none
+    return norm(obstacle.m_linearVelocity) + spin * size;
+}
+
+bool overlaps(const Vec3& low, const Vec3& high, const ShapeLeaf& shape, double reach)
+{
+    for (int c = 0; c < 3; ++c)
+        if (high[c] < shape.m_boundsMin[c] - reach || low[c] > shape.m_boundsMax[c] + reach) return false;
+    return true;
+}
+
+// To where the object was before Bullet moved it.
+void moveBack(btAlignedObjectArray<ShapeLeaf>& leaves, const Obstacle& obstacle, double step)
+{
+    const Vec3 present = obstacle.m_center + step * obstacle.m_linearVelocity;
+    for (int l = 0; l < leaves.size(); ++l)
+        leaves[l] = movedBack(leaves[l], {present, obstacle.m_linearVelocity, obstacle.m_angularVelocity}, step);
+}
+
+Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, const std::array<double, 3>& w)
+{
+    return w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]];
+}
+
+// True if the surface looks against the normal at a feature: one of its triangles does, or their mean. A point next to
+// the side wall of a box that lies on the surface is near that wall, but the surface does not face it.
+bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
+{
+    constexpr double kAgainst = -0.5;  // cosine
+    const std::vector<Triangle>& triangles = fem.m_body.m_model->mesh().surface();
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const SurfaceFeatures& features = fem.m_features;
+    Vec3 mean;
+    for (int k = features.m_firstAround[nodes[0]]; k < features.m_firstAround[nodes[0] + 1]; ++k)
+    {
+        const Triangle& t = triangles[features.m_around[k]];
+        const auto has = [&t](int node) { return t[0] == node || t[1] == node || t[2] == node; };
+        if (!has(nodes[1]) || !has(nodes[2])) continue;
+        const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+        if (dot(area, normal) < kAgainst * norm(area)) return true;
+        mean += area;
+    }
+    return dot(mean, normal) <= kAgainst * norm(mean);
+}
+
+}  // namespace
+
+void recordTouching(FemSoftBody& fem, const btCollisionObject& object)
+{
+    const std::lock_guard<std::mutex> lock(fem.m_touchingMutex);
+    if (std::find(fem.m_touching.begin(), fem.m_touching.end(), &object) == fem.m_touching.end())
+        fem.m_touching.push_back(&object);
+}
+
+void recordTouching(FemSoftBody& fem, const btSoftBody& other)
+{
+    const std::lock_guard<std::mutex> lock(fem.m_touchingMutex);
+    if (std::find(fem.m_touchingSoft.begin(), fem.m_touchingSoft.end(), &other) == fem.m_touchingSoft.end())
+        fem.m_touchingSoft.push_back(&other);
+}
+
+ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double step, int maxContacts,
+                                        RigidObstacles& obstacles)
+{
+    ContactSearchReport report;
+    m_contacts.clear();
+    m_origins.clear();
+    m_sheetSides.clear();
+    m_measured = false;
+    m_bodyIndex = bodyIndex;
+    m_edge = fem.m_body.m_model->mesh().meanEdgeLength();
+    m_band = kBand * m_edge;
+    m_advantage = kAdvantage * m_edge;
+    m_size = std::cbrt(fem.m_body.m_model->mesh().volume());
+    std::vector<const btCollisionObject*>& touching = fem.m_touching;
+    touching.erase(std::remove_if(touching.begin(), touching.end(),
+                                  [&](const auto* o) { return !stillOverlapping(*fem.m_softBody, o); }),
+                   touching.end());
+    std::sort(touching.begin(), touching.end(),
+              [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
+
+    const double softReach = m_band + fem.m_contactOffset + step * fastestNode(fem.m_body);
+    for (const btCollisionObject* object : touching)
+    {
+        m_leaves.resize(0);
+        report.m_unknownShape = collectShapeLeaves(*object, m_leaves) > 0 || report.m_unknownShape;
+        const int index = obstacles.indexForContact(*object, step, fem.m_body);
+        const Obstacle& obstacle = obstacles.obstacles()[index];
+        if (obstacles.isRewound(index)) moveBack(m_leaves, obstacle, step);
+        const Surface surface = surfaceOf(*fem.m_softBody, *object);
+        for (int l = 0; l < m_leaves.size(); ++l)
+        {
+            const ShapeLeaf& shape = m_leaves[l];
+            const Leaf leaf = {object, l, index, surface, softReach + step * fastestPoint(obstacle, shape)};
+            const Target target = {shape, leaf, obstacle, step};
+            if (shape.m_shape->isConvex() && findOnPaths(fem, target)) continue;
+            if (shape.m_shape->isConcave() && !shape.m_shape->isInfinite())
+                findOnSheets(fem, target);
+            else
+                findOnNodes(fem, target);
+            if (!shape.m_shape->isConvex()) continue;
+            findOnEdges(fem, target);
+            findOnTriangles(fem, target);
+        }
+    }
+    report.m_limited = limit(maxContacts);
+    takeOverImpulses(fem);
+    fem.m_contacts.assign(m_contacts.begin(), m_contacts.end());
+    fem.m_origins.assign(m_origins.begin(), m_origins.end());
+    fem.m_sheetSides.assign(m_sheetSides.begin(), m_sheetSides.end());
+    return report;
+}
+
+void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
+{
+    for (int i : fem.m_body.m_model->mesh().surfaceNodes())
+    {
+        SurfaceDistance d;
+        fem.m_nodeGap[i] = gapAt(fem, target, {i, i, i}, {1, 0, 0}, d);
+        if (fem.m_nodeGap[i] == kNotNear) continue;
+        fem.m_nodeNormal[i] = d.m_normal;
+        consider(fem, target, i, {i, i, i}, d);
+    }
+}
+
+// The nodes say all where they lie over one flat face: their normals agree.
+bool ContactFinder::overOneFace(const FemSoftBody& fem, int a, int b) const
+{
+    return fem.m_nodeGap[a] < kNotNear && fem.m_nodeGap[b] < kNotNear &&
+           dot(fem.m_nodeNormal[a], fem.m_nodeNormal[b]) > 1 - 1e-9;
+}
+
+// False if no point of a triangle (or edge) can be within reach: its middle is farther by more than its corners are
+// away.
+bool ContactFinder::isNear(const Target& target, const std::array<Vec3, 3>& corners) const
+{
+    const Vec3 middle = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
+    double radius = 0;
+    for (const Vec3& corner : corners) radius = std::max(radius, norm(corner - middle));
+    const double reach = target.m_leaf.m_reach + radius;
+    SurfaceDistance d;
+    return overlaps(middle, middle, target.m_shape, reach) && pointShapeDistance(target.m_shape, middle, reach, d);
+}
+
+void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
+{
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const int edgeCount = static_cast<int>(fem.m_features.m_edges.size());
+    const int firstFeature = fem.m_body.m_model->nodeCount();
+    for (int k = 0; k < edgeCount; ++k)
+    {
+        const auto [a, b] = fem.m_features.m_edges[k];
+        fem.m_edgeGap[k] = kNotNear;
+        if (overOneFace(fem, a, b) || !isNear(target, {x[a], x[b], x[a]})) continue;
+        SurfaceDistance d;
+        fem.m_edgeGap[k] = gapAt(fem, target, {a, b, a}, {0.5, 0.5, 0}, d);
+        if (fem.m_edgeGap[k] < kNotNear) consider(fem, target, firstFeature + k, {a, b, a}, d);
+        const double nearest = std::min({fem.m_edgeGap[k], fem.m_nodeGap[a], fem.m_nodeGap[b]});
+        fem.m_edgeGap[k] = considerNearest(fem, target, firstFeature + edgeCount + k, {a, b, a}, nearest);
+    }
+}
+
+void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
+{
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const TetMesh& mesh = fem.m_body.m_model->mesh();
+    const int triangleCount = static_cast<int>(mesh.surface().size());
+    const int firstFeature = mesh.nodeCount() + 2 * static_cast<int>(fem.m_features.m_edges.size());
+    for (int k = 0; k < triangleCount; ++k)
+    {
+        const Triangle& t = mesh.surface()[k];
+        if (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2])) continue;
+        if (!isNear(target, {x[t[0]], x[t[1]], x[t[2]]})) continue;
+        SurfaceDistance d;
+        double nearest = gapAt(fem, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
+        if (nearest < kNotNear) consider(fem, target, firstFeature + k, t, d);
+        for (int a = 0; a < 3; ++a)
+            nearest = std::min({nearest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_features.m_triangleEdges[k][a]]});
+        considerNearest(fem, target, firstFeature + triangleCount + k, t, nearest);
+    }
+}
+
+// The point of an edge (first and last node equal) or triangle that is nearest to the shape, if it is nearer than the
+// fixed points known, `nearest`; near contact by a margin, because there it wanders. Returns the smaller of the two
+// gaps.
+double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
+                                      double nearest)
+{
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    SurfaceDistance d;
+    if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
+        return nearest;
+    const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
+    if (gap < nearest - (gap < m_band ? m_advantage : 0)) consider(fem, target, feature, nodes, d);
+    return std::min(gap, nearest);
+}
+
+// Takes the contact offset off the gap, and a kinematic object, which has moved already, back to where it was as the
+// step began, so that its velocity, too, is felt.
+double ContactFinder::gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point,
+                                        SurfaceDistance& d) const
+{
+    d.m_gap -= fem.m_contactOffset;
+    if (target.m_leaf.m_object->isKinematicObject())
+        d.m_gap += target.m_step * dot(d.m_normal, target.m_obstacle.velocityAt(point));
+    return d.m_gap;
+}
+
+// Gap at a point of the surface; infinite if out of reach.
+double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
+                            SurfaceDistance& d) const
+{
+    const Vec3 point = interpolated(fem.m_body.m_state.m_x, nodes, weights);
+    if (!overlaps(point, point, target.m_shape, target.m_leaf.m_reach) ||
+        !pointShapeDistance(target.m_shape, point, target.m_leaf.m_reach, d))
+        return kNotNear;
+    d.m_barycentric = weights;
+    return gapAsTheStepBegan(fem, target, point, d);
+}
+
+// What Bullet's contacts take of both sides, with the soft body's friction coefficient. Values that are no numbers
+// count as 0.
+ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const btCollisionObject& object)
+{
+    const auto atLeastZero = [](double value) { return value > 0 ? value : 0; };
+    Surface surface;
+    surface.m_friction = atLeastZero(double(soft.m_cfg.kDF) * object.getFriction());
+    surface.m_restitution = std::min(1.0, atLeastZero(double(soft.getRestitution()) * object.getRestitution()));
+    if (!(object.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING)) return surface;
+    if (!(object.getContactStiffness() < kRigidStiffness)) return surface;
+    surface.m_stiffness = atLeastZero(object.getContactStiffness());
+    surface.m_damping = atLeastZero(object.getContactDamping());
+    return surface;
+}
+
+// Keeps a point that touches, or would if nothing pushed until the end of the step.
+void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
+                             const SurfaceDistance& d)
+{
+    const Vec3 point = interpolated(fem.m_body.m_state.m_x, nodes, d.m_barycentric);
+    const Vec3 relative =
+        interpolated(velocity(fem.m_body), nodes, d.m_barycentric) - target.m_obstacle.velocityAt(point);
+    if (d.m_gap > m_band && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band) return;
+    if (d.m_gap > -m_band && !faces(fem, nodes, d.m_normal)) return;
+    keep(fem, target, feature, nodes, d);
+}
+
+// Null where the surface is anchored to the object.
+ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
+                                  const SurfaceDistance& d)
+{
+    for (int node : nodes)
+        if (isAnchoredTo(fem, node, *target.m_leaf.m_object)) return nullptr;
+    const Vec3& inverseMass = target.m_obstacle.m_inverseMass;
+    ContactPoint contact;
+    contact.m_point = interpolated(fem.m_body.m_state.m_x, nodes, d.m_barycentric);
+    contact.m_soft = {m_bodyIndex, nodes, d.m_barycentric};
+    contact.m_obstacle = target.m_leaf.m_obstacle;
+    contact.m_normal = d.m_normal;
+    contact.m_gap = d.m_gap;
+    contact.m_slop = (dot(inverseMass, inverseMass) > 0 ? kMovableSlop : kSlop) * m_size;
+    contact.m_friction = target.m_leaf.m_surface.m_friction;
+    contact.m_restitution = target.m_leaf.m_surface.m_restitution;
+    contact.m_stiffness = target.m_leaf.m_surface.m_stiffness;
+    contact.m_damping = target.m_leaf.m_surface.m_damping;
+    m_contacts.push_back(contact);
+    const btCollisionObject* object = target.m_leaf.m_object;
+    m_origins.push_back({object, broadphaseId(*object), target.m_leaf.m_index, feature});
+    return &m_contacts.back();
+}
+
+// Keeps the maxContacts points of smallest gap, in their order.
+bool ContactFinder::limit(int maxContacts)
+{
+    if (static_cast<int>(m_contacts.size()) <= maxContacts) return false;
+    m_order.resize(m_contacts.size());
+    std::iota(m_order.begin(), m_order.end(), 0);
+    const auto nearer = [&](int a, int b)
+    { return m_contacts[a].m_gap != m_contacts[b].m_gap ? m_contacts[a].m_gap < m_contacts[b].m_gap : a < b; };
+    std::nth_element(m_order.begin(), m_order.begin() + maxContacts, m_order.end(), nearer);
+    m_order.resize(maxContacts);
+    std::sort(m_order.begin(), m_order.end());
+    for (int k = 0; k < maxContacts; ++k)
+    {
+        m_contacts[k] = m_contacts[m_order[k]];
+        m_origins[k] = m_origins[m_order[k]];
+    }
+    m_contacts.resize(maxContacts);
+    m_origins.resize(maxContacts);
+    return true;
+}
+
+// Both lists ascend. Of several contacts of a feature with a leaf, the one before is that of the most similar normal
+// and place.
+void ContactFinder::takeOverImpulses(const FemSoftBody& fem)
+{
+    for (std::size_t k = 0; k < m_origins.size(); ++k)
+    {
+        const auto range = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), m_origins[k]);
+        double best = kLeastLikeness;
+        for (auto old = range.first; old != range.second; ++old)
+        {
+            const ContactPoint& contact = fem.m_contacts[old - fem.m_origins.begin()];
+            const double likeness =
+                dot(contact.m_normal, m_contacts[k].m_normal) - norm(contact.m_point - m_contacts[k].m_point) / m_size;
+            if (likeness <= best) continue;
+            best = likeness;
+            m_contacts[k].m_impulse = contact.m_impulse;
+            m_contacts[k].m_slip = contact.m_slip;
+        }
+    }
+}
+
+}  // namespace bullet_fem

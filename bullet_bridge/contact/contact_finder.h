@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/contact/sheet_touch.h"
+#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/shapes/shape_distance.h"
+#include "bullet_bridge/shapes/swept_distance.h"
+
+namespace bullet_fem
+{
+
+/// What a search for contacts found besides them.
+struct ContactSearchReport
+{
+    bool m_unknownShape = false;  ///< a shape without contact support was left out
+    bool m_limited = false;       ///< more points than allowed were found; those with the smallest gaps were kept
+};
+
+/// Remembers that Bullet's broad phase found the two overlapping. May be called by several threads at once.
+void recordTouching(FemSoftBody& fem, const btCollisionObject& object);
+/// The same for a FEM body; recorded with one of the two.
+void recordTouching(FemSoftBody& fem, const btSoftBody& other);
+
+/// Finds where a FEM body's surface touches the objects recorded, or may do so within the step. Against every shape:
+/// surface nodes. Against convex shapes, where the nodes do not lie over one flat face: the middles of edges and
+/// triangles, and, where the shape lies between all of these, the nearest points of edges and triangles. Points that
+/// are fixed in the surface come first because the nearest point wanders where edges or faces are parallel, and contact
+/// forces with it. Gaps are measured from the positions at the start of the step to the objects' present poses; what
+/// separates faster than it could close within the step is left out (speculative contact). Impulses of the last step
+/// are taken over as guesses.
+///
+/// Where the two move farther within the step than half of an edge or of the shape's thickness, these gaps and normals
+/// mean little: there a feature is a contact if the paths meet, with the normal of that time (swept_distance.h).
+///
+/// Concave shapes are sheets of triangles with two sides (sheet_touch.h): a node keeps off them on the side that it
+/// came from, which is remembered as long as it is near. One that is seen for the first time is on the side where it
+/// is; if it is less than the contact band beyond, on that of its body.
+///
+/// Scratch grows with the number of shapes and triangles, never shrinks.
+class ContactFinder
+{
+public:
+    /// After solveFreeMotion: fem.m_contacts and fem.m_origins become those of this step, with m_soft.m_body =
+    /// bodyIndex, at most maxContacts.
+    ContactSearchReport find(FemSoftBody& fem, int bodyIndex, double step, int maxContacts, RigidObstacles& obstacles);
+
+private:
+    /// How a pair of surfaces touches; as in ContactPoint.
+    struct Surface
+    {
+        double m_friction = 0, m_restitution = 0, m_stiffness = 0, m_damping = 0;
+    };
+    struct Leaf
+    {
+        const btCollisionObject* m_object;
+        int m_index;  // among the object's leaves
+        int m_obstacle;
+        Surface m_surface;
+        double m_reach;  // distance at which this leaf may be touched within the step [m]
+    };
+
+    /// What is tested against: a leaf, the object's motion, the step.
+    struct Target
+    {
+        const ShapeLeaf& m_shape;
+        const Leaf& m_leaf;
+        const Obstacle& m_obstacle;
+        double m_step;
+    };
+    using Weights = std::array<double, 3>;
+
+    static Surface surfaceOf(const btSoftBody& soft, const btCollisionObject& object);
+    /// A search for contacts with a leaf where the two move far within the step.
+    struct PathSearch
+    {
+        FemSoftBody& m_fem;
+        const Target& m_target;
+        const SweptShape& m_swept;
+        double m_speed;  // of the surface relative to the leaf, at most [m/s]
+    };
+    /// A search for contacts with the sheets of one leaf.
+    struct SheetSearch
+    {
+        FemSoftBody& m_fem;
+        const Target& m_target;
+        double m_thickness;  // of the sheet, with the contact offset [m]
+    };
+
+    void findOnNodes(FemSoftBody& fem, const Target& target);
+    void findOnEdges(FemSoftBody& fem, const Target& target);
+    void findOnTriangles(FemSoftBody& fem, const Target& target);
+    void findOnSheets(FemSoftBody& fem, const Target& target);
+    bool findOnPaths(FemSoftBody& fem, const Target& target);
+    double considerPath(const PathSearch& search, int feature, const Triangle& nodes, double earliest);
+    void measureSurface(const FemSoftBody& fem);
+    void findOnSheetNodes(const SheetSearch& search);
+    void findOnSheetEdges(const SheetSearch& search);
+    void findOnSheetTriangles(const SheetSearch& search);
+    static Vec3 asTheStepBegan(const Target& target, const Vec3& point);
+    Vec3 wayOf(const SheetSearch& search, int node) const;
+    Vec3 safePosition(const SheetSearch& search, int node, const Vec3& position) const;
+    void considerTouches(const SheetSearch& search, int feature, const Triangle& nodes);
+    bool isNear(const Target& target, const std::array<Vec3, 3>& corners) const;
+    bool overOneFace(const FemSoftBody& fem, int a, int b) const;
+    double gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
+                 SurfaceDistance& d) const;
+    double gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point, SurfaceDistance& d) const;
+    double considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, double nearest);
+    void consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, const SurfaceDistance& d);
+    ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
+                       const SurfaceDistance& d);
+    bool limit(int maxContacts);
+    void takeOverImpulses(const FemSoftBody& fem);
+
+    btAlignedObjectArray<ShapeLeaf> m_leaves;
+    std::vector<ContactPoint> m_contacts;
+    std::vector<ContactOrigin> m_origins;
+    std::vector<int> m_order;
+    TriangleSoup m_soup;
+    std::vector<SheetTouch> m_touches;
+    std::vector<SheetSide> m_sheetSides;
+    std::vector<Vec3> m_outward;      // of the nodes, unit
+    std::vector<Vec3> m_edgeOutward;  // sum of the unit normals of both triangles
+    bool m_measured = false;          // m_outward and m_edgeOutward are of this body and step
+    double m_edge = 0;                // mean length [m]
+    double m_size = 0;                // cube root of the body's volume [m]
+    double m_advantage = 0;           // by which a nearest point must beat the fixed ones [m]
+    double m_band = 0;                // gaps below this are contacts though nothing closes them [m]
+    int m_bodyIndex = 0;
+};
+
+}  // namespace bullet_fem

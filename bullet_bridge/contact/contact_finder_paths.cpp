@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
+#include <limits>
+
+#include "BulletCollision/CollisionDispatch/btCollisionObject.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_fem/fem/stepping.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Kinematic objects have moved already.
+SweptShape pathOf(const ShapeLeaf& leaf, const Obstacle& obstacle, double step, bool moved)
+{
+    RigidMotion motion = {obstacle.m_center, obstacle.m_linearVelocity, obstacle.m_angularVelocity};
+    if (!moved) return SweptShape(leaf, motion, step);
+    const ShapeLeaf start = movedBack(leaf, motion, step);
+    motion.m_center -= step * motion.m_linearVelocity;
+    return SweptShape(start, motion, step);
+}
+
+double fastestNode(const Body& body, const Vec3& relativeTo)
+{
+    double fastest = 0;
+    for (int i : body.m_model->mesh().surfaceNodes()) fastest = std::max(fastest, norm(velocity(body)[i] - relativeTo));
+    return fastest;
+}
+
+/// What gravity gives in a step is not speed: resting bodies have it as well.
+double fallingSpeed(const btSoftBody& soft, double step)
+{
+    return soft.m_worldInfo ? step * norm(vec3(soft.m_worldInfo->m_gravity)) : 0;
+}
+
+}  // namespace
+
+// False, with nothing found, if the two do not move far. Nodes first; of edges and triangles only those points that are
+// met before all their corners and edges.
+bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
+{
+    const SweptShape swept =
+        pathOf(target.m_shape, target.m_obstacle, target.m_step, target.m_leaf.m_object->isKinematicObject());
+    const double speed = fastestNode(fem.m_body, swept.m_motion.m_linearVelocity);
+    const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
+    if (!isFast(swept, speed - 2 * fallingSpeed(*fem.m_softBody, target.m_step), m_edge)) return false;
+
+    const TetMesh& mesh = fem.m_body.m_model->mesh();
+    const PathSearch search = {fem, target, swept, speed + spin};
+    for (int i : mesh.surfaceNodes())
+    {
+        fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
+    }
+    const int edgeCount = static_cast<int>(fem.m_features.m_edges.size());
+    int firstFeature = mesh.nodeCount() + edgeCount;  // ids are those of nearest points
+    for (int k = 0; k < edgeCount; ++k)
+    {
+        const auto [a, b] = fem.m_features.m_edges[k];
+        fem.m_edgeGap[k] = std::min(fem.m_nodeGap[a], fem.m_nodeGap[b]);
+        if (!overOneFace(fem, a, b))
+            fem.m_edgeGap[k] = considerPath(search, firstFeature + k, {a, b, a}, fem.m_edgeGap[k]);
+    }
+    const int triangleCount = static_cast<int>(mesh.surface().size());
+    firstFeature += edgeCount + triangleCount;
+    for (int k = 0; k < triangleCount; ++k)
+    {
+        const Triangle& t = mesh.surface()[k];
+        if (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2])) continue;
+        double earliest = kNever;
+        for (int a = 0; a < 3; ++a)
+            earliest = std::min({earliest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_features.m_triangleEdges[k][a]]});
+        considerPath(search, firstFeature + k, t, earliest);
+    }
+    return true;
+}
+
+// Keeps the first point of a node (all three the same), edge (first and last the same) or triangle that is met, if this
+// is before `earliest` [s]; what overlaps already was met before the step, the sooner the deeper. Returns the earlier
+// of the two times.
+double ContactFinder::considerPath(const PathSearch& search, int feature, const Triangle& nodes, double earliest)
+{
+    FemSoftBody& fem = search.m_fem;
+    SweptFeature path;
+    path.m_count = nodes[1] == nodes[0] ? 1 : nodes[2] == nodes[0] ? 2 : 3;
+    for (int i = 0; i < path.m_count; ++i)
+    {
+        path.m_position[i] = fem.m_body.m_state.m_x[nodes[i]];
+        path.m_velocity[i] = velocity(fem.m_body)[nodes[i]];
+    }
+    SweptContact contact;
+    if (!mayMeet(search.m_swept, path, fem.m_contactOffset) ||
+        !sweptDistance(search.m_swept, path, fem.m_contactOffset, contact))
+        return earliest;
+    const double time = contact.m_time > 0 ? contact.m_time : contact.m_surface.m_gap / search.m_speed;
+    if (path.m_count == 1) fem.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
+    if (time < earliest - m_advantage / search.m_speed)
+        if (ContactPoint* kept = keep(fem, search.m_target, feature, nodes, contact.m_surface))
+            kept->m_approach = contact.m_arm - (kept->m_point - search.m_target.m_obstacle.m_center);
+    return std::min(time, earliest);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
+
+#include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_fem/fem/stepping.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Largest component of a way along the unit vectors around an axis up to the angle of this cosine.
+double alongCone(const Vec3& way, const Vec3& axis, double cosine)
+{
+    const double along = dot(way, axis), across = norm(way - along * axis);
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    if (along > 0 && across * cosine <= along * sine) return norm(way);
+    return std::max(0.0, along * cosine + across * sine);
+}
+
+constexpr double kDepth = 0.3;  // share of a mean edge that corners and edges of sheets are looked for inside the body
+
+Vec3 normalOf(const std::vector<Vec3>& x, const Triangle& t)
+{
+    const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+    const double length = norm(area);
+    return length > 0 ? area * (1 / length) : Vec3();
+}
+
+Vec3 unit(const Vec3& v)
+{
+    const double length = norm(v);
+    return length > 0 ? v * (1 / length) : Vec3();
+}
+
+}  // namespace
+
+void ContactFinder::findOnSheets(FemSoftBody& fem, const Target& target)
+{
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const std::vector<int>& nodes = fem.m_body.m_model->mesh().surfaceNodes();
+    const double thickness = target.m_shape.m_shape->getMargin() + fem.m_contactOffset;
+    Vec3 low = x[nodes.front()], high = low;
+    for (int i : nodes)
+        for (int c = 0; c < 3; ++c)
+        {
+            low[c] = std::min(low[c], x[i][c]);
+            high[c] = std::max(high[c], x[i][c]);
+        }
+    const double reach = target.m_leaf.m_reach + thickness;
+    const Vec3 box = {reach, reach, reach};
+    for (int c = 0; c < 3; ++c)
+        if (!(low[c] - reach <= target.m_shape.m_boundsMax[c] && high[c] + reach >= target.m_shape.m_boundsMin[c]))
+            return;
+    m_soup.collect(target.m_shape, low - box, high + box);
+    if (m_soup.triangles().empty()) return;
+    measureSurface(fem);
+    const SheetSearch search = {fem, target, thickness};
+    findOnSheetNodes(search);
+    findOnSheetTriangles(search);
+    findOnSheetEdges(search);
+}
+
+// Where the surface's nodes and edges face.
+void ContactFinder::measureSurface(const FemSoftBody& fem)
+{
+    if (m_measured) return;
+    m_measured = true;
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const TetMesh& mesh = fem.m_body.m_model->mesh();
+    m_outward.assign(x.size(), Vec3());
+    m_edgeOutward.assign(fem.m_features.m_edges.size(), Vec3());
+    for (std::size_t k = 0; k < mesh.surface().size(); ++k)
+    {
+        const Vec3 n = normalOf(x, mesh.surface()[k]);
+        for (int a = 0; a < 3; ++a)
+        {
+            m_outward[mesh.surface()[k][a]] += n;
+            m_edgeOutward[fem.m_features.m_triangleEdges[k][a]] += n;
+        }
+    }
+    for (int i : mesh.surfaceNodes()) m_outward[i] = unit(m_outward[i]);
+}
+
+// Where a point of the soft surface was relative to the object as the step began: kinematic objects have moved already.
+Vec3 ContactFinder::asTheStepBegan(const Target& target, const Vec3& point)
+{
+    const bool moved = target.m_leaf.m_object->isKinematicObject();
+    return moved ? point + target.m_step * target.m_obstacle.velocityAt(point) : point;
+}
+
+// The free motion of a node in the step relative to the object.
+Vec3 ContactFinder::wayOf(const SheetSearch& search, int node) const
+{
+    const Body& body = search.m_fem.m_body;
+    return search.m_target.m_step *
+           (velocity(body)[node] - search.m_target.m_obstacle.velocityAt(body.m_state.m_x[node]));
+}
+
+// Where the node was on the right side of the sheets: remembered if the leaf was near in the last step. A node that has
+// moved farther since than it could have in a step was put there.
+Vec3 ContactFinder::safePosition(const SheetSearch& search, int node, const Vec3& position) const
+{
+    const Target& target = search.m_target;
+    const SheetSide key = {broadphaseId(*target.m_leaf.m_object), target.m_leaf.m_index, node, Vec3(), Vec3()};
+    const std::vector<SheetSide>& known = search.m_fem.m_sheetSides;
+    const auto side = std::lower_bound(known.begin(), known.end(), key);
+    if (side != known.end() && !(key < *side))
+    {
+        const Vec3 way = position - target.m_shape.m_pose.toWorld(side->m_position);
+        if (norm(way) < 4 * target.m_leaf.m_reach + m_edge) return target.m_shape.m_pose.toWorld(side->m_safe);
+    }
+    return position - m_band * m_outward[node];
+}
+
+void ContactFinder::findOnSheetNodes(const SheetSearch& search)
+{
+    const Target& target = search.m_target;
+    const Body& body = search.m_fem.m_body;
+    const int objectId = broadphaseId(*target.m_leaf.m_object);
+    for (int i : body.m_model->mesh().surfaceNodes())
+    {
+        SheetProbe probe;
+        probe.m_position = asTheStepBegan(target, body.m_state.m_x[i]);
+        probe.m_path = wayOf(search, i);
+        probe.m_band = m_band;
+        probe.m_thickness = search.m_thickness;
+        probe.m_rightSide = onRightSide(m_soup, safePosition(search, i, probe.m_position), probe.m_position);
+        findPointTouches(m_soup, probe, m_touches);
+        considerTouches(search, i, {i, i, i});
+        const Pose& pose = target.m_shape.m_pose;
+        m_sheetSides.push_back(
+            {objectId, target.m_leaf.m_index, i, pose.toLocal(probe.m_position), pose.toLocal(probe.m_rightSide)});
+    }
+}
+
+void ContactFinder::findOnSheetTriangles(const SheetSearch& search)
+{
+    const Body& body = search.m_fem.m_body;
+    const TetMesh& mesh = body.m_model->mesh();
+    const std::vector<Vec3>& x = body.m_state.m_x;
+    const int firstFeature = mesh.nodeCount();
+    for (std::size_t k = 0; k < mesh.surface().size(); ++k)
+    {
+        const Triangle& t = mesh.surface()[k];
+        SheetFeature feature;
+        feature.m_outward = normalOf(x, t);
+        double closing = 0;
+        for (int a = 0; a < 3; ++a)
+        {
+            feature.m_corners[a] = asTheStepBegan(search.m_target, x[t[a]]);
+            closing = std::max(closing, dot(wayOf(search, t[a]), feature.m_outward));
+        }
+        feature.m_reach = m_band + closing;
+        feature.m_depth = kDepth * m_edge;
+        feature.m_thickness = search.m_thickness;
+        findCornerTouches(m_soup, feature, m_touches);
+        considerTouches(search, firstFeature + static_cast<int>(k), t);
+    }
+}
+
+void ContactFinder::findOnSheetEdges(const SheetSearch& search)
+{
+    const Body& body = search.m_fem.m_body;
+    const TetMesh& mesh = body.m_model->mesh();
+    const std::vector<Vec3>& x = body.m_state.m_x;
+    const int firstFeature = mesh.nodeCount() + static_cast<int>(mesh.surface().size());
+    const std::vector<std::array<int, 2>>& edges = search.m_fem.m_features.m_edges;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+    {
+        const auto [a, b] = edges[k];
+        SheetFeature feature;
+        feature.m_corners[0] = asTheStepBegan(search.m_target, x[a]);
+        feature.m_corners[1] = feature.m_corners[2] = asTheStepBegan(search.m_target, x[b]);
+        feature.m_outward = unit(m_edgeOutward[k]);
+        feature.m_halfAngle = 0.5 * norm(m_edgeOutward[k]);
+        const double cosine = widestNormal(feature);
+        feature.m_reach = m_band + std::max(alongCone(wayOf(search, a), feature.m_outward, cosine),
+                                            alongCone(wayOf(search, b), feature.m_outward, cosine));
+        feature.m_depth = kDepth * m_edge;
+        feature.m_thickness = search.m_thickness;
+        findEdgeTouches(m_soup, feature, m_touches);
+        considerTouches(search, firstFeature + static_cast<int>(k), {a, b, a});
+    }
+}
+
+void ContactFinder::considerTouches(const SheetSearch& search, int feature, const Triangle& nodes)
+{
+    const Target& target = search.m_target;
+    for (const SheetTouch& touch : m_touches)
+    {
+        const std::size_t before = m_contacts.size();
+        consider(search.m_fem, target, feature, nodes, touch.m_surface);
+        if (m_contacts.size() == before) continue;
+        m_origins.back().m_part = m_soup.triangles()[touch.m_triangle].m_part;
+        m_origins.back().m_triangle = m_soup.triangles()[touch.m_triangle].m_index;
+    }
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/joints/node_attachments.h"
+
+#include <algorithm>
+
+#include "bullet_bridge/joints/rigid_pivot.h"
+#include "bullet_bridge/joints/soft_anchors.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kErp = 0.5;  // share of a distance that is taken back a step
+
+// Index of the body an attachment goes to; -1 if it is not there.
+int indexOf(const NodeAttachment& attachment, const std::vector<FemSoftBody*>& bodies)
+{
+    const auto isIt = [&](const FemSoftBody* fem)
+    { return fem->m_softBody == attachment.m_other && fem->m_mark == attachment.m_otherMark; };
+    const auto found = std::find_if(bodies.begin(), bodies.end(), isIt);
+    return found != bodies.end() ? static_cast<int>(found - bodies.begin()) : -1;
+}
+
+Vec3 pointOf(const NodeAttachment& attachment, const FemSoftBody& other)
+{
+    Vec3 point;
+    for (int a = 0; a < 4; ++a) point += attachment.m_weights[a] * other.m_body.m_state.m_x[attachment.m_otherNodes[a]];
+    return point;
+}
+
+JointEnd pointEnd(const NodeAttachment& attachment, int body, ContactProblem& problem)
+{
+    JointEnd end;
+    end.m_body = body;
+    end.m_first = static_cast<int>(problem.m_handleNodes.size());
+    for (int a = 0; a < 4; ++a)
+    {
+        if (attachment.m_weights[a] == 0) continue;
+        problem.m_handleNodes.push_back(attachment.m_otherNodes[a]);
+        problem.m_handleBlocks.push_back(Mat3::diagonal(attachment.m_weights[a]));
+        ++end.m_count;
+    }
+    return end;
+}
+
+}  // namespace
+
+JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& problem)
+{
+    JointFlags flags;
+    FemSoftBody& fem = *scene.m_bodies[body];
+    std::vector<NodeAttachment>& attachments = fem.m_joints.m_attachments;
+    const auto isGone = [&](const NodeAttachment& attachment)
+    { return indexOf(attachment, scene.m_bodies) < 0 && indexOf(attachment, scene.m_outside) < 0; };
+    const auto gone = std::remove_if(attachments.begin(), attachments.end(), isGone);
+    flags.m_lost = gone != attachments.end();
+    attachments.erase(gone, attachments.end());
+    for (const NodeAttachment& attachment : attachments)
+    {
+        const int other = indexOf(attachment, scene.m_bodies);
+        const FemSoftBody& otherFem =
+            other >= 0 ? *scene.m_bodies[other] : *scene.m_outside[indexOf(attachment, scene.m_outside)];
+        flags.m_outside = flags.m_outside || (other < 0 && otherFem.m_softBody->isActive());
+        HeldJoint held;
+        held.m_kind = HeldJoint::Kind::attachment;
+        held.m_id = attachment.m_id;
+        held.m_node = attachment.m_node;
+        held.m_object = attachment.m_other;
+        held.m_point = fem.m_body.m_state.m_x[attachment.m_node];
+        const Vec3 target = pointOf(attachment, otherFem);
+        held.m_error = norm(target - held.m_point);
+        if (const HeldJoint* before = continuedBy(held, fem.m_joints.m_before, fem.m_joints.m_now.size()))
+            held.m_impulse = before->m_impulse;
+        Joint joint;
+        joint.m_a = nodeEnd(body, attachment.m_node, problem);
+        if (other >= 0) joint.m_b = pointEnd(attachment, other, problem);
+        joint.m_wanted = (1 / scene.m_step) * shortened(kErp * (target - held.m_point), longestCorrection(fem));
+        joint.m_impulse = held.m_impulse;
+        held.m_row = static_cast<int>(problem.m_joints.size());
+        problem.m_joints.push_back(joint);
+        fem.m_joints.m_now.push_back(held);
+        if (other < 0) continue;
+        held.m_object = fem.m_softBody;
+        held.m_node = -1;
+        held.m_point = target;
+        held.m_isEndB = true;
+        scene.m_bodies[other]->m_joints.m_now.push_back(held);
+    }
+    return flags;
+}
+
+bool isAttached(const FemSoftBody& fem, const std::array<int, 3>& nodes, const FemSoftBody& other)
+{
+    const auto isAmong = [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
+    for (const NodeAttachment& attachment : fem.m_joints.m_attachments)
+        if (attachment.m_other == other.m_softBody && isAmong(attachment.m_node)) return true;
+    for (const NodeAttachment& attachment : other.m_joints.m_attachments)
+        if (attachment.m_other == fem.m_softBody)
+            for (int a = 0; a < 4; ++a)
+                if (attachment.m_weights[a] != 0 && isAmong(attachment.m_otherNodes[a])) return true;
+    return false;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/joints/rigid_pivot.h"
+
+#include <algorithm>
+
+#include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kLargestTurn = 0.785398163397448;  // [rad] that Bullet turns a rigid body by in a step at most
+
+// [Rodrigues]: v turned by the rotation vector w.
+Vec3 turned(const Vec3& v, const Vec3& w)
+{
+    const double angle = norm(w);
+    if (angle < 1e-12) return v + cross(w, v);
+    const Vec3 axis = (1 / angle) * w;
+    const double used = std::min(angle, kLargestTurn);
+    return std::cos(used) * v + std::sin(used) * cross(axis, v) + (1 - std::cos(used)) * dot(axis, v) * axis;
+}
+
+// The object has its pose of the step's end already: kinematic ones always have.
+bool hasMoved(const btCollisionObject& object, const JointScene& scene)
+{
+    return scene.m_phase == RigidPhase::moved || object.isStaticOrKinematicObject();
+}
+
+// The velocity that the object moves with, or moved with: without what gravity will add to it in the next step.
+void setVelocity(const btCollisionObject& object, const JointScene& scene, RigidPivot& pivot)
+{
+    const Obstacle& obstacle = scene.m_rigid.obstacles()[pivot.m_obstacle];
+    const btRigidBody* body = btRigidBody::upcast(&object);
+    const bool ofBody = scene.m_phase == RigidPhase::moved && body && !body->isStaticOrKinematicObject();
+    pivot.m_linearVelocity = ofBody ? vec3(body->getLinearVelocity()) : obstacle.m_linearVelocity;
+    pivot.m_angularVelocity = ofBody ? vec3(body->getAngularVelocity()) : obstacle.m_angularVelocity;
+}
+
+}  // namespace
+
+Vec3 RigidPivot::wantedVelocity(const Vec3& at, const Vec3& correction, double step) const
+{
+    const Vec3 tangent = m_linearVelocity + cross(m_angularVelocity, at - m_center);
+    return (1 / step) * (correction + m_way) - tangent;
+}
+
+RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const JointScene& scene)
+{
+    RigidPivot pivot;
+    pivot.m_start = local;
+    if (!object) return pivot;
+    pivot.m_obstacle = scene.m_rigid.indexOf(*object, scene.m_step);
+    setVelocity(*object, scene, pivot);
+    const btTransform& pose = object->getWorldTransform();
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) pivot.m_rotation(i, j) = pose.getBasis()[i][j];
+    pivot.m_center = vec3(pose.getOrigin());
+    const Vec3 arm = pivot.m_rotation * local, now = pivot.m_center + arm;
+    const double sign = hasMoved(*object, scene) ? -1 : 1;
+    const Vec3 turn = sign * scene.m_step * pivot.m_angularVelocity;
+    const Vec3 other = pivot.m_center + sign * scene.m_step * pivot.m_linearVelocity + turned(arm, turn);
+    pivot.m_start = sign < 0 ? other : now;
+    pivot.m_way = sign < 0 ? now - other : other - now;
+    if (sign > 0) return pivot;
+    const Mat3 R = pivot.m_rotation;
+    pivot.m_rotation =
+        Mat3::fromColumns(turned(R.column(0), turn), turned(R.column(1), turn), turned(R.column(2), turn));
+    return pivot;
+}
+
+Vec3 shortened(const Vec3& a, double longest)
+{
+    const double length = norm(a);
+    return length > longest ? (longest / length) * a : a;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/joints/soft_anchors.h"
+
+#include <algorithm>
+
+#include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/joints/rigid_pivot.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kLongestCorrection = 0.25;  // of a mean edge, a step: a far pivot pulls its node in, not through
+
+// Both kinds of anchors.
+struct AnchorView
+{
+    HeldJoint::Kind m_kind;
+    const btSoftBody::Node* m_node;
+    const btCollisionObject* m_object;
+    Vec3 m_local;
+    double m_influence;
+};
+
+AnchorView viewOf(const btSoftBody::Anchor& anchor)
+{
+    return {HeldJoint::Kind::anchor, anchor.m_node, anchor.m_body, vec3(anchor.m_local), double(anchor.m_influence)};
+}
+
+AnchorView viewOf(const btSoftBody::DeformableNodeRigidAnchor& anchor)
+{
+    return {HeldJoint::Kind::deformableAnchor, anchor.m_node, anchor.m_cti.m_colObj, vec3(anchor.m_local), 1.0};
+}
+
+bool canMove(const Obstacle& obstacle)
+{
+    return dot(obstacle.m_inverseMass, obstacle.m_inverseMass) > 0 || squaredNorm(obstacle.m_inverseInertia) > 0;
+}
+
+class AnchorHolder
+{
+public:
+    AnchorHolder(int body, const JointScene& scene, ContactProblem& problem)
+        : m_fem(*scene.m_bodies[body]), m_body(body), m_scene(scene), m_problem(problem)
+    {
+    }
+
+    template <class Anchor>
+    void holdAll(btAlignedObjectArray<Anchor>& anchors)
+    {
+        int kept = 0;
+        for (int i = 0; i < anchors.size(); ++i)
+        {
+            if (!hold(viewOf(anchors[i]))) continue;
+            if (kept != i) anchors[kept] = anchors[i];
+            ++kept;
+        }
+        if (kept < anchors.size()) m_flags.m_lost = true;
+        while (anchors.size() > kept) anchors.pop_back();
+    }
+
+    JointFlags m_flags;
+
+private:
+    bool hold(const AnchorView& anchor);
+    void append(const AnchorView& anchor, const RigidPivot& pivot, HeldJoint& held);
+
+    FemSoftBody& m_fem;
+    int m_body;
+    const JointScene& m_scene;
+    ContactProblem& m_problem;
+};
+
+// False if the anchor is lost.
+bool AnchorHolder::hold(const AnchorView& anchor)
+{
+    const btAlignedObjectArray<btSoftBody::Node>& nodes = m_fem.m_softBody->m_nodes;
+    const bool foreign = std::less<const void*>()(anchor.m_node, &nodes[0]) ||
+                         !std::less<const void*>()(anchor.m_node, &nodes[0] + nodes.size());
+    if (foreign || !anchor.m_object || !isFinite(anchor.m_local) || !(anchor.m_influence >= 0))
+    {
+        m_flags.m_bad = true;
+        return true;
+    }
+    if (!m_scene.m_world.holds(anchor.m_object)) return false;
+
+    HeldJoint held;
+    held.m_kind = anchor.m_kind;
+    held.m_node = static_cast<int>(anchor.m_node - &nodes[0]);
+    held.m_object = anchor.m_object;
+    held.m_objectId = broadphaseId(*anchor.m_object);
+    held.m_point = m_fem.m_body.m_state.m_x[held.m_node];
+    const RigidPivot pivot = rigidPivot(anchor.m_object, anchor.m_local, m_scene);
+    held.m_error = norm(pivot.m_start - held.m_point);
+    const HeldJoint* before = continuedBy(held, m_fem.m_joints.m_before, m_fem.m_joints.m_now.size());
+    if (before)
+    {
+        // What came to the world since is the same object if it is where the old one held the node.
+        const double jump = held.m_error - before->m_error;
+        if (before->m_objectId != held.m_objectId && jump > m_fem.m_body.m_model->mesh().meanEdgeLength()) return false;
+        held.m_impulse = before->m_impulse;
+    }
+    append(anchor, pivot, held);
+    m_fem.m_joints.m_now.push_back(held);
+    return true;
+}
+
+void AnchorHolder::append(const AnchorView& anchor, const RigidPivot& pivot, HeldJoint& held)
+{
+    const bool pinned = m_fem.m_body.m_state.m_fixed[held.m_node];
+    if (anchor.m_influence == 0 || (pinned && !canMove(m_scene.m_rigid.obstacles()[pivot.m_obstacle])))
+    {
+        held.m_impulse = {};
+        return;
+    }
+    Joint joint;
+    joint.m_a = nodeEnd(m_body, held.m_node, m_problem);
+    joint.m_b.m_obstacle = pivot.m_obstacle;
+    joint.m_b.m_point = held.m_point;  // both sides feel the impulse at one point
+    const double erp = std::min(1.0, std::max(0.0, double(m_fem.m_softBody->m_cfg.kAHR)));
+    joint.m_softness = anchor.m_influence < 1 ? 1 / anchor.m_influence - 1 : 0;
+    const double longest = longestCorrection(m_fem, joint.m_softness);
+    const Vec3 correction = shortened(erp * (pivot.m_start - held.m_point), longest);
+    joint.m_wanted = pivot.wantedVelocity(held.m_point, correction, m_scene.m_step);
+    joint.m_impulse = held.m_impulse;
+    held.m_row = static_cast<int>(m_problem.m_joints.size());
+    m_problem.m_joints.push_back(joint);
+}
+
+}  // namespace
+
+JointFlags appendAnchors(int body, const JointScene& scene, ContactProblem& problem)
+{
+    FemSoftBody& fem = *scene.m_bodies[body];
+    AnchorHolder holder(body, scene, problem);
+    holder.holdAll(fem.m_softBody->m_anchors);
+    holder.holdAll(fem.m_softBody->m_deformableAnchors);
+    // Bullet never clears m_battach.
+    const auto isAnchor = [](const HeldJoint& held)
+    { return held.m_kind == HeldJoint::Kind::anchor || held.m_kind == HeldJoint::Kind::deformableAnchor; };
+    for (const HeldJoint& held : fem.m_joints.m_before)
+        if (isAnchor(held)) fem.m_softBody->m_nodes[held.m_node].m_battach = 0;
+    for (const HeldJoint& held : fem.m_joints.m_now)
+        if (isAnchor(held)) fem.m_softBody->m_nodes[held.m_node].m_battach = -1;  // a signed bit
+    return holder.m_flags;
+}
+
+JointEnd nodeEnd(int body, int node, ContactProblem& problem)
+{
+    JointEnd end;
+    end.m_body = body;
+    end.m_first = static_cast<int>(problem.m_handleNodes.size());
+    end.m_count = 1;
+    problem.m_handleNodes.push_back(node);
+    problem.m_handleBlocks.push_back(Mat3::identity());
+    return end;
+}
+
+double longestCorrection(const FemSoftBody& fem, double softness)
+{
+    return (1 + softness) * kLongestCorrection * fem.m_body.m_model->mesh().meanEdgeLength();
+}
+
+const HeldJoint* continuedBy(const HeldJoint& now, const std::vector<HeldJoint>& before, std::size_t nth)
+{
+    if (nth < before.size() && now.continues(before[nth])) return &before[nth];
+    const auto found = std::find_if(before.begin(), before.end(), [&](const HeldJoint& b) { return now.continues(b); });
+    return found != before.end() ? &*found : nullptr;
+}
+
+}  // namespace bullet_fem

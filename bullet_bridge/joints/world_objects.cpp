@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/joints/world_objects.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
+#include "BulletSoftBody/btSoftBody.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+class Collector : public btBroadphaseAabbCallback
+{
+public:
+    explicit Collector(std::vector<const void*>& objects) : m_objects(objects) {}
+    bool process(const btBroadphaseProxy* proxy) override
+    {
+        m_objects.push_back(proxy->m_clientObject);
+        return true;
+    }
+
+private:
+    std::vector<const void*>& m_objects;
+};
+
+}  // namespace
+
+void WorldObjects::read(const btSoftBody& body)
+{
+    btBroadphaseInterface* broadphase = body.m_worldInfo ? body.m_worldInfo->m_broadphase : nullptr;
+    if (!broadphase || broadphase != m_broadphase)
+    {
+        m_objects.clear();
+        const btVector3 all(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
+        Collector collector(m_objects);
+        if (broadphase) broadphase->aabbTest(-all, all, collector);
+        std::sort(m_objects.begin(), m_objects.end(), std::less<const void*>());
+        m_broadphase = broadphase;
+    }
+    // What knows the body itself is the broadphase of its world.
+    m_known = std::binary_search(m_objects.begin(), m_objects.end(), &body, std::less<const void*>());
+}
+
+bool WorldObjects::holds(const btCollisionObject* object) const
+{
+    return !m_known || std::binary_search(m_objects.begin(), m_objects.end(), object, std::less<const void*>());
+}
+
+bool WorldObjects::holdsCluster(const void* cluster) const
+{
+    const auto isOf = [cluster](const void* object)
+    {
+        const btSoftBody* soft = btSoftBody::upcast(static_cast<const btCollisionObject*>(object));
+        for (int c = 0; soft && c < soft->m_clusters.size(); ++c)
+            if (soft->m_clusters[c] == cluster) return true;
+        return false;
+    };
+    return !m_known || std::any_of(m_objects.begin(), m_objects.end(), isOf);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/soft_pairs/edge_pair_search.h"
+
+#include <algorithm>
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kRidge = -0.03;        // sine of the angle from which an edge is a ridge
+constexpr double kBetween = 0.03;       // sine by which a normal may leave the arc between two faces' normals
+constexpr double kBetweenImpact = 0.2;  // the same at an impact: the faces have turned since the start
+constexpr double kParallel = 0.05;      // sine of the angle below which the nearest points wander
+constexpr double kEnd = 1e-3;           // share of an edge that belongs to its ends
+constexpr double kShallow = 1e-3;       // edges up to which a depth needs no proof
+constexpr double kAside = 1e-3;         // share of the depth that the way out runs beside the edges
+constexpr double kWayEnd = 0.01;        // share of the way that belongs to its ends, which lie on the surfaces
+
+Vec3 along(const std::array<Vec3, 4>& ends, int first, double s)
+{
+    return (1 - s) * ends[first] + s * ends[first + 1];
+}
+
+// From the second edge's point to the first's.
+Vec3 between(const std::array<Vec3, 4>& ends, const LineParameters& at)
+{
+    return along(ends, 0, at.m_a) - along(ends, 2, at.m_b);
+}
+
+bool isInterior(const LineParameters& at)
+{
+    return at.m_a > kEnd && at.m_a < 1 - kEnd && at.m_b > kEnd && at.m_b < 1 - kEnd;
+}
+
+Vec3 unitNormal(const std::array<Vec3, 4>& ends)
+{
+    const Vec3 n = cross(ends[1] - ends[0], ends[3] - ends[2]);
+    return (1 / norm(n)) * n;
+}
+
+// True if a triangle lies across the way between its ends.
+bool isCrossed(const SoftSurface& surface, const Vec3& from, const Vec3& way)
+{
+    SweptBox box = SweptBox::of(from, {});
+    box.add(SweptBox::of(from + way, {}));
+    bool crossed = false;
+    surface.tree().visitNear(box, 0,
+                             [&](int t)
+                             {
+                                 const Corners& c = surface.tree().corners(t);
+                                 const Vec3& n = surface.faceNormal(t);
+                                 const double s = dot(n, c[0] - from) / dot(n, way);
+                                 std::array<double, 3> w;
+                                 if (!(s > kWayEnd && s < 1 - kWayEnd) || !projectOnPlane(c, from + s * way, w)) return;
+                                 crossed = crossed || std::min({w[0], w[1], w[2]}) >= 0;
+                             });
+    return crossed;
+}
+
+}  // namespace
+
+void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, const TouchReach& reach,
+                          const NodesFound& nodes, std::vector<SurfaceTouch>& touches)
+{
+    m_first = &first;
+    m_second = &second;
+    m_reach = reach;
+    m_touches = &touches;
+    const int edgeCount = static_cast<int>(first.features().m_edges.size());
+    for (int k = 0; k < edgeCount; ++k)
+    {
+        if (!(first.bend(k) < kRidge)) continue;
+        const auto [a, b] = first.features().m_edges[k];
+        SweptBox box = SweptBox::of(first.position()[a], first.change()[a]);
+        box.add(SweptBox::of(first.position()[b], first.change()[b]));
+        m_candidates.clear();
+        second.tree().visitNear(
+            box, std::max(reach.m_band, reach.depth()),
+            [&](int t)
+            {
+                for (int m : second.features().m_triangleEdges[t])
+                    if (second.edgeOwner(m) == t && second.bend(m) < kRidge && (m_first != m_second || m > k))
+                        m_candidates.push_back(m);
+            });
+        std::sort(m_candidates.begin(), m_candidates.end());
+        for (int m : m_candidates) tryPair(k, m, nodes);
+    }
+}
+
+bool EdgePairSearch::areClose(const Pair& pair) const
+{
+    if (m_first != m_second) return false;
+    const RestNeighbours& rest = m_first->restNeighbours();
+    const std::array<int, 4>& n = pair.m_nodes;
+    return rest.areClose(n[0], n[2]) || rest.areClose(n[0], n[3]) || rest.areClose(n[1], n[2]) ||
+           rest.areClose(n[1], n[3]);
+}
+
+void EdgePairSearch::tryPair(int edgeA, int edgeB, const NodesFound& nodes)
+{
+    const auto [a0, a1] = m_first->features().m_edges[edgeA];
+    const auto [b0, b1] = m_second->features().m_edges[edgeB];
+    const std::vector<Vec3>&xA = m_first->position(), &xB = m_second->position();
+    const std::vector<Vec3>&dA = m_first->change(), &dB = m_second->change();
+    const Pair pair = {
+        edgeA, edgeB, {a0, a1, b0, b1}, {xA[a0], xA[a1], xB[b0], xB[b1]}, {dA[a0], dA[a1], dB[b0], dB[b1]}};
+    if (areClose(pair)) return;
+    Crossing crossing;
+    if (tryNear(pair, nodes, crossing) || tryImpact(pair, crossing)) emit(pair, crossing);
+}
+
+// True if the normal, from B to A, lies between those of either edge's faces.
+bool EdgePairSearch::separates(const Pair& pair, const Vec3& normal, double tolerance) const
+{
+    for (const Vec3& into : m_first->intoFaces(pair.m_edgeA))
+        if (!(dot(normal, into) >= -tolerance)) return false;
+    for (const Vec3& into : m_second->intoFaces(pair.m_edgeB))
+        if (!(dot(normal, into) <= tolerance)) return false;
+    return dot(normal, m_first->edgeNormal(pair.m_edgeA)) < 0 && dot(normal, m_second->edgeNormal(pair.m_edgeB)) > 0;
+}
+
+// A crossing at the start: touching, or closing within the step without moving far.
+bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing& crossing) const
+{
+    if (!nearestOfLines(pair.m_x, kParallel, crossing.m_at) || !isInterior(crossing.m_at)) return false;
+    crossing.m_normal = unitNormal(pair.m_x);
+    if (!separates(pair, crossing.m_normal, kBetween))
+    {
+        crossing.m_normal = -crossing.m_normal;
+        if (!separates(pair, crossing.m_normal, kBetween)) return false;
+    }
+    crossing.m_gap = dot(crossing.m_normal, between(pair.m_x, crossing.m_at));
+    if (crossing.m_gap >= m_reach.m_band)
+    {
+        const Vec3 travel = between(pair.m_change, crossing.m_at);
+        return crossing.m_gap + dot(crossing.m_normal, travel) < m_reach.m_band && norm(travel) < m_reach.depth();
+    }
+    // Ends that have a much shorter way out lead the edges out another way.
+    const double shortest =
+        std::min({nodes.m_ofFirst.depth(pair.m_nodes[0]), nodes.m_ofFirst.depth(pair.m_nodes[1]),
+                  nodes.m_ofSecond.depth(pair.m_nodes[2]), nodes.m_ofSecond.depth(pair.m_nodes[3])});
+    if (!(crossing.m_gap >= -std::min(m_reach.depth(), 2 * shortest))) return false;
+    return crossing.m_gap >= -kShallow * m_reach.m_edge || isFreeWayOut(pair, crossing);
+}
+
+// True if nothing lies between edges that have passed each other: those on the far sides of two bars have both bars
+// between them, and these may not overlap at all. The way begins on the surfaces and runs just inside of the edges.
+bool EdgePairSearch::isFreeWayOut(const Pair& pair, const Crossing& crossing) const
+{
+    const Vec3& n = crossing.m_normal;
+    const auto inward = [&](const std::array<Vec3, 2>& into)
+    {
+        const Vec3& flatter = std::fabs(dot(into[0], n)) < std::fabs(dot(into[1], n)) ? into[0] : into[1];
+        return flatter - dot(flatter, n) * n;
+    };
+    const Vec3 way = -crossing.m_gap * n;  // from A's edge to B's
+    const Vec3 aside = -kAside * crossing.m_gap *
+                       (inward(m_first->intoFaces(pair.m_edgeA)) + inward(m_second->intoFaces(pair.m_edgeB)));
+    const Vec3 from = along(pair.m_x, 0, crossing.m_at.m_a) + aside;
+    return !isCrossed(*m_first, from, way) && !isCrossed(*m_second, from, way);
+}
+
+// Quick proof that edges cannot meet: they are apart along their common normal before and after the step, and all ends
+// move in straight lines.
+bool EdgePairSearch::stayApart(const Pair& pair) const
+{
+    const Vec3 n = cross(pair.m_x[1] - pair.m_x[0], pair.m_x[3] - pair.m_x[2]);
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (int a = 0; a < 2; ++a)
+        for (int b = 2; b < 4; ++b)
+        {
+            const double before = dot(n, pair.m_x[a] - pair.m_x[b]);
+            const double after = before + 2 * dot(n, pair.m_change[a] - pair.m_change[b]);
+            least = std::min({least, before, after});
+            most = std::max({most, before, after});
+        }
+    return least > 0 || most < 0;
+}
+
+// Edges that meet on their way.
+bool EdgePairSearch::tryImpact(const Pair& pair, Crossing& crossing) const
+{
+    const std::array<Vec3, 4>&x = pair.m_x, &change = pair.m_change;
+    const double travel = norm(between(change, {0.5, 0.5}));
+    if (!(travel > m_reach.m_band) || stayApart(pair)) return false;
+    const std::array<MovingVector, 3> vectors = {MovingVector{x[2] - x[0], change[2] - change[0]},
+                                                 MovingVector{x[1] - x[0], change[1] - change[0]},
+                                                 MovingVector{x[3] - x[2], change[3] - change[2]}};
+    std::array<double, 3> times;
+    const int count = timesInOnePlane(vectors, 1 + m_reach.m_band / travel, times);
+    for (int k = 0; k < count; ++k)
+    {
+        std::array<Vec3, 4> then;
+        for (int a = 0; a < 4; ++a) then[a] = x[a] + times[k] * change[a];
+        if (!nearestOfLines(then, kParallel, crossing.m_at) || !isInterior(crossing.m_at)) continue;
+        crossing.m_normal = unitNormal(then);
+        crossing.m_gap = dot(crossing.m_normal, between(x, crossing.m_at));
+        if (crossing.m_gap < 0)
+        {
+            crossing.m_normal = -crossing.m_normal;
+            crossing.m_gap = -crossing.m_gap;
+        }
+        if (separates(pair, crossing.m_normal, kBetweenImpact)) return true;
+    }
+    return false;
+}
+
+void EdgePairSearch::emit(const Pair& pair, const Crossing& crossing)
+{
+    if (!std::isfinite(crossing.m_gap) || !isFinite(crossing.m_normal)) return;
+    const std::array<int, 4>& n = pair.m_nodes;
+    const LineParameters& at = crossing.m_at;
+    m_touches->push_back({{n[0], n[1], n[0]},
+                          {n[2], n[3], n[2]},
+                          {1 - at.m_a, at.m_a, 0},
+                          {1 - at.m_b, at.m_b, 0},
+                          crossing.m_normal,
+                          crossing.m_gap,
+                          pair.m_edgeA,
+                          pair.m_edgeB});
+}
+
+}  // namespace bullet_fem

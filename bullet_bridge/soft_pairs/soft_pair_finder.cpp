@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/soft_pairs/soft_pair_finder.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/joints/node_attachments.h"
+#include "bullet_bridge/rigid_obstacles.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kBand = 0.05;        // share of the smaller mean edge that the contact band is wide
+constexpr double kSlop = 5e-4;        // share of the smaller body's size by which surfaces may sink in
+constexpr double kSameContact = 0.9;  // cosine between the normals of a node's contact in two steps
+
+SurfacePoint pointOn(const SoftPairSide& side, const Triangle& nodes, const std::array<double, 3>& weights)
+{
+    SurfacePoint point;
+    point.m_body = side.m_index;
+    point.m_nodes = nodes;
+    point.m_weights = weights;
+    return point;
+}
+
+}  // namespace
+
+SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
+                                    std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins)
+{
+    m_found.clear();
+    m_foundOrigins.clear();
+    const bool self = &first.m_fem == &second.m_fem;
+    const SoftSurface &a = first.m_fem.m_surface, &b = second.m_fem.m_surface;
+    const double offset = self ? 0 : first.m_fem.m_contactOffset + second.m_fem.m_contactOffset;
+    const double edge = std::min(a.meanEdge(), b.meanEdge());
+    const TouchReach reach = {kBand * edge + offset, edge};
+    Roles roles = {first, second, {}};
+    roles.m_origin.m_firstId = broadphaseId(*first.m_fem.m_softBody);
+    roles.m_origin.m_secondId = broadphaseId(*second.m_fem.m_softBody);
+
+    m_touches.clear();
+    m_nodesOfFirst.find(a, b, reach, nullptr, m_touches);
+    append(roles, offset);
+    if (!self)
+    {
+        m_touches.clear();
+        m_nodesOfSecond.find(b, a, reach, &m_nodesOfFirst, m_touches);
+        append({second, first, {roles.m_origin.m_firstId, roles.m_origin.m_secondId, SoftPairKind::nodeOfSecond, 0, 0}},
+               offset);
+    }
+    m_touches.clear();
+    m_edges.find(a, b, reach, {m_nodesOfFirst, self ? m_nodesOfFirst : m_nodesOfSecond}, m_touches);
+    roles.m_origin.m_kind = SoftPairKind::edges;
+    append(roles, offset);
+
+    SoftPairReport report;
+    report.m_limited = limit(maxContacts);
+    report.m_contacts = static_cast<int>(m_found.size());
+    contacts.insert(contacts.end(), m_found.begin(), m_found.end());
+    origins.insert(origins.end(), m_foundOrigins.begin(), m_foundOrigins.end());
+    return report;
+}
+
+void SoftPairFinder::append(const Roles& roles, double offset)
+{
+    const SoftSurface &soft = roles.m_soft.m_fem.m_surface, &other = roles.m_other.m_fem.m_surface;
+    const btSoftBody &softBody = *roles.m_soft.m_fem.m_softBody, &otherBody = *roles.m_other.m_fem.m_softBody;
+    ContactPoint common;
+    common.m_slop = kSlop * std::min(soft.size(), other.size());
+    common.m_friction = std::max(0.0, double(std::max(softBody.m_cfg.kDF, otherBody.m_cfg.kDF)));
+    common.m_restitution = std::max(0.0, std::min(1.0, double(softBody.getRestitution()) * otherBody.getRestitution()));
+    for (const SurfaceTouch& touch : m_touches)
+    {
+        if (isAttached(roles.m_soft.m_fem, touch.m_nodes, roles.m_other.m_fem) ||
+            isAttached(roles.m_other.m_fem, touch.m_otherNodes, roles.m_soft.m_fem))
+            continue;
+        ContactPoint contact = common;
+        contact.m_soft = pointOn(roles.m_soft, touch.m_nodes, touch.m_weights);
+        contact.m_other = pointOn(roles.m_other, touch.m_otherNodes, touch.m_otherWeights);
+        contact.m_point = 0.5 * (interpolated(soft.position(), touch.m_nodes, touch.m_weights) +
+                                 interpolated(other.position(), touch.m_otherNodes, touch.m_otherWeights));
+        contact.m_normal = touch.m_normal;
+        contact.m_gap = touch.m_gap - offset;
+        SoftPairOrigin origin = roles.m_origin;
+        origin.m_feature = touch.m_feature;
+        origin.m_otherFeature = touch.m_otherFeature;
+        if (const ContactPoint* last = remembered(origin, touch.m_normal))
+        {
+            contact.m_impulse = last->m_impulse;
+            contact.m_slip = last->m_slip;
+        }
+        m_found.push_back(contact);
+        m_foundOrigins.push_back(origin);
+    }
+}
+
+// Keeps the maxContacts points of smallest gap, in their order.
+bool SoftPairFinder::limit(int maxContacts)
+{
+    if (static_cast<int>(m_found.size()) <= maxContacts) return false;
+    m_order.resize(m_found.size());
+    std::iota(m_order.begin(), m_order.end(), 0);
+    const auto nearer = [&](int a, int b)
+    { return m_found[a].m_gap != m_found[b].m_gap ? m_found[a].m_gap < m_found[b].m_gap : a < b; };
+    const int kept = std::max(0, maxContacts);
+    std::nth_element(m_order.begin(), m_order.begin() + kept, m_order.end(), nearer);
+    m_order.resize(kept);
+    std::sort(m_order.begin(), m_order.end());
+    for (int k = 0; k < kept; ++k)
+    {
+        m_found[k] = m_found[m_order[k]];
+        m_foundOrigins[k] = m_foundOrigins[m_order[k]];
+    }
+    m_found.resize(kept);
+    m_foundOrigins.resize(kept);
+    return true;
+}
+
+void SoftPairFinder::beginStep()
+{
+    m_order.resize(m_next.size());
+    std::iota(m_order.begin(), m_order.end(), 0);
+    std::sort(m_order.begin(), m_order.end(),
+              [this](int a, int b)
+              { return m_nextOrigins[a] < m_nextOrigins[b] || (!(m_nextOrigins[b] < m_nextOrigins[a]) && a < b); });
+    m_last.clear();
+    m_lastOrigins.clear();
+    for (int k : m_order)
+    {
+        m_last.push_back(m_next[k]);
+        m_lastOrigins.push_back(m_nextOrigins[k]);
+    }
+    m_next.clear();
+    m_nextOrigins.clear();
+}
+
+void SoftPairFinder::remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins)
+{
+    m_next.insert(m_next.end(), contacts.begin(), contacts.end());
+    m_nextOrigins.insert(m_nextOrigins.end(), origins.begin(), origins.end());
+}
+
+// The same pair of edges, or the node's contact with the same or the next face: one with nearly the same normal.
+const ContactPoint* SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal) const
+{
+    SoftPairOrigin from = origin;
+    if (origin.m_kind != SoftPairKind::edges) from.m_otherFeature = -1;
+    double best = kSameContact;
+    const ContactPoint* found = nullptr;
+    for (auto at = std::lower_bound(m_lastOrigins.begin(), m_lastOrigins.end(), from); at != m_lastOrigins.end(); ++at)
+    {
+        SoftPairOrigin same = *at;
+        same.m_otherFeature = from.m_otherFeature;
+        const bool isSame = origin.m_kind == SoftPairKind::edges ? !(from < *at) : !(from < same);
+        if (!isSame) break;
+        const ContactPoint& last = m_last[at - m_lastOrigins.begin()];
+        const double alike = dot(last.m_normal, normal);
+        if (alike <= best) continue;
+        best = alike;
+        found = &last;
+    }
+    return found;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_bridge/soft_pairs/rest_neighbours.h"
+#include "bullet_bridge/soft_pairs/surface_features.h"
+#include "bullet_bridge/soft_pairs/surface_tree.h"
+
+namespace bullet_fem
+{
+
+/// The surface of a deforming body as contacts between soft bodies see it: normals of faces, edges and corners, how the
+/// surface is bent, and a tree over its triangles. Built at set-up; update() never allocates.
+class SoftSurface
+{
+public:
+    explicit SoftSurface(const TetMesh& mesh);
+
+    /// Takes the positions at the start of a step of h [s] and the free velocities: once a step.
+    void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
+
+    const std::vector<Triangle>& triangles() const { return m_triangles; }
+    const std::vector<int>& nodes() const { return m_nodes; }  ///< of the surface, ascending
+    const SurfaceFeatures& features() const { return m_features; }
+    double meanEdge() const { return m_meanEdge; }  ///< of the tetrahedra at rest [m]
+    double size() const { return m_size; }          ///< cube root of the volume at rest [m]
+    const SurfaceTree& tree() const { return m_tree; }
+    const RestNeighbours& restNeighbours() const { return m_restNeighbours; }
+    const std::vector<Vec3>& position() const { return m_x; }     ///< [m], of all nodes
+    const std::vector<Vec3>& change() const { return m_change; }  ///< h v [m]
+
+    /// Outward unit normals; zero where triangles have no area.
+    const Vec3& faceNormal(int triangle) const { return m_faceNormal[triangle]; }
+    const Vec3& edgeNormal(int edge) const { return m_edgeNormal[edge]; }  ///< mean of its faces'
+    const Vec3& nodeNormal(int node) const { return m_nodeNormal[node]; }  ///< weighted with the faces' angles
+    /// The normal of a feature of a triangle: says on which side of a closed surface a point lies to which this feature
+    /// is nearest [Baerentzen and Aanaes 2005].
+    const Vec3& normalAt(int triangle, const TrianglePoint& point) const;
+
+    /// Sine of the angle by which the surface is bent at an edge: > 0 in a groove, < 0 on a ridge [-].
+    double bend(int edge) const { return m_bend[edge]; }
+    int edgeOwner(int edge) const { return m_edgeTriangles[edge][0]; }  ///< one of its triangles
+    /// Unit vectors from an edge into its two faces, perpendicular to it.
+    const std::array<Vec3, 2>& intoFaces(int edge) const { return m_intoFaces[edge]; }
+    /// True if all faces at an edge (a node) have nearly (8 degrees) its normal.
+    bool isFlatEdge(int edge) const { return m_flatEdge[edge] != 0; }
+    bool isFlatNode(int node) const { return m_flatNode[node] != 0; }
+
+    /// Least dot product of a direction with the unit vectors along the surface edges that leave a node: >= 0 if the
+    /// body lies, near the node, on the direction's side of a plane.
+    double leastAlongEdges(int node, const Vec3& direction) const;
+
+private:
+    void updateFaces();
+    void updateEdges();
+    void updateFlatness();
+    Vec3 intoFace(int edge, int triangle) const;
+
+    std::vector<Triangle> m_triangles;
+    std::vector<int> m_nodes;
+    SurfaceFeatures m_features;
+    double m_meanEdge, m_size;
+    SurfaceTree m_tree;
+    RestNeighbours m_restNeighbours;
+    std::vector<std::array<int, 2>> m_edgeTriangles;  // -1: none
+    std::vector<unsigned char> m_manifoldEdge;        // 1: of exactly two triangles
+    std::vector<int> m_firstAround, m_around;         // surface edges' other nodes around every node
+    std::vector<Vec3> m_x, m_change, m_faceNormal, m_edgeNormal, m_nodeNormal;
+    std::vector<double> m_bend;
+    std::vector<std::array<Vec3, 2>> m_intoFaces;
+    std::vector<unsigned char> m_flatEdge, m_flatNode;
+};
+
+}  // namespace bullet_fem

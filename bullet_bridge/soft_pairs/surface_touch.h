@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_bridge/soft_pairs/soft_surface.h"
+
+namespace bullet_fem
+{
+
+/// Two points of soft surfaces that touch, or may do so within the step.
+struct SurfaceTouch
+{
+    Triangle m_nodes, m_otherNodes;                   ///< unused ones repeat the first
+    std::array<double, 3> m_weights, m_otherWeights;  ///< sum 1; up to 1e-3 edges beyond a face's rim [-]
+    Vec3 m_normal;                                    ///< unit, from the other surface to this
+    double m_gap = 0;                                 ///< along the normal at the start [m]; negative inside
+    int m_feature = 0, m_otherFeature = 0;            ///< node, triangle or edge; see SoftPairOrigin
+};
+
+/// How far two surfaces look for each other.
+struct TouchReach
+{
+    double m_band = 0;                             ///< gaps below this are contacts though nothing closes them [m]
+    double m_edge = 0;                             ///< the smaller mean edge of the two [m]
+    double depth() const { return 0.5 * m_edge; }  ///< to which one may always have sunk into the other [m]
+};
+
+inline Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, const std::array<double, 3>& w)
+{
+    return w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]];
+}
+
+/// Largest distance that points of the two boxes can move relative to each other [m].
+inline double largestTravel(const SweptBox& a, const SweptBox& b)
+{
+    Vec3 most;
+    for (int c = 0; c < 3; ++c)
+        most[c] =
+            std::fmax(std::fabs(a.m_changeHigh[c] - b.m_changeLow[c]), std::fabs(b.m_changeHigh[c] - a.m_changeLow[c]));
+    return norm(most);
+}
+
+}  // namespace bullet_fem

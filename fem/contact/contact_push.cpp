@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/contact_rows.h"
+
+#include <algorithm>
+
+namespace bullet_fem
+{
+namespace
+{
+
+bool canMove(const Obstacle& obstacle)
+{
+    return dot(obstacle.m_inverseMass, obstacle.m_inverseMass) > 0 || squaredNorm(obstacle.m_inverseInertia) > 0;
+}
+
+constexpr int kMaxSweepsOfPush = 200;
+constexpr double kPushTolerance = 1e-4;
+
+}  // namespace
+
+bool ContactRows::needPush() const
+{
+    return std::any_of(m_problem->m_contacts.begin(), m_problem->m_contacts.end(),
+                       [](const ContactPoint& c)
+                       { return c.m_gap < -c.m_slop && !(c.m_stiffness > 0 || c.m_damping > 0); });
+}
+
+// Penetrating points shall separate at a share of their depth a step, unless they do so already; the others shall not
+// close their gap, and joints hold. From here on all velocities are those of the push.
+void ContactRows::preparePush()
+{
+    const double h = m_settings.m_step.m_step;
+    for (std::size_t k = 0; k < m_rows.size(); ++k)
+    {
+        Row& row = m_rows[k];
+        row.m_impulse = row.m_roundImpulse = row.m_target = {};
+        if (row.m_joint) continue;
+        const ContactPoint& c = m_problem->m_contacts[k];
+        const double moving = dot(c.m_normal, velocity(row));
+        const double depth = std::max(0.0, -c.m_gap - c.m_slop);
+        const double wanted = std::min(m_settings.m_pushFraction * depth / h, m_settings.m_maxPushVelocity);
+        row.m_target.x = c.m_gap < 0 ? wanted - std::max(moving, 0.0) : -(moving + c.m_gap / h);
+        row.m_friction = 0;
+        row.m_idle = row.m_idle || row.m_yield.x > 0;
+    }
+    m_savedLinear.resize(m_problem->m_obstacles.size());
+    m_savedAngular.resize(m_problem->m_obstacles.size());
+    for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
+    {
+        Obstacle& obstacle = m_problem->m_obstacles[k];
+        m_savedLinear[k] = obstacle.m_linearVelocity;
+        m_savedAngular[k] = obstacle.m_angularVelocity;
+        obstacle.m_linearVelocity = obstacle.m_angularVelocity = {};
+    }
+    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].beginPush();
+    restart();
+}
+
+int ContactRows::push()
+{
+    measure();
+    preparePush();
+    int sweeps = 0;
+    for (double change = 1; sweeps < kMaxSweepsOfPush && change > kPushTolerance; ++sweeps) change = sweep();
+    for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
+    {
+        Obstacle& obstacle = m_problem->m_obstacles[k];
+        obstacle.m_pushLinear = obstacle.m_linearVelocity;
+        obstacle.m_pushAngular = obstacle.m_angularVelocity;
+        obstacle.m_linearVelocity = m_savedLinear[k];
+        obstacle.m_angularVelocity = m_savedAngular[k];
+    }
+    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
+    {
+        if (m_bodies[b].size() == 0) continue;
+        const Vec3 gained = m_bodies[b].applyPush(m_settings.m_step);
+        if (dot(gained, gained) > 0) payBack(b, gained);
+    }
+    return sweeps;
+}
+
+// Displacing a moving body changes its angular momentum about the origin. The movable obstacles that it was pushed off
+// take the opposite, in proportion to the push; where it was pushed off soft ones it spins itself.
+void ContactRows::payBack(std::size_t body, const Vec3& gained)
+{
+    const int b = static_cast<int>(body);
+    double total = 0, soft = 0;
+    for (const Row& row : m_rows)
+    {
+        if (row.m_a.m_body != b && row.m_b.m_body != b) continue;
+        total += norm(row.m_impulse);
+        if (row.m_a.m_body >= 0 && row.m_b.m_body >= 0) soft += norm(row.m_impulse);
+    }
+    if (!(total > 0)) return;
+    for (const Row& row : m_rows)
+    {
+        if (row.m_a.m_body != b && row.m_b.m_body != b) continue;
+        const int o = row.m_a.m_body == b ? row.m_b.m_obstacle : row.m_a.m_obstacle;
+        if (o >= 0 && canMove(m_problem->m_obstacles[o]))
+            m_problem->m_obstacles[o].m_angularImpulse -= (norm(row.m_impulse) / total) * gained;
+    }
+    m_bodies[body].spin(-(soft / total) * gained, m_settings.m_step);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/contact_rows.h"
+
+#include <algorithm>
+
+namespace bullet_fem
+{
+
+// The impulse that a contact wants for a relative velocity it has at another impulse; step: share of the way.
+Vec3 ContactRows::solveContact(const Row& row, const Vec3& impulse, Vec3 v, double step) const
+{
+    // Normal: n . v + yield lambda >= target.
+    const Vec3 n = row.m_axes[0];
+    const double old = dot(impulse, n);
+    const double missing = row.m_target.x - dot(n, v) - row.m_yield.x * old;
+    const double normal = std::max(0.0, old + step * missing / (row.m_rowCompliance.x + row.m_yield.x));
+    if (step == 1) v += row.m_compliance * ((normal - old) * n);
+
+    // Friction: a step along the sliding velocity, projected to the disc of radius mu lambda_n.
+    Vec3 tangential;
+    for (int i = 1; i < 3; ++i)
+        tangential +=
+            (dot(impulse, row.m_axes[i]) + step * (row.m_target[i] - dot(v, row.m_axes[i])) / row.m_rowCompliance[i]) *
+            row.m_axes[i];
+    const double radius = row.m_friction * normal, length = norm(tangential);
+    if (length > radius) tangential *= length > 0 ? radius / length : 0;
+    return normal * n + tangential;
+}
+
+Vec3 ContactRows::solveJoint(const Row& row, const Vec3& impulse, Vec3 v, double step) const
+{
+    Vec3 result;
+    for (int i = 0; i < 3; ++i)
+    {
+        const Vec3& axis = row.m_axes[i];
+        const double w = row.m_rowCompliance[i], old = dot(impulse, axis), yield = row.m_yield[i];
+        double wanted = 0;
+        if (w > 0)
+        {
+            const double missing = row.m_target[i] - dot(axis, v) - yield * old;
+            wanted = std::clamp(old + step * missing / (w + yield), -row.m_limit[i], row.m_limit[i]);
+        }
+        result += wanted * axis;
+        if (step == 1) v += row.m_compliance * ((wanted - old) * axis);
+    }
+    return result;
+}
+
+Vec3 ContactRows::solveRow(const Row& row, const Vec3& impulse, const Vec3& v, double step) const
+{
+    if (row.m_idle) return impulse;
+    return row.m_joint ? solveJoint(row, impulse, v, step) : solveContact(row, impulse, v, step);
+}
+
+double ContactRows::sweep()
+{
+    return m_inTurn ? sweepInTurn() : sweepAtOnce();
+}
+
+double ContactRows::sweepInTurn()
+{
+    double largestChange = 0, largest = 0;
+    for (Row& row : m_rows)
+    {
+        const Vec3 wanted = solveRow(row, row.m_impulse, velocity(row), 1);
+        const Vec3 difference = wanted - row.m_impulse;
+        const double change2 = dot(difference, difference);
+        largest = std::max(largest, dot(wanted, wanted));
+        if (change2 == 0) continue;
+        largestChange = std::max(largestChange, change2);
+        change(row, wanted);
+    }
+    return largest > 0 ? std::sqrt(largestChange / largest) : 0;
+}
+
+// The gradient step: one over the largest eigenvalue of the compliance, scaled by that of every row, by some power
+// iterations from the present impulses.
+void ContactRows::chooseStep()
+{
+    constexpr int kIterations = 8;
+    constexpr double kSafety = 1.2;
+    double eigenvalue = 1;
+    for (Row& row : m_rows)  // probes: added to the impulses and taken back at the end
+    {
+        row.m_roundImpulse = row.m_impulse;
+        row.m_lastVelocity = velocity(row);
+        const double length = norm(row.m_impulse);
+        row.m_lastImpulse = length > 0 ? (1 / length) * row.m_impulse : row.m_axes[0];
+        row.m_lastImpulse *= 1 / std::sqrt(std::max(row.m_rowCompliance.x, 1e-300));
+    }
+    for (int k = 0; k < kIterations; ++k)
+    {
+        double sum = 0, sum2 = 0;
+        for (const Row& row : m_rows)
+            if (!row.m_idle) sum += row.m_rowCompliance.x * dot(row.m_lastImpulse, row.m_lastImpulse);
+        const double unit = sum > 0 ? 1 / std::sqrt(sum) : 0;
+        for (Row& row : m_rows)
+            if (!row.m_idle) change(row, row.m_roundImpulse + unit * row.m_lastImpulse);
+        flush();
+        for (Row& row : m_rows)
+        {
+            if (row.m_idle) continue;
+            row.m_lastImpulse = (1 / row.m_rowCompliance.x) * (velocity(row) - row.m_lastVelocity);
+            sum2 += row.m_rowCompliance.x * dot(row.m_lastImpulse, row.m_lastImpulse);
+        }
+        eigenvalue = std::max(eigenvalue, std::sqrt(sum2));
+    }
+    for (Row& row : m_rows) change(row, row.m_roundImpulse);
+    flush();
+    m_gradientStep = 1 / (kSafety * eigenvalue);
+    for (Row& row : m_rows)
+    {
+        row.m_lastImpulse = row.m_impulse;
+        row.m_lastVelocity = velocity(row);
+    }
+}
+
+double ContactRows::sweepAtOnce()
+{
+    if (!(m_gradientStep > 0)) chooseStep();
+    // Nesterov's extrapolation from the last two points, with restart where it points uphill [O'Donoghue, Candes 2015].
+    const double next = 0.5 * (1 + std::sqrt(1 + 4 * m_acceleration * m_acceleration));
+    const double beta = (m_acceleration - 1) / next;
+    double largestChange = 0, largest = 0, uphill = 0;
+    for (Row& row : m_rows)
+    {
+        const Vec3 v = velocity(row), before = row.m_impulse;
+        const Vec3 from = before + beta * (before - row.m_lastImpulse);
+        const Vec3 wanted = solveRow(row, from, v + beta * (v - row.m_lastVelocity), m_gradientStep);
+        uphill += row.m_rowCompliance.x * dot(from - wanted, wanted - before);
+        row.m_lastImpulse = before;
+        row.m_lastVelocity = v;
+        const Vec3 difference = wanted - before;
+        largest = std::max(largest, dot(wanted, wanted));
+        largestChange = std::max(largestChange, dot(difference, difference));
+        row.m_pending = wanted;
+    }
+    for (Row& row : m_rows) change(row, row.m_pending);
+    flush();
+    m_acceleration = uphill > 0 ? 1 : next;
+    return largest > 0 ? std::sqrt(largestChange / largest) : 0;
+}
+
+}  // namespace bullet_fem
