@@ -91,10 +91,9 @@ void wakeHeldBodies(btFemBodyRegistry& registry, const btFemEntry& entry)
 {
     if (!isMoving(*entry.m_softBody)) return;
     for (const HeldJoint& joint : entry.m_fem->m_joints.m_now)
-    {
-        btFemEntry* other = registry.find(static_cast<const btSoftBody*>(joint.m_object));
-        if (other && other->m_sleep.m_asleep) other->m_softBody->activate();
-    }
+        for (const auto& other : registry.entries())  // the object may be anything, or gone: only compared
+            if (static_cast<const btCollisionObject*>(other->m_softBody) == joint.m_object && other->m_sleep.m_asleep)
+                other->m_softBody->activate();
 }
 
 }  // namespace
