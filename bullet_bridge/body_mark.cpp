@@ -30,6 +30,11 @@ std::uint64_t markBody(btSoftBody& body)
     return mark;
 }
 
+void unmarkBody(btSoftBody& body)
+{
+    if (isMarked(body)) body.m_tetras[0].m_c0[0].setZero();
+}
+
 bool isMarked(const btSoftBody& body)
 {
     return body.m_tetras.size() > 0 && body.m_tetras[0].m_c0[0].z() == kIsMark;

@@ -14,7 +14,10 @@ namespace bullet_fem
 /// uses (btSoftBody::Tetra::m_c0), dies with its body. Thread-safe for different bodies.
 std::uint64_t markBody(btSoftBody& body);
 
-/// True if the body bears any mark: it is, or once was, moved by finite elements.
+/// Takes the mark off a body, if it bears one: finite elements move it no more.
+void unmarkBody(btSoftBody& body);
+
+/// True if the body bears any mark: finite elements move it, or did in a world that it has left.
 bool isMarked(const btSoftBody& body);
 
 /// True if the body bears this mark.

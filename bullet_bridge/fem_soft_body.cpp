@@ -2,9 +2,12 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/fem_soft_body.h"
 
+#include <algorithm>
+
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/fem/stepping.h"
 
 namespace bullet_fem
 {
@@ -15,7 +18,6 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
       m_mark(markBody(softBody)),
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
-      m_features(m_body.m_model->mesh()),
       m_surface(m_body.m_model->mesh())
 {
     const int n = softBody.m_nodes.size();
@@ -26,7 +28,7 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
     m_pins.m_moved.assign(n, 0);
     m_nodeGap.resize(n);
     m_nodeNormal.resize(n);
-    m_edgeGap.resize(m_features.m_edges.size());
+    m_edgeGap.resize(m_surface.features().m_edges.size());
     for (int i = 0; i < n; ++i)
     {
         btSoftBody::Node& node = softBody.m_nodes[i];
@@ -41,6 +43,14 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
         m_written.m_inverseMass.push_back(node.m_im);
         if (node.m_im == 0) m_pins.m_velocity[i] = m_body.m_state.m_v[i];
     }
+}
+
+double fastestNode(const Body& body, const Vec3& relativeTo)
+{
+    const std::vector<Vec3>& v = velocity(body);
+    double fastest = 0;
+    for (int i : body.m_model->mesh().surfaceNodes()) fastest = std::max(fastest, norm(v[i] - relativeTo));
+    return fastest;
 }
 
 }  // namespace bullet_fem

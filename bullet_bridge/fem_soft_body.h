@@ -11,7 +11,6 @@
 #include "bullet_bridge/joints/held_joint.h"
 #include "bullet_bridge/model_library.h"
 #include "bullet_bridge/soft_pairs/soft_surface.h"
-#include "bullet_bridge/soft_pairs/surface_features.h"
 #include "bullet_fem/fem/contact_solver.h"
 
 class btCollisionObject;
@@ -92,11 +91,13 @@ struct FemSoftBody
     std::vector<ContactPoint> m_contacts;  ///< of the last step
     std::vector<ContactOrigin> m_origins;  ///< one a contact, ascending
     std::vector<SheetSide> m_sheetSides;   ///< of the last step, ascending
-    SurfaceFeatures m_features;            ///< of the mesh's surface
-    SoftSurface m_surface;                 ///< for contact with soft bodies; update() it before they are searched
+    SoftSurface m_surface;                 ///< of m_body's mesh; update() it before soft bodies are searched
     std::vector<double> m_nodeGap;         ///< scratch of the contact search, one a node
     std::vector<Vec3> m_nodeNormal;        ///< likewise
     std::vector<double> m_edgeGap;         ///< likewise, one a surface edge: at its middle
 };
+
+/// Largest speed of a surface node relative to a velocity [m/s]; NaN counts as none.
+double fastestNode(const Body& body, const Vec3& relativeTo);
 
 }  // namespace bullet_fem

@@ -8,6 +8,7 @@
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "LinearMath/btTransformUtil.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/shapes/swept_distance.h"
 #include "bullet_fem/fem/stepping.h"
 
@@ -180,9 +181,7 @@ bool RigidObstacles::mustRewind(const btRigidBody& body, double step, const Body
     const ShapeLeaf whole = {body.getCollisionShape(), {mat3(present.getBasis()), vec3(present.getOrigin())}, {}, {}};
     const RigidMotion motion = {vec3(present.getOrigin()), vec3(body.getLinearVelocity()),
                                 vec3(body.getAngularVelocity())};
-    double speed = 0;
-    for (int i : soft.m_model->mesh().surfaceNodes())
-        speed = std::max(speed, norm(velocity(soft)[i] - motion.m_linearVelocity));
+    const double speed = fastestNode(soft, motion.m_linearVelocity);
     return isFast(SweptShape(whole, motion, step), speed - 2 * step * norm(vec3(body.getGravity())),
                   soft.m_model->mesh().meanEdgeLength());
 }

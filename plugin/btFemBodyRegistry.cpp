@@ -53,6 +53,23 @@ bool topologyAsBuilt(const btSoftBody& soft, const TetMesh& mesh)
     return true;
 }
 
+// What the body overlaps gets new collision algorithms at the next collision detection.
+void renewAlgorithms(btSoftBody& body)
+{
+    btDispatcher* dispatcher = body.m_worldInfo->m_dispatcher;
+    btBroadphaseInterface* broadphase = body.m_worldInfo->m_broadphase;
+    if (dispatcher && broadphase && body.getBroadphaseHandle())
+        broadphase->getOverlappingPairCache()->cleanProxyFromPairs(body.getBroadphaseHandle(), dispatcher);
+}
+
+// A body that was FEM until it was cut or refined has its mark and a FEM body's algorithms; with those, Bullet's
+// springs would be given whole planes and meshes, which they take for nothing.
+void leaveToBullet(btSoftBody& body)
+{
+    unmarkBody(body);
+    if (body.m_worldInfo) renewAlgorithms(body);
+}
+
 }  // namespace
 
 std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
@@ -154,7 +171,6 @@ bool btFemBodyRegistry::worldHolds(const btSoftBody& body, const btCollisionObje
     return m_worldObjects.holds(object);
 }
 
-// Takes effect at the next collision detection.
 void btFemBodyRegistry::registerWithDispatcher(btSoftBody& body) const
 {
     if (!body.m_worldInfo) return;
@@ -162,10 +178,7 @@ void btFemBodyRegistry::registerWithDispatcher(btSoftBody& body) const
     dispatchConcaveShapesOnce(dispatcher);
     if (m_showsManifolds) btFemManifolds::showIn(dispatcher);
     answerContactTests(dispatcher);
-    // What it overlapped before it was FEM has Bullet's algorithms.
-    btBroadphaseInterface* broadphase = body.m_worldInfo->m_broadphase;
-    if (dispatcher && broadphase && body.getBroadphaseHandle())
-        broadphase->getOverlappingPairCache()->cleanProxyFromPairs(body.getBroadphaseHandle(), dispatcher);
+    renewAlgorithms(body);  // what it overlapped before it was FEM has Bullet's
 }
 
 void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
@@ -213,6 +226,7 @@ void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)
     {
         entry.m_message = error.what();
         entry.m_rejected = !entry.m_fem;  // a body that moved already keeps its old material
+        if (entry.m_rejected) leaveToBullet(*entry.m_softBody);
         entry.m_materialChanged = false;
     }
 }

@@ -17,7 +17,12 @@ using namespace bullet_fem;
 namespace
 {
 
+// Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
 constexpr int kSweepsWithJoints = 50;
+
+// The user's defaults are the solver's own.
+static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
+static_assert(btFemSolverInfo().m_contactRounds == ContactSettings().m_rounds);
 
 // Sets the impulse on one side, and the point of that side.
 void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
@@ -74,7 +79,6 @@ void btFemContactGroup::collect(const Scope& scope)
     m_settings.m_step.m_tolerance = m_info.m_tolerance;
     m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
     m_settings.m_rounds = m_info.m_contactRounds;
-    // Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
     m_settings.m_sweeps =
         m_problem.m_joints.empty() ? m_info.m_contactSweeps : std::min(m_info.m_contactSweeps, kSweepsWithJoints);
     m_settings.m_pushFraction = m_info.m_erp;
@@ -100,6 +104,7 @@ void btFemContactGroup::collectSoft()
 {
     m_softContacts.clear();
     m_softOrigins.clear();
+    m_surfaceUpdated.assign(m_bodies.size(), 0);
     for (std::size_t a = 0; a < m_bodies.size(); ++a)
         for (std::size_t b = a; b < m_bodies.size(); ++b)
         {
@@ -115,18 +120,23 @@ void btFemContactGroup::collectSoft()
 
 void btFemContactGroup::collectPair(std::size_t a, std::size_t b)
 {
-    for (std::size_t k : {a, b})
-    {
-        FemSoftBody& fem = *m_bodies[k];
-        fem.m_surface.update(fem.m_body.m_state.m_x, velocity(fem.m_body), m_step);
-        if (a == b) break;
-    }
+    updateSurface(a);
+    updateSurface(b);
     const bool inOrder = broadphaseId(*m_bodies[a]->m_softBody) <= broadphaseId(*m_bodies[b]->m_softBody);
     const std::size_t first = inOrder ? a : b, second = inOrder ? b : a;
     const SoftPairReport found =
         m_pairFinder.find({*m_bodies[first], static_cast<int>(first)}, {*m_bodies[second], static_cast<int>(second)},
                           m_info.m_maxContacts, m_softContacts, m_softOrigins);
     if (found.m_limited) m_entries[first]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
+}
+
+// Once, however many bodies it touches.
+void btFemContactGroup::updateSurface(std::size_t b)
+{
+    if (m_surfaceUpdated[b]) return;
+    m_surfaceUpdated[b] = 1;
+    FemSoftBody& fem = *m_bodies[b];
+    fem.m_surface.update(fem.m_body.m_state.m_x, velocity(fem.m_body), m_step);
 }
 
 void btFemContactGroup::collectJoints(const Scope& scope)
@@ -168,23 +178,27 @@ void btFemContactGroup::solve()
     report(solved);
 }
 
-void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool)
+// A part of the solution, with the obstacles' velocities from the rigid solver's bodies and back to them.
+template <class Part>
+void btFemContactGroup::onSolverBodies(const Part& part)
 {
     const btFemStopwatch watch;
-    m_solverBodies.begin(m_rigid, pool);
     m_solverBodies.read(m_problem.m_obstacles);
-    m_solver.begin(m_problem, m_settings);
+    part();
     m_solverBodies.write(m_problem.m_obstacles);
     m_milliseconds += watch.milliseconds();
 }
 
+void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool)
+{
+    m_solverBodies.begin(m_rigid, pool);
+    onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
+}
+
 double btFemContactGroup::sweep()
 {
-    const btFemStopwatch watch;
-    m_solverBodies.read(m_problem.m_obstacles);
-    const double change = m_solver.sweep();
-    m_solverBodies.write(m_problem.m_obstacles);
-    m_milliseconds += watch.milliseconds();
+    double change = 0;
+    onSolverBodies([&] { change = m_solver.sweep(); });
     return change;
 }
 
@@ -197,12 +211,9 @@ void btFemContactGroup::correct()
 
 void btFemContactGroup::finish()
 {
-    const btFemStopwatch watch;
-    m_solverBodies.read(m_problem.m_obstacles);
-    const ContactReport solved = m_solver.finish();
-    m_solverBodies.write(m_problem.m_obstacles);
+    ContactReport solved;
+    onSolverBodies([&] { solved = m_solver.finish(); });
     m_solverBodies.end(m_rigid);
-    m_milliseconds += watch.milliseconds();
     report(solved);
 }
 

@@ -59,7 +59,10 @@ private:
     void collectRigid();
     void collectSoft();
     void collectPair(std::size_t a, std::size_t b);
+    void updateSurface(std::size_t b);
     void collectJoints(const Scope& scope);
+    template <class Part>
+    void onSolverBodies(const Part& part);
     void report(const bullet_fem::ContactReport& report);
     void reportBody(btFemEntry& entry, const bullet_fem::ContactReport& report) const;
     void reportSoftContact(std::size_t k);
@@ -70,6 +73,7 @@ private:
     bullet_fem::ContactSettings m_settings;
     bullet_fem::ContactFinder m_finder;
     bullet_fem::SoftPairFinder m_pairFinder;
+    std::vector<unsigned char> m_surfaceUpdated;           // per body: 1 once its SoftSurface is that of this step
     std::vector<bullet_fem::ContactPoint> m_softContacts;  // after the rigid ones in the problem
     std::vector<bullet_fem::SoftPairOrigin> m_softOrigins;
     bullet_fem::SoftJoints m_joints;

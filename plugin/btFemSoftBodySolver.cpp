@@ -2,12 +2,10 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/btFemSoftBodySolver.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
@@ -73,13 +71,6 @@ struct btFemSoftBodySolver::Impl
 namespace
 {
 
-void checkNode(const btSoftBody& body, int node)
-{
-    if (node < 0 || node >= body.m_nodes.size())
-        throw std::invalid_argument("node " + std::to_string(node) + " is not in [0, " +
-                                    std::to_string(body.m_nodes.size()) + ") of this body");
-}
-
 // The masses that a density gives; pinned nodes stay pinned.
 void writeMasses(btSoftBody& body, double density)
 {
@@ -103,6 +94,16 @@ bool collide(const btSoftBody& a, const btSoftBody& b)
     const int mask = &a == &b ? static_cast<int>(Flags::CL_SELF) : Flags::SVSmask & ~Flags::CL_SELF;
     return (a.m_cfg.collisions & b.m_cfg.collisions & mask) != 0 && a.hasContactResponse() && b.hasContactResponse() &&
            !ignoresCollision(a, b) && !ignoresCollision(b, a);
+}
+
+// Bullet builds its tree of nodes along the links, and never ends without any: helpers' bodies have none.
+void updateWithoutTree(btSoftBody& body)
+{
+    if (!body.m_bUpdateRtCst || body.m_links.size() > 0) return;
+    body.m_bUpdateRtCst = false;
+    body.updateLinkConstants();
+    body.updateArea();
+    body.m_fdbvt.clear();
 }
 
 bool check(bool good, std::string* why, const char* name, double value, const char* range)
@@ -174,19 +175,12 @@ void btFemSoftBodySolver::refactor(btSoftBody* body)
 
 void btFemSoftBodySolver::setNodeTarget(btSoftBody* body, int node, const btVector3& position)
 {
-    btFemEntry& entry = m_impl->femEntry(body, "setNodeTarget");
-    checkNode(*body, node);
-    if (!isFinite(vec3(position)))
-        throw std::invalid_argument("setNodeTarget: the position of node " + std::to_string(node) + " is not finite");
-    entry.m_fem->m_pins.m_position[node] = vec3(position);
-    entry.m_fem->m_pins.m_hasTarget[node] = 1;
+    setTargets(*m_impl->femEntry(body, "setNodeTarget").m_fem, {&node, 1}, &position);
 }
 
 void btFemSoftBodySolver::clearNodeTarget(btSoftBody* body, int node)
 {
-    btFemEntry& entry = m_impl->femEntry(body, "clearNodeTarget");
-    checkNode(*body, node);
-    entry.m_fem->m_pins.m_hasTarget[node] = 0;
+    clearTargets(*m_impl->femEntry(body, "clearNodeTarget").m_fem, {&node, 1});
 }
 
 void btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions)
@@ -330,7 +324,11 @@ void btFemSoftBodySolver::predictMotion(btScalar timeStep)
     m_impl->dropRemovedBodies(m_softBodySet);
     m_impl->m_step.predict(m_impl->m_registry, timeStep);
     for (int i = 0; i < m_softBodySet.size(); ++i)
-        if (m_impl->movesBySprings(m_softBodySet[i])) m_softBodySet[i]->predictMotion(timeStep);
+    {
+        if (!m_impl->movesBySprings(m_softBodySet[i])) continue;
+        if (m_impl->m_registry.find(m_softBodySet[i])) updateWithoutTree(*m_softBodySet[i]);
+        m_softBodySet[i]->predictMotion(timeStep);
+    }
 }
 
 void btFemSoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* other)
@@ -350,10 +348,11 @@ void btFemSoftBodySolver::processCollision(btSoftBody* body, const btCollisionOb
 
 void btFemSoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
 {
-    const bool fem = isFem(body), otherFem = isFem(other);
+    const btFemEntry* entry = m_impl->m_registry.find(body);
+    const bool fem = entry && entry->m_fem, otherFem = isFem(other);
     // Bullet's handlers would move a FEM body's nodes behind its back.
     if (!fem && !otherFem) return btDefaultSoftBodySolver::processCollision(body, other);
-    if (fem && otherFem && collide(*body, *other)) recordTouching(*m_impl->m_registry.find(body)->m_fem, *other);
+    if (fem && otherFem && collide(*body, *other)) recordTouching(*entry->m_fem, *other);
 }
 
 void btFemSoftBodySolver::solveConstraints(btScalar timeStep)

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/soft_joints.h"
+#include "bullet_bridge/nearest_contacts.h"
 #include "bullet_fem/fem/stepping.h"
 
 namespace bullet_fem
@@ -26,26 +26,24 @@ constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact 
 constexpr double kLeastLikeness = -2;     // of a contact and the one that it was in the last step; 1 is the same
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
 
-// Bullet's broad phase still knows the pair: neither was removed from the world since it was recorded.
-bool stillOverlapping(const btSoftBody& soft, const btCollisionObject* object)
+// Removes what Bullet's broad phase knows no more: it left the world since it was recorded, and may be deleted.
+// `overlapping` is scratch.
+void removeGone(FemSoftBody& fem, std::vector<const void*>& overlapping)
 {
-    btBroadphaseInterface* broadphase = soft.m_worldInfo ? soft.m_worldInfo->m_broadphase : nullptr;
-    if (!broadphase || !broadphase->getOverlappingPairCache()) return true;
+    const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
+    btBroadphaseInterface* broadphase = world ? world->m_broadphase : nullptr;
+    if (!broadphase || !broadphase->getOverlappingPairCache() || fem.m_touching.empty()) return;
     const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
+    overlapping.clear();
     for (int i = 0; i < pairs.size(); ++i)
     {
         const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
-        if ((a == &soft && b == object) || (b == &soft && a == object)) return true;
+        if (a == fem.m_softBody) overlapping.push_back(b);
+        if (b == fem.m_softBody) overlapping.push_back(a);
     }
-    return false;
-}
-
-double fastestNode(const Body& body)
-{
-    double fastest = 0;
-    for (int i : body.m_model->mesh().surfaceNodes())
-        fastest = std::max(fastest, dot(velocity(body)[i], velocity(body)[i]));
-    return std::sqrt(fastest);
+    const auto isGone = [&](const void* object)
+    { return std::find(overlapping.begin(), overlapping.end(), object) == overlapping.end(); };
+    fem.m_touching.erase(std::remove_if(fem.m_touching.begin(), fem.m_touching.end(), isGone), fem.m_touching.end());
 }
 
 // Bound on the speed of any of an object's points near the body: its centre's, and its spin over the distance.
@@ -71,11 +69,6 @@ void moveBack(btAlignedObjectArray<ShapeLeaf>& leaves, const Obstacle& obstacle,
         leaves[l] = movedBack(leaves[l], {present, obstacle.m_linearVelocity, obstacle.m_angularVelocity}, step);
 }
 
-Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, const std::array<double, 3>& w)
-{
-    return w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]];
-}
-
 // True if the surface looks against the normal at a feature: one of its triangles does, or their mean. A point next to
 // the side wall of a box that lies on the surface is near that wall, but the surface does not face it.
 bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
@@ -83,7 +76,7 @@ bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
     constexpr double kAgainst = -0.5;  // cosine
     const std::vector<Triangle>& triangles = fem.m_body.m_model->mesh().surface();
     const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
-    const SurfaceFeatures& features = fem.m_features;
+    const SurfaceFeatures& features = fem.m_surface.features();
     Vec3 mean;
     for (int k = features.m_firstAround[nodes[0]]; k < features.m_firstAround[nodes[0] + 1]; ++k)
     {
@@ -126,15 +119,12 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
     m_band = kBand * m_edge;
     m_advantage = kAdvantage * m_edge;
     m_size = std::cbrt(fem.m_body.m_model->mesh().volume());
-    std::vector<const btCollisionObject*>& touching = fem.m_touching;
-    touching.erase(std::remove_if(touching.begin(), touching.end(),
-                                  [&](const auto* o) { return !stillOverlapping(*fem.m_softBody, o); }),
-                   touching.end());
-    std::sort(touching.begin(), touching.end(),
+    removeGone(fem, m_overlapping);
+    std::sort(fem.m_touching.begin(), fem.m_touching.end(),
               [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
 
-    const double softReach = m_band + fem.m_contactOffset + step * fastestNode(fem.m_body);
-    for (const btCollisionObject* object : touching)
+    const double softReach = m_band + fem.m_contactOffset + step * fastestNode(fem.m_body, Vec3());
+    for (const btCollisionObject* object : fem.m_touching)
     {
         m_leaves.resize(0);
         report.m_unknownShape = collectShapeLeaves(*object, m_leaves) > 0 || report.m_unknownShape;
@@ -157,7 +147,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
             findOnTriangles(fem, target);
         }
     }
-    report.m_limited = limit(maxContacts);
+    report.m_limited = keepNearest(maxContacts, m_contacts, m_origins, m_order);
     takeOverImpulses(fem);
     fem.m_contacts.assign(m_contacts.begin(), m_contacts.end());
     fem.m_origins.assign(m_origins.begin(), m_origins.end());
@@ -199,11 +189,11 @@ bool ContactFinder::isNear(const Target& target, const std::array<Vec3, 3>& corn
 void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
 {
     const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
-    const int edgeCount = static_cast<int>(fem.m_features.m_edges.size());
+    const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
     const int firstFeature = fem.m_body.m_model->nodeCount();
     for (int k = 0; k < edgeCount; ++k)
     {
-        const auto [a, b] = fem.m_features.m_edges[k];
+        const auto [a, b] = fem.m_surface.features().m_edges[k];
         fem.m_edgeGap[k] = kNotNear;
         if (overOneFace(fem, a, b) || !isNear(target, {x[a], x[b], x[a]})) continue;
         SurfaceDistance d;
@@ -219,7 +209,7 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
     const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
     const TetMesh& mesh = fem.m_body.m_model->mesh();
     const int triangleCount = static_cast<int>(mesh.surface().size());
-    const int firstFeature = mesh.nodeCount() + 2 * static_cast<int>(fem.m_features.m_edges.size());
+    const int firstFeature = mesh.nodeCount() + 2 * static_cast<int>(fem.m_surface.features().m_edges.size());
     for (int k = 0; k < triangleCount; ++k)
     {
         const Triangle& t = mesh.surface()[k];
@@ -229,7 +219,8 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
         double nearest = gapAt(fem, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
         if (nearest < kNotNear) consider(fem, target, firstFeature + k, t, d);
         for (int a = 0; a < 3; ++a)
-            nearest = std::min({nearest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_features.m_triangleEdges[k][a]]});
+            nearest =
+                std::min({nearest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
         considerNearest(fem, target, firstFeature + triangleCount + k, t, nearest);
     }
 }
@@ -321,27 +312,6 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     const btCollisionObject* object = target.m_leaf.m_object;
     m_origins.push_back({object, broadphaseId(*object), target.m_leaf.m_index, feature});
     return &m_contacts.back();
-}
-
-// Keeps the maxContacts points of smallest gap, in their order.
-bool ContactFinder::limit(int maxContacts)
-{
-    if (static_cast<int>(m_contacts.size()) <= maxContacts) return false;
-    m_order.resize(m_contacts.size());
-    std::iota(m_order.begin(), m_order.end(), 0);
-    const auto nearer = [&](int a, int b)
-    { return m_contacts[a].m_gap != m_contacts[b].m_gap ? m_contacts[a].m_gap < m_contacts[b].m_gap : a < b; };
-    std::nth_element(m_order.begin(), m_order.begin() + maxContacts, m_order.end(), nearer);
-    m_order.resize(maxContacts);
-    std::sort(m_order.begin(), m_order.end());
-    for (int k = 0; k < maxContacts; ++k)
-    {
-        m_contacts[k] = m_contacts[m_order[k]];
-        m_origins[k] = m_origins[m_order[k]];
-    }
-    m_contacts.resize(maxContacts);
-    m_origins.resize(maxContacts);
-    return true;
 }
 
 // Both lists ascend. Of several contacts of a feature with a leaf, the one before is that of the most similar normal

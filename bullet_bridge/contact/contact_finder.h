@@ -112,13 +112,13 @@ private:
     void consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, const SurfaceDistance& d);
     ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                        const SurfaceDistance& d);
-    bool limit(int maxContacts);
     void takeOverImpulses(const FemSoftBody& fem);
 
     btAlignedObjectArray<ShapeLeaf> m_leaves;
     std::vector<ContactPoint> m_contacts;
     std::vector<ContactOrigin> m_origins;
     std::vector<int> m_order;
+    std::vector<const void*> m_overlapping;  // the body, in the broad phase
     TriangleSoup m_soup;
     std::vector<SheetTouch> m_touches;
     std::vector<SheetSide> m_sheetSides;

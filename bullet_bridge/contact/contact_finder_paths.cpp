@@ -26,13 +26,6 @@ SweptShape pathOf(const ShapeLeaf& leaf, const Obstacle& obstacle, double step, 
     return SweptShape(start, motion, step);
 }
 
-double fastestNode(const Body& body, const Vec3& relativeTo)
-{
-    double fastest = 0;
-    for (int i : body.m_model->mesh().surfaceNodes()) fastest = std::max(fastest, norm(velocity(body)[i] - relativeTo));
-    return fastest;
-}
-
 /// What gravity gives in a step is not speed: resting bodies have it as well.
 double fallingSpeed(const btSoftBody& soft, double step)
 {
@@ -53,15 +46,12 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
 
     const TetMesh& mesh = fem.m_body.m_model->mesh();
     const PathSearch search = {fem, target, swept, speed + spin};
-    for (int i : mesh.surfaceNodes())
-    {
-        fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
-    }
-    const int edgeCount = static_cast<int>(fem.m_features.m_edges.size());
+    for (int i : mesh.surfaceNodes()) fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
+    const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
     int firstFeature = mesh.nodeCount() + edgeCount;  // ids are those of nearest points
     for (int k = 0; k < edgeCount; ++k)
     {
-        const auto [a, b] = fem.m_features.m_edges[k];
+        const auto [a, b] = fem.m_surface.features().m_edges[k];
         fem.m_edgeGap[k] = std::min(fem.m_nodeGap[a], fem.m_nodeGap[b]);
         if (!overOneFace(fem, a, b))
             fem.m_edgeGap[k] = considerPath(search, firstFeature + k, {a, b, a}, fem.m_edgeGap[k]);
@@ -74,7 +64,8 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
         if (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2])) continue;
         double earliest = kNever;
         for (int a = 0; a < 3; ++a)
-            earliest = std::min({earliest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_features.m_triangleEdges[k][a]]});
+            earliest = std::min(
+                {earliest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
         considerPath(search, firstFeature + k, t, earliest);
     }
     return true;

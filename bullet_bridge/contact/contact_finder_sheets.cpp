@@ -24,15 +24,7 @@ constexpr double kDepth = 0.3;  // share of a mean edge that corners and edges o
 
 Vec3 normalOf(const std::vector<Vec3>& x, const Triangle& t)
 {
-    const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
-    const double length = norm(area);
-    return length > 0 ? area * (1 / length) : Vec3();
-}
-
-Vec3 unit(const Vec3& v)
-{
-    const double length = norm(v);
-    return length > 0 ? v * (1 / length) : Vec3();
+    return unit(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
 }
 
 }  // namespace
@@ -71,14 +63,14 @@ void ContactFinder::measureSurface(const FemSoftBody& fem)
     const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
     const TetMesh& mesh = fem.m_body.m_model->mesh();
     m_outward.assign(x.size(), Vec3());
-    m_edgeOutward.assign(fem.m_features.m_edges.size(), Vec3());
+    m_edgeOutward.assign(fem.m_surface.features().m_edges.size(), Vec3());
     for (std::size_t k = 0; k < mesh.surface().size(); ++k)
     {
         const Vec3 n = normalOf(x, mesh.surface()[k]);
         for (int a = 0; a < 3; ++a)
         {
             m_outward[mesh.surface()[k][a]] += n;
-            m_edgeOutward[fem.m_features.m_triangleEdges[k][a]] += n;
+            m_edgeOutward[fem.m_surface.features().m_triangleEdges[k][a]] += n;
         }
     }
     for (int i : mesh.surfaceNodes()) m_outward[i] = unit(m_outward[i]);
@@ -167,7 +159,7 @@ void ContactFinder::findOnSheetEdges(const SheetSearch& search)
     const TetMesh& mesh = body.m_model->mesh();
     const std::vector<Vec3>& x = body.m_state.m_x;
     const int firstFeature = mesh.nodeCount() + static_cast<int>(mesh.surface().size());
-    const std::vector<std::array<int, 2>>& edges = search.m_fem.m_features.m_edges;
+    const std::vector<std::array<int, 2>>& edges = search.m_fem.m_surface.features().m_edges;
     for (std::size_t k = 0; k < edges.size(); ++k)
     {
         const auto [a, b] = edges[k];

@@ -7,6 +7,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/node_attachments.h"
+#include "bullet_bridge/nearest_contacts.h"
 #include "bullet_bridge/rigid_obstacles.h"
 
 namespace bullet_fem
@@ -59,7 +60,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     append(roles, offset);
 
     SoftPairReport report;
-    report.m_limited = limit(maxContacts);
+    report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
     report.m_contacts = static_cast<int>(m_found.size());
     contacts.insert(contacts.end(), m_found.begin(), m_found.end());
     origins.insert(origins.end(), m_foundOrigins.begin(), m_foundOrigins.end());
@@ -97,28 +98,6 @@ void SoftPairFinder::append(const Roles& roles, double offset)
         m_found.push_back(contact);
         m_foundOrigins.push_back(origin);
     }
-}
-
-// Keeps the maxContacts points of smallest gap, in their order.
-bool SoftPairFinder::limit(int maxContacts)
-{
-    if (static_cast<int>(m_found.size()) <= maxContacts) return false;
-    m_order.resize(m_found.size());
-    std::iota(m_order.begin(), m_order.end(), 0);
-    const auto nearer = [&](int a, int b)
-    { return m_found[a].m_gap != m_found[b].m_gap ? m_found[a].m_gap < m_found[b].m_gap : a < b; };
-    const int kept = std::max(0, maxContacts);
-    std::nth_element(m_order.begin(), m_order.begin() + kept, m_order.end(), nearer);
-    m_order.resize(kept);
-    std::sort(m_order.begin(), m_order.end());
-    for (int k = 0; k < kept; ++k)
-    {
-        m_found[k] = m_found[m_order[k]];
-        m_foundOrigins[k] = m_foundOrigins[m_order[k]];
-    }
-    m_found.resize(kept);
-    m_foundOrigins.resize(kept);
-    return true;
 }
 
 void SoftPairFinder::beginStep()

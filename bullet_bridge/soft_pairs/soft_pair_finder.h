@@ -78,7 +78,6 @@ private:
     };
 
     void append(const Roles& roles, double offset);
-    bool limit(int maxContacts);
     const ContactPoint* remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
 
     NodeSurfaceSearch m_nodesOfFirst, m_nodesOfSecond;

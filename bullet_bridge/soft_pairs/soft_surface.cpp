@@ -11,12 +11,6 @@ namespace
 
 constexpr double kFlat = 0.99;  // cosine of the angle between normals that count as one
 
-Vec3 unit(const Vec3& a)
-{
-    const double length = norm(a);
-    return length > 0 ? (1 / length) * a : Vec3();
-}
-
 double angleBetween(const Vec3& a, const Vec3& b)
 {
     return std::atan2(norm(cross(a, b)), dot(a, b));

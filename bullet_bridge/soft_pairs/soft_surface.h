@@ -11,6 +11,19 @@
 namespace bullet_fem
 {
 
+/// A vector's direction; zero where it has none.
+inline Vec3 unit(const Vec3& a)
+{
+    const double length = norm(a);
+    return length > 0 ? (1 / length) * a : Vec3();
+}
+
+/// What the nodes have, at a point of a triangle with barycentric weights [-].
+inline Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, const std::array<double, 3>& w)
+{
+    return w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]];
+}
+
 /// The surface of a deforming body as contacts between soft bodies see it: normals of faces, edges and corners, how the
 /// surface is bent, and a tree over its triangles. Built at set-up; update() never allocates.
 class SoftSurface

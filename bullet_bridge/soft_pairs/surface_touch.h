@@ -25,11 +25,6 @@ struct TouchReach
     double depth() const { return 0.5 * m_edge; }  ///< to which one may always have sunk into the other [m]
 };
 
-inline Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, const std::array<double, 3>& w)
-{
-    return w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]];
-}
-
 /// Largest distance that points of the two boxes can move relative to each other [m].
 inline double largestTravel(const SweptBox& a, const SweptBox& b)
 {

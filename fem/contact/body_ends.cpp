@@ -218,18 +218,8 @@ void BodyEnds::push(int e, const Vec3& impulse)
 
 void BodyEnds::flush()
 {
-    if (m_dense || m_ends.empty()) return;
-    bool any = false;
-    std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
-    for (int e = 0; e < size(); ++e)
-    {
-        const Vec3 impulse = m_impulse[e] - m_seen[e];
-        if (dot(impulse, impulse) == 0) continue;
-        any = true;
-        scatter(m_ends[e], impulse, m_nodeIn);
-        m_seen[e] = m_impulse[e];
-    }
-    if (!any) return;
+    if (m_dense || m_ends.empty() || !gatherBeyond(m_seen)) return;
+    m_seen.assign(m_impulse.begin(), m_impulse.end());
     WarpedPreconditioner(*m_body.m_body, m_warp).apply(m_nodeIn, m_nodeOut);
     for (int e = 0; e < size(); ++e) m_velocity[e] += m_scale * read(m_ends[e], m_nodeOut);
 }
@@ -253,14 +243,14 @@ void BodyEnds::measure()
     flush();
 }
 
-// Node impulses that the body's true velocities do not hold yet; false if there are none.
-bool BodyEnds::gatherNew()
+// The nodes' shares of the impulses beyond those known; false if there are none.
+bool BodyEnds::gatherBeyond(const std::vector<Vec3>& known)
 {
     bool any = false;
     std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
     for (int e = 0; e < size(); ++e)
     {
-        const Vec3 impulse = m_impulse[e] - m_applied[e];
+        const Vec3 impulse = m_impulse[e] - known[e];
         if (dot(impulse, impulse) == 0) continue;
         any = true;
         scatter(m_ends[e], impulse, m_nodeIn);
@@ -270,7 +260,7 @@ bool BodyEnds::gatherNew()
 
 SolveReport BodyEnds::apply(const StepSettings& settings)
 {
-    if (!gatherNew()) return {};
+    if (!gatherBeyond(m_applied)) return {};
     // Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin.
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
     for (int e = 0; e < size(); ++e)
@@ -313,7 +303,7 @@ void BodyEnds::beginPush()
 
 Vec3 BodyEnds::applyPush(const StepSettings& settings)
 {
-    return gatherNew() ? bullet_fem::applyPush(*m_body.m_body, m_nodeIn, settings) : Vec3();
+    return gatherBeyond(m_applied) ? bullet_fem::applyPush(*m_body.m_body, m_nodeIn, settings) : Vec3();
 }
 
 void BodyEnds::spin(const Vec3& angularImpulse, const StepSettings& settings)

@@ -30,6 +30,9 @@ public:
     void assemble(Warp warp, int denseLimit);
 
     int size() const { return static_cast<int>(m_ends.size()); }
+
+    /// The factor that W has been scaled by [-], >= 1: grows when apply() finds W too stiff, and compliance() with it.
+    double scale() const { return m_scale; }
     bool isDense() const { return m_dense; }
     const Body& body() const { return *m_body.m_body; }
 
@@ -79,7 +82,7 @@ private:
     void formGroupColumns(int e, Warp warp);
     void estimateDiagonal(Warp warp);
     void respond(int e, const Vec3& impulse);
-    bool gatherNew();
+    bool gatherBeyond(const std::vector<Vec3>& known);
     void learn(double trueWork, double predictedWork);
 
     ContactBody m_body;

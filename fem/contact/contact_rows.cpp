@@ -243,13 +243,17 @@ void ContactRows::restart()
 
 void ContactRows::apply(ContactReport& report)
 {
+    bool learnt = false;
     for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
     {
         if (m_bodies[b].size() == 0) continue;
+        const double scale = m_bodies[b].scale();
         const SolveReport solved = m_bodies[b].apply(m_settings.m_step);
         report.m_iterations += solved.m_iterations;
         report.m_converged = report.m_converged && solved.m_stop == SolveStop::converged;
+        learnt = learnt || m_bodies[b].scale() != scale;
     }
+    if (!learnt) return;  // the rows' compliance is what it was
     for (Row& row : m_rows) finishRow(row);
 }
 

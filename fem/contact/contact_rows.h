@@ -107,7 +107,6 @@ private:
     std::vector<BodyEnds> m_bodies;
     std::vector<Row> m_rows;                          // of the contacts, then of the joints
     bool m_inTurn = true;                             // Gauss-Seidel
-    double m_momentum = 0, m_gradient2 = 0;           // of the sweeps in turn
     double m_gradientStep = 1, m_acceleration = 1;    // of the sweeps at once
     std::vector<Vec3> m_savedLinear, m_savedAngular;  // of the obstacles, while their pushes are solved for
 };

@@ -24,7 +24,7 @@ enum class btFemHold
 /// they still are. A multibody's link leads the node but feels nothing of it.
 struct btFemAnchorReport
 {
-    btFemHold m_kind = btFemHold::anchor;
+    btFemHold m_kind = btFemHold::anchor;         ///< what it is
     int m_node = -1;                              ///< that is held; -1 where it is a cluster or a point between nodes
     int m_attachment = 0;                         ///< its handle; 0 for other kinds
     const void* m_joint = nullptr;                ///< the element of m_joints; null for other kinds

@@ -24,6 +24,7 @@ public:
     /// `fem` must be the world's soft body solver and outlive this one. Throws std::invalid_argument if it is null.
     explicit btFemConstraintSolver(btFemSoftBodySolver* fem);
 
+    /// Called by the world: as in Bullet.
     btScalar solveGroup(btCollisionObject** bodies, int numBodies, btPersistentManifold** manifolds, int numManifolds,
                         btTypedConstraint** constraints, int numConstraints, const btContactSolverInfo& info,
                         btIDebugDraw* debugDrawer, btDispatcher* dispatcher) override;

@@ -42,13 +42,14 @@ enum btFemFlags
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.
 struct btFemStepReport
 {
-    int m_flags = 0;             ///< btFemFlags
-    const char* m_message = "";  ///< why the body was rejected; owned by the solver, valid until the body is removed
-    int m_nodes = 0, m_tets = 0;
-    int m_iterations = 0;         ///< conjugate gradient iterations of the free motion
-    btScalar m_residual = 0;      ///< its true |b - A dv| / |b| [-]
-    int m_contactIterations = 0;  ///< of the corrective solves after contact
-    int m_contactSweeps = 0;      ///< Gauss-Seidel sweeps of the contact group this body was in
+    int m_flags = 0;              ///< btFemFlags
+    const char* m_message = "";   ///< why the body was rejected; owned by the solver, valid until the body is removed
+    int m_nodes = 0, m_tets = 0;  ///< of its mesh
+    int m_iterations = 0;         ///< conjugate gradient iterations of the free motion, >= 0
+    btScalar m_residual = 0;      ///< its true |b - A dv| / |b| [-], >= 0
+    int m_contactIterations = 0;  ///< of the corrective solves after contact, of all bodies of its contact group
+    int m_contactSweeps = 0;      ///< sweeps over that group's contacts and joints, in all rounds and
+                                  ///< for position correction
     int m_contacts = 0;           ///< contact points
     btScalar m_contactViolation =
         0;  ///< largest speed at which a point still closes faster than its gap allows [m/s], >= 0
@@ -56,7 +57,7 @@ struct btFemStepReport
     long m_factorEntries = 0;           ///< entries of the factor, fill included
     btScalar m_factorSeconds = 0;       ///< wall time that factoring took, when it was made [s]
     btScalar m_freeMotionMs = 0;        ///< wall time of forces, rotations and the free solve [ms]
-    btScalar m_contactMs = 0;           ///< wall time of contacts of all bodies of the step [ms]
+    btScalar m_contactMs = 0;           ///< wall time of contacts and joints of all bodies of its contact group [ms]
 };
 
 /// A contact point of the last step.
@@ -64,15 +65,16 @@ struct btFemContact
 {
     btVector3 m_point;             ///< on the soft surface at the start of the step, world [m]; between soft bodies the
                                    ///< middle of both surfaces
-    btVector3 m_normal;            ///< unit, from the other body to this one
+    btVector3 m_normal;            ///< unit [-], from the other body to this one
     btScalar m_gap = 0;            ///< signed distance at the start of the step [m]; negative inside
     btVector3 m_impulse;           ///< on this body: normal and friction [N s]; the other body got the opposite
     btScalar m_normalImpulse = 0;  ///< its part along m_normal [N s], >= 0
     btVector3 m_frictionImpulse;   ///< its other part, in the tangent plane [N s]
     const btCollisionObject* m_other = nullptr;  ///< the body itself for self contact
-    int m_part = -1, m_index = -1;               ///< part and triangle of a mesh; -1 for other shapes
-    int m_nodes[3] = {0, 0, 0};                  ///< soft nodes that carry the point
-    btScalar m_weights[3] = {1, 0, 0};           ///< barycentric [-], sum 1
+    int m_part = -1, m_index = -1;  ///< the part and triangle of a mesh, as Bullet numbers them: of a height field 2
+                                    ///< column (+ 1 for a cell's second) and row; -1 for other shapes and soft bodies
+    int m_nodes[3] = {0, 0, 0};     ///< nodes of this body that carry the point; unused ones repeat
+    btScalar m_weights[3] = {1, 0, 0};  ///< barycentric [-], sum 1; 0 for those that repeat
 };
 
 /// Where a touch stands.
@@ -91,8 +93,8 @@ struct btFemTouch
     const btCollisionObject* m_other = nullptr;  ///< the body itself for self contact; once the touch has ended it may
                                                  ///< be deleted: compare it, never follow it
     int m_otherId = -1;  ///< its m_uniqueId in the broadphase: another object at the same address has another
-    btFemTouchState m_state = btFemTouchState::began;
-    int m_points = 0;              ///< contact points that touch; 0 once it has ended
-    btVector3 m_impulse{0, 0, 0};  ///< sum over them, on this body [N s]
+    btFemTouchState m_state = btFemTouchState::began;  ///< where it stands
+    int m_points = 0;                                  ///< contact points that touch; 0 once it has ended
+    btVector3 m_impulse{0, 0, 0};                      ///< sum over them, on this body [N s]
     btScalar m_normalImpulse = 0;  ///< sum of their normal impulses [N s], >= 0; those of a grip do not cancel
 };

@@ -19,7 +19,7 @@ struct btFemSolverInfo
     btScalar m_tolerance = btScalar(1e-3);     ///< relative residual of the linear solves [-], in [1e-8, 0.5]
     int m_maxIterations = 100;                 ///< conjugate gradient iterations a solve, in [1, 10000]
     int m_contactRounds = 2;                   ///< corrective solves after contact, in [1, 10]
-    int m_contactSweeps = 200;                 ///< Gauss-Seidel sweeps a round at most, in [1, 1000]
+    int m_contactSweeps = 200;                 ///< sweeps a round at most, in [1, 1000]; 50 at most with joints
     int m_maxContacts = 2000;                  ///< contact points a body, in [8, 20000]
     btScalar m_erp = btScalar(0.2);            ///< share of a penetration taken back a step [-], in [0, 1]
     btScalar m_maxPushVelocity = btScalar(1);  ///< speed at which penetration is taken back at most [m/s], in [0, 1000]
@@ -65,7 +65,7 @@ public:
     /// std::invalid_argument on a bad material or a body without (usable) tetrahedra.
     void setMaterial(btSoftBody* body, const btFemMaterial& material);
 
-    /// Chooses between accuracy and speed for a body; nodalWarp unless called.
+    /// Chooses between accuracy and speed for a body; nodalWarp unless called. Throws std::invalid_argument on null.
     void setDetail(btSoftBody* body, btFemDetail detail);
 
     /// Takes the present shape as the rest shape, unless the body has one, and factors now for a step of fixedTimeStep
@@ -76,10 +76,11 @@ public:
     /// not FEM.
     void refactor(btSoftBody* body);
 
-    /// Makes a node go to a world position within the next step, and stay there; its mass is kept for when it is let
-    /// go. Throws std::invalid_argument on a node index out of range or a position that is not finite.
+    /// Makes a node go to a world position [m] within the next step, and stay there; its mass is kept for when it is
+    /// let go. Throws std::invalid_argument on a node index out of range, a position that is not finite, or a body that
+    /// is not FEM.
     void setNodeTarget(btSoftBody* body, int node, const btVector3& position);
-    /// Lets the node go.
+    /// Lets the node go. Throws std::invalid_argument on a node index out of range, or a body that is not FEM.
     void clearNodeTarget(btSoftBody* body, int node);
 
     /// The same for `count` nodes at once: to positions, or to where `fromRest` moves the places that they had when the
@@ -87,7 +88,7 @@ public:
     /// target.
     void setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions);
     void setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest);
-    /// Lets them go.
+    /// Lets them go. Throws likewise.
     void clearNodeTargets(btSoftBody* body, const int* nodes, int count);
 
     /// Ties a node to a node of another FEM body, or of the same one, until detach() or until one of them leaves the
@@ -98,10 +99,12 @@ public:
     /// Ties a node to a point of tetrahedron tetB of another body, with barycentric weights [-] of sum 1. Throws
     /// std::invalid_argument likewise.
     int attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4]);
-    /// Unties what attachNodes or attachNodeToTet of body `a` returned; nothing if that is gone.
+    /// Unties what attachNodes or attachNodeToTet of body `a` returned; nothing if that is gone. Throws
+    /// std::invalid_argument if `a` is not FEM.
     void detach(btSoftBody* a, int attachment);
 
     /// Keeps the surface this far from others [m], in [0, 1e3]; 0 unless called. Bullet's shape margin is ignored.
+    /// Throws std::invalid_argument on null, or out of the range.
     void setContactOffset(btSoftBody* body, btScalar metres);
 
     /// Drops all that is known of a body: before deleting one that was never added.
@@ -130,7 +133,8 @@ public:
     /// must not miss one looks from the world's tick callback, which sees the touches of the sub-step before.
     const btAlignedObjectArray<btFemTouch>& touches(const btSoftBody* body) const;
 
-    /// Mean force of another body on this one during the last step: sum of impulses / h [N].
+    /// Mean force of another body on this one during the last step: sum of impulses / h [N]; zero if the body is not
+    /// known.
     btVector3 contactForce(const btSoftBody* body, const btCollisionObject* other) const;
 
     // Called by the world.

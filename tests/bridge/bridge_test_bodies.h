@@ -13,17 +13,20 @@
 namespace bullet_fem
 {
 
-/// A btSoftBody of a cube's tetrahedra outside any world, 1 kg a node.
+/// A btSoftBody of a mesh's tetrahedra, 1 kg a node.
+inline std::unique_ptr<btSoftBody> makeSoftBody(btSoftBodyWorldInfo& info, const TetMesh& mesh)
+{
+    btAlignedObjectArray<btVector3> positions;
+    for (const Vec3& X : mesh.restPositions()) positions.push_back(bulletVector(X));
+    auto body = std::make_unique<btSoftBody>(&info, positions.size(), &positions[0], nullptr);
+    for (const Tet& t : mesh.tets()) body->appendTetra(t[0], t[1], t[2], t[3]);
+    return body;
+}
+
+/// One of a cube outside any world.
 struct TestBox
 {
-    explicit TestBox(const Vec3& origin = {})
-    {
-        const TetMesh mesh = makeBox({1, 1, 1}, {2, 2, 2}, origin);
-        btAlignedObjectArray<btVector3> positions;
-        for (const Vec3& X : mesh.restPositions()) positions.push_back(bulletVector(X));
-        m_body = std::make_unique<btSoftBody>(&m_info, positions.size(), &positions[0], nullptr);
-        for (const Tet& t : mesh.tets()) m_body->appendTetra(t[0], t[1], t[2], t[3]);
-    }
+    explicit TestBox(const Vec3& origin = {}) : m_body(makeSoftBody(m_info, makeBox({1, 1, 1}, {2, 2, 2}, origin))) {}
 
     btSoftBodyWorldInfo m_info;
     std::unique_ptr<btSoftBody> m_body;

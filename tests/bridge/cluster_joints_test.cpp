@@ -14,11 +14,6 @@ namespace
 
 constexpr double h = JointTestWorld::kStep;
 
-void expectNear(const Vec3& a, const Vec3& b, double tolerance)
-{
-    EXPECT_LT(norm(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
-}
-
 class ClusterJointTest : public ::testing::Test
 {
 protected:
@@ -125,13 +120,7 @@ TEST_F(ClusterJointTest, theSpinOfAClusterIsThatOfTheRigidBodyOfItsNodes)
 TEST_F(ClusterJointTest, bothBodiesReportOppositeImpulses)
 {
     appendLinear(m_other.m_softBody->m_clusters[0], btVector3(1, 0, btScalar(0.5)));
-    ContactProblem& problem = append();
-    problem.m_joints[0].m_impulse = {0, 0, 2};
-    SoftJoints::takeBack(m_cube, problem);
-    SoftJoints::takeBack(m_other, problem);
-    ASSERT_EQ(m_other.m_joints.m_now.size(), 1u);
-    expectNear(m_cube.m_joints.m_now[0].m_impulse, {0, 0, 2}, 1e-12);
-    expectNear(m_other.m_joints.m_now[0].m_impulse, {0, 0, -2}, 1e-12);
+    expectOppositeImpulses(append(), m_cube, m_other, {0, 0, 2});
     EXPECT_EQ(m_other.m_joints.m_now[0].m_object, &soft());
     showClusterJoints(m_cube);
     expectNear(append().m_joints[0].m_impulse, {0, 0, 2}, 1e-12);  // the next guess

@@ -70,10 +70,17 @@ struct ConcaveShape
     }
 };
 
-inline ConcaveShape makeTriangleMesh(const GridSettings& settings = {})
+/// A grid that is not a shape yet.
+inline ConcaveShape makeGrid(const GridSettings& settings)
 {
     ConcaveShape shape;
     addGrid(*shape.m_mesh, settings);
+    return shape;
+}
+
+inline ConcaveShape makeTriangleMesh(const GridSettings& settings = {})
+{
+    ConcaveShape shape = makeGrid(settings);
     shape.make<btBvhTriangleMeshShape>(shape.m_mesh.get(), true);
     return shape;
 }
@@ -82,8 +89,7 @@ inline ConcaveShape makeTriangleMesh(const GridSettings& settings = {})
 inline ConcaveShape makeScaledMesh(GridSettings settings = {})
 {
     settings.m_halfSize *= 4;
-    ConcaveShape shape;
-    addGrid(*shape.m_mesh, settings);
+    ConcaveShape shape = makeGrid(settings);
     auto& mesh = shape.make<btBvhTriangleMeshShape>(shape.m_mesh.get(), true);
     shape.make<btScaledBvhTriangleMeshShape>(&mesh, btVector3(btScalar(-0.25), btScalar(0.25), 1));
     return shape;
@@ -91,8 +97,7 @@ inline ConcaveShape makeScaledMesh(GridSettings settings = {})
 
 inline ConcaveShape makeMultimaterialMesh(const GridSettings& settings = {})
 {
-    ConcaveShape shape;
-    addGrid(*shape.m_mesh, settings);
+    ConcaveShape shape = makeGrid(settings);
     shape.make<btMultimaterialTriangleMeshShape>(shape.m_mesh.get(), true);
     return shape;
 }
@@ -100,8 +105,7 @@ inline ConcaveShape makeMultimaterialMesh(const GridSettings& settings = {})
 /// Without GImpact's margin of 1 cm.
 inline ConcaveShape makeGImpact(const GridSettings& settings = {})
 {
-    ConcaveShape shape;
-    addGrid(*shape.m_mesh, settings);
+    ConcaveShape shape = makeGrid(settings);
     auto& mesh = shape.make<btGImpactMeshShape>(shape.m_mesh.get());
     mesh.setMargin(0);
     mesh.updateBound();

@@ -4,50 +4,29 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <thread>
 
-#include "bridge/bridge_test_bodies.h"
-#include "btBulletDynamicsCommon.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bridge/contact_finder_scene.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-constexpr double kStep = 1.0 / 60;
-
-class ContactFinderTest : public ::testing::Test
+class ContactFinderTest : public ContactFinderScene
 {
 protected:
     ContactFinderTest()
     {
-        m_info.m_broadphase = nullptr;
         m_ball.setCollisionShape(&m_sphere);
         m_ground.setCollisionShape(&m_plane);
         m_ground.setFriction(btScalar(0.5));
-        m_box.m_body->m_worldInfo = &m_info;
         m_box.m_body->m_cfg.kDF = btScalar(0.8);
     }
-    const std::vector<ContactPoint>& find(const btCollisionObject& object, int most = 1000)
-    {
-        recordTouching(m_fem, object);
-        solveFreeMotion(m_fem.m_body, StepSettings());
-        m_obstacles.clear();
-        m_report = m_finder.find(m_fem, 0, kStep, most, m_obstacles);
-        return m_fem.m_contacts;
-    }
 
-    btSoftBodyWorldInfo m_info;
-    TestBox m_box;  // the unit cube, two cells a side
-    FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
     btStaticPlaneShape m_plane{btVector3(0, 0, 1), 0};
     btSphereShape m_sphere{btScalar(0.1)};
     btCollisionObject m_ground, m_ball;
-    RigidObstacles m_obstacles;
-    ContactFinder m_finder;
-    ContactSearchReport m_report;
 };
 
 TEST_F(ContactFinderTest, theNodesOfAFaceTouchThePlaneBelow)
@@ -100,15 +79,13 @@ TEST_F(ContactFinderTest, aBallBetweenTheFixedPointsTouchesTheNearestPointOfATri
 {
     // The nodes are 0.25 m away, and no middle of an edge or triangle is the nearest point.
     m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.3), btScalar(0.26), btScalar(1.09)));
-    const auto& contacts = find(m_ball);
-    const auto deepest = std::min_element(contacts.begin(), contacts.end(),
-                                          [](const auto& a, const auto& b) { return a.m_gap < b.m_gap; });
-    ASSERT_NE(deepest, contacts.end());
-    EXPECT_NEAR(deepest->m_gap, -0.01, 1e-6);
-    EXPECT_NEAR(deepest->m_normal.z, -1, 1e-6);
-    EXPECT_NEAR(deepest->m_soft.m_weights[0] + deepest->m_soft.m_weights[1] + deepest->m_soft.m_weights[2], 1, 1e-12);
-    EXPECT_NEAR(deepest->m_point.x, 0.3, 1e-6);
-    EXPECT_NEAR(deepest->m_point.y, 0.26, 1e-6);
+    ASSERT_FALSE(find(m_ball).empty());
+    const ContactPoint& c = *deepest();
+    EXPECT_NEAR(c.m_gap, -0.01, 1e-6);
+    EXPECT_NEAR(c.m_normal.z, -1, 1e-6);
+    EXPECT_NEAR(c.m_soft.m_weights[0] + c.m_soft.m_weights[1] + c.m_soft.m_weights[2], 1, 1e-12);
+    EXPECT_NEAR(c.m_point.x, 0.3, 1e-6);
+    EXPECT_NEAR(c.m_point.y, 0.26, 1e-6);
 }
 
 TEST_F(ContactFinderTest, aCurvedShapeIsTouchedByPointsThatAreFixedInTheSurface)
@@ -125,15 +102,16 @@ TEST_F(ContactFinderTest, aCurvedShapeIsTouchedByPointsThatAreFixedInTheSurface)
 TEST_F(ContactFinderTest, theOffsetIsTakenOffTheGap)
 {
     m_fem.m_contactOffset = 0.02;
-    for (const ContactPoint& c : find(m_ground)) EXPECT_NEAR(c.m_gap, -0.02, 1e-12);
+    ASSERT_EQ(find(m_ground).size(), 9u);
+    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_NEAR(c.m_gap, -0.02, 1e-12);
 }
 
 TEST_F(ContactFinderTest, impulsesOfTheLastStepAreTakenOver)
 {
-    find(m_ground);
+    ASSERT_EQ(find(m_ground).size(), 9u);
     m_fem.m_contacts[4].m_impulse = {1, 2, 3};
     const int node = m_fem.m_contacts[4].m_soft.m_nodes[0];
-    find(m_ground);
+    ASSERT_EQ(find(m_ground).size(), 9u);
     for (const ContactPoint& c : m_fem.m_contacts) EXPECT_EQ(c.m_impulse.y, c.m_soft.m_nodes[0] == node ? 2 : 0);
 }
 
@@ -141,12 +119,9 @@ TEST_F(ContactFinderTest, theDeepestAreKeptWhereThereAreTooMany)
 {
     Vec3& deep = m_fem.m_body.m_state.m_x[4];
     deep.z -= 0.01;
-    const auto& contacts = find(m_ground, 8);
-    EXPECT_EQ(contacts.size(), 8u);
+    ASSERT_EQ(find(m_ground, 8).size(), 8u);
     EXPECT_TRUE(m_report.m_limited);
-    double deepest = 0;
-    for (const ContactPoint& c : contacts) deepest = std::min(deepest, c.m_gap);
-    EXPECT_NEAR(deepest, -0.01, 1e-9);
+    EXPECT_NEAR(deepest()->m_gap, -0.01, 1e-9);
 }
 
 TEST_F(ContactFinderTest, shapesWithoutSupportAreReported)

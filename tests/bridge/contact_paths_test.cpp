@@ -4,27 +4,20 @@
 
 #include <algorithm>
 
-#include "bridge/bridge_test_bodies.h"
-#include "btBulletDynamicsCommon.h"
-#include "bullet_bridge/contact/contact_finder.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bridge/contact_finder_scene.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-constexpr double kStep = 1.0 / 60;
-
 /// What moves far within the step: contacts where paths meet.
-class ContactPathsTest : public ::testing::Test
+class ContactPathsTest : public ContactFinderScene
 {
 protected:
     ContactPathsTest()
     {
-        m_info.m_broadphase = nullptr;
         m_info.m_gravity.setZero();
-        m_box.m_body->m_worldInfo = &m_info;
         m_ball.setCollisionShape(&m_sphere);
         m_ball.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     }
@@ -33,27 +26,12 @@ protected:
     {
         m_ball.getWorldTransform().setOrigin(bulletVector(start + kStep * velocity));
         m_ball.setInterpolationLinearVelocity(bulletVector(velocity));
-        recordTouching(m_fem, m_ball);
-        solveFreeMotion(m_fem.m_body, StepSettings());
-        m_obstacles.clear();
-        m_finder.find(m_fem, 0, kStep, 1000, m_obstacles);
-        return m_fem.m_contacts;
+        return find(m_ball);
     }
 
-    btSoftBodyWorldInfo m_info;
-    TestBox m_box;  // the unit cube, two cells a side
-    FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
     btSphereShape m_sphere{btScalar(0.0625)};
     btCollisionObject m_ball;
-    RigidObstacles m_obstacles;
-    ContactFinder m_finder;
 };
-
-std::vector<ContactPoint>::const_iterator deepest(const std::vector<ContactPoint>& contacts)
-{
-    return std::min_element(contacts.begin(), contacts.end(),
-                            [](const auto& a, const auto& b) { return a.m_gap < b.m_gap; });
-}
 
 }  // namespace
 
@@ -61,8 +39,8 @@ TEST_F(ContactPathsTest, aBallMeetsThePointThatItFliesTo)
 {
     // Down to the upper face and, if nothing stops it, on through the lower one.
     const auto& contacts = findFrom({0.3, 0.2, 1.5625}, {0, 0, -120});
-    const auto first = deepest(contacts);
-    ASSERT_NE(first, contacts.end());
+    ASSERT_FALSE(contacts.empty());
+    const auto first = deepest();
     EXPECT_NEAR(first->m_gap, 0.5, 1e-5);
     EXPECT_NEAR(first->m_normal.z, -1, 1e-6);
     EXPECT_NEAR(norm(first->m_point - Vec3{0.3, 0.2, 1}), 0, 1e-5);
@@ -87,9 +65,8 @@ TEST_F(ContactPathsTest, whatLiesBesideThePathIsNoContact)
 
 TEST_F(ContactPathsTest, whatTouchesAsTheStepBeginsHasTheGapOfThatTime)
 {
-    const auto& contacts = findFrom({0.3, 0.2, 1.05}, {0, 0, -120});
-    const auto first = deepest(contacts);
-    ASSERT_NE(first, contacts.end());
+    ASSERT_FALSE(findFrom({0.3, 0.2, 1.05}, {0, 0, -120}).empty());
+    const auto first = deepest();
     EXPECT_NEAR(first->m_gap, -0.0125, 1e-5);
     EXPECT_NEAR(norm(first->m_approach - Vec3{0, 0, -2}), 0, 1e-5) << "the object is 2 m farther on";
 }

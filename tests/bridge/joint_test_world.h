@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -28,18 +31,11 @@ public:
 
     FemSoftBody& addCube(const Vec3& origin = {})
     {
-        const TetMesh mesh = makeBox({1, 1, 1}, {2, 2, 2}, origin);
-        btAlignedObjectArray<btVector3> positions;
-        for (const Vec3& X : mesh.restPositions()) positions.push_back(bulletVector(X));
-        m_soft.push_back(
-            std::make_unique<btSoftBody>(&m_world.getWorldInfo(), positions.size(), &positions[0], nullptr));
+        m_soft.push_back(makeSoftBody(m_world.getWorldInfo(), makeBox({1, 1, 1}, {2, 2, 2}, origin)));
         btSoftBody& soft = *m_soft.back();
-        for (const Tet& t : mesh.tets()) soft.appendTetra(t[0], t[1], t[2], t[3]);
         soft.m_cfg.kAHR = 1;
         m_world.addSoftBody(&soft);
-        const auto shape = std::make_shared<const RestShape>(tetMeshOf(soft), unsetMaterialOf(soft));
-        const auto model = BodyModel::create(shape, factorInputOf(soft));
-        m_fems.push_back(std::make_unique<FemSoftBody>(soft, model, makeComplianceCache(model)));
+        m_fems.emplace_back(new FemSoftBody(makeFemSoftBody(soft)));
         m_bodies.push_back(m_fems.back().get());
         return *m_fems.back();
     }
@@ -93,5 +89,23 @@ private:
     SoftJoints m_joints;
     ContactProblem m_problem;
 };
+
+inline void expectNear(const Vec3& a, const Vec3& b, double tolerance)
+{
+    EXPECT_LT(norm(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+/// Gives the only joint of `a`, to `b`, an impulse [N s]; each of the two must report its own.
+inline void expectOppositeImpulses(ContactProblem& problem, FemSoftBody& a, FemSoftBody& b, const Vec3& impulse)
+{
+    ASSERT_EQ(problem.m_joints.size(), 1u);
+    problem.m_joints[0].m_impulse = impulse;
+    SoftJoints::takeBack(a, problem);
+    SoftJoints::takeBack(b, problem);
+    ASSERT_EQ(a.m_joints.m_now.size(), 1u);
+    ASSERT_EQ(b.m_joints.m_now.size(), 1u);
+    expectNear(a.m_joints.m_now[0].m_impulse, impulse, 1e-12);
+    expectNear(b.m_joints.m_now[0].m_impulse, -impulse, 1e-12);
+}
 
 }  // namespace bullet_fem

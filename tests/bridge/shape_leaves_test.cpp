@@ -28,6 +28,11 @@ btTransform turned(double x, double y, double z)
     return btTransform(btMatrix3x3(0, -1, 0, 1, 0, 0, 0, 0, 1), btVector3(btScalar(x), btScalar(y), btScalar(z)));
 }
 
+struct OneTriangle : btTriangleMesh
+{
+    OneTriangle() { addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0)); }
+};
+
 struct Collected
 {
     btAlignedObjectArray<ShapeLeaf> m_leaves;
@@ -140,8 +145,7 @@ TEST(ShapeLeaves, ScaledCompoundsAreSeenScaled)
 
 TEST(ShapeLeaves, ConcaveShapesAreLeavesAndGImpactIsItsParts)
 {
-    btTriangleMesh mesh;
-    mesh.addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0));
+    OneTriangle mesh;
     btBvhTriangleMeshShape triangles(&mesh, true);
     btScaledBvhTriangleMeshShape scaled(&triangles, btVector3(2, 2, 2));
     btGImpactMeshShape gimpact(&mesh);
@@ -178,8 +182,7 @@ TEST(ShapeLeaves, AGImpactCompoundIsItsChildren)
 
 TEST(ShapeLeaves, BoundsOfScaledMeshesHaveTheirOwnMargin)
 {
-    btTriangleMesh mesh;
-    mesh.addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0));
+    OneTriangle mesh;
     btBvhTriangleMeshShape triangles(&mesh, true);
     btScaledBvhTriangleMeshShape scaled(&triangles, btVector3(2, 2, 2));
     scaled.setMargin(btScalar(0.5));
@@ -189,8 +192,7 @@ TEST(ShapeLeaves, BoundsOfScaledMeshesHaveTheirOwnMargin)
 
 TEST(ShapeLeaves, UnknownKindsAreCountedAndLeftOut)
 {
-    btTriangleMesh mesh;
-    mesh.addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0));
+    OneTriangle mesh;
     btBvhTriangleMeshShape noTree(&mesh, true, false);
     btEmptyShape empty;
     btConvexHullShape noPoints;

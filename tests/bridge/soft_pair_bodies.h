@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 
 #include "bridge/bridge_test_bodies.h"
@@ -19,11 +21,51 @@ inline Mat3 testRotation(double a, double b, double c)
     return x * y * z;
 }
 
+constexpr double kExact = 1e-12;  ///< of lengths about 1 m in double [m]
+
+/// The unit cube.
+inline TetMesh cube(int cells = 2)
+{
+    return makeBox({1, 1, 1}, {cells, cells, cells});
+}
+
+/// A tetrahedron whose first node points down to (0.3, 0.41, 0).
+inline TetMesh uprightTip()
+{
+    return TetMesh({{0.3, 0.41, 0}, {0.2, 0.3, 0.5}, {0.4, 0.3, 0.5}, {0.3, 0.6, 0.5}}, {{0, 1, 2, 3}});
+}
+
+/// A mesh without the elements whose middle is where `isOut` says, and without the nodes that only they had.
+template <class Predicate>
+TetMesh without(const TetMesh& mesh, Predicate isOut)
+{
+    std::vector<Vec3> X;
+    std::vector<Tet> tets;
+    std::vector<int> index(mesh.restPositions().size(), -1);
+    for (Tet t : mesh.tets())
+    {
+        Vec3 middle;
+        for (int i : t) middle += 0.25 * mesh.restPositions()[i];
+        if (isOut(middle)) continue;
+        for (int& i : t)
+        {
+            if (index[i] < 0)
+            {
+                index[i] = static_cast<int>(X.size());
+                X.push_back(mesh.restPositions()[i]);
+            }
+            i = index[i];
+        }
+        tets.push_back(t);
+    }
+    return TetMesh(std::move(X), std::move(tets));
+}
+
 /// A FEM body of any mesh, outside any world, whose surface can be put anywhere.
 class PairBody
 {
 public:
-    explicit PairBody(const TetMesh& mesh) : m_soft(softBodyOf(m_info, mesh)), m_fem(makeFemSoftBody(*m_soft))
+    explicit PairBody(const TetMesh& mesh) : m_soft(makeSoftBody(m_info, mesh)), m_fem(makeFemSoftBody(*m_soft))
     {
         m_x = mesh.restPositions();
         m_v.resize(m_x.size());
@@ -61,15 +103,6 @@ public:
     std::vector<Vec3> m_x, m_v;
 
 private:
-    static std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& info, const TetMesh& mesh)
-    {
-        btAlignedObjectArray<btVector3> positions;
-        for (const Vec3& X : mesh.restPositions()) positions.push_back(bulletVector(X));
-        auto body = std::make_unique<btSoftBody>(&info, positions.size(), &positions[0], nullptr);
-        for (const Tet& t : mesh.tets()) body->appendTetra(t[0], t[1], t[2], t[3]);
-        return body;
-    }
-
     btSoftBodyWorldInfo m_info;
 
 public:
@@ -99,5 +132,15 @@ struct PairContacts
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;
 };
+
+/// All normals are along z, from the lower body (1) to the upper one (0) or opposite, and gaps are `gap`.
+inline void expectAlongZ(const PairContacts& found, double gap)
+{
+    for (const ContactPoint& c : found.m_contacts)
+    {
+        EXPECT_NEAR(c.m_normal.z, c.m_soft.m_body == 0 ? 1 : -1, kExact);
+        EXPECT_NEAR(c.m_gap, gap, kExact);
+    }
+}
 
 }  // namespace bullet_fem

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "bridge/soft_pair_bodies.h"
@@ -14,26 +16,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kExact = 1e-12;  // of lengths about 1 m in double
-
-TetMesh cube(int cells = 2)
-{
-    return makeBox({1, 1, 1}, {cells, cells, cells});
-}
-
 Vec3 at(const std::vector<Vec3>& x, const SurfacePoint& p)
 {
     return p.m_weights[0] * x[p.m_nodes[0]] + p.m_weights[1] * x[p.m_nodes[1]] + p.m_weights[2] * x[p.m_nodes[2]];
-}
-
-// All normals are along z, from the lower body (1) to the upper one (0) or opposite, and gaps are `gap`.
-void expectAlongZ(const PairContacts& found, double gap)
-{
-    for (const ContactPoint& c : found.m_contacts)
-    {
-        EXPECT_NEAR(c.m_normal.z, c.m_soft.m_body == 0 ? 1 : -1, kExact);
-        EXPECT_NEAR(c.m_gap, gap, kExact);
-    }
 }
 
 TEST(SoftPairFinder, NodesOfEitherCubeTouchTheOthersFace)
@@ -105,7 +90,7 @@ TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
 {
     for (double gap : {0.01, 1e-6, -1e-6, -0.01, -0.2})
     {
-        PairBody tip(TetMesh({{0.3, 0.41, 0}, {0.2, 0.3, 0.5}, {0.4, 0.3, 0.5}, {0.3, 0.6, 0.5}}, {{0, 1, 2, 3}}));
+        PairBody tip(uprightTip());
         PairBody block(cube());
         tip.move({0, 0, 1 + gap});
         const PairContacts found(tip, block);
@@ -119,7 +104,7 @@ TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
 
 TEST(SoftPairFinder, ATipNearTheFarSideOfAThinPlateIsNotDeepInside)
 {
-    PairBody tip(TetMesh({{0.3, 0.41, 0}, {0.2, 0.3, 0.5}, {0.4, 0.3, 0.5}, {0.3, 0.6, 0.5}}, {{0, 1, 2, 3}}));
+    PairBody tip(uprightTip());
     PairBody plate(makeBox({1, 1, 0.05}, {4, 4, 1}, {0, 0, -0.05}));
     tip.move({0, 0, 0.002});
     const PairContacts above(tip, plate);
@@ -171,141 +156,6 @@ TEST(SoftPairFinder, FastCrossingBarsMeet)
     const PairContacts found(upper, lower);
     EXPECT_GE(found.count(SoftPairKind::edges), 4);
     expectAlongZ(found, 0.4);
-}
-
-TEST(SoftPairFinder, WhatOverlapsAtTheStartIsLedOutTheShortWay)
-{
-    for (double depth : {0.05, 0.2, 0.45})
-    {
-        PairBody upper(cube(4)), lower(cube(4));
-        upper.move({0.13, 0.07, 1 - depth});
-        const PairContacts found(upper, lower);
-        int up = 0;
-        for (const ContactPoint& c : found.m_contacts)
-        {
-            EXPECT_TRUE(isFinite(c.m_normal));
-            EXPECT_NEAR(norm(c.m_normal), 1, kExact);
-            EXPECT_GE(c.m_gap, -depth - kExact);
-            EXPECT_LT(c.m_gap, 0.02);
-            if (c.m_gap < -1e-9) up += std::fabs(c.m_normal.z) > 0.99;
-        }
-        EXPECT_GE(up, 8) << depth;
-    }
-}
-
-// A tetrahedron whose first node, at the origin, points in the direction (-1, 0, -1).
-TetMesh obliqueTip()
-{
-    return TetMesh({{0, 0, 0}, {0.3, 0.1, 0.1}, {0.1, 0.1, 0.3}, {0.2, -0.1, 0.2}}, {{0, 1, 2, 3}});
-}
-
-TEST(SoftPairFinder, InsideAnEdgeTheNearerFaceLeadsOut)
-{
-    PairBody tip(obliqueTip()), block(cube(4));
-    tip.move({0.98, 0.4, 0.99});  // 0.02 under one face, 0.01 under the other
-    const PairContacts found(tip, block);
-    ASSERT_EQ(found.count(SoftPairKind::nodeOfFirst), 1);
-    EXPECT_NEAR(found.m_contacts[0].m_normal.z, 1, kExact);
-    EXPECT_NEAR(found.m_contacts[0].m_gap, -0.01, kExact);
-}
-
-TEST(SoftPairFinder, OnARimOneFaceCarries)
-{
-    PairBody tip(obliqueTip()), block(cube(4));
-    tip.move({1 + 1e-6, 0.4, 1 + 1e-6});
-    const PairContacts found(tip, block);
-    ASSERT_EQ(found.m_contacts.size(), 1u);
-    EXPECT_NEAR(found.m_contacts[0].m_gap, 1e-6, kExact);
-}
-
-TEST(SoftPairFinder, ATipSunkIntoTheFloorOfAGrooveIsHeldByItsWallToo)
-{
-    PairBody corner(makeBox({1, 1, 1}, {2, 2, 2}));
-    std::vector<Tet> tets;
-    for (const Tet& t : corner.m_fem.m_body.m_model->mesh().tets())  // without the cells beyond x = 0.5, z = 0.5
-    {
-        Vec3 middle;
-        for (int i : t) middle += 0.25 * corner.m_x[i];
-        if (!(middle.x > 0.5 && middle.z > 0.5)) tets.push_back(t);
-    }
-    std::vector<Vec3> X = corner.m_x;
-    for (int i = static_cast<int>(X.size()) - 1; i >= 0; --i)
-    {
-        const auto uses = [&](const Tet& t) { return std::find(t.begin(), t.end(), i) != t.end(); };
-        if (std::any_of(tets.begin(), tets.end(), uses)) continue;
-        X.erase(X.begin() + i);
-        for (Tet& t : tets)
-            for (int& j : t) j -= j > i;
-    }
-    PairBody tip(obliqueTip()), groove(TetMesh(X, tets));
-    for (const Vec3& at : {Vec3{0.501, 0.4, 0.4999}, Vec3{0.4999, 0.4, 0.501}, Vec3{0.4999, 0.4, 0.499}})
-    {
-        tip.m_x = tip.m_fem.m_body.m_model->mesh().restPositions();
-        tip.move(at);
-        const PairContacts found(tip, groove);
-        ASSERT_EQ(found.count(SoftPairKind::nodeOfFirst), 2);
-        for (const ContactPoint& c : {found.m_contacts[0], found.m_contacts[1]})
-        {
-            EXPECT_NEAR(std::max(c.m_normal.x, c.m_normal.z), 1, kExact);
-            EXPECT_NEAR(c.m_gap, c.m_normal.x > 0.5 ? at.x - 0.5 : at.z - 0.5, kExact);
-        }
-    }
-}
-
-// Four nearly equal faces meet under the tip: none of them comes first.
-TEST(SoftPairFinder, OverAFlatCornerTheMeanNormalIsUsed)
-{
-    PairBody tip(TetMesh({{0, 0, 0}, {-0.1, -0.11, 0.5}, {0.1, -0.1, 0.5}, {0, 0.2, 0.5}}, {{0, 1, 2, 3}}));
-    PairBody block(makeBox({1, 1, 1}, {2, 2, 2}, {-0.5, -0.5, -1}));
-    block.bend([](const Vec3& x) { return norm(x) == 0 ? Vec3{0, 0, -0.02} : x; });
-    tip.move({0, 0, -0.019});
-    const PairContacts found(tip, block);
-    ASSERT_EQ(found.m_contacts.size(), 1u);
-    EXPECT_NEAR(found.m_contacts[0].m_normal.z, 1, kExact);
-    EXPECT_NEAR(found.m_contacts[0].m_gap, 0.001, 0.04 * 0.04 * 0.001) << "to the slope of the dent squared";
-}
-
-TEST(SoftPairFinder, OfTwoLayersTheFirstStopsAFastTip)
-{
-    PairBody tip(TetMesh({{0.4, 0.15, 1}, {0.3, 0.1, 1.5}, {0.5, 0.1, 1.5}, {0.4, 0.25, 1.5}}, {{0, 1, 2, 3}}));
-    tip.throwAt({0, 0, -90});  // 1.5 m a step
-    PairBody strip(makeBox({2, 0.3, 0.1}, {20, 3, 1}));
-    strip.bend([](const Vec3& X) { return X.x <= 1 ? X + Vec3{0, 0, 0.4 * X.x} : Vec3{2 - X.x, X.y, 0.7 - X.z}; });
-    const PairContacts found(tip, strip);
-    ASSERT_EQ(found.count(SoftPairKind::nodeOfFirst), 1);
-    EXPECT_NEAR(found.m_contacts[0].m_gap, 0.3, 1e-9) << "the layer at z = 0.7 is level";
-}
-
-TEST(SoftPairFinder, EdgesThatDoNotFaceEachOtherDoNotTouch)
-{
-    PairBody upper(makeBox({3, 0.5, 0.5}, {1, 1, 1})), lower(makeBox({0.5, 3, 0.02}, {1, 1, 1}));
-    upper.move({-1.2, 1.1, 0.021});
-    const PairContacts found(upper, lower);  // the lower edges of the plate are in reach
-    EXPECT_EQ(found.m_contacts.size(), 4u);
-    expectAlongZ(found, 0.001);
-}
-
-// An edge that rises outwards from a point under the face crosses the rim in a direction that separates nothing.
-TEST(SoftPairFinder, AnEdgeAcrossARimTouchesItBetweenTheNormalsOfItsFacesOnly)
-{
-    PairBody tip(TetMesh({{0.9, 0.4, 0.98}, {1.3, 0.45, 1.08}, {1, 0.2, 1.5}, {1.1, 0.7, 1.5}}, {{0, 1, 2, 3}}));
-    PairBody block(cube(4));
-    const PairContacts found(tip, block);
-    ASSERT_EQ(found.m_contacts.size(), 1u);
-    expectAlongZ(found, -0.02);
-}
-
-TEST(SoftPairFinder, WhatOverlapsALittleSidewaysIsNotLiftedUp)
-{
-    PairBody a(cube(1)), b(cube(1));
-    a.move({0.99, 0.3, 0.7});
-    const PairContacts found(a, b);
-    ASSERT_FALSE(found.m_contacts.empty());
-    for (const ContactPoint& c : found.m_contacts)
-    {
-        EXPECT_NEAR(std::fabs(c.m_normal.x), 1, kExact);
-        EXPECT_NEAR(c.m_gap, -0.01, kExact);
-    }
 }
 
 // Both ways of asking find the same points.
@@ -403,101 +253,6 @@ TEST(SoftPairFinder, FindsWhatAllPairsFind)
     }
 }
 
-class UndeformedBodies : public testing::TestWithParam<int>
-{
-protected:
-    static TetMesh mesh(int k)
-    {
-        if (k == 0) return cube(4);
-        if (k == 1) return makeSphere(0.5, 12);
-        if (k == 2) return makeBox({2, 2, 0.1}, {20, 20, 1});
-        if (k == 3) return makeBox({2, 2, 0.02}, {20, 20, 1});  // flat cells
-        if (k == 4) return makeBox({1, 1, 0.3}, {3, 3, 3});     // three flat cells
-        return makeCylinder(0.05, 2, 2, 40);
-    }
-};
-
-TEST_P(UndeformedBodies, DoNotTouchThemselves)
-{
-    PairBody body(mesh(GetParam()));
-    EXPECT_TRUE(PairContacts(body, body).m_contacts.empty());
-}
-
-TEST_P(UndeformedBodies, DoNotTouchThemselvesBentStretchedOrSqueezedALittle)
-{
-    PairBody body(mesh(GetParam()));
-    body.bend([](const Vec3& x) { return Vec3{std::sin(x.x) * (1 + x.z), x.y, (1 + x.z) * std::cos(x.x)}; });
-    EXPECT_TRUE(PairContacts(body, body).m_contacts.empty());
-    PairBody squeezed(mesh(GetParam()));
-    squeezed.bend([](const Vec3& x) { return Vec3{1.3 * x.x, x.y, 0.6 * x.z}; });
-    EXPECT_TRUE(PairContacts(squeezed, squeezed).m_contacts.empty());
-}
-
-INSTANTIATE_TEST_SUITE_P(Shapes, UndeformedBodies, testing::Range(0, 6));
-
-// Folds a strip along x about the line x = 1 into two layers, `distance` apart inside, with a round fold.
-Vec3 folded(const Vec3& X, double distance)
-{
-    const double r = 0.5 * distance, s = X.x - 1, half = 0.5 * 3.14159265358979 * r;
-    if (s <= -half) return {s + half, X.y, X.z};
-    const double roof = r - (X.z - 0.1);  // radius of this layer; the axis is r above the strip's top at z = 0.1
-    const double angle = std::min(s + half, 2 * half) / r;
-    const double beyond = std::max(0.0, s - half);
-    return {roof * std::sin(angle) - beyond, X.y, 0.1 + r - roof * std::cos(angle)};
-}
-
-TEST(SoftPairFinder, TheLayersOfAFoldedStripTouch)
-{
-    PairBody strip(makeBox({2, 0.3, 0.1}, {20, 3, 1}));
-    for (double distance : {0.004, -0.004, -0.03})
-    {
-        PairBody body(makeBox({2, 0.3, 0.1}, {20, 3, 1}));
-        // Two layers above each other: the far half turned over onto the near one.
-        body.bend([&](const Vec3& X) { return X.x <= 1 ? X : Vec3{2 - X.x + 0.03, X.y, 0.2 + distance - X.z}; });
-        const PairContacts found(body, body);
-        int between = 0;
-        for (const ContactPoint& c : found.m_contacts)
-        {
-            EXPECT_NEAR(std::fabs(c.m_normal.z), 1, 1e-9);
-            EXPECT_NEAR(c.m_gap, distance, 1e-9);
-            ++between;
-        }
-        EXPECT_GE(between, 40) << distance;
-    }
-    strip.bend([](const Vec3& X) { return folded(X, 0.35); });
-    EXPECT_TRUE(PairContacts(strip, strip).m_contacts.empty()) << "folded, but far apart";
-}
-
-// A slit narrower than an edge: close at rest, but not connected by a short way.
-TEST(SoftPairFinder, TheSidesOfANarrowSlitTouchWhenItCloses)
-{
-    const TetMesh box = makeBox({1, 0.2, 1}, {10, 2, 10});
-    std::vector<Vec3> X = box.restPositions();
-    std::vector<Tet> tets;
-    for (const Tet& t : box.tets())  // leaves out the cells around x = 0.55, from z = 0.2 upwards
-    {
-        const Vec3 middle = 0.25 * (X[t[0]] + X[t[1]] + X[t[2]] + X[t[3]]);
-        if (!(middle.x > 0.5 && middle.x < 0.6 && middle.z > 0.2)) tets.push_back(t);
-    }
-    std::vector<int> index(X.size(), -1);
-    std::vector<Vec3> used;
-    for (Tet& t : tets)
-        for (int& i : t)
-        {
-            if (index[i] < 0)
-            {
-                index[i] = static_cast<int>(used.size());
-                used.push_back(X[i]);
-            }
-            i = index[i];
-        }
-    PairBody body(TetMesh(used, tets));
-    EXPECT_TRUE(PairContacts(body, body).m_contacts.empty());
-    body.bend([](const Vec3& x) { return x.x < 0.55 ? x + Vec3{0.099 * x.z, 0, 0} : x; });  // closes at the top
-    const PairContacts found(body, body);
-    EXPECT_GE(found.m_contacts.size(), 3u);
-}
-
 TEST(SoftPairFinder, MaterialsOfBothMakeTheContact)
 {
     PairBody upper(cube()), lower(cube());
@@ -574,13 +329,16 @@ TEST(SoftPairFinder, CollapsedAndNonFiniteSurfacesGiveNoNonFiniteContacts)
     broken.move({0, 0, 1});
     broken.m_x[3].x = std::numeric_limits<double>::quiet_NaN();
     broken.m_v[5].y = std::numeric_limits<double>::infinity();
+    int checked = 0;
     for (PairBody* other : {&flat, &point, &broken})
         for (const PairContacts& found : {PairContacts(body, *other), PairContacts(*other, *other)})
             for (const ContactPoint& c : found.m_contacts)
             {
                 EXPECT_TRUE(isFinite(c.m_normal) && isFinite(c.m_point) && std::isfinite(c.m_gap));
                 EXPECT_NEAR(norm(c.m_normal), 1, 1e-9);
+                ++checked;
             }
+    EXPECT_GT(checked, 9) << "the flat body's and the broken one's";
 }
 
 }  // namespace

@@ -87,4 +87,11 @@ SurfaceMesh without(SurfaceMesh surface, int first, int last)
     return surface;
 }
 
+CageSettings withCell(double cellSize)
+{
+    CageSettings settings;
+    settings.m_cellSize = cellSize;
+    return settings;
+}
+
 }  // namespace bullet_fem

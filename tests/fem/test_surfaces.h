@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/fem/cage.h"
 #include "bullet_fem/fem/surface_mesh.h"
 
 namespace bullet_fem
@@ -18,5 +19,8 @@ SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b);
 SurfaceMesh flipped(SurfaceMesh surface);
 /// Without the triangles from `first` to before `last`.
 SurfaceMesh without(SurfaceMesh surface, int first, int last);
+
+/// Settings for a cage with cells of this size [m].
+CageSettings withCell(double cellSize);
 
 }  // namespace bullet_fem

@@ -260,7 +260,7 @@ TEST(CoupledAnchorsTest, aHangingWeightIsStill)
 
 std::string nameOf(const ::testing::TestParamInfo<Coupling>& info)
 {
-    return info.param == Coupling::swap ? "swap" : "coupled";
+    return couplingName(info.param);
 }
 
 INSTANTIATE_TEST_SUITE_P(Couplings, AnchorsTest, ::testing::Values(Coupling::swap, Coupling::coupled), nameOf);

@@ -44,10 +44,7 @@ protected:
 
     btRigidBody& addBall(btScalar mass, const btVector3& position)
     {
-        RigidSettings settings;
-        settings.m_mass = mass;
-        settings.m_transform = at(position.x(), position.y(), position.z());
-        return m_world.addRigid(new btSphereShape(btScalar(0.1)), settings);
+        return m_world.addRigid(new btSphereShape(btScalar(0.1)), {mass, at(position.x(), position.y(), position.z())});
     }
 
     static btSoftBody::Cluster* nearestCluster(btSoftBody& body, const btVector3& point)

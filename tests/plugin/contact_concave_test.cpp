@@ -61,14 +61,21 @@ TetMesh makeBall(const Vec3& center)
 
 class RestOnSheet : public testing::TestWithParam<NamedConcave>
 {
+protected:
+    // Its origin's height taken off; upside down it is wound the other way.
+    static btRigidBody& addSheet(ConcaveWorld& scene, const GridSettings& grid = {}, bool upsideDown = false)
+    {
+        RigidSettings place;
+        place.m_transform = btTransform(btQuaternion(btVector3(1, 0, 0), upsideDown ? SIMD_PI : 0),
+                                        btVector3(0, 0, upsideDown ? GetParam().m_height : -GetParam().m_height));
+        return scene.addGround(GetParam().m_make(grid), place);
+    }
 };
 
 TEST_P(RestOnSheet, IsCarriedToItsWeightAndDoesNotSinkIn)
 {
     ConcaveWorld scene;
-    RigidSettings place;
-    place.m_transform = at(0, 0, -GetParam().m_height);
-    btRigidBody& ground = scene.addGround(GetParam().m_make({}), place);
+    btRigidBody& ground = addSheet(scene);
     btSoftBody& cube = scene.addCube({btScalar(0.03), btScalar(0.02), btScalar(0.51)});
     const double weight = massOf(cube) * kGravity;
     scene.m_world.step(240);
@@ -90,13 +97,11 @@ TEST_P(RestOnSheet, IsCarriedToItsWeightAndDoesNotSinkIn)
 TEST_P(RestOnSheet, IsCarriedByHillsAndValleys)
 {
     ConcaveWorld scene;
-    RigidSettings place;
-    place.m_transform = at(0, 0, -GetParam().m_height);
     GridSettings hills;
     hills.m_cells = 16;
     hills.m_height = [](btScalar x, btScalar y)
     { return btScalar(0.15) * (btCos(4 * x) * btCos(4 * y) + btScalar(0.5) * (x * x + y * y)); };
-    scene.addGround(GetParam().m_make(hills), place);
+    addSheet(scene, hills);
     btSoftBody& cube = scene.addCube({btScalar(0.03), btScalar(0.02), btScalar(0.7)});
     const double weight = massOf(cube) * kGravity;
     scene.m_world.step(480);
@@ -133,16 +138,12 @@ TEST_P(RestOnSheet, ABallAtTenMetresASecondBouncesAsOnAPlane)
     ConcaveWorld plane;
     plane.m_world.addPlane();
     const std::vector<double> expected = heightsOfABall(plane);
-    for (const bool wound : {false, true})
+    for (const bool upsideDown : {false, true})
     {
         ConcaveWorld scene;
-        RigidSettings place;
-        // Upside down it is wound the other way.
-        place.m_transform = btTransform(btQuaternion(btVector3(1, 0, 0), wound ? SIMD_PI : 0),
-                                        btVector3(0, 0, wound ? GetParam().m_height : -GetParam().m_height));
         GridSettings alike;
         alike.m_randomWinding = false;
-        scene.addGround(GetParam().m_make(alike), place);
+        addSheet(scene, alike, upsideDown);
         const std::vector<double> heights = heightsOfABall(scene);
         for (std::size_t frame = 0; frame < heights.size(); ++frame)
             EXPECT_NEAR(heights[frame], expected[frame], 1e-4) << "frame " << frame;
@@ -250,8 +251,7 @@ TEST(MovingSheets, AGImpactCubeThatHitsASoftOneKeepsTheirMomentum)
 TEST(MovingSheets, AKinematicSheetLiftsWhatLiesOnIt)
 {
     ConcaveWorld scene;
-    RigidSettings place;
-    btRigidBody& lift = scene.addGround(makeGImpact(), place);
+    btRigidBody& lift = scene.addGround(makeGImpact());
     lift.setCollisionFlags(lift.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     btSoftBody& cube = scene.addCube({0, 0, btScalar(0.5)});
     for (int k = 0; k < 120; ++k)

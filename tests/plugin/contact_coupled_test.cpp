@@ -45,8 +45,7 @@ TEST_P(RigidSlide, HasCoulombsForceAndTheAccelerationThatItLeaves)
     slab.m_youngModulus = btScalar(scene.m_youngModulus);
     slab.m_friction = btScalar(kSlabFriction);
     btSoftBody* ground = makeSoftBox(world, fem, slab);
-    for (int i = 0; i < ground->m_nodes.size(); ++i)
-        if (ground->m_nodes[i].m_x.z() < -0.09) ground->setMass(i, 0);
+    clampBelow(*ground, -0.09);
     ground->rotate(tilt);
     world.addSoft(ground);
     RigidSettings settings;

@@ -9,7 +9,7 @@
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/generators.h"
 #include "plugin/scene_measures.h"
-#include "plugin/soft_world.h"
+#include "plugin/soft_boxes.h"
 
 namespace bullet_fem
 {
@@ -59,8 +59,7 @@ protected:
         material.m_youngModulus = btScalar(kYoung);
         material.m_poissonRatio = btScalar(kPoisson);
         m_fem.setMaterial(block, material);
-        for (int i = 0; i < block->m_nodes.size(); ++i)  // fixed below
-            if (block->m_nodes[i].m_x.z() < -0.999 * m_depthOfBlock) block->setMass(i, 0);
+        clampBelow(*block, -0.999 * m_depthOfBlock);
         block->m_cfg.kDF = 0;
         addMirror(btVector3(-1, 0, 0));
         addMirror(btVector3(0, -1, 0));

@@ -29,9 +29,9 @@ std::string nameOf(const testing::TestParamInfo<MomentumCase>& info)
 {
     const MomentumCase& scene = info.param;
     const std::string ratio = std::to_string(static_cast<int>(std::pow(10, std::abs(scene.m_power))));
-    return std::string(scene.m_coupling == Coupling::swap ? "swap_" : "coupled_") +
-           (scene.m_power < 0 ? "1to" + ratio : ratio + "to1") + (scene.m_softFlies ? "_softOn" : "_by") +
-           (scene.m_sphere ? "Sphere" : "Cube") + (scene.m_offCentre ? "_offCentre" : "");
+    return std::string(couplingName(scene.m_coupling)) + "_" + (scene.m_power < 0 ? "1to" + ratio : ratio + "to1") +
+           (scene.m_softFlies ? "_softOn" : "_by") + (scene.m_sphere ? "Sphere" : "Cube") +
+           (scene.m_offCentre ? "_offCentre" : "");
 }
 
 std::vector<MomentumCase> momentumCases()

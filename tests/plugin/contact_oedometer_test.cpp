@@ -116,8 +116,8 @@ TEST_P(Oedometer, SettlesByTheConstrainedModulusAndPressesOnTheWalls)
     {
         const Vec3 force = vec3(m_fem.contactForce(m_cube, m_walls[k]));
         const Vec3 inward = {k == 0 ? -1.0 : k == 1 ? 1.0 : 0.0, k == 2 ? -1.0 : k == 3 ? 1.0 : 0.0, 0};
-        EXPECT_NEAR(dot(force, inward), side, 0.01 * side) << "wall " << k;
-        EXPECT_LT(norm(force - dot(force, inward) * inward), 1e-3 * load) << "wall " << k;
+        EXPECT_NEAR(dot(force, inward), side, 0.01 * side) << "side " << k;
+        EXPECT_LT(norm(force - dot(force, inward) * inward), 1e-3 * load) << "side " << k;
     }
     EXPECT_NEAR(m_fem.contactForce(m_cube, m_floor).z(), load + weight, 1e-3 * load);
     EXPECT_NEAR(m_fem.contactForce(m_cube, m_heavy).z(), -load, 1e-3 * load);

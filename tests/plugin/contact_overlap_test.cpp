@@ -40,10 +40,7 @@ protected:
 
     btRigidBody& addBox(const btVector3& half, double center, double mass)
     {
-        RigidSettings settings;
-        settings.m_mass = btScalar(mass);
-        settings.m_transform = at(0, 0, btScalar(center));
-        m_movable = &m_world.addRigid(new btBoxShape(half), settings);
+        m_movable = &m_world.addRigid(new btBoxShape(half), {btScalar(mass), at(0, 0, btScalar(center))});
         return *m_movable;
     }
 
@@ -76,6 +73,17 @@ protected:
         EXPECT_LT(m_largestEnergy, 0.5 * mass);  // of 1 m/s
     }
 
+    // The ground is at z = 0.
+    void expectOverlapWithTheGroundToBeResolved()
+    {
+        btSoftBody& cube = addCube(-depth());
+        watch();
+        expectCalm(massOf(cube));
+        EXPECT_GT(lowestHeight(cube), -kGone);
+        EXPECT_LT(lowestHeight(cube), kGone);
+    }
+
+    static constexpr double kGone = 1e-3 * kSize;  // overlap that is left alone at movable bodies
     btFemSoftBodySolver m_fem;
     SoftWorld m_world{m_fem, GetParam().m_coupling};
     std::vector<btSoftBody*> m_cubes;
@@ -84,26 +92,16 @@ protected:
     bool m_finite = true;
 };
 
-constexpr double kGone = 1e-3 * kSize;  // overlap that is left alone at movable bodies
-
 TEST_P(Overlap, WithTheGroundIsResolved)
 {
     m_world.addPlane();
-    btSoftBody& cube = addCube(-depth());
-    watch();
-    expectCalm(massOf(cube));
-    EXPECT_GT(lowestHeight(cube), -kGone);
-    EXPECT_LT(lowestHeight(cube), kGone);
+    expectOverlapWithTheGroundToBeResolved();
 }
 
 TEST_P(Overlap, WithAStaticBoxIsResolved)
 {
     m_world.addFloorBox();
-    btSoftBody& cube = addCube(-depth());
-    watch();
-    expectCalm(massOf(cube));
-    EXPECT_GT(lowestHeight(cube), -kGone);
-    EXPECT_LT(lowestHeight(cube), kGone);
+    expectOverlapWithTheGroundToBeResolved();
 }
 
 // The way out is up for every node, though not by much for those of the upper corners.

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
-#include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/soft_world.h"
+#include "plugin/soft_boxes.h"
 
 namespace bullet_fem
 {
@@ -45,17 +44,13 @@ protected:
             compound->addChildShape(at(x, 0, -1), m_world.keep(new btBoxShape(btVector3(2, 2, 1))));
         m_ground = &m_world.addRigid(compound);
         m_cube = &addCube(btScalar(0.001));
-        RigidSettings settings;
-        settings.m_mass = 1;
-        settings.m_transform = at(0, 0, btScalar(0.502));
-        m_sphere = &m_world.addRigid(new btSphereShape(btScalar(0.1)), settings);
+        m_sphere = &m_world.addRigid(new btSphereShape(btScalar(0.1)), {1, at(0, 0, btScalar(0.502))});
         m_world.step(60);
     }
 
     btSoftBody& addCube(btScalar lowest, btScalar x = 0)
     {
-        btSoftBody& cube = m_world.addSoft(btFemHelpers::createBox(
-            m_world.info(), btVector3(x, 0, lowest + btScalar(0.2)), btVector3(0.2, 0.2, 0.2), btScalar(0.1)));
+        btSoftBody& cube = addSmallCube(m_world, lowest, x);
         cube.m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
         return cube;
     }
@@ -89,6 +84,7 @@ TEST_F(ContactQuery, OfARigidBodyTellsTheSoftOne)
 {
     Told told;
     m_world.world().contactTest(m_sphere, told);
+    ASSERT_GT(told.m_points.size(), 0u);
     EXPECT_EQ(int(told.m_points.size()), pointsWith(*m_cube, m_sphere));
     for (std::size_t k = 0; k < told.m_points.size(); ++k)
     {
@@ -105,7 +101,8 @@ TEST_F(ContactQuery, OfAPairIsTheSameBothWays)
     Told there, back;
     m_world.world().contactPairTest(m_cube, m_ground, there);
     m_world.world().contactPairTest(m_ground, m_cube, back);
-    ASSERT_EQ(int(there.m_points.size()), pointsWith(*m_cube, m_ground));
+    ASSERT_GT(there.m_points.size(), 0u);
+    EXPECT_EQ(int(there.m_points.size()), pointsWith(*m_cube, m_ground));
     ASSERT_EQ(back.m_points.size(), there.m_points.size());
     for (std::size_t k = 0; k < there.m_points.size(); ++k)
     {
@@ -167,6 +164,7 @@ TEST_F(ContactQuery, TellsNothingOfBodiesApartRemovedOrNew)
     m_world.world().contactPairTest(m_ground, &fresh, told);
     m_world.deleteRigid(*m_sphere);
     m_world.world().contactTest(m_cube, told);
+    EXPECT_GT(told.m_points.size(), 0u);
     EXPECT_EQ(int(told.m_points.size()), pointsWith(*m_cube, m_ground));
 }
 

@@ -16,17 +16,6 @@ namespace bullet_fem
 namespace
 {
 
-/// Positions, rotations and velocities, to the bit.
-std::vector<float> bitsOf(const btRigidBody& body)
-{
-    std::vector<float> bits;
-    const btMatrix3x3& basis = body.getWorldTransform().getBasis();
-    for (const btVector3& a : {basis[0], basis[1], basis[2], body.getWorldTransform().getOrigin(),
-                               body.getLinearVelocity(), body.getAngularVelocity()})
-        bits.insert(bits.end(), {float(a.x()), float(a.y()), float(a.z())});
-    return bits;
-}
-
 /// A stack of rigid boxes that falls over, a chain, and a soft cube with a stone on it far away.
 class RigidBesideSoft
 {
@@ -149,7 +138,7 @@ public:
         {
             m_world.step();
             for (const btSoftBody* cube : m_soft)
-                for (const float value : bullet_fem::bitsOf(*cube)) bits.push_back(value);
+                for (const float value : bitsOf(*cube)) bits.push_back(value);
             for (const btRigidBody* stone : m_rigid)
                 for (const float value : bitsOf(*stone)) bits.push_back(value);
         }
@@ -190,7 +179,7 @@ TEST_P(Repeated, GivesTheSameBitsAtOtherAddresses)
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Repeated, testing::Values(Coupling::swap, Coupling::coupled),
-                         [](const auto& scene) { return scene.param == Coupling::swap ? "swap" : "coupled"; });
+                         [](const auto& scene) { return couplingName(scene.param); });
 
 }  // namespace
 }  // namespace bullet_fem

@@ -2,21 +2,22 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "bullet_bridge/bullet_vectors.h"
-#include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/scene_measures.h"
-#include "plugin/soft_world.h"
+#include "plugin/soft_boxes.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-btSoftBody& addCube(SoftWorld& world, btScalar lowest, btScalar x = 0)
+btSoftBody& addCube(SoftWorld& world, btScalar lowest)
 {
-    return world.addSoft(btFemHelpers::createBox(world.info(), btVector3(x, 0, lowest + btScalar(0.5)),
-                                                 btVector3(0.5, 0.5, 0.5), btScalar(0.25)));
+    return addUnitCube(world, btVector3(0, 0, lowest + btScalar(0.5)));
 }
 
 /// A cube that rests on two static boxes, one under each half.
@@ -102,14 +103,13 @@ TEST_F(OnTwoBoxes, TheReportHasEveryField)
     EXPECT_EQ(report.m_nodes, m_cube->m_nodes.size());
     EXPECT_EQ(report.m_tets, m_cube->m_tetras.size());
     EXPECT_LE(report.m_residual, 1e-3);
-    EXPECT_GE(report.m_iterations, 0);
+    EXPECT_GT(report.m_iterations, 0);
     EXPECT_GT(report.m_contactSweeps, 0);
     EXPECT_GT(report.m_contactIterations, 0);
     EXPECT_GE(report.m_deepestPenetration, 0);
     EXPECT_GT(report.m_factorEntries, 9 * m_cube->m_nodes.size() / 2);
-    EXPECT_GT(report.m_factorSeconds, 0);
-    EXPECT_GT(report.m_freeMotionMs, 0);
-    EXPECT_GT(report.m_contactMs, 0);
+    for (const btScalar cost : {report.m_factorSeconds, report.m_freeMotionMs, report.m_contactMs})
+        EXPECT_TRUE(std::isfinite(cost) && cost >= 0) << cost;
 }
 
 TEST_F(OnTwoBoxes, ContactsEndWithTheTouch)

@@ -269,7 +269,7 @@ TEST_P(SoftStackSlow, OfFiveCubesStandsForAMinuteAndIsAsShortAsAColumn)
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, SoftStackSlow, testing::Values(Coupling::swap, Coupling::coupled),
-                         [](const auto& scene) { return scene.param == Coupling::swap ? "swap" : "coupled"; });
+                         [](const auto& scene) { return couplingName(scene.param); });
 
 }  // namespace
 }  // namespace bullet_fem

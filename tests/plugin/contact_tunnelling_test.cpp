@@ -17,7 +17,7 @@ namespace bullet_fem
 namespace
 {
 
-using Shot = std::tuple<bool, Projectile, int>;
+using Shot = std::tuple<Coupling, Projectile, int>;
 
 class ShotAtASlab : public testing::TestWithParam<Shot>
 {
@@ -27,12 +27,12 @@ class ShotAtASlab : public testing::TestWithParam<Shot>
 
 TEST_P(ShotAtASlab, staysOnItsSide)
 {
-    const auto& [coupled, projectile, cellsThick] = GetParam();
+    const auto& [coupling, projectile, cellsThick] = GetParam();
     for (const double height : {0.05, 0.3, 0.9, 1.9, 3.0})
         for (const double x : {0.0, 0.013, -0.08})
         {
             SCOPED_TRACE(testing::Message() << "from " << height << " m at x " << x);
-            FastScene scene(coupled);
+            FastScene scene(coupling);
             btSoftBody& soft = scene.addSoft(slab(cellsThick));
             clampRim(soft);
             const btRigidBody& rigid = shoot(scene, projectile, x, height);
@@ -50,14 +50,14 @@ TEST_P(ShotAtASlab, staysOnItsSide)
 }
 
 INSTANTIATE_TEST_SUITE_P(Tunnelling, ShotAtASlab,
-                         testing::Combine(testing::Bool(),
+                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
                                           testing::Values(Projectile{"sphere100", 0.01, 0.01, 0.033, 100},
                                                           Projectile{"sphere50", 0.01, 0.01, 0.033, 50},
                                                           Projectile{"needle20", 0.0125, 0.05, 0.05, 20}),
                                           testing::Values(1, 2)),
                          [](const auto& shot)
                          {
-                             return std::string(solverName(std::get<0>(shot.param))) + "_" +
+                             return std::string(couplingName(std::get<0>(shot.param))) + "_" +
                                     std::get<1>(shot.param).m_name +
                                     (std::get<2>(shot.param) == 1 ? "_oneCell" : "_twoCells");
                          });
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Tunnelling, ShotAtASlab,
 namespace
 {
 
-class Tunnelling : public testing::TestWithParam<bool>
+class Tunnelling : public testing::TestWithParam<Coupling>
 {
 protected:
     static constexpr double kSphereMass = 0.033;
@@ -99,7 +99,8 @@ btRigidBody& addThinPlate(FastScene& scene, double mass)
 
 }  // namespace
 
-INSTANTIATE_TEST_SUITE_P(, Tunnelling, testing::Bool(), [](const auto& coupled) { return solverName(coupled.param); });
+INSTANTIATE_TEST_SUITE_P(, Tunnelling, testing::Values(Coupling::swap, Coupling::coupled),
+                         [](const auto& scene) { return couplingName(scene.param); });
 
 TEST_P(Tunnelling, aSoftBallAt50DoesNotPassAThinPlate)
 {

@@ -8,7 +8,7 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/scene_measures.h"
-#include "plugin/soft_world.h"
+#include "plugin/soft_boxes.h"
 
 namespace bullet_fem
 {
@@ -133,8 +133,7 @@ public:
     CoarseSlab() : m_world(m_fem, btVector3(0, 0, 0))
     {
         m_slab = &addSlab(m_world, m_fem, 0, btScalar(0.5));
-        for (int i = 0; i < m_slab->m_nodes.size(); ++i)
-            if (m_slab->m_nodes[i].m_x.z() < btScalar(0.01)) m_slab->setMass(i, 0);
+        clampBelow(*m_slab, 0.01);
         for (int f = 0; f < m_slab->m_faces.size(); ++f)
             if (middleOf(f).z() > btScalar(0.49)) m_face = f;
     }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
@@ -255,6 +256,51 @@ TEST(Lifecycle, KeysNeverAddedAreForgotten)
     world.step();
     EXPECT_FALSE(fem.isFem(never.get()));
 }
+
+// A FEM body whose elements a program breaks is Bullet's again, with Bullet's own contacts, from the next step on.
+// Asked for or not, its constants are updated without the tree of nodes that Bullet never finishes for a body without
+// links.
+class BrokenBody : public testing::TestWithParam<bool>
+{
+};
+
+TEST_P(BrokenBody, MovesAndTouchesAsInBulletAlone)
+{
+    btFemSoftBodySolver fem;
+    btDefaultSoftBodySolver plain;
+    SoftWorld world(fem), other(plain);
+    world.addFloorBox();
+    other.addFloorBox();
+    btSoftBody& body = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.55))));
+    btSoftBody& twin = other.addSoft(makeCube(other, btVector3(0, 0, btScalar(0.55))));
+    world.step(40);
+    ASSERT_GT(fem.contacts(&body).size(), 0);
+
+    body.m_tetras[0].m_n[1] = body.m_tetras[0].m_n[0];
+    body.activate();
+    body.m_bUpdateRtCst = GetParam();
+    twin.m_bUpdateRtCst = false;
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+    {
+        twin.m_nodes[i].m_x = twin.m_nodes[i].m_q = body.m_nodes[i].m_x;
+        twin.m_nodes[i].m_v = body.m_nodes[i].m_v;
+    }
+    world.step(30);
+    other.step(30);
+    EXPECT_FALSE(fem.isFem(&body));
+    EXPECT_TRUE(allFinite(body));
+    double lowest = 1, furthest = 0;
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+    {
+        lowest = std::min<double>(lowest, body.m_nodes[i].m_x.z());
+        furthest = std::max<double>(furthest, (body.m_nodes[i].m_x - twin.m_nodes[i].m_x).length());
+    }
+    EXPECT_GT(lowest, -0.1);    // it would have fallen by 1.2 m
+    EXPECT_LT(furthest, 1e-3);  // [m]
+}
+
+INSTANTIATE_TEST_SUITE_P(Lifecycle, BrokenBody, testing::Bool(),
+                         [](const auto& suite) { return suite.param ? "constantsAsked" : "constantsLeft"; });
 
 }  // namespace
 }  // namespace bullet_fem

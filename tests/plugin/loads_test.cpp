@@ -2,14 +2,13 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
-#include <set>
 #include <string>
 
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/scene_measures.h"
-#include "plugin/soft_world.h"
+#include "plugin/soft_boxes.h"
 
 namespace bullet_fem
 {
@@ -18,8 +17,7 @@ namespace
 
 btSoftBody& addCube(SoftWorld& world)
 {
-    return world.addSoft(
-        btFemHelpers::createBox(world.info(), btVector3(0, 0, 0), btVector3(0.5, 0.5, 0.5), btScalar(0.25)));
+    return addUnitCube(world, btVector3(0, 0, 0));
 }
 
 TEST(Loads, AForceOfTheUserAcceleratesByForceOverMass)
@@ -169,25 +167,21 @@ TEST(Steps, AChangingStepIsFlaggedAsStaleAndRefactorMendsThat)
     EXPECT_TRUE(allFinite(cube));
 }
 
-// A body that touches something is factored anew when the step is far off; a step that comes and goes finds its old
-// factor.
-TEST(Steps, ThatComeAndGoInContactAreFactoredForOnce)
+// A body that touches something is given the factor of its step when the step is far off.
+TEST(Steps, ThatComeAndGoInContactAreFactoredFor)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
     world.addPlane(btScalar(-0.501));
     btSoftBody& cube = addCube(world);
     world.step(30);
-    std::set<btScalar> factorizations;  // by how long they took
     int refactored = 0;
     for (int k = 0; k < 40; ++k)
     {
         world.step(1, btScalar(1) / (k % 2 == 0 ? 60 : 120));
-        factorizations.insert(fem.stepReport(&cube).m_factorSeconds);
         refactored += (fem.stepReport(&cube).m_flags & BT_FEM_REFACTORED) != 0;
     }
     EXPECT_EQ(refactored, 39);
-    EXPECT_EQ(factorizations.size(), 2u);
     EXPECT_TRUE(allFinite(cube));
 }
 

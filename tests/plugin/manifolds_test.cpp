@@ -11,7 +11,7 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/scene_measures.h"
-#include "plugin/soft_world.h"
+#include "plugin/soft_boxes.h"
 
 namespace bullet_fem
 {
@@ -27,18 +27,14 @@ btFemSolverInfo withManifolds()
 
 btSoftBody& addCube(SoftWorld& world, btScalar lowest, btScalar x = 0)
 {
-    btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(x, 0, lowest + btScalar(0.2)),
-                                                             btVector3(0.2, 0.2, 0.2), btScalar(0.1)));
+    btSoftBody& cube = addSmallCube(world, lowest, x);
     cube.m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
     return cube;
 }
 
 btRigidBody& addStone(SoftWorld& world, btScalar height)
 {
-    RigidSettings settings;
-    settings.m_mass = 10;
-    settings.m_transform = at(0, 0, height);
-    return world.addRigid(new btBoxShape(btVector3(0.1, 0.1, 0.1)), settings);
+    return addRigidBox(world, {0.2, 0.2, 0.2}, {10, at(0, 0, height)});
 }
 
 /// The manifolds that Bullet's loops see of two objects.
@@ -259,7 +255,7 @@ TEST_P(ManifoldsChangeNothing, InTheMotion)
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, ManifoldsChangeNothing, testing::Values(Coupling::swap, Coupling::coupled),
-                         [](const auto& p) { return p.param == Coupling::swap ? "swap" : "coupled"; });
+                         [](const auto& p) { return couplingName(p.param); });
 
 TEST(ManifoldsOfSoftBodies, AreShownOfTwoNotOfOne)
 {

@@ -119,6 +119,16 @@ std::vector<float> bitsOf(const btSoftBody& body)
     return bits;
 }
 
+std::vector<float> bitsOf(const btRigidBody& body)
+{
+    std::vector<float> bits;
+    const btMatrix3x3& basis = body.getWorldTransform().getBasis();
+    for (const btVector3& a : {basis[0], basis[1], basis[2], body.getWorldTransform().getOrigin(),
+                               body.getLinearVelocity(), body.getAngularVelocity()})
+        bits.insert(bits.end(), {float(a.x()), float(a.y()), float(a.z())});
+    return bits;
+}
+
 Vec3 impulseOn(const btFemSoftBodySolver& solver, const btSoftBody& body, const btCollisionObject* other)
 {
     const btAlignedObjectArray<btFemContact>& contacts = solver.contacts(&body);

@@ -41,8 +41,9 @@ std::vector<Vec3> edgesOf(const btSoftBody& body);  ///< from node 0 to every no
 /// Largest difference between two lists of vectors.
 double largestDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 
-/// Positions and velocities of all nodes, to the bit.
+/// Positions and velocities of all nodes, to the bit; of a rigid body its placement and velocities.
 std::vector<float> bitsOf(const btSoftBody& body);
+std::vector<float> bitsOf(const btRigidBody& body);
 
 /// Sum of the impulses that a body felt in the last step, of `other` alone if it is given [N s].
 Vec3 impulseOn(const btFemSoftBodySolver& solver, const btSoftBody& body, const btCollisionObject* other = nullptr);

@@ -151,10 +151,8 @@ protected:
     // A board of 1 m on the ground, of the given mass.
     btRigidBody& addBoard(btScalar mass)
     {
-        RigidSettings settings;
-        settings.m_mass = mass;
-        settings.m_transform = at(0, 0, btScalar(0.1));
-        btRigidBody& board = m_world.addRigid(new btBoxShape(btVector3(0.5, 0.5, 0.1)), settings);
+        btRigidBody& board =
+            m_world.addRigid(new btBoxShape(btVector3(0.5, 0.5, 0.1)), {mass, at(0, 0, btScalar(0.1))});
         board.forceActivationState(mass > 0 ? ACTIVE_TAG : ISLAND_SLEEPING);
         return board;
     }

@@ -38,10 +38,7 @@ protected:
 
     btRigidBody& addSphere(btScalar height, btScalar mass = 10)
     {
-        RigidSettings settings;
-        settings.m_mass = mass;
-        settings.m_transform = at(0, 0, height);
-        btRigidBody& sphere = m_world.addRigid(new btSphereShape(btScalar(0.1)), settings);
+        btRigidBody& sphere = m_world.addRigid(new btSphereShape(btScalar(0.1)), {mass, at(0, 0, height)});
         sphere.forceActivationState(ACTIVE_TAG);
         return sphere;
     }
@@ -49,9 +46,7 @@ protected:
     /// A box of 0.2 m that the user moves.
     btRigidBody& addPusher(const btTransform& transform)
     {
-        RigidSettings settings;
-        settings.m_transform = transform;
-        btRigidBody& pusher = m_world.addRigid(new btBoxShape(btVector3(0.1, 0.1, 0.1)), settings);
+        btRigidBody& pusher = m_world.addRigid(new btBoxShape(btVector3(0.1, 0.1, 0.1)), {0, transform});
         m_world.world().removeRigidBody(&pusher);
         pusher.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
         m_world.world().addRigidBody(&pusher);

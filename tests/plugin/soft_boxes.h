@@ -11,7 +11,7 @@
 namespace bullet_fem
 {
 
-/// A soft box along the axes.
+/// A soft box, along the axes unless it is turned.
 struct SoftBox
 {
     Vec3 m_size = {1, 1, 1};                  ///< [m]
@@ -20,6 +20,7 @@ struct SoftBox
     btScalar m_youngModulus = btScalar(1e6);  ///< [Pa]
     btScalar m_density = 1000;                ///< [kg/m3]
     btScalar m_friction = btScalar(0.5);      ///< its kDF [-]
+    double m_turn = 0;                        ///< about the vertical through its centre [rad]
 };
 
 /// Makes one and gives it its material.
@@ -27,6 +28,15 @@ btSoftBody* makeSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBo
 
 /// And adds it to the world.
 btSoftBody& addSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBox& box);
+
+/// A cube of the unset material: edges of 1 m, cells of 0.25 m.
+btSoftBody& addUnitCube(SoftWorld& world, const btVector3& center);
+
+/// Likewise: edges of 0.4 m, cells of 0.1 m; its lower face at this height, its centre at y = 0 and this x [m].
+btSoftBody& addSmallCube(SoftWorld& world, btScalar lowest, btScalar x = 0);
+
+/// Pins the nodes that are below a height [m].
+void clampBelow(btSoftBody& body, double height);
 
 /// A rigid box with these edges [m].
 btRigidBody& addRigidBox(SoftWorld& world, const Vec3& size, const RigidSettings& settings);

@@ -34,6 +34,12 @@ enum class Coupling
     coupled  ///< by a btFemConstraintSolver, together with the soft bodies
 };
 
+/// For names of tests.
+inline const char* couplingName(Coupling coupling)
+{
+    return coupling == Coupling::swap ? "swap" : "coupled";
+}
+
 /// A btSoftRigidDynamicsWorld that deletes its bodies, their shapes and motion states. Gravity is along -z, for rigid
 /// and soft bodies alike; nothing falls asleep.
 class SoftWorld

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "bullet_bridge/bullet_vectors.h"
-#include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/scene_measures.h"
 #include "plugin/sleeping_world.h"
-#include "plugin/soft_world.h"
+#include "plugin/soft_boxes.h"
 
 namespace bullet_fem
 {
@@ -16,18 +15,9 @@ namespace
 
 using State = btFemTouchState;
 
-btSoftBody& addCube(SoftWorld& world, btScalar lowest, btScalar x = 0)
+btRigidBody& addBlock(SoftWorld& world, btScalar x)
 {
-    return world.addSoft(btFemHelpers::createBox(world.info(), btVector3(x, 0, lowest + btScalar(0.2)),
-                                                 btVector3(0.2, 0.2, 0.2), btScalar(0.1)));
-}
-
-btRigidBody& addBlock(SoftWorld& world, btScalar x, btScalar mass = 0)
-{
-    RigidSettings settings;
-    settings.m_mass = mass;
-    settings.m_transform = at(x, 0, btScalar(-0.2));
-    return world.addRigid(new btBoxShape(btVector3(0.2, 0.2, 0.2)), settings);
+    return addRigidBox(world, {0.4, 0.4, 0.4}, {0, at(x, 0, btScalar(-0.2))});
 }
 
 /// How often a pair was told to begin, to last and to end.
@@ -61,7 +51,7 @@ protected:
 
 TEST_F(Touches, AreNoneInFlight)
 {
-    btSoftBody& cube = addCube(m_world, 3);
+    btSoftBody& cube = addSmallCube(m_world, 3);
     m_world.addFloorBox();
     m_world.step(10);
     EXPECT_EQ(of(cube).size(), 0);
@@ -71,7 +61,7 @@ TEST_F(Touches, AreNoneInFlight)
 TEST_F(Touches, OfABodyThatFallsAndRestsBeginOnceAndLast)
 {
     btRigidBody& floor = m_world.addFloorBox();
-    btSoftBody& cube = addCube(m_world, btScalar(0.02));
+    btSoftBody& cube = addSmallCube(m_world, btScalar(0.02));
     Count landing, rest;
     countSteps(cube, 120, landing);
     EXPECT_GE(landing.m_began, 1);
@@ -88,7 +78,7 @@ TEST_F(Touches, OfABodyThatFallsAndRestsBeginOnceAndLast)
 TEST_F(Touches, SumTheImpulsesOfTheirPoints)
 {
     btRigidBody& floor = m_world.addFloorBox();
-    btSoftBody& cube = addCube(m_world, btScalar(0.001));
+    btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
     m_world.step(240);
     ASSERT_EQ(of(cube).size(), 1);
     const btFemTouch& touch = of(cube)[0];
@@ -104,7 +94,7 @@ TEST_F(Touches, SumTheImpulsesOfTheirPoints)
 TEST_F(Touches, EndOnceAndWithoutAnImpulse)
 {
     btRigidBody& floor = m_world.addFloorBox();
-    btSoftBody& cube = addCube(m_world, btScalar(0.001));
+    btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
     m_world.step(60);
     cube.translate(btVector3(0, 0, 2));
     cube.setVelocity(btVector3(0, 0, 0));
@@ -123,7 +113,7 @@ TEST_F(Touches, ALiftWithinTheSlackDoesNotEndThem)
 {
     m_world.info().m_gravity.setZero();
     m_world.addFloorBox();
-    btSoftBody& cube = addCube(m_world, btScalar(-1e-5));
+    btSoftBody& cube = addSmallCube(m_world, btScalar(-1e-5));
     m_world.step();
     ASSERT_EQ(of(cube).size(), 1);
     const double edge = 0.1;                 // edges of the lattice are 0.1 to 0.17 m
@@ -142,7 +132,7 @@ TEST_F(Touches, ABodyThatComesNearWithoutTouchingHasNone)
 {
     m_world.info().m_gravity.setZero();
     m_world.addFloorBox();
-    btSoftBody& cube = addCube(m_world, btScalar(0.0002));
+    btSoftBody& cube = addSmallCube(m_world, btScalar(0.0002));
     m_world.step(5);
     EXPECT_GT(m_fem.contacts(&cube).size(), 0);  // points with gaps, which carry nothing
     EXPECT_EQ(of(cube).size(), 0);
@@ -151,7 +141,7 @@ TEST_F(Touches, ABodyThatComesNearWithoutTouchingHasNone)
 TEST_F(Touches, OfSeveralObjectsAreToldApart)
 {
     btRigidBody &left = addBlock(m_world, btScalar(-0.2)), &right = addBlock(m_world, btScalar(0.25));
-    btSoftBody& cube = addCube(m_world, btScalar(0.001));
+    btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
     m_world.step(60);
     ASSERT_EQ(of(cube).size(), 2);
     EXPECT_NE(of(cube)[0].m_other, of(cube)[1].m_other);
@@ -167,7 +157,7 @@ TEST_F(Touches, OfSeveralObjectsAreToldApart)
 TEST_F(Touches, AnotherObjectAtTheSameAddressIsAnotherTouch)
 {
     btRigidBody& floor = m_world.addFloorBox();
-    btSoftBody& cube = addCube(m_world, btScalar(0.001));
+    btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
     m_world.step(60);
     const int id = of(cube)[0].m_otherId;
     m_world.world().removeRigidBody(&floor);
@@ -183,7 +173,7 @@ TEST_F(Touches, AnotherObjectAtTheSameAddressIsAnotherTouch)
 TEST_F(Touches, OfTwoSoftBodiesAgree)
 {
     m_world.addFloorBox();
-    btSoftBody &lower = addCube(m_world, btScalar(0.001)), &upper = addCube(m_world, btScalar(0.402));
+    btSoftBody &lower = addSmallCube(m_world, btScalar(0.001)), &upper = addSmallCube(m_world, btScalar(0.402));
     for (btSoftBody* body : {&lower, &upper}) body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
     const auto with = [this](const btSoftBody& body, const btSoftBody& other)
     {
@@ -215,12 +205,9 @@ TEST_F(Touches, OfTwoSoftBodiesAgree)
 TEST_F(Touches, WithTheCoupledSolverToo)
 {
     SoftWorld world(m_fem, Coupling::coupled);
-    RigidSettings stone;
-    stone.m_mass = 10;
-    stone.m_transform = at(0, 0, btScalar(0.52));
-    btRigidBody& block = world.addRigid(new btBoxShape(btVector3(0.1, 0.1, 0.1)), stone);
+    btRigidBody& block = addRigidBox(world, {0.2, 0.2, 0.2}, {10, at(0, 0, btScalar(0.52))});
     btRigidBody& floor = world.addFloorBox();
-    btSoftBody& cube = addCube(world, btScalar(0.001));
+    btSoftBody& cube = addSmallCube(world, btScalar(0.001));
     world.step(180);
     ASSERT_EQ(of(cube).size(), 2);
     for (int k = 0; k < 2; ++k)
@@ -233,7 +220,7 @@ TEST_F(Touches, WithTheCoupledSolverToo)
 TEST_F(Touches, OfAThrownBodyBeginAndEndAtEveryBounce)
 {
     m_world.addFloorBox().setRestitution(1);
-    btSoftBody& cube = addCube(m_world, btScalar(0.3));
+    btSoftBody& cube = addSmallCube(m_world, btScalar(0.3));
     cube.setRestitution(btScalar(0.8));
     Count count;
     countSteps(cube, 240, count);

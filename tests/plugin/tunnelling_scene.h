@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "bullet_fem/btFemConstraintSolver.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/generators.h"
@@ -18,9 +17,9 @@ namespace bullet_fem
 /// A world with the swap alone or with the coupled solver, as a rule without gravity.
 struct FastScene
 {
-    explicit FastScene(bool coupled, double gravity = 0) : m_world(m_fem, btVector3(0, 0, btScalar(-gravity)))
+    explicit FastScene(Coupling coupling, double gravity = 0)
+        : m_world(m_fem, coupling, btVector3(0, 0, btScalar(-gravity)))
     {
-        if (coupled) m_world.world().setConstraintSolver(&m_coupled);
     }
 
     /// Of water's density; E [Pa].
@@ -34,15 +33,8 @@ struct FastScene
     }
 
     btFemSoftBodySolver m_fem;
-    btFemConstraintSolver m_coupled{&m_fem};
     SoftWorld m_world;
 };
-
-/// For names of tests.
-inline const char* solverName(bool coupled)
-{
-    return coupled ? "coupled" : "swap";
-}
 
 /// 40 x 40 x 5 cm below z = 0, with cells of 5 cm, or of 2.5 cm.
 inline TetMesh slab(int cellsThick)

@@ -14,7 +14,7 @@ namespace bullet_fem
 class ComplianceCache;
 
 /// Cache of the surface compliance of a model, for ContactSolver::solve; bodies of one model may share it on one
-/// thread.
+/// thread. `model` must not be null.
 std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model);
 
 /// A rigid body as the contact solver sees it.
@@ -49,7 +49,7 @@ struct ContactPoint
     Vec3 m_point;       ///< where both sides feel the impulse: the soft point, between two soft ones their middle [m]
     Vec3 m_approach;    ///< added to m_point for the arm of an obstacle that it meets later in the step: what they come
                         ///< closer until then [m]
-    Vec3 m_normal;      ///< unit, from the other side to m_soft
+    Vec3 m_normal;      ///< unit [-], from the other side to m_soft
     double m_gap = 0;   ///< signed distance at the start [m]; negative inside
     double m_slop = 0;  ///< penetration that is left alone [m], >= 0
     double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
@@ -61,29 +61,31 @@ struct ContactPoint
                   ///< of the last step before, the new one after
 };
 
-/// A body with its compliance cache.
+/// A body with its compliance cache. Neither may be null, and both must live until the solve is over.
 struct ContactBody
 {
-    Body* m_body = nullptr;
-    ComplianceCache* m_compliance = nullptr;
+    Body* m_body = nullptr;                   ///< has had solveFreeMotion
+    ComplianceCache* m_compliance = nullptr;  ///< of the body's model
 };
 
+/// How a ContactProblem is solved.
 struct ContactSettings
 {
     StepSettings m_step;   ///< of the corrective solves
     int m_rounds = 2;      ///< corrective solves at least, in [1, 100]
-    int m_maxRounds = 10;  ///< and at most, while a round still changes impulses by more than m_roundTolerance
+    int m_maxRounds = 10;  ///< and at most, >= 1, while a round still changes impulses by more than m_roundTolerance
     double m_roundTolerance = 5e-3;  ///< of the largest impulse [-], > 0
-    int m_sweeps = 50;               ///< sweeps a round at most, in [1, 1000]
+    int m_sweeps = 200;              ///< sweeps a round at most, in [1, 1000]
     double m_sweepTolerance =
-        1e-9;                ///< stop sweeping when the largest change of an impulse is this share of the largest [-]
-    int m_denseLimit = 400;  ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
+        1e-9;  ///< stop sweeping when the largest change of an impulse is this share of the largest [-], >= 0
+    int m_denseLimit = 400;        ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
     double m_pushFraction = 0.2;   ///< share of a penetration that is taken back a step [-], in [0, 1]
-    double m_maxPushVelocity = 1;  ///< [m/s], >= 0
+    double m_maxPushVelocity = 1;  ///< speed at which penetration is taken back at most [m/s], >= 0
     double m_slipFraction = 0.2;   ///< share of the slip of a sticking point that is taken back a step [-], in [0, 1]
     double m_restitutionVelocity = 0.2;  ///< closing speed below which nothing is given back [m/s], >= 0
 };
 
+/// What a solve took, and how good it is.
 struct ContactReport
 {
     int m_contacts = 0;       ///< points given
@@ -100,7 +102,7 @@ struct JointEnd
     int m_body = -1;         ///< soft end: index into the bodies of the solve
     int m_first = 0;         ///< soft end: its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
     int m_count = 0;         ///< and its velocity is the sum of m_handleBlocks times theirs
-    int m_obstacle = -1;     ///< rigid end: index into the obstacles; the end of neither is fixed in the world
+    int m_obstacle = -1;     ///< rigid end: index into the obstacles; an end of neither is fixed in the world
     Vec3 m_point;            ///< rigid end: where it is held [m]
     bool m_angular = false;  ///< rigid end: its velocity is the angular one, and impulses are angular
 };
@@ -108,26 +110,29 @@ struct JointEnd
 /// Holds the relative velocity of two ends, a - b, at a wanted value along three axes: anchors, attachments, motors.
 struct Joint
 {
-    static constexpr double kUnlimited = 1e300;
+    static constexpr double kUnlimited = 1e300;  ///< as m_limit: no limit [N s] or [N m s]
 
-    JointEnd m_a, m_b;
-    std::array<Vec3, 3> m_axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< orthonormal
+    JointEnd m_a, m_b;  ///< what it joins; the impulse acts on a, its opposite on b
+    std::array<Vec3, 3> m_axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< orthonormal [-]
     Vec3 m_wanted;  ///< relative velocity along the axes [m/s] or [rad/s]: error correction, motor speed
-    Vec3 m_limit = {kUnlimited, kUnlimited, kUnlimited};  ///< largest impulse along every axis, >= 0; 0: axis is free
-    double m_softness = 0;  ///< compliance added, as a share of the joint's own [-], >= 0; 0: rigid
-    Vec3 m_impulse;         ///< on end a, world axes [N s] or [N m s]: a guess before, the answer after
+    Vec3 m_limit = {kUnlimited, kUnlimited,
+                    kUnlimited};  ///< largest impulse along every axis [N s] or [N m s], >= 0; 0: axis is free
+    double m_softness = 0;        ///< compliance added, as a share of the joint's own [-], >= 0; 0: rigid
+    Vec3 m_impulse;               ///< on end a, world axes [N s] or [N m s]: a guess before, the answer after
 };
 
 /// All that is solved together: bodies, what they touch, and what holds them. Vectors are kept to be used again.
+/// Nothing is checked: indices must be in range, and all numbers finite.
 struct ContactProblem
 {
-    std::vector<ContactBody> m_bodies;
-    std::vector<Obstacle> m_obstacles;
-    std::vector<ContactPoint> m_contacts;
-    std::vector<Joint> m_joints;
-    std::vector<int> m_handleNodes;
-    std::vector<Mat3> m_handleBlocks;
+    std::vector<ContactBody> m_bodies;     ///< each once
+    std::vector<Obstacle> m_obstacles;     ///< each once
+    std::vector<ContactPoint> m_contacts;  ///< between them; their order decides
+    std::vector<Joint> m_joints;           ///< likewise
+    std::vector<int> m_handleNodes;        ///< nodes of the joints' soft ends, one end's after another
+    std::vector<Mat3> m_handleBlocks;      ///< one a handle node [-]
 
+    /// Empties all; nothing is freed.
     void clear();
 };
 
@@ -151,7 +156,7 @@ public:
     ~ContactSolver();
 
     /// Bodies must have had solveFreeMotion with settings.m_step. Adds the response of contacts and joints to their
-    /// velocities, and to the obstacles'.
+    /// velocities, and to the obstacles'. Throws nothing; what did not converge is in the report.
     ContactReport solve(ContactProblem& problem, const ContactSettings& settings);
 
     /// Gives the obstacles the reactions of the guessed impulses, and measures. `problem` must live until finish.
@@ -168,7 +173,7 @@ public:
     /// m_roundTolerance.
     bool wantsRound() const;
 
-    /// Takes penetration back, and reports.
+    /// Takes penetration back, and reports. The problem has the impulses from here on.
     ContactReport finish();
 
 private:

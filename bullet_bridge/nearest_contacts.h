@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "bullet_fem/fem/contact_solver.h"
+
+namespace bullet_fem
+{
+
+/// Keeps the `most` (>= 0) contacts of smallest gap, and what belongs to them, in their order. False if there are no
+/// more. `order` is scratch.
+template <class Origin>
+bool keepNearest(int most, std::vector<ContactPoint>& contacts, std::vector<Origin>& origins, std::vector<int>& order)
+{
+    if (static_cast<int>(contacts.size()) <= most) return false;
+    order.resize(contacts.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto nearer = [&](int a, int b)
+    { return contacts[a].m_gap != contacts[b].m_gap ? contacts[a].m_gap < contacts[b].m_gap : a < b; };
+    std::nth_element(order.begin(), order.begin() + most, order.end(), nearer);
+    order.resize(most);
+    std::sort(order.begin(), order.end());
+    for (int k = 0; k < most; ++k)
+    {
+        contacts[k] = contacts[order[k]];
+        origins[k] = origins[order[k]];
+    }
+    contacts.resize(most);
+    origins.resize(most);
+    return true;
+}
+
+}  // namespace bullet_fem

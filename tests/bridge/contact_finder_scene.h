@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bridge/bridge_test_bodies.h"
+#include "btBulletDynamicsCommon.h"
+#include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_fem/fem/stepping.h"
+
+namespace bullet_fem
+{
+
+/// The unit cube of two cells a side, its bottom at z = 0, and what a finder finds between it and objects.
+class ContactFinderScene : public ::testing::Test
+{
+protected:
+    static constexpr double kStep = 1.0 / 60;  ///< [s]
+
+    ContactFinderScene()
+    {
+        m_info.m_broadphase = nullptr;
+        m_box.m_body->m_worldInfo = &m_info;
+    }
+
+    const std::vector<ContactPoint>& find(const btCollisionObject& object, int most = 1000)
+    {
+        m_fem.m_touching.clear();
+        recordTouching(m_fem, object);
+        solveFreeMotion(m_fem.m_body, StepSettings());
+        m_obstacles.clear();
+        m_report = m_finder.find(m_fem, 0, kStep, most, m_obstacles);
+        return m_fem.m_contacts;
+    }
+
+    std::vector<ContactPoint>::const_iterator deepest() const
+    {
+        return std::min_element(m_fem.m_contacts.begin(), m_fem.m_contacts.end(),
+                                [](const auto& a, const auto& b) { return a.m_gap < b.m_gap; });
+    }
+
+    btSoftBodyWorldInfo m_info;
+    TestBox m_box;
+    FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
+    RigidObstacles m_obstacles;
+    ContactFinder m_finder;
+    ContactSearchReport m_report;
+};
+
+}  // namespace bullet_fem
