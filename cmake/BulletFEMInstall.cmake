@@ -3,7 +3,7 @@
 # BulletFEM::plugin and the others.
 include(CMakePackageConfigHelpers)
 
-set(_targets bulletfem_cholesky bulletfem_fem bulletfem_bullet_bridge bulletfem_plugin)
+set(_targets bulletfem_ordering bulletfem_fem bulletfem_bullet_bridge bulletfem_plugin)
 if(BULLETFEM_BUILD_IO)
     list(APPEND _targets bulletfem_io)
 endif()

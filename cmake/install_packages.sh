@@ -3,7 +3,7 @@
 # Sourced by demos/run.sh and tests/run.sh: Debian packages, installed only if they are missing.
 
 # What every build of this project needs. Assimp's CMake targets name zlib's library without depending on its package.
-build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libsuitesparse-dev libassimp-dev zlib1g-dev
+build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libhwy-dev libsuitesparse-dev libassimp-dev zlib1g-dev
     libcli11-dev)
 
 say() { printf '== %s\n' "$*"; }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem/elements/model_elements.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/step_scratch.h"
 
@@ -17,12 +18,10 @@ StepScratch::StepScratch(const BodyModel& model)
       m_push(model.nodeCount()),
       m_rightSide(model.nodeCount()),
       m_increment(model.nodeCount()),
-      m_tension(model.shape().m_elements.size()),
-      m_rotationSum(model.nodeCount()),
       m_momentum(model.mesh()),
       m_solver(model.nodeCount()),
-      m_factorVector(model.factor().lower().size()),
-      m_factorScratch(std::max(1, model.factor().lower().scratchSize()))
+      m_elements(model.nodeCount(), model.elements().blockCount()),
+      m_factor{allocateFloats(model.factor().lower().size()), allocateFloats(model.factor().lower().scratchSize(1))}
 {
 }
 

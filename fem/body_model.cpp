@@ -5,6 +5,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "fem/elements/model_elements.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/message.h"
 
@@ -39,6 +40,7 @@ std::shared_ptr<const BodyModel> BodyModel::create(std::shared_ptr<const RestSha
     model->m_shape = std::move(shape);
     model->m_input = std::move(input);
     model->m_factor = std::make_unique<const RestFactor>(*model->m_shape, model->m_input, model->m_report);
+    model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
     model->m_report.m_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return model;
 }

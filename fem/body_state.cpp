@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/body_state.h"
 
+#include "fem/elements/model_elements.h"
+
 namespace bullet_fem
 {
 
@@ -10,8 +12,8 @@ BodyState::BodyState(const BodyModel& model)
       m_v(m_x.size()),
       m_mass(model.factorInput().m_mass),
       m_fixed(model.factorInput().m_fixed),
-      m_elementRotation(model.shape().m_elements.size(), Mat3::identity()),
-      m_nodeRotation(m_x.size(), Mat3::identity())
+      m_lastIncrement{m_v, m_v},
+      m_elementRotation(static_cast<std::size_t>(kLanes) * model.elements().blockCount())
 {
 }
 

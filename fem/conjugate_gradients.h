@@ -33,7 +33,8 @@ struct ConjugateGradientStop
     int m_maxIterations = 100;  ///< >= 1
 };
 
-/// Solves A x = b by preconditioned conjugate gradients [Hestenes & Stiefel 1952], starting from x. The recurrence's
+/// Solves A x = b by preconditioned conjugate gradients [Hestenes & Stiefel 1952], starting from x, which is first
+/// scaled to be at least as good as zero. Beyond a few iterations, and for tolerances below 1e-4, the recurrence's
 /// residual is checked against the true one before an answer is called converged. Never allocates; x stays finite if A,
 /// P, b and x are.
 SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperator& P, const std::vector<Vec3>& b,

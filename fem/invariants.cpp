@@ -35,7 +35,7 @@ double mechanicalEnergy(const Body& body)
         const Vec3& x0 = s.m_x[tets[e][0]];
         const Mat3 F = Mat3::fromColumns(s.m_x[tets[e][1]] - x0, s.m_x[tets[e][2]] - x0, s.m_x[tets[e][3]] - x0) *
                        element.m_DmInverse;
-        const Mat3 E = transposeTimes(polarRotation(F, s.m_elementRotation[e]), F) - Mat3::identity();
+        const Mat3 E = transposeTimes(polarRotation(F, toMatrix(s.m_elementRotation[e])), F) - Mat3::identity();
         const Mat3 symmetric = 0.5 * (E + transpose(E));
         energy += element.m_muVolume * squaredNorm(symmetric) +
                   0.5 * element.m_lambdaVolume * trace(symmetric) * trace(symmetric);

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/rigid_momentum.h"
 
+#include <algorithm>
+
 namespace bullet_fem
 {
 namespace
@@ -30,9 +32,12 @@ void RigidMomentum::prescribe(const Body& body, double step)
     const int n = body.m_model->nodeCount();
     for (Piece& piece : m_pieces) piece = Piece();
     for (int i = 0; i < n; ++i)
+        if (s.m_fixed[i]) m_pieces[component[i]].m_free = false;
+    m_anyFree = std::any_of(m_pieces.begin(), m_pieces.end(), [](const Piece& piece) { return piece.m_free; });
+    if (!m_anyFree) return;
+    for (int i = 0; i < n; ++i)
     {
         Piece& piece = m_pieces[component[i]];
-        if (s.m_fixed[i]) piece.m_free = false;
         piece.m_mass += s.m_mass[i];
         piece.m_center += s.m_mass[i] * s.m_x[i];
     }
@@ -55,6 +60,7 @@ void RigidMomentum::prescribe(const Body& body, double step)
 
 void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step)
 {
+    if (!m_anyFree) return;
     const std::vector<int>& component = body.m_model->mesh().nodeComponent();
     const double share = 1 / (1 + step * damping(body));
     for (std::size_t i = 0; i < impulses.size(); ++i)
@@ -72,6 +78,7 @@ void RigidMomentum::addAngularImpulse(const Body& body, int node, const Vec3& im
 
 void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
 {
+    if (!m_anyFree) return;
     const std::vector<int>& component = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
     for (Piece& piece : m_pieces)

@@ -41,6 +41,7 @@ private:
         Vec3 m_linearVelocity, m_angularVelocity;
     };
     std::vector<Piece> m_pieces;
+    bool m_anyFree = false;  // of the last prescription; all is skipped where there is none
 };
 
 }  // namespace bullet_fem

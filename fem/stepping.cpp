@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "fem/step_scratch.h"
-#include "fem/warped_elements.h"
 #include "fem/warped_system.h"
 
 namespace bullet_fem
@@ -27,18 +26,15 @@ double loadImpulseNorm(const Body& body, double h)
     return h * std::sqrt(sum);
 }
 
-// b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v), and the tension of every element for A.
-void assembleRightSide(const Body& body, const StepSettings& settings, StepScratch& scratch)
+// b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v), and A and P of this step.
+void assembleRightSide(Body& body, const StepSettings& settings, StepScratch& scratch)
 {
-    const RestShape& shape = body.m_model->shape();
     const BodyState& s = body.m_state;
-    const double h = settings.m_step, alpha = massDamping(body);
+    const double alpha = massDamping(body);
     std::vector<Vec3>& b = scratch.m_rightSide;
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = body.m_loads.m_force[i] - alpha * s.m_mass[i] * s.m_v[i];
-    addElasticForces(shape, s.m_x, s.m_v, h + shape.m_material.m_stiffnessDamping, s.m_elementRotation, b,
-                     &scratch.m_tension);
-    if (!settings.m_tension) std::fill(scratch.m_tension.begin(), scratch.m_tension.end(), std::array<double, 6>{});
-    for (Vec3& bi : b) bi *= h;
+    prepareWarpedSystem(body, settings, b);
+    for (Vec3& bi : b) bi *= settings.m_step;
 }
 
 // Fixed nodes: dv_p = v_target - v moves to the right-hand side, b_f -= A_fp dv_p, and b_p = 0.
@@ -61,26 +57,33 @@ void eliminateFixedNodes(const Body& body, const WarpedSystem& A, StepScratch& s
         if (s.m_fixed[i]) b[i] = {};
 }
 
-// The increment that starts the solve: the rigid motion that momentum prescribes on free pieces, zero on the others.
-void guessIncrement(const Body& body, StepScratch& scratch)
+// Where the solve starts: the increment in scratch, with the rigid motion of free pieces that momentum prescribes.
+void completeGuess(const Body& body, StepScratch& scratch)
 {
     std::vector<Vec3>& dv = scratch.m_increment;
-    dv = scratch.m_velocity;
+    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] += scratch.m_velocity[i];
     scratch.m_momentum.restore(body, dv);
     for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= scratch.m_velocity[i];
 }
 
-// Solves A dv = b and adds dv to the velocities of the free nodes.
+// The increments of the last two steps, continued along a straight line: motion is smooth more often than not.
+void continueIncrements(const BodyState& state, std::vector<Vec3>& dv)
+{
+    const std::vector<Vec3>&last = state.m_lastIncrement[0], &before = state.m_lastIncrement[1];
+    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] = state.m_fixed[i] ? Vec3() : 2.0 * last[i] - before[i];
+}
+
+// Solves A dv = b, starting from dv, and adds dv to the velocities of the free nodes.
 SolveReport solveIncrement(const Body& body, const StepSettings& settings, double floor, StepScratch& scratch)
 {
-    guessIncrement(body, scratch);
+    completeGuess(body, scratch);
     ConjugateGradientStop stop;
     stop.m_tolerance = settings.m_tolerance;
     stop.m_floor = floor;
     stop.m_maxIterations = settings.m_direct ? 1 : settings.m_maxIterations;
     const SolveReport report =
-        solveConjugateGradients(WarpedSystem(body, settings.m_step), WarpedPreconditioner(body, settings.m_warp),
-                                scratch.m_rightSide, stop, scratch.m_solver, scratch.m_increment);
+        solveConjugateGradients(WarpedSystem(body), WarpedPreconditioner(body), scratch.m_rightSide, stop,
+                                scratch.m_solver, scratch.m_increment);
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
         if (!body.m_state.m_fixed[i]) scratch.m_velocity[i] += scratch.m_increment[i];
     if (settings.m_momentumCorrection) scratch.m_momentum.restore(body, scratch.m_velocity);
@@ -92,25 +95,28 @@ SolveReport solveIncrement(const Body& body, const StepSettings& settings, doubl
 SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    const WarpedSystem A(body, settings.m_step);
+    const WarpedSystem A(body);
 
-    updateElementRotations(body.m_model->shape(), body.m_state.m_x, body.m_state.m_elementRotation);
-    updateWarpRotations(body);
     assembleRightSide(body, settings, scratch);
     eliminateFixedNodes(body, A, scratch);
     scratch.m_momentum.prescribe(body, settings.m_step);
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
         scratch.m_velocity[i] = body.m_state.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : body.m_state.m_v[i];
-    return solveIncrement(body, settings, 1e-3 * loadImpulseNorm(body, settings.m_step), scratch);
+    continueIncrements(body.m_state, scratch.m_increment);
+    const SolveReport report = solveIncrement(body, settings, 1e-3 * loadImpulseNorm(body, settings.m_step), scratch);
+    std::swap(body.m_state.m_lastIncrement[0], body.m_state.m_lastIncrement[1]);
+    body.m_state.m_lastIncrement[0] = scratch.m_increment;
+    return report;
 }
 
-SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
+SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings, double floor)
 {
     StepScratch& scratch = body.m_workspace.scratch();
     for (std::size_t i = 0; i < impulses.size(); ++i)
         scratch.m_rightSide[i] = body.m_state.m_fixed[i] ? Vec3() : impulses[i];
     scratch.m_momentum.addImpulses(body, scratch.m_rightSide, settings.m_step);
-    return solveIncrement(body, settings, 0, scratch);
+    std::fill(scratch.m_increment.begin(), scratch.m_increment.end(), Vec3());
+    return solveIncrement(body, settings, floor, scratch);
 }
 
 void addVelocity(Body& body, const std::vector<Vec3>& change)
@@ -123,7 +129,7 @@ void addVelocity(Body& body, const std::vector<Vec3>& change)
 Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    WarpedPreconditioner(body, settings.m_warp).apply(impulses, scratch.m_increment);
+    WarpedPreconditioner(body).apply(impulses, scratch.m_increment);
     Vec3 angularMomentum;
     for (std::size_t i = 0; i < scratch.m_push.size(); ++i)
     {

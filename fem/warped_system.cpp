@@ -4,22 +4,106 @@
 
 #include <algorithm>
 
+#include "fem/elements/element_product.h"
+#include "fem/elements/model_elements.h"
+#include "fem/elements/node_sums.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/rotation.h"
 #include "fem/step_scratch.h"
-#include "fem/warped_elements.h"
 
 namespace bullet_fem
 {
+namespace
+{
+
+constexpr double kFinestSingle = 1e-5;  // tolerance that single precision is good for
+
+void pad(const std::vector<Vec3>& from, std::vector<PaddedVec3>& to)
+{
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = {from[i].x, from[i].y, from[i].z, 0};
+}
+
+// Forces of all elements, their rotations and their part of A; the forces are added to `force` [N].
+template <class Real>
+void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
+{
+    const ModelElements& elements = body.m_model->elements();
+    ElementWork& work = body.m_workspace.scratch().m_elements;
+    ElementScratch<Real>& scratch = work.scratch<Real>();
+    scratch.grow(elements.blockCount());
+    const double h = settings.m_step, beta = body.m_model->shape().m_material.m_stiffnessDamping;
+
+    ElementPass<Real> pass;
+    pass.m_elements = &elements.blocks<Real>();
+    pass.m_x = work.m_x.data();
+    pass.m_v = work.m_v.data();
+    pass.m_damping = h + beta;
+    pass.m_stiffnessFactor = h * h + h * beta;
+    pass.m_tensionFactor = settings.m_tension ? h * h : 0;
+    pass.m_rotation = body.m_state.m_elementRotation.data();
+    pass.m_force = scratch.m_corners.data();
+    pass.m_warped = scratch.m_warped.data();
+    runElementPass(pass, {0, elements.blockCount()});
+    sumCorners(NodeSums<Real>{&elements.m_nodes, pass.m_force, nullptr, nullptr, force.data()},
+               {0, body.m_model->nodeCount()});
+}
+
+// One rotation a node, or the body's one for all.
+void rotateNodes(Body& body, Warp warp)
+{
+    const ModelElements& elements = body.m_model->elements();
+    BodyState& state = body.m_state;
+    std::vector<NodeRotation>& R = body.m_workspace.scratch().m_elements.m_nodeRotation;
+    if (warp == Warp::nodal)
+        return averageRotations({&elements.m_nodes, state.m_elementRotation.data(), R.data()},
+                                {0, body.m_model->nodeCount()});
+    const Mat3 sum = sumRotations(elements.m_nodes, state.m_elementRotation.data(), {0, elements.blockCount()});
+    state.m_bodyRotation = polarRotation(sum, state.m_bodyRotation);
+    NodeRotation Q;
+    for (int k = 0; k < 9; ++k) Q.m[k] = static_cast<float>(state.m_bodyRotation(k / 3, k % 3));
+    std::fill(R.begin(), R.end(), Q);
+}
+
+template <class Real>
+void product(const Body& body, const std::vector<Vec3>& in, std::vector<Vec3>& out)
+{
+    const ModelElements& elements = body.m_model->elements();
+    ElementWork& work = body.m_workspace.scratch().m_elements;
+    ElementScratch<Real>& scratch = work.scratch<Real>();
+    pad(in, work.m_x);
+    runElementProduct(ElementProduct<Real>{&elements.blocks<Real>(), scratch.m_warped.data(), work.m_x.data(),
+                                           scratch.m_corners.data()},
+                      {0, elements.blockCount()});
+    sumCorners(NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(), work.m_scaledMass.data(), work.m_x.data(),
+                              out.data()},
+               {0, body.m_model->nodeCount()});
+}
+
+}  // namespace
+
+void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
+{
+    ElementWork& work = body.m_workspace.scratch().m_elements;
+    const BodyState& state = body.m_state;
+    const double h = settings.m_step;
+    const double alpha = body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
+    work.m_isDouble = settings.m_tolerance < kFinestSingle;
+    for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i) work.m_scaledMass[i] = (1 + h * alpha) * state.m_mass[i];
+    pad(state.m_x, work.m_x);
+    pad(state.m_v, work.m_v);
+    if (work.m_isDouble)
+        passOverElements<double>(body, settings, force);
+    else
+        passOverElements<float>(body, settings, force);
+    rotateNodes(body, settings.m_warp);
+}
 
 void WarpedSystem::applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
-    const RestShape& shape = m_body.m_model->shape();
-    const BodyState& state = m_body.m_state;
-    const double h = m_step, alpha = shape.m_material.m_massDamping + m_body.m_loads.m_massDamping;
-    const std::array<double, 2> factors = {h * h + h * shape.m_material.m_stiffnessDamping, h * h};
-    for (std::size_t i = 0; i < in.size(); ++i) out[i] = (1 + h * alpha) * state.m_mass[i] * in[i];
-    addStiffnessProduct(shape, state.m_elementRotation, m_body.m_workspace.scratch().m_tension, factors, in, out);
+    if (m_body.m_workspace.scratch().m_elements.m_isDouble)
+        product<double>(m_body, in, out);
+    else
+        product<float>(m_body, in, out);
 }
 
 void WarpedSystem::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
@@ -30,11 +114,18 @@ void WarpedSystem::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) co
         if (fixed[i]) out[i] = {};
 }
 
+Mat3 WarpedPreconditioner::rotation(int node) const
+{
+    const float* R = m_body.m_workspace.scratch().m_elements.m_nodeRotation[node].m;
+    return {{{R[0], R[1], R[2]}, {R[3], R[4], R[5]}, {R[6], R[7], R[8]}}};
+}
+
 void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
     const RestFactor& factor = m_body.m_model->factor();
     const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
-    std::vector<float>& y = m_body.m_workspace.scratch().m_factorVector;
+    FactorWork& work = m_body.m_workspace.scratch().m_factor;
+    float* y = work.m_vector.get();
 
     // Scaled to order one, so that the range of single precision does not matter.
     double largest = 0;
@@ -47,7 +138,7 @@ void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>&
         const Vec3 q = fixed[i] ? Vec3() : down * transposeTimes(rotation(static_cast<int>(i)), in[i]);
         for (int c = 0; c < 3; ++c) y[3 * k + c] = static_cast<float>(q[c]);
     }
-    factor.lower().solve<1>(y.data(), m_body.m_workspace.scratch().m_factorScratch.data());
+    factor.lower().solve(y, work.m_scratch.get());
     for (std::size_t i = 0; i < in.size(); ++i)
     {
         const int k = factor.position(static_cast<int>(i));
@@ -58,24 +149,6 @@ void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>&
         else
             out[i] = largest * (rotation(static_cast<int>(i)) * Vec3{y[3 * k], y[3 * k + 1], y[3 * k + 2]});
     }
-}
-
-void updateWarpRotations(Body& body)
-{
-    const std::vector<Tet>& tets = body.m_model->mesh().tets();
-    BodyState& state = body.m_state;
-    std::vector<Mat3>& sum = body.m_workspace.scratch().m_rotationSum;
-    std::fill(sum.begin(), sum.end(), Mat3());
-    Mat3 total;
-    for (std::size_t e = 0; e < tets.size(); ++e)
-    {
-        const Mat3 weighted = body.m_model->shape().m_elements[e].m_volume * state.m_elementRotation[e];
-        for (int node : tets[e]) sum[node] += weighted;
-        total += weighted;
-    }
-    state.m_bodyRotation = polarRotation(total, state.m_bodyRotation);
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        state.m_nodeRotation[i] = polarRotation(sum[i], state.m_nodeRotation[i]);
 }
 
 }  // namespace bullet_fem

@@ -8,11 +8,18 @@
 namespace bullet_fem
 {
 
-/// A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T over the free nodes; rows and columns of fixed nodes are zero.
+/// Rotations, forces and A of the step that begins, in single precision for tolerances of 1e-5 and above and in double
+/// below. Turns the state's rotations to its positions, adds f_el(x) - (h + beta) K' v to `force` [N], and
+/// leaves in the body's scratch what WarpedSystem and WarpedPreconditioner work with. Allocates in the first step of
+/// double precision, never else.
+void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force);
+
+/// A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T over the free nodes, as last prepared; rows and columns of fixed
+/// nodes are zero.
 class WarpedSystem : public LinearOperator
 {
 public:
-    WarpedSystem(const Body& body, double step) : m_body(body), m_step(step) {}
+    explicit WarpedSystem(const Body& body) : m_body(body) {}
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
     /// A with the rows and columns of fixed nodes: what their motion does to the others.
@@ -20,7 +27,6 @@ public:
 
 private:
     const Body& m_body;
-    double m_step;
 };
 
 /// P = R A0^-1 R^T [Garcia et al. 2006], R block-diagonal with the body's one rotation (global) or one a node (nodal).
@@ -29,21 +35,14 @@ private:
 class WarpedPreconditioner : public LinearOperator
 {
 public:
-    WarpedPreconditioner(const Body& body, Warp warp) : m_body(body), m_warp(warp) {}
+    explicit WarpedPreconditioner(const Body& body) : m_body(body) {}
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
     /// The rotation R_i that the preconditioner gives node i.
-    const Mat3& rotation(int node) const
-    {
-        return m_warp == Warp::nodal ? m_body.m_state.m_nodeRotation[node] : m_body.m_state.m_bodyRotation;
-    }
+    Mat3 rotation(int node) const;
 
 private:
     const Body& m_body;
-    Warp m_warp;
 };
-
-/// R_i = polar(sum over the elements at i of V_e R_e) and the body's Q = polar(sum over all V_e R_e), warm-started.
-void updateWarpRotations(Body& body);
 
 }  // namespace bullet_fem

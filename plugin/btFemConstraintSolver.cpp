@@ -12,6 +12,12 @@
 
 using namespace bullet_fem;
 
+namespace
+{
+constexpr btScalar kRigidResidual =
+    btScalar(1e-12);  // squared change of a rigid row's velocity that ends the sweeps [m2/s2]
+}
+
 btFemConstraintSolver::btFemConstraintSolver(btFemSoftBodySolver* fem) : m_fem(fem)
 {
     if (!fem)
@@ -106,7 +112,9 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
                 solveSingleIteration(std::min(sweep, last), bodies, numBodies, manifolds, numManifolds, constraints,
                                      numConstraints, info, debugDrawer);
             const double soft = m_group->sweep();
-            if (soft <= settings.m_sweepTolerance && residual <= info.m_leastSquaresResidualThreshold) break;
+            if (soft <= settings.m_sweepTolerance &&
+                residual <= std::max(info.m_leastSquaresResidualThreshold, kRigidResidual))
+                break;
         }
         m_group->correct();
     }

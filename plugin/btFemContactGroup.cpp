@@ -19,6 +19,7 @@ namespace
 
 // Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
 constexpr int kSweepsWithJoints = 50;
+constexpr double kToleranceWithJoints = 1e-9;  // a pull that is off by 1e-7 a sweep lets 1:1000 anchors creep
 
 // The user's defaults are the solver's own.
 static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
@@ -79,8 +80,9 @@ void btFemContactGroup::collect(const Scope& scope)
     m_settings.m_step.m_tolerance = m_info.m_tolerance;
     m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
     m_settings.m_rounds = m_info.m_contactRounds;
-    m_settings.m_sweeps =
-        m_problem.m_joints.empty() ? m_info.m_contactSweeps : std::min(m_info.m_contactSweeps, kSweepsWithJoints);
+    const bool joints = !m_problem.m_joints.empty();
+    m_settings.m_sweeps = joints ? std::min(m_info.m_contactSweeps, kSweepsWithJoints) : m_info.m_contactSweeps;
+    m_settings.m_sweepTolerance = joints ? kToleranceWithJoints : ContactSettings().m_sweepTolerance;
     m_settings.m_pushFraction = m_info.m_erp;
     m_settings.m_maxPushVelocity = m_info.m_maxPushVelocity;
     m_milliseconds = watch.milliseconds();

@@ -14,8 +14,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTooStiff = 1.1;        // W may be too stiff by this factor before it is scaled
-constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
+constexpr double kFloor = 1e-2;       // share of all impulses that the residual of a few new ones is measured against
+constexpr double kTooStiff = 1.1;     // W may be too stiff by this factor before it is scaled
+constexpr double kScaleMargin = 1.2;  // for directions that the impulses did not show
 constexpr double kLargestScaling = 100;  // in one round
 constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
 constexpr double kForgetting = 0.99;     // of what was learnt, a step
@@ -66,13 +67,12 @@ void BodyEnds::scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& n
         for (int a = 0; a < 3; ++a) nodeImpulses[end.m_point.m_nodes[a]] += end.m_point.m_weights[a] * impulse;
 }
 
-void BodyEnds::assemble(Warp warp, int denseLimit)
+void BodyEnds::assemble(int denseLimit)
 {
     const std::size_t nodes = m_body.m_body->m_state.m_x.size();
     double& learnt = m_body.m_body->m_workspace.scratch().m_complianceScale;
     learnt = std::max(1.0, kForgetting * learnt);
     m_scale = learnt;
-    m_warp = warp;
     m_dense = size() <= denseLimit;
     m_velocity.assign(m_ends.size(), Vec3());
     m_impulse.assign(m_ends.size(), Vec3());
@@ -82,12 +82,12 @@ void BodyEnds::assemble(Warp warp, int denseLimit)
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
     if (m_dense)
-        formDense(warp);
+        formDense();
     else
-        estimateDiagonal(warp);
+        estimateDiagonal();
 }
 
-void BodyEnds::formDense(Warp warp)
+void BodyEnds::formDense()
 {
     const std::size_t order = 3 * m_ends.size();
     if (m_W.size() < order * order) m_W.resize(order * order);
@@ -102,9 +102,9 @@ void BodyEnds::formDense(Warp warp)
     m_column.resize(m_touched.size());
     for (int e = 0; e < size(); ++e)
         if (isGroup(m_ends[e]))
-            formGroupColumns(e, warp);
+            formGroupColumns(e);
         else
-            formPointColumns(e, warp);
+            formPointColumns(e);
     // What single precision and the warp left asymmetric would feed energy to the sweeps.
     for (std::size_t i = 0; i < order; ++i)
         for (std::size_t j = 0; j < i; ++j)
@@ -115,9 +115,9 @@ void BodyEnds::formDense(Warp warp)
 }
 
 // Columns of a point: R_t (sum_b w_b (A0^-1)_tb R_b^T) at the touched nodes t, read at the other points.
-void BodyEnds::formPointColumns(int e, Warp warp)
+void BodyEnds::formPointColumns(int e)
 {
-    const WarpedPreconditioner P(*m_body.m_body, warp);
+    const WarpedPreconditioner P(*m_body.m_body);
     const RestFactor& factor = m_body.m_body->m_model->factor();
     const std::vector<unsigned char>& fixed = m_body.m_body->m_state.m_fixed;
     const SurfacePoint& source = m_ends[e].m_point;
@@ -149,9 +149,9 @@ void BodyEnds::formPointColumns(int e, Warp warp)
     }
 }
 
-void BodyEnds::formGroupColumns(int e, Warp warp)
+void BodyEnds::formGroupColumns(int e)
 {
-    const WarpedPreconditioner P(*m_body.m_body, warp);
+    const WarpedPreconditioner P(*m_body.m_body);
     const std::size_t order = 3 * m_ends.size();
     for (int c = 0; c < 3; ++c)
     {
@@ -169,9 +169,9 @@ void BodyEnds::formGroupColumns(int e, Warp warp)
 }
 
 // The mean of some blocks W_ee, turned to the world axes of none: contact rows are scaled by it alone.
-void BodyEnds::estimateDiagonal(Warp warp)
+void BodyEnds::estimateDiagonal()
 {
-    const WarpedPreconditioner P(*m_body.m_body, warp);
+    const WarpedPreconditioner P(*m_body.m_body);
     double sum = 0;
     for (int k = 0; k < kSamples; ++k)
     {
@@ -220,7 +220,7 @@ void BodyEnds::flush()
 {
     if (m_dense || m_ends.empty() || !gatherBeyond(m_seen)) return;
     m_seen.assign(m_impulse.begin(), m_impulse.end());
-    WarpedPreconditioner(*m_body.m_body, m_warp).apply(m_nodeIn, m_nodeOut);
+    WarpedPreconditioner(*m_body.m_body).apply(m_nodeIn, m_nodeOut);
     for (int e = 0; e < size(); ++e) m_velocity[e] += m_scale * read(m_ends[e], m_nodeOut);
 }
 
@@ -267,7 +267,9 @@ SolveReport BodyEnds::apply(const StepSettings& settings)
         if (!isGroup(m_ends[e]))
             momentum.addAngularImpulse(*m_body.m_body, m_ends[e].m_point.m_nodes[0],
                                        cross(m_ends[e].m_offset, m_impulse[e] - m_applied[e]), settings.m_step);
-    const SolveReport report = applyImpulses(*m_body.m_body, m_nodeIn, settings);
+    double all = 0;
+    for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
+    const SolveReport report = applyImpulses(*m_body.m_body, m_nodeIn, settings, kFloor * std::sqrt(all));
     double trueWork = 0, predictedWork = 0;  // of the new impulses on the velocities that they made
     m_allWork = 0;                           // of all impulses, roughly
     for (int e = 0; e < size(); ++e)

@@ -27,7 +27,7 @@ public:
     int addGroup(const int* nodes, const Mat3* blocks, int count);
 
     /// Forms W, dense for at most denseLimit ends.
-    void assemble(Warp warp, int denseLimit);
+    void assemble(int denseLimit);
 
     int size() const { return static_cast<int>(m_ends.size()); }
 
@@ -77,16 +77,15 @@ private:
     bool isGroup(const End& end) const { return end.m_nodes != nullptr; }
     Vec3 read(const End& end, const std::vector<Vec3>& nodeValues) const;
     void scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& nodeImpulses) const;
-    void formDense(Warp warp);
-    void formPointColumns(int e, Warp warp);
-    void formGroupColumns(int e, Warp warp);
-    void estimateDiagonal(Warp warp);
+    void formDense();
+    void formPointColumns(int e);
+    void formGroupColumns(int e);
+    void estimateDiagonal();
     void respond(int e, const Vec3& impulse);
     bool gatherBeyond(const std::vector<Vec3>& known);
     void learn(double trueWork, double predictedWork);
 
     ContactBody m_body;
-    Warp m_warp = Warp::nodal;
     bool m_dense = true;
     std::vector<End> m_ends;
     std::vector<Vec3> m_velocity;  // per end

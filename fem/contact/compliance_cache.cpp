@@ -3,6 +3,7 @@
 #include "fem/contact/compliance_cache.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "fem/factor/rest_factor.h"
 
@@ -10,18 +11,53 @@ namespace bullet_fem
 {
 namespace
 {
-constexpr int kLanes = 4;  // three directions of a node and one idle lane, so that a row is one register
+
+constexpr int kNodesAtOnce = kPanelLanes / 3;  // three directions each; the last lane is idle
+
+// Adds a supernode and its ancestors to a marked set.
+void markToRoot(const SupernodeTree& tree, int supernode, std::vector<unsigned char>& marked)
+{
+    for (int s = supernode; s >= 0 && !marked[s]; s = tree.m_supernodes[s].m_parent) marked[s] = 1;
 }
+
+void listMarked(const std::vector<unsigned char>& marked, std::vector<int>& list)
+{
+    list.clear();
+    for (std::size_t s = 0; s < marked.size(); ++s)
+        if (marked[s]) list.push_back(static_cast<int>(s));
+}
+
+}  // namespace
 
 ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model)
     : m_model(std::move(model)),
       m_surfaceIndex(m_model->nodeCount(), -1),
       m_slotOfNode(m_model->nodeCount(), -1),
-      m_rightSide(static_cast<std::size_t>(m_model->factor().lower().size()) * kLanes),
-      m_scratch(static_cast<std::size_t>(m_model->factor().lower().scratchSize()) * kLanes)
+      m_supernodeOfPosition(m_model->factor().freeNodeCount()),
+      m_marked(m_model->factor().lower().tree().m_supernodes.size()),
+      m_rightSide(allocateFloats(static_cast<std::size_t>(m_model->factor().lower().size()) * kPanelLanes)),
+      m_scratch(allocateFloats(m_model->factor().lower().scratchSize(kPanelLanes)))
 {
+    const SupernodeTree& tree = m_model->factor().lower().tree();
+    for (std::size_t s = 0; s < tree.m_supernodes.size(); ++s)
+        for (int c = 0; c < tree.m_supernodes[s].m_columns; ++c)
+            m_supernodeOfPosition[tree.m_supernodes[s].m_first + c] = static_cast<int>(s);
+
     const std::vector<int>& surface = m_model->mesh().surfaceNodes();
-    for (std::size_t k = 0; k < surface.size(); ++k) m_surfaceIndex[surface[k]] = static_cast<int>(k);
+    for (std::size_t k = 0; k < surface.size(); ++k)
+    {
+        m_surfaceIndex[surface[k]] = static_cast<int>(k);
+        markNode(surface[k]);
+    }
+    m_reach.reserve(m_marked.size());
+    m_newNodes.reserve(surface.size());
+    listMarked(m_marked, m_surfaceSupernodes);
+}
+
+void ComplianceCache::markNode(int node)
+{
+    const int position = m_model->factor().position(node);
+    if (position >= 0) markToRoot(m_model->factor().lower().tree(), m_supernodeOfPosition[position], m_marked);
 }
 
 // The slot used longest ago. The caller has made sure that one is not in use by the current request.
@@ -47,6 +83,7 @@ void ComplianceCache::request(const std::vector<int>& nodes)
     }
     for (int node : nodes)
         if (m_slotOfNode[node] >= 0) m_lastUse[m_slotOfNode[node]] = m_requestCount;
+    m_newNodes.clear();
     for (int node : nodes)
     {
         if (m_slotOfNode[node] >= 0) continue;
@@ -54,32 +91,51 @@ void ComplianceCache::request(const std::vector<int>& nodes)
         m_slotOfNode[node] = slot;
         m_nodeOfSlot[slot] = node;
         m_lastUse[slot] = m_requestCount;
-        solveColumn(node, m_columns[slot].data());
+        m_newNodes.push_back(node);
     }
+    // Neighbours in the factor share most of their way to the root.
+    const RestFactor& factor = m_model->factor();
+    std::sort(m_newNodes.begin(), m_newNodes.end(),
+              [&factor](int a, int b) { return std::pair(factor.position(a), a) < std::pair(factor.position(b), b); });
+    for (std::size_t first = 0; first < m_newNodes.size(); first += kNodesAtOnce)
+        solveColumns(&m_newNodes[first], std::min<int>(kNodesAtOnce, static_cast<int>(m_newNodes.size() - first)));
 }
 
-void ComplianceCache::solveColumn(int node, float* column)
+// Scaled by the diagonal, so that single precision sees numbers of order one whatever the body weighs.
+void ComplianceCache::solveColumns(const int* nodes, int count)
+{
+    const RestFactor& factor = m_model->factor();
+    std::fill(m_marked.begin(), m_marked.end(), static_cast<unsigned char>(0));
+    std::fill(m_rightSide.get(), m_rightSide.get() + static_cast<std::size_t>(factor.lower().size()) * kPanelLanes,
+              0.f);
+    for (int k = 0; k < count; ++k)
+    {
+        const int position = factor.position(nodes[k]);
+        if (position < 0) continue;
+        markNode(nodes[k]);
+        for (int c = 0; c < 3; ++c)
+            m_rightSide[(3 * static_cast<std::size_t>(position) + c) * kPanelLanes + 3 * k + c] =
+                static_cast<float>(factor.diagonal(nodes[k]));
+    }
+    listMarked(m_marked, m_reach);
+    factor.lower().solveLanes(m_reach, m_surfaceSupernodes, m_rightSide.get(), m_scratch.get());
+    for (int k = 0; k < count; ++k) copyColumn(nodes[k], 3 * k, m_columns[m_slotOfNode[nodes[k]]].data());
+}
+
+void ComplianceCache::copyColumn(int node, int firstLane, float* column) const
 {
     const RestFactor& factor = m_model->factor();
     const std::vector<int>& surface = m_model->mesh().surfaceNodes();
-    const int position = factor.position(node);
-    if (position < 0)
-    {
-        std::fill(column, column + 9 * surface.size(), 0.f);
-        return;
-    }
-    // Scaled by the diagonal, so that single precision sees numbers of order one whatever the body weighs.
-    const float scale = static_cast<float>(factor.diagonal(node));
-    std::fill(m_rightSide.begin(), m_rightSide.end(), 0.f);
-    for (int c = 0; c < 3; ++c) m_rightSide[(3 * static_cast<std::size_t>(position) + c) * kLanes + c] = scale;
-    factor.lower().solve<kLanes>(m_rightSide.data(), m_scratch.data());
+    const float scale = factor.position(node) < 0 ? 0.f : 1 / static_cast<float>(factor.diagonal(node));
     for (std::size_t k = 0; k < surface.size(); ++k)
     {
         const int row = factor.position(surface[k]);
         for (int i = 0; i < 3; ++i)
             for (int c = 0; c < 3; ++c)
                 column[9 * k + 3 * i + c] =
-                    row < 0 ? 0.f : m_rightSide[(3 * static_cast<std::size_t>(row) + i) * kLanes + c] / scale;
+                    row < 0
+                        ? 0.f
+                        : scale * m_rightSide[(3 * static_cast<std::size_t>(row) + i) * kPanelLanes + firstLane + c];
     }
 }
 

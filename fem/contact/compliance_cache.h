@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
+#include "fem/aligned_floats.h"
 
 namespace bullet_fem
 {
@@ -28,8 +29,10 @@ public:
     Mat3 block(int i, int j) const;
 
 private:
-    void solveColumn(int node, float* column);
+    void markNode(int node);
     int claimSlot();
+    void solveColumns(const int* nodes, int count);
+    void copyColumn(int node, int firstLane, float* column) const;
 
     std::shared_ptr<const BodyModel> m_model;
     std::vector<int> m_surfaceIndex;  // per node: its place among the surface nodes, or -1
@@ -37,7 +40,11 @@ private:
     std::vector<int> m_nodeOfSlot;
     std::vector<unsigned long> m_lastUse;  // per slot: number of the request that last named it
     std::vector<std::vector<float>> m_columns;
-    std::vector<float> m_rightSide, m_scratch;  // four interleaved lanes; the fourth stays zero
+    std::vector<int> m_supernodeOfPosition;  // by the factor's order of nodes
+    std::vector<int> m_surfaceSupernodes;    // those with surface nodes and what is above them
+    std::vector<int> m_newNodes, m_reach;
+    std::vector<unsigned char> m_marked;   // per supernode
+    AlignedFloats m_rightSide, m_scratch;  // kPanelLanes interleaved
     unsigned long m_requestCount = 0;
 };
 

@@ -40,7 +40,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
         if (m_bodies[b].size() == 0) continue;
-        m_bodies[b].assemble(settings.m_step.m_warp, settings.m_denseLimit);
+        m_bodies[b].assemble(settings.m_denseLimit);
         m_inTurn = m_inTurn && m_bodies[b].isDense();
     }
     for (Row& row : m_rows) finishRow(row);
@@ -221,6 +221,12 @@ void ContactRows::warmStart()
         if (row.m_a.m_obstacle >= 0) react(row.m_a, row.m_impulse);
         if (row.m_b.m_obstacle >= 0) react(row.m_b, -row.m_impulse);
     }
+}
+
+bool ContactRows::hasImpulses() const
+{
+    return std::any_of(m_rows.begin(), m_rows.end(),
+                       [](const Row& row) { return dot(row.m_impulse, row.m_impulse) > 0; });
 }
 
 void ContactRows::measure()

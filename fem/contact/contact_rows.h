@@ -21,6 +21,9 @@ public:
     /// Gives the obstacles the reactions of the impulses that the rows start with.
     void warmStart();
 
+    /// True if a row starts with an impulse.
+    bool hasImpulses() const;
+
     /// Brings the ends' velocities up to the bodies' true ones.
     void measure();
 

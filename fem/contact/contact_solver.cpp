@@ -81,9 +81,15 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
         obstacle.m_pushLinear = obstacle.m_pushAngular = obstacle.m_angularImpulse = {};
     if (s.m_empty) return;
     s.m_rows.assemble(problem, settings);
-    s.m_change = 1;
     s.m_rows.warmStart();
-    s.m_rows.measure();
+    s.m_change = 1;
+    // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
+    // hold both ways, and would answer the errors of W in it too eagerly.
+    if (problem.m_joints.empty() && s.m_rows.hasImpulses())
+        correct();
+    else
+        s.m_rows.measure();
+    s.m_change = 1;
 }
 
 bool ContactSolver::wantsRound() const

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fem/factor/block_matrix.h"
+#include "fem/factor/numeric_factor.h"
 
 namespace bullet_fem
 {
@@ -21,47 +22,19 @@ BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input)
     return A0;
 }
 
-// The lower triangle of the block pattern, with nodes renumbered; position -1 leaves a node out.
-SparseLower blockPattern(const BlockMatrix& A, const std::vector<int>& nodeAt, const std::vector<int>& position)
+// The lower triangle of the pattern over some nodes; position is a node's place among them, or -1.
+SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, const std::vector<int>& position)
 {
-    SparseLower pattern;
-    pattern.m_size = static_cast<int>(nodeAt.size());
+    SparsePattern pattern;
+    pattern.m_size = static_cast<int>(nodes.size());
     pattern.m_columnStart.push_back(0);
     for (int c = 0; c < pattern.m_size; ++c)
     {
-        const int node = nodeAt[c];
-        const auto columnBegin = pattern.m_rowIndex.size();
-        for (int k = A.m_rowStart[node]; k < A.m_rowStart[node + 1]; ++k)
+        for (int k = A.m_rowStart[nodes[c]]; k < A.m_rowStart[nodes[c] + 1]; ++k)
             if (position[A.m_column[k]] >= c) pattern.m_rowIndex.push_back(position[A.m_column[k]]);
-        std::sort(pattern.m_rowIndex.begin() + columnBegin, pattern.m_rowIndex.end());
         pattern.m_columnStart.push_back(static_cast<int>(pattern.m_rowIndex.size()));
     }
     return pattern;
-}
-
-// The lower triangle of A in the factor's order, by scalars.
-SparseLower permutedLower(const BlockMatrix& A, const std::vector<int>& nodeAt, const std::vector<int>& position)
-{
-    const SparseLower blocks = blockPattern(A, nodeAt, position);
-    SparseLower lower;
-    lower.m_size = 3 * blocks.m_size;
-    lower.m_columnStart.push_back(0);
-    for (int c = 0; c < lower.m_size; ++c)
-    {
-        for (int k = blocks.m_columnStart[c / 3]; k < blocks.m_columnStart[c / 3 + 1]; ++k)
-        {
-            const int blockRow = blocks.m_rowIndex[k];
-            const Mat3& block = A.at(nodeAt[blockRow], nodeAt[c / 3]);
-            for (int i = 0; i < 3; ++i)
-            {
-                if (3 * blockRow + i < c) continue;
-                lower.m_rowIndex.push_back(3 * blockRow + i);
-                lower.m_value.push_back(block(i, c % 3));
-            }
-        }
-        lower.m_columnStart.push_back(static_cast<int>(lower.m_rowIndex.size()));
-    }
-    return lower;
 }
 
 }  // namespace
@@ -80,21 +53,24 @@ RestFactor::RestFactor(const RestShape& shape, const FactorInput& input, FactorR
         m_position[i] = static_cast<int>(freeNodes.size());
         freeNodes.push_back(i);
     }
-    report.m_backend = sparseCholeskyBackend();
+    report.m_backend = orderingBackend();
     if (freeNodes.empty()) return;
 
+    const SparsePattern pattern = blockPattern(A0, freeNodes, m_position);
     const char* ordering = "";
-    const std::vector<int> order = fillReducingOrder(blockPattern(A0, freeNodes, m_position), ordering);
-    std::vector<int> nodeAt(order.size());
+    std::vector<int> order = fillReducingOrder(pattern, ordering);
+    const SupernodeTree tree = buildSupernodeTree(pattern, order);
     for (std::size_t k = 0; k < order.size(); ++k)
     {
-        nodeAt[k] = freeNodes[order[k]];
-        m_position[nodeAt[k]] = static_cast<int>(k);
+        order[k] = freeNodes[order[k]];
+        m_position[order[k]] = static_cast<int>(k);
     }
-    m_lower = SupernodalFactor(choleskyFactor(permutedLower(A0, nodeAt, m_position)));
+    m_lower = PackedFactor(tree);
+    factorSupernodes(A0, order, tree, [this](int s, const double* S, const double* M) { m_lower.pack(s, S, M); });
     report.m_ordering = ordering;
-    report.m_entries = m_lower.entryCount();
-    report.m_supernodes = m_lower.supernodeCount();
+    report.m_entries = tree.m_entries;
+    report.m_supernodes = static_cast<int>(tree.m_supernodes.size());
+    report.m_bytes = m_lower.byteCount();
 }
 
 }  // namespace bullet_fem

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
-#include "fem/factor/supernodal_factor.h"
+#include "fem/factor/packed_factor.h"
 
 namespace bullet_fem
 {
@@ -17,18 +17,18 @@ public:
     /// Throws std::runtime_error if A0 cannot be factored. Writes backend, ordering and fill to the report.
     RestFactor(const RestShape& shape, const FactorInput& input, FactorReport& report);
 
-    const SupernodalFactor& lower() const { return m_lower; }
+    const PackedFactor& lower() const { return m_lower; }
     /// Block row of a node in the factor's order; -1 for nodes that were fixed when it was built.
     int position(int node) const { return m_position[node]; }
     /// Mean diagonal entry of A0 at a node [kg]: all there is to precondition a node that is not in the factor.
     double diagonal(int node) const { return m_diagonal[node]; }
-    /// Entries that the solution vector and the scratch of lower().solve<1> need.
+    /// Nodes that the factor holds.
     int freeNodeCount() const { return m_lower.size() / 3; }
 
 private:
     std::vector<int> m_position;
     std::vector<double> m_diagonal;
-    SupernodalFactor m_lower;
+    PackedFactor m_lower;
 };
 
 }  // namespace bullet_fem

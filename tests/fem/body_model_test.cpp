@@ -153,9 +153,8 @@ TEST(BodyState, StartsAtRest)
     EXPECT_EQ(largestDistance(s.m_v, std::vector<Vec3>(8)), 0);
     EXPECT_EQ(s.m_mass, body.m_model->factorInput().m_mass);
     EXPECT_EQ(s.m_fixed, body.m_model->factorInput().m_fixed);
-    EXPECT_EQ(s.m_elementRotation.size(), 5u);
-    EXPECT_EQ(s.m_nodeRotation.size(), 8u);
-    EXPECT_EQ(squaredNorm(s.m_elementRotation[4] - Mat3::identity()), 0);
+    EXPECT_GE(s.m_elementRotation.size(), 5u);  // and what fills the last block of kernel lanes
+    for (const Quaternion& q : s.m_elementRotation) EXPECT_EQ(squaredNorm(toMatrix(q) - Mat3::identity()), 0);
 }
 
 TEST(Body, ExchangesItsFactorAndKeepsItsMotion)

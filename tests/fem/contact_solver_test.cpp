@@ -239,6 +239,7 @@ TEST(Contacts, KeepToTheirSweepsAndRounds)
     scene.setVelocity({1, 0, -2});
     scene.touchLowerFace(0, 0.3);
     scene.m_settings.m_sweeps = 3;
+    scene.m_settings.m_sweepTolerance = 0;
     scene.m_settings.m_rounds = 2;
     scene.m_settings.m_maxRounds = 5;
     scene.m_settings.m_roundTolerance = 0;

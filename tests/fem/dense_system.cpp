@@ -89,30 +89,18 @@ Eigen::MatrixXd constrained(Eigen::MatrixXd A, const std::vector<unsigned char>&
     return A;
 }
 
-SparseLower sparseLower(const Eigen::MatrixXd& A)
+SparsePattern sparsePattern(const Eigen::MatrixXd& A)
 {
-    SparseLower lower;
+    SparsePattern lower;
     lower.m_size = static_cast<int>(A.rows());
     lower.m_columnStart.push_back(0);
     for (int j = 0; j < lower.m_size; ++j)
     {
         for (int i = j; i < lower.m_size; ++i)
-        {
-            if (i != j && A(i, j) == 0) continue;
-            lower.m_rowIndex.push_back(i);
-            lower.m_value.push_back(A(i, j));
-        }
+            if (i == j || A(i, j) != 0) lower.m_rowIndex.push_back(i);
         lower.m_columnStart.push_back(static_cast<int>(lower.m_rowIndex.size()));
     }
     return lower;
-}
-
-Eigen::MatrixXd denseLower(const SparseLower& L)
-{
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(L.m_size, L.m_size);
-    for (int j = 0; j < L.m_size; ++j)
-        for (int k = L.m_columnStart[j]; k < L.m_columnStart[j + 1]; ++k) result(L.m_rowIndex[k], j) = L.m_value[k];
-    return result;
 }
 
 namespace

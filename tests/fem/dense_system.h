@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
-#include "fem/factor/sparse_cholesky.h"
+#include "fem/factor/fill_order.h"
 
 namespace bullet_fem
 {
@@ -30,11 +30,8 @@ Eigen::MatrixXd denseRestSystem(const RestShape& shape, const FactorInput& input
 /// A without the rows and columns of the fixed nodes, which get ones on the diagonal.
 Eigen::MatrixXd constrained(Eigen::MatrixXd A, const std::vector<unsigned char>& fixed);
 
-/// The lower triangle of A; entries that are exactly 0 are left out but on the diagonal.
-SparseLower sparseLower(const Eigen::MatrixXd& A);
-
-/// The lower triangle as a dense matrix.
-Eigen::MatrixXd denseLower(const SparseLower& L);
+/// Where A has entries; those that are exactly 0 are left out but on the diagonal.
+SparsePattern sparsePattern(const Eigen::MatrixXd& A);
 
 /// Matrices with the patterns that a factorization meets. Symmetric, positive definite, condition below 100.
 Eigen::MatrixXd diagonalMatrix(int n);

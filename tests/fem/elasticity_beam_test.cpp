@@ -67,13 +67,13 @@ double trueResidual(const Body& body, const StepSettings& settings)
     const RestShape& shape = body.m_model->shape();
     const double h = settings.m_step;
     std::vector<Vec3> b = body.m_loads.m_force, dv = velocity(body), Adv(b.size());
-    addElasticForces(shape, s.m_x, s.m_v, h + shape.m_material.m_stiffnessDamping, s.m_elementRotation, b, nullptr);
+    addElasticForces(shape, s.m_x, s.m_v, h + shape.m_material.m_stiffnessDamping, elementRotations(body), b, nullptr);
     for (std::size_t i = 0; i < b.size(); ++i)
     {
         b[i] *= s.m_fixed[i] ? 0 : h;
         dv[i] -= s.m_v[i];
     }
-    WarpedSystem(body, h).apply(dv, Adv);
+    WarpedSystem(body).apply(dv, Adv);
     std::vector<Vec3> r = b;
     for (std::size_t i = 0; i < b.size(); ++i) r[i] -= Adv[i];
     return norm(r) / norm(b);

@@ -124,7 +124,7 @@ TEST_P(ElasticityBar, ReactionIsLinearInTheStretch)
     EXPECT_LE(largestDistance(s.m_x, m_exact), 1e-10 * m_moved);
 
     std::vector<Vec3> force(s.m_x.size()), rest(s.m_x.size());
-    addElasticForces(body.m_model->shape(), s.m_x, rest, 0, s.m_elementRotation, force, nullptr);
+    addElasticForces(body.m_model->shape(), s.m_x, rest, 0, elementRotations(body), force, nullptr);
     Vec3 onEnd;
     for (std::size_t i = 0; i < force.size(); ++i)
         if (onRight(m_mesh.restPositions()[i])) onEnd += force[i];

@@ -6,9 +6,19 @@
 #include <algorithm>
 
 #include "fem/factor/block_matrix.h"
+#include "fem/warped_elements.h"
 
 namespace bullet_fem
 {
+
+std::vector<Mat3> elementRotations(const Body& body)
+{
+    std::vector<Mat3> R;
+    for (std::size_t e = 0; e < body.m_model->shape().m_elements.size(); ++e)
+        R.push_back(toMatrix(body.m_state.m_elementRotation[e]));
+    updateElementRotations(body.m_model->shape(), body.m_state.m_x, R);
+    return R;
+}
 
 Material elasticMaterial(double young, double poisson, double density)
 {

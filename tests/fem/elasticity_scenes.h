@@ -71,6 +71,9 @@ struct Mode
     std::vector<Vec3> m_shape;  ///< phi, one a node [kg^-1/2]
 };
 
+/// The rotations of a body's elements at its positions, in double precision.
+std::vector<Mat3> elementRotations(const Body& body);
+
 /// The assembled rest stiffness K and the lumped mass of a shape with clamped nodes: linear statics and vibrations by
 /// Eigen's own factorization, independent of the code that steps.
 class LinearSystem

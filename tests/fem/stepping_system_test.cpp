@@ -78,7 +78,7 @@ protected:
         const Material& material = m_body.m_model->shape().m_material;
         const double h = m_settings.m_step, alpha = material.m_massDamping + 0.7, beta = material.m_stiffnessDamping;
         const TetMesh& mesh = m_body.m_model->mesh();
-        const std::vector<Mat3>& R = m_body.m_state.m_elementRotation;
+        const std::vector<Mat3> R = elementRotations(m_body);
         const Eigen::MatrixXd K = denseStiffness(mesh, material, R);
         Eigen::VectorXd M(K.rows());
         for (Eigen::Index i = 0; i < M.size(); ++i) M(i) = m_body.m_state.m_mass[i / 3];

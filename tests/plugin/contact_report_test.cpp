@@ -103,7 +103,6 @@ TEST_F(OnTwoBoxes, TheReportHasEveryField)
     EXPECT_EQ(report.m_nodes, m_cube->m_nodes.size());
     EXPECT_EQ(report.m_tets, m_cube->m_tetras.size());
     EXPECT_LE(report.m_residual, 1e-3);
-    EXPECT_GT(report.m_iterations, 0);
     EXPECT_GT(report.m_contactSweeps, 0);
     EXPECT_GT(report.m_contactIterations, 0);
     EXPECT_GE(report.m_deepestPenetration, 0);

@@ -36,7 +36,6 @@ TEST_F(Sleeping, ASleepingBodyIsNotSolvedFor)
     addGround();
     btSoftBody& cube = addCube();
     m_world.step(10);
-    EXPECT_GT(m_fem.stepReport(&cube).m_iterations, 0);
     EXPECT_GT(m_fem.stepReport(&cube).m_contactSweeps, 0);
     sleepAll(cube);
     const btFemStepReport& report = m_fem.stepReport(&cube);
@@ -87,7 +86,7 @@ TEST_P(SleepingWritten, WakesInTheNextStep)
     GetParam().m_do(m_fem, cube);
     m_world.step();
     EXPECT_TRUE(cube.isActive());
-    EXPECT_GT(m_fem.stepReport(&cube).m_iterations, 0);
+    EXPECT_GT(m_fem.stepReport(&cube).m_contactSweeps + fastestNode(cube), 0);  // on the ground, or lifted off it
     m_world.step(60);
     EXPECT_TRUE(cube.isActive());
 }
@@ -232,7 +231,7 @@ TEST_F(Sleeping, DisabledDeactivationNeverSleeps)
     btSoftBody& cube = addCube(0, btScalar(0.01), DISABLE_DEACTIVATION);
     m_world.step(2 * kFiveSeconds);
     EXPECT_EQ(cube.getActivationState(), DISABLE_DEACTIVATION);
-    EXPECT_GT(m_fem.stepReport(&cube).m_iterations, 0);
+    EXPECT_GT(m_fem.stepReport(&cube).m_contactSweeps, 0);
 }
 
 TEST_F(Sleeping, DisabledSimulationStaysPutWhateverHappens)

@@ -12,6 +12,7 @@ namespace bullet_fem
 {
 
 class RestFactor;
+struct ModelElements;
 
 /// What a rest factor is built for. Bodies that agree in all of it share one model.
 struct FactorInput
@@ -30,11 +31,12 @@ struct FactorInput
 /// Figures of a factorization.
 struct FactorReport
 {
-    std::string m_backend;   ///< library that ordered and factored
-    std::string m_ordering;  ///< METIS or AMD
-    long m_entries = 0;      ///< entries of L, fill included
-    int m_supernodes = 0;    ///< dense panels that L is packed in
-    double m_seconds = 0;    ///< wall time of assembly, ordering, factorization and packing [s]
+    std::string m_backend;    ///< library that ordered and factored
+    std::string m_ordering;   ///< METIS or AMD
+    long m_entries = 0;       ///< entries of L, fill included
+    int m_supernodes = 0;     ///< dense panels that L is packed in
+    std::size_t m_bytes = 0;  ///< memory of the packed panels [B]
+    double m_seconds = 0;     ///< wall time of assembly, ordering, factorization and packing [s]
 };
 
 /// A body's const half: its rest shape and the factor of A0 = (1 + h alpha) M + (h^2 + h beta) K. Immutable, so it may
@@ -53,6 +55,7 @@ public:
     const TetMesh& mesh() const { return m_shape->m_mesh; }
     const FactorInput& factorInput() const { return m_input; }
     const RestFactor& factor() const { return *m_factor; }
+    const ModelElements& elements() const { return *m_elements; }
     const FactorReport& factorReport() const { return m_report; }
     int nodeCount() const { return m_shape->m_mesh.nodeCount(); }
 
@@ -61,6 +64,7 @@ private:
     std::shared_ptr<const RestShape> m_shape;
     FactorInput m_input;
     std::unique_ptr<const RestFactor> m_factor;
+    std::unique_ptr<const ModelElements> m_elements;
     FactorReport m_report;
 };
 

@@ -2,9 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/quaternion.h"
 
 namespace bullet_fem
 {
@@ -20,9 +22,13 @@ struct BodyState
     std::vector<Vec3> m_v;               ///< velocities [m/s]
     std::vector<double> m_mass;          ///< [kg], > 0; may differ from the factor's, at the price of iterations
     std::vector<unsigned char> m_fixed;  ///< 1: the velocity is prescribed; may differ from the factor's likewise
-    std::vector<Mat3> m_elementRotation;
-    std::vector<Mat3> m_nodeRotation;
-    Mat3 m_bodyRotation = Mat3::identity();
+    /// What the free motion of the last two steps added to the velocities [m/s], the newer first: the next solve starts
+    /// from there. Anything finite will do, at the price of iterations.
+    std::array<std::vector<Vec3>, 2> m_lastIncrement;
+    /// R_e as the last step found it, where the next one starts to look. The last element is followed by others that
+    /// fill its block of kernel lanes up.
+    std::vector<Quaternion> m_elementRotation;
+    Mat3 m_bodyRotation = Mat3::identity();  ///< Q of Warp::global; of the last step that used it
 };
 
 /// What acts on a body during one step.

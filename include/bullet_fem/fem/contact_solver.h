@@ -77,7 +77,7 @@ struct ContactSettings
     double m_roundTolerance = 5e-3;  ///< of the largest impulse [-], > 0
     int m_sweeps = 200;              ///< sweeps a round at most, in [1, 1000]
     double m_sweepTolerance =
-        1e-9;  ///< stop sweeping when the largest change of an impulse is this share of the largest [-], >= 0
+        1e-6;  ///< stop sweeping when the largest change of an impulse is this share of the largest [-], >= 0
     int m_denseLimit = 400;        ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
     double m_pushFraction = 0.2;   ///< share of a penetration that is taken back a step [-], in [0, 1]
     double m_maxPushVelocity = 1;  ///< speed at which penetration is taken back at most [m/s], >= 0

@@ -20,8 +20,10 @@ namespace bullet_fem
 SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
 
 /// Adds the response A^-1 J to velocity(body), for impulses J on the nodes [N s]; those on fixed nodes are ignored.
-/// To be called after solveFreeMotion, any number of times.
-SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
+/// The residual is measured against |J| or `floor`, whichever is larger [N s], >= 0. To be called after
+/// solveFreeMotion, any number of times.
+SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings,
+                          double floor = 0);
 
 /// Adds to velocity(body), one change a node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
 void addVelocity(Body& body, const std::vector<Vec3>& change);

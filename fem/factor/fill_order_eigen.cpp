@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Ordering and factorization without SuiteSparse: slower to set up, the same at run time.
+// Ordering without SuiteSparse: a little more fill, no LGPL.
 #include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
-#include <stdexcept>
+#include <Eigen/SparseCore>
 #include <string>
 
-#include "fem/factor/sparse_cholesky.h"
+#include "fem/factor/fill_order.h"
 
 namespace bullet_fem
 {
@@ -17,7 +16,7 @@ namespace
 using EigenSparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 // A view of the lower triangle; a pattern gets ones.
-Eigen::Map<const EigenSparse> view(const SparseLower& A, const std::vector<double>& value)
+Eigen::Map<const EigenSparse> view(const SparsePattern& A, const std::vector<double>& value)
 {
     return {A.m_size,
             A.m_size,
@@ -29,14 +28,14 @@ Eigen::Map<const EigenSparse> view(const SparseLower& A, const std::vector<doubl
 
 }  // namespace
 
-const char* sparseCholeskyBackend()
+const char* orderingBackend()
 {
     static const std::string name = "Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." +
                                     std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION);
     return name.c_str();
 }
 
-std::vector<int> fillReducingOrder(const SparseLower& pattern, const char*& methodName)
+std::vector<int> fillReducingOrder(const SparsePattern& pattern, const char*& methodName)
 {
     methodName = "AMD";
     const std::vector<double> ones(pattern.m_rowIndex.size(), 1.0);
@@ -45,21 +44,6 @@ std::vector<int> fillReducingOrder(const SparseLower& pattern, const char*& meth
     Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), order);
     const int* indices = order.indices().data();
     return std::vector<int>(indices, indices + pattern.m_size);
-}
-
-SparseLower choleskyFactor(const SparseLower& A)
-{
-    const EigenSparse matrix = view(A, A.m_value);
-    const Eigen::SimplicialLLT<EigenSparse, Eigen::Lower, Eigen::NaturalOrdering<int>> llt(matrix);
-    if (llt.info() != Eigen::Success)
-        throw std::runtime_error("the matrix of size " + std::to_string(A.m_size) + " is not positive definite");
-    const EigenSparse& factor = llt.matrixL().nestedExpression();
-    SparseLower L;
-    L.m_size = A.m_size;
-    L.m_columnStart.assign(factor.outerIndexPtr(), factor.outerIndexPtr() + A.m_size + 1);
-    L.m_rowIndex.assign(factor.innerIndexPtr(), factor.innerIndexPtr() + factor.nonZeros());
-    L.m_value.assign(factor.valuePtr(), factor.valuePtr() + factor.nonZeros());
-    return L;
 }
 
 }  // namespace bullet_fem

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The only file that knows CHOLMOD. It calls the LGPL modules Core, Check, Cholesky and Partition, never Supernodal.
+// The only file that knows CHOLMOD. It calls the LGPL modules Core, Check, Cholesky and Partition for an order,
+// never Supernodal; the factor is our own.
 #include <cholmod.h>
 
 #include <cstring>
@@ -10,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/factor/sparse_cholesky.h"
+#include "fem/factor/fill_order.h"
 
 namespace bullet_fem
 {
@@ -25,9 +26,6 @@ struct Session
     {
         cholmod_start(&m_common);
         m_common.supernodal = CHOLMOD_SIMPLICIAL;
-        m_common.final_ll = 1;
-        m_common.final_pack = 1;
-        m_common.final_monotonic = 1;
         m_common.print = 0;
         m_common.error_handler = nullptr;
     }
@@ -40,8 +38,6 @@ struct Session
         switch (m_common.status)
         {
             case CHOLMOD_OK:
-            case CHOLMOD_DSMALL:  // a tiny diagonal entry: choleskyFactor looks at minor itself
-            case CHOLMOD_NOT_POSDEF:
                 return;
             case CHOLMOD_OUT_OF_MEMORY:
                 throw std::bad_alloc();
@@ -58,18 +54,17 @@ struct Session
     }
 };
 
-// CHOLMOD's view of our matrix; nothing is copied and CHOLMOD does not write to it.
-cholmod_sparse view(const SparseLower& A)
+// CHOLMOD's view of our pattern; nothing is copied and CHOLMOD does not write to it.
+cholmod_sparse view(const SparsePattern& A)
 {
     cholmod_sparse view = {};
     view.nrow = view.ncol = static_cast<std::size_t>(A.m_size);
     view.nzmax = A.m_rowIndex.size();
     view.p = const_cast<int*>(A.m_columnStart.data());
     view.i = const_cast<int*>(A.m_rowIndex.data());
-    view.x = A.m_value.empty() ? nullptr : const_cast<double*>(A.m_value.data());
     view.stype = -1;
     view.itype = CHOLMOD_INT;
-    view.xtype = A.m_value.empty() ? CHOLMOD_PATTERN : CHOLMOD_REAL;
+    view.xtype = CHOLMOD_PATTERN;
     view.dtype = CHOLMOD_DOUBLE;
     view.sorted = view.packed = 1;
     return view;
@@ -83,14 +78,14 @@ auto owned(cholmod_factor* factor, Session& session)
 
 }  // namespace
 
-const char* sparseCholeskyBackend()
+const char* orderingBackend()
 {
     static const std::string name = "CHOLMOD " + std::to_string(CHOLMOD_MAIN_VERSION) + "." +
                                     std::to_string(CHOLMOD_SUB_VERSION) + "." + std::to_string(CHOLMOD_SUBSUB_VERSION);
     return name.c_str();
 }
 
-std::vector<int> fillReducingOrder(const SparseLower& pattern, const char*& methodName)
+std::vector<int> fillReducingOrder(const SparsePattern& pattern, const char*& methodName)
 {
     Session session;
     session.m_common.nmethods = 2;
@@ -104,38 +99,6 @@ std::vector<int> fillReducingOrder(const SparseLower& pattern, const char*& meth
     methodName = factor->ordering == CHOLMOD_METIS ? "METIS" : factor->ordering == CHOLMOD_AMD ? "AMD" : "natural";
     const int* perm = static_cast<const int*>(factor->Perm);
     return std::vector<int>(perm, perm + pattern.m_size);
-}
-
-SparseLower choleskyFactor(const SparseLower& matrix)
-{
-    Session session;
-    session.m_common.nmethods = 1;
-    session.m_common.method[0].ordering = CHOLMOD_NATURAL;
-    session.m_common.postorder = 0;
-    cholmod_sparse A = view(matrix);
-    const auto factor = owned(cholmod_analyze(&A, &session.m_common), session);
-    session.check("symbolic factorization");
-    if (!factor) throw std::runtime_error("symbolic factorization: CHOLMOD returned nothing");
-    cholmod_factorize(&A, factor.get(), &session.m_common);
-    session.check("numeric factorization");
-    if (factor->minor < factor->n)
-        throw std::runtime_error("the matrix is not positive definite at column " + std::to_string(factor->minor) +
-                                 " of " + std::to_string(matrix.m_size));
-
-    SparseLower L;
-    L.m_size = matrix.m_size;
-    const int* start = static_cast<const int*>(factor->p);
-    const int* count = static_cast<const int*>(factor->nz);
-    const int* row = static_cast<const int*>(factor->i);
-    const double* value = static_cast<const double*>(factor->x);
-    L.m_columnStart.assign(1, 0);
-    for (int j = 0; j < L.m_size; ++j)
-    {
-        L.m_rowIndex.insert(L.m_rowIndex.end(), row + start[j], row + start[j] + count[j]);
-        L.m_value.insert(L.m_value.end(), value + start[j], value + start[j] + count[j]);
-        L.m_columnStart.push_back(static_cast<int>(L.m_rowIndex.size()));
-    }
-    return L;
 }
 
 }  // namespace bullet_fem

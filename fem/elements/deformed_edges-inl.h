@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Rotations of several elements, and what their edges are beside rotated ones. Included once for every instruction set.
+#if defined(BULLETFEM_DEFORMED_EDGES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BULLETFEM_DEFORMED_EDGES_INL_H
+#undef BULLETFEM_DEFORMED_EDGES_INL_H
+#else
+#define BULLETFEM_DEFORMED_EDGES_INL_H
+#endif
+
+#include "fem/elements/polar_lanes-inl.h"
+
+#if HWY_TARGET != HWY_SCALAR
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+
+/// Vectors of double that make one of Real.
+template <class Real>
+constexpr int parts()
+{
+    return width<Real>() / width<double>();
+}
+
+HWY_INLINE Vector<float> rounded(const Vector<double> (&v)[2])
+{
+    const hn::Half<Lanes<float> > half;
+    return hn::Combine(Lanes<float>(), hn::DemoteTo(half, v[1]), hn::DemoteTo(half, v[0]));
+}
+
+HWY_INLINE Vector<double> rounded(const Vector<double> (&v)[1])
+{
+    return v[0];
+}
+
+HWY_INLINE Vector<double> promoted(Vector<float> v, int part)
+{
+    const hn::Half<Lanes<float> > half;
+    return hn::PromoteTo(Lanes<double>(), part == 0 ? hn::LowerHalf(half, v) : hn::UpperHalf(half, v));
+}
+
+HWY_INLINE Vector<double> promoted(Vector<double> v, int)
+{
+    return v;
+}
+
+/// D_s, and what is left of it when R D_m is taken away, of as many elements as a vector of Real has lanes. Both are
+/// computed in double, where the difference has no error that a strain of 1e-7 would notice, and then rounded.
+template <class Real>
+struct DeformedEdges
+{
+    static constexpr int kParts = parts<Real>();
+    const StagedEdges<double, width<Real>()>& m_edges;
+
+    HWY_INLINE Matrix<Real> edges() const
+    {
+        Matrix<double> D[kParts];
+        HWY_UNROLL(2)
+        for (int part = 0; part < kParts; ++part) D[part] = m_edges.load(part * width<double>());
+        return roundedMatrix(D);
+    }
+
+    /// D_s - R D_m.
+    HWY_INLINE Matrix<Real> minusRotated(const Quaternions<Real>& q, const double (*Dm)[kLanes], int lane) const
+    {
+        Matrix<double> D[kParts];
+        HWY_UNROLL(2)
+        for (int part = 0; part < kParts; ++part)
+        {
+            const Matrix<double> R =
+                unitMatrix({promoted(q.x, part), promoted(q.y, part), promoted(q.z, part), promoted(q.w, part)});
+            const Matrix<double> X = loadMatrix(Dm, lane + part * width<double>());
+            D[part] = minusProduct(m_edges.load(part * width<double>()), R, X);
+        }
+        return roundedMatrix(D);
+    }
+
+private:
+    /// Of quaternions of length 1 but for the rounding of Real, which 1.5 - |q|^2 / 2 takes away.
+    HWY_INLINE static Matrix<double> unitMatrix(const Quaternions<double>& q)
+    {
+        const Vector<double> squares = hn::MulAdd(q.w, q.w, dot3(q.x, q.x, q.y, q.y, q.z, q.z));
+        const Vector<double> s = hn::NegMulAdd(number<double>(0.5), squares, number<double>(1.5));
+        return toMatrix<double>({q.x * s, q.y * s, q.z * s, q.w * s});
+    }
+
+    /// C - A B.
+    HWY_INLINE static Matrix<double> minusProduct(Matrix<double> C, const Matrix<double>& A, const Matrix<double>& B)
+    {
+        HWY_UNROLL(9)
+        for (int k = 0; k < 9; ++k)
+        {
+            const int i = k / 3, j = k % 3;
+            Vector<double>& c = C.m[i][j];
+            c = hn::NegMulAdd(A.m[i][0], B.m[0][j], c);
+            c = hn::NegMulAdd(A.m[i][1], B.m[1][j], c);
+            c = hn::NegMulAdd(A.m[i][2], B.m[2][j], c);
+        }
+        return C;
+    }
+
+    HWY_INLINE static Matrix<Real> roundedMatrix(const Matrix<double> (&D)[kParts])
+    {
+        Matrix<Real> A;
+        HWY_UNROLL(9)
+        for (int k = 0; k < 9; ++k)
+        {
+            Vector<double> entry[kParts];
+            HWY_UNROLL(2)
+            for (int part = 0; part < kParts; ++part) entry[part] = D[part].m[k / 3][k % 3];
+            A.m[k / 3][k % 3] = rounded(entry);
+        }
+        return A;
+    }
+};
+
+HWY_INLINE Quaternions<float> loadQuaternions(const Quaternion* q, float)
+{
+    Quaternions<float> result;
+    hn::LoadInterleaved4(Lanes<float>(), &q->x, result.x, result.y, result.z, result.w);
+    return result;
+}
+
+HWY_INLINE Quaternions<double> loadQuaternions(const Quaternion* q, double)
+{
+    const Lanes<double> d;
+    const hn::Rebind<float, Lanes<double> > single;
+    hn::Vec<decltype(single)> x, y, z, w;
+    hn::LoadInterleaved4(single, &q->x, x, y, z, w);
+    return {hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z), hn::PromoteTo(d, w)};
+}
+
+HWY_INLINE void storeQuaternions(const Quaternions<float>& q, Quaternion* out)
+{
+    hn::StoreInterleaved4(q.x, q.y, q.z, q.w, Lanes<float>(), &out->x);
+}
+
+HWY_INLINE void storeQuaternions(const Quaternions<double>& q, Quaternion* out)
+{
+    const hn::Rebind<float, Lanes<double> > single;
+    hn::StoreInterleaved4(hn::DemoteTo(single, q.x), hn::DemoteTo(single, q.y), hn::DemoteTo(single, q.z),
+                          hn::DemoteTo(single, q.w), single, &out->x);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+#endif  // HWY_TARGET != HWY_SCALAR
+
+#endif

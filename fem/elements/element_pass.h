@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "fem/elements/element_blocks.h"
+
+namespace bullet_fem
+{
+
+/// What the product needs of kLanes elements during a step: no rotation any more, it is in the gradients.
+template <class Real>
+struct alignas(64) WarpedBlock
+{
+    Real m_gradient[9][kLanes];  ///< g'_a = R g_a, a = 1, 2, 3 [1/m]
+    Real m_lambda[kLanes];       ///< stiffness factor times lambda V [J times the factor's unit]
+    Real m_mu[kLanes];           ///< stiffness factor times mu V
+    Real m_tension[6][kLanes];   ///< tension factor times R V sigma+ R^T: xx, yy, zz, yz, xz, xy
+};
+
+/// F = D_s D_m^-1 of every element, its polar rotation R, its force and its part of A, once a step. With
+/// E = sym(R^T F) - I,
+///   elastic = V (2 mu E + lambda tr(E) I),   viscous the same of sym(R^T Fdot),   sigma+ = positive part of elastic /
+///   V, corner forces  f_a = -R (elastic + damping viscous) g_a  [N].
+/// Edges, and F - R, are taken in double and then rounded to Real, so that strains have the digits of Real however
+/// small they are. R by Newton's iteration from the rotation of the last step; elements where it is not sure to be
+/// right are done one by one, by polarRotation(). Positions and velocities must be finite.
+template <class Real>
+struct ElementPass
+{
+    const ElementBlocks<Real>* m_elements;
+    const PaddedVec3* m_x;        ///< of every node [m]
+    const PaddedVec3* m_v;        ///< of every node [m/s]
+    double m_damping;             ///< of the viscous force [s]
+    double m_stiffnessFactor;     ///< of K' in A, h^2 + h beta [s2]
+    double m_tensionFactor;       ///< of T in A, h^2 [s2]; 0 spares the spectral part
+    Quaternion* m_rotation;       ///< in: of the last step, out: of this one; kLanes a block
+    CornerBlock<Real>* m_force;   ///< out
+    WarpedBlock<Real>* m_warped;  ///< out
+};
+
+/// Runs the pass over blocks, on the widest vectors that the processor has. Any division into ranges gives the same
+/// bits. Never allocates; safe on distinct blocks at the same time.
+template <class Real>
+void runElementPass(const ElementPass<Real>& pass, Range blocks);
+
+/// The same in plain C++: what the kernel is tested against.
+namespace scalar
+{
+template <class Real>
+void runElementPass(const ElementPass<Real>& pass, Range blocks);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "fem/elements/element_pass.h"
+#include "fem/elements/node_rotations.h"
+
+namespace bullet_fem
+{
+
+/// What one body's element kernels write in a step, in one precision.
+template <class Real>
+struct ElementScratch
+{
+    void grow(int blocks)
+    {
+        m_corners.resize(blocks);
+        m_warped.resize(blocks);
+    }
+
+    std::vector<CornerBlock<Real>> m_corners;
+    std::vector<WarpedBlock<Real>> m_warped;
+};
+
+/// The vectors of the element kernels. The double-precision half is grown when it is first used.
+struct ElementWork
+{
+    explicit ElementWork(int nodes, int blocks) : m_x(nodes), m_v(nodes), m_scaledMass(nodes), m_nodeRotation(nodes)
+    {
+        m_single.grow(blocks);
+    }
+
+    template <class Real>
+    ElementScratch<Real>& scratch()
+    {
+        if constexpr (sizeof(Real) == sizeof(float))
+            return m_single;
+        else
+            return m_double;
+    }
+
+    bool m_isDouble = false;  ///< precision of this step
+    ElementScratch<float> m_single;
+    ElementScratch<double> m_double;
+    std::vector<PaddedVec3> m_x, m_v;          ///< positions and velocities; then m_x is what A is applied to
+    std::vector<double> m_scaledMass;          ///< (1 + h alpha) m_i [kg]
+    std::vector<NodeRotation> m_nodeRotation;  ///< what the preconditioner turns every node by
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Small matrices whose entries are SIMD vectors, one lane an element, and how they come from and go to nodes. Included
+// once for every instruction set.
+#if defined(BULLETFEM_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BULLETFEM_LANES_INL_H
+#undef BULLETFEM_LANES_INL_H
+#else
+#define BULLETFEM_LANES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <type_traits>
+
+#include "fem/elements/element_blocks.h"
+
+#if HWY_TARGET != HWY_SCALAR
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class Real>
+using Lanes = hn::CappedTag<Real, kLanes>;
+
+template <class Real>
+using Vector = hn::Vec<Lanes<Real>>;
+
+/// Elements that are done at a time.
+template <class Real>
+constexpr int width()
+{
+    return static_cast<int>(hn::MaxLanes(Lanes<Real>()));
+}
+
+template <class Real>
+HWY_INLINE Vector<Real> number(double value)
+{
+    return hn::Set(Lanes<Real>(), static_cast<Real>(value));
+}
+
+/// A 3x3 matrix.
+template <class Real>
+struct Matrix
+{
+    Vector<Real> m[3][3];
+};
+
+/// A symmetric 3x3 matrix.
+template <class Real>
+struct Symmetric
+{
+    Vector<Real> xx, yy, zz, yz, xz, xy;
+};
+
+/// a0 b0 + a1 b1 + a2 b2.
+template <class V>
+HWY_INLINE V dot3(V a0, V b0, V a1, V b1, V a2, V b2)
+{
+    return hn::MulAdd(a2, b2, hn::MulAdd(a1, b1, hn::Mul(a0, b0)));
+}
+
+/// A B.
+template <class Real>
+HWY_INLINE Matrix<Real> times(const Matrix<Real>& A, const Matrix<Real>& B)
+{
+    Matrix<Real> C;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) C.m[i][j] = dot3(A.m[i][0], B.m[0][j], A.m[i][1], B.m[1][j], A.m[i][2], B.m[2][j]);
+    return C;
+}
+
+/// A B^T.
+template <class Real>
+HWY_INLINE Matrix<Real> timesTranspose(const Matrix<Real>& A, const Matrix<Real>& B)
+{
+    Matrix<Real> C;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) C.m[i][j] = dot3(A.m[i][0], B.m[j][0], A.m[i][1], B.m[j][1], A.m[i][2], B.m[j][2]);
+    return C;
+}
+
+/// The same matrix with all its entries.
+template <class Real>
+HWY_INLINE Matrix<Real> full(const Symmetric<Real>& S)
+{
+    return {{{S.xx, S.xy, S.xz}, {S.xy, S.yy, S.yz}, {S.xz, S.yz, S.zz}}};
+}
+
+template <class Real>
+HWY_INLINE Matrix<Real> loadMatrix(const Real (*entries)[kLanes], int lane)
+{
+    const Lanes<Real> d;
+    Matrix<Real> A;
+    HWY_UNROLL(9)
+    for (int k = 0; k < 9; ++k) A.m[k / 3][k % 3] = hn::Load(d, entries[k] + lane);
+    return A;
+}
+
+/// D_s = [u_1 - u_0, u_2 - u_0, u_3 - u_0] of `Count` elements, on the way from nodes to vectors
+/// by way of memory, which is faster than gathering components. Rows are laid out so that transposing blocks of 128
+/// bits gives vectors. They are written one turn ahead of being read: a load that waits for the stores before it is
+/// slow.
+template <class Real, int Count = width<Real>()>
+struct StagedEdges
+{
+    static constexpr int kBlock = 16 / sizeof(Real);  // entries of a block
+    HWY_ALIGN Real m_rows[3][4 / kBlock][kBlock][Count];
+
+    HWY_INLINE void stage(const std::int32_t (*node)[4], const PaddedVec3* u)
+    {
+        for (int lane = 0; lane < Count; ++lane)
+        {
+            const PaddedVec3& u0 = u[node[lane][0]];
+            HWY_UNROLL(3)
+            for (int a = 0; a < 3; ++a) storeDifference(u[node[lane][a + 1]], u0, a, lane);
+        }
+    }
+
+    /// Those of the elements from `lane` on.
+    HWY_INLINE Matrix<Real> load(int lane = 0) const
+    {
+        Matrix<Real> D;
+        HWY_UNROLL(3)
+        for (int a = 0; a < 3; ++a) transposeRows(m_rows[a], lane, D.m[0][a], D.m[1][a], D.m[2][a]);
+        return D;
+    }
+
+private:
+    /// Where part of an element's edge goes: entries from `component` on, at most those of a block.
+    HWY_INLINE Real* place(int a, int lane, int component)
+    {
+        return m_rows[a][component / kBlock][lane % kBlock] + lane / kBlock * kBlock + component % kBlock;
+    }
+
+    /// Edge a is to - from, taken in double.
+    HWY_INLINE void storeDifference(const PaddedVec3& to, const PaddedVec3& from, int a, int lane)
+    {
+        const hn::CappedTag<double, 4> d;
+        for (int i = 0; i < 4; i += static_cast<int>(hn::Lanes(d)))
+        {
+            const auto edge = hn::Sub(hn::Load(d, &to.x + i), hn::Load(d, &from.x + i));
+            storeRounded(d, edge, a, lane, i);
+        }
+    }
+
+    template <class D>
+    HWY_INLINE void storeRounded(D d, hn::Vec<D> edge, int a, int lane, int i)
+    {
+        if constexpr (std::is_same<Real, float>::value)
+        {
+            const hn::Rebind<float, D> single;
+            hn::Store(hn::DemoteTo(single, edge), single, place(a, lane, i));
+        }
+        else if constexpr (hn::MaxLanes(D()) == 4)
+        {
+            const hn::Half<D> half;
+            hn::Store(hn::LowerHalf(half, edge), half, place(a, lane, 0));
+            hn::Store(hn::UpperHalf(half, edge), half, place(a, lane, 2));
+        }
+        else
+            hn::Store(edge, d, place(a, lane, i));
+    }
+
+    HWY_INLINE static void transposeRows(const float (&rows)[1][4][Count], int lane, Vector<float>& x, Vector<float>& y,
+                                         Vector<float>& z)
+    {
+        const Lanes<float> d;
+        const hn::Repartition<double, Lanes<float>> pairs;
+        const auto r0 = hn::Load(d, rows[0][0] + lane), r1 = hn::Load(d, rows[0][1] + lane);
+        const auto r2 = hn::Load(d, rows[0][2] + lane), r3 = hn::Load(d, rows[0][3] + lane);
+        const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(d, r0, r1));
+        const auto xy23 = hn::BitCast(pairs, hn::InterleaveLower(d, r2, r3));
+        const auto z01 = hn::BitCast(pairs, hn::InterleaveUpper(d, r0, r1));
+        const auto z23 = hn::BitCast(pairs, hn::InterleaveUpper(d, r2, r3));
+        // x0 x1 y0 y1 with x2 x3 y2 y3
+        x = hn::BitCast(d, hn::InterleaveLower(pairs, xy01, xy23));
+        y = hn::BitCast(d, hn::InterleaveUpper(pairs, xy01, xy23));
+        z = hn::BitCast(d, hn::InterleaveLower(pairs, z01, z23));
+    }
+
+    HWY_INLINE static void transposeRows(const double (&rows)[2][2][Count], int lane, Vector<double>& x,
+                                         Vector<double>& y, Vector<double>& z)
+    {
+        const Lanes<double> d;
+        const auto xy0 = hn::Load(d, rows[0][0] + lane), xy1 = hn::Load(d, rows[0][1] + lane);
+        x = hn::InterleaveLower(d, xy0, xy1);
+        y = hn::InterleaveUpper(d, xy0, xy1);
+        z = hn::InterleaveLower(d, hn::Load(d, rows[1][0] + lane), hn::Load(d, rows[1][1] + lane));
+    }
+};
+
+/// Calls stage(block, lane, slot) and then compute(block, lane, slot) for every vector of elements of the blocks; the
+/// stage of a vector comes before the computation of the one before. Slots are 0 and 1.
+template <class Real, class Stage, class Compute>
+HWY_INLINE void forEachVector(Range blocks, const Stage& stage, const Compute& compute)
+{
+    constexpr int kVectors = kLanes / width<Real>();  // of a block
+    const int end = blocks.m_end * kVectors;
+    int k = blocks.m_begin * kVectors;
+    if (k < end) stage(k / kVectors, k % kVectors * width<Real>(), k % 2);
+    for (; k < end; ++k)
+    {
+        const int next = k + 1;
+        if (next < end) stage(next / kVectors, next % kVectors * width<Real>(), next % 2);
+        compute(k / kVectors, k % kVectors * width<Real>(), k % 2);
+    }
+}
+
+/// Stores f_1, f_2, f_3, the columns given, and f_0 = -(f_1 + f_2 + f_3) as the corners of the elements from `lane` on.
+template <class Real>
+HWY_INLINE void storeCorners(const Matrix<Real>& f, CornerBlock<Real>& out, int lane)
+{
+    const Lanes<Real> d;
+    const Vector<Real> zero = hn::Zero(d);
+    Vector<Real> f0[3];
+    HWY_UNROLL(3)
+    for (int i = 0; i < 3; ++i) f0[i] = hn::Sub(zero, hn::Add(hn::Add(f.m[i][0], f.m[i][1]), f.m[i][2]));
+    hn::StoreInterleaved4(f0[0], f0[1], f0[2], zero, d, out.m_vector[0][lane]);
+    HWY_UNROLL(3)
+    for (int a = 0; a < 3; ++a)
+        hn::StoreInterleaved4(f.m[0][a], f.m[1][a], f.m[2][a], zero, d, out.m_vector[a + 1][lane]);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+#endif  // HWY_TARGET != HWY_SCALAR
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Compiled once for every instruction set; the processor chooses when the program runs.
+#include "fem/elements/node_sums.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fem/elements/node_sums.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>
+// after foreach_target.h
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+#if HWY_TARGET == HWY_SCALAR
+
+// Processors with nothing that Highway knows.
+template <class Real>
+void sumOverNodes(const NodeSums<Real>& sums, Range nodes)
+{
+    scalar::sumCorners(sums, nodes);
+}
+
+#else
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, 4>;
+constexpr int kN = static_cast<int>(hn::MaxLanes(D()));
+
+HWY_INLINE hn::Vec<D> load(const double* corner)
+{
+    return hn::Load(D(), corner);
+}
+
+HWY_INLINE hn::Vec<D> load(const float* corner)
+{
+    return hn::PromoteTo(D(), hn::Load(hn::Rebind<float, D>(), corner));
+}
+
+/// Components from `first` on, as many as a vector has, of the sum over corners: every second one in one sum, so that
+/// additions need not wait for each other.
+template <class Real>
+HWY_INLINE hn::Vec<D> sumOf(const Real* vectors, const int* corner, const int* end)
+{
+    hn::Vec<D> even = hn::Zero(D()), odd = hn::Zero(D());
+    for (; corner + 1 < end; corner += 2)
+    {
+        even = hn::Add(even, load(vectors + 4 * static_cast<std::ptrdiff_t>(corner[0])));
+        odd = hn::Add(odd, load(vectors + 4 * static_cast<std::ptrdiff_t>(corner[1])));
+    }
+    if (corner < end) even = hn::Add(even, load(vectors + 4 * static_cast<std::ptrdiff_t>(corner[0])));
+    return hn::Add(even, odd);
+}
+
+template <class Real>
+HWY_INLINE void sumOverNodes(const NodeSums<Real>& sums, Range nodes)
+{
+    const Real* vectors = &sums.m_corners->m_vector[0][0][0];
+    const int* corner = sums.m_nodes->m_corner.data();
+    const int* start = sums.m_nodes->m_start.data();
+    for (int i = nodes.m_begin; i < nodes.m_end; ++i)
+    {
+        HWY_ALIGN double sum[4];
+        for (int c = 0; c < 4; c += kN)
+        {
+            hn::Vec<D> s = sumOf(vectors + c, corner + start[i], corner + start[i + 1]);
+            if (sums.m_scale) s = hn::MulAdd(hn::Set(D(), sums.m_scale[i]), hn::Load(D(), &sums.m_p[i].x + c), s);
+            hn::Store(s, D(), sum + c);
+        }
+        const Vec3 total = {sum[0], sum[1], sum[2]};
+        sums.m_out[i] = sums.m_scale ? total : sums.m_out[i] + total;
+    }
+}
+
+#endif
+
+void nodeSumsFloat(const NodeSums<float>& sums, Range nodes)
+{
+    sumOverNodes(sums, nodes);
+}
+
+void nodeSumsDouble(const NodeSums<double>& sums, Range nodes)
+{
+    sumOverNodes(sums, nodes);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bullet_fem
+{
+
+HWY_EXPORT(nodeSumsFloat);
+HWY_EXPORT(nodeSumsDouble);
+
+template <>
+void sumCorners(const NodeSums<float>& sums, Range nodes)
+{
+    HWY_DYNAMIC_DISPATCH(nodeSumsFloat)(sums, nodes);
+}
+
+template <>
+void sumCorners(const NodeSums<double>& sums, Range nodes)
+{
+    HWY_DYNAMIC_DISPATCH(nodeSumsDouble)(sums, nodes);
+}
+
+}  // namespace bullet_fem
+#endif

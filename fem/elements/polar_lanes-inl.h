@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Polar rotations of several matrices at a time. Included once for every instruction set.
+#if defined(BULLETFEM_POLAR_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BULLETFEM_POLAR_LANES_INL_H
+#undef BULLETFEM_POLAR_LANES_INL_H
+#else
+#define BULLETFEM_POLAR_LANES_INL_H
+#endif
+
+#include <type_traits>
+
+#include "fem/elements/lanes-inl.h"
+#include "fem/elements/sure_rotation.h"
+
+#if HWY_TARGET != HWY_SCALAR
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+
+/// Quaternions of any length.
+template <class Real>
+struct Quaternions
+{
+    Vector<Real> x, y, z, w;
+};
+
+template <class Real>
+HWY_INLINE Quaternions<Real> normalised(const Quaternions<Real>& q)
+{
+    const Vector<Real> squares = hn::MulAdd(q.w, q.w, dot3(q.x, q.x, q.y, q.y, q.z, q.z));
+    const Vector<Real> s = number<Real>(1) / hn::Sqrt(squares);
+    return {q.x * s, q.y * s, q.z * s, q.w * s};
+}
+
+/// R of unit quaternions.
+template <class Real>
+HWY_INLINE Matrix<Real> toMatrix(const Quaternions<Real>& q)
+{
+    using V = Vector<Real>;
+    const V one = number<Real>(1), x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
+    const V wx = q.w * x2, wy = q.w * y2, wz = q.w * z2, yy = q.y * y2, zz = q.z * z2;
+    return {{{one - (yy + zz), hn::MulSub(q.x, y2, wz), hn::MulAdd(q.x, z2, wy)},
+             {hn::MulAdd(q.x, y2, wz), one - hn::MulAdd(q.x, x2, zz), hn::MulSub(q.y, z2, wx)},
+             {hn::MulSub(q.x, z2, wy), hn::MulAdd(q.y, z2, wx), one - hn::MulAdd(q.x, x2, yy)}}};
+}
+
+/// |q|^2 R.
+template <class Real>
+HWY_INLINE Matrix<Real> toScaledMatrix(const Quaternions<Real>& q)
+{
+    using V = Vector<Real>;
+    const V x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
+    const V wx = q.w * x2, wy = q.w * y2, wz = q.w * z2;
+    const V ww = q.w * q.w, yy = q.y * q.y, zz = q.z * q.z, difference = zz - yy;
+    const V wwxx = hn::MulAdd(q.x, q.x, ww), wwMinusxx = hn::NegMulAdd(q.x, q.x, ww);
+    return {{{wwxx - (yy + zz), hn::MulSub(q.x, y2, wz), hn::MulAdd(q.x, z2, wy)},
+             {hn::MulAdd(q.x, y2, wz), wwMinusxx - difference, hn::MulSub(q.y, z2, wx)},
+             {hn::MulSub(q.x, z2, wy), hn::MulAdd(q.y, z2, wx), wwMinusxx + difference}}};
+}
+
+/// exp(2 c) q to third order in c, not normalised, by the Cayley map, which is a rotation for every c.
+template <class Real>
+HWY_INLINE Quaternions<Real> turned(const Quaternions<Real>& q, const Vector<Real> (&c)[3])
+{
+    return {hn::NegMulAdd(c[2], q.y, hn::MulAdd(c[1], q.z, hn::MulAdd(c[0], q.w, q.x))),
+            hn::NegMulAdd(c[0], q.z, hn::MulAdd(c[2], q.x, hn::MulAdd(c[1], q.w, q.y))),
+            hn::NegMulAdd(c[1], q.x, hn::MulAdd(c[0], q.y, hn::MulAdd(c[2], q.w, q.z))),
+            hn::NegMulAdd(c[2], q.z, hn::NegMulAdd(c[1], q.y, hn::NegMulAdd(c[0], q.x, q.w)))};
+}
+
+/// What a Newton step says of the elements.
+template <class Real>
+struct NewtonStep
+{
+    hn::Mask<Lanes<Real>> m_definite;   // H is positive definite beyond rounding: R goes to the global maximum
+    hn::Mask<Lanes<Real>> m_converged;  // the error left is of the size of rounding
+};
+
+/// One step towards the maximum of tr(R^T F): with S = F R^T, H w = g, H = tr(S) I - sym(S), g = axl(S - S^T), R turns
+/// by w. H w = g is solved by cofactors. After a step by w the error is about |w|^2 |H| |H^-1|. Elements whose H is not
+/// positive definite are left as they are.
+template <class Real>
+HWY_INLINE NewtonStep<Real> newtonStep(const Matrix<Real>& F, Quaternions<Real>& q)
+{
+    using V = Vector<Real>;
+    constexpr bool kSingle = std::is_same<Real, float>::value;
+    const V tiny = number<Real>(kSingle ? 1e-4 : 1e-10), error = number<Real>(kSingle ? 1e-7 : 1e-17);
+
+    const Matrix<Real> S = timesTranspose(F, toScaledMatrix(q));
+    const V g0 = S.m[2][1] - S.m[1][2], g1 = S.m[0][2] - S.m[2][0], g2 = S.m[1][0] - S.m[0][1];
+    const V half = number<Real>(-0.5);
+    const V h00 = S.m[1][1] + S.m[2][2], h11 = S.m[0][0] + S.m[2][2], h22 = S.m[0][0] + S.m[1][1];
+    const V h01 = half * (S.m[0][1] + S.m[1][0]), h02 = half * (S.m[0][2] + S.m[2][0]),
+            h12 = half * (S.m[1][2] + S.m[2][1]);
+    const V c00 = hn::MulSub(h11, h22, h12 * h12), c01 = hn::MulSub(h02, h12, h01 * h22),
+            c02 = hn::MulSub(h01, h12, h02 * h11);
+    const V c11 = hn::MulSub(h00, h22, h02 * h02), c12 = hn::MulSub(h01, h02, h00 * h12),
+            c22 = hn::MulSub(h00, h11, h01 * h01);
+    const V det = dot3(h00, c00, h01, c01, h02, c02);
+
+    // Sylvester's pivots h00, c22 / h00, det / c22 against the trace.
+    const V trace = h00 + h11 + h22, least = hn::Max(tiny * trace, hn::Zero(Lanes<Real>()));
+    const auto definite = hn::And(hn::And(h00 > least, c22 > least * h00), det > least * c22);
+
+    const V s = hn::IfThenElseZero(definite, number<Real>(0.5) / det);
+    const V c[3] = {s * dot3(c00, g0, c01, g1, c02, g2), s * dot3(c01, g0, c11, g1, c12, g2),
+                    s * dot3(c02, g0, c12, g1, c22, g2)};
+    q = turned<Real>(q, c);
+    const V squaredStep = number<Real>(4) * dot3(c[0], c[0], c[1], c[1], c[2], c[2]);
+    const V cofactors = c00 + c11 + c22;  // det times the trace of H^-1
+    return {definite, hn::And(definite, squaredStep * trace * cofactors <= error * det)};
+}
+
+/// q <- the polar rotations of those F that `known` does not mark, one by one.
+template <class Real>
+HWY_INLINE void singleRotations(const Matrix<Real>& F, hn::Mask<Lanes<Real>> known, Quaternions<Real>& q)
+{
+    const Lanes<Real> d;
+    HWY_ALIGN Real entries[9][kLanes];
+    HWY_ALIGN BasicQuaternion<Real> rotation[kLanes];
+    HWY_ALIGN Real marks[kLanes];
+    for (int k = 0; k < 9; ++k) hn::Store(F.m[k / 3][k % 3], d, entries[k]);
+    hn::StoreInterleaved4(q.x, q.y, q.z, q.w, d, &rotation[0].x);
+    hn::Store(hn::IfThenElseZero(known, number<Real>(1)), d, marks);
+    for (int lane = 0; lane < width<Real>(); ++lane)
+        if (marks[lane] == 0) rotation[lane] = sureRotation(entries, lane, rotation[lane]);
+    hn::LoadInterleaved4(d, &rotation[0].x, q.x, q.y, q.z, q.w);
+}
+
+constexpr int kBatch = 4;  // vectors of elements; what one waits for, another has time to compute
+
+/// q <- the polar rotations of `count` F, started from q. Those that Newton's iteration cannot answer for go one by
+/// one.
+template <class Real>
+HWY_INLINE void polarRotations(const Matrix<Real>* F, int count, Quaternions<Real>* q)
+{
+    constexpr int kMaxSteps = 6;
+    const Lanes<Real> d;
+    hn::Mask<Lanes<Real>> converged[kBatch];
+    bool over[kBatch] = {};
+    int left = count;
+    for (int k = 0; k < kMaxSteps && left > 0; ++k)
+        for (int i = 0; i < count; ++i)
+        {
+            if (over[i]) continue;
+            const NewtonStep<Real> step = newtonStep(F[i], q[i]);
+            converged[i] = step.m_converged;
+            over[i] = hn::AllTrue(d, hn::Or(step.m_converged, hn::Not(step.m_definite)));
+            left -= over[i];
+        }
+    for (int i = 0; i < count; ++i)
+    {
+        q[i] = normalised(q[i]);
+        if (HWY_UNLIKELY(!hn::AllTrue(d, converged[i]))) singleRotations(F[i], converged[i], q[i]);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+#endif  // HWY_TARGET != HWY_SCALAR
+
+#endif

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Positive spectral parts of several symmetric matrices at a time. Included once for every instruction set.
+#if defined(BULLETFEM_POSITIVE_PART_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BULLETFEM_POSITIVE_PART_INL_H
+#undef BULLETFEM_POSITIVE_PART_INL_H
+#else
+#define BULLETFEM_POSITIVE_PART_INL_H
+#endif
+
+#include <type_traits>
+
+#include "fem/elements/lanes-inl.h"
+
+#if HWY_TARGET != HWY_SCALAR
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+
+/// a A + b B.
+template <class Real>
+HWY_INLINE Symmetric<Real> combined(Vector<Real> a, const Symmetric<Real>& A, Vector<Real> b, const Symmetric<Real>& B)
+{
+    return {hn::MulAdd(a, A.xx, b * B.xx), hn::MulAdd(a, A.yy, b * B.yy), hn::MulAdd(a, A.zz, b * B.zz),
+            hn::MulAdd(a, A.yz, b * B.yz), hn::MulAdd(a, A.xz, b * B.xz), hn::MulAdd(a, A.xy, b * B.xy)};
+}
+
+/// A + s I.
+template <class Real>
+HWY_INLINE Symmetric<Real> shifted(const Symmetric<Real>& A, Vector<Real> s)
+{
+    return {A.xx + s, A.yy + s, A.zz + s, A.yz, A.xz, A.xy};
+}
+
+template <class Real>
+HWY_INLINE Vector<Real> trace(const Symmetric<Real>& A)
+{
+    return A.xx + A.yy + A.zz;
+}
+
+template <class Real>
+HWY_INLINE Symmetric<Real> adjugate(const Symmetric<Real>& A)
+{
+    return {hn::MulSub(A.yy, A.zz, A.yz * A.yz), hn::MulSub(A.xx, A.zz, A.xz * A.xz),
+            hn::MulSub(A.xx, A.yy, A.xy * A.xy), hn::MulSub(A.xz, A.xy, A.xx * A.yz),
+            hn::MulSub(A.xy, A.yz, A.yy * A.xz), hn::MulSub(A.yz, A.xz, A.zz * A.xy)};
+}
+
+/// An eigenvalue and N = v v^T of its eigenvector.
+template <class Real>
+struct Eigenpair
+{
+    Vector<Real> m_value;
+    Symmetric<Real> m_projection;
+};
+
+/// The one of the largest and the smallest eigenvalue that is farther from the middle one. With A = S - tr(S)/3 I,
+/// p^2 = |A|^2 / 6 and r = det A / (2 p^3), it is tr(S)/3 + 2 p c sign(r) where 4 c^3 - 3 c = |r|, c in [cos 30, 1]
+/// (that is c = cos(acos(|r|) / 3)); no other eigenvalue is within 1.7 p, so adj(A - 2 p c sign(r) I) / its trace is v
+/// v^T to rounding. Where S is a multiple of I the projection is 0 or any other.
+template <class Real>
+HWY_INLINE Eigenpair<Real> farthestEigenpair(const Symmetric<Real>& S)
+{
+    using V = Vector<Real>;
+    constexpr bool kSingle = std::is_same<Real, float>::value;
+    const V tiny = number<Real>(kSingle ? 1e-30 : 1e-100), two = number<Real>(2), three = number<Real>(3);
+
+    const V mean = number<Real>(1.0 / 3) * trace(S);
+    const Symmetric<Real> A = shifted<Real>(S, hn::Neg(mean));
+    const V squares = dot3(A.xx, A.xx, A.yy, A.yy, A.zz, A.zz);
+    const V products = dot3(A.yz, A.yz, A.xz, A.xz, A.xy, A.xy);
+    const V p2 = number<Real>(1.0 / 6) * hn::MulAdd(two, products, squares), p = hn::Sqrt(p2);
+    const V det = dot3(A.xx, hn::MulSub(A.yy, A.zz, A.yz * A.yz), A.xy, hn::MulSub(A.yz, A.xz, A.zz * A.xy), A.xz,
+                       hn::MulSub(A.xy, A.yz, A.yy * A.xz));
+    const V r = hn::Min(number<Real>(1), hn::Abs(det) / hn::MulAdd(two * p, p2, tiny));
+    // Newton's iteration from a cubic, whose error of 3e-5 becomes 1e-9, 1e-17.
+    V c = hn::MulAdd(
+        r,
+        hn::MulAdd(r, hn::MulAdd(r, number<Real>(0.0093196838974819209), number<Real>(-0.040691197422887695)),
+                   number<Real>(0.16533035022084541)),
+        number<Real>(0.86606632953319174));
+    HWY_UNROLL(2)
+    for (int k = 0; k < (kSingle ? 1 : 2); ++k)
+        c = hn::MulAdd(number<Real>(8) * c, c * c, r) / hn::MulSub(number<Real>(12) * c, c, three);
+    const V value = hn::CopySign(two * p * c, det);
+    const Symmetric<Real> N = adjugate(shifted<Real>(A, hn::Neg(value)));
+    const V scale = number<Real>(1) / hn::Max(trace(N), tiny);
+    return {mean + value, {scale * N.xx, scale * N.yy, scale * N.zz, scale * N.yz, scale * N.xz, scale * N.xy}};
+}
+
+/// The positive part of M, which has an eigenvalue 0 whose projection is N. The other two, e1 >= e2, have the sum T =
+/// tr(M) and the product D, the sum of the principal minors. Of different signs (D < 0) they are apart, and M+ = e1 (M
+/// - e2 (I - N)) / (e1 - e2); of one sign M+ is M or 0.
+template <class Real>
+HWY_INLINE Symmetric<Real> positivePartBeside(const Symmetric<Real>& N, const Symmetric<Real>& M)
+{
+    using V = Vector<Real>;
+    const V zero = number<Real>(0), one = number<Real>(1), half = number<Real>(0.5);
+    const V T = trace(M), D = trace(adjugate(M));
+    const auto mixed = D < zero;
+    const V root = hn::Sqrt(hn::MulAdd(half * T, half * T, hn::Max(zero, hn::Neg(D))));
+    const V e1 = hn::Max(zero, hn::MulAdd(half, T, root)), e2 = hn::IfThenElseZero(mixed, hn::MulSub(half, T, root));
+    const V k = hn::IfThenElse(mixed, e1 / (root + root), hn::IfThenElseZero(T > zero, one));
+    return combined<Real>(k, shifted<Real>(M, hn::Neg(e2)), k * e2, N);
+}
+
+/// S with its negative eigenvalues set to zero, by splitting off the eigenvalue that is farthest from the others; exact
+/// to rounding of the largest entry of S also where eigenvalues are equal.
+template <class Real>
+HWY_INLINE Symmetric<Real> positivePart(const Symmetric<Real>& S)
+{
+    using V = Vector<Real>;
+    const V zero = number<Real>(0), one = number<Real>(1);
+    const V diagonal = hn::Max(hn::Max(hn::Abs(S.xx), hn::Abs(S.yy)), hn::Abs(S.zz));
+    const V others = hn::Max(hn::Max(hn::Abs(S.yz), hn::Abs(S.xz)), hn::Abs(S.xy));
+    const V size = hn::Max(hn::Max(diagonal, others), number<Real>(1e-35)), inverse = one / size;
+    const Symmetric<Real> unit = {S.xx * inverse, S.yy * inverse, S.zz * inverse,
+                                  S.yz * inverse, S.xz * inverse, S.xy * inverse};
+    const Eigenpair<Real> far = farthestEigenpair(unit);
+    const Symmetric<Real> rest = combined<Real>(one, unit, hn::Neg(far.m_value), far.m_projection);
+    const Symmetric<Real> beside = positivePartBeside(far.m_projection, rest);
+    return combined<Real>(size, beside, size * hn::Max(zero, far.m_value), far.m_projection);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+#endif  // HWY_TARGET != HWY_SCALAR
+
+#endif

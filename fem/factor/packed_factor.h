@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "fem/aligned_floats.h"
+#include "fem/factor/panel_kernels.h"
+#include "fem/factor/supernode_tree.h"
+
+namespace bullet_fem
+{
+
+/// A block factor A0 = L D L^T, packed in single precision for the two triangular solves of a preconditioner. Supernode
+/// s holds S_s = D_s^-1 and M_s, its rows of L below the unit diagonal block, so no solve waits for a division:
+/// forward y_below -= M y_s; backward y_s = S y_s - M^T y_below. Const once packed.
+class PackedFactor
+{
+public:
+    PackedFactor() = default;
+
+    /// Room for a factor of this pattern, with zeros in it.
+    explicit PackedFactor(SupernodeTree tree);
+
+    /// Sets supernode s: S is 3 nc x 3 nc and symmetric, M is 3 nr x 3 nc, both by columns.
+    void pack(int supernode, const double* S, const double* M);
+
+    const SupernodeTree& tree() const { return m_tree; }
+    int size() const { return 3 * m_tree.m_nodeCount; }
+    std::size_t byteCount() const { return m_panelStart.empty() ? 0 : sizeof(float) * m_panelStart.back(); }
+
+    /// Floats of scratch that a solve with `lanes` right-hand sides needs.
+    std::size_t scratchSize(int lanes) const { return static_cast<std::size_t>(lanes) * m_scratchRows; }
+
+    /// y <- A0^-1 y, size() entries. Scratch is aligned to 64 bytes.
+    void solve(float* y, float* scratch) const;
+
+    /// The same for kPanelLanes interleaved right-hand sides: y has size() * kPanelLanes entries, aligned to 64 bytes.
+    /// Solves forward along the supernodes of `forward` and backward along those of `backward` alone (ascending): of a
+    /// sparse right-hand side those that its entries reach towards the root; of a few wanted entries likewise.
+    void solveLanes(const std::vector<int>& forward, const std::vector<int>& backward, float* y, float* scratch) const;
+
+    /// All supernodes, ascending.
+    const std::vector<int>& allSupernodes() const { return m_all; }
+
+private:
+    Panel panel(int supernode) const;
+
+    SupernodeTree m_tree;
+    std::vector<int> m_all;
+    std::vector<std::size_t> m_panelStart;  // per supernode and the end, in floats
+    AlignedFloats m_panels;
+    std::size_t m_scratchRows = 0;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+namespace bullet_fem
+{
+
+constexpr int kPanelLanes = 16;    ///< rows that lie side by side in a panel, and right-hand sides of a batch
+constexpr int kPanelColumns = 12;  ///< columns of a chunk; the last chunk of a panel has 3, 6, 9 or 12
+
+/// One supernode's dense panel. Its rows are those of M and then those of S; they are padded with zeros to blocks
+/// of 16. In memory: chunk of columns, block of rows, column, row.
+struct Panel
+{
+    const float* m_values;  // aligned to 64 bytes
+    const int* m_row;       // node of every three rows of M
+    int m_firstNode;        // of the columns
+    int m_columns;          // a multiple of 3
+    int m_rowsBelow;        // of M, a multiple of 3
+
+    int blocksBelow() const { return (m_rowsBelow + kPanelLanes - 1) / kPanelLanes; }
+    int blocks() const { return (m_rowsBelow + m_columns + kPanelLanes - 1) / kPanelLanes; }
+};
+
+/// The steps of a solve; y has 3 entries a node, or 3 x 16 interleaved. `scratch` has 16 blocks() entries (times 16),
+/// aligned to 64 bytes. Run on the widest vectors that the processor has.
+void forwardPanel(const Panel& panel, float* y, float* scratch);
+void backwardPanel(const Panel& panel, float* y, float* scratch);
+void forwardPanelLanes(const Panel& panel, float* y, float* scratch);
+void backwardPanelLanes(const Panel& panel, float* y, float* scratch);
+
+/// The same in plain C++: what the kernels are tested against.
+namespace scalar
+{
+void forwardPanel(const Panel& panel, float* y, int lanes);
+void backwardPanel(const Panel& panel, float* y, int lanes);
+}  // namespace scalar
+
+}  // namespace bullet_fem
