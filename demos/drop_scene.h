@@ -8,6 +8,7 @@
 #include "BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h"
 #include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
 #include "btBulletDynamicsCommon.h"
+#include "bullet_fem/btFemConstraintSolver.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "demos/drop_options.h"
 #include "demos/drop_size.h"
@@ -51,8 +52,8 @@ private:
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
     btDbvtBroadphase m_broadphase;
-    btSequentialImpulseConstraintSolver m_rigidSolver;
     btFemSoftBodySolver m_fem;
+    btFemConstraintSolver m_rigidSolver{&m_fem};
     btSoftRigidDynamicsWorld m_world{&m_dispatcher, &m_broadphase, &m_rigidSolver, &m_configuration, &m_fem};
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::unique_ptr<btRigidBody> m_plane;

@@ -125,6 +125,7 @@ void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>&
     const RestFactor& factor = m_body.m_model->factor();
     const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
     FactorWork& work = m_body.m_workspace.scratch().m_factor;
+    const std::vector<NodeRotation>& R = m_body.m_workspace.scratch().m_elements.m_nodeRotation;
     float* y = work.m_vector.get();
 
     // Scaled to order one, so that the range of single precision does not matter.
@@ -135,8 +136,10 @@ void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>&
     {
         const int k = factor.position(static_cast<int>(i));
         if (k < 0) continue;
-        const Vec3 q = fixed[i] ? Vec3() : down * transposeTimes(rotation(static_cast<int>(i)), in[i]);
-        for (int c = 0; c < 3; ++c) y[3 * k + c] = static_cast<float>(q[c]);
+        const Vec3 r = fixed[i] ? Vec3() : down * in[i];
+        const float rx = static_cast<float>(r.x), ry = static_cast<float>(r.y), rz = static_cast<float>(r.z);
+        const float* m = R[i].m;
+        for (int c = 0; c < 3; ++c) y[3 * k + c] = m[c] * rx + m[3 + c] * ry + m[6 + c] * rz;
     }
     factor.lower().solve(y, work.m_scratch.get());
     for (std::size_t i = 0; i < in.size(); ++i)
@@ -147,7 +150,11 @@ void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>&
         else if (k < 0)
             out[i] = (1 / factor.diagonal(static_cast<int>(i))) * in[i];
         else
-            out[i] = largest * (rotation(static_cast<int>(i)) * Vec3{y[3 * k], y[3 * k + 1], y[3 * k + 2]});
+        {
+            const float *m = R[i].m, *q = y + 3 * static_cast<std::size_t>(k);
+            const auto row = [m, q](int c) { return m[3 * c] * q[0] + m[3 * c + 1] * q[1] + m[3 * c + 2] * q[2]; };
+            out[i] = {largest * row(0), largest * row(1), largest * row(2)};
+        }
     }
 }
 

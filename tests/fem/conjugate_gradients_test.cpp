@@ -49,6 +49,22 @@ private:
     mutable int m_count = 0;
 };
 
+/// Counts its applications.
+class CountingOperator : public LinearOperator
+{
+public:
+    CountingOperator(const LinearOperator& A, int& count) : m_A(A), m_count(count) {}
+    void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override
+    {
+        m_A.apply(in, out);
+        ++m_count;
+    }
+
+private:
+    const LinearOperator& m_A;
+    int& m_count;
+};
+
 class ConjugateGradients : public testing::Test
 {
 protected:
@@ -179,6 +195,50 @@ TEST_F(ConjugateGradients, StartFromTheGuess)
     EXPECT_LT(warm.m_iterations, cold);
     EXPECT_EQ(warm.m_stop, SolveStop::converged);
     EXPECT_LE(error(), 1e-8);
+}
+
+// A guess that is right but for its length costs nothing, one that points the wrong way is as good as none.
+TEST_F(ConjugateGradients, ScaleTheGuessByItsOptimalLength)
+{
+    const int cold = solve().m_iterations;
+    for (const double length : {1e-3, 0.5, 40.0})
+    {
+        for (int i = 0; i < kNodes; ++i) m_x[i] = length * m_solution[i];
+        const SolveReport report = solve();
+        EXPECT_LE(report.m_iterations, 1) << length;  // rounding of the scaled guess may leave one
+        EXPECT_LE(error(), 1e-9) << length;
+    }
+    for (int i = 0; i < kNodes; ++i) m_x[i] = -1e6 * m_solution[i];
+    EXPECT_EQ(solve().m_iterations, cold);
+    EXPECT_LE(error(), 1e-8);
+}
+
+// Else its error would be carried from step to step.
+TEST_F(ConjugateGradients, TakeAGuessAsItStandsAtATenthOfTheToleranceOnly)
+{
+    m_stop.m_tolerance = 1e-2;
+    m_stop.m_maxIterations = 2;
+    const std::vector<Vec3> other = randomNodes(3);
+    const auto guessWithResidual = [&](double share)
+    {
+        const Eigen::VectorXd residual = share * flat(m_b).norm() * flat(other).normalized();
+        m_x = nodes(m_matrix.inverse() * (flat(m_b) - residual));
+        return solve().m_iterations;
+    };
+    EXPECT_EQ(guessWithResidual(0.5e-3), 0);
+    EXPECT_GT(guessWithResidual(5e-3), 0);
+}
+
+// Short of eight iterations and at loose tolerances the recurrence is believed: no product is spent on looking.
+TEST_F(ConjugateGradients, SpendNoProductOnTheTrueResidualAtLooseTolerances)
+{
+    m_stop.m_tolerance = 1e-2;
+    int products = 0;
+    const CountingOperator A(m_A, products);
+    const SolveReport report = solve(A, DenseOperator(m_matrix.inverse()));
+    EXPECT_EQ(report.m_iterations, 1);
+    EXPECT_EQ(products, 1);
+    EXPECT_NEAR(report.m_residual, trueResidual(), 1e-9);
 }
 
 TEST_F(ConjugateGradients, HaveNothingToDoWithoutARightSide)

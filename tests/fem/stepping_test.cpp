@@ -324,5 +324,49 @@ TEST(Parts, PushesMoveWithoutVelocity)
         EXPECT_LE(norm(body.m_state.m_x[i] - x[i] - settings.m_step * v[i]), 1e-15);
 }
 
+// The increments of the last two steps, continued, save iterations where the motion is smooth, and change the answer by
+// no more than the tolerance allows.
+TEST(Guess, FromTheLastTwoIncrementsSavesIterations)
+{
+    Body warm =
+        makeBody(makeBox({4, 1, 1}, {8, 2, 2}), elasticMaterial(1e5, 0.3), [](const Vec3& X) { return X.x == 0; });
+    Body cold(warm.m_model);
+    for (Body* body : {&warm, &cold})
+        for (std::size_t i = 0; i < body->m_state.m_x.size(); ++i)
+            body->m_loads.m_force[i] = {0, 0, -9.81 * body->m_state.m_mass[i]};
+    int warmIterations = 0, coldIterations = 0;
+    for (int k = 0; k < 60; ++k)
+    {
+        for (std::vector<Vec3>& increment : cold.m_state.m_lastIncrement) increment.assign(increment.size(), Vec3());
+        warmIterations += step(warm, StepSettings()).m_iterations;
+        coldIterations += step(cold, StepSettings()).m_iterations;
+    }
+    EXPECT_LT(warmIterations, 0.7 * coldIterations);
+    const double moved = largestDistance(cold.m_state.m_x, cold.m_model->mesh().restPositions());
+    EXPECT_GT(moved, 0.5);
+    EXPECT_LE(largestDistance(warm.m_state.m_x, cold.m_state.m_x), 2e-3 * moved);
+}
+
+// What the state remembers is only where the search starts.
+TEST(Guess, OfAnotherMotionDoesNoHarm)
+{
+    Body body =
+        makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e5, 0.3), [](const Vec3& X) { return X.z == 0; });
+    Body other(body.m_model);
+    RandomVectors random(5);
+    for (std::vector<Vec3>& increment : other.m_state.m_lastIncrement)
+        for (Vec3& dv : increment) dv = 1e3 * random.next();
+    StepSettings settings;
+    settings.m_tolerance = 1e-8;
+    for (Body* b : {&body, &other})
+    {
+        b->m_loads.m_force[20] = {1, 2, 3};
+        EXPECT_EQ(step(*b, settings).m_stop, SolveStop::converged);
+    }
+    const double moved = largestDistance(body.m_state.m_x, body.m_model->mesh().restPositions());
+    EXPECT_GT(moved, 0);
+    EXPECT_LE(largestDistance(body.m_state.m_x, other.m_state.m_x), 1e-6 * moved);
+}
+
 }  // namespace
 }  // namespace bullet_fem
