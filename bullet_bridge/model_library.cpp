@@ -53,7 +53,9 @@ std::shared_ptr<const BodyModel> ModelLibrary::model(const std::shared_ptr<const
     for (const Model& entry : m_models)
         if (auto model = entry.m_model.lock())
             if (model->sharedShape() == shape && model->factorInput() == input) return model;
-    auto model = BodyModel::create(shape, input);
+    FactorInput limited = input;
+    limited.m_maxBytes = m_maxFactorBytes;
+    auto model = BodyModel::create(shape, std::move(limited));
     m_models.push_back({model, {}});
     return model;
 }

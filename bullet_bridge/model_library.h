@@ -17,6 +17,9 @@ class ComplianceCache;
 class ModelLibrary
 {
 public:
+    /// Factors may take so much memory each [B]; 0 for any amount.
+    explicit ModelLibrary(std::size_t maxFactorBytes = 0) : m_maxFactorBytes(maxFactorBytes) {}
+
     /// A shape like this, an old one if there is one. Throws what RestShape's constructor throws.
     std::shared_ptr<const RestShape> restShape(const TetMesh& mesh, const Material& material,
                                                const std::vector<double>& filled);
@@ -38,6 +41,7 @@ private:
         std::weak_ptr<const BodyModel> m_model;
         std::weak_ptr<ComplianceCache> m_compliance;
     };
+    std::size_t m_maxFactorBytes;
     std::vector<Shape> m_shapes;
     std::vector<Model> m_models;
 };

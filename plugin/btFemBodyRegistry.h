@@ -64,8 +64,11 @@ struct btFemEntry
 class btFemBodyRegistry
 {
 public:
-    /// Whether dispatchers of FEM bodies get their manifolds.
-    explicit btFemBodyRegistry(bool showsManifolds) : m_showsManifolds(showsManifolds) {}
+    /// Whether dispatchers of FEM bodies get their manifolds, and how large factors may be.
+    explicit btFemBodyRegistry(const btFemSolverInfo& info)
+        : m_showsManifolds(info.m_manifolds), m_library(static_cast<std::size_t>(1e6 * info.m_maxFactorMegabytes))
+    {
+    }
 
     btFemEntry* find(const btSoftBody* body);
     const btFemEntry* find(const btSoftBody* body) const { return const_cast<btFemBodyRegistry*>(this)->find(body); }

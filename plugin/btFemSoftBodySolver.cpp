@@ -22,9 +22,7 @@ using namespace bullet_fem;
 struct btFemSoftBodySolver::Impl
 {
     explicit Impl(const btFemSolverInfo& info)
-        : m_registry(info.m_manifolds),
-          m_step(info),
-          m_manifolds(info.m_manifolds ? std::make_shared<btFemManifolds>() : nullptr)
+        : m_registry(info), m_step(info), m_manifolds(info.m_manifolds ? std::make_shared<btFemManifolds>() : nullptr)
     {
     }
 
@@ -128,7 +126,9 @@ bool btFemSolverInfo::valid(std::string* why) const
                  "[8, 20000]; 2000 is usual") &&
            check(m_erp >= 0 && m_erp <= 1, why, "m_erp", m_erp, "[0, 1]; 0.2 is usual") &&
            check(m_maxPushVelocity >= 0 && m_maxPushVelocity <= 1000, why, "m_maxPushVelocity", m_maxPushVelocity,
-                 "[0, 1000] m/s; 1 is usual");
+                 "[0, 1000] m/s; 1 is usual") &&
+           check(m_maxFactorMegabytes >= 0 && m_maxFactorMegabytes <= btScalar(1e6), why, "m_maxFactorMegabytes",
+                 m_maxFactorMegabytes, "[0, 1e6] MB; 0, which is no limit, is usual");
 }
 
 btFemSoftBodySolver::btFemSoftBodySolver(const btFemSolverInfo& info)

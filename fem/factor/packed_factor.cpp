@@ -8,15 +8,32 @@
 namespace bullet_fem
 {
 
+namespace
+{
+
+// Rows of a panel, padded.
+std::size_t paddedRows(const Supernode& s)
+{
+    return (3 * (static_cast<std::size_t>(s.m_columns) + s.m_rows) + kPanelLanes - 1) / kPanelLanes * kPanelLanes;
+}
+
+}  // namespace
+
+std::size_t PackedFactor::bytesFor(const SupernodeTree& tree)
+{
+    std::size_t floats = 0;
+    for (const Supernode& s : tree.m_supernodes) floats += paddedRows(s) * 3 * s.m_columns;
+    return sizeof(float) * floats;
+}
+
 PackedFactor::PackedFactor(SupernodeTree tree) : m_tree(std::move(tree)), m_all(m_tree.m_supernodes.size())
 {
     std::iota(m_all.begin(), m_all.end(), 0);
     m_panelStart.push_back(0);
-    for (int s : m_all)
+    for (const Supernode& s : m_tree.m_supernodes)
     {
-        const std::size_t rows = static_cast<std::size_t>(kPanelLanes) * panel(s).blocks();
-        m_panelStart.push_back(m_panelStart.back() + rows * panel(s).m_columns);
-        m_scratchRows = std::max(m_scratchRows, rows);
+        m_panelStart.push_back(m_panelStart.back() + paddedRows(s) * 3 * s.m_columns);
+        m_scratchRows = std::max(m_scratchRows, paddedRows(s));
     }
     m_panels = allocateFloats(m_panelStart.back());
     std::fill(m_panels.get(), m_panels.get() + m_panelStart.back(), 0.f);

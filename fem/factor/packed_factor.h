@@ -19,6 +19,9 @@ class PackedFactor
 public:
     PackedFactor() = default;
 
+    /// What the panels of a factor of this pattern take [B].
+    static std::size_t bytesFor(const SupernodeTree& tree);
+
     /// Room for a factor of this pattern, with zeros in it.
     explicit PackedFactor(SupernodeTree tree);
 

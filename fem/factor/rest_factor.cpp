@@ -3,6 +3,8 @@
 #include "fem/factor/rest_factor.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "fem/factor/block_matrix.h"
 #include "fem/factor/numeric_factor.h"
@@ -65,6 +67,11 @@ RestFactor::RestFactor(const RestShape& shape, const FactorInput& input, FactorR
         order[k] = freeNodes[order[k]];
         m_position[order[k]] = static_cast<int>(k);
     }
+    const std::size_t bytes = PackedFactor::bytesFor(tree);
+    if (input.m_maxBytes > 0 && bytes > input.m_maxBytes)
+        throw std::runtime_error("the factor of " + std::to_string(freeNodes.size()) + " free nodes would take " +
+                                 std::to_string(bytes) + " bytes, more than the limit of " +
+                                 std::to_string(input.m_maxBytes) + "; raise the limit or make a coarser mesh");
     m_lower = PackedFactor(tree);
     factorSupernodes(A0, order, tree, [this](int s, const double* S, const double* M) { m_lower.pack(s, S, M); });
     report.m_ordering = ordering;

@@ -145,6 +145,26 @@ TEST_F(BodyModelInput, OfExtremeValuesGivesAFiniteStep)
     }
 }
 
+// The limit is compared with what the factor would take, to the byte, before it is computed.
+TEST(BodyModelInput, AFactorBeyondTheLimitIsRefusedWithItsSize)
+{
+    const std::shared_ptr<const BodyModel> model = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), Material()).m_model;
+    FactorInput input = model->factorInput();
+    input.m_maxBytes = model->factorReport().m_bytes;
+    EXPECT_EQ(BodyModel::create(model->sharedShape(), input)->factorReport().m_bytes, input.m_maxBytes);
+    const std::string size = std::to_string(input.m_maxBytes);
+    --input.m_maxBytes;
+    try
+    {
+        BodyModel::create(model->sharedShape(), input);
+        ADD_FAILURE() << "nothing was thrown";
+    }
+    catch (const std::runtime_error& error)
+    {
+        EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr(size), testing::HasSubstr("coarser")));
+    }
+}
+
 TEST(BodyState, StartsAtRest)
 {
     const Body body = makeBody(makeBox({1, 1, 1}, {1, 1, 1}), Material(), [](const Vec3& X) { return X.x == 0; });

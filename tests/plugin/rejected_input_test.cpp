@@ -94,6 +94,8 @@ TEST(RejectedSolverInfo, NamesValueAndRange)
     expectBadInfo(&btFemSolverInfo::m_contactSweeps, 0, "m_contactSweeps");
     expectBadInfo(&btFemSolverInfo::m_contactSweeps, 1001, "m_contactSweeps");
     expectBadInfo(&btFemSolverInfo::m_maxContacts, 7, "m_maxContacts");
+    expectBadInfo(&btFemSolverInfo::m_maxFactorMegabytes, btScalar(-1), "m_maxFactorMegabytes");
+    expectBadInfo(&btFemSolverInfo::m_maxFactorMegabytes, btScalar(2e6), "m_maxFactorMegabytes");
     expectBadInfo(&btFemSolverInfo::m_maxContacts, 20001, "m_maxContacts");
     expectBadInfo(&btFemSolverInfo::m_erp, btScalar(-0.1), "m_erp");
     expectBadInfo(&btFemSolverInfo::m_erp, btScalar(1.1), "m_erp");
@@ -113,6 +115,23 @@ protected:
     btFemSoftBodySolver m_fem;
     SoftWorld m_world{m_fem};
 };
+
+// The body is left to Bullet with the amount in its message; one that fits is stepped.
+TEST(RejectedSize, OfAFactorBeyondTheLimit)
+{
+    btFemSolverInfo info;
+    info.m_maxFactorMegabytes = btScalar(0.5);
+    btFemSoftBodySolver fem(info);
+    SoftWorld world(fem);
+    btSoftBody& large = world.addSoft(btFemHelpers::createBox(world.info(), {0, 0, 0}, {1, 1, 1}, btScalar(0.25)));
+    btSoftBody& small = world.addSoft(btFemHelpers::createBox(world.info(), {3, 0, 0}, {1, 1, 1}, btScalar(0.5)));
+    world.step();
+    EXPECT_FALSE(fem.isFem(&large));
+    EXPECT_TRUE(fem.isFem(&small));
+    const std::string message = fem.stepReport(&large).m_message;
+    for (const char* part : {"factor", "more than the limit of 500000", "coarser"})
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+}
 
 TEST_F(RejectedCall, OnNull)
 {

@@ -21,6 +21,9 @@ struct FactorInput
     std::vector<unsigned char>
         m_fixed;               ///< per node, 1 where the velocity is prescribed (pinned); those are eliminated
     double m_step = 1.0 / 60;  ///< h [s], in [1e-6, 1]
+    /// Memory that the packed factor may take [B], 0 for any amount. A limit, not a property of the factor: bodies that
+    /// differ in it share one.
+    std::size_t m_maxBytes = 0;
 
     friend bool operator==(const FactorInput& a, const FactorInput& b)
     {
@@ -46,7 +49,7 @@ class BodyModel
 public:
     /// Builds the factor. Not thread-safe with itself (METIS uses the global random generator). Throws
     /// std::invalid_argument naming the value on a bad step, mass or array size, std::runtime_error if A0 cannot be
-    /// factored.
+    /// factored or its factor would be larger than input.m_maxBytes (said before it is computed).
     static std::shared_ptr<const BodyModel> create(std::shared_ptr<const RestShape> shape, FactorInput input);
     ~BodyModel();
 
