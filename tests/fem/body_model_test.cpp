@@ -146,7 +146,7 @@ TEST_F(BodyModelInput, OfExtremeValuesGivesAFiniteStep)
 }
 
 // The limit is compared with what the factor would take, to the byte, before it is computed.
-TEST(BodyModelInput, AFactorBeyondTheLimitIsRefusedWithItsSize)
+TEST(BodyModelLimit, AFactorBeyondTheLimitIsRefusedWithItsSize)
 {
     const std::shared_ptr<const BodyModel> model = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), Material()).m_model;
     FactorInput input = model->factorInput();
