@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -30,19 +31,28 @@ struct BeamCase
 struct BeamRun
 {
     std::string m_method;
-    double m_tolerance = 0;             ///< |b - A dv| / |b| asked for [-]; 0 where the method has no such setting
+    double m_tolerance = 0;             ///< the method's own setting [-]; 0 where it has none or keeps its default
+    bool m_sameModel = true;            ///< false: another model, so that residual and tip error mean nothing
+    double m_residualBound = 1e-3;      ///< |b - A dv| / |b| [-] up to which the run counts as solved
     double m_tipBound = 1e-3;           ///< tip error [-] up to which the run counts as the same answer
     double m_mass = 0;                  ///< mass of the free nodes [kg]
     double m_setupSeconds = 0;          ///< everything before the first step [s]
+    std::size_t m_heapBytes = 0;        ///< held after the last step by all that the method needs [B]; 0 if unknown
+    std::size_t m_factorBytes = 0;      ///< of the packed factor [B]; 0 where there is none
     std::vector<double> m_stepSeconds;  ///< wall time of the step alone [s]
+    std::vector<double> m_cpuSeconds;   ///< of it, what the thread had of a processor [s]
     std::vector<int> m_iterations;      ///< CG iterations, 1 for the direct mode
-    std::vector<double> m_residuals;    ///< true |b - A dv| / |b| after the solve [-]
+    std::vector<double> m_residuals;    ///< true |b - A dv| / |b| after the solve [-]; empty for other models
     std::vector<double> m_tipHeights;   ///< z of the tip node after the step [m]
 };
 
 /// The beam with cubic cells of side 1 / cellsPerMetre [m], cellsPerMetre in [1, 32]: 24 cellsPerMetre^3 tets.
 /// Throws std::invalid_argument.
 BeamCase makeBeamCase(int cellsPerMetre, const Material& material);
+
+/// The cells a metre, in [1, 32], of a beam of `tets` = 24 n^3 elements. Throws std::invalid_argument if there is no
+/// such n.
+int beamCells(int tets);
 
 /// Lumped node masses, rho V / 4 from each tet at a node [kg]; clamped nodes too.
 std::vector<double> lumpedNodeMasses(const BeamCase& beam);

@@ -21,13 +21,18 @@ struct BeamFigures
     std::string m_method;
     double m_tolerance = 0;              ///< [-]; 0 where there is none to set
     double m_medianMilliseconds = 0;     ///< a step [ms]
+    double m_cpuMilliseconds = 0;        ///< median of a step's processor time [ms]
     double m_worstMilliseconds = 0;      ///< a step [ms]
     double m_setupSeconds = 0;           ///< [s]
+    double m_heapMegabytes = 0;          ///< held after the last step [MB, 1e6 B]; 0 if unknown
+    double m_factorMegabytes = 0;        ///< of the packed factor [MB]; 0 where there is none
+    bool m_sameModel = true;             ///< false: residual, tip error and m_counts mean nothing
     double m_meanIterations = 0;         ///< a step [-]
     double m_worstResidual = 0;          ///< largest |b - A dv| / |b| of all steps [-]
     double m_worstTipError = 0;          ///< largest tipError of all steps [-]
     bool m_counts = false;               ///< residual and tip error within their bounds
     double m_timesFasterThanBullet = 0;  ///< Bullet's median over this one's [-]; 0 if Bullet was not run
+    double m_cpuTimesFaster = 0;         ///< the same of processor times [-]
     std::vector<double> m_tipHeights;    ///< at listedSteps(steps) [m]
 };
 

@@ -7,6 +7,7 @@
 
 #include "benchmarks/bullet_deformable_world.h"
 #include "benchmarks/figures.h"
+#include "benchmarks/heap_bytes.h"
 
 namespace bullet_fem
 {
@@ -34,7 +35,9 @@ struct AuditedDeformableSolver : btDeformableBodySolver
     CountingElasticityForce* m_force = nullptr;
     int m_iterations = 0;
     double m_relativeResidual = 0;
-    double m_auditSeconds = 0;
+    double m_auditSeconds = 0, m_auditCpuSeconds = 0;
+
+    void setTolerance(double tolerance) { m_cg.m_tolerance = btScalar(tolerance); }
 
     void solveDeformableConstraints(btScalar step) override
     {
@@ -43,6 +46,7 @@ struct AuditedDeformableSolver : btDeformableBodySolver
         const Stopwatch watch;
         m_iterations = m_force->m_products - 1;
         measureResidual(step);
+        m_auditCpuSeconds = watch.cpuSeconds();
         m_auditSeconds = watch.seconds();
     }
 
@@ -99,7 +103,7 @@ public:
     void step(double h) { m_world.step(h); }
 
     const btSoftBody& body() const { return *m_body; }
-    const AuditedDeformableSolver& solver() const { return m_solver; }
+    AuditedDeformableSolver& solver() { return m_solver; }
 
 private:
     AuditedDeformableSolver m_solver;
@@ -110,15 +114,18 @@ private:
 
 }  // namespace
 
-BeamRun runBulletDeformable(const BeamCase& beam)
+BeamRun runBulletDeformable(const BeamCase& beam, double tolerance)
 {
     BeamRun run;
     run.m_method = "bullet";
+    run.m_tolerance = tolerance;
     run.m_tipBound = 6e-3;  // what its other point of linearisation makes of the same model
 
+    const std::size_t heapBefore = heapBytes();
     const Stopwatch setUp;
     DeformableBeamWorld world(beam);
     run.m_setupSeconds = setUp.seconds();
+    if (tolerance > 0) world.solver().setTolerance(tolerance);
     for (int i = 0; i < world.body().m_nodes.size(); ++i)
         if (world.body().m_nodes[i].m_im > 0) run.m_mass += 1.0 / world.body().m_nodes[i].m_im;
 
@@ -126,11 +133,13 @@ BeamRun runBulletDeformable(const BeamCase& beam)
     {
         const Stopwatch watch;
         world.step(beam.m_step);
+        run.m_cpuSeconds.push_back(watch.cpuSeconds() - world.solver().m_auditCpuSeconds);
         run.m_stepSeconds.push_back(watch.seconds() - world.solver().m_auditSeconds);
         run.m_iterations.push_back(world.solver().m_iterations);
         run.m_residuals.push_back(world.solver().m_relativeResidual);
         run.m_tipHeights.push_back(world.body().m_nodes[beam.m_tipNode].m_x.z());
     }
+    run.m_heapBytes = heapBytes() - heapBefore;
     return run;
 }
 

@@ -2,10 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "benchmarks/fem_beam.h"
 
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
+#include "benchmarks/figures.h"
+#include "benchmarks/heap_bytes.h"
 #include "bullet_fem/fem/stepping.h"
 #include "fem/warped_elements.h"
 
@@ -13,13 +14,6 @@ namespace bullet_fem
 {
 namespace
 {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string methodName(const StepSettings& settings)
 {
@@ -104,21 +98,26 @@ BeamRun runFem(const BeamCase& beam, StepSettings settings)
     BeamRun run;
     run.m_method = methodName(settings);
     run.m_tolerance = settings.m_direct ? 0 : settings.m_tolerance;
+    if (!settings.m_direct) run.m_residualBound = settings.m_tolerance;
 
-    const Clock::time_point setUp = Clock::now();
+    const std::size_t heapBefore = heapBytes();
+    const Stopwatch setUp;
     Body body(makeBeamModel(beam));
-    run.m_setupSeconds = secondsSince(setUp);
+    run.m_setupSeconds = setUp.seconds();
+    run.m_factorBytes = body.m_model->factorReport().m_bytes;
     load(body, beam);
     for (std::size_t i = 0; i < beam.m_positions.size(); ++i)
         if (!body.m_state.m_fixed[i]) run.m_mass += body.m_state.m_mass[i];
     for (int k = 0; k < beam.m_steps; ++k)
     {
-        const Clock::time_point start = Clock::now();
+        const Stopwatch watch;
         const SolveReport report = step(body, settings);
-        run.m_stepSeconds.push_back(secondsSince(start));
+        run.m_cpuSeconds.push_back(watch.cpuSeconds());
+        run.m_stepSeconds.push_back(watch.seconds());
         run.m_iterations.push_back(report.m_iterations);
         run.m_tipHeights.push_back(body.m_state.m_x[beam.m_tipNode].z);
     }
+    run.m_heapBytes = heapBytes() - heapBefore;
 
     // The same steps once more, bit for bit, so that measuring their errors does not empty the caches of those timed.
     Body again(body.m_model);

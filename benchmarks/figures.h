@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <ostream>
 #include <vector>
 
@@ -40,14 +41,31 @@ void print(std::ostream& out, const char* format, Values... values)
     out << line;
 }
 
-/// Wall time since it was made.
+/// Time since it was made.
 class Stopwatch
 {
 public:
+    /// Wall time [s].
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
 
+    /// What the calling thread had of a processor [s], which programs beside it add little to. To be called by the
+    /// thread that made it; 0 where the system does not count it.
+    double cpuSeconds() const { return cpuNow() - m_cpuStart; }
+
 private:
+    static double cpuNow()
+    {
+#ifdef CLOCK_THREAD_CPUTIME_ID
+        timespec now{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+        return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+#else
+        return 0;
+#endif
+    }
+
     std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+    double m_cpuStart = cpuNow();
 };
 
 }  // namespace bullet_fem

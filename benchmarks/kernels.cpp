@@ -1,129 +1,100 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The kernels of one step, each on its own, on the clamped beam bent by half a second of its own weight at E = 1e6.
-#include <benchmark/benchmark.h>
+// The kernels of one step, each on its own, beside what the machine's memory and arithmetic allow.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <nlohmann/json.hpp>
 
-#include <map>
-#include <memory>
-
-#include "benchmarks/fem_beam.h"
-#include "benchmarks/machine_info.h"
-#include "bullet_fem/fem/stepping.h"
-#include "fem/warped_system.h"
+#include "benchmarks/json_file.h"
+#include "benchmarks/kernel_report.h"
+#include "benchmarks/machine_limits.h"
 
 namespace
 {
 using namespace bullet_fem;
 
-/// The bent beam as a step finds it: x has moved on, the rotations are still those of the step before.
-struct BentBeam
+const char* const g_legend = R"(
+One thread, the clamped beam bent by half a second of its own weight at E = 1e6; five rounds in which the kernels take
+turns. Rates and ratios are those of the best repetition: other programs only ever add.
+element pass    F, rotation, tensile part, force and the part of A of all elements
+preparation     that, the sums over nodes and the rotations of the nodes: all before the first iteration
+product A p     of all elements, with the sums over nodes
+preconditioner  P r: rotations, one solve pair, rotations
+solve pair      forward and backward with the packed factor; GB/s counts the factor twice
+GB/s            bytes that must be read and written once, caches or not
+GFLOP/s         product: 180 a tet; solves: those with the factor's entries; factorization: Cholesky's, in double
+                precision
+pair / 2 reads  one solve pair over reading a buffer as large as the packed factor twice, in the same turns
+16 / 1          16 right-hand sides together over one
+compliance      columns of A0^-1 of 64 neighbouring surface nodes and the 64 x 64 blocks between them, turned
+)";
+
+struct Options
 {
-    explicit BentBeam(int cellsPerMetre)
-    {
-        Material material;
-        material.m_stiffnessDamping = 0.01;
-        const BeamCase beam = makeBeamCase(cellsPerMetre, material);
-        m_body = std::make_unique<Body>(makeBeamModel(beam));
-        for (std::size_t i = 0; i < beam.m_positions.size(); ++i)
-            m_body->m_loads.m_force[i] = m_body->m_state.m_mass[i] * beam.m_gravity;
-        m_settings.m_step = beam.m_step;
-        for (int k = 0; k < 30; ++k) step(*m_body, m_settings);
-        m_in = m_body->m_state.m_v;
-        m_out = m_in;
-    }
-
-    const RestShape& shape() const { return m_body->m_model->shape(); }
-
-    std::unique_ptr<Body> m_body;
-    StepSettings m_settings;
-    std::vector<Vec3> m_in, m_out;
+    std::vector<int> m_tets = {1536, 12288, 41472};
+    bool m_large = false;
+    double m_seconds = 0.5;
+    std::string m_jsonFile;
 };
 
-/// Built once for each size.
-BentBeam& bentBeam(const benchmark::State& state)
+double measurePeak(double seconds)
 {
-    static std::map<int, std::unique_ptr<BentBeam>> beams;
-    const int cellsPerMetre = static_cast<int>(state.range(0));
-    std::unique_ptr<BentBeam>& beam = beams[cellsPerMetre];
-    if (!beam) beam = std::make_unique<BentBeam>(cellsPerMetre);
-    return *beam;
+    const int rounds = 100000;
+    float sink = 0;
+    const Timing time = timeInTurns({{"peak", [&] { sink += multiplyAdd(rounds); }, nullptr}}, seconds).front();
+    return sink > 0 ? 1e-9 * multiplyAddOperations(rounds) / time.m_best : 0;
 }
 
-void countTets(benchmark::State& state, const BentBeam& beam)
+void addOptions(CLI::App& app, Options& options)
 {
-    state.counters["tets"] = static_cast<double>(beam.shape().m_elements.size());
-    state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(beam.shape().m_elements.size()));
+    app.add_option("--tets", options.m_tets, "mesh sizes, each 24 n^3 with n in [1, 32] cells per metre")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_flag("--large", options.m_large, "98,304 tets, too: a factor far larger than the caches");
+    app.add_option("--seconds", options.m_seconds, "time for each kernel and size [s]")
+        ->check(CLI::Range(1e-3, 60.0))
+        ->capture_default_str();
+    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.footer(
+        "Example, a quick look: bulletfem_bench_kernels --tets 1536 --seconds 0.1\n"
+        "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
 }
-
-// F, rotations, forces and the part of A of all elements; the rotations start where the last step left them.
-void elementPass(benchmark::State& state)
-{
-    BentBeam& beam = bentBeam(state);
-    const std::vector<Quaternion> start = beam.m_body->m_state.m_elementRotation;
-    for (auto _ : state)
-    {
-        state.PauseTiming();
-        beam.m_body->m_state.m_elementRotation = start;
-        state.ResumeTiming();
-        prepareWarpedSystem(*beam.m_body, beam.m_settings, beam.m_out);
-        benchmark::DoNotOptimize(beam.m_out.data());
-    }
-    countTets(state, beam);
-}
-
-void systemProduct(benchmark::State& state)
-{
-    BentBeam& beam = bentBeam(state);
-    prepareWarpedSystem(*beam.m_body, beam.m_settings, beam.m_out);
-    const WarpedSystem A(*beam.m_body);
-    for (auto _ : state)
-    {
-        A.apply(beam.m_in, beam.m_out);
-        benchmark::DoNotOptimize(beam.m_out.data());
-    }
-    countTets(state, beam);
-}
-
-void preconditioner(benchmark::State& state)
-{
-    BentBeam& beam = bentBeam(state);
-    prepareWarpedSystem(*beam.m_body, beam.m_settings, beam.m_out);
-    const WarpedPreconditioner P(*beam.m_body);
-    for (auto _ : state)
-    {
-        P.apply(beam.m_in, beam.m_out);
-        benchmark::DoNotOptimize(beam.m_out.data());
-    }
-    countTets(state, beam);
-}
-
-void factorization(benchmark::State& state)
-{
-    BentBeam& beam = bentBeam(state);
-    for (auto _ : state)
-    {
-        const auto model = BodyModel::create(beam.m_body->m_model->sharedShape(), beam.m_body->m_model->factorInput());
-        benchmark::DoNotOptimize(model.get());
-    }
-    countTets(state, beam);
-    state.counters["entries"] = static_cast<double>(beam.m_body->m_model->factorReport().m_entries);
-}
-
-// Cells per metre: 1,536 and 12,288 tets.
-BENCHMARK(elementPass)->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
-BENCHMARK(systemProduct)->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
-BENCHMARK(preconditioner)->Arg(4)->Arg(8)->Unit(benchmark::kMicrosecond);
-BENCHMARK(factorization)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
 int main(int argc, char** argv)
 {
-    for (const auto& field : readMachineInfo(1)) benchmark::AddCustomContext(field.first, field.second);
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
+    Options options;
+    CLI::App app("Times the kernels of a step, beside what memory and arithmetic allow", "bulletfem_bench_kernels");
+    addOptions(app, options);
+    CLI11_PARSE(app, argc, argv);
+    if (options.m_large) options.m_tets.push_back(98304);
+
+    try
+    {
+        JsonFile json(options.m_jsonFile);
+        MachineInfo machine = readMachineInfo(1);
+        machine.emplace_back("vectors", vectorTarget());
+        KernelReport report;
+        report.m_peakGigaflops = measurePeak(options.m_seconds);
+        for (int tets : options.m_tets)
+        {
+            std::cerr << tets << " tets ..." << std::endl;
+            report.m_runs.push_back(measureKernels(tets, options.m_seconds));
+        }
+        std::cerr << "compliance ..." << std::endl;
+        report.m_compliance = measureCompliance(options.m_seconds);
+        std::cout << toText(machine) << '\n';
+        printTables(std::cout, report);
+        std::cout << g_legend;
+        json.write(machine, toJson(report));
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "bulletfem_bench_kernels: " << error.what() << std::endl;
+        return 1;
+    }
     return 0;
 }

@@ -44,6 +44,16 @@ std::string bulletVersion()
     return std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100) + scalar;
 }
 
+/// Programs that wanted to run, mean over the last minute: well above 0 before the first measurement says that others
+/// were using the machine.
+std::string loadAverage()
+{
+    std::ifstream file("/proc/loadavg");
+    std::string load;
+    file >> load;
+    return load;
+}
+
 std::string orUnknown(const std::string& value)
 {
     return value.empty() ? "unknown" : value;
@@ -55,6 +65,7 @@ MachineInfo readMachineInfo(int threads)
 {
     return {{"cpu", cpuModel()},
             {"logical_cores", std::to_string(std::thread::hardware_concurrency())},
+            {"load_before", orUnknown(loadAverage())},
             {"threads", std::to_string(threads)},
             {"compiler", compiler()},
             {"build_type", orUnknown(BULLETFEM_BUILD_TYPE)},

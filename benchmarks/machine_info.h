@@ -9,9 +9,9 @@
 namespace bullet_fem
 {
 
-/// What a time means nothing without, as names and values: cpu, logical cores, threads used, compiler, build type,
-/// versions of this project and of Bullet, commit at the time of configuring. A value that is not known reads
-/// "unknown".
+/// What a time means nothing without, as names and values: cpu, logical cores, load of the machine, threads used,
+/// compiler, build type, versions of this project and of Bullet, commit at the time of configuring. A value that is not
+/// known reads "unknown".
 using MachineInfo = std::vector<std::pair<std::string, std::string>>;
 
 /// Reads the machine's; `threads` [-] is how many the program uses.

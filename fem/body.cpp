@@ -21,7 +21,8 @@ StepScratch::StepScratch(const BodyModel& model)
       m_momentum(model.mesh()),
       m_solver(model.nodeCount()),
       m_elements(model.nodeCount(), model.elements().blockCount()),
-      m_factor{allocateFloats(model.factor().lower().size()), allocateFloats(model.factor().lower().scratchSize(1))}
+      m_factor{allocateFloats(model.factor().lower().vectorSize()),
+               allocateFloats(model.factor().lower().scratchSize())}
 {
 }
 

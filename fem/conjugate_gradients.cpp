@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "fem/pieces.h"
+
 namespace bullet_fem
 {
 namespace
@@ -21,66 +23,122 @@ constexpr int kTrustedIterations = 8;
 // that of the step before, and would be carried on from step to step.
 constexpr double kGuessShare = 0.1;
 
-// y += s x.
-void axpy(double s, const std::vector<Vec3>& x, std::vector<Vec3>& y)
+// Calls update(i) for every node, which changes nothing but entries i.
+template <class Update>
+void forEachNode(const Threads* threads, std::size_t size, const Update& update)
 {
-    for (std::size_t i = 0; i < x.size(); ++i) y[i] += s * x[i];
+    runRanges(threads, {static_cast<int>(size), kEntriesOfPiece},
+              [&](Range nodes)
+              {
+                  for (int i = nodes.m_begin; i < nodes.m_end; ++i) update(i);
+              });
 }
 
-// r = b - A x, by an application of A.
-void trueResidual(const LinearOperator& A, const std::vector<Vec3>& b, const std::vector<Vec3>& x, std::vector<Vec3>& r)
+// Four sums, so that an addition need not wait for the one before it; their order is fixed.
+double dotOfRange(const std::vector<Vec3>& a, const std::vector<Vec3>& b, Range nodes)
 {
-    A.apply(x, r);
-    for (std::size_t i = 0; i < b.size(); ++i) r[i] = b[i] - r[i];
-}
-
-// Scales a guess x by its optimal step length, so that it is never worse than none; r becomes b - A x. A x is given.
-void scaleGuess(const std::vector<Vec3>& Ax, const std::vector<Vec3>& b, std::vector<Vec3>& x, std::vector<Vec3>& r)
-{
-    const double best = dot(b, x) / dot(x, Ax);
-    const double scale = best > 0 && std::isfinite(best) ? best : 0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-        x[i] *= scale;
-        r[i] = scale > 0 ? b[i] - scale * Ax[i] : b[i];
-    }
+    double sum[4] = {};
+    int i = nodes.m_begin;
+    for (; i + 4 <= nodes.m_end; i += 4)
+        for (int k = 0; k < 4; ++k) sum[k] += dot(a[i + k], b[i + k]);
+    for (; i < nodes.m_end; ++i) sum[0] += dot(a[i], b[i]);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 }  // namespace
 
-// Four sums, so that an addition need not wait for the one before it; their order is fixed.
-double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
+double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Threads* threads)
 {
-    double sum[4] = {};
-    std::size_t i = 0;
-    for (; i + 4 <= a.size(); i += 4)
-        for (int k = 0; k < 4; ++k) sum[k] += dot(a[i + k], b[i + k]);
-    for (; i < a.size(); ++i) sum[0] += dot(a[i], b[i]);
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    const Pieces pieces(static_cast<int>(a.size()), kEntriesOfPiece);
+    double sums[Pieces::kMost];
+    runTasks(threads, pieces.count(), [&](int k) { sums[k] = dotOfRange(a, b, pieces[k]); });
+    double sum = 0;
+    for (int k = 0; k < pieces.count(); ++k) sum += sums[k];
+    return sum;
 }
+
+namespace
+{
+
+/// What the solve does to vectors of nodes.
+class NodeVectors
+{
+public:
+    explicit NodeVectors(const Threads* threads) : m_threads(threads) {}
+
+    double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) const
+    {
+        return bullet_fem::dot(a, b, m_threads);
+    }
+    double norm(const std::vector<Vec3>& a) const { return std::sqrt(dot(a, a)); }
+
+    /// r = b - Ax.
+    void residual(const std::vector<Vec3>& b, const std::vector<Vec3>& Ax, std::vector<Vec3>& r) const
+    {
+        forEachNode(m_threads, b.size(), [&](int i) { r[i] = b[i] - Ax[i]; });
+    }
+
+    /// p = z + beta p; z where beta is 0, whatever was in p.
+    void turn(double beta, const std::vector<Vec3>& z, std::vector<Vec3>& p) const
+    {
+        forEachNode(m_threads, p.size(), [&](int i) { p[i] = beta > 0 ? z[i] + beta * p[i] : z[i]; });
+    }
+
+    /// x += step p, r -= step Ap.
+    void advance(double step, const ConjugateGradientScratch& scratch, std::vector<Vec3>& x, std::vector<Vec3>& r) const
+    {
+        forEachNode(m_threads, x.size(),
+                    [&](int i)
+                    {
+                        x[i] += step * scratch.m_p[i];
+                        r[i] += -step * scratch.m_Ap[i];
+                    });
+    }
+
+    /// Scales a guess x by its optimal step length, so that it is never worse than none; r becomes b - A x.
+    void scaleGuess(const std::vector<Vec3>& Ax, const std::vector<Vec3>& b, std::vector<Vec3>& x,
+                    std::vector<Vec3>& r) const
+    {
+        const double best = dot(b, x) / dot(x, Ax);
+        const double scale = best > 0 && std::isfinite(best) ? best : 0;
+        forEachNode(m_threads, x.size(),
+                    [&](int i)
+                    {
+                        x[i] *= scale;
+                        r[i] = scale > 0 ? b[i] - scale * Ax[i] : b[i];
+                    });
+    }
+
+private:
+    const Threads* m_threads;
+};
+
+}  // namespace
 
 SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperator& P, const std::vector<Vec3>& b,
                                     const ConjugateGradientStop& stop, ConjugateGradientScratch& scratch,
                                     std::vector<Vec3>& x)
 {
     std::vector<Vec3>&r = scratch.m_r, &z = scratch.m_z, &p = scratch.m_p, &Ap = scratch.m_Ap;
-    const double bNorm = std::sqrt(dot(b, b));
+    const NodeVectors vectors(stop.m_threads);
+    const auto measureTruly = [&]  // r = b - A x, by an application of A
+    {
+        A.apply(x, Ap);
+        vectors.residual(b, Ap, r);
+        return vectors.norm(r);
+    };
+    const double bNorm = vectors.norm(b);
     const double goal = std::max(stop.m_tolerance * std::max(bNorm, stop.m_floor), kNothing);
     SolveReport report;
     bool residualIsTrue = true;
     r = b;
     double rNorm = bNorm;
-    const bool guessed = dot(x, x) > 0;
-    if (guessed)
+    const bool guessed = vectors.dot(x, x) > 0;
+    if (guessed) rNorm = measureTruly();
+    if (guessed && !(rNorm <= kGuessShare * goal))
     {
-        A.apply(x, Ap);
-        for (std::size_t i = 0; i < b.size(); ++i) r[i] = b[i] - Ap[i];
-        rNorm = std::sqrt(dot(r, r));
-        if (!(rNorm <= kGuessShare * goal))
-        {
-            scaleGuess(Ap, b, x, r);
-            rNorm = std::sqrt(dot(r, r));
-        }
+        vectors.scaleGuess(Ap, b, x, r);
+        rNorm = vectors.norm(r);
     }
     double rz = 0;
     report.m_stop = SolveStop::budget;
@@ -88,8 +146,7 @@ SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperato
     {
         if (rNorm <= goal && !residualIsTrue)
         {
-            trueResidual(A, b, x, r);
-            rNorm = std::sqrt(dot(r, r));
+            rNorm = measureTruly();
             residualIsTrue = true;
             rz = 0;  // restart from here if the recurrence had drifted
         }
@@ -101,28 +158,23 @@ SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperato
         if (report.m_iterations == stop.m_maxIterations) break;
 
         P.apply(r, z);
-        const double rzNew = dot(r, z);
+        const double rzNew = vectors.dot(r, z);
         const double beta = rz > 0 ? rzNew / rz : 0;
-        for (std::size_t i = 0; i < p.size(); ++i) p[i] = beta > 0 ? z[i] + beta * p[i] : z[i];
+        vectors.turn(beta, z, p);
         A.apply(p, Ap);
-        const double pAp = dot(p, Ap), step = rzNew / pAp;
+        const double pAp = vectors.dot(p, Ap), step = rzNew / pAp;
         if (!(rzNew > 0) || !(pAp > 0) || !std::isfinite(step))
         {
             report.m_stop = SolveStop::breakdown;
             break;
         }
-        axpy(step, p, x);
-        axpy(-step, Ap, r);
+        vectors.advance(step, scratch, x, r);
         rz = rzNew;
-        rNorm = std::sqrt(dot(r, r));
+        rNorm = vectors.norm(r);
         ++report.m_iterations;
         residualIsTrue = stop.m_tolerance >= kTrustedTolerance && report.m_iterations <= kTrustedIterations;
     }
-    if (!residualIsTrue)
-    {
-        trueResidual(A, b, x, r);
-        rNorm = std::sqrt(dot(r, r));
-    }
+    if (!residualIsTrue) rNorm = measureTruly();
     report.m_residual = bNorm > 0 ? rNorm / bNorm : 0;
     return report;
 }

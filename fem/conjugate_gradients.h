@@ -28,9 +28,10 @@ struct ConjugateGradientScratch
 
 struct ConjugateGradientStop
 {
-    double m_tolerance = 1e-3;  ///< stop at |r| <= tolerance max(|b|, floor)
-    double m_floor = 0;         ///< in the units of b, >= 0
-    int m_maxIterations = 100;  ///< >= 1
+    double m_tolerance = 1e-3;           ///< stop at |r| <= tolerance max(|b|, floor)
+    double m_floor = 0;                  ///< in the units of b, >= 0
+    int m_maxIterations = 100;           ///< >= 1
+    const Threads* m_threads = nullptr;  ///< who shares the work on long vectors; null: the caller's thread alone
 };
 
 /// Solves A x = b by preconditioned conjugate gradients [Hestenes & Stiefel 1952], starting from x, which is first
@@ -41,7 +42,7 @@ SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperato
                                     const ConjugateGradientStop& stop, ConjugateGradientScratch& scratch,
                                     std::vector<Vec3>& x);
 
-/// Sum over nodes of a_i . b_i.
-double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
+/// Sum over nodes of a_i . b_i; the same bits for any number of threads.
+double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Threads* threads = nullptr);
 
 }  // namespace bullet_fem

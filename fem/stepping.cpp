@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bullet_fem/fem/threads.h"
 #include "fem/step_scratch.h"
 #include "fem/warped_system.h"
 
@@ -11,6 +12,22 @@ namespace bullet_fem
 {
 namespace
 {
+
+// Smaller bodies are solved in less time than it takes to share them out: nodes, of some 5 tets each.
+constexpr int kNodesToShare = 1000;
+
+// Calls solve(settings) with the other threads at hand, or without them if the body is too small.
+template <class Solve>
+auto share(const Body& body, StepSettings settings, const Solve& solve)
+{
+    decltype(solve(settings)) result;
+    if (body.m_model->nodeCount() < kNodesToShare) settings.m_threads = nullptr;
+    if (settings.m_threads)
+        settings.m_threads->gather([&] { result = solve(settings); });
+    else
+        result = solve(settings);
+    return result;
+}
 
 double massDamping(const Body& body)
 {
@@ -81,21 +98,20 @@ SolveReport solveIncrement(const Body& body, const StepSettings& settings, doubl
     stop.m_tolerance = settings.m_tolerance;
     stop.m_floor = floor;
     stop.m_maxIterations = settings.m_direct ? 1 : settings.m_maxIterations;
+    stop.m_threads = settings.m_threads;
     const SolveReport report =
-        solveConjugateGradients(WarpedSystem(body), WarpedPreconditioner(body), scratch.m_rightSide, stop,
-                                scratch.m_solver, scratch.m_increment);
+        solveConjugateGradients(WarpedSystem(body, settings.m_threads), WarpedPreconditioner(body, settings.m_threads),
+                                scratch.m_rightSide, stop, scratch.m_solver, scratch.m_increment);
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
         if (!body.m_state.m_fixed[i]) scratch.m_velocity[i] += scratch.m_increment[i];
     if (settings.m_momentumCorrection) scratch.m_momentum.restore(body, scratch.m_velocity);
     return report;
 }
 
-}  // namespace
-
-SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
+SolveReport solveFree(Body& body, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    const WarpedSystem A(body);
+    const WarpedSystem A(body, settings.m_threads);
 
     assembleRightSide(body, settings, scratch);
     eliminateFixedNodes(body, A, scratch);
@@ -109,6 +125,13 @@ SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
     return report;
 }
 
+}  // namespace
+
+SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
+{
+    return share(body, settings, [&](const StepSettings& shared) { return solveFree(body, shared); });
+}
+
 SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings, double floor)
 {
     StepScratch& scratch = body.m_workspace.scratch();
@@ -116,7 +139,8 @@ SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const S
         scratch.m_rightSide[i] = body.m_state.m_fixed[i] ? Vec3() : impulses[i];
     scratch.m_momentum.addImpulses(body, scratch.m_rightSide, settings.m_step);
     std::fill(scratch.m_increment.begin(), scratch.m_increment.end(), Vec3());
-    return solveIncrement(body, settings, floor, scratch);
+    return share(body, settings,
+                 [&](const StepSettings& shared) { return solveIncrement(body, shared, floor, scratch); });
 }
 
 void addVelocity(Body& body, const std::vector<Vec3>& change)

@@ -8,6 +8,7 @@
 #include "fem/elements/model_elements.h"
 #include "fem/elements/node_sums.h"
 #include "fem/factor/rest_factor.h"
+#include "fem/pieces.h"
 #include "fem/rotation.h"
 #include "fem/step_scratch.h"
 
@@ -18,9 +19,19 @@ namespace
 
 constexpr double kFinestSingle = 1e-5;  // tolerance that single precision is good for
 
-void pad(const std::vector<Vec3>& from, std::vector<PaddedVec3>& to)
+void pad(const Threads* threads, const std::vector<Vec3>& from, std::vector<PaddedVec3>& to)
 {
-    for (std::size_t i = 0; i < from.size(); ++i) to[i] = {from[i].x, from[i].y, from[i].z, 0};
+    runRanges(threads, {static_cast<int>(from.size()), kEntriesOfPiece},
+              [&](Range nodes)
+              {
+                  for (int i = nodes.m_begin; i < nodes.m_end; ++i) to[i] = {from[i].x, from[i].y, from[i].z, 0};
+              });
+}
+
+template <class Real>
+void sumOverNodes(const Threads* threads, const NodeSums<Real>& sums)
+{
+    runRanges(threads, {sums.m_nodes->nodeCount(), kNodesOfPiece}, [&](Range nodes) { sumCorners(sums, nodes); });
 }
 
 // Forces of all elements, their rotations and their part of A; the forces are added to `force` [N].
@@ -43,20 +54,23 @@ void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3
     pass.m_rotation = body.m_state.m_elementRotation.data();
     pass.m_force = scratch.m_corners.data();
     pass.m_warped = scratch.m_warped.data();
-    runElementPass(pass, {0, elements.blockCount()});
-    sumCorners(NodeSums<Real>{&elements.m_nodes, pass.m_force, nullptr, nullptr, force.data()},
-               {0, body.m_model->nodeCount()});
+    runRanges(settings.m_threads, {elements.blockCount(), kBlocksOfPiece},
+              [&](Range blocks) { runElementPass(pass, blocks); });
+    sumOverNodes(settings.m_threads, NodeSums<Real>{&elements.m_nodes, pass.m_force, nullptr, nullptr, force.data()});
 }
 
 // One rotation a node, or the body's one for all.
-void rotateNodes(Body& body, Warp warp)
+void rotateNodes(Body& body, const StepSettings& settings)
 {
     const ModelElements& elements = body.m_model->elements();
     BodyState& state = body.m_state;
     std::vector<NodeRotation>& R = body.m_workspace.scratch().m_elements.m_nodeRotation;
-    if (warp == Warp::nodal)
-        return averageRotations({&elements.m_nodes, state.m_elementRotation.data(), R.data()},
-                                {0, body.m_model->nodeCount()});
+    if (settings.m_warp == Warp::nodal)
+    {
+        const NodeRotations average = {&elements.m_nodes, state.m_elementRotation.data(), R.data()};
+        return runRanges(settings.m_threads, {body.m_model->nodeCount(), kNodesOfPiece},
+                         [&](Range nodes) { averageRotations(average, nodes); });
+    }
     const Mat3 sum = sumRotations(elements.m_nodes, state.m_elementRotation.data(), {0, elements.blockCount()});
     state.m_bodyRotation = polarRotation(sum, state.m_bodyRotation);
     NodeRotation Q;
@@ -65,18 +79,18 @@ void rotateNodes(Body& body, Warp warp)
 }
 
 template <class Real>
-void product(const Body& body, const std::vector<Vec3>& in, std::vector<Vec3>& out)
+void product(const Body& body, const Threads* threads, const std::vector<Vec3>& in, std::vector<Vec3>& out)
 {
     const ModelElements& elements = body.m_model->elements();
     ElementWork& work = body.m_workspace.scratch().m_elements;
     ElementScratch<Real>& scratch = work.scratch<Real>();
-    pad(in, work.m_x);
-    runElementProduct(ElementProduct<Real>{&elements.blocks<Real>(), scratch.m_warped.data(), work.m_x.data(),
-                                           scratch.m_corners.data()},
-                      {0, elements.blockCount()});
-    sumCorners(NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(), work.m_scaledMass.data(), work.m_x.data(),
-                              out.data()},
-               {0, body.m_model->nodeCount()});
+    pad(threads, in, work.m_x);
+    const ElementProduct<Real> forces = {&elements.blocks<Real>(), scratch.m_warped.data(), work.m_x.data(),
+                                         scratch.m_corners.data()};
+    runRanges(threads, {elements.blockCount(), kBlocksOfPiece},
+              [&](Range blocks) { runElementProduct(forces, blocks); });
+    sumOverNodes(threads, NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(), work.m_scaledMass.data(),
+                                         work.m_x.data(), out.data()});
 }
 
 }  // namespace
@@ -89,21 +103,21 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
     const double alpha = body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
     work.m_isDouble = settings.m_tolerance < kFinestSingle;
     for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i) work.m_scaledMass[i] = (1 + h * alpha) * state.m_mass[i];
-    pad(state.m_x, work.m_x);
-    pad(state.m_v, work.m_v);
+    pad(settings.m_threads, state.m_x, work.m_x);
+    pad(settings.m_threads, state.m_v, work.m_v);
     if (work.m_isDouble)
         passOverElements<double>(body, settings, force);
     else
         passOverElements<float>(body, settings, force);
-    rotateNodes(body, settings.m_warp);
+    rotateNodes(body, settings);
 }
 
 void WarpedSystem::applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
     if (m_body.m_workspace.scratch().m_elements.m_isDouble)
-        product<double>(m_body, in, out);
+        product<double>(m_body, m_threads, in, out);
     else
-        product<float>(m_body, in, out);
+        product<float>(m_body, m_threads, in, out);
 }
 
 void WarpedSystem::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
@@ -120,42 +134,69 @@ Mat3 WarpedPreconditioner::rotation(int node) const
     return {{{R[0], R[1], R[2]}, {R[3], R[4], R[5]}, {R[6], R[7], R[8]}}};
 }
 
-void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+// The factor's vector <- R^T in, scaled to order one, so that the range of single precision does not matter. Returns
+// what it was divided by.
+double WarpedPreconditioner::rotateIn(const std::vector<Vec3>& in) const
 {
     const RestFactor& factor = m_body.m_model->factor();
     const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
-    FactorWork& work = m_body.m_workspace.scratch().m_factor;
     const std::vector<NodeRotation>& R = m_body.m_workspace.scratch().m_elements.m_nodeRotation;
-    float* y = work.m_vector.get();
+    float* y = m_body.m_workspace.scratch().m_factor.m_vector.get();
 
-    // Scaled to order one, so that the range of single precision does not matter.
     double largest = 0;
     for (const Vec3& r : in) largest = std::max({largest, std::fabs(r.x), std::fabs(r.y), std::fabs(r.z)});
     const double down = largest > 0 ? 1 / largest : 0;
-    for (std::size_t i = 0; i < in.size(); ++i)
-    {
-        const int k = factor.position(static_cast<int>(i));
-        if (k < 0) continue;
-        const Vec3 r = fixed[i] ? Vec3() : down * in[i];
-        const float rx = static_cast<float>(r.x), ry = static_cast<float>(r.y), rz = static_cast<float>(r.z);
-        const float* m = R[i].m;
-        for (int c = 0; c < 3; ++c) y[3 * k + c] = m[c] * rx + m[3 + c] * ry + m[6 + c] * rz;
-    }
-    factor.lower().solve(y, work.m_scratch.get());
-    for (std::size_t i = 0; i < in.size(); ++i)
-    {
-        const int k = factor.position(static_cast<int>(i));
-        if (fixed[i])
-            out[i] = {};
-        else if (k < 0)
-            out[i] = (1 / factor.diagonal(static_cast<int>(i))) * in[i];
-        else
-        {
-            const float *m = R[i].m, *q = y + 3 * static_cast<std::size_t>(k);
-            const auto row = [m, q](int c) { return m[3 * c] * q[0] + m[3 * c + 1] * q[1] + m[3 * c + 2] * q[2]; };
-            out[i] = {largest * row(0), largest * row(1), largest * row(2)};
-        }
-    }
+    runRanges(m_threads, {static_cast<int>(in.size()), kNodesOfPiece},
+              [&](Range nodes)
+              {
+                  for (int i = nodes.m_begin; i < nodes.m_end; ++i)
+                  {
+                      const int k = factor.position(i);
+                      if (k < 0) continue;
+                      const Vec3 r = fixed[i] ? Vec3() : down * in[i];
+                      const float rx = static_cast<float>(r.x), ry = static_cast<float>(r.y),
+                                  rz = static_cast<float>(r.z);
+                      const float* m = R[i].m;
+                      for (int c = 0; c < 3; ++c) y[3 * k + c] = m[c] * rx + m[3 + c] * ry + m[6 + c] * rz;
+                  }
+              });
+    return largest;
+}
+
+// out <- scale R (the factor's vector).
+void WarpedPreconditioner::rotateOut(double scale, const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    const RestFactor& factor = m_body.m_model->factor();
+    const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
+    const std::vector<NodeRotation>& R = m_body.m_workspace.scratch().m_elements.m_nodeRotation;
+    const float* y = m_body.m_workspace.scratch().m_factor.m_vector.get();
+    runRanges(m_threads, {static_cast<int>(in.size()), kNodesOfPiece},
+              [&](Range nodes)
+              {
+                  for (int i = nodes.m_begin; i < nodes.m_end; ++i)
+                  {
+                      const int k = factor.position(i);
+                      if (fixed[i])
+                          out[i] = {};
+                      else if (k < 0)
+                          out[i] = (1 / factor.diagonal(i)) * in[i];
+                      else
+                      {
+                          const float *m = R[i].m, *q = y + 3 * static_cast<std::size_t>(k);
+                          const auto row = [m, q](int c)
+                          { return m[3 * c] * q[0] + m[3 * c + 1] * q[1] + m[3 * c + 2] * q[2]; };
+                          out[i] = {scale * row(0), scale * row(1), scale * row(2)};
+                      }
+                  }
+              });
+}
+
+void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    const FactorWork& work = m_body.m_workspace.scratch().m_factor;
+    const double scale = rotateIn(in);
+    m_body.m_model->factor().lower().solve(work.m_vector.get(), work.m_scratch.get(), m_threads);
+    rotateOut(scale, in, out);
 }
 
 }  // namespace bullet_fem

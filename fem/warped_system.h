@@ -19,7 +19,7 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
 class WarpedSystem : public LinearOperator
 {
 public:
-    explicit WarpedSystem(const Body& body) : m_body(body) {}
+    explicit WarpedSystem(const Body& body, const Threads* threads = nullptr) : m_body(body), m_threads(threads) {}
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
     /// A with the rows and columns of fixed nodes: what their motion does to the others.
@@ -27,6 +27,7 @@ public:
 
 private:
     const Body& m_body;
+    const Threads* m_threads;
 };
 
 /// P = R A0^-1 R^T [Garcia et al. 2006], R block-diagonal with the body's one rotation (global) or one a node (nodal).
@@ -35,14 +36,20 @@ private:
 class WarpedPreconditioner : public LinearOperator
 {
 public:
-    explicit WarpedPreconditioner(const Body& body) : m_body(body) {}
+    explicit WarpedPreconditioner(const Body& body, const Threads* threads = nullptr) : m_body(body), m_threads(threads)
+    {
+    }
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
     /// The rotation R_i that the preconditioner gives node i.
     Mat3 rotation(int node) const;
 
 private:
+    double rotateIn(const std::vector<Vec3>& in) const;
+    void rotateOut(double scale, const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
+
     const Body& m_body;
+    const Threads* m_threads;
 };
 
 }  // namespace bullet_fem

@@ -14,7 +14,11 @@
 class btFemContactGroup
 {
 public:
-    explicit btFemContactGroup(const btFemSolverInfo& info) : m_info(info) {}
+    /// `threads` share the corrective solves; they must live as long as the group.
+    btFemContactGroup(const btFemSolverInfo& info, const bullet_fem::Threads& threads) : m_info(info)
+    {
+        m_settings.m_step.m_threads = &threads;
+    }
 
     /// What is solved together, when, and all bodies that are known.
     struct Scope

@@ -10,6 +10,7 @@
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/fem/threads.h"
 #include "plugin/btFemAttachments.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemCoupling.h"
@@ -128,7 +129,9 @@ bool btFemSolverInfo::valid(std::string* why) const
            check(m_maxPushVelocity >= 0 && m_maxPushVelocity <= 1000, why, "m_maxPushVelocity", m_maxPushVelocity,
                  "[0, 1000] m/s; 1 is usual") &&
            check(m_maxFactorMegabytes >= 0 && m_maxFactorMegabytes <= btScalar(1e6), why, "m_maxFactorMegabytes",
-                 m_maxFactorMegabytes, "[0, 1e6] MB; 0, which is no limit, is usual");
+                 m_maxFactorMegabytes, "[0, 1e6] MB; 0, which is no limit, is usual") &&
+           check(m_threads >= 0 && m_threads <= Threads::kMost, why, "m_threads", m_threads,
+                 "[0, 256]; 1 is usual, 0 takes all that the machine has");
 }
 
 btFemSoftBodySolver::btFemSoftBodySolver(const btFemSolverInfo& info)

@@ -87,6 +87,7 @@ StepSettings btFemWorldStep::settingsOf(const btFemEntry& entry) const
     settings.m_maxIterations = m_info.m_maxIterations;
     settings.m_warp = entry.m_detail == btFemDetail::nodalWarp ? Warp::nodal : Warp::global;
     settings.m_direct = entry.m_detail == btFemDetail::direct && entry.m_contacts.size() == 0;
+    settings.m_threads = &m_threads;
     return settings;
 }
 
@@ -137,8 +138,8 @@ void btFemWorldStep::readBody(btFemEntry& entry)
     if (read.m_stalePins) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
 }
 
-// Makes a body ready for its step; false if it stands still. A body is started once a step.
-bool btFemWorldStep::start(btFemEntry& entry, double worldStep)
+// True if a body's free motion is still to be solved in this step; false, with a report, if it stands still.
+bool btFemWorldStep::isDue(btFemEntry& entry, double worldStep) const
 {
     if (!entry.m_present || entry.m_stage != btFemStage::predicted) return false;
     if (!entry.m_fem || entry.m_softBody->isActive()) clearReport(entry);
@@ -149,24 +150,31 @@ bool btFemWorldStep::start(btFemEntry& entry, double worldStep)
         entry.m_report.m_flags |= BT_FEM_BAD_STEP;
         return false;
     }
-    readBody(entry);  // once more: callbacks may have written since predict
-    solveFree(entry);
     return true;
+}
+
+// Bodies know nothing of each other here: on any thread, in any order.
+void btFemWorldStep::solveFree()
+{
+    m_threads.run(static_cast<int>(m_due.size()), [this](int k) { solveFree(*m_due[k]); });
 }
 
 btFemContactGroup* btFemWorldStep::beginGroup(btFemBodyRegistry& registry, btCollisionObject* const* bodies, int count,
                                               double step)
 {
     completeWokenBodies(registry);
-    m_active.clear();
+    m_due.clear();
     for (int k = 0; k < count; ++k)
     {
         const btSoftBody* soft = btSoftBody::upcast(bodies[k]);
         btFemEntry* entry = soft ? registry.find(soft) : nullptr;
-        if (entry && start(*entry, step)) m_active.push_back(entry);
+        if (!entry || !isDue(*entry, step)) continue;
+        entry->m_stage = btFemStage::free;
+        m_due.push_back(entry);
     }
-    if (m_active.empty()) return nullptr;
-    for (btFemEntry* entry : m_active) entry->m_stage = btFemStage::free;
+    if (m_due.empty()) return nullptr;
+    solveFree();
+    m_active.assign(m_due.begin(), m_due.end());
     m_group.collect({m_active, registry, step, RigidPhase::solving});
     if (m_group.isEmpty() || !m_group.holdsOnly(bodies, count)) return nullptr;
     for (btFemEntry* entry : m_active) entry->m_stage = btFemStage::solved;
@@ -176,10 +184,15 @@ btFemContactGroup* btFemWorldStep::beginGroup(btFemBodyRegistry& registry, btCol
 void btFemWorldStep::solve(btFemBodyRegistry& registry, double step)
 {
     completeWokenBodies(registry);
+    m_due.clear();
     m_active.clear();
     for (const auto& entry : registry.entries())
-        if (start(*entry, step) || (entry->m_present && entry->m_stage == btFemStage::free))
-            m_active.push_back(entry.get());
+    {
+        const bool due = isDue(*entry, step);
+        if (due) m_due.push_back(entry.get());
+        if (due || (entry->m_present && entry->m_stage == btFemStage::free)) m_active.push_back(entry.get());
+    }
+    solveFree();
     m_group.collect({m_active, registry, step, RigidPhase::moved});
     m_group.solve();
     for (const auto& entry : registry.entries())
@@ -188,7 +201,7 @@ void btFemWorldStep::solve(btFemBodyRegistry& registry, double step)
             readChanges(*entry);
             m_active.push_back(entry.get());
         }
-    for (btFemEntry* entry : m_active) finish(*entry);
+    m_threads.run(static_cast<int>(m_active.size()), [this](int k) { finish(*m_active[k]); });
     for (const auto& entry : registry.entries())
     {
         entry->m_stage = btFemStage::none;
@@ -206,9 +219,10 @@ void btFemWorldStep::readChanges(btFemEntry& entry)
     addVelocity(entry.m_fem->m_body, m_change);
 }
 
-void btFemWorldStep::solveFree(btFemEntry& entry)
+void btFemWorldStep::solveFree(btFemEntry& entry) const
 {
     const btFemStopwatch watch;
+    readBody(entry);  // once more: callbacks may have written since predict
     FemSoftBody& fem = *entry.m_fem;
     if (!readLoads(fem, entry.m_lastStep)) entry.m_report.m_flags |= BT_FEM_RESTORED;
     if (factorMismatch(fem, entry.m_lastStep) > kSameFactor) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
@@ -220,7 +234,7 @@ void btFemWorldStep::solveFree(btFemEntry& entry)
     entry.m_report.m_freeMotionMs = static_cast<btScalar>(watch.milliseconds());
 }
 
-void btFemWorldStep::finish(btFemEntry& entry)
+void btFemWorldStep::finish(btFemEntry& entry) const
 {
     FemSoftBody& fem = *entry.m_fem;
     if (isFinite(velocity(fem.m_body)))

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "bullet_fem/fem/threads.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemContactGroup.h"
 
@@ -13,7 +14,10 @@
 class btFemWorldStep
 {
 public:
-    explicit btFemWorldStep(const btFemSolverInfo& info) : m_info(info), m_group(info) {}
+    explicit btFemWorldStep(const btFemSolverInfo& info)
+        : m_info(info), m_threads(info.m_threads), m_group(info, m_threads)
+    {
+    }
 
     /// Before collision detection: sets new bodies up, takes over what the user wrote, lets Bullet add wind and
     /// pressure to m_f, and gives the broad phase the bounds of the motion to come.
@@ -32,15 +36,18 @@ public:
     void solve(btFemBodyRegistry& registry, double step);
 
 private:
-    bool start(btFemEntry& entry, double worldStep);
-    void readBody(btFemEntry& entry);
+    bool isDue(btFemEntry& entry, double worldStep) const;
+    static void readBody(btFemEntry& entry);
     void readChanges(btFemEntry& entry);
-    void solveFree(btFemEntry& entry);
-    void finish(btFemEntry& entry);
+    void solveFree();
+    void solveFree(btFemEntry& entry) const;
+    void finish(btFemEntry& entry) const;
     bullet_fem::StepSettings settingsOf(const btFemEntry& entry) const;
 
     btFemSolverInfo m_info;
-    std::vector<btFemEntry*> m_active;
+    bullet_fem::Threads m_threads;
+    std::vector<btFemEntry*> m_due;          // their free motion is to be solved
+    std::vector<btFemEntry*> m_active;       // it is solved
     std::vector<bullet_fem::Vec3> m_change;  // scratch [m/s]
     btFemContactGroup m_group;
 };

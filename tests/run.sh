@@ -8,7 +8,7 @@ source "$root/cmake/install_packages.sh"
 
 build=$root/build/release
 
-install_packages "${build_packages[@]}" libgtest-dev libgmock-dev libbenchmark-dev \
+install_packages "${build_packages[@]}" libgtest-dev libgmock-dev \
     nlohmann-json3-dev
 
 say "building in $build"

@@ -260,6 +260,7 @@ bool BodyEnds::gatherBeyond(const std::vector<Vec3>& known)
 
 SolveReport BodyEnds::apply(const StepSettings& settings)
 {
+    m_learnt = false;
     if (!gatherBeyond(m_applied)) return {};
     // Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin.
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
@@ -288,6 +289,7 @@ void BodyEnds::learn(double trueWork, double predictedWork)
 {
     if (!(predictedWork > kNoise * m_allWork) || !(trueWork > kTooStiff * predictedWork)) return;
     const double factor = std::min(kScaleMargin * trueWork / predictedWork, kLargestScaling);
+    m_learnt = factor != 1;
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
     if (!m_dense) return;

@@ -33,6 +33,8 @@ public:
 
     /// The factor that W has been scaled by [-], >= 1: grows when apply() finds W too stiff, and compliance() with it.
     double scale() const { return m_scale; }
+    /// True if the last apply() changed scale().
+    bool hasLearnt() const { return m_learnt; }
     bool isDense() const { return m_dense; }
     const Body& body() const { return *m_body.m_body; }
 
@@ -100,6 +102,7 @@ private:
     std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes
     Mat3 m_meanDiagonal;                    // not dense: estimate of W_ee, without the learnt scale
     double m_scale = 1;                     // learnt
+    bool m_learnt = false;                  // in the last apply()
     double m_allWork = 0;                   // of the impulses so far, roughly [J]
 };
 

@@ -36,7 +36,7 @@ ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model)
       m_supernodeOfPosition(m_model->factor().freeNodeCount()),
       m_marked(m_model->factor().lower().tree().m_supernodes.size()),
       m_rightSide(allocateFloats(static_cast<std::size_t>(m_model->factor().lower().size()) * kPanelLanes)),
-      m_scratch(allocateFloats(m_model->factor().lower().scratchSize(kPanelLanes)))
+      m_scratch(allocateFloats(m_model->factor().lower().laneScratchSize()))
 {
     const SupernodeTree& tree = m_model->factor().lower().tree();
     for (std::size_t s = 0; s < tree.m_supernodes.size(); ++s)

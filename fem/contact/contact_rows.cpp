@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bullet_fem/fem/stepping.h"
+#include "fem/pieces.h"
 
 namespace bullet_fem
 {
@@ -32,6 +33,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     m_problem = &problem;
     m_settings = settings;
     if (m_bodies.size() < problem.m_bodies.size()) m_bodies.resize(problem.m_bodies.size());
+    m_solved.resize(problem.m_bodies.size());
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b]);
     m_rows.clear();
     for (const ContactPoint& contact : problem.m_contacts) addContactRow(contact);
@@ -209,9 +211,27 @@ void ContactRows::change(Row& row, const Vec3& impulse)
     react(row.m_b, -difference);
 }
 
+// Calls part(b) for all bodies with ends, on these threads at the same time: it must write to nothing but body b and
+// its ends.
+template <class Part>
+void ContactRows::forEachTouchedBody(const Threads* threads, const Part& part)
+{
+    runTasks(threads, static_cast<int>(m_problem->m_bodies.size()),
+             [&](int b)
+             {
+                 if (m_bodies[b].size() > 0) part(b);
+             });
+}
+
+// A dense compliance is over before other threads have woken up.
+const Threads* ContactRows::threadsForCompliance() const
+{
+    return m_inTurn ? nullptr : m_settings.m_step.m_threads;
+}
+
 void ContactRows::flush()
 {
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].flush();
+    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].flush(); });
 }
 
 void ContactRows::warmStart()
@@ -231,8 +251,7 @@ bool ContactRows::hasImpulses() const
 
 void ContactRows::measure()
 {
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
-        if (m_bodies[b].size() > 0) m_bodies[b].measure();
+    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
     restart();
 }
 
@@ -249,15 +268,15 @@ void ContactRows::restart()
 
 void ContactRows::apply(ContactReport& report)
 {
+    forEachTouchedBody(m_settings.m_step.m_threads,
+                       [this](int b) { m_solved[b] = m_bodies[b].apply(m_settings.m_step); });
     bool learnt = false;
     for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
     {
         if (m_bodies[b].size() == 0) continue;
-        const double scale = m_bodies[b].scale();
-        const SolveReport solved = m_bodies[b].apply(m_settings.m_step);
-        report.m_iterations += solved.m_iterations;
-        report.m_converged = report.m_converged && solved.m_stop == SolveStop::converged;
-        learnt = learnt || m_bodies[b].scale() != scale;
+        report.m_iterations += m_solved[b].m_iterations;
+        report.m_converged = report.m_converged && m_solved[b].m_stop == SolveStop::converged;
+        learnt = learnt || m_bodies[b].hasLearnt();
     }
     if (!learnt) return;  // the rows' compliance is what it was
     for (Row& row : m_rows) finishRow(row);

@@ -29,7 +29,7 @@ public:
 
     /// One sweep; the velocities of ends and obstacles follow. Gauss-Seidel while all bodies have a dense compliance,
     /// else an accelerated projected gradient step on all rows at once. Returns the largest change of an impulse over
-    /// the largest impulse.
+    /// the largest impulse; of gradient steps, of which many short ones make up a way, a thousand times that.
     double sweep();
 
     /// Solves the bodies' true systems for what is new.
@@ -102,12 +102,16 @@ private:
     double sweepInTurn();
     double sweepAtOnce();
     void chooseStep();
+    template <class Part>
+    void forEachTouchedBody(const Threads* threads, const Part& part);
+    const Threads* threadsForCompliance() const;
     void preparePush();
     void payBack(std::size_t body, const Vec3& gained);
 
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     std::vector<BodyEnds> m_bodies;
+    std::vector<SolveReport> m_solved;                // per body, of the last corrective solves
     std::vector<Row> m_rows;                          // of the contacts, then of the joints
     bool m_inTurn = true;                             // Gauss-Seidel
     double m_gradientStep = 1, m_acceleration = 1;    // of the sweeps at once

@@ -118,6 +118,7 @@ void ContactRows::chooseStep()
 
 double ContactRows::sweepAtOnce()
 {
+    constexpr double kShortSteps = 1000;
     if (!(m_gradientStep > 0)) chooseStep();
     // Nesterov's extrapolation from the last two points, with restart where it points uphill [O'Donoghue, Candes 2015].
     const double next = 0.5 * (1 + std::sqrt(1 + 4 * m_acceleration * m_acceleration));
@@ -139,7 +140,7 @@ double ContactRows::sweepAtOnce()
     for (Row& row : m_rows) change(row, row.m_pending);
     flush();
     m_acceleration = uphill > 0 ? 1 : next;
-    return largest > 0 ? std::sqrt(largestChange / largest) : 0;
+    return largest > 0 ? kShortSteps * std::sqrt(largestChange / largest) : 0;
 }
 
 }  // namespace bullet_fem

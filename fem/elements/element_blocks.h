@@ -7,17 +7,12 @@
 
 #include "bullet_fem/fem/quaternion.h"
 #include "bullet_fem/fem/rest_shape.h"
+#include "fem/pieces.h"
 
 namespace bullet_fem
 {
 
 constexpr int kLanes = 16;  ///< elements of a block: one AVX-512 vector of floats, two of AVX2, four of SSE or NEON
-
-/// Blocks, nodes or elements from m_begin up to, not including, m_end.
-struct Range
-{
-    int m_begin, m_end;
-};
 
 /// A node's position or velocity as the element kernels load it, in one piece.
 struct alignas(32) PaddedVec3

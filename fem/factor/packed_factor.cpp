@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fem/pieces.h"
+
 namespace bullet_fem
 {
 
@@ -26,7 +28,8 @@ std::size_t PackedFactor::bytesFor(const SupernodeTree& tree)
     return sizeof(float) * floats;
 }
 
-PackedFactor::PackedFactor(SupernodeTree tree) : m_tree(std::move(tree)), m_all(m_tree.m_supernodes.size())
+PackedFactor::PackedFactor(SupernodeTree tree)
+    : m_tree(std::move(tree)), m_division(m_tree), m_all(m_tree.m_supernodes.size())
 {
     std::iota(m_all.begin(), m_all.end(), 0);
     m_panelStart.push_back(0);
@@ -35,6 +38,7 @@ PackedFactor::PackedFactor(SupernodeTree tree) : m_tree(std::move(tree)), m_all(
         m_panelStart.push_back(m_panelStart.back() + paddedRows(s) * 3 * s.m_columns);
         m_scratchRows = std::max(m_scratchRows, paddedRows(s));
     }
+    layOutScratch();
     m_panels = allocateFloats(m_panelStart.back());
     std::fill(m_panels.get(), m_panels.get() + m_panelStart.back(), 0.f);
 }
@@ -66,10 +70,66 @@ void PackedFactor::pack(int supernode, const double* S, const double* M)
     }
 }
 
-void PackedFactor::solve(float* y, float* scratch) const
+// Every subtree has scratch of its own, and the top.
+void PackedFactor::layOutScratch()
 {
-    for (int s : m_all) forwardPanel(panel(s), y, scratch);
-    for (auto s = m_all.rbegin(); s != m_all.rend(); ++s) backwardPanel(panel(*s), y, scratch);
+    for (const Subtree& subtree : m_division.m_subtrees)
+    {
+        std::size_t longest = 0;
+        for (int s = subtree.m_begin; s < subtree.m_end; ++s)
+            longest = std::max(longest, paddedRows(m_tree.m_supernodes[s]));
+        m_scratchStart.push_back(m_scratchStart.back() + longest);
+    }
+    m_scratchStart.push_back(m_scratchStart.back() + m_scratchRows);
+}
+
+// The panel with a subtree's own rows in place of those above it.
+Panel PackedFactor::forwardPanelOf(int supernode) const
+{
+    Panel p = panel(supernode);
+    p.m_row = m_division.m_forwardRow.data() + m_tree.m_supernodes[supernode].m_rowStart;
+    return p;
+}
+
+void PackedFactor::forwardSubtree(int t, float* y, float* scratch) const
+{
+    const Subtree& subtree = m_division.m_subtrees[t];
+    std::fill_n(y + 3 * static_cast<std::size_t>(subtree.m_firstAbove),
+                3 * static_cast<std::size_t>(m_tree.m_supernodes[subtree.m_end - 1].m_rows), 0.f);
+    for (int s = subtree.m_begin; s < subtree.m_end; ++s) forwardPanel(forwardPanelOf(s), y, scratch);
+}
+
+void PackedFactor::backwardSubtree(int t, float* y, float* scratch) const
+{
+    const Subtree& subtree = m_division.m_subtrees[t];
+    for (int s = subtree.m_end - 1; s >= subtree.m_begin; --s) backwardPanel(panel(s), y, scratch);
+}
+
+void PackedFactor::addRowsAbove(float* y) const
+{
+    for (const Subtree& subtree : m_division.m_subtrees)
+    {
+        const Supernode& root = m_tree.m_supernodes[subtree.m_end - 1];
+        const float* own = y + 3 * static_cast<std::size_t>(subtree.m_firstAbove);
+        for (int k = 0; k < root.m_rows; ++k, own += 3)
+        {
+            float* row = y + 3 * static_cast<std::size_t>(m_tree.m_row[root.m_rowStart + k]);
+            for (int c = 0; c < 3; ++c) row[c] += own[c];
+        }
+    }
+}
+
+void PackedFactor::solve(float* y, float* scratch, const Threads* threads) const
+{
+    const int count = static_cast<int>(m_division.m_subtrees.size());
+    float* const topScratch = scratch + m_scratchStart[count];
+    runTasks(threads, count, [&](int t) { forwardSubtree(t, y, scratch + m_scratchStart[t]); });
+    addRowsAbove(y);
+    for (int s : m_division.m_top) forwardPanel(panel(s), y, topScratch);
+    for (auto s = m_division.m_top.rbegin(); s != m_division.m_top.rend(); ++s) backwardPanel(panel(*s), y, topScratch);
+    // The last subtree first: on one thread it is the one still in the caches.
+    runTasks(threads, count,
+             [&](int k) { backwardSubtree(count - 1 - k, y, scratch + m_scratchStart[count - 1 - k]); });
 }
 
 void PackedFactor::solveLanes(const std::vector<int>& forward, const std::vector<int>& backward, float* y,

@@ -4,8 +4,10 @@
 
 #include <vector>
 
+#include "bullet_fem/fem/threads.h"
 #include "fem/aligned_floats.h"
 #include "fem/factor/panel_kernels.h"
+#include "fem/factor/subtrees.h"
 #include "fem/factor/supernode_tree.h"
 
 namespace bullet_fem
@@ -32,11 +34,16 @@ public:
     int size() const { return 3 * m_tree.m_nodeCount; }
     std::size_t byteCount() const { return m_panelStart.empty() ? 0 : sizeof(float) * m_panelStart.back(); }
 
-    /// Floats of scratch that a solve with `lanes` right-hand sides needs.
-    std::size_t scratchSize(int lanes) const { return static_cast<std::size_t>(lanes) * m_scratchRows; }
+    /// Floats that solve() writes: the vector with what follows it, and scratch.
+    std::size_t vectorSize() const { return 3 * static_cast<std::size_t>(m_division.m_rowCount); }
+    std::size_t scratchSize() const { return m_scratchStart.back(); }
 
-    /// y <- A0^-1 y, size() entries. Scratch is aligned to 64 bytes.
-    void solve(float* y, float* scratch) const;
+    /// y <- A0^-1 y in the first size() of vectorSize() entries; the others are scratch. `scratch` is aligned to 64
+    /// bytes. The same bits for any number of threads; null: the caller's alone.
+    void solve(float* y, float* scratch, const Threads* threads = nullptr) const;
+
+    /// Floats of scratch that solveLanes() needs.
+    std::size_t laneScratchSize() const { return kPanelLanes * m_scratchRows; }
 
     /// The same for kPanelLanes interleaved right-hand sides: y has size() * kPanelLanes entries, aligned to 64 bytes.
     /// Solves forward along the supernodes of `forward` and backward along those of `backward` alone (ascending): of a
@@ -48,12 +55,19 @@ public:
 
 private:
     Panel panel(int supernode) const;
+    Panel forwardPanelOf(int supernode) const;
+    void layOutScratch();
+    void forwardSubtree(int t, float* y, float* scratch) const;
+    void backwardSubtree(int t, float* y, float* scratch) const;
+    void addRowsAbove(float* y) const;
 
     SupernodeTree m_tree;
+    TreeDivision m_division{SupernodeTree()};
     std::vector<int> m_all;
     std::vector<std::size_t> m_panelStart;  // per supernode and the end, in floats
     AlignedFloats m_panels;
-    std::size_t m_scratchRows = 0;
+    std::size_t m_scratchRows = 0;                  // of the longest panel
+    std::vector<std::size_t> m_scratchStart = {0};  // per subtree, of the top, and the end, in floats
 };
 
 }  // namespace bullet_fem

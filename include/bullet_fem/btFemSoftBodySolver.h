@@ -27,6 +27,9 @@ struct btFemSolverInfo
     /// rejected with the amount in its report's message, before the work is done. 1,000 elements take about
     /// 0.7 MB in a body of 10,000 and 1.3 MB in one of 100,000.
     btScalar m_maxFactorMegabytes = 0;
+    /// Threads that share the bodies of a step, and the work on a body of some thousand tetrahedra; the stepping one is
+    /// among them [-], in [0, 256]; 0: as many as the machine has. The bits of the result are the same for all.
+    int m_threads = 1;
     /// Whether Bullet's dispatcher shows a btPersistentManifold of every FEM body and other object that touch: the four
     /// deepest points of the last step with their impulses. The rigid object is the first, the soft body the second;
     /// Bullet's rigid solver leaves the manifolds alone, but an active kinematic object keeps awake what touches it, as
@@ -44,7 +47,7 @@ struct btFemSolverInfo
 ///
 /// Lifetime: outlives its world. Threads: call from the thread that steps the world; processCollision may be called by
 /// Bullet's threads. Allocates when a body is first stepped, when the number of contacts grows, and on calls of its own
-/// methods; not otherwise.
+/// methods; not otherwise, but for the tasks of btFemSolverInfo::m_threads > 1, which come from oneTBB's pools.
 ///
 /// Bodies sleep like Bullet's rigid ones: after 2 s (gDeactivationTime) in which no node was faster than
 /// m_sleepingThreshold (.04 m/s), with their island. Asleep they keep velocity 0, contacts and reports, those of cost

@@ -62,8 +62,8 @@ protected:
                  [](const Vec3& X) { return X.x == 0; })
             .m_model;
     const PackedFactor& m_packed = m_model->factor().lower();
-    AlignedFloats m_y = allocateFloats(static_cast<std::size_t>(m_packed.size()) * kPanelLanes),
-                  m_scratch = allocateFloats(m_packed.scratchSize(kPanelLanes));
+    const std::size_t m_scratchSize = std::max(m_packed.scratchSize(), m_packed.laneScratchSize());
+    AlignedFloats m_y = allocateFloats(m_packed.vectorSize() * kPanelLanes), m_scratch = allocateFloats(m_scratchSize);
     Eigen::MatrixXd m_A;
     Eigen::LLT<Eigen::MatrixXd> m_llt;
 };
@@ -121,7 +121,7 @@ TEST_P(PackedSolve, GivesTheSameBitsEveryTime)
     std::copy(b.begin(), b.end(), m_y.get());
     m_packed.solve(m_y.get(), m_scratch.get());
     const std::vector<float> first(m_y.get(), m_y.get() + m_packed.size());
-    std::fill(m_scratch.get(), m_scratch.get() + m_packed.scratchSize(1), 1e30f);  // what it held does not matter
+    std::fill(m_scratch.get(), m_scratch.get() + m_scratchSize, 1e30f);  // what it held does not matter
     std::copy(b.begin(), b.end(), m_y.get());
     m_packed.solve(m_y.get(), m_scratch.get());
     EXPECT_EQ(first, std::vector<float>(m_y.get(), m_y.get() + m_packed.size()));

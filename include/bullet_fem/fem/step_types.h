@@ -5,6 +5,8 @@
 namespace bullet_fem
 {
 
+class Threads;
+
 /// How the rest factor is turned along with the body.
 enum class Warp
 {
@@ -22,6 +24,9 @@ struct StepSettings
     bool m_direct = false;  ///< one iteration, whatever the residual: the paper's mode for unimportant bodies
     bool m_tension = true;  ///< keep the tensile geometric stiffness in A; off only to compare with references
     bool m_momentumCorrection = true;  ///< restore the momentum that the impulses prescribe on unpinned pieces
+    /// Who shares the work on a body of some thousand elements; null: the caller's thread alone. The bits of the result
+    /// are the same. Must live as long as the settings are used.
+    const Threads* m_threads = nullptr;
 };
 
 /// Why the conjugate gradients stopped.

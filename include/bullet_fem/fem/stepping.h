@@ -7,8 +7,8 @@
 namespace bullet_fem
 {
 
-/// One linearly implicit Euler step, in the three parts that constraints need. None of them allocates or throws; all
-/// run on the caller's thread, and different bodies may be stepped by different threads.
+/// One linearly implicit Euler step, in the three parts that constraints need. None of them allocates or throws, but
+/// for what StepSettings::m_threads says; different bodies may be stepped by different threads.
 ///
 ///     A dv = b        A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T
 ///                     b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v)

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Zlib
+# Installs what is missing (Debian 12, as root or with sudo), builds the benchmarks, runs them, writes their figures to
+# out/benchmarks/, and renews the tables and the picture of docs/performance.md.
+#
+#   benchmarks/run.sh                     all of them, small: about two minutes
+#   benchmarks/run.sh --full              all of them, as in docs/performance.md: half an hour or more
+#   benchmarks/run.sh --full beam curve   some: of beam curve kernels scaling contact crowd
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$root/cmake/install_packages.sh"
+
+build=$root/build/benchmarks # of its own, so that no script changes the options of another's
+out=$root/out/benchmarks
+known=(beam curve kernels scaling contact crowd)
+full=0
+chosen=()
+for argument in "$@"; do
+    case $argument in
+        --full) full=1 ;;
+        -h | --help)
+            sed -n '3,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+            exit 0
+            ;;
+        *)
+            [[ " ${known[*]} " == *" $argument "* ]] || fail "$argument is not --full or one of: ${known[*]}"
+            chosen+=("$argument")
+            ;;
+    esac
+done
+[ ${#chosen[@]} -gt 0 ] || chosen=("${known[@]}")
+
+# run <program> <file> <options when quick> <options when full>: figures to <file>.json, the tables to <file>.txt.
+run()
+{
+    local options=$3
+    [ "$full" -eq 0 ] || options=$4
+    say "$1 $options"
+    # shellcheck disable=SC2086
+    "$build/benchmarks/bulletfem_bench_$1" $options --json "$out/$2.json" | tee "$out/$2.txt"
+}
+
+run_benchmark()
+{
+    case $1 in
+        beam) run beam beam "--steps 20" "" ;;
+        curve) run beam curve "--curve --tets 1536 --young 1e6 --steps 20" "--curve --tets 12288 --young 1e6" ;;
+        kernels) run kernels kernels "--tets 1536,12288 --seconds 0.2" "--large --seconds 1" ;;
+        scaling) run scaling scaling "--tets 192,1536,12288 --steps 20" "--large --steps 30" ;;
+        contact)
+            run contact contact "--quick" "--scenes block,ball --contacts 10,100 --tets 1000,5000"
+            ;;
+        crowd)
+            local small="--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only"
+            run crowd crowd_swap "$small" "--settle 1.5 --steps 30 --awake-only" # 100 bodies: a step takes seconds
+            run crowd crowd_coupled "$small --coupled" "--bodies 30 --balls 6 --settle 0.8 --steps 20 --awake-only --coupled"
+            run crowd crowd_cubes "$small --cubes" "--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only --cubes"
+            ;;
+    esac
+}
+
+install_packages "${build_packages[@]}" nlohmann-json3-dev python3 python3-matplotlib
+
+say "building in $build"
+(cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_DEMOS=OFF)
+cmake --build "$build" --parallel "$(nproc)"
+
+mkdir -p "$out"
+for name in "${chosen[@]}"; do run_benchmark "$name"; done
+
+# Debian's own interpreter, which sees Debian's matplotlib, whatever else is called python3 here.
+python=/usr/bin/python3
+[ -x "$python" ] || python=python3
+say "renewing docs/performance.md"
+"$python" "$root/tools/performance_tables.py" "$out" "$root/docs/performance.md"
+if [ -s "$out/curve.json" ]; then
+    "$python" "$root/tools/plot_error_against_time.py" "$out/curve.json" "$root/docs/error_against_time.png"
+fi

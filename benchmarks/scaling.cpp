@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// The clamped beam in many sizes: what set-up, memory and a step cost, and how they grow.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/fem_beam.h"
+#include "benchmarks/json_file.h"
+#include "benchmarks/scaling_report.h"
+
+namespace
+{
+using namespace bullet_fem;
+
+const char* const g_legend = R"(
+One thread, nodal warp, tolerance 1e-3, tension term on.
+setup     all that happens before the first step: mesh, A0, order, supernodes, numeric factorization, packing
+order     its fill-reducing order; numeric: supernodes, factorization and packing (both measured on their own)
+factor    the packed factor in single precision, 1e6 bytes; fill: entries of the factor over those of A0's lower half
+all MB    heap held after the last step by model and body
+CPU       median of the processor time that a step got, which the exponent is fitted to
+residual  largest true |b - A dv| / |b| of all steps
+)";
+
+struct Options
+{
+    std::vector<int> m_tets = {192, 1536, 12288, 24000, 41472, 98304};
+    double m_youngModulus = 1e6;
+    int m_steps = 60;
+    bool m_large = false;
+    std::string m_jsonFile;
+};
+
+ScalingFigures runSize(int tets, const Options& options)
+{
+    std::cerr << tets << " tets ..." << std::endl;
+    Material material;
+    material.m_youngModulus = options.m_youngModulus;
+    material.m_stiffnessDamping = 0.01;
+    BeamCase beam = makeBeamCase(beamCells(tets), material);
+    beam.m_steps = options.m_steps;
+    ScalingFigures row;
+    row.m_stages = measureSetup(*makeBeamModel(beam));
+    const BeamRun run = runFem(beam, StepSettings());
+    row.m_beam = summarise(beam, run, run);
+    return row;
+}
+
+void addOptions(CLI::App& app, Options& options)
+{
+    app.add_option("--tets", options.m_tets, "mesh sizes, each 24 n^3 with n in [1, 32] cells per metre")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_flag("--large", options.m_large, "192,000 tets, too: about a minute and a gigabyte more");
+    app.add_option("--young", options.m_youngModulus, "Young's modulus [Pa], in (0, 1e13]")->capture_default_str();
+    app.add_option("--steps", options.m_steps, "steps of 1/60 s")->check(CLI::Range(1, 100000))->capture_default_str();
+    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.footer(
+        "Example, a quick look: bulletfem_bench_scaling --tets 192,1536,12288 --steps 20\n"
+        "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    Options options;
+    CLI::App app("Times set-up and steps of the clamped beam over its number of elements", "bulletfem_bench_scaling");
+    addOptions(app, options);
+    CLI11_PARSE(app, argc, argv);
+    if (options.m_large) options.m_tets.push_back(192000);
+
+    try
+    {
+        JsonFile json(options.m_jsonFile);
+        const MachineInfo machine = readMachineInfo(1);
+        for (int tets : options.m_tets) beamCells(tets);  // a bad size is told before the others have run
+        std::vector<ScalingFigures> rows;
+        for (int tets : options.m_tets) rows.push_back(runSize(tets, options));
+        std::cout << toText(machine) << "\nClamped beam 4 x 1 x 1 m, E " << options.m_youngModulus
+                  << " Pa, nu .3, rho 1000 kg/m3, beta .01 s, h 1/60 s, " << options.m_steps << " steps from rest\n\n";
+        printTable(std::cout, rows);
+        std::cout << g_legend;
+        nlohmann::json document = toJson(rows);
+        document["young_modulus_pa"] = options.m_youngModulus;
+        document["steps"] = options.m_steps;
+        json.write(machine, std::move(document));
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "bulletfem_bench_scaling: " << error.what() << std::endl;
+        return 1;
+    }
+    return 0;
+}

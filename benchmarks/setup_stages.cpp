@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "benchmarks/setup_stages.h"
+
+#include "benchmarks/figures.h"
+#include "fem/factor/block_matrix.h"
+#include "fem/factor/numeric_factor.h"
+#include "fem/factor/packed_factor.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+BlockMatrix assembleA0(const BodyModel& model)
+{
+    const FactorInput& input = model.factorInput();
+    const Material& material = model.shape().m_material;
+    const double h = input.m_step;
+    BlockMatrix A0 = assembleRestStiffness(model.shape());
+    for (Mat3& block : A0.m_block) block *= h * h + h * material.m_stiffnessDamping;
+    for (int i = 0; i < A0.nodeCount(); ++i)
+        A0.at(i, i) += Mat3::diagonal((1 + h * material.m_massDamping) * input.m_mass[i]);
+    return A0;
+}
+
+std::vector<int> freeNodesOf(const FactorInput& input)
+{
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < input.m_fixed.size(); ++i)
+        if (!input.m_fixed[i]) nodes.push_back(static_cast<int>(i));
+    return nodes;
+}
+
+SparsePattern patternOf(const BlockMatrix& A, const std::vector<int>& nodes)
+{
+    std::vector<int> position(A.nodeCount(), -1);
+    for (std::size_t k = 0; k < nodes.size(); ++k) position[nodes[k]] = static_cast<int>(k);
+    SparsePattern pattern;
+    pattern.m_size = static_cast<int>(nodes.size());
+    pattern.m_columnStart.push_back(0);
+    for (int c = 0; c < pattern.m_size; ++c)
+    {
+        for (int k = A.m_rowStart[nodes[c]]; k < A.m_rowStart[nodes[c] + 1]; ++k)
+            if (position[A.m_column[k]] >= c) pattern.m_rowIndex.push_back(position[A.m_column[k]]);
+        pattern.m_columnStart.push_back(static_cast<int>(pattern.m_rowIndex.size()));
+    }
+    return pattern;
+}
+
+/// sum over the columns of a supernode of (rows at and below the column)^2: a multiplication and an addition for every
+/// entry of the lower half that the column changes.
+double choleskyOperations(const SupernodeTree& tree)
+{
+    double sum = 0;
+    for (const Supernode& s : tree.m_supernodes)
+    {
+        const double c = 3.0 * s.m_columns, r = 3.0 * s.m_rows;
+        sum += c * c * c / 3 + c * c * r + c * r * r;
+    }
+    return sum;
+}
+
+/// Entries of the lower half, diagonal included, of a symmetric matrix with these 3x3 blocks.
+double lowerEntries(const SparsePattern& pattern)
+{
+    return 9.0 * double(pattern.m_rowIndex.size()) - 3.0 * pattern.m_size;
+}
+
+}  // namespace
+
+SetupStages measureSetup(const BodyModel& model)
+{
+    SetupStages stages;
+    Stopwatch watch;
+    const BlockMatrix A0 = assembleA0(model);
+    const std::vector<int> nodes = freeNodesOf(model.factorInput());
+    const SparsePattern pattern = patternOf(A0, nodes);
+    stages.m_assembly = watch.seconds();
+
+    watch = Stopwatch();
+    const char* method = "";
+    std::vector<int> order = fillReducingOrder(pattern, method);
+    stages.m_order = watch.seconds();
+
+    watch = Stopwatch();
+    const SupernodeTree tree = buildSupernodeTree(pattern, order);
+    for (int& node : order) node = nodes[node];
+    stages.m_tree = watch.seconds();
+
+    watch = Stopwatch();
+    PackedFactor factor(tree);
+    factorSupernodes(A0, order, tree, [&factor](int s, const double* S, const double* M) { factor.pack(s, S, M); });
+    stages.m_numeric = watch.seconds();
+    stages.m_operations = choleskyOperations(tree);
+    stages.m_fill = static_cast<double>(tree.m_entries) / lowerEntries(pattern);
+    return stages;
+}
+
+}  // namespace bullet_fem
