@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// Rotations, forces and A of the step that begins, in single precision for tolerances of 1e-5 and above and in double
+/// Rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4 and above and in double
 /// below. Turns the state's rotations to its positions, adds f_el(x) - (h + beta) K' v to `force` [N], and
 /// leaves in the body's scratch what WarpedSystem and WarpedPreconditioner work with. Allocates in the first step of
 /// double precision, never else.
