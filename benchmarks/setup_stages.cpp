@@ -3,26 +3,13 @@
 #include "benchmarks/setup_stages.h"
 
 #include "benchmarks/figures.h"
-#include "fem/factor/block_matrix.h"
 #include "fem/factor/numeric_factor.h"
-#include "fem/factor/packed_factor.h"
+#include "fem/factor/rest_factor.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-BlockMatrix assembleA0(const BodyModel& model)
-{
-    const FactorInput& input = model.factorInput();
-    const Material& material = model.shape().m_material;
-    const double h = input.m_step;
-    BlockMatrix A0 = assembleRestStiffness(model.shape());
-    for (Mat3& block : A0.m_block) block *= h * h + h * material.m_stiffnessDamping;
-    for (int i = 0; i < A0.nodeCount(); ++i)
-        A0.at(i, i) += Mat3::diagonal((1 + h * material.m_massDamping) * input.m_mass[i]);
-    return A0;
-}
 
 std::vector<int> freeNodesOf(const FactorInput& input)
 {
@@ -32,20 +19,11 @@ std::vector<int> freeNodesOf(const FactorInput& input)
     return nodes;
 }
 
-SparsePattern patternOf(const BlockMatrix& A, const std::vector<int>& nodes)
+std::vector<int> placesOf(const std::vector<int>& nodes, int nodeCount)
 {
-    std::vector<int> position(A.nodeCount(), -1);
+    std::vector<int> position(nodeCount, -1);
     for (std::size_t k = 0; k < nodes.size(); ++k) position[nodes[k]] = static_cast<int>(k);
-    SparsePattern pattern;
-    pattern.m_size = static_cast<int>(nodes.size());
-    pattern.m_columnStart.push_back(0);
-    for (int c = 0; c < pattern.m_size; ++c)
-    {
-        for (int k = A.m_rowStart[nodes[c]]; k < A.m_rowStart[nodes[c] + 1]; ++k)
-            if (position[A.m_column[k]] >= c) pattern.m_rowIndex.push_back(position[A.m_column[k]]);
-        pattern.m_columnStart.push_back(static_cast<int>(pattern.m_rowIndex.size()));
-    }
-    return pattern;
+    return position;
 }
 
 /// sum over the columns of a supernode of (rows at and below the column)^2: a multiplication and an addition for every
@@ -73,9 +51,9 @@ SetupStages measureSetup(const BodyModel& model)
 {
     SetupStages stages;
     Stopwatch watch;
-    const BlockMatrix A0 = assembleA0(model);
+    const BlockMatrix A0 = assembleA0(model.shape(), model.factorInput());
     const std::vector<int> nodes = freeNodesOf(model.factorInput());
-    const SparsePattern pattern = patternOf(A0, nodes);
+    const SparsePattern pattern = blockPattern(A0, nodes, placesOf(nodes, A0.nodeCount()));
     stages.m_assembly = watch.seconds();
 
     watch = Stopwatch();

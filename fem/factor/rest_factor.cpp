@@ -6,15 +6,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/factor/block_matrix.h"
 #include "fem/factor/numeric_factor.h"
 
 namespace bullet_fem
 {
-namespace
-{
 
-// A0 = (1 + h alpha) M + (h^2 + h beta) K.
 BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input)
 {
     const double h = input.m_step, alpha = shape.m_material.m_massDamping, beta = shape.m_material.m_stiffnessDamping;
@@ -24,7 +20,6 @@ BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input)
     return A0;
 }
 
-// The lower triangle of the pattern over some nodes; position is a node's place among them, or -1.
 SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, const std::vector<int>& position)
 {
     SparsePattern pattern;
@@ -38,8 +33,6 @@ SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, 
     }
     return pattern;
 }
-
-}  // namespace
 
 RestFactor::RestFactor(const RestShape& shape, const FactorInput& input, FactorReport& report)
 {

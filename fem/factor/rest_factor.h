@@ -5,10 +5,18 @@
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
+#include "fem/factor/block_matrix.h"
+#include "fem/factor/fill_order.h"
 #include "fem/factor/packed_factor.h"
 
 namespace bullet_fem
 {
+
+/// A0 = (1 + h alpha) M + (h^2 + h beta) K over all nodes [kg].
+BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input);
+
+/// The lower triangle of A's pattern over some nodes, ascending; position is a node's place among them, or -1.
+SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, const std::vector<int>& position);
 
 /// The factor of A0 over the free nodes, and where every node stands in it.
 class RestFactor

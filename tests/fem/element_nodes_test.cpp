@@ -35,7 +35,7 @@ protected:
     }
 
     // polar(sum of V_e R_e).
-    std::vector<Mat3> polarSums() const
+    std::vector<Mat3> polarRotations() const
     {
         std::vector<Mat3> sum(m_mesh.nodeCount());
         for (int e = 0; e < m_mesh.tetCount(); ++e)
@@ -88,7 +88,7 @@ TEST_P(ElementNodes, OfNearRotationsAreNearThePolarOnes)
     for (const double spread : {0.02, 0.2, 0.5})
     {
         spreadRotations(rotationAbout({1, -2, 3}, 3), spread);
-        EXPECT_LE(largestError(averages(), polarSums()), 1e-6 + 0.3 * spread * spread * spread) << spread;
+        EXPECT_LE(largestError(averages(), polarRotations()), 1e-6 + 0.3 * spread * spread * spread) << spread;
     }
 }
 
@@ -98,7 +98,7 @@ TEST_P(ElementNodes, OfFarRotationsAreThePolarOnes)
 {
     const Mat3 turns[3] = {Mat3::identity(), rotationAbout({1, 0, 0.01}, 3.12), rotationAbout({0.02, 1, 0}, 3.1)};
     for (std::size_t e = 0; e < m_rotation.size(); ++e) m_rotation[e] = rounded(toQuaternion(turns[e % 3]));
-    const std::vector<Mat3> R = averages(), expected = polarSums();
+    const std::vector<Mat3> R = averages(), expected = polarRotations();
     int far = 0;
     for (int i = 0; i < m_mesh.nodeCount(); ++i)
     {
