@@ -16,7 +16,7 @@ namespace
 using namespace bullet_fem;
 
 const char* const g_legend = R"(
-Wall times of stepSimulation, on one thread; all bodies factored before the first step.
+Wall times of stepSimulation; all bodies factored before the first step.
 falling    from the first step on: the bodies fall into the pit and pile up
 awake      after that, sleeping disabled
 sleeping   after that, sleeping allowed: the first steps are needed to fall asleep and are not timed
@@ -76,6 +76,13 @@ void addOptions(CLI::App& app, Options& options)
         ->capture_default_str();
     app.add_flag("--cubes", options.m_crowd.m_cubes, "soft cubes, which rest on whole faces, in place of soft balls");
     app.add_flag("--different", options.m_crowd.m_different, "bodies of different sizes, meshes and stiffness");
+    app.add_option("--contact-tolerance", options.m_crowd.m_contactTolerance,
+                   "btFemSolverInfo::m_contactTolerance; 1e-2 will do for games")
+        ->check(CLI::Range(1e-7, 0.1))
+        ->capture_default_str();
+    app.add_option("--threads", options.m_crowd.m_threads, "btFemSolverInfo::m_threads")
+        ->check(CLI::Range(0, 256))
+        ->capture_default_str();
     app.add_flag("--coupled", options.m_crowd.m_coupled, "btFemConstraintSolver in place of Bullet's rigid solver");
     app.add_option("--settle", options.m_settleSeconds, "time to fall into the pit [s]")
         ->check(CLI::Range(0.02, 60.0))
@@ -112,7 +119,7 @@ int main(int argc, char** argv)
     try
     {
         JsonFile json(options.m_jsonFile);
-        const MachineInfo machine = readMachineInfo(1);
+        const MachineInfo machine = readMachineInfo(options.m_crowd.m_threads);
         const CrowdSettings& crowd = options.m_crowd;
         CrowdWorld world(crowd);
         const std::vector<CrowdFigures> rows = runPhases(world, options);

@@ -69,6 +69,14 @@ std::unique_ptr<btSequentialImpulseConstraintSolver> makeRigidSolver(btFemSoftBo
     return std::make_unique<btSequentialImpulseConstraintSolver>();
 }
 
+btFemSolverInfo solverInfo(const CrowdSettings& settings)
+{
+    btFemSolverInfo info;
+    info.m_contactTolerance = static_cast<btScalar>(settings.m_contactTolerance);
+    info.m_threads = settings.m_threads;
+    return info;
+}
+
 void addReport(const btFemStepReport& report, CrowdStep& sum)
 {
     sum.m_freeMilliseconds += report.m_freeMotionMs;
@@ -84,6 +92,7 @@ void addReport(const btFemStepReport& report, CrowdStep& sum)
 
 CrowdWorld::CrowdWorld(const CrowdSettings& settings)
     : m_settings(settings),
+      m_fem(solverInfo(settings)),
       m_rigidSolver(makeRigidSolver(m_fem, settings.m_coupled)),
       m_world(&m_dispatcher, &m_broadphase, m_rigidSolver.get(), &m_configuration, &m_fem)
 {

@@ -22,7 +22,9 @@ struct CrowdSettings
     int m_balls = 20;          ///< rigid ones, in [0, 2000]
     bool m_cubes = false;      ///< soft cubes, which rest on whole faces, in place of soft balls
     bool m_different = false;  ///< soft bodies of different sizes, meshes and stiffness, so that nothing is shared
-    bool m_coupled = false;    ///< btFemConstraintSolver in place of Bullet's rigid solver
+    double m_contactTolerance = btFemSolverInfo().m_contactTolerance;  ///< of the solver [-], in [1e-7, 0.1]
+    int m_threads = 1;                                                 ///< of the solver, in [0, 256]
+    bool m_coupled = false;  ///< btFemConstraintSolver in place of Bullet's rigid solver
 };
 
 /// What one step of a crowd took and did.

@@ -25,11 +25,6 @@ Mat3 mat3(const btMatrix3x3& m)
     return result;
 }
 
-Vec3 scaled(const Vec3& a, const Vec3& b)
-{
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 // A rigid body that impulses can move; null for static, kinematic and foreign objects.
 btRigidBody* movable(const btCollisionObject& object)
 {

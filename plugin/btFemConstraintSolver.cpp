@@ -104,20 +104,19 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
     const int sweeps = std::max(settings.m_sweeps, info.m_numIterations);
     const int last = std::max(0, info.m_numIterations - 1);  // Bullet does not solve contacts in later iterations
     m_group->begin(m_tmpSolverBodyPool);
-    while (m_group->wantsRound())
+    do
     {
         for (int sweep = 0; sweep < sweeps; ++sweep)
         {
             const btScalar residual =
                 solveSingleIteration(std::min(sweep, last), bodies, numBodies, manifolds, numManifolds, constraints,
                                      numConstraints, info, debugDrawer);
-            const double soft = m_group->sweep();
-            if (soft <= settings.m_sweepTolerance &&
-                residual <= std::max(info.m_leastSquaresResidualThreshold, kRigidResidual))
+            const bool moves = m_group->sweep();
+            if (sweep >= last && !moves && residual <= std::max(info.m_leastSquaresResidualThreshold, kRigidResidual))
                 break;
         }
         m_group->correct();
-    }
+    } while (m_group->wantsRound());
     m_group->finish();
     return 0;
 }

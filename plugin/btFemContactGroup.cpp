@@ -19,11 +19,11 @@ namespace
 
 // Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
 constexpr int kSweepsWithJoints = 50;
-constexpr double kToleranceWithJoints = 1e-9;  // a pull that is off by 1e-7 a sweep lets 1:1000 anchors creep
 
 // The user's defaults are the solver's own.
 static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
 static_assert(btFemSolverInfo().m_contactRounds == ContactSettings().m_rounds);
+static_assert(btFemSolverInfo().m_contactTolerance == static_cast<btScalar>(ContactSettings().m_tolerance));
 
 // Sets the impulse on one side, and the point of that side.
 void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
@@ -82,7 +82,8 @@ void btFemContactGroup::collect(const Scope& scope)
     m_settings.m_rounds = m_info.m_contactRounds;
     const bool joints = !m_problem.m_joints.empty();
     m_settings.m_sweeps = joints ? std::min(m_info.m_contactSweeps, kSweepsWithJoints) : m_info.m_contactSweeps;
-    m_settings.m_sweepTolerance = joints ? kToleranceWithJoints : ContactSettings().m_sweepTolerance;
+    m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the rounds, too
+    m_settings.m_tolerance = m_info.m_contactTolerance;
     m_settings.m_pushFraction = m_info.m_erp;
     m_settings.m_maxPushVelocity = m_info.m_maxPushVelocity;
     m_milliseconds = watch.milliseconds();
@@ -197,11 +198,11 @@ void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool)
     onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
 }
 
-double btFemContactGroup::sweep()
+bool btFemContactGroup::sweep()
 {
-    double change = 0;
-    onSolverBodies([&] { change = m_solver.sweep(); });
-    return change;
+    bool moves = false;
+    onSolverBodies([&] { moves = m_solver.sweep(); });
+    return moves;
 }
 
 void btFemContactGroup::correct()

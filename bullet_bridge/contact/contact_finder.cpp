@@ -318,20 +318,48 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
 // and place.
 void ContactFinder::takeOverImpulses(const FemSoftBody& fem)
 {
+    m_continued.assign(fem.m_origins.size(), 0);
     for (std::size_t k = 0; k < m_origins.size(); ++k)
     {
         const auto range = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), m_origins[k]);
         double best = kLeastLikeness;
+        std::size_t before = fem.m_origins.size();
         for (auto old = range.first; old != range.second; ++old)
         {
-            const ContactPoint& contact = fem.m_contacts[old - fem.m_origins.begin()];
+            const std::size_t candidate = old - fem.m_origins.begin();
+            const ContactPoint& contact = fem.m_contacts[candidate];
             const double likeness =
                 dot(contact.m_normal, m_contacts[k].m_normal) - norm(contact.m_point - m_contacts[k].m_point) / m_size;
-            if (likeness <= best) continue;
+            if (likeness <= best || m_continued[candidate]) continue;
             best = likeness;
-            m_contacts[k].m_impulse = contact.m_impulse;
-            m_contacts[k].m_slip = contact.m_slip;
+            before = candidate;
         }
+        if (before == fem.m_origins.size()) continue;
+        m_continued[before] = 1;
+        m_contacts[k].m_impulse = fem.m_contacts[before].m_impulse;
+        m_contacts[k].m_slip = fem.m_contacts[before].m_slip;
+    }
+    inheritImpulses(fem);
+}
+
+// What pushed where nothing touches any more, object by object.
+void ContactFinder::inheritImpulses(const FemSoftBody& fem)
+{
+    const auto idOf = [](const ContactOrigin& origin) { return origin.m_objectId; };
+    for (std::size_t first = 0, end = 0, k = 0; first < fem.m_origins.size(); first = end)
+    {
+        const int id = idOf(fem.m_origins[first]);
+        m_heirs.clear();
+        for (end = first; end < fem.m_origins.size() && idOf(fem.m_origins[end]) == id; ++end)
+        {
+            const ContactPoint& old = fem.m_contacts[end];
+            if (m_continued[end]) continue;
+            m_heirs.addLost(interpolated(fem.m_body.m_state.m_x, old.m_soft.m_nodes, old.m_soft.m_weights),
+                            old.m_normal, old.m_impulse);
+        }
+        while (k < m_origins.size() && idOf(m_origins[k]) < id) ++k;
+        for (; k < m_origins.size() && idOf(m_origins[k]) == id; ++k) m_heirs.addHeir(m_contacts[k], 1);
+        m_heirs.settle(m_edge);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_bridge/contact/sheet_touch.h"
+#include "bullet_bridge/contact_heirs.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/rigid_obstacles.h"
 #include "bullet_bridge/shapes/shape_distance.h"
@@ -113,11 +114,14 @@ private:
     ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                        const SurfaceDistance& d);
     void takeOverImpulses(const FemSoftBody& fem);
+    void inheritImpulses(const FemSoftBody& fem);
 
     btAlignedObjectArray<ShapeLeaf> m_leaves;
     std::vector<ContactPoint> m_contacts;
     std::vector<ContactOrigin> m_origins;
     std::vector<int> m_order;
+    std::vector<unsigned char> m_continued;  // contacts of the last step
+    ContactHeirs m_heirs;
     std::vector<const void*> m_overlapping;  // the body, in the broad phase
     TriangleSoup m_soup;
     std::vector<SheetTouch> m_touches;

@@ -35,11 +35,6 @@ AnchorView viewOf(const btSoftBody::DeformableNodeRigidAnchor& anchor)
     return {HeldJoint::Kind::deformableAnchor, anchor.m_node, anchor.m_cti.m_colObj, vec3(anchor.m_local), 1.0};
 }
 
-bool canMove(const Obstacle& obstacle)
-{
-    return dot(obstacle.m_inverseMass, obstacle.m_inverseMass) > 0 || squaredNorm(obstacle.m_inverseInertia) > 0;
-}
-
 class AnchorHolder
 {
 public:
@@ -111,7 +106,7 @@ bool AnchorHolder::hold(const AnchorView& anchor)
 void AnchorHolder::append(const AnchorView& anchor, const RigidPivot& pivot, HeldJoint& held)
 {
     const bool pinned = m_fem.m_body.m_state.m_fixed[held.m_node];
-    if (anchor.m_influence == 0 || (pinned && !canMove(m_scene.m_rigid.obstacles()[pivot.m_obstacle])))
+    if (anchor.m_influence == 0 || (pinned && !m_scene.m_rigid.obstacles()[pivot.m_obstacle].canMove()))
     {
         held.m_impulse = {};
         return;

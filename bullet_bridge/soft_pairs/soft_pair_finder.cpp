@@ -61,6 +61,8 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
 
     SoftPairReport report;
     report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
+    takeOverImpulses();
+    inheritImpulses(first, second);
     report.m_contacts = static_cast<int>(m_found.size());
     contacts.insert(contacts.end(), m_found.begin(), m_found.end());
     origins.insert(origins.end(), m_foundOrigins.begin(), m_foundOrigins.end());
@@ -90,11 +92,6 @@ void SoftPairFinder::append(const Roles& roles, double offset)
         SoftPairOrigin origin = roles.m_origin;
         origin.m_feature = touch.m_feature;
         origin.m_otherFeature = touch.m_otherFeature;
-        if (const ContactPoint* last = remembered(origin, touch.m_normal))
-        {
-            contact.m_impulse = last->m_impulse;
-            contact.m_slip = last->m_slip;
-        }
         m_found.push_back(contact);
         m_foundOrigins.push_back(origin);
     }
@@ -116,6 +113,7 @@ void SoftPairFinder::beginStep()
     }
     m_next.clear();
     m_nextOrigins.clear();
+    m_continued.assign(m_last.size(), 0);
 }
 
 void SoftPairFinder::remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins)
@@ -124,26 +122,64 @@ void SoftPairFinder::remember(const std::vector<ContactPoint>& contacts, const s
     m_nextOrigins.insert(m_nextOrigins.end(), origins.begin(), origins.end());
 }
 
-// The same pair of edges, or the node's contact with the same or the next face: one with nearly the same normal.
-const ContactPoint* SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal) const
+void SoftPairFinder::takeOverImpulses()
+{
+    for (std::size_t k = 0; k < m_found.size(); ++k)
+    {
+        const int last = remembered(m_foundOrigins[k], m_found[k].m_normal);
+        if (last < 0) continue;
+        m_continued[last] = 1;
+        m_found[k].m_impulse = m_last[last].m_impulse;
+        m_found[k].m_slip = m_last[last].m_slip;
+    }
+}
+
+// The same pair of edges, or the node's contact with the same or the next face: one with nearly the same normal. The
+// index of the contact of the last step, or -1.
+int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal) const
 {
     SoftPairOrigin from = origin;
     if (origin.m_kind != SoftPairKind::edges) from.m_otherFeature = -1;
     double best = kSameContact;
-    const ContactPoint* found = nullptr;
+    int found = -1;
     for (auto at = std::lower_bound(m_lastOrigins.begin(), m_lastOrigins.end(), from); at != m_lastOrigins.end(); ++at)
     {
         SoftPairOrigin same = *at;
         same.m_otherFeature = from.m_otherFeature;
         const bool isSame = origin.m_kind == SoftPairKind::edges ? !(from < *at) : !(from < same);
         if (!isSame) break;
-        const ContactPoint& last = m_last[at - m_lastOrigins.begin()];
-        const double alike = dot(last.m_normal, normal);
-        if (alike <= best) continue;
+        const int candidate = static_cast<int>(at - m_lastOrigins.begin());
+        const double alike = dot(m_last[candidate].m_normal, normal);
+        if (alike <= best || m_continued[candidate]) continue;
         best = alike;
-        found = &last;
+        found = candidate;
     }
     return found;
+}
+
+// What pushed where the two touch no more.
+void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSide& second)
+{
+    const auto isSecond = [](const SoftPairOrigin& origin) { return origin.m_kind == SoftPairKind::nodeOfSecond; };
+    SoftPairOrigin from;
+    from.m_firstId = broadphaseId(*first.m_fem.m_softBody);
+    from.m_secondId = broadphaseId(*second.m_fem.m_softBody);
+    from.m_feature = from.m_otherFeature = -1;
+    m_heirs.clear();
+    for (std::size_t k = std::lower_bound(m_lastOrigins.begin(), m_lastOrigins.end(), from) - m_lastOrigins.begin();
+         k < m_last.size() && m_lastOrigins[k].m_firstId == from.m_firstId &&
+         m_lastOrigins[k].m_secondId == from.m_secondId;
+         ++k)
+    {
+        if (m_continued[k]) continue;
+        const bool ofSecond = isSecond(m_lastOrigins[k]);
+        const SoftSurface& surface = (ofSecond ? second : first).m_fem.m_surface;
+        const double sign = ofSecond ? -1 : 1;
+        m_heirs.addLost(interpolated(surface.position(), m_last[k].m_soft.m_nodes, m_last[k].m_soft.m_weights),
+                        sign * m_last[k].m_normal, sign * m_last[k].m_impulse);
+    }
+    for (std::size_t k = 0; k < m_found.size(); ++k) m_heirs.addHeir(m_found[k], isSecond(m_foundOrigins[k]) ? -1 : 1);
+    m_heirs.settle(std::max(first.m_fem.m_surface.meanEdge(), second.m_fem.m_surface.meanEdge()));
 }
 
 }  // namespace bullet_fem

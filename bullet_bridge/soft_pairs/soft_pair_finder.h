@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "bullet_bridge/contact_heirs.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/soft_pairs/edge_pair_search.h"
 
@@ -78,7 +79,9 @@ private:
     };
 
     void append(const Roles& roles, double offset);
-    const ContactPoint* remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
+    int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
+    void takeOverImpulses();
+    void inheritImpulses(const SoftPairSide& first, const SoftPairSide& second);
 
     NodeSurfaceSearch m_nodesOfFirst, m_nodesOfSecond;
     EdgePairSearch m_edges;
@@ -86,6 +89,8 @@ private:
     std::vector<ContactPoint> m_found, m_last, m_next;
     std::vector<SoftPairOrigin> m_foundOrigins, m_lastOrigins, m_nextOrigins;
     std::vector<int> m_order;
+    std::vector<unsigned char> m_continued;  // of m_last
+    ContactHeirs m_heirs;
 };
 
 }  // namespace bullet_fem

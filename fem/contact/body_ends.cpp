@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFloor = 1e-2;       // share of all impulses that the residual of a few new ones is measured against
+constexpr double kFloor = 1e-3;       // share of all impulses that the residual of a few new ones is measured against
 constexpr double kTooStiff = 1.1;     // W may be too stiff by this factor before it is scaled
 constexpr double kScaleMargin = 1.2;  // for directions that the impulses did not show
 constexpr double kLargestScaling = 100;  // in one round
@@ -200,10 +200,11 @@ Vec3 BodyEnds::trueVelocity(int e) const
     return read(m_ends[e], bullet_fem::velocity(*m_body.m_body));
 }
 
-void BodyEnds::respond(int e, const Vec3& impulse)
+// Adds the velocities that an impulse makes.
+void BodyEnds::respond(int e, const Vec3& impulse, std::vector<Vec3>& velocity) const
 {
     const std::size_t order = 3 * m_ends.size();
-    double* v = &m_velocity[0].x;
+    double* v = &velocity[0].x;
     const float *w0 = &m_W[3 * e * order], *w1 = w0 + order, *w2 = w1 + order;
     for (std::size_t i = 0; i < order; ++i) v[i] += w0[i] * impulse.x + w1[i] * impulse.y + w2[i] * impulse.z;
 }
@@ -212,8 +213,30 @@ void BodyEnds::push(int e, const Vec3& impulse)
 {
     m_impulse[e] += impulse;
     if (!m_dense) return;
-    respond(e, impulse);
+    respond(e, impulse, m_velocity);
     m_seen[e] = m_impulse[e];
+}
+
+void BodyEnds::beginProbe()
+{
+    m_probeImpulse.assign(m_ends.size(), Vec3());
+    m_probeVelocity.assign(m_ends.size(), Vec3());
+}
+
+void BodyEnds::respondToProbe()
+{
+    for (int e = 0; e < size(); ++e)
+        if (dot(m_probeImpulse[e], m_probeImpulse[e]) > 0) respond(e, m_probeImpulse[e], m_probeVelocity);
+}
+
+void BodyEnds::followProbe(double step)
+{
+    for (int e = 0; e < size(); ++e)
+    {
+        m_impulse[e] += step * m_probeImpulse[e];
+        m_velocity[e] += step * m_probeVelocity[e];
+        m_seen[e] = m_impulse[e];
+    }
 }
 
 void BodyEnds::flush()
@@ -238,7 +261,7 @@ void BodyEnds::measure()
         for (int e = 0; e < size(); ++e)
         {
             const Vec3 rest = m_impulse[e] - m_applied[e];
-            if (dot(rest, rest) > 0) respond(e, rest);
+            if (dot(rest, rest) > 0) respond(e, rest, m_velocity);
         }
     flush();
 }

@@ -51,6 +51,14 @@ public:
     void push(int e, const Vec3& impulse);
     void flush();
 
+    /// A direction of impulses, and the velocities that it makes, beside the present ones (dense only): beginProbe
+    /// forgets the last, addToProbe adds an impulse to an end, and followProbe goes `step` times its way.
+    void beginProbe();
+    void addToProbe(int e, const Vec3& impulse) { m_probeImpulse[e] += impulse; }
+    void respondToProbe();
+    const Vec3& probeVelocity(int e) const { return m_probeVelocity[e]; }
+    void followProbe(double step);
+
     /// Takes the velocities from the body, which holds the impulses applied so far, and adds W times the rest.
     void measure();
 
@@ -83,20 +91,21 @@ private:
     void formPointColumns(int e);
     void formGroupColumns(int e);
     void estimateDiagonal();
-    void respond(int e, const Vec3& impulse);
+    void respond(int e, const Vec3& impulse, std::vector<Vec3>& velocity) const;
     bool gatherBeyond(const std::vector<Vec3>& known);
     void learn(double trueWork, double predictedWork);
 
     ContactBody m_body;
     bool m_dense = true;
     std::vector<End> m_ends;
-    std::vector<Vec3> m_velocity;  // per end
-    std::vector<Vec3> m_impulse;   // per end, all
-    std::vector<Vec3> m_applied;   // per end, in the body's true velocities
-    std::vector<Vec3> m_seen;      // per end, in m_velocity
-    std::vector<Vec3> m_before;    // per end: velocity before the impulses of this round
-    std::vector<float> m_W;        // 3 size() columns of 3 size()
-    std::vector<int> m_touched;    // nodes of the points
+    std::vector<Vec3> m_velocity;                       // per end
+    std::vector<Vec3> m_impulse;                        // per end, all
+    std::vector<Vec3> m_applied;                        // per end, in the body's true velocities
+    std::vector<Vec3> m_seen;                           // per end, in m_velocity
+    std::vector<Vec3> m_before;                         // per end: velocity before the impulses of this round
+    std::vector<Vec3> m_probeImpulse, m_probeVelocity;  // per end
+    std::vector<float> m_W;                             // 3 size() columns of 3 size()
+    std::vector<int> m_touched;                         // nodes of the points
     std::vector<int> m_placeOfNode;
     std::vector<Mat3> m_column;             // response of the touched nodes
     std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes

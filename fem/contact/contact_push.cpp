@@ -9,11 +9,6 @@ namespace bullet_fem
 namespace
 {
 
-bool canMove(const Obstacle& obstacle)
-{
-    return dot(obstacle.m_inverseMass, obstacle.m_inverseMass) > 0 || squaredNorm(obstacle.m_inverseInertia) > 0;
-}
-
 constexpr int kMaxSweepsOfPush = 200;
 constexpr double kPushTolerance = 1e-4;
 
@@ -61,6 +56,7 @@ int ContactRows::push()
 {
     measure();
     preparePush();
+    setSpeedScale();
     int sweeps = 0;
     for (double change = 1; sweeps < kMaxSweepsOfPush && change > kPushTolerance; ++sweeps) change = sweep();
     for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
@@ -97,7 +93,7 @@ void ContactRows::payBack(std::size_t body, const Vec3& gained)
     {
         if (row.m_a.m_body != b && row.m_b.m_body != b) continue;
         const int o = row.m_a.m_body == b ? row.m_b.m_obstacle : row.m_a.m_obstacle;
-        if (o >= 0 && canMove(m_problem->m_obstacles[o]))
+        if (o >= 0 && m_problem->m_obstacles[o].canMove())
             m_problem->m_obstacles[o].m_angularImpulse -= (norm(row.m_impulse) / total) * gained;
     }
     m_bodies[body].spin(-(soft / total) * gained, m_settings.m_step);

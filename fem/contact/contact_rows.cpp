@@ -21,11 +21,6 @@ void makeTangents(const Vec3& n, Vec3& first, Vec3& second)
     second = cross(n, first);
 }
 
-Vec3 scaled(const Vec3& a, const Vec3& b)
-{
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 }  // namespace
 
 void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings)
@@ -54,6 +49,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
         if (row.m_b.m_body >= 0) m_bodies[row.m_b.m_body].push(row.m_b.m_end, -row.m_impulse);
     }
     m_gradientStep = 0;
+    m_subspace = {};
 }
 
 void ContactRows::addContactRow(const ContactPoint& contact)
@@ -253,6 +249,31 @@ void ContactRows::measure()
 {
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
     restart();
+}
+
+void ContactRows::setSpeedScale()
+{
+    m_speedScale = std::max(loadSpeed(), largestChange());
+}
+
+// The largest speed that its loads alone would give one of the bodies in a step [m/s].
+double ContactRows::loadSpeed() const
+{
+    double largest = 0;
+    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
+    {
+        if (m_bodies[b].size() == 0) continue;
+        const Body& body = m_bodies[b].body();
+        Vec3 force;
+        double mass = 0;
+        for (std::size_t i = 0; i < body.m_loads.m_force.size(); ++i)
+        {
+            force += body.m_loads.m_force[i];
+            mass += body.m_state.m_mass[i];
+        }
+        if (mass > 0) largest = std::max(largest, m_settings.m_step.m_step * norm(force) / mass);
+    }
+    return largest;
 }
 
 // Forgets the directions of the last sweeps.

@@ -27,10 +27,18 @@ public:
     /// Brings the ends' velocities up to the bodies' true ones.
     void measure();
 
+    /// What changes are measured against from here on: the speed that the loads give a body in a step, or the largest
+    /// that rows have to change now [m/s].
+    void setSpeedScale();
+
     /// One sweep; the velocities of ends and obstacles follow. Gauss-Seidel while all bodies have a dense compliance,
-    /// else an accelerated projected gradient step on all rows at once. Returns the largest change of an impulse over
-    /// the largest impulse; of gradient steps, of which many short ones make up a way, a thousand times that.
+    /// with subspace minimizations between, else an accelerated projected gradient step on all rows at once. Returns
+    /// the largest change, as the speed that it gives a row's own point over the scale; of gradient steps, of which
+    /// many short ones make up a way, a thousand times that.
     double sweep();
+
+    /// What a sweep would change now, likewise.
+    double error() const { return share(largestChange()); }
 
     /// Solves the bodies' true systems for what is new.
     void apply(ContactReport& report);
@@ -74,7 +82,18 @@ private:
         Vec3 m_impulse;                                 // on end a
         Vec3 m_roundImpulse;                            // at the end of the last round
         Vec3 m_lastImpulse, m_lastVelocity, m_pending;  // of the sweeps at once
+        Vec3 m_savedImpulse;                            // before the last subspace minimization
+        Vec3 m_residual, m_direction, m_response;       // of that, along the axes
+        int m_freeAxes = 0;                             // that nothing limits: 1: the normal; 3: all
         bool m_idle = false;                            // nothing can move: no compliance
+    };
+
+    struct Subspace  // how sweeps and minimizations take turns
+    {
+        int m_sweeps = 0;        // since the last minimization
+        double m_sweepWork = 0;  // of the last sweep's changes
+        double m_work = 0;       // the same before the last minimization
+        bool m_tried = false;    // its sweeps have not proved it yet
     };
 
     void addContactRow(const ContactPoint& contact);
@@ -99,7 +118,18 @@ private:
     Vec3 solveJoint(const Row& row, const Vec3& impulse, Vec3 velocity, double step) const;
     Vec3 solveRow(const Row& row, const Vec3& impulse, const Vec3& velocity, double step) const;
     void restart();
+    double largestChange() const;
+    double share(double speed) const;
+    static double speedOf(const Row& row, const Vec3& difference);
+    double loadSpeed() const;
     double sweepInTurn();
+    double sweepWithSubspace();
+    void chooseSubspace();
+    void minimizeOverSubspace();
+    template <class Term>
+    double sumOverSubspace(const Term& term);
+    void respondToDirections();
+    void followDirections(double step);
     double sweepAtOnce();
     void chooseStep();
     template <class Part>
@@ -111,10 +141,13 @@ private:
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     std::vector<BodyEnds> m_bodies;
-    std::vector<SolveReport> m_solved;                // per body, of the last corrective solves
-    std::vector<Row> m_rows;                          // of the contacts, then of the joints
-    bool m_inTurn = true;                             // Gauss-Seidel
-    double m_gradientStep = 1, m_acceleration = 1;    // of the sweeps at once
+    std::vector<SolveReport> m_solved;              // per body, of the last corrective solves
+    std::vector<Row> m_rows;                        // of the contacts, then of the joints
+    bool m_inTurn = true;                           // Gauss-Seidel
+    double m_speedScale = 0;                        // that errors are measured against [m/s]
+    double m_gradientStep = 1, m_acceleration = 1;  // of the sweeps at once
+    Subspace m_subspace;
+    std::vector<Vec3> m_probeLinear, m_probeAngular;  // of the obstacles, while their response is asked for
     std::vector<Vec3> m_savedLinear, m_savedAngular;  // of the obstacles, while their pushes are solved for
 };
 

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/contact_solver.h"
 
+#include <algorithm>
+
 #include "fem/contact/contact_rows.h"
 
 namespace bullet_fem
@@ -28,12 +30,27 @@ struct ContactSolver::Scratch
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     ContactReport m_report;
-    double m_change = 1;  // of the impulses in the last round, relative
+    int m_minRounds = 1;
+    double m_sweepTolerance = 0, m_roundTolerance = 0;
+    double m_error = 1;  // after the last round
+    bool m_stalled = false;
     bool m_empty = true;
 };
 
 namespace
 {
+
+// A pull that is off by 1e-7 a sweep lets anchors of 1:1000 creep. Rounds with joints end by what they change.
+constexpr int kRoundsWithJoints = 2;
+constexpr double kSweepToleranceWithJoints = 1e-9;
+constexpr double kRoundToleranceWithJoints = 5e-3;  // of the largest impulse
+
+// A guess that is good enough as it stands must be better than an answer: its error is that of the step before, and
+// would be carried on from step to step.
+constexpr double kGuessShare = 0.1;
+
+// A round that leaves more than this share of the error of the one before has met the error of the corrective solves.
+constexpr double kStalled = 0.97;
 
 // An obstacle's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
 // all.
@@ -61,7 +78,7 @@ ContactReport ContactSolver::solve(ContactProblem& problem, const ContactSetting
     begin(problem, settings);
     while (wantsRound())
     {
-        for (int s = 0; s < settings.m_sweeps && sweep() > settings.m_sweepTolerance; ++s)
+        for (int s = 0; s < settings.m_sweeps && sweep(); ++s)
         {
         }
         correct();
@@ -80,16 +97,22 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     for (Obstacle& obstacle : problem.m_obstacles)
         obstacle.m_pushLinear = obstacle.m_pushAngular = obstacle.m_angularImpulse = {};
     if (s.m_empty) return;
+    const bool joints = !problem.m_joints.empty();
+    s.m_minRounds = joints ? std::max(settings.m_rounds, kRoundsWithJoints) : settings.m_rounds;
+    s.m_sweepTolerance = joints ? kSweepToleranceWithJoints : settings.m_tolerance;
+    s.m_roundTolerance = joints ? kRoundToleranceWithJoints : settings.m_tolerance;
     s.m_rows.assemble(problem, settings);
     s.m_rows.warmStart();
-    s.m_change = 1;
+    s.m_error = 1;
+    s.m_stalled = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
-    if (problem.m_joints.empty() && s.m_rows.hasImpulses())
+    if (!joints && s.m_rows.hasImpulses())
         correct();
     else
         s.m_rows.measure();
-    s.m_change = 1;
+    s.m_rows.setSpeedScale();
+    s.m_error = joints ? 1 : s.m_rows.error() / kGuessShare;
 }
 
 bool ContactSolver::wantsRound() const
@@ -97,16 +120,16 @@ bool ContactSolver::wantsRound() const
     const Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     const int rounds = s.m_report.m_rounds;
-    return rounds < s.m_settings.m_rounds ||
-           (rounds < s.m_settings.m_maxRounds && s.m_change > s.m_settings.m_roundTolerance);
+    return rounds < s.m_minRounds ||
+           (rounds < s.m_settings.m_maxRounds && s.m_error > s.m_roundTolerance && !s.m_stalled);
 }
 
-double ContactSolver::sweep()
+bool ContactSolver::sweep()
 {
     Scratch& s = *m_scratch;
-    if (s.m_empty) return 0;
+    if (s.m_empty) return false;
     ++s.m_report.m_sweeps;
-    return s.m_rows.sweep();
+    return s.m_rows.sweep() > s.m_sweepTolerance;
 }
 
 void ContactSolver::correct()
@@ -114,9 +137,13 @@ void ContactSolver::correct()
     Scratch& s = *m_scratch;
     if (s.m_empty) return;
     ++s.m_report.m_rounds;
-    s.m_change = s.m_rows.changeOfRound();
+    const double change = s.m_rows.changeOfRound();
     s.m_rows.apply(s.m_report);
     s.m_rows.measure();
+    const double before = s.m_error;
+    s.m_error = s.m_problem->m_joints.empty() ? s.m_rows.error() : change;
+    s.m_stalled =
+        !s.m_settings.m_untilSolved && s.m_report.m_rounds > s.m_minRounds + 1 && s.m_error > kStalled * before;
 }
 
 ContactReport ContactSolver::finish()

@@ -55,23 +55,44 @@ Vec3 ContactRows::solveRow(const Row& row, const Vec3& impulse, const Vec3& v, d
 
 double ContactRows::sweep()
 {
-    return m_inTurn ? sweepInTurn() : sweepAtOnce();
+    if (!m_inTurn) return sweepAtOnce();
+    return m_problem->m_joints.empty() ? sweepWithSubspace() : sweepInTurn();
+}
+
+// The change of a row as a velocity: what it does to its own point.
+double ContactRows::speedOf(const Row& row, const Vec3& difference)
+{
+    return row.m_rowCompliance.x * norm(difference);
 }
 
 double ContactRows::sweepInTurn()
 {
-    double largestChange = 0, largest = 0;
+    double largest = 0;
+    m_subspace.m_sweepWork = 0;
     for (Row& row : m_rows)
     {
         const Vec3 wanted = solveRow(row, row.m_impulse, velocity(row), 1);
         const Vec3 difference = wanted - row.m_impulse;
-        const double change2 = dot(difference, difference);
-        largest = std::max(largest, dot(wanted, wanted));
-        if (change2 == 0) continue;
-        largestChange = std::max(largestChange, change2);
+        if (dot(difference, difference) == 0) continue;
+        largest = std::max(largest, speedOf(row, difference));
+        m_subspace.m_sweepWork += row.m_rowCompliance.x * dot(difference, difference);
         change(row, wanted);
     }
-    return largest > 0 ? std::sqrt(largestChange / largest) : 0;
+    return share(largest);
+}
+
+double ContactRows::largestChange() const
+{
+    double largest = 0;
+    for (const Row& row : m_rows)
+        largest = std::max(largest, speedOf(row, solveRow(row, row.m_impulse, velocity(row), 1) - row.m_impulse));
+    return largest;
+}
+
+// Of the speed scale; 1 if there is none.
+double ContactRows::share(double speed) const
+{
+    return speed > 0 ? speed / std::max(m_speedScale, 1e-3 * speed) : 0;
 }
 
 // The gradient step: one over the largest eigenvalue of the compliance, scaled by that of every row, by some power
@@ -123,7 +144,7 @@ double ContactRows::sweepAtOnce()
     // Nesterov's extrapolation from the last two points, with restart where it points uphill [O'Donoghue, Candes 2015].
     const double next = 0.5 * (1 + std::sqrt(1 + 4 * m_acceleration * m_acceleration));
     const double beta = (m_acceleration - 1) / next;
-    double largestChange = 0, largest = 0, uphill = 0;
+    double largest = 0, uphill = 0;
     for (Row& row : m_rows)
     {
         const Vec3 v = velocity(row), before = row.m_impulse;
@@ -132,15 +153,13 @@ double ContactRows::sweepAtOnce()
         uphill += row.m_rowCompliance.x * dot(from - wanted, wanted - before);
         row.m_lastImpulse = before;
         row.m_lastVelocity = v;
-        const Vec3 difference = wanted - before;
-        largest = std::max(largest, dot(wanted, wanted));
-        largestChange = std::max(largestChange, dot(difference, difference));
+        largest = std::max(largest, speedOf(row, wanted - before));
         row.m_pending = wanted;
     }
     for (Row& row : m_rows) change(row, row.m_pending);
     flush();
     m_acceleration = uphill > 0 ? 1 : next;
-    return largest > 0 ? kShortSteps * std::sqrt(largestChange / largest) : 0;
+    return kShortSteps * share(largest);
 }
 
 }  // namespace bullet_fem

@@ -152,7 +152,7 @@ TEST_P(StaleContact, HoldsTheBodyAllTheSame)
     scene.setVelocity({0.5, 0, -2});
     scene.touchLowerFace(0, 0.3);
     scene.m_settings.m_maxRounds = 100;
-    scene.m_settings.m_roundTolerance = 1e-5;
+    scene.m_settings.m_tolerance = 1e-5;
     scene.solve();
     for (const ContactPoint& contact : scene.m_contacts)
     {
@@ -173,6 +173,7 @@ TEST(StaleFactorContact, LearnsForTheNextStep)
         scene.m_contacts.clear();
         scene.setVelocity({0, 0, -2});
         scene.touchLowerFace(0, 0.3);
+        scene.m_settings.m_tolerance = 1e-2;
         r = scene.solve().m_rounds;
     }
     EXPECT_LT(rounds[1], rounds[0]);

@@ -130,12 +130,8 @@ INSTANTIATE_TEST_SUITE_P(Contact, Oedometer,
                                          OedometerCase{"nu30", 0.3, 1000, 5000, 60},
                                          OedometerCase{"nu45", 0.45, 1000, 5000, 60},
                                          OedometerCase{"nu30At240Hz", 0.3, 1000, 5000, 240},
-                                         OedometerCase{"nu30MassRatio500", 0.3, 10, 5000, 60}),
-                         [](const auto& scene) { return scene.param.m_name; });
-
-// A cube of 10 kg, whose rigid motion is a hundred times more compliant than its elastic one: sweeps converge slowly.
-INSTANTIATE_TEST_SUITE_P(DISABLED_LightCube, Oedometer,
-                         testing::Values(OedometerCase{"nu45MassRatio800", 0.45, 10, 8000, 60}),
+                                         OedometerCase{"nu30MassRatio500", 0.3, 10, 5000, 60},
+                                         OedometerCase{"nu45MassRatio800", 0.45, 10, 8000, 60}),
                          [](const auto& scene) { return scene.param.m_name; });
 
 }  // namespace

@@ -91,6 +91,8 @@ TEST(RejectedSolverInfo, NamesValueAndRange)
     expectBadInfo(&btFemSolverInfo::m_maxIterations, 20000, "m_maxIterations");
     expectBadInfo(&btFemSolverInfo::m_contactRounds, 0, "m_contactRounds");
     expectBadInfo(&btFemSolverInfo::m_contactRounds, 11, "m_contactRounds");
+    expectBadInfo(&btFemSolverInfo::m_contactTolerance, 0, "m_contactTolerance");
+    expectBadInfo(&btFemSolverInfo::m_contactTolerance, btScalar(0.2), "m_contactTolerance");
     expectBadInfo(&btFemSolverInfo::m_contactSweeps, 0, "m_contactSweeps");
     expectBadInfo(&btFemSolverInfo::m_contactSweeps, 1001, "m_contactSweeps");
     expectBadInfo(&btFemSolverInfo::m_maxContacts, 7, "m_maxContacts");

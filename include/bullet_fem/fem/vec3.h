@@ -46,6 +46,11 @@ inline double dot(const Vec3& a, const Vec3& b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// Product of every component with its like.
+inline Vec3 scaled(const Vec3& a, const Vec3& b)
+{
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 inline Vec3 cross(const Vec3& a, const Vec3& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact_heirs.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kLeastLikeness = 0.7;  // cosine between the normals
+
+bool isZero(const Vec3& v)
+{
+    return dot(v, v) == 0;
+}
+
+}  // namespace
+
+void ContactHeirs::clear()
+{
+    m_lost.clear();
+    m_heirs.clear();
+}
+
+void ContactHeirs::addLost(const Vec3& point, const Vec3& normal, const Vec3& impulse)
+{
+    if (!isZero(impulse)) m_lost.push_back({point, normal, impulse});
+}
+
+void ContactHeirs::addHeir(ContactPoint& contact, double sign)
+{
+    m_heirs.push_back({&contact, sign, !isZero(contact.m_impulse)});
+}
+
+ContactHeirs::Heir* ContactHeirs::nearestHeir(const Lost& lost, double reach)
+{
+    Heir* nearest = nullptr;
+    double best = 2 * reach;  // one that has an impulse already counts as farther than all that have none
+    for (Heir& heir : m_heirs)
+    {
+        const double distance = norm(heir.m_contact->m_point - lost.m_point);
+        const double cost = distance + (heir.m_hasImpulse ? reach : 0);
+        if (!(distance < reach) || !(cost < best)) continue;
+        if (heir.m_sign * dot(heir.m_contact->m_normal, lost.m_normal) < kLeastLikeness) continue;
+        best = cost;
+        nearest = &heir;
+    }
+    return nearest;
+}
+
+void ContactHeirs::settle(double reach)
+{
+    for (const Lost& lost : m_lost)
+        if (Heir* heir = nearestHeir(lost, reach)) heir->m_contact->m_impulse += heir->m_sign * lost.m_impulse;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact_heirs.h"
+
+#include <gtest/gtest.h>
+
+namespace bullet_fem
+{
+namespace
+{
+
+const Vec3 kUp = {0, 0, 1};
+
+ContactPoint contactAt(double x, double impulse, const Vec3& normal = kUp)
+{
+    ContactPoint contact;
+    contact.m_point = {x, 0, 0};
+    contact.m_normal = normal;
+    contact.m_impulse = impulse * normal;
+    return contact;
+}
+
+TEST(ContactHeirs, TheNearestWithoutAnImpulseInherits)
+{
+    ContactPoint rich = contactAt(0.1, 5), near = contactAt(0.3, 0), far = contactAt(0.4, 0);
+    ContactHeirs heirs;
+    heirs.addLost({0.1, 0, 0}, kUp, {0, 0, 2});
+    for (ContactPoint* contact : {&rich, &far, &near}) heirs.addHeir(*contact, 1);
+    heirs.settle(1);
+    EXPECT_EQ(near.m_impulse.z, 2);
+    EXPECT_EQ(far.m_impulse.z, 0);
+    EXPECT_EQ(rich.m_impulse.z, 5);
+}
+
+TEST(ContactHeirs, WhereAllHaveImpulsesTheNearestGetsItOnTop)
+{
+    ContactPoint near = contactAt(0.1, 5), far = contactAt(0.4, 3);
+    ContactHeirs heirs;
+    heirs.addLost({0, 0, 0}, kUp, {0.5, 0, 2});
+    heirs.addHeir(far, 1);
+    heirs.addHeir(near, 1);
+    heirs.settle(1);
+    EXPECT_EQ(near.m_impulse.z, 7);
+    EXPECT_EQ(near.m_impulse.x, 0.5);
+    EXPECT_EQ(far.m_impulse.z, 3);
+}
+
+TEST(ContactHeirs, OnesOutOfReachOrOfAnotherNormalInheritNothing)
+{
+    ContactPoint far = contactAt(1, 0), turned = contactAt(0, 0, {1, 0, 0}), opposite = contactAt(0, 0, {0, 0, -1});
+    ContactHeirs heirs;
+    heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
+    for (ContactPoint* contact : {&far, &turned, &opposite}) heirs.addHeir(*contact, 1);
+    heirs.settle(1);
+    for (const ContactPoint* contact : {&far, &turned, &opposite})
+        EXPECT_EQ(dot(contact->m_impulse, contact->m_impulse), 0);
+}
+
+TEST(ContactHeirs, AContactSeenFromTheOtherSideInheritsTheOppositeImpulse)
+{
+    ContactPoint heir = contactAt(0, 0, {0, 0, -1});
+    ContactHeirs heirs;
+    heirs.addLost({0, 0, 0}, kUp, {0.5, 0, 2});
+    heirs.addHeir(heir, -1);
+    heirs.settle(1);
+    EXPECT_EQ(heir.m_impulse.z, -2);
+    EXPECT_EQ(heir.m_impulse.x, -0.5);
+}
+
+TEST(ContactHeirs, NothingIsInheritedTwice)
+{
+    ContactPoint heir = contactAt(0, 0);
+    ContactHeirs heirs;
+    heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
+    heirs.clear();
+    heirs.addHeir(heir, 1);
+    heirs.settle(1);
+    EXPECT_EQ(heir.m_impulse.z, 0);
+}
+
+}  // namespace
+}  // namespace bullet_fem
