@@ -7,6 +7,7 @@
 
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -87,6 +88,9 @@ const char* orderingBackend()
 
 std::vector<int> fillReducingOrder(const SparsePattern& pattern, const char*& methodName)
 {
+    // METIS seeds the C library's one random generator and draws from it: in turn, or orders would differ.
+    static std::mutex generator;
+    const std::lock_guard<std::mutex> turn(generator);
     Session session;
     session.m_common.nmethods = 2;
     session.m_common.method[0].ordering = CHOLMOD_METIS;

@@ -47,7 +47,9 @@ struct FactorReport
 class BodyModel
 {
 public:
-    /// Builds the factor. Not thread-safe with itself (METIS uses the global random generator). Throws
+    /// Builds the factor. May be called by several threads, which order one after another, because METIS seeds the
+    /// global random generator (std::rand) and draws from it: programs that draw at the same time get other factors,
+    /// that do as well. Throws
     /// std::invalid_argument naming the value on a bad step, mass or array size, std::runtime_error if A0 cannot be
     /// factored or its factor would be larger than input.m_maxBytes (said before it is computed).
     static std::shared_ptr<const BodyModel> create(std::shared_ptr<const RestShape> shape, FactorInput input);
