@@ -49,13 +49,25 @@ std::shared_ptr<const RestShape> ModelLibrary::restShape(const TetMesh& mesh, co
 std::shared_ptr<const BodyModel> ModelLibrary::model(const std::shared_ptr<const RestShape>& shape,
                                                      const FactorInput& input)
 {
-    dropDead(m_models, &Model::m_model);
+    if (auto known = find(shape, input)) return known;
+    FactorInput limited = input;
+    limited.m_maxBytes = m_maxFactorBytes;
+    return adopt(BodyModel::create(shape, std::move(limited)));
+}
+
+std::shared_ptr<const BodyModel> ModelLibrary::find(const std::shared_ptr<const RestShape>& shape,
+                                                    const FactorInput& input) const
+{
     for (const Model& entry : m_models)
         if (auto model = entry.m_model.lock())
             if (model->sharedShape() == shape && model->factorInput() == input) return model;
-    FactorInput limited = input;
-    limited.m_maxBytes = m_maxFactorBytes;
-    auto model = BodyModel::create(shape, std::move(limited));
+    return nullptr;
+}
+
+std::shared_ptr<const BodyModel> ModelLibrary::adopt(std::shared_ptr<const BodyModel> model)
+{
+    if (auto known = find(model->sharedShape(), model->factorInput())) return known;
+    dropDead(m_models, &Model::m_model);
     m_models.push_back({model, {}});
     return model;
 }

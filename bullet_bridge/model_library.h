@@ -27,6 +27,16 @@ public:
     /// A model of that shape; factors if there is none yet. Throws what BodyModel::create throws.
     std::shared_ptr<const BodyModel> model(const std::shared_ptr<const RestShape>& shape, const FactorInput& input);
 
+    /// The model of that shape, or null if there is none yet.
+    std::shared_ptr<const BodyModel> find(const std::shared_ptr<const RestShape>& shape,
+                                          const FactorInput& input) const;
+
+    /// A model that was made elsewhere, or one like it that is here already.
+    std::shared_ptr<const BodyModel> adopt(std::shared_ptr<const BodyModel> model);
+
+    /// What factors may take each [B]; 0 for any amount.
+    std::size_t maxFactorBytes() const { return m_maxFactorBytes; }
+
     /// The compliance cache that the bodies of a model share.
     std::shared_ptr<ComplianceCache> compliance(const std::shared_ptr<const BodyModel>& model);
 

@@ -22,15 +22,6 @@ namespace
 
 constexpr int kInTwoWorlds = 2;  // claims of a body by its former world that two living worlds alone can make
 
-FactorInput factorInput(const btFemEntry& entry, double step)
-{
-    FactorInput input;
-    input.m_mass = entry.m_fem->m_body.m_state.m_mass;
-    input.m_fixed = entry.m_fem->m_body.m_state.m_fixed;
-    input.m_step = step;
-    return input;
-}
-
 Material materialOf(const btFemEntry& entry)
 {
     return entry.m_materialGiven ? entry.m_material : unsetMaterialOf(*entry.m_softBody);
@@ -196,6 +187,8 @@ void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
         const auto shape = m_library.restShape(entry.m_fem->m_body.m_model->mesh(), materialOf(entry), filled);
         entry.m_fem->m_body.setModel(m_library.model(shape, factorInput(entry, step)));
         entry.m_fem->m_compliance = m_library.compliance(entry.m_fem->m_body.m_model);
+        entry.m_factorAccount = {};
+        entry.m_factorJob.reset();
         entry.m_materialChanged = false;
         return;
     }
@@ -231,10 +224,52 @@ void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)
     }
 }
 
+FactorInput btFemBodyRegistry::factorInput(const btFemEntry& entry, double step) const
+{
+    FactorInput input;
+    input.m_mass = entry.m_fem->m_body.m_state.m_mass;
+    input.m_fixed = entry.m_fem->m_body.m_state.m_fixed;
+    input.m_step = step;
+    input.m_maxBytes = m_library.maxFactorBytes();
+    return input;
+}
+
+bool btFemBodyRegistry::knowsFactor(const btFemEntry& entry, double step) const
+{
+    return m_library.find(entry.m_fem->m_body.m_model->sharedShape(), factorInput(entry, step)) != nullptr;
+}
+
 void btFemBodyRegistry::refactor(btFemEntry& entry, double step)
 {
+    exchangeModel(entry, m_library.model(entry.m_fem->m_body.m_model->sharedShape(), factorInput(entry, step)));
+}
+
+bool btFemBodyRegistry::tryRefactor(btFemEntry& entry, double step)
+{
+    try
+    {
+        refactor(entry, step);
+        entry.m_message.clear();
+        entry.m_report.m_flags |= BT_FEM_REFACTORED;
+        return true;
+    }
+    catch (const std::exception& error)
+    {
+        entry.m_message = error.what();
+        return false;
+    }
+}
+
+void btFemBodyRegistry::takeFactor(btFemEntry& entry, const std::shared_ptr<const BodyModel>& model)
+{
+    exchangeModel(entry, m_library.adopt(model));
+    entry.m_message.clear();
+    entry.m_report.m_flags |= BT_FEM_REFACTORED;
+}
+
+void btFemBodyRegistry::exchangeModel(btFemEntry& entry, const std::shared_ptr<const BodyModel>& model)
+{
     FemSoftBody& fem = *entry.m_fem;
-    const auto model = m_library.model(fem.m_body.m_model->sharedShape(), factorInput(entry, step));
     if (model == fem.m_body.m_model) return;
     entry.m_formerModel = fem.m_body.m_model;
     entry.m_formerCompliance = fem.m_compliance;

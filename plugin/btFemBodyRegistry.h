@@ -11,7 +11,12 @@
 #include "bullet_bridge/joints/world_objects.h"
 #include "bullet_bridge/model_library.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/btFemDetailChooser.h"
+#include "plugin/btFemFactorAccount.h"
+#include "plugin/btFemRealTime.h"
 #include "plugin/btFemSleeping.h"
+
+struct btFemFactorJob;
 
 /// How far a body has come in a step.
 enum class btFemStage
@@ -37,7 +42,7 @@ struct btFemEntry
     bullet_fem::Material m_material;
     bool m_materialGiven = false;
     bool m_materialChanged = false;  // the model does not have it yet
-    btFemDetail m_detail = btFemDetail::nodalWarp;
+    btFemDetail m_detail = btFemDetail::automatic;
     double m_contactOffset = 0;  // [m]
 
     // What became of it. Without m_fem and without m_rejected it was not tried yet.
@@ -55,6 +60,10 @@ struct btFemEntry
     btAlignedObjectArray<btFemAnchorReport> m_anchors;
     double m_lastStep = 0;  // [s]
     btFemSleep m_sleep;
+    btFemDetailLevel m_detailLevel;
+    btFemFactorAccount m_factorAccount;
+    std::shared_ptr<btFemFactorJob> m_factorJob;  // the next factor, being made in the background
+    btFemRealTime m_realTime;
 
     bool isStepped() const { return m_present && m_fem; }
 };
@@ -90,8 +99,21 @@ public:
     /// setUp for use within a step: a failure is written to the entry, and the body left to Bullet.
     void trySetUp(btFemEntry& entry, double step);
 
-    /// Factors anew for the present masses, pins and `step` [s].
+    /// Factors anew for the present masses, pins and `step` [s]. Throws what ModelLibrary::model throws.
     void refactor(btFemEntry& entry, double step);
+
+    /// refactor for use within a step: true if the body has got another factor, which is flagged in its report; a
+    /// failure is written to the entry, and the old one kept.
+    bool tryRefactor(btFemEntry& entry, double step);
+
+    /// What refactor would make a factor for.
+    bullet_fem::FactorInput factorInput(const btFemEntry& entry, double step) const;
+
+    /// True if some body has the factor that refactor would make, so that it costs next to nothing.
+    bool knowsFactor(const btFemEntry& entry, double step) const;
+
+    /// Gives a body a factor made elsewhere for its shape, and flags that in its report.
+    void takeFactor(btFemEntry& entry, const std::shared_ptr<const bullet_fem::BodyModel>& model);
 
     const std::vector<std::unique_ptr<btFemEntry>>& entries() const { return m_entries; }
 
@@ -104,6 +126,7 @@ private:
     std::size_t indexOf(const btSoftBody* body) const;
     bool isAnotherBody(const btFemEntry& entry) const;
     void registerWithDispatcher(btSoftBody& body) const;
+    void exchangeModel(btFemEntry& entry, const std::shared_ptr<const bullet_fem::BodyModel>& model);
     void claim(btFemEntry& entry, const void* world, const btSoftBodySolver* solver);
 
     bool m_showsManifolds;

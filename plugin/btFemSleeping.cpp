@@ -154,6 +154,7 @@ void clearCost(btFemStepReport& report)
 {
     report.m_iterations = report.m_contactIterations = report.m_contactSweeps = 0;
     report.m_freeMotionMs = report.m_contactMs = 0;
+    report.m_tooSlow = false;
 }
 
 void fallAsleep(btFemEntry& entry)

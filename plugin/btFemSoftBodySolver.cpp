@@ -133,7 +133,9 @@ bool btFemSolverInfo::valid(std::string* why) const
            check(m_maxFactorMegabytes >= 0 && m_maxFactorMegabytes <= btScalar(1e6), why, "m_maxFactorMegabytes",
                  m_maxFactorMegabytes, "[0, 1e6] MB; 0, which is no limit, is usual") &&
            check(m_threads >= 0 && m_threads <= Threads::kMost, why, "m_threads", m_threads,
-                 "[0, 256]; 1 is usual, 0 takes all that the machine has");
+                 "[0, 256]; 1 is usual, 0 takes all that the machine has") &&
+           check(m_refactoring >= btFemRefactoring::onRequest && m_refactoring <= btFemRefactoring::background, why,
+                 "m_refactoring", static_cast<int>(m_refactoring), "btFemRefactoring; onRequest is usual");
 }
 
 btFemSoftBodySolver::btFemSoftBodySolver(const btFemSolverInfo& info)
@@ -160,7 +162,14 @@ void btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& mat
 
 void btFemSoftBodySolver::setDetail(btSoftBody* body, btFemDetail detail)
 {
-    m_impl->m_registry.entry(body).m_detail = detail;
+    btFemEntry& entry = m_impl->m_registry.entry(body);
+    entry.m_detail = detail;
+    entry.m_detailLevel = {};
+}
+
+void btFemSoftBodySolver::setInterest(btFemInterest* interest, const btFemDetailPolicy& policy)
+{
+    m_impl->m_step.setInterest(interest, policy);
 }
 
 void btFemSoftBodySolver::prepare(btSoftBody* body, btScalar fixedTimeStep)
@@ -176,6 +185,8 @@ void btFemSoftBodySolver::refactor(btSoftBody* body)
     readNodes(*entry.m_fem);
     const double step = entry.m_lastStep > 0 ? entry.m_lastStep : entry.m_fem->m_body.m_model->factorInput().m_step;
     m_impl->m_registry.refactor(entry, step);
+    entry.m_factorAccount.clear();
+    entry.m_factorJob.reset();
 }
 
 void btFemSoftBodySolver::setNodeTarget(btSoftBody* body, int node, const btVector3& position)

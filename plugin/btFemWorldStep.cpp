@@ -17,9 +17,10 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr double kSameFactor = 1 + 1e-5;  // ratio of step or mass up to which a factor is not called stale
-constexpr double kReach = 0.6;            // mean edges around a body: rigid ones go half of one ahead of their contacts
-constexpr double kRefactorInContact = 1.5;  // and beyond which a body that touches something is factored anew
+constexpr double kReach = 0.6;  // mean edges around a body: rigid ones go half of one ahead of their contacts
+
+// Ratio of step or mass to the factor's beyond which a body that touches something is factored anew.
+constexpr double kRefactorInContact = 1.5;
 
 // What predictMotion of btSoftBody does besides moving nodes, without resetting the links' rest lengths.
 void refreshBulletConstants(btSoftBody& soft, double step)
@@ -85,8 +86,10 @@ StepSettings btFemWorldStep::settingsOf(const btFemEntry& entry) const
     settings.m_step = entry.m_lastStep;
     settings.m_tolerance = m_info.m_tolerance;
     settings.m_maxIterations = m_info.m_maxIterations;
-    settings.m_warp = entry.m_detail == btFemDetail::nodalWarp ? Warp::nodal : Warp::global;
-    settings.m_direct = entry.m_detail == btFemDetail::direct && entry.m_contacts.size() == 0;
+    const btFemDetail detail = detailInUse(entry);
+    settings.m_direct = detail == btFemDetail::direct || detail == btFemDetail::oneIteration;
+    settings.m_warp =
+        detail == btFemDetail::nodalWarp || detail == btFemDetail::oneIteration ? Warp::nodal : Warp::global;
     settings.m_threads = &m_threads;
     return settings;
 }
@@ -113,21 +116,25 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         if (!entry.m_fem) continue;
 
         readBody(entry);
-        // Without contact a stale factor costs iterations only; contact would rest on a wrong picture of the
-        // compliance.
-        if (entry.m_contacts.size() > 0 && factorMismatch(*entry.m_fem, h) > kRefactorInContact)
-        {
-            registry.refactor(entry, h);
-            entry.m_report.m_flags |= BT_FEM_REFACTORED;
-        }
+        renewFactor(registry, entry, h);
         refreshBulletConstants(soft, h);
         soft.applyForces();
         markForces(entry);
         if (soft.m_cfg.collisions & btSoftBody::fCollision::CL_SELF) entry.m_fem->m_touchingSoft.push_back(&soft);
         setSweptBounds(*entry.m_fem, h, kReach * entry.m_fem->m_body.m_model->mesh().meanEdgeLength());
+        m_detailChooser.choose(entry, h);
     }
     for (const auto& entry : registry.entries())  // also of bodies that sleep, or have just become FEM
         if (entry->m_present && entry->m_fem) hideClusterJoints(*entry->m_fem);
+}
+
+// Without contact a stale factor costs iterations only; contact would rest on a wrong picture of the compliance.
+void btFemWorldStep::renewFactor(btFemBodyRegistry& registry, btFemEntry& entry, double step)
+{
+    if (entry.m_contacts.size() == 0 || factorMismatch(*entry.m_fem, step) <= kRefactorInContact)
+        return m_refactorPolicy.refresh(registry, entry, step);
+    registry.tryRefactor(entry, step);
+    entry.m_factorAccount.clear();
 }
 
 void btFemWorldStep::readBody(btFemEntry& entry)
@@ -225,10 +232,17 @@ void btFemWorldStep::solveFree(btFemEntry& entry) const
     readBody(entry);  // once more: callbacks may have written since predict
     FemSoftBody& fem = *entry.m_fem;
     if (!readLoads(fem, entry.m_lastStep)) entry.m_report.m_flags |= BT_FEM_RESTORED;
-    if (factorMismatch(fem, entry.m_lastStep) > kSameFactor) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
+    const double stale = staleness(entry, entry.m_lastStep);
+    if (stale > 1) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
     const StepSettings settings = settingsOf(entry);
+    entry.m_report.m_detail = detailInUse(entry);
     const SolveReport solved = solveFreeMotion(fem.m_body, settings);
-    if (!settings.m_direct) note(entry, solved);
+    m_detailChooser.judge(entry, solved);
+    if (!settings.m_direct)
+    {
+        note(entry, solved);
+        m_refactorPolicy.note(entry, solved.m_iterations, stale);
+    }
     entry.m_report.m_iterations = solved.m_iterations;
     entry.m_report.m_residual = static_cast<btScalar>(solved.m_residual);
     entry.m_report.m_freeMotionMs = static_cast<btScalar>(watch.milliseconds());
@@ -245,4 +259,7 @@ void btFemWorldStep::finish(btFemEntry& entry) const
         std::fill(fem.m_body.m_state.m_v.begin(), fem.m_body.m_state.m_v.end(), Vec3());
     }
     writeNodes(fem);
+    btFemStepReport& report = entry.m_report;
+    const double length = 1e3 * entry.m_lastStep / entry.m_softBody->m_cfg.timescale;
+    report.m_tooSlow = entry.m_realTime.isTooSlow(report.m_freeMotionMs + report.m_contactMs, length);
 }

@@ -7,6 +7,8 @@
 #include "bullet_fem/fem/threads.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemContactGroup.h"
+#include "plugin/btFemDetailChooser.h"
+#include "plugin/btFemRefactorPolicy.h"
 
 /// One step of all FEM bodies of a world, in the places where Bullet calls its soft body solver: before collision
 /// detection and after the rigid bodies have moved; and, with a btFemConstraintSolver, where it solves the rigid
@@ -15,8 +17,14 @@ class btFemWorldStep
 {
 public:
     explicit btFemWorldStep(const btFemSolverInfo& info)
-        : m_info(info), m_threads(info.m_threads), m_group(info, m_threads)
+        : m_info(info), m_threads(info.m_threads), m_refactorPolicy(info), m_group(info, m_threads)
     {
+    }
+
+    /// Who chooses the detail of bodies from now on: see btFemDetailChooser.
+    void setInterest(btFemInterest* interest, const btFemDetailPolicy& policy)
+    {
+        m_detailChooser.setInterest(interest, policy);
     }
 
     /// Before collision detection: sets new bodies up, takes over what the user wrote, lets Bullet add wind and
@@ -38,6 +46,7 @@ public:
 private:
     bool isDue(btFemEntry& entry, double worldStep) const;
     static void readBody(btFemEntry& entry);
+    void renewFactor(btFemBodyRegistry& registry, btFemEntry& entry, double step);
     void readChanges(btFemEntry& entry);
     void solveFree();
     void solveFree(btFemEntry& entry) const;
@@ -49,6 +58,8 @@ private:
     std::vector<btFemEntry*> m_due;          // their free motion is to be solved
     std::vector<btFemEntry*> m_active;       // it is solved
     std::vector<bullet_fem::Vec3> m_change;  // scratch [m/s]
+    btFemDetailChooser m_detailChooser;
+    btFemRefactorPolicy m_refactorPolicy;
     btFemContactGroup m_group;
 };
 

@@ -6,13 +6,15 @@
 
 class btCollisionObject;
 
-/// How much a body is worth: what its factor is turned with, and whether it is iterated to the tolerance.
+/// How much a body is worth: what its factor is turned with, and whether it is iterated to the tolerance. A body that
+/// touches something is iterated all the same.
 enum class btFemDetail
 {
-    nodalWarp,   ///< one rotation a node; the default
-    globalWarp,  ///< the body's one rotation, as in the paper; for nearly rigid bodies
-    direct  ///< one iteration a step, for bodies nobody looks at; a body that touches something is iterated all the
-            ///< same
+    nodalWarp,     ///< one rotation a node
+    globalWarp,    ///< the body's one rotation, as in the paper; for nearly rigid bodies
+    direct,        ///< the body's one rotation and one iteration a step, for bodies nobody looks at
+    oneIteration,  ///< one rotation a node and one iteration a step, for bodies that few look at
+    automatic      ///< by btFemSoftBodySolver::setInterest, nodalWarp without that; the default. Never in a report
 };
 
 /// What happened in a step, or to a body at set-up. Several may be set at once.
@@ -36,17 +38,22 @@ enum btFemFlags
     BT_FEM_CONTACT_LIMIT = 1 << 12,   ///< more contact points than the solver info allows: the deepest were kept
     BT_FEM_LOST_ANCHOR = 1 << 14,  ///< the other end of an anchor or joint left the world: it was removed from the body
     BT_FEM_BAD_ANCHOR = 1 << 15,   ///< an anchor to a foreign node, or to a soft body that is not FEM: ignored
-    BT_FEM_REFACTORED = 1 << 13  ///< it touches something while step or masses were 1.5 times off: factored on the spot
+    BT_FEM_REFACTORED = 1 << 13,   ///< a new factor from this step on: it touches something while step or masses were
+                                   ///< 1.5 times off, or as btFemSolverInfo::m_refactoring says
+    BT_FEM_REFACTOR_PAYS = 1 << 16,  ///< the stale factor has cost more iterations than a new one costs: refactor()
+    BT_FEM_BAD_INTEREST = 1 << 17    ///< its interest was NaN, taken for 1, or not in [0, 1], and clamped
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.
 struct btFemStepReport
 {
-    int m_flags = 0;              ///< btFemFlags
-    const char* m_message = "";   ///< why the body was rejected; owned by the solver, valid until the body is removed
-    int m_nodes = 0, m_tets = 0;  ///< of its mesh
-    int m_iterations = 0;         ///< conjugate gradient iterations of the free motion, >= 0
-    btScalar m_residual = 0;      ///< its true |b - A dv| / |b| [-], >= 0
+    int m_flags = 0;             ///< btFemFlags
+    const char* m_message = "";  ///< why the body was rejected, or its factor not made anew; owned by the solver, valid
+                                 ///< until the body is removed
+    btFemDetail m_detail = btFemDetail::nodalWarp;  ///< what its free motion was solved with; never automatic
+    int m_nodes = 0, m_tets = 0;                    ///< of its mesh
+    int m_iterations = 0;                           ///< conjugate gradient iterations of the free motion, >= 0
+    btScalar m_residual = 0;                        ///< its true |b - A dv| / |b| [-], >= 0
     int m_contactIterations = 0;  ///< of the corrective solves after contact, of all bodies of its contact group
     int m_contactSweeps = 0;      ///< sweeps over that group's contacts and joints, in all rounds and
                                   ///< for position correction
@@ -58,6 +65,10 @@ struct btFemStepReport
     btScalar m_factorSeconds = 0;       ///< wall time that factoring took, when it was made [s]
     btScalar m_freeMotionMs = 0;        ///< wall time of forces, rotations and the free solve [ms]
     btScalar m_contactMs = 0;           ///< wall time of contacts and joints of all bodies of its contact group [ms]
+    /// The sum of both has been longer than the step, in more of the last steps than not: the body, or what it touches,
+    /// is too big for real time. Use coarser meshes, less detail or more threads. By the clock, so not one of the
+    /// flags, which are the same in every run.
+    bool m_tooSlow = false;
 };
 
 /// A contact point of the last step.

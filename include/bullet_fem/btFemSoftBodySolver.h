@@ -7,11 +7,26 @@
 
 #include "BulletSoftBody/btDefaultSoftBodySolver.h"
 #include "bullet_fem/btFemAnchors.h"
+#include "bullet_fem/btFemInterest.h"
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/btFemReports.h"
 
 class btSoftBody;
 struct btFemCoupling;
+
+/// Who gives a body a new factor when its step, masses or pins are not the factor's any more (BT_FEM_STALE_FACTOR). A
+/// new one pays as soon as the stale one has cost as many iterations of the free motion as it takes time; both are
+/// counted from the sizes of mesh and factor, never by a clock.
+enum class btFemRefactoring
+{
+    onRequest,    ///< refactor(); the step report says when it pays (BT_FEM_REFACTOR_PAYS)
+    synchronous,  ///< also the step after that report, which takes longer then; the same on every machine
+    /// Likewise, but it is made by a thread of its own and taken over at the beginning of the first step that finds it
+    /// ready. **Not deterministic:** results depend, within the tolerance, on when that is. Orders with METIS, which
+    /// seeds and draws from std::rand, while the program runs; a body that is set up meanwhile waits for its turn. The
+    /// destructor waits for the factor that is being made.
+    background
+};
 
 /// Settings of a solver; fixed for its life.
 struct btFemSolverInfo
@@ -34,6 +49,8 @@ struct btFemSolverInfo
     /// Threads that share the bodies of a step, and the work on a body of some thousand tetrahedra; the stepping one is
     /// among them [-], in [0, 256]; 0: as many as the machine has. The bits of the result are the same for all.
     int m_threads = 1;
+    /// Who renews stale factors. Bodies that touch something get a new one in any case if the old one is 1.5 times off.
+    btFemRefactoring m_refactoring = btFemRefactoring::onRequest;
     /// Whether Bullet's dispatcher shows a btPersistentManifold of every FEM body and other object that touch: the four
     /// deepest points of the last step with their impulses. The rigid object is the first, the soft body the second;
     /// Bullet's rigid solver leaves the manifolds alone, but an active kinematic object keeps awake what touches it, as
@@ -76,8 +93,14 @@ public:
     /// std::invalid_argument on a bad material or a body without (usable) tetrahedra.
     void setMaterial(btSoftBody* body, const btFemMaterial& material);
 
-    /// Chooses between accuracy and speed for a body; nodalWarp unless called. Throws std::invalid_argument on null.
+    /// Chooses between accuracy and speed for a body, whatever its interest; btFemDetail::automatic, which it is unless
+    /// called, leaves that to the interest again. Throws std::invalid_argument on null.
     void setDetail(btSoftBody* body, btFemDetail detail);
+
+    /// Chooses the details of all other bodies by how much they matter, from the next step on. The function must live
+    /// until it is replaced, or the solver is gone; null, which it is unless called, makes all of them nodalWarp.
+    /// Throws std::invalid_argument if !policy.valid().
+    void setInterest(btFemInterest* interest, const btFemDetailPolicy& policy = btFemDetailPolicy());
 
     /// Takes the present shape as the rest shape, unless the body has one, and factors now for a step of fixedTimeStep
     /// [s], in [1e-6, 1], so that the first step does not hitch. Throws std::invalid_argument on a bad step or mesh.

@@ -46,6 +46,19 @@ TEST_F(ModelLibraryTest, anotherMaterialStepOrShapeIsAnotherModel)
     EXPECT_NE(model, modelOf(*hollow.m_body, Material()));
 }
 
+TEST_F(ModelLibraryTest, modelsMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
+{
+    const TestBox a;
+    const auto shape = m_library.restShape(tetMeshOf(*a.m_body), Material(), filledFractionsOf(*a.m_body));
+    const FactorInput input = factorInputOf(*a.m_body);
+    EXPECT_FALSE(m_library.find(shape, input));
+    const auto first = BodyModel::create(shape, input), second = BodyModel::create(shape, input);
+    EXPECT_EQ(m_library.adopt(first), first);
+    EXPECT_EQ(m_library.adopt(second), first);
+    EXPECT_EQ(m_library.find(shape, input), first);
+    EXPECT_EQ(m_library.model(shape, input), first);
+}
+
 TEST_F(ModelLibraryTest, modelsDieWithTheirLastBody)
 {
     const TestBox a;

@@ -101,6 +101,32 @@ TEST(Allocations, NoneForABodyInFlight)
     EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 60), 58);
 }
 
+// Interest that goes up and down takes it through all levels; a stale factor is kept account of.
+TEST(Allocations, NoneWhileDetailIsChosenAndTheFactorIsStale)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
+    btFemViewerInterest viewer(1, 50);
+    viewer.setVisibility([](const btSoftBody&) { return true; });
+    btFemDetailPolicy policy;
+    policy.m_dwell = 0;
+    fem.setInterest(&viewer, policy);
+    fem.prepare(&cube, kStep / 2);
+    int low = 0;
+    for (int k = 0; k < 60; ++k)
+    {
+        viewer.setViewer(btVector3(btScalar(k % 30) * 2, 0, 0));
+        fem.m_allocations = 0;
+        world.step();
+        EXPECT_EQ(k < 2 ? 0 : fem.m_allocations, 0) << "step " << k;
+        EXPECT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_STALE_FACTOR);
+        low += fem.stepReport(&cube).m_detail != btFemDetail::nodalWarp;
+    }
+    EXPECT_GT(low, 10);
+    EXPECT_LT(low, 50);
+}
+
 TEST(Allocations, NoneForACubeAtRestOnABox)
 {
     CountingSolver fem;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/btFemInterest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "BulletSoftBody/btSoftBody.h"
+
+namespace
+{
+
+bool check(bool good, std::string* why, const char* name, double value, const std::string& range)
+{
+    if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;
+    return good;
+}
+
+// A bound of the interest, in [0, most].
+bool checkBound(std::string* why, const char* name, double value, double most)
+{
+    return check(value >= 0 && value <= most, why, name, value,
+                 "[0, " + std::to_string(most) +
+                     "]; m_reducedUntil <= m_reducedFrom <= m_fullFrom <= 1 and m_reducedUntil <= m_fullUntil <= "
+                     "m_fullFrom are wanted");
+}
+
+}  // namespace
+
+bool btFemDetailPolicy::valid(std::string* why) const
+{
+    return checkBound(why, "m_fullFrom", m_fullFrom, 1) && checkBound(why, "m_fullUntil", m_fullUntil, m_fullFrom) &&
+           checkBound(why, "m_reducedFrom", m_reducedFrom, m_fullFrom) &&
+           checkBound(why, "m_reducedUntil", m_reducedUntil, std::min(m_reducedFrom, m_fullUntil)) &&
+           check(m_dwell >= 0 && m_dwell <= 3600, why, "m_dwell", m_dwell, "[0, 3600] s; 0.5 is usual");
+}
+
+btFemViewerInterest::btFemViewerInterest(btScalar nearDistance, btScalar farDistance)
+    : m_near(nearDistance), m_far(farDistance)
+{
+    if (!(m_near >= 0 && m_near < m_far && std::isfinite(m_far)))
+        throw std::invalid_argument("btFemViewerInterest: distances " + std::to_string(m_near) + " and " +
+                                    std::to_string(m_far) +
+                                    " m are not finite with 0 <= near < far; 10 and 100 are usual");
+}
+
+btScalar btFemViewerInterest::interest(const btSoftBody& body)
+{
+    if (m_isVisible && !m_isVisible(body)) return 0;
+    btVector3 lower, upper;
+    body.getAabb(lower, upper);
+    btVector3 nearest = m_viewer;
+    nearest.setMax(lower);
+    nearest.setMin(upper);
+    const btScalar distance = (m_viewer - nearest).length();
+    return std::clamp((m_far - distance) / (m_far - m_near), btScalar(0), btScalar(1));
+}
