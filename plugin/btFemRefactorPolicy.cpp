@@ -67,8 +67,6 @@ void btFemRefactorPolicy::takeOver(btFemBodyRegistry& registry, btFemEntry& entr
     const std::shared_ptr<btFemFactorJob> job = std::move(entry.m_factorJob);
     entry.m_factorAccount.spend(priceFor(entry));
     if (!job->m_model) entry.m_message = job->m_error;
-    // Of no use after all if the body has got another material, or what was changed was changed back.
-    if (!job->m_model || job->m_shape != entry.m_fem->m_body.m_model->sharedShape() || staleness(entry, step) <= 1)
-        return;
-    registry.takeFactor(entry, job->m_model);
+    // Of no use after all if what was changed was changed back. (Another material drops the job.)
+    if (job->m_model && staleness(entry, step) > 1) registry.takeFactor(entry, job->m_model);
 }

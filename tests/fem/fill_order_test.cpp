@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <thread>
 
 #include "fem/dense_system.h"
 
@@ -77,6 +78,25 @@ TEST(FillOrderOf, AnArrowLeavesItsTipToTheEnd)
     const char* method = nullptr;
     EXPECT_EQ(entriesOfFactor(arrowMatrix(n), natural), n * (n + 1) / 2);
     EXPECT_EQ(entriesOfFactor(arrowMatrix(n), fillReducingOrder(sparsePattern(arrowMatrix(n)), method)), 2 * n - 1);
+}
+
+// METIS seeds the C library's one random generator and draws from it.
+TEST(FillOrderOf, ConcurrentCallersIsThatOfOne)
+{
+    const SparsePattern pattern = sparsePattern(gridMatrix(40));
+    const char* method = nullptr;
+    const std::vector<int> alone = fillReducingOrder(pattern, method);
+    std::vector<int> different(4, 0);
+    std::vector<std::thread> callers;
+    for (int& differences : different)
+        callers.emplace_back(
+            [&]
+            {
+                const char* ownMethod = nullptr;
+                for (int k = 0; k < 20; ++k) differences += fillReducingOrder(pattern, ownMethod) != alone;
+            });
+    for (std::thread& caller : callers) caller.join();
+    EXPECT_EQ(different, std::vector<int>(4, 0)) << method;
 }
 
 TEST(OrderingBackend, IsNamedWithItsVersion)

@@ -169,6 +169,24 @@ TEST(BackgroundRefactoring, LeavesOutWhatIsOfNoUseAnyMore)
     }
 }
 
+TEST(BackgroundRefactoring, ForgetsTheFactorOfAnotherMaterial)
+{
+    ClampedBeam::Settings settings;
+    settings.m_info = inBackground();
+    ClampedBeam beam(settings);
+    beam.step(60);
+    for (int k = 0; k < 1000 && !beam.isFlagged(BT_FEM_REFACTOR_PAYS); ++k) beam.step(1, kStep / 4);
+    beam.step(1, kStep / 4);  // asks for a new factor
+    beam.fem().setMaterial(&beam.body(), btFemMaterial::foam());
+    beam.step(1, kStep / 4);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    for (int k = 0; k < 3; ++k)
+    {
+        beam.step();
+        EXPECT_EQ(beam.report().m_flags, BT_FEM_STALE_FACTOR) << k;
+    }
+}
+
 // Bodies come, go, change and are refactored while their factors are being made; then the solver goes.
 TEST(BackgroundRefactoring, SurvivesBodiesThatComeGoAndChange)
 {
