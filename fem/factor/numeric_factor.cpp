@@ -23,7 +23,7 @@ namespace
 class FrontArena
 {
 public:
-    explicit FrontArena(const SupernodeTree& tree);
+    FrontArena(const SupernodeTree& tree, int rowsOfNode);
 
     DenseFront front(int s);
     const std::vector<int>& children(int s) const { return m_children[s]; }
@@ -42,15 +42,15 @@ private:
     std::unique_ptr<double[]> m_memory;
 };
 
-FrontArena::FrontArena(const SupernodeTree& tree)
+FrontArena::FrontArena(const SupernodeTree& tree, int rowsOfNode)
     : m_places(tree.m_supernodes.size()), m_children(tree.m_supernodes.size())
 {
     for (int s = static_cast<int>(m_places.size()) - 1; s >= 0; --s)
     {
         const Supernode& supernode = tree.m_supernodes[s];
         const int parent = supernode.m_parent;
-        m_places[s].m_pivots = 3 * static_cast<std::size_t>(supernode.m_columns);
-        m_places[s].m_rows = 3 * static_cast<std::size_t>(supernode.m_rows);
+        m_places[s].m_pivots = rowsOfNode * static_cast<std::size_t>(supernode.m_columns);
+        m_places[s].m_rows = rowsOfNode * static_cast<std::size_t>(supernode.m_rows);
         m_places[s].m_depth = parent >= 0 ? m_places[parent].m_depth + 1 : 0;
         if (parent >= 0) m_children[parent].push_back(s);
     }
@@ -80,7 +80,7 @@ DenseFront FrontArena::front(int s)
 class Fronts
 {
 public:
-    Fronts(const BlockMatrix& A, const std::vector<int>& order, const SupernodeTree& tree);
+    Fronts(const BlockMatrix& A, const std::vector<int>& order, const SupernodeTree& tree, NodeEntry entry);
 
     // Fills and eliminates supernode s: A11 holds S then, A21 holds M.
     DenseFront factor(int s);
@@ -102,6 +102,7 @@ private:
     const BlockMatrix& m_A;
     const std::vector<int>& m_order;
     const SupernodeTree& m_tree;
+    const int m_rowsOfNode;
     FrontArena m_arena;
     std::vector<int> m_column;  // of each node of A; -1 if left out
     std::vector<int> m_place;   // of each column in the present front [nodes]
@@ -124,17 +125,18 @@ std::vector<int> columnOfNode(const BlockMatrix& A, const std::vector<int>& orde
     return column;
 }
 
-Fronts::Fronts(const BlockMatrix& A, const std::vector<int>& order, const SupernodeTree& tree)
+Fronts::Fronts(const BlockMatrix& A, const std::vector<int>& order, const SupernodeTree& tree, NodeEntry entry)
     : m_A(A),
       m_order(order),
       m_tree(tree),
-      m_arena(tree),
+      m_rowsOfNode(rowsOfNode(entry)),
+      m_arena(tree, m_rowsOfNode),
       m_column(columnOfNode(A, order, tree)),
       m_place(order.size(), -1)
 {
     std::size_t scratch = 0;
     for (const Supernode& s : tree.m_supernodes)
-        scratch = std::max(scratch, eliminationScratch(3 * s.m_columns, 3 * s.m_rows));
+        scratch = std::max(scratch, eliminationScratch(m_rowsOfNode * s.m_columns, m_rowsOfNode * s.m_rows));
     m_scratch.resize(scratch);
 }
 
@@ -151,7 +153,7 @@ DenseFront Fronts::factor(int s)
     const int failed = eliminatePivots(front, m_scratch.data(), pivotValue);
     if (failed >= 0)
         throw std::runtime_error(message("the matrix is not positive definite: pivot ", pivotValue, " at node ",
-                                         m_order[supernode.m_first + failed / 3],
+                                         m_order[supernode.m_first + failed / m_rowsOfNode],
                                          "; check masses, moduli and element volumes there"));
     return front;
 }
@@ -207,7 +209,12 @@ void Fronts::addMatrix(const Supernode& s, const DenseFront& front)
             if (!holds(s, row))
                 reject("the tree has no room for the matrix's block of nodes ", node, " and ", m_A.m_column[a],
                        "; it must be built from a pattern that has that block");
-            const Piece to = piece(front, 3 * m_place[row], 3 * k);
+            const Piece to = piece(front, m_rowsOfNode * m_place[row], m_rowsOfNode * k);
+            if (m_rowsOfNode == 1)
+            {
+                *to.m_start += trace(m_A.m_block[a]) / 3;
+                continue;
+            }
             for (int j = 0; j < 3; ++j)  // this row of A holds the transpose
                 for (int i = 0; i < 3; ++i) to.m_start[i + j * to.m_stride] += m_A.m_block[a](j, i);
         }
@@ -220,10 +227,10 @@ void Fronts::findRuns(const Supernode& child, int columns)
     for (int k = 0; k < child.m_rows; ++k)
     {
         const int to = m_place[m_tree.m_row[child.m_rowStart + k]];
-        const bool joins =
-            k > 0 && to != columns && m_runs.back().m_to + m_runs.back().m_count == 3 * to;  // none crosses A11's end
-        if (!joins) m_runs.push_back({3 * k, 3 * to, 0});
-        m_runs.back().m_count += 3;
+        const bool joins = k > 0 && to != columns &&
+                           m_runs.back().m_to + m_runs.back().m_count == m_rowsOfNode * to;  // none crosses A11's end
+        if (!joins) m_runs.push_back({m_rowsOfNode * k, m_rowsOfNode * to, 0});
+        m_runs.back().m_count += m_rowsOfNode;
     }
 }
 
@@ -240,8 +247,8 @@ void add(const Piece& from, const Piece& to, int rows, int columns)
 // Adds what a child left over its rows to the front, lower half to lower half.
 void Fronts::addChild(int child, const DenseFront& front)
 {
-    const std::ptrdiff_t size = 3 * m_tree.m_supernodes[child].m_rows;
-    findRuns(m_tree.m_supernodes[child], front.m_pivots / 3);
+    const std::ptrdiff_t size = m_rowsOfNode * m_tree.m_supernodes[child].m_rows;
+    findRuns(m_tree.m_supernodes[child], front.m_pivots / m_rowsOfNode);
     for (std::size_t c = 0; c < m_runs.size(); ++c)
         for (std::size_t r = c; r < m_runs.size(); ++r)
         {
@@ -254,9 +261,9 @@ void Fronts::addChild(int child, const DenseFront& front)
 }  // namespace
 
 void factorSupernodes(const BlockMatrix& A, const std::vector<int>& order, const SupernodeTree& tree,
-                      const SupernodeTaker& take)
+                      const SupernodeTaker& take, NodeEntry entry)
 {
-    Fronts fronts(A, order, tree);
+    Fronts fronts(A, order, tree, entry);
     for (int s = 0; s < static_cast<int>(tree.m_supernodes.size()); ++s)
     {
         const DenseFront front = fronts.factor(s);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fem/factor/isotropic_panel_kernels.h"
 #include "fem/pieces.h"
 
 namespace bullet_fem
@@ -14,29 +15,30 @@ namespace
 {
 
 // Rows of a panel, padded.
-std::size_t paddedRows(const Supernode& s)
+std::size_t paddedRows(const Supernode& s, NodeEntry entry)
 {
-    return (3 * (static_cast<std::size_t>(s.m_columns) + s.m_rows) + kPanelLanes - 1) / kPanelLanes * kPanelLanes;
+    return (rowsOfNode(entry) * (static_cast<std::size_t>(s.m_columns) + s.m_rows) + kPanelLanes - 1) / kPanelLanes *
+           kPanelLanes;
 }
 
 }  // namespace
 
-std::size_t PackedFactor::bytesFor(const SupernodeTree& tree)
+std::size_t PackedFactor::bytesFor(const SupernodeTree& tree, NodeEntry entry)
 {
     std::size_t floats = 0;
-    for (const Supernode& s : tree.m_supernodes) floats += paddedRows(s) * 3 * s.m_columns;
+    for (const Supernode& s : tree.m_supernodes) floats += paddedRows(s, entry) * rowsOfNode(entry) * s.m_columns;
     return sizeof(float) * floats;
 }
 
-PackedFactor::PackedFactor(SupernodeTree tree)
-    : m_tree(std::move(tree)), m_division(m_tree), m_all(m_tree.m_supernodes.size())
+PackedFactor::PackedFactor(SupernodeTree tree, NodeEntry entry)
+    : m_entry(entry), m_tree(std::move(tree)), m_division(m_tree), m_all(m_tree.m_supernodes.size())
 {
     std::iota(m_all.begin(), m_all.end(), 0);
     m_panelStart.push_back(0);
     for (const Supernode& s : m_tree.m_supernodes)
     {
-        m_panelStart.push_back(m_panelStart.back() + paddedRows(s) * 3 * s.m_columns);
-        m_scratchRows = std::max(m_scratchRows, paddedRows(s));
+        m_panelStart.push_back(m_panelStart.back() + paddedRows(s, entry) * rowsOfNode(entry) * s.m_columns);
+        m_scratchRows = std::max(m_scratchRows, paddedRows(s, entry));
     }
     layOutScratch();
     m_panels = allocateFloats(m_panelStart.back());
@@ -46,17 +48,19 @@ PackedFactor::PackedFactor(SupernodeTree tree)
 Panel PackedFactor::panel(int supernode) const
 {
     const Supernode& s = m_tree.m_supernodes[supernode];
-    return {m_panels.get() + m_panelStart[supernode], m_tree.m_row.data() + s.m_rowStart, s.m_first, 3 * s.m_columns,
-            3 * s.m_rows};
+    const int k = rowsOfNode(m_entry);
+    return {m_panels.get() + m_panelStart[supernode], m_tree.m_row.data() + s.m_rowStart, s.m_first, k * s.m_columns,
+            k * s.m_rows};
 }
 
 void PackedFactor::pack(int supernode, const double* S, const double* M)
 {
     const Panel p = panel(supernode);
     float* out = m_panels.get() + m_panelStart[supernode];
-    for (int chunk = 0; chunk < p.m_columns; chunk += kPanelColumns)
+    const int chunkColumns = m_entry == NodeEntry::block ? kPanelColumns : kIsotropicColumns;
+    for (int chunk = 0; chunk < p.m_columns; chunk += chunkColumns)
     {
-        const int width = std::min(kPanelColumns, p.m_columns - chunk);
+        const int width = std::min(chunkColumns, p.m_columns - chunk);
         for (int block = 0; block < p.blocks(); ++block)
             for (int c = chunk; c < chunk + width; ++c)
                 for (int r = block * kPanelLanes; r < (block + 1) * kPanelLanes; ++r, ++out)
@@ -77,10 +81,20 @@ void PackedFactor::layOutScratch()
     {
         std::size_t longest = 0;
         for (int s = subtree.m_begin; s < subtree.m_end; ++s)
-            longest = std::max(longest, paddedRows(m_tree.m_supernodes[s]));
-        m_scratchStart.push_back(m_scratchStart.back() + longest);
+            longest = std::max(longest, paddedRows(m_tree.m_supernodes[s], m_entry));
+        m_scratchStart.push_back(m_scratchStart.back() + scratchOf(longest));
     }
-    m_scratchStart.push_back(m_scratchStart.back() + m_scratchRows);
+    m_scratchStart.push_back(m_scratchStart.back() + scratchOf(m_scratchRows));
+}
+
+void PackedFactor::forward(const Panel& panel, float* y, float* scratch) const
+{
+    m_entry == NodeEntry::block ? forwardPanel(panel, y, scratch) : forwardIsotropic(panel, y, scratch);
+}
+
+void PackedFactor::backward(const Panel& panel, float* y, float* scratch) const
+{
+    m_entry == NodeEntry::block ? backwardPanel(panel, y, scratch) : backwardIsotropic(panel, y, scratch);
 }
 
 // The panel with a subtree's own rows in place of those above it.
@@ -96,13 +110,13 @@ void PackedFactor::forwardSubtree(int t, float* y, float* scratch) const
     const Subtree& subtree = m_division.m_subtrees[t];
     std::fill_n(y + 3 * static_cast<std::size_t>(subtree.m_firstAbove),
                 3 * static_cast<std::size_t>(m_tree.m_supernodes[subtree.m_end - 1].m_rows), 0.f);
-    for (int s = subtree.m_begin; s < subtree.m_end; ++s) forwardPanel(forwardPanelOf(s), y, scratch);
+    for (int s = subtree.m_begin; s < subtree.m_end; ++s) forward(forwardPanelOf(s), y, scratch);
 }
 
 void PackedFactor::backwardSubtree(int t, float* y, float* scratch) const
 {
     const Subtree& subtree = m_division.m_subtrees[t];
-    for (int s = subtree.m_end - 1; s >= subtree.m_begin; --s) backwardPanel(panel(s), y, scratch);
+    for (int s = subtree.m_end - 1; s >= subtree.m_begin; --s) backward(panel(s), y, scratch);
 }
 
 void PackedFactor::addRowsAbove(float* y) const
@@ -125,8 +139,8 @@ void PackedFactor::solve(float* y, float* scratch, const Threads* threads) const
     float* const topScratch = scratch + m_scratchStart[count];
     runTasks(threads, count, [&](int t) { forwardSubtree(t, y, scratch + m_scratchStart[t]); });
     addRowsAbove(y);
-    for (int s : m_division.m_top) forwardPanel(panel(s), y, topScratch);
-    for (auto s = m_division.m_top.rbegin(); s != m_division.m_top.rend(); ++s) backwardPanel(panel(*s), y, topScratch);
+    for (int s : m_division.m_top) forward(panel(s), y, topScratch);
+    for (auto s = m_division.m_top.rbegin(); s != m_division.m_top.rend(); ++s) backward(panel(*s), y, topScratch);
     // The last subtree first: on one thread it is the one still in the caches.
     runTasks(threads, count,
              [&](int k) { backwardSubtree(count - 1 - k, y, scratch + m_scratchStart[count - 1 - k]); });
@@ -135,8 +149,11 @@ void PackedFactor::solve(float* y, float* scratch, const Threads* threads) const
 void PackedFactor::solveLanes(const std::vector<int>& forward, const std::vector<int>& backward, float* y,
                               float* scratch) const
 {
-    for (int s : forward) forwardPanelLanes(panel(s), y, scratch);
-    for (auto s = backward.rbegin(); s != backward.rend(); ++s) backwardPanelLanes(panel(*s), y, scratch);
+    const bool blocks = m_entry == NodeEntry::block;
+    const auto up = blocks ? forwardPanelLanes : forwardIsotropicLanes;
+    const auto down = blocks ? backwardPanelLanes : backwardIsotropicLanes;
+    for (int s : forward) up(panel(s), y, scratch);
+    for (auto s = backward.rbegin(); s != backward.rend(); ++s) down(panel(*s), y, scratch);
 }
 
 }  // namespace bullet_fem

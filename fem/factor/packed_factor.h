@@ -6,6 +6,7 @@
 
 #include "bullet_fem/fem/threads.h"
 #include "fem/aligned_floats.h"
+#include "fem/factor/node_entry.h"
 #include "fem/factor/panel_kernels.h"
 #include "fem/factor/subtrees.h"
 #include "fem/factor/supernode_tree.h"
@@ -15,22 +16,24 @@ namespace bullet_fem
 
 /// A block factor A0 = L D L^T, packed in single precision for the two triangular solves of a preconditioner. Supernode
 /// s holds S_s = D_s^-1 and M_s, its rows of L below the unit diagonal block, so no solve waits for a division:
-/// forward y_below -= M y_s; backward y_s = S y_s - M^T y_below. Const once packed.
+/// forward y_below -= M y_s; backward y_s = S y_s - M^T y_below. A factor of numbers is applied to each of the three
+/// directions of nodes, in one pass over its panels. Const once packed.
 class PackedFactor
 {
 public:
     PackedFactor() = default;
 
     /// What the panels of a factor of this pattern take [B].
-    static std::size_t bytesFor(const SupernodeTree& tree);
+    static std::size_t bytesFor(const SupernodeTree& tree, NodeEntry entry = NodeEntry::block);
 
     /// Room for a factor of this pattern, with zeros in it.
-    explicit PackedFactor(SupernodeTree tree);
+    explicit PackedFactor(SupernodeTree tree, NodeEntry entry = NodeEntry::block);
 
-    /// Sets supernode s: S is 3 nc x 3 nc and symmetric, M is 3 nr x 3 nc, both by columns.
+    /// Sets supernode s: S is k nc x k nc and symmetric, M is k nr x k nc, k = rowsOfNode(entry()), both by columns.
     void pack(int supernode, const double* S, const double* M);
 
     const SupernodeTree& tree() const { return m_tree; }
+    NodeEntry entry() const { return m_entry; }
     int size() const { return 3 * m_tree.m_nodeCount; }
     std::size_t byteCount() const { return m_panelStart.empty() ? 0 : sizeof(float) * m_panelStart.back(); }
 
@@ -43,7 +46,7 @@ public:
     void solve(float* y, float* scratch, const Threads* threads = nullptr) const;
 
     /// Floats of scratch that solveLanes() needs.
-    std::size_t laneScratchSize() const { return kPanelLanes * m_scratchRows; }
+    std::size_t laneScratchSize() const { return kPanelLanes * scratchOf(m_scratchRows); }
 
     /// The same for kPanelLanes interleaved right-hand sides: y has size() * kPanelLanes entries, aligned to 64 bytes.
     /// Solves forward along the supernodes of `forward` and backward along those of `backward` alone (ascending): of a
@@ -54,6 +57,9 @@ public:
     const std::vector<int>& allSupernodes() const { return m_all; }
 
 private:
+    std::size_t scratchOf(std::size_t rows) const { return m_entry == NodeEntry::block ? rows : 3 * rows; }
+    void forward(const Panel& panel, float* y, float* scratch) const;
+    void backward(const Panel& panel, float* y, float* scratch) const;
     Panel panel(int supernode) const;
     Panel forwardPanelOf(int supernode) const;
     void layOutScratch();
@@ -61,6 +67,7 @@ private:
     void backwardSubtree(int t, float* y, float* scratch) const;
     void addRowsAbove(float* y) const;
 
+    NodeEntry m_entry = NodeEntry::block;
     SupernodeTree m_tree;
     TreeDivision m_division{SupernodeTree()};
     std::vector<int> m_all;

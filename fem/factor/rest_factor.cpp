@@ -34,6 +34,36 @@ SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, 
     return pattern;
 }
 
+namespace
+{
+
+bool isBeyondLimit(const FactorInput& input, std::size_t bytes)
+{
+    return input.m_maxBytes > 0 && bytes > input.m_maxBytes;
+}
+
+FactorPath choosePath(const FactorInput& input, std::size_t fullBytes)
+{
+    const bool low = input.m_choice == FactorChoice::lowMemory ||
+                     (input.m_choice == FactorChoice::lowMemoryBeyond && isBeyondLimit(input, fullBytes));
+    return low ? FactorPath::lowMemory : FactorPath::full;
+}
+
+void refuseBeyondLimit(const FactorInput& input, const SupernodeTree& tree, NodeEntry entry)
+{
+    const std::size_t bytes = PackedFactor::bytesFor(tree, entry);
+    if (!isBeyondLimit(input, bytes)) return;
+    std::string remedy = "; raise the limit";
+    if (entry == NodeEntry::block)
+        remedy += ", choose the low-memory path (" + std::to_string(PackedFactor::bytesFor(tree, NodeEntry::number)) +
+                  " bytes)";
+    throw std::runtime_error("the factor of " + std::to_string(tree.m_nodeCount) + " free nodes would take " +
+                             std::to_string(bytes) + " bytes, more than the limit of " +
+                             std::to_string(input.m_maxBytes) + remedy + " or make a coarser mesh");
+}
+
+}  // namespace
+
 RestFactor::RestFactor(const RestShape& shape, const FactorInput& input, FactorReport& report)
 {
     const BlockMatrix A0 = assembleA0(shape, input);
@@ -60,13 +90,13 @@ RestFactor::RestFactor(const RestShape& shape, const FactorInput& input, FactorR
         order[k] = freeNodes[order[k]];
         m_position[order[k]] = static_cast<int>(k);
     }
-    const std::size_t bytes = PackedFactor::bytesFor(tree);
-    if (input.m_maxBytes > 0 && bytes > input.m_maxBytes)
-        throw std::runtime_error("the factor of " + std::to_string(freeNodes.size()) + " free nodes would take " +
-                                 std::to_string(bytes) + " bytes, more than the limit of " +
-                                 std::to_string(input.m_maxBytes) + "; raise the limit or make a coarser mesh");
-    m_lower = PackedFactor(tree);
-    factorSupernodes(A0, order, tree, [this](int s, const double* S, const double* M) { m_lower.pack(s, S, M); });
+    report.m_fullBytes = PackedFactor::bytesFor(tree);
+    report.m_path = choosePath(input, report.m_fullBytes);
+    const NodeEntry entry = report.m_path == FactorPath::full ? NodeEntry::block : NodeEntry::number;
+    refuseBeyondLimit(input, tree, entry);
+    m_lower = PackedFactor(tree, entry);
+    factorSupernodes(
+        A0, order, tree, [this](int s, const double* S, const double* M) { m_lower.pack(s, S, M); }, entry);
     report.m_ordering = ordering;
     report.m_entries = tree.m_entries;
     report.m_supernodes = static_cast<int>(tree.m_supernodes.size());

@@ -18,7 +18,9 @@ BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input);
 /// The lower triangle of A's pattern over some nodes, ascending; position is a node's place among them, or -1.
 SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, const std::vector<int>& position);
 
-/// The factor of A0 over the free nodes, and where every node stands in it.
+/// The factor of A0 over the free nodes, and where every node stands in it. On the low-memory path it is that of
+/// (1 + h alpha) M + (h^2 + h beta) (lambda + 4 mu) / 3 L, L the scalar Laplacian, for each of the three directions: of
+/// every block of A0 a third of its trace. No other scale of L needs fewer iterations, see docs/performance.md.
 class RestFactor
 {
 public:

@@ -14,6 +14,22 @@ namespace bullet_fem
 class RestFactor;
 struct ModelElements;
 
+/// Which factor preconditions the steps of a body. Conjugate gradients iterate to the tolerance with either.
+enum class FactorPath
+{
+    full,      ///< of A0 itself: one or two iterations a step
+    lowMemory  ///< of mass and a scalar Laplacian, one for all three directions: about a ninth of the memory, a
+               ///< twentieth of the time to factor, some times the iterations
+};
+
+/// Who chooses the path. A factor that is larger than FactorInput::m_maxBytes all the same is refused.
+enum class FactorChoice
+{
+    full,             ///< always the full factor
+    lowMemoryBeyond,  ///< the full factor, or the low-memory path where it would be larger than m_maxBytes
+    lowMemory         ///< always the low-memory path
+};
+
 /// What a rest factor is built for. Bodies that agree in all of it share one model.
 struct FactorInput
 {
@@ -24,6 +40,7 @@ struct FactorInput
     /// Memory that the packed factor may take [B], 0 for any amount. A limit, not a property of the factor: bodies that
     /// differ in it share one.
     std::size_t m_maxBytes = 0;
+    FactorChoice m_choice = FactorChoice::full;  ///< likewise not compared
 
     friend bool operator==(const FactorInput& a, const FactorInput& b)
     {
@@ -34,12 +51,14 @@ struct FactorInput
 /// Figures of a factorization.
 struct FactorReport
 {
-    std::string m_backend;    ///< library that ordered and factored
-    std::string m_ordering;   ///< METIS or AMD
-    long m_entries = 0;       ///< entries of L, fill included
-    int m_supernodes = 0;     ///< dense panels that L is packed in
-    std::size_t m_bytes = 0;  ///< memory of the packed panels [B]
-    double m_seconds = 0;     ///< wall time of assembly, ordering, factorization and packing [s]
+    std::string m_backend;                 ///< library that ordered and factored
+    std::string m_ordering;                ///< METIS or AMD
+    long m_entries = 0;                    ///< entries of L, fill included
+    int m_supernodes = 0;                  ///< dense panels that L is packed in
+    FactorPath m_path = FactorPath::full;  ///< what was built
+    std::size_t m_bytes = 0;               ///< memory of its packed panels [B]
+    std::size_t m_fullBytes = 0;           ///< what the full factor takes, or would have taken [B]
+    double m_seconds = 0;                  ///< wall time of assembly, ordering, factorization and packing [s]
 };
 
 /// A body's const half: its rest shape and the factor of A0 = (1 + h alpha) M + (h^2 + h beta) K. Immutable, so it may
