@@ -50,9 +50,14 @@ std::shared_ptr<const BodyModel> ModelLibrary::model(const std::shared_ptr<const
                                                      const FactorInput& input)
 {
     if (auto known = find(shape, input)) return known;
-    FactorInput limited = input;
-    limited.m_maxBytes = m_maxFactorBytes;
-    return adopt(BodyModel::create(shape, std::move(limited)));
+    return adopt(BodyModel::create(shape, limited(input)));
+}
+
+FactorInput ModelLibrary::limited(FactorInput input) const
+{
+    input.m_maxBytes = m_maxFactorBytes;
+    input.m_choice = m_choice;
+    return input;
 }
 
 std::shared_ptr<const BodyModel> ModelLibrary::find(const std::shared_ptr<const RestShape>& shape,

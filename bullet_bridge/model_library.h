@@ -17,8 +17,11 @@ class ComplianceCache;
 class ModelLibrary
 {
 public:
-    /// Factors may take so much memory each [B]; 0 for any amount.
-    explicit ModelLibrary(std::size_t maxFactorBytes = 0) : m_maxFactorBytes(maxFactorBytes) {}
+    /// Factors may take so much memory each [B], 0 for any amount, and are of the kind that was chosen.
+    explicit ModelLibrary(std::size_t maxFactorBytes = 0, FactorChoice choice = FactorChoice::full)
+        : m_maxFactorBytes(maxFactorBytes), m_choice(choice)
+    {
+    }
 
     /// A shape like this, an old one if there is one. Throws what RestShape's constructor throws.
     std::shared_ptr<const RestShape> restShape(const TetMesh& mesh, const Material& material,
@@ -34,8 +37,8 @@ public:
     /// A model that was made elsewhere, or one like it that is here already.
     std::shared_ptr<const BodyModel> adopt(std::shared_ptr<const BodyModel> model);
 
-    /// What factors may take each [B]; 0 for any amount.
-    std::size_t maxFactorBytes() const { return m_maxFactorBytes; }
+    /// The input with the library's limit and choice of factors.
+    FactorInput limited(FactorInput input) const;
 
     /// The compliance cache that the bodies of a model share.
     std::shared_ptr<ComplianceCache> compliance(const std::shared_ptr<const BodyModel>& model);
@@ -52,6 +55,7 @@ private:
         std::weak_ptr<ComplianceCache> m_compliance;
     };
     std::size_t m_maxFactorBytes;
+    FactorChoice m_choice;
     std::vector<Shape> m_shapes;
     std::vector<Model> m_models;
 };

@@ -22,6 +22,19 @@ namespace
 
 constexpr int kInTwoWorlds = 2;  // claims of a body by its former world that two living worlds alone can make
 
+FactorChoice coreChoice(btFemFactorChoice choice)
+{
+    switch (choice)
+    {
+        case btFemFactorChoice::lowMemoryBeyond:
+            return FactorChoice::lowMemoryBeyond;
+        case btFemFactorChoice::lowMemory:
+            return FactorChoice::lowMemory;
+        default:
+            return FactorChoice::full;
+    }
+}
+
 Material materialOf(const btFemEntry& entry)
 {
     return entry.m_materialGiven ? entry.m_material : unsetMaterialOf(*entry.m_softBody);
@@ -67,6 +80,12 @@ std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
 {
     const auto isIt = [body](const auto& entry) { return entry->m_softBody == body; };
     return std::find_if(m_entries.begin(), m_entries.end(), isIt) - m_entries.begin();
+}
+
+btFemBodyRegistry::btFemBodyRegistry(const btFemSolverInfo& info)
+    : m_showsManifolds(info.m_manifolds),
+      m_library(static_cast<std::size_t>(1e6 * info.m_maxFactorMegabytes), coreChoice(info.m_factorChoice))
+{
 }
 
 btFemEntry* btFemBodyRegistry::find(const btSoftBody* body)
@@ -230,8 +249,7 @@ FactorInput btFemBodyRegistry::factorInput(const btFemEntry& entry, double step)
     input.m_mass = entry.m_fem->m_body.m_state.m_mass;
     input.m_fixed = entry.m_fem->m_body.m_state.m_fixed;
     input.m_step = step;
-    input.m_maxBytes = m_library.maxFactorBytes();
-    return input;
+    return m_library.limited(std::move(input));
 }
 
 bool btFemBodyRegistry::knowsFactor(const btFemEntry& entry, double step) const

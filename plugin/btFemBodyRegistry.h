@@ -73,11 +73,8 @@ struct btFemEntry
 class btFemBodyRegistry
 {
 public:
-    /// Whether dispatchers of FEM bodies get their manifolds, and how large factors may be.
-    explicit btFemBodyRegistry(const btFemSolverInfo& info)
-        : m_showsManifolds(info.m_manifolds), m_library(static_cast<std::size_t>(1e6 * info.m_maxFactorMegabytes))
-    {
-    }
+    /// Whether dispatchers of FEM bodies get their manifolds, and how large and of which kind factors may be.
+    explicit btFemBodyRegistry(const btFemSolverInfo& info);
 
     btFemEntry* find(const btSoftBody* body);
     const btFemEntry* find(const btSoftBody* body) const { return const_cast<btFemBodyRegistry*>(this)->find(body); }

@@ -132,6 +132,8 @@ bool btFemSolverInfo::valid(std::string* why) const
                  "[0, 1000] m/s; 1 is usual") &&
            check(m_maxFactorMegabytes >= 0 && m_maxFactorMegabytes <= btScalar(1e6), why, "m_maxFactorMegabytes",
                  m_maxFactorMegabytes, "[0, 1e6] MB; 0, which is no limit, is usual") &&
+           check(m_factorChoice >= btFemFactorChoice::full && m_factorChoice <= btFemFactorChoice::lowMemory, why,
+                 "m_factorChoice", static_cast<int>(m_factorChoice), "[full, lowMemory], 0 to 2; full is usual") &&
            check(m_threads >= 0 && m_threads <= Threads::kMost, why, "m_threads", m_threads,
                  "[0, 256]; 1 is usual, 0 takes all that the machine has") &&
            check(m_refactoring >= btFemRefactoring::onRequest && m_refactoring <= btFemRefactoring::background, why,

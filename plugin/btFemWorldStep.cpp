@@ -61,8 +61,12 @@ void clearReport(btFemEntry& entry)
         const BodyModel& model = *entry.m_fem->m_body.m_model;
         report.m_nodes = model.nodeCount();
         report.m_tets = model.mesh().tetCount();
-        report.m_factorEntries = model.factorReport().m_entries;
-        report.m_factorSeconds = static_cast<btScalar>(model.factorReport().m_seconds);
+        const FactorReport& factor = model.factorReport();
+        report.m_factorEntries = factor.m_entries;
+        report.m_factorMegabytes = static_cast<btScalar>(1e-6 * static_cast<double>(factor.m_bytes));
+        report.m_fullFactorMegabytes = static_cast<btScalar>(1e-6 * static_cast<double>(factor.m_fullBytes));
+        report.m_lowMemory = factor.m_path == FactorPath::lowMemory;
+        report.m_factorSeconds = static_cast<btScalar>(factor.m_seconds);
     }
     entry.m_report = report;
 }

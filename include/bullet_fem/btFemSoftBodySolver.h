@@ -28,6 +28,14 @@ enum class btFemRefactoring
     background
 };
 
+/// Which factor preconditions a body's steps.
+enum class btFemFactorChoice
+{
+    full,             ///< that of its own matrix: one or two iterations a step
+    lowMemoryBeyond,  ///< that, or the one below where it would be larger than m_maxFactorMegabytes
+    lowMemory  ///< a scalar Laplacian's, about a ninth of the memory and far sooner made; some ten iterations a step
+};
+
 /// Settings of a solver; fixed for its life.
 struct btFemSolverInfo
 {
@@ -43,9 +51,13 @@ struct btFemSolverInfo
     btScalar m_erp = btScalar(0.2);            ///< share of a penetration taken back a step [-], in [0, 1]
     btScalar m_maxPushVelocity = btScalar(1);  ///< speed at which penetration is taken back at most [m/s], in [0, 1000]
     /// Memory that the factor of a body may take [MB, 1e6 bytes], in [0, 1e6]; 0 is no limit. A body that needs more is
-    /// rejected with the amount in its report's message, before the work is done. 1,000 elements take about
-    /// 0.7 MB in a body of 10,000 and 1.3 MB in one of 100,000.
+    /// rejected with the amount in its report's message, before the work is done, unless m_factorChoice says otherwise.
+    /// 1,000 elements take about 0.7 MB in a body of 10,000 and 1.3 MB in one of 100,000.
     btScalar m_maxFactorMegabytes = 0;
+    /// Which factor bodies get: the full one, the low-memory one where the full one would be larger than the limit, or
+    /// always the low-memory one. Both are iterated to m_tolerance. A body whose low-memory factor is larger than the
+    /// limit is rejected as well.
+    btFemFactorChoice m_factorChoice = btFemFactorChoice::full;
     /// Threads that share the bodies of a step, and the work on a body of some thousand tetrahedra; the stepping one is
     /// among them [-], in [0, 256]; 0: as many as the machine has. The bits of the result are the same for all.
     int m_threads = 1;

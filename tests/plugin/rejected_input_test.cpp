@@ -135,6 +135,33 @@ TEST(RejectedSize, OfAFactorBeyondTheLimit)
         EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
+// With the low-memory path allowed the same body is stepped, and says how.
+TEST(RejectedSize, IsNoneWhereTheLowMemoryPathIsAllowed)
+{
+    btFemSolverInfo info;
+    info.m_maxFactorMegabytes = btScalar(0.2);
+    info.m_factorChoice = btFemFactorChoice::lowMemoryBeyond;
+    btFemSoftBodySolver fem(info);
+    SoftWorld world(fem);
+    btSoftBody& large = world.addSoft(btFemHelpers::createBox(world.info(), {0, 0, 0}, {1, 1, 1}, btScalar(0.25)));
+    btSoftBody& small = world.addSoft(btFemHelpers::createBox(world.info(), {3, 0, 0}, {1, 1, 1}, btScalar(0.5)));
+    world.step();
+    EXPECT_TRUE(fem.isFem(&large));
+    const btFemStepReport low = fem.stepReport(&large), full = fem.stepReport(&small);
+    EXPECT_TRUE(low.m_lowMemory);
+    EXPECT_GT(low.m_factorMegabytes, 0);
+    EXPECT_LE(low.m_factorMegabytes, info.m_maxFactorMegabytes);
+    EXPECT_GT(low.m_fullFactorMegabytes, info.m_maxFactorMegabytes);
+    EXPECT_FALSE(full.m_lowMemory);
+    EXPECT_EQ(full.m_factorMegabytes, full.m_fullFactorMegabytes);
+    EXPECT_LE(low.m_residual, info.m_tolerance);
+}
+
+TEST(RejectedSize, AChoiceThatDoesNotExistIsToldSo)
+{
+    expectBadInfo(&btFemSolverInfo::m_factorChoice, static_cast<btFemFactorChoice>(7), "m_factorChoice");
+}
+
 TEST_F(RejectedCall, OnNull)
 {
     expectRejected([&] { m_fem.setMaterial(nullptr, btFemMaterial()); }, {"null", "btFemHelpers"});
