@@ -9,13 +9,14 @@
 
 #include "benchmarks/beam_methods.h"
 #include "benchmarks/json_file.h"
+#include "bullet_fem/fem/threads.h"
 
 namespace
 {
 using namespace bullet_fem;
 
 const char* const g_legend = R"(
-Times are of the step alone, on one thread.
+Times are of the step alone; rivals run on one thread, ours on those told above.
 residual     largest true |b - A dv| / |b| of all steps
 tip error    largest of all steps, against our own solution at 1e-8; Bullet's against that without the tension term,
              which it has not (and it linearises at x + h v, not at x)
@@ -23,7 +24,7 @@ counts       residual within the tolerance (1e-3 where none is set) and tip erro
              0.6 % for Bullet)
 setup        all that happens before the first step; ours: mesh, order, factor, packing
 MB           heap held after the last step by model, body and (Bullet's) world, 1e6 bytes
-CPU          median of the processor time that a step got, which programs beside it add little to; on a quiet machine it
+CPU          median of the processor time that the stepping thread got in a step, which programs beside it add little to; on a quiet machine it
              is the wall time. The fair measure on a busy one, where long steps are interrupted and short ones are not
 x Bullet     Bullet's deformable world's median over this one's; by CPU: the same of processor times
 mass-spring  Bullet's plain soft body on the same mesh: another model, whose stiffness depends on step and iterations;
@@ -44,6 +45,7 @@ struct Options
     bool m_noBullet = false;
     bool m_reference = false;
     int m_springIterations = 20;
+    int m_threads = 1;
     std::string m_jsonFile;
 };
 
@@ -59,12 +61,13 @@ BeamCase makeCase(int tets, double youngModulus, int steps)
     return beam;
 }
 
-std::vector<BeamFigures> runAll(const Options& options)
+std::vector<BeamFigures> runAll(const Options& options, const Threads& threads)
 {
     BeamMethods methods;
     methods.m_withBullet = !options.m_noBullet;
     methods.m_tension = !options.m_reference;
     methods.m_springIterations = options.m_springIterations;
+    methods.m_threads = &threads;
     std::vector<BeamFigures> rows;
     for (int tets : options.m_tets)
         for (double youngModulus : options.m_youngModuli)
@@ -100,6 +103,9 @@ void addOptions(CLI::App& app, Options& options)
         ->capture_default_str();
     app.add_flag("--reference", options.m_reference,
                  "tension term off, beside the digits the project verifies itself with");
+    app.add_option("--threads", options.m_threads, "threads that share our steps; 0: all of the machine")
+        ->check(CLI::Range(0, Threads::kMost))
+        ->capture_default_str();
     app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
     app.footer(
         "Example, the table of docs/performance.md:\n  bulletfem_bench_beam --json beam.json\n"
@@ -119,8 +125,9 @@ int main(int argc, char** argv)
     try
     {
         JsonFile json(options.m_jsonFile);
-        const MachineInfo machine = readMachineInfo(1);
-        const std::vector<BeamFigures> rows = runAll(options);
+        const Threads threads(options.m_threads);
+        const MachineInfo machine = readMachineInfo(threads.count());
+        const std::vector<BeamFigures> rows = runAll(options, threads);
         printReport(machine, rows, options);
         json.write(machine, {{"steps", options.m_steps},
                              {"curve", options.m_curve},

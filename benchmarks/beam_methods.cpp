@@ -13,11 +13,12 @@ namespace
 
 constexpr double kExact = 1e-8;  // tolerance of what counts as the scheme's own solution
 
-StepSettings exactSettings(bool tension)
+StepSettings exactSettings(bool tension, const Threads* threads)
 {
     StepSettings settings;
     settings.m_tension = tension;
     settings.m_tolerance = kExact;
+    settings.m_threads = threads;
     return settings;
 }
 
@@ -44,7 +45,7 @@ void compareTimes(std::vector<BeamFigures>& rows)
 
 std::vector<BeamFigures> compareMethods(const BeamCase& beam, const BeamMethods& methods)
 {
-    StepSettings settings = exactSettings(methods.m_tension);
+    StepSettings settings = exactSettings(methods.m_tension, methods.m_threads);
     const BeamRun exact = runFem(beam, settings);
     std::vector<BeamFigures> rows;
     for (double tolerance : {1e-3, 1e-6})
@@ -60,14 +61,14 @@ std::vector<BeamFigures> compareMethods(const BeamCase& beam, const BeamMethods&
 
     const BeamRun springs = runMassSpring(beam, methods.m_springIterations);
     rows.push_back(summarise(beam, springs, exact));
-    rows.push_back(summarise(beam, runBulletDeformable(beam), runFem(beam, exactSettings(false))));
+    rows.push_back(summarise(beam, runBulletDeformable(beam), runFem(beam, exactSettings(false, methods.m_threads))));
     compareTimes(rows);
     return rows;
 }
 
 std::vector<BeamFigures> traceErrorCurve(const BeamCase& beam, const BeamMethods& methods)
 {
-    StepSettings settings = exactSettings(methods.m_tension);
+    StepSettings settings = exactSettings(methods.m_tension, methods.m_threads);
     settings.m_tolerance = 1e-2 * kExact;  // finer than the finest of the curve
     const BeamRun exact = runFem(beam, settings);
     std::vector<BeamFigures> rows;

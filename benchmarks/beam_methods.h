@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "benchmarks/beam_report.h"
+#include "bullet_fem/fem/threads.h"
 
 namespace bullet_fem
 {
@@ -12,9 +13,10 @@ namespace bullet_fem
 /// Which rivals run beside us, and on what terms.
 struct BeamMethods
 {
-    bool m_withBullet = true;     ///< Bullet's deformable world and its mass-spring solver, too
-    bool m_tension = true;        ///< keep the tension term of A
-    int m_springIterations = 20;  ///< of the mass-spring solver, >= 1
+    bool m_withBullet = true;            ///< Bullet's deformable world and its mass-spring solver, too
+    bool m_tension = true;               ///< keep the tension term of A
+    int m_springIterations = 20;         ///< of the mass-spring solver, >= 1
+    const Threads* m_threads = nullptr;  ///< that share our steps; null: one. Rivals run on one
 };
 
 /// Our step at 1e-3 and 1e-6 in both warps, at 1e-8, and in direct mode, then the rivals, one after the other. Tips are

@@ -81,7 +81,7 @@ void load(Body& body, const BeamCase& beam)
 
 }  // namespace
 
-std::shared_ptr<const BodyModel> makeBeamModel(const BeamCase& beam)
+std::shared_ptr<const BodyModel> makeBeamModel(const BeamCase& beam, FactorChoice choice)
 {
     const auto shape = std::make_shared<const RestShape>(TetMesh(beam.m_positions, beam.m_tets), beam.m_material);
     FactorInput input;
@@ -89,10 +89,11 @@ std::shared_ptr<const BodyModel> makeBeamModel(const BeamCase& beam)
     input.m_fixed.assign(beam.m_positions.size(), 0);
     for (int i : beam.m_clampedNodes) input.m_fixed[i] = 1;
     input.m_step = beam.m_step;
+    input.m_choice = choice;
     return BodyModel::create(shape, std::move(input));
 }
 
-BeamRun runFem(const BeamCase& beam, StepSettings settings)
+BeamRun runFem(const BeamCase& beam, StepSettings settings, FactorChoice choice)
 {
     settings.m_step = beam.m_step;
     BeamRun run;
@@ -102,7 +103,7 @@ BeamRun runFem(const BeamCase& beam, StepSettings settings)
 
     const std::size_t heapBefore = heapBytes();
     const Stopwatch setUp;
-    Body body(makeBeamModel(beam));
+    Body body(makeBeamModel(beam, choice));
     run.m_setupSeconds = setUp.seconds();
     run.m_factorBytes = body.m_model->factorReport().m_bytes;
     load(body, beam);

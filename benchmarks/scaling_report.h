@@ -15,7 +15,7 @@ namespace bullet_fem
 /// One size: one row of the table.
 struct ScalingFigures
 {
-    BeamFigures m_beam;    ///< the steps at 1e-3 with their true residual
+    BeamFigures m_beam;    ///< the steps with their true residual
     SetupStages m_stages;  ///< of the factor
 };
 

@@ -28,12 +28,12 @@ std::vector<int> placesOf(const std::vector<int>& nodes, int nodeCount)
 
 /// sum over the columns of a supernode of (rows at and below the column)^2: a multiplication and an addition for every
 /// entry of the lower half that the column changes.
-double choleskyOperations(const SupernodeTree& tree)
+double choleskyOperations(const SupernodeTree& tree, NodeEntry entry)
 {
     double sum = 0;
     for (const Supernode& s : tree.m_supernodes)
     {
-        const double c = 3.0 * s.m_columns, r = 3.0 * s.m_rows;
+        const double c = double(rowsOfNode(entry)) * s.m_columns, r = double(rowsOfNode(entry)) * s.m_rows;
         sum += c * c * c / 3 + c * c * r + c * r * r;
     }
     return sum;
@@ -67,10 +67,12 @@ SetupStages measureSetup(const BodyModel& model)
     stages.m_tree = watch.seconds();
 
     watch = Stopwatch();
-    PackedFactor factor(tree);
-    factorSupernodes(A0, order, tree, [&factor](int s, const double* S, const double* M) { factor.pack(s, S, M); });
+    const NodeEntry entry = model.factor().lower().entry();
+    PackedFactor factor(tree, entry);
+    factorSupernodes(
+        A0, order, tree, [&factor](int s, const double* S, const double* M) { factor.pack(s, S, M); }, entry);
     stages.m_numeric = watch.seconds();
-    stages.m_operations = choleskyOperations(tree);
+    stages.m_operations = choleskyOperations(tree, entry);
     stages.m_fill = static_cast<double>(tree.m_entries) / lowerEntries(pattern);
     return stages;
 }
