@@ -19,7 +19,7 @@ enum class FactorPath
 {
     full,      ///< of A0 itself: one or two iterations a step
     lowMemory  ///< of mass and a scalar Laplacian, one for all three directions: about a ninth of the memory, a
-               ///< twentieth of the time to factor, some times the iterations
+               ///< tenth of the time to factor, some ten times the iterations
 };
 
 /// Who chooses the path. A factor that is larger than FactorInput::m_maxBytes all the same is refused.
