@@ -33,7 +33,9 @@ enum class btFemFactorChoice
 {
     full,             ///< that of its own matrix: one or two iterations a step
     lowMemoryBeyond,  ///< that, or the one below where it would be larger than m_maxFactorMegabytes
-    lowMemory  ///< a scalar Laplacian's, about a ninth of the memory and far sooner made; some ten iterations a step
+    lowMemory         ///< a scalar Laplacian's, about a ninth of the memory and far sooner made; some ten iterations a
+               ///< step or more; contact is less accurate with it: many points at rest may close at centimetres a
+               ///< second
 };
 
 /// Settings of a solver; fixed for its life.

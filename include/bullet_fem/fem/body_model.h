@@ -19,7 +19,8 @@ enum class FactorPath
 {
     full,      ///< of A0 itself: one or two iterations a step
     lowMemory  ///< of mass and a scalar Laplacian, one for all three directions: about a ninth of the memory, a
-               ///< tenth of the time to factor, some ten times the iterations
+               ///< tenth of the time to factor, some ten times the iterations; contact of
+               ///< many points is less accurate
 };
 
 /// Who chooses the path. A factor that is larger than FactorInput::m_maxBytes all the same is refused.
