@@ -127,7 +127,8 @@ int main(int argc, char** argv)
                   << crowd.m_bodies << (crowd.m_different ? " different" : " identical")
                   << (crowd.m_cubes ? " soft cubes, " : " soft balls, ") << world.tetCount() << " tets in all, and "
                   << crowd.m_balls << " rigid balls in a pit, " << (crowd.m_coupled ? "coupled" : "swap alone")
-                  << "; set up in " << world.setupSeconds() << " s\n\n";
+                  << ", contact tolerance " << crowd.m_contactTolerance << "; set up in " << world.setupSeconds()
+                  << " s\n\n";
         printTable(std::cout, rows);
         std::cout << g_legend;
         json.write(machine, {{"bodies", crowd.m_bodies},
@@ -135,6 +136,8 @@ int main(int argc, char** argv)
                              {"cubes", crowd.m_cubes},
                              {"different", crowd.m_different},
                              {"coupled", crowd.m_coupled},
+                             {"contact_tolerance", crowd.m_contactTolerance},
+                             {"threads", crowd.m_threads},
                              {"tets", world.tetCount()},
                              {"setup_s", world.setupSeconds()},
                              {"results", toJson(rows)}});

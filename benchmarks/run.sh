@@ -52,9 +52,11 @@ run_benchmark()
             ;;
         crowd)
             local small="--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only"
-            run crowd crowd_swap "$small" "--settle 1.5 --steps 30 --awake-only" # 100 bodies: a step takes seconds
-            run crowd crowd_coupled "$small --coupled" "--bodies 30 --balls 6 --settle 0.8 --steps 20 --awake-only --coupled"
-            run crowd crowd_cubes "$small --cubes" "--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only --cubes"
+            local games="--contact-tolerance 1e-2 --threads 2"
+            run crowd crowd_swap "$small" "--settle 1.5 --steps 30 --awake-only"
+            run crowd crowd_games "$small $games" "--settle 1.5 --steps 30 --awake-only $games"
+            run crowd crowd_coupled "$small --coupled" "--bodies 30 --balls 6 --settle 1.5 --steps 30 --awake-only --coupled"
+            run crowd crowd_cubes "$small --cubes" "--bodies 10 --balls 2 --settle 1.5 --steps 30 --awake-only --cubes"
             ;;
     esac
 }

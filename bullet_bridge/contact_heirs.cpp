@@ -16,9 +16,10 @@ bool isZero(const Vec3& v)
 
 }  // namespace
 
-void ContactHeirs::clear()
+void ContactHeirs::clear(std::size_t lost)
 {
     m_lost.clear();
+    m_lost.reserve(lost);
     m_heirs.clear();
 }
 
@@ -51,7 +52,11 @@ ContactHeirs::Heir* ContactHeirs::nearestHeir(const Lost& lost, double reach)
 void ContactHeirs::settle(double reach)
 {
     for (const Lost& lost : m_lost)
-        if (Heir* heir = nearestHeir(lost, reach)) heir->m_contact->m_impulse += heir->m_sign * lost.m_impulse;
+        if (Heir* heir = nearestHeir(lost, reach))
+        {
+            heir->m_contact->m_impulse += heir->m_sign * lost.m_impulse;
+            heir->m_hasImpulse = true;
+        }
 }
 
 }  // namespace bullet_fem

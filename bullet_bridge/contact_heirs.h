@@ -15,8 +15,8 @@ namespace bullet_fem
 class ContactHeirs
 {
 public:
-    /// Forgets all.
-    void clear();
+    /// Forgets all; `lost` are expected at most.
+    void clear(std::size_t lost);
 
     /// A contact of the last step that none of this step continues: where its point is now [m], the normal, and the
     /// impulse on the surface that the normal points to [N s]. One without an impulse has nothing to leave.

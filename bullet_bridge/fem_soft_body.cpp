@@ -13,12 +13,12 @@ namespace bullet_fem
 {
 
 FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
-                         std::shared_ptr<ComplianceCache> compliance)
+                         std::shared_ptr<ComplianceCache> compliance, std::shared_ptr<const RestNeighbours> neighbours)
     : m_softBody(&softBody),
       m_mark(markBody(softBody)),
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
-      m_surface(m_body.m_model->mesh())
+      m_surface(m_body.m_model->mesh(), std::move(neighbours))
 {
     const int n = softBody.m_nodes.size();
     m_restOrigin = vec3(softBody.m_nodes[0].m_x);

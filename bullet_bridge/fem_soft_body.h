@@ -70,7 +70,8 @@ struct NodePins
 struct FemSoftBody
 {
     FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
-                std::shared_ptr<ComplianceCache> compliance);
+                std::shared_ptr<ComplianceCache> compliance,
+                std::shared_ptr<const RestNeighbours> neighbours = nullptr);
 
     btSoftBody* m_softBody;
     std::uint64_t m_mark;  ///< on the btSoftBody: see body_mark.h

@@ -3,6 +3,7 @@
 #include "bullet_bridge/model_library.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bullet_fem/fem/contact_solver.h"
 
@@ -13,6 +14,17 @@ namespace
 
 // Share of an edge by which rest positions may differ: what single precision loses some hundred metres from the origin.
 constexpr double kSameShape = 1e-4;
+
+// Share by which masses may differ: they come from volumes, whose edges may differ as above.
+constexpr double kSameMass = 1e-3;
+
+// True if the factor of one is as good as new for the other.
+bool serves(const FactorInput& factored, const FactorInput& input)
+{
+    const auto same = [](double a, double b) { return std::fabs(a - b) <= kSameMass * b; };
+    return factored.m_step == input.m_step && factored.m_fixed == input.m_fixed &&
+           std::equal(factored.m_mass.begin(), factored.m_mass.end(), input.m_mass.begin(), input.m_mass.end(), same);
+}
 
 bool sameUpToTranslation(const TetMesh& a, const TetMesh& b)
 {
@@ -42,7 +54,7 @@ std::shared_ptr<const RestShape> ModelLibrary::restShape(const TetMesh& mesh, co
             if (shape->m_material == material && entry.m_filled == filled && sameUpToTranslation(shape->m_mesh, mesh))
                 return shape;
     const auto shape = std::make_shared<const RestShape>(mesh, material, filled);
-    m_shapes.push_back({shape, filled});
+    m_shapes.push_back({shape, filled, {}});
     return shape;
 }
 
@@ -65,7 +77,7 @@ std::shared_ptr<const BodyModel> ModelLibrary::find(const std::shared_ptr<const 
 {
     for (const Model& entry : m_models)
         if (auto model = entry.m_model.lock())
-            if (model->sharedShape() == shape && model->factorInput() == input) return model;
+            if (model->sharedShape() == shape && serves(model->factorInput(), input)) return model;
     return nullptr;
 }
 
@@ -75,6 +87,18 @@ std::shared_ptr<const BodyModel> ModelLibrary::adopt(std::shared_ptr<const BodyM
     dropDead(m_models, &Model::m_model);
     m_models.push_back({model, {}});
     return model;
+}
+
+std::shared_ptr<const RestNeighbours> ModelLibrary::restNeighbours(const std::shared_ptr<const RestShape>& shape)
+{
+    for (Shape& entry : m_shapes)
+    {
+        if (entry.m_shape.lock() != shape) continue;
+        auto neighbours = entry.m_neighbours.lock();
+        if (!neighbours) entry.m_neighbours = neighbours = std::make_shared<const RestNeighbours>(shape->m_mesh);
+        return neighbours;
+    }
+    return std::make_shared<const RestNeighbours>(shape->m_mesh);
 }
 
 std::shared_ptr<ComplianceCache> ModelLibrary::compliance(const std::shared_ptr<const BodyModel>& model)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_bridge/soft_pairs/rest_neighbours.h"
 #include "bullet_fem/fem/body_model.h"
 
 namespace bullet_fem
@@ -27,7 +28,8 @@ public:
     std::shared_ptr<const RestShape> restShape(const TetMesh& mesh, const Material& material,
                                                const std::vector<double>& filled);
 
-    /// A model of that shape; factors if there is none yet. Throws what BodyModel::create throws.
+    /// A model of that shape, for masses that differ by rounding at most; factors if there is none yet. Throws what
+    /// BodyModel::create throws.
     std::shared_ptr<const BodyModel> model(const std::shared_ptr<const RestShape>& shape, const FactorInput& input);
 
     /// The model of that shape, or null if there is none yet.
@@ -40,6 +42,9 @@ public:
     /// The input with the library's limit and choice of factors.
     FactorInput limited(FactorInput input) const;
 
+    /// The neighbours at rest that the surfaces of a shape's bodies share.
+    std::shared_ptr<const RestNeighbours> restNeighbours(const std::shared_ptr<const RestShape>& shape);
+
     /// The compliance cache that the bodies of a model share.
     std::shared_ptr<ComplianceCache> compliance(const std::shared_ptr<const BodyModel>& model);
 
@@ -48,6 +53,7 @@ private:
     {
         std::weak_ptr<const RestShape> m_shape;
         std::vector<double> m_filled;
+        std::weak_ptr<const RestNeighbours> m_neighbours;
     };
     struct Model
     {

@@ -220,7 +220,9 @@ void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
     for (int i = 0; i < soft.m_nodes.size(); ++i) input.m_fixed.push_back(soft.m_nodes[i].m_im == 0);
     input.m_step = step;
     const auto model = m_library.model(shape, input);
-    entry.m_fem = std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model));
+    entry.m_fem =
+        std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model), m_library.restNeighbours(shape));
+    entry.m_fem->m_body.m_state.m_mass = input.m_mass;  // the model's may be those of a copy elsewhere
     registerWithDispatcher(soft);
     entry.m_fem->m_contactOffset = entry.m_contactOffset;
     entry.m_materialChanged = false;
@@ -233,6 +235,7 @@ void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)
     try
     {
         setUp(entry, step);
+        entry.m_message.clear();
     }
     catch (const std::exception& error)
     {

@@ -37,7 +37,10 @@ double usualIterations(double tolerance)
 double refactorPrice(const BodyModel& model)
 {
     const double tets = model.mesh().tetCount();
-    const double entries = std::max<double>(static_cast<double>(model.factorReport().m_entries), 1);
+    const FactorReport& report = model.factorReport();
+    const bool low = report.m_path == FactorPath::lowMemory;
+    const double share = low && report.m_fullBytes > 0 ? double(report.m_bytes) / double(report.m_fullBytes) : 1;
+    const double entries = std::max(share * static_cast<double>(report.m_entries), 1.0);
     const double solve = entries < kCacheEntries ? kSolveOfEntry : kSolveOfFarEntry;
     const double factor = kSetUpOfTet * tets + kFactorOfFlop * kFlops * entries * std::sqrt(entries);
     return factor / (kProductOfTet * tets + solve * entries);

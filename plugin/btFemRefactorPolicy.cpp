@@ -13,7 +13,8 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr double kSameFactor = 1 + 1e-5;  // ratio of step or mass up to which a factor is not called stale
+constexpr double kSameFactor =
+    1 + 2e-3;  // ratio of step or mass up to which a factor is not called stale: a copy elsewhere may share it
 
 double priceFor(const btFemEntry& entry)
 {

@@ -121,7 +121,8 @@ def contact(document):
 def crowd_rows(document):
     kind = ("different " if document["different"] else "identical ") + ("cubes" if document["cubes"] else "balls")
     name = f"{document['bodies']} {kind}, {document['balls']} rigid"
-    way = "coupled" if document["coupled"] else "swap"
+    way = (f"{'coupled' if document['coupled'] else 'swap'}, {document['contact_tolerance']:.0e}, "
+           f"{document['threads']} thread{'s' if document['threads'] > 1 else ''}")
     return [[name, way, row["phase"], number(row["ms_median"]), number(row["ms_worst"]), number(row["ms_free_median"]),
              number(row["ms_contact_median"]), number(row["ms_rest_median"]), f"{row['contacts_mean']:.0f}",
              f"{row['sweeps_mean']:.0f}", f"{row['corrective_iterations_mean']:.0f}", row["asleep"],
@@ -149,7 +150,7 @@ def machine(*documents):
 
 # Table, its function, the files it is made of; of several files those that are there.
 TABLES = [
-    ("machine", machine, ["beam", "curve", "kernels", "scaling", "contact", "crowd_swap", "crowd_coupled", "crowd_cubes"]),
+    ("machine", machine, ["beam", "curve", "kernels", "scaling", "contact", "crowd_swap", "crowd_games", "crowd_coupled", "crowd_cubes"]),
     ("beam", beam, ["beam"]),
     ("curve", curve, ["curve"]),
     ("kernels", kernels, ["kernels"]),
@@ -157,7 +158,7 @@ TABLES = [
     ("compliance", compliance, ["kernels"]),
     ("scaling", scaling, ["scaling"]),
     ("contact", contact, ["contact"]),
-    ("crowd", crowd, ["crowd_swap", "crowd_coupled", "crowd_cubes"]),
+    ("crowd", crowd, ["crowd_swap", "crowd_games", "crowd_coupled", "crowd_cubes"]),
 ]
 
 

@@ -349,7 +349,7 @@ void ContactFinder::inheritImpulses(const FemSoftBody& fem)
     for (std::size_t first = 0, end = 0, k = 0; first < fem.m_origins.size(); first = end)
     {
         const int id = idOf(fem.m_origins[first]);
-        m_heirs.clear();
+        m_heirs.clear(fem.m_origins.size());
         for (end = first; end < fem.m_origins.size() && idOf(fem.m_origins[end]) == id; ++end)
         {
             const ContactPoint& old = fem.m_contacts[end];

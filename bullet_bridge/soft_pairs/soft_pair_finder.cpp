@@ -61,6 +61,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
 
     SoftPairReport report;
     report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
+    findLastOf(first, second);
     takeOverImpulses();
     inheritImpulses(first, second);
     report.m_contacts = static_cast<int>(m_found.size());
@@ -157,19 +158,29 @@ int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal)
     return found;
 }
 
-// What pushed where the two touch no more.
-void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSide& second)
+// The pair's contacts of the last step: a range of m_last, in which none is continued yet.
+void SoftPairFinder::findLastOf(const SoftPairSide& first, const SoftPairSide& second)
 {
-    const auto isSecond = [](const SoftPairOrigin& origin) { return origin.m_kind == SoftPairKind::nodeOfSecond; };
     SoftPairOrigin from;
     from.m_firstId = broadphaseId(*first.m_fem.m_softBody);
     from.m_secondId = broadphaseId(*second.m_fem.m_softBody);
     from.m_feature = from.m_otherFeature = -1;
-    m_heirs.clear();
-    for (std::size_t k = std::lower_bound(m_lastOrigins.begin(), m_lastOrigins.end(), from) - m_lastOrigins.begin();
-         k < m_last.size() && m_lastOrigins[k].m_firstId == from.m_firstId &&
-         m_lastOrigins[k].m_secondId == from.m_secondId;
-         ++k)
+    const auto isOfPair = [&](const SoftPairOrigin& origin)
+    { return origin.m_firstId == from.m_firstId && origin.m_secondId == from.m_secondId; };
+    const auto begin = std::lower_bound(m_lastOrigins.begin(), m_lastOrigins.end(), from);
+    const auto end = std::find_if_not(begin, m_lastOrigins.end(), isOfPair);
+    m_firstLast = begin - m_lastOrigins.begin();
+    m_endLast = end - m_lastOrigins.begin();
+    std::fill(m_continued.begin() + static_cast<std::ptrdiff_t>(m_firstLast),
+              m_continued.begin() + static_cast<std::ptrdiff_t>(m_endLast), static_cast<unsigned char>(0));
+}
+
+// What pushed where the two touch no more.
+void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSide& second)
+{
+    const auto isSecond = [](const SoftPairOrigin& origin) { return origin.m_kind == SoftPairKind::nodeOfSecond; };
+    m_heirs.clear(m_last.size());
+    for (std::size_t k = m_firstLast; k < m_endLast; ++k)
     {
         if (m_continued[k]) continue;
         const bool ofSecond = isSecond(m_lastOrigins[k]);

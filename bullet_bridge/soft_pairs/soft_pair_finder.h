@@ -80,6 +80,7 @@ private:
 
     void append(const Roles& roles, double offset);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
+    void findLastOf(const SoftPairSide& first, const SoftPairSide& second);
     void takeOverImpulses();
     void inheritImpulses(const SoftPairSide& first, const SoftPairSide& second);
 
@@ -89,7 +90,8 @@ private:
     std::vector<ContactPoint> m_found, m_last, m_next;
     std::vector<SoftPairOrigin> m_foundOrigins, m_lastOrigins, m_nextOrigins;
     std::vector<int> m_order;
-    std::vector<unsigned char> m_continued;  // of m_last
+    std::vector<unsigned char> m_continued;      // of m_last
+    std::size_t m_firstLast = 0, m_endLast = 0;  // the pair's in m_last
     ContactHeirs m_heirs;
 };
 

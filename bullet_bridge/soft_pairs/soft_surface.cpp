@@ -3,6 +3,7 @@
 #include "bullet_bridge/soft_pairs/soft_surface.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace bullet_fem
 {
@@ -18,14 +19,14 @@ double angleBetween(const Vec3& a, const Vec3& b)
 
 }  // namespace
 
-SoftSurface::SoftSurface(const TetMesh& mesh)
+SoftSurface::SoftSurface(const TetMesh& mesh, std::shared_ptr<const RestNeighbours> neighbours)
     : m_triangles(mesh.surface()),
       m_nodes(mesh.surfaceNodes()),
       m_features(mesh),
       m_meanEdge(mesh.meanEdgeLength()),
       m_size(std::cbrt(mesh.volume())),
       m_tree(mesh.restPositions(), mesh.surface()),
-      m_restNeighbours(mesh),
+      m_restNeighbours(neighbours ? std::move(neighbours) : std::make_shared<const RestNeighbours>(mesh)),
       m_edgeTriangles(m_features.m_edges.size(), {-1, -1}),
       m_manifoldEdge(m_features.m_edges.size(), 1),
       m_firstAround(mesh.nodeCount() + 1),

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "bullet_bridge/soft_pairs/rest_neighbours.h"
@@ -29,7 +30,8 @@ inline Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, con
 class SoftSurface
 {
 public:
-    explicit SoftSurface(const TetMesh& mesh);
+    /// `neighbours` are the mesh's own, if they are known already; null: they are found out.
+    explicit SoftSurface(const TetMesh& mesh, std::shared_ptr<const RestNeighbours> neighbours = nullptr);
 
     /// Takes the positions at the start of a step of h [s] and the free velocities: once a step.
     void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
@@ -40,7 +42,7 @@ public:
     double meanEdge() const { return m_meanEdge; }  ///< of the tetrahedra at rest [m]
     double size() const { return m_size; }          ///< cube root of the volume at rest [m]
     const SurfaceTree& tree() const { return m_tree; }
-    const RestNeighbours& restNeighbours() const { return m_restNeighbours; }
+    const RestNeighbours& restNeighbours() const { return *m_restNeighbours; }
     const std::vector<Vec3>& position() const { return m_x; }     ///< [m], of all nodes
     const std::vector<Vec3>& change() const { return m_change; }  ///< h v [m]
 
@@ -76,7 +78,7 @@ private:
     SurfaceFeatures m_features;
     double m_meanEdge, m_size;
     SurfaceTree m_tree;
-    RestNeighbours m_restNeighbours;
+    std::shared_ptr<const RestNeighbours> m_restNeighbours;
     std::vector<std::array<int, 2>> m_edgeTriangles;  // -1: none
     std::vector<unsigned char> m_manifoldEdge;        // 1: of exactly two triangles
     std::vector<int> m_firstAround, m_around;         // surface edges' other nodes around every node

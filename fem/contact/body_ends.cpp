@@ -79,6 +79,7 @@ void BodyEnds::assemble(int denseLimit)
     m_applied.assign(m_ends.size(), Vec3());
     m_seen.assign(m_ends.size(), Vec3());
     m_before.assign(m_ends.size(), Vec3());
+    beginProbe();
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
     if (m_dense)

@@ -31,9 +31,7 @@ public:
 
     int size() const { return static_cast<int>(m_ends.size()); }
 
-    /// The factor that W has been scaled by [-], >= 1: grows when apply() finds W too stiff, and compliance() with it.
-    double scale() const { return m_scale; }
-    /// True if the last apply() changed scale().
+    /// True if the last apply() scaled W up; compliance() has grown then.
     bool hasLearnt() const { return m_learnt; }
     bool isDense() const { return m_dense; }
     const Body& body() const { return *m_body.m_body; }

@@ -26,6 +26,7 @@ bool ContactRows::needPush() const
 void ContactRows::preparePush()
 {
     const double h = m_settings.m_step.m_step;
+    m_subspace = {};
     for (std::size_t k = 0; k < m_rows.size(); ++k)
     {
         Row& row = m_rows[k];

@@ -27,6 +27,8 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
 {
     m_problem = &problem;
     m_settings = settings;
+    m_probeLinear.assign(problem.m_obstacles.size(), Vec3());
+    m_probeAngular.assign(problem.m_obstacles.size(), Vec3());
     if (m_bodies.size() < problem.m_bodies.size()) m_bodies.resize(problem.m_bodies.size());
     m_solved.resize(problem.m_bodies.size());
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b]);
@@ -40,7 +42,11 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
         m_bodies[b].assemble(settings.m_denseLimit);
         m_inTurn = m_inTurn && m_bodies[b].isDense();
     }
-    for (Row& row : m_rows) finishRow(row);
+    for (Row& row : m_rows)
+    {
+        finishRow(row);
+        if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a guess that nothing would ever change
+    }
     measure();
     for (std::size_t k = 0; k < problem.m_contacts.size(); ++k) setContactTarget(m_rows[k], problem.m_contacts[k]);
     for (Row& row : m_rows)
@@ -149,6 +155,7 @@ void ContactRows::finishRow(Row& row) const
         // A compliance that is the same for all tangents makes friction opposite to the velocity where it slides.
         const double a = row.m_rowCompliance.y, b = row.m_rowCompliance.z, c = dot(row.m_axes[1], w[2]);
         row.m_rowCompliance.y = row.m_rowCompliance.z = 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + c * c);
+        if (!(row.m_rowCompliance.y > 0)) row.m_rowCompliance.y = row.m_rowCompliance.z = row.m_rowCompliance.x;
     }
     if (!m_inTurn)
     {
@@ -248,12 +255,16 @@ bool ContactRows::hasImpulses() const
 void ContactRows::measure()
 {
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
+    m_subspace.m_tried = false;  // the work of sweeps before is that of another problem
     restart();
 }
 
 void ContactRows::setSpeedScale()
 {
-    m_speedScale = std::max(loadSpeed(), largestChange());
+    const double loads = loadSpeed();
+    m_speedScale = std::max(loads, largestChange());
+    if (loads > 0) return;
+    for (const Row& row : m_rows) m_speedScale = std::max(m_speedScale, speedOf(row, row.m_impulse));
 }
 
 // The largest speed that its loads alone would give one of the bodies in a step [m/s].

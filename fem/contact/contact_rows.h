@@ -28,7 +28,7 @@ public:
     void measure();
 
     /// What changes are measured against from here on: the speed that the loads give a body in a step, or the largest
-    /// that rows have to change now [m/s].
+    /// that rows have to change now [m/s]; where there are no loads, or that the guesses have changed.
     void setSpeedScale();
 
     /// One sweep; the velocities of ends and obstacles follow. Gauss-Seidel while all bodies have a dense compliance,

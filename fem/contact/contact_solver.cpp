@@ -49,8 +49,9 @@ constexpr double kRoundToleranceWithJoints = 5e-3;  // of the largest impulse
 // would be carried on from step to step.
 constexpr double kGuessShare = 0.1;
 
-// A round that leaves more than this share of the error of the one before has met the error of the corrective solves.
-constexpr double kStalled = 0.97;
+// A round that leaves more than this share of a small error has met the error of the corrective solves. Impacts may
+// take rounds that seem to lead nowhere.
+constexpr double kStalled = 0.97, kSmallError = 1e-3;
 
 // An obstacle's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
 // all.
@@ -142,8 +143,8 @@ void ContactSolver::correct()
     s.m_rows.measure();
     const double before = s.m_error;
     s.m_error = s.m_problem->m_joints.empty() ? s.m_rows.error() : change;
-    s.m_stalled =
-        !s.m_settings.m_untilSolved && s.m_report.m_rounds > s.m_minRounds + 1 && s.m_error > kStalled * before;
+    s.m_stalled = !s.m_settings.m_untilSolved && s.m_report.m_rounds > s.m_minRounds + 1 &&
+                  s.m_error > kStalled * before && s.m_error < kSmallError;
 }
 
 ContactReport ContactSolver::finish()

@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/contact/contact_rows.h"
 
-#include <algorithm>
-
 namespace bullet_fem
 {
 namespace

@@ -62,7 +62,8 @@ double ContactRows::sweep()
 // The change of a row as a velocity: what it does to its own point.
 double ContactRows::speedOf(const Row& row, const Vec3& difference)
 {
-    return row.m_rowCompliance.x * norm(difference);
+    const Vec3& w = row.m_rowCompliance;
+    return (row.m_joint ? std::max({w.x, w.y, w.z}) : w.x) * norm(difference);
 }
 
 double ContactRows::sweepInTurn()
@@ -89,7 +90,7 @@ double ContactRows::largestChange() const
     return largest;
 }
 
-// Of the speed scale; 1 if there is none.
+// Of the speed scale; 1000 if there is none.
 double ContactRows::share(double speed) const
 {
     return speed > 0 ? speed / std::max(m_speedScale, 1e-3 * speed) : 0;

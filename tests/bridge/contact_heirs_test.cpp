@@ -45,6 +45,19 @@ TEST(ContactHeirs, WhereAllHaveImpulsesTheNearestGetsItOnTop)
     EXPECT_EQ(far.m_impulse.z, 3);
 }
 
+TEST(ContactHeirs, TwoLostOnesGoToTwoHeirs)
+{
+    ContactPoint near = contactAt(0.1, 0), far = contactAt(0.2, 0);
+    ContactHeirs heirs;
+    heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
+    heirs.addLost({0, 0, 0}, kUp, {0, 0, 3});
+    heirs.addHeir(far, 1);
+    heirs.addHeir(near, 1);
+    heirs.settle(1);
+    EXPECT_EQ(near.m_impulse.z, 2);
+    EXPECT_EQ(far.m_impulse.z, 3);
+}
+
 TEST(ContactHeirs, OnesOutOfReachOrOfAnotherNormalInheritNothing)
 {
     ContactPoint far = contactAt(1, 0), turned = contactAt(0, 0, {1, 0, 0}), opposite = contactAt(0, 0, {0, 0, -1});
@@ -72,7 +85,7 @@ TEST(ContactHeirs, NothingIsInheritedTwice)
     ContactPoint heir = contactAt(0, 0);
     ContactHeirs heirs;
     heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
-    heirs.clear();
+    heirs.clear(1);
     heirs.addHeir(heir, 1);
     heirs.settle(1);
     EXPECT_EQ(heir.m_impulse.z, 0);

@@ -32,6 +32,20 @@ TEST_F(ModelLibraryTest, copiesOfABodyElsewhereShareModelAndCompliance)
     EXPECT_EQ(compliance, m_library.compliance(second));
 }
 
+TEST_F(ModelLibraryTest, copiesWhoseMassesDifferByRoundingShareModelAndNeighbours)
+{
+    const TestBox a;
+    const auto shape = m_library.restShape(tetMeshOf(*a.m_body), Material(), filledFractionsOf(*a.m_body));
+    FactorInput input = factorInputOf(*a.m_body);
+    const auto model = m_library.model(shape, input);
+    for (double& m : input.m_mass) m *= 1 + 1e-5;
+    EXPECT_EQ(m_library.model(shape, input), model);
+    input.m_mass[0] *= 1.01;
+    EXPECT_NE(m_library.model(shape, input), model);
+    const auto neighbours = m_library.restNeighbours(shape);
+    EXPECT_EQ(m_library.restNeighbours(shape), neighbours);
+}
+
 TEST_F(ModelLibraryTest, anotherMaterialStepOrShapeIsAnotherModel)
 {
     const TestBox a;

@@ -325,6 +325,12 @@ TEST(SoftPairFinder, TakesOverTheImpulsesOfTheLastStepToTheNextFace)
     }
     EXPECT_GE(taken, 4);
     EXPECT_NEAR(sum, sumBefore, 1e-12);
+    const std::vector<ContactPoint> once = found.m_contacts;
+    found.m_contacts.clear();
+    found.m_finder.find({upper.m_fem, 0}, {lower.m_fem, 1}, 1000, found.m_contacts, found.m_origins);
+    ASSERT_EQ(found.m_contacts.size(), once.size());
+    for (std::size_t k = 0; k < once.size(); ++k)
+        EXPECT_EQ(found.m_contacts[k].m_impulse.z, once[k].m_impulse.z) << "a pair may be searched twice in a step";
 }
 
 TEST(SoftPairFinder, CollapsedAndNonFiniteSurfacesGiveNoNonFiniteContacts)

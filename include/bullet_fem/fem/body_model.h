@@ -54,7 +54,7 @@ struct FactorReport
 {
     std::string m_backend;                 ///< library that ordered and factored
     std::string m_ordering;                ///< METIS or AMD
-    long m_entries = 0;                    ///< entries of L, fill included
+    long m_entries = 0;                    ///< entries of the full factor L, fill included
     int m_supernodes = 0;                  ///< dense panels that L is packed in
     FactorPath m_path = FactorPath::full;  ///< what was built
     std::size_t m_bytes = 0;               ///< memory of its packed panels [B]

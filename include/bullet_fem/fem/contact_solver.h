@@ -80,7 +80,7 @@ struct ContactSettings
     /// what contact changes at first if that is more [-], > 0. 3e-5 keeps tall stacks still; 1e-2 will do for games.
     /// Joints are solved more closely.
     double m_tolerance = 3e-5;
-    bool m_untilSolved = false;    ///< no round is the last because it made too little of the error
+    bool m_untilSolved = false;    ///< rounds go on to m_maxRounds even where one hardly lowers the error
     int m_denseLimit = 400;        ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
     double m_pushFraction = 0.2;   ///< share of a penetration that is taken back a step [-], in [0, 1]
     double m_maxPushVelocity = 1;  ///< speed at which penetration is taken back at most [m/s], >= 0
