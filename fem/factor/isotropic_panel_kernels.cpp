@@ -7,51 +7,24 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/factor/isotropic_panel_kernels.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 // after foreach_target.h
-#include <hwy/highway.h>
+#include "fem/factor/panel_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, kPanelLanes>;
-using V = hn::Vec<D>;
-constexpr int kN = static_cast<int>(hn::MaxLanes(D()));
-constexpr int kLanes = 3 * kPanelLanes;  // of a node in a batch, and of 16 nodes in the scratch of one right-hand side
-constexpr int kRows = HWY_CAP_GE512 ? 8 : 4;  // of a batch that fit into the registers; divides kPanelLanes
-
-/// Calls run(width of the chunk as a constant, its first column, its values) for every chunk of columns.
-template <class Run>
-HWY_INLINE void forEachChunk(const Panel& panel, const Run& run)
-{
-    const float* values = panel.m_values;
-    const std::size_t stride = static_cast<std::size_t>(panel.blocks()) * kPanelLanes;
-    int c = 0;
-    for (; c + 4 <= panel.m_columns; c += 4, values += 4 * stride) run(std::integral_constant<int, 4>(), c, values);
-    switch (panel.m_columns - c)
-    {
-        case 3:
-            return run(std::integral_constant<int, 3>(), c, values);
-        case 2:
-            return run(std::integral_constant<int, 2>(), c, values);
-        case 1:
-            return run(std::integral_constant<int, 1>(), c, values);
-        default:
-            return;
-    }
-}
+constexpr int kLanes = kNodeLanes;  // of 16 nodes in the scratch of one right-hand side
 
 /// out += M x, one right-hand side; out has 16 rows of each direction in turn.
-struct Multiply
+struct IsotropicMultiply
 {
     const float* m_x;
     float* m_out;
@@ -85,7 +58,7 @@ struct Multiply
 };
 
 /// out_c = (column c of the panel) . rows, one right-hand side.
-struct MultiplyTransposed
+struct IsotropicMultiplyTransposed
 {
     const float* m_rows;
     float* m_out;
@@ -129,7 +102,7 @@ void ForwardIsotropic(const Panel& panel, float* y, float* scratch)
     const D d;
     const int blocks = panel.blocksBelow();
     for (int i = 0; i < blocks * kLanes; i += kN) hn::Store(hn::Zero(d), d, scratch + i);
-    forEachChunk(panel, Multiply{y + 3 * static_cast<std::size_t>(panel.m_firstNode), scratch, blocks});
+    forEachChunk<1>(panel, IsotropicMultiply{y + 3 * static_cast<std::size_t>(panel.m_firstNode), scratch, blocks});
     for (int r = 0; r < panel.m_rowsBelow; ++r)
     {
         float* yr = y + 3 * static_cast<std::size_t>(panel.m_row[r]);
@@ -155,99 +128,17 @@ void BackwardIsotropic(const Panel& panel, float* y, float* scratch)
         float* row = scratch + place(panel.m_rowsBelow + c);
         for (int i = 0; i < 3; ++i) row[i * kPanelLanes] = own[3 * c + i];
     }
-    forEachChunk(panel, MultiplyTransposed{scratch, own, panel.blocks()});
+    forEachChunk<1>(panel, IsotropicMultiplyTransposed{scratch, own, panel.blocks()});
 }
-
-/// As Multiply, for 16 right-hand sides: kRows rows at a time, of kLanes entries each.
-struct MultiplyLanes
-{
-    const float* m_x;
-    float* m_out;
-    int m_rows;
-
-    template <int C>
-    HWY_INLINE void operator()(std::integral_constant<int, C>, int firstColumn, const float* values) const
-    {
-        const D d;
-        const float* x = m_x + static_cast<std::size_t>(firstColumn) * kLanes;
-        for (int r = 0; r < m_rows; r += kRows)
-        {
-            const float* entries = values + (r / kPanelLanes) * C * kPanelLanes + r % kPanelLanes;
-            for (int h = 0; h < kLanes; h += kN)
-            {
-                float* out = m_out + r * kLanes + h;
-                V sum[kRows];
-                HWY_UNROLL(8)
-                for (int i = 0; i < kRows; ++i) sum[i] = hn::Load(d, out + i * kLanes);
-                HWY_UNROLL(4)
-                for (int c = 0; c < C; ++c)
-                {
-                    const V xc = hn::Load(d, x + c * kLanes + h);
-                    HWY_UNROLL(8)
-                    for (int i = 0; i < kRows; ++i)
-                        sum[i] = hn::MulAdd(hn::Set(d, entries[c * kPanelLanes + i]), xc, sum[i]);
-                }
-                HWY_UNROLL(8)
-                for (int i = 0; i < kRows; ++i) hn::Store(sum[i], d, out + i * kLanes);
-            }
-        }
-    }
-};
-
-/// As MultiplyTransposed, for 16 right-hand sides.
-struct MultiplyTransposedLanes
-{
-    const float* m_rows;
-    float* m_out;
-    int m_rowCount;
-
-    template <int C>
-    HWY_INLINE void operator()(std::integral_constant<int, C>, int firstColumn, const float* values) const
-    {
-        const D d;
-        for (int h = 0; h < kLanes; h += kN)
-        {
-            V sum[C];
-            HWY_UNROLL(4)
-            for (int c = 0; c < C; ++c) sum[c] = hn::Zero(d);
-            for (int r = 0; r < m_rowCount; ++r)
-            {
-                const float* entries = values + (r / kPanelLanes) * C * kPanelLanes + r % kPanelLanes;
-                const V row = hn::Load(d, m_rows + r * kLanes + h);
-                HWY_UNROLL(4)
-                for (int c = 0; c < C; ++c) sum[c] = hn::MulAdd(hn::Set(d, entries[c * kPanelLanes]), row, sum[c]);
-            }
-            HWY_UNROLL(4)
-            for (int c = 0; c < C; ++c) hn::Store(sum[c], d, m_out + (firstColumn + c) * kLanes + h);
-        }
-    }
-};
 
 void ForwardIsotropicLanes(const Panel& panel, float* y, float* scratch)
 {
-    const D d;
-    const int rows = (panel.m_rowsBelow + kRows - 1) / kRows * kRows;
-    for (int i = 0; i < rows * kLanes; i += kN) hn::Store(hn::Zero(d), d, scratch + i);
-    forEachChunk(panel, MultiplyLanes{y + static_cast<std::size_t>(panel.m_firstNode) * kLanes, scratch, rows});
-    for (int r = 0; r < panel.m_rowsBelow; ++r)
-    {
-        float* yr = y + static_cast<std::size_t>(panel.m_row[r]) * kLanes;
-        for (int i = 0; i < kLanes; i += kN)
-            hn::Store(hn::Sub(hn::Load(d, yr + i), hn::Load(d, scratch + r * kLanes + i)), d, yr + i);
-    }
+    forwardLanes<1>(panel, y, scratch);
 }
 
 void BackwardIsotropicLanes(const Panel& panel, float* y, float* scratch)
 {
-    const D d;
-    float* own = y + static_cast<std::size_t>(panel.m_firstNode) * kLanes;
-    for (int r = 0; r < panel.m_rowsBelow; ++r)
-    {
-        const float* yr = y + static_cast<std::size_t>(panel.m_row[r]) * kLanes;
-        for (int i = 0; i < kLanes; i += kN) hn::Store(hn::Neg(hn::Load(d, yr + i)), d, scratch + r * kLanes + i);
-    }
-    std::copy(own, own + panel.m_columns * kLanes, scratch + panel.m_rowsBelow * kLanes);
-    forEachChunk(panel, MultiplyTransposedLanes{scratch, own, panel.m_rowsBelow + panel.m_columns});
+    backwardLanes<1>(panel, y, scratch);
 }
 
 }  // namespace HWY_NAMESPACE
