@@ -77,7 +77,7 @@ void addOptions(CLI::App& app, Options& options)
     app.add_flag("--cubes", options.m_crowd.m_cubes, "soft cubes, which rest on whole faces, in place of soft balls");
     app.add_flag("--different", options.m_crowd.m_different, "bodies of different sizes, meshes and stiffness");
     app.add_option("--contact-tolerance", options.m_crowd.m_contactTolerance,
-                   "btFemSolverInfo::m_contactTolerance; 1e-2 will do for games")
+                   "btFemSolverInfo::m_contactTolerance; 1e-2 is cheaper")
         ->check(CLI::Range(1e-7, 0.1))
         ->capture_default_str();
     app.add_option("--threads", options.m_crowd.m_threads, "btFemSolverInfo::m_threads")

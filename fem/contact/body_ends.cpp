@@ -253,10 +253,7 @@ void BodyEnds::measure()
     for (int e = 0; e < size(); ++e)
     {
         m_velocity[e] = m_before[e] = trueVelocity(e);
-        m_seen[e] = m_applied[e];
-        const Vec3 rest = m_impulse[e] - m_applied[e];
-        if (!m_dense || dot(rest, rest) == 0) continue;
-        m_seen[e] = m_impulse[e];
+        m_seen[e] = m_dense ? m_impulse[e] : m_applied[e];
     }
     if (m_dense)
         for (int e = 0; e < size(); ++e)

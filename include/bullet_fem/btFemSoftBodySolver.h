@@ -46,8 +46,9 @@ struct btFemSolverInfo
     int m_contactRounds = 1;                ///< corrective solves after contact at least, in [1, 10]; ten at most
     int m_contactSweeps = 50;               ///< sweeps a round at most, in [1, 1000]; 50 at most with joints
     /// Errors of velocity at which contact ends, as a share of what gravity gives a body in a step, or of what contact
-    /// changes at first if that is more [-], in [1e-7, 0.1]. 3e-5 keeps tall stacks still for minutes; at 1e-2 they
-    /// creep by centimetres, and crowds cost a fraction. Joints are solved more closely.
+    /// changes at first if that is more [-], in [1e-7, 0.1]. 3e-5 keeps tall stacks still; at 1e-2 crowds cost
+    /// half or less, but stacks of soft bodies may fall over without btFemConstraintSolver. Joints are solved more
+    /// closely.
     btScalar m_contactTolerance = btScalar(3e-5);
     int m_maxContacts = 2000;                  ///< contact points a body, in [8, 20000]
     btScalar m_erp = btScalar(0.2);            ///< share of a penetration taken back a step [-], in [0, 1]

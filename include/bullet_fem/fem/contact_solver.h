@@ -29,6 +29,7 @@ struct Obstacle
     Vec3 m_pushAngular;      ///< likewise [rad/s]
     Vec3 m_angularImpulse;   ///< written by solve(): pays back the angular momentum that corrections made [N m s]
 
+    /// True if an impulse moves or turns it.
     bool canMove() const { return dot(m_inverseMass, m_inverseMass) > 0 || squaredNorm(m_inverseInertia) > 0; }
     Vec3 velocityAt(const Vec3& point) const { return m_linearVelocity + cross(m_angularVelocity, point - m_center); }
 };
@@ -77,8 +78,8 @@ struct ContactSettings
     int m_maxRounds = 10;  ///< and at most, >= m_rounds, while the error exceeds m_tolerance
     int m_sweeps = 50;     ///< sweeps a round at most, in [1, 1000]
     /// Error of velocities at which contact ends, as a share of the speed that the loads give a body in a step, or of
-    /// what contact changes at first if that is more [-], > 0. 3e-5 keeps tall stacks still; 1e-2 will do for games.
-    /// Joints are solved more closely.
+    /// what contact changes at first if that is more [-], > 0. 3e-5 keeps tall stacks still; from 1e-3 on they may
+    /// fall. Joints are solved more closely.
     double m_tolerance = 3e-5;
     bool m_untilSolved = false;    ///< rounds go on to m_maxRounds even where one hardly lowers the error
     int m_denseLimit = 400;        ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
