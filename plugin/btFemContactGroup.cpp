@@ -7,7 +7,6 @@
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
-#include "bullet_fem/fem/stepping.h"
 #include "plugin/btFemAttachments.h"
 #include "plugin/btFemStopwatch.h"
 #include "plugin/btFemTouches.h"
@@ -54,7 +53,7 @@ void deepen(btFemStepReport& report, const ContactPoint& point)
 void btFemContactGroup::beginStep()
 {
     m_rigid.beginStep();
-    m_pairFinder.beginStep();
+    m_softPairs.beginStep();
     m_joints.forgetWorld();
 }
 
@@ -105,41 +104,11 @@ void btFemContactGroup::collectRigid()
 // Bodies in the order of the problem, which does not depend on addresses.
 void btFemContactGroup::collectSoft()
 {
-    m_softContacts.clear();
-    m_softOrigins.clear();
-    m_surfaceUpdated.assign(m_bodies.size(), 0);
-    for (std::size_t a = 0; a < m_bodies.size(); ++a)
-        for (std::size_t b = a; b < m_bodies.size(); ++b)
-        {
-            const auto touches = [](const FemSoftBody& fem, const FemSoftBody& other)
-            {
-                const auto& list = fem.m_touchingSoft;
-                return std::find(list.begin(), list.end(), other.m_softBody) != list.end();
-            };
-            if (touches(*m_bodies[a], *m_bodies[b]) || touches(*m_bodies[b], *m_bodies[a])) collectPair(a, b);
-        }
-    m_problem.m_contacts.insert(m_problem.m_contacts.end(), m_softContacts.begin(), m_softContacts.end());
-}
-
-void btFemContactGroup::collectPair(std::size_t a, std::size_t b)
-{
-    updateSurface(a);
-    updateSurface(b);
-    const bool inOrder = broadphaseId(*m_bodies[a]->m_softBody) <= broadphaseId(*m_bodies[b]->m_softBody);
-    const std::size_t first = inOrder ? a : b, second = inOrder ? b : a;
-    const SoftPairReport found =
-        m_pairFinder.find({*m_bodies[first], static_cast<int>(first)}, {*m_bodies[second], static_cast<int>(second)},
-                          m_info.m_maxContacts, m_softContacts, m_softOrigins);
-    if (found.m_limited) m_entries[first]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
-}
-
-// Once, however many bodies it touches.
-void btFemContactGroup::updateSurface(std::size_t b)
-{
-    if (m_surfaceUpdated[b]) return;
-    m_surfaceUpdated[b] = 1;
-    FemSoftBody& fem = *m_bodies[b];
-    fem.m_surface.update(fem.m_body.m_state.m_x, velocity(fem.m_body), m_step);
+    m_softPairs.find(m_bodies, m_step, m_info.m_maxContacts);
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+        if (m_softPairs.isLimited(b)) m_entries[b]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
+    m_problem.m_contacts.insert(m_problem.m_contacts.end(), m_softPairs.contacts().begin(),
+                                m_softPairs.contacts().end());
 }
 
 void btFemContactGroup::collectJoints(const Scope& scope)
@@ -241,7 +210,7 @@ void btFemContactGroup::report(const ContactReport& report)
     }
     m_softContacts.assign(next, m_problem.m_contacts.end());
     for (std::size_t k = 0; k < m_softContacts.size(); ++k) reportSoftContact(k);
-    m_pairFinder.remember(m_softContacts, m_softOrigins);
+    m_softPairs.remember(m_softContacts);
     for (btFemEntry* entry : m_entries)
     {
         entry->m_report.m_contacts = entry->m_contacts.size();

@@ -6,7 +6,7 @@
 
 #include "bullet_bridge/contact/contact_finder.h"
 #include "bullet_bridge/joints/soft_joints.h"
-#include "bullet_bridge/soft_pairs/soft_pair_finder.h"
+#include "bullet_bridge/soft_pairs/soft_pair_search.h"
 #include "bullet_bridge/solver_bodies.h"
 #include "plugin/btFemBodyRegistry.h"
 
@@ -14,8 +14,9 @@
 class btFemContactGroup
 {
 public:
-    /// `threads` share the corrective solves; they must live as long as the group.
-    btFemContactGroup(const btFemSolverInfo& info, const bullet_fem::Threads& threads) : m_info(info)
+    /// `threads` share the search between soft bodies and the corrective solves; they must live as long as the group.
+    btFemContactGroup(const btFemSolverInfo& info, const bullet_fem::Threads& threads)
+        : m_info(info), m_softPairs(threads)
     {
         m_settings.m_step.m_threads = &threads;
     }
@@ -62,8 +63,6 @@ public:
 private:
     void collectRigid();
     void collectSoft();
-    void collectPair(std::size_t a, std::size_t b);
-    void updateSurface(std::size_t b);
     void collectJoints(const Scope& scope);
     template <class Part>
     void onSolverBodies(const Part& part);
@@ -76,10 +75,8 @@ private:
     std::vector<btFemEntry*> m_entries;
     bullet_fem::ContactSettings m_settings;
     bullet_fem::ContactFinder m_finder;
-    bullet_fem::SoftPairFinder m_pairFinder;
-    std::vector<unsigned char> m_surfaceUpdated;           // per body: 1 once its SoftSurface is that of this step
-    std::vector<bullet_fem::ContactPoint> m_softContacts;  // after the rigid ones in the problem
-    std::vector<bullet_fem::SoftPairOrigin> m_softOrigins;
+    bullet_fem::SoftPairSearch m_softPairs;
+    std::vector<bullet_fem::ContactPoint> m_softContacts;  // solved; after the rigid ones in the problem
     bullet_fem::SoftJoints m_joints;
     std::vector<bullet_fem::FemSoftBody*> m_bodies, m_outside;
     bool m_reachesOut = false;  // joined to soft bodies that should be in the group

@@ -3,7 +3,6 @@
 #include "bullet_bridge/soft_pairs/soft_pair_finder.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/node_attachments.h"
@@ -61,7 +60,8 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
 
     SoftPairReport report;
     report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
-    findLastOf(first, second);
+    m_last = m_memory->lastOf(roles.m_origin.m_firstId, roles.m_origin.m_secondId);
+    m_continued.assign(m_last.m_count, 0);
     takeOverImpulses();
     inheritImpulses(first, second);
     report.m_contacts = static_cast<int>(m_found.size());
@@ -98,31 +98,6 @@ void SoftPairFinder::append(const Roles& roles, double offset)
     }
 }
 
-void SoftPairFinder::beginStep()
-{
-    m_order.resize(m_next.size());
-    std::iota(m_order.begin(), m_order.end(), 0);
-    std::sort(m_order.begin(), m_order.end(),
-              [this](int a, int b)
-              { return m_nextOrigins[a] < m_nextOrigins[b] || (!(m_nextOrigins[b] < m_nextOrigins[a]) && a < b); });
-    m_last.clear();
-    m_lastOrigins.clear();
-    for (int k : m_order)
-    {
-        m_last.push_back(m_next[k]);
-        m_lastOrigins.push_back(m_nextOrigins[k]);
-    }
-    m_next.clear();
-    m_nextOrigins.clear();
-    m_continued.assign(m_last.size(), 0);
-}
-
-void SoftPairFinder::remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins)
-{
-    m_next.insert(m_next.end(), contacts.begin(), contacts.end());
-    m_nextOrigins.insert(m_nextOrigins.end(), origins.begin(), origins.end());
-}
-
 void SoftPairFinder::takeOverImpulses()
 {
     for (std::size_t k = 0; k < m_found.size(); ++k)
@@ -130,8 +105,8 @@ void SoftPairFinder::takeOverImpulses()
         const int last = remembered(m_foundOrigins[k], m_found[k].m_normal);
         if (last < 0) continue;
         m_continued[last] = 1;
-        m_found[k].m_impulse = m_last[last].m_impulse;
-        m_found[k].m_slip = m_last[last].m_slip;
+        m_found[k].m_impulse = m_last.m_contacts[last].m_impulse;
+        m_found[k].m_slip = m_last.m_contacts[last].m_slip;
     }
 }
 
@@ -143,14 +118,15 @@ int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal)
     if (origin.m_kind != SoftPairKind::edges) from.m_otherFeature = -1;
     double best = kSameContact;
     int found = -1;
-    for (auto at = std::lower_bound(m_lastOrigins.begin(), m_lastOrigins.end(), from); at != m_lastOrigins.end(); ++at)
+    const SoftPairOrigin* const end = m_last.m_origins + m_last.m_count;
+    for (const SoftPairOrigin* at = std::lower_bound(m_last.m_origins, end, from); at != end; ++at)
     {
         SoftPairOrigin same = *at;
         same.m_otherFeature = from.m_otherFeature;
         const bool isSame = origin.m_kind == SoftPairKind::edges ? !(from < *at) : !(from < same);
         if (!isSame) break;
-        const int candidate = static_cast<int>(at - m_lastOrigins.begin());
-        const double alike = dot(m_last[candidate].m_normal, normal);
+        const int candidate = static_cast<int>(at - m_last.m_origins);
+        const double alike = dot(m_last.m_contacts[candidate].m_normal, normal);
         if (alike <= best || m_continued[candidate]) continue;
         best = alike;
         found = candidate;
@@ -158,36 +134,20 @@ int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal)
     return found;
 }
 
-// The pair's contacts of the last step: a range of m_last, in which none is continued yet.
-void SoftPairFinder::findLastOf(const SoftPairSide& first, const SoftPairSide& second)
-{
-    SoftPairOrigin from;
-    from.m_firstId = broadphaseId(*first.m_fem.m_softBody);
-    from.m_secondId = broadphaseId(*second.m_fem.m_softBody);
-    from.m_feature = from.m_otherFeature = -1;
-    const auto isOfPair = [&](const SoftPairOrigin& origin)
-    { return origin.m_firstId == from.m_firstId && origin.m_secondId == from.m_secondId; };
-    const auto begin = std::lower_bound(m_lastOrigins.begin(), m_lastOrigins.end(), from);
-    const auto end = std::find_if_not(begin, m_lastOrigins.end(), isOfPair);
-    m_firstLast = begin - m_lastOrigins.begin();
-    m_endLast = end - m_lastOrigins.begin();
-    std::fill(m_continued.begin() + static_cast<std::ptrdiff_t>(m_firstLast),
-              m_continued.begin() + static_cast<std::ptrdiff_t>(m_endLast), static_cast<unsigned char>(0));
-}
-
 // What pushed where the two touch no more.
 void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSide& second)
 {
     const auto isSecond = [](const SoftPairOrigin& origin) { return origin.m_kind == SoftPairKind::nodeOfSecond; };
-    m_heirs.clear(m_last.size());
-    for (std::size_t k = m_firstLast; k < m_endLast; ++k)
+    m_heirs.clear(m_last.m_count);
+    for (std::size_t k = 0; k < m_last.m_count; ++k)
     {
         if (m_continued[k]) continue;
-        const bool ofSecond = isSecond(m_lastOrigins[k]);
+        const bool ofSecond = isSecond(m_last.m_origins[k]);
         const SoftSurface& surface = (ofSecond ? second : first).m_fem.m_surface;
         const double sign = ofSecond ? -1 : 1;
-        m_heirs.addLost(interpolated(surface.position(), m_last[k].m_soft.m_nodes, m_last[k].m_soft.m_weights),
-                        sign * m_last[k].m_normal, sign * m_last[k].m_impulse);
+        const ContactPoint& last = m_last.m_contacts[k];
+        m_heirs.addLost(interpolated(surface.position(), last.m_soft.m_nodes, last.m_soft.m_weights),
+                        sign * last.m_normal, sign * last.m_impulse);
     }
     for (std::size_t k = 0; k < m_found.size(); ++k) m_heirs.addHeir(m_found[k], isSecond(m_foundOrigins[k]) ? -1 : 1);
     m_heirs.settle(std::max(first.m_fem.m_surface.meanEdge(), second.m_fem.m_surface.meanEdge()));

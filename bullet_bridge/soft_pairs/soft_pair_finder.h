@@ -2,38 +2,13 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include <tuple>
-
 #include "bullet_bridge/contact_heirs.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/soft_pairs/edge_pair_search.h"
+#include "bullet_bridge/soft_pairs/soft_pair_memory.h"
 
 namespace bullet_fem
 {
-
-/// Which features of two soft bodies make a contact.
-enum class SoftPairKind
-{
-    nodeOfFirst,   ///< with a face of the second body
-    nodeOfSecond,  ///< with a face of the first body
-    edges
-};
-
-/// Where a contact point between soft bodies came from: how it is recognised in the next step.
-struct SoftPairOrigin
-{
-    int m_firstId = 0;   ///< broadphase id of the body that was given first
-    int m_secondId = 0;  ///< and of the other; the same for self contact
-    SoftPairKind m_kind = SoftPairKind::nodeOfFirst;
-    int m_feature = 0;       ///< the node, or the edge of the first body
-    int m_otherFeature = 0;  ///< the triangle, -1 for a nearest edge or corner, or the edge of the second body
-
-    bool operator<(const SoftPairOrigin& b) const
-    {
-        return std::tie(m_firstId, m_secondId, m_kind, m_feature, m_otherFeature) <
-               std::tie(b.m_firstId, b.m_secondId, b.m_kind, b.m_feature, b.m_otherFeature);
-    }
-};
 
 /// A body and its index in the contact problem.
 struct SoftPairSide
@@ -58,17 +33,14 @@ struct SoftPairReport
 class SoftPairFinder
 {
 public:
+    /// `memory` holds the contacts whose impulses are taken over, and must live as long as the finder.
+    explicit SoftPairFinder(const SoftPairMemory& memory) : m_memory(&memory) {}
+
     /// After solveFreeMotion and SoftSurface::update of both. Appends at most maxContacts, ascending by origin; the
     /// first body's point is m_soft of edge pairs, and the node's of the others. Exchanging first and second changes
     /// the order and the roles in edge pairs, not the points. Impulses of remembered contacts are taken over.
     SoftPairReport find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
                         std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins);
-
-    /// What was remembered becomes what is taken over from: at the start of a step.
-    void beginStep();
-
-    /// Keeps solved contacts for the next step: one origin a contact, each once.
-    void remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins);
 
 private:
     struct Roles  // of touches
@@ -80,18 +52,18 @@ private:
 
     void append(const Roles& roles, double offset);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
-    void findLastOf(const SoftPairSide& first, const SoftPairSide& second);
     void takeOverImpulses();
     void inheritImpulses(const SoftPairSide& first, const SoftPairSide& second);
 
     NodeSurfaceSearch m_nodesOfFirst, m_nodesOfSecond;
     EdgePairSearch m_edges;
     std::vector<SurfaceTouch> m_touches;
-    std::vector<ContactPoint> m_found, m_last, m_next;
-    std::vector<SoftPairOrigin> m_foundOrigins, m_lastOrigins, m_nextOrigins;
+    std::vector<ContactPoint> m_found;
+    std::vector<SoftPairOrigin> m_foundOrigins;
     std::vector<int> m_order;
-    std::vector<unsigned char> m_continued;      // of m_last
-    std::size_t m_firstLast = 0, m_endLast = 0;  // the pair's in m_last
+    const SoftPairMemory* m_memory;
+    SoftPairMemory::Last m_last;             // of the pair
+    std::vector<unsigned char> m_continued;  // of these
     ContactHeirs m_heirs;
 };
 

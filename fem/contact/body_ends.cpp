@@ -79,7 +79,7 @@ void BodyEnds::assemble(int denseLimit)
     m_applied.assign(m_ends.size(), Vec3());
     m_seen.assign(m_ends.size(), Vec3());
     m_before.assign(m_ends.size(), Vec3());
-    beginProbe();
+    m_working.reset(size());
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
     if (m_dense)
@@ -90,8 +90,7 @@ void BodyEnds::assemble(int denseLimit)
 
 void BodyEnds::formDense()
 {
-    const std::size_t order = 3 * m_ends.size();
-    if (m_W.size() < order * order) m_W.resize(order * order);
+    m_W.resize(size());
     m_touched.clear();
     for (const End& end : m_ends)
         if (!isGroup(end)) m_touched.insert(m_touched.end(), end.m_point.m_nodes.begin(), end.m_point.m_nodes.end());
@@ -107,11 +106,11 @@ void BodyEnds::formDense()
         else
             formPointColumns(e);
     // What single precision and the warp left asymmetric would feed energy to the sweeps.
-    for (std::size_t i = 0; i < order; ++i)
+    for (std::size_t i = 0; i < m_W.order(); ++i)
         for (std::size_t j = 0; j < i; ++j)
         {
             const bool group = isGroup(m_ends[j / 3]);  // its column knows the points; theirs do not know it
-            m_W[j * order + i] = m_W[i * order + j] = group ? m_W[j * order + i] : m_W[i * order + j];
+            m_W(i, j) = m_W(j, i) = group ? m_W(i, j) : m_W(j, i);
         }
 }
 
@@ -137,7 +136,6 @@ void BodyEnds::formPointColumns(int e)
         }
         m_column[t] = m_scale * (P.rotation(i) * sum + own);
     }
-    const std::size_t order = 3 * m_ends.size();
     for (int f = 0; f < size(); ++f)
     {
         Mat3 w;
@@ -145,15 +143,13 @@ void BodyEnds::formPointColumns(int e)
             for (int a = 0; a < 3; ++a)
                 if (m_ends[f].m_point.m_weights[a] != 0)
                     w += m_ends[f].m_point.m_weights[a] * m_column[m_placeOfNode[m_ends[f].m_point.m_nodes[a]]];
-        for (int c = 0; c < 3; ++c)
-            for (int i = 0; i < 3; ++i) m_W[(3 * e + c) * order + 3 * f + i] = static_cast<float>(w(i, c));
+        m_W.setBlock(f, e, w);
     }
 }
 
 void BodyEnds::formGroupColumns(int e)
 {
     const WarpedPreconditioner P(*m_body.m_body);
-    const std::size_t order = 3 * m_ends.size();
     for (int c = 0; c < 3; ++c)
     {
         Vec3 unit;
@@ -164,7 +160,7 @@ void BodyEnds::formGroupColumns(int e)
         for (int f = 0; f < size(); ++f)
         {
             const Vec3 w = m_scale * read(m_ends[f], m_nodeOut);
-            for (int i = 0; i < 3; ++i) m_W[(3 * e + c) * order + 3 * f + i] = static_cast<float>(w[i]);
+            for (int i = 0; i < 3; ++i) m_W(3 * f + i, 3 * e + c) = static_cast<float>(w[i]);
         }
     }
 }
@@ -189,11 +185,7 @@ void BodyEnds::estimateDiagonal()
 Mat3 BodyEnds::compliance(int e, int f) const
 {
     if (!m_dense) return e == f ? m_scale * m_meanDiagonal : Mat3();
-    const std::size_t order = 3 * m_ends.size();
-    Mat3 w;
-    for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < 3; ++i) w(i, c) = m_W[(3 * f + c) * order + 3 * e + i];
-    return w;
+    return m_W.block(e, f);
 }
 
 Vec3 BodyEnds::trueVelocity(int e) const
@@ -201,48 +193,34 @@ Vec3 BodyEnds::trueVelocity(int e) const
     return read(m_ends[e], bullet_fem::velocity(*m_body.m_body));
 }
 
-// Adds the velocities that an impulse makes.
-void BodyEnds::respond(int e, const Vec3& impulse, std::vector<Vec3>& velocity) const
-{
-    const std::size_t order = 3 * m_ends.size();
-    double* v = &velocity[0].x;
-    const float *w0 = &m_W[3 * e * order], *w1 = w0 + order, *w2 = w1 + order;
-    for (std::size_t i = 0; i < order; ++i) v[i] += w0[i] * impulse.x + w1[i] * impulse.y + w2[i] * impulse.z;
-}
-
 void BodyEnds::push(int e, const Vec3& impulse)
 {
     m_impulse[e] += impulse;
+    if (m_dense && m_working.has(e)) m_working.push(e, impulse);
+}
+
+void BodyEnds::refresh()
+{
     if (!m_dense) return;
-    respond(e, impulse, m_velocity);
-    m_seen[e] = m_impulse[e];
-}
-
-void BodyEnds::beginProbe()
-{
-    m_probeImpulse.assign(m_ends.size(), Vec3());
-    m_probeVelocity.assign(m_ends.size(), Vec3());
-}
-
-void BodyEnds::respondToProbe()
-{
     for (int e = 0; e < size(); ++e)
-        if (dot(m_probeImpulse[e], m_probeImpulse[e]) > 0) respond(e, m_probeImpulse[e], m_probeVelocity);
+    {
+        const Vec3 unseen = m_impulse[e] - m_seen[e];
+        if (dot(unseen, unseen) > 0) m_W.respond(e, unseen, m_velocity);
+        m_seen[e] = m_impulse[e];
+    }
+    m_working.clear();
 }
 
 void BodyEnds::followProbe(double step)
 {
-    for (int e = 0; e < size(); ++e)
-    {
-        m_impulse[e] += step * m_probeImpulse[e];
-        m_velocity[e] += step * m_probeVelocity[e];
-        m_seen[e] = m_impulse[e];
-    }
+    m_working.followProbe(step);
+    for (int e : m_working.ends()) m_impulse[e] += step * m_working.probeImpulse(e);
 }
 
 void BodyEnds::flush()
 {
-    if (m_dense || m_ends.empty() || !gatherBeyond(m_seen)) return;
+    if (m_dense) return refresh();
+    if (m_ends.empty() || !gatherBeyond(m_seen)) return;
     m_seen.assign(m_impulse.begin(), m_impulse.end());
     WarpedPreconditioner(*m_body.m_body).apply(m_nodeIn, m_nodeOut);
     for (int e = 0; e < size(); ++e) m_velocity[e] += m_scale * read(m_ends[e], m_nodeOut);
@@ -253,14 +231,8 @@ void BodyEnds::measure()
     for (int e = 0; e < size(); ++e)
     {
         m_velocity[e] = m_before[e] = trueVelocity(e);
-        m_seen[e] = m_dense ? m_impulse[e] : m_applied[e];
+        m_seen[e] = m_applied[e];
     }
-    if (m_dense)
-        for (int e = 0; e < size(); ++e)
-        {
-            const Vec3 rest = m_impulse[e] - m_applied[e];
-            if (dot(rest, rest) > 0) respond(e, rest, m_velocity);
-        }
     flush();
 }
 
@@ -282,6 +254,7 @@ bool BodyEnds::gatherBeyond(const std::vector<Vec3>& known)
 SolveReport BodyEnds::apply(const StepSettings& settings)
 {
     m_learnt = false;
+    refresh();
     if (!gatherBeyond(m_applied)) return {};
     // Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin.
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
@@ -314,8 +287,8 @@ void BodyEnds::learn(double trueWork, double predictedWork)
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
     if (!m_dense) return;
-    const std::size_t order = 3 * m_ends.size();
-    for (std::size_t i = 0; i < order * order; ++i) m_W[i] *= static_cast<float>(factor);
+    m_W.scale(factor);
+    m_working.reset(size());
 }
 
 void BodyEnds::beginPush()
@@ -324,6 +297,7 @@ void BodyEnds::beginPush()
     std::fill(m_impulse.begin(), m_impulse.end(), Vec3());
     std::fill(m_applied.begin(), m_applied.end(), Vec3());
     std::fill(m_seen.begin(), m_seen.end(), Vec3());
+    m_working.clear();
 }
 
 Vec3 BodyEnds::applyPush(const StepSettings& settings)

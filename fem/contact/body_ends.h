@@ -6,6 +6,7 @@
 
 #include "bullet_fem/fem/contact_solver.h"
 #include "fem/contact/compliance_cache.h"
+#include "fem/contact/working_set.h"
 
 namespace bullet_fem
 {
@@ -39,22 +40,25 @@ public:
     /// W_ef; of a body that is not dense only an estimate of W_ee, and zero for e != f.
     Mat3 compliance(int e, int f) const;
 
-    /// As predicted [m/s].
-    const Vec3& velocity(int e) const { return m_velocity[e]; }
+    /// As predicted [m/s]; of a dense body that of an end which does not work is that of the last refresh().
+    const Vec3& velocity(int e) const { return m_dense && m_working.has(e) ? m_working.velocity(e) : m_velocity[e]; }
 
     /// From the true velocities of the body [m/s].
     Vec3 trueVelocity(int e) const;
 
-    /// Adds an impulse to an end. The velocities follow at once if dense, else with flush().
+    /// Adds an impulse to an end. The velocities of the working set follow at once if the end belongs to it; those of
+    /// other ends with refresh(), or flush() if not dense.
     void push(int e, const Vec3& impulse);
     void flush();
 
-    /// A direction of impulses, and the velocities that it makes, beside the present ones (dense only): beginProbe
-    /// forgets the last, addToProbe adds an impulse to an end, and followProbe goes `step` times its way.
-    void beginProbe();
-    void addToProbe(int e, const Vec3& impulse) { m_probeImpulse[e] += impulse; }
-    void respondToProbe();
-    const Vec3& probeVelocity(int e) const { return m_probeVelocity[e]; }
+    /// Brings all velocities up to date, and ends the work of the working set (dense only): startWork and any number of
+    /// times work(e) choose another.
+    void refresh();
+    void work(int e) { m_working.add(e); }
+    void startWork() { m_working.pack(m_W, m_velocity); }
+
+    /// The working set, for probes of directions.
+    WorkingSet& working() { return m_working; }
     void followProbe(double step);
 
     /// Takes the velocities from the body, which holds the impulses applied so far, and adds W times the rest.
@@ -89,21 +93,20 @@ private:
     void formPointColumns(int e);
     void formGroupColumns(int e);
     void estimateDiagonal();
-    void respond(int e, const Vec3& impulse, std::vector<Vec3>& velocity) const;
     bool gatherBeyond(const std::vector<Vec3>& known);
     void learn(double trueWork, double predictedWork);
 
     ContactBody m_body;
     bool m_dense = true;
     std::vector<End> m_ends;
-    std::vector<Vec3> m_velocity;                       // per end
-    std::vector<Vec3> m_impulse;                        // per end, all
-    std::vector<Vec3> m_applied;                        // per end, in the body's true velocities
-    std::vector<Vec3> m_seen;                           // per end, in m_velocity
-    std::vector<Vec3> m_before;                         // per end: velocity before the impulses of this round
-    std::vector<Vec3> m_probeImpulse, m_probeVelocity;  // per end
-    std::vector<float> m_W;                             // 3 size() columns of 3 size()
-    std::vector<int> m_touched;                         // nodes of the points
+    std::vector<Vec3> m_velocity;  // per end
+    std::vector<Vec3> m_impulse;   // per end, all
+    std::vector<Vec3> m_applied;   // per end, in the body's true velocities
+    std::vector<Vec3> m_seen;      // per end, in m_velocity
+    std::vector<Vec3> m_before;    // per end: velocity before the impulses of this round
+    DenseCompliance m_W;           // of all ends
+    WorkingSet m_working;
+    std::vector<int> m_touched;  // nodes of the points
     std::vector<int> m_placeOfNode;
     std::vector<Mat3> m_column;             // response of the touched nodes
     std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes

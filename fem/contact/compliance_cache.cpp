@@ -29,8 +29,9 @@ void listMarked(const std::vector<unsigned char>& marked, std::vector<int>& list
 
 }  // namespace
 
-ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model)
+ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model, std::size_t budget)
     : m_model(std::move(model)),
+      m_budget(budget),
       m_surfaceIndex(m_model->nodeCount(), -1),
       m_slotOfNode(m_model->nodeCount(), -1),
       m_supernodeOfPosition(m_model->factor().freeNodeCount()),
@@ -69,18 +70,21 @@ int ComplianceCache::claimSlot()
     return slot;
 }
 
+// For twice as many columns as are needed now, or all that the budget allows. What is not written takes no memory yet.
+void ComplianceCache::makeRoom(std::size_t columns)
+{
+    const std::size_t surface = m_model->mesh().surfaceNodes().size(), columnSize = 9 * surface;
+    const std::size_t affordable = m_budget / (sizeof(float) * columnSize);
+    const std::size_t room = std::max(std::min(surface, std::max(2 * columns, affordable)), m_columns.size());
+    while (m_columns.size() < room) m_columns.push_back(allocateFloats(columnSize));
+    m_nodeOfSlot.resize(room, -1);
+    m_lastUse.resize(room, 0);
+}
+
 void ComplianceCache::request(const std::vector<int>& nodes)
 {
     ++m_requestCount;
-    if (nodes.size() > m_columns.size())
-    {
-        const std::size_t room = std::min(m_model->mesh().surfaceNodes().size(), 2 * nodes.size());
-        const std::size_t columnSize = 9 * m_model->mesh().surfaceNodes().size();
-        m_columns.resize(std::max(room, m_columns.size()));
-        for (std::vector<float>& column : m_columns) column.resize(columnSize);
-        m_nodeOfSlot.resize(m_columns.size(), -1);
-        m_lastUse.resize(m_columns.size(), 0);
-    }
+    if (nodes.size() > m_columns.size()) makeRoom(nodes.size());
     for (int node : nodes)
         if (m_slotOfNode[node] >= 0) m_lastUse[m_slotOfNode[node]] = m_requestCount;
     m_newNodes.clear();
@@ -93,6 +97,7 @@ void ComplianceCache::request(const std::vector<int>& nodes)
         m_lastUse[slot] = m_requestCount;
         m_newNodes.push_back(node);
     }
+    m_solvedColumns += static_cast<long>(m_newNodes.size());
     // Neighbours in the factor share most of their way to the root.
     const RestFactor& factor = m_model->factor();
     std::sort(m_newNodes.begin(), m_newNodes.end(),
@@ -119,7 +124,7 @@ void ComplianceCache::solveColumns(const int* nodes, int count)
     }
     listMarked(m_marked, m_reach);
     factor.lower().solveLanes(m_reach, m_surfaceSupernodes, m_rightSide.get(), m_scratch.get());
-    for (int k = 0; k < count; ++k) copyColumn(nodes[k], 3 * k, m_columns[m_slotOfNode[nodes[k]]].data());
+    for (int k = 0; k < count; ++k) copyColumn(nodes[k], 3 * k, m_columns[m_slotOfNode[nodes[k]]].get());
 }
 
 void ComplianceCache::copyColumn(int node, int firstLane, float* column) const

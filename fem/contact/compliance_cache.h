@@ -12,12 +12,15 @@ namespace bullet_fem
 {
 
 /// The 3x3 blocks of A0^-1 between surface nodes of one model [1/kg]. They are constants; a node's column is solved
-/// when it is first asked for and kept while there is room. Bodies of the same model may share a cache on one thread.
-/// request() allocates only when it is given more nodes than ever before.
+/// when it is first asked for and kept while there is room: within the budget, or as many as one request has needed.
+/// Bodies of the same model may share a cache on one thread. request() allocates when it is called first, and when it
+/// is given more nodes than there is room for.
 class ComplianceCache
 {
 public:
-    explicit ComplianceCache(std::shared_ptr<const BodyModel> model);
+    static constexpr std::size_t kBudget = 16'000'000;  ///< for all columns of a body of 4,000 tets [B]
+
+    explicit ComplianceCache(std::shared_ptr<const BodyModel> model, std::size_t budget = kBudget);
 
     const BodyModel& model() const { return *m_model; }
 
@@ -28,24 +31,30 @@ public:
     /// when the factor was built; the inverse diagonal where that node is free now is the caller's business.
     Mat3 block(int i, int j) const;
 
+    /// Columns solved so far.
+    long solvedColumns() const { return m_solvedColumns; }
+
 private:
     void markNode(int node);
+    void makeRoom(std::size_t columns);
     int claimSlot();
     void solveColumns(const int* nodes, int count);
     void copyColumn(int node, int firstLane, float* column) const;
 
     std::shared_ptr<const BodyModel> m_model;
+    std::size_t m_budget;             // [B]
     std::vector<int> m_surfaceIndex;  // per node: its place among the surface nodes, or -1
     std::vector<int> m_slotOfNode;    // per node, or -1
     std::vector<int> m_nodeOfSlot;
     std::vector<unsigned long> m_lastUse;  // per slot: number of the request that last named it
-    std::vector<std::vector<float>> m_columns;
+    std::vector<AlignedFloats> m_columns;
     std::vector<int> m_supernodeOfPosition;  // by the factor's order of nodes
     std::vector<int> m_surfaceSupernodes;    // those with surface nodes and what is above them
     std::vector<int> m_newNodes, m_reach;
     std::vector<unsigned char> m_marked;   // per supernode
     AlignedFloats m_rightSide, m_scratch;  // kPanelLanes interleaved
     unsigned long m_requestCount = 0;
+    long m_solvedColumns = 0;
 };
 
 }  // namespace bullet_fem

@@ -27,6 +27,7 @@ void ContactRows::preparePush()
 {
     const double h = m_settings.m_step.m_step;
     m_subspace = {};
+    m_lifeOfSet = -1;
     for (std::size_t k = 0; k < m_rows.size(); ++k)
     {
         Row& row = m_rows[k];
@@ -58,8 +59,8 @@ int ContactRows::push()
     measure();
     preparePush();
     setSpeedScale();
-    int sweeps = 0;
-    for (double change = 1; sweeps < kMaxSweepsOfPush && change > kPushTolerance; ++sweeps) change = sweep();
+    int sweeps = 1;
+    while (sweep(kPushTolerance) && sweeps < kMaxSweepsOfPush) ++sweeps;
     for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
     {
         Obstacle& obstacle = m_problem->m_obstacles[k];

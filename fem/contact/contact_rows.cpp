@@ -5,12 +5,13 @@
 #include <algorithm>
 
 #include "bullet_fem/fem/stepping.h"
-#include "fem/pieces.h"
 
 namespace bullet_fem
 {
 namespace
 {
+
+constexpr std::size_t kManyBodies = 16;  // of dense compliance, worth waking threads for
 
 // A unit vector at a right angle to n, and n x it.
 void makeTangents(const Vec3& n, Vec3& first, Vec3& second)
@@ -55,6 +56,9 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
         if (row.m_b.m_body >= 0) m_bodies[row.m_b.m_body].push(row.m_b.m_end, -row.m_impulse);
     }
     m_gradientStep = 0;
+    m_lifeOfSet = -1;
+    m_working.reserve(m_rows.size());
+    m_saved.reserve(m_rows.size());
     m_subspace = {};
 }
 
@@ -214,22 +218,10 @@ void ContactRows::change(Row& row, const Vec3& impulse)
     react(row.m_b, -difference);
 }
 
-// Calls part(b) for all bodies with ends, on these threads at the same time: it must write to nothing but body b and
-// its ends.
-template <class Part>
-void ContactRows::forEachTouchedBody(const Threads* threads, const Part& part)
-{
-    runTasks(threads, static_cast<int>(m_problem->m_bodies.size()),
-             [&](int b)
-             {
-                 if (m_bodies[b].size() > 0) part(b);
-             });
-}
-
 // A dense compliance is over before other threads have woken up.
 const Threads* ContactRows::threadsForCompliance() const
 {
-    return m_inTurn ? nullptr : m_settings.m_step.m_threads;
+    return m_inTurn && m_problem->m_bodies.size() < kManyBodies ? nullptr : m_settings.m_step.m_threads;
 }
 
 void ContactRows::flush()
@@ -256,6 +248,7 @@ void ContactRows::measure()
 {
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
     m_subspace.m_tried = false;  // the work of sweeps before is that of another problem
+    m_lifeOfSet = -1;
     restart();
 }
 

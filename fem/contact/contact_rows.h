@@ -6,6 +6,7 @@
 
 #include "bullet_fem/fem/contact_solver.h"
 #include "fem/contact/body_ends.h"
+#include "fem/pieces.h"
 
 namespace bullet_fem
 {
@@ -31,13 +32,14 @@ public:
     /// that rows have to change now [m/s]; where there are no loads, or that the guesses have changed.
     void setSpeedScale();
 
-    /// One sweep; the velocities of ends and obstacles follow. Gauss-Seidel while all bodies have a dense compliance,
-    /// with subspace minimizations between, else an accelerated projected gradient step on all rows at once. Returns
-    /// the largest change, as the speed that it gives a row's own point over the scale; of gradient steps, of which
-    /// many short ones make up a way, a thousand times that.
-    double sweep();
+    /// One sweep; the velocities of ends and obstacles follow. Gauss-Seidel over the rows that carry something while
+    /// all bodies have a dense compliance, with subspace minimizations between, else an accelerated projected gradient
+    /// step on all rows at once. True if an impulse changed, or is to change, by more than the tolerance: the speed
+    /// that it gives a row's own point over the scale; of gradient steps, of which many short ones make up a way, a
+    /// thousand times that.
+    bool sweep(double tolerance);
 
-    /// What a sweep would change now, likewise.
+    /// What a sweep would change after measure(), likewise.
     double error() const { return share(largestChange()); }
 
     /// Solves the bodies' true systems for what is new.
@@ -82,10 +84,10 @@ private:
         Vec3 m_impulse;                                 // on end a
         Vec3 m_roundImpulse;                            // at the end of the last round
         Vec3 m_lastImpulse, m_lastVelocity, m_pending;  // of the sweeps at once
-        Vec3 m_savedImpulse;                            // before the last subspace minimization
         Vec3 m_residual, m_direction, m_response;       // of that, along the axes
         int m_freeAxes = 0;                             // that nothing limits: 1: the normal; 3: all
         bool m_idle = false;                            // nothing can move: no compliance
+        bool m_works = false;                           // belongs to the working set
     };
 
     struct Subspace  // how sweeps and minimizations take turns
@@ -118,12 +120,15 @@ private:
     Vec3 solveJoint(const Row& row, const Vec3& impulse, Vec3 velocity, double step) const;
     Vec3 solveRow(const Row& row, const Vec3& impulse, const Vec3& velocity, double step) const;
     void restart();
+    void chooseWorkingSet();
+    bool restIsDone(double tolerance);
     double largestChange() const;
     double share(double speed) const;
     static double speedOf(const Row& row, const Vec3& difference);
+    double wantedSpeed(const Row& row) const;
     double loadSpeed() const;
     double sweepInTurn();
-    double sweepWithSubspace();
+    void searchSubspace();
     void chooseSubspace();
     void minimizeOverSubspace();
     template <class Term>
@@ -132,8 +137,17 @@ private:
     void followDirections(double step);
     double sweepAtOnce();
     void chooseStep();
+    /// Calls part(b) for all bodies with ends, on these threads at the same time: it must write to nothing but body b
+    /// and its ends.
     template <class Part>
-    void forEachTouchedBody(const Threads* threads, const Part& part);
+    void forEachTouchedBody(const Threads* threads, const Part& part)
+    {
+        runTasks(threads, static_cast<int>(m_problem->m_bodies.size()),
+                 [&](int b)
+                 {
+                     if (m_bodies[b].size() > 0) part(b);
+                 });
+    }
     const Threads* threadsForCompliance() const;
     void preparePush();
     void payBack(std::size_t body, const Vec3& gained);
@@ -144,9 +158,12 @@ private:
     std::vector<SolveReport> m_solved;              // per body, of the last corrective solves
     std::vector<Row> m_rows;                        // of the contacts, then of the joints
     bool m_inTurn = true;                           // Gauss-Seidel
+    std::vector<int> m_working;                     // rows that the sweeps in turn are over
+    int m_lifeOfSet = -1;                           // sweeps until another is chosen; -1: there is none
     double m_speedScale = 0;                        // that errors are measured against [m/s]
     double m_gradientStep = 1, m_acceleration = 1;  // of the sweeps at once
     Subspace m_subspace;
+    std::vector<std::pair<int, Vec3>> m_saved;        // rows, and their impulses before the last minimization
     std::vector<Vec3> m_probeLinear, m_probeAngular;  // of the obstacles, while their response is asked for
     std::vector<Vec3> m_savedLinear, m_savedAngular;  // of the obstacles, while their pushes are solved for
 };

@@ -130,7 +130,7 @@ bool ContactSolver::sweep()
     Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     ++s.m_report.m_sweeps;
-    return s.m_rows.sweep() > s.m_sweepTolerance;
+    return s.m_rows.sweep(s.m_sweepTolerance);
 }
 
 void ContactSolver::correct()

@@ -7,7 +7,6 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kSweepsBetween = 5;  // that find out what touches, slides and sticks
 constexpr int kMostIterations = 8;
 constexpr double kEnough = 0.05;  // share of the residual at which a minimization ends
 // Many points on few nodes are redundant: directions of less than this share of their rows' own compliance are noise of
@@ -21,29 +20,26 @@ constexpr double kSticks = 1 - 1e-6;  // share of the largest friction up to whi
 // Over the points that neither part nor slide the problem is linear, and conjugate gradients minimize from time to time
 // [Silcowitz, Niebe, Erleben 2010, projected Gauss-Seidel subspace minimization]. If sweeps find more to do after it
 // than before, it led astray and is taken back. A sweep comes last, and leaves all impulses in their cones.
-double ContactRows::sweepWithSubspace()
+void ContactRows::searchSubspace()
 {
     Subspace& s = m_subspace;
-    if (s.m_sweeps == kSweepsBetween)
-    {
-        s.m_sweeps = 0;
-        const bool astray = s.m_tried && s.m_sweepWork > s.m_work;
-        s.m_work = s.m_sweepWork;
-        s.m_tried = !astray;
-        if (astray)
-            for (Row& row : m_rows) change(row, row.m_savedImpulse);
-        else
-            minimizeOverSubspace();
-    }
-    ++s.m_sweeps;
-    return sweepInTurn();
+    s.m_sweeps = 0;
+    const bool astray = s.m_tried && s.m_sweepWork > s.m_work;
+    s.m_work = s.m_sweepWork;
+    s.m_tried = !astray;
+    if (astray)
+        for (const auto& [k, impulse] : m_saved) change(m_rows[k], impulse);
+    else
+        minimizeOverSubspace();
 }
 
 void ContactRows::chooseSubspace()
 {
-    for (Row& row : m_rows)
+    m_saved.clear();
+    for (int k : m_working)
     {
-        row.m_savedImpulse = row.m_impulse;
+        Row& row = m_rows[k];
+        m_saved.push_back({k, row.m_impulse});
         const double normal = dot(row.m_impulse, row.m_axes[0]);
         const Vec3 friction = row.m_impulse - normal * row.m_axes[0];
         row.m_freeAxes = 0;
@@ -61,8 +57,8 @@ template <class Term>
 double ContactRows::sumOverSubspace(const Term& term)
 {
     double sum = 0;
-    for (Row& row : m_rows)
-        for (int i = 0; i < row.m_freeAxes; ++i) sum += term(row, i);
+    for (int k : m_working)
+        for (int i = 0; i < m_rows[k].m_freeAxes; ++i) sum += term(m_rows[k], i);
     return sum;
 }
 
@@ -98,31 +94,33 @@ void ContactRows::respondToDirections()
     const std::vector<Obstacle>& obstacles = m_problem->m_obstacles;
     m_probeLinear.assign(obstacles.size(), Vec3());
     m_probeAngular.assign(obstacles.size(), Vec3());
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].beginProbe();
+    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].working().beginProbe();
     const auto push = [&](const RowEnd& end, const Vec3& impulse)
     {
-        if (end.m_body >= 0) m_bodies[end.m_body].addToProbe(end.m_end, impulse);
+        if (end.m_body >= 0) m_bodies[end.m_body].working().addToProbe(end.m_end, impulse);
         if (end.m_obstacle < 0) return;
         m_probeLinear[end.m_obstacle] += scaled(obstacles[end.m_obstacle].m_inverseMass, impulse);
         m_probeAngular[end.m_obstacle] += obstacles[end.m_obstacle].m_inverseInertia * cross(end.m_arm, impulse);
     };
     const auto velocityOf = [this](const RowEnd& end)
     {
-        if (end.m_body >= 0) return m_bodies[end.m_body].probeVelocity(end.m_end);
+        if (end.m_body >= 0) return m_bodies[end.m_body].working().probeVelocity(end.m_end);
         if (end.m_obstacle < 0) return Vec3();
         return m_probeLinear[end.m_obstacle] + cross(m_probeAngular[end.m_obstacle], end.m_arm);
     };
-    for (const Row& row : m_rows)
+    for (int k : m_working)
     {
+        const Row& row = m_rows[k];
         Vec3 impulse;
         for (int i = 0; i < row.m_freeAxes; ++i) impulse += row.m_direction[i] * row.m_axes[i];
         if (row.m_freeAxes == 0) continue;
         push(row.m_a, impulse);
         push(row.m_b, -impulse);
     }
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].respondToProbe();
-    for (Row& row : m_rows)
+    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].working().respondToProbe();
+    for (int k : m_working)
     {
+        Row& row = m_rows[k];
         if (row.m_freeAxes == 0) continue;
         const Vec3 v = velocityOf(row.m_a) - velocityOf(row.m_b);
         for (int i = 0; i < row.m_freeAxes; ++i)
@@ -132,12 +130,15 @@ void ContactRows::respondToDirections()
 
 void ContactRows::followDirections(double step)
 {
-    for (Row& row : m_rows)
+    for (int k : m_working)
+    {
+        Row& row = m_rows[k];
         for (int i = 0; i < row.m_freeAxes; ++i)
         {
             row.m_impulse += (step * row.m_direction[i]) * row.m_axes[i];
             row.m_residual[i] -= step * row.m_response[i];
         }
+    }
     for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].followProbe(step);
     for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
     {

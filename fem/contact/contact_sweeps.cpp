@@ -6,6 +6,14 @@
 
 namespace bullet_fem
 {
+namespace
+{
+
+constexpr int kSweepsBetween = 5;  // minimizations: they find out what touches, slides and sticks
+constexpr int kLongLife = 5;       // sweeps of a working set
+constexpr double kNews = 0.02;     // share of rows that have just joined it, beyond which it is good for one sweep
+
+}  // namespace
 
 // The impulse that a contact wants for a relative velocity it has at another impulse; step: share of the way.
 Vec3 ContactRows::solveContact(const Row& row, const Vec3& impulse, Vec3 v, double step) const
@@ -53,10 +61,56 @@ Vec3 ContactRows::solveRow(const Row& row, const Vec3& impulse, const Vec3& v, d
     return row.m_joint ? solveJoint(row, impulse, v, step) : solveContact(row, impulse, v, step);
 }
 
-double ContactRows::sweep()
+bool ContactRows::sweep(double tolerance)
 {
-    if (!m_inTurn) return sweepAtOnce();
-    return m_problem->m_joints.empty() ? sweepWithSubspace() : sweepInTurn();
+    if (!m_inTurn) return sweepAtOnce() > tolerance;
+    if (m_lifeOfSet < 0) chooseWorkingSet();
+    if (m_problem->m_joints.empty() && m_subspace.m_sweeps == kSweepsBetween)
+    {
+        searchSubspace();
+        m_lifeOfSet = 0;
+    }
+    if (m_lifeOfSet == 0) chooseWorkingSet();
+    ++m_subspace.m_sweeps;
+    --m_lifeOfSet;
+    return sweepInTurn() > tolerance || !restIsDone(tolerance);
+}
+
+// Most points that were found near a surface carry nothing, and most of them never will: some sweeps go by without
+// looking at them. What carries an impulse, wants one or is a joint works. Where that changes, it is looked at again
+// soon.
+void ContactRows::chooseWorkingSet()
+{
+    flush();
+    m_working.clear();
+    int joined = 0;
+    for (std::size_t k = 0; k < m_rows.size(); ++k)
+    {
+        Row& row = m_rows[k];
+        const Vec3 wanted = solveRow(row, row.m_impulse, velocity(row), 1);
+        const bool worked = row.m_works;
+        row.m_works = row.m_joint || dot(row.m_impulse, row.m_impulse) > 0 || dot(wanted, wanted) > 0;
+        if (row.m_works) m_working.push_back(static_cast<int>(k));
+        if (row.m_works && !worked) ++joined;
+    }
+    for (int k : m_working)
+        for (const RowEnd* end : {&m_rows[k].m_a, &m_rows[k].m_b})
+            if (end->m_body >= 0) m_bodies[end->m_body].work(end->m_end);
+    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].startWork(); });
+    m_lifeOfSet = joined > kNews * static_cast<double>(m_working.size()) ? 1 : kLongLife;
+}
+
+// If rows that rest are to change by more than the tolerance, the next sweep chooses another working set.
+bool ContactRows::restIsDone(double tolerance)
+{
+    if (m_working.size() == m_rows.size()) return true;
+    flush();
+    m_lifeOfSet = -1;
+    m_subspace.m_tried = false;  // more work is to be expected
+    double largest = 0;
+    for (const Row& row : m_rows)
+        if (!row.m_works) largest = std::max(largest, wantedSpeed(row));
+    return share(largest) <= tolerance;
 }
 
 // The change of a row as a velocity: what it does to its own point.
@@ -66,12 +120,18 @@ double ContactRows::speedOf(const Row& row, const Vec3& difference)
     return (row.m_joint ? std::max({w.x, w.y, w.z}) : w.x) * norm(difference);
 }
 
+double ContactRows::wantedSpeed(const Row& row) const
+{
+    return speedOf(row, solveRow(row, row.m_impulse, velocity(row), 1) - row.m_impulse);
+}
+
 double ContactRows::sweepInTurn()
 {
     double largest = 0;
     m_subspace.m_sweepWork = 0;
-    for (Row& row : m_rows)
+    for (int k : m_working)
     {
+        Row& row = m_rows[k];
         const Vec3 wanted = solveRow(row, row.m_impulse, velocity(row), 1);
         const Vec3 difference = wanted - row.m_impulse;
         if (dot(difference, difference) == 0) continue;
@@ -85,8 +145,7 @@ double ContactRows::sweepInTurn()
 double ContactRows::largestChange() const
 {
     double largest = 0;
-    for (const Row& row : m_rows)
-        largest = std::max(largest, speedOf(row, solveRow(row, row.m_impulse, velocity(row), 1) - row.m_impulse));
+    for (const Row& row : m_rows) largest = std::max(largest, wantedSpeed(row));
     return largest;
 }
 

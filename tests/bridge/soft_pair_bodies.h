@@ -127,7 +127,8 @@ struct PairContacts
                                               [&](const SoftPairOrigin& o) { return o.m_kind == kind; }));
     }
 
-    SoftPairFinder m_finder;
+    SoftPairMemory m_memory;
+    SoftPairFinder m_finder{m_memory};
     SoftPairReport m_report;
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;

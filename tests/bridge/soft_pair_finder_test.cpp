@@ -297,8 +297,8 @@ TEST(SoftPairFinder, TakesOverTheImpulsesOfTheLastStepToTheNextFace)
     const std::vector<ContactPoint> before = found.m_contacts;
     const std::vector<SoftPairOrigin> origins = found.m_origins;
     EXPECT_TRUE(std::is_sorted(origins.begin(), origins.end()));
-    found.m_finder.remember(before, origins);
-    found.m_finder.beginStep();
+    found.m_memory.remember(before, origins);
+    found.m_memory.beginStep();
     upper.move({0.21, 0, 0}).ready();  // nodes lie over other triangles now
     found.m_contacts.clear();
     found.m_origins.clear();

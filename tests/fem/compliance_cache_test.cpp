@@ -70,7 +70,7 @@ TEST_F(ComplianceCacheTest, IsZeroForFixedNodes)
 // One node at a time: room for two columns, so that each is thrown out soon and solved again, to the same bits.
 TEST_F(ComplianceCacheTest, GivesTheSameNumbersAfterEviction)
 {
-    ComplianceCache all(m_model), small(m_model);
+    ComplianceCache all(m_model), small(m_model, 0);
     all.request(m_surface);
     for (int round = 0; round < 3; ++round)
         for (int j : m_surface)
@@ -80,10 +80,21 @@ TEST_F(ComplianceCacheTest, GivesTheSameNumbersAfterEviction)
         }
 }
 
+// Bodies that share a cache ask for different nodes in every step.
+TEST_F(ComplianceCacheTest, SolvesEveryColumnOnceWithinItsBudget)
+{
+    ComplianceCache cache(m_model), small(m_model, 0);
+    for (int step = 0; step < 2; ++step)
+        for (const int node : m_surface)
+            for (ComplianceCache* c : {&cache, &small}) c->request({node});
+    EXPECT_EQ(cache.solvedColumns(), static_cast<long>(m_surface.size()));
+    EXPECT_EQ(small.solvedColumns(), 2 * static_cast<long>(m_surface.size()));
+}
+
 // The columns of one request never throw each other out, whatever was there before.
 TEST_F(ComplianceCacheTest, KeepsAllColumnsOfARequest)
 {
-    ComplianceCache all(m_model), small(m_model);
+    ComplianceCache all(m_model), small(m_model, 0);
     all.request(m_surface);
     const int n = static_cast<int>(m_surface.size());
     for (int first = 0; first < n; ++first)
@@ -99,7 +110,7 @@ TEST_F(ComplianceCacheTest, KeepsAllColumnsOfARequest)
 // Room for ten columns, all taken; the request names the oldest of them before four new ones.
 TEST_F(ComplianceCacheTest, DoesNotThrowOutWhatTheRequestNames)
 {
-    ComplianceCache cache(m_model);
+    ComplianceCache cache(m_model, 0);
     std::vector<std::vector<int>> requests = {{0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}, {0, 10, 11, 12, 13}};
     for (std::vector<int>& nodes : requests)
     {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/soft_pairs/soft_pair_memory.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace bullet_fem
+{
+
+void SoftPairMemory::beginStep()
+{
+    m_order.resize(m_next.size());
+    std::iota(m_order.begin(), m_order.end(), 0);
+    std::sort(m_order.begin(), m_order.end(),
+              [this](int a, int b)
+              { return m_nextOrigins[a] < m_nextOrigins[b] || (!(m_nextOrigins[b] < m_nextOrigins[a]) && a < b); });
+    m_last.clear();
+    m_lastOrigins.clear();
+    for (int k : m_order)
+    {
+        m_last.push_back(m_next[k]);
+        m_lastOrigins.push_back(m_nextOrigins[k]);
+    }
+    m_next.clear();
+    m_nextOrigins.clear();
+}
+
+void SoftPairMemory::remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins)
+{
+    m_next.insert(m_next.end(), contacts.begin(), contacts.end());
+    m_nextOrigins.insert(m_nextOrigins.end(), origins.begin(), origins.end());
+}
+
+SoftPairMemory::Last SoftPairMemory::lastOf(int firstId, int secondId) const
+{
+    SoftPairOrigin from;
+    from.m_firstId = firstId;
+    from.m_secondId = secondId;
+    from.m_feature = from.m_otherFeature = -1;
+    const auto begin = std::lower_bound(m_lastOrigins.begin(), m_lastOrigins.end(), from);
+    const auto end = std::find_if_not(begin, m_lastOrigins.end(),
+                                      [&](const SoftPairOrigin& origin) { return origin.isOfPair(firstId, secondId); });
+    const auto first = begin - m_lastOrigins.begin();
+    return {m_last.data() + first, m_lastOrigins.data() + first, static_cast<std::size_t>(end - begin)};
+}
+
+}  // namespace bullet_fem

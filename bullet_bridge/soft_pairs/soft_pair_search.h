@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_bridge/soft_pairs/soft_pair_finder.h"
+
+namespace bullet_fem
+{
+
+/// Finds the contacts of all pairs of FEM bodies that the broad phase recorded, on the given threads. The same contacts
+/// in the same order for any number of them. Grows, never shrinks.
+class SoftPairSearch
+{
+public:
+    /// `threads` must live as long as the search.
+    explicit SoftPairSearch(const Threads& threads);
+    SoftPairSearch(const SoftPairSearch&) = delete;
+    SoftPairSearch& operator=(const SoftPairSearch&) = delete;
+
+    /// What was remembered becomes what is taken over from: at the start of a step.
+    void beginStep() { m_memory.beginStep(); }
+
+    /// Bodies in an order that does not depend on addresses, after solveFreeMotion; `step` [s]. At most maxContacts a
+    /// pair are kept.
+    void find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts);
+
+    /// What find() found: one origin a contact.
+    const std::vector<ContactPoint>& contacts() const { return m_contacts; }
+    const std::vector<SoftPairOrigin>& origins() const { return m_origins; }
+
+    /// True if a pair of body b had more contacts than are kept, and b came first in it.
+    bool isLimited(std::size_t b) const { return m_limited[b] != 0; }
+
+    /// Keeps what find() found, solved: one contact for each of contacts().
+    void remember(const std::vector<ContactPoint>& solved) { m_memory.remember(solved, m_origins); }
+
+private:
+    static constexpr int kParts = 32;  // of the pairs, whatever the number of threads
+
+    struct Pair
+    {
+        int m_first, m_second;  // bodies
+        bool m_limited;
+    };
+    struct Part
+    {
+        explicit Part(const SoftPairMemory& memory) : m_finder(memory) {}
+        SoftPairFinder m_finder;
+        std::vector<ContactPoint> m_contacts;
+        std::vector<SoftPairOrigin> m_origins;
+    };
+
+    void listPairs(const std::vector<FemSoftBody*>& bodies);
+    void findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part);
+
+    const Threads& m_threads;
+    SoftPairMemory m_memory;
+    std::vector<Part> m_parts;
+    std::vector<Pair> m_pairs;
+    std::vector<int> m_paired;              // bodies that are in a pair
+    std::vector<unsigned char> m_isPaired;  // per body
+    std::vector<unsigned char> m_limited;   // per body
+    std::vector<ContactPoint> m_contacts;
+    std::vector<SoftPairOrigin> m_origins;
+};
+
+}  // namespace bullet_fem
