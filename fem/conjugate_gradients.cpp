@@ -115,68 +115,102 @@ private:
 
 }  // namespace
 
+ConjugateGradients::ConjugateGradients(const LinearProblem& problem, const ConjugateGradientStop& stop,
+                                       ConjugateGradientScratch& scratch)
+    : m_problem(problem), m_stop(stop), m_scratch(scratch)
+{
+    start();
+    checkForEnd();
+}
+
+// r = b - A x, by an application of A.
+double ConjugateGradients::measureTruly()
+{
+    const NodeVectors vectors(m_stop.m_threads);
+    m_problem.m_A->apply(*m_problem.m_x, m_scratch.m_Ap);
+    vectors.residual(*m_problem.m_b, m_scratch.m_Ap, m_scratch.m_r);
+    return vectors.norm(m_scratch.m_r);
+}
+
+void ConjugateGradients::start()
+{
+    const NodeVectors vectors(m_stop.m_threads);
+    const std::vector<Vec3>& b = *m_problem.m_b;
+    std::vector<Vec3>& x = *m_problem.m_x;
+    m_rNorm = m_bNorm = vectors.norm(b);
+    m_goal = std::max(m_stop.m_tolerance * std::max(m_bNorm, m_stop.m_floor), kNothing);
+    m_scratch.m_r = b;
+    m_guessed = vectors.dot(x, x) > 0;
+    if (!m_guessed) return;
+    m_rNorm = measureTruly();
+    if (m_rNorm <= kGuessShare * m_goal) return;
+    vectors.scaleGuess(m_scratch.m_Ap, b, x, m_scratch.m_r);
+    m_rNorm = vectors.norm(m_scratch.m_r);
+}
+
+bool ConjugateGradients::isSolved() const
+{
+    const double share = m_report.m_iterations == 0 && m_guessed ? kGuessShare : 1;
+    return m_rNorm <= share * m_goal && std::isfinite(m_goal);
+}
+
+void ConjugateGradients::checkForEnd()
+{
+    if (m_rNorm <= m_goal && !m_residualIsTrue)
+    {
+        m_rNorm = measureTruly();
+        m_residualIsTrue = true;
+        m_rz = 0;  // restart from here if the recurrence had drifted
+    }
+    if (isSolved())
+        end(SolveStop::converged);
+    else if (m_report.m_iterations == m_stop.m_maxIterations)
+        end(SolveStop::budget);
+}
+
+// False if the system turned out not to be positive definite, or not finite; x is then as before.
+bool ConjugateGradients::advance()
+{
+    const NodeVectors vectors(m_stop.m_threads);
+    ConjugateGradientScratch& s = m_scratch;
+    const double rz = vectors.dot(s.m_r, s.m_z);
+    vectors.turn(m_rz > 0 ? rz / m_rz : 0, s.m_z, s.m_p);
+    m_problem.m_A->apply(s.m_p, s.m_Ap);
+    const double pAp = vectors.dot(s.m_p, s.m_Ap), step = rz / pAp;
+    if (!(rz > 0) || !(pAp > 0) || !std::isfinite(step)) return false;
+    vectors.advance(step, s, *m_problem.m_x, s.m_r);
+    m_rz = rz;
+    m_rNorm = vectors.norm(s.m_r);
+    return true;
+}
+
+void ConjugateGradients::resume()
+{
+    if (!advance()) return end(SolveStop::breakdown);
+    ++m_report.m_iterations;
+    m_residualIsTrue = m_stop.m_tolerance >= kTrustedTolerance && m_report.m_iterations <= kTrustedIterations;
+    checkForEnd();
+}
+
+void ConjugateGradients::end(SolveStop stop)
+{
+    if (!m_residualIsTrue) m_rNorm = measureTruly();
+    m_report.m_stop = stop;
+    m_report.m_residual = m_bNorm > 0 ? m_rNorm / m_bNorm : 0;
+    m_over = true;
+}
+
 SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperator& P, const std::vector<Vec3>& b,
                                     const ConjugateGradientStop& stop, ConjugateGradientScratch& scratch,
                                     std::vector<Vec3>& x)
 {
-    std::vector<Vec3>&r = scratch.m_r, &z = scratch.m_z, &p = scratch.m_p, &Ap = scratch.m_Ap;
-    const NodeVectors vectors(stop.m_threads);
-    const auto measureTruly = [&]  // r = b - A x, by an application of A
+    ConjugateGradients solve({&A, &b, &x}, stop, scratch);
+    while (solve.needsPreconditioner())
     {
-        A.apply(x, Ap);
-        vectors.residual(b, Ap, r);
-        return vectors.norm(r);
-    };
-    const double bNorm = vectors.norm(b);
-    const double goal = std::max(stop.m_tolerance * std::max(bNorm, stop.m_floor), kNothing);
-    SolveReport report;
-    bool residualIsTrue = true;
-    r = b;
-    double rNorm = bNorm;
-    const bool guessed = vectors.dot(x, x) > 0;
-    if (guessed) rNorm = measureTruly();
-    if (guessed && !(rNorm <= kGuessShare * goal))
-    {
-        vectors.scaleGuess(Ap, b, x, r);
-        rNorm = vectors.norm(r);
+        P.apply(scratch.m_r, scratch.m_z);
+        solve.resume();
     }
-    double rz = 0;
-    report.m_stop = SolveStop::budget;
-    for (;;)
-    {
-        if (rNorm <= goal && !residualIsTrue)
-        {
-            rNorm = measureTruly();
-            residualIsTrue = true;
-            rz = 0;  // restart from here if the recurrence had drifted
-        }
-        if (rNorm <= (report.m_iterations == 0 && guessed ? kGuessShare * goal : goal) && std::isfinite(goal))
-        {
-            report.m_stop = SolveStop::converged;
-            break;
-        }
-        if (report.m_iterations == stop.m_maxIterations) break;
-
-        P.apply(r, z);
-        const double rzNew = vectors.dot(r, z);
-        const double beta = rz > 0 ? rzNew / rz : 0;
-        vectors.turn(beta, z, p);
-        A.apply(p, Ap);
-        const double pAp = vectors.dot(p, Ap), step = rzNew / pAp;
-        if (!(rzNew > 0) || !(pAp > 0) || !std::isfinite(step))
-        {
-            report.m_stop = SolveStop::breakdown;
-            break;
-        }
-        vectors.advance(step, scratch, x, r);
-        rz = rzNew;
-        rNorm = vectors.norm(r);
-        ++report.m_iterations;
-        residualIsTrue = stop.m_tolerance >= kTrustedTolerance && report.m_iterations <= kTrustedIterations;
-    }
-    if (!residualIsTrue) rNorm = measureTruly();
-    report.m_residual = bNorm > 0 ? rNorm / bNorm : 0;
-    return report;
+    return solve.report();
 }
 
 }  // namespace bullet_fem

@@ -34,10 +34,59 @@ struct ConjugateGradientStop
     const Threads* m_threads = nullptr;  ///< who shares the work on long vectors; null: the caller's thread alone
 };
 
+/// A x = b; x is the guess, then the answer. What is pointed at must live as long as it is solved.
+struct LinearProblem
+{
+    const LinearOperator* m_A;
+    const std::vector<Vec3>* m_b;
+    std::vector<Vec3>* m_x;
+};
+
 /// Solves A x = b by preconditioned conjugate gradients [Hestenes & Stiefel 1952], starting from x, which is first
 /// scaled to be at least as good as zero. Beyond a few iterations, and for tolerances below 1e-4, the recurrence's
 /// residual is checked against the true one before an answer is called converged. Never allocates; x stays finite if A,
 /// P, b and x are.
+///
+/// The recurrence stops where it needs the preconditioner, so that several solves can share its application:
+///
+///     ConjugateGradients solve(problem, stop, scratch);
+///     while (solve.needsPreconditioner())
+///     {
+///         P.apply(scratch.m_r, scratch.m_z);
+///         solve.resume();
+///     }
+class ConjugateGradients
+{
+public:
+    ConjugateGradients(const LinearProblem& problem, const ConjugateGradientStop& stop,
+                       ConjugateGradientScratch& scratch);
+
+    /// False once the solve is over, and its report complete; before, m_z <- P m_r of the scratch is to be made.
+    bool needsPreconditioner() const { return !m_over; }
+
+    /// One iteration, with the m_z that was made.
+    void resume();
+
+    const SolveReport& report() const { return m_report; }
+
+private:
+    double measureTruly();
+    void start();
+    bool isSolved() const;
+    bool advance();
+    void checkForEnd();
+    void end(SolveStop stop);
+
+    LinearProblem m_problem;
+    ConjugateGradientStop m_stop;
+    ConjugateGradientScratch& m_scratch;
+    SolveReport m_report;
+    double m_bNorm = 0, m_goal = 0, m_rNorm = 0;
+    double m_rz = 0;  // r . z of the iteration before; 0: the next one starts anew
+    bool m_guessed = false, m_residualIsTrue = true, m_over = false;
+};
+
+/// All of a ConjugateGradients, with a preconditioner of its own.
 SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperator& P, const std::vector<Vec3>& b,
                                     const ConjugateGradientStop& stop, ConjugateGradientScratch& scratch,
                                     std::vector<Vec3>& x);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bullet_fem/fem/threads.h"
+#include "fem/increment_solve.h"
 #include "fem/step_scratch.h"
 #include "fem/warped_system.h"
 
@@ -13,20 +14,21 @@ namespace bullet_fem
 namespace
 {
 
-// Smaller bodies are solved in less time than it takes to share them out: nodes, of some 5 tets each.
-constexpr int kNodesToShare = 1000;
-
-// Calls solve(settings) with the other threads at hand, or without them if the body is too small.
-template <class Solve>
-auto share(const Body& body, StepSettings settings, const Solve& solve)
+// Calls solve(first, count, threads) for every run of jobs on bodies that share their model, with the threads at hand,
+// or without them (null) where the bodies are too small.
+template <class Job, class Solve>
+void forEachModel(const Job* jobs, int count, const Solve& solve)
 {
-    decltype(solve(settings)) result;
-    if (body.m_model->nodeCount() < kNodesToShare) settings.m_threads = nullptr;
-    if (settings.m_threads)
-        settings.m_threads->gather([&] { result = solve(settings); });
-    else
-        result = solve(settings);
-    return result;
+    for (int first = 0, end = 1; first < count; first = end++)
+    {
+        const BodyModel& model = *jobs[first].m_body->m_model;
+        while (end < count && jobs[end].m_body->m_model.get() == &model) ++end;
+        const Threads* threads = sharedSettings(model, jobs[first].m_settings).m_threads;
+        if (threads)
+            threads->gather([&] { solve(first, end - first, threads); });
+        else
+            solve(first, end - first, threads);
+    }
 }
 
 double massDamping(const Body& body)
@@ -74,15 +76,6 @@ void eliminateFixedNodes(const Body& body, const WarpedSystem& A, StepScratch& s
         if (s.m_fixed[i]) b[i] = {};
 }
 
-// Where the solve starts: the increment in scratch, with the rigid motion of free pieces that momentum prescribes.
-void completeGuess(const Body& body, StepScratch& scratch)
-{
-    std::vector<Vec3>& dv = scratch.m_increment;
-    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] += scratch.m_velocity[i];
-    scratch.m_momentum.restore(body, dv);
-    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= scratch.m_velocity[i];
-}
-
 // The increments of the last two steps, continued along a straight line: motion is smooth more often than not.
 void continueIncrements(const BodyState& state, std::vector<Vec3>& dv)
 {
@@ -90,25 +83,7 @@ void continueIncrements(const BodyState& state, std::vector<Vec3>& dv)
     for (std::size_t i = 0; i < dv.size(); ++i) dv[i] = state.m_fixed[i] ? Vec3() : 2.0 * last[i] - before[i];
 }
 
-// Solves A dv = b, starting from dv, and adds dv to the velocities of the free nodes.
-SolveReport solveIncrement(const Body& body, const StepSettings& settings, double floor, StepScratch& scratch)
-{
-    completeGuess(body, scratch);
-    ConjugateGradientStop stop;
-    stop.m_tolerance = settings.m_tolerance;
-    stop.m_floor = floor;
-    stop.m_maxIterations = settings.m_direct ? 1 : settings.m_maxIterations;
-    stop.m_threads = settings.m_threads;
-    const SolveReport report =
-        solveConjugateGradients(WarpedSystem(body, settings.m_threads), WarpedPreconditioner(body, settings.m_threads),
-                                scratch.m_rightSide, stop, scratch.m_solver, scratch.m_increment);
-    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
-        if (!body.m_state.m_fixed[i]) scratch.m_velocity[i] += scratch.m_increment[i];
-    if (settings.m_momentumCorrection) scratch.m_momentum.restore(body, scratch.m_velocity);
-    return report;
-}
-
-SolveReport solveFree(Body& body, const StepSettings& settings)
+void beginFreeMotion(Body& body, const StepSettings& settings, std::optional<IncrementSolve>& solve)
 {
     StepScratch& scratch = body.m_workspace.scratch();
     const WarpedSystem A(body, settings.m_threads);
@@ -119,28 +94,73 @@ SolveReport solveFree(Body& body, const StepSettings& settings)
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
         scratch.m_velocity[i] = body.m_state.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : body.m_state.m_v[i];
     continueIncrements(body.m_state, scratch.m_increment);
-    const SolveReport report = solveIncrement(body, settings, 1e-3 * loadImpulseNorm(body, settings.m_step), scratch);
+    solve.emplace(body, settings, 1e-3 * loadImpulseNorm(body, settings.m_step));
+}
+
+SolveReport endFreeMotion(Body& body, IncrementSolve& solve)
+{
+    const SolveReport report = solve.addToVelocity();
     std::swap(body.m_state.m_lastIncrement[0], body.m_state.m_lastIncrement[1]);
-    body.m_state.m_lastIncrement[0] = scratch.m_increment;
+    body.m_state.m_lastIncrement[0] = body.m_workspace.scratch().m_increment;
     return report;
+}
+
+void beginResponse(const ImpulseResponse& response, std::optional<IncrementSolve>& solve)
+{
+    Body& body = *response.m_body;
+    StepScratch& scratch = body.m_workspace.scratch();
+    const std::vector<Vec3>& impulses = *response.m_impulses;
+    for (std::size_t i = 0; i < impulses.size(); ++i)
+        scratch.m_rightSide[i] = body.m_state.m_fixed[i] ? Vec3() : impulses[i];
+    scratch.m_momentum.addImpulses(body, scratch.m_rightSide, response.m_settings.m_step);
+    std::fill(scratch.m_increment.begin(), scratch.m_increment.end(), Vec3());
+    solve.emplace(body, sharedSettings(*body.m_model, response.m_settings), response.m_floor);
 }
 
 }  // namespace
 
+void solveFreeMotions(FreeMotion* motions, int count)
+{
+    forEachModel(motions, count,
+                 [motions](int first, int bodies, const Threads* threads)
+                 {
+                     FreeMotion* const own = motions + first;
+                     IncrementSolves(threads).run(
+                         bodies,
+                         [own](int k, std::optional<IncrementSolve>& solve)
+                         {
+                             Body& body = *own[k].m_body;
+                             beginFreeMotion(body, sharedSettings(*body.m_model, own[k].m_settings), solve);
+                         },
+                         [own](int k, IncrementSolve& solve)
+                         { own[k].m_report = endFreeMotion(*own[k].m_body, solve); });
+                 });
+}
+
+void applyImpulses(ImpulseResponse* responses, int count)
+{
+    forEachModel(responses, count,
+                 [responses](int first, int bodies, const Threads* threads)
+                 {
+                     ImpulseResponse* const own = responses + first;
+                     IncrementSolves(threads).run(
+                         bodies, [own](int k, std::optional<IncrementSolve>& solve) { beginResponse(own[k], solve); },
+                         [own](int k, IncrementSolve& solve) { own[k].m_report = solve.addToVelocity(); });
+                 });
+}
+
 SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
 {
-    return share(body, settings, [&](const StepSettings& shared) { return solveFree(body, shared); });
+    FreeMotion motion{&body, settings, {}};
+    solveFreeMotions(&motion, 1);
+    return motion.m_report;
 }
 
 SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings, double floor)
 {
-    StepScratch& scratch = body.m_workspace.scratch();
-    for (std::size_t i = 0; i < impulses.size(); ++i)
-        scratch.m_rightSide[i] = body.m_state.m_fixed[i] ? Vec3() : impulses[i];
-    scratch.m_momentum.addImpulses(body, scratch.m_rightSide, settings.m_step);
-    std::fill(scratch.m_increment.begin(), scratch.m_increment.end(), Vec3());
-    return share(body, settings,
-                 [&](const StepSettings& shared) { return solveIncrement(body, shared, floor, scratch); });
+    ImpulseResponse response{&body, &impulses, settings, floor, {}};
+    applyImpulses(&response, 1);
+    return response.m_report;
 }
 
 void addVelocity(Body& body, const std::vector<Vec3>& change)

@@ -134,19 +134,22 @@ Mat3 WarpedPreconditioner::rotation(int node) const
     return {{{R[0], R[1], R[2]}, {R[3], R[4], R[5]}, {R[6], R[7], R[8]}}};
 }
 
+namespace
+{
+
 // The factor's vector <- R^T in, scaled to order one, so that the range of single precision does not matter. Returns
 // what it was divided by.
-double WarpedPreconditioner::rotateIn(const std::vector<Vec3>& in) const
+double rotateIn(const Body& body, const Threads* threads, const std::vector<Vec3>& in)
 {
-    const RestFactor& factor = m_body.m_model->factor();
-    const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
-    const std::vector<NodeRotation>& R = m_body.m_workspace.scratch().m_elements.m_nodeRotation;
-    float* y = m_body.m_workspace.scratch().m_factor.m_vector.get();
+    const RestFactor& factor = body.m_model->factor();
+    const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
+    const std::vector<NodeRotation>& R = body.m_workspace.scratch().m_elements.m_nodeRotation;
+    float* y = body.m_workspace.scratch().m_factor.m_vector.get();
 
     double largest = 0;
     for (const Vec3& r : in) largest = std::max({largest, std::fabs(r.x), std::fabs(r.y), std::fabs(r.z)});
     const double down = largest > 0 ? 1 / largest : 0;
-    runRanges(m_threads, {static_cast<int>(in.size()), kNodesOfPiece},
+    runRanges(threads, {static_cast<int>(in.size()), kNodesOfPiece},
               [&](Range nodes)
               {
                   for (int i = nodes.m_begin; i < nodes.m_end; ++i)
@@ -164,13 +167,16 @@ double WarpedPreconditioner::rotateIn(const std::vector<Vec3>& in) const
 }
 
 // out <- scale R (the factor's vector).
-void WarpedPreconditioner::rotateOut(double scale, const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+void rotateOut(const PreconditionedVector& vector, const Threads* threads, double scale)
 {
-    const RestFactor& factor = m_body.m_model->factor();
-    const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
-    const std::vector<NodeRotation>& R = m_body.m_workspace.scratch().m_elements.m_nodeRotation;
-    const float* y = m_body.m_workspace.scratch().m_factor.m_vector.get();
-    runRanges(m_threads, {static_cast<int>(in.size()), kNodesOfPiece},
+    const Body& body = *vector.m_body;
+    const std::vector<Vec3>& in = *vector.m_in;
+    std::vector<Vec3>& out = *vector.m_out;
+    const RestFactor& factor = body.m_model->factor();
+    const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
+    const std::vector<NodeRotation>& R = body.m_workspace.scratch().m_elements.m_nodeRotation;
+    const float* y = body.m_workspace.scratch().m_factor.m_vector.get();
+    runRanges(threads, {static_cast<int>(in.size()), kNodesOfPiece},
               [&](Range nodes)
               {
                   for (int i = nodes.m_begin; i < nodes.m_end; ++i)
@@ -191,12 +197,28 @@ void WarpedPreconditioner::rotateOut(double scale, const std::vector<Vec3>& in, 
               });
 }
 
+}  // namespace
+
+void applyWarpedPreconditioner(const PreconditionedVector* vectors, int count, const Threads* threads)
+{
+    PanelGroup group;
+    double scale[kPanelGroup];
+    group.m_count = count;
+    for (int k = 0; k < count; ++k)
+    {
+        const FactorWork& work = vectors[k].m_body->m_workspace.scratch().m_factor;
+        group.m_y[k] = work.m_vector.get();
+        group.m_scratch[k] = work.m_scratch.get();
+        scale[k] = rotateIn(*vectors[k].m_body, threads, *vectors[k].m_in);
+    }
+    vectors[0].m_body->m_model->factor().lower().solve(group, threads);
+    for (int k = 0; k < count; ++k) rotateOut(vectors[k], threads, scale[k]);
+}
+
 void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
-    const FactorWork& work = m_body.m_workspace.scratch().m_factor;
-    const double scale = rotateIn(in);
-    m_body.m_model->factor().lower().solve(work.m_vector.get(), work.m_scratch.get(), m_threads);
-    rotateOut(scale, in, out);
+    const PreconditionedVector vector = {&m_body, &in, &out};
+    applyWarpedPreconditioner(&vector, 1, m_threads);
 }
 
 }  // namespace bullet_fem

@@ -45,11 +45,20 @@ public:
     Mat3 rotation(int node) const;
 
 private:
-    double rotateIn(const std::vector<Vec3>& in) const;
-    void rotateOut(double scale, const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
-
     const Body& m_body;
     const Threads* m_threads;
 };
+
+/// out = P in for one body of several.
+struct PreconditionedVector
+{
+    const Body* m_body;
+    const std::vector<Vec3>* m_in;
+    std::vector<Vec3>* m_out;
+};
+
+/// WarpedPreconditioner::apply for up to kPanelGroup bodies that share their model, in one pass over its factor. Each
+/// gets the bits that it gets alone.
+void applyWarpedPreconditioner(const PreconditionedVector* vectors, int count, const Threads* threads);
 
 }  // namespace bullet_fem

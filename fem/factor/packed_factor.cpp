@@ -87,14 +87,18 @@ void PackedFactor::layOutScratch()
     m_scratchStart.push_back(m_scratchStart.back() + scratchOf(m_scratchRows));
 }
 
-void PackedFactor::forward(const Panel& panel, float* y, float* scratch) const
+void PackedFactor::forward(const Panel& panel, const PanelGroup& group) const
 {
-    m_entry == NodeEntry::block ? forwardPanel(panel, y, scratch) : forwardIsotropic(panel, y, scratch);
+    if (m_entry == NodeEntry::block && group.m_count > 1) return forwardPanelGroup(panel, group);
+    const auto alone = m_entry == NodeEntry::block ? forwardPanel : forwardIsotropic;
+    for (int k = 0; k < group.m_count; ++k) alone(panel, group.m_y[k], group.m_scratch[k]);
 }
 
-void PackedFactor::backward(const Panel& panel, float* y, float* scratch) const
+void PackedFactor::backward(const Panel& panel, const PanelGroup& group) const
 {
-    m_entry == NodeEntry::block ? backwardPanel(panel, y, scratch) : backwardIsotropic(panel, y, scratch);
+    if (m_entry == NodeEntry::block && group.m_count > 1) return backwardPanelGroup(panel, group);
+    const auto alone = m_entry == NodeEntry::block ? backwardPanel : backwardIsotropic;
+    for (int k = 0; k < group.m_count; ++k) alone(panel, group.m_y[k], group.m_scratch[k]);
 }
 
 // The panel with a subtree's own rows in place of those above it.
@@ -105,18 +109,21 @@ Panel PackedFactor::forwardPanelOf(int supernode) const
     return p;
 }
 
-void PackedFactor::forwardSubtree(int t, float* y, float* scratch) const
+void PackedFactor::forwardSubtree(int t, const PanelGroup& group) const
 {
     const Subtree& subtree = m_division.m_subtrees[t];
-    std::fill_n(y + 3 * static_cast<std::size_t>(subtree.m_firstAbove),
-                3 * static_cast<std::size_t>(m_tree.m_supernodes[subtree.m_end - 1].m_rows), 0.f);
-    for (int s = subtree.m_begin; s < subtree.m_end; ++s) forward(forwardPanelOf(s), y, scratch);
+    const PanelGroup own = group.withScratchAt(m_scratchStart[t]);
+    for (int k = 0; k < group.m_count; ++k)
+        std::fill_n(group.m_y[k] + 3 * static_cast<std::size_t>(subtree.m_firstAbove),
+                    3 * static_cast<std::size_t>(m_tree.m_supernodes[subtree.m_end - 1].m_rows), 0.f);
+    for (int s = subtree.m_begin; s < subtree.m_end; ++s) forward(forwardPanelOf(s), own);
 }
 
-void PackedFactor::backwardSubtree(int t, float* y, float* scratch) const
+void PackedFactor::backwardSubtree(int t, const PanelGroup& group) const
 {
     const Subtree& subtree = m_division.m_subtrees[t];
-    for (int s = subtree.m_end - 1; s >= subtree.m_begin; --s) backward(panel(s), y, scratch);
+    const PanelGroup own = group.withScratchAt(m_scratchStart[t]);
+    for (int s = subtree.m_end - 1; s >= subtree.m_begin; --s) backward(panel(s), own);
 }
 
 void PackedFactor::addRowsAbove(float* y) const
@@ -135,15 +142,23 @@ void PackedFactor::addRowsAbove(float* y) const
 
 void PackedFactor::solve(float* y, float* scratch, const Threads* threads) const
 {
+    PanelGroup alone;
+    alone.m_count = 1;
+    alone.m_y[0] = y;
+    alone.m_scratch[0] = scratch;
+    solve(alone, threads);
+}
+
+void PackedFactor::solve(const PanelGroup& group, const Threads* threads) const
+{
     const int count = static_cast<int>(m_division.m_subtrees.size());
-    float* const topScratch = scratch + m_scratchStart[count];
-    runTasks(threads, count, [&](int t) { forwardSubtree(t, y, scratch + m_scratchStart[t]); });
-    addRowsAbove(y);
-    for (int s : m_division.m_top) forward(panel(s), y, topScratch);
-    for (auto s = m_division.m_top.rbegin(); s != m_division.m_top.rend(); ++s) backward(panel(*s), y, topScratch);
+    const PanelGroup top = group.withScratchAt(m_scratchStart[count]);
+    runTasks(threads, count, [&](int t) { forwardSubtree(t, group); });
+    for (int k = 0; k < group.m_count; ++k) addRowsAbove(group.m_y[k]);
+    for (int s : m_division.m_top) forward(panel(s), top);
+    for (auto s = m_division.m_top.rbegin(); s != m_division.m_top.rend(); ++s) backward(panel(*s), top);
     // The last subtree first: on one thread it is the one still in the caches.
-    runTasks(threads, count,
-             [&](int k) { backwardSubtree(count - 1 - k, y, scratch + m_scratchStart[count - 1 - k]); });
+    runTasks(threads, count, [&](int t) { backwardSubtree(count - 1 - t, group); });
 }
 
 void PackedFactor::solveLanes(const std::vector<int>& forward, const std::vector<int>& backward, float* y,

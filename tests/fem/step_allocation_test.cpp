@@ -72,6 +72,35 @@ INSTANTIATE_TEST_SUITE_P(Settings, StepAllocations,
                                     (std::get<2>(suite.param) ? "Clamped" : "Free");
                          });
 
+// Six bodies that need different numbers of iterations.
+TEST(BatchAllocations, ThereAreNoneInAnyStep)
+{
+    std::vector<Body> bodies;
+    std::vector<FreeMotion> motions;
+    std::vector<ImpulseResponse> responses;
+    const auto model = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), Material()).m_model;
+    for (unsigned k = 0; k < 6; ++k)
+    {
+        bodies.emplace_back(model);
+        RandomVectors random(k);
+        for (Vec3& v : bodies.back().m_state.m_v) v = 0.3 * k * random.next();
+    }
+    const std::vector<Vec3> impulses(model->nodeCount(), {0.1, 0, 0.3});
+    for (Body& body : bodies)
+    {
+        motions.push_back({&body, {}, {}});
+        responses.push_back({&body, &impulses, {}, 0, {}});
+    }
+    const AllocationCounter counter;
+    for (int k = 0; k < 10; ++k)
+    {
+        solveFreeMotions(motions.data(), static_cast<int>(motions.size()));
+        applyImpulses(responses.data(), static_cast<int>(responses.size()));
+        for (Body& body : bodies) finishStep(body, {});
+    }
+    EXPECT_EQ(counter.count(), 0);
+}
+
 // The contact solver's scratch grows with the number of contacts: no more after a step with as many.
 TEST(ContactAllocations, ThereAreNoneAfterAStepWithAsManyContacts)
 {

@@ -25,6 +25,31 @@ SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
 SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings,
                           double floor = 0);
 
+/// solveFreeMotion of one body of several.
+struct FreeMotion
+{
+    Body* m_body = nullptr;
+    StepSettings m_settings;
+    SolveReport m_report;  ///< out
+};
+
+/// applyImpulses to one body of several.
+struct ImpulseResponse
+{
+    Body* m_body = nullptr;
+    const std::vector<Vec3>* m_impulses = nullptr;  ///< [N s], one a node
+    StepSettings m_settings;
+    double m_floor = 0;    ///< [N s], >= 0
+    SolveReport m_report;  ///< out
+};
+
+/// The same for `count` different bodies. Those that share their model and come one after the other are solved
+/// together, each with its own state, fixed nodes, loads and settings: a pass over their factor serves several of them,
+/// and whoever has converged leaves. Every body gets the bits that it gets alone. Bodies that share their model must
+/// have the same StepSettings::m_threads.
+void solveFreeMotions(FreeMotion* motions, int count);
+void applyImpulses(ImpulseResponse* responses, int count);
+
 /// Adds to velocity(body), one change a node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
 void addVelocity(Body& body, const std::vector<Vec3>& change);
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/increment_solve.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Where the solve starts: the increment in scratch, with the rigid motion of free pieces that momentum prescribes.
+void completeGuess(const Body& body, StepScratch& scratch)
+{
+    std::vector<Vec3>& dv = scratch.m_increment;
+    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] += scratch.m_velocity[i];
+    scratch.m_momentum.restore(body, dv);
+    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= scratch.m_velocity[i];
+}
+
+LinearProblem problemOf(const Body& body, const WarpedSystem& A, StepScratch& scratch)
+{
+    completeGuess(body, scratch);
+    return {&A, &scratch.m_rightSide, &scratch.m_increment};
+}
+
+ConjugateGradientStop stopOf(const StepSettings& settings, double floor)
+{
+    ConjugateGradientStop stop;
+    stop.m_tolerance = settings.m_tolerance;
+    stop.m_floor = floor;
+    stop.m_maxIterations = settings.m_direct ? 1 : settings.m_maxIterations;
+    stop.m_threads = settings.m_threads;
+    return stop;
+}
+
+}  // namespace
+
+StepSettings sharedSettings(const BodyModel& model, StepSettings settings)
+{
+    if (model.nodeCount() < kNodesToShare) settings.m_threads = nullptr;
+    return settings;
+}
+
+IncrementSolve::IncrementSolve(Body& body, const StepSettings& settings, double floor)
+    : m_body(body),
+      m_scratch(body.m_workspace.scratch()),
+      m_settings(settings),
+      m_A(body, settings.m_threads),
+      m_solve(problemOf(body, m_A, m_scratch), stopOf(settings, floor), m_scratch.m_solver)
+{
+}
+
+PreconditionedVector IncrementSolve::wanted() const
+{
+    return {&m_body, &m_scratch.m_solver.m_r, &m_scratch.m_solver.m_z};
+}
+
+SolveReport IncrementSolve::addToVelocity()
+{
+    std::vector<Vec3>& v = m_scratch.m_velocity;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (!m_body.m_state.m_fixed[i]) v[i] += m_scratch.m_increment[i];
+    if (m_settings.m_momentumCorrection) m_scratch.m_momentum.restore(m_body, v);
+    return m_solve.report();
+}
+
+// One iteration of all that are at work; false if nobody is.
+bool IncrementSolves::advance()
+{
+    PreconditionedVector wanted[kPanelGroup];
+    int count = 0;
+    for (const Slot& slot : m_slots)
+        if (slot.m_solve) wanted[count++] = slot.m_solve->wanted();
+    if (count == 0) return false;
+    applyWarpedPreconditioner(wanted, count, m_threads);
+    for (Slot& slot : m_slots)
+        if (slot.m_solve) slot.m_solve->resume();
+    return true;
+}
+
+}  // namespace bullet_fem
