@@ -167,7 +167,10 @@ bool btFemWorldStep::isDue(btFemEntry& entry, double worldStep) const
 // Bodies know nothing of each other here: on any thread, in any order.
 void btFemWorldStep::solveFree()
 {
-    m_threads.run(static_cast<int>(m_due.size()), [this](int k) { solveFree(*m_due[k]); });
+    m_batches.divide(m_due, m_threads.count(), m_info.m_batchBodies);
+    m_motions.resize(m_due.size());
+    const std::vector<btFemBatch>& batches = m_batches.batches();
+    m_threads.run(static_cast<int>(batches.size()), [&](int k) { solveFree(batches[k]); });
 }
 
 btFemContactGroup* btFemWorldStep::beginGroup(btFemBodyRegistry& registry, btCollisionObject* const* bodies, int count,
@@ -230,26 +233,39 @@ void btFemWorldStep::readChanges(btFemEntry& entry)
     addVelocity(entry.m_fem->m_body, m_change);
 }
 
-void btFemWorldStep::solveFree(btFemEntry& entry) const
+// Every body of the batch is charged the same time.
+void btFemWorldStep::solveFree(const btFemBatch& batch)
 {
     const btFemStopwatch watch;
+    const int count = batch.m_end - batch.m_begin;
+    for (int k = batch.m_begin; k < batch.m_end; ++k) m_motions[k] = prepareFree(*m_batches.entries()[k]);
+    solveFreeMotions(m_motions.data() + batch.m_begin, count);
+    for (int k = batch.m_begin; k < batch.m_end; ++k) noteFree(*m_batches.entries()[k], m_motions[k]);
+    const auto share = static_cast<btScalar>(watch.milliseconds() / count);
+    for (int k = batch.m_begin; k < batch.m_end; ++k) m_batches.entries()[k]->m_report.m_freeMotionMs = share;
+}
+
+FreeMotion btFemWorldStep::prepareFree(btFemEntry& entry) const
+{
     readBody(entry);  // once more: callbacks may have written since predict
     FemSoftBody& fem = *entry.m_fem;
     if (!readLoads(fem, entry.m_lastStep)) entry.m_report.m_flags |= BT_FEM_RESTORED;
-    const double stale = staleness(entry, entry.m_lastStep);
-    if (stale > 1) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
-    const StepSettings settings = settingsOf(entry);
+    if (staleness(entry, entry.m_lastStep) > 1) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
     entry.m_report.m_detail = detailInUse(entry);
-    const SolveReport solved = solveFreeMotion(fem.m_body, settings);
+    return {&fem.m_body, settingsOf(entry), {}};
+}
+
+void btFemWorldStep::noteFree(btFemEntry& entry, const FreeMotion& motion) const
+{
+    const SolveReport& solved = motion.m_report;
     m_detailChooser.judge(entry, solved);
-    if (!settings.m_direct)
+    if (!motion.m_settings.m_direct)
     {
         note(entry, solved);
-        m_refactorPolicy.note(entry, solved.m_iterations, stale);
+        m_refactorPolicy.note(entry, solved.m_iterations, staleness(entry, entry.m_lastStep));
     }
     entry.m_report.m_iterations = solved.m_iterations;
     entry.m_report.m_residual = static_cast<btScalar>(solved.m_residual);
-    entry.m_report.m_freeMotionMs = static_cast<btScalar>(watch.milliseconds());
 }
 
 void btFemWorldStep::finish(btFemEntry& entry) const

@@ -4,7 +4,9 @@
 
 #include <vector>
 
+#include "bullet_fem/fem/stepping.h"
 #include "bullet_fem/fem/threads.h"
+#include "plugin/btFemBatches.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemContactGroup.h"
 #include "plugin/btFemDetailChooser.h"
@@ -49,14 +51,18 @@ private:
     void renewFactor(btFemBodyRegistry& registry, btFemEntry& entry, double step);
     void readChanges(btFemEntry& entry);
     void solveFree();
-    void solveFree(btFemEntry& entry) const;
+    void solveFree(const btFemBatch& batch);
+    bullet_fem::FreeMotion prepareFree(btFemEntry& entry) const;
+    void noteFree(btFemEntry& entry, const bullet_fem::FreeMotion& motion) const;
     void finish(btFemEntry& entry) const;
     bullet_fem::StepSettings settingsOf(const btFemEntry& entry) const;
 
     btFemSolverInfo m_info;
     bullet_fem::Threads m_threads;
-    std::vector<btFemEntry*> m_due;          // their free motion is to be solved
-    std::vector<btFemEntry*> m_active;       // it is solved
+    std::vector<btFemEntry*> m_due;     // their free motion is to be solved
+    std::vector<btFemEntry*> m_active;  // it is solved
+    btFemBatches m_batches;             // of m_due
+    std::vector<bullet_fem::FreeMotion> m_motions;
     std::vector<bullet_fem::Vec3> m_change;  // scratch [m/s]
     btFemDetailChooser m_detailChooser;
     btFemRefactorPolicy m_refactorPolicy;

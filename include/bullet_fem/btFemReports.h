@@ -66,8 +66,8 @@ struct btFemStepReport
     btScalar m_fullFactorMegabytes = 0;  ///< of the full one, which it has or would have had [MB]
     bool m_lowMemory = false;            ///< its factor is the low-memory one
     btScalar m_factorSeconds = 0;        ///< wall time that factoring took, when it was made [s]
-    btScalar m_freeMotionMs = 0;         ///< wall time of forces, rotations and the free solve [ms]
-    btScalar m_contactMs = 0;            ///< wall time of contacts and joints of all bodies of its contact group [ms]
+    btScalar m_freeMotionMs = 0;  ///< wall time of forces, rotations and the free solve [ms]; an equal share of a batch
+    btScalar m_contactMs = 0;     ///< wall time of contacts and joints of all bodies of its contact group [ms]
     /// The sum of both has been longer than the step, in more of the last steps than not: the body, or what it touches,
     /// is too big for real time. Use coarser meshes, less detail or more threads. By the clock, so not one of the
     /// flags, which are the same in every run.

@@ -163,6 +163,19 @@ TEST(Allocations, NoneForSeveralBodiesAndARigidOneOnTop)
     EXPECT_GT(expectNoAllocations(fem, world, {&first, &second}, 120), 60);
 }
 
+TEST(Allocations, NoneForCopiesThatAreSolvedTogether)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    std::vector<btSoftBody*> cubes;
+    for (int k = 0; k < 6; ++k)
+    {
+        cubes.push_back(&addUnitCube(world, btVector3(btScalar(10 * k), 0, 0)));
+        cubes.back()->m_nodes[0].m_v.setX(btScalar(5 * k));
+    }
+    EXPECT_EQ(expectNoAllocations(fem, world, cubes, 60), 58);
+}
+
 TEST(Allocations, NoneForBodiesThatAreHeld)
 {
     CountingSolver fem;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/btFemBatches.h"
+
+#include <algorithm>
+
+namespace
+{
+
+// Several batches a thread, so that none has to wait long for the last one; beyond some bodies a batch gains nothing.
+constexpr int kBatchesOfThread = 3, kMostBodies = 16;
+
+int bodiesOfBatch(int bodies, int threads, bool together)
+{
+    if (!together) return 1;
+    return threads == 1 ? bodies : std::clamp(bodies / (kBatchesOfThread * threads), 1, kMostBodies);
+}
+
+}  // namespace
+
+int btFemBatches::modelOf(const btFemEntry& entry)
+{
+    const bullet_fem::BodyModel* model = entry.m_fem->m_body.m_model.get();
+    const auto found = std::find(m_models.begin(), m_models.end(), model);
+    const auto number = static_cast<int>(found - m_models.begin());
+    if (found != m_models.end()) return number;
+    m_models.push_back(model);
+    m_end.push_back(0);
+    return number;
+}
+
+void btFemBatches::divide(const std::vector<btFemEntry*>& entries, int threads, bool together)
+{
+    m_models.clear();
+    m_end.clear();
+    m_batches.clear();
+    m_modelOf.clear();
+    for (const btFemEntry* entry : entries)
+    {
+        m_modelOf.push_back(modelOf(*entry));
+        ++m_end[m_modelOf.back()];
+    }
+    const int most = bodiesOfBatch(static_cast<int>(entries.size()), threads, together);
+    int begin = 0;
+    for (int& end : m_end)  // how many bodies have the model; then where they begin
+    {
+        const int count = end;
+        for (int k = 0; k < count; k += most) m_batches.push_back({begin + k, begin + std::min(k + most, count)});
+        end = begin;
+        begin += count;
+    }
+    m_entries.resize(entries.size());
+    for (std::size_t k = 0; k < entries.size(); ++k) m_entries[m_end[m_modelOf[k]]++] = entries[k];
+}
