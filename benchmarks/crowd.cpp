@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/crowd_report.h"
+#include "benchmarks/free_copies.h"
 #include "benchmarks/json_file.h"
 
 namespace
@@ -37,6 +38,7 @@ struct Options
     int m_steps = 120;
     bool m_awakeOnly = false;
     bool m_quick = false;
+    bool m_free = false;
     std::string m_jsonFile;
 };
 
@@ -91,11 +93,30 @@ void addOptions(CLI::App& app, Options& options)
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     app.add_flag("--awake-only", options.m_awakeOnly, "leave the steps with sleeping allowed out");
+    app.add_flag("--free", options.m_free,
+                 "in place of all that: copies of a cube that wobble in free fall, solved together and one by one");
     app.add_flag("--quick", options.m_quick, "10 bodies, 2 balls, 0.5 s and 30 steps, unless given otherwise");
     app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
     app.footer(
         "Example: bulletfem_bench_crowd --bodies 400 --balls 80 --coupled\n"
         "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
+}
+
+// Bodies of about 1,000 tets that need one iteration a step, and several; larger ones.
+void runFreeCopies(const Options& options)
+{
+    JsonFile json(options.m_jsonFile);
+    const MachineInfo machine = readMachineInfo(1);
+    std::vector<FreeCopiesFigures> rows;
+    const int steps = options.m_quick ? 20 : 120;
+    for (const int bodies : {16, 100})
+        for (const double tolerance : {1e-3, 3e-4, 1e-5})
+            rows.push_back(measureFreeCopies({bodies, 6, 1e6, tolerance, steps}));
+    for (const int cells : {4, 10, 12}) rows.push_back(measureFreeCopies({16, cells, 1e6, 3e-4, steps}));
+    std::cout << toText(machine) << "\nCopies of a cube that wobble in free fall, elastic solves alone, one thread\n\n";
+    printTable(std::cout, rows);
+    std::cout << "\nMedian processor time of a step of all bodies; tolerances below 3e-4 take double precision.\n";
+    json.write(machine, {{"results", toJson(rows)}});
 }
 
 void makeQuick(const CLI::App& app, Options& options)
@@ -118,6 +139,11 @@ int main(int argc, char** argv)
 
     try
     {
+        if (options.m_free)
+        {
+            runFreeCopies(options);
+            return 0;
+        }
         JsonFile json(options.m_jsonFile);
         const MachineInfo machine = readMachineInfo(options.m_crowd.m_threads);
         const CrowdSettings& crowd = options.m_crowd;
