@@ -63,6 +63,22 @@ SolveReport IncrementSolve::addToVelocity()
     return m_solve.report();
 }
 
+void swapPassing(StepScratch& a, StepScratch& b)
+{
+    std::swap(a.m_solver, b.m_solver);
+    std::swap(a.m_factor, b.m_factor);
+    std::swap(a.m_elements.m_x, b.m_elements.m_x);
+    std::swap(a.m_elements.m_v, b.m_elements.m_v);
+    std::swap(a.m_elements.m_single.m_corners, b.m_elements.m_single.m_corners);
+}
+
+// To be called again to take it back.
+void IncrementSolves::lend(Slot& slot, Body& body)
+{
+    if (!slot.m_first) slot.m_first = &body;
+    if (slot.m_first != &body) swapPassing(slot.m_first->m_workspace.scratch(), body.m_workspace.scratch());
+}
+
 // One iteration of all that are at work; false if nobody is.
 bool IncrementSolves::advance()
 {

@@ -52,20 +52,22 @@ class IncrementSolves
 public:
     explicit IncrementSolves(const Threads* threads) : m_threads(threads) {}
 
-    /// For each job k in [0, count): begin(k, slot) emplaces its solve, and end(k, solve) is called when it is over.
-    template <class Begin, class End>
-    void run(int count, const Begin& begin, const End& end)
+    /// For each job, which has an m_body: begin(job, solve) emplaces its solve, and end(job, solve) is called when it
+    /// is over.
+    template <class Job, class Begin, class End>
+    void run(Job* jobs, int count, const Begin& begin, const End& end)
     {
         int next = 0;
         do
             for (Slot& slot : m_slots)
             {
-                if (slot.m_solve && !slot.m_solve->needsPreconditioner()) close(slot, end);
+                if (slot.m_solve && !slot.m_solve->needsPreconditioner()) close(slot, jobs, end);
                 for (; !slot.m_solve && next < count; ++next)
                 {
                     slot.m_job = next;
-                    begin(next, slot.m_solve);
-                    if (!slot.m_solve->needsPreconditioner()) close(slot, end);
+                    lend(slot, *jobs[next].m_body);
+                    begin(jobs[next], slot.m_solve);
+                    if (!slot.m_solve->needsPreconditioner()) close(slot, jobs, end);
                 }
             }
         while (advance());
@@ -76,15 +78,18 @@ private:
     {
         int m_job = 0;
         std::optional<IncrementSolve> m_solve;
+        Body* m_first = nullptr;  // that was solved here: the later ones use its vectors, which are in the caches
     };
 
-    template <class End>
-    static void close(Slot& slot, const End& end)
+    template <class Job, class End>
+    static void close(Slot& slot, Job* jobs, const End& end)
     {
-        end(slot.m_job, *slot.m_solve);
+        end(jobs[slot.m_job], *slot.m_solve);
         slot.m_solve.reset();
+        lend(slot, *jobs[slot.m_job].m_body);
     }
 
+    static void lend(Slot& slot, Body& body);
     bool advance();
 
     const Threads* m_threads;

@@ -23,6 +23,21 @@ double damping(const Body& body)
     return body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
 }
 
+// Calls add(piece, i) for every node, in order. Nodes of a piece mostly follow each other: what is summed up for such a
+// run stays in registers, for additions to memory would wait for one another.
+template <class Piece, class Add>
+void forEachNode(const std::vector<int>& component, std::vector<Piece>& pieces, const Add& add)
+{
+    const int n = static_cast<int>(component.size());
+    for (int i = 0; i < n;)
+    {
+        const int c = component[i];
+        Piece piece = pieces[c];
+        for (; i < n && component[i] == c; ++i) add(piece, i);
+        pieces[c] = piece;
+    }
+}
+
 }  // namespace
 
 void RigidMomentum::prescribe(const Body& body, double step)
@@ -35,24 +50,24 @@ void RigidMomentum::prescribe(const Body& body, double step)
         if (s.m_fixed[i]) m_pieces[component[i]].m_free = false;
     m_anyFree = std::any_of(m_pieces.begin(), m_pieces.end(), [](const Piece& piece) { return piece.m_free; });
     if (!m_anyFree) return;
-    for (int i = 0; i < n; ++i)
-    {
-        Piece& piece = m_pieces[component[i]];
-        piece.m_mass += s.m_mass[i];
-        piece.m_center += s.m_mass[i] * s.m_x[i];
-    }
+    forEachNode(component, m_pieces,
+                [&](Piece& piece, int i)
+                {
+                    piece.m_mass += s.m_mass[i];
+                    piece.m_center += s.m_mass[i] * s.m_x[i];
+                });
     for (Piece& piece : m_pieces) piece.m_center *= 1 / piece.m_mass;
 
     const double alpha = damping(body), share = step / (1 + step * alpha);
-    for (int i = 0; i < n; ++i)
-    {
-        Piece& piece = m_pieces[component[i]];
-        const Vec3 r = s.m_x[i] - piece.m_center, p = s.m_mass[i] * s.m_v[i];
-        const Vec3 prescribed = p + share * (body.m_loads.m_force[i] - alpha * p);
-        piece.m_linear += prescribed;
-        piece.m_angular += cross(r, prescribed);
-        piece.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
-    }
+    forEachNode(component, m_pieces,
+                [&](Piece& piece, int i)
+                {
+                    const Vec3 r = s.m_x[i] - piece.m_center, p = s.m_mass[i] * s.m_v[i];
+                    const Vec3 prescribed = p + share * (body.m_loads.m_force[i] - alpha * p);
+                    piece.m_linear += prescribed;
+                    piece.m_angular += cross(r, prescribed);
+                    piece.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+                });
     for (Piece& piece : m_pieces)
         piece.m_inverseInertia =
             boundedInverse(piece.m_inverseInertia, 1e-24 * piece.m_mass * dot(piece.m_center, piece.m_center));
@@ -86,24 +101,25 @@ void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
         piece.m_linearVelocity = piece.m_linear;
         piece.m_angularVelocity = piece.m_angular;
     }
-    for (std::size_t i = 0; i < velocity.size(); ++i)
-    {
-        Piece& piece = m_pieces[component[i]];
-        const Vec3 p = s.m_mass[i] * velocity[i];
-        piece.m_linearVelocity -= p;
-        piece.m_angularVelocity -= cross(s.m_x[i] - piece.m_center, p);
-    }
+    forEachNode(component, m_pieces,
+                [&](Piece& piece, int i)
+                {
+                    const Vec3 p = s.m_mass[i] * velocity[i];
+                    piece.m_linearVelocity -= p;
+                    piece.m_angularVelocity -= cross(s.m_x[i] - piece.m_center, p);
+                });
     for (Piece& piece : m_pieces)
     {
         piece.m_linearVelocity *= 1 / piece.m_mass;
         piece.m_angularVelocity = piece.m_inverseInertia * piece.m_angularVelocity;
     }
-    for (std::size_t i = 0; i < velocity.size(); ++i)
-    {
-        const Piece& piece = m_pieces[component[i]];
-        if (piece.m_free)
-            velocity[i] += piece.m_linearVelocity + cross(piece.m_angularVelocity, s.m_x[i] - piece.m_center);
-    }
+    forEachNode(component, m_pieces,
+                [&](const Piece& piece, int i)
+                {
+                    if (piece.m_free)
+                        velocity[i] +=
+                            piece.m_linearVelocity + cross(piece.m_angularVelocity, s.m_x[i] - piece.m_center);
+                });
 }
 
 }  // namespace bullet_fem

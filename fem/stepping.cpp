@@ -3,6 +3,7 @@
 #include "bullet_fem/fem/stepping.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "bullet_fem/fem/threads.h"
 #include "fem/increment_solve.h"
@@ -22,7 +23,8 @@ void forEachModel(const Job* jobs, int count, const Solve& solve)
     for (int first = 0, end = 1; first < count; first = end++)
     {
         const BodyModel& model = *jobs[first].m_body->m_model;
-        while (end < count && jobs[end].m_body->m_model.get() == &model) ++end;
+        for (; end < count && jobs[end].m_body->m_model.get() == &model; ++end)
+            assert(jobs[end].m_settings.m_threads == jobs[first].m_settings.m_threads);
         const Threads* threads = sharedSettings(model, jobs[first].m_settings).m_threads;
         if (threads)
             threads->gather([&] { solve(first, end - first, threads); });
@@ -124,16 +126,15 @@ void solveFreeMotions(FreeMotion* motions, int count)
     forEachModel(motions, count,
                  [motions](int first, int bodies, const Threads* threads)
                  {
-                     FreeMotion* const own = motions + first;
                      IncrementSolves(threads).run(
-                         bodies,
-                         [own](int k, std::optional<IncrementSolve>& solve)
+                         motions + first, bodies,
+                         [](const FreeMotion& motion, std::optional<IncrementSolve>& solve)
                          {
-                             Body& body = *own[k].m_body;
-                             beginFreeMotion(body, sharedSettings(*body.m_model, own[k].m_settings), solve);
+                             const BodyModel& model = *motion.m_body->m_model;
+                             beginFreeMotion(*motion.m_body, sharedSettings(model, motion.m_settings), solve);
                          },
-                         [own](int k, IncrementSolve& solve)
-                         { own[k].m_report = endFreeMotion(*own[k].m_body, solve); });
+                         [](FreeMotion& motion, IncrementSolve& solve)
+                         { motion.m_report = endFreeMotion(*motion.m_body, solve); });
                  });
 }
 
@@ -142,10 +143,9 @@ void applyImpulses(ImpulseResponse* responses, int count)
     forEachModel(responses, count,
                  [responses](int first, int bodies, const Threads* threads)
                  {
-                     ImpulseResponse* const own = responses + first;
-                     IncrementSolves(threads).run(
-                         bodies, [own](int k, std::optional<IncrementSolve>& solve) { beginResponse(own[k], solve); },
-                         [own](int k, IncrementSolve& solve) { own[k].m_report = solve.addToVelocity(); });
+                     IncrementSolves(threads).run(responses + first, bodies, beginResponse,
+                                                  [](ImpulseResponse& response, IncrementSolve& solve)
+                                                  { response.m_report = solve.addToVelocity(); });
                  });
 }
 
