@@ -16,8 +16,8 @@ struct FreeCopiesSettings
     int m_cells = 6;            ///< along every edge of 0.2 m, in [1, 40]; a body has five or six tets a cell
     double m_young = 1e6;       ///< E [Pa], > 0
     double m_tolerance = 1e-3;  ///< StepSettings::m_tolerance
-    double m_kick = 1;  ///< speed that a third of a second's kick gives the corners [m/s]: more need more iterations
-    int m_steps = 120;  ///< of 1/60 s, timed; >= 1
+    double m_stale = 1;         ///< step over the factor's, > 0: away from 1 a step needs more iterations
+    int m_steps = 120;          ///< of 1/60 s, timed; >= 1
 };
 
 /// What they took: processor time of the calling thread for solveFreeMotion and finishStep.
