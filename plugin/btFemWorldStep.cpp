@@ -167,9 +167,11 @@ bool btFemWorldStep::isDue(btFemEntry& entry, double worldStep) const
 // Bodies know nothing of each other here: on any thread, in any order.
 void btFemWorldStep::solveFree()
 {
-    m_batches.divide(m_due, m_threads.count(), m_info.m_batchBodies);
+    m_dueBodies.clear();
+    for (const btFemEntry* entry : m_due) m_dueBodies.push_back(&entry->m_fem->m_body);
+    m_batches.divide(m_dueBodies, m_threads.count(), m_info.m_batchBodies);
     m_motions.resize(m_due.size());
-    const std::vector<btFemBatch>& batches = m_batches.batches();
+    const std::vector<Range>& batches = m_batches.batches();
     m_threads.run(static_cast<int>(batches.size()), [&](int k) { solveFree(batches[k]); });
 }
 
@@ -234,15 +236,15 @@ void btFemWorldStep::readChanges(btFemEntry& entry)
 }
 
 // Every body of the batch is charged the same time.
-void btFemWorldStep::solveFree(const btFemBatch& batch)
+void btFemWorldStep::solveFree(const Range& batch)
 {
     const btFemStopwatch watch;
     const int count = batch.m_end - batch.m_begin;
-    for (int k = batch.m_begin; k < batch.m_end; ++k) m_motions[k] = prepareFree(*m_batches.entries()[k]);
+    for (int k = batch.m_begin; k < batch.m_end; ++k) m_motions[k] = prepareFree(inBatches(k));
     solveFreeMotions(m_motions.data() + batch.m_begin, count);
-    for (int k = batch.m_begin; k < batch.m_end; ++k) noteFree(*m_batches.entries()[k], m_motions[k]);
+    for (int k = batch.m_begin; k < batch.m_end; ++k) noteFree(inBatches(k), m_motions[k]);
     const auto share = static_cast<btScalar>(watch.milliseconds() / count);
-    for (int k = batch.m_begin; k < batch.m_end; ++k) m_batches.entries()[k]->m_report.m_freeMotionMs = share;
+    for (int k = batch.m_begin; k < batch.m_end; ++k) inBatches(k).m_report.m_freeMotionMs = share;
 }
 
 FreeMotion btFemWorldStep::prepareFree(btFemEntry& entry) const

@@ -6,7 +6,7 @@
 
 #include "bullet_fem/fem/stepping.h"
 #include "bullet_fem/fem/threads.h"
-#include "plugin/btFemBatches.h"
+#include "fem/body_batches.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemContactGroup.h"
 #include "plugin/btFemDetailChooser.h"
@@ -51,7 +51,8 @@ private:
     void renewFactor(btFemBodyRegistry& registry, btFemEntry& entry, double step);
     void readChanges(btFemEntry& entry);
     void solveFree();
-    void solveFree(const btFemBatch& batch);
+    void solveFree(const bullet_fem::Range& batch);
+    btFemEntry& inBatches(int k) const { return *m_due[m_batches.order()[k]]; }
     bullet_fem::FreeMotion prepareFree(btFemEntry& entry) const;
     void noteFree(btFemEntry& entry, const bullet_fem::FreeMotion& motion) const;
     void finish(btFemEntry& entry) const;
@@ -61,9 +62,10 @@ private:
     bullet_fem::Threads m_threads;
     std::vector<btFemEntry*> m_due;     // their free motion is to be solved
     std::vector<btFemEntry*> m_active;  // it is solved
-    btFemBatches m_batches;             // of m_due
-    std::vector<bullet_fem::FreeMotion> m_motions;
-    std::vector<bullet_fem::Vec3> m_change;  // scratch [m/s]
+    std::vector<const bullet_fem::Body*> m_dueBodies;
+    bullet_fem::BodyBatches m_batches;              // of these
+    std::vector<bullet_fem::FreeMotion> m_motions;  // in the order of the batches
+    std::vector<bullet_fem::Vec3> m_change;         // scratch [m/s]
     btFemDetailChooser m_detailChooser;
     btFemRefactorPolicy m_refactorPolicy;
     btFemContactGroup m_group;

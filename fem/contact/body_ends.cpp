@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "bullet_fem/fem/stepping.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/step_scratch.h"
 #include "fem/warped_system.h"
@@ -251,7 +250,7 @@ bool BodyEnds::gatherBeyond(const std::vector<Vec3>& known)
     return any;
 }
 
-SolveReport BodyEnds::apply(const StepSettings& settings)
+ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings)
 {
     m_learnt = false;
     refresh();
@@ -264,7 +263,11 @@ SolveReport BodyEnds::apply(const StepSettings& settings)
                                        cross(m_ends[e].m_offset, m_impulse[e] - m_applied[e]), settings.m_step);
     double all = 0;
     for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
-    const SolveReport report = applyImpulses(*m_body.m_body, m_nodeIn, settings, kFloor * std::sqrt(all));
+    return {m_body.m_body, &m_nodeIn, settings, kFloor * std::sqrt(all), {}};
+}
+
+void BodyEnds::endCorrection()
+{
     double trueWork = 0, predictedWork = 0;  // of the new impulses on the velocities that they made
     m_allWork = 0;                           // of all impulses, roughly
     for (int e = 0; e < size(); ++e)
@@ -276,7 +279,6 @@ SolveReport BodyEnds::apply(const StepSettings& settings)
         m_applied[e] = m_impulse[e];
     }
     learn(trueWork, predictedWork);
-    return report;
 }
 
 void BodyEnds::learn(double trueWork, double predictedWork)

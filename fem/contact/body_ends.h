@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/stepping.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/working_set.h"
 
@@ -32,7 +33,7 @@ public:
 
     int size() const { return static_cast<int>(m_ends.size()); }
 
-    /// True if the last apply() scaled W up; compliance() has grown then.
+    /// True if the last correction scaled W up; compliance() has grown then.
     bool hasLearnt() const { return m_learnt; }
     bool isDense() const { return m_dense; }
     const Body& body() const { return *m_body.m_body; }
@@ -64,9 +65,11 @@ public:
     /// Takes the velocities from the body, which holds the impulses applied so far, and adds W times the rest.
     void measure();
 
-    /// Solves the body's true system for the impulses that are not applied yet; then W learns from it: where it was too
-    /// stiff, it is scaled up. A report without iterations if there was nothing to do.
-    SolveReport apply(const StepSettings& settings);
+    /// What is to be solved of the body's true system for the impulses that are not applied yet; without a body if
+    /// there are none. After that is solved, endCorrection: W learns from it, and where it was too stiff, it is scaled
+    /// up.
+    ImpulseResponse beginCorrection(const StepSettings& settings);
+    void endCorrection();
 
     /// Forgets velocities and impulses, to solve for position corrections; applyPush then makes them. Returns the
     /// angular momentum that the body gained by being elsewhere [kg m2/s].
@@ -112,7 +115,7 @@ private:
     std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes
     Mat3 m_meanDiagonal;                    // not dense: estimate of W_ee, without the learnt scale
     double m_scale = 1;                     // learnt
-    bool m_learnt = false;                  // in the last apply()
+    bool m_learnt = false;                  // in the last correction
     double m_allWork = 0;                   // of the impulses so far, roughly [J]
 };
 

@@ -31,7 +31,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     m_probeLinear.assign(problem.m_obstacles.size(), Vec3());
     m_probeAngular.assign(problem.m_obstacles.size(), Vec3());
     if (m_bodies.size() < problem.m_bodies.size()) m_bodies.resize(problem.m_bodies.size());
-    m_solved.resize(problem.m_bodies.size());
+    m_corrections.assign(problem.m_bodies.size(), ImpulseResponse());
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b]);
     m_rows.clear();
     for (const ContactPoint& contact : problem.m_contacts) addContactRow(contact);
@@ -294,17 +294,45 @@ void ContactRows::restart()
 void ContactRows::apply(ContactReport& report)
 {
     forEachTouchedBody(m_settings.m_step.m_threads,
-                       [this](int b) { m_solved[b] = m_bodies[b].apply(m_settings.m_step); });
+                       [this](int b) { m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step); });
+    solveCorrections();
+    forEachTouchedBody(m_settings.m_step.m_threads,
+                       [this](int b)
+                       {
+                           if (m_corrections[b].m_body) m_bodies[b].endCorrection();
+                       });
     bool learnt = false;
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
+    for (int b : m_corrected)
     {
-        if (m_bodies[b].size() == 0) continue;
-        report.m_iterations += m_solved[b].m_iterations;
-        report.m_converged = report.m_converged && m_solved[b].m_stop == SolveStop::converged;
+        const SolveReport& solved = m_corrections[b].m_report;
+        report.m_iterations += solved.m_iterations;
+        report.m_converged = report.m_converged && solved.m_stop == SolveStop::converged;
         learnt = learnt || m_bodies[b].hasLearnt();
     }
     if (!learnt) return;  // the rows' compliance is what it was
     for (Row& row : m_rows) finishRow(row);
+}
+
+// Bodies that share their model several at a time, batches on threads.
+void ContactRows::solveCorrections()
+{
+    const Threads* threads = m_settings.m_step.m_threads;
+    m_corrected.clear();
+    m_correctedBodies.clear();
+    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
+    {
+        if (m_bodies[b].size() == 0 || !m_corrections[b].m_body) continue;
+        m_corrected.push_back(static_cast<int>(b));
+        m_correctedBodies.push_back(m_corrections[b].m_body);
+    }
+    m_batches.divide(m_correctedBodies, threads ? threads->count() : 1, m_settings.m_batchBodies);
+    m_ordered.clear();
+    for (int k : m_batches.order()) m_ordered.push_back(m_corrections[m_corrected[k]]);
+    const std::vector<Range>& batches = m_batches.batches();
+    runTasks(threads, static_cast<int>(batches.size()),
+             [&](int k) { applyImpulses(&m_ordered[batches[k].m_begin], batches[k].m_end - batches[k].m_begin); });
+    for (std::size_t k = 0; k < m_ordered.size(); ++k)
+        m_corrections[m_corrected[m_batches.order()[k]]].m_report = m_ordered[k].m_report;
 }
 
 double ContactRows::changeOfRound()

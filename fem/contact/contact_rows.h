@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/contact_solver.h"
+#include "fem/body_batches.h"
 #include "fem/contact/body_ends.h"
 #include "fem/pieces.h"
 
@@ -119,6 +120,7 @@ private:
     Vec3 solveContact(const Row& row, const Vec3& impulse, Vec3 velocity, double step) const;
     Vec3 solveJoint(const Row& row, const Vec3& impulse, Vec3 velocity, double step) const;
     Vec3 solveRow(const Row& row, const Vec3& impulse, const Vec3& velocity, double step) const;
+    void solveCorrections();
     void restart();
     void chooseWorkingSet();
     bool restIsDone(double tolerance);
@@ -155,7 +157,11 @@ private:
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     std::vector<BodyEnds> m_bodies;
-    std::vector<SolveReport> m_solved;              // per body, of the last corrective solves
+    std::vector<ImpulseResponse> m_corrections;     // of the last corrective solves
+    std::vector<ImpulseResponse> m_ordered;         // in the order of the batches
+    std::vector<int> m_corrected;                   // bodies, one a correction
+    std::vector<const Body*> m_correctedBodies;     // likewise
+    BodyBatches m_batches;                          // of these
     std::vector<Row> m_rows;                        // of the contacts, then of the joints
     bool m_inTurn = true;                           // Gauss-Seidel
     std::vector<int> m_working;                     // rows that the sweeps in turn are over

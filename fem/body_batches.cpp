@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "plugin/btFemBatches.h"
+#include "fem/body_batches.h"
 
 #include <algorithm>
 
+namespace bullet_fem
+{
 namespace
 {
 
@@ -13,14 +15,13 @@ constexpr int kBatchesOfThread = 3, kMostBodies = 16;
 int bodiesOfBatch(int bodies, int threads, bool together)
 {
     if (!together) return 1;
-    return threads == 1 ? bodies : std::clamp(bodies / (kBatchesOfThread * threads), 1, kMostBodies);
+    return threads == 1 ? std::max(bodies, 1) : std::clamp(bodies / (kBatchesOfThread * threads), 1, kMostBodies);
 }
 
 }  // namespace
 
-int btFemBatches::modelOf(const btFemEntry& entry)
+int BodyBatches::numberOf(const BodyModel* model)
 {
-    const bullet_fem::BodyModel* model = entry.m_fem->m_body.m_model.get();
     const auto found = std::find(m_models.begin(), m_models.end(), model);
     const auto number = static_cast<int>(found - m_models.begin());
     if (found != m_models.end()) return number;
@@ -29,18 +30,18 @@ int btFemBatches::modelOf(const btFemEntry& entry)
     return number;
 }
 
-void btFemBatches::divide(const std::vector<btFemEntry*>& entries, int threads, bool together)
+void BodyBatches::divide(const std::vector<const Body*>& bodies, int threads, bool together)
 {
     m_models.clear();
     m_end.clear();
     m_batches.clear();
     m_modelOf.clear();
-    for (const btFemEntry* entry : entries)
+    for (const Body* body : bodies)
     {
-        m_modelOf.push_back(modelOf(*entry));
+        m_modelOf.push_back(numberOf(body->m_model.get()));
         ++m_end[m_modelOf.back()];
     }
-    const int most = bodiesOfBatch(static_cast<int>(entries.size()), threads, together);
+    const int most = bodiesOfBatch(static_cast<int>(bodies.size()), threads, together);
     int begin = 0;
     for (int& end : m_end)  // how many bodies have the model; then where they begin
     {
@@ -49,6 +50,8 @@ void btFemBatches::divide(const std::vector<btFemEntry*>& entries, int threads, 
         end = begin;
         begin += count;
     }
-    m_entries.resize(entries.size());
-    for (std::size_t k = 0; k < entries.size(); ++k) m_entries[m_end[m_modelOf[k]]++] = entries[k];
+    m_order.resize(bodies.size());
+    for (std::size_t k = 0; k < bodies.size(); ++k) m_order[m_end[m_modelOf[k]]++] = static_cast<int>(k);
 }
+
+}  // namespace bullet_fem

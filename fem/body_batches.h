@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/body.h"
+#include "fem/pieces.h"
+
+namespace bullet_fem
+{
+
+/// Bodies put in order so that those that share their model stand side by side, and divided into batches: what one
+/// thread solves together. Which bodies are together has no effect on the bits of what becomes of them. Allocates while
+/// it grows.
+class BodyBatches
+{
+public:
+    /// `together`: false makes every body a batch of its own. Every body once, none null.
+    void divide(const std::vector<const Body*>& bodies, int threads, bool together);
+
+    /// Indices of the bodies.
+    const std::vector<int>& order() const { return m_order; }
+
+    /// Ranges of order(), of one model each.
+    const std::vector<Range>& batches() const { return m_batches; }
+
+private:
+    int numberOf(const BodyModel* model);
+
+    std::vector<int> m_order;
+    std::vector<Range> m_batches;
+    std::vector<const BodyModel*> m_models;  // each once, in the order of the first bodies that have them
+    std::vector<int> m_modelOf;              // per body
+    std::vector<int> m_end;                  // per model, in m_order
+};
+
+}  // namespace bullet_fem
