@@ -8,6 +8,7 @@
 #include "bullet_fem/fem/threads.h"
 #include "fem/increment_solve.h"
 #include "fem/step_scratch.h"
+#include "fem/warped_compliance.h"
 #include "fem/warped_system.h"
 
 namespace bullet_fem
@@ -119,6 +120,20 @@ void beginResponse(const ImpulseResponse& response, std::optional<IncrementSolve
     solve.emplace(body, sharedSettings(*body.m_model, response.m_settings), response.m_floor);
 }
 
+Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    WarpedCompliance(body, settings.m_threads).apply(impulses, scratch.m_increment);
+    Vec3 angularMomentum;
+    for (std::size_t i = 0; i < scratch.m_push.size(); ++i)
+    {
+        scratch.m_push[i] += scratch.m_increment[i];
+        angularMomentum +=
+            cross(settings.m_step * scratch.m_increment[i], body.m_state.m_mass[i] * scratch.m_velocity[i]);
+    }
+    return angularMomentum;
+}
+
 }  // namespace
 
 void solveFreeMotions(FreeMotion* motions, int count)
@@ -172,15 +187,13 @@ void addVelocity(Body& body, const std::vector<Vec3>& change)
 
 Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
 {
-    StepScratch& scratch = body.m_workspace.scratch();
-    WarpedPreconditioner(body).apply(impulses, scratch.m_increment);
+    const StepSettings shared = sharedSettings(*body.m_model, settings);
     Vec3 angularMomentum;
-    for (std::size_t i = 0; i < scratch.m_push.size(); ++i)
-    {
-        scratch.m_push[i] += scratch.m_increment[i];
-        angularMomentum +=
-            cross(settings.m_step * scratch.m_increment[i], body.m_state.m_mass[i] * scratch.m_velocity[i]);
-    }
+    const auto push = [&] { angularMomentum = displace(body, impulses, shared); };
+    if (shared.m_threads)
+        shared.m_threads->gather(push);
+    else
+        push();
     return angularMomentum;
 }
 

@@ -7,14 +7,17 @@
 
 #include "bullet_fem/fem/body_model.h"
 #include "fem/aligned_floats.h"
+#include "fem/factor/lane_gradients.h"
 
 namespace bullet_fem
 {
 
 /// The 3x3 blocks of A0^-1 between surface nodes of one model [1/kg]. They are constants; a node's column is solved
 /// when it is first asked for and kept while there is room: within the budget, or as many as one request has needed.
-/// Bodies of the same model may share a cache on one thread. request() allocates when it is called first, and when it
-/// is given more nodes than there is room for.
+/// Bodies of the same model may share a cache on one thread. On the low-memory path, whose factor is not that of A0, a
+/// column is iterated to some 1e-3 of sqrt((A0^-1)_ii (A0^-1)_jj); such columns cost some ten to thirty times those of
+/// the full factor. request() allocates when it is called first, and when it is given more nodes than there is room
+/// for.
 class ComplianceCache
 {
 public:
@@ -51,8 +54,9 @@ private:
     std::vector<int> m_supernodeOfPosition;  // by the factor's order of nodes
     std::vector<int> m_surfaceSupernodes;    // those with surface nodes and what is above them
     std::vector<int> m_newNodes, m_reach;
-    std::vector<unsigned char> m_marked;   // per supernode
-    AlignedFloats m_rightSide, m_scratch;  // kPanelLanes interleaved
+    std::vector<unsigned char> m_marked;         // per supernode
+    AlignedFloats m_rightSide, m_scratch;        // kPanelLanes interleaved
+    std::unique_ptr<LaneGradients> m_gradients;  // on the low-memory path, from the first request on
     unsigned long m_requestCount = 0;
     long m_solvedColumns = 0;
 };

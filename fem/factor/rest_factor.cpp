@@ -97,6 +97,7 @@ RestFactor::RestFactor(const RestShape& shape, const FactorInput& input, FactorR
     m_lower = PackedFactor(tree, entry);
     factorSupernodes(
         A0, order, tree, [this](int s, const double* S, const double* M) { m_lower.pack(s, S, M); }, entry);
+    if (report.m_path == FactorPath::lowMemory) m_rest = RestMatrix(A0, order, m_position);
     report.m_ordering = ordering;
     report.m_entries = tree.m_entries;
     report.m_supernodes = static_cast<int>(tree.m_supernodes.size());

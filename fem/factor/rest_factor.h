@@ -8,6 +8,7 @@
 #include "fem/factor/block_matrix.h"
 #include "fem/factor/fill_order.h"
 #include "fem/factor/packed_factor.h"
+#include "fem/factor/rest_matrix.h"
 
 namespace bullet_fem
 {
@@ -28,6 +29,8 @@ public:
     RestFactor(const RestShape& shape, const FactorInput& input, FactorReport& report);
 
     const PackedFactor& lower() const { return m_lower; }
+    /// A0 itself over the free nodes on the low-memory path, where it cannot be had from the factor; else empty.
+    const RestMatrix& rest() const { return m_rest; }
     /// Block row of a node in the factor's order; -1 for nodes that were fixed when it was built.
     int position(int node) const { return m_position[node]; }
     /// Mean diagonal entry of A0 at a node [kg]: all there is to precondition a node that is not in the factor.
@@ -39,6 +42,7 @@ private:
     std::vector<int> m_position;
     std::vector<double> m_diagonal;
     PackedFactor m_lower;
+    RestMatrix m_rest;
 };
 
 }  // namespace bullet_fem

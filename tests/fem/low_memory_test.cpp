@@ -209,7 +209,8 @@ TEST(LowMemoryStep, OfNothingFreeDoesNothing)
 
 // --- Contact ---
 
-// Lets the cube come to rest on a plane without friction (with it, rest depends on how it was reached); returns the nodes' impulses of the last step [N s].
+// Lets the cube come to rest on a plane without friction (with it, rest depends on how it was reached); returns the
+// nodes' impulses of the last step [N s].
 std::vector<double> restImpulses(FactorChoice choice)
 {
     ContactScene scene(1e5);
@@ -239,6 +240,48 @@ TEST(LowMemoryContact, RestsWithTheForcesOfTheFullFactor)
         sum += low[k];
     }
     EXPECT_NEAR(sum, 9.81 * 1000 / 60, 1e-3 * 9.81 * 1000 / 60);
+}
+
+// A push is solved for to 1e-2, and its impulse from columns that are 1e-3 off.
+TEST(LowMemoryContact, TakesPenetrationBackByAShareWithoutVelocity)
+{
+    ContactScene scene;
+    scene.m_body.setModel(withChoice(*scene.m_body.m_model, FactorChoice::lowMemory));
+    scene.m_cache = makeComplianceCache(scene.m_body.m_model);
+    scene.touchNode(4, -0.01, 0.5);
+    scene.m_settings.m_pushFraction = 0.25;
+    scene.solve();
+    finishStep(scene.m_body, scene.m_settings.m_step);
+    EXPECT_NEAR(scene.m_body.m_state.m_x[4].z, 0.0025, 1e-2 * 0.0025);
+    for (const Vec3& v : scene.m_body.m_state.m_v) EXPECT_LE(norm(v), 1e-12);
+}
+
+TEST(LowMemoryContact, HasTheSameBitsForEveryNumberOfThreads)
+{
+    const auto model =
+        withChoice(*makeBody(makeBox({1, 1, 1}, {12, 12, 12}), dampedMaterial()).m_model, FactorChoice::lowMemory);
+    const auto place = [&](const Threads* threads)
+    {
+        ContactScene scene;
+        scene.m_body = bodyOf(model);
+        scene.m_cache = makeComplianceCache(model);
+        scene.m_settings = {};
+        scene.m_settings.m_step.m_threads = threads;
+        for (int k = 0; k < 3; ++k)
+        {
+            scene.m_contacts.clear();
+            for (int node = 0; node < 13; ++node) scene.touchNode(node, -1e-3, 0.5);
+            scene.solve();
+            finishStep(scene.m_body, scene.m_settings.m_step);
+        }
+        return scene.m_body.m_state.m_x;
+    };
+    const std::vector<Vec3> alone = place(nullptr);
+    for (const int count : {2, 3})
+    {
+        const Threads threads(count);
+        EXPECT_EQ(largestDistance(place(&threads), alone), 0) << count;
+    }
 }
 
 }  // namespace
