@@ -3,11 +3,13 @@
 #include "benchmarks/compliance_case.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
 #include "bullet_fem/fem/generators.h"
 #include "fem/contact/compliance_cache.h"
+#include "fem/factor/rest_factor.h"
 
 namespace bullet_fem
 {
@@ -16,12 +18,14 @@ namespace
 
 constexpr int kTouched = 64;
 
-std::shared_ptr<const BodyModel> makeBlock()
+std::shared_ptr<const BodyModel> makeBlock(int tets, FactorChoice choice)
 {
-    const auto shape = std::make_shared<const RestShape>(makeBox({1.3, 1.2, 1.2}, {13, 12, 12}), Material());
+    const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 5.0) - 1.0 / 3)));  // five tets a cell
+    const auto shape = std::make_shared<const RestShape>(makeBox({1.3, 1.2, 1.2}, {n + 1, n, n}), Material());
     FactorInput input;
     input.m_mass = shape->m_lumpedMass;
     input.m_fixed.assign(input.m_mass.size(), 0);
+    input.m_choice = choice;
     return BodyModel::create(shape, std::move(input));
 }
 
@@ -47,9 +51,9 @@ Mat3 warpedBlocks(const ComplianceCache& cache, const std::vector<int>& nodes, c
 
 }  // namespace
 
-ComplianceFigures measureCompliance(double seconds)
+ComplianceFigures measureCompliance(int tets, FactorChoice choice, double seconds)
 {
-    const auto model = makeBlock();
+    const auto model = makeBlock(tets, choice);
     const std::vector<int> nodes = nearestSurfaceNodes(model->mesh(), {0.65, 0.6, 0}),
                            others = nearestSurfaceNodes(model->mesh(), {0.65, 0.6, 1.2});
     const Mat3 R = Mat3::identity();
@@ -80,6 +84,9 @@ ComplianceFigures measureCompliance(double seconds)
     figures.m_tets = model->mesh().tetCount();
     figures.m_nodes = model->nodeCount();
     figures.m_touched = kTouched;
+    figures.m_path = model->factorReport().m_path;
+    figures.m_factorMegabytes = 1e-6 * double(model->factorReport().m_bytes);
+    figures.m_matrixMegabytes = 1e-6 * double(model->factor().rest().byteCount());
     figures.m_fresh = times[0];
     figures.m_known = times[1];
     return figures;

@@ -47,6 +47,7 @@ struct Options
     bool m_quick = false;
     bool m_noBullet = false;
     bool m_coupled = false;
+    bool m_lowMemory = false;
     std::string m_jsonFile;
 };
 
@@ -103,7 +104,8 @@ void run(const Job& job, const Options& options, std::vector<ContactFigures>& ro
         rows.push_back(runContact(job.m_scene, world));
         rows.back().m_variant = job.m_variant;
     };
-    add(*makeFemContactWorld(job.m_scene, options.m_coupled));
+    add(*makeFemContactWorld(job.m_scene, options.m_coupled, false));
+    if (options.m_lowMemory) add(*makeFemContactWorld(job.m_scene, options.m_coupled, true));
     if (options.m_noBullet) return;
     add(*makeBulletContactWorld(job.m_scene, 1));
     if (!rows.back().holds()) add(*makeBulletContactWorld(job.m_scene, kRecommendedSubSteps));
@@ -134,6 +136,7 @@ void addOptions(CLI::App& app, Options& options)
         ->capture_default_str();
     app.add_flag("--quick", options.m_quick, "small scenes: seconds instead of minutes");
     app.add_flag("--coupled", options.m_coupled, "btFemConstraintSolver in place of Bullet's rigid solver");
+    app.add_flag("--low-memory", options.m_lowMemory, "the low-memory path, too");
     app.add_flag("--no-bullet", options.m_noBullet, "leave Bullet's deformable world out");
     app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
     app.footer(

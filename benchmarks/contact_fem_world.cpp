@@ -28,12 +28,21 @@ btFemMaterial publicMaterial(const Material& material)
     return result;
 }
 
+btFemSolverInfo solverInfo(bool lowMemory)
+{
+    btFemSolverInfo info;
+    if (lowMemory) info.m_factorChoice = btFemFactorChoice::lowMemory;
+    return info;
+}
+
 class FemContactWorld : public ContactWorld
 {
 public:
-    FemContactWorld(const ContactScene& scene, bool coupled)
+    FemContactWorld(const ContactScene& scene, bool coupled, bool lowMemory)
         : m_step(btScalar(scene.m_step)),
           m_coupled(coupled),
+          m_lowMemory(lowMemory),
+          m_fem(solverInfo(lowMemory)),
           m_rigidSolver(makeRigidSolver()),
           m_world(&m_dispatcher, &m_broadphase, m_rigidSolver.get(), &m_configuration, &m_fem)
     {
@@ -55,7 +64,10 @@ public:
         for (const auto& body : m_rigid) m_world.removeRigidBody(body.get());
     }
 
-    std::string name() const override { return m_coupled ? "coupled" : "fem"; }
+    std::string name() const override
+    {
+        return std::string(m_coupled ? "coupled" : "fem") + (m_lowMemory ? " low" : "");
+    }
 
     ContactStep step() override
     {
@@ -87,7 +99,7 @@ private:
     }
 
     btScalar m_step;
-    bool m_coupled;
+    bool m_coupled, m_lowMemory;
     btFemSoftBodySolver m_fem;
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
@@ -98,9 +110,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ContactWorld> makeFemContactWorld(const ContactScene& scene, bool coupled)
+std::unique_ptr<ContactWorld> makeFemContactWorld(const ContactScene& scene, bool coupled, bool lowMemory)
 {
-    return std::make_unique<FemContactWorld>(scene, coupled);
+    return std::make_unique<FemContactWorld>(scene, coupled, lowMemory);
 }
 
 }  // namespace bullet_fem

@@ -8,7 +8,8 @@ namespace bullet_fem
 {
 
 /// The scene in a btSoftRigidDynamicsWorld with btFemSoftBodySolver; `coupled` puts btFemConstraintSolver in place of
-/// Bullet's rigid solver. Everything is factored before the first step.
-std::unique_ptr<ContactWorld> makeFemContactWorld(const ContactScene& scene, bool coupled);
+/// Bullet's rigid solver, `lowMemory` gives the bodies the low-memory factor. Everything is factored before the first
+/// step.
+std::unique_ptr<ContactWorld> makeFemContactWorld(const ContactScene& scene, bool coupled, bool lowMemory);
 
 }  // namespace bullet_fem

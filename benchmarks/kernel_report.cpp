@@ -37,6 +37,11 @@ void printSolves(std::ostream& out, const std::vector<KernelRun>& runs)
               run.m_solves.m_readGigabytes, run.m_solves.m_solveOverTwoReads, run.m_solves.m_lanesOverOne);
 }
 
+const char* pathName(const ComplianceFigures& figures)
+{
+    return figures.m_path == FactorPath::full ? "full" : "low memory";
+}
+
 }  // namespace
 
 void printTables(std::ostream& out, const KernelReport& report)
@@ -48,6 +53,10 @@ void printTables(std::ostream& out, const KernelReport& report)
     const ComplianceFigures& c = report.m_compliance;
     print(out, "\ncompliance of %d nodes on a block of %d tets: newly touched %.3f ms, known %.3f ms (best)\n",
           c.m_touched, c.m_tets, 1e3 * c.m_fresh.m_best, 1e3 * c.m_known.m_best);
+    for (const ComplianceFigures& t : report.m_touch)
+        print(out, "%7d tets, %-10s factor %7.2f MB, A0 %6.2f MB: %d newly touched %8.2f ms, known %.3f ms (best)\n",
+              t.m_tets, pathName(t), t.m_factorMegabytes, t.m_matrixMegabytes, t.m_touched, 1e3 * t.m_fresh.m_best,
+              1e3 * t.m_known.m_best);
 }
 
 nlohmann::json toJson(const KernelReport& report)
@@ -70,10 +79,20 @@ nlohmann::json toJson(const KernelReport& report)
                           {"pair_over_two_reads", run.m_solves.m_solveOverTwoReads},
                           {"sixteen_over_one", run.m_solves.m_lanesOverOne}});
     }
+    nlohmann::json touch = nlohmann::json::array();
+    for (const ComplianceFigures& t : report.m_touch)
+        touch.push_back({{"tets", t.m_tets},
+                         {"path", pathName(t)},
+                         {"touched", t.m_touched},
+                         {"factor_mb", t.m_factorMegabytes},
+                         {"matrix_mb", t.m_matrixMegabytes},
+                         {"ms_new_best", 1e3 * t.m_fresh.m_best},
+                         {"ms_known_best", 1e3 * t.m_known.m_best}});
     const ComplianceFigures& c = report.m_compliance;
     return {{"peak_gflop_per_s", report.m_peakGigaflops},
             {"kernels", kernels},
             {"solves", solves},
+            {"touch", touch},
             {"compliance",
              {{"tets", c.m_tets},
               {"nodes", c.m_nodes},

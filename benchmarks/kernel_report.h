@@ -18,6 +18,7 @@ struct KernelReport
     double m_peakGigaflops = 0;  ///< of one thread, single precision, measured [GFLOP/s]
     std::vector<KernelRun> m_runs;
     ComplianceFigures m_compliance;
+    std::vector<ComplianceFigures> m_touch;  ///< on both paths of other blocks, where asked for
 };
 
 /// Three tables: kernels, triangular solves beside reads, compliance.

@@ -35,6 +35,7 @@ struct Options
 {
     std::vector<int> m_tets = {1536, 12288, 41472};
     bool m_large = false;
+    std::vector<int> m_touch;
     double m_seconds = 0.5;
     std::string m_jsonFile;
 };
@@ -53,6 +54,9 @@ void addOptions(CLI::App& app, Options& options)
         ->delimiter(',')
         ->capture_default_str();
     app.add_flag("--large", options.m_large, "98,304 tets, too: a factor far larger than the caches");
+    app.add_option("--touch", options.m_touch, "blocks on which 64 nodes are touched on both paths, about so many tets")
+        ->delimiter(',')
+        ->check(CLI::Range(40, 500000));
     app.add_option("--seconds", options.m_seconds, "time for each kernel and size [s]")
         ->check(CLI::Range(1e-3, 60.0))
         ->capture_default_str();
@@ -85,7 +89,10 @@ int main(int argc, char** argv)
             report.m_runs.push_back(measureKernels(tets, options.m_seconds));
         }
         std::cerr << "compliance ..." << std::endl;
-        report.m_compliance = measureCompliance(options.m_seconds);
+        report.m_compliance = measureCompliance(kComplianceTets, FactorChoice::full, options.m_seconds);
+        for (int tets : options.m_touch)
+            for (const FactorChoice choice : {FactorChoice::full, FactorChoice::lowMemory})
+                report.m_touch.push_back(measureCompliance(tets, choice, options.m_seconds));
         std::cout << toText(machine) << '\n';
         printTables(std::cout, report);
         std::cout << g_legend;

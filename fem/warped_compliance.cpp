@@ -18,7 +18,7 @@ void WarpedCompliance::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out
     for (std::size_t i = 0; i < in.size(); ++i) scratch.m_rightSide[i] = m_body.m_state.m_fixed[i] ? Vec3() : in[i];
     std::fill(out.begin(), out.end(), Vec3());
     ConjugateGradientStop stop;
-    stop.m_tolerance = 1e-2;
+    stop.m_tolerance = 1e-3;
     stop.m_threads = m_threads;
     solveConjugateGradients(WarpedSystem(m_body, m_threads), P, scratch.m_rightSide, stop, scratch.m_solver, out);
 }

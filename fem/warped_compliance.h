@@ -10,7 +10,7 @@ namespace bullet_fem
 
 /// What impulses on nodes do to their velocities, A^-1 of the step that was last prepared, as closely as contact asks
 /// between its corrective solves: P where the factor is that of A0; on the low-memory path, where P is far from it,
-/// conjugate gradients to |r| <= 1e-2 |impulses|. A node that is fixed now has zero rows. Uses the solver's vectors in
+/// conjugate gradients to |r| <= 1e-3 |impulses|. A node that is fixed now has zero rows. Uses the solver's vectors in
 /// the body's scratch and its right-hand side; never allocates.
 class WarpedCompliance : public LinearOperator
 {

@@ -34,8 +34,8 @@ enum class btFemFactorChoice
     full,             ///< that of its own matrix: one or two iterations a step
     lowMemoryBeyond,  ///< that, or the one below where it would be larger than m_maxFactorMegabytes
     lowMemory         ///< a scalar Laplacian's, about a ninth of the memory and far sooner made; some ten iterations a
-               ///< step or more; contact is less accurate with it: many points at rest may close at centimetres a
-               ///< second
+               ///< step or more. Nodes that first touch something take ten to twenty times as long: .1 s for 64 of a
+               ///< body of 10,000 elements, .9 s at 50,000. Not for anchors and joints
 };
 
 /// Settings of a solver; fixed for its life.

@@ -120,7 +120,8 @@ TEST_F(LaneGradientsTest, MoveEveryLaneByItsOwnStep)
     EXPECT_EQ(lanes(qf).norm(), 0);
 }
 
-// In the energy norm, and up to twice the tolerance where convergence is slow; the scalar factor alone is 40 to 90 % off.
+// In the energy norm, and up to twice the tolerance where convergence is slow; the scalar factor alone is 40 to 90 %
+// off.
 TEST_F(LaneGradientsTest, SolveToTheTolerance)
 {
     for (const double young : {1e4, 1e6, 1e8})

@@ -242,7 +242,7 @@ TEST(LowMemoryContact, RestsWithTheForcesOfTheFullFactor)
     EXPECT_NEAR(sum, 9.81 * 1000 / 60, 1e-3 * 9.81 * 1000 / 60);
 }
 
-// A push is solved for to 1e-2, and its impulse from columns that are 1e-3 off.
+// A push is solved for to 1e-3, and its impulse from columns that are 1e-3 off.
 TEST(LowMemoryContact, TakesPenetrationBackByAShareWithoutVelocity)
 {
     ContactScene scene;
@@ -252,7 +252,7 @@ TEST(LowMemoryContact, TakesPenetrationBackByAShareWithoutVelocity)
     scene.m_settings.m_pushFraction = 0.25;
     scene.solve();
     finishStep(scene.m_body, scene.m_settings.m_step);
-    EXPECT_NEAR(scene.m_body.m_state.m_x[4].z, 0.0025, 1e-2 * 0.0025);
+    EXPECT_NEAR(scene.m_body.m_state.m_x[4].z, 0.0025, 3e-3 * 0.0025);
     for (const Vec3& v : scene.m_body.m_state.m_v) EXPECT_LE(norm(v), 1e-12);
 }
 

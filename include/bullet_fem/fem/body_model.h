@@ -18,9 +18,9 @@ struct ModelElements;
 enum class FactorPath
 {
     full,      ///< of A0 itself: one or two iterations a step
-    lowMemory  ///< of mass and a scalar Laplacian, one for all three directions: about a ninth of the memory, a
-               ///< tenth of the time to factor, some ten times the iterations; contact of
-               ///< many points is less accurate
+    lowMemory  ///< of mass and a scalar Laplacian, one for all three directions: about a ninth of the memory, and half
+               ///< as much to as much again for A0 itself, a tenth of the time to factor, some ten times the
+               ///< iterations; nodes that touch something for the first time take ten to twenty times as long
 };
 
 /// Who chooses the path. A factor that is larger than FactorInput::m_maxBytes all the same is refused.
@@ -57,7 +57,7 @@ struct FactorReport
     long m_entries = 0;                    ///< entries of the full factor L, fill included
     int m_supernodes = 0;                  ///< dense panels that L is packed in
     FactorPath m_path = FactorPath::full;  ///< what was built
-    std::size_t m_bytes = 0;               ///< memory of its packed panels [B]
+    std::size_t m_bytes = 0;               ///< memory of its packed panels [B], without A0 on the low-memory path
     std::size_t m_fullBytes = 0;           ///< what the full factor takes, or would have taken [B]
     double m_seconds = 0;                  ///< wall time of assembly, ordering, factorization and packing [s]
 };

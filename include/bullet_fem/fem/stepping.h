@@ -54,7 +54,8 @@ void applyImpulses(ImpulseResponse* responses, int count);
 void addVelocity(Body& body, const std::vector<Vec3>& change);
 
 /// Adds h P J to the displacement of this step without a trace in the velocities: position correction, J [N s]. On the
-/// low-memory path A^-1 J, solved to 1e-2, stands for P J; settings.m_threads share the work. Returns the angular momentum about the origin that the body gains by being elsewhere with its velocities [kg m2/s].
+/// low-memory path A^-1 J, solved to 1e-3, stands for P J; settings.m_threads share the work. Returns the angular
+/// momentum about the origin that the body gains by being elsewhere with its velocities [kg m2/s].
 Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
 
 /// v <- velocity(body), x <- x + h v, and the pushes.
