@@ -6,6 +6,7 @@
 
 #include "fem/factor/rest_factor.h"
 #include "fem/step_scratch.h"
+#include "fem/warped_compliance.h"
 #include "fem/warped_system.h"
 
 namespace bullet_fem
@@ -148,7 +149,7 @@ void BodyEnds::formPointColumns(int e)
 
 void BodyEnds::formGroupColumns(int e)
 {
-    const WarpedPreconditioner P(*m_body.m_body);
+    const WarpedCompliance P(*m_body.m_body);
     for (int c = 0; c < 3; ++c)
     {
         Vec3 unit;

@@ -35,7 +35,7 @@ enum class btFemFactorChoice
     lowMemoryBeyond,  ///< that, or the one below where it would be larger than m_maxFactorMegabytes
     lowMemory         ///< a scalar Laplacian's, about a ninth of the memory and far sooner made; some ten iterations a
                ///< step or more. Nodes that first touch something take ten to twenty times as long: .1 s for 64 of a
-               ///< body of 10,000 elements, .9 s at 50,000. Not for anchors and joints
+               ///< body of 10,000 elements, .9 s at 50,000
 };
 
 /// Settings of a solver; fixed for its life.
