@@ -168,7 +168,7 @@ void BodyEnds::formGroupColumns(int e)
 // The mean of some blocks W_ee, turned to the world axes of none: contact rows are scaled by it alone.
 void BodyEnds::estimateDiagonal()
 {
-    const WarpedPreconditioner P(*m_body.m_body);
+    const WarpedCompliance P(*m_body.m_body);
     double sum = 0;
     for (int k = 0; k < kSamples; ++k)
     {
@@ -222,7 +222,7 @@ void BodyEnds::flush()
     if (m_dense) return refresh();
     if (m_ends.empty() || !gatherBeyond(m_seen)) return;
     m_seen.assign(m_impulse.begin(), m_impulse.end());
-    WarpedPreconditioner(*m_body.m_body).apply(m_nodeIn, m_nodeOut);
+    WarpedCompliance(*m_body.m_body).apply(m_nodeIn, m_nodeOut);
     for (int e = 0; e < size(); ++e) m_velocity[e] += m_scale * read(m_ends[e], m_nodeOut);
 }
 
