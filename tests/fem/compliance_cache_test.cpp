@@ -95,7 +95,7 @@ TEST_P(ComplianceCacheTest, GivesTheSameNumbersAfterEviction)
 }
 
 // Bodies that share a cache ask for different nodes in every step.
-TEST_F(ComplianceCacheTest, SolvesEveryColumnOnceWithinItsBudget)
+TEST_P(ComplianceCacheTest, SolvesEveryColumnOnceWithinItsBudget)
 {
     ComplianceCache cache(m_model), small(m_model, 0);
     for (int step = 0; step < 2; ++step)
