@@ -23,7 +23,8 @@ constexpr double kAdvantage = 0.003;      // share of a mean edge by which a nea
 constexpr double kSlop = 5e-5;            // share of the body's size by which it may sink in
 constexpr double kMovableSlop = 1e-4;     // the same for movable objects: position corrections spend angular momentum
 constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
-constexpr double kLeastLikeness = -2;     // of a contact and the one that it was in the last step; 1 is the same
+constexpr double kUsualKineticHardness = 0.1;  // Bullet's value of kKHR; those of kCHR and kSHR are 1
+constexpr double kLeastLikeness = -2;          // of a contact and the one that it was in the last step; 1 is the same
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
 
 // Removes what Bullet's broad phase knows no more: it left the world since it was recorded, and may be deleted.
@@ -269,6 +270,8 @@ ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const bt
 {
     const auto atLeastZero = [](double value) { return value > 0 ? value : 0; };
     Surface surface;
+    surface.m_hardness = atLeastZero(object.isStaticOrKinematicObject() ? soft.m_cfg.kKHR / kUsualKineticHardness
+                                                                        : double(soft.m_cfg.kCHR));
     surface.m_friction = atLeastZero(double(soft.m_cfg.kDF) * object.getFriction());
     surface.m_restitution = std::min(1.0, atLeastZero(double(soft.getRestitution()) * object.getRestitution()));
     if (!(object.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING)) return surface;
@@ -308,6 +311,7 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     contact.m_restitution = target.m_leaf.m_surface.m_restitution;
     contact.m_stiffness = target.m_leaf.m_surface.m_stiffness;
     contact.m_damping = target.m_leaf.m_surface.m_damping;
+    contact.m_hardness = target.m_leaf.m_surface.m_hardness;
     m_contacts.push_back(contact);
     const btCollisionObject* object = target.m_leaf.m_object;
     m_origins.push_back({object, broadphaseId(*object), target.m_leaf.m_index, feature});

@@ -52,7 +52,7 @@ private:
     /// How a pair of surfaces touches; as in ContactPoint.
     struct Surface
     {
-        double m_friction = 0, m_restitution = 0, m_stiffness = 0, m_damping = 0;
+        double m_hardness = 1, m_friction = 0, m_restitution = 0, m_stiffness = 0, m_damping = 0;
     };
     struct Leaf
     {

@@ -76,6 +76,7 @@ void SoftPairFinder::append(const Roles& roles, double offset)
     const btSoftBody &softBody = *roles.m_soft.m_fem.m_softBody, &otherBody = *roles.m_other.m_fem.m_softBody;
     ContactPoint common;
     common.m_slop = kSlop * std::min(soft.size(), other.size());
+    common.m_hardness = std::max(0.0, double(std::min(softBody.m_cfg.kSHR, otherBody.m_cfg.kSHR)));
     common.m_friction = std::max(0.0, double(std::max(softBody.m_cfg.kDF, otherBody.m_cfg.kDF)));
     common.m_restitution = std::max(0.0, std::min(1.0, double(softBody.getRestitution()) * otherBody.getRestitution()));
     for (const SurfaceTouch& touch : m_touches)

@@ -36,7 +36,8 @@ void ContactRows::preparePush()
         const ContactPoint& c = m_problem->m_contacts[k];
         const double moving = dot(c.m_normal, velocity(row));
         const double depth = std::max(0.0, -c.m_gap - c.m_slop);
-        const double wanted = std::min(m_settings.m_pushFraction * depth / h, m_settings.m_maxPushVelocity);
+        const double share = std::min(m_settings.m_pushFraction * c.m_hardness, 1.0);
+        const double wanted = std::min(share * depth / h, m_settings.m_maxPushVelocity);
         row.m_target.x = c.m_gap < 0 ? wanted - std::max(moving, 0.0) : -(moving + c.m_gap / h);
         row.m_friction = 0;
         row.m_idle = row.m_idle || row.m_yield.x > 0;

@@ -261,6 +261,7 @@ TEST(SoftPairFinder, MaterialsOfBothMakeTheContact)
     lower.m_soft->m_cfg.kDF = btScalar(0.75);
     upper.m_soft->setRestitution(btScalar(0.5));
     lower.m_soft->setRestitution(btScalar(0.25));
+    upper.m_soft->m_cfg.kSHR = btScalar(0.5);
     upper.m_fem.m_contactOffset = 0.01;
     const PairContacts found(upper, lower);
     ASSERT_FALSE(found.m_contacts.empty());
@@ -268,6 +269,7 @@ TEST(SoftPairFinder, MaterialsOfBothMakeTheContact)
     {
         EXPECT_EQ(c.m_friction, 0.75);
         EXPECT_EQ(c.m_restitution, 0.125);
+        EXPECT_EQ(c.m_hardness, 0.5);
         EXPECT_NEAR(c.m_gap, -0.01, kExact);
     }
     upper.m_soft->m_cfg.kDF = lower.m_soft->m_cfg.kDF = -1;

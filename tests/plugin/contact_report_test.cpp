@@ -132,6 +132,37 @@ TEST(ContactOffset, KeepsTheSurfaceAway)
     EXPECT_NEAR(lowestHeight(onPlane), 0.05, 1e-4);
 }
 
+struct HardnessCase
+{
+    double m_mass;      // of what the cube is in [kg]; 0: static
+    double m_hardness;  // kKHR of static ones, kCHR of others
+    double m_share;     // of the penetration that a step takes back, at an m_erp of .2
+};
+
+class ContactHardness : public testing::TestWithParam<HardnessCase>
+{
+};
+
+TEST_P(ContactHardness, IsHowMuchOfAPenetrationAStepTakesBack)
+{
+    constexpr double kDepth = 0.01;  // less than m_maxPushVelocity takes back in a step
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    world.info().m_gravity.setZero();
+    world.world().setGravity(btVector3(0, 0, 0));
+    world.addRigid(new btBoxShape(btVector3(2, 2, 1)), {btScalar(GetParam().m_mass), at(0, 0, -1)});
+    btSoftBody& cube = addCube(world, btScalar(-kDepth));
+    (GetParam().m_mass > 0 ? cube.m_cfg.kCHR : cube.m_cfg.kKHR) = static_cast<btScalar>(GetParam().m_hardness);
+    world.step();
+    // Up to a ten thousandth of the size may be left.
+    EXPECT_NEAR(lowestHeight(cube), -(1 - GetParam().m_share) * kDepth, 1.1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, ContactHardness,
+                         testing::Values(HardnessCase{0, 0.1, 0.2}, HardnessCase{0, 0.05, 0.1}, HardnessCase{0, 0, 0},
+                                         HardnessCase{0, 1, 1}, HardnessCase{1e9, 1, 0.2},
+                                         HardnessCase{1e9, 0.5, 0.1}));
+
 TEST(ContactFlags, BodiesWithoutContactResponseAreNotTouched)
 {
     btFemSoftBodySolver fem;

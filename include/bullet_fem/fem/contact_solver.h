@@ -54,6 +54,7 @@ struct ContactPoint
     Vec3 m_normal;      ///< unit [-], from the other side to m_soft
     double m_gap = 0;   ///< signed distance at the start [m]; negative inside
     double m_slop = 0;  ///< penetration that is left alone [m], >= 0
+    double m_hardness = 1;     ///< factor on ContactSettings::m_pushFraction [-], >= 0
     double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
     double m_restitution = 0;  ///< share of the closing speed that is given back [-], in [0, 1]
     double m_stiffness = 0;    ///< of a contact spring in place of the rigid contact [N/m], >= 0; 0: rigid
