@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Zlib
 # Installs the libraries, the public headers and a package configuration: find_package(BulletFEM) then gives
-# BulletFEM::plugin and the others.
+# BulletFEM::plugin, BulletFEM::plugin-float64 and the others.
 include(CMakePackageConfigHelpers)
 
-set(_targets bulletfem_ordering bulletfem_fem bulletfem_bullet_bridge bulletfem_plugin)
+set(_targets bulletfem_ordering bulletfem_fem)
+foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
+    list(APPEND _targets bulletfem_bullet_bridge${BULLETFEM_SUFFIX_${_precision}} bulletfem_plugin${BULLETFEM_SUFFIX_${_precision}})
+endforeach()
 if(BULLETFEM_BUILD_IO)
     list(APPEND _targets bulletfem_io)
 endif()
@@ -16,5 +19,5 @@ configure_package_config_file(cmake/BulletFEMConfig.cmake.in "${PROJECT_BINARY_D
     INSTALL_DESTINATION ${_config_dir})
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/BulletFEMConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/BulletFEMConfig.cmake" "${PROJECT_BINARY_DIR}/BulletFEMConfigVersion.cmake"
-    cmake/FindCHOLMOD.cmake cmake/FindBulletFloat.cmake DESTINATION ${_config_dir})
+    cmake/FindCHOLMOD.cmake cmake/FindBulletPrecisions.cmake DESTINATION ${_config_dir})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

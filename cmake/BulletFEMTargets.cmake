@@ -24,12 +24,14 @@ function(bulletfem_library name)
         PRIVATE ${PROJECT_SOURCE_DIR})
 endfunction()
 
-# bulletfem_test(<name> <source>...  LIBS <target>...  LABEL <label>): one GoogleTest program; each test is known to ctest.
+# bulletfem_test(<name> <source>...  LIBS <target>...  LABEL <label>  [SUFFIX <suffix>]): one GoogleTest program; each test
+# is known to ctest, by its name with the suffix behind.
 function(bulletfem_test name)
-    cmake_parse_arguments(ARG "" "LABEL" "LIBS" ${ARGN})
+    cmake_parse_arguments(ARG "" "LABEL;SUFFIX" "LIBS" ${ARGN})
     add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
     bulletfem_defaults(${name})
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
     target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gmock GTest::gtest_main)
-    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS "${ARG_LABEL}")
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_SUFFIX "${ARG_SUFFIX}"
+        PROPERTIES TIMEOUT 600 LABELS "${ARG_LABEL}")
 endfunction()

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h"
+#include "bullet_fem/btFemPrecision.h"
 
 class btFemContactGroup;
 class btFemSoftBodySolver;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "LinearMath/btVector3.h"
+#include "bullet_fem/btFemPrecision.h"
 
 class btSoftBody;
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "LinearMath/btScalar.h"
+#include "bullet_fem/btFemPrecision.h"
 
 /// An isotropic linear elastic material with Rayleigh damping D = alpha M + beta K. SI units whatever the scene's
 /// scale: a Bullet unit of length is a metre, of mass a kilogram.

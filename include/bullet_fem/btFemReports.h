@@ -3,6 +3,7 @@
 #pragma once
 
 #include "LinearMath/btVector3.h"
+#include "bullet_fem/btFemPrecision.h"
 
 class btCollisionObject;
 

@@ -9,6 +9,7 @@
 #include "bullet_fem/btFemAnchors.h"
 #include "bullet_fem/btFemInterest.h"
 #include "bullet_fem/btFemMaterial.h"
+#include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/btFemReports.h"
 
 class btSoftBody;

@@ -122,7 +122,7 @@ TEST(BadSteps, AreFlaggedAndTheBodyStandsStill)
     {
         SCOPED_TRACE(bad);
         Scene scene;
-        const std::vector<float> before = bitsOf(*scene.m_cube);
+        const std::vector<btScalar> before = bitsOf(*scene.m_cube);
         scene.m_fem.predictMotion(bad);
         scene.m_fem.solveConstraints(bad);
         scene.m_fem.updateSoftBodies();

@@ -131,16 +131,16 @@ public:
         }
     }
 
-    std::vector<float> run()
+    std::vector<btScalar> run()
     {
-        std::vector<float> bits;
+        std::vector<btScalar> bits;
         for (int k = 0; k < 150; ++k)
         {
             m_world.step();
             for (const btSoftBody* cube : m_soft)
-                for (const float value : bitsOf(*cube)) bits.push_back(value);
+                for (const btScalar value : bitsOf(*cube)) bits.push_back(value);
             for (const btRigidBody* stone : m_rigid)
-                for (const float value : bitsOf(*stone)) bits.push_back(value);
+                for (const btScalar value : bitsOf(*stone)) bits.push_back(value);
         }
         return bits;
     }
@@ -167,7 +167,7 @@ class Repeated : public testing::TestWithParam<Coupling>
 TEST_P(Repeated, GivesTheSameBits)
 {
     Heap first(GetParam(), false);
-    const std::vector<float> bits = first.run();
+    const std::vector<btScalar> bits = first.run();
     EXPECT_GT(first.contacts(), 20);
     EXPECT_TRUE(Heap(GetParam(), false).run() == bits);
 }

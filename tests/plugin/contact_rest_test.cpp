@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Grounds, CubeFarFromTheOrigin, testing::Values(Ground::
 
 TEST(ContactRepeatability, TwoRunsOfAFallAndASlideGiveTheSameBits)
 {
-    std::vector<std::vector<float>> runs[2];
+    std::vector<std::vector<btScalar>> runs[2];
     for (auto& run : runs)
     {
         btFemSoftBodySolver fem;

@@ -232,7 +232,7 @@ class ManifoldsChangeNothing : public testing::TestWithParam<Coupling>
 
 TEST_P(ManifoldsChangeNothing, InTheMotion)
 {
-    std::vector<float> bits[2];
+    std::vector<btScalar> bits[2];
     btVector3 stones[2];
     for (const bool shown : {false, true})
     {
@@ -246,7 +246,7 @@ TEST_P(ManifoldsChangeNothing, InTheMotion)
         world.step(120);
         EXPECT_EQ(countOf(world), shown ? 3 : 0);
         bits[shown] = bitsOf(lower);
-        const std::vector<float> more = bitsOf(upper);
+        const std::vector<btScalar> more = bitsOf(upper);
         bits[shown].insert(bits[shown].end(), more.begin(), more.end());
         stones[shown] = stone.getWorldTransform().getOrigin();
     }
@@ -368,7 +368,7 @@ TEST(ManifoldCallbacks, TellTheBeginTheEndAndThePoints)
 
 TEST(ManifoldsOfSprings, BodiesOfBulletKeepBulletsWays)
 {
-    std::vector<float> bits[2];
+    std::vector<btScalar> bits[2];
     for (const bool fem : {false, true})
     {
         btFemSoftBodySolver solver(withManifolds());

@@ -76,7 +76,7 @@ TEST(PlainBodies, MoveBitForBitAsWithBulletsOwnSolverBesideAFemBody)
 // Bullet's own handlers would move the nodes of a FEM body behind its back.
 TEST(PlainBodies, DoNotMoveFemBodies)
 {
-    std::vector<float> bits[2];
+    std::vector<btScalar> bits[2];
     for (const int k : {0, 1})
     {
         btFemSoftBodySolver fem;

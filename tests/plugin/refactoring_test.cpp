@@ -196,7 +196,7 @@ TEST(Refactoring, SynchronousGivesTheSameBitsInEveryRunAndForEveryNumberOfThread
         beam.step(5, 2 * kStep);
         return bitsOf(beam.body());
     };
-    const std::vector<float> once = run(1);
+    const std::vector<btScalar> once = run(1);
     EXPECT_EQ(once, run(1));
     EXPECT_EQ(once, run(3));
 }

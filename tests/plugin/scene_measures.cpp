@@ -110,22 +110,22 @@ double largestDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
     return largest;
 }
 
-std::vector<float> bitsOf(const btSoftBody& body)
+std::vector<btScalar> bitsOf(const btSoftBody& body)
 {
-    std::vector<float> bits;
+    std::vector<btScalar> bits;
     for (int i = 0; i < body.m_nodes.size(); ++i)
         for (const btVector3& a : {body.m_nodes[i].m_x, body.m_nodes[i].m_v})
-            bits.insert(bits.end(), {float(a.x()), float(a.y()), float(a.z())});
+            bits.insert(bits.end(), {a.x(), a.y(), a.z()});
     return bits;
 }
 
-std::vector<float> bitsOf(const btRigidBody& body)
+std::vector<btScalar> bitsOf(const btRigidBody& body)
 {
-    std::vector<float> bits;
+    std::vector<btScalar> bits;
     const btMatrix3x3& basis = body.getWorldTransform().getBasis();
     for (const btVector3& a : {basis[0], basis[1], basis[2], body.getWorldTransform().getOrigin(),
                                body.getLinearVelocity(), body.getAngularVelocity()})
-        bits.insert(bits.end(), {float(a.x()), float(a.y()), float(a.z())});
+        bits.insert(bits.end(), {a.x(), a.y(), a.z()});
     return bits;
 }
 

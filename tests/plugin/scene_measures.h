@@ -42,8 +42,8 @@ std::vector<Vec3> edgesOf(const btSoftBody& body);  ///< from node 0 to every no
 double largestDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 
 /// Positions and velocities of all nodes, to the bit; of a rigid body its placement and velocities.
-std::vector<float> bitsOf(const btSoftBody& body);
-std::vector<float> bitsOf(const btRigidBody& body);
+std::vector<btScalar> bitsOf(const btSoftBody& body);
+std::vector<btScalar> bitsOf(const btRigidBody& body);
 
 /// Sum of the impulses that a body felt in the last step, of `other` alone if it is given [N s].
 Vec3 impulseOn(const btFemSoftBodySolver& solver, const btSoftBody& body, const btCollisionObject* other = nullptr);

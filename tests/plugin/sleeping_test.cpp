@@ -22,7 +22,7 @@ TEST_F(Sleeping, ABodyAtRestSleepsWithinFiveSecondsStaysPutAndKeepsItsContacts)
     btSoftBody& cube = addCube();
     sleepAll(cube);
     EXPECT_EQ(fastestNode(cube), 0);
-    const std::vector<float> asleep = bitsOf(cube);
+    const std::vector<btScalar> asleep = bitsOf(cube);
     m_world.step(120);
     EXPECT_EQ(cube.getActivationState(), ISLAND_SLEEPING);
     EXPECT_EQ(bitsOf(cube), asleep);
@@ -217,7 +217,7 @@ TEST_F(Sleeping, NeighboursThatDoNotTouchSleepOnTheirOwn)
     btSoftBody& right = addCube(1);
     sleepAll(left);
     sleepAll(right);
-    const std::vector<float> leftAsleep = bitsOf(left);
+    const std::vector<btScalar> leftAsleep = bitsOf(left);
     right.setVelocity(btVector3(0, 0, 1));
     m_world.step(10);
     EXPECT_TRUE(right.isActive());
@@ -240,7 +240,7 @@ TEST_F(Sleeping, DisabledSimulationStaysPutWhateverHappens)
     btSoftBody& cube = addCube();
     m_world.step(10);
     cube.forceActivationState(DISABLE_SIMULATION);
-    const std::vector<float> before = bitsOf(cube);
+    const std::vector<btScalar> before = bitsOf(cube);
     addSphere(btScalar(0.6), 10);
     m_fem.setContactOffset(&cube, btScalar(0.001));
     m_world.step(60);
@@ -272,7 +272,7 @@ TEST_F(Sleeping, TheThresholdIsTheBodys)
 
 TEST_F(Sleeping, IsRepeatableToTheBit)
 {
-    const auto run = [](std::vector<float>& bits)
+    const auto run = [](std::vector<btScalar>& bits)
     {
         btFemSoftBodySolver fem;
         SoftWorld world(fem);
@@ -285,7 +285,7 @@ TEST_F(Sleeping, IsRepeatableToTheBit)
         world.step(kFiveSeconds);
         bits = bitsOf(*cube);
     };
-    std::vector<float> first, second;
+    std::vector<btScalar> first, second;
     run(first);
     run(second);
     EXPECT_EQ(first, second);

@@ -47,9 +47,9 @@ public:
             m_rigid.push_back(&addRigidBox(m_world, {0.2, 0.2, 0.2}, {5, at(0.32f * k - 0.05f, 0.1f, 1.1f)}));
     }
 
-    std::vector<float> run(int steps)
+    std::vector<btScalar> run(int steps)
     {
-        std::vector<float> bits;
+        std::vector<btScalar> bits;
         for (int k = 0; k < steps; ++k)
         {
             m_world.step();
@@ -58,7 +58,8 @@ public:
             for (const btSoftBody* soft : m_soft)
             {
                 const btFemStepReport& report = m_fem.stepReport(soft);
-                append({float(report.m_iterations), float(report.m_contactIterations), float(report.m_flags)}, bits);
+                append({btScalar(report.m_iterations), btScalar(report.m_contactIterations), btScalar(report.m_flags)},
+                       bits);
                 m_mostContacts = std::max(m_mostContacts, report.m_contacts);
             }
         }
@@ -82,7 +83,7 @@ private:
         return box;
     }
 
-    static void append(const std::vector<float>& values, std::vector<float>& bits)
+    static void append(const std::vector<btScalar>& values, std::vector<float>& bits)
     {
         bits.insert(bits.end(), values.begin(), values.end());
     }
@@ -95,7 +96,7 @@ class SharedWorld : public testing::TestWithParam<Coupling>
 TEST_P(SharedWorld, GivesTheSameBitsForEveryNumberOfThreads)
 {
     Heap alone(GetParam(), 1);
-    const std::vector<float> bits = alone.run(60);
+    const std::vector<btScalar> bits = alone.run(60);
     EXPECT_GT(alone.m_mostContacts, 20);
     for (const int count : g_counts) EXPECT_TRUE(Heap(GetParam(), count).run(60) == bits) << count;
 }
@@ -110,7 +111,7 @@ TEST_P(SharedWorld, LosesNoBodyBesideABadOne)
         for (int i = 0; i < flat.m_nodes.size(); ++i) flat.m_nodes[i].m_x.setZ(5);
         heap.run(2);
         heap.m_soft[5]->m_nodes[0].m_v.setX(std::numeric_limits<btScalar>::quiet_NaN());
-        const std::vector<float> bits = heap.run(10);
+        const std::vector<btScalar> bits = heap.run(10);
         EXPECT_TRUE(heap.m_fem.stepReport(&flat).m_flags & BT_FEM_REJECTED);
         for (const btSoftBody* soft : heap.m_soft)
         {
@@ -119,7 +120,7 @@ TEST_P(SharedWorld, LosesNoBodyBesideABadOne)
         }
         return bits;
     };
-    const std::vector<float> alone = run(1);
+    const std::vector<btScalar> alone = run(1);
     EXPECT_TRUE(run(2) == alone);
     EXPECT_TRUE(run(8) == alone);
 }
@@ -201,7 +202,7 @@ private:
 };
 
 /// A soft slab on a floor under a grid of stones, with soft cubes among them: each body is in many pairs.
-std::vector<float> runSlab(int collisionThreads, bool manifolds)
+std::vector<btScalar> runSlab(int collisionThreads, bool manifolds)
 {
     btSoftBodyRigidBodyCollisionConfiguration configuration;
     ConcurrentDispatcher dispatcher(&configuration, collisionThreads);
@@ -235,14 +236,14 @@ std::vector<float> runSlab(int collisionThreads, bool manifolds)
     for (int k = 0; k < 16; ++k) addRigid(1, stone, at(0.45f * (k % 4) - 0.7f, 0.45f * (k / 4) - 0.7f, 0.41f));
     for (int k = 0; k < 4; ++k) addSoft(btVector3(0.45f * k - 0.65f, 0.2f, 0.8f), btVector3(0.1f, 0.1f, 0.1f), 0.1f);
 
-    std::vector<float> bits;
+    std::vector<btScalar> bits;
     for (int k = 0; k < 40; ++k)
     {
         world.stepSimulation(kStep, 0);
         for (const auto& body : soft)
-            for (const float value : bitsOf(*body)) bits.push_back(value);
+            for (const btScalar value : bitsOf(*body)) bits.push_back(value);
         for (const auto& body : rigid)
-            for (const float value : bitsOf(*body)) bits.push_back(value);
+            for (const btScalar value : bitsOf(*body)) bits.push_back(value);
     }
     EXPECT_GT(dispatcher.m_mostPairs, 20u);
     EXPECT_GT(fem.contacts(soft[0].get()).size(), 20);
@@ -257,7 +258,7 @@ class ConcurrentCollisions : public testing::TestWithParam<bool>
 
 TEST_P(ConcurrentCollisions, FindTheSameContacts)
 {
-    const std::vector<float> inTurn = runSlab(1, GetParam());
+    const std::vector<btScalar> inTurn = runSlab(1, GetParam());
     for (const int threads : {2, 4, 7}) EXPECT_TRUE(runSlab(threads, GetParam()) == inTurn) << threads;
 }
 

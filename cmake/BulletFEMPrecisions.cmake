@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Zlib
+# Bullet's two precisions. What sees Bullet is built once for each of BULLETFEM_PRECISIONS, with Bullet's own suffix: none
+# for float, "-float64" for float64. Source lists are written once.
+find_package(BulletPrecisions REQUIRED OPTIONAL_COMPONENTS float float64)
+
+set(_found "")
+foreach(_precision float float64)
+    if(BulletPrecisions_${_precision}_FOUND)
+        list(APPEND _found ${_precision})
+    endif()
+endforeach()
+set(BULLETFEM_PRECISIONS "${_found}" CACHE STRING "Bullet's precisions to build for: float, float64 or both")
+
+if(NOT BULLETFEM_PRECISIONS)
+    message(FATAL_ERROR "BULLETFEM_PRECISIONS is empty, or no Bullet is found: it must be float, float64 or float;float64; "
+        "install libbullet-dev")
+endif()
+foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
+    if(NOT _precision MATCHES "^(float|float64)$")
+        message(FATAL_ERROR "BULLETFEM_PRECISIONS has ${_precision}: it must be float, float64 or float;float64")
+    elseif(NOT _precision IN_LIST _found)
+        message(FATAL_ERROR "BULLETFEM_PRECISIONS has ${_precision}, but Bullet is found for ${_found} only: "
+            "install libbullet-dev, or leave it out")
+    endif()
+endforeach()
+list(REMOVE_DUPLICATES BULLETFEM_PRECISIONS)
+
+set(BULLETFEM_SUFFIX_float "")
+set(BULLETFEM_SUFFIX_float64 "-float64")
+# What programs that are built once take: float if it is there.
+list(FIND BULLETFEM_PRECISIONS float _float_at)
+if(_float_at EQUAL -1)
+    set(BULLETFEM_SUFFIX "${BULLETFEM_SUFFIX_float64}")
+else()
+    set(BULLETFEM_SUFFIX "${BULLETFEM_SUFFIX_float}")
+endif()
+
+# bulletfem_in_precision(<variable> <suffix> <target>...): the targets, of those that there are with the suffix, these.
+function(bulletfem_in_precision variable suffix)
+    set(targets "")
+    foreach(target IN LISTS ARGN)
+        if(TARGET ${target}${suffix})
+            list(APPEND targets ${target}${suffix})
+        else()
+            list(APPEND targets ${target})
+        endif()
+    endforeach()
+    set(${variable} "${targets}" PARENT_SCOPE)
+endfunction()
+
+# bulletfem_bullet_library(<name> <source>...  PUBLIC <target>...  PRIVATE <target>...): bulletfem_library for each
+# precision, linked with the targets of the same precision.
+function(bulletfem_bullet_library name)
+    cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+    foreach(precision IN LISTS BULLETFEM_PRECISIONS)
+        set(suffix "${BULLETFEM_SUFFIX_${precision}}")
+        bulletfem_library(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS})
+        bulletfem_in_precision(public "${suffix}" ${ARG_PUBLIC})
+        bulletfem_in_precision(private "${suffix}" ${ARG_PRIVATE})
+        target_link_libraries(bulletfem_${name}${suffix} PUBLIC ${public} PRIVATE ${private})
+        # Bullet's targets have it, too; here it also stops who gets Bullet in another way.
+        set_target_properties(bulletfem_${name}${suffix} PROPERTIES
+            INTERFACE_BULLET_PRECISION ${precision} COMPATIBLE_INTERFACE_STRING BULLET_PRECISION)
+        target_compile_definitions(bulletfem_${name}${suffix} PUBLIC BULLETFEM_PRECISION_${precision})
+    endforeach()
+endfunction()
+
+# bulletfem_bullet_test(<name> <source>...  LIBS <target>...  LABEL <label>): bulletfem_test for each precision. Those of
+# float64 have the program's and the tests' names with "-float64" behind.
+function(bulletfem_bullet_test name)
+    cmake_parse_arguments(ARG "" "LABEL" "LIBS" ${ARGN})
+    foreach(precision IN LISTS BULLETFEM_PRECISIONS)
+        set(suffix "${BULLETFEM_SUFFIX_${precision}}")
+        bulletfem_in_precision(libs "${suffix}" ${ARG_LIBS})
+        bulletfem_test(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS} LIBS ${libs} LABEL ${ARG_LABEL} SUFFIX "${suffix}")
+    endforeach()
+endfunction()

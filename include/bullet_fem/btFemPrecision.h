@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "LinearMath/btScalar.h"
+
+// Bullet's headers serve both of its precisions, and most of their names are the same in both: a program that mixes
+// them may link, and writes beyond the ends of Bullet's objects. Every public header includes this one, which stops
+// that.
+
+// When compiling: the target that is linked has told its precision.
+#if defined(BULLETFEM_PRECISION_float) && defined(BULLETFEM_PRECISION_float64)
+#error "BulletFEM::plugin and BulletFEM::plugin-float64 are both linked: choose the one that has Bullet's precision"
+#elif defined(BULLETFEM_PRECISION_float) && defined(BT_USE_DOUBLE_PRECISION)
+#error "BulletFEM::plugin is single precision, but BT_USE_DOUBLE_PRECISION is defined: link BulletFEM::plugin-float64"
+#elif defined(BULLETFEM_PRECISION_float64) && !defined(BT_USE_DOUBLE_PRECISION)
+#error \
+    "BulletFEM::plugin-float64 is double precision, but BT_USE_DOUBLE_PRECISION is not defined: link BulletFEM::plugin"
+#endif
+
+// When linking: whoever includes a public header needs a symbol that only the library of the same precision has. Its
+// name is what the linker says. `used` keeps the reference though nothing reads it; the two have different names, so
+// that the linker cannot take one for the other.
+#if defined(BT_USE_DOUBLE_PRECISION)
+#define BULLETFEM_PRECISION_TAG bulletfem_error__the_program_is_double_precision__link_plugin_float64_not_plugin
+#define BULLETFEM_PRECISION_REFERENCE btFemNeedsDoublePrecision
+#else
+#define BULLETFEM_PRECISION_TAG bulletfem_error__the_program_is_single_precision__link_plugin_not_plugin_float64
+#define BULLETFEM_PRECISION_REFERENCE btFemNeedsSinglePrecision
+#endif
+
+/// Defined by the library; its value means nothing.
+extern "C" const char BULLETFEM_PRECISION_TAG;
+
+/// Makes every object file that includes a public header refer to the tag.
+[[gnu::used]] inline const char* const BULLETFEM_PRECISION_REFERENCE = &BULLETFEM_PRECISION_TAG;

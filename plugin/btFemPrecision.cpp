@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/btFemPrecision.h"
+
+const char BULLETFEM_PRECISION_TAG = 0;
