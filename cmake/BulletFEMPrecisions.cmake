@@ -48,6 +48,11 @@ function(bulletfem_in_precision variable suffix)
     set(${variable} "${targets}" PARENT_SCOPE)
 endfunction()
 
+# Libraries of Bullet that are linked by name or by path, as CMake's own FindBullet gives them, carry no BULLET_PRECISION.
+# These match those of the other precision, which bullet_fem/btFemPrecision.h then refuses.
+set(BULLETFEM_FOREIGN_float "(LinearMath|Bullet(Collision|Dynamics|SoftBody))-float64")
+set(BULLETFEM_FOREIGN_float64 "(LinearMath|Bullet(Collision|Dynamics|SoftBody))([.]|$)")
+
 # bulletfem_bullet_library(<name> <source>...  PUBLIC <target>...  PRIVATE <target>...): bulletfem_library for each
 # precision, linked with the targets of the same precision.
 function(bulletfem_bullet_library name)
@@ -61,7 +66,9 @@ function(bulletfem_bullet_library name)
         # Bullet's targets have it, too; here it also stops who gets Bullet in another way.
         set_target_properties(bulletfem_${name}${suffix} PROPERTIES
             INTERFACE_BULLET_PRECISION ${precision} COMPATIBLE_INTERFACE_STRING BULLET_PRECISION)
-        target_compile_definitions(bulletfem_${name}${suffix} PUBLIC BULLETFEM_PRECISION_${precision})
+        set(foreign "$<FILTER:$<TARGET_PROPERTY:LINK_LIBRARIES>,INCLUDE,${BULLETFEM_FOREIGN_${precision}}>")
+        target_compile_definitions(bulletfem_${name}${suffix} PUBLIC BULLETFEM_PRECISION_${precision}
+            INTERFACE $<$<BOOL:${foreign}>:BULLETFEM_LINKS_BULLET_OF_OTHER_PRECISION>)
     endforeach()
 endfunction()
 

@@ -8,7 +8,7 @@
 // them may link, and writes beyond the ends of Bullet's objects. Every public header includes this one, which stops
 // that.
 
-// When compiling: the target that is linked has told its precision.
+// When compiling: the target that is linked has told its precision, and what else is linked beside it.
 #if defined(BULLETFEM_PRECISION_float) && defined(BULLETFEM_PRECISION_float64)
 #error "BulletFEM::plugin and BulletFEM::plugin-float64 are both linked: choose the one that has Bullet's precision"
 #elif defined(BULLETFEM_PRECISION_float) && defined(BT_USE_DOUBLE_PRECISION)
@@ -16,6 +16,11 @@
 #elif defined(BULLETFEM_PRECISION_float64) && !defined(BT_USE_DOUBLE_PRECISION)
 #error \
     "BulletFEM::plugin-float64 is double precision, but BT_USE_DOUBLE_PRECISION is not defined: link BulletFEM::plugin"
+#elif defined(BULLETFEM_LINKS_BULLET_OF_OTHER_PRECISION) && defined(BULLETFEM_PRECISION_float)
+#error \
+    "BulletFEM::plugin is single precision, but Bullet's -float64 libraries are linked: link BulletFEM::plugin-float64"
+#elif defined(BULLETFEM_LINKS_BULLET_OF_OTHER_PRECISION)
+#error "BulletFEM::plugin-float64 is double precision, but Bullet's float libraries are linked: leave them out"
 #endif
 
 // When linking: whoever includes a public header needs a symbol that only the library of the same precision has. Its
@@ -32,5 +37,11 @@
 /// Defined by the library; its value means nothing.
 extern "C" const char BULLETFEM_PRECISION_TAG;
 
-/// Makes every object file that includes a public header refer to the tag.
-[[gnu::used]] inline const char* const BULLETFEM_PRECISION_REFERENCE = &BULLETFEM_PRECISION_TAG;
+/// Makes every object file that includes a public header refer to the tag; `retain` also where the linker drops what
+/// nothing refers to (--gc-sections).
+#if __has_cpp_attribute(gnu::retain)
+[[gnu::used, gnu::retain]]
+#else
+[[gnu::used]]
+#endif
+inline const char* const BULLETFEM_PRECISION_REFERENCE = &BULLETFEM_PRECISION_TAG;

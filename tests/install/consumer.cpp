@@ -5,9 +5,13 @@
 #include <bullet_fem/btFemHelpers.h>
 #include <bullet_fem/btFemSoftBodySolver.h>
 
+#include <type_traits>
+
 #include "BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h"
 #include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
 #include "btBulletDynamicsCommon.h"
+
+static_assert(std::is_same_v<btScalar, EXPECTED_SCALAR>);
 
 int main()
 {
