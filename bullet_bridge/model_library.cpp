@@ -18,11 +18,14 @@ constexpr double kSameShape = 1e-4;
 // Share by which masses may differ: they come from volumes, whose edges may differ as above.
 constexpr double kSameMass = 1e-3;
 
+// Share by which steps may differ: Bullet tells the step in single precision at first, in its own later.
+constexpr double kSameStep = 1e-6;
+
 // True if the factor of one is as good as new for the other.
 bool serves(const FactorInput& factored, const FactorInput& input)
 {
     const auto same = [](double a, double b) { return std::fabs(a - b) <= kSameMass * b; };
-    return factored.m_step == input.m_step && factored.m_fixed == input.m_fixed &&
+    return std::fabs(factored.m_step - input.m_step) <= kSameStep * input.m_step && factored.m_fixed == input.m_fixed &&
            std::equal(factored.m_mass.begin(), factored.m_mass.end(), input.m_mass.begin(), input.m_mass.end(), same);
 }
 

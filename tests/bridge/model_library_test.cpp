@@ -46,6 +46,14 @@ TEST_F(ModelLibraryTest, copiesWhoseMassesDifferByRoundingShareModelAndNeighbour
     EXPECT_EQ(m_library.restNeighbours(shape), neighbours);
 }
 
+TEST_F(ModelLibraryTest, aStepRoundedToSinglePrecisionIsTheSameStep)
+{
+    const TestBox a;
+    const auto model = modelOf(*a.m_body, Material(), 1.0 / 60);
+    EXPECT_EQ(model, modelOf(*a.m_body, Material(), static_cast<double>(1.f / 60)));
+    EXPECT_NE(model, modelOf(*a.m_body, Material(), 1.0001 / 60));
+}
+
 TEST_F(ModelLibraryTest, anotherMaterialStepOrShapeIsAnotherModel)
 {
     const TestBox a;

@@ -83,7 +83,7 @@ private:
         return box;
     }
 
-    static void append(const std::vector<btScalar>& values, std::vector<float>& bits)
+    static void append(const std::vector<btScalar>& values, std::vector<btScalar>& bits)
     {
         bits.insert(bits.end(), values.begin(), values.end());
     }
