@@ -84,6 +84,25 @@ std::shared_ptr<const BodyModel> ModelLibrary::find(const std::shared_ptr<const 
     return nullptr;
 }
 
+std::shared_ptr<const BodyModel> ModelLibrary::findExact(const std::shared_ptr<const RestShape>& shape,
+                                                         const FactorInput& input) const
+{
+    for (const Model& entry : m_models)
+        if (auto model = entry.m_model.lock())
+            if (model->sharedShape() == shape && model->factorInput() == input) return model;
+    return nullptr;
+}
+
+std::shared_ptr<const BodyModel> ModelLibrary::exactModel(const std::shared_ptr<const RestShape>& shape,
+                                                          const FactorInput& input)
+{
+    if (auto known = findExact(shape, input)) return known;
+    dropDead(m_models, &Model::m_model);
+    const auto model = BodyModel::create(shape, limited(input));
+    m_models.push_back({model, {}});
+    return model;
+}
+
 std::shared_ptr<const BodyModel> ModelLibrary::adopt(std::shared_ptr<const BodyModel> model)
 {
     if (auto known = find(model->sharedShape(), model->factorInput())) return known;

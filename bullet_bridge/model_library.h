@@ -36,6 +36,13 @@ public:
     std::shared_ptr<const BodyModel> find(const std::shared_ptr<const RestShape>& shape,
                                           const FactorInput& input) const;
 
+    /// A model of that shape for exactly these masses; factors if there is none. Throws what BodyModel::create throws.
+    std::shared_ptr<const BodyModel> exactModel(const std::shared_ptr<const RestShape>& shape,
+                                                const FactorInput& input);
+    /// Null if there is none.
+    std::shared_ptr<const BodyModel> findExact(const std::shared_ptr<const RestShape>& shape,
+                                               const FactorInput& input) const;
+
     /// A model that was made elsewhere, or one like it that is here already.
     std::shared_ptr<const BodyModel> adopt(std::shared_ptr<const BodyModel> model);
 

@@ -78,6 +78,12 @@ int broadphaseId(const btCollisionObject& object)
     return object.getBroadphaseHandle() ? object.getBroadphaseHandle()->m_uniqueId : -1;
 }
 
+void RigidObstacles::restore(const Memory& memory)
+{
+    m_remainders.assign(memory.m_remainders.begin(), memory.m_remainders.end());
+    m_rewound.assign(memory.m_rewound.begin(), memory.m_rewound.end());
+}
+
 void RigidObstacles::beginStep()
 {
     m_remainders.erase(

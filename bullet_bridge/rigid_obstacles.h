@@ -29,11 +29,20 @@ public:
     /// What single precision cut off a body's velocity.
     struct Remainder
     {
-        int m_objectId;
+        int m_objectId = -1;
         Vec3 m_linear, m_angular;            ///< [m/s], [rad/s]
-        bool m_used;                         ///< in this step
+        bool m_used = false;                 ///< in this step
         Vec3 m_linearGiven, m_angularGiven;  ///< what soft bodies gave it in the last step [m/s], [rad/s]
     };
+
+    /// What the next step depends on.
+    struct Memory
+    {
+        std::vector<Remainder> m_remainders;
+        std::vector<int> m_rewound;  ///< broadphase ids
+    };
+    Memory memory() const { return {m_remainders, m_rewound}; }
+    void restore(const Memory& memory);
 
     /// Forgets the remainders of bodies that were not touched in the last step.
     void beginStep();

@@ -12,6 +12,7 @@
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/shapes/concave_dispatch.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "fem/body_snapshot.h"
 #include "plugin/btFemContactTest.h"
 #include "plugin/btFemManifolds.h"
 
@@ -286,6 +287,39 @@ void btFemBodyRegistry::takeFactor(btFemEntry& entry, const std::shared_ptr<cons
     exchangeModel(entry, m_library.adopt(model));
     entry.m_message.clear();
     entry.m_report.m_flags |= BT_FEM_REFACTORED;
+}
+
+std::shared_ptr<const RestShape> btFemBodyRegistry::shapeOf(const btFemEntry& entry, std::uint64_t mark)
+{
+    const BodyModel& model = *entry.m_fem->m_body.m_model;
+    if (markOf(model.shape()) == mark) return model.sharedShape();
+    const auto shape = m_library.restShape(model.mesh(), materialOf(entry), filledFractionsOf(*entry.m_softBody));
+    return markOf(*shape) == mark ? shape : nullptr;
+}
+
+std::shared_ptr<const BodyModel> btFemBodyRegistry::exactModel(const btFemEntry& entry,
+                                                               const std::shared_ptr<const RestShape>& shape,
+                                                               const FactorInput& input)
+{
+    const std::shared_ptr<const BodyModel>& own = entry.m_fem->m_body.m_model;
+    if (own->sharedShape() == shape && own->factorInput() == input) return own;
+    return m_library.exactModel(shape, input);
+}
+
+void btFemBodyRegistry::giveFactors(btFemEntry& entry, const std::shared_ptr<const BodyModel>& model,
+                                    const std::shared_ptr<const BodyModel>& former)
+{
+    exchangeModel(entry, model);
+    entry.m_formerModel = former;
+    entry.m_formerCompliance = former ? m_library.compliance(former) : nullptr;
+}
+
+void btFemBodyRegistry::putFirst(const std::vector<btFemEntry*>& entries)
+{
+    const auto place = [&entries](const std::unique_ptr<btFemEntry>& entry)
+    { return std::find(entries.begin(), entries.end(), entry.get()); };
+    std::stable_sort(m_entries.begin(), m_entries.end(),
+                     [&place](const auto& a, const auto& b) { return place(a) < place(b); });
 }
 
 void btFemBodyRegistry::exchangeModel(btFemEntry& entry, const std::shared_ptr<const BodyModel>& model)

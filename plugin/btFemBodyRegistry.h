@@ -112,6 +112,31 @@ public:
     /// Gives a body a factor made elsewhere for its shape, and flags that in its report.
     void takeFactor(btFemEntry& entry, const std::shared_ptr<const bullet_fem::BodyModel>& model);
 
+    /// True if the address still holds the body that the entry was made for, uncut. The body must not be deleted.
+    bool isAsBuilt(const btFemEntry& entry) const { return !isAnotherBody(entry); }
+
+    /// The rest shape of that mark (see bullet_fem::markOf) that the body has, or gets with its present material; null
+    /// if that is none of them.
+    std::shared_ptr<const bullet_fem::RestShape> shapeOf(const btFemEntry& entry, std::uint64_t mark);
+
+    /// A factor for exactly this: the body's own, or another's, or a new one. Throws what BodyModel::create throws.
+    std::shared_ptr<const bullet_fem::BodyModel> exactModel(const btFemEntry& entry,
+                                                            const std::shared_ptr<const bullet_fem::RestShape>& shape,
+                                                            const bullet_fem::FactorInput& input);
+    /// The same, but null if nobody has it.
+    std::shared_ptr<const bullet_fem::BodyModel> findExactModel(
+        const std::shared_ptr<const bullet_fem::RestShape>& shape, const bullet_fem::FactorInput& input) const
+    {
+        return m_library.findExact(shape, input);
+    }
+
+    /// Gives a body the factor that it had, and the one before that, which may be null.
+    void giveFactors(btFemEntry& entry, const std::shared_ptr<const bullet_fem::BodyModel>& model,
+                     const std::shared_ptr<const bullet_fem::BodyModel>& former);
+
+    /// Puts some of the entries before all others, in this order.
+    void putFirst(const std::vector<btFemEntry*>& entries);
+
     const std::vector<std::unique_ptr<btFemEntry>>& entries() const { return m_entries; }
 
     /// True if the world that holds the body holds the object, too, or if that cannot be known. The world is looked at

@@ -60,6 +60,12 @@ public:
 
     const bullet_fem::ContactSettings& settings() const { return m_settings; }
 
+    /// What lasts from step to step.
+    bullet_fem::RigidObstacles& rigid() { return m_rigid; }
+    const bullet_fem::RigidObstacles& rigid() const { return m_rigid; }
+    bullet_fem::SoftPairMemory& softPairs() { return m_softPairs.memory(); }
+    const bullet_fem::SoftPairMemory& softPairs() const { return m_softPairs.memory(); }
+
 private:
     void collectRigid();
     void collectSoft();

@@ -5,11 +5,12 @@
 #include <memory>
 
 #include "plugin/btFemContactGroup.h"
+#include "plugin/btFemSnapshot.h"
 
 class btFemManifolds;
 class btFemSoftBodySolver;
 
-/// What btFemConstraintSolver and Bullet's dispatcher may do with a btFemSoftBodySolver, and nobody else.
+/// What btFemConstraintSolver, Bullet's dispatcher and snapshots may do with a btFemSoftBodySolver, and nobody else.
 struct btFemCoupling
 {
     /// See btFemWorldStep::beginGroup.
@@ -19,4 +20,5 @@ struct btFemCoupling
     static const btFemEntry* entry(const btFemSoftBodySolver& fem, const btSoftBody& body);
     /// Null unless btFemSolverInfo::m_manifolds is set.
     static std::shared_ptr<btFemManifolds> manifolds(const btFemSoftBodySolver& fem);
+    static btFemSnapshotScope snapshotScope(const btFemSoftBodySolver& fem);
 };

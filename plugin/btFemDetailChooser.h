@@ -22,6 +22,14 @@ public:
     /// nodalWarp, oneIteration or direct; nodalWarp before the first interest.
     btFemDetail detail() const;
 
+    /// Its members, to or from a snapshot; and whether they can be those of a level.
+    template <class Bytes>
+    void transfer(Bytes& bytes)
+    {
+        bytes(m_begun, m_level, m_seconds);
+    }
+    bool valid() const { return m_level >= 0 && m_level <= 2 && m_seconds >= 0; }
+
 private:
     bool m_begun = false;
     int m_level = 2;       // 0: direct, 1: oneIteration, 2: nodalWarp

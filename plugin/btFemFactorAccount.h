@@ -34,6 +34,13 @@ public:
     /// Begins anew, with a factor that somebody else called for.
     void clear() { *this = btFemFactorAccount(m_fresh); }
 
+    /// Its members, to or from a snapshot.
+    template <class Bytes>
+    void transfer(Bytes& bytes)
+    {
+        bytes(m_fresh, m_stale, m_lost, m_dearness, m_owed, m_rate, m_staleSteps);
+    }
+
 private:
     explicit btFemFactorAccount(double fresh) : m_fresh(fresh) {}
 

@@ -3,13 +3,13 @@
 #include "plugin/btFemSleeping.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "BulletCollision/BroadphaseCollision/btDispatcher.h"
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodySolvers.h"
 #include "bullet_bridge/node_exchange.h"
+#include "fem/byte_stream.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemNeighbours.h"
 
@@ -56,17 +56,6 @@ bool forcesGiven(const btSoftBody& soft)
             if (soft.m_nodes[i].m_f[c] != 0) return true;
     return false;
 }
-
-// FNV-1a, a number at a time.
-template <class Number>
-void addToMark(std::uint64_t& mark, Number value)
-{
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof value);
-    mark = (mark ^ bits) * 1099511628211u;
-}
-
-constexpr std::uint64_t kEmptyMark = 14695981039346656037u;
 
 std::uint64_t markOfForces(const btSoftBody& soft)
 {

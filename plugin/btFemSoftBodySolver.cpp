@@ -330,6 +330,11 @@ std::shared_ptr<btFemManifolds> btFemCoupling::manifolds(const btFemSoftBodySolv
     return fem.m_impl->m_manifolds;
 }
 
+btFemSnapshotScope btFemCoupling::snapshotScope(const btFemSoftBodySolver& fem)
+{
+    return {fem.m_impl->m_registry, fem.m_impl->m_step.group(), fem.m_impl->m_worldBodies};
+}
+
 void btFemSoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate)
 {
     btDefaultSoftBodySolver::optimize(softBodies, forceUpdate);

@@ -45,6 +45,9 @@ public:
     /// the new positions of all. `step` [s].
     void solve(btFemBodyRegistry& registry, double step);
 
+    btFemContactGroup& group() { return m_group; }
+    const btFemContactGroup& group() const { return m_group; }
+
 private:
     bool isDue(btFemEntry& entry, double worldStep) const;
     static void readBody(btFemEntry& entry);

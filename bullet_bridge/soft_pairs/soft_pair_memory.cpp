@@ -32,6 +32,12 @@ void SoftPairMemory::remember(const std::vector<ContactPoint>& contacts, const s
     m_nextOrigins.insert(m_nextOrigins.end(), origins.begin(), origins.end());
 }
 
+void SoftPairMemory::restore(const Kept& kept)
+{
+    m_next.assign(kept.m_contacts.begin(), kept.m_contacts.end());
+    m_nextOrigins.assign(kept.m_origins.begin(), kept.m_origins.end());
+}
+
 SoftPairMemory::Last SoftPairMemory::lastOf(int firstId, int secondId) const
 {
     SoftPairOrigin from;

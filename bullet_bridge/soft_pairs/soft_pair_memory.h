@@ -54,6 +54,17 @@ public:
     /// Keeps solved contacts for the next step: one origin a contact, each once.
     void remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins);
 
+    /// What was remembered since the step began: what the next one depends on.
+    struct Kept
+    {
+        std::vector<ContactPoint> m_contacts;
+        std::vector<SoftPairOrigin> m_origins;  ///< one a contact
+    };
+    Kept kept() const { return {m_next, m_nextOrigins}; }
+
+    /// Remembers this and nothing else.
+    void restore(const Kept& kept);
+
     /// The last step's contacts of a pair of broadphase ids.
     Last lastOf(int firstId, int secondId) const;
 

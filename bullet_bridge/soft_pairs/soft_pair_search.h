@@ -34,6 +34,10 @@ public:
     /// Keeps what find() found, solved: one contact for each of contacts().
     void remember(const std::vector<ContactPoint>& solved) { m_memory.remember(solved, m_origins); }
 
+    /// What is known of earlier steps.
+    SoftPairMemory& memory() { return m_memory; }
+    const SoftPairMemory& memory() const { return m_memory; }
+
 private:
     static constexpr int kParts = 32;  // of the pairs, whatever the number of threads
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "BulletSoftBody/btDefaultSoftBodySolver.h"
 #include "bullet_fem/btFemAnchors.h"
@@ -189,6 +190,33 @@ public:
     /// Mean force of another body on this one during the last step: sum of impulses / h [N]; zero if the body is not
     /// known.
     btVector3 contactForce(const btSoftBody* body, const btCollisionObject* other) const;
+
+    /// Saves what the next steps of the FEM bodies of the world stepped last depend on, so that restoreState continues
+    /// to the bit, in the midst of contact, too: motion, rotations, warm starts, contacts, joints, pins, targets,
+    /// attachments, sleep, factors, reports. The same state gives the same bytes, but on machines of another byte order
+    /// or with another precision of btScalar. A std::vector, because who saves every step uses one again: it grows
+    /// once. Between steps; the world must be alive. Throws std::invalid_argument within a step, or if no FEM body's
+    /// m_worldInfo has the world's m_broadphase.
+    void saveState(std::vector<unsigned char>& buffer) const;
+    /// The same for engines without exceptions: false, an empty buffer and the reason in `why` (if given) where the
+    /// other throws.
+    bool saveState(std::vector<unsigned char>& buffer, std::string* why) const;
+
+    /// Puts the FEM bodies of the world back to a state that was saved of it, or of one that was built in the same way.
+    /// Bodies are known by their ids in the broad phase: a body that was taken out and added again is another one.
+    ///
+    /// Refused, with everything left as it was: bytes that are cut off, damaged, something else's, or of another
+    /// version or precision; bodies that are not in the world, or not FEM yet, or have other elements; a material that
+    /// is not the one of then. FEM bodies that came since are left as they are, and what restored bodies touched or
+    /// were held by that is gone is left out. A factor that is no longer there is made again, which takes its time.
+    ///
+    /// Not saved: what belongs to Bullet (rigid bodies, their sleep, contacts and warm starts, the order of the broad
+    /// phase's pairs) and what the user sets and no step changes (material, detail, contact offset, m_cfg, gravity,
+    /// wind, anchors, joints, the solver's info). For the same bits that must be as it was. A factor being made in the
+    /// background is dropped. Between steps. Throws std::invalid_argument with the reason.
+    void restoreState(const unsigned char* data, std::size_t size);
+    /// The same for engines without exceptions: false and the reason in `why` (if given) where the other throws.
+    bool restoreState(const unsigned char* data, std::size_t size, std::string* why);
 
     // Called by the world.
     void optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate = false) override;

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/snapshot/contact_snapshot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "fem/message.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+template <class... Values>
+bool areFinite(const Values&... values)
+{
+    return (std::isfinite(values) && ...);
+}
+
+int nodesOf(const FemSoftBody& fem)
+{
+    return fem.m_softBody->m_nodes.size();
+}
+
+template <std::size_t count>
+void checkNodes(const std::array<int, count>& nodes, const FemSoftBody& fem, const char* what)
+{
+    for (int node : nodes)
+        if (node < 0 || node >= nodesOf(fem)) reject("node ", node, " of ", what, " is not in [0, ", nodesOf(fem), ")");
+}
+
+// `soft` feels the impulse; null for what has left the world.
+void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBody* other)
+{
+    checkNodes(c.m_soft.m_nodes, soft, "a contact");
+    if (other) checkNodes(c.m_other.m_nodes, *other, "a contact's other side");
+    const auto &w = c.m_soft.m_weights, &v = c.m_other.m_weights;
+    const bool finite = areFinite(w[0], w[1], w[2], v[0], v[1], v[2], c.m_gap, c.m_slop, c.m_friction, c.m_restitution,
+                                  c.m_stiffness, c.m_damping);
+    if (!finite || !isFinite(c.m_point) || !isFinite(c.m_approach) || !isFinite(c.m_normal) || !isFinite(c.m_impulse) ||
+        !isFinite(c.m_slip))
+        reject("a contact's numbers are not finite");
+}
+
+bool isAnchor(const HeldJoint& joint)
+{
+    return joint.m_kind == HeldJoint::Kind::anchor || joint.m_kind == HeldJoint::Kind::deformableAnchor;
+}
+
+bool isClusterJoint(const HeldJoint& joint)
+{
+    return joint.m_kind == HeldJoint::Kind::linearJoint || joint.m_kind == HeldJoint::Kind::angularJoint;
+}
+
+void checkHeld(const HeldJoint& joint, const FemSoftBody& fem)
+{
+    if (joint.m_kind < HeldJoint::Kind::anchor || joint.m_kind > HeldJoint::Kind::angularJoint)
+        reject("the kind of a joint is ", static_cast<int>(joint.m_kind), ", not in [0, 4]");
+    if (joint.m_node < (isAnchor(joint) ? 0 : -1) || joint.m_node >= nodesOf(fem))
+        reject("the node of a joint is ", joint.m_node, ", not in [0, ", nodesOf(fem), ")");
+    if (!isFinite(joint.m_point) || !isFinite(joint.m_impulse) || !std::isfinite(joint.m_error))
+        reject("a joint's numbers are not finite");
+}
+
+void checkAttachment(const AttachmentSnapshot& a, const FemSoftBody& fem, const WorldIds& world)
+{
+    checkNodes(std::array<int, 1>{a.m_attachment.m_node}, fem, "an attachment");
+    if (const FemSoftBody* other = world.bodyOf(a.m_other))
+        checkNodes(a.m_attachment.m_otherNodes, *other, "an attachment's other side");
+    for (double weight : a.m_attachment.m_weights)
+        if (!(std::fabs(weight) <= 1e6)) reject("the weight ", weight, " of an attachment is not in [-1e6, 1e6]");
+}
+
+// Finds the user's joint among those of the bodies.
+void tellSource(const void* source, const WorldIds& world, HeldSnapshot& held)
+{
+    if (!source) return;
+    held.m_owner = WorldIds::kGone;
+    for (const FemSoftBody* fem : world.m_bodies)
+        for (int k = 0; k < fem->m_softBody->m_joints.size(); ++k)
+            if (fem->m_softBody->m_joints[k] == source) held.m_owner = world.idOf(fem->m_softBody), held.m_source = k;
+}
+
+// Null if there is no such joint any more.
+const void* sourceOf(const HeldSnapshot& held, const WorldIds& world)
+{
+    const FemSoftBody* fem = world.bodyOf(held.m_owner);
+    if (!fem || held.m_source < 0 || held.m_source >= fem->m_softBody->m_joints.size()) return nullptr;
+    const btSoftBody::Joint* joint = fem->m_softBody->m_joints[held.m_source];
+    const bool angular = joint->Type() == btSoftBody::Joint::eType::Angular;
+    return angular == (held.m_joint.m_kind == HeldJoint::Kind::angularJoint) ? joint : nullptr;
+}
+
+void restoreJoints(const ContactSnapshot& s, const WorldIds& world, HeldJoints& joints)
+{
+    joints.m_now.clear();
+    joints.m_before.clear();
+    for (const HeldSnapshot& held : s.m_held)
+    {
+        HeldJoint joint = held.m_joint;
+        joint.m_object = world.objectOf(held.m_object);
+        joint.m_source = sourceOf(held, world);
+        const bool gone = !joint.m_object && held.m_object != WorldIds::kNone;
+        if (!gone && (joint.m_source || !isClusterJoint(joint))) joints.m_now.push_back(joint);
+    }
+    joints.m_attachments.clear();
+    for (const AttachmentSnapshot& a : s.m_attachments)
+    {
+        const FemSoftBody* other = world.bodyOf(a.m_other);
+        if (!other) continue;
+        joints.m_attachments.push_back(a.m_attachment);
+        joints.m_attachments.back().m_other = other->m_softBody;
+        joints.m_attachments.back().m_otherMark = other->m_mark;
+    }
+    joints.m_lastId = s.m_lastAttachment;
+}
+
+}  // namespace
+
+ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
+{
+    ContactSnapshot s;
+    s.m_contacts = fem.m_contacts;
+    s.m_origins = fem.m_origins;
+    s.m_sheetSides = fem.m_sheetSides;
+    for (const HeldJoint& joint : fem.m_joints.m_now)
+    {
+        HeldSnapshot held;
+        held.m_joint = joint;
+        held.m_object = world.idOf(joint.m_object);
+        tellSource(joint.m_source, world, held);
+        s.m_held.push_back(held);
+    }
+    for (const NodeAttachment& attachment : fem.m_joints.m_attachments)
+    {
+        const FemSoftBody* other = world.bodyAt(attachment.m_other);
+        const bool here = other && other->m_mark == attachment.m_otherMark;
+        s.m_attachments.push_back({attachment, here ? world.idOf(attachment.m_other) : WorldIds::kGone});
+    }
+    s.m_lastAttachment = fem.m_joints.m_lastId;
+    return s;
+}
+
+void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& world)
+{
+    if (s.m_contacts.size() != s.m_origins.size())
+        reject(s.m_contacts.size(), " contacts with ", s.m_origins.size(), " origins");
+    for (const ContactPoint& contact : s.m_contacts) checkPoint(contact, fem, nullptr);
+    if (!std::is_sorted(s.m_origins.begin(), s.m_origins.end()) ||
+        !std::is_sorted(s.m_sheetSides.begin(), s.m_sheetSides.end()))
+        reject("its contacts are not in order");
+    for (const SheetSide& side : s.m_sheetSides)
+        if (!isFinite(side.m_position) || !isFinite(side.m_safe)) reject("the side of a sheet is not finite");
+    for (const HeldSnapshot& held : s.m_held) checkHeld(held.m_joint, fem);
+    for (const AttachmentSnapshot& a : s.m_attachments) checkAttachment(a, fem, world);
+    if (s.m_lastAttachment < 0) reject("the last attachment's handle is ", s.m_lastAttachment, ", below 0");
+}
+
+void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
+{
+    fem.m_contacts.clear();
+    fem.m_origins.clear();
+    for (std::size_t k = 0; k < s.m_contacts.size(); ++k)
+    {
+        const btCollisionObject* object = world.objectOf(s.m_origins[k].m_objectId);
+        if (!object) continue;
+        fem.m_contacts.push_back(s.m_contacts[k]);
+        fem.m_origins.push_back(s.m_origins[k]);
+        fem.m_origins.back().m_object = object;
+    }
+    fem.m_sheetSides.assign(s.m_sheetSides.begin(), s.m_sheetSides.end());
+    fem.m_touching.clear();
+    fem.m_touchingSoft.clear();
+    restoreJoints(s, world, fem.m_joints);
+}
+
+void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
+{
+    if (kept.m_contacts.size() != kept.m_origins.size())
+        reject(kept.m_contacts.size(), " contacts between bodies with ", kept.m_origins.size(), " origins");
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < kept.m_contacts.size(); ++k)
+    {
+        const SoftPairOrigin& origin = kept.m_origins[k];
+        if (origin.m_kind < SoftPairKind::nodeOfFirst || origin.m_kind > SoftPairKind::edges)
+            reject("the kind of a contact between bodies is ", static_cast<int>(origin.m_kind), ", not in [0, 2]");
+        const FemSoftBody *first = world.bodyOf(origin.m_firstId), *second = world.bodyOf(origin.m_secondId);
+        if (!first || !second) continue;
+        if (origin.m_kind == SoftPairKind::nodeOfSecond) std::swap(first, second);
+        checkPoint(kept.m_contacts[k], *first, second);
+        kept.m_contacts[left] = kept.m_contacts[k];
+        kept.m_origins[left++] = kept.m_origins[k];
+    }
+    kept.m_contacts.resize(left);
+    kept.m_origins.resize(left);
+}
+
+void check(const RigidObstacles::Memory& memory)
+{
+    for (const RigidObstacles::Remainder& r : memory.m_remainders)
+        if (!isFinite(r.m_linear) || !isFinite(r.m_angular) || !isFinite(r.m_linearGiven) ||
+            !isFinite(r.m_angularGiven))
+            reject("what is carried over of the rigid body ", r.m_objectId, " is not finite");
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/snapshot/world_ids.h"
+#include "bullet_bridge/soft_pairs/soft_pair_memory.h"
+
+namespace bullet_fem
+{
+
+/// A HeldJoint whose pointers are ids: see WorldIds.
+struct HeldSnapshot
+{
+    HeldJoint m_joint;
+    int m_object = WorldIds::kNone;  ///< its other end
+    int m_owner = WorldIds::kNone;   ///< soft body that has its source among its joints
+    int m_source = 0;                ///< and the index there
+};
+
+/// A NodeAttachment likewise.
+struct AttachmentSnapshot
+{
+    NodeAttachment m_attachment;
+    int m_other = WorldIds::kGone;
+};
+
+/// What a body touched and what held it in the last step: the guesses and memories of the next.
+struct ContactSnapshot
+{
+    std::vector<ContactPoint> m_contacts;
+    std::vector<ContactOrigin> m_origins;  ///< without pointers
+    std::vector<SheetSide> m_sheetSides;
+    std::vector<HeldSnapshot> m_held;
+    std::vector<AttachmentSnapshot> m_attachments;
+    int m_lastAttachment = 0;
+};
+
+ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world);
+
+/// Throws std::invalid_argument, naming the value, unless the snapshot can be that of this body.
+void check(const ContactSnapshot& snapshot, const FemSoftBody& fem, const WorldIds& world);
+
+/// Gives it to the body; what touched or held it and is no longer in the world is left out. After check().
+void restore(const ContactSnapshot& snapshot, const WorldIds& world, FemSoftBody& fem);
+
+/// Throws std::invalid_argument unless the points can be between the bodies of their origins. Leaves those out of which
+/// a body is gone.
+void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world);
+
+/// Throws std::invalid_argument unless all numbers are finite.
+void check(const RigidObstacles::Memory& memory);
+
+template <class Bytes>
+void transfer(Bytes& bytes, SurfacePoint& p)
+{
+    bytes(p.m_nodes, p.m_weights);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, ContactPoint& c)
+{
+    bytes(c.m_soft, c.m_other, c.m_point, c.m_approach, c.m_normal, c.m_gap, c.m_slop, c.m_friction, c.m_restitution,
+          c.m_stiffness, c.m_damping, c.m_impulse, c.m_slip);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, ContactOrigin& o)
+{
+    bytes(o.m_objectId, o.m_leaf, o.m_feature, o.m_part, o.m_triangle);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, SheetSide& s)
+{
+    bytes(s.m_objectId, s.m_leaf, s.m_node, s.m_position, s.m_safe);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, HeldSnapshot& h)
+{
+    HeldJoint& j = h.m_joint;
+    bytes(j.m_kind, j.m_node, j.m_objectId, j.m_id, j.m_point, j.m_error, j.m_impulse, j.m_isEndB, h.m_object,
+          h.m_owner, h.m_source);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, AttachmentSnapshot& a)
+{
+    bytes(a.m_attachment.m_id, a.m_attachment.m_node, a.m_other, a.m_attachment.m_otherNodes, a.m_attachment.m_weights);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, ContactSnapshot& s)
+{
+    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_held, s.m_attachments, s.m_lastAttachment);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, SoftPairOrigin& o)
+{
+    bytes(o.m_firstId, o.m_secondId, o.m_kind, o.m_feature, o.m_otherFeature);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, SoftPairMemory::Kept& k)
+{
+    bytes(k.m_contacts, k.m_origins);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, RigidObstacles::Remainder& r)
+{
+    bytes(r.m_objectId, r.m_linear, r.m_angular, r.m_used, r.m_linearGiven, r.m_angularGiven);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, RigidObstacles::Memory& m)
+{
+    bytes(m.m_remainders, m.m_rewound);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <exception>
+
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "fem/message.h"
+#include "plugin/btFemCoupling.h"
+#include "plugin/btFemManifolds.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+// Calls what may throw; false and the reason if it did.
+template <class Call>
+bool succeeds(const Call& call, std::string* why)
+{
+    try
+    {
+        call();
+        return true;
+    }
+    catch (const std::exception& error)
+    {
+        if (why) *why = error.what();
+        return false;
+    }
+}
+
+// Says who refused.
+template <class Call>
+void named(const char* name, const Call& call)
+{
+    std::string why;
+    if (!succeeds(call, &why)) reject(name, ": ", why);
+}
+
+}  // namespace
+
+void btFemSoftBodySolver::saveState(std::vector<unsigned char>& buffer) const
+{
+    named("saveState", [&] { saveSnapshot(btFemCoupling::snapshotScope(*this), buffer); });
+}
+
+bool btFemSoftBodySolver::saveState(std::vector<unsigned char>& buffer, std::string* why) const
+{
+    const bool saved = succeeds([&] { saveState(buffer); }, why);
+    if (!saved) buffer.clear();
+    return saved;
+}
+
+void btFemSoftBodySolver::restoreState(const unsigned char* data, std::size_t size)
+{
+    named("restoreState", [&] { restoreSnapshot(btFemCoupling::snapshotScope(*this), data, size); });
+    if (const auto manifolds = btFemCoupling::manifolds(*this)) manifolds->update();
+}
+
+bool btFemSoftBodySolver::restoreState(const unsigned char* data, std::size_t size, std::string* why)
+{
+    return succeeds([&] { restoreState(data, size); }, why);
+}

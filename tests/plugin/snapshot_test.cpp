@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "plugin/snapshot_scene.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kLong = 300;  ///< steps
+
+btFemSolverInfo withThreads(int threads)
+{
+    btFemSolverInfo info;
+    info.m_threads = threads;
+    return info;
+}
+
+struct SnapshotCase
+{
+    Coupling m_coupling;
+    int m_threads;
+};
+
+class Snapshot : public testing::TestWithParam<SnapshotCase>
+{
+protected:
+    SnapshotScene m_scene{GetParam().m_coupling, withThreads(GetParam().m_threads)};
+};
+
+TEST_P(Snapshot, ContinuesBitForBitInTheMidstOfContact)
+{
+    m_scene.build();
+    m_scene.m_world.step(40);
+    ASSERT_GT(m_scene.contacts(), 50);
+    const SnapshotScene::Saved saved = m_scene.saveAll();
+    const std::vector<double> state = m_scene.state(), bits = m_scene.run(kLong);
+    m_scene.restore(saved);
+    EXPECT_TRUE(m_scene.state() == state);
+    EXPECT_TRUE(m_scene.save() == saved.m_fem);
+    EXPECT_TRUE(m_scene.run(kLong) == bits);
+    m_scene.restore(saved);
+    EXPECT_TRUE(m_scene.run(kLong) == bits);
+}
+
+TEST_P(Snapshot, OfBodiesThatFallAsleepOrSleepContinuesBitForBit)
+{
+    m_scene.addSlab();
+    m_scene.setState(ACTIVE_TAG);
+    m_scene.m_rigid.back()->forceActivationState(DISABLE_DEACTIVATION);  // slow enough to sleep on its way
+    m_scene.m_world.step(90);
+    const SnapshotScene::Saved falling = m_scene.saveAll();
+    std::vector<double> bits = m_scene.run(140);
+    ASSERT_EQ(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
+    const SnapshotScene::Saved sleeping = m_scene.saveAll();
+    const std::vector<double> after = m_scene.run(kLong);
+    ASSERT_EQ(m_scene.m_fem.touches(m_scene.m_soft[0]).size(), 3);  // and it was woken
+    bits.insert(bits.end(), after.begin(), after.end());
+    m_scene.restore(falling);
+    EXPECT_NE(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
+    EXPECT_TRUE(m_scene.run(140 + kLong) == bits);
+    m_scene.restore(sleeping);
+    EXPECT_EQ(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
+    EXPECT_TRUE(m_scene.run(kLong) == after);
+}
+
+TEST_P(Snapshot, MakesTheFactorOfThenAgain)
+{
+    const btScalar shorter = kStep / btScalar(1.3);  // stale, but not so much that contact makes a new one
+    m_scene.addTower();
+    m_scene.m_world.step(30);
+    m_scene.m_world.step(2, shorter);
+    const SnapshotScene::Saved saved = m_scene.saveAll();
+    const std::vector<double> bits = m_scene.run(60, shorter);
+    ASSERT_NE(m_scene.m_fem.stepReport(m_scene.m_soft[0]).m_flags & BT_FEM_STALE_FACTOR, 0);
+    for (const btScalar h : {shorter, shorter / 2, shorter / 3})  // the first factor is forgotten
+        for (btSoftBody* body : m_scene.m_soft)
+        {
+            m_scene.m_world.step(1, h);
+            m_scene.m_fem.refactor(body);
+        }
+    m_scene.restore(saved);
+    EXPECT_TRUE(m_scene.save() == saved.m_fem);
+    EXPECT_TRUE(m_scene.run(60, shorter) == bits);
+}
+
+TEST_P(Snapshot, OfAWorldBuiltAnewContinuesBitForBit)
+{
+    m_scene.build();
+    m_scene.m_world.step(40);
+    const SnapshotScene::Saved saved = m_scene.saveAll();
+    SnapshotScene again(GetParam().m_coupling);
+    again.build();
+    again.m_world.step(40);
+    EXPECT_TRUE(again.state() == m_scene.state());
+    again.m_fem.restoreState(saved.m_fem.data(), saved.m_fem.size());
+    EXPECT_TRUE(again.run(60) == m_scene.run(60));
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, Snapshot,
+                         testing::Values(SnapshotCase{Coupling::swap, 1}, SnapshotCase{Coupling::swap, 3},
+                                         SnapshotCase{Coupling::coupled, 1}, SnapshotCase{Coupling::coupled, 3}),
+                         [](const auto& test)
+                         {
+                             return couplingName(test.param.m_coupling) + std::string("With") +
+                                    std::to_string(test.param.m_threads) + "Threads";
+                         });
+
+TEST(SnapshotSize, IsTold)
+{
+    for (const int cells : {4, 8, 16})
+    {
+        SnapshotScene scene;
+        scene.m_world.addPlane();
+        const btSoftBody& box = scene.add({{1, 1, 1}, {cells, cells, cells}, {0, 0, 0.501}});
+        scene.m_world.step(5);
+        const std::size_t bytes = scene.save().size();
+        const std::string name = std::to_string(cells) + "Cells";
+        testing::Test::RecordProperty(name + "Bytes", static_cast<int>(bytes));
+        testing::Test::RecordProperty(name + "Nodes", box.m_nodes.size());
+        testing::Test::RecordProperty(name + "Tets", box.m_tetras.size());
+        testing::Test::RecordProperty(name + "Contacts", scene.contacts());
+        EXPECT_LT(bytes, 64 * 1024 + 320 * std::size_t(box.m_nodes.size()) + 16 * std::size_t(box.m_tetras.size()));
+    }
+}
+
+}  // namespace
+}  // namespace bullet_fem
