@@ -13,10 +13,23 @@ namespace bullet_fem
 namespace
 {
 
-template <class... Values>
-bool areFinite(const Values&... values)
+// Numbers that no scene has, but that single precision can still square.
+constexpr double kMost = 1e12;
+
+bool isSane(double value)
 {
-    return (std::isfinite(values) && ...);
+    return std::fabs(value) < kMost;
+}
+
+bool isSane(const Vec3& v)
+{
+    return isSane(v.x) && isSane(v.y) && isSane(v.z);
+}
+
+template <class... Values>
+void checkSane(const char* whose, const Values&... values)
+{
+    if (!(isSane(values) && ...)) reject("the numbers of ", whose, " are not in (-1e12, 1e12)");
 }
 
 int nodesOf(const FemSoftBody& fem)
@@ -37,11 +50,8 @@ void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBod
     checkNodes(c.m_soft.m_nodes, soft, "a contact");
     if (other) checkNodes(c.m_other.m_nodes, *other, "a contact's other side");
     const auto &w = c.m_soft.m_weights, &v = c.m_other.m_weights;
-    const bool finite = areFinite(w[0], w[1], w[2], v[0], v[1], v[2], c.m_gap, c.m_slop, c.m_friction, c.m_restitution,
-                                  c.m_stiffness, c.m_damping);
-    if (!finite || !isFinite(c.m_point) || !isFinite(c.m_approach) || !isFinite(c.m_normal) || !isFinite(c.m_impulse) ||
-        !isFinite(c.m_slip))
-        reject("a contact's numbers are not finite");
+    checkSane("a contact", w[0], w[1], w[2], v[0], v[1], v[2], c.m_gap, c.m_slop, c.m_friction, c.m_restitution,
+              c.m_stiffness, c.m_damping, c.m_point, c.m_approach, c.m_normal, c.m_impulse, c.m_slip);
 }
 
 bool isAnchor(const HeldJoint& joint)
@@ -60,8 +70,7 @@ void checkHeld(const HeldJoint& joint, const FemSoftBody& fem)
         reject("the kind of a joint is ", static_cast<int>(joint.m_kind), ", not in [0, 4]");
     if (joint.m_node < (isAnchor(joint) ? 0 : -1) || joint.m_node >= nodesOf(fem))
         reject("the node of a joint is ", joint.m_node, ", not in [0, ", nodesOf(fem), ")");
-    if (!isFinite(joint.m_point) || !isFinite(joint.m_impulse) || !std::isfinite(joint.m_error))
-        reject("a joint's numbers are not finite");
+    checkSane("a joint", joint.m_point, joint.m_impulse, joint.m_error);
 }
 
 void checkAttachment(const AttachmentSnapshot& a, const FemSoftBody& fem, const WorldIds& world)
@@ -69,8 +78,7 @@ void checkAttachment(const AttachmentSnapshot& a, const FemSoftBody& fem, const 
     checkNodes(std::array<int, 1>{a.m_attachment.m_node}, fem, "an attachment");
     if (const FemSoftBody* other = world.bodyOf(a.m_other))
         checkNodes(a.m_attachment.m_otherNodes, *other, "an attachment's other side");
-    for (double weight : a.m_attachment.m_weights)
-        if (!(std::fabs(weight) <= 1e6)) reject("the weight ", weight, " of an attachment is not in [-1e6, 1e6]");
+    for (double weight : a.m_attachment.m_weights) checkSane("an attachment", weight);
 }
 
 // Finds the user's joint among those of the bodies.
@@ -151,8 +159,7 @@ void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& wor
     if (!std::is_sorted(s.m_origins.begin(), s.m_origins.end()) ||
         !std::is_sorted(s.m_sheetSides.begin(), s.m_sheetSides.end()))
         reject("its contacts are not in order");
-    for (const SheetSide& side : s.m_sheetSides)
-        if (!isFinite(side.m_position) || !isFinite(side.m_safe)) reject("the side of a sheet is not finite");
+    for (const SheetSide& side : s.m_sheetSides) checkSane("a sheet's side", side.m_position, side.m_safe);
     for (const HeldSnapshot& held : s.m_held) checkHeld(held.m_joint, fem);
     for (const AttachmentSnapshot& a : s.m_attachments) checkAttachment(a, fem, world);
     if (s.m_lastAttachment < 0) reject("the last attachment's handle is ", s.m_lastAttachment, ", below 0");
@@ -200,9 +207,7 @@ void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
 void check(const RigidObstacles::Memory& memory)
 {
     for (const RigidObstacles::Remainder& r : memory.m_remainders)
-        if (!isFinite(r.m_linear) || !isFinite(r.m_angular) || !isFinite(r.m_linearGiven) ||
-            !isFinite(r.m_angularGiven))
-            reject("what is carried over of the rigid body ", r.m_objectId, " is not finite");
+        checkSane("a rigid body's remainder", r.m_linear, r.m_angular, r.m_linearGiven, r.m_angularGiven);
 }
 
 }  // namespace bullet_fem

@@ -18,6 +18,7 @@ namespace
 using Components = NodeSnapshot::Components;
 using Node = btSoftBody::Node;
 
+constexpr double kFarthest = 1e6;  // [m] and [m/s]; beyond it Bullet's broad phase gives a body up
 constexpr int kLastActivationState = FIXED_BASE_MULTI_BODY;
 
 // The fourth components are the user's, if anyone's.
@@ -74,11 +75,12 @@ void checkSize(const std::vector<T>& values, int size, const char* name, bool ma
 }
 
 template <class T>
-void checkFinite(const std::vector<T>& values, const char* name)
+void checkRange(const std::vector<T>& values, const char* name)
 {
     for (std::size_t i = 0; i < values.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            if (!std::isfinite(values[i][c])) reject("number ", i, " of the ", name, " is not finite");
+            if (!(std::fabs(values[i][c]) < kFarthest))
+                reject("number ", i, " of the ", name, " is not in (-1e6, 1e6)");
 }
 
 void checkFlags(const std::vector<unsigned char>& flags, const char* name)
@@ -91,8 +93,8 @@ void checkPins(const NodeSnapshot& s, int n)
 {
     checkSize(s.m_pinVelocity, n, "pin velocities", true);
     checkSize(s.m_pinPosition, n, "pin positions", true);
-    checkFinite(s.m_pinVelocity, "pin velocities");
-    checkFinite(s.m_pinPosition, "pin positions");
+    checkRange(s.m_pinVelocity, "pin velocities");
+    checkRange(s.m_pinPosition, "pin positions");
     checkSize(s.m_hasTarget, n, "target flags", true);
     checkSize(s.m_moved, n, "moved flags", true);
     checkFlags(s.m_hasTarget, "target flags");
@@ -104,8 +106,8 @@ void checkWritten(const NodeSnapshot& s, int n)
 {
     checkSize(s.m_writtenX, n, "written positions", true);
     checkSize(s.m_writtenV, n, "written velocities", true);
-    checkFinite(s.m_writtenX, "written positions");
-    checkFinite(s.m_writtenV, "written velocities");
+    checkRange(s.m_writtenX, "written positions");
+    checkRange(s.m_writtenV, "written velocities");
     checkSize(s.m_writtenInverseMass, n, "written inverse masses", true);
     const std::vector<btScalar>& written = s.m_writtenInverseMass.empty() ? s.m_inverseMass : s.m_writtenInverseMass;
     for (std::size_t i = 0; i < written.size(); ++i)
