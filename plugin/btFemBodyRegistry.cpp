@@ -14,6 +14,7 @@
 #include "bullet_bridge/soft_body_mesh.h"
 #include "fem/body_snapshot.h"
 #include "plugin/btFemContactTest.h"
+#include "plugin/btFemDefinition.h"
 #include "plugin/btFemManifolds.h"
 
 using namespace bullet_fem;
@@ -213,17 +214,24 @@ void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
         return;
     }
 
-    const TetMesh mesh = tetMeshOf(soft);
+    const std::shared_ptr<const btFemDefinition> defined = entry.m_definition;
+    const TetMesh mesh = defined ? TetMesh(defined->m_restPositions, defined->m_tets) : tetMeshOf(soft);
     const auto shape = m_library.restShape(mesh, materialOf(entry), filled);
     FactorInput input;
     bool repaired = false;
     input.m_mass = sanitisedMasses(soft, massesOf(mesh, filled, 1), repaired);
-    for (int i = 0; i < soft.m_nodes.size(); ++i) input.m_fixed.push_back(soft.m_nodes[i].m_im == 0);
+    for (int i = 0; i < soft.m_nodes.size(); ++i)
+    {
+        input.m_fixed.push_back(soft.m_nodes[i].m_im == 0);
+        if (defined && input.m_fixed[i]) input.m_mass[i] = defined->m_mass[i];
+    }
     input.m_step = step;
     const auto model = m_library.model(shape, input);
     entry.m_fem =
         std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model), m_library.restNeighbours(shape));
     entry.m_fem->m_body.m_state.m_mass = input.m_mass;  // the model's may be those of a copy elsewhere
+    if (defined) entry.m_fem->m_restOrigin = defined->m_restOrigin;
+    entry.m_definition.reset();
     registerWithDispatcher(soft);
     entry.m_fem->m_contactOffset = entry.m_contactOffset;
     entry.m_materialChanged = false;

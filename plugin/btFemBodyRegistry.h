@@ -16,6 +16,7 @@
 #include "plugin/btFemRealTime.h"
 #include "plugin/btFemSleeping.h"
 
+struct btFemDefinition;
 struct btFemFactorJob;
 
 /// How far a body has come in a step.
@@ -43,7 +44,8 @@ struct btFemEntry
     bool m_materialGiven = false;
     bool m_materialChanged = false;  // the model does not have it yet
     btFemDetail m_detail = btFemDetail::automatic;
-    double m_contactOffset = 0;  // [m]
+    double m_contactOffset = 0;                           // [m]
+    std::shared_ptr<const btFemDefinition> m_definition;  // rest shape and masses, until it is set up
 
     // What became of it. Without m_fem and without m_rejected it was not tried yet.
     std::unique_ptr<bullet_fem::FemSoftBody> m_fem;

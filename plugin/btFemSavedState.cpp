@@ -5,6 +5,7 @@
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "fem/message.h"
 #include "plugin/btFemCoupling.h"
+#include "plugin/btFemDefinition.h"
 #include "plugin/btFemManifolds.h"
 
 using namespace bullet_fem;
@@ -59,4 +60,29 @@ void btFemSoftBodySolver::restoreState(const unsigned char* data, std::size_t si
 bool btFemSoftBodySolver::restoreState(const unsigned char* data, std::size_t size, std::string* why)
 {
     return succeeds([&] { restoreState(data, size); }, why);
+}
+
+void btFemSoftBodySolver::saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer) const
+{
+    named("saveDefinition", [&] { ::saveDefinition(btFemCoupling::snapshotScope(*this).m_registry, body, buffer); });
+}
+
+bool btFemSoftBodySolver::saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer,
+                                         std::string* why) const
+{
+    const bool saved = succeeds([&] { saveDefinition(body, buffer); }, why);
+    if (!saved) buffer.clear();
+    return saved;
+}
+
+void btFemSoftBodySolver::applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size)
+{
+    named("applyDefinition",
+          [&] { ::applyDefinition(btFemCoupling::snapshotScope(*this).m_registry, body, data, size); });
+}
+
+bool btFemSoftBodySolver::applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size,
+                                          std::string* why)
+{
+    return succeeds([&] { applyDefinition(body, data, size); }, why);
 }

@@ -218,6 +218,23 @@ public:
     /// The same for engines without exceptions: false and the reason in `why` (if given) where the other throws.
     bool restoreState(const unsigned char* data, std::size_t size, std::string* why);
 
+    /// Saves what makes a body the FEM body that it is, for a side-car to whatever keeps its nodes, because Bullet's
+    /// serializer loses it: rest shape, material, masses and pins, filled fractions of a cage, contact offset, detail.
+    /// (Bullet 3.24's btSoftBody::serialize writes beyond its buffer in double precision; nothing here calls it.) A body
+    /// that was not stepped or prepared yet has its present shape as rest shape. Throws std::invalid_argument on null,
+    /// or a body without usable tetrahedra.
+    void saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer) const;
+    /// For engines without exceptions: false, an empty buffer and the reason in `why` (if given) instead.
+    bool saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer, std::string* why) const;
+
+    /// Gives it to a body with the same nodes and tetrahedra that was restored by other means: its nodes keep their
+    /// positions and velocities, and get their masses and pins at once; the rest is used when it is stepped or prepared
+    /// next. All that was known of the body is forgotten, its targets and attachments too. In place of setMaterial, and
+    /// before addSoftBody or after. Throws std::invalid_argument with the reason, and changes nothing then.
+    void applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size);
+    /// For engines without exceptions: false and the reason in `why` (if given) instead.
+    bool applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size, std::string* why);
+
     // Called by the world.
     void optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate = false) override;
     void predictMotion(btScalar timeStep) override;

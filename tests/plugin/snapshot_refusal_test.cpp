@@ -243,6 +243,44 @@ TEST_F(RefusedSnapshot, WithoutABroadPhase)
     expectRefused(Bytes(40, 0), "something else");
 }
 
+TEST_F(RefusedSnapshot, OfAnotherKindOfFactor)
+{
+    btFemSolverInfo info;
+    info.m_factorChoice = btFemFactorChoice::lowMemory;
+    SnapshotScene full, low(Coupling::swap, info);
+    for (SnapshotScene* scene : {&full, &low}) scene->addTower(), scene->m_world.step(2);
+    const Bytes bytes = full.save(), before = low.save();
+    std::string why;
+    EXPECT_FALSE(low.m_fem.restoreState(bytes.data(), bytes.size(), &why));
+    EXPECT_THAT(why, HasSubstr("m_factorChoice"));
+    EXPECT_TRUE(low.save() == before);
+}
+
+TEST(RestoredSnapshot, ShowsTheManifoldsOfThen)
+{
+    btFemSolverInfo info;
+    info.m_manifolds = true;
+    SnapshotScene scene(Coupling::swap, info);
+    scene.addTower();
+    const auto pointsShown = [&scene]
+    {
+        int points = 0;
+        const btDispatcher& dispatcher = *scene.m_world.world().getDispatcher();
+        for (int k = 0; k < dispatcher.getNumManifolds(); ++k)
+            points += const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(k)->getNumContacts();
+        return points;
+    };
+    scene.m_world.step(30);
+    const Bytes bytes = scene.save();
+    const int points = pointsShown();
+    ASSERT_GT(points, 4);
+    scene.m_soft[1]->translate(btVector3(0, 0, btScalar(0.05)));  // the pair's bounds go on to overlap
+    scene.m_world.step();
+    ASSERT_LT(pointsShown(), points);
+    scene.m_fem.restoreState(bytes.data(), bytes.size());
+    EXPECT_EQ(pointsShown(), points);
+}
+
 TEST(RestoredSnapshot, LeavesOutWhatIsGoneAndLeavesNewBodiesAlone)
 {
     SnapshotScene scene;

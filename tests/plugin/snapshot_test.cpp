@@ -65,7 +65,35 @@ TEST_P(Snapshot, OfBodiesThatFallAsleepOrSleepContinuesBitForBit)
     EXPECT_TRUE(m_scene.run(140 + kLong) == bits);
     m_scene.restore(sleeping);
     EXPECT_EQ(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
+    EXPECT_TRUE(m_scene.save() == sleeping.m_fem);
     EXPECT_TRUE(m_scene.run(kLong) == after);
+    m_scene.restore(sleeping);
+    m_scene.m_world.info().m_gravity *= 2;  // what it slept under is saved, too: it wakes
+    m_scene.m_world.step();
+    EXPECT_NE(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
+}
+
+TEST_P(Snapshot, TakesBackWhatTheUserDidSince)
+{
+    m_scene.build();
+    m_scene.m_world.step(40);
+    btSoftBody& beam = *m_scene.m_soft[3];
+    btSoftBody &first = *m_scene.m_soft[5], &second = *m_scene.m_soft[6];
+    beam.m_nodes[3].m_v += btVector3(0, 0, btScalar(0.1));  // not yet seen by a step
+    beam.m_nodes[4].m_f = btVector3(1, 2, 3);
+    const SnapshotScene::Saved saved = m_scene.saveAll();
+    const std::vector<double> bits = m_scene.run(30);
+    m_scene.m_fem.clearNodeTarget(&beam, beam.m_nodes.size() - 1);
+    m_scene.m_fem.setNodeTarget(&beam, 5, beam.m_nodes[5].m_x);
+    for (int i = 0; i < beam.m_nodes.size(); ++i) beam.setMass(i, 2);
+    m_scene.m_fem.detach(&first, 1);
+    m_scene.m_fem.attachNodes(&first, 0, &second, 5);
+    first.translate(btVector3(1, 1, 1));
+    m_scene.m_world.step(3);
+    first.setMass(2, 0);
+    m_scene.restore(saved);
+    EXPECT_TRUE(m_scene.save() == saved.m_fem);
+    EXPECT_TRUE(m_scene.run(30) == bits);
 }
 
 TEST_P(Snapshot, MakesTheFactorOfThenAgain)
