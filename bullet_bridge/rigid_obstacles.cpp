@@ -44,8 +44,7 @@ Obstacle immovable(const btCollisionObject& object)
     return obstacle;
 }
 
-// The motion of a multibody's link, which impulses do not reach: it is taken for an immovable object that moves.
-// `scratch` grows with the number of links.
+// The motion of a multibody's link that impulses do not reach. `scratch` grows with the number of links.
 void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>& scratch, Obstacle& obstacle)
 {
     const std::size_t count = link.m_multiBody->getNumLinks() + 1, k = link.m_link + 1;
@@ -54,6 +53,13 @@ void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>
     const btMatrix3x3& fromLink = link.getWorldTransform().getBasis();
     obstacle.m_angularVelocity = vec3(fromLink * scratch[k]);
     obstacle.m_linearVelocity = vec3(fromLink * scratch[count + k]);
+}
+
+// A link of a multibody that is still there; null for other objects.
+const btMultiBodyLinkCollider* linkOf(const btCollisionObject& object)
+{
+    const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(&object);
+    return link && link->m_multiBody && link->m_link < link->m_multiBody->getNumLinks() ? link : nullptr;
 }
 
 }  // namespace
@@ -91,6 +97,7 @@ void RigidObstacles::beginStep()
         m_remainders.end());
     for (Remainder& r : m_remainders) r.m_used = false;
     m_before.clear();
+    m_articulated.beginStep();
     m_lastRewound.swap(m_rewound);
     m_rewound.clear();
 }
@@ -100,6 +107,7 @@ void RigidObstacles::clear(RigidPhase phase)
     m_phase = phase;
     m_obstacles.clear();
     m_sources.clear();
+    m_articulated.clear();
 }
 
 btRigidBody* RigidObstacles::movableBody(int obstacle) const
@@ -113,8 +121,11 @@ int RigidObstacles::indexOf(const btCollisionObject& object, double step)
         if (m_sources[k].m_object == &object) return static_cast<int>(k);
     m_sources.push_back({&object, broadphaseId(object), {}, {}});
     Obstacle obstacle = immovable(object);
-    const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(&object);
-    if (link && link->m_multiBody) setLinkVelocity(*link, m_linkVelocities, obstacle);
+    const btMultiBodyLinkCollider* link = linkOf(object);
+    if (link && ArticulatedBodies::canMove(*link))
+        m_sources.back().m_now = m_articulated.add(static_cast<int>(m_obstacles.size()), *link, step, obstacle);
+    else if (link)
+        setLinkVelocity(*link, m_linkVelocities, obstacle);
     if (const btRigidBody* body = movable(object))
     {
         const Mat3 factor = {{{body->getAngularFactor().x(), 0, 0},
@@ -143,8 +154,10 @@ int RigidObstacles::indexOf(const btCollisionObject& object, double step)
 void RigidObstacles::noteBeforeSolve(const btCollisionObject& object)
 {
     const btRigidBody* body = movable(object);
-    if (!body) return;
+    const btMultiBodyLinkCollider* link = linkOf(object);
+    if (!body && !link) return;
     const std::lock_guard<std::mutex> lock(m_beforeMutex);
+    if (link) return m_articulated.noteBeforeSolve(*link->m_multiBody);
     m_before.push_back({&object, vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())});
 }
 
@@ -239,6 +252,7 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
     {
         Source& source = m_sources[k];
         const Obstacle& obstacle = m_obstacles[k];
+        m_articulated.addImpulse(static_cast<int>(k), source.m_linearImpulse, source.m_angularImpulse);
         btRigidBody* body = movable(*source.m_object);
         if (!body) continue;
         source.m_angularImpulse += obstacle.m_angularImpulse;
@@ -261,6 +275,16 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
                                             bulletVector(angular), btScalar(step), pushed);
         body->setCenterOfMassTransform(pushed);
     }
+    m_articulated.apply(m_obstacles, step);
+}
+
+LinkMotion RigidObstacles::motionNow(int obstacle) const
+{
+    const btRigidBody* body = movableBody(obstacle);
+    if (m_phase == RigidPhase::moved && body)
+        return {vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())};
+    if (m_obstacles[obstacle].canMove() && !body) return m_sources[obstacle].m_now;
+    return {m_obstacles[obstacle].m_linearVelocity, m_obstacles[obstacle].m_angularVelocity};
 }
 
 void RigidObstacles::addToVelocity(btRigidBody& body, const Source& source, const Obstacle& obstacle)

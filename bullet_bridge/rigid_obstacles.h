@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "LinearMath/btVector3.h"
+#include "bullet_bridge/articulated_bodies.h"
 #include "bullet_fem/fem/contact_solver.h"
 
 class btCollisionObject;
@@ -22,7 +23,8 @@ enum class RigidPhase
 };
 
 /// The rigid side of a step's contacts and joints: turns Bullet's collision objects into obstacles, and hands the
-/// reactions back. What single precision cuts off a rigid body's velocity is carried to the next step.
+/// reactions back. Links of multibodies answer as parts of their multibody. What single precision cuts off a rigid
+/// body's velocity is carried to the next step.
 class RigidObstacles
 {
 public:
@@ -50,6 +52,9 @@ public:
     /// Remembers how fast a body is before Bullet's rigid solver. May be called by several threads at once.
     void noteBeforeSolve(const btCollisionObject& object);
 
+    /// See ArticulatedBodies::assumeForcesGiven.
+    void assumeForcesGiven(const Vec3& gravity) { m_articulated.assumeForcesGiven(gravity); }
+
     /// Forgets all obstacles.
     void clear(RigidPhase phase = RigidPhase::moved);
 
@@ -66,6 +71,15 @@ public:
 
     /// True if Bullet has moved the object already, but its obstacle is as the step began.
     bool isRewound(int obstacle) const { return m_sources[obstacle].m_rewound; }
+
+    /// Writes how links of multibodies answer impulses, for ContactProblem. Once all obstacles are known.
+    void connectLinks(std::vector<ObstacleResponse>& responses) { m_articulated.connect(m_obstacles, responses); }
+
+    /// True if links of multibodies that can move are among the obstacles.
+    bool holdsLinks() const { return !m_articulated.isEmpty(); }
+
+    /// The velocity that the object moves with, or moved with: without what gravity will add to it in the next step.
+    LinkMotion motionNow(int obstacle) const;
 
     std::vector<Obstacle>& obstacles() { return m_obstacles; }
     const std::vector<Obstacle>& obstacles() const { return m_obstacles; }
@@ -87,6 +101,7 @@ private:
         int m_objectId;
         Vec3 m_linearImpulse, m_angularImpulse;  // of all contacts and joints, on the rigid body
         bool m_rewound = false;
+        LinkMotion m_now = {};  // of links that can move
     };
 
     void addReaction(int obstacle, const Vec3& impulse, const Vec3& point);
@@ -109,6 +124,7 @@ private:
     std::vector<Before> m_before;               // velocities before Bullet's rigid solver
     std::vector<int> m_rewound, m_lastRewound;  // ids of the objects in this step and in the last
     std::vector<btVector3> m_linkVelocities;    // scratch
+    ArticulatedBodies m_articulated;
 };
 
 /// Adds `change` to a Bullet velocity, with what rounding cut off before, and keeps what it cuts off now.

@@ -74,6 +74,7 @@ void btFemContactGroup::collect(const Scope& scope)
     collectJoints(scope);  // first: the rigid bodies that they hold are not rewound
     collectRigid();
     collectSoft();
+    m_rigid.connectLinks(m_problem.m_responses);
     m_problem.m_obstacles.assign(m_rigid.obstacles().begin(), m_rigid.obstacles().end());
     m_settings.m_step.m_step = m_step;
     m_settings.m_step.m_tolerance = m_info.m_tolerance;
@@ -133,7 +134,7 @@ void btFemContactGroup::collectJoints(const Scope& scope)
 
 bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count) const
 {
-    if (m_reachesOut) return false;
+    if (m_reachesOut || m_rigid.holdsLinks()) return false;
     for (std::size_t k = 0; k < m_rigid.obstacles().size(); ++k)
     {
         const btRigidBody* body = m_rigid.movableBody(static_cast<int>(k));

@@ -36,14 +36,17 @@ public:
     /// Remembers a rigid body as it is before Bullet's rigid solver. May be called by several threads at once.
     void noteBeforeSolve(const btCollisionObject& object) { m_rigid.noteBeforeSolve(object); }
 
+    /// See ArticulatedBodies::assumeForcesGiven.
+    void assumeForcesGiven(const bullet_fem::Vec3& gravity) { m_rigid.assumeForcesGiven(gravity); }
+
     /// Finds contacts and joints of bodies that have had their free motion.
     void collect(const Scope& scope);
 
     /// True if there is nothing to solve.
     bool isEmpty() const { return m_problem.m_contacts.empty() && m_problem.m_joints.empty(); }
 
-    /// True if every rigid body that the group can move is one of `bodies`, and no joint joins it to other soft bodies
-    /// that are awake.
+    /// True if every rigid body that the group can move is one of `bodies`, none is a multibody's link, and no joint
+    /// joins it to other soft bodies that are awake.
     bool holdsOnly(btCollisionObject* const* bodies, int count) const;
 
     /// After Bullet's rigid solver: solves and hands the reactions to the rigid bodies.

@@ -30,16 +30,6 @@ bool hasMoved(const btCollisionObject& object, const JointScene& scene)
     return scene.m_phase == RigidPhase::moved || object.isStaticOrKinematicObject();
 }
 
-// The velocity that the object moves with, or moved with: without what gravity will add to it in the next step.
-void setVelocity(const btCollisionObject& object, const JointScene& scene, RigidPivot& pivot)
-{
-    const Obstacle& obstacle = scene.m_rigid.obstacles()[pivot.m_obstacle];
-    const btRigidBody* body = btRigidBody::upcast(&object);
-    const bool ofBody = scene.m_phase == RigidPhase::moved && body && !body->isStaticOrKinematicObject();
-    pivot.m_linearVelocity = ofBody ? vec3(body->getLinearVelocity()) : obstacle.m_linearVelocity;
-    pivot.m_angularVelocity = ofBody ? vec3(body->getAngularVelocity()) : obstacle.m_angularVelocity;
-}
-
 }  // namespace
 
 Vec3 RigidPivot::wantedVelocity(const Vec3& at, const Vec3& correction, double step) const
@@ -54,7 +44,9 @@ RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const 
     pivot.m_start = local;
     if (!object) return pivot;
     pivot.m_obstacle = scene.m_rigid.indexOf(*object, scene.m_step);
-    setVelocity(*object, scene, pivot);
+    const LinkMotion motion = scene.m_rigid.motionNow(pivot.m_obstacle);
+    pivot.m_linearVelocity = motion.m_linear;
+    pivot.m_angularVelocity = motion.m_angular;
     const btTransform& pose = object->getWorldTransform();
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) pivot.m_rotation(i, j) = pose.getBasis()[i][j];

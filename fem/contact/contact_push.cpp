@@ -62,6 +62,7 @@ int ContactRows::push()
     setSpeedScale();
     int sweeps = 1;
     while (sweep(kPushTolerance) && sweeps < kMaxSweepsOfPush) ++sweeps;
+    sumPushImpulses();
     for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
     {
         Obstacle& obstacle = m_problem->m_obstacles[k];
@@ -77,6 +78,24 @@ int ContactRows::push()
         if (dot(gained, gained) > 0) payBack(b, gained);
     }
     return sweeps;
+}
+
+// Whose joints share out the push is told its impulses.
+void ContactRows::sumPushImpulses()
+{
+    const auto add = [this](const RowEnd& end, const Vec3& impulse)
+    {
+        if (end.m_obstacle < 0) return;
+        Obstacle& obstacle = m_problem->m_obstacles[end.m_obstacle];
+        if (obstacle.m_responseCount == 0) return;
+        if (!end.m_angular) obstacle.m_pushImpulse += impulse;
+        obstacle.m_pushAngularImpulse += end.m_angular ? impulse : cross(end.m_arm, impulse);
+    };
+    for (const Row& row : m_rows)
+    {
+        add(row.m_a, row.m_impulse);
+        add(row.m_b, -row.m_impulse);
+    }
 }
 
 // Displacing a moving body changes its angular momentum about the origin. The movable obstacles that it was pushed off

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bullet_fem/fem/stepping.h"
+#include "fem/contact/obstacle_response.h"
 
 namespace bullet_fem
 {
@@ -132,12 +133,7 @@ Mat3 ContactRows::compliance(const RowEnd& end) const
 {
     if (end.m_body >= 0) return m_bodies[end.m_body].compliance(end.m_end, end.m_end);
     if (end.m_obstacle < 0) return {};
-    const Obstacle& o = m_problem->m_obstacles[end.m_obstacle];
-    if (end.m_angular) return o.m_inverseInertia;
-    const Mat3 arm = crossMatrix(end.m_arm);
-    Mat3 w = Mat3::fromColumns({o.m_inverseMass.x, 0, 0}, {0, o.m_inverseMass.y, 0}, {0, 0, o.m_inverseMass.z});
-    w -= arm * o.m_inverseInertia * arm;
-    return w;
+    return obstacleCompliance(*m_problem, end.m_obstacle, end.m_arm, end.m_angular);
 }
 
 void ContactRows::finishRow(Row& row) const
@@ -205,9 +201,16 @@ void ContactRows::react(const RowEnd& end, const Vec3& impulse)
 {
     if (end.m_body >= 0) m_bodies[end.m_body].push(end.m_end, impulse);
     if (end.m_obstacle < 0) return;
-    Obstacle& o = m_problem->m_obstacles[end.m_obstacle];
-    if (!end.m_angular) o.m_linearVelocity += scaled(o.m_inverseMass, impulse);
-    o.m_angularVelocity += o.m_inverseInertia * (end.m_angular ? impulse : cross(end.m_arm, impulse));
+    std::vector<Obstacle>& obstacles = m_problem->m_obstacles;
+    const auto add = [&obstacles](int k, const Vec3& linear, const Vec3& angular)
+    {
+        obstacles[k].m_linearVelocity += linear;
+        obstacles[k].m_angularVelocity += angular;
+    };
+    if (end.m_angular)
+        respond(*m_problem, end.m_obstacle, {}, impulse, add);
+    else
+        respond(*m_problem, end.m_obstacle, impulse, cross(end.m_arm, impulse), add);
 }
 
 void ContactRows::change(Row& row, const Vec3& impulse)

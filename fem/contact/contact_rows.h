@@ -152,6 +152,7 @@ private:
     }
     const Threads* threadsForCompliance() const;
     void preparePush();
+    void sumPushImpulses();
     void payBack(std::size_t body, const Vec3& gained);
 
     ContactProblem* m_problem = nullptr;

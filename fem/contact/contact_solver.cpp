@@ -18,6 +18,7 @@ void ContactProblem::clear()
 {
     m_bodies.clear();
     m_obstacles.clear();
+    m_responses.clear();
     m_contacts.clear();
     m_joints.clear();
     m_handleNodes.clear();
@@ -54,9 +55,10 @@ constexpr double kGuessShare = 0.1;
 constexpr double kStalled = 0.97, kSmallError = 1e-3;
 
 // An obstacle's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
-// all.
+// all. Of an articulated one, whoever knows its joints makes the sum.
 void payBackOwn(Obstacle& obstacle, double h)
 {
+    if (obstacle.m_responseCount > 0) return;
     const Vec3& w = obstacle.m_inverseMass;
     if (!(w.x > 0 && w.y > 0 && w.z > 0))
     {
@@ -96,7 +98,8 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_report.m_contacts = static_cast<int>(problem.m_contacts.size());
     s.m_empty = problem.m_contacts.empty() && problem.m_joints.empty();
     for (Obstacle& obstacle : problem.m_obstacles)
-        obstacle.m_pushLinear = obstacle.m_pushAngular = obstacle.m_angularImpulse = {};
+        obstacle.m_pushLinear = obstacle.m_pushAngular = obstacle.m_angularImpulse = obstacle.m_pushImpulse =
+            obstacle.m_pushAngularImpulse = {};
     if (s.m_empty) return;
     const bool joints = !problem.m_joints.empty();
     s.m_minRounds = joints ? std::max(settings.m_rounds, kRoundsWithJoints) : settings.m_rounds;

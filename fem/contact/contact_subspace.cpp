@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/contact/contact_rows.h"
+#include "fem/contact/obstacle_response.h"
 
 namespace bullet_fem
 {
@@ -99,8 +100,12 @@ void ContactRows::respondToDirections()
     {
         if (end.m_body >= 0) m_bodies[end.m_body].working().addToProbe(end.m_end, impulse);
         if (end.m_obstacle < 0) return;
-        m_probeLinear[end.m_obstacle] += scaled(obstacles[end.m_obstacle].m_inverseMass, impulse);
-        m_probeAngular[end.m_obstacle] += obstacles[end.m_obstacle].m_inverseInertia * cross(end.m_arm, impulse);
+        respond(*m_problem, end.m_obstacle, impulse, cross(end.m_arm, impulse),
+                [this](int k, const Vec3& linear, const Vec3& angular)
+                {
+                    m_probeLinear[k] += linear;
+                    m_probeAngular[k] += angular;
+                });
     };
     const auto velocityOf = [this](const RowEnd& end)
     {

@@ -9,9 +9,9 @@
 namespace bullet_fem
 {
 
-btSoftBody* makeSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBox& box)
+btSoftBody* makeSoftBox(btSoftBodyWorldInfo& info, btFemSoftBodySolver& fem, const SoftBox& box)
 {
-    btSoftBody* body = btFemHelpers::createFromTetMesh(world.info(), makeBox(box.m_size, box.m_cells));
+    btSoftBody* body = btFemHelpers::createFromTetMesh(info, makeBox(box.m_size, box.m_cells));
     if (box.m_turn != 0)
     {
         const btVector3 middle = bulletVector(0.5 * box.m_size);
@@ -26,6 +26,11 @@ btSoftBody* makeSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBo
     material.m_density = box.m_density;
     fem.setMaterial(body, material);
     return body;
+}
+
+btSoftBody* makeSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBox& box)
+{
+    return makeSoftBox(world.info(), fem, box);
 }
 
 btSoftBody& addSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBox& box)

@@ -24,6 +24,7 @@ struct SoftBox
 };
 
 /// Makes one and gives it its material.
+btSoftBody* makeSoftBox(btSoftBodyWorldInfo& info, btFemSoftBodySolver& fem, const SoftBox& box);
 btSoftBody* makeSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBox& box);
 
 /// And adds it to the world.

@@ -20,18 +20,35 @@ std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyM
 /// A rigid body as the contact solver sees it.
 struct Obstacle
 {
-    Vec3 m_inverseMass;      ///< along the world axes [1/kg]; 0 for static and kinematic ones
-    Mat3 m_inverseInertia;   ///< world axes [1/(kg m2)]
-    Vec3 m_center;           ///< centre of mass [m]
-    Vec3 m_linearVelocity;   ///< [m/s]; solve() adds what the contacts do
-    Vec3 m_angularVelocity;  ///< [rad/s]; likewise
-    Vec3 m_pushLinear;       ///< written by solve(): velocity of position correction alone, never kept as motion [m/s]
-    Vec3 m_pushAngular;      ///< likewise [rad/s]
-    Vec3 m_angularImpulse;   ///< written by solve(): pays back the angular momentum that corrections made [N m s]
+    Vec3 m_inverseMass;       ///< along the world axes [1/kg]; 0 for static and kinematic ones
+    Mat3 m_inverseInertia;    ///< world axes [1/(kg m2)]
+    Vec3 m_center;            ///< centre of mass [m]
+    Vec3 m_linearVelocity;    ///< [m/s]; solve() adds what the contacts do
+    Vec3 m_angularVelocity;   ///< [rad/s]; likewise
+    Vec3 m_pushLinear;        ///< written by solve(): velocity of position correction alone, never kept as motion [m/s]
+    Vec3 m_pushAngular;       ///< likewise [rad/s]
+    Vec3 m_angularImpulse;    ///< written by solve(): pays back the angular momentum that corrections made [N m s]
+    int m_firstResponse = 0;  ///< its responses are m_responses[m_firstResponse ... + m_responseCount) of the problem
+    int m_responseCount =
+        0;               ///< > 0: they tell what impulses on it do, and inverse mass and inertia only that it moves
+    Vec3 m_pushImpulse;  ///< written by solve() if it has responses: what makes the push [N s]
+    Vec3 m_pushAngularImpulse;  ///< likewise, about its centre [N m s]
 
     /// True if an impulse moves or turns it.
     bool canMove() const { return dot(m_inverseMass, m_inverseMass) > 0 || squaredNorm(m_inverseInertia) > 0; }
     Vec3 velocityAt(const Vec3& point) const { return m_linearVelocity + cross(m_angularVelocity, point - m_center); }
+};
+
+/// What an impulse on one obstacle does to another that hangs on the same joints, or to itself: links of an articulated
+/// body, which no mass and inertia describe. For impulses f and angular impulses t about the one's centre, the other's
+/// centre gets m_linear f + m_linearOfAngular t, its spin m_angularOfLinear f + m_angular t. World axes.
+struct ObstacleResponse
+{
+    int m_obstacle = 0;      ///< index of the one that moves
+    Mat3 m_linear;           ///< [1/kg]
+    Mat3 m_linearOfAngular;  ///< [1/(kg m)]
+    Mat3 m_angularOfLinear;  ///< [1/(kg m)]
+    Mat3 m_angular;          ///< [1/(kg m2)]
 };
 
 /// A point of a soft surface: barycentric in at most three surface nodes of a body.
@@ -131,12 +148,13 @@ struct Joint
 /// Nothing is checked: indices must be in range, and all numbers finite.
 struct ContactProblem
 {
-    std::vector<ContactBody> m_bodies;     ///< each once
-    std::vector<Obstacle> m_obstacles;     ///< each once
-    std::vector<ContactPoint> m_contacts;  ///< between them; their order decides
-    std::vector<Joint> m_joints;           ///< likewise
-    std::vector<int> m_handleNodes;        ///< nodes of the joints' soft ends, one end's after another
-    std::vector<Mat3> m_handleBlocks;      ///< one a handle node [-]
+    std::vector<ContactBody> m_bodies;          ///< each once
+    std::vector<Obstacle> m_obstacles;          ///< each once
+    std::vector<ObstacleResponse> m_responses;  ///< of the obstacles that have some
+    std::vector<ContactPoint> m_contacts;       ///< between them; their order decides
+    std::vector<Joint> m_joints;                ///< likewise
+    std::vector<int> m_handleNodes;             ///< nodes of the joints' soft ends, one end's after another
+    std::vector<Mat3> m_handleBlocks;           ///< one a handle node [-]
 
     /// Empties all; nothing is freed.
     void clear();

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/articulated_bodies.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "BulletDynamics/Featherstone/btMultiBody.h"
+#include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
+#include "bullet_bridge/bullet_vectors.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kBase = 6;  // coordinates of the base
+
+bool sleeps(const btMultiBody& body)
+{
+    const auto isAsleep = [](const btCollisionObject* collider)
+    { return collider && collider->getActivationState() == ISLAND_SLEEPING; };
+    bool asleep = isAsleep(body.getBaseCollider());
+    for (int k = 0; k < body.getNumLinks() && !asleep; ++k) asleep = isAsleep(body.getLinkCollider(k));
+    return asleep;
+}
+
+void setVelocity(btMultiBody& body, const std::vector<btScalar>& velocity)
+{
+    body.setBaseOmega(btVector3(velocity[0], velocity[1], velocity[2]));
+    body.setBaseVel(btVector3(velocity[3], velocity[4], velocity[5]));
+    for (int k = 0; k < body.getNumLinks(); ++k)
+    {
+        const btMultibodyLink& link = body.getLink(k);
+        for (int d = 0; d < link.m_dofCount; ++d)
+            body.getJointVelMultiDof(k)[d] = velocity[kBase + link.m_dofOffset + d];
+    }
+}
+
+void addGravity(btMultiBody& body, const Vec3& gravity)
+{
+    if (dot(gravity, gravity) == 0) return;
+    body.addBaseForce(body.getBaseMass() * bulletVector(gravity));
+    for (int k = 0; k < body.getNumLinks(); ++k) body.addLinkForce(k, body.getLinkMass(k) * bulletVector(gravity));
+}
+
+void wake(btMultiBody& body)
+{
+    body.wakeUp();
+    const auto activate = [](btCollisionObject* collider)
+    {
+        if (collider && !collider->isActive()) collider->activate();
+    };
+    activate(body.getBaseCollider());
+    for (int k = 0; k < body.getNumLinks(); ++k) activate(body.getLinkCollider(k));
+}
+
+}  // namespace
+
+bool ArticulatedBodies::canMove(const btMultiBodyLinkCollider& link)
+{
+    const btMultiBody* body = link.m_multiBody;
+    if (!body || link.isStaticOrKinematicObject() || link.m_link >= body->getNumLinks()) return false;
+    if (!body->isAwake() && !body->getCanWakeup()) return false;
+    return link.m_link < 0 ? !body->isBaseStaticOrKinematic() : true;
+}
+
+void ArticulatedBodies::beginStep()
+{
+    m_before.clear();
+    m_beforeVelocity.clear();
+    for (Memory& memory : m_memories)
+    {
+        if (!memory.m_used) memory.m_body = nullptr;
+        memory.m_used = false;
+    }
+}
+
+void ArticulatedBodies::assumeForcesGiven(const Vec3& gravity)
+{
+    m_forcesGiven = true;
+    m_takenGravity = gravity;
+}
+
+void ArticulatedBodies::noteBeforeSolve(const btMultiBody& body)
+{
+    for (const Before& known : m_before)
+        if (known.m_body == &body) return;
+    m_before.push_back({&body, m_beforeVelocity.size()});
+    const btScalar* velocity = body.getVelocityVector();
+    m_beforeVelocity.insert(m_beforeVelocity.end(), velocity, velocity + kBase + body.getNumDofs());
+}
+
+void ArticulatedBodies::clear()
+{
+    m_trees.clear();
+    m_links.clear();
+    m_velocity.clear();
+    m_freeVelocity.clear();
+    m_jacobian.clear();
+    m_answer.clear();
+}
+
+LinkMotion ArticulatedBodies::add(int index, const btMultiBodyLinkCollider& link, double step, Obstacle& obstacle)
+{
+    Link added = {index, treeOf(*link.m_multiBody, step), m_jacobian.size(), {}, {}};
+    fillRows(added, link.m_link, obstacle.m_center, m_trees[added.m_tree]);
+    m_links.push_back(added);
+    const LinkMotion next = motion(added, m_freeVelocity);
+    obstacle.m_linearVelocity = next.m_linear;
+    obstacle.m_angularVelocity = next.m_angular;
+    const ObstacleResponse own = response(added, added);
+    for (int c = 0; c < 3; ++c) obstacle.m_inverseMass[c] = own.m_linear(c, c);
+    obstacle.m_inverseInertia = own.m_angular;
+    return motion(added, m_velocity);
+}
+
+int ArticulatedBodies::treeOf(btMultiBody& body, double step)
+{
+    for (std::size_t k = 0; k < m_trees.size(); ++k)
+        if (m_trees[k].m_body == &body) return static_cast<int>(k);
+    const Tree tree = {&body, kBase + body.getNumDofs(), m_velocity.size()};
+    m_trees.push_back(tree);
+    const btScalar* velocity = body.getVelocityVector();
+    m_velocity.insert(m_velocity.end(), velocity, velocity + tree.m_coordinates);
+    m_freeVelocity.insert(m_freeVelocity.end(), velocity, velocity + tree.m_coordinates);
+    factor(body);
+    predict(tree, step);
+    return static_cast<int>(m_trees.size()) - 1;
+}
+
+// Bullet's own pass with no step: it changes no velocity, leaves what impulses are answered with for the present pose,
+// and tells the accelerations. It must not overwrite what the user reads of the joints' forces, and says nothing of
+// joints that it does not move.
+void ArticulatedBodies::factor(btMultiBody& body)
+{
+    m_feedback.resize(body.getNumLinks());
+    for (int k = 0; k < body.getNumLinks(); ++k)
+        m_feedback[k] = std::exchange(body.getLink(k).m_jointFeedback, nullptr);
+    addGravity(body, m_takenGravity);
+    body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, m_scalars, m_vectors, m_matrices, false, false, false);
+    addGravity(body, -m_takenGravity);
+    for (int k = 0; k < body.getNumLinks(); ++k) body.getLink(k).m_jointFeedback = m_feedback[k];
+    const btScalar* acceleration = &m_scalars[body.getNumDofs()];
+    m_acceleration.assign(acceleration, acceleration + kBase + body.getNumDofs());
+    for (int k = 0; k < body.getNumLinks(); ++k)
+        if (body.isLinkAndAllAncestorsKinematic(k))
+            std::fill_n(&m_acceleration[kBase + body.getLink(k).m_dofOffset], body.getLink(k).m_dofCount, 0.0);
+}
+
+void ArticulatedBodies::predict(const Tree& tree, double step)
+{
+    if (sleeps(*tree.m_body)) return;
+    for (int k = 0; k < tree.m_coordinates; ++k)
+        if (k >= kBase || !tree.m_body->isBaseStaticOrKinematic())
+            m_freeVelocity[tree.m_first + k] += step * m_acceleration[k];
+    addSupport(tree, step);
+}
+
+// As RigidObstacles does with rigid bodies, in the coordinates of the joints.
+void ArticulatedBodies::addSupport(const Tree& tree, double step)
+{
+    const auto before =
+        std::find_if(m_before.begin(), m_before.end(), [&](const Before& b) { return b.m_body == tree.m_body; });
+    if (before == m_before.end()) return;
+    const double* velocity = &m_beforeVelocity[before->m_first];
+    support(tree, 0, 3, velocity, step);
+    support(tree, 3, 3, velocity, step);
+    for (int k = kBase; k < tree.m_coordinates; ++k) support(tree, k, 1, velocity, step);
+}
+
+void ArticulatedBodies::support(const Tree& tree, int first, int count, const double* before, double step)
+{
+    const Memory& memory = memoryOf(*tree.m_body, tree.m_coordinates);
+    const auto needed = [&](int k) { return -(step * m_acceleration[k] + memory.m_given[k]); };
+    double done = 0, whole = 0;
+    for (int k = first; k < first + count; ++k)
+    {
+        const double byForces = m_forcesGiven ? 0 : step * m_acceleration[k];
+        done += (m_velocity[tree.m_first + k] - before[k] - byForces) * needed(k);
+        whole += needed(k) * needed(k);
+    }
+    if (!(whole > 0)) return;
+    const double share = std::clamp(done / whole, 0.0, 1.0);
+    for (int k = first; k < first + count; ++k) m_freeVelocity[tree.m_first + k] += share * needed(k);
+}
+
+ArticulatedBodies::Memory& ArticulatedBodies::memoryOf(const btMultiBody& body, int coordinates)
+{
+    const auto find = [this](const btMultiBody* wanted)
+    {
+        return std::find_if(m_memories.begin(), m_memories.end(),
+                            [wanted](const Memory& m) { return m.m_body == wanted; });
+    };
+    auto memory = find(&body);
+    if (memory != m_memories.end() && static_cast<int>(memory->m_given.size()) == coordinates) return *memory;
+    if (memory == m_memories.end()) memory = find(nullptr);
+    if (memory == m_memories.end()) memory = m_memories.insert(m_memories.end(), Memory());
+    memory->m_body = &body;
+    memory->m_given.assign(coordinates, 0);
+    memory->m_remainder.assign(coordinates, 0);
+    return *memory;
+}
+
+// Bullet leaves out what it does not move, and forgets that impulses can turn planar joints.
+void ArticulatedBodies::fillRows(const Link& link, int linkIndex, const Vec3& center, const Tree& tree)
+{
+    const btMultiBody& body = *tree.m_body;
+    const int n = tree.m_coordinates;
+    m_jacobian.resize(link.m_first + 6 * n, 0);
+    m_answer.resize(link.m_first + 6 * n, 0);
+    for (int row = 0; row < 6; ++row)
+    {
+        btScalar *J = &m_jacobian[link.m_first + row * n], *answer = &m_answer[link.m_first + row * n];
+        btVector3 axis(0, 0, 0);
+        axis[row % 3] = 1;
+        const btVector3 none(0, 0, 0);
+        body.fillConstraintJacobianMultiDof(linkIndex, bulletVector(center), row < 3 ? none : axis,
+                                            row < 3 ? axis : none, J, m_scalars, m_vectors, m_matrices);
+        for (int k = linkIndex; k >= 0 && row >= 3; k = body.getParent(k))
+            if (body.getLink(k).m_jointType == btMultibodyLink::ePlanar)
+                J[kBase + body.getLink(k).m_dofOffset] +=
+                    body.worldDirToLocal(k, axis).dot(body.getLink(k).getAxisTop(0));
+        body.calcAccelerationDeltasMultiDof(J, answer, m_scalars, m_vectors);
+    }
+}
+
+LinkMotion ArticulatedBodies::motion(const Link& link, const std::vector<double>& velocity) const
+{
+    const Tree& tree = m_trees[link.m_tree];
+    double sums[6] = {};
+    for (int row = 0; row < 6; ++row)
+        for (int k = 0; k < tree.m_coordinates; ++k)
+            sums[row] += double(m_jacobian[link.m_first + row * tree.m_coordinates + k]) * velocity[tree.m_first + k];
+    return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}};
+}
+
+Mat3 ArticulatedBodies::block(const Link& moved, int rowOfMoved, const Link& pushed, int rowOfPushed) const
+{
+    const int n = m_trees[moved.m_tree].m_coordinates;
+    Mat3 result;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < n; ++k)
+                result(i, j) += double(m_jacobian[moved.m_first + (rowOfMoved + i) * n + k]) *
+                                double(m_answer[pushed.m_first + (rowOfPushed + j) * n + k]);
+    return result;
+}
+
+ObstacleResponse ArticulatedBodies::response(const Link& moved, const Link& pushed) const
+{
+    return {moved.m_obstacle, block(moved, 0, pushed, 0), block(moved, 0, pushed, 3), block(moved, 3, pushed, 0),
+            block(moved, 3, pushed, 3)};
+}
+
+void ArticulatedBodies::connect(std::vector<Obstacle>& obstacles, std::vector<ObstacleResponse>& responses) const
+{
+    responses.clear();
+    for (const Link& pushed : m_links)
+    {
+        Obstacle& obstacle = obstacles[pushed.m_obstacle];
+        obstacle.m_firstResponse = static_cast<int>(responses.size());
+        for (const Link& moved : m_links)
+            if (moved.m_tree == pushed.m_tree) responses.push_back(response(moved, pushed));
+        obstacle.m_responseCount = static_cast<int>(responses.size()) - obstacle.m_firstResponse;
+    }
+}
+
+void ArticulatedBodies::addImpulse(int index, const Vec3& impulse, const Vec3& angular)
+{
+    for (Link& link : m_links)
+    {
+        if (link.m_obstacle != index) continue;
+        link.m_impulse += impulse;
+        link.m_angularImpulse += angular;
+    }
+}
+
+void ArticulatedBodies::apply(const std::vector<Obstacle>& obstacles, double step)
+{
+    for (Link& link : m_links) link.m_angularImpulse += obstacles[link.m_obstacle].m_angularImpulse;
+    for (std::size_t k = 0; k < m_trees.size(); ++k)
+    {
+        const Tree& tree = m_trees[k];
+        if (solve(tree, static_cast<int>(k), nullptr))
+        {
+            addVelocity(tree);
+            memoryOf(*tree.m_body, tree.m_coordinates).m_given.assign(m_change.begin(), m_change.end());
+            wake(*tree.m_body);
+        }
+        if (solve(tree, static_cast<int>(k), &obstacles)) displace(tree, step);
+    }
+}
+
+// What the impulses on all links of a tree, or those behind their push, change in its coordinates. False if nothing.
+bool ArticulatedBodies::solve(const Tree& tree, int number, const std::vector<Obstacle>* pushed)
+{
+    const int n = tree.m_coordinates;
+    m_force.assign(n, 0);
+    m_change.assign(n, 0);
+    for (const Link& link : m_links)
+    {
+        if (link.m_tree != number) continue;
+        const Vec3 impulse = pushed ? (*pushed)[link.m_obstacle].m_pushImpulse : link.m_impulse;
+        const Vec3 angular = pushed ? (*pushed)[link.m_obstacle].m_pushAngularImpulse : link.m_angularImpulse;
+        for (int row = 0; row < 6; ++row)
+            for (int k = 0; k < n; ++k)
+                m_force[k] +=
+                    double(m_jacobian[link.m_first + row * n + k]) * (row < 3 ? impulse[row] : angular[row - 3]);
+    }
+    if (std::all_of(m_force.begin(), m_force.end(), [](double f) { return f == 0; })) return false;
+    m_rounded.assign(m_force.begin(), m_force.end());
+    tree.m_body->calcAccelerationDeltasMultiDof(&m_rounded[0], &m_change[0], m_scalars, m_vectors);
+    return true;
+}
+
+void ArticulatedBodies::addVelocity(const Tree& tree)
+{
+    Memory& memory = memoryOf(*tree.m_body, tree.m_coordinates);
+    memory.m_used = true;
+    const btScalar* now = tree.m_body->getVelocityVector();
+    const btScalar fastest = tree.m_body->getMaxCoordinateVelocity();
+    m_rounded.resize(tree.m_coordinates);
+    for (int k = 0; k < tree.m_coordinates; ++k)
+    {
+        const double exact = double(now[k]) + memory.m_remainder[k] + double(m_change[k]);
+        m_rounded[k] = std::clamp(static_cast<btScalar>(exact), -fastest, fastest);
+        memory.m_remainder[k] = std::abs(exact) < double(fastest) ? exact - double(m_rounded[k]) : 0;
+    }
+    setVelocity(*tree.m_body, m_rounded);
+}
+
+// With velocities of its own: Bullet's step ignores those that are given to it in planar joints. Other angles make
+// other momenta of the same joint velocities: what is free in space gets the difference back at its base.
+void ArticulatedBodies::displace(const Tree& tree, double step)
+{
+    btMultiBody& body = *tree.m_body;
+    const Momentum before = momentum(body);
+    const btScalar* now = body.getVelocityVector();
+    m_rounded.assign(now, now + tree.m_coordinates);
+    setVelocity(body, m_change);
+    body.stepPositionsMultiDof(static_cast<btScalar>(step));
+    setVelocity(body, m_rounded);
+    body.updateCollisionObjectWorldTransforms(m_turns, m_vectors);
+    if (body.isBaseStaticOrKinematic()) return;
+    factor(body);
+    const Momentum after = momentum(body);
+    const Vec3 lost = before.m_linear - after.m_linear;
+    const Vec3 lostSpin = before.m_angular - after.m_angular - cross(vec3(body.getBasePos()), lost);
+    m_rounded.assign(tree.m_coordinates, 0);
+    for (int c = 0; c < 3; ++c)
+    {
+        m_rounded[c] = static_cast<btScalar>(lostSpin[c]);
+        m_rounded[3 + c] = static_cast<btScalar>(lost[c]);
+    }
+    m_change.assign(tree.m_coordinates, 0);
+    body.calcAccelerationDeltasMultiDof(&m_rounded[0], &m_change[0], m_scalars, m_vectors);
+    addVelocity(tree);
+}
+
+// Of base and links: linear [kg m/s], and angular about the world's origin [kg m2/s].
+ArticulatedBodies::Momentum ArticulatedBodies::momentum(const btMultiBody& body)
+{
+    const int count = body.getNumLinks() + 1;
+    m_vectors.resize(2 * count);
+    body.compTreeLinkVelocities(&m_vectors[0], &m_vectors[count]);
+    Momentum sum;
+    for (int k = -1; k < body.getNumLinks(); ++k)
+    {
+        const btVector3 inertia = k < 0 ? body.getBaseInertia() : body.getLinkInertia(k);
+        const double mass = k < 0 ? body.getBaseMass() : body.getLinkMass(k);
+        const Vec3 p = mass * vec3(body.localDirToWorld(k, m_vectors[count + k + 1]));
+        sum.m_linear += p;
+        sum.m_angular += cross(vec3(body.localPosToWorld(k, btVector3(0, 0, 0))), p) +
+                         vec3(body.localDirToWorld(k, inertia * m_vectors[k + 1]));
+    }
+    return sum;
+}
+
+}  // namespace bullet_fem
