@@ -53,4 +53,10 @@ double fastestNode(const Body& body, const Vec3& relativeTo)
     return fastest;
 }
 
+Vec3 FemSoftBody::gravity() const
+{
+    if (m_hasOwnGravity) return m_ownGravity;
+    return m_softBody->m_worldInfo ? vec3(m_softBody->m_worldInfo->m_gravity) : Vec3();
+}
+
 }  // namespace bullet_fem

@@ -81,6 +81,11 @@ struct FemSoftBody
     WrittenNodes m_written;
     NodePins m_pins;
     double m_contactOffset = 0;  ///< [m]
+    bool m_hasOwnGravity = false;
+    Vec3 m_ownGravity;  ///< in place of the world info's, if it has its own [m/s2]
+
+    /// What it falls with [m/s2]; not checked.
+    Vec3 gravity() const;
 
     std::mutex m_touchingMutex;                        ///< guards m_touching while Bullet's threads collide
     std::vector<const btCollisionObject*> m_touching;  ///< overlapping rigid objects of this step

@@ -130,7 +130,7 @@ bool readLoads(FemSoftBody& fem, double step)
     const BodyState& state = fem.m_body.m_state;
     StepLoads& loads = fem.m_body.m_loads;
     bool finite = true;
-    Vec3 gravity = soft.m_worldInfo ? vec3(soft.m_worldInfo->m_gravity) : Vec3();
+    Vec3 gravity = fem.gravity();
     if (!isFinite(gravity)) gravity = {}, finite = false;
     for (int i = 0; i < soft.m_nodes.size(); ++i)
     {
@@ -145,9 +145,9 @@ bool readLoads(FemSoftBody& fem, double step)
             goes ? (1 / step) * (fem.m_pins.m_position[i] - state.m_x[i]) : fem.m_pins.m_velocity[i];
         fem.m_pins.m_moved[i] = 0;
     }
-    // Bullet multiplies velocities by 1 - kDP a step; the implicit rate alpha that does the same is kDP / (h (1 -
+    // Bullet multiplies velocities by 1 - kDP a step, in its deformable world by 1 - drag; the implicit rate alpha that does the same is kDP / (h (1 -
     // kDP)).
-    const double kDP = soft.m_cfg.kDP;
+    const double kDP = fem.m_hasOwnGravity ? soft.m_cfg.drag : soft.m_cfg.kDP;
     loads.m_massDamping = kDP > 0 ? std::min(kDP, 0.999) / (step * (1 - std::min(kDP, 0.999))) : 0;
     return finite;
 }
@@ -168,7 +168,7 @@ void writeNodes(FemSoftBody& fem)
 void setSweptBounds(FemSoftBody& fem, double step, double margin)
 {
     const BodyState& state = fem.m_body.m_state;
-    const Vec3 fall = fem.m_softBody->m_worldInfo ? step * vec3(fem.m_softBody->m_worldInfo->m_gravity) : Vec3();
+    const Vec3 fall = step * fem.gravity();
     Vec3 lowest = {1e30, 1e30, 1e30}, highest = {-1e30, -1e30, -1e30};
     for (int i : fem.m_body.m_model->mesh().surfaceNodes())
     {

@@ -10,7 +10,8 @@
 class btFemManifolds;
 class btFemSoftBodySolver;
 
-/// What btFemConstraintSolver, Bullet's dispatcher and snapshots may do with a btFemSoftBodySolver, and nobody else.
+/// What btFemConstraintSolver, btFemDeformableBodySolver, Bullet's dispatcher and snapshots may do with a
+/// btFemSoftBodySolver, and nobody else.
 struct btFemCoupling
 {
     /// See btFemWorldStep::beginGroup.
@@ -18,6 +19,11 @@ struct btFemCoupling
                                          double step);
     /// All that is known of a body; null if nothing is.
     static const btFemEntry* entry(const btFemSoftBodySolver& fem, const btSoftBody& body);
+    /// Makes a FEM body fall with this acceleration, whatever its world info says, and slow down by m_cfg.drag in place of
+    /// kDP; [m/s2].
+    static void setGravity(btFemSoftBodySolver& fem, const btSoftBody& body, const bullet_fem::Vec3& gravity);
+    /// See ArticulatedBodies::assumeForcesGiven.
+    static void assumeForcesGiven(btFemSoftBodySolver& fem, const bullet_fem::Vec3& gravity);
     /// Null unless btFemSolverInfo::m_manifolds is set.
     static std::shared_ptr<btFemManifolds> manifolds(const btFemSoftBodySolver& fem);
     static btFemSnapshotScope snapshotScope(const btFemSoftBodySolver& fem);

@@ -81,12 +81,12 @@ btFemInfluences influencesOn(const FemSoftBody& fem)
 {
     const btSoftBody& soft = *fem.m_softBody;
     const btSoftBodyWorldInfo* info = soft.m_worldInfo;
-    const btVector3 gravity = info ? info->m_gravity : btVector3(0, 0, 0);
+    const Vec3 gravity = fem.gravity();
     const btVector3 wind = const_cast<btSoftBody&>(soft).getWindVelocity();
     const btSoftBody::Config& cfg = soft.m_cfg;
-    return {gravity.x(),
-            gravity.y(),
-            gravity.z(),
+    return {gravity.x,
+            gravity.y,
+            gravity.z,
             wind.x(),
             wind.y(),
             wind.z(),

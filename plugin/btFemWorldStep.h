@@ -36,6 +36,9 @@ public:
     /// In collision detection: remembers a rigid body as it is before the rigid solver.
     void noteBeforeSolve(const btCollisionObject& object) { m_group.noteBeforeSolve(object); }
 
+    /// See ArticulatedBodies::assumeForcesGiven.
+    void assumeForcesGiven(const bullet_fem::Vec3& gravity) { m_group.assumeForcesGiven(gravity); }
+
     /// Within the rigid solver, before it sets up a group of islands: free motion of the FEM bodies among `bodies` and
     /// their contacts. Null if the rigid solver has nothing to do with them: none, or none that touches anything, or
     /// one that holds on to a rigid body of another group. `step` [s].

@@ -27,9 +27,9 @@ SweptShape pathOf(const ShapeLeaf& leaf, const Obstacle& obstacle, double step, 
 }
 
 /// What gravity gives in a step is not speed: resting bodies have it as well.
-double fallingSpeed(const btSoftBody& soft, double step)
+double fallingSpeed(const FemSoftBody& fem, double step)
 {
-    return soft.m_worldInfo ? step * norm(vec3(soft.m_worldInfo->m_gravity)) : 0;
+    return step * norm(fem.gravity());
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
         pathOf(target.m_shape, target.m_obstacle, target.m_step, target.m_leaf.m_object->isKinematicObject());
     const double speed = fastestNode(fem.m_body, swept.m_motion.m_linearVelocity);
     const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
-    if (!isFast(swept, speed - 2 * fallingSpeed(*fem.m_softBody, target.m_step), m_edge)) return false;
+    if (!isFast(swept, speed - 2 * fallingSpeed(fem, target.m_step), m_edge)) return false;
 
     const TetMesh& mesh = fem.m_body.m_model->mesh();
     const PathSearch search = {fem, target, swept, speed + spin};

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/btFemDeformableBodySolver.h"
+
+#include <algorithm>
+#include <string>
+
+#include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/rigid_obstacles.h"
+#include "plugin/btFemCoupling.h"
+#include "plugin/btFemDeformableForces.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+using Bodies = btAlignedObjectArray<btSoftBody*>;
+
+template <class T>
+bool holds(const btAlignedObjectArray<T*>& array, const T* element)
+{
+    return array.findLinearSearch(const_cast<T*>(element)) < array.size();
+}
+
+// Bullet's deformable solver reads what only its own file readers make, and never ends its search along links where
+// there are none.
+bool isForBullet(const btSoftBody& body)
+{
+    const int tets = body.m_tetras.size();
+    return tets == 0 ||
+           (body.m_tetraScratches.size() >= tets && body.m_tetraScratchesTn.size() >= tets && body.m_links.size() > 0);
+}
+
+// What is remembered of a tetrahedral body.
+struct Known
+{
+    const btSoftBody* m_body;
+    int m_id;                       // in the broadphase: addresses are reused
+    int m_tets;                     // that it had
+    btFemForceMaterial m_material;  // of the forces, as it was last looked at
+    std::string m_rejection;        // why it was left to Bullet
+};
+
+// A FEM body as the user has it, while the world's own loops over soft bodies must leave it alone.
+struct Aside
+{
+    btSoftBody* m_body;
+    int m_state, m_collisions;
+};
+
+}  // namespace
+
+struct btFemDeformableBodySolver::Impl
+{
+    explicit Impl(const btFemSolverInfo& info) : m_fem(info) {}
+
+    void sort(btDeformableBodySolver& solver, const Bodies& world, btScalar dt);
+    bool becomesFem(btSoftBody& body, btScalar dt);
+    Known& know(const btSoftBody& body);
+    void forgetRemoved(const Bodies& world);
+    void setAside();
+    void takeBack();
+    void settleSleep(btScalar step);
+
+    btFemSoftBodySolver m_fem;
+    btFemDeformableForces m_forces;
+    const Bodies* m_world = nullptr;  // all bodies
+    Bodies m_plain;                   // Bullet moves them; in the world's order
+    Bodies m_ours, m_femBodies;       // the others, and those of them that move
+    Bodies m_femBefore, m_plainBefore;
+    std::vector<Known> m_known;
+    std::vector<Aside> m_aside;
+    std::vector<btScalar> m_quiet;  // scratch: how long each FEM body has been slow [s]
+    bool m_plainChanged = false;
+};
+
+Known& btFemDeformableBodySolver::Impl::know(const btSoftBody& body)
+{
+    const auto found = std::find_if(m_known.begin(), m_known.end(), [&](const Known& k) { return k.m_body == &body; });
+    Known& known = found != m_known.end() ? *found : (m_known.push_back({}), m_known.back());
+    const int id = broadphaseId(body), tets = body.m_tetras.size();
+    if (known.m_body != &body || known.m_id != id || known.m_tets != tets) known = {&body, id, tets, {}, {}};
+    return known;
+}
+
+void btFemDeformableBodySolver::Impl::forgetRemoved(const Bodies& world)
+{
+    const auto isGone = [&](const Known& k) { return !holds(world, k.m_body); };
+    m_known.erase(std::remove_if(m_known.begin(), m_known.end(), isGone), m_known.end());
+}
+
+// Material and factor before the body is FEM, so that one that cannot be is Bullet's from the beginning.
+bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
+{
+    if (body.m_tetras.size() == 0) return false;
+    Known& known = know(body);
+    const btFemForceMaterial material = m_forces.materialOf(body);
+    const btFemEntry* entry = btFemCoupling::entry(m_fem, body);
+    const bool changed = material != known.m_material;
+    known.m_material = material;
+    if (!material.m_given && !(entry && entry->m_materialGiven) && isForBullet(body)) return false;
+    if (!known.m_rejection.empty() && !changed) return false;
+    try
+    {
+        if (changed && material.m_given) m_fem.setMaterial(&body, material.m_material);
+        if (!m_fem.isFem(&body)) m_fem.prepare(&body, dt);
+        btFemCoupling::setGravity(m_fem, body, m_forces.gravityOf(body));
+        known.m_rejection.clear();
+        return true;
+    }
+    catch (const std::exception& error)
+    {
+        known.m_rejection = error.what();
+        return m_fem.isFem(&body);  // then it goes on with what it was
+    }
+}
+
+void btFemDeformableBodySolver::Impl::sort(btDeformableBodySolver& solver, const Bodies& world, btScalar dt)
+{
+    const bool inStep = dt > 0;
+    m_world = &world;
+    forgetRemoved(world);
+    m_plainBefore.copyFromArray(m_plain);
+    m_femBefore.copyFromArray(m_femBodies);
+    m_plain.resize(0);
+    m_femBodies.resize(0);
+    m_ours.resize(0);
+    for (int i = 0; i < world.size(); ++i)
+    {
+        btSoftBody* body = world[i];
+        const bool fem = inStep ? becomesFem(*body, dt) : holds(m_femBefore, body);
+        const bool plain = !fem && isForBullet(*body);
+        (plain ? m_plain : m_ours).push_back(body);
+        if (fem && !holds(m_femBodies, body)) m_femBodies.push_back(body);
+        if (inStep) body->setSoftBodySolver(fem ? static_cast<btSoftBodySolver*>(&m_fem) : &solver);
+    }
+    m_plainChanged = m_plainBefore.size() != m_plain.size();
+    for (int i = 0; i < m_plain.size() && !m_plainChanged; ++i) m_plainChanged = m_plainBefore[i] != m_plain[i];
+}
+
+// Bullet's deformable world lets all soft bodies that are active collide with each other, whatever their solver.
+void btFemDeformableBodySolver::Impl::setAside()
+{
+    m_aside.clear();
+    for (int i = 0; i < m_ours.size(); ++i)
+    {
+        btSoftBody& body = *m_ours[i];
+        if (!holds(*m_world, &body)) continue;
+        m_aside.push_back({&body, body.getActivationState(), body.m_cfg.collisions});
+        body.forceActivationState(DISABLE_SIMULATION);
+        body.m_cfg.collisions = 0;
+    }
+}
+
+void btFemDeformableBodySolver::Impl::takeBack()
+{
+    for (const Aside& aside : m_aside)
+    {
+        if (!holds(*m_world, aside.m_body)) continue;
+        aside.m_body->forceActivationState(aside.m_state);
+        aside.m_body->m_cfg.collisions = aside.m_collisions;
+    }
+    m_aside.clear();
+}
+
+// The world will add the step to the time for which a body has been slow, as m_fem has just done; and judges by that
+// time alone, where m_fem has reasons to keep a body awake.
+void btFemDeformableBodySolver::Impl::settleSleep(btScalar step)
+{
+    for (int i = 0; i < m_femBodies.size(); ++i)
+    {
+        btSoftBody& body = *m_femBodies[i];
+        if (!body.isActive() || !(body.getDeactivationTime() > m_quiet[i])) continue;
+        const bool stays = body.getActivationState() == ACTIVE_TAG;
+        body.setDeactivationTime(stays ? std::min(m_quiet[i], gDeactivationTime - step) : m_quiet[i]);
+    }
+}
+
+btFemDeformableBodySolver::btFemDeformableBodySolver(const btFemSolverInfo& info) : m_impl(std::make_unique<Impl>(info))
+{
+    setGravity(btVector3(0, -10, 0));  // a world's own, which it does not tell
+}
+
+btFemDeformableBodySolver::~btFemDeformableBodySolver() = default;
+
+btFemSoftBodySolver& btFemDeformableBodySolver::fem()
+{
+    return m_impl->m_fem;
+}
+
+const btFemSoftBodySolver& btFemDeformableBodySolver::fem() const
+{
+    return m_impl->m_fem;
+}
+
+const char* btFemDeformableBodySolver::rejection(const btSoftBody* body) const
+{
+    for (const Known& known : m_impl->m_known)
+        if (known.m_body == body) return known.m_rejection.c_str();
+    return "";
+}
+
+btAlignedObjectArray<btDeformableLagrangianForce*>* btFemDeformableBodySolver::getLagrangianForceArray()
+{
+    return &m_impl->m_forces.all();
+}
+
+// At the start of a step, and, with dt < 0, when a body was removed.
+void btFemDeformableBodySolver::reinitialize(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt)
+{
+    Impl& impl = *m_impl;
+    if (dt > 0) impl.m_forces.show(softBodies);  // a step that was not finished
+    impl.sort(*this, softBodies, dt);
+    if (dt > 0) impl.m_fem.optimize(impl.m_femBodies);
+    if (dt > 0) impl.m_forces.hide(impl.m_ours, m_objective->m_lf);
+    if (impl.m_plainChanged) m_numNodes = -1;  // Bullet compares their number only
+    btDeformableBodySolver::reinitialize(impl.m_plain, dt);
+}
+
+void btFemDeformableBodySolver::predictMotion(btScalar solverdt)
+{
+    Impl& impl = *m_impl;
+    impl.m_forces.addTo(impl.m_femBodies, impl.m_plain, solverdt);
+    if (impl.m_plain.size() > 0) btDeformableBodySolver::predictMotion(solverdt);
+    impl.m_fem.predictMotion(solverdt);
+}
+
+void btFemDeformableBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* other)
+{
+    if (holds(m_impl->m_plain, body)) btDeformableBodySolver::processCollision(body, other);
+}
+
+void btFemDeformableBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
+{
+    const bool bullets = holds(m_impl->m_plain, body) && holds(m_impl->m_plain, other);
+    if (bullets) btDeformableBodySolver::processCollision(body, other);
+}
+
+// Tick callbacks may have given FEM bodies to forces since the step began.
+void btFemDeformableBodySolver::setConstraints(const btContactSolverInfo& info)
+{
+    m_impl->m_forces.hide(m_impl->m_ours, m_objective->m_lf);
+    btDeformableBodySolver::setConstraints(info);
+}
+
+void btFemDeformableBodySolver::solveDeformableConstraints(btScalar solverdt)
+{
+    if (m_softBodies.size() > 0) btDeformableBodySolver::solveDeformableConstraints(solverdt);
+    m_impl->setAside();
+}
+
+void btFemDeformableBodySolver::applyTransforms(btScalar timeStep)
+{
+    Impl& impl = *m_impl;
+    impl.takeBack();
+    impl.m_forces.show(*impl.m_world);
+    btDeformableBodySolver::applyTransforms(timeStep);
+    impl.m_fem.solveConstraints(timeStep);
+    impl.m_quiet.clear();
+    for (int i = 0; i < impl.m_femBodies.size(); ++i)
+        impl.m_quiet.push_back(impl.m_femBodies[i]->getDeactivationTime());
+    impl.m_fem.updateSoftBodies();
+    impl.settleSleep(timeStep);
+    for (int i = 0; i < impl.m_femBodies.size(); ++i) impl.m_femBodies[i]->interpolateRenderMesh();
+}
+
+void btFemDeformableBodySolver::setGravity(const btVector3& gravity)
+{
+    btFemCoupling::assumeForcesGiven(m_impl->m_fem, vec3(gravity));
+}

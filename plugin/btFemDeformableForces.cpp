@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/btFemDeformableForces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_bridge/bullet_vectors.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+using Force = btDeformableLagrangianForce;
+
+template <class T>
+bool holds(const btAlignedObjectArray<T*>& array, const T* element)
+{
+    return array.findLinearSearch(const_cast<T*>(element)) < array.size();
+}
+
+bool isElastic(Force& force)
+{
+    const btDeformableLagrangianForceType type = force.getForceType();
+    return type == BT_LINEAR_ELASTICITY_FORCE || type == BT_COROTATED_FORCE || type == BT_NEOHOOKEAN_FORCE;
+}
+
+// What acts on the nodes as it is: the others have a meaning of their own, or none.
+bool isExternal(Force& force)
+{
+    return !isElastic(force) && force.getForceType() != BT_GRAVITY_FORCE && force.getForceType() != BT_MASSSPRING_FORCE;
+}
+
+struct Elasticity
+{
+    double m_mu = 0, m_lambda = 0;
+    double m_massDamping = 0;
+    double m_viscosity = 0;  // stiffness damping times mu
+};
+
+Elasticity elasticityOf(Force& force)
+{
+    switch (force.getForceType())
+    {
+        case BT_LINEAR_ELASTICITY_FORCE:
+        {
+            const auto& f = static_cast<btDeformableLinearElasticityForce&>(force);
+            return {f.m_mu, f.m_lambda, f.m_damping_alpha, double(f.m_damping_beta) * f.m_mu};
+        }
+        case BT_NEOHOOKEAN_FORCE:
+        {
+            const auto& f = static_cast<btDeformableNeoHookeanForce&>(force);
+            return {f.m_mu, f.m_lambda, 0, f.m_mu_damp};
+        }
+        case BT_COROTATED_FORCE:
+        {
+            const auto& f = static_cast<btDeformableCorotatedForce&>(force);
+            return {f.m_mu, f.m_lambda, 0, 0};
+        }
+        default:
+            return {};
+    }
+}
+
+void clear(btAlignedObjectArray<btVector3>& values, int size)
+{
+    values.resizeNoInitialize(size);
+    for (int i = 0; i < size; ++i) values[i].setZero();
+}
+
+}  // namespace
+
+bool btFemForceMaterial::operator==(const btFemForceMaterial& b) const
+{
+    const btFemMaterial &p = m_material, &q = b.m_material;
+    return m_given == b.m_given && p.m_youngModulus == q.m_youngModulus && p.m_poissonRatio == q.m_poissonRatio &&
+           p.m_massDamping == q.m_massDamping && p.m_stiffnessDamping == q.m_stiffnessDamping;
+}
+
+btFemForceMaterial btFemDeformableForces::materialOf(const btSoftBody& body) const
+{
+    Elasticity sum;
+    btFemForceMaterial result;
+    for (int k = 0; k < m_all.size(); ++k)
+    {
+        if (!isElastic(*m_all[k]) || !holds(m_all[k]->m_softBodies, &body)) continue;
+        const Elasticity part = elasticityOf(*m_all[k]);
+        sum.m_mu += part.m_mu;
+        sum.m_lambda += part.m_lambda;
+        sum.m_massDamping += part.m_massDamping;
+        sum.m_viscosity += part.m_viscosity;
+        result.m_given = true;
+    }
+    if (!result.m_given) return result;
+    const double both = sum.m_lambda + sum.m_mu;
+    btFemMaterial& material = result.m_material;
+    material.m_youngModulus = static_cast<btScalar>(sum.m_mu * (3 * sum.m_lambda + 2 * sum.m_mu) / both);
+    material.m_poissonRatio = std::min(btScalar(0.49), static_cast<btScalar>(std::max(0.0, 0.5 * sum.m_lambda / both)));
+    material.m_density = 0;
+    material.m_massDamping = static_cast<btScalar>(sum.m_massDamping);
+    material.m_stiffnessDamping = static_cast<btScalar>(sum.m_viscosity / sum.m_mu);
+    return result;
+}
+
+Vec3 btFemDeformableForces::gravityOf(const btSoftBody& body) const
+{
+    Vec3 sum;
+    for (int k = 0; k < m_all.size(); ++k)
+        if (m_all[k]->getForceType() == BT_GRAVITY_FORCE && holds(m_all[k]->m_softBodies, &body))
+            sum += vec3(static_cast<const btDeformableGravityForce*>(m_all[k])->m_gravity);
+    return double(body.m_gravityFactor) * sum;
+}
+
+void btFemDeformableForces::hide(const Bodies& bodies, btAlignedObjectArray<Force*>& left)
+{
+    left.resize(0);
+    for (int k = 0; k < m_all.size(); ++k)
+    {
+        Bodies& all = m_all[k]->m_softBodies;
+        int kept = 0;
+        for (int i = 0; i < all.size(); ++i)
+            if (holds(bodies, all[i]))
+                m_hidden.push_back({m_all[k], all[i]});
+            else
+                all[kept++] = all[i];
+        all.resizeNoInitialize(kept);
+        const auto isOurs = [&](const Hidden& h) { return h.m_force == m_all[k]; };
+        const bool staysWithin = kept > 0 && !isExternal(*m_all[k]);  // others may act on nodes of any body
+        if (staysWithin || std::none_of(m_hidden.begin(), m_hidden.end(), isOurs)) left.push_back(m_all[k]);
+    }
+}
+
+void btFemDeformableForces::show(const Bodies& world)
+{
+    for (const Hidden& hidden : m_hidden)
+        if (holds(m_all, hidden.m_force) && holds(world, hidden.m_body) &&
+            !holds(hidden.m_force->m_softBodies, hidden.m_body))
+            hidden.m_force->m_softBodies.push_back(hidden.m_body);
+    m_hidden.clear();
+}
+
+void btFemDeformableForces::addTo(const Bodies& fem, const Bodies& plain, double step)
+{
+    const auto acts = [](const Hidden& h) { return isExternal(*h.m_force); };
+    if (std::none_of(m_hidden.begin(), m_hidden.end(), acts)) return;
+    int size = 0;
+    for (int b = 0; b < plain.size(); ++b) size += plain[b]->m_nodes.size();
+    m_place.resizeNoInitialize(0);
+    for (int b = 0; b < fem.size(); ++b)
+        for (int i = 0; i < fem[b]->m_nodes.size(); ++i)
+        {
+            btSoftBody::Node& node = fem[b]->m_nodes[i];
+            node.index = size++;
+            m_place.push_back(node.m_q);
+            node.m_q = node.m_x;  // Bullet's functions take places from there; ours of the step before are
+        }
+    for (int k = 0; k < m_all.size(); ++k)
+    {
+        if (!isExternal(*m_all[k]) || !evaluate(*m_all[k], size, step)) continue;
+        for (int b = 0; b < fem.size(); ++b)
+            for (int i = 0; i < fem[b]->m_nodes.size(); ++i)
+                fem[b]->m_nodes[i].m_f += (1 / btScalar(step)) * yieldingImpulse(fem[b]->m_nodes[i], step);
+        for (int b = 0; b < plain.size(); ++b)
+            for (int i = 0; i < plain[b]->m_nodes.size(); ++i)
+            {
+                btSoftBody::Node& node = plain[b]->m_nodes[i];
+                node.m_v += node.m_im * yieldingImpulse(node, step);
+            }
+    }
+    int next = 0;
+    for (int b = 0; b < fem.size(); ++b)
+        for (int i = 0; i < fem[b]->m_nodes.size(); ++i)
+        {
+            fem[b]->m_nodes[i].m_q = m_place[next++];
+            fem[b]->m_nodes[i].index = 0;
+        }
+}
+
+// Impulse, stiffness and damping at all nodes; false if no body of ours has the force.
+bool btFemDeformableForces::evaluate(Force& force, int size, double step)
+{
+    m_others.copyFromArray(force.m_softBodies);
+    for (const Hidden& hidden : m_hidden)
+        if (hidden.m_force == &force) force.m_softBodies.push_back(hidden.m_body);
+    const bool ours = force.m_softBodies.size() > m_others.size();
+    if (ours)
+    {
+        for (auto* values : {&m_impulse, &m_stiffness, &m_damping, &m_direction}) clear(*values, size);
+        force.addScaledForces(static_cast<btScalar>(step), m_impulse);
+    }
+    for (int c = 0; c < 3 && ours; ++c)
+    {
+        for (int i = 0; i < size; ++i) m_direction[i].setZero(), m_direction[i][c] = 1;
+        clear(m_change, size);
+        force.addScaledElasticForceDifferential(1, m_direction, m_change);
+        for (int i = 0; i < size; ++i) m_stiffness[i][c] = m_change[i][c];
+        clear(m_change, size);
+        force.addScaledDampingForceDifferential(1, m_direction, m_change);
+        for (int i = 0; i < size; ++i) m_damping[i][c] = m_change[i][c];
+    }
+    force.m_softBodies.copyFromArray(m_others);
+    return ours;
+}
+
+// Each node as if it were alone, by implicit Euler: m dv = h f(x + h (v + dv), v + dv). What other nodes hold it with
+// makes it but steadier. Stiffness is the same in all directions; damping may act in one alone.
+btVector3 btFemDeformableForces::yieldingImpulse(const btSoftBody::Node& node, double step) const
+{
+    const auto sum = [](const btVector3& v) { return double(v.x()) + double(v.y()) + double(v.z()); };
+    const Vec3 impulse = vec3(m_impulse[node.index]);
+    if (node.m_im == 0 || dot(impulse, impulse) == 0) return btVector3(0, 0, 0);
+    const double stiffness = std::max(0.0, -sum(m_stiffness[node.index]) / 3);
+    const double damping = std::max(0.0, -sum(m_damping[node.index]));
+    const double yields = 1 + step * (damping + step * stiffness) * double(node.m_im);
+    return bulletVector((1 / yields) * impulse);
+}
