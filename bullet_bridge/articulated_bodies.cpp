@@ -103,8 +103,8 @@ void ArticulatedBodies::clear()
 
 LinkMotion ArticulatedBodies::add(int index, const btMultiBodyLinkCollider& link, double step, Obstacle& obstacle)
 {
-    Link added = {index, treeOf(*link.m_multiBody, step), m_jacobian.size(), {}, {}};
-    fillRows(added, link.m_link, obstacle.m_center, m_trees[added.m_tree]);
+    Link added = {index, treeOf(*link.m_multiBody, step), link.m_link, m_jacobian.size(), {}, {}};
+    fillRows(added, obstacle.m_center);
     m_links.push_back(added);
     const LinkMotion next = motion(added, m_freeVelocity);
     obstacle.m_linearVelocity = next.m_linear;
@@ -203,21 +203,22 @@ ArticulatedBodies::Memory& ArticulatedBodies::memoryOf(const btMultiBody& body, 
 }
 
 // Bullet leaves out what it does not move, and forgets that impulses can turn planar joints.
-void ArticulatedBodies::fillRows(const Link& link, int linkIndex, const Vec3& center, const Tree& tree)
+void ArticulatedBodies::fillRows(const Link& link, const Vec3& center)
 {
+    const Tree& tree = m_trees[link.m_tree];
     const btMultiBody& body = *tree.m_body;
-    const int n = tree.m_coordinates;
-    m_jacobian.resize(link.m_first + 6 * n, 0);
-    m_answer.resize(link.m_first + 6 * n, 0);
+    const std::size_t n = tree.m_coordinates;
+    m_jacobian.resize(std::max(m_jacobian.size(), link.m_first + 6 * n), 0);
+    m_answer.resize(m_jacobian.size(), 0);
     for (int row = 0; row < 6; ++row)
     {
         btScalar *J = &m_jacobian[link.m_first + row * n], *answer = &m_answer[link.m_first + row * n];
         btVector3 axis(0, 0, 0);
         axis[row % 3] = 1;
         const btVector3 none(0, 0, 0);
-        body.fillConstraintJacobianMultiDof(linkIndex, bulletVector(center), row < 3 ? none : axis,
+        body.fillConstraintJacobianMultiDof(link.m_index, bulletVector(center), row < 3 ? none : axis,
                                             row < 3 ? axis : none, J, m_scalars, m_vectors, m_matrices);
-        for (int k = linkIndex; k >= 0 && row >= 3; k = body.getParent(k))
+        for (int k = link.m_index; k >= 0 && row >= 3; k = body.getParent(k))
             if (body.getLink(k).m_jointType == btMultibodyLink::ePlanar)
                 J[kBase + body.getLink(k).m_dofOffset] +=
                     body.worldDirToLocal(k, axis).dot(body.getLink(k).getAxisTop(0));
@@ -251,6 +252,12 @@ ObstacleResponse ArticulatedBodies::response(const Link& moved, const Link& push
 {
     return {moved.m_obstacle, block(moved, 0, pushed, 0), block(moved, 0, pushed, 3), block(moved, 3, pushed, 0),
             block(moved, 3, pushed, 3)};
+}
+
+void ArticulatedBodies::setCenter(int index, const Vec3& center)
+{
+    for (const Link& link : m_links)
+        if (link.m_obstacle == index) fillRows(link, center);
 }
 
 void ArticulatedBodies::connect(std::vector<Obstacle>& obstacles, std::vector<ObstacleResponse>& responses) const

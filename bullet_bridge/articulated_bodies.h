@@ -52,6 +52,10 @@ public:
     /// bodies gave before. Returns the velocity that it has now. The order of calls decides the order of responses.
     LinkMotion add(int index, const btMultiBodyLinkCollider& link, double step, Obstacle& obstacle);
 
+    /// From now on velocities and impulses of obstacle number `index` are about a point at `center` [m] that goes with
+    /// the link.
+    void setCenter(int index, const Vec3& center);
+
     /// Writes how links answer impulses. Once all links are known; it may be called again when there are more.
     void connect(std::vector<Obstacle>& obstacles, std::vector<ObstacleResponse>& responses) const;
 
@@ -87,6 +91,7 @@ private:
     struct Link
     {
         int m_obstacle, m_tree;
+        int m_index;          // of the link in its multibody; -1: the base
         std::size_t m_first;  // of its six rows in m_jacobian and m_answer: three of velocity, three of spin
         Vec3 m_impulse, m_angularImpulse;
     };
@@ -101,7 +106,7 @@ private:
     void predict(const Tree& tree, double step);
     void addSupport(const Tree& tree, double step);
     void support(const Tree& tree, int first, int count, const double* before, double step);
-    void fillRows(const Link& link, int linkIndex, const Vec3& center, const Tree& tree);
+    void fillRows(const Link& link, const Vec3& center);
     Mat3 block(const Link& moved, int rowOfMoved, const Link& pushed, int rowOfPushed) const;
     ObstacleResponse response(const Link& moved, const Link& pushed) const;
     LinkMotion motion(const Link& link, const std::vector<double>& velocity) const;

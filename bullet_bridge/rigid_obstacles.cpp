@@ -187,29 +187,36 @@ void RigidObstacles::addSupport(const btRigidBody& body, double step, Obstacle& 
 // What gravity gives in a step is not speed: resting bodies have it as well. Bullet clears the hit fraction of those
 // that its own continuous collision has stopped on their way. What is not rewound is seen one step ahead: a body that
 // changed over near a surface would skip a step, and may be thinner than its way in it.
-bool RigidObstacles::mustRewind(const btRigidBody& body, double step, const Body& soft) const
+bool RigidObstacles::mustRewind(int obstacle, double step, const Body& soft) const
 {
-    if (body.getHitFraction() == 0) return false;
-    if (std::find(m_lastRewound.begin(), m_lastRewound.end(), broadphaseId(body)) != m_lastRewound.end()) return true;
-    const btTransform& present = body.getWorldTransform();
-    const ShapeLeaf whole = {body.getCollisionShape(), {mat3(present.getBasis()), vec3(present.getOrigin())}, {}, {}};
-    const RigidMotion motion = {vec3(present.getOrigin()), vec3(body.getLinearVelocity()),
-                                vec3(body.getAngularVelocity())};
+    const btCollisionObject& object = *m_sources[obstacle].m_object;
+    if (object.getHitFraction() == 0) return false;
+    const int id = broadphaseId(object);
+    if (std::find(m_lastRewound.begin(), m_lastRewound.end(), id) != m_lastRewound.end()) return true;
+    const btTransform& present = object.getWorldTransform();
+    const ShapeLeaf whole = {object.getCollisionShape(), {mat3(present.getBasis()), vec3(present.getOrigin())}, {}, {}};
+    const LinkMotion now = motionNow(obstacle);
+    const RigidMotion motion = {vec3(present.getOrigin()), now.m_linear, now.m_angular};
+    const btRigidBody* body = movableBody(obstacle);
+    const double byGravity =
+        body ? step * norm(vec3(body->getGravity())) : norm(m_obstacles[obstacle].m_linearVelocity - now.m_linear);
     const double speed = fastestNode(soft, motion.m_linearVelocity);
-    return isFast(SweptShape(whole, motion, step), speed - 2 * step * norm(vec3(body.getGravity())),
-                  soft.m_model->mesh().meanEdgeLength());
+    return isFast(SweptShape(whole, motion, step), speed - 2 * byGravity, soft.m_model->mesh().meanEdgeLength());
 }
 
 int RigidObstacles::indexForContact(const btCollisionObject& object, double step, const Body& soft)
 {
     const std::size_t known = m_sources.size();
     const int index = indexOf(object, step);
-    const btRigidBody* body = movable(object);
-    if (m_sources.size() == known || m_phase != RigidPhase::moved || !body || !mustRewind(*body, step, soft))
+    if (m_sources.size() == known || m_phase != RigidPhase::moved || !m_obstacles[index].canMove() ||
+        !mustRewind(index, step, soft))
         return index;
     Obstacle& obstacle = m_obstacles[index];
-    obstacle.m_linearVelocity = vec3(body->getLinearVelocity());
+    const LinkMotion now = motionNow(index);
+    obstacle.m_linearVelocity = now.m_linear;
+    if (!movable(object)) obstacle.m_angularVelocity = now.m_angular;
     obstacle.m_center -= step * obstacle.m_linearVelocity;
+    m_articulated.setCenter(index, obstacle.m_center);
     m_sources[index].m_rewound = true;
     m_rewound.push_back(m_sources[index].m_objectId);
     return index;
@@ -253,6 +260,11 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
         Source& source = m_sources[k];
         const Obstacle& obstacle = m_obstacles[k];
         m_articulated.addImpulse(static_cast<int>(k), source.m_linearImpulse, source.m_angularImpulse);
+        if (source.m_rewound)
+        {
+            m_obstacles[k].m_pushImpulse += source.m_linearImpulse;
+            m_obstacles[k].m_pushAngularImpulse += source.m_angularImpulse;
+        }
         btRigidBody* body = movable(*source.m_object);
         if (!body) continue;
         source.m_angularImpulse += obstacle.m_angularImpulse;
@@ -283,7 +295,7 @@ LinkMotion RigidObstacles::motionNow(int obstacle) const
     const btRigidBody* body = movableBody(obstacle);
     if (m_phase == RigidPhase::moved && body)
         return {vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())};
-    if (m_obstacles[obstacle].canMove() && !body) return m_sources[obstacle].m_now;
+    if (isMovableLink(obstacle)) return m_sources[obstacle].m_now;
     return {m_obstacles[obstacle].m_linearVelocity, m_obstacles[obstacle].m_angularVelocity};
 }
 

@@ -75,6 +75,9 @@ public:
     /// Writes how links of multibodies answer impulses, for ContactProblem. Once all obstacles are known.
     void connectLinks(std::vector<ObstacleResponse>& responses) { m_articulated.connect(m_obstacles, responses); }
 
+    /// True if the obstacle is a multibody's link that impulses can move.
+    bool isMovableLink(int obstacle) const { return m_obstacles[obstacle].canMove() && !movableBody(obstacle); }
+
     /// True if links of multibodies that can move are among the obstacles.
     bool holdsLinks() const { return !m_articulated.isEmpty(); }
 
@@ -108,7 +111,7 @@ private:
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
     void addToVelocity(btRigidBody& body, const Source& source, const Obstacle& obstacle);
     void addSupport(const btRigidBody& body, double step, Obstacle& obstacle);
-    bool mustRewind(const btRigidBody& body, double step, const Body& soft) const;
+    bool mustRewind(int obstacle, double step, const Body& soft) const;
     Remainder& remainderOf(int objectId);
 
     RigidPhase m_phase = RigidPhase::moved;

@@ -99,6 +99,9 @@ void btFemContactGroup::collectRigid()
             m_finder.find(fem, static_cast<int>(b), m_step, m_info.m_maxContacts, m_rigid);
         if (found.m_unknownShape) m_entries[b]->m_report.m_flags |= BT_FEM_UNKNOWN_SHAPE;
         if (found.m_limited) m_entries[b]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
+        for (ContactPoint& contact :
+             fem.m_contacts)  // links go on arcs: only one point in space for both keeps momenta
+            if (m_rigid.isMovableLink(contact.m_obstacle)) contact.m_approach = {};
         m_problem.m_contacts.insert(m_problem.m_contacts.end(), fem.m_contacts.begin(), fem.m_contacts.end());
     }
 }

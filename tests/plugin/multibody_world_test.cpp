@@ -148,6 +148,57 @@ TEST_F(MultiBodyWorldTest, aPendulumThatIsHitGetsTheAngularMomentum)
     EXPECT_LT(worst, 2e-5 * std::fabs(start));
 }
 
+class FastLink : public MultiBodyWorldTest, public ::testing::WithParamInterface<std::pair<double, bool>>
+{
+};
+
+// A plate that goes farther in a step than it and the cube are thick; on a slider along x, or on a hinge 2 m above.
+TEST_P(FastLink, isStoppedByACubeAndKeepsTheMomentumThatItsJointLeaves)
+{
+    MultiBodyWorld world(m_fem, kNoGravity);
+    const double speed = GetParam().first;
+    const bool hinged = GetParam().second;
+    const btVector3 half(btScalar(0.02), btScalar(0.3), btScalar(0.3)), arm(0, 0, 2);
+    const double mass = 20, inertia = boxInertia(btScalar(mass), half).y() + mass * 4;
+    auto* body = new btMultiBody(1, 0, btVector3(0, 0, 0), true, false);
+    if (hinged)
+        body->setupRevolute(0, btScalar(mass), boxInertia(btScalar(mass), half), -1, kNoTurn, btVector3(0, 1, 0), arm,
+                            -arm, false);
+    else
+        body->setupPrismatic(0, btScalar(mass), boxInertia(btScalar(mass), half), -1, kNoTurn, btVector3(1, 0, 0),
+                             btVector3(0, 0, 0), btVector3(0, 0, 0), false);
+    btMultiBodyLinkCollider& link = world.addCollider(world.addMultiBody(body), 0, new btBoxShape(half));
+    body->setJointPos(0, hinged ? btScalar(0.6) : btScalar(-1.37));
+    body->setJointVel(0, btScalar(hinged ? -0.5 * speed : speed));
+    btSoftBody& cube = addCube(world, {0, 0, 0}, 0.4);
+    const auto momentum = [&]  // along the slider, or about the hinge
+    {
+        const Motion soft = motionOf(cube);
+        const double joint = body->getJointVel(0);
+        return hinged ? soft.m_angular.y - 2 * soft.m_linear.x + inertia * joint : soft.m_linear.x + mass * joint;
+    };
+    const double start = momentum();
+    double worst = 0;
+    for (int k = 0; k < 40; ++k)
+    {
+        world.step();
+        worst = std::max(worst, std::fabs(momentum() - start) / std::fabs(start));
+        ASSERT_TRUE(allFinite(cube));
+    }
+    EXPECT_GT(velocityOf(cube).x, 0.05 * speed);
+    EXPECT_LT(std::fabs(body->getJointVel(0)), 0.6 * (hinged ? 0.5 : 1) * speed);
+    EXPECT_LT(worst, 1e-5);
+    EXPECT_LT(link.getWorldTransform().getOrigin().x(), centerOf(cube).x + 0.2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, FastLink,
+                         ::testing::Values(std::pair(10.0, false), std::pair(40.0, false), std::pair(80.0, false),
+                                           std::pair(10.0, true), std::pair(20.0, true), std::pair(40.0, true)),
+                         [](const auto& speed) {
+                             return (speed.param.second ? "hinge" : "slider") +
+                                    std::to_string(static_cast<int>(speed.param.first));
+                         });
+
 // The same pendulum as a rigid body on Bullet's hinge, which is solved after the soft body pushed it.
 TEST_F(MultiBodyWorldTest, aPendulumTurnsLikeARigidBodyOnAHinge)
 {
