@@ -3,6 +3,7 @@
 #include "bullet_bridge/fem_soft_body.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"
@@ -11,6 +12,19 @@
 
 namespace bullet_fem
 {
+namespace
+{
+
+// Looking through all matrices takes a tenth of a step's time. Bullet zeroes the fourth component of a row, which means
+// nothing, when it sets a matrix, and initializeDmInverse sets all: what stands there says whether it was called.
+constexpr btScalar kSeen = 1;
+
+btScalar& seenMark(btAlignedObjectArray<btSoftBody::Tetra>& tetras)
+{
+    return tetras[0].m_Dm_inverse[0][3];
+}
+
+}  // namespace
 
 FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
                          std::shared_ptr<ComplianceCache> compliance, std::shared_ptr<const RestNeighbours> neighbours)
@@ -29,6 +43,7 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
     m_nodeGap.resize(n);
     m_nodeNormal.resize(n);
     m_edgeGap.resize(m_surface.features().m_edges.size());
+    noteRestMatrices(*this);
     for (int i = 0; i < n; ++i)
     {
         btSoftBody::Node& node = softBody.m_nodes[i];
@@ -43,6 +58,47 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
         m_written.m_inverseMass.push_back(node.m_im);
         if (node.m_im == 0) m_pins.m_velocity[i] = m_body.m_state.m_v[i];
     }
+}
+
+bool restMatricesChanged(const FemSoftBody& fem)
+{
+    btAlignedObjectArray<btSoftBody::Tetra>& tetras = fem.m_softBody->m_tetras;
+    if (seenMark(tetras) == kSeen) return false;
+    const auto sameBits = [](const btMatrix3x3& a, const btMatrix3x3& b)  // matrices that nobody set may be NaN
+    {
+        for (int r = 0; r < 3; ++r)
+            if (std::memcmp(&a[r], &b[r], 3 * sizeof(btScalar)) != 0) return false;
+        return true;
+    };
+    for (int e = 0; e < tetras.size(); ++e)
+        if (!sameBits(tetras[e].m_Dm_inverse, fem.m_restMatrices[e])) return true;
+    seenMark(tetras) = kSeen;
+    return false;
+}
+
+void noteRestMatrices(FemSoftBody& fem)
+{
+    btAlignedObjectArray<btSoftBody::Tetra>& tetras = fem.m_softBody->m_tetras;
+    fem.m_restMatrices.clear();
+    for (int e = 0; e < tetras.size(); ++e) fem.m_restMatrices.push_back(tetras[e].m_Dm_inverse);
+    seenMark(tetras) = kSeen;
+}
+
+void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
+                     std::shared_ptr<ComplianceCache> compliance, std::shared_ptr<const RestNeighbours> neighbours)
+{
+    Body body(std::move(model));
+    BodyState &now = body.m_state, &before = fem.m_body.m_state;
+    now.m_x.swap(before.m_x);
+    now.m_v.swap(before.m_v);
+    now.m_mass.swap(before.m_mass);
+    now.m_fixed.swap(before.m_fixed);
+    fem.m_body = std::move(body);
+    fem.m_compliance = std::move(compliance);
+    fem.m_surface = SoftSurface(fem.m_body.m_model->mesh(), std::move(neighbours));
+    fem.m_edgeGap.resize(fem.m_surface.features().m_edges.size());
+    fem.m_contacts.clear();
+    fem.m_origins.clear();
 }
 
 double fastestNode(const Body& body, const Vec3& relativeTo)

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "LinearMath/btVector3.h"
+#include "LinearMath/btMatrix3x3.h"
 #include "bullet_bridge/joints/held_joint.h"
 #include "bullet_bridge/model_library.h"
 #include "bullet_bridge/soft_pairs/soft_surface.h"
@@ -76,7 +76,8 @@ struct FemSoftBody
     btSoftBody* m_softBody;
     std::uint64_t m_mark;  ///< on the btSoftBody: see body_mark.h
     Body m_body;
-    Vec3 m_restOrigin;  ///< of node 0 when the body became FEM; the mesh's rest positions are relative to it [m]
+    Vec3 m_restOrigin;  ///< node 0 of the rest shape, laid over the body as it became FEM (RestMesh) [m]
+    std::vector<btMatrix3x3> m_restMatrices;  ///< m_Dm_inverse of the elements, as seen last
     std::shared_ptr<ComplianceCache> m_compliance;
     WrittenNodes m_written;
     NodePins m_pins;
@@ -102,6 +103,15 @@ struct FemSoftBody
     std::vector<Vec3> m_nodeNormal;        ///< likewise
     std::vector<double> m_edgeGap;         ///< likewise, one a surface edge: at its middle
 };
+
+/// True if the user called initializeDmInverse, or scaled the body, since noteRestMatrices, and that changed a matrix.
+/// Never allocates.
+bool restMatricesChanged(const FemSoftBody& fem);
+void noteRestMatrices(FemSoftBody& fem);
+
+/// Gives a body another rest shape of the same nodes, and keeps its motion and what holds it; contacts begin anew.
+void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
+                     std::shared_ptr<ComplianceCache> compliance, std::shared_ptr<const RestNeighbours> neighbours);
 
 /// Largest speed of a surface node relative to a velocity [m/s]; NaN counts as none.
 double fastestNode(const Body& body, const Vec3& relativeTo);

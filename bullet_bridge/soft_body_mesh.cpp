@@ -5,19 +5,21 @@
 #include <algorithm>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/rest_positions.h"
 
 namespace bullet_fem
 {
 
+RestMesh restMeshOf(const btSoftBody& body)
+{
+    std::vector<Tet> tets = tetsOf(body);
+    RestPositions rest = restPositionsOf(body, tets);
+    return {TetMesh(std::move(rest.m_X), std::move(tets)), rest.m_origin, rest.m_fromMatrices};
+}
+
 TetMesh tetMeshOf(const btSoftBody& body)
 {
-    std::vector<Vec3> positions(body.m_nodes.size());
-    for (int i = 0; i < body.m_nodes.size(); ++i) positions[i] = vec3(body.m_nodes[i].m_x) - vec3(body.m_nodes[0].m_x);
-    std::vector<Tet> tets(body.m_tetras.size());
-    for (int e = 0; e < body.m_tetras.size(); ++e)
-        for (int a = 0; a < 4; ++a) tets[e][a] = static_cast<int>(body.m_tetras[e].m_n[a] - &body.m_nodes[0]);
-    return TetMesh(std::move(positions), std::move(tets));
+    return restMeshOf(body).m_mesh;
 }
 
 std::vector<double> filledFractionsOf(const btSoftBody& body)

@@ -12,8 +12,18 @@ class btSoftBody;
 namespace bullet_fem
 {
 
-/// The tetrahedra of a btSoftBody with its present node positions as rest shape, node 0 at the origin (so that bodies
-/// far away lose nothing). Node and element order are the body's. Throws std::invalid_argument, see TetMesh.
+/// The tetrahedra of a btSoftBody in their rest shape.
+struct RestMesh
+{
+    TetMesh m_mesh;  ///< node 0 at the origin, so that bodies far away lose nothing; nodes and elements in their order
+    Vec3 m_origin;   ///< where node 0 is then [m]
+    bool m_known = false;  ///< the body's element matrices say so; else its present shape was taken
+};
+
+/// See restPositionsOf. Throws std::invalid_argument, see tetsOf and TetMesh.
+RestMesh restMeshOf(const btSoftBody& body);
+
+/// The mesh alone.
 TetMesh tetMeshOf(const btSoftBody& body);
 
 /// Filled fraction of every element as a cage's helper stored it (see storeFill); empty if all are 1.

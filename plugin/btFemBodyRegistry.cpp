@@ -59,6 +59,11 @@ bool topologyAsBuilt(const btSoftBody& soft, const TetMesh& mesh)
     return true;
 }
 
+int flagsOf(const TetMesh& mesh)
+{
+    return (mesh.turnedCount() > 0 ? BT_FEM_TURNED_TETS : 0) | (mesh.componentCount() > 1 ? BT_FEM_SEVERAL_PIECES : 0);
+}
+
 // What the body overlaps gets new collision algorithms at the next collision detection.
 void renewAlgorithms(btSoftBody& body)
 {
@@ -199,23 +204,22 @@ void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
     if (soft.m_tetras.size() == 0)
         throw std::invalid_argument(
             "the soft body has no tetrahedra; make it with btFemHelpers, or leave it to Bullet's springs");
-    const std::vector<double> filled = filledFractionsOf(soft);
     if (entry.m_fem)
-    {
-        // The factor is for the masses and pins of now; a new density has just changed the masses.
-        const NodeReadReport read = readNodes(*entry.m_fem);
-        entry.m_report.m_flags |= (read.m_restored ? BT_FEM_RESTORED : 0) | (read.m_badMass ? BT_FEM_BAD_MASS : 0);
-        const auto shape = m_library.restShape(entry.m_fem->m_body.m_model->mesh(), materialOf(entry), filled);
-        entry.m_fem->m_body.setModel(m_library.model(shape, factorInput(entry, step)));
-        entry.m_fem->m_compliance = m_library.compliance(entry.m_fem->m_body.m_model);
-        entry.m_factorAccount = {};
-        entry.m_factorJob.reset();
-        entry.m_materialChanged = false;
-        return;
-    }
+        renew(entry, step);
+    else
+        setUpNew(entry, step);
+    entry.m_materialChanged = false;
+}
 
+void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
+{
+    btSoftBody& soft = *entry.m_softBody;
     const std::shared_ptr<const btFemDefinition> defined = entry.m_definition;
-    const TetMesh mesh = defined ? TetMesh(defined->m_restPositions, defined->m_tets) : tetMeshOf(soft);
+    const RestMesh rest =
+        defined ? RestMesh{TetMesh(defined->m_restPositions, defined->m_tets), defined->m_restOrigin, true}
+                : restMeshOf(soft);
+    const TetMesh& mesh = rest.m_mesh;
+    const std::vector<double> filled = filledFractionsOf(soft);
     const auto shape = m_library.restShape(mesh, materialOf(entry), filled);
     FactorInput input;
     bool repaired = false;
@@ -230,13 +234,43 @@ void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
     entry.m_fem =
         std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model), m_library.restNeighbours(shape));
     entry.m_fem->m_body.m_state.m_mass = input.m_mass;  // the model's may be those of a copy elsewhere
-    if (defined) entry.m_fem->m_restOrigin = defined->m_restOrigin;
+    entry.m_fem->m_restOrigin = rest.m_origin;
     entry.m_definition.reset();
     registerWithDispatcher(soft);
     entry.m_fem->m_contactOffset = entry.m_contactOffset;
-    entry.m_materialChanged = false;
-    entry.m_setUpFlags = (mesh.turnedCount() > 0 ? BT_FEM_TURNED_TETS : 0) |
-                         (mesh.componentCount() > 1 ? BT_FEM_SEVERAL_PIECES : 0) | (repaired ? BT_FEM_BAD_MASS : 0);
+    entry.m_setUpFlags = flagsOf(mesh) | (repaired ? BT_FEM_BAD_MASS : 0);
+}
+
+void btFemBodyRegistry::renew(btFemEntry& entry, double step)
+{
+    FemSoftBody& fem = *entry.m_fem;
+    // The factor is for the masses and pins of now; a new density has just changed the masses.
+    const NodeReadReport read = readNodes(fem);
+    entry.m_report.m_flags |= (read.m_restored ? BT_FEM_RESTORED : 0) | (read.m_badMass ? BT_FEM_BAD_MASS : 0);
+    RestMesh rest;
+    if (restMatricesChanged(fem))
+    {
+        noteRestMatrices(fem);  // tried once, whatever comes of it
+        rest = restMeshOf(*fem.m_softBody);
+    }
+    const TetMesh& mesh = rest.m_known ? rest.m_mesh : fem.m_body.m_model->mesh();
+    const auto shape = m_library.restShape(mesh, materialOf(entry), filledFractionsOf(*fem.m_softBody));
+    const auto model = m_library.model(shape, factorInput(entry, step));
+    if (rest.m_known)
+    {
+        changeRestShape(fem, model, m_library.compliance(model), m_library.restNeighbours(shape));
+        fem.m_restOrigin = rest.m_origin;
+        entry.m_setUpFlags = flagsOf(mesh);
+        entry.m_formerModel.reset();
+        entry.m_formerCompliance.reset();
+    }
+    else
+    {
+        fem.m_body.setModel(model);
+        fem.m_compliance = m_library.compliance(model);
+    }
+    entry.m_factorAccount = {};
+    entry.m_factorJob.reset();
 }
 
 void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)
@@ -249,7 +283,7 @@ void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)
     catch (const std::exception& error)
     {
         entry.m_message = error.what();
-        entry.m_rejected = !entry.m_fem;  // a body that moved already keeps its old material
+        entry.m_rejected = !entry.m_fem;  // a body that moved already keeps its old material and rest shape
         if (entry.m_rejected) leaveToBullet(*entry.m_softBody);
         entry.m_materialChanged = false;
     }

@@ -91,8 +91,8 @@ public:
     /// elsewhere.
     void synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver);
 
-    /// Makes the body a FEM body with its present shape as rest shape, factored for `step` [s]; or, if it is one, gives
-    /// it a changed material. Throws std::invalid_argument or std::runtime_error.
+    /// Makes the body a FEM body, factored for `step` [s]; or, if it is one, gives it a changed material or rest shape.
+    /// Throws std::invalid_argument or std::runtime_error.
     void setUp(btFemEntry& entry, double step);
 
     /// setUp for use within a step: a failure is written to the entry, and the body left to Bullet.
@@ -150,6 +150,8 @@ private:
     std::size_t indexOf(const btSoftBody* body) const;
     bool isAnotherBody(const btFemEntry& entry) const;
     void registerWithDispatcher(btSoftBody& body) const;
+    void setUpNew(btFemEntry& entry, double step);
+    void renew(btFemEntry& entry, double step);
     void exchangeModel(btFemEntry& entry, const std::shared_ptr<const bullet_fem::BodyModel>& model);
     void claim(btFemEntry& entry, const void* world, const btSoftBodySolver* solver);
 

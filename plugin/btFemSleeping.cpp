@@ -109,7 +109,7 @@ btFemInfluences influencesOn(const FemSoftBody& fem)
 bool isChanged(const btFemEntry& entry)
 {
     const FemSoftBody& fem = *entry.m_fem;
-    return entry.m_materialChanged || nodesWritten(fem) || forcesGiven(*fem.m_softBody) ||
+    return entry.m_materialChanged || nodesWritten(fem) || restMatricesChanged(fem) || forcesGiven(*fem.m_softBody) ||
            markOfTargets(fem.m_pins) != entry.m_sleep.m_targets || influencesOn(fem) != entry.m_sleep.m_influences;
 }
 

@@ -70,10 +70,13 @@ struct btFemSoftBodySolver::Impl
 namespace
 {
 
-// The masses that a density gives; pinned nodes stay pinned.
-void writeMasses(btSoftBody& body, double density)
+// The masses that a density gives at rest, however the body is deformed now; pinned nodes stay pinned.
+void writeMasses(const btFemEntry& entry, double density)
 {
-    const std::vector<double> mass = massesOf(tetMeshOf(body), filledFractionsOf(body), density * massScaleOf(body));
+    btSoftBody& body = *entry.m_softBody;
+    const bool known = entry.m_fem && !restMatricesChanged(*entry.m_fem);
+    const TetMesh mesh = known ? entry.m_fem->m_body.m_model->mesh() : tetMeshOf(body);
+    const std::vector<double> mass = massesOf(mesh, filledFractionsOf(body), density * massScaleOf(body));
     for (int i = 0; i < body.m_nodes.size(); ++i)
         if (body.m_nodes[i].m_im != 0) body.m_nodes[i].m_im = static_cast<btScalar>(1 / mass[i]);
     body.m_bUpdateRtCst = true;
@@ -154,8 +157,8 @@ void btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& mat
     std::string why;
     if (!material.valid(&why)) throw std::invalid_argument("btFemMaterial: " + why);
     if (!valid(body, &why)) throw std::invalid_argument("setMaterial: " + why);
-    if (material.m_density > 0) writeMasses(*body, material.m_density);
     btFemEntry& entry = m_impl->m_registry.entry(body);
+    if (material.m_density > 0) writeMasses(entry, material.m_density);
     entry.m_material = coreMaterial(material);
     entry.m_materialGiven = true;
     entry.m_materialChanged = true;

@@ -116,7 +116,7 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         if (!entry.m_present || entry.m_rejected || !soft.isActive()) continue;
         const double h = bodyStep(entry, step);
         if (!isUsableStep(h)) continue;
-        if (!entry.m_fem || entry.m_materialChanged) registry.trySetUp(entry, h);
+        if (!entry.m_fem || entry.m_materialChanged || restMatricesChanged(*entry.m_fem)) registry.trySetUp(entry, h);
         if (!entry.m_fem) continue;
 
         readBody(entry);

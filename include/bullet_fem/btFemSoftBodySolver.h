@@ -97,8 +97,14 @@ struct btFemSolverInfo
 ///
 /// Bodies are known by address and by a mark that they get when they are first stepped or prepared, in a field of their
 /// first tetrahedron that Bullet 3.24 does not use (m_tetras[0].m_c0; cages also use m_c1 and m_c2 of all). What is set
-/// for a body that is not in the world at the next step is forgotten; its rest shape is the one it has when it is first
-/// stepped or prepared.
+/// for a body that is not in the world at the next step is forgotten.
+///
+/// The rest shape is the one that initializeDmInverse of btSoftBody saw last, read from m_tetras[].m_Dm_inverse: what
+/// deforms a body between then and its first step is sprung back. Bodies without usable matrices (Bullet's appendTetra
+/// leaves zeros) keep the shape that they have when they are first stepped or prepared. initializeDmInverse, and scale,
+/// which calls it, make the present shape the rest shape at any time, from the next step on; translate, rotate and
+/// transform do not. Scaling keeps the node masses, as it does in Bullet; setMaterial with a density sets those of the
+/// new size.
 class btFemSoftBodySolver : public btDefaultSoftBodySolver
 {
 public:
@@ -122,7 +128,7 @@ public:
     /// Throws std::invalid_argument if !policy.valid().
     void setInterest(btFemInterest* interest, const btFemDetailPolicy& policy = btFemDetailPolicy());
 
-    /// Takes the present shape as the rest shape, unless the body has one, and factors now for a step of fixedTimeStep
+    /// Makes the body FEM, unless it is, with the rest shape of now, and factors now for a step of fixedTimeStep
     /// [s], in [1e-6, 1], so that the first step does not hitch. Throws std::invalid_argument on a bad step or mesh.
     void prepare(btSoftBody* body, btScalar fixedTimeStep);
 
@@ -137,9 +143,9 @@ public:
     /// Lets the node go. Throws std::invalid_argument on a node index out of range, or a body that is not FEM.
     void clearNodeTarget(btSoftBody* body, int node);
 
-    /// The same for `count` nodes at once: to positions, or to where `fromRest` moves the places that they had when the
-    /// body was first stepped or prepared. Throws std::invalid_argument like setNodeTarget, before any node has got a
-    /// target.
+    /// The same for `count` nodes at once: to positions, or to where `fromRest` moves the places of the rest shape,
+    /// laid over the body as it was when first stepped or prepared. Throws std::invalid_argument like setNodeTarget,
+    /// before any node has got a target.
     void setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions);
     void setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest);
     /// Lets them go. Throws likewise.
