@@ -36,7 +36,7 @@ void readMass(FemSoftBody& fem, int i, NodeReadReport& report)
 {
     const btScalar inverse = fem.m_softBody->m_nodes[i].m_im;
     BodyState& state = fem.m_body.m_state;
-    state.m_fixed[i] = inverse == 0 || fem.m_pins.m_hasTarget[i];
+    state.m_fixed[i] = inverse == 0 || fem.m_pins.m_hasTarget[i] || fem.m_body.m_model->mesh().isLoose(i);
     if (inverse == fem.m_written.m_inverseMass[i]) return;
     if (inverse < 0 || !std::isfinite(inverse) || (inverse > 0 && !std::isfinite(1 / inverse)))
     {
@@ -85,7 +85,8 @@ void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report
     }
     else
     {
-        if (!sameBits(node.m_v, writtenV)) fem.m_pins.m_velocity[i] = v;
+        const bool isPin = node.m_im == 0 || !fem.m_body.m_model->mesh().isLoose(i);
+        if (isPin && !sameBits(node.m_v, writtenV)) fem.m_pins.m_velocity[i] = v;
         if (teleported)
             state.m_x[i] = x;
         else if (!sameBits(node.m_x, writtenX))

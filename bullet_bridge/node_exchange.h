@@ -21,7 +21,7 @@ double factorMismatch(const FemSoftBody& fem, double step);
 
 /// Takes over what the user wrote to m_x, m_v and m_im since the last writeNodes, component by component: x and v are
 /// kept in double, and only components whose bits differ from those written are loaded. A pinned node's new position is
-/// its target within the step. Never allocates.
+/// its target within the step. Nodes without elements stand still where they are written. Never allocates.
 NodeReadReport readNodes(FemSoftBody& fem);
 
 /// Collects the external forces of the step: gravity, m_f (to which Bullet's applyForces has added wind and pressure),

@@ -14,7 +14,7 @@ RestMesh restMeshOf(const btSoftBody& body)
 {
     std::vector<Tet> tets = tetsOf(body);
     RestPositions rest = restPositionsOf(body, tets);
-    return {TetMesh(std::move(rest.m_X), std::move(tets)), rest.m_origin, rest.m_fromMatrices};
+    return {TetMesh(std::move(rest.m_X), std::move(tets), LooseNodes::kept), rest.m_origin, rest.m_fromMatrices};
 }
 
 TetMesh tetMeshOf(const btSoftBody& body)
@@ -41,6 +41,14 @@ double massScaleOf(const btSoftBody& body)
 {
     const double stored = body.m_tetras.size() > 0 ? double(body.m_tetras[0].m_c2) : 0;
     return stored > 0 && std::isfinite(stored) ? stored : 1;
+}
+
+void makeFaces(btSoftBody& body, const TetMesh& mesh)
+{
+    if (body.m_faces.size() > 0) return;
+    body.m_faces.reserve(static_cast<int>(mesh.surface().size()));
+    for (const Triangle& t : mesh.surface()) body.appendFace(t[0], t[1], t[2]);
+    body.updateNormals();
 }
 
 void storeFill(btSoftBody& body, int tet, double fraction, double massScale)
@@ -80,12 +88,12 @@ std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<do
         repaired = repaired || !(usable || inverse == 0);
         if (!usable) continue;
         mass[i] = 1 / inverse;
-        knownMass += mass[i];
+        if (volumeShare[i] > 0) knownMass += mass[i];
         knownVolume += volumeShare[i];
     }
     const double density = knownVolume > 0 ? knownMass / knownVolume : 1000;
     for (std::size_t i = 0; i < mass.size(); ++i)
-        if (!(mass[i] > 0)) mass[i] = density * volumeShare[i];
+        if (!(mass[i] > 0)) mass[i] = volumeShare[i] > 0 ? density * volumeShare[i] : 1;  // a loose node's is not used
     return mass;
 }
 

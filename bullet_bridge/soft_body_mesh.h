@@ -20,7 +20,8 @@ struct RestMesh
     bool m_known = false;  ///< the body's element matrices say so; else its present shape was taken
 };
 
-/// See restPositionsOf. Throws std::invalid_argument, see tetsOf and TetMesh.
+/// See restPositionsOf. Nodes that no tetrahedron uses are kept as loose ones. Throws std::invalid_argument, see tetsOf
+/// and TetMesh.
 RestMesh restMeshOf(const btSoftBody& body);
 
 /// The mesh alone.
@@ -31,6 +32,9 @@ std::vector<double> filledFractionsOf(const btSoftBody& body);
 
 /// Factor on all masses that makes a cage as heavy as its surface's volume; 1 for other bodies.
 double massScaleOf(const btSoftBody& body);
+
+/// Gives a body that has no faces those of the mesh's surface, which wind, pressure and drawing go by.
+void makeFaces(btSoftBody& body, const TetMesh& mesh);
 
 /// Stores an element's filled fraction and the mass scale in btSoftBody::Tetra::m_c1 and m_c2, fields that Bullet
 /// serialises and no longer uses. 0, their value after appendTetra, means 1.

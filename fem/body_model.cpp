@@ -27,6 +27,9 @@ void validateInput(const RestShape& shape, const FactorInput& input)
     for (std::size_t i = 0; i < n; ++i)
         if (!(input.m_mass[i] > 0) || !std::isfinite(input.m_mass[i]))
             reject("mass of node ", i, " is ", input.m_mass[i], " kg, not in (0, inf)");
+    for (std::size_t i = 0; i < n; ++i)
+        if (shape.m_mesh.isLoose(static_cast<int>(i)) && !input.m_fixed[i])
+            reject("node ", i, " belongs to no element and is not fixed; fix it, or remove it from the mesh");
 }
 
 }  // namespace

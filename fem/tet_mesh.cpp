@@ -47,14 +47,20 @@ void checkIndices(const std::vector<Tet>& tets, int nodeCount)
         }
 }
 
-void checkAllNodesUsed(const std::vector<Tet>& tets, int nodeCount)
+/// 1 for every node in no element.
+std::vector<unsigned char> looseNodes(const std::vector<Tet>& tets, int nodeCount)
 {
-    std::vector<char> used(nodeCount, 0);
+    std::vector<unsigned char> loose(nodeCount, 1);
     for (const Tet& tet : tets)
-        for (const int i : tet) used[i] = 1;
-    const auto unused = std::find(used.begin(), used.end(), 0);
-    if (unused != used.end())
-        reject("node ", unused - used.begin(), " of ", nodeCount,
+        for (const int i : tet) loose[i] = 0;
+    return loose;
+}
+
+void refuseLooseNodes(const std::vector<unsigned char>& loose)
+{
+    const auto first = std::find(loose.begin(), loose.end(), 1);
+    if (first != loose.end())
+        reject("node ", first - loose.begin(), " of ", loose.size(),
                " belongs to no element; remove unused nodes from the mesh");
 }
 
@@ -181,7 +187,7 @@ double meanEdge(const std::vector<Vec3>& X, const std::vector<Tet>& tets)
 
 }  // namespace
 
-TetMesh::TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets)
+TetMesh::TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose)
     : m_restPositions(std::move(restPositions)), m_tets(std::move(tets))
 {
     constexpr std::size_t most = std::numeric_limits<int>::max() / 12;  // three numbers a node, four faces an element
@@ -191,7 +197,9 @@ TetMesh::TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets)
                "; use a coarser mesh");
     checkPositions(m_restPositions);
     checkIndices(m_tets, nodeCount());
-    checkAllNodesUsed(m_tets, nodeCount());
+    m_loose = looseNodes(m_tets, nodeCount());
+    if (loose == LooseNodes::refused) refuseLooseNodes(m_loose);
+    m_looseCount = static_cast<int>(std::count(m_loose.begin(), m_loose.end(), 1));
     m_turnedCount = turnNegative(m_restPositions, m_tets);
     m_surface = boundaryFaces(m_tets);
 

@@ -61,7 +61,9 @@ bool topologyAsBuilt(const btSoftBody& soft, const TetMesh& mesh)
 
 int flagsOf(const TetMesh& mesh)
 {
-    return (mesh.turnedCount() > 0 ? BT_FEM_TURNED_TETS : 0) | (mesh.componentCount() > 1 ? BT_FEM_SEVERAL_PIECES : 0);
+    return (mesh.turnedCount() > 0 ? BT_FEM_TURNED_TETS : 0) |
+           (mesh.componentCount() - mesh.looseCount() > 1 ? BT_FEM_SEVERAL_PIECES : 0) |
+           (mesh.looseCount() > 0 ? BT_FEM_UNUSED_NODES : 0);
 }
 
 // What the body overlaps gets new collision algorithms at the next collision detection.
@@ -226,8 +228,9 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
     input.m_mass = sanitisedMasses(soft, massesOf(mesh, filled, 1), repaired);
     for (int i = 0; i < soft.m_nodes.size(); ++i)
     {
-        input.m_fixed.push_back(soft.m_nodes[i].m_im == 0);
-        if (defined && input.m_fixed[i]) input.m_mass[i] = defined->m_mass[i];
+        const bool pinned = soft.m_nodes[i].m_im == 0;
+        input.m_fixed.push_back(pinned || mesh.isLoose(i));
+        if (defined && pinned) input.m_mass[i] = defined->m_mass[i];
     }
     input.m_step = step;
     const auto model = m_library.model(shape, input);
@@ -236,6 +239,7 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
     entry.m_fem->m_body.m_state.m_mass = input.m_mass;  // the model's may be those of a copy elsewhere
     entry.m_fem->m_restOrigin = rest.m_origin;
     entry.m_definition.reset();
+    makeFaces(soft, mesh);
     registerWithDispatcher(soft);
     entry.m_fem->m_contactOffset = entry.m_contactOffset;
     entry.m_setUpFlags = flagsOf(mesh) | (repaired ? BT_FEM_BAD_MASS : 0);

@@ -32,11 +32,9 @@ std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Tet
     auto body = std::make_unique<btSoftBody>(&worldInfo, mesh.nodeCount(), &positions[0], &masses[0]);
     body->m_tetras.reserve(mesh.tetCount());
     for (const Tet& tet : mesh.tets()) body->appendTetra(tet[0], tet[1], tet[2], tet[3]);
-    body->m_faces.reserve(static_cast<int>(mesh.surface().size()));
-    for (const Triangle& t : mesh.surface()) body->appendFace(t[0], t[1], t[2]);
+    makeFaces(*body, mesh);
     body->initializeDmInverse();
     for (std::size_t e = 0; e < filled.size(); ++e) storeFill(*body, static_cast<int>(e), filled[e], massScale);
-    body->updateNormals();
     body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;  // as users of solids expect; Bullet's default is none
     return body;
 }

@@ -54,6 +54,7 @@ HWY_INLINE NodeRotation averageAt(const NodeRotations& rotations, int node)
     const D4 d;
     const int* corner = rotations.m_nodes->m_corner.data() + rotations.m_nodes->m_start[node];
     const int* end = rotations.m_nodes->m_corner.data() + rotations.m_nodes->m_start[node + 1];
+    if (corner == end) return {};  // a loose node
     // Two sums, so that additions need not wait for each other.
     hn::Vec<D4> sums[2] = {hn::Zero(d), hn::Zero(d)};
     float volumes[2] = {0, 0};

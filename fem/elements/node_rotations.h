@@ -15,7 +15,7 @@ struct NodeRotation
 
 /// R_i of every node from the rotations of the elements around it: the normalised sum of V_e q_e, signs turned
 /// to the first one's where they differ. Where the rotations are far apart (|sum| below 0.7 of sum V_e) it is polar(sum
-/// V_e R_e) instead.
+/// V_e R_e) instead. Of nodes without elements: the identity.
 struct NodeRotations
 {
     const NodeCorners* m_nodes;

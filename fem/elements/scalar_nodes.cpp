@@ -40,6 +40,7 @@ NodeRotation carefulAverage(const NodeRotations& rotations, int node)
     constexpr double kSpread = 0.7;
     const NodeCorners& nodes = *rotations.m_nodes;
     const int begin = nodes.m_start[node], end = nodes.m_start[node + 1];
+    if (begin == end) return {};  // a loose node
     const Quaternion& p = rotations.m_rotation[NodeCorners::element(nodes.m_corner[begin])];
     BasicQuaternion<double> sum = {0, 0, 0, 0};
     double volume = 0;

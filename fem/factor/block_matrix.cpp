@@ -21,6 +21,7 @@ Vec3 shapeGradient(const RestElement& element, int a)
 BlockMatrix emptyMatrix(const TetMesh& mesh)
 {
     std::vector<std::vector<int>> neighbours(mesh.nodeCount());
+    for (int i = 0; i < mesh.nodeCount(); ++i) neighbours[i].push_back(i);  // loose nodes have no more
     for (const Tet& tet : mesh.tets())
         for (int a : tet) neighbours[a].insert(neighbours[a].end(), tet.begin(), tet.end());
     BlockMatrix matrix;

@@ -90,6 +90,9 @@ struct btFemSolverInfo
 /// Bullet's threads. Allocates when a body is first stepped, when the number of contacts grows, and on calls of its own
 /// methods; not otherwise, but for the tasks of btFemSolverInfo::m_threads > 1, which come from oneTBB's pools.
 ///
+/// Whichever way a body was made, its tetrahedra count. One without faces is given those of its boundary. Links are
+/// ignored, whoever made them: a FEM body's stiffness is its material's. Pieces that only links connect part.
+///
 /// Bodies sleep like Bullet's rigid ones: after 2 s (gDeactivationTime) in which no node was faster than
 /// m_sleepingThreshold (.04 m/s), with their island. Asleep they keep velocity 0, contacts and reports, those of cost
 /// zeroed; what the user writes, or a change around them, wakes them. setActivationState(DISABLE_DEACTIVATION) keeps

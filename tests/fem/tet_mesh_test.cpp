@@ -144,6 +144,10 @@ TEST(TetMeshRejects, NodeInNoElement)
     std::vector<Vec3> X = kCorner;
     X.insert(X.begin() + 1, {5, 5, 5});
     expectRejected([&] { TetMesh(X, {{0, 2, 3, 4}}); }, {"node 1 of 5", "no element", "remove"});
+    const TetMesh mesh(X, {{0, 2, 3, 4}}, LooseNodes::kept);
+    EXPECT_EQ(mesh.looseCount(), 1);
+    EXPECT_EQ(mesh.componentCount(), 2);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(mesh.isLoose(i), i == 1) << i;
 }
 
 TEST(TetMeshRejects, FaceOfMoreThanTwoElements)

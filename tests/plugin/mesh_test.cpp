@@ -64,8 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadMesh{"flatElement", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}, "degenerate"},
         BadMesh{"nodeTwice", kCorners, {{0, 1, 2, 3}, {0, 1, 2, 2}}, "element 1"},
-        BadMesh{"nanAtTheStart", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, kNaN, 2}}, {{0, 1, 2, 3}}, "finite"},
-        BadMesh{"unusedNode", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 2}, {5, 5, 5}}, {{0, 1, 2, 3}}, "node 4"}),
+        BadMesh{"nanAtTheStart", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, kNaN, 2}}, {{0, 1, 2, 3}}, "finite"}),
     [](const auto& scene) { return scene.param.m_name; });
 
 TEST(Meshes, ARejectedBodyIsTriedAgainWhenItGetsAMaterial)
