@@ -32,20 +32,48 @@ void loadChanged(const btVector3& user, const btVector3& written, Vec3& value)
         if (user[c] != written[c]) value[c] = user[c];
 }
 
-void readMass(FemSoftBody& fem, int i, NodeReadReport& report)
+// Returns false for a node without mass: see shareOutMass.
+bool readMass(FemSoftBody& fem, int i, NodeReadReport& report)
 {
     const btScalar inverse = fem.m_softBody->m_nodes[i].m_im;
     BodyState& state = fem.m_body.m_state;
     state.m_fixed[i] = inverse == 0 || fem.m_pins.m_hasTarget[i] || fem.m_body.m_model->mesh().isLoose(i);
-    if (inverse == fem.m_written.m_inverseMass[i]) return;
+    if (inverse == fem.m_written.m_inverseMass[i]) return true;
+    if (isMassless(inverse)) return false;
     if (inverse < 0 || !std::isfinite(inverse) || (inverse > 0 && !std::isfinite(1 / inverse)))
     {
         report.m_badMass = true;
         fem.m_softBody->m_nodes[i].m_im = fem.m_written.m_inverseMass[i];
-        return;
+        return true;
     }
     fem.m_written.m_inverseMass[i] = inverse;
     if (inverse > 0) state.m_mass[i] = 1 / double(inverse);
+    return true;
+}
+
+// As in sanitisedMasses: btSoftBody::setTotalMass by faces gives the whole mass to those of the surface.
+void shareOutMass(FemSoftBody& fem)
+{
+    const std::vector<double>& share = fem.m_body.m_model->shape().m_lumpedMass;
+    BodyState& state = fem.m_body.m_state;
+    double mass = 0, shares = 0;
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        const btScalar inverse = fem.m_softBody->m_nodes[i].m_im;
+        if (inverse == 0 || !(share[i] > 0)) continue;
+        shares += share[i];
+        if (!isMassless(inverse)) mass += state.m_mass[i];
+    }
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        btScalar& inverse = fem.m_softBody->m_nodes[i].m_im;
+        if (mass > 0 && inverse != 0 && share[i] > 0)
+        {
+            state.m_mass[i] = mass * share[i] / shares;
+            fem.m_written.m_inverseMass[i] = static_cast<btScalar>(1 / state.m_mass[i]);
+        }
+        if (inverse != 0) inverse = fem.m_written.m_inverseMass[i];
+    }
 }
 
 // True if the user moved most of the free nodes: then the body was put elsewhere, and its pinned nodes jump with it.
@@ -102,12 +130,18 @@ NodeReadReport readNodes(FemSoftBody& fem)
 {
     NodeReadReport report;
     const bool teleported = wasTeleported(fem);
+    bool massless = false;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
     {
         const bool wasFixed = fem.m_body.m_state.m_fixed[i];
-        readMass(fem, i, report);
+        massless = !readMass(fem, i, report) || massless;
         if (fem.m_body.m_state.m_fixed[i] && !wasFixed) fem.m_pins.m_velocity[i] = {};
         readMotion(fem, i, teleported, report);
+    }
+    if (massless)
+    {
+        report.m_badMass = true;
+        shareOutMass(fem);
     }
     report.m_stalePins = fem.m_body.m_model->factorInput().m_fixed != fem.m_body.m_state.m_fixed;
     return report;

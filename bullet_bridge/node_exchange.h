@@ -11,7 +11,8 @@ namespace bullet_fem
 struct NodeReadReport
 {
     bool m_restored = false;   ///< a value was not finite: the last good one was put back
-    bool m_badMass = false;    ///< an inverse mass was negative or not finite: the node kept its mass
+    bool m_badMass = false;    ///< an inverse mass was negative or NaN: the node kept its mass; or infinite: all
+                               ///< the body's mass was shared out by volume
     bool m_stalePins = false;  ///< other nodes are fixed than those that the factor was built for
 };
 

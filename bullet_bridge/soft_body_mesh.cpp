@@ -68,6 +68,13 @@ Material unsetMaterialOf(const btSoftBody& body)
     return material;
 }
 
+void writeMasses(btSoftBody& body, const std::vector<double>& mass)
+{
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+        if (body.m_nodes[i].m_im != 0 && mass[i] > 0) body.m_nodes[i].m_im = static_cast<btScalar>(1 / mass[i]);
+    body.m_bUpdateRtCst = true;
+}
+
 std::vector<double> massesOf(const TetMesh& mesh, const std::vector<double>& filled, double density)
 {
     std::vector<double> mass(mesh.nodeCount(), 0.0);
@@ -77,13 +84,19 @@ std::vector<double> massesOf(const TetMesh& mesh, const std::vector<double>& fil
     return mass;
 }
 
+bool isMassless(btScalar inverseMass)
+{
+    return inverseMass > 0 && (std::isinf(inverseMass) || 1 / inverseMass == 0);
+}
+
 std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<double>& volumeShare, bool& repaired)
 {
-    double knownMass = 0, knownVolume = 0;
+    double knownMass = 0, knownVolume = 0, masslessVolume = 0;
     std::vector<double> mass(volumeShare.size(), 0.0);
     for (int i = 0; i < body.m_nodes.size(); ++i)
     {
         const double inverse = body.m_nodes[i].m_im;
+        if (isMassless(body.m_nodes[i].m_im)) masslessVolume += volumeShare[i];
         const bool usable = inverse > 0 && std::isfinite(inverse) && std::isfinite(1 / inverse);
         repaired = repaired || !(usable || inverse == 0);
         if (!usable) continue;
@@ -91,9 +104,12 @@ std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<do
         if (volumeShare[i] > 0) knownMass += mass[i];
         knownVolume += volumeShare[i];
     }
-    const double density = knownVolume > 0 ? knownMass / knownVolume : 1000;
+    const double density = knownVolume > 0 ? knownMass / (knownVolume + masslessVolume) : 1000;
     for (std::size_t i = 0; i < mass.size(); ++i)
+    {
+        if (masslessVolume > 0 && volumeShare[i] > 0) mass[i] = density * volumeShare[i];
         if (!(mass[i] > 0)) mass[i] = volumeShare[i] > 0 ? density * volumeShare[i] : 1;  // a loose node's is not used
+    }
     return mass;
 }
 

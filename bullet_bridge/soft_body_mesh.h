@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "LinearMath/btScalar.h"
 #include "bullet_fem/fem/material.h"
 #include "bullet_fem/fem/tet_mesh.h"
 
@@ -44,11 +45,19 @@ void storeFill(btSoftBody& body, int tet, double fraction, double massScale);
 /// masses.
 Material unsetMaterialOf(const btSoftBody& body);
 
+/// Writes masses [kg] > 0 to the inverse masses of the nodes that are not pinned.
+void writeMasses(btSoftBody& body, const std::vector<double>& mass);
+
 /// Masses that a density gives the nodes: sum of rho V_e filled_e / 4 [kg].
 std::vector<double> massesOf(const TetMesh& mesh, const std::vector<double>& filled, double density);
 
+/// True for an infinite inverse mass: btSoftBody::setTotalMass leaves that in nodes that are in no face.
+bool isMassless(btScalar inverseMass);
+
 /// Node masses [kg] from Bullet's inverse masses. Pinned nodes (inverse mass 0) get their share of the volume at the
-/// body's mean density; so do nodes whose inverse mass is negative, NaN or infinite, and then `repaired` is set.
+/// body's mean density; so do nodes whose inverse mass is negative or NaN, and then `repaired` is set. If there are
+/// nodes without mass (isMassless), `repaired` is set, too, and the mass of the others is shared out to all of them by
+/// volume: the body weighs what was asked for. A body of no mass at all is given 1000 kg/m3.
 std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<double>& volumeShare, bool& repaired);
 
 }  // namespace bullet_fem

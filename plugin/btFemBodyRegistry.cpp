@@ -218,7 +218,7 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
     btSoftBody& soft = *entry.m_softBody;
     const std::shared_ptr<const btFemDefinition> defined = entry.m_definition;
     const RestMesh rest =
-        defined ? RestMesh{TetMesh(defined->m_restPositions, defined->m_tets), defined->m_restOrigin, true}
+        defined ? RestMesh{TetMesh(defined->m_restPositions, defined->m_tets, LooseNodes::kept), defined->m_restOrigin, true}
                 : restMeshOf(soft);
     const TetMesh& mesh = rest.m_mesh;
     const std::vector<double> filled = filledFractionsOf(soft);
@@ -226,6 +226,7 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
     FactorInput input;
     bool repaired = false;
     input.m_mass = sanitisedMasses(soft, massesOf(mesh, filled, 1), repaired);
+    if (repaired) writeMasses(soft, input.m_mass);
     for (int i = 0; i < soft.m_nodes.size(); ++i)
     {
         const bool pinned = soft.m_nodes[i].m_im == 0;

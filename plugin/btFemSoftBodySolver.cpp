@@ -70,16 +70,13 @@ struct btFemSoftBodySolver::Impl
 namespace
 {
 
-// The masses that a density gives at rest, however the body is deformed now; pinned nodes stay pinned.
-void writeMasses(const btFemEntry& entry, double density)
+// The masses that a density gives at rest, however the body is deformed now.
+std::vector<double> massesAtRest(const btFemEntry& entry, double density)
 {
-    btSoftBody& body = *entry.m_softBody;
+    const btSoftBody& body = *entry.m_softBody;
     const bool known = entry.m_fem && !restMatricesChanged(*entry.m_fem);
     const TetMesh mesh = known ? entry.m_fem->m_body.m_model->mesh() : tetMeshOf(body);
-    const std::vector<double> mass = massesOf(mesh, filledFractionsOf(body), density * massScaleOf(body));
-    for (int i = 0; i < body.m_nodes.size(); ++i)
-        if (body.m_nodes[i].m_im != 0) body.m_nodes[i].m_im = static_cast<btScalar>(1 / mass[i]);
-    body.m_bUpdateRtCst = true;
+    return massesOf(mesh, filledFractionsOf(body), density * massScaleOf(body));
 }
 
 // True if all rigid contact was switched off with m_cfg.collisions.
@@ -158,7 +155,7 @@ void btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& mat
     if (!material.valid(&why)) throw std::invalid_argument("btFemMaterial: " + why);
     if (!valid(body, &why)) throw std::invalid_argument("setMaterial: " + why);
     btFemEntry& entry = m_impl->m_registry.entry(body);
-    if (material.m_density > 0) writeMasses(entry, material.m_density);
+    if (material.m_density > 0) writeMasses(*body, massesAtRest(entry, material.m_density));
     entry.m_material = coreMaterial(material);
     entry.m_materialGiven = true;
     entry.m_materialChanged = true;

@@ -241,6 +241,19 @@ TEST(Creation, UnusedNodesDoNoHarmInAnyDetailOrPrecision)
         }
 }
 
+TEST(Creation, UnusedNodesGetNoMassFromADensity)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    btSoftBody& body = world.addSoft(makeWithUnusedNodes(world));
+    btFemMaterial material;
+    material.m_density = 1000;
+    fem.setMaterial(&body, material);
+    world.step();
+    EXPECT_EQ(fem.stepReport(&body).m_flags, BT_FEM_UNUSED_NODES);
+    EXPECT_NEAR(body.getTotalMass(), 192 + 7 + 1, 0.01);  // theirs are what they were
+}
+
 TEST(Creation, AllNodesUnusedButAPieceIsStillRefusedByOurHelpers)
 {
     btFemSoftBodySolver fem;
