@@ -6,6 +6,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/pose_matching.h"
 #include "bullet_bridge/soft_body_mesh.h"
 
 namespace bullet_fem
@@ -184,6 +185,7 @@ bool readLoads(FemSoftBody& fem, double step)
     // kDP)).
     const double kDP = fem.m_hasOwnGravity ? soft.m_cfg.drag : soft.m_cfg.kDP;
     loads.m_massDamping = kDP > 0 ? std::min(kDP, 0.999) / (step * (1 - std::min(kDP, 0.999))) : 0;
+    matchPose(fem, step);
     return finite;
 }
 

@@ -26,8 +26,8 @@ double factorMismatch(const FemSoftBody& fem, double step);
 NodeReadReport readNodes(FemSoftBody& fem);
 
 /// Collects the external forces of the step: gravity, m_f (to which Bullet's applyForces has added wind and pressure),
-/// and Bullet's per-step velocity damping kDP as a rate; and the target velocities of pinned nodes. Zeroes m_f. Returns
-/// false if a force was not finite (it is dropped).
+/// and Bullet's per-step velocity damping kDP as a rate; the pull of a pose (matchPose); and the target velocities of
+/// pinned nodes. Zeroes m_f. Returns false if a force was not finite (it is dropped).
 bool readLoads(FemSoftBody& fem, double step);
 
 /// Writes x to m_x (the old one to m_q), v to m_v (the old one to m_vn).

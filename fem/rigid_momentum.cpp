@@ -58,12 +58,15 @@ void RigidMomentum::prescribe(const Body& body, double step)
                 });
     for (Piece& piece : m_pieces) piece.m_center *= 1 / piece.m_mass;
 
-    const double alpha = damping(body), share = step / (1 + step * alpha);
+    const double alpha = damping(body), toFrame = body.m_loads.m_frameDamping;
+    const double share = step / (1 + step * (alpha + toFrame));
     forEachNode(component, m_pieces,
                 [&](Piece& piece, int i)
                 {
                     const Vec3 r = s.m_x[i] - piece.m_center, p = s.m_mass[i] * s.m_v[i];
-                    const Vec3 prescribed = p + share * (body.m_loads.m_force[i] - alpha * p);
+                    Vec3 force = body.m_loads.m_force[i] - alpha * p;
+                    if (toFrame > 0) force += toFrame * (s.m_mass[i] * body.m_loads.m_frameVelocity[i] - p);
+                    const Vec3 prescribed = p + share * force;
                     piece.m_linear += prescribed;
                     piece.m_angular += cross(r, prescribed);
                     piece.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));

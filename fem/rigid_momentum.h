@@ -18,10 +18,11 @@ public:
     explicit RigidMomentum(const TetMesh& mesh) : m_pieces(mesh.componentCount()) {}
 
     /// Sets the prescription to that of the loads: (1 + h alpha)(p' - p) = h (F - alpha p), and the same for angular
-    /// momentum about the centre of mass at the state's positions. alpha includes the loads' extra damping.
+    /// momentum about the centre of mass at the state's positions. alpha includes the loads' extra damping; what draws
+    /// it to the loads' frame is added likewise.
     void prescribe(const Body& body, double step);
 
-    /// Adds node impulses J [N s] to the prescription.
+    /// Adds node impulses J [N s] to the prescription; the frame, which moves along, does not damp them.
     void addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step);
 
     /// Adds an angular impulse [N m s] to the prescription of the piece that a node belongs to.

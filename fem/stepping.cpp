@@ -55,6 +55,9 @@ void assembleRightSide(Body& body, const StepSettings& settings, StepScratch& sc
     const double alpha = massDamping(body);
     std::vector<Vec3>& b = scratch.m_rightSide;
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = body.m_loads.m_force[i] - alpha * s.m_mass[i] * s.m_v[i];
+    const double frameDamping = body.m_loads.m_frameDamping;
+    for (std::size_t i = 0; i < b.size() && frameDamping > 0; ++i)
+        b[i] += frameDamping * s.m_mass[i] * (body.m_loads.m_frameVelocity[i] - s.m_v[i]);
     prepareWarpedSystem(body, settings, b);
     for (Vec3& bi : b) bi *= settings.m_step;
 }

@@ -100,7 +100,8 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
     ElementWork& work = body.m_workspace.scratch().m_elements;
     const BodyState& state = body.m_state;
     const double h = settings.m_step;
-    const double alpha = body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
+    const double alpha =
+        body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping + body.m_loads.m_frameDamping;
     work.m_isDouble = settings.m_tolerance < kFinestSingle;
     for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i) work.m_scaledMass[i] = (1 + h * alpha) * state.m_mass[i];
     pad(settings.m_threads, state.m_x, work.m_x);

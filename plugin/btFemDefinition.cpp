@@ -91,7 +91,7 @@ void check(const btFemDefinition& d, const btSoftBody& soft)
                d.m_filled.size(), " filled fractions");
     checkNumbers(d);
     d.m_material.validate();
-    TetMesh(d.m_restPositions, d.m_tets);  // throws if it is no mesh
+    TetMesh(d.m_restPositions, d.m_tets, LooseNodes::kept);  // throws if it is no mesh
 }
 
 }  // namespace

@@ -96,6 +96,7 @@ btFemInfluences influencesOn(const FemSoftBody& fem)
             cfg.kLF,
             cfg.kPR,
             cfg.kVC,
+            soft.m_pose.m_bframe ? double(cfg.kMT) : 0,
             cfg.kDF,
             double(cfg.collisions),
             double(soft.m_anchors.size()),

@@ -13,7 +13,7 @@ class btFemBodyRegistry;
 struct btFemEntry;
 
 /// What acts on a body besides its neighbours, for comparison.
-using btFemInfluences = std::array<double, 19>;
+using btFemInfluences = std::array<double, 20>;
 
 /// What a body's rest depends on besides its nodes, as it was at the end of the last step, so that a change by the user
 /// is noticed. Kept for bodies that sleep or are about to; addresses are compared, never followed.

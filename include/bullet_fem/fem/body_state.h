@@ -34,11 +34,15 @@ struct BodyState
 /// What acts on a body during one step.
 struct StepLoads
 {
-    explicit StepLoads(int nodeCount) : m_force(nodeCount), m_targetVelocity(nodeCount) {}
+    explicit StepLoads(int nodeCount) : m_force(nodeCount), m_targetVelocity(nodeCount), m_frameVelocity(nodeCount) {}
 
     std::vector<Vec3> m_force;           ///< external force on every node [N]
     std::vector<Vec3> m_targetVelocity;  ///< velocity of fixed nodes during the step [m/s]; not read elsewhere
     double m_massDamping = 0;            ///< added to the material's alpha [1/s], >= 0
+    /// Rate at which velocities are drawn to m_frameVelocity [1/s], >= 0: forces m rate (v_frame - v), implicitly. The
+    /// frame is a rigid one that moves with the body, so impulses of contact change its momentum undamped.
+    double m_frameDamping = 0;
+    std::vector<Vec3> m_frameVelocity;  ///< at the end of the step [m/s]; not read if m_frameDamping is 0
 };
 
 }  // namespace bullet_fem
