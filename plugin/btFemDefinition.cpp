@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/rest_positions.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemEnvelope.h"
@@ -20,14 +21,6 @@ void transfer(Bytes& bytes, btFemDefinition& d)
     Material& m = d.m_material;
     bytes(d.m_restPositions, d.m_restOrigin, d.m_tets, d.m_filled, d.m_massScale, m.m_youngModulus, m.m_poissonRatio,
           m.m_density, m.m_massDamping, m.m_stiffnessDamping, d.m_mass, d.m_inverseMass, d.m_contactOffset, d.m_detail);
-}
-
-std::vector<Tet> tetsOf(const btSoftBody& soft)
-{
-    std::vector<Tet> tets(soft.m_tetras.size());
-    for (int e = 0; e < soft.m_tetras.size(); ++e)
-        for (int a = 0; a < 4; ++a) tets[e][a] = static_cast<int>(soft.m_tetras[e].m_n[a] - &soft.m_nodes[0]);
-    return tets;
 }
 
 // What the body has, or would get now.
@@ -53,12 +46,11 @@ btFemDefinition definitionOf(const btFemBodyRegistry& registry, const btSoftBody
         d.m_mass = entry->m_fem->m_body.m_state.m_mass;
         return d;
     }
-    const TetMesh mesh = tetMeshOf(soft);
-    const btVector3& origin = soft.m_nodes[0].m_x;
+    const RestMesh rest = restMeshOf(soft);
     bool repaired = false;
-    d.m_restPositions = mesh.restPositions();
-    d.m_restOrigin = {double(origin.x()), double(origin.y()), double(origin.z())};
-    d.m_mass = sanitisedMasses(soft, massesOf(mesh, d.m_filled, 1), repaired);
+    d.m_restPositions = rest.m_mesh.restPositions();
+    d.m_restOrigin = rest.m_origin;
+    d.m_mass = sanitisedMasses(soft, massesOf(rest.m_mesh, d.m_filled, 1), repaired);
     return d;
 }
 
