@@ -43,11 +43,41 @@ double massScaleOf(const btSoftBody& body)
     return stored > 0 && std::isfinite(stored) ? stored : 1;
 }
 
+namespace
+{
+
+// The surface as Bullet's rayTest likes it: it looks at the faces first and then at all sides of tetrahedra, which take
+// the hit over if they are nearer by a rounding error. The same corner first means the same bits.
+std::vector<Triangle> facesOf(const TetMesh& mesh)
+{
+    constexpr int kSides[4][3] = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};  // in Bullet's order
+    std::vector<std::pair<Triangle, int>> first;                                // of a side with ascending nodes
+    for (const Tet& tet : mesh.tets())
+        for (const auto& side : kSides)
+        {
+            Triangle key = {tet[side[0]], tet[side[1]], tet[side[2]]};
+            std::sort(key.begin(), key.end());
+            first.push_back({key, tet[side[0]]});
+        }
+    std::sort(first.begin(), first.end());
+    std::vector<Triangle> faces(mesh.surface().begin(), mesh.surface().end());
+    for (Triangle& face : faces)
+    {
+        Triangle key = face;
+        std::sort(key.begin(), key.end());
+        const auto side = std::lower_bound(first.begin(), first.end(), std::make_pair(key, 0));
+        std::rotate(face.begin(), std::find(face.begin(), face.end(), side->second), face.end());
+    }
+    return faces;
+}
+
+}  // namespace
+
 void makeFaces(btSoftBody& body, const TetMesh& mesh)
 {
     if (body.m_faces.size() > 0) return;
     body.m_faces.reserve(static_cast<int>(mesh.surface().size()));
-    for (const Triangle& t : mesh.surface()) body.appendFace(t[0], t[1], t[2]);
+    for (const Triangle& t : facesOf(mesh)) body.appendFace(t[0], t[1], t[2]);
     body.updateNormals();
 }
 

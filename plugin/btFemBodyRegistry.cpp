@@ -9,6 +9,7 @@
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"
+#include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/shapes/concave_dispatch.h"
 #include "bullet_bridge/soft_body_mesh.h"
@@ -80,6 +81,7 @@ void renewAlgorithms(btSoftBody& body)
 void leaveToBullet(btSoftBody& body)
 {
     unmarkBody(body);
+    giveFaceTreeToBullet(body);
     if (body.m_worldInfo) renewAlgorithms(body);
 }
 
@@ -242,6 +244,7 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
     entry.m_definition.reset();
     makeFaces(soft, mesh);
     registerWithDispatcher(soft);
+    keepFaceTree(soft);
     entry.m_fem->m_contactOffset = entry.m_contactOffset;
     entry.m_setUpFlags = flagsOf(mesh) | (repaired ? BT_FEM_BAD_MASS : 0);
 }

@@ -8,6 +8,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/fem/generators.h"
 
@@ -33,6 +34,7 @@ std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Tet
     body->m_tetras.reserve(mesh.tetCount());
     for (const Tet& tet : mesh.tets()) body->appendTetra(tet[0], tet[1], tet[2], tet[3]);
     makeFaces(*body, mesh);
+    keepFaceTree(*body);
     body->initializeDmInverse();
     for (std::size_t e = 0; e < filled.size(); ++e) storeFill(*body, static_cast<int>(e), filled[e], massScale);
     body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;  // as users of solids expect; Bullet's default is none

@@ -6,6 +6,7 @@
 
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
@@ -102,7 +103,7 @@ void updateWithoutTree(btSoftBody& body)
     body.m_bUpdateRtCst = false;
     body.updateLinkConstants();
     body.updateArea();
-    body.m_fdbvt.clear();
+    giveFaceTreeToBullet(body);
 }
 
 bool check(bool good, std::string* why, const char* name, double value, const char* range)
@@ -154,6 +155,7 @@ void btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& mat
     std::string why;
     if (!material.valid(&why)) throw std::invalid_argument("btFemMaterial: " + why);
     if (!valid(body, &why)) throw std::invalid_argument("setMaterial: " + why);
+    keepFaceTree(*body);
     btFemEntry& entry = m_impl->m_registry.entry(body);
     if (material.m_density > 0) writeMasses(*body, massesAtRest(entry, material.m_density));
     entry.m_material = coreMaterial(material);

@@ -6,6 +6,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_fem/fem/stepping.h"
@@ -129,7 +130,11 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         m_detailChooser.choose(entry, h);
     }
     for (const auto& entry : registry.entries())  // also of bodies that sleep, or have just become FEM
-        if (entry->m_present && entry->m_fem) hideClusterJoints(*entry->m_fem);
+    {
+        if (!entry->m_present || !entry->m_fem) continue;
+        hideClusterJoints(*entry->m_fem);
+        keepFaceTree(*entry->m_softBody);
+    }
 }
 
 // Without contact a stale factor costs iterations only; contact would rest on a wrong picture of the compliance.

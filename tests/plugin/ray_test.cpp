@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// Rays, sweeps and Bullet's contact queries against FEM bodies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+
+#include "BulletSoftBody/btSoftBodyHelpers.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemRay.h"
+#include "bullet_fem/fem/generators.h"
+#include "plugin/scene_measures.h"
+#include "plugin/soft_boxes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kRays = 10000;
+constexpr double kEdge = 0.02;  // barycentric: nearer to an edge than this, Bullet may take the neighbour
+
+// The first face that a ray meets, by the plane of every triangle.
+struct Reference
+{
+    int m_face = -1;
+    double m_fraction = 2;
+    double m_smallest = 0;  // barycentric coordinate
+    double m_cosine = 1;    // between ray and normal
+    double m_nearMiss = 2;  // smallest fraction of a triangle that the ray just misses
+
+    // What single precision can tell of the fraction.
+    double tolerance(const Vec3& from, const Vec3& to) const
+    {
+        return 1e-6 * (1 + norm(from) / norm(to - from)) / m_cosine;
+    }
+    bool isClear() const { return m_face >= 0 && m_smallest > kEdge && m_nearMiss > m_fraction; }
+};
+
+Reference bruteForce(const btSoftBody& body, const Vec3& from, const Vec3& to)
+{
+    Reference best;
+    double nearMiss = 2;
+    for (int f = 0; f < body.m_faces.size(); ++f)
+    {
+        Vec3 x[3];
+        for (int a = 0; a < 3; ++a) x[a] = vec3(body.m_faces[f].m_n[a]->m_x);
+        const Vec3 n = cross(x[1] - x[0], x[2] - x[0]);
+        const double slope = dot(to - from, n);
+        if (slope == 0) continue;
+        const double t = dot(x[0] - from, n) / slope;
+        const Vec3 p = from + t * (to - from);
+        double smallest = 1;
+        for (int a = 0; a < 3; ++a)
+        {
+            const Vec3 &b = x[(a + 1) % 3], &c = x[(a + 2) % 3];
+            smallest = std::min(smallest, dot(cross(b - p, c - p), n) / dot(n, n));
+        }
+        const double cosine = std::fabs(slope) / (norm(n) * norm(to - from));
+        // In single precision, triangles that are seen from the edge may be anywhere along the ray.
+        if (smallest < 0 && smallest > -kEdge / cosine) nearMiss = std::min(nearMiss, t - 1e-4 / cosine);
+        if (smallest >= 0 && t >= 0 && t <= 1 && t < best.m_fraction) best = {f, t, smallest, cosine, 2};
+    }
+    best.m_nearMiss = nearMiss;
+    return best;
+}
+
+// Ends of random rays through the body's neighbourhood: from a sphere around it to a point near it, and as far again.
+class Rays
+{
+public:
+    explicit Rays(const btSoftBody& body)
+    {
+        Vec3 low = vec3(body.m_nodes[0].m_x), high = low;
+        for (int i = 0; i < body.m_nodes.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+            {
+                low[c] = std::min(low[c], double(body.m_nodes[i].m_x[c]));
+                high[c] = std::max(high[c], double(body.m_nodes[i].m_x[c]));
+            }
+        m_middle = 0.5 * (low + high);
+        m_half = 0.6 * (high - low);
+    }
+
+    void next(btVector3& from, btVector3& to)
+    {
+        const Vec3 way = {unit(), unit(), unit()};
+        const Vec3 start = m_middle + (2.5 * norm(m_half) / std::max(norm(way), 1e-3)) * way;
+        Vec3 through = m_middle;
+        for (int c = 0; c < 3; ++c) through[c] += unit() * m_half[c];
+        from = bulletVector(start);
+        to = bulletVector(start + 2.0 * (through - start));
+    }
+
+private:
+    double unit() { return std::uniform_real_distribution<double>(-1, 1)(m_random); }
+
+    std::mt19937 m_random{7};
+    Vec3 m_middle, m_half;
+};
+
+struct Scene
+{
+    explicit Scene(const btFemSolverInfo& info = {}) : m_fem(info) {}
+    btFemSoftBodySolver m_fem;
+    SoftWorld m_world{m_fem};
+};
+
+using Maker = std::function<btSoftBody*(Scene&)>;
+
+btSoftBody* blockOf(Scene& scene, const Vec3& center)
+{
+    SoftBox box;
+    box.m_center = center;
+    box.m_youngModulus = btScalar(3e4);
+    return makeSoftBox(scene.m_world, scene.m_fem, box);
+}
+
+btSoftBody* block(Scene& scene)
+{
+    return blockOf(scene, {0, 0, 0.5});
+}
+
+btSoftBody* twoPieces(Scene& scene)
+{
+    const TetMesh a = makeBox({1, 1, 1}, {3, 3, 3});
+    std::vector<Vec3> X = a.restPositions();
+    std::vector<Tet> tets = a.tets();
+    const int n = a.nodeCount();
+    for (int i = 0; i < n; ++i) X.push_back(X[i] + Vec3{1.7, 0.3, 0.2});
+    for (int e = 0; e < a.tetCount(); ++e)
+        tets.push_back({tets[e][0] + n, tets[e][1] + n, tets[e][2] + n, tets[e][3] + n});
+    return btFemHelpers::createFromTetMesh(scene.m_world.info(), TetMesh(X, tets));
+}
+
+btSoftBody* cage(Scene& scene)
+{
+    SurfaceMesh octahedron;
+    octahedron.m_vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    octahedron.m_triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    CageSettings settings;
+    settings.m_cellSize = 0.25;
+    return btFemHelpers::createFromSurface(scene.m_world.info(), octahedron, settings);
+}
+
+// As Panda3D and others make bodies: node by node, links and faces as they like.
+btSoftBody* assembled(Scene& scene, bool links, bool faces)
+{
+    const TetMesh mesh = makeBox({1, 1, 1}, {3, 3, 3});
+    auto* body = new btSoftBody(&scene.m_world.info());
+    body->appendMaterial()->m_kLST = 1;
+    for (const Vec3& X : mesh.restPositions()) body->appendNode(bulletVector(X), 15);
+    for (const Tet& tet : mesh.tets()) body->appendTetra(tet[0], tet[1], tet[2], tet[3]);
+    for (const Tet& tet : mesh.tets())
+        for (int a = 0; links && a < 4; ++a)
+            for (int b = 0; b < a; ++b) body->appendLink(tet[a], tet[b], nullptr, true);
+    for (const Triangle& t : mesh.surface())
+        if (faces) body->appendFace(t[0], t[1], t[2]);
+    return body;
+}
+
+struct RayCase
+{
+    const char* m_name;
+    Maker m_make;
+    bool m_ordered;  // faces and tetrahedra in an order that makes Bullet say face
+};
+
+class RayTestOfAFemBody : public testing::TestWithParam<RayCase>
+{
+protected:
+    RayTestOfAFemBody() : m_body(m_scene.m_world.addSoft(GetParam().m_make(m_scene)))
+    {
+        m_scene.m_world.addPlane(btScalar(-1.2));
+    }
+
+    // Bullet's rayTest and ours against brute force.
+    void compare()
+    {
+        Rays rays(m_body);
+        int hits = 0, unclear = 0, beside = 0, asTets = 0, wrong = 0;
+        for (int k = 0; k < kRays; ++k)
+        {
+            btVector3 from, to;
+            rays.next(from, to);
+            const Reference reference = bruteForce(m_body, vec3(from), vec3(to));
+            compareOurs(reference, from, to);
+            btSoftBody::sRayCast found;
+            const bool hit = m_body.rayTest(from, to, found);
+            unclear += reference.m_face >= 0 && !reference.isClear();
+            beside += reference.m_face < 0 && hit;
+            if (!reference.isClear()) continue;
+            ++hits;
+            ASSERT_TRUE(hit) << "ray " << k;
+            ASSERT_EQ(found.body, &m_body);
+            const bool tet = found.feature == btSoftBody::eFeature::Tetra;
+            const double error = std::fabs(found.fraction - reference.m_fraction);
+            asTets += tet;
+            // A side of a tetrahedron that is seen from the edge may be found before the surface, by rounding.
+            const bool early = tet && found.fraction < reference.m_fraction;
+            wrong += early && error > reference.tolerance(vec3(from), vec3(to));
+            ASSERT_TRUE(early || error < reference.tolerance(vec3(from), vec3(to))) << "ray " << k << ", " << error;
+            ASSERT_TRUE(tet || found.index == reference.m_face) << "ray " << k;
+        }
+        EXPECT_GT(hits, kRays / 4);
+        EXPECT_LT(unclear, hits / 2);
+        EXPECT_LT(beside, kRays / 100);  // within Bullet's tolerance
+        EXPECT_LE(wrong, hits / 1000);
+        EXPECT_LE(asTets, GetParam().m_ordered ? hits / 1000 : hits);
+        RecordProperty("hits", hits);
+        RecordProperty("asTets", asTets);
+    }
+
+    void compareOurs(const Reference& reference, const btVector3& from, const btVector3& to)
+    {
+        btFemRayHit hit;
+        const bool hits = btFemRay::test(&m_body, from, to, &hit);
+        const bool onEdge = reference.m_face >= 0 && reference.m_smallest < 1e-9;
+        m_onEdges += onEdge;
+        if (onEdge) return;
+        ASSERT_EQ(hits, reference.m_face >= 0);
+        if (!hits) return;
+        ASSERT_EQ(hit.m_face, reference.m_face);
+        ASSERT_NEAR(hit.m_fraction, reference.m_fraction, 1e-7);
+        ASSERT_LT(hit.m_normal.dot(to - from), 0);
+        btVector3 point(0, 0, 0);
+        for (int a = 0; a < 3; ++a) point += hit.m_weights[a] * m_body.m_nodes[hit.m_nodes[a]].m_x;
+        ASSERT_LT(point.distance(hit.m_point), 1e-5);
+    }
+
+    Scene m_scene;
+    btSoftBody& m_body;
+    int m_onEdges = 0;
+};
+
+TEST_P(RayTestOfAFemBody, FindsWhatBruteForceFindsAtRestInMotionAndFarAway)
+{
+    m_scene.m_fem.prepare(&m_body, kStep);
+    compare();
+    m_scene.m_world.step(40);
+    m_body.translate(btVector3(0, 0, 3));
+    m_body.rotate(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(1.1)));
+    m_scene.m_world.step(10);
+    m_body.translate(btVector3(3, -2, 1));  // not stepped yet
+    compare();
+    EXPECT_LT(m_onEdges, kRays / 1000);
+}
+
+const RayCase kRayCases[] = {
+    {"Block", block, true},
+    {"TwoPieces", twoPieces, true},
+    {"Cage", cage, true},
+    {"WithLinks", [](Scene& scene) { return assembled(scene, true, true); }, false},
+    {"WithoutLinks", [](Scene& scene) { return assembled(scene, false, true); }, false},
+};
+
+INSTANTIATE_TEST_SUITE_P(Bodies, RayTestOfAFemBody, testing::ValuesIn(kRayCases),
+                         [](const auto& ray) { return std::string(ray.param.m_name); });
+
+// Bullet's own tree is never finished where faces or nodes are not connected.
+TEST(RayTestNeverHangs, WhateverWasDoneToTheFaces)
+{
+    Scene scene;
+    btSoftBody& body = scene.m_world.addSoft(assembled(scene, false, true));
+    btSoftBody::sRayCast found;
+    const btVector3 from(btScalar(0.4), btScalar(0.3), 3), to(btScalar(0.4), btScalar(0.3), -30);
+    scene.m_fem.prepare(&body, kStep);
+    EXPECT_TRUE(body.rayTest(from, to, found));
+    scene.m_world.step();
+    for (int k = 0; k < 40; ++k) body.appendFace(0, 1, 2);  // moves the faces in memory
+    scene.m_world.step();
+    EXPECT_TRUE(body.rayTest(from, to, found));
+    EXPECT_TRUE(body.rayFaceTest(from, to, found));
+    body.m_fdbvt.clear();
+    scene.m_world.step();
+    EXPECT_FALSE(body.m_fdbvt.empty());
+    EXPECT_TRUE(body.rayTest(from, to, found));
+    body.m_faces.clear();
+    scene.m_world.step();
+    EXPECT_TRUE(body.m_fdbvt.empty());
+    EXPECT_TRUE(body.rayTest(from, to, found));
+    EXPECT_EQ(found.feature, btSoftBody::eFeature::Tetra);
+}
+
+TEST(RayTestNeverHangs, OfABodyThatWasRejected)
+{
+    Scene scene;
+    btSoftBody& body = scene.m_world.addSoft(assembled(scene, false, true));
+    scene.m_fem.prepare(&body, kStep);
+    body.appendTetra(0, 0, 1, 2);
+    scene.m_world.step(3);
+    ASSERT_FALSE(scene.m_fem.isFem(&body));
+    btSoftBody::sRayCast found;
+    const Vec3 center = centerOf(body);
+    EXPECT_TRUE(body.rayTest(bulletVector(center + Vec3{0.1, 0.05, 3}), bulletVector(center), found));
+}
+
+TEST(RayTestOfABodyWithoutFaces, FindsTheSidesOfItsTetrahedra)
+{
+    Scene scene;
+    btSoftBody& bare = scene.m_world.addSoft(assembled(scene, false, false));
+    btSoftBody* faced = assembled(scene, false, true);
+    scene.m_world.addSoft(faced);
+    Rays rays(bare);
+    int hits = 0;
+    for (int k = 0; k < kRays; ++k)
+    {
+        btVector3 from, to;
+        rays.next(from, to);
+        btFemRayHit a, b;
+        ASSERT_EQ(btFemRay::test(&bare, from, to, &a), btFemRay::test(faced, from, to, &b));
+        ASSERT_NEAR(a.m_fraction, b.m_fraction, 1e-6);
+        ASSERT_EQ(a.m_face, -1);
+        hits += b.m_face >= 0;
+    }
+    EXPECT_GT(hits, kRays / 4);
+}
+
+TEST(BadRays, HitNothing)
+{
+    Scene scene;
+    btSoftBody& body = scene.m_world.addSoft(block(scene));
+    const btVector3 far(0, 0, 5), deep(0, 0, -5), broken(0, NAN, 0);
+    EXPECT_FALSE(btFemRay::test(nullptr, far, deep));
+    EXPECT_FALSE(btFemRay::test(&body, far, far));
+    EXPECT_FALSE(btFemRay::test(&body, far, broken));
+    EXPECT_FALSE(btFemRay::test(&body, broken, deep));
+    EXPECT_TRUE(btFemRay::test(&body, far, deep));
+}
+
+// Bullet's tolerance is an absolute one, which makes triangles of 1 cm as large as a hand.
+TEST(WorldRayTest, IsExactForSmallTrianglesWithOurCallback)
+{
+    Scene scene;
+    SoftBox box;
+    box.m_size = {0.1, 0.1, 0.1};
+    box.m_cells = {8, 8, 8};
+    btSoftBody& body = addSoftBox(scene.m_world, scene.m_fem, box);
+    RigidSettings wall;
+    wall.m_transform = at(0, 0, -2);
+    btRigidBody& behind = addRigidBox(scene.m_world, {10, 10, 1}, wall);
+    scene.m_world.step();
+    Rays rays(body);
+    int soft = 0;
+    for (int k = 0; k < kRays; ++k)
+    {
+        btVector3 from, to;
+        rays.next(from, to);
+        from.setZ(btScalar(0.4));
+        to.setZ(-4);
+        const Reference reference = bruteForce(body, vec3(from), vec3(to));
+        btFemClosestRay ray(from, to);
+        scene.m_world.world().rayTest(from, to, ray);
+        ASSERT_TRUE(ray.hasHit());
+        if (reference.m_face >= 0 && reference.m_smallest < 1e-9) continue;
+        ASSERT_EQ(ray.m_hit.m_face, reference.m_face);
+        ASSERT_EQ(ray.m_collisionObject, reference.m_face >= 0 ? static_cast<btCollisionObject*>(&body) : &behind);
+        ASSERT_NEAR(ray.m_closestHitFraction, std::min(reference.m_fraction, 1.9 / 4.4), 1e-5);
+        soft += reference.m_face >= 0;
+    }
+    EXPECT_GT(soft, kRays / 50);
+}
+
+TEST(WorldRayTest, TellsBodyFaceNormalAndPlace)
+{
+    Scene scene;
+    btSoftBody& body = scene.m_world.addSoft(block(scene));
+    scene.m_world.step(3);
+    const btVector3 from(btScalar(0.1), btScalar(0.17), 4), to(btScalar(0.1), btScalar(0.17), -4);
+    btCollisionWorld::ClosestRayResultCallback ray(from, to);
+    scene.m_world.world().rayTest(from, to, ray);
+    ASSERT_EQ(ray.m_collisionObject, &body);
+    const Reference reference = bruteForce(body, vec3(from), vec3(to));
+    EXPECT_NEAR(ray.m_closestHitFraction, reference.m_fraction, 1e-6);
+    EXPECT_NEAR(ray.m_hitNormalWorld.z(), 1, 1e-4);
+    EXPECT_NEAR(ray.m_hitPointWorld.z(), 4 - 8 * reference.m_fraction, 1e-5);
+}
+
+// Bullet's world knows no sweeps against soft bodies: what lies behind is hit.
+TEST(ConvexSweepTest, PassesFemBodiesAsItPassesBulletsSoftBodies)
+{
+    Scene scene;
+    scene.m_world.addSoft(block(scene));
+    btRigidBody& floor = scene.m_world.addFloorBox(-1);
+    scene.m_world.step();
+    btSphereShape sphere(btScalar(0.2));
+    const btTransform from = at(0, 0, 4), to = at(0, 0, -4);
+    btCollisionWorld::ClosestConvexResultCallback sweep(from.getOrigin(), to.getOrigin());
+    scene.m_world.world().convexSweepTest(&sphere, from, to, sweep);
+    ASSERT_TRUE(sweep.hasHit());
+    EXPECT_EQ(sweep.m_hitCollisionObject, &floor);
+    EXPECT_NEAR(sweep.m_closestHitFraction, (4.8 - 0) / 8, 2e-2);
+}
+
+TEST(CheckContact, TellsDistanceAndNormalOfARigidBodyAtAnyPoint)
+{
+    Scene scene;
+    scene.m_world.info().m_sparsesdf.Initialize();
+    btSoftBody& body = scene.m_world.addSoft(block(scene));
+    RigidSettings settings;
+    settings.m_transform = at(4, 0, 0);
+    btRigidBody& box = addRigidBox(scene.m_world, {2, 2, 2}, settings);
+    scene.m_world.step(10);
+    const btCollisionObjectWrapper wrapper(nullptr, box.getCollisionShape(), &box, box.getWorldTransform(), -1, -1);
+    btSoftBody::sCti touch;
+    EXPECT_TRUE(body.checkContact(&wrapper, btVector3(btScalar(2.98), 0, 0), btScalar(0.1), touch));
+    EXPECT_EQ(touch.m_colObj, &box);
+    EXPECT_NEAR(touch.m_normal.x(), -1, 1e-3);
+    EXPECT_NEAR(touch.m_offset, 3, 0.1);  // Bullet's field has cells of 0.25 m
+    EXPECT_FALSE(body.checkContact(&wrapper, btVector3(btScalar(2.5), 0, 0), btScalar(0.1), touch));
+}
+
+}  // namespace
+}  // namespace bullet_fem
