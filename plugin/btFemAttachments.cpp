@@ -50,6 +50,8 @@ btFemHold holdOf(HeldJoint::Kind kind)
             return btFemHold::attachment;
         case HeldJoint::Kind::linearJoint:
             return btFemHold::linearJoint;
+        case HeldJoint::Kind::spring:
+            return btFemHold::spring;
         case HeldJoint::Kind::angularJoint:
             break;
     }
@@ -119,6 +121,49 @@ void clearTargets(FemSoftBody& body, const btFemNodeGroup& group)
 {
     checkGroup(body, group, "clearNodeTargets");
     for (int k = 0; k < group.m_count; ++k) body.m_pins.m_hasTarget[group.m_nodes[k]] = 0;
+}
+
+int addSpring(FemSoftBody& body, const btFemSpring& spring)
+{
+    std::string why;
+    if (!spring.valid(&why)) throw std::invalid_argument("addSpring: " + why);
+    NodeSpring added;
+    for (int a = 0; a < 3; ++a)
+    {
+        if (spring.m_weights[a] == 0) continue;
+        checkNode(body, spring.m_nodes[a], "addSpring");
+        added.m_nodes[a] = spring.m_nodes[a];
+    }
+    for (int a = 0; a < 3; ++a) added.m_weights[a] = spring.m_weights[a];
+    added.m_target = vec3(spring.m_target);
+    added.m_stiffness = spring.m_stiffness;
+    added.m_damping = spring.m_damping;
+    added.m_maxForce = spring.m_maxForce;
+    added.m_id = ++body.m_joints.m_lastId;
+    body.m_joints.m_springs.push_back(added);
+    return added.m_id;
+}
+
+void setSpringTarget(FemSoftBody& body, int spring, const btVector3& target)
+{
+    btFemSpring moved;
+    moved.m_target = target;
+    std::string why;
+    if (!moved.valid(&why)) throw std::invalid_argument("setSpringTarget: " + why);
+    for (NodeSpring& known : body.m_joints.m_springs)
+    {
+        if (known.m_id != spring) continue;
+        known.m_target = vec3(target);
+        return;
+    }
+    throw std::invalid_argument("setSpringTarget: the body has no spring " + std::to_string(spring) +
+                                "; give what addSpring returned for it");
+}
+
+void removeSpring(FemSoftBody& body, int spring)
+{
+    std::vector<NodeSpring>& all = body.m_joints.m_springs;
+    all.erase(std::remove_if(all.begin(), all.end(), [&](const NodeSpring& s) { return s.m_id == spring; }), all.end());
 }
 
 void writeReports(const FemSoftBody& body, btAlignedObjectArray<btFemAnchorReport>& reports)

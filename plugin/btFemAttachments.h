@@ -7,6 +7,7 @@
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_fem/btFemAnchors.h"
+#include "bullet_fem/btFemSpring.h"
 
 class btTransform;
 
@@ -32,6 +33,11 @@ void setTargets(bullet_fem::FemSoftBody& body, const btFemNodeGroup& group, cons
 
 /// Lets them go.
 void clearTargets(bullet_fem::FemSoftBody& body, const btFemNodeGroup& group);
+
+/// See btFemSoftBodySolver.
+int addSpring(bullet_fem::FemSoftBody& body, const btFemSpring& spring);
+void setSpringTarget(bullet_fem::FemSoftBody& body, int spring, const btVector3& target);
+void removeSpring(bullet_fem::FemSoftBody& body, int spring);
 
 /// What held the body in the last step.
 void writeReports(const bullet_fem::FemSoftBody& body, btAlignedObjectArray<btFemAnchorReport>& reports);

@@ -65,9 +65,15 @@ std::uint64_t markOfForces(const btSoftBody& soft)
     return mark;
 }
 
-std::uint64_t markOfTargets(const NodePins& pins)
+std::uint64_t markOfTargets(const FemSoftBody& fem)
 {
+    const NodePins& pins = fem.m_pins;
     std::uint64_t mark = kEmptyMark;
+    for (const NodeSpring& spring : fem.m_joints.m_springs)
+    {
+        addToMark(mark, spring.m_id);
+        for (int c = 0; c < 3; ++c) addToMark(mark, spring.m_target[c]);
+    }
     for (std::size_t i = 0; i < pins.m_hasTarget.size(); ++i)
     {
         if (!pins.m_hasTarget[i]) continue;
@@ -111,7 +117,7 @@ bool isChanged(const btFemEntry& entry)
 {
     const FemSoftBody& fem = *entry.m_fem;
     return entry.m_materialChanged || nodesWritten(fem) || restMatricesChanged(fem) || forcesGiven(*fem.m_softBody) ||
-           markOfTargets(fem.m_pins) != entry.m_sleep.m_targets || influencesOn(fem) != entry.m_sleep.m_influences;
+           markOfTargets(fem) != entry.m_sleep.m_targets || influencesOn(fem) != entry.m_sleep.m_influences;
 }
 
 // Fastest node; way over step counts, too, because penetration is taken back without a velocity.
@@ -264,7 +270,7 @@ void updateSleep(btFemBodyRegistry& registry)
     for (const auto& entry : registry.entries())
     {
         if (!entry->isStepped() || !lacksRecord(*entry)) continue;
-        entry->m_sleep.m_targets = markOfTargets(entry->m_fem->m_pins);
+        entry->m_sleep.m_targets = markOfTargets(*entry->m_fem);
         entry->m_sleep.m_influences = influencesOn(*entry->m_fem);
         entry->m_sleep.m_recorded = true;
     }

@@ -242,6 +242,21 @@ void btFemSoftBodySolver::detach(btSoftBody* a, int attachment)
     detachNode(*m_impl->femEntry(a, "detach").m_fem, attachment);
 }
 
+int btFemSoftBodySolver::addSpring(btSoftBody* body, const btFemSpring& spring)
+{
+    return ::addSpring(*m_impl->femEntry(body, "addSpring").m_fem, spring);
+}
+
+void btFemSoftBodySolver::setSpringTarget(btSoftBody* body, int spring, const btVector3& target)
+{
+    ::setSpringTarget(*m_impl->femEntry(body, "setSpringTarget").m_fem, spring, target);
+}
+
+void btFemSoftBodySolver::removeSpring(btSoftBody* body, int spring)
+{
+    ::removeSpring(*m_impl->femEntry(body, "removeSpring").m_fem, spring);
+}
+
 void btFemSoftBodySolver::setContactOffset(btSoftBody* body, btScalar metres)
 {
     if (!(metres >= 0 && metres <= 1000))

@@ -21,7 +21,8 @@ struct HeldJoint
         deformableAnchor,  ///< of m_deformableAnchors
         attachment,        ///< to another soft body's surface
         linearJoint,       ///< of a cluster
-        angularJoint       ///< of a cluster
+        angularJoint,      ///< of a cluster
+        spring             ///< to a place in the world
     };
 
     Kind m_kind = Kind::anchor;
@@ -29,7 +30,7 @@ struct HeldJoint
     const btCollisionObject* m_object = nullptr;  ///< other end; null: the world
     int m_objectId = -1;                          ///< its broadphase id
     const void* m_source = nullptr;               ///< of cluster joints: what the user made
-    int m_id = 0;                                 ///< of attachments: their handle
+    int m_id = 0;                                 ///< of attachments and springs: their handle
     Vec3 m_point;                                 ///< of this body, where it is held, as the step began [m]
     double m_error = 0;                           ///< distance [m] or angle [rad] between the ends as the step began
     Vec3 m_impulse;                               ///< on this body [N s], of angular joints [N m s]
@@ -63,6 +64,18 @@ struct NodeAttachment
     std::array<double, 4> m_weights = {1, 0, 0, 0};  ///< barycentric [-], sum 1
 };
 
+/// Pulls a point between nodes to a place in the world.
+struct NodeSpring
+{
+    int m_id = 0;                                 ///< handle
+    std::array<int, 3> m_nodes = {};              ///< that carry the point
+    std::array<double, 3> m_weights = {1, 0, 0};  ///< barycentric [-], sum 1
+    Vec3 m_target;                                ///< [m]
+    double m_stiffness = 0;                       ///< [N/m], >= 0
+    double m_damping = 0;                         ///< [N s/m], >= 0
+    double m_maxForce = 0;                        ///< [N], >= 0; 0: no limit
+};
+
 /// All that holds a FEM body, from step to step.
 struct HeldJoints
 {
@@ -70,6 +83,7 @@ struct HeldJoints
     std::vector<HeldJoint> m_before;  ///< of the one before
     std::vector<HiddenJoint> m_hidden;
     std::vector<NodeAttachment> m_attachments;
+    std::vector<NodeSpring> m_springs;
     int m_lastId = 0;  ///< handle that was given last
 };
 

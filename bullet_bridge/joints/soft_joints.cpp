@@ -7,6 +7,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_bridge/joints/node_attachments.h"
+#include "bullet_bridge/joints/node_springs.h"
 #include "bullet_bridge/joints/soft_anchors.h"
 
 namespace bullet_fem
@@ -18,7 +19,7 @@ bool hasAny(const FemSoftBody& fem)
 {
     const btSoftBody& soft = *fem.m_softBody;
     return soft.m_anchors.size() > 0 || soft.m_deformableAnchors.size() > 0 || !fem.m_joints.m_hidden.empty() ||
-           !fem.m_joints.m_attachments.empty() || !fem.m_joints.m_before.empty();
+           !fem.m_joints.m_attachments.empty() || !fem.m_joints.m_springs.empty() || !fem.m_joints.m_before.empty();
 }
 
 }  // namespace
@@ -40,6 +41,7 @@ void SoftJoints::append(const Group& group, ContactProblem& problem, std::vector
         flags[b] |= appendAnchors(body, scene, problem);
         flags[b] |= appendAttachments(body, scene, problem);
         flags[b] |= appendClusterJoints(body, scene, problem);
+        appendSprings(body, scene, problem);
     }
 }
 

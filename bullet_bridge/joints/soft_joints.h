@@ -7,8 +7,8 @@
 namespace bullet_fem
 {
 
-/// All that holds FEM bodies besides contact: anchors, attachments to each other, cluster joints. Everything is read
-/// anew in every step, so the user's arrays may be edited between steps in any way. A step calls
+/// All that holds FEM bodies besides contact: anchors, attachments to each other, cluster joints, springs. Everything
+/// is read anew in every step, so the user's arrays may be edited between steps in any way. A step calls
 ///     hideClusterJoints      before collision detection, every FEM body of the world (cluster_joints.h)
 ///     forgetWorld            once, when free motion begins
 ///     append, takeBack       around the solve of every group of bodies

@@ -85,7 +85,9 @@ void ContactRows::addJointRow(const Joint& joint)
     for (int i = 0; i < 3; ++i) row.m_axes[i] = joint.m_axes[i];
     row.m_target = joint.m_wanted;
     row.m_limit = joint.m_limit;
+    row.m_most = joint.m_most;
     row.m_softness = joint.m_softness;
+    row.m_spring = joint.m_compliance;
     row.m_impulse = joint.m_impulse;
     m_rows.push_back(row);
 }
@@ -162,7 +164,8 @@ void ContactRows::finishRow(Row& row) const
         const double largest = std::max({row.m_rowCompliance.x, row.m_rowCompliance.y, row.m_rowCompliance.z});
         row.m_rowCompliance = {largest, largest, largest};
     }
-    if (row.m_joint) row.m_yield = row.m_softness * row.m_rowCompliance;
+    if (row.m_joint)
+        row.m_yield = row.m_softness * row.m_rowCompliance + Vec3{row.m_spring, row.m_spring, row.m_spring};
 }
 
 // Relative velocity of a contact as the step began.

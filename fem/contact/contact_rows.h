@@ -79,8 +79,9 @@ private:
         Vec3 m_rowCompliance;  // of every axis; a contact's tangents share the largest of their plane
         Vec3 m_target;         // relative velocity along the axes: at least (normal), exactly (joint) [m/s]
         Vec3 m_limit;          // of a joint's impulses
+        double m_most = 0;     // and of their sum
         double m_friction = 0;
-        double m_softness = 0;                          // of a joint, as a share of its compliance
+        double m_softness = 0, m_spring = 0;            // of a joint: as a share of its compliance, and [1/kg]
         Vec3 m_yield;                                   // compliance added along the axes [1/kg]
         Vec3 m_impulse;                                 // on end a
         Vec3 m_roundImpulse;                            // at the end of the last round

@@ -52,6 +52,8 @@ Vec3 ContactRows::solveJoint(const Row& row, const Vec3& impulse, Vec3 v, double
         result += wanted * axis;
         if (step == 1) v += row.m_compliance * ((wanted - old) * axis);
     }
+    const double length = norm(result);
+    if (length > row.m_most) result *= row.m_most / length;
     return result;
 }
 

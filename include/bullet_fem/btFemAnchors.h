@@ -14,7 +14,8 @@ enum class btFemHold
     deformableAnchor,  ///< of m_deformableAnchors
     attachment,        ///< made by btFemSoftBodySolver::attachNodes or attachNodeToTet
     linearJoint,       ///< an LJoint of m_joints
-    angularJoint       ///< an AJoint of m_joints
+    angularJoint,      ///< an AJoint of m_joints
+    spring             ///< made by btFemSoftBodySolver::addSpring
 };
 
 /// An anchor, attachment or joint in the last step.
@@ -27,7 +28,7 @@ struct btFemAnchorReport
 {
     btFemHold m_kind = btFemHold::anchor;         ///< what it is
     int m_node = -1;                              ///< that is held; -1 where it is a cluster or a point between nodes
-    int m_attachment = 0;                         ///< its handle; 0 for other kinds
+    int m_attachment = 0;                         ///< its handle, or that of a spring; 0 for other kinds
     const void* m_joint = nullptr;                ///< the element of m_joints; null for other kinds
     const btCollisionObject* m_object = nullptr;  ///< at the other end; null: the world
     btVector3 m_point{0, 0, 0};                   ///< where the body is held, as the step began [m]

@@ -12,6 +12,7 @@
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/btFemReports.h"
+#include "bullet_fem/btFemSpring.h"
 
 class btSoftBody;
 struct btFemCoupling;
@@ -165,6 +166,16 @@ public:
     /// Unties what attachNodes or attachNodeToTet of body `a` returned; nothing if that is gone. Throws
     /// std::invalid_argument if `a` is not FEM.
     void detach(btSoftBody* a, int attachment);
+
+    /// Pulls a point of the body to a place from the next step on, until removeSpring() or until the body leaves the
+    /// world. Returns a handle, > 0; anchors() tells its impulse. Throws std::invalid_argument on a body that is not
+    /// FEM, if !spring.valid(), or on a node with a weight that is out of range.
+    int addSpring(btSoftBody* body, const btFemSpring& spring);
+    /// Moves what a spring pulls to [m]. Throws std::invalid_argument on a spring that the body does not have, or a
+    /// target that is not in [-1e6, 1e6] m.
+    void setSpringTarget(btSoftBody* body, int spring, const btVector3& target);
+    /// Nothing if the spring is gone. Throws std::invalid_argument if the body is not FEM.
+    void removeSpring(btSoftBody* body, int spring);
 
     /// Keeps the surface this far from others [m], in [0, 1e3]; 0 unless called. Bullet's shape margin is ignored.
     /// Throws std::invalid_argument on null, or out of the range.

@@ -140,6 +140,8 @@ struct Joint
     Vec3 m_wanted;  ///< relative velocity along the axes [m/s] or [rad/s]: error correction, motor speed
     Vec3 m_limit = {kUnlimited, kUnlimited,
                     kUnlimited};  ///< largest impulse along every axis [N s] or [N m s], >= 0; 0: axis is free
+    double m_most = kUnlimited;   ///< largest impulse of all axes together [N s] or [N m s], > 0
+    double m_compliance = 0;      ///< compliance added, of an implicit spring [1/kg] or [1/(kg m2)], >= 0; 0: rigid
     double m_softness = 0;        ///< compliance added, as a share of the joint's own [-], >= 0; 0: rigid
     Vec3 m_impulse;               ///< on end a, world axes [N s] or [N m s]: a guess before, the answer after
 };
