@@ -82,6 +82,7 @@ void leaveToBullet(btSoftBody& body)
 {
     unmarkBody(body);
     giveFaceTreeToBullet(body);
+    clearBulletContacts(body);
     if (body.m_worldInfo) renewAlgorithms(body);
 }
 

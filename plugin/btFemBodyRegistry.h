@@ -11,6 +11,7 @@
 #include "bullet_bridge/joints/world_objects.h"
 #include "bullet_bridge/model_library.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/btFemBulletContacts.h"
 #include "plugin/btFemDetailChooser.h"
 #include "plugin/btFemFactorAccount.h"
 #include "plugin/btFemRealTime.h"
@@ -66,6 +67,7 @@ struct btFemEntry
     btFemFactorAccount m_factorAccount;
     std::shared_ptr<btFemFactorJob> m_factorJob;  // the next factor, being made in the background
     btFemRealTime m_realTime;
+    btFemFaceIndex m_faceIndex;
 
     bool isStepped() const { return m_present && m_fem; }
 };

@@ -420,9 +420,13 @@ void btFemSoftBodySolver::updateSoftBodies()
 {
     m_impl->dropRemovedBodies(m_softBodySet);
     btDefaultSoftBodySolver::updateSoftBodies();
+    m_impl->m_registry.forgetWorld();
     for (const auto& entry : m_impl->m_registry.entries())
         if (entry->m_present && entry->m_fem && entry->m_softBody->isActive())
+        {
             btFemHelpers::updateEmbeddedSurface(entry->m_softBody);
+            writeBulletContacts(*entry, m_impl->m_registry);
+        }
     updateSleep(m_impl->m_registry);
     if (m_impl->m_manifolds) m_impl->m_manifolds->update();
 }

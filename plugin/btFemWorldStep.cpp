@@ -37,8 +37,6 @@ void refreshBulletConstants(btSoftBody& soft, double step)
     soft.m_sst.velmrg = soft.m_sst.sdt * 3;
     soft.m_sst.radmrg = soft.getCollisionShape()->getMargin();
     soft.m_sst.updmrg = soft.m_sst.radmrg * btScalar(0.25);
-    soft.m_rcontacts.resizeNoInitialize(0);
-    soft.m_scontacts.resizeNoInitialize(0);
 }
 
 // A body's own step: Bullet scales time by m_cfg.timescale.
@@ -134,6 +132,7 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         if (!entry->m_present || !entry->m_fem) continue;
         hideClusterJoints(*entry->m_fem);
         keepFaceTree(*entry->m_softBody);
+        clearBulletContacts(*entry->m_softBody);
     }
 }
 
