@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/btFemDebugDraw.h"
+
+#include <stdexcept>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "LinearMath/btIDebugDraw.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "fem/rotation.h"
+#include "plugin/btFemCoupling.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+constexpr btScalar kHead = btScalar(0.2);  // of an arrow, as a share of its length
+
+bool check(bool good, std::string* why, const char* name, double value, const char* range)
+{
+    if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;
+    return good;
+}
+
+void drawElements(const btSoftBody& soft, btIDebugDraw& drawer, const btFemDrawSettings& settings)
+{
+    for (int e = 0; e < soft.m_tetras.size(); ++e)
+    {
+        btVector3 x[4], middle(0, 0, 0);
+        for (int a = 0; a < 4; ++a) middle += btScalar(0.25) * (x[a] = soft.m_tetras[e].m_n[a]->m_x);
+        for (btVector3& corner : x) corner = middle + settings.m_shrink * (corner - middle);
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < a; ++b) drawer.drawLine(x[a], x[b], settings.m_elementColor);
+    }
+}
+
+// The rigid motion X -> c + R (X - C) that brings the rest shape nearest to the nodes, weighed by their masses: R is
+// the rotation of sum m (x - c) (X - C)^T. [Mueller et al. 2005, Meshless deformations based on shape matching]
+class RigidFit
+{
+public:
+    explicit RigidFit(const FemSoftBody& fem) : m_X(fem.m_body.m_model->mesh().restPositions())
+    {
+        const std::vector<double>& mass = fem.m_body.m_state.m_mass;
+        const auto x = [&fem](std::size_t i) { return vec3(fem.m_softBody->m_nodes[static_cast<int>(i)].m_x); };
+        double sum = 0;
+        for (std::size_t i = 0; i < m_X.size(); ++i)
+        {
+            sum += mass[i];
+            m_center += mass[i] * x(i);
+            m_restCenter += mass[i] * m_X[i];
+        }
+        m_center *= 1 / sum;
+        m_restCenter *= 1 / sum;
+        Mat3 spread;
+        for (std::size_t i = 0; i < m_X.size(); ++i)
+        {
+            const Vec3 now = x(i) - m_center, rest = mass[i] * (m_X[i] - m_restCenter);
+            spread += Mat3::fromColumns(rest.x * now, rest.y * now, rest.z * now);
+        }
+        m_rotation = polarRotation(spread, fem.m_body.m_state.m_bodyRotation);
+    }
+
+    btVector3 place(int node) const { return bulletVector(m_center + m_rotation * (m_X[node] - m_restCenter)); }
+
+private:
+    const std::vector<Vec3>& m_X;
+    Vec3 m_center, m_restCenter;
+    Mat3 m_rotation;
+};
+
+void drawStressFree(const FemSoftBody& fem, btIDebugDraw& drawer, const btFemDrawSettings& settings)
+{
+    const RigidFit fit(fem);
+    for (const auto& edge : fem.m_surface.features().m_edges)
+        drawer.drawLine(fit.place(edge[0]), fit.place(edge[1]), settings.m_restColor);
+}
+
+void drawArrow(const btVector3& from, const btVector3& way, btIDebugDraw& drawer, const btVector3& color)
+{
+    const btVector3 tip = from + way;
+    drawer.drawLine(from, tip, color);
+    btVector3 aside, other;
+    btPlaneSpace1(way.normalized(), aside, other);
+    aside *= kHead / 2 * way.length();
+    drawer.drawLine(tip, tip - kHead * way + aside, color);
+    drawer.drawLine(tip, tip - kHead * way - aside, color);
+}
+
+void drawContact(const btFemContact& contact, btIDebugDraw& drawer, const btFemDrawSettings& settings)
+{
+    for (int c = 0; c < 3; ++c)
+    {
+        btVector3 arm(0, 0, 0);
+        arm[c] = settings.m_pointSize;
+        drawer.drawLine(contact.m_point - arm, contact.m_point + arm, settings.m_pointColor);
+    }
+    if (settings.m_normalLength > 0)
+        drawer.drawLine(contact.m_point, contact.m_point + settings.m_normalLength * contact.m_normal,
+                        settings.m_normalColor);
+    const btVector3 arrow = settings.m_impulseScale * contact.m_impulse;
+    if (arrow.length2() > SIMD_EPSILON * SIMD_EPSILON)
+        drawArrow(contact.m_point, arrow, drawer, settings.m_impulseColor);
+}
+
+}  // namespace
+
+bool btFemDrawSettings::valid(std::string* why) const
+{
+    const auto isLength = [](btScalar value) { return value >= 0 && value <= btScalar(1e6); };
+    return check(m_shrink > 0 && m_shrink <= 1, why, "m_shrink", m_shrink, "(0, 1]; 0.9 is usual") &&
+           check(isLength(m_pointSize), why, "m_pointSize", m_pointSize, "[0, 1e6] m; 0.02 is usual") &&
+           check(isLength(m_normalLength), why, "m_normalLength", m_normalLength, "[0, 1e6] m; 0.1 is usual") &&
+           check(isLength(m_impulseScale), why, "m_impulseScale", m_impulseScale, "[0, 1e6] m per N s; 0.1 is usual");
+}
+
+void btFemDebugDraw::draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,
+                          const btFemDrawSettings& settings)
+{
+    std::string why;
+    if (!settings.valid(&why)) throw std::invalid_argument("btFemDrawSettings: " + why);
+    if (!drawer || !fem.isFem(body)) return;
+    const btFemEntry& entry = *btFemCoupling::entry(fem, *body);
+    if (modes & BT_FEM_DRAW_ELEMENTS) drawElements(*body, *drawer, settings);
+    if (modes & BT_FEM_DRAW_STRESS_FREE) drawStressFree(*entry.m_fem, *drawer, settings);
+    for (int k = 0; (modes & BT_FEM_DRAW_CONTACTS) && k < entry.m_contacts.size(); ++k)
+        drawContact(entry.m_contacts[k], *drawer, settings);
+}
