@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// Fields of btSoftBody and btCollisionObject that programs read or write: render nodes, user data, activation,
+// collision flags and filters, the world info, aerodynamics.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "BulletSoftBody/btSoftBodyHelpers.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/fem/generators.h"
+#include "plugin/scene_measures.h"
+#include "plugin/soft_boxes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// A cube of 1 m above a floor, in cells of 0.25 m.
+class BulletFields : public ::testing::Test
+{
+protected:
+    static SoftBox cube()
+    {
+        SoftBox box;
+        box.m_center = {0, 0, 0.5};
+        return box;
+    }
+
+    bool fallsFreely()
+    {
+        m_body.setVelocity(btVector3(0, 0, 0));
+        m_world.step(20);
+        return velocityOf(m_body).z < -0.95 * kGravity * 20 * double(kStep);
+    }
+
+    btFemSoftBodySolver m_fem;
+    SoftWorld m_world{m_fem};
+    btRigidBody& m_floor = m_world.addFloorBox();
+    btSoftBody& m_body = addSoftBox(m_world, m_fem, cube());
+};
+
+class RenderNodes : public BulletFields
+{
+protected:
+    RenderNodes()
+    {
+        for (const Vec3& x : {Vec3{0.1, 0.2, 0.3}, Vec3{-0.4, 0.1, 0.9}, Vec3{0.3, -0.3, 0.55}, Vec3{0, 0, 1.2}})
+        {
+            btSoftBody::RenderNode node;
+            node.m_x = bulletVector(x);
+            m_body.m_renderNodes.push_back(node);
+            m_start.push_back(node.m_x);
+        }
+    }
+
+    std::vector<btVector3> m_start;
+};
+
+TEST_F(RenderNodes, WithBulletsInterpolationFollowTheirTetrahedra)
+{
+    btSoftBodyHelpers::interpolateBarycentricWeights(&m_body);
+    m_world.step();
+    for (int v = 0; v < m_body.m_renderNodes.size(); ++v)
+        EXPECT_LT(m_body.m_renderNodes[v].m_x.distance(m_start[v]), 1e-2);
+    m_body.translate(btVector3(1, 2, 3));
+    m_body.rotate(btQuaternion(btVector3(0, 0, 1), btScalar(0.7)));
+    for (int k = 0; k < 30; ++k)
+    {
+        m_world.step();
+        for (int v = 0; v < m_body.m_renderNodes.size(); ++v)
+        {
+            btVector3 x(0, 0, 0);
+            for (int a = 0; a < 4; ++a)
+                x += m_body.m_renderNodesInterpolationWeights[v][a] * m_body.m_renderNodesParents[v][a]->m_x;
+            ASSERT_LT(m_body.m_renderNodes[v].m_x.distance(x), 1e-5);
+            ASSERT_GT(m_body.m_renderNodes[v].m_x.distance(m_start[v]), 1);
+        }
+    }
+}
+
+TEST_F(RenderNodes, WithBulletsExtrapolationKeepTheirDistanceFromTheFaces)
+{
+    btSoftBodyHelpers::extrapolateBarycentricWeights(&m_body);
+    m_world.step();
+    m_body.translate(btVector3(1, 2, 3));
+    m_world.step();
+    for (int v = 0; v < m_body.m_renderNodes.size(); ++v)
+        EXPECT_LT(m_body.m_renderNodes[v].m_x.distance(m_start[v] + btVector3(1, 2, 3)), 2e-2);
+}
+
+TEST_F(RenderNodes, WithoutWeightsOrParentsStayWhereTheyAre)
+{
+    const auto expectStill = [this]
+    {
+        m_world.step(2);
+        for (int v = 0; v < m_body.m_renderNodes.size(); ++v) EXPECT_EQ(m_body.m_renderNodes[v].m_x, m_start[v]);
+    };
+    expectStill();  // nothing but nodes
+    m_body.m_renderNodesParents.resize(m_body.m_renderNodes.size());
+    expectStill();
+    m_body.m_renderNodesParents.resize(0);
+    m_body.m_renderNodesInterpolationWeights.resize(m_body.m_renderNodes.size());
+    expectStill();
+    m_body.m_renderNodesParents.resize(m_body.m_renderNodes.size());
+    m_body.m_renderNodesParents[2].push_back(&m_body.m_nodes[0]);  // too few
+    expectStill();
+    m_body.m_z.resize(2);
+    expectStill();
+    btSoftBodyHelpers::interpolateBarycentricWeights(&m_body);
+    btSoftBody::RenderNode later;
+    later.m_x = btVector3(9, 9, 9);
+    m_start.push_back(later.m_x);
+    m_body.m_renderNodes.push_back(later);  // has no weights yet
+    m_world.step(2);
+    EXPECT_EQ(m_body.m_renderNodes[4].m_x, later.m_x);
+}
+
+TEST_F(BulletFields, GenerateBoundaryFacesMakesTheFacesOfTheSurface)
+{
+    const int faces = m_body.m_faces.size();
+    m_world.step();
+    m_body.m_faces.clear();
+    btSoftBodyHelpers::generateBoundaryFaces(&m_body);
+    EXPECT_EQ(m_body.m_faces.size(), faces);
+    m_world.step(5);
+    EXPECT_TRUE(allFinite(m_body));
+    btSoftBody::sRayCast hit;
+    EXPECT_TRUE(m_body.rayTest(btVector3(btScalar(0.1), btScalar(0.07), 4), btVector3(btScalar(0.1), 0, -4), hit));
+    EXPECT_GT(m_body.m_rcontacts.size(), 0);
+}
+
+// What users hang on to bodies and their parts, as numbers.
+class UserData
+{
+public:
+    explicit UserData(btSoftBody& body) : m_body(body)
+    {
+        body.setUserPointer(mark(1));
+        body.setUserIndex(21);
+        body.setUserIndex2(22);
+        body.setUserIndex3(23);
+        body.m_tag = mark(2);
+        forEachTag([](void*& tag, int k) { tag = mark(100 + k); });
+    }
+
+    void expectUntouched()
+    {
+        EXPECT_EQ(m_body.getUserPointer(), mark(1));
+        EXPECT_EQ(m_body.getUserIndex(), 21);
+        EXPECT_EQ(m_body.getUserIndex2(), 22);
+        EXPECT_EQ(m_body.getUserIndex3(), 23);
+        EXPECT_EQ(m_body.m_tag, mark(2));
+        int changed = 0;
+        forEachTag([&changed](void*& tag, int k) { changed += tag != mark(100 + k); });
+        EXPECT_EQ(changed, 0);
+    }
+
+private:
+    static void* mark(int k) { return reinterpret_cast<void*>(static_cast<std::intptr_t>(16 * k)); }
+
+    void forEachTag(const std::function<void(void*&, int)>& visit)
+    {
+        int k = 0;
+        for (int i = 0; i < m_body.m_nodes.size(); ++i) visit(m_body.m_nodes[i].m_tag, k++);
+        for (int i = 0; i < m_body.m_faces.size(); ++i) visit(m_body.m_faces[i].m_tag, k++);
+        for (int i = 0; i < m_body.m_tetras.size(); ++i) visit(m_body.m_tetras[i].m_tag, k++);
+        for (int i = 0; i < m_body.m_materials.size(); ++i) visit(m_body.m_materials[i]->m_tag, k++);
+    }
+
+    btSoftBody& m_body;
+};
+
+TEST_F(BulletFields, UserPointersIndicesAndTagsAreNeverTouched)
+{
+    UserData data(m_body);
+    m_body.forceActivationState(ACTIVE_TAG);
+    m_world.step(300);
+    ASSERT_EQ(m_body.getActivationState(), ISLAND_SLEEPING);
+    data.expectUntouched();
+    m_world.world().removeSoftBody(&m_body);
+    m_world.step(10);
+    data.expectUntouched();
+    m_world.world().addSoftBody(&m_body);
+    m_body.activate(true);  // as a rigid body that was put back asleep
+    m_fem.setMaterial(&m_body, btFemMaterial::rubber());
+    m_body.translate(btVector3(0, 0, 1));
+    m_world.step(290);
+    data.expectUntouched();
+    EXPECT_TRUE(m_fem.isFem(&m_body));
+}
+
+TEST_F(BulletFields, ActivateWakesASleeperAndForcedStatesAreKept)
+{
+    m_body.forceActivationState(ACTIVE_TAG);
+    m_world.step(300);
+    ASSERT_EQ(m_body.getActivationState(), ISLAND_SLEEPING);
+    m_body.activate(true);
+    m_world.step();
+    EXPECT_EQ(m_body.getActivationState(), ACTIVE_TAG);
+    m_world.step(60);
+    EXPECT_TRUE(m_body.isActive());  // rests, but not for long enough
+    m_world.step(120);
+    EXPECT_EQ(m_body.getActivationState(), ISLAND_SLEEPING);
+    m_body.setActivationState(DISABLE_DEACTIVATION);
+    m_world.step(200);
+    EXPECT_EQ(m_body.getActivationState(), DISABLE_DEACTIVATION);
+    m_body.setActivationState(ACTIVE_TAG);  // Bullet does not leave a DISABLE_ state but by force
+    EXPECT_EQ(m_body.getActivationState(), DISABLE_DEACTIVATION);
+    m_body.forceActivationState(DISABLE_SIMULATION);
+    const std::vector<float> before = bitsOf(m_body);
+    m_world.step(30);
+    EXPECT_EQ(bitsOf(m_body), before);
+}
+
+TEST_F(BulletFields, NoContactResponseOfTheSoftBodyMakesItAGhost)
+{
+    m_body.setCollisionFlags(m_body.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    EXPECT_TRUE(fallsFreely());
+    EXPECT_EQ(m_fem.contacts(&m_body).size(), 0);
+}
+
+TEST_F(BulletFields, CollisionFiltersSayWhatItTouches)
+{
+    constexpr int kSoft = 64;
+    m_world.step(30);
+    EXPECT_GT(m_fem.contacts(&m_body).size(), 0);
+    m_world.world().removeSoftBody(&m_body);
+    m_world.world().addSoftBody(&m_body, kSoft, btBroadphaseProxy::AllFilter & ~btBroadphaseProxy::StaticFilter);
+    EXPECT_TRUE(fallsFreely());
+    m_body.translate(btVector3(0, 0, 3));
+    m_world.world().removeSoftBody(&m_body);
+    m_world.world().addSoftBody(&m_body, kSoft, btBroadphaseProxy::AllFilter);
+    m_body.setVelocity(btVector3(0, 0, 0));
+    m_world.step(120);
+    EXPECT_GT(m_fem.contacts(&m_body).size(), 0);
+    EXPECT_GT(centerOf(m_body).z, 0);
+}
+
+TEST_F(BulletFields, IgnoredObjectsAreNotTouched)
+{
+    m_body.setIgnoreCollisionCheck(&m_floor, true);
+    EXPECT_TRUE(fallsFreely());
+}
+
+// Its own world info: gravity is the body's; dispatcher and broadphase need not be set for contact.
+TEST(UserMadeWorldInfo, WorksWithNothingButGravity)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBodyWorldInfo info;
+    info.m_gravity = btVector3(0, 0, btScalar(-1.62));
+    btSoftBody& body = world.addSoft(btFemHelpers::createBox(
+        info, btVector3(0, 0, 1), btVector3(btScalar(0.25), btScalar(0.25), btScalar(0.25)), btScalar(0.125)));
+    world.step(30);
+    EXPECT_NEAR(velocityOf(body).z, -1.62 * 30 * double(kStep), 1e-4);
+    world.step(300);
+    EXPECT_NEAR(lowestHeight(body), 0, 1e-2);
+    EXPECT_GT(body.m_rcontacts.size(), 0);
+    world.deleteSoft(body);  // before its world info
+}
+
+// Engines take the world info away with the world.
+TEST_F(BulletFields, AWorldInfoOfNullOffWorldIsTolerated)
+{
+    m_world.step(10);
+    m_world.world().removeSoftBody(&m_body);
+    m_body.m_worldInfo = nullptr;
+    m_fem.setMaterial(&m_body, btFemMaterial::rubber());
+    m_fem.prepare(&m_body, kStep);
+    m_world.step(10);
+    EXPECT_TRUE(btFemSoftBodySolver::valid(&m_body));
+    m_body.m_worldInfo = &m_world.info();
+    m_world.world().addSoftBody(&m_body);
+    m_world.step(60);
+    EXPECT_TRUE(m_fem.isFem(&m_body));
+    EXPECT_GT(m_fem.contacts(&m_body).size(), 0);
+}
+
+// Bullet's formulas for nodes: with a node's area A, normal n, v relative to the wind, dvn = v . n > 0 (two-sided: |v .
+// n|), f = -rho A dvn v^2 / 2 (kLF n + kDG v / |v|).
+class Aerodynamics : public testing::TestWithParam<btSoftBody::eAeroModel::_>
+{
+protected:
+    static btVector3 expectedForce(const btSoftBody& body, const btVector3& wind, double density)
+    {
+        btVector3 sum(0, 0, 0);
+        for (int i = 0; i < body.m_nodes.size(); ++i)
+        {
+            const btSoftBody::Node& node = body.m_nodes[i];
+            const btVector3 v = node.m_v - wind;
+            btScalar along = v.dot(node.m_n);
+            const bool twoSided = body.m_cfg.aeromodel == btSoftBody::eAeroModel::V_TwoSided;
+            const btVector3 n = twoSided && along < 0 ? -node.m_n : node.m_n;
+            along = v.dot(n);
+            if (along <= 0) continue;
+            const btScalar c = btScalar(density) * node.m_area * along * v.length2() / 2;
+            sum -= c * (body.m_cfg.kLF * n + body.m_cfg.kDG * v.normalized());
+        }
+        return sum;
+    }
+};
+
+TEST_P(Aerodynamics, DragAndLiftAreBulletsFormulasAndWaterHasNoneAsInBullet)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem, btVector3(0, 0, 0));
+    SoftBox box;
+    btSoftBody& body = addSoftBox(world, fem, box);
+    const btVector3 speed(btScalar(2), btScalar(1), btScalar(-0.5)), wind(0, btScalar(3), 0);
+    body.setVelocity(speed);
+    body.setWindVelocity(wind);
+    body.m_cfg.aeromodel = GetParam();
+    body.m_cfg.kDG = btScalar(0.3);
+    body.m_cfg.kLF = btScalar(0.1);
+    world.info().air_density = btScalar(1.5);
+    // All of it under water: Bullet 3.24 reads these, and takes the density of air all the same.
+    world.info().water_density = 1000;
+    world.info().water_normal = btVector3(0, 0, 1);
+    world.info().water_offset = -50;
+    body.updateArea();
+    const Vec3 expected = vec3(expectedForce(body, wind, 1.5));
+    ASSERT_GT(norm(expected), 1);
+    world.step();
+    const Vec3 gained = motionOf(body).m_linear - massOf(body) * vec3(speed);
+    EXPECT_LT(norm(gained - double(kStep) * expected), 2e-3 * norm(double(kStep) * expected) + 2e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Aerodynamics,
+                         testing::Values(btSoftBody::eAeroModel::V_Point, btSoftBody::eAeroModel::V_TwoSided,
+                                         btSoftBody::eAeroModel::V_OneSided));
+
+TEST_F(BulletFields, AddAeroForceToNodeAndFaceAreFeltOnce)
+{
+    m_world.info().m_gravity.setZero();
+    m_body.translate(btVector3(0, 0, 3));
+    m_body.m_cfg.aeromodel = btSoftBody::eAeroModel::V_TwoSided;
+    m_body.setVelocity(btVector3(0, 0, btScalar(0.5)));
+    m_world.step();
+    const Vec3 before = motionOf(m_body).m_linear;
+    m_body.m_cfg.kDG = btScalar(0.05);
+    Vec3 sum;
+    for (int i = 0; i < m_body.m_nodes.size(); ++i)
+        m_body.addAeroForceToNode(btVector3(2, 0, 0), i), sum += vec3(m_body.m_nodes[i].m_f);
+    m_body.m_cfg.kDG = 0;  // nothing from the step itself
+    ASSERT_GT(norm(sum), 1e-2);
+    m_world.step();
+    EXPECT_LT(norm(motionOf(m_body).m_linear - before - double(kStep) * sum), 1e-2 * double(kStep) * norm(sum) + 2e-4);
+    const Vec3 after = motionOf(m_body).m_linear;
+    m_world.step();
+    EXPECT_LT(norm(motionOf(m_body).m_linear - after), 2e-4);
+
+    m_body.m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSided;
+    m_body.m_cfg.kDG = btScalar(0.05);
+    for (int f = 0; f < m_body.m_faces.size(); ++f) m_body.addAeroForceToFace(btVector3(2, 0, 0), f);
+    Vec3 faces;
+    for (int i = 0; i < m_body.m_nodes.size(); ++i) faces += vec3(m_body.m_nodes[i].m_f);
+    m_body.m_cfg.kDG = 0;
+    ASSERT_GT(norm(faces), 1e-2);
+    m_world.step();
+    EXPECT_LT(norm(motionOf(m_body).m_linear - after - double(kStep) * faces),
+              1e-2 * double(kStep) * norm(faces) + 2e-4);
+}
+
+}  // namespace
+}  // namespace bullet_fem
