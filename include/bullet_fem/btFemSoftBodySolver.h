@@ -240,9 +240,9 @@ public:
 
     /// Saves what makes a body the FEM body that it is, for a side-car to whatever keeps its nodes, because Bullet's
     /// serializer loses it: rest shape, material, masses and pins, filled fractions of a cage, contact offset, detail.
-    /// (Bullet 3.24's btSoftBody::serialize writes beyond its buffer in double precision; nothing here calls it.) A body
-    /// that was not stepped or prepared yet has its present shape as rest shape. Throws std::invalid_argument on null,
-    /// or a body without usable tetrahedra.
+    /// (Bullet 3.24's btSoftBody::serialize writes beyond its buffer in double precision; nothing here calls it.) A
+    /// body that was not stepped or prepared yet has its present shape as rest shape. Throws std::invalid_argument on
+    /// null, or a body without usable tetrahedra.
     void saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer) const;
     /// For engines without exceptions: false, an empty buffer and the reason in `why` (if given) instead.
     bool saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer, std::string* why) const;

@@ -129,6 +129,97 @@ TEST_P(Snapshot, OfAWorldBuiltAnewContinuesBitForBit)
     EXPECT_TRUE(again.run(60) == m_scene.run(60));
 }
 
+TEST_P(Snapshot, OfBodiesThatBecameKnownInAnotherOrderContinuesBitForBit)
+{
+    const SoftBox lower{{1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.26}}, upper{{0.8, 0.8, 0.5}, {3, 3, 2}, {0.1, 0, 0.8}};
+    m_scene.m_world.addPlane();
+    m_scene.add(lower);
+    m_scene.add(upper);
+    m_scene.m_world.step(40);
+    SnapshotScene again(GetParam().m_coupling);
+    again.m_world.addPlane();
+    btSoftBody* second = makeSoftBox(again.m_world, again.m_fem, upper);
+    again.m_soft = {makeSoftBox(again.m_world, again.m_fem, lower), second};
+    for (btSoftBody* body : again.m_soft) again.m_world.addSoft(body);
+    again.m_world.step(40);
+    const SnapshotScene::Saved saved = m_scene.saveAll();
+    again.m_fem.restoreState(saved.m_fem.data(), saved.m_fem.size());
+    EXPECT_TRUE(again.save() == saved.m_fem);
+    EXPECT_TRUE(again.run(60) == m_scene.run(60));
+}
+
+TEST_P(Snapshot, OfAnImpactContinuesBitForBit)
+{
+    btSoftBody& block = m_scene.add({{0.6, 0.6, 0.3}, {6, 6, 3}, {0, 0, 0}, btScalar(3e5)});
+    clampBelow(block, -0.14);
+    RigidSettings shot{3, at(btScalar(0.05), 0, btScalar(0.8))};
+    shot.m_velocity = {0, 0, -20};
+    m_scene.m_rigid.push_back(&m_scene.m_world.addRigid(new btSphereShape(btScalar(0.08)), shot));
+    m_scene.m_world.step();
+    int touching = 0;
+    for (int k = 0; k < 12; ++k)
+    {
+        const SnapshotScene::Saved saved = m_scene.saveAll();
+        const std::vector<double> bits = m_scene.run(10);
+        m_scene.m_rigid[0]->setCenterOfMassTransform(at(0, 0, 5));  // what is remembered of it is forgotten
+        m_scene.m_world.step(2);
+        m_scene.restore(saved);
+        EXPECT_TRUE(m_scene.run(10) == bits) << "step " << k;
+        m_scene.restore(saved);
+        m_scene.m_world.step();
+        touching += m_scene.contacts() > 0;
+    }
+    EXPECT_GT(touching, 5);
+}
+
+TEST_P(Snapshot, OfLevelsOfDetailContinuesBitForBit)
+{
+    btFemViewerInterest viewer(5, 50);
+    m_scene.m_fem.setInterest(&viewer);
+    btSoftBody& box = m_scene.add({{1, 0.5, 0.5}, {4, 2, 2}, {0, 0, 0}});  // falls and turns
+    for (int i = 0; i < box.m_nodes.size(); ++i) box.m_nodes[i].m_v = btVector3(1, 2, 3).cross(box.m_nodes[i].m_x);
+    m_scene.m_world.step(10);
+    viewer.setViewer({1000, 0, 0});
+    m_scene.m_world.step(15);  // half of the time that it stays in its level
+    for (int k = 0; k < 2; ++k)
+    {
+        const SnapshotScene::Saved saved = m_scene.saveAll();
+        const std::vector<double> bits = m_scene.run(50);
+        ASSERT_NE(m_scene.m_fem.stepReport(m_scene.m_soft[0]).m_detail, btFemDetail::nodalWarp);
+        m_scene.restore(saved);
+        EXPECT_TRUE(m_scene.run(50) == bits);
+    }
+}
+
+void giveModulus(SnapshotScene& scene, btScalar youngModulus)
+{
+    btFemMaterial material = btFemMaterial();
+    material.m_youngModulus = youngModulus;
+    for (btSoftBody* body : scene.m_soft) scene.m_fem.setMaterial(body, material);
+}
+
+TEST_P(Snapshot, OfCopiesContinuesBitForBitOnceTheirFactorsAreForgotten)
+{
+    for (const btFemFactorChoice choice : {btFemFactorChoice::full, btFemFactorChoice::lowMemory})
+    {
+        btFemSolverInfo info = withThreads(GetParam().m_threads);
+        info.m_factorChoice = choice;
+        SnapshotScene scene(GetParam().m_coupling, info);
+        scene.m_world.addPlane();
+        for (int k = 0; k < 6; ++k)
+            scene.add({{0.5, 0.5, 0.5}, {3, 3, 3}, {0.3 * (k % 2), 0.55 * (k / 2), 0.26 + 0.55 * (k % 2)}});
+        scene.m_world.step(30);
+        const SnapshotScene::Saved saved = scene.saveAll();
+        const std::vector<double> bits = scene.run(60);
+        giveModulus(scene, btScalar(2e6));
+        scene.m_world.step(2);
+        giveModulus(scene, btScalar(1e6));
+        scene.restore(saved);
+        EXPECT_TRUE(scene.save() == saved.m_fem);
+        EXPECT_TRUE(scene.run(60) == bits);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, Snapshot,
                          testing::Values(SnapshotCase{Coupling::swap, 1}, SnapshotCase{Coupling::swap, 3},
                                          SnapshotCase{Coupling::coupled, 1}, SnapshotCase{Coupling::coupled, 3}),
