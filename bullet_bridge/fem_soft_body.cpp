@@ -29,6 +29,7 @@ btScalar& seenMark(btAlignedObjectArray<btSoftBody::Tetra>& tetras)
 FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
                          std::shared_ptr<ComplianceCache> compliance, std::shared_ptr<const RestNeighbours> neighbours)
     : m_softBody(&softBody),
+      m_firstNode(&softBody.m_nodes[0]),
       m_mark(markBody(softBody)),
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btMatrix3x3.h"
 #include "bullet_bridge/joints/held_joint.h"
 #include "bullet_bridge/model_library.h"
@@ -14,7 +15,6 @@
 #include "bullet_fem/fem/contact_solver.h"
 
 class btCollisionObject;
-class btSoftBody;
 
 namespace bullet_fem
 {
@@ -74,7 +74,8 @@ struct FemSoftBody
                 std::shared_ptr<const RestNeighbours> neighbours = nullptr);
 
     btSoftBody* m_softBody;
-    std::uint64_t m_mark;  ///< on the btSoftBody: see body_mark.h
+    const btSoftBody::Node* m_firstNode;  ///< where the array of its nodes begins, as seen last
+    std::uint64_t m_mark;                 ///< on the btSoftBody: see body_mark.h
     Body m_body;
     Vec3 m_restOrigin;  ///< node 0 of the rest shape, laid over the body as it became FEM (RestMesh) [m]
     std::vector<btMatrix3x3> m_restMatrices;  ///< m_Dm_inverse of the elements, as seen last

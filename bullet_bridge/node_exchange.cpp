@@ -33,42 +33,58 @@ void loadChanged(const btVector3& user, const btVector3& written, Vec3& value)
         if (user[c] != written[c]) value[c] = user[c];
 }
 
-// Returns false for a node without mass: see shareOutMass.
-bool readMass(FemSoftBody& fem, int i, NodeReadReport& report)
+/// What reading found of the masses of nodes that are not pinned.
+struct MassChanges
+{
+    int m_written = 0;   // good ones
+    int m_massless = 0;  // see shareOutMass
+};
+
+void readMass(FemSoftBody& fem, int i, MassChanges& changes, NodeReadReport& report)
 {
     const btScalar inverse = fem.m_softBody->m_nodes[i].m_im;
     BodyState& state = fem.m_body.m_state;
     state.m_fixed[i] = inverse == 0 || fem.m_pins.m_hasTarget[i] || fem.m_body.m_model->mesh().isLoose(i);
-    if (inverse == fem.m_written.m_inverseMass[i]) return true;
-    if (isMassless(inverse)) return false;
+    if (inverse == fem.m_written.m_inverseMass[i]) return;
+    if (isMassless(inverse))
+    {
+        ++changes.m_massless;
+        return;
+    }
     if (inverse < 0 || !std::isfinite(inverse) || (inverse > 0 && !std::isfinite(1 / inverse)))
     {
         report.m_badMass = true;
         fem.m_softBody->m_nodes[i].m_im = fem.m_written.m_inverseMass[i];
-        return true;
+        return;
     }
     fem.m_written.m_inverseMass[i] = inverse;
-    if (inverse > 0) state.m_mass[i] = 1 / double(inverse);
-    return true;
+    if (!(inverse > 0)) return;
+    state.m_mass[i] = 1 / double(inverse);
+    ++changes.m_written;
 }
 
-// As in sanitisedMasses: btSoftBody::setTotalMass by faces gives the whole mass to those of the surface.
-void shareOutMass(FemSoftBody& fem)
+// As in sanitisedMasses: btSoftBody::setTotalMass by faces has given the whole mass to the nodes of the surface, if
+// theirs were written, too. Where a few nodes alone were made massless they keep their mass.
+void shareOutMass(FemSoftBody& fem, const MassChanges& changes)
 {
     const std::vector<double>& share = fem.m_body.m_model->shape().m_lumpedMass;
     BodyState& state = fem.m_body.m_state;
     double mass = 0, shares = 0;
+    int massive = 0;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
     {
         const btScalar inverse = fem.m_softBody->m_nodes[i].m_im;
         if (inverse == 0 || !(share[i] > 0)) continue;
         shares += share[i];
-        if (!isMassless(inverse)) mass += state.m_mass[i];
+        if (isMassless(inverse)) continue;
+        mass += state.m_mass[i];
+        ++massive;
     }
+    const bool byFaces = 2 * changes.m_written > massive;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
     {
         btScalar& inverse = fem.m_softBody->m_nodes[i].m_im;
-        if (mass > 0 && inverse != 0 && share[i] > 0)
+        if (byFaces && inverse != 0 && share[i] > 0)
         {
             state.m_mass[i] = mass * share[i] / shares;
             fem.m_written.m_inverseMass[i] = static_cast<btScalar>(1 / state.m_mass[i]);
@@ -131,18 +147,18 @@ NodeReadReport readNodes(FemSoftBody& fem)
 {
     NodeReadReport report;
     const bool teleported = wasTeleported(fem);
-    bool massless = false;
+    MassChanges masses;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
     {
         const bool wasFixed = fem.m_body.m_state.m_fixed[i];
-        massless = !readMass(fem, i, report) || massless;
+        readMass(fem, i, masses, report);
         if (fem.m_body.m_state.m_fixed[i] && !wasFixed) fem.m_pins.m_velocity[i] = {};
         readMotion(fem, i, teleported, report);
     }
-    if (massless)
+    if (masses.m_massless > 0)
     {
         report.m_badMass = true;
-        shareOutMass(fem);
+        shareOutMass(fem, masses);
     }
     report.m_stalePins = fem.m_body.m_model->factorInput().m_fixed != fem.m_body.m_state.m_fixed;
     return report;

@@ -119,14 +119,32 @@ bool isMassless(btScalar inverseMass)
     return inverseMass > 0 && (std::isinf(inverseMass) || 1 / inverseMass == 0);
 }
 
+namespace
+{
+
+// True if the nodes without mass are those in no face: what btSoftBody::setTotalMass by faces makes.
+bool hasMassesByFaces(const btSoftBody& body, const std::vector<double>& volumeShare)
+{
+    std::vector<unsigned char> inFace(body.m_nodes.size(), 0);
+    for (int f = 0; f < body.m_faces.size(); ++f)
+        for (const btSoftBody::Node* node : body.m_faces[f].m_n) inFace[node - &body.m_nodes[0]] = 1;
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+        if (body.m_nodes[i].m_im != 0 && volumeShare[i] > 0 && isMassless(body.m_nodes[i].m_im) == (inFace[i] != 0))
+            return false;
+    return body.m_faces.size() > 0;
+}
+
+}  // namespace
+
 std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<double>& volumeShare, bool& repaired)
 {
+    const bool byFaces = hasMassesByFaces(body, volumeShare);
     double knownMass = 0, knownVolume = 0, masslessVolume = 0;
     std::vector<double> mass(volumeShare.size(), 0.0);
     for (int i = 0; i < body.m_nodes.size(); ++i)
     {
         const double inverse = body.m_nodes[i].m_im;
-        if (isMassless(body.m_nodes[i].m_im)) masslessVolume += volumeShare[i];
+        if (byFaces && isMassless(body.m_nodes[i].m_im)) masslessVolume += volumeShare[i];
         const bool usable = inverse > 0 && std::isfinite(inverse) && std::isfinite(1 / inverse);
         repaired = repaired || !(usable || inverse == 0);
         if (!usable) continue;

@@ -55,9 +55,9 @@ std::vector<double> massesOf(const TetMesh& mesh, const std::vector<double>& fil
 bool isMassless(btScalar inverseMass);
 
 /// Node masses [kg] from Bullet's inverse masses. Pinned nodes (inverse mass 0) get their share of the volume at the
-/// body's mean density; so do nodes whose inverse mass is negative or NaN, and then `repaired` is set. If there are
-/// nodes without mass (isMassless), `repaired` is set, too, and the mass of the others is shared out to all of them by
-/// volume: the body weighs what was asked for. A body of no mass at all is given 1000 kg/m3.
+/// body's mean density; so do nodes whose inverse mass is negative, NaN or infinite, and then `repaired` is set. If the
+/// nodes without mass (isMassless) are those in no face, the mass of the others is the body's, and is shared out to all
+/// of them by volume. A body of no mass at all is given 1000 kg/m3.
 std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<double>& volumeShare, bool& repaired);
 
 }  // namespace bullet_fem

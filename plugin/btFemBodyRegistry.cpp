@@ -8,6 +8,7 @@
 #include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body_arrays.h"
 #include "bullet_bridge/body_mark.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/node_exchange.h"
@@ -41,23 +42,6 @@ FactorChoice coreChoice(btFemFactorChoice choice)
 Material materialOf(const btFemEntry& entry)
 {
     return entry.m_materialGiven ? entry.m_material : unsetMaterialOf(*entry.m_softBody);
-}
-
-// True if the tetrahedra still join the nodes that the mesh was made of.
-bool topologyAsBuilt(const btSoftBody& soft, const TetMesh& mesh)
-{
-    if (soft.m_nodes.size() != mesh.nodeCount() || soft.m_tetras.size() != mesh.tetCount()) return false;
-    for (int e = 0; e < soft.m_tetras.size(); ++e)
-    {
-        const Tet& tet = mesh.tets()[e];
-        // Turned elements have their last two nodes swapped.
-        for (int a = 0; a < 4; ++a)
-        {
-            const int node = static_cast<int>(soft.m_tetras[e].m_n[a] - &soft.m_nodes[0]);
-            if (node != tet[a] && !(a >= 2 && node == tet[5 - a])) return false;
-        }
-    }
-    return true;
 }
 
 int flagsOf(const TetMesh& mesh)
@@ -112,7 +96,7 @@ btFemEntry& btFemBodyRegistry::entry(btSoftBody* body)
         throw std::invalid_argument("the soft body is null; give a body made by btFemHelpers or btSoftBodyHelpers");
     if (btFemEntry* known = find(body))
     {
-        if (isAnotherBody(*known)) *known = btFemEntry(body);
+        lookAgain(*known);
         return *known;
     }
     m_entries.push_back(std::make_unique<btFemEntry>(body));
@@ -126,11 +110,27 @@ void btFemBodyRegistry::forget(const btSoftBody* body)
                     m_entries.end());
 }
 
-// Something else lives at the address, or the body was cut or refined.
-bool btFemBodyRegistry::isAnotherBody(const btFemEntry& entry) const
+// Something else may live at the address, or nodes or tetrahedra were appended, removed, or joined otherwise: then the
+// body keeps what the user asked for it.
+void btFemBodyRegistry::lookAgain(btFemEntry& entry)
 {
-    return entry.m_fem && (!hasMark(*entry.m_softBody, entry.m_fem->m_mark) ||
-                           !topologyAsBuilt(*entry.m_softBody, entry.m_fem->m_body.m_model->mesh()));
+    if (!entry.m_fem) return;
+    if (!hasMark(*entry.m_softBody, entry.m_fem->m_mark))
+    {
+        entry = btFemEntry(entry.m_softBody);
+        return;
+    }
+    followNodes(*entry.m_fem);
+    if (topologyAsSetUp(*entry.m_fem)) return;
+    btFemEntry changed(entry.m_softBody);
+    changed.m_world = entry.m_world;
+    changed.m_material = entry.m_material;
+    changed.m_materialGiven = entry.m_materialGiven;
+    changed.m_detail = entry.m_detail;
+    changed.m_contactOffset = entry.m_contactOffset;
+    changed.m_wasChanged = true;
+    entry.m_softBody->activate();
+    entry = std::move(changed);
 }
 
 // A world that holds a body of another one takes it over. Worlds that take it from each other both hold it; once may be
@@ -167,7 +167,7 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
             m_entries[known]->m_report.m_flags |= BT_FEM_ADDED_TWICE;
             continue;
         }
-        if (known < m_entries.size() && isAnotherBody(*m_entries[known])) *m_entries[known] = btFemEntry(soft);
+        if (known < m_entries.size()) lookAgain(*m_entries[known]);
         if (known == m_entries.size() && soft->m_tetras.size() == 0) continue;
         if (known == m_entries.size())
         {
@@ -248,6 +248,8 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
     keepFaceTree(soft);
     entry.m_fem->m_contactOffset = entry.m_contactOffset;
     entry.m_setUpFlags = flagsOf(mesh) | (repaired ? BT_FEM_BAD_MASS : 0);
+    if (entry.m_wasChanged) entry.m_report.m_flags |= BT_FEM_CHANGED_MESH;
+    entry.m_wasChanged = false;
 }
 
 void btFemBodyRegistry::renew(btFemEntry& entry, double step)

@@ -54,7 +54,8 @@ struct btFemEntry
     std::shared_ptr<bullet_fem::ComplianceCache> m_formerCompliance;  // is not factored for again and again
     bool m_rejected = false;
     std::string m_message;
-    int m_setUpFlags = 0;  // flags that hold until the body is set up anew
+    bool m_wasChanged = false;  // by the program, which appended, removed or rejoined nodes or tetrahedra
+    int m_setUpFlags = 0;       // flags that hold until the body is set up anew
 
     btFemStage m_stage = btFemStage::none;
     btFemStepReport m_report;
@@ -150,7 +151,7 @@ public:
 
 private:
     std::size_t indexOf(const btSoftBody* body) const;
-    bool isAnotherBody(const btFemEntry& entry) const;
+    static void lookAgain(btFemEntry& entry);
     void registerWithDispatcher(btSoftBody& body) const;
     void setUpNew(btFemEntry& entry, double step);
     void renew(btFemEntry& entry, double step);

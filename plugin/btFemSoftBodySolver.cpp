@@ -6,7 +6,9 @@
 
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body_arrays.h"
 #include "bullet_bridge/face_tree.h"
+#include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
@@ -35,10 +37,15 @@ struct btFemSoftBodySolver::Impl
             throw std::invalid_argument(
                 std::string(caller) +
                 ": the body is not moved by finite elements; call prepare() or step its world first");
+        if (!arraysAsSetUp(*entry->m_fem))
+            throw std::invalid_argument(
+                std::string(caller) +
+                ": nodes or tetrahedra of the body were appended or removed; call prepare() or step its world first");
         return *entry;
     }
 
-    // Tick callbacks run within a step, and may remove and delete soft bodies; Bullet tells nobody.
+    // Tick callbacks run within a step, and may remove and delete soft bodies; Bullet tells nobody. Those whose arrays
+    // they change stand still until the next step.
     void dropRemovedBodies(btAlignedObjectArray<btSoftBody*>& stepped)
     {
         if (!m_worldBodies) return;
@@ -49,7 +56,13 @@ struct btFemSoftBodySolver::Impl
             if (isHeld(stepped[i])) stepped[kept++] = stepped[i];
         stepped.resize(kept);
         for (const auto& entry : m_registry.entries())
-            if (entry->m_present && !isHeld(entry->m_softBody)) entry->m_present = false;
+        {
+            if (!entry->m_present) continue;
+            const bool held = isHeld(entry->m_softBody),
+                       changed = held && entry->m_fem && !arraysAsSetUp(*entry->m_fem);
+            if (changed) showClusterJoints(*entry->m_fem);
+            if (!held || changed) entry->m_present = false;
+        }
     }
 
     bool movesBySprings(const btSoftBody* body) const
@@ -154,6 +167,7 @@ void btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& mat
 {
     std::string why;
     if (!material.valid(&why)) throw std::invalid_argument("btFemMaterial: " + why);
+    if (m_impl->m_registry.find(body)) m_impl->m_registry.entry(body);  // which notices what the program changed
     if (!valid(body, &why)) throw std::invalid_argument("setMaterial: " + why);
     keepFaceTree(*body);
     btFemEntry& entry = m_impl->m_registry.entry(body);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body_arrays.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/joints/cluster_joints.h"
@@ -158,7 +159,7 @@ bool btFemWorldStep::isDue(btFemEntry& entry, double worldStep) const
 {
     if (!entry.m_present || entry.m_stage != btFemStage::predicted) return false;
     if (!entry.m_fem || entry.m_softBody->isActive()) clearReport(entry);
-    if (!entry.m_fem || !entry.m_softBody->isActive()) return false;
+    if (!entry.m_fem || !entry.m_softBody->isActive() || !arraysAsSetUp(*entry.m_fem)) return false;
     entry.m_lastStep = bodyStep(entry, worldStep);
     if (!isUsableStep(entry.m_lastStep))
     {

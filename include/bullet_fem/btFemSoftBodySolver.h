@@ -93,6 +93,9 @@ struct btFemSolverInfo
 ///
 /// Whichever way a body was made, its tetrahedra count. One without faces is given those of its boundary. Links are
 /// ignored, whoever made them: a FEM body's stiffness is its material's. Pieces that only links connect part.
+/// Nodes and tetrahedra may be appended or removed at any time: the body is set up anew in the next step, with its
+/// material, detail and contact offset, without node targets and attachments (BT_FEM_CHANGED_MESH). Elements without a
+/// matrix, as appendTetra makes them, make the shape of then the rest shape: initializeDmInverse says so beforehand.
 ///
 /// Bodies sleep like Bullet's rigid ones: after 2 s (gDeactivationTime) in which no node was faster than
 /// m_sleepingThreshold (.04 m/s), with their island. Asleep they keep velocity 0, contacts and reports, those of cost
