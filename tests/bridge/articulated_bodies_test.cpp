@@ -22,7 +22,7 @@ constexpr double kStep = 1.0 / 60;
 class ArticulatedBodiesTest : public ::testing::Test
 {
 protected:
-    // A free base with a spherical, a revolute and a prismatic link in a row, bent.
+    // A free base with a spherical, a revolute, a prismatic and a planar link in a row, bent.
     ArticulatedBodiesTest()
     {
         const btVector3 inertia(1, 2, 3), arm(btScalar(0.5), btScalar(0.1), 0);
@@ -30,6 +30,7 @@ protected:
         m_body.setupSpherical(0, 2, inertia, -1, turn, arm, arm);
         m_body.setupRevolute(1, 3, inertia, 0, turn, btVector3(0, 1, 0), arm, arm);
         m_body.setupPrismatic(2, 4, inertia, 1, turn, btVector3(1, 0, 0), arm, arm, false);
+        m_body.setupPlanar(3, 2, inertia, 2, turn, btVector3(0, 1, 0), arm);
         m_body.finalizeMultiDof();
         m_body.setLinearDamping(0);
         m_body.setAngularDamping(0);
@@ -39,7 +40,8 @@ protected:
         m_body.setJointPos(2, btScalar(0.2));
         m_body.setBaseVel(btVector3(1, 2, 3));
         m_body.setJointVel(1, 2);
-        for (int k = -1; k < 3; ++k)
+        m_body.setJointVel(3, 3);  // about the axis
+        for (int k = -1; k < 4; ++k)
         {
             m_colliders.push_back(std::make_unique<btMultiBodyLinkCollider>(&m_body, k));
             m_colliders.back()->setCollisionShape(&m_shape);
@@ -73,7 +75,7 @@ protected:
     static double difference(const Mat3& a, const Mat3& b) { return std::sqrt(squaredNorm(a - b) / squaredNorm(b)); }
 
     btSphereShape m_shape{1};
-    btMultiBody m_body{3, 5, btVector3(1, 1, 2), false, false};
+    btMultiBody m_body{4, 5, btVector3(1, 1, 2), false, false};
     std::vector<std::unique_ptr<btMultiBodyLinkCollider>> m_colliders;
     btAlignedObjectArray<btQuaternion> m_turns;
     btAlignedObjectArray<btVector3> m_places;
@@ -86,9 +88,9 @@ protected:
 TEST_F(ArticulatedBodiesTest, linksMoveNowAsBulletSays)
 {
     addAll();
-    btVector3 spin[4], velocity[4];
+    btVector3 spin[5], velocity[5];
     m_body.compTreeLinkVelocities(spin, velocity);
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 5; ++k)
     {
         EXPECT_LT(norm(m_now[k].m_linear - vec3(m_body.localDirToWorld(k - 1, velocity[k]))), 1e-5) << k;
         EXPECT_LT(norm(m_now[k].m_angular - vec3(m_body.localDirToWorld(k - 1, spin[k]))), 1e-5) << k;
@@ -98,15 +100,15 @@ TEST_F(ArticulatedBodiesTest, linksMoveNowAsBulletSays)
 TEST_F(ArticulatedBodiesTest, allLinksMoveAsTheirResponsesSaid)
 {
     const Vec3 impulse = {1, -2, 3}, angular = {0.5, 1, -1};
-    for (int pushed = 0; pushed < 4; ++pushed)
+    for (int pushed = 0; pushed < 5; ++pushed)
     {
         addAll();
         const std::vector<LinkMotion> before = m_now;
         m_bodies.addImpulse(pushed, impulse, angular);
         m_bodies.apply(m_obstacles, kStep);
-        const std::vector<ObstacleResponse> said(&response(0, pushed), &response(0, pushed) + 4);
+        const std::vector<ObstacleResponse> said(&response(0, pushed), &response(0, pushed) + 5);
         addAll();
-        for (int k = 0; k < 4; ++k)
+        for (int k = 0; k < 5; ++k)
         {
             const Vec3 linear = said[k].m_linear * impulse + said[k].m_linearOfAngular * angular;
             const Vec3 spin = said[k].m_angularOfLinear * impulse + said[k].m_angular * angular;
@@ -120,8 +122,8 @@ TEST_F(ArticulatedBodiesTest, allLinksMoveAsTheirResponsesSaid)
 TEST_F(ArticulatedBodiesTest, responsesAreReciprocal)
 {
     addAll();
-    for (int a = 0; a < 4; ++a)
-        for (int b = 0; b < 4; ++b)
+    for (int a = 0; a < 5; ++a)
+        for (int b = 0; b < 5; ++b)
         {
             EXPECT_LT(difference(response(a, b).m_linear, transpose(response(b, a).m_linear)), 1e-5);
             EXPECT_LT(difference(response(a, b).m_angular, transpose(response(b, a).m_angular)), 1e-5);
@@ -165,7 +167,7 @@ TEST_F(ArticulatedBodiesTest, forcesCountAsInBulletsNextStep)
     btAlignedObjectArray<btMatrix3x3> m;
     m_body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(btScalar(kStep), r, v, m, false, false, false);
     addAll();
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 5; ++k)
     {
         EXPECT_LT(norm(m_now[k].m_linear - said[k].m_linearVelocity), 1e-4) << k;
         EXPECT_LT(norm(m_now[k].m_angular - said[k].m_angularVelocity), 1e-4) << k;

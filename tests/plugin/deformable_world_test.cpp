@@ -241,6 +241,19 @@ TEST_F(DeformableWorldTest, clothBesideFemBodiesKeepsItsBits)
     }
 }
 
+// Bullet's world makes all soft bodies collide that have VF_DD.
+TEST_F(DeformableWorldTest, clothFallsThroughFemBodiesAndLeavesThemAlone)
+{
+    btSoftBody& cube = addCube(m_world, {0, 0, 0.5});
+    addForce(m_world, cube, makeForce(Elastic::linear, kMu, kLambda));
+    cube.m_cfg.collisions |= btSoftBody::fCollision::VF_DD;
+    const btSoftBody& cloth = addCloth(m_world);
+    m_world.step(60);
+    EXPECT_LT(centerOf(cloth).z, 0.2);
+    EXPECT_LT(fastestNode(cube), 1e-6);
+    EXPECT_TRUE(cube.m_cfg.collisions & btSoftBody::fCollision::VF_DD);
+}
+
 TEST_F(DeformableWorldTest, bodiesWithoutAnElasticForceStayBullets)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
@@ -348,6 +361,8 @@ TEST_F(DeformableWorldTest, anAnchoredLinkHangsOnASoftBody)
         force += (1 / double(kStep)) * vec3(m_solver.fem().anchors(&cube)[k].m_impulse);
     EXPECT_NEAR(force.z, -10 * kGravity, 1e-3 * 10 * kGravity);
     EXPECT_NEAR(base.getWorldTransform().getOrigin().z(), -0.1, 0.02);
+    for (int k = 0; k < m_solver.fem().anchors(&cube).size(); ++k)
+        EXPECT_LT(m_solver.fem().anchors(&cube)[k].m_error, 1e-3);  // it would fall by g h^2 = 2.7e-3 m in a step
 }
 
 // A platform on a vertical slider that a motor holds: gravity is Bullet's at another time of the step than elsewhere.

@@ -409,6 +409,23 @@ TEST_F(HeldMultiBody, aSleepingMultibodyIsWokenByWhatFallsOnIt)
     EXPECT_LT(chain.getBaseVel().z(), -0.5);
 }
 
+// They are apart, in islands of their own: nothing but the anchor's impulse can wake it.
+TEST_F(HeldMultiBody, aSleepingMultibodyIsWokenByAnAnchorFarAway)
+{
+    MultiBodyWorld world(m_fem, kNoGravity);
+    btMultiBody& chain = addHangingChain(world, 0, 0.1);
+    chain.setCanSleep(true);
+    chain.getBaseCollider()->forceActivationState(ACTIVE_TAG);
+    world.step(300);
+    ASSERT_EQ(chain.getBaseCollider()->getActivationState(), ISLAND_SLEEPING);
+    btSoftBody& cube = addCube(world, {3, 0, 0});
+    for (int i = 0; i < 5; ++i) cube.appendDeformableAnchor(i, chain.getBaseCollider());
+    cube.setVelocity(btVector3(btScalar(0.05), 0, 0));
+    world.step(30);
+    EXPECT_GT(chain.getBaseVel().x(), 0.01);
+    EXPECT_GT(chain.getBasePos().x(), 0.005);
+}
+
 class ImmovableLink : public MultiBodyWorldTest, public ::testing::WithParamInterface<int>
 {
 };
