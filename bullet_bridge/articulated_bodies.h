@@ -102,6 +102,7 @@ private:
     };
 
     int treeOf(btMultiBody& body, double step);
+    void reserve(const Tree& tree);
     void factor(btMultiBody& body);
     void predict(const Tree& tree, double step);
     void addSupport(const Tree& tree, double step);

@@ -84,7 +84,7 @@ struct FemSoftBody
     NodePins m_pins;
     double m_contactOffset = 0;  ///< [m]
     bool m_hasOwnGravity = false;
-    Vec3 m_ownGravity;  ///< in place of the world info's, if it has its own [m/s2]
+    Vec3 m_ownGravity;  ///< in Bullet's deformable world: in place of the world info's [m/s2]; and m_cfg.drag of kDP
 
     /// What it falls with [m/s2]; not checked.
     Vec3 gravity() const;

@@ -197,8 +197,8 @@ bool readLoads(FemSoftBody& fem, double step)
             goes ? (1 / step) * (fem.m_pins.m_position[i] - state.m_x[i]) : fem.m_pins.m_velocity[i];
         fem.m_pins.m_moved[i] = 0;
     }
-    // Bullet multiplies velocities by 1 - kDP a step, in its deformable world by 1 - drag; the implicit rate alpha that does the same is kDP / (h (1 -
-    // kDP)).
+    // Bullet multiplies velocities by 1 - kDP a step, in its deformable world by 1 - drag; the implicit rate alpha that
+    // does the same is kDP / (h (1 - kDP)).
     const double kDP = fem.m_hasOwnGravity ? soft.m_cfg.drag : soft.m_cfg.kDP;
     loads.m_massDamping = kDP > 0 ? std::min(kDP, 0.999) / (step * (1 - std::min(kDP, 0.999))) : 0;
     matchPose(fem, step);

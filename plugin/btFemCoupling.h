@@ -19,9 +19,6 @@ struct btFemCoupling
                                          double step);
     /// All that is known of a body; null if nothing is.
     static const btFemEntry* entry(const btFemSoftBodySolver& fem, const btSoftBody& body);
-    /// Makes a FEM body fall with this acceleration, whatever its world info says, and slow down by m_cfg.drag in place of
-    /// kDP; [m/s2].
-    static void setGravity(btFemSoftBodySolver& fem, const btSoftBody& body, const bullet_fem::Vec3& gravity);
     /// See ArticulatedBodies::assumeForcesGiven.
     static void assumeForcesGiven(btFemSoftBodySolver& fem, const bullet_fem::Vec3& gravity);
     /// Null unless btFemSolverInfo::m_manifolds is set.

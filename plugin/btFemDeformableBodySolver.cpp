@@ -101,12 +101,14 @@ bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
     const bool changed = material != known.m_material;
     known.m_material = material;
     if (!material.m_given && !(entry && entry->m_materialGiven) && isForBullet(body)) return false;
-    if (!known.m_rejection.empty() && !changed) return false;
+    if (!known.m_rejection.empty() && !changed && !entry) return false;  // the user has not tried anything else
     try
     {
         if (changed && material.m_given) m_fem.setMaterial(&body, material.m_material);
-        if (!m_fem.isFem(&body)) m_fem.prepare(&body, dt);
-        btFemCoupling::setGravity(m_fem, body, m_forces.gravityOf(body));
+        if (!m_fem.isFem(&body)) m_fem.prepare(&body, std::clamp(dt, btScalar(1e-6), btScalar(1)));
+        FemSoftBody& moved = *btFemCoupling::entry(m_fem, body)->m_fem;
+        moved.m_hasOwnGravity = true;
+        moved.m_ownGravity = m_forces.gravityOf(body);
         known.m_rejection.clear();
         return true;
     }
@@ -132,7 +134,10 @@ void btFemDeformableBodySolver::Impl::sort(btDeformableBodySolver& solver, const
         btSoftBody* body = world[i];
         const bool fem = inStep ? becomesFem(*body, dt) : holds(m_femBefore, body);
         const bool plain = !fem && isForBullet(*body);
-        (plain ? m_plain : m_ours).push_back(body);
+        if (plain)
+            m_plain.push_back(body);
+        else if (!holds(m_ours, body))  // it may have been added twice
+            m_ours.push_back(body);
         if (fem && !holds(m_femBodies, body)) m_femBodies.push_back(body);
         if (inStep) body->setSoftBodySolver(fem ? static_cast<btSoftBodySolver*>(&m_fem) : &solver);
     }

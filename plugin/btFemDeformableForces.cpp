@@ -73,9 +73,11 @@ void clear(btAlignedObjectArray<btVector3>& values, int size)
 
 bool btFemForceMaterial::operator==(const btFemForceMaterial& b) const
 {
+    const auto same = [](btScalar x, btScalar y) { return x == y || (x != x && y != y); };  // no number, both times
     const btFemMaterial &p = m_material, &q = b.m_material;
-    return m_given == b.m_given && p.m_youngModulus == q.m_youngModulus && p.m_poissonRatio == q.m_poissonRatio &&
-           p.m_massDamping == q.m_massDamping && p.m_stiffnessDamping == q.m_stiffnessDamping;
+    return m_given == b.m_given && same(p.m_youngModulus, q.m_youngModulus) &&
+           same(p.m_poissonRatio, q.m_poissonRatio) && same(p.m_massDamping, q.m_massDamping) &&
+           same(p.m_stiffnessDamping, q.m_stiffnessDamping);
 }
 
 btFemForceMaterial btFemDeformableForces::materialOf(const btSoftBody& body) const

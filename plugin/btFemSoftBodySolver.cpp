@@ -356,14 +356,6 @@ const btFemEntry* btFemCoupling::entry(const btFemSoftBodySolver& fem, const btS
     return fem.m_impl->m_registry.find(&body);
 }
 
-void btFemCoupling::setGravity(btFemSoftBodySolver& fem, const btSoftBody& body, const Vec3& gravity)
-{
-    btFemEntry* entry = fem.m_impl->m_registry.find(&body);
-    if (!entry || !entry->m_fem) return;
-    entry->m_fem->m_hasOwnGravity = true;
-    entry->m_fem->m_ownGravity = gravity;
-}
-
 void btFemCoupling::assumeForcesGiven(btFemSoftBodySolver& fem, const Vec3& gravity)
 {
     fem.m_impl->m_step.assumeForcesGiven(gravity);

@@ -3,7 +3,9 @@
 // A program of its own: the counter replaces malloc.
 #include <gtest/gtest.h>
 
+#include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/link_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 #include "support/allocation_counter.h"
@@ -61,7 +63,8 @@ public:
 
 // Steps without growth of the contact count must not allocate; the first two may. Returns the steps that were looked
 // at.
-int expectNoAllocations(CountingSolver& fem, SoftWorld& world, const std::vector<btSoftBody*>& bodies, int steps)
+template <class World>
+int expectNoAllocations(CountingSolver& fem, World& world, const std::vector<btSoftBody*>& bodies, int steps)
 {
     std::vector<int> mostContacts(bodies.size(), 0);
     int checked = 0;
@@ -229,6 +232,25 @@ TEST(Allocations, NoneForManifoldsThatLast)
     btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.501)));
     EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 120), 110);
     EXPECT_EQ(world.world().getDispatcher()->getNumManifolds(), 1);
+}
+
+// It holds a link by an anchor, and lies on another one of the same multibody.
+TEST(Allocations, NoneForLinksOfMultibodies)
+{
+    CountingSolver fem;
+    MultiBodyWorld world(fem);
+    const btVector3 half(1, 1, btScalar(0.1)), inertia(1, 1, 1);
+    auto* body = new btMultiBody(1, 50, inertia, true, false);
+    body->setupRevolute(0, 50, inertia, -1, btQuaternion::getIdentity(), btVector3(0, 1, 0), btVector3(-1, 0, 0),
+                        btVector3(1, 0, 0));
+    world.addMultiBody(body);
+    btMultiBodyLinkCollider& link = world.addCollider(*body, 0, new btBoxShape(half));
+    btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.6)),
+                                                             btVector3(0.5, 0.5, 0.5), btScalar(0.25)));
+    cube.appendDeformableAnchor(0, &link);
+    world.step(60);  // until all has happened once
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 60), 30);
+    EXPECT_GT(fem.touches(&cube).size(), 0);
 }
 
 }  // namespace
