@@ -16,15 +16,6 @@ namespace
 
 constexpr int kBase = 6;  // coordinates of the base
 
-bool sleeps(const btMultiBody& body)
-{
-    const auto isAsleep = [](const btCollisionObject* collider)
-    { return collider && collider->getActivationState() == ISLAND_SLEEPING; };
-    bool asleep = isAsleep(body.getBaseCollider());
-    for (int k = 0; k < body.getNumLinks() && !asleep; ++k) asleep = isAsleep(body.getLinkCollider(k));
-    return asleep;
-}
-
 void addGravity(btMultiBody& body, const Vec3& gravity)
 {
     if (dot(gravity, gravity) == 0) return;
@@ -33,6 +24,15 @@ void addGravity(btMultiBody& body, const Vec3& gravity)
 }
 
 }  // namespace
+
+bool ArticulatedBodies::sleeps(const btMultiBody& body)
+{
+    const auto isAsleep = [](const btCollisionObject* collider)
+    { return collider && collider->getActivationState() == ISLAND_SLEEPING; };
+    bool asleep = isAsleep(body.getBaseCollider());
+    for (int k = 0; k < body.getNumLinks() && !asleep; ++k) asleep = isAsleep(body.getLinkCollider(k));
+    return asleep;
+}
 
 bool ArticulatedBodies::canMove(const btMultiBodyLinkCollider& link)
 {

@@ -33,6 +33,9 @@ public:
     /// True if impulses move the link: neither it nor all that it hangs on is static, kinematic or asleep for good.
     static bool canMove(const btMultiBodyLinkCollider& link);
 
+    /// True if Bullet does not step the multibody, because one of its islands sleeps.
+    static bool sleeps(const btMultiBody& body);
+
     /// Forgets velocities from before the rigid solver, and what was given to multibodies not touched in the last step.
     void beginStep();
 

@@ -25,8 +25,10 @@ void setVelocity(btMultiBody& body, const std::vector<btScalar>& velocity)
     }
 }
 
-void wake(btMultiBody& body)
+// One that is only about to sleep knows by its own motion whether it may.
+void wakeIfAsleep(btMultiBody& body)
 {
+    if (!ArticulatedBodies::sleeps(body)) return;
     body.wakeUp();
     const auto activate = [](btCollisionObject* collider)
     {
@@ -58,7 +60,7 @@ void ArticulatedBodies::apply(const std::vector<Obstacle>& obstacles, double ste
         {
             addVelocity(tree);
             memoryOf(*tree.m_body, tree.m_coordinates).m_given.assign(m_change.begin(), m_change.end());
-            wake(*tree.m_body);
+            wakeIfAsleep(*tree.m_body);
         }
         if (solve(tree, static_cast<int>(k), &obstacles)) displace(tree, step);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "BulletDynamics/Featherstone/btMultiBodyJointMotor.h"
 #include "plugin/multibody_scene.h"
 
 namespace bullet_fem
@@ -115,6 +116,22 @@ TEST_F(HeldMultiBody, aSleepingMultibodyIsWokenByAnAnchorFarAway)
     world.step(30);
     EXPECT_GT(chain.getBaseVel().x(), 0.01);
     EXPECT_GT(chain.getBasePos().x(), 0.005);
+}
+
+TEST_F(HeldMultiBody, aMotorsLinkAndTheCubeOnItFallAsleep)
+{
+    MultiBodyWorld world(m_fem);
+    const btVector3 half(btScalar(0.5), btScalar(0.5), btScalar(0.1));
+    btMultiBodyLinkCollider& link = addSlider(world, 20, btVector3(0, 0, 1), half, btVector3(0, 0, btScalar(-0.1)));
+    world.addConstraint<btMultiBodyJointMotor>(link.m_multiBody, 0, 0, btScalar(1e4));
+    link.m_multiBody->setCanSleep(true);
+    link.forceActivationState(ACTIVE_TAG);
+    btSoftBody& cube = addCube(world, {0, 0, 0.21});
+    cube.forceActivationState(ACTIVE_TAG);
+    int steps = 0;
+    while (cube.isActive() && steps < 900) world.step(), ++steps;
+    EXPECT_LT(steps, 900);
+    EXPECT_EQ(link.getActivationState(), ISLAND_SLEEPING);
 }
 
 }  // namespace
