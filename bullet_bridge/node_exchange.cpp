@@ -125,6 +125,8 @@ void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report
     }
     if (!state.m_fixed[i])
     {
+        std::vector<Vec3>& prior = fem.m_body.m_loads.m_priorVelocity;
+        if (prior.empty() && !sameBits(node.m_v, writtenV)) prior = state.m_v;
         state.m_x[i] = x;
         state.m_v[i] = v;
     }
@@ -207,6 +209,7 @@ bool readLoads(FemSoftBody& fem, double step)
 
 void writeNodes(FemSoftBody& fem)
 {
+    fem.m_body.m_loads.m_priorVelocity.clear();
     const BodyState& state = fem.m_body.m_state;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
     {

@@ -49,7 +49,7 @@ double loadImpulseNorm(const Body& body, double h)
 }
 
 // b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v), and A and P of this step.
-void assembleRightSide(Body& body, const StepSettings& settings, StepScratch& scratch)
+void assembleForVelocity(Body& body, const StepSettings& settings, StepScratch& scratch)
 {
     const BodyState& s = body.m_state;
     const double alpha = massDamping(body);
@@ -60,6 +60,23 @@ void assembleRightSide(Body& body, const StepSettings& settings, StepScratch& sc
         b[i] += frameDamping * s.m_mass[i] * (body.m_loads.m_frameVelocity[i] - s.m_v[i]);
     prepareWarpedSystem(body, settings, b);
     for (Vec3& bi : b) bi *= settings.m_step;
+}
+
+// T is in A but not in b: it damps the change of velocity in the step, and so must see what was changed from outside
+// before it, u = v - v_prior. Else a node that is thrown again and again is held where it is by the tension that should
+// pull it back. As impulses on the motion before, A (dv + u) = b(v_prior) + M u; without T that is A dv = b(v).
+void assembleRightSide(Body& body, const StepSettings& settings, const WarpedSystem& A, StepScratch& scratch)
+{
+    BodyState& s = body.m_state;
+    std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;
+    if (prior.empty()) return assembleForVelocity(body, settings, scratch);
+    s.m_v.swap(prior);
+    assembleForVelocity(body, settings, scratch);
+    s.m_v.swap(prior);
+    std::vector<Vec3>&u = scratch.m_increment, &b = scratch.m_rightSide, &Au = scratch.m_solver.m_Ap;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = s.m_fixed[i] ? Vec3() : s.m_v[i] - prior[i];
+    A.applyUnconstrained(u, Au);
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] += s.m_mass[i] * u[i] - Au[i];
 }
 
 // Fixed nodes: dv_p = v_target - v moves to the right-hand side, b_f -= A_fp dv_p, and b_p = 0.
@@ -94,7 +111,7 @@ void beginFreeMotion(Body& body, const StepSettings& settings, std::optional<Inc
     StepScratch& scratch = body.m_workspace.scratch();
     const WarpedSystem A(body, settings.m_threads);
 
-    assembleRightSide(body, settings, scratch);
+    assembleRightSide(body, settings, A, scratch);
     eliminateFixedNodes(body, A, scratch);
     scratch.m_momentum.prescribe(body, settings.m_step);
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)

@@ -68,9 +68,7 @@ TEST(PickingInTheSoftDemo, ByNodeVelocityAsInBulletsSoftDemoDragsTheBodyForFiveS
     };
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
-    SoftBox box = cubeAt({0, 0, 0});
-    box.m_cells = {2, 2, 2};
-    btSoftBody& body = addSoftBox(world, fem, box);
+    btSoftBody& body = addSoftBox(world, fem, cubeAt({0, 0, 0}));
     const btVector3 from(btScalar(0.05), btScalar(0.03), 10), to(btScalar(0.05), btScalar(0.03), -10);
     world.step();
     btSoftBody::sRayCast results;

@@ -34,7 +34,10 @@ struct BodyState
 /// What acts on a body during one step.
 struct StepLoads
 {
-    explicit StepLoads(int nodeCount) : m_force(nodeCount), m_targetVelocity(nodeCount), m_frameVelocity(nodeCount) {}
+    explicit StepLoads(int nodeCount) : m_force(nodeCount), m_targetVelocity(nodeCount), m_frameVelocity(nodeCount)
+    {
+        m_priorVelocity.reserve(nodeCount);
+    }
 
     std::vector<Vec3> m_force;           ///< external force on every node [N]
     std::vector<Vec3> m_targetVelocity;  ///< velocity of fixed nodes during the step [m/s]; not read elsewhere
@@ -43,6 +46,9 @@ struct StepLoads
     /// frame is a rigid one that moves with the body, so impulses of contact change its momentum undamped.
     double m_frameDamping = 0;
     std::vector<Vec3> m_frameVelocity;  ///< at the end of the step [m/s]; not read if m_frameDamping is 0
+    /// Velocities of the nodes before BodyState::m_v was changed from outside since the last step [m/s], so that the
+    /// change acts as impulses; empty, if it was not changed, or in one step with the forces.
+    std::vector<Vec3> m_priorVelocity;
 };
 
 }  // namespace bullet_fem
