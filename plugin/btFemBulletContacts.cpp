@@ -114,6 +114,8 @@ void writeBulletContacts(btFemEntry& entry, btFemBodyRegistry& registry)
     clearBulletContacts(soft);
     const int rigid = std::min(static_cast<int>(entry.m_fem->m_contacts.size()), entry.m_contacts.size());
     if (rigid == 0) return;
+    soft.m_rcontacts.reserve(entry.m_contacts.capacity());
+    soft.m_faceRigidContacts.reserve(entry.m_contacts.capacity());
     refresh(entry.m_faceIndex, soft, entry.m_fem->m_body.m_model->mesh());
     for (int k = 0; k < rigid; ++k)  // those with soft bodies come after them
     {

@@ -36,6 +36,7 @@ struct btFemHelpers
     static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,
                                  btScalar cellSize);
 
-    /// Moves m_renderNodes with the body; the solver does so after every step.
+    /// Moves m_renderNodes with the body, as Bullet's interpolateBarycentricWeights or extrapolateBarycentricWeights
+    /// have tied them to it; nothing if weights or parents are missing. The solver does so after every step.
     static void updateEmbeddedSurface(btSoftBody* body);
 };

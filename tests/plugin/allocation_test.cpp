@@ -104,6 +104,22 @@ TEST(Allocations, NoneForABodyInFlight)
     EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 60), 58);
 }
 
+TEST(Allocations, NoneForABodyThatASpringDragsOverTheFloor)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.5)));
+    fem.prepare(&cube, kStep);
+    btFemSpring spring;
+    spring.m_nodes[0] = cube.m_nodes.size() - 1;
+    spring.m_target = cube.m_nodes[spring.m_nodes[0]].m_x + btVector3(btScalar(0.5), 0, 0);
+    spring.m_stiffness = btScalar(2e4);
+    fem.addSpring(&cube, spring);
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 90), 40);
+    EXPECT_GT(cube.m_rcontacts.size(), 0);
+}
+
 // Interest that goes up and down takes it through all levels; a stale factor is kept account of.
 TEST(Allocations, NoneWhileDetailIsChosenAndTheFactorIsStale)
 {
