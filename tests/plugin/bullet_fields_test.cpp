@@ -132,6 +132,35 @@ TEST_F(BulletFields, GenerateBoundaryFacesMakesTheFacesOfTheSurface)
     EXPECT_GT(m_body.m_rcontacts.size(), 0);
 }
 
+// Bullet's world knows no sweeps against soft bodies: what lies behind is hit.
+TEST_F(BulletFields, ConvexSweepTestPassesFemBodiesAsItPassesBulletsSoftBodies)
+{
+    m_world.step();
+    btSphereShape sphere(btScalar(0.2));
+    const btTransform from = at(0, 0, 4), to = at(0, 0, -4);
+    btCollisionWorld::ClosestConvexResultCallback sweep(from.getOrigin(), to.getOrigin());
+    m_world.world().convexSweepTest(&sphere, from, to, sweep);
+    ASSERT_TRUE(sweep.hasHit());
+    EXPECT_EQ(sweep.m_hitCollisionObject, &m_floor);
+    EXPECT_NEAR(sweep.m_closestHitFraction, 3.8 / 8, 1e-2);
+}
+
+TEST_F(BulletFields, CheckContactTellsDistanceAndNormalOfARigidBodyAtAnyPoint)
+{
+    m_world.info().m_sparsesdf.Initialize();
+    RigidSettings settings;
+    settings.m_transform = at(4, 0, 0);
+    btRigidBody& box = addRigidBox(m_world, {2, 2, 2}, settings);
+    m_world.step(10);
+    const btCollisionObjectWrapper wrapper(nullptr, box.getCollisionShape(), &box, box.getWorldTransform(), -1, -1);
+    btSoftBody::sCti touch;
+    EXPECT_TRUE(m_body.checkContact(&wrapper, btVector3(btScalar(2.98), 0, 0), btScalar(0.1), touch));
+    EXPECT_EQ(touch.m_colObj, &box);
+    EXPECT_NEAR(touch.m_normal.x(), -1, 1e-3);
+    EXPECT_NEAR(touch.m_offset, 3, 0.1);  // Bullet's field has cells of 0.25 m
+    EXPECT_FALSE(m_body.checkContact(&wrapper, btVector3(btScalar(2.5), 0, 0), btScalar(0.1), touch));
+}
+
 // What users hang on to bodies and their parts, as numbers.
 class UserData
 {

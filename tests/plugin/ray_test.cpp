@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Rays, sweeps and Bullet's contact queries against FEM bodies.
+// Rays against FEM bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -377,40 +377,6 @@ TEST(WorldRayTest, TellsBodyFaceNormalAndPlace)
     EXPECT_NEAR(ray.m_closestHitFraction, reference.m_fraction, 1e-6);
     EXPECT_NEAR(ray.m_hitNormalWorld.z(), 1, 1e-4);
     EXPECT_NEAR(ray.m_hitPointWorld.z(), 4 - 8 * reference.m_fraction, 1e-5);
-}
-
-// Bullet's world knows no sweeps against soft bodies: what lies behind is hit.
-TEST(ConvexSweepTest, PassesFemBodiesAsItPassesBulletsSoftBodies)
-{
-    Scene scene;
-    scene.m_world.addSoft(block(scene));
-    btRigidBody& floor = scene.m_world.addFloorBox(-1);
-    scene.m_world.step();
-    btSphereShape sphere(btScalar(0.2));
-    const btTransform from = at(0, 0, 4), to = at(0, 0, -4);
-    btCollisionWorld::ClosestConvexResultCallback sweep(from.getOrigin(), to.getOrigin());
-    scene.m_world.world().convexSweepTest(&sphere, from, to, sweep);
-    ASSERT_TRUE(sweep.hasHit());
-    EXPECT_EQ(sweep.m_hitCollisionObject, &floor);
-    EXPECT_NEAR(sweep.m_closestHitFraction, (4.8 - 0) / 8, 2e-2);
-}
-
-TEST(CheckContact, TellsDistanceAndNormalOfARigidBodyAtAnyPoint)
-{
-    Scene scene;
-    scene.m_world.info().m_sparsesdf.Initialize();
-    btSoftBody& body = scene.m_world.addSoft(block(scene));
-    RigidSettings settings;
-    settings.m_transform = at(4, 0, 0);
-    btRigidBody& box = addRigidBox(scene.m_world, {2, 2, 2}, settings);
-    scene.m_world.step(10);
-    const btCollisionObjectWrapper wrapper(nullptr, box.getCollisionShape(), &box, box.getWorldTransform(), -1, -1);
-    btSoftBody::sCti touch;
-    EXPECT_TRUE(body.checkContact(&wrapper, btVector3(btScalar(2.98), 0, 0), btScalar(0.1), touch));
-    EXPECT_EQ(touch.m_colObj, &box);
-    EXPECT_NEAR(touch.m_normal.x(), -1, 1e-3);
-    EXPECT_NEAR(touch.m_offset, 3, 0.1);  // Bullet's field has cells of 0.25 m
-    EXPECT_FALSE(body.checkContact(&wrapper, btVector3(btScalar(2.5), 0, 0), btScalar(0.1), touch));
 }
 
 }  // namespace
