@@ -220,9 +220,9 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
 {
     btSoftBody& soft = *entry.m_softBody;
     const std::shared_ptr<const btFemDefinition> defined = entry.m_definition;
-    const RestMesh rest =
-        defined ? RestMesh{TetMesh(defined->m_restPositions, defined->m_tets, LooseNodes::kept), defined->m_restOrigin, true}
-                : restMeshOf(soft);
+    const RestMesh rest = defined ? RestMesh{TetMesh(defined->m_restPositions, defined->m_tets, LooseNodes::kept),
+                                             defined->m_restOrigin, true}
+                                  : restMeshOf(soft);
     const TetMesh& mesh = rest.m_mesh;
     const std::vector<double> filled = filledFractionsOf(soft);
     const auto shape = m_library.restShape(mesh, materialOf(entry), filled);

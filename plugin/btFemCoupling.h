@@ -10,8 +10,8 @@
 class btFemManifolds;
 class btFemSoftBodySolver;
 
-/// What btFemConstraintSolver, btFemDeformableBodySolver, Bullet's dispatcher and snapshots may do with a
-/// btFemSoftBodySolver, and nobody else.
+/// What btFemConstraintSolver, btFemDeformableBodySolver, Bullet's dispatcher and those parts of btFemSoftBodySolver's
+/// interface that stand in other files may do with it, and nobody else.
 struct btFemCoupling
 {
     /// See btFemWorldStep::beginGroup.
@@ -19,6 +19,8 @@ struct btFemCoupling
                                          double step);
     /// All that is known of a body; null if nothing is.
     static const btFemEntry* entry(const btFemSoftBodySolver& fem, const btSoftBody& body);
+    /// Of a body that is FEM; throws std::invalid_argument, in the name of `caller`, if it is not.
+    static btFemEntry& femEntry(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller);
     /// See ArticulatedBodies::assumeForcesGiven.
     static void assumeForcesGiven(btFemSoftBodySolver& fem, const bullet_fem::Vec3& gravity);
     /// Null unless btFemSolverInfo::m_manifolds is set.

@@ -4,6 +4,7 @@
 
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/io/surface_file.h"
+#include "plugin/btFemAttempt.h"
 
 btSoftBody* btFemHelpers::createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
                                                 btScalar scale)
@@ -12,4 +13,12 @@ btSoftBody* btFemHelpers::createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, 
     bullet_fem::CageSettings settings;
     settings.m_cellSize = cellSize;
     return createFromSurface(worldInfo, bullet_fem::readSurfaceFile(path, scale), settings);
+}
+
+btSoftBody* btFemHelpers::createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
+                                                btScalar scale, std::string* why)
+{
+    btSoftBody* body = nullptr;
+    succeeds([&] { body = createFromSurfaceFile(worldInfo, path, cellSize, scale); }, why);
+    return body;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include <exception>
-
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "fem/message.h"
+#include "plugin/btFemAttempt.h"
 #include "plugin/btFemCoupling.h"
 #include "plugin/btFemDefinition.h"
 #include "plugin/btFemManifolds.h"
@@ -12,22 +11,6 @@ using namespace bullet_fem;
 
 namespace
 {
-
-// Calls what may throw; false and the reason if it did.
-template <class Call>
-bool succeeds(const Call& call, std::string* why)
-{
-    try
-    {
-        call();
-        return true;
-    }
-    catch (const std::exception& error)
-    {
-        if (why) *why = error.what();
-        return false;
-    }
-}
 
 // Says who refused.
 template <class Call>

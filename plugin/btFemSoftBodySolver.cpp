@@ -13,8 +13,6 @@
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/threads.h"
-#include "plugin/btFemAttachments.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemCoupling.h"
 #include "plugin/btFemManifolds.h"
@@ -119,40 +117,7 @@ void updateWithoutTree(btSoftBody& body)
     giveFaceTreeToBullet(body);
 }
 
-bool check(bool good, std::string* why, const char* name, double value, const char* range)
-{
-    if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;
-    return good;
-}
-
 }  // namespace
-
-bool btFemSolverInfo::valid(std::string* why) const
-{
-    return check(m_tolerance >= btScalar(1e-8) && m_tolerance <= btScalar(0.5), why, "m_tolerance", m_tolerance,
-                 "[1e-8, 0.5]; 1e-3 is usual") &&
-           check(m_maxIterations >= 1 && m_maxIterations <= 10000, why, "m_maxIterations", m_maxIterations,
-                 "[1, 10000]; 100 is usual") &&
-           check(m_contactRounds >= 1 && m_contactRounds <= 10, why, "m_contactRounds", m_contactRounds,
-                 "[1, 10]; 1 is usual") &&
-           check(m_contactSweeps >= 1 && m_contactSweeps <= 1000, why, "m_contactSweeps", m_contactSweeps,
-                 "[1, 1000]; 50 is usual") &&
-           check(m_contactTolerance >= btScalar(1e-7) && m_contactTolerance <= btScalar(0.1), why, "m_contactTolerance",
-                 m_contactTolerance, "[1e-7, 0.1]; 3e-5 is usual, 1e-2 is cheaper") &&
-           check(m_maxContacts >= 8 && m_maxContacts <= 20000, why, "m_maxContacts", m_maxContacts,
-                 "[8, 20000]; 2000 is usual") &&
-           check(m_erp >= 0 && m_erp <= 1, why, "m_erp", m_erp, "[0, 1]; 0.2 is usual") &&
-           check(m_maxPushVelocity >= 0 && m_maxPushVelocity <= 1000, why, "m_maxPushVelocity", m_maxPushVelocity,
-                 "[0, 1000] m/s; 1 is usual") &&
-           check(m_maxFactorMegabytes >= 0 && m_maxFactorMegabytes <= btScalar(1e6), why, "m_maxFactorMegabytes",
-                 m_maxFactorMegabytes, "[0, 1e6] MB; 0, which is no limit, is usual") &&
-           check(m_factorChoice >= btFemFactorChoice::full && m_factorChoice <= btFemFactorChoice::lowMemory, why,
-                 "m_factorChoice", static_cast<int>(m_factorChoice), "[full, lowMemory], 0 to 2; full is usual") &&
-           check(m_threads >= 0 && m_threads <= Threads::kMost, why, "m_threads", m_threads,
-                 "[0, 256]; 1 is usual, 0 takes all that the machine has") &&
-           check(m_refactoring >= btFemRefactoring::onRequest && m_refactoring <= btFemRefactoring::background, why,
-                 "m_refactoring", static_cast<int>(m_refactoring), "btFemRefactoring; onRequest is usual");
-}
 
 btFemSoftBodySolver::btFemSoftBodySolver(const btFemSolverInfo& info)
 {
@@ -205,70 +170,6 @@ void btFemSoftBodySolver::refactor(btSoftBody* body)
     m_impl->m_registry.refactor(entry, step);
     entry.m_factorAccount.clear();
     entry.m_factorJob.reset();
-}
-
-void btFemSoftBodySolver::setNodeTarget(btSoftBody* body, int node, const btVector3& position)
-{
-    setTargets(*m_impl->femEntry(body, "setNodeTarget").m_fem, {&node, 1}, &position);
-}
-
-void btFemSoftBodySolver::clearNodeTarget(btSoftBody* body, int node)
-{
-    clearTargets(*m_impl->femEntry(body, "clearNodeTarget").m_fem, {&node, 1});
-}
-
-void btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions)
-{
-    setTargets(*m_impl->femEntry(body, "setNodeTargets").m_fem, {nodes, count}, positions);
-}
-
-void btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest)
-{
-    setTargets(*m_impl->femEntry(body, "setNodeTargets").m_fem, {nodes, count}, fromRest);
-}
-
-void btFemSoftBodySolver::clearNodeTargets(btSoftBody* body, const int* nodes, int count)
-{
-    clearTargets(*m_impl->femEntry(body, "clearNodeTargets").m_fem, {nodes, count});
-}
-
-int btFemSoftBodySolver::attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB)
-{
-    const FemSoftBody& other = *m_impl->femEntry(b, "attachNodes").m_fem;
-    return attachNode(*m_impl->femEntry(a, "attachNodes").m_fem, nodeA, other, {nodeB, nodeB, nodeB, nodeB},
-                      {1, 0, 0, 0});
-}
-
-int btFemSoftBodySolver::attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4])
-{
-    const FemSoftBody& other = *m_impl->femEntry(b, "attachNodeToTet").m_fem;
-    if (tetB < 0 || tetB >= b->m_tetras.size() || !weights)
-        throw std::invalid_argument("attachNodeToTet: tetrahedron " + std::to_string(tetB) + " is not in [0, " +
-                                    std::to_string(b->m_tetras.size()) + "), or the weights are null");
-    std::array<int, 4> nodes;
-    for (int k = 0; k < 4; ++k) nodes[k] = static_cast<int>(b->m_tetras[tetB].m_n[k] - &b->m_nodes[0]);
-    return attachNode(*m_impl->femEntry(a, "attachNodeToTet").m_fem, nodeA, other, nodes,
-                      {weights[0], weights[1], weights[2], weights[3]});
-}
-
-void btFemSoftBodySolver::detach(btSoftBody* a, int attachment)
-{
-    detachNode(*m_impl->femEntry(a, "detach").m_fem, attachment);
-}
-
-int btFemSoftBodySolver::addSpring(btSoftBody* body, const btFemSpring& spring)
-{
-    return ::addSpring(*m_impl->femEntry(body, "addSpring").m_fem, spring);
-}
-
-void btFemSoftBodySolver::setSpringTarget(btSoftBody* body, int spring, const btVector3& target)
-{
-    ::setSpringTarget(*m_impl->femEntry(body, "setSpringTarget").m_fem, spring, target);
-}
-
-void btFemSoftBodySolver::removeSpring(btSoftBody* body, int spring)
-{
-    ::removeSpring(*m_impl->femEntry(body, "removeSpring").m_fem, spring);
 }
 
 void btFemSoftBodySolver::setContactOffset(btSoftBody* body, btScalar metres)
@@ -349,6 +250,11 @@ btFemContactGroup* btFemCoupling::beginGroup(btFemSoftBodySolver& fem, btCollisi
                                              double step)
 {
     return fem.m_impl->m_step.beginGroup(fem.m_impl->m_registry, bodies, count, step);
+}
+
+btFemEntry& btFemCoupling::femEntry(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller)
+{
+    return fem.m_impl->femEntry(body, caller);
 }
 
 const btFemEntry* btFemCoupling::entry(const btFemSoftBodySolver& fem, const btSoftBody& body)

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <string>
+
 #include "LinearMath/btVector3.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/cage.h"

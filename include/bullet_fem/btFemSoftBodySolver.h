@@ -189,6 +189,26 @@ public:
     /// Throws std::invalid_argument on null, or out of the range.
     void setContactOffset(btSoftBody* body, btScalar metres);
 
+    /// Twins of the calls above for engines without exceptions: false, or 0 in place of a handle, and the reason in
+    /// `why` (null: not told) where those throw.
+    bool setMaterial(btSoftBody* body, const btFemMaterial& material, std::string* why);
+    bool setDetail(btSoftBody* body, btFemDetail detail, std::string* why);
+    bool setInterest(btFemInterest* interest, const btFemDetailPolicy& policy, std::string* why);
+    bool prepare(btSoftBody* body, btScalar fixedTimeStep, std::string* why);
+    bool refactor(btSoftBody* body, std::string* why);
+    bool setNodeTarget(btSoftBody* body, int node, const btVector3& position, std::string* why);
+    bool clearNodeTarget(btSoftBody* body, int node, std::string* why);
+    bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions, std::string* why);
+    bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest, std::string* why);
+    bool clearNodeTargets(btSoftBody* body, const int* nodes, int count, std::string* why);
+    int attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB, std::string* why);
+    int attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4], std::string* why);
+    bool detach(btSoftBody* a, int attachment, std::string* why);
+    int addSpring(btSoftBody* body, const btFemSpring& spring, std::string* why);
+    bool setSpringTarget(btSoftBody* body, int spring, const btVector3& target, std::string* why);
+    bool removeSpring(btSoftBody* body, int spring, std::string* why);
+    bool setContactOffset(btSoftBody* body, btScalar metres, std::string* why);
+
     /// Drops all that is known of a body: before deleting one that was never added.
     void forget(btSoftBody* body);
 
