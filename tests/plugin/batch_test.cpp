@@ -49,18 +49,19 @@ public:
         m_fem.setDetail(m_soft[7], btFemDetail::direct);
     }
 
-    std::vector<float> run(int steps)
+    std::vector<btScalar> run(int steps)
     {
-        std::vector<float> bits;
+        std::vector<btScalar> bits;
         for (int k = 0; k < steps; ++k)
         {
             m_world.step();
             for (const btSoftBody* soft : m_soft)
             {
-                const std::vector<float> own = bitsOf(*soft);
+                const std::vector<btScalar> own = bitsOf(*soft);
                 bits.insert(bits.end(), own.begin(), own.end());
                 const btFemStepReport& report = m_fem.stepReport(soft);
-                for (const float value : {float(report.m_iterations), float(report.m_residual), float(report.m_flags)})
+                for (const btScalar value :
+                     {btScalar(report.m_iterations), report.m_residual, btScalar(report.m_flags)})
                     bits.push_back(value);
                 m_iterations.insert(report.m_iterations);
                 m_mostContacts = std::max(m_mostContacts, report.m_contacts);
@@ -83,7 +84,7 @@ class BatchedWorld : public testing::TestWithParam<Coupling>
 TEST_P(BatchedWorld, GivesTheBitsOfBodiesOneByOneForEveryNumberOfThreads)
 {
     FallingCopies alone(false, 1, GetParam());
-    const std::vector<float> bits = alone.run(60);
+    const std::vector<btScalar> bits = alone.run(60);
     EXPECT_GT(alone.m_mostContacts, 10);
     EXPECT_GE(alone.m_iterations.size(), 3u);
     for (const int threads : {1, 2, 3, 8})
