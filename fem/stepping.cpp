@@ -228,6 +228,25 @@ void finishStep(Body& body, const StepSettings& settings)
     }
 }
 
+bool canFinishStep(const Body& body)
+{
+    constexpr double kFastest = 1e12;
+    const StepScratch& scratch = body.m_workspace.scratch();
+    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
+    {
+        const Vec3 v = scratch.m_velocity[i], total = v + scratch.m_push[i];
+        if (!(dot(v, v) < kFastest * kFastest) || !(dot(total, total) < kFastest * kFastest)) return false;
+    }
+    return true;
+}
+
+void abandonStep(Body& body)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    for (std::vector<Vec3>* motion : {&body.m_state.m_v, &scratch.m_push})
+        std::fill(motion->begin(), motion->end(), Vec3());
+}
+
 SolveReport step(Body& body, const StepSettings& settings)
 {
     const SolveReport report = solveFreeMotion(body, settings);

@@ -46,11 +46,6 @@ double bodyStep(const btFemEntry& entry, double worldStep)
     return worldStep * entry.m_softBody->m_cfg.timescale;
 }
 
-bool isFinite(const std::vector<Vec3>& values)
-{
-    return std::all_of(values.begin(), values.end(), [](const Vec3& v) { return bullet_fem::isFinite(v); });
-}
-
 void clearReport(btFemEntry& entry)
 {
     btFemStepReport report;
@@ -278,12 +273,12 @@ void btFemWorldStep::noteFree(btFemEntry& entry, const FreeMotion& motion) const
 void btFemWorldStep::finish(btFemEntry& entry) const
 {
     FemSoftBody& fem = *entry.m_fem;
-    if (isFinite(velocity(fem.m_body)))
+    if (canFinishStep(fem.m_body))
         finishStep(fem.m_body, settingsOf(entry));
-    else  // no NaN may reach a node: stand still instead
+    else  // no NaN may reach a node
     {
         entry.m_report.m_flags |= BT_FEM_BREAKDOWN;
-        std::fill(fem.m_body.m_state.m_v.begin(), fem.m_body.m_state.m_v.end(), Vec3());
+        abandonStep(fem.m_body);
     }
     writeNodes(fem);
     btFemStepReport& report = entry.m_report;

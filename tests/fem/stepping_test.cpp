@@ -368,5 +368,23 @@ TEST(Guess, OfAnotherMotionDoesNoHarm)
     EXPECT_LE(largestDistance(body.m_state.m_x, other.m_state.m_x), 1e-6 * moved);
 }
 
+TEST(AbandonedStep, LeavesTheBodyWhereItIsWithoutMotion)
+{
+    constexpr double kTooFast = 1e13;  // squared, and in single precision, it still is a number
+    Body body = makeBody(makeBox({1, 1, 1}, {1, 1, 1}), elasticMaterial(1e5, 0.3));
+    const StepSettings settings;
+    solveFreeMotion(body, settings);
+    EXPECT_TRUE(canFinishStep(body));
+    std::vector<Vec3> change(body.m_state.m_x.size());
+    change[3].y = kTooFast;
+    addVelocity(body, change);
+    EXPECT_FALSE(canFinishStep(body));
+    applyPush(body, std::vector<Vec3>(change.size(), Vec3{0, 0, 1}), settings);
+    const std::vector<Vec3> before = body.m_state.m_x;
+    abandonStep(body);
+    step(body, settings);  // in which nothing of it may be left
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LE(norm(body.m_state.m_x[i] - before[i]), 1e-12) << i;
+}
+
 }  // namespace
 }  // namespace bullet_fem
