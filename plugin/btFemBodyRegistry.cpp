@@ -110,6 +110,11 @@ void btFemBodyRegistry::forget(const btSoftBody* body)
                     m_entries.end());
 }
 
+bool btFemBodyRegistry::isAsBuilt(const btFemEntry& entry)
+{
+    return !entry.m_fem || (hasMark(*entry.m_softBody, entry.m_fem->m_mark) && topologyAsSetUp(*entry.m_fem));
+}
+
 // Something else may live at the address, or nodes or tetrahedra were appended, removed, or joined otherwise: then the
 // body keeps what the user asked for it.
 void btFemBodyRegistry::lookAgain(btFemEntry& entry)

@@ -118,7 +118,7 @@ public:
     void takeFactor(btFemEntry& entry, const std::shared_ptr<const bullet_fem::BodyModel>& model);
 
     /// True if the address still holds the body that the entry was made for, uncut. The body must not be deleted.
-    bool isAsBuilt(const btFemEntry& entry) const { return !isAnotherBody(entry); }
+    static bool isAsBuilt(const btFemEntry& entry);
 
     /// The rest shape of that mark (see bullet_fem::markOf) that the body has, or gets with its present material; null
     /// if that is none of them.

@@ -27,7 +27,7 @@ void transfer(Bytes& bytes, btFemDefinition& d)
 btFemDefinition definitionOf(const btFemBodyRegistry& registry, const btSoftBody& soft)
 {
     const btFemEntry* entry = registry.find(&soft);
-    if (entry && entry->m_fem && !registry.isAsBuilt(*entry)) entry = nullptr;  // it was cut
+    if (entry && entry->m_fem && !btFemBodyRegistry::isAsBuilt(*entry)) entry = nullptr;  // it was cut
     if (entry && !entry->m_fem && entry->m_definition) return *entry->m_definition;
     btFemDefinition d;
     d.m_tets = tetsOf(soft);

@@ -37,7 +37,7 @@ std::vector<btFemEntry*> livingEntries(const btFemSnapshotScope& scope)
             reject("a step is being made; call it between steps, not from a tick callback");
         const bool held = !scope.m_worldBodies ||
                           scope.m_worldBodies->findLinearSearch(entry->m_softBody) < scope.m_worldBodies->size();
-        if (held && entry->m_fem && entry->m_softBody->getBroadphaseHandle() && scope.m_registry.isAsBuilt(*entry))
+        if (held && entry->m_fem && entry->m_softBody->getBroadphaseHandle() && btFemBodyRegistry::isAsBuilt(*entry))
             living.push_back(entry.get());
     }
     return living;

@@ -82,15 +82,6 @@ struct btFemSoftBodySolver::Impl
 namespace
 {
 
-// The masses that a density gives at rest, however the body is deformed now.
-std::vector<double> massesAtRest(const btFemEntry& entry, double density)
-{
-    const btSoftBody& body = *entry.m_softBody;
-    const bool known = entry.m_fem && !restMatricesChanged(*entry.m_fem);
-    const TetMesh mesh = known ? entry.m_fem->m_body.m_model->mesh() : tetMeshOf(body);
-    return massesOf(mesh, filledFractionsOf(body), density * massScaleOf(body));
-}
-
 // True if all rigid contact was switched off with m_cfg.collisions.
 bool ignoresRigidBodies(const btSoftBody& body)
 {
