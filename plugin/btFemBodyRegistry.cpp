@@ -72,6 +72,14 @@ void leaveToBullet(btSoftBody& body)
 
 }  // namespace
 
+std::vector<double> massesAtRest(const btFemEntry& entry, double density)
+{
+    const btSoftBody& body = *entry.m_softBody;
+    const bool known = entry.m_fem && !restMatricesChanged(*entry.m_fem);
+    const TetMesh mesh = known ? entry.m_fem->m_body.m_model->mesh() : tetMeshOf(body);
+    return massesOf(mesh, filledFractionsOf(body), density * massScaleOf(body));
+}
+
 std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
 {
     const auto isIt = [body](const auto& entry) { return entry->m_softBody == body; };

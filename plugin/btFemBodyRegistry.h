@@ -73,6 +73,10 @@ struct btFemEntry
     bool isStepped() const { return m_present && m_fem; }
 };
 
+/// The masses [kg] that a density [kg/m3] gives a body's nodes at rest, however it is deformed now. Throws
+/// std::invalid_argument on an unusable mesh.
+std::vector<double> massesAtRest(const btFemEntry& entry, double density);
+
 /// The bodies of a solver, by address. Removal from a world is silent and addresses are reused, so every step compares
 /// what is known with what the world holds.
 class btFemBodyRegistry

@@ -38,6 +38,16 @@ struct btFemHelpers
     static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,
                                  btScalar cellSize);
 
+    /// Twins for engines without exceptions: null, and the reason in `why` (null: not told) where those throw.
+    static btSoftBody* createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
+                                             btScalar scale, std::string* why);
+    static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
+                                         const bullet_fem::CageSettings& settings, std::string* why);
+    static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
+                                         const int* tets, int tetCount, std::string* why);
+    static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,
+                                 btScalar cellSize, std::string* why);
+
     /// Moves m_renderNodes with the body, as Bullet's interpolateBarycentricWeights or extrapolateBarycentricWeights
     /// have tied them to it; nothing if weights or parents are missing. The solver does so after every step.
     static void updateEmbeddedSurface(btSoftBody* body);

@@ -44,9 +44,9 @@ enum btFemFlags
                                    ///< 1.5 times off, or as btFemSolverInfo::m_refactoring says
     BT_FEM_REFACTOR_PAYS = 1 << 16,  ///< the stale factor has cost more iterations than a new one costs: refactor()
     BT_FEM_CHANGED_MESH = 1 << 19,   ///< nodes or tetrahedra were appended, removed or joined otherwise: the body was
-                                    ///< set up anew in this step, without its targets and attachments
-    BT_FEM_UNUSED_NODES = 1 << 18,  ///< no element uses some nodes: they stand still, or go where m_x is written
-    BT_FEM_BAD_INTEREST = 1 << 17   ///< its interest was NaN, taken for 1, or not in [0, 1], and clamped
+                                     ///< set up anew in this step, without its targets and attachments
+    BT_FEM_UNUSED_NODES = 1 << 18,   ///< no element uses some nodes: they stand still, or go where m_x is written
+    BT_FEM_BAD_INTEREST = 1 << 17    ///< its interest was NaN, taken for 1, or not in [0, 1], and clamped
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.

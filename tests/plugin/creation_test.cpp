@@ -236,6 +236,7 @@ TEST(Creation, UnusedNodesDoNoHarmInAnyDetailOrPrecision)
             btSoftBody& body = world.addSoft(makeWithUnusedNodes(world));
             fem.setDetail(&body, detail);
             world.step(30);
+            EXPECT_TRUE(fem.isFem(&body));
             EXPECT_TRUE(allFinite(body));
             EXPECT_NEAR(body.m_nodes[4].m_v.z(), -kGravity * 30 * kStep, 1e-3);
         }

@@ -61,10 +61,10 @@ const btScalar kNaN = std::numeric_limits<btScalar>::quiet_NaN();
 
 INSTANTIATE_TEST_SUITE_P(
     Meshes, BadMeshTest,
-    testing::Values(
-        BadMesh{"flatElement", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}, "degenerate"},
-        BadMesh{"nodeTwice", kCorners, {{0, 1, 2, 3}, {0, 1, 2, 2}}, "element 1"},
-        BadMesh{"nanAtTheStart", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, kNaN, 2}}, {{0, 1, 2, 3}}, "finite"}),
+    testing::Values(BadMesh{"flatElement", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}, "degenerate"},
+                    BadMesh{"nodeTwice", kCorners, {{0, 1, 2, 3}, {0, 1, 2, 2}}, "element 1"},
+                    BadMesh{
+                        "nanAtTheStart", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, kNaN, 2}}, {{0, 1, 2, 3}}, "finite"}),
     [](const auto& scene) { return scene.param.m_name; });
 
 TEST(Meshes, ARejectedBodyIsTriedAgainWhenItGetsAMaterial)
