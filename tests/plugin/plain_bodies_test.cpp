@@ -55,7 +55,7 @@ TEST(PlainBodies, MoveBitForBitAsWithBulletsOwnSolverBesideAFemBody)
     const std::vector<btSoftBody*> expected = addPlainBodies(plainWorld), bodies = addPlainBodies(femWorld);
     btSoftBody& cube = femWorld.addSoft(btFemHelpers::createBox(femWorld.info(), btVector3(40, 40, btScalar(0.6)),
                                                                 btVector3(0.5, 0.5, 0.5), btScalar(0.5)));
-    for (int k = 0; k < 300; ++k)
+    for (int k = 0; k < 600; ++k)
     {
         plainWorld.step();
         femWorld.step();

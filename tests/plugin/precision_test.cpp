@@ -64,7 +64,7 @@ TEST_P(Precision, aFallFarAwayHasTheDigitsThatBulletHas)
 }
 
 INSTANTIATE_TEST_SUITE_P(Couplings, Precision, testing::Values(Coupling::swap, Coupling::coupled),
-                         [](const auto& info) { return std::string(couplingName(info.param)); });
+                         [](const auto& param) { return std::string(couplingName(param.param)); });
 
 }  // namespace
 }  // namespace bullet_fem
