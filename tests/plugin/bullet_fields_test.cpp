@@ -239,7 +239,7 @@ TEST_F(BulletFields, ActivateWakesASleeperAndForcedStatesAreKept)
     m_body.setActivationState(ACTIVE_TAG);  // Bullet does not leave a DISABLE_ state but by force
     EXPECT_EQ(m_body.getActivationState(), DISABLE_DEACTIVATION);
     m_body.forceActivationState(DISABLE_SIMULATION);
-    const std::vector<float> before = bitsOf(m_body);
+    const std::vector<btScalar> before = bitsOf(m_body);
     m_world.step(30);
     EXPECT_EQ(bitsOf(m_body), before);
 }

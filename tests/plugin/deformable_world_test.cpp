@@ -28,11 +28,11 @@ TEST_F(DeformableWorldTest, clothBesideFemBodiesKeepsItsBits)
         btSoftBody& cloth = addCloth(world);  // its forces first: Bullet sums forces in their order
         if (withFem) cubes.push_back(&addCube(world, {-5, 0, 0.5}));
         for (btSoftBody* cube : cubes) addForces(world, *cube);
-        std::vector<float> bits;
+        std::vector<btScalar> bits;
         for (int k = 0; k < 200; ++k)
         {
             world.step();
-            const std::vector<float> now = bitsOf(cloth);
+            const std::vector<btScalar> now = bitsOf(cloth);
             bits.insert(bits.end(), now.begin(), now.end());
         }
         EXPECT_LT(centerOf(cloth).z, 0.2);

@@ -255,7 +255,7 @@ TEST_F(Drawing, BulletsContactArraysTellWhatOursTell)
 
 TEST_F(Drawing, BulletsContactArraysAreNotSolvedByAnybody)
 {
-    const std::vector<float> before = bitsOf(m_body);
+    const std::vector<btScalar> before = bitsOf(m_body);
     btSoftBody::PSolve_RContacts(&m_body, 1, 0);
     EXPECT_EQ(bitsOf(m_body), before);
 }

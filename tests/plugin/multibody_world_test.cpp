@@ -123,11 +123,11 @@ TEST_F(MultiBodyWorldTest, clothBesideFemBodiesKeepsItsBits)
                                                      btVector3(-1, 1, 1), btVector3(1, 1, 1), 9, 9, 0, true);
         world.addSoft(cloth);
         if (withFem) addCube(world, {5, 0, 0.5});
-        std::vector<float> bits;
+        std::vector<btScalar> bits;
         for (int k = 0; k < 120; ++k)
         {
             world.step();
-            const std::vector<float> now = bitsOf(*cloth);
+            const std::vector<btScalar> now = bitsOf(*cloth);
             bits.insert(bits.end(), now.begin(), now.end());
         }
         return bits;
@@ -152,12 +152,12 @@ TEST_F(MultiBodyWorldTest, theSameSceneHasTheSameBitsAgain)
         btSoftBody& cube = world.addSoft(makeSoftBox(world.info(), fem, box));
         cube.setVelocity(btVector3(3, 0, 0));
         world.step(60);
-        std::vector<float> bits = bitsOf(cube);
+        std::vector<btScalar> bits = bitsOf(cube);
         bits.push_back(link.m_multiBody->getJointPos(0));
         bits.push_back(link.m_multiBody->getJointVel(0));
         return bits;
     };
-    const std::vector<float> once = run(1);
+    const std::vector<btScalar> once = run(1);
     EXPECT_EQ(once, run(1));
     EXPECT_EQ(once, run(2));
 }

@@ -145,7 +145,7 @@ TEST(Pose, DoesNotBrakeAPendulum)
 
 TEST(Pose, IsIgnoredWithoutItsFrameAndForOtherNumbersOfNodes)
 {
-    std::vector<float> bits[3];
+    std::vector<btScalar> bits[3];
     for (const int k : {0, 1, 2})
     {
         btFemSoftBodySolver fem;

@@ -293,7 +293,7 @@ TEST(RestoredSnapshot, LeavesOutWhatIsGoneAndLeavesNewBodiesAlone)
     scene.m_world.step(5);
     for (btRigidBody* body : scene.m_rigid) scene.m_world.deleteRigid(*body);
     scene.m_rigid.clear();
-    const std::vector<float> before = bitsOf(late);
+    const std::vector<btScalar> before = bitsOf(late);
     scene.m_fem.restoreState(saved.m_fem.data(), saved.m_fem.size());
     EXPECT_EQ(bitsOf(late), before);
     EXPECT_LT(scene.m_fem.contacts(scene.m_soft[1]).size(), contacts);
