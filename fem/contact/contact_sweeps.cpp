@@ -99,6 +99,7 @@ void ContactRows::chooseWorkingSet()
         for (const RowEnd* end : {&m_rows[k].m_a, &m_rows[k].m_b})
             if (end->m_body >= 0) m_bodies[end->m_body].work(end->m_end);
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].startWork(); });
+    if (joined > 0) m_subspace.m_tried = false;  // more work is to be expected
     m_lifeOfSet = joined > kNews * static_cast<double>(m_working.size()) ? 1 : kLongLife;
 }
 
