@@ -4,7 +4,7 @@
 
 # What every build of this project needs. Assimp's CMake targets name zlib's library without depending on its package.
 build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libhwy-dev libtbb-dev libsuitesparse-dev libassimp-dev
-    zlib1g-dev libcli11-dev)
+    zlib1g-dev libtinyxml2-dev libcli11-dev)
 
 say() { printf '== %s\n' "$*"; }
 fail() { printf 'error: %s\n' "$*" >&2; exit 1; }

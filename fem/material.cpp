@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/material.h"
 
+#include <algorithm>
+
 #include "fem/message.h"
 
 namespace bullet_fem
@@ -39,6 +41,30 @@ Material isotropic(double youngModulus, double poissonRatio, double density)
 }
 
 }  // namespace
+
+LameModuli LameModuli::ofNeoHookean(double mu, double lambda)
+{
+    return {0.75 * mu, lambda - 0.625 * mu};
+}
+
+LameModuli& LameModuli::operator+=(const LameModuli& b)
+{
+    m_mu += b.m_mu;
+    m_lambda += b.m_lambda;
+    return *this;
+}
+
+double LameModuli::youngModulus() const
+{
+    const double lambda = std::max(0.0, m_lambda);
+    return m_mu * (3 * lambda + 2 * m_mu) / (lambda + m_mu);
+}
+
+double LameModuli::poissonRatio() const
+{
+    const double lambda = std::max(0.0, m_lambda);
+    return std::min(0.49, 0.5 * lambda / (lambda + m_mu));
+}
 
 double Material::lameLambda() const
 {

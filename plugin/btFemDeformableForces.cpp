@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/fem/material.h"
 
 using namespace bullet_fem;
 
@@ -34,9 +35,9 @@ bool isExternal(Force& force)
 
 struct Elasticity
 {
-    double m_mu = 0, m_lambda = 0;
+    LameModuli m_moduli;
     double m_massDamping = 0;
-    double m_viscosity = 0;  // stiffness damping times mu
+    double m_damping = 0;  // of stiffness: viscous over elastic moduli
 };
 
 Elasticity elasticityOf(Force& force)
@@ -46,17 +47,17 @@ Elasticity elasticityOf(Force& force)
         case BT_LINEAR_ELASTICITY_FORCE:
         {
             const auto& f = static_cast<btDeformableLinearElasticityForce&>(force);
-            return {f.m_mu, f.m_lambda, f.m_damping_alpha, double(f.m_damping_beta) * f.m_mu};
+            return {{f.m_mu, f.m_lambda}, f.m_damping_alpha, f.m_damping_beta};
         }
         case BT_NEOHOOKEAN_FORCE:
         {
             const auto& f = static_cast<btDeformableNeoHookeanForce&>(force);
-            return {f.m_mu, f.m_lambda, 0, f.m_mu_damp};
+            return {LameModuli::ofNeoHookean(f.m_mu, f.m_lambda), 0, f.m_mu > 0 ? f.m_mu_damp / double(f.m_mu) : 0};
         }
         case BT_COROTATED_FORCE:
         {
             const auto& f = static_cast<btDeformableCorotatedForce&>(force);
-            return {f.m_mu, f.m_lambda, 0, 0};
+            return {{f.m_mu, f.m_lambda}, 0, 0};
         }
         default:
             return {};
@@ -82,26 +83,25 @@ bool btFemForceMaterial::operator==(const btFemForceMaterial& b) const
 
 btFemForceMaterial btFemDeformableForces::materialOf(const btSoftBody& body) const
 {
-    Elasticity sum;
+    LameModuli sum;
+    double massDamping = 0, viscosity = 0;
     btFemForceMaterial result;
     for (int k = 0; k < m_all.size(); ++k)
     {
         if (!isElastic(*m_all[k]) || !holds(m_all[k]->m_softBodies, &body)) continue;
         const Elasticity part = elasticityOf(*m_all[k]);
-        sum.m_mu += part.m_mu;
-        sum.m_lambda += part.m_lambda;
-        sum.m_massDamping += part.m_massDamping;
-        sum.m_viscosity += part.m_viscosity;
+        sum += part.m_moduli;
+        massDamping += part.m_massDamping;
+        viscosity += part.m_damping * part.m_moduli.m_mu;
         result.m_given = true;
     }
     if (!result.m_given) return result;
-    const double both = sum.m_lambda + sum.m_mu;
     btFemMaterial& material = result.m_material;
-    material.m_youngModulus = static_cast<btScalar>(sum.m_mu * (3 * sum.m_lambda + 2 * sum.m_mu) / both);
-    material.m_poissonRatio = std::min(btScalar(0.49), static_cast<btScalar>(std::max(0.0, 0.5 * sum.m_lambda / both)));
+    material.m_youngModulus = static_cast<btScalar>(sum.youngModulus());
+    material.m_poissonRatio = static_cast<btScalar>(sum.poissonRatio());
     material.m_density = 0;
-    material.m_massDamping = static_cast<btScalar>(sum.m_massDamping);
-    material.m_stiffnessDamping = static_cast<btScalar>(sum.m_viscosity / sum.m_mu);
+    material.m_massDamping = static_cast<btScalar>(massDamping);
+    material.m_stiffnessDamping = static_cast<btScalar>(viscosity / sum.m_mu);
     return result;
 }
 

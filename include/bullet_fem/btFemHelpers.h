@@ -9,6 +9,7 @@
 #include "bullet_fem/fem/cage.h"
 
 class btSoftBody;
+struct btFemMaterial;
 struct btSoftBodyWorldInfo;
 
 /// Makes tetrahedral soft bodies. All have water's density (1000 kg/m3) until setMaterial says otherwise, outward
@@ -25,6 +26,13 @@ struct btFemHelpers
     /// The same from a surface in memory.
     static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
                                          const bullet_fem::CageSettings& settings);
+
+    /// As the first `<deformable>` of a URDF file says, which is how pybullet loads soft bodies: mesh of tetrahedra,
+    /// mass, friction, margin, gravity factor, and the surface to draw as m_renderNodes. `material` takes Young's
+    /// modulus, Poisson's ratio and damping from the file, if it gives moduli, and density 0, so that the mass stays
+    /// the file's: hand it to setMaterial. `scale` [-], > 0, multiplies positions. Place it with translate and rotate.
+    static btSoftBody* createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
+                                      btScalar scale = btScalar(1));
 
     /// From a tetrahedral mesh, in the order of its nodes and elements.
     static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh);
@@ -43,6 +51,8 @@ struct btFemHelpers
                                              btScalar scale, std::string* why);
     static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
                                          const bullet_fem::CageSettings& settings, std::string* why);
+    static btSoftBody* createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
+                                      btScalar scale, std::string* why);
     static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
                                          const int* tets, int tetCount, std::string* why);
     static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,

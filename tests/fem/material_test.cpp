@@ -31,6 +31,28 @@ TEST(Material, LameConstantsByHand)
     EXPECT_DOUBLE_EQ(material.lameMu(), 130);
 }
 
+TEST(LameModuli, AreThoseThatTheMaterialHas)
+{
+    Material material;
+    for (const double poisson : {0.0, 0.2, 0.45})
+    {
+        material.m_poissonRatio = poisson;
+        const LameModuli moduli = {material.lameMu(), material.lameLambda()};
+        EXPECT_NEAR(moduli.youngModulus(), 1e6, 1e-6);
+        EXPECT_NEAR(moduli.poissonRatio(), poisson, 1e-12);
+    }
+}
+
+TEST(LameModuli, OfANeoHookeanLawStayInWhatAMaterialMayHave)
+{
+    const LameModuli soft = LameModuli::ofNeoHookean(400, 100), stiff = LameModuli::ofNeoHookean(1, 1e9);
+    EXPECT_DOUBLE_EQ(soft.m_mu, 300);
+    EXPECT_DOUBLE_EQ(soft.m_lambda, -150);
+    EXPECT_DOUBLE_EQ(soft.poissonRatio(), 0);
+    EXPECT_DOUBLE_EQ(soft.youngModulus(), 600);  // 2 mu: the shear modulus stays
+    EXPECT_DOUBLE_EQ(stiff.poissonRatio(), 0.49);
+}
+
 TEST(Material, DefaultAndPresetsAreValidAndDiffer)
 {
     const std::vector<Material> all = {Material(),        Material::rubber(), Material::foam(),
