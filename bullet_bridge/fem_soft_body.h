@@ -25,7 +25,7 @@ struct ContactOrigin
     const btCollisionObject* m_object = nullptr;
     int m_objectId = 0;   ///< broadphase id; orders the contacts
     int m_leaf = 0;       ///< leaf of the object's shape
-    int m_feature = 0;    ///< surface node; beyond those edges, triangles, and nearest points of triangles
+    int m_feature = 0;    ///< surface node; then of every edge its middle and nearest point, then of every triangle
     int m_part = -1;      ///< Bullet's number of a mesh's part; -1: not a mesh
     int m_triangle = -1;  ///< and of a triangle in it
 

@@ -199,9 +199,9 @@ void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
         if (overOneFace(fem, a, b) || !isNear(target, {x[a], x[b], x[a]})) continue;
         SurfaceDistance d;
         fem.m_edgeGap[k] = gapAt(fem, target, {a, b, a}, {0.5, 0.5, 0}, d);
-        if (fem.m_edgeGap[k] < kNotNear) consider(fem, target, firstFeature + k, {a, b, a}, d);
+        if (fem.m_edgeGap[k] < kNotNear) consider(fem, target, firstFeature + 2 * k, {a, b, a}, d);
         const double nearest = std::min({fem.m_edgeGap[k], fem.m_nodeGap[a], fem.m_nodeGap[b]});
-        fem.m_edgeGap[k] = considerNearest(fem, target, firstFeature + edgeCount + k, {a, b, a}, nearest);
+        fem.m_edgeGap[k] = considerNearest(fem, target, firstFeature + 2 * k + 1, {a, b, a}, nearest);
     }
 }
 
@@ -218,11 +218,11 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
         if (!isNear(target, {x[t[0]], x[t[1]], x[t[2]]})) continue;
         SurfaceDistance d;
         double nearest = gapAt(fem, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
-        if (nearest < kNotNear) consider(fem, target, firstFeature + k, t, d);
+        if (nearest < kNotNear) consider(fem, target, firstFeature + 2 * k, t, d);
         for (int a = 0; a < 3; ++a)
             nearest =
                 std::min({nearest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
-        considerNearest(fem, target, firstFeature + triangleCount + k, t, nearest);
+        considerNearest(fem, target, firstFeature + 2 * k + 1, t, nearest);
     }
 }
 
@@ -318,8 +318,8 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     return &m_contacts.back();
 }
 
-// Both lists ascend. Of several contacts of a feature with a leaf, the one before is that of the most similar normal
-// and place.
+// Both lists ascend, as the features were searched. Of several contacts of a feature with a leaf, the one before is
+// that of the most similar normal and place.
 void ContactFinder::takeOverImpulses(const FemSoftBody& fem)
 {
     m_continued.assign(fem.m_origins.size(), 0);

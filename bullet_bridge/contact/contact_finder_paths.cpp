@@ -48,16 +48,16 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
     const PathSearch search = {fem, target, swept, speed + spin};
     for (int i : mesh.surfaceNodes()) fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
     const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
-    int firstFeature = mesh.nodeCount() + edgeCount;  // ids are those of nearest points
+    int firstFeature = mesh.nodeCount() + 1;  // ids are those of nearest points
     for (int k = 0; k < edgeCount; ++k)
     {
         const auto [a, b] = fem.m_surface.features().m_edges[k];
         fem.m_edgeGap[k] = std::min(fem.m_nodeGap[a], fem.m_nodeGap[b]);
         if (!overOneFace(fem, a, b))
-            fem.m_edgeGap[k] = considerPath(search, firstFeature + k, {a, b, a}, fem.m_edgeGap[k]);
+            fem.m_edgeGap[k] = considerPath(search, firstFeature + 2 * k, {a, b, a}, fem.m_edgeGap[k]);
     }
     const int triangleCount = static_cast<int>(mesh.surface().size());
-    firstFeature += edgeCount + triangleCount;
+    firstFeature += 2 * edgeCount;
     for (int k = 0; k < triangleCount; ++k)
     {
         const Triangle& t = mesh.surface()[k];
@@ -66,7 +66,7 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
         for (int a = 0; a < 3; ++a)
             earliest = std::min(
                 {earliest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
-        considerPath(search, firstFeature + k, t, earliest);
+        considerPath(search, firstFeature + 2 * k, t, earliest);
     }
     return true;
 }

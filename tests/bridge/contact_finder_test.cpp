@@ -115,6 +115,33 @@ TEST_F(ContactFinderTest, impulsesOfTheLastStepAreTakenOver)
     for (const ContactPoint& c : m_fem.m_contacts) EXPECT_EQ(c.m_impulse.y, c.m_soft.m_nodes[0] == node ? 2 : 0);
 }
 
+TEST_F(ContactFinderTest, impulsesOfAllKindsOfPointsAreTakenOver)
+{
+    // A tilted box that is sunk in at one corner: nodes, middles and nearest points of edges and triangles.
+    btBoxShape box(btVector3(1, 1, 1) * btScalar(0.4));
+    m_ball.setCollisionShape(&box);
+    m_ball.getWorldTransform().setRotation(btQuaternion(btScalar(0.3), btScalar(0.2), btScalar(0.1)));
+    m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.43), btScalar(0.37), btScalar(-0.35)));
+    const std::size_t count = find(m_ball).size();
+    const int nodes = m_fem.m_body.m_model->nodeCount();
+    const int edges = static_cast<int>(m_fem.m_surface.features().m_edges.size());
+    ASSERT_GT(
+        std::count_if(m_fem.m_origins.begin(), m_fem.m_origins.end(),
+                      [=](const ContactOrigin& o) { return o.m_feature >= nodes && o.m_feature < nodes + 2 * edges; }),
+        5);
+    EXPECT_TRUE(std::is_sorted(m_fem.m_origins.begin(), m_fem.m_origins.end()));
+    for (std::size_t k = 0; k < count; ++k)
+    {
+        m_fem.m_contacts[k].m_impulse = {1, 2.0 + k, 3};
+        m_fem.m_contacts[k].m_slip = {2.0 + k, 0, 0};
+    }
+    ASSERT_EQ(find(m_ball).size(), count);
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < count; ++k)
+        found += m_fem.m_contacts[k].m_impulse.y == 2.0 + k && m_fem.m_contacts[k].m_slip.x == 2.0 + k;
+    EXPECT_EQ(found, count);
+}
+
 TEST_F(ContactFinderTest, theDeepestAreKeptWhereThereAreTooMany)
 {
     Vec3& deep = m_fem.m_body.m_state.m_x[4];
