@@ -20,9 +20,14 @@ constexpr btScalar kRigidResidual =
 
 btFemConstraintSolver::btFemConstraintSolver(btFemSoftBodySolver* fem) : m_fem(fem)
 {
-    if (!fem)
-        throw std::invalid_argument(
-            "btFemConstraintSolver: the FEM solver is null; give the btFemSoftBodySolver of the world");
+    std::string why;
+    if (!valid(fem, &why)) throw std::invalid_argument("btFemConstraintSolver: " + why);
+}
+
+bool btFemConstraintSolver::valid(const btFemSoftBodySolver* fem, std::string* why)
+{
+    if (!fem && why) *why = "the FEM solver is null; give the btFemSoftBodySolver of the world";
+    return fem != nullptr;
 }
 
 btScalar btFemConstraintSolver::solveGroup(btCollisionObject** bodies, int numBodies, btPersistentManifold** manifolds,

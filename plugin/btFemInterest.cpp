@@ -39,10 +39,17 @@ bool btFemDetailPolicy::valid(std::string* why) const
 btFemViewerInterest::btFemViewerInterest(btScalar nearDistance, btScalar farDistance)
     : m_near(nearDistance), m_far(farDistance)
 {
-    if (!(m_near >= 0 && m_near < m_far && std::isfinite(m_far)))
-        throw std::invalid_argument("btFemViewerInterest: distances " + std::to_string(m_near) + " and " +
-                                    std::to_string(m_far) +
-                                    " m are not finite with 0 <= near < far; 10 and 100 are usual");
+    std::string why;
+    if (!valid(nearDistance, farDistance, &why)) throw std::invalid_argument("btFemViewerInterest: " + why);
+}
+
+bool btFemViewerInterest::valid(btScalar nearDistance, btScalar farDistance, std::string* why)
+{
+    const bool good = nearDistance >= 0 && nearDistance < farDistance && std::isfinite(farDistance);
+    if (!good && why)
+        *why = "distances " + std::to_string(nearDistance) + " and " + std::to_string(farDistance) +
+               " m are not finite with 0 <= near < far; 10 and 100 are usual";
+    return good;
 }
 
 btScalar btFemViewerInterest::interest(const btSoftBody& body)

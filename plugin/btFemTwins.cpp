@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // For engines without exceptions.
+#include "bullet_fem/btFemDebugDraw.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/tet_mesh.h"
@@ -109,6 +110,14 @@ btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, cons
     return body;
 }
 
+btSoftBody* btFemHelpers::createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh,
+                                            std::string* why)
+{
+    btSoftBody* body = nullptr;
+    succeeds([&] { body = createFromTetMesh(worldInfo, mesh); }, why);
+    return body;
+}
+
 btSoftBody* btFemHelpers::createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
                                             const int* tets, int tetCount, std::string* why)
 {
@@ -123,4 +132,10 @@ btSoftBody* btFemHelpers::createBox(btSoftBodyWorldInfo& worldInfo, const btVect
     btSoftBody* body = nullptr;
     succeeds([&] { body = createBox(worldInfo, center, halfExtents, cellSize); }, why);
     return body;
+}
+
+bool btFemDebugDraw::draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,
+                          const btFemDrawSettings& settings, std::string* why)
+{
+    return succeeds([&] { draw(fem, body, drawer, modes, settings); }, why);
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h"
@@ -24,6 +25,9 @@ class btFemConstraintSolver : public btSequentialImpulseConstraintSolver
 public:
     /// `fem` must be the world's soft body solver and outlive this one. Throws std::invalid_argument if it is null.
     explicit btFemConstraintSolver(btFemSoftBodySolver* fem);
+
+    /// True if the constructor takes it; else `why` (if given) has its message. For engines without exceptions.
+    static bool valid(const btFemSoftBodySolver* fem, std::string* why = nullptr);
 
     /// Called by the world: as in Bullet.
     btScalar solveGroup(btCollisionObject** bodies, int numBodies, btPersistentManifold** manifolds, int numManifolds,

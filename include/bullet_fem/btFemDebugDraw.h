@@ -44,4 +44,7 @@ struct btFemDebugDraw
     /// std::invalid_argument if !settings.valid().
     static void draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,
                      const btFemDrawSettings& settings = btFemDrawSettings());
+    /// The same for engines without exceptions: false and the reason in `why` (if given) where the other throws.
+    static bool draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,
+                     const btFemDrawSettings& settings, std::string* why);
 };

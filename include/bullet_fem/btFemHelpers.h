@@ -53,6 +53,8 @@ struct btFemHelpers
                                          const bullet_fem::CageSettings& settings, std::string* why);
     static btSoftBody* createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
                                       btScalar scale, std::string* why);
+    static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh,
+                                         std::string* why);
     static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
                                          const int* tets, int tetCount, std::string* why);
     static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,

@@ -48,6 +48,9 @@ public:
     /// Distances [m], finite, 0 <= near < far. Throws std::invalid_argument otherwise.
     btFemViewerInterest(btScalar nearDistance, btScalar farDistance);
 
+    /// True if the constructor takes them; else `why` (if given) has its message. For engines without exceptions.
+    static bool valid(btScalar nearDistance, btScalar farDistance, std::string* why = nullptr);
+
     /// Where the viewer is, world [m]; the origin unless called. One that is not finite makes the interest NaN.
     void setViewer(const btVector3& position) { m_viewer = position; }
 

@@ -9,10 +9,13 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_fem/btFemDebugDraw.h"
 #include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemInterest.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/cage.h"
 #include "bullet_fem/fem/surface_mesh.h"
+#include "bullet_fem/fem/tet_mesh.h"
 #include "plugin/soft_world.h"
 
 #ifdef __cpp_exceptions
@@ -107,6 +110,8 @@ TEST_F(Twins, OfHelpersGiveNull)
     expectRefused([&](std::string* why)
                   { return isMade(btFemHelpers::createFromTetMesh(info, nullptr, 0, nullptr, 0, why)); },
                   "nodes");
+    expectRefused([&](std::string* why) { return isMade(btFemHelpers::createFromTetMesh(info, TetMesh(), why)); },
+                  "empty");
     expectRefused([&](std::string* why)
                   { return isMade(btFemHelpers::createFromSurface(info, SurfaceMesh(), CageSettings(), why)); },
                   "");
@@ -115,6 +120,29 @@ TEST_F(Twins, OfHelpersGiveNull)
                   { return isMade(btFemHelpers::createFromSurfaceFile(info, "missing.off", 1, 1, why)); },
                   "missing.off");
 #endif
+}
+
+TEST_F(Twins, OfConstructorsTellWhyBeforehand)
+{
+    expectRefused([&](std::string* why) { return btFemConstraintSolver::valid(nullptr, why); }, "null");
+    expectDone([&](std::string* why) { return btFemConstraintSolver::valid(&m_fem, why); });
+    expectRefused([&](std::string* why) { return btFemViewerInterest::valid(10, 5, why); }, "near < far");
+    expectRefused([&](std::string* why) { return btFemViewerInterest::valid(kNaN, 5, why); }, "nan");
+    expectRefused([&](std::string* why) { return btFemViewerInterest::valid(0, 1 / btScalar(0), why); }, "inf");
+    expectDone([&](std::string* why) { return btFemViewerInterest::valid(10, 100, why); });
+    btFemSolverInfo info;
+    info.m_threads = -1;
+    expectRefused([&](std::string* why) { return info.valid(why); }, "-1");
+}
+
+TEST_F(Twins, OfDrawingTellWhy)
+{
+    btFemDrawSettings settings;
+    const auto draw = [&](std::string* why)
+    { return btFemDebugDraw::draw(m_fem, &m_cube, nullptr, BT_FEM_DRAW_ELEMENTS, settings, why); };
+    expectDone(draw);
+    settings.m_shrink = 0;
+    expectRefused(draw, "m_shrink");
 }
 
 TEST_F(Twins, DoWhatTheCallsDo)
