@@ -12,7 +12,7 @@
 #include "bullet_bridge/body_mark.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/node_exchange.h"
-#include "bullet_bridge/shapes/concave_dispatch.h"
+#include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "fem/body_snapshot.h"
 #include "plugin/btFemContactTest.h"
@@ -210,7 +210,7 @@ void btFemBodyRegistry::registerWithDispatcher(btSoftBody& body) const
 {
     if (!body.m_worldInfo) return;
     btDispatcher* dispatcher = body.m_worldInfo->m_dispatcher;
-    dispatchConcaveShapesOnce(dispatcher);
+    dispatchRigidShapes(dispatcher);
     if (m_showsManifolds) btFemManifolds::showIn(dispatcher);
     answerContactTests(dispatcher);
     renewAlgorithms(body);  // what it overlapped before it was FEM has Bullet's

@@ -11,6 +11,7 @@
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodyConcaveCollisionAlgorithm.h"
+#include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemPair.h"
 #include "plugin/btFemTouches.h"
@@ -112,6 +113,8 @@ btFemPairAlgorithm::~btFemPairAlgorithm()
 {
     m_manifolds->remove(this);
     release();
+    auto* soft = const_cast<btSoftBody*>(btSoftBody::upcast(m_objects.m_second));
+    if (!btSoftBody::upcast(m_objects.m_first)) bullet_fem::removeContactsWith(m_objects.m_first, *soft);
 }
 
 void btFemPairAlgorithm::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,

@@ -89,7 +89,8 @@ struct btFemContact
     btVector3 m_impulse;           ///< on this body: normal and friction [N s]; the other body got the opposite
     btScalar m_normalImpulse = 0;  ///< its part along m_normal [N s], >= 0
     btVector3 m_frictionImpulse;   ///< its other part, in the tangent plane [N s]
-    const btCollisionObject* m_other = nullptr;  ///< the body itself for self contact
+    const btCollisionObject* m_other = nullptr;  ///< the body itself for self contact; deleted since, it is one to
+                                                 ///< compare, never to follow
     int m_part = -1, m_index = -1;  ///< the part and triangle of a mesh, as Bullet numbers them: of a height field 2
                                     ///< column (+ 1 for a cell's second) and row; -1 for other shapes and soft bodies
     int m_nodes[3] = {0, 0, 0};     ///< nodes of this body that carry the point; unused ones repeat

@@ -104,8 +104,9 @@ struct btFemSolverInfo
 ///
 /// Bullet's m_rcontacts and m_faceRigidContacts tell what a body touches: contacts() with rigid objects that carry an
 /// impulse or have no gap, with the nearest node, and with the face that has the point. Valid until the next step;
-/// empty while the body is not active. Nobody solves them. Its m_fdbvt serves Bullet's rayTest; the boxes in it do not
-/// tell where faces are.
+/// empty while the body is not active, and from when it leaves the world (if its m_worldInfo has the world's
+/// dispatcher; contacts with another object that leaves go likewise). Nobody solves them. Its m_fdbvt serves Bullet's
+/// rayTest; the boxes in it do not tell where faces are.
 ///
 /// Bodies are known by address and by a mark that they get when they are first stepped or prepared, in a field of their
 /// first tetrahedron that Bullet 3.24 does not use (m_tetras[0].m_c0; cages also use m_c1 and m_c2 of all). What is set

@@ -59,6 +59,17 @@ TEST_F(DeformableWorldTest, clothFallsThroughFemBodiesAndLeavesThemAlone)
     EXPECT_TRUE(cube.m_cfg.collisions & btSoftBody::fCollision::VF_DD);
 }
 
+TEST_F(DeformableWorldTest, bodiesThatLeaveTheWorldLeaveTheirContacts)
+{
+    m_world.addFloorBox();
+    btSoftBody& cube = addCube(m_world, {0, 0, 0.2});
+    addForces(m_world, cube);
+    m_world.step(10);
+    ASSERT_GT(cube.m_rcontacts.size(), 0);
+    m_world.world().removeSoftBody(&cube);
+    EXPECT_EQ(cube.m_rcontacts.size() + cube.m_faceRigidContacts.size(), 0);
+}
+
 TEST_F(DeformableWorldTest, bodiesWithoutAnElasticForceStayBullets)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});

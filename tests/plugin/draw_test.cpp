@@ -290,6 +290,45 @@ TEST_F(Drawing, BulletsContactArraysAreEmptyWhenTheBodyLiftsOffOrComesBack)
     EXPECT_EQ(m_body.m_rcontacts.size() + m_body.m_faceRigidContacts.size(), 0);
 }
 
+// What touched a body that left its world may be deleted, and its arrays are never looked at again.
+TEST_F(Drawing, BulletsContactArraysAreEmptyWhenTheBodyHasLeftTheWorld)
+{
+    ASSERT_GT(m_body.m_rcontacts.size(), 0);
+    m_world.world().removeSoftBody(&m_body);
+    EXPECT_EQ(m_body.m_rcontacts.size() + m_body.m_faceRigidContacts.size(), 0);
+    m_world.deleteRigid(m_floor);
+    for (int stepped = 0; stepped < 2; ++stepped)
+    {
+        Recorder contacts;
+        btSoftBodyHelpers::Draw(&m_body, &contacts, fDrawFlags::Contacts);
+        EXPECT_TRUE(contacts.m_lines.empty());
+        EXPECT_TRUE(drawn(BT_FEM_DRAW_CONTACTS).allFinite());
+        m_world.step();
+    }
+    EXPECT_TRUE(drawn(~0).m_lines.empty());
+}
+
+TEST_F(Drawing, BulletsContactArraysKeepWhatIsStillThereWhenAnObjectLeaves)
+{
+    RigidSettings settings;
+    settings.m_transform.setOrigin(btVector3(btScalar(0.2), btScalar(0.2), btScalar(1.05)));
+    btRigidBody& lid = m_world.addRigid(new btBoxShape(btVector3(1, 1, 1) * btScalar(0.1)), settings);
+    m_world.step(2);
+    const auto with = [this](const btCollisionObject& object)
+    {
+        int count = 0;
+        for (int k = 0; k < m_body.m_rcontacts.size(); ++k) count += m_body.m_rcontacts[k].m_cti.m_colObj == &object;
+        return count;
+    };
+    const int withLid = with(lid), withFloor = with(m_floor);
+    ASSERT_GT(withLid, 0);
+    ASSERT_GT(withFloor, 0);
+    m_world.deleteRigid(m_floor);
+    EXPECT_EQ(m_body.m_rcontacts.size(), withLid);
+    EXPECT_EQ(m_body.m_faceRigidContacts.size(), withLid);
+    EXPECT_EQ(with(lid), withLid);
+}
+
 // A rigid body that a tick callback deletes within the step is not to be found in them.
 TEST(BulletsContactArrays, HaveNoObjectThatATickCallbackDeleted)
 {

@@ -92,6 +92,13 @@ TEST(ManifoldsAreOff, UnlessAskedFor)
     EXPECT_EQ(countOf(world), 0);
 }
 
+TEST_F(Manifolds, LeaveBulletsContactArraysWithTheBody)
+{
+    ASSERT_GT(m_cube->m_rcontacts.size(), 0);
+    m_world.world().removeSoftBody(m_cube);
+    EXPECT_EQ(m_cube->m_rcontacts.size() + m_cube->m_faceRigidContacts.size(), 0);
+}
+
 TEST_F(Manifolds, HaveTheRigidBodyFirstAndAreLeftAloneByTheRigidSolver)
 {
     EXPECT_EQ(countOf(m_world), 1);

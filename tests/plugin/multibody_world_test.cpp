@@ -14,6 +14,27 @@ namespace bullet_fem
 namespace
 {
 
+TEST_F(MultiBodyWorldTest, bodiesThatLeaveTheWorldLeaveTheirContacts)
+{
+    MultiBodyWorld world(m_fem);
+    btMultiBodyLinkCollider& slider = addSlider(world, 1, {0, 0, 1}, {1, 1, btScalar(0.1)}, {0, 0, btScalar(0.5)});
+    btSoftBody& cube = addCube(world, {0, 0, 0.2});
+    RigidSettings floor;
+    floor.m_transform = at(0, 0, -1);
+    world.addRigid(new btBoxShape({50, 50, 1}), floor);
+    world.step(10);
+    const auto with = [&](const btCollisionObject* object)
+    {
+        int count = 0;
+        for (int k = 0; k < cube.m_rcontacts.size(); ++k) count += cube.m_rcontacts[k].m_cti.m_colObj == object;
+        return count;
+    };
+    ASSERT_GT(with(&slider), 0);
+    ASSERT_GT(cube.m_rcontacts.size(), with(&slider));
+    world.world().removeSoftBody(&cube);
+    EXPECT_EQ(cube.m_rcontacts.size() + cube.m_faceRigidContacts.size(), 0);
+}
+
 TEST_F(MultiBodyWorldTest, aMotorCarriesTheWeightOfACubeOnItsLink)
 {
     MultiBodyWorld world(m_fem);
