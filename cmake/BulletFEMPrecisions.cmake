@@ -79,6 +79,8 @@ function(bulletfem_bullet_test name)
     foreach(precision IN LISTS BULLETFEM_PRECISIONS)
         set(suffix "${BULLETFEM_SUFFIX_${precision}}")
         bulletfem_in_precision(libs "${suffix}" ${ARG_LIBS})
-        bulletfem_test(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS} LIBS ${libs} LABEL ${ARG_LABEL} SUFFIX "${suffix}")
+        bulletfem_test(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS} LIBS ${libs} LABEL ${ARG_LABEL} SUFFIX "${suffix}"
+            KIND -bullet PRECOMPILE <BulletSoftBody/btSoftBody.h> <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+                <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h> <btBulletDynamicsCommon.h>)
     endforeach()
 endfunction()
