@@ -2,9 +2,9 @@
 # shellcheck shell=bash disable=SC2034
 # Sourced by demos/run.sh and tests/run.sh: Debian packages, installed only if they are missing.
 
-# What every build of this project needs. Assimp's CMake targets name zlib's library without depending on its package.
+# What every build of this project needs.
 build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libhwy-dev libtbb-dev libsuitesparse-dev libassimp-dev
-    zlib1g-dev libtinyxml2-dev libcli11-dev)
+    libtinyxml2-dev zlib1g-dev libcli11-dev)
 
 say() { printf '== %s\n' "$*"; }
 fail() { printf 'error: %s\n' "$*" >&2; exit 1; }

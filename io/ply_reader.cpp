@@ -6,9 +6,9 @@
 #include <array>
 #include <climits>
 #include <cstdint>
-#include <cstring>
 
 #include "fem/message.h"
+#include "io/binary_number.h"
 #include "io/number_text.h"
 #include "io/polygon_mesh.h"
 
@@ -22,17 +22,6 @@ enum class Encoding
     text,
     littleEndian,
     bigEndian
-};
-
-struct NumberType
-{
-    enum Kind
-    {
-        signedInteger,
-        unsignedInteger,
-        floating
-    } kind;
-    int size;  ///< [bytes]
 };
 
 struct Property
@@ -155,33 +144,10 @@ private:
     {
         const auto size = static_cast<std::size_t>(type.size);
         if (m_rest.size() < size) throw std::runtime_error("the file ends too early");
-        std::uint64_t bits = 0;
-        for (std::size_t i = 0; i < size; ++i)
-        {
-            const std::size_t from = m_encoding == Encoding::bigEndian ? i : size - 1 - i;
-            bits = bits << 8 | static_cast<unsigned char>(m_rest[from]);
-        }
+        const ByteOrder order = m_encoding == Encoding::bigEndian ? ByteOrder::big : ByteOrder::little;
+        const std::uint64_t bits = readBits(m_rest.data(), size, order);
         m_rest.remove_prefix(size);
-        return toNumber(bits, type);
-    }
-    static double toNumber(std::uint64_t bits, NumberType type)
-    {
-        if (type.kind == NumberType::floating && type.size == 8)
-        {
-            double value;
-            std::memcpy(&value, &bits, sizeof value);
-            return value;
-        }
-        if (type.kind == NumberType::floating)
-        {
-            const auto bits32 = static_cast<std::uint32_t>(bits);
-            float value;
-            std::memcpy(&value, &bits32, sizeof value);
-            return value;
-        }
-        const double modulus = static_cast<double>(std::uint64_t{1} << 8 * type.size);
-        const auto value = static_cast<double>(bits);
-        return type.kind == NumberType::signedInteger && value >= modulus / 2 ? value - modulus : value;
+        return doubleFromBits(bits, type);
     }
 
     std::string_view m_rest;

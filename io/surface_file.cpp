@@ -6,13 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <unordered_map>
 
 #include "fem/message.h"
+#include "io/file_bytes.h"
 #include "io/polygon_mesh.h"
 #include "io/triangulate.h"
 
@@ -21,26 +19,9 @@ namespace bullet_fem
 namespace
 {
 
-std::string lowerCaseEnding(const std::string& path)
-{
-    std::string ending = std::filesystem::path(path).extension().string();
-    for (char& c : ending)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return ending;
-}
-
-std::string readBytes(const std::string& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes(std::istreambuf_iterator<char>(file), {});
-    if (!file || file.bad()) throw std::runtime_error("the file cannot be opened or read; check its permissions");
-    return bytes;
-}
-
 PolygonMesh readPolygons(const std::string& path)
 {
-    if (!std::filesystem::exists(path)) throw std::runtime_error("there is no such file");
-    if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("it is a directory or device, not a file");
+    checkIsFile(path);
     const std::string ending = lowerCaseEnding(path);
     if (ending == ".off") return readOff(readBytes(path));
     if (ending == ".ply") return readPly(readBytes(path));

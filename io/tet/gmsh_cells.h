@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <string>
+
+#include "io/tet/cell_kind.h"
+
+namespace bullet_fem
+{
+
+/// A Gmsh element type.
+struct GmshCell
+{
+    CellKind kind;
+    int nodes;         ///< of each element; 0 if refused
+    std::string name;  ///< with its article, if refused
+};
+
+/// The type of a number in the element sections, by Gmsh's list (GmshDefines.h).
+GmshCell gmshCell(int type);
+
+}  // namespace bullet_fem

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "io/tet/gmsh_sections.h"
+
+#include "fem/message.h"
+#include "io/tet/gmsh_cells.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr const char* kNodeTag = "a node tag";
+constexpr const char* kElementType = "an element type";
+
+/// The type of a number; fails on cells that are not read.
+GmshCell cellOf(int type, const MeshScanner& scanner)
+{
+    const GmshCell cell = gmshCell(type);
+    if (cell.kind == CellKind::refused) scanner.fail(refusalOf(cell.name));
+    return cell;
+}
+
+/// A count in a line of its own, which is text in binary files, too.
+std::uint64_t readCountLine(MeshScanner& scanner, const char* what)
+{
+    const auto count = scanner.text<std::uint64_t>(what);
+    scanner.restOfLine();
+    return count;
+}
+
+/// The nodes of an element, whose tags have `tagBytes` bytes in binary files.
+template <class Tag>
+void readElementNodes(GmshFile& file, const GmshCell& cell, int tagBytes)
+{
+    if (cell.kind == CellKind::tet)
+    {
+        Tet tet;
+        for (int& place : tet)
+            place = placeOfGmshNode(file, static_cast<std::uint64_t>(file.scanner.get<Tag>(kNodeTag, tagBytes)));
+        file.mesh.m_tets.push_back(tet);
+        return;
+    }
+    for (int i = 0; i < cell.nodes; ++i) file.scanner.get<Tag>(kNodeTag, tagBytes);
+    countSkipped(file.mesh, cell.kind, 1);
+}
+
+void readTextElements2(GmshFile& file, std::uint64_t count)
+{
+    MeshScanner& scanner = file.scanner;
+    for (std::uint64_t e = 0; e < count; ++e)
+    {
+        scanner.text<std::int64_t>("an element number");
+        const GmshCell cell = cellOf(scanner.text<int>(kElementType), scanner);
+        const auto tagCount = scanner.text<std::uint64_t>("a number of tags");
+        scanner.need(tagCount, 1, 4, "element tags");
+        for (std::uint64_t i = 0; i < tagCount; ++i) scanner.text<std::int64_t>("an element tag");
+        readElementNodes<std::int32_t>(file, cell, 4);
+    }
+}
+
+void readBinaryElements2(GmshFile& file, std::uint64_t count)
+{
+    MeshScanner& scanner = file.scanner;
+    for (std::uint64_t done = 0; done < count;)
+    {
+        const GmshCell cell = cellOf(scanner.get<std::int32_t>(kElementType), scanner);
+        const auto blockCount = scanner.get<std::uint32_t>("a number of elements");
+        const auto tagCount = scanner.get<std::uint32_t>("a number of tags");
+        if (blockCount == 0 || blockCount > count - done)
+            scanner.fail(message("a block of ", blockCount, " elements where ", count - done, " are left"));
+        scanner.need(blockCount, std::uint64_t{1} + tagCount + static_cast<unsigned>(cell.nodes), 4, "elements");
+        for (std::uint32_t e = 0; e < blockCount; ++e)
+        {
+            scanner.skipBytes(4 + 4 * std::uint64_t{tagCount}, "an element's number and tags");
+            readElementNodes<std::int32_t>(file, cell, 4);
+        }
+        done += blockCount;
+    }
+}
+
+/// The four numbers that open a section of version 4.1, of which the last two are the least and the largest tag.
+struct BlockHeader
+{
+    std::uint64_t blocks, items;
+};
+
+BlockHeader readBlockHeader(GmshFile& file, const char* what)
+{
+    BlockHeader header{};
+    header.blocks = file.scanner.get<std::uint64_t>("a number of blocks", file.sizeBytes);
+    header.items = file.scanner.get<std::uint64_t>(what, file.sizeBytes);
+    file.scanner.get<std::uint64_t>("the least tag", file.sizeBytes);
+    file.scanner.get<std::uint64_t>("the largest tag", file.sizeBytes);
+    return header;
+}
+
+/// The number of items in a block, of those that the header declares and that are left.
+std::uint64_t readBlockCount(GmshFile& file, std::uint64_t& left, const char* what)
+{
+    const auto count = file.scanner.get<std::uint64_t>(what, file.sizeBytes);
+    if (count > left) file.scanner.fail(message("a block of ", count, " where ", left, " of the section's are left"));
+    left -= count;
+    return count;
+}
+
+}  // namespace
+
+Vec3 readGmshPosition(MeshScanner& scanner)
+{
+    Vec3 x;
+    for (int i = 0; i < 3; ++i) x[i] = scanner.get<double>("a coordinate");
+    return x;
+}
+
+int placeOfGmshNode(const GmshFile& file, std::uint64_t tag)
+{
+    const int place = file.numbers->find(tag);
+    if (place < 0) file.scanner.fail(message("a tetrahedron uses node ", tag, ", which $Nodes does not have"));
+    return place;
+}
+
+void readGmshNodes2(GmshFile& file)
+{
+    MeshScanner& scanner = file.scanner;
+    const std::uint64_t count = readCountLine(scanner, "a number of nodes");
+    scanner.need(count, 4, 7, "nodes");  // binary: a tag of 4 bytes and three coordinates of 8
+    for (std::uint64_t i = 0; i < count; ++i)
+    {
+        const auto tag = scanner.get<std::int32_t>(kNodeTag);
+        file.mesh.m_nodeNumbers.push_back(static_cast<std::uint64_t>(tag));
+        file.mesh.m_positions.push_back(readGmshPosition(scanner));
+    }
+}
+
+void readGmshElements2(GmshFile& file)
+{
+    const std::uint64_t count = readCountLine(file.scanner, "a number of elements");
+    file.scanner.need(count, 4, 1, "elements");
+    if (file.scanner.isBinary())
+        readBinaryElements2(file, count);
+    else
+        readTextElements2(file, count);
+}
+
+void readGmshNodes4(GmshFile& file)
+{
+    MeshScanner& scanner = file.scanner;
+    const BlockHeader header = readBlockHeader(file, "a number of nodes");
+    const auto tagBytes = static_cast<std::uint64_t>(file.sizeBytes);
+    scanner.need(header.items, 4, (tagBytes + 24) / 4, "nodes");
+    std::uint64_t left = header.items;
+    for (std::uint64_t b = 0; b < header.blocks; ++b)
+    {
+        const auto dimension = scanner.get<std::int32_t>("an entity's dimension");
+        scanner.get<std::int32_t>("an entity's tag");
+        const auto parametric = scanner.get<std::int32_t>("whether nodes are parametric");
+        if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1)
+            scanner.fail(message("a block of dimension ", dimension, " and parametric ", parametric,
+                                 "; these must be in [0, 3] and [0, 1]"));
+        const std::uint64_t count = readBlockCount(file, left, "a number of nodes");
+        for (std::uint64_t i = 0; i < count; ++i)
+            file.mesh.m_nodeNumbers.push_back(scanner.get<std::uint64_t>(kNodeTag, file.sizeBytes));
+        for (std::uint64_t i = 0; i < count; ++i)
+        {
+            file.mesh.m_positions.push_back(readGmshPosition(scanner));
+            for (int p = 0; p < parametric * dimension; ++p) scanner.get<double>("a parameter");
+        }
+    }
+    if (left > 0) scanner.fail(message("the blocks have ", left, " nodes fewer than $Nodes declares"));
+}
+
+void readGmshElements4(GmshFile& file)
+{
+    MeshScanner& scanner = file.scanner;
+    const BlockHeader header = readBlockHeader(file, "a number of elements");
+    const auto tagBytes = static_cast<std::uint64_t>(file.sizeBytes);
+    scanner.need(header.items, 2, tagBytes, "elements");
+    std::uint64_t left = header.items;
+    for (std::uint64_t b = 0; b < header.blocks; ++b)
+    {
+        scanner.get<std::int32_t>("an entity's dimension");
+        scanner.get<std::int32_t>("an entity's tag");
+        const GmshCell cell = cellOf(scanner.get<std::int32_t>(kElementType), scanner);
+        const std::uint64_t count = readBlockCount(file, left, "a number of elements");
+        for (std::uint64_t e = 0; e < count; ++e)
+        {
+            scanner.get<std::uint64_t>("an element tag", file.sizeBytes);
+            readElementNodes<std::uint64_t>(file, cell, file.sizeBytes);
+        }
+    }
+    if (left > 0) scanner.fail(message("the blocks have ", left, " elements fewer than $Elements declares"));
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+
+#include "bullet_fem/io/tet_mesh_file.h"
+#include "io/tet/mesh_scanner.h"
+#include "io/tet/node_numbers.h"
+
+namespace bullet_fem
+{
+
+/// What the sections of a .msh file are read with, and into.
+struct GmshFile
+{
+    MeshScanner scanner;
+    TetMeshFile mesh;
+    int sizeBytes = 8;                     ///< of version 4's size_t in binary files
+    std::unique_ptr<NodeNumbers> numbers;  ///< once the nodes are known
+};
+
+// The content of $Nodes and $Elements, up to the closing line, in versions 2 and 4.1.
+void readGmshNodes2(GmshFile& file);
+void readGmshElements2(GmshFile& file);
+void readGmshNodes4(GmshFile& file);
+void readGmshElements4(GmshFile& file);
+
+/// A node's position, the next three numbers.
+Vec3 readGmshPosition(MeshScanner& scanner);
+/// The place of the node with this tag; fails if there is none.
+int placeOfGmshNode(const GmshFile& file, std::uint64_t tag);
+
+}  // namespace bullet_fem

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "io/tet/vtu_array.h"
+
+#include <tinyxml2.h>
+#include <zlib.h>
+
+#include <stdexcept>
+
+#include "fem/message.h"
+#include "io/number_text.h"
+#include "io/tet/encoded_bytes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr std::uint64_t kMostInflation = 1032;  // of deflate, bytes from a byte
+
+std::string attribute(const tinyxml2::XMLElement& element, const char* name)
+{
+    const char* value = element.Attribute(name);
+    return value ? std::string(value).substr(0, 100) : std::string();
+}
+
+NumberType parseVtuType(const std::string& name)
+{
+    struct Named
+    {
+        const char* name;
+        NumberType type;
+    };
+    static const Named types[] = {
+        {"Int8", {NumberType::signedInteger, 1}},  {"UInt8", {NumberType::unsignedInteger, 1}},
+        {"Int16", {NumberType::signedInteger, 2}}, {"UInt16", {NumberType::unsignedInteger, 2}},
+        {"Int32", {NumberType::signedInteger, 4}}, {"UInt32", {NumberType::unsignedInteger, 4}},
+        {"Int64", {NumberType::signedInteger, 8}}, {"UInt64", {NumberType::unsignedInteger, 8}},
+        {"Float32", {NumberType::floating, 4}},    {"Float64", {NumberType::floating, 8}}};
+    for (const Named& known : types)
+        if (name == known.name) return known.type;
+    throw std::runtime_error("its type '" + name + "' is not one of Int8 to UInt64, Float32 and Float64");
+}
+
+std::uint64_t takeCount(EncodedBytes& bytes, const VtuEncoding& encoding)
+{
+    const auto size = static_cast<std::size_t>(encoding.headerBytes);
+    return readBits(bytes.take(size).data(), size, encoding.order);
+}
+
+/// Appends a compressed block that should have `size` bytes when it is no longer.
+void inflateBlock(const std::string& block, std::uint64_t size, VtuEncoding& encoding, std::string& out)
+{
+    if (size > kMostInflation * (block.size() + 1))
+        throw std::runtime_error(message("a zlib block of ", block.size(), " bytes cannot hold ", size));
+    if (size > encoding.decodable)
+        throw std::runtime_error("the file would be more than 200 times as large without compression");
+    encoding.decodable -= size;
+    const std::size_t before = out.size();
+    out.resize(before + static_cast<std::size_t>(size) + 1);  // one more, so that too much is noticed
+    auto inflated = static_cast<uLongf>(size + 1);
+    const int status = uncompress(reinterpret_cast<Bytef*>(&out[before]), &inflated,
+                                  reinterpret_cast<const Bytef*>(block.data()), static_cast<uLong>(block.size()));
+    if (status != Z_OK || inflated != size)
+        throw std::runtime_error(message("a zlib block does not decompress to ", size, " bytes"));
+    out.resize(before + static_cast<std::size_t>(size));
+}
+
+/// Binary data with the counts before it: of bytes, or with compression of blocks, of the bytes in each and in the last
+/// one if that is not full (else 0), and of the bytes of each when compressed.
+std::string decode(EncodedBytes bytes, VtuEncoding& encoding)
+{
+    const std::uint64_t count = takeCount(bytes, encoding);
+    if (!encoding.compressed) return bytes.take(static_cast<std::size_t>(count));
+    if (count == 0) return {};
+    const std::uint64_t size = takeCount(bytes, encoding), partSize = takeCount(bytes, encoding);
+    if (count > bytes.most() / static_cast<std::uint64_t>(encoding.headerBytes))
+        throw std::runtime_error(message("it declares ", count, " blocks in ", bytes.most(), " bytes"));
+    std::vector<std::uint64_t> compressed(static_cast<std::size_t>(count));
+    for (std::uint64_t& block : compressed) block = takeCount(bytes, encoding);
+    std::string out;
+    for (std::size_t b = 0; b < compressed.size(); ++b)
+    {
+        const bool part = partSize > 0 && b + 1 == compressed.size();
+        inflateBlock(bytes.take(static_cast<std::size_t>(compressed[b])), part ? partSize : size, encoding, out);
+    }
+    return out;
+}
+
+std::string_view textOf(const tinyxml2::XMLElement& array)
+{
+    const char* text = array.GetText();
+    return text ? std::string_view(text) : std::string_view();
+}
+
+EncodedBytes encodedBytes(const tinyxml2::XMLElement& array, const std::string& format, const VtuEncoding& encoding)
+{
+    if (format == "binary") return EncodedBytes(textOf(array), true);
+    const auto offset = parseNumber<std::uint64_t>(attribute(array, "offset"), "an offset");
+    if (offset >= encoding.appended.size())
+        throw std::runtime_error(
+            message("its offset is ", offset, ", but AppendedData has ", encoding.appended.size(), " bytes"));
+    return EncodedBytes(encoding.appended.substr(static_cast<std::size_t>(offset)), encoding.appendedBase64);
+}
+
+template <class Number>
+std::vector<Number> readText(std::string_view text)
+{
+    std::vector<Number> numbers;
+    for (std::string_view word = takeWord(text); !word.empty(); word = takeWord(text))
+        numbers.push_back(parseNumber<Number>(word, std::is_integral_v<Number> ? "an integer" : "a number"));
+    return numbers;
+}
+
+template <class Number>
+std::vector<Number> readNumbers(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
+{
+    const NumberType type = parseVtuType(attribute(array, "type"));
+    if (std::is_integral_v<Number> && type.kind == NumberType::floating)
+        throw std::runtime_error("its type is not an integer");
+    const std::string format = attribute(array, "format");
+    if (format.empty() || format == "ascii") return readText<Number>(textOf(array));
+    if (format != "binary" && format != "appended")
+        throw std::runtime_error("its format '" + format + "' is not ascii, binary or appended");
+    const std::string bytes = decode(encodedBytes(array, format, encoding), encoding);
+    const auto size = static_cast<std::size_t>(type.size);
+    if (bytes.size() % size != 0)
+        throw std::runtime_error(message(bytes.size(), " bytes are no whole number of ", size, "-byte numbers"));
+    std::vector<Number> numbers;
+    numbers.reserve(bytes.size() / size);
+    for (std::size_t at = 0; at < bytes.size(); at += size)
+    {
+        const std::uint64_t bits = readBits(bytes.data() + at, size, encoding.order);
+        if constexpr (std::is_integral_v<Number>)
+            numbers.push_back(integerFromBits(bits, type));
+        else
+            numbers.push_back(doubleFromBits(bits, type));
+    }
+    return numbers;
+}
+
+/// Puts the element's line and name before what is thrown.
+template <class Number>
+std::vector<Number> readNamed(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
+{
+    try
+    {
+        return readNumbers<Number>(array, encoding);
+    }
+    catch (const std::runtime_error& error)
+    {
+        throw std::runtime_error(
+            message("line ", array.GetLineNum(), ": DataArray '", attribute(array, "Name"), "': ", error.what()));
+    }
+}
+
+}  // namespace
+
+std::vector<double> readVtuDoubles(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
+{
+    return readNamed<double>(array, encoding);
+}
+
+std::vector<std::int64_t> readVtuIntegers(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
+{
+    return readNamed<std::int64_t>(array, encoding);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/binary_number.h"
+
+namespace tinyxml2
+{
+class XMLElement;
+}
+
+namespace bullet_fem
+{
+
+/// How a .vtu file holds its arrays.
+struct VtuEncoding
+{
+    ByteOrder order = ByteOrder::little;
+    int headerBytes = 4;          ///< of the counts before binary data
+    bool compressed = false;      ///< by zlib
+    std::string_view appended;    ///< what follows the underscore in <AppendedData>
+    bool appendedBase64 = false;  ///< and not raw
+    std::uint64_t decodable = 0;  ///< bytes that may still be made by decompression
+};
+
+/// The numbers of a <DataArray>. Throw std::runtime_error with the element's line.
+std::vector<double> readVtuDoubles(const tinyxml2::XMLElement& array, VtuEncoding& encoding);
+std::vector<std::int64_t> readVtuIntegers(const tinyxml2::XMLElement& array, VtuEncoding& encoding);
+
+}  // namespace bullet_fem

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <tinyxml2.h>
+
+#include <stdexcept>
+
+#include "fem/message.h"
+#include "io/tet/tet_readers.h"
+#include "io/tet/vtk_cells.h"
+#include "io/tet/vtu_array.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+using tinyxml2::XMLElement;
+
+[[noreturn]] void failAt(const XMLElement& element, const std::string& cause)
+{
+    throw std::runtime_error(message("line ", element.GetLineNum(), ": ", cause));
+}
+
+std::string attributeOr(const XMLElement& element, const char* name, const char* otherwise)
+{
+    const char* value = element.Attribute(name);
+    return value ? std::string(value).substr(0, 100) : std::string(otherwise);
+}
+
+/// Takes the content of <AppendedData>, which is no XML, out of the file; returns what is left as XML.
+std::string cutAppendedData(std::string_view bytes, std::string_view& data)
+{
+    const std::size_t tag = bytes.find("<AppendedData");
+    if (tag == std::string_view::npos) return std::string(bytes);
+    const std::size_t open = bytes.find('>', tag), close = bytes.rfind("</AppendedData");
+    if (open == std::string_view::npos || close == std::string_view::npos || close < open)
+        throw std::runtime_error(message("byte ", tag, ": <AppendedData> has no end; the file is cut short"));
+    data = bytes.substr(open + 1, close - open - 1);
+    const std::size_t mark = data.find_first_not_of(" \t\r\n");
+    if (mark == std::string_view::npos || data[mark] != '_')
+        throw std::runtime_error(message("byte ", open + 1, ": AppendedData must begin with an underscore"));
+    data.remove_prefix(mark + 1);
+    return std::string(bytes.substr(0, open + 1)) + std::string(bytes.substr(close));
+}
+
+ByteOrder readOrder(const XMLElement& root)
+{
+    const std::string order = attributeOr(root, "byte_order", "LittleEndian");
+    if (order != "LittleEndian" && order != "BigEndian")
+        failAt(root, "byte_order is '" + order + "'; it must be LittleEndian or BigEndian");
+    return order == "BigEndian" ? ByteOrder::big : ByteOrder::little;
+}
+
+VtuEncoding readEncoding(const XMLElement& root)
+{
+    VtuEncoding encoding;
+    encoding.order = readOrder(root);
+    const std::string header = attributeOr(root, "header_type", "UInt32");
+    if (header != "UInt32" && header != "UInt64")
+        failAt(root, "header_type is '" + header + "'; it must be UInt32 or UInt64");
+    encoding.headerBytes = header == "UInt64" ? 8 : 4;
+    const std::string compressor = attributeOr(root, "compressor", "");
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+        failAt(root, "the compressor '" + compressor + "' is not known; save with zlib or without compression");
+    encoding.compressed = !compressor.empty();
+    if (const XMLElement* appended = root.FirstChildElement("AppendedData"))
+    {
+        const std::string kind = attributeOr(*appended, "encoding", "");
+        if (kind != "raw" && kind != "base64")
+            failAt(*appended, "the encoding of AppendedData is '" + kind + "'; it must be raw or base64");
+        encoding.appendedBase64 = kind == "base64";
+    }
+    return encoding;
+}
+
+const XMLElement& childOf(const XMLElement& element, const char* name)
+{
+    const XMLElement* child = element.FirstChildElement(name);
+    if (!child) failAt(element, message("<", element.Name(), "> has no <", name, ">"));
+    return *child;
+}
+
+const XMLElement& namedArray(const XMLElement& cells, const std::string& name)
+{
+    for (const XMLElement* a = cells.FirstChildElement("DataArray"); a; a = a->NextSiblingElement("DataArray"))
+        if (attributeOr(*a, "Name", "") == name) return *a;
+    failAt(cells, "<Cells> has no DataArray '" + name + "'");
+}
+
+std::uint64_t countOf(const XMLElement& piece, const char* name)
+{
+    try
+    {
+        return parseNumber<std::uint64_t>(attributeOr(piece, name, "0"), name);
+    }
+    catch (const std::runtime_error& error)
+    {
+        failAt(piece, error.what());
+    }
+}
+
+void readPoints(const XMLElement& piece, VtuEncoding& encoding, TetMeshFile& mesh)
+{
+    const std::uint64_t count = countOf(piece, "NumberOfPoints");
+    const XMLElement& points = childOf(piece, "Points");
+    const XMLElement& array = childOf(points, "DataArray");
+    const std::string components = attributeOr(array, "NumberOfComponents", "3");
+    if (components != "3") failAt(array, "points have " + components + " components, not 3");
+    const std::vector<double> x = readVtuDoubles(array, encoding);
+    if (x.size() % 3 != 0 || x.size() / 3 != count)
+        failAt(array, message(x.size(), " coordinates for ", count, " points"));
+    for (std::size_t i = 0; i < x.size(); i += 3)
+    {
+        mesh.m_nodeNumbers.push_back(mesh.m_positions.size());
+        mesh.m_positions.push_back({x[i], x[i + 1], x[i + 2]});
+    }
+}
+
+void readPiece(const XMLElement& piece, VtuEncoding& encoding, TetMeshFile& mesh)
+{
+    const std::uint64_t cellCount = countOf(piece, "NumberOfCells");
+    if (countOf(piece, "NumberOfPoints") == 0 && cellCount == 0) return;
+    const std::size_t firstPoint = mesh.m_positions.size();
+    readPoints(piece, encoding, mesh);
+    const XMLElement& element = childOf(piece, "Cells");
+    VtkCells cells;
+    cells.m_connectivity = readVtuIntegers(namedArray(element, "connectivity"), encoding);
+    cells.m_ends = readVtuIntegers(namedArray(element, "offsets"), encoding);
+    cells.m_types = readVtuIntegers(namedArray(element, "types"), encoding);
+    if (cells.m_ends.size() != cellCount)
+        failAt(element, message(cells.m_ends.size(), " offsets for ", cellCount, " cells"));
+    try
+    {
+        appendVtkCells(mesh, cells, firstPoint);
+    }
+    catch (const std::runtime_error& error)
+    {
+        failAt(element, error.what());
+    }
+}
+
+}  // namespace
+
+TetMeshFile readVtu(std::string_view bytes)
+{
+    std::string_view appended;
+    const std::string xml = cutAppendedData(bytes, appended);
+    tinyxml2::XMLDocument document;
+    if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
+        throw std::runtime_error(
+            message("line ", document.ErrorLineNum(), ": this is not XML (", document.ErrorName(), ")"));
+    const XMLElement* root = document.RootElement();
+    if (!root || std::string_view(root->Name()) != "VTKFile")
+        throw std::runtime_error("line 1: the file has no <VTKFile>");
+    const std::string type = attributeOr(*root, "type", "");
+    if (type != "UnstructuredGrid")
+        failAt(*root, "the type is '" + type + "'; tetrahedra are in an UnstructuredGrid only");
+
+    VtuEncoding encoding = readEncoding(*root);
+    encoding.appended = appended;
+    encoding.decodable = (std::uint64_t{64} << 20) + 200 * std::uint64_t{bytes.size()};
+    TetMeshFile mesh;
+    mesh.m_format = "VTK XML";
+    mesh.m_version = attributeOr(*root, "version", "");
+    const XMLElement& grid = childOf(*root, "UnstructuredGrid");
+    for (const XMLElement* piece = grid.FirstChildElement("Piece"); piece; piece = piece->NextSiblingElement("Piece"))
+        readPiece(*piece, encoding, mesh);
+    return mesh;
+}
+
+}  // namespace bullet_fem

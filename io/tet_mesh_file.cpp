@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/io/tet_mesh_file.h"
+
+#include <climits>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "fem/message.h"
+#include "io/file_bytes.h"
+#include "io/tet/tet_readers.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+void checkScale(double scale)
+{
+    if (!(scale > 0 && std::isfinite(scale)))
+        reject("readTetMeshFile: scale is ", scale, "; it must be positive and finite");
+}
+
+TetMeshFile readTetGen(std::string_view bytes)
+{
+    TetMeshFile mesh;
+    MeshScanner text(bytes, true);
+    readTetGenNodes(text, mesh);
+    readTetGenTets(text, mesh);
+    return mesh;
+}
+
+TetMeshFile readFormat(std::string_view bytes, TetMeshFormat format)
+{
+    switch (format)
+    {
+        case TetMeshFormat::gmsh:
+            return readGmsh(bytes);
+        case TetMeshFormat::tetgen:
+            return readTetGen(bytes);
+        case TetMeshFormat::vtk:
+            return readVtk(bytes);
+        case TetMeshFormat::vtu:
+            return readVtu(bytes);
+        case TetMeshFormat::medit:
+            return readMedit(bytes);
+    }
+    throw std::runtime_error("the format is not known");
+}
+
+/// Leaves out nodes that no tetrahedron uses, and scales the others.
+void finish(TetMeshFile& mesh, double scale)
+{
+    if (mesh.m_tets.empty())
+        throw std::runtime_error(message("it has no tetrahedra (but ", mesh.m_skippedFaces, " faces, ",
+                                         mesh.m_skippedEdges, " edges and ", mesh.m_skippedPoints, " points)"));
+    if (mesh.m_positions.size() > INT_MAX) throw std::runtime_error("it has more than 2^31 - 1 nodes");
+    std::vector<int> number(mesh.m_positions.size(), -1);
+    for (const Tet& tet : mesh.m_tets)
+        for (const int i : tet) number[i] = 0;
+    int used = 0;
+    for (std::size_t i = 0; i < number.size(); ++i)
+    {
+        if (number[i] < 0) continue;
+        const Vec3 x = mesh.m_positions[i] * scale;
+        if (!isFinite(x))
+            throw std::runtime_error(message("node ", mesh.m_nodeNumbers[i], " has the position (",
+                                             mesh.m_positions[i].x, ", ", mesh.m_positions[i].y, ", ",
+                                             mesh.m_positions[i].z, "), which is not finite",
+                                             isFinite(mesh.m_positions[i]) ? " once scaled" : ""));
+        mesh.m_positions[used] = x;
+        mesh.m_nodeNumbers[used] = mesh.m_nodeNumbers[i];
+        number[i] = used++;
+    }
+    for (Tet& tet : mesh.m_tets)
+        for (int& i : tet) i = number[i];
+    mesh.m_unusedNodes = number.size() - static_cast<std::size_t>(used);
+    mesh.m_positions.resize(used);
+    mesh.m_nodeNumbers.resize(used);
+}
+
+/// Runs `read` on the bytes of a file, and puts its name before whatever is thrown.
+template <class Read>
+auto readNamed(const std::string& path, Read read)
+{
+    try
+    {
+        const std::string bytes = readBytes(path);
+        return read(std::string_view(bytes));
+    }
+    catch (const std::exception& error)
+    {
+        throw std::runtime_error("cannot read the mesh file '" + path + "': " + error.what());
+    }
+}
+
+/// A .node and an .ele file beside each other; `path` is the one or the other.
+TetMeshFile readTetGenFiles(const std::string& path, double scale)
+{
+    const bool isNode = lowerCaseEnding(path) == ".node";
+    const std::string other = std::filesystem::path(path).replace_extension(isNode ? ".ele" : ".node").string();
+    TetMeshFile mesh;
+    readNamed(isNode ? path : other,
+              [&](std::string_view bytes)
+              {
+                  MeshScanner text(bytes, true);
+                  readTetGenNodes(text, mesh);
+              });
+    readNamed(isNode ? other : path,
+              [&](std::string_view bytes)
+              {
+                  MeshScanner text(bytes, true);
+                  readTetGenTets(text, mesh);
+                  finish(mesh, scale);
+              });
+    return mesh;
+}
+
+}  // namespace
+
+TetMeshFile readTetMesh(const void* bytes, std::size_t size, TetMeshFormat format, double scale)
+{
+    checkScale(scale);
+    TetMeshFile mesh = readFormat(std::string_view(static_cast<const char*>(bytes), size), format);
+    finish(mesh, scale);
+    return mesh;
+}
+
+TetMeshFile readTetMeshFile(const std::string& path, double scale)
+{
+    checkScale(scale);
+    struct Ending
+    {
+        const char* ending;
+        TetMeshFormat format;
+    };
+    constexpr Ending endings[] = {{".msh", TetMeshFormat::gmsh},
+                                  {".vtk", TetMeshFormat::vtk},
+                                  {".vtu", TetMeshFormat::vtu},
+                                  {".mesh", TetMeshFormat::medit},
+                                  {".meshb", TetMeshFormat::medit}};  // says that binary ones cannot be read
+    const std::string ending = lowerCaseEnding(path);
+    if (ending == ".node" || ending == ".ele") return readTetGenFiles(path, scale);
+    for (const Ending& known : endings)
+        if (ending == known.ending)
+            return readNamed(path, [&](std::string_view bytes)
+                             { return readTetMesh(bytes.data(), bytes.size(), known.format, scale); });
+    throw std::runtime_error("cannot read the mesh file '" + path + "': the ending '" + ending +
+                             "' is not known; it must be .msh, .node, .ele, .vtk, .vtu or .mesh");
+}
+
+}  // namespace bullet_fem
