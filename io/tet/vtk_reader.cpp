@@ -14,7 +14,8 @@ struct VtkFile
     MeshScanner scanner;
     TetMeshFile mesh;
     VtkCells cells;
-    int major = 0;  // of the version
+    MeshScanner cellsPlace;  // what is wrong with cells is known only when their types are
+    int major = 0;           // of the version
     bool hasPoints = false, hasCells = false, hasTypes = false;
 };
 
@@ -164,6 +165,7 @@ void readCells(VtkFile& file)
     MeshScanner& scanner = file.scanner;
     if (file.hasCells) scanner.fail("there is a second section CELLS");
     file.hasCells = true;
+    file.cellsPlace = scanner;
     const auto count = scanner.text<std::uint64_t>("a number of cells");
     const auto size = scanner.text<std::uint64_t>("a number of integers");
     scanner.restOfLine();
@@ -270,7 +272,7 @@ bool readSection(VtkFile& file)
 
 TetMeshFile readVtk(std::string_view bytes)
 {
-    VtkFile file{MeshScanner(bytes), {}, {}};
+    VtkFile file{MeshScanner(bytes), {}, {}, MeshScanner(bytes)};
     MeshScanner& scanner = file.scanner;
     readHeader(file);
     if (upperCase(scanner.word("DATASET")) != "DATASET") scanner.fail("here DATASET should be");
@@ -289,7 +291,7 @@ TetMeshFile readVtk(std::string_view bytes)
     }
     catch (const std::runtime_error& error)
     {
-        scanner.fail(message("of CELLS and CELL_TYPES before, ", error.what()));
+        file.cellsPlace.fail(message("of CELLS, ", error.what()));
     }
     return std::move(file.mesh);
 }

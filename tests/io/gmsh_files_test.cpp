@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+
+// Files that Gmsh itself writes, where it is installed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "bullet_fem/io/tet_mesh_file.h"
+#include "io/temporary_folder.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class GmshFiles : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        if (std::system("command -v gmsh >/dev/null") != 0) GTEST_SKIP() << "Gmsh is not installed";
+        m_folder.write("two.geo",
+                       "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 2, 3};\n"
+                       "Cylinder(2) = {3, 0, 0, 0, 0, 1, 0.5};\nMesh.CharacteristicLengthMax = 0.4;\n");
+        ASSERT_TRUE(run("-3 -format msh41 -o first.msh two.geo"));
+        m_first = read("first.msh");
+    }
+
+    /// Runs Gmsh in the folder, its output into a file there.
+    bool run(const std::string& arguments) const
+    {
+        return std::system(("cd '" + m_folder.path("") + "' && gmsh " + arguments + " >log 2>&1").c_str()) == 0;
+    }
+    /// What Gmsh makes of the first file.
+    TetMeshFile convert(const std::string& options, const std::string& name) const
+    {
+        EXPECT_TRUE(run("first.msh -save " + options + " -o " + name)) << m_folder.read("log");
+        return read(name);
+    }
+    TetMeshFile read(const std::string& name) const { return readTetMeshFile(m_folder.path(name)); }
+
+    void expectFirst(const TetMeshFile& mesh, double tolerance) const
+    {
+        EXPECT_EQ(mesh.m_tets, m_first.m_tets);
+        ASSERT_EQ(mesh.m_positions.size(), m_first.m_positions.size());
+        for (std::size_t i = 0; i < mesh.m_positions.size(); ++i)
+            ASSERT_LE(norm(mesh.m_positions[i] - m_first.m_positions[i]), tolerance) << i;
+    }
+
+    TemporaryFolder m_folder;
+    TetMeshFile m_first;
+};
+
+TEST_F(GmshFiles, AreTheSameMeshInEveryFormat)
+{
+    const TetMesh mesh = m_first.mesh();
+    EXPECT_GT(mesh.tetCount(), 200);
+    EXPECT_EQ(mesh.componentCount(), 2);
+    EXPECT_GT(mesh.volume(), 6.6);  // of the box 6, and of the cylinder what a mesh of flat triangles inscribes
+    EXPECT_LT(mesh.volume(), 6 + 3.1416 / 4);
+    EXPECT_GT(m_first.m_skippedFaces, 100u);
+
+    expectFirst(convert("-format msh41 -bin", "b41.msh"), 0);
+    expectFirst(convert("-format msh41 -save_parametric", "p41.msh"), 0);
+    expectFirst(convert("-format msh41 -save_parametric -bin", "pb41.msh"), 0);
+    expectFirst(convert("-format msh22", "a22.msh"), 0);
+    expectFirst(convert("-format msh22 -bin", "b22.msh"), 0);
+    expectFirst(convert("-format vtk", "a.vtk"), 0);
+    expectFirst(convert("-format vtk -bin", "b.vtk"), 0);
+    expectFirst(convert("-format mesh", "a.mesh"), 1e-12);  // written with 14 digits
+}
+
+TEST_F(GmshFiles, OfVersion40AreConvertedAsTheErrorSays)
+{
+    // Gmsh calls version 4.0 just 4.
+    ASSERT_TRUE(run("first.msh -save -format msh40 -o OLD.msh"));
+    const std::string error = messageOf<std::runtime_error>([&] { read("OLD.msh"); });
+    const std::string remedy = "gmsh OLD.msh -save -format msh41 -o NEW.msh";
+    EXPECT_THAT(error, AllOf(HasSubstr("line 2: MSH version 4 cannot be read"), HasSubstr(remedy)));
+    ASSERT_TRUE(run(remedy.substr(5)));
+    expectFirst(read("NEW.msh"), 0);
+}
+
+TEST_F(GmshFiles, OfSecondOrderAreRefused)
+{
+    for (const char* format : {"msh41", "msh22"})
+    {
+        ASSERT_TRUE(run(std::string("-3 -order 2 -format ") + format + " -bin -o second.msh two.geo"));
+        EXPECT_THAT(messageOf<std::runtime_error>([&] { read("second.msh"); }),
+                    AllOf(HasSubstr("byte "), HasSubstr("a tetrahedron of second order (10 nodes)")));
+    }
+    ASSERT_TRUE(run("-3 -order 2 -format vtk -o second.vtk two.geo"));
+    EXPECT_THAT(messageOf<std::runtime_error>([&] { read("second.vtk"); }), HasSubstr("a quadratic tetrahedron"));
+}
+
+}  // namespace
+}  // namespace bullet_fem
