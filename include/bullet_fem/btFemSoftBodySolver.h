@@ -261,8 +261,11 @@ public:
     ///
     /// Not saved: what belongs to Bullet (rigid bodies, their sleep, contacts and warm starts, the order of the broad
     /// phase's pairs) and what the user sets and no step changes (material, detail, contact offset, m_cfg, gravity,
-    /// wind, anchors, joints, the solver's info). For the same bits that must be as it was. A factor being made in the
-    /// background is dropped. Between steps. Throws std::invalid_argument with the reason.
+    /// wind, anchors, joints, the solver's info). For the same bits that must be as it was. Bullet's contacts between
+    /// rigid bodies cannot be put back: take all pairs out of the pair cache (removeOverlappingPair) and add them again
+    /// in their order, after saving as after restoring, so that they begin anew both times. A rigid solver with
+    /// SOLVER_RANDMIZE_ORDER wants its getRandSeed() back by setRandSeed(). A factor being made in the background is
+    /// dropped. Between steps. Throws std::invalid_argument with the reason.
     void restoreState(const unsigned char* data, std::size_t size);
     /// The same for engines without exceptions: false and the reason in `why` (if given) where the other throws.
     bool restoreState(const unsigned char* data, std::size_t size, std::string* why);

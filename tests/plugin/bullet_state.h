@@ -9,8 +9,9 @@
 namespace bullet_fem
 {
 
-/// What of a world's state is Bullet's own, where no two rigid bodies touch (their contacts would have memories, too):
-/// motion and sleep of rigid bodies, bounds and pairs of the broad phase.
+/// What of a world's state is Bullet's own: motion and sleep of rigid bodies, bounds and pairs of the broad phase. Not
+/// what contacts between rigid bodies remember: restore() lets go of them. To continue from a state with such contacts
+/// to the bit, restore it once as it is taken.
 class BulletState
 {
 public:
