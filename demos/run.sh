@@ -30,7 +30,7 @@ extract_mesh()
     rm -r "$folder"
 }
 
-install_packages "${build_packages[@]}"
+install_packages "${build_packages[@]}" "${picture_packages[@]}"
 
 if [ ! -s "$mesh" ]; then
     say "extracting $mesh_in_archive from $mesh_package"

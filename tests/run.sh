@@ -8,8 +8,8 @@ source "$root/cmake/install_packages.sh"
 
 build=$root/build/release
 
-install_packages "${build_packages[@]}" libgtest-dev libgmock-dev \
-    nlohmann-json3-dev
+install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev \
+    nlohmann-json3-dev xvfb xauth
 
 say "building in $build"
 (cd "$root" && cmake --preset release)

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/pictures/font.h"
+
+// The assembler includes the file as it is: as a C++ array it would take the compiler seconds.
+__asm__(
+    ".section .rodata\n"
+    ".balign 16\n"
+    "bulletfem_embedded_font:\n"
+    ".incbin \"" BULLETFEM_FONT_FILE
+    "\"\n"
+    ".byte 0\n"
+    ".previous\n");
+extern "C" const unsigned char bulletfem_embedded_font[] __attribute__((visibility("hidden")));
+
+namespace bullet_fem
+{
+
+const unsigned char* embeddedFont()
+{
+    return bulletfem_embedded_font;
+}
+
+}  // namespace bullet_fem

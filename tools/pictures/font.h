@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+namespace bullet_fem
+{
+
+/// The bytes of DejaVu Sans, a TrueType font that may be embedded (Bitstream Vera's licence), put into the program when
+/// it is built.
+const unsigned char* embeddedFont();
+
+}  // namespace bullet_fem

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/pictures/image.h"
+
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "fem/message.h"
+#include "tools/pictures/pending_file.h"
+
+namespace bullet_fem
+{
+
+Image besideEachOther(const std::vector<Image>& images, int gap)
+{
+    if (images.empty()) reject("picture: a strip needs at least one image");
+    int width = -gap;
+    for (const Image& image : images)
+    {
+        if (image.m_size.m_height != images[0].m_size.m_height)
+            reject("picture: a strip's images are ", images[0].m_size.m_height, " and ", image.m_size.m_height,
+                   " pixels high; they must be equally high");
+        width += image.m_size.m_width + gap;
+    }
+    Image strip({width, images[0].m_size.m_height});
+    std::fill(strip.m_pixels.begin(), strip.m_pixels.end(), static_cast<unsigned char>(255));
+    std::size_t left = 0;
+    for (const Image& image : images)
+    {
+        const std::size_t stride = 3 * static_cast<std::size_t>(image.m_size.m_width);
+        for (int y = 0; y < image.m_size.m_height; ++y)
+            std::copy_n(image.m_pixels.data() + stride * y, stride,
+                        strip.m_pixels.data() + 3 * static_cast<std::size_t>(width) * y + left);
+        left += stride + 3 * static_cast<std::size_t>(gap);
+    }
+    return strip;
+}
+
+void writePng(const Image& image, const std::string& path)
+{
+    const PictureSize& size = image.m_size;
+    if (size.m_width <= 0 || size.m_height <= 0 || image.m_pixels.size() != Image(size).m_pixels.size())
+        reject("picture: the image for '", path, "' is ", size.m_width, " x ", size.m_height, " pixels with ",
+               image.m_pixels.size(), " bytes; it must have pixels, 3 bytes each");
+    PendingFile pending(path);
+    std::ofstream file(pending.temporaryPath(), std::ios::binary);
+    const auto write = [](void* out, void* bytes, int count)
+    { static_cast<std::ofstream*>(out)->write(static_cast<const char*>(bytes), count); };
+    const int encoded = stbi_write_png_to_func(write, &file, size.m_width, size.m_height, 3, image.m_pixels.data(), 0);
+    file.close();
+    if (!encoded || !file) pending.fail("check that its folder is writable and its disk not full");
+    pending.commit();
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/pictures/legend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/pictures/colour_map.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr Colour kInk{0.16, 0.18, 0.22}, kPaper{1, 1, 1};
+constexpr double kBarHeight = 0.42;     // of the picture
+constexpr double kPaperOpacity = 0.72;  // lets what is behind shine through
+
+void addColourBar(const PictureScene& scene, const PictureSize& size, Overlay& overlay)
+{
+    const double h = legendTextHeight(size), pad = std::round(0.7 * h);
+    const std::string title = legendTitle(scene.m_colourScale);
+    const std::vector<LegendLabel> labels = legendLabels(scene.m_colourScale);
+    double labelWidth = 0;
+    for (const LegendLabel& label : labels) labelWidth = std::max(labelWidth, overlay.textWidth(label.m_text));
+
+    const double barWidth = std::round(1.1 * h), barHeight = std::round(kBarHeight * size.m_height);
+    const double inner = std::max(overlay.textWidth(title), barWidth + 0.7 * h + labelWidth);
+    PictureRectangle paper{0, 0, std::round(inner + 2 * pad),
+                           std::round(barHeight + 2 * pad + (title.empty() ? 0.6 : 2.1) * h)};
+    paper.m_x = size.m_width - paper.m_width - std::round(1.2 * h);
+    paper.m_y = std::round(1.2 * h);
+    overlay.rectangle(paper, kPaper, kPaperOpacity);
+
+    const double left = paper.m_x + pad, top = paper.m_y + paper.m_height - std::round(pad + 0.3 * h) - barHeight;
+    overlay.text({left, paper.m_y + pad + 0.75 * h}, title, TextAlignment::left, kInk);
+    overlay.colourBar({left, top, barWidth, barHeight});
+    for (const LegendLabel& label : labels)
+    {
+        const double y = std::round(top + barHeight * (1 - label.m_share));
+        overlay.rectangle({left + barWidth, y - 0.5, std::round(0.35 * h), 1}, kInk, 1);
+        overlay.text({left + barWidth + 0.7 * h, y + 0.36 * h}, label.m_text, TextAlignment::left, kInk);
+    }
+}
+
+}  // namespace
+
+double legendTextHeight(const PictureSize& size)
+{
+    return std::clamp(std::round(std::min(size.m_height / 36., size.m_width / 40.)), 9., 48.);
+}
+
+void addLegend(const PictureScene& scene, const PictureSize& size, Overlay& overlay)
+{
+    const bool scalars = std::any_of(scene.m_meshes.begin(), scene.m_meshes.end(),
+                                     [](const PictureMesh& mesh) { return !mesh.m_scalars.empty(); });
+    const double h = legendTextHeight(size);
+    if (scalars && scene.m_colourScale.m_legend) addColourBar(scene, size, overlay);
+    if (!scene.m_caption.empty())
+        overlay.text({1.2 * h, size.m_height - 1.2 * h}, scene.m_caption, TextAlignment::left, kInk);
+}
+
+}  // namespace bullet_fem

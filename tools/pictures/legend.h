@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "tools/pictures/overlay.h"
+
+namespace bullet_fem
+{
+
+/// The overlay's text height that suits a picture of `size` [pixels].
+double legendTextHeight(const PictureSize& size);
+
+/// Adds the colour bar with title and numbers at the right border, if the scene has scalars, and the caption.
+void addLegend(const PictureScene& scene, const PictureSize& size, Overlay& overlay);
+
+}  // namespace bullet_fem
