@@ -4,11 +4,18 @@
 
 #include <memory>
 
+#include "bullet_fem/fem/stress.h"
 #include "plugin/btFemContactGroup.h"
 #include "plugin/btFemSnapshot.h"
 
 class btFemManifolds;
 class btFemSoftBodySolver;
+
+/// Stresses of one body.
+struct btFemStressScratch
+{
+    std::vector<bullet_fem::Stress> m_perElement, m_perNode;
+};
 
 /// What btFemConstraintSolver, btFemDeformableBodySolver, Bullet's dispatcher and those parts of btFemSoftBodySolver's
 /// interface that stand in other files may do with it, and nobody else.
@@ -26,4 +33,6 @@ struct btFemCoupling
     /// Null unless btFemSolverInfo::m_manifolds is set.
     static std::shared_ptr<btFemManifolds> manifolds(const btFemSoftBodySolver& fem);
     static btFemSnapshotScope snapshotScope(const btFemSoftBodySolver& fem);
+    /// What stresses are computed in; kept, so that it grows once.
+    static btFemStressScratch& stressScratch(const btFemSoftBodySolver& fem);
 };

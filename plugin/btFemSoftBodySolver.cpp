@@ -77,6 +77,7 @@ struct btFemSoftBodySolver::Impl
     const btAlignedObjectArray<btFemContact> m_noContacts;
     const btAlignedObjectArray<btFemTouch> m_noTouches;
     const btAlignedObjectArray<btFemAnchorReport> m_noAnchors;
+    btFemStressScratch m_stressScratch;
 };
 
 namespace
@@ -261,6 +262,11 @@ void btFemCoupling::assumeForcesGiven(btFemSoftBodySolver& fem, const Vec3& grav
 std::shared_ptr<btFemManifolds> btFemCoupling::manifolds(const btFemSoftBodySolver& fem)
 {
     return fem.m_impl->m_manifolds;
+}
+
+btFemStressScratch& btFemCoupling::stressScratch(const btFemSoftBodySolver& fem)
+{
+    return fem.m_impl->m_stressScratch;
 }
 
 btFemSnapshotScope btFemCoupling::snapshotScope(const btFemSoftBodySolver& fem)

@@ -97,6 +97,16 @@ struct btFemContact
     btScalar m_weights[3] = {1, 0, 0};  ///< barycentric [-], sum 1; 0 for those that repeat
 };
 
+/// A stress in the world's axes [Pa], tension positive.
+struct btFemStress
+{
+    btScalar m_xx = 0, m_yy = 0, m_zz = 0;  ///< normal
+    btScalar m_xy = 0, m_yz = 0, m_xz = 0;  ///< shear; the tensor is symmetric
+
+    /// Von Mises' equivalent stress [Pa], >= 0: in uniaxial stress its magnitude, under pressure from all sides 0.
+    btScalar vonMises() const;
+};
+
 /// Where a touch stands.
 enum class btFemTouchState
 {

@@ -240,6 +240,19 @@ public:
     /// known.
     btVector3 contactForce(const btSoftBody* body, const btCollisionObject* other) const;
 
+    /// Elastic stress of every tetrahedron [Pa] where the last step left the nodes (or where prepare found them), in
+    /// the order of m_tetras: R (2 mu eps + lambda tr(eps) I) R^T, Hooke's law in the frame that turns with the
+    /// element, without viscous stress; of an element of a cage that is partly filled, the stress of what fills it.
+    /// Never throws: false, and an empty array, if the body is not FEM, or its arrays were changed since. Allocates
+    /// only when an array grows, here or in the solver. From the thread that steps the world.
+    bool getStress(const btSoftBody* body, btAlignedObjectArray<btFemStress>& perElement) const;
+    /// The mean of the elements at every node by their (filled) volumes, in the order of m_nodes: smooth for drawing,
+    /// and lower than the elements' peaks. Zero at nodes that no element uses. Likewise otherwise.
+    bool getNodeStress(const btSoftBody* body, btAlignedObjectArray<btFemStress>& perNode) const;
+    /// Von Mises' equivalent of the two [Pa]. Likewise otherwise.
+    bool getVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const;
+    bool getNodeVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perNode) const;
+
     /// Saves what the next steps of the FEM bodies of the world stepped last depend on, so that restoreState continues
     /// to the bit, in the midst of contact, too: motion, rotations, warm starts, contacts, joints, pins, targets,
     /// attachments, sleep, factors, reports. The same state gives the same bytes, but on machines of another byte order

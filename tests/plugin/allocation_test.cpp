@@ -250,6 +250,24 @@ TEST(Allocations, NoneForManifoldsThatLast)
     EXPECT_EQ(world.world().getDispatcher()->getNumManifolds(), 1);
 }
 
+TEST(Allocations, NoneForStressesOnceTheyHaveGrown)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 1));
+    btAlignedObjectArray<btFemStress> perElement, perNode;
+    btAlignedObjectArray<btScalar> vonMises;
+    for (int k = 0; k < 2; ++k)
+    {
+        world.step();
+        const AllocationCounter counter;
+        ASSERT_TRUE(fem.getStress(&cube, perElement));
+        ASSERT_TRUE(fem.getNodeStress(&cube, perNode));
+        ASSERT_TRUE(fem.getVonMises(&cube, vonMises));
+        EXPECT_EQ(counter.count() > 0, k == 0);
+    }
+}
+
 // It holds a link by an anchor, and lies on another one of the same multibody.
 TEST(Allocations, NoneForLinksOfMultibodies)
 {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body_arrays.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/btFemBodyRegistry.h"
+#include "plugin/btFemCoupling.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+// Stresses of the body's elements, or of its nodes; null if it is not FEM as it is now.
+const std::vector<Stress>* stressesOf(const btFemSoftBodySolver& solver, const btSoftBody* body, bool perNode)
+{
+    const btFemEntry* entry = body ? btFemCoupling::entry(solver, *body) : nullptr;
+    if (!entry || !entry->m_fem || !arraysAsSetUp(*entry->m_fem)) return nullptr;
+    btFemStressScratch& scratch = btFemCoupling::stressScratch(solver);
+    elementStresses(entry->m_fem->m_body, scratch.m_perElement);
+    if (!perNode) return &scratch.m_perElement;
+    nodeStresses(*entry->m_fem->m_body.m_model, scratch.m_perElement, scratch.m_perNode);
+    return &scratch.m_perNode;
+}
+
+template <class Value, class Convert>
+bool convert(const std::vector<Stress>* stresses, btAlignedObjectArray<Value>& out, const Convert& converted)
+{
+    out.resize(stresses ? static_cast<int>(stresses->size()) : 0);
+    for (int i = 0; i < out.size(); ++i) out[i] = converted((*stresses)[i]);
+    return stresses != nullptr;
+}
+
+btFemStress toBullet(const Stress& s)
+{
+    return {btScalar(s.xx), btScalar(s.yy), btScalar(s.zz), btScalar(s.xy), btScalar(s.yz), btScalar(s.xz)};
+}
+
+btScalar vonMisesToBullet(const Stress& s)
+{
+    return static_cast<btScalar>(vonMises(s));
+}
+
+}  // namespace
+
+btScalar btFemStress::vonMises() const
+{
+    return vonMisesToBullet({m_xx, m_yy, m_zz, m_xy, m_yz, m_xz});
+}
+
+bool btFemSoftBodySolver::getStress(const btSoftBody* body, btAlignedObjectArray<btFemStress>& perElement) const
+{
+    return convert(stressesOf(*this, body, false), perElement, toBullet);
+}
+
+bool btFemSoftBodySolver::getNodeStress(const btSoftBody* body, btAlignedObjectArray<btFemStress>& perNode) const
+{
+    return convert(stressesOf(*this, body, true), perNode, toBullet);
+}
+
+bool btFemSoftBodySolver::getVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const
+{
+    return convert(stressesOf(*this, body, false), perElement, vonMisesToBullet);
+}
+
+bool btFemSoftBodySolver::getNodeVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perNode) const
+{
+    return convert(stressesOf(*this, body, true), perNode, vonMisesToBullet);
+}
