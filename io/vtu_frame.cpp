@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "io/vtu_frame.h"
+
+#include "io/vtu_array.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr std::uint8_t kTriangle = 5, kTetrahedron = 10;  // VTK_TRIANGLE, VTK_TETRA
+
+/// The bodies' cells, one after the other.
+struct Cells
+{
+    std::vector<std::int32_t> m_connectivity, m_offsets, m_body;
+    std::vector<std::uint8_t> m_types;
+
+    template <class Cell>
+    void append(const std::vector<Cell>& cells, std::uint8_t type, std::int32_t firstNode, int id)
+    {
+        for (const Cell& cell : cells)
+        {
+            for (const int node : cell) m_connectivity.push_back(firstNode + node);
+            m_offsets.push_back(static_cast<std::int32_t>(m_connectivity.size()));
+            m_types.push_back(type);
+            m_body.push_back(id);
+        }
+    }
+};
+
+bool showsTets(const BodyFrame& body)
+{
+    return !body.m_tets.empty();
+}
+
+Cells cellsOf(const std::vector<BodyFrame>& bodies)
+{
+    Cells cells;
+    std::int32_t firstNode = 0;
+    for (const BodyFrame& body : bodies)
+    {
+        if (showsTets(body))
+            cells.append(body.m_tets, kTetrahedron, firstNode, body.m_id);
+        else
+            cells.append(body.m_triangles, kTriangle, firstNode, body.m_id);
+        firstNode += static_cast<std::int32_t>(body.m_positions.size());
+    }
+    return cells;
+}
+
+void appendNumbers(std::vector<double>& numbers, const Vec3& v)
+{
+    numbers.insert(numbers.end(), {v.x, v.y, v.z});
+}
+
+void appendNumbers(std::vector<double>& numbers, const Stress& s)
+{
+    numbers.insert(numbers.end(), {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz});
+}
+
+/// One array of the file: a field of all bodies, zero where a body has none; empty if none has it.
+template <class Value, class Count>
+std::vector<double> joined(const std::vector<BodyFrame>& bodies, std::vector<Value> BodyFrame::*field,
+                           const Count& count)
+{
+    std::vector<double> numbers;
+    bool some = false;
+    for (const BodyFrame& body : bodies)
+    {
+        const std::vector<Value>& values = body.*field;
+        some = some || !values.empty();
+        for (const Value& value : values) appendNumbers(numbers, value);
+        for (std::size_t i = values.size(); i < count(body); ++i) appendNumbers(numbers, Value());
+    }
+    return some ? numbers : std::vector<double>();
+}
+
+std::size_t nodeCount(const BodyFrame& body)
+{
+    return body.m_positions.size();
+}
+
+std::size_t cellCount(const BodyFrame& body)
+{
+    return showsTets(body) ? body.m_tets.size() : body.m_triangles.size();
+}
+
+/// Writes the arrays of one file.
+struct FrameText
+{
+    std::string& m_xml;
+    VtuEncoding m_encoding;
+
+    void append(const VtuArray& array, const std::vector<double>& values) const
+    {
+        if (!values.empty()) appendArray(m_xml, m_encoding, array, values);
+    }
+
+    void appendStress(const std::vector<double>& stress) const
+    {
+        append({"stress", 6, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}}, stress);
+        std::vector<double> equivalent;
+        for (std::size_t i = 0; i < stress.size(); i += 6)
+            equivalent.push_back(
+                vonMises({stress[i], stress[i + 1], stress[i + 2], stress[i + 3], stress[i + 4], stress[i + 5]}));
+        append({"von_mises", 1, {}}, equivalent);
+    }
+};
+
+void appendPointData(const FrameText& text, const std::vector<BodyFrame>& bodies)
+{
+    const auto vectors = [&bodies](std::vector<Vec3> BodyFrame::*field) { return joined(bodies, field, nodeCount); };
+    const std::vector<double> displacement = vectors(&BodyFrame::m_displacement);
+    const std::vector<double> stress = joined(bodies, &BodyFrame::m_nodeStress, nodeCount);
+    text.m_xml += "<PointData";
+    if (!stress.empty()) text.m_xml += " Scalars=\"von_mises\"";
+    if (!displacement.empty()) text.m_xml += " Vectors=\"displacement\"";
+    text.m_xml += ">\n";
+    text.append({"displacement", 3, {}}, displacement);
+    text.append({"velocity", 3, {}}, vectors(&BodyFrame::m_velocity));
+    text.append({"contact_force", 3, {}}, vectors(&BodyFrame::m_contactForce));
+    text.appendStress(stress);
+    text.m_xml += "</PointData>\n";
+}
+
+void appendCellData(const FrameText& text, const std::vector<BodyFrame>& bodies, const Cells& cells)
+{
+    text.m_xml += "<CellData>\n";
+    appendArray(text.m_xml, text.m_encoding, {"body", 1, {}}, cells.m_body);
+    text.appendStress(joined(bodies, &BodyFrame::m_tetStress, cellCount));
+    text.m_xml += "</CellData>\n";
+}
+
+}  // namespace
+
+std::string vtuFrame(const std::vector<BodyFrame>& bodies, VtuEncoding encoding, bool named)
+{
+    const Cells cells = cellsOf(bodies);
+    std::vector<double> points;
+    for (const BodyFrame& body : bodies)
+        for (const Vec3& x : body.m_positions) appendNumbers(points, x);
+
+    std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"" +
+                      encodingAttributes(encoding) + ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+                      std::to_string(points.size() / 3) + "\" NumberOfCells=\"" + std::to_string(cells.m_types.size()) +
+                      "\">\n";
+    const FrameText text{xml, encoding};
+    appendPointData(text, bodies);
+    if (named) appendCellData(text, bodies, cells);
+    xml += "<Points>\n";
+    appendArray(xml, encoding, {"Points", 3, {}}, points);
+    xml += "</Points>\n<Cells>\n";
+    appendArray(xml, encoding, {"connectivity", 0, {}}, cells.m_connectivity);
+    appendArray(xml, encoding, {"offsets", 0, {}}, cells.m_offsets);
+    appendArray(xml, encoding, {"types", 0, {}}, cells.m_types);
+    xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    return xml;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bullet_fem/io/body_frame.h"
+#include "bullet_fem/io/vtu_writer.h"
+
+namespace bullet_fem
+{
+
+/// The text of a .vtu file: one piece with the cells of all bodies, their tetrahedra or, where there are none, their
+/// triangles. `named`: with the body ids as cell data. The bodies have been checked.
+std::string vtuFrame(const std::vector<BodyFrame>& bodies, VtuEncoding encoding, bool named);
+
+}  // namespace bullet_fem
