@@ -28,15 +28,8 @@ constexpr int kInTwoWorlds = 2;  // claims of a body by its former world that tw
 
 FactorChoice coreChoice(btFemFactorChoice choice)
 {
-    switch (choice)
-    {
-        case btFemFactorChoice::lowMemoryBeyond:
-            return FactorChoice::lowMemoryBeyond;
-        case btFemFactorChoice::lowMemory:
-            return FactorChoice::lowMemory;
-        default:
-            return FactorChoice::full;
-    }
+    if (choice == btFemFactorChoice::lowMemoryBeyond) return FactorChoice::lowMemoryBeyond;
+    return choice == btFemFactorChoice::lowMemory ? FactorChoice::lowMemory : FactorChoice::full;
 }
 
 Material materialOf(const btFemEntry& entry)
@@ -307,10 +300,15 @@ void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)
     catch (const std::exception& error)
     {
         entry.m_message = error.what();
-        entry.m_rejected = !entry.m_fem;  // a body that moved already keeps its old material and rest shape
-        if (entry.m_rejected) leaveToBullet(*entry.m_softBody);
+        if (!entry.m_fem) reject(entry);  // a body that moved already keeps its old material and rest shape
         entry.m_materialChanged = false;
     }
+}
+
+void btFemBodyRegistry::reject(btFemEntry& entry)
+{
+    entry.m_rejected = true;
+    leaveToBullet(*entry.m_softBody);
 }
 
 FactorInput btFemBodyRegistry::factorInput(const btFemEntry& entry, double step) const

@@ -105,6 +105,9 @@ public:
     /// setUp for use within a step: a failure is written to the entry, and the body left to Bullet.
     void trySetUp(btFemEntry& entry, double step);
 
+    /// Leaves a body that cannot be FEM to Bullet.
+    static void reject(btFemEntry& entry);
+
     /// Factors anew for the present masses, pins and `step` [s]. Throws what ModelLibrary::model throws.
     void refactor(btFemEntry& entry, double step);
 

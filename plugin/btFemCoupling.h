@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "bullet_fem/fem/stress.h"
 #include "plugin/btFemContactGroup.h"
@@ -28,6 +29,8 @@ struct btFemCoupling
     static const btFemEntry* entry(const btFemSoftBodySolver& fem, const btSoftBody& body);
     /// Of a body that is FEM; throws std::invalid_argument, in the name of `caller`, if it is not.
     static btFemEntry& femEntry(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller);
+    /// Shows in this step's report of a body that `fem` does not move why it is not FEM.
+    static void reportRejection(btFemSoftBodySolver& fem, btSoftBody& body, const std::string& why);
     /// See ArticulatedBodies::assumeForcesGiven.
     static void assumeForcesGiven(btFemSoftBodySolver& fem, const bullet_fem::Vec3& gravity);
     /// Null unless btFemSolverInfo::m_manifolds is set.

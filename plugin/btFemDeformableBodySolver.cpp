@@ -10,6 +10,7 @@
 #include "bullet_bridge/rigid_obstacles.h"
 #include "plugin/btFemCoupling.h"
 #include "plugin/btFemDeformableForces.h"
+#include "plugin/btFemWorldStep.h"
 
 using namespace bullet_fem;
 
@@ -32,6 +33,8 @@ bool isForBullet(const btSoftBody& body)
     return tets == 0 ||
            (body.m_tetraScratches.size() >= tets && body.m_tetraScratchesTn.size() >= tets && body.m_links.size() > 0);
 }
+
+constexpr btScalar kUsualStep = btScalar(1) / 60;  // [s]; which a body is made ready for in a step that is none
 
 // What is remembered of a tetrahedral body.
 struct Known
@@ -60,6 +63,7 @@ struct btFemDeformableBodySolver::Impl
     bool becomesFem(btSoftBody& body, btScalar dt);
     Known& know(const btSoftBody& body);
     void forgetRemoved(const Bodies& world);
+    void reportRejections();
     void setAside();
     void takeBack();
     void settleSleep(btScalar step);
@@ -69,6 +73,7 @@ struct btFemDeformableBodySolver::Impl
     const Bodies* m_world = nullptr;  // all bodies
     Bodies m_plain;                   // Bullet moves them; in the world's order
     Bodies m_ours, m_femBodies;       // the others, and those of them that move
+    Bodies m_reported;                // these, as often as the world has them, and those that could not become FEM
     Bodies m_femBefore, m_plainBefore;
     std::vector<Known> m_known;
     std::vector<Aside> m_aside;
@@ -101,11 +106,13 @@ bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
     const bool changed = material != known.m_material;
     known.m_material = material;
     if (!material.m_given && !(entry && entry->m_materialGiven) && isForBullet(body)) return false;
-    if (!known.m_rejection.empty() && !changed && !entry) return false;  // the user has not tried anything else
+    const bool triedAnew = entry && !entry->m_rejected;  // by the user
+    if (!known.m_rejection.empty() && !changed && !triedAnew) return false;
     try
     {
         if (changed && material.m_given) m_fem.setMaterial(&body, material.m_material);
-        if (!m_fem.isFem(&body)) m_fem.prepare(&body, std::clamp(dt, btScalar(1e-6), btScalar(1)));
+        const btScalar step = dt * body.m_cfg.timescale;
+        if (!m_fem.isFem(&body)) m_fem.prepare(&body, isUsableStep(step) ? step : kUsualStep);
         FemSoftBody& moved = *btFemCoupling::entry(m_fem, body)->m_fem;
         moved.m_hasOwnGravity = true;
         moved.m_ownGravity = m_forces.gravityOf(body);
@@ -129,6 +136,7 @@ void btFemDeformableBodySolver::Impl::sort(btDeformableBodySolver& solver, const
     m_plain.resize(0);
     m_femBodies.resize(0);
     m_ours.resize(0);
+    m_reported.resize(0);
     for (int i = 0; i < world.size(); ++i)
     {
         btSoftBody* body = world[i];
@@ -139,10 +147,19 @@ void btFemDeformableBodySolver::Impl::sort(btDeformableBodySolver& solver, const
         else if (!holds(m_ours, body))  // it may have been added twice
             m_ours.push_back(body);
         if (fem && !holds(m_femBodies, body)) m_femBodies.push_back(body);
+        if (fem || (body->m_tetras.size() > 0 && !know(*body).m_rejection.empty())) m_reported.push_back(body);
         if (inStep) body->setSoftBodySolver(fem ? static_cast<btSoftBodySolver*>(&m_fem) : &solver);
     }
     m_plainChanged = m_plainBefore.size() != m_plain.size();
     for (int i = 0; i < m_plain.size() && !m_plainChanged; ++i) m_plainChanged = m_plainBefore[i] != m_plain[i];
+}
+
+// Those that were FEM until a program broke their elements, too.
+void btFemDeformableBodySolver::Impl::reportRejections()
+{
+    for (int i = 0; i < m_reported.size(); ++i)
+        if (!holds(m_femBodies, m_reported[i]))
+            btFemCoupling::reportRejection(m_fem, *m_reported[i], know(*m_reported[i]).m_rejection);
 }
 
 // Bullet's deformable world lets all soft bodies that are active collide with each other, whatever their solver.
@@ -218,7 +235,8 @@ void btFemDeformableBodySolver::reinitialize(const btAlignedObjectArray<btSoftBo
     Impl& impl = *m_impl;
     if (dt > 0) impl.m_forces.show(softBodies);  // a step that was not finished
     impl.sort(*this, softBodies, dt);
-    if (dt > 0) impl.m_fem.optimize(impl.m_femBodies);
+    if (dt > 0) impl.m_fem.optimize(impl.m_reported);
+    if (dt > 0) impl.reportRejections();
     if (dt > 0) impl.m_forces.hide(impl.m_ours, m_objective->m_lf);
     if (impl.m_plainChanged) m_numNodes = -1;  // Bullet compares their number only
     btDeformableBodySolver::reinitialize(impl.m_plain, dt);

@@ -254,6 +254,16 @@ const btFemEntry* btFemCoupling::entry(const btFemSoftBodySolver& fem, const btS
     return fem.m_impl->m_registry.find(&body);
 }
 
+void btFemCoupling::reportRejection(btFemSoftBodySolver& fem, btSoftBody& body, const std::string& why)
+{
+    btFemEntry& entry = fem.m_impl->m_registry.entry(&body);
+    if (!entry.m_rejected) btFemBodyRegistry::reject(entry);
+    entry.m_message = why;
+    entry.m_report = {};
+    entry.m_report.m_flags = BT_FEM_REJECTED;
+    entry.m_report.m_message = entry.m_message.c_str();
+}
+
 void btFemCoupling::assumeForcesGiven(btFemSoftBodySolver& fem, const Vec3& gravity)
 {
     fem.m_impl->m_step.assumeForcesGiven(gravity);

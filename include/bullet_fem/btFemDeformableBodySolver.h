@@ -21,7 +21,7 @@
 ///
 /// A tetrahedral body without a material stays with Bullet's solver, or, if it lacks the links and scratch arrays that
 /// Bullet's solver needs (bodies of btFemHelpers do), is FEM with E = 1e6 kLST Pa, nu .3. One that cannot become FEM
-/// stays with Bullet's, or stands still; rejection() says why.
+/// stays with Bullet's, or stands still; rejection() and its report say why.
 ///
 /// Of other forces on FEM bodies, gravity acts as Bullet's does: only where the world has a btDeformableGravityForce
 /// for the body, times its m_gravityFactor. Mouse picking and forces of the user's own are taken at the step's

@@ -29,7 +29,7 @@ enum btFemFlags
     BT_FEM_BAD_MASS = 1 << 4,      ///< an inverse mass was negative or NaN: the node got its share of the volume; or
                                    ///< infinite (setTotalMass by faces): the mass of all was shared out by volume
     BT_FEM_BAD_STEP = 1 << 5,      ///< the step was not in [1e-6, 1] s: the body stood still
-    BT_FEM_REJECTED = 1 << 6,      ///< the mesh or material is unusable (see m_message): Bullet's springs move the body
+    BT_FEM_REJECTED = 1 << 6,      ///< the mesh or material is unusable (see m_message): the body is left to Bullet
     BT_FEM_ADDED_TWICE = 1 << 7,   ///< the world holds the body more than once: it is stepped once; remove it once
     BT_FEM_OTHER_WORLD =
         1 << 8,  ///< the body was added to a second world or solver, which steps it; remove it from one

@@ -5,6 +5,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -17,7 +18,7 @@ namespace
 class HangingCube
 {
 public:
-    explicit HangingCube(Coupling coupling = Coupling::swap) : m_world(m_fem, coupling)
+    explicit HangingCube(WorldClass worldClass, Coupling coupling = Coupling::swap) : m_world(worldClass, coupling)
     {
         m_body = btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(-0.5)), btVector3(0.5, 0.5, 0.5),
                                          btScalar(0.25));
@@ -26,7 +27,7 @@ public:
         material.m_poissonRatio = 0;
         material.m_density = 500;
         material.m_massDamping = 5;
-        m_fem.setMaterial(m_body, material);
+        m_world.fem().setMaterial(m_body, material);
         for (int i = 0; i < m_body->m_nodes.size(); ++i)
             if (m_body->m_nodes[i].m_x.z() > btScalar(-1e-3)) m_body->setMass(i, 0);
         m_world.addSoft(m_body);
@@ -34,11 +35,11 @@ public:
         m_sag = -1 - lowestHeight(*m_body);
     }
 
-    btFemSoftBodySolver& fem() { return m_fem; }
+    btFemSoftBodySolver& fem() { return m_world.fem(); }
     SoftWorld& world() { return m_world; }
     btSoftBody& body() { return *m_body; }
     double sag() const { return m_sag; }  ///< [m]
-    int flags() const { return m_fem.stepReport(m_body).m_flags; }
+    int flags() const { return m_world.fem().stepReport(m_body).m_flags; }
 
     /// Appends nodes that no element uses, so many that Bullet has to move all.
     void appendNodes()
@@ -69,15 +70,20 @@ public:
     }
 
 private:
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
     btSoftBody* m_body;
     double m_sag = 0;
 };
 
-TEST(ChangedArrays, NodesAppendedInMidRunLeaveTheBodyAsItWas)
+class ChangedArrays : public EachWorld
 {
-    HangingCube cube;
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, ChangedArrays, eachWorld(), nameOfWorld);
+
+TEST_P(ChangedArrays, NodesAppendedInMidRunLeaveTheBodyAsItWas)
+{
+    HangingCube cube(GetParam());
     cube.appendNodes();
     cube.world().step();
     EXPECT_EQ(cube.flags(), BT_FEM_UNUSED_NODES | BT_FEM_CHANGED_MESH);
@@ -90,9 +96,9 @@ TEST(ChangedArrays, NodesAppendedInMidRunLeaveTheBodyAsItWas)
 
 // The weight at the new node stretches the cube; what hung before is the rest shape, because appendTetra gives the new
 // element no matrix.
-TEST(ChangedArrays, TetrahedraAppendedInMidRunAreElementsFromTheNextStepOn)
+TEST_P(ChangedArrays, TetrahedraAppendedInMidRunAreElementsFromTheNextStepOn)
 {
-    HangingCube cube;
+    HangingCube cube(GetParam());
     const double before = lowestHeight(cube.body()), mass = massOf(cube.body());
     ASSERT_NO_FATAL_FAILURE(cube.appendTetra());
     const double appended = lowestHeight(cube.body());
@@ -108,9 +114,9 @@ TEST(ChangedArrays, TetrahedraAppendedInMidRunAreElementsFromTheNextStepOn)
     EXPECT_GT(lowestHeight(cube.body()), appended - 0.2);
 }
 
-TEST(ChangedArrays, RemovedTetrahedraAreGoneFromTheNextStepOn)
+TEST_P(ChangedArrays, RemovedTetrahedraAreGoneFromTheNextStepOn)
 {
-    HangingCube cube;
+    HangingCube cube(GetParam());
     const int count = cube.body().m_tetras.size();
     for (int k = 0; k < 5; ++k) cube.body().m_tetras.pop_back();
     cube.world().step(60);
@@ -120,10 +126,10 @@ TEST(ChangedArrays, RemovedTetrahedraAreGoneFromTheNextStepOn)
 }
 
 // A body of which nobody knows where its nodes were is left to Bullet, with a message.
-TEST(ChangedArrays, NodesAppendedAfterTheTetrahedraBeforeTheFirstStepAreFlagged)
+TEST_P(ChangedArrays, NodesAppendedAfterTheTetrahedraBeforeTheFirstStepAreFlagged)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
     for (int k = 0; k < 300; ++k) cube.appendNode(btVector3(2, 0, 0), 1);
     std::string why;
@@ -135,9 +141,9 @@ TEST(ChangedArrays, NodesAppendedAfterTheTetrahedraBeforeTheFirstStepAreFlagged)
     EXPECT_EQ(why, fem.stepReport(&cube).m_message);
 }
 
-TEST(ChangedArrays, OurOwnCallsSayThatTheBodyMustBeStepped)
+TEST_P(ChangedArrays, OurOwnCallsSayThatTheBodyMustBeStepped)
 {
-    HangingCube cube;
+    HangingCube cube(GetParam());
     cube.appendNodes();
     const int last = cube.body().m_nodes.size() - 1;
     EXPECT_THROW(cube.fem().setNodeTarget(&cube.body(), last, btVector3(0, 0, 0)), std::invalid_argument);
@@ -150,9 +156,9 @@ TEST(ChangedArrays, OurOwnCallsSayThatTheBodyMustBeStepped)
     EXPECT_NEAR(cube.body().m_nodes[last].m_x.x(), 1, 1e-6);
 }
 
-TEST(ChangedArrays, ANewMaterialRightAfterwardsIsTaken)
+TEST_P(ChangedArrays, ANewMaterialRightAfterwardsIsTaken)
 {
-    HangingCube cube;
+    HangingCube cube(GetParam());
     cube.appendNodes();
     btFemMaterial material;
     material.m_youngModulus = btScalar(1e5);
@@ -171,7 +177,7 @@ void appendInTick(btDynamicsWorld* world, btScalar)
     cube = nullptr;
 }
 
-using Tick = std::tuple<bool, Coupling>;
+using Tick = std::tuple<bool, std::pair<WorldClass, Coupling>>;
 
 class ChangedInTick : public testing::TestWithParam<Tick>
 {
@@ -179,10 +185,10 @@ class ChangedInTick : public testing::TestWithParam<Tick>
 
 TEST_P(ChangedInTick, StandsStillForTheStepAndGoesOn)
 {
-    const auto [before, coupling] = GetParam();
-    HangingCube cube(coupling);
+    const auto [before, solved] = GetParam();
+    HangingCube cube(solved.first, solved.second);
     HangingCube* pointer = &cube;
-    cube.world().world().setInternalTickCallback(appendInTick, &pointer, before);
+    cube.world().bullet().setInternalTickCallback(appendInTick, &pointer, before);
     cube.world().step();
     EXPECT_EQ(pointer, nullptr);
     cube.world().step(100);
@@ -191,17 +197,24 @@ TEST_P(ChangedInTick, StandsStillForTheStepAndGoesOn)
     EXPECT_NEAR(-1 - lowestHeight(cube.body()), cube.sag(), 1e-3 * cube.sag());
 }
 
+std::string tickName(const testing::TestParamInfo<Tick>& suite)
+{
+    const auto& [before, solved] = suite.param;
+    return std::string(before ? "before_" : "after_") + worldName(solved.first) + "_" + couplingName(solved.second);
+}
+
 INSTANTIATE_TEST_SUITE_P(ChangedArrays, ChangedInTick,
-                         testing::Combine(testing::Bool(), testing::Values(Coupling::swap, Coupling::coupled)),
-                         [](const auto& suite) {
-                             return std::string(std::get<0>(suite.param) ? "before_" : "after_") +
-                                    couplingName(std::get<1>(suite.param));
-                         });
+                         testing::Combine(testing::Bool(),
+                                          testing::Values(std::make_pair(WorldClass::softRigid, Coupling::swap),
+                                                          std::make_pair(WorldClass::softRigid, Coupling::coupled),
+                                                          std::make_pair(WorldClass::softMultiBody, Coupling::swap),
+                                                          std::make_pair(WorldClass::deformable, Coupling::swap))),
+                         tickName);
 
 // Render nodes go by pointers to nodes, which Bullet leaves behind as well.
-TEST(ChangedArrays, AnEmbeddedSurfaceFollows)
+TEST_P(ChangedArrays, AnEmbeddedSurfaceFollows)
 {
-    HangingCube cube;
+    HangingCube cube(GetParam());
     btSoftBody& body = cube.body();
     body.m_renderNodes.resize(1);
     body.m_renderNodesParents.resize(1);

@@ -7,6 +7,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_world.h"
 
@@ -22,7 +23,7 @@ const btScalar kInfinity = std::numeric_limits<btScalar>::infinity();
 class Scene
 {
 public:
-    Scene() : m_world(m_fem)
+    explicit Scene(WorldClass worldClass) : m_world(worldClass), m_fem(m_world.fem())
     {
         m_world.addPlane();
         m_cube = &m_world.addSoft(btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(0.52)),
@@ -31,8 +32,8 @@ public:
     }
     int flags() const { return m_fem.stepReport(m_cube).m_flags; }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
+    btFemSoftBodySolver& m_fem;
     btSoftBody* m_cube;
 };
 
@@ -43,17 +44,17 @@ struct BadValue
     int m_flag;
 };
 
-class BadNodeValue : public testing::TestWithParam<BadValue>
+class BadNodeValue : public EachWorldWith<BadValue>
 {
 };
 
 TEST_P(BadNodeValue, IsPutBackFlaggedAndDoesNotSpread)
 {
-    Scene good, bad;
-    GetParam().m_write(bad.m_cube->m_nodes[30]);
+    Scene good(worldClass()), bad(worldClass());
+    value().m_write(bad.m_cube->m_nodes[30]);
     good.m_world.step();
     bad.m_world.step();
-    EXPECT_TRUE(bad.flags() & GetParam().m_flag);
+    EXPECT_TRUE(bad.flags() & value().m_flag);
     EXPECT_TRUE(allFinite(*bad.m_cube));
     EXPECT_EQ(bitsOf(*bad.m_cube), bitsOf(*good.m_cube));  // as if nothing had been written
     EXPECT_EQ(bad.m_cube->m_nodes[30].m_im, good.m_cube->m_nodes[30].m_im);
@@ -65,21 +66,36 @@ TEST_P(BadNodeValue, IsPutBackFlaggedAndDoesNotSpread)
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BadNodeValue,
-    testing::Values(BadValue{"positionNaN", [](btSoftBody::Node& n) { n.m_x.setY(kNaN); }, BT_FEM_RESTORED},
-                    BadValue{"positionInfinite", [](btSoftBody::Node& n) { n.m_x.setX(-kInfinity); }, BT_FEM_RESTORED},
-                    BadValue{"positionTooFar", [](btSoftBody::Node& n) { n.m_x.setX(btScalar(1e7)); }, BT_FEM_RESTORED},
-                    BadValue{"velocityNaN", [](btSoftBody::Node& n) { n.m_v.setZ(kNaN); }, BT_FEM_RESTORED},
-                    BadValue{"velocityInfinite", [](btSoftBody::Node& n) { n.m_v.setZ(kInfinity); }, BT_FEM_RESTORED},
-                    BadValue{"forceNaN", [](btSoftBody::Node& n) { n.m_f.setX(kNaN); }, BT_FEM_RESTORED},
-                    BadValue{"forceInfinite", [](btSoftBody::Node& n) { n.m_f.setX(kInfinity); }, BT_FEM_RESTORED},
-                    BadValue{"inverseMassNaN", [](btSoftBody::Node& n) { n.m_im = kNaN; }, BT_FEM_BAD_MASS},
-                    BadValue{"inverseMassInfinite", [](btSoftBody::Node& n) { n.m_im = kInfinity; }, BT_FEM_BAD_MASS},
-                    BadValue{"inverseMassNegative", [](btSoftBody::Node& n) { n.m_im = -1; }, BT_FEM_BAD_MASS}),
-    [](const auto& scene) { return scene.param.m_name; });
+    testing::Combine(
+        eachWorld(),
+        testing::Values(
+            BadValue{"positionNaN", [](btSoftBody::Node& n) { n.m_x.setY(kNaN); }, BT_FEM_RESTORED},
+            BadValue{"positionInfinite", [](btSoftBody::Node& n) { n.m_x.setX(-kInfinity); }, BT_FEM_RESTORED},
+            BadValue{"positionTooFar", [](btSoftBody::Node& n) { n.m_x.setX(btScalar(1e7)); }, BT_FEM_RESTORED},
+            BadValue{"velocityNaN", [](btSoftBody::Node& n) { n.m_v.setZ(kNaN); }, BT_FEM_RESTORED},
+            BadValue{"velocityInfinite", [](btSoftBody::Node& n) { n.m_v.setZ(kInfinity); }, BT_FEM_RESTORED},
+            BadValue{"forceNaN", [](btSoftBody::Node& n) { n.m_f.setX(kNaN); }, BT_FEM_RESTORED},
+            BadValue{"forceInfinite", [](btSoftBody::Node& n) { n.m_f.setX(kInfinity); }, BT_FEM_RESTORED},
+            BadValue{"inverseMassNaN", [](btSoftBody::Node& n) { n.m_im = kNaN; }, BT_FEM_BAD_MASS},
+            BadValue{"inverseMassInfinite", [](btSoftBody::Node& n) { n.m_im = kInfinity; }, BT_FEM_BAD_MASS},
+            BadValue{"inverseMassNegative", [](btSoftBody::Node& n) { n.m_im = -1; }, BT_FEM_BAD_MASS})),
+    nameOfWorldWith([](const BadValue& bad) { return bad.m_name; }));
 
-TEST(BadValues, NaNInAllNodesIsPutBackToo)
+class BadValues : public EachWorld
 {
-    Scene good, bad;
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, BadValues, eachWorld(), nameOfWorld);
+
+class BadSteps : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, BadSteps, eachWorld(), nameOfWorld);
+
+TEST_P(BadValues, NaNInAllNodesIsPutBackToo)
+{
+    Scene good(GetParam()), bad(GetParam());
     for (int i = 0; i < bad.m_cube->m_nodes.size(); ++i)
     {
         btSoftBody::Node& node = bad.m_cube->m_nodes[i];
@@ -92,19 +108,19 @@ TEST(BadValues, NaNInAllNodesIsPutBackToo)
     EXPECT_TRUE(bad.m_cube->isActive());
 }
 
-TEST(BadValues, GravityThatIsNotFiniteIsFlaggedAndLeftOut)
+TEST_P(BadValues, GravityThatIsNotFiniteIsFlaggedAndLeftOut)
 {
-    Scene scene;
-    scene.m_world.info().m_gravity.setZ(kNaN);
+    Scene scene(GetParam());
+    scene.m_world.setSoftGravity(btVector3(0, 0, kNaN));
     scene.m_world.step(3);
     EXPECT_TRUE(scene.flags() & BT_FEM_RESTORED);
     EXPECT_TRUE(allFinite(*scene.m_cube));
 }
 
-TEST(BadValues, MassesThatBulletMadeInfiniteAreTheNodesShareOfTheVolume)
+TEST_P(BadValues, MassesThatBulletMadeInfiniteAreTheNodesShareOfTheVolume)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made =
         btFemHelpers::createBox(world.info(), btVector3(0, 0, 0), btVector3(0.5, 0.5, 0.5), btScalar(0.25));
     made->setTotalMass(50, true);  // by face area: nodes inside get no mass, and an infinite inverse
@@ -116,12 +132,12 @@ TEST(BadValues, MassesThatBulletMadeInfiniteAreTheNodesShareOfTheVolume)
     for (int i = 0; i < cube.m_nodes.size(); ++i) EXPECT_NEAR(cube.m_nodes[i].m_v.z(), -kGravity * 21 * kStep, 0.01);
 }
 
-TEST(BadSteps, AreFlaggedAndTheBodyStandsStill)
+TEST_P(BadSteps, AreFlaggedAndTheBodyStandsStill)
 {
     for (const btScalar bad : {btScalar(0), kNaN, btScalar(-0.1), btScalar(2), btScalar(1e-9), kInfinity})
     {
         SCOPED_TRACE(bad);
-        Scene scene;
+        Scene scene(GetParam());
         const std::vector<btScalar> before = bitsOf(*scene.m_cube);
         scene.m_fem.predictMotion(bad);
         scene.m_fem.solveConstraints(bad);
@@ -131,30 +147,29 @@ TEST(BadSteps, AreFlaggedAndTheBodyStandsStill)
     }
 }
 
-TEST(BadSteps, OfTheWorldDoNotSpread)
+TEST_P(BadSteps, OfTheWorldDoNotSpread)
 {
     for (const btScalar bad : {btScalar(0), kNaN, btScalar(5)})
     {
         SCOPED_TRACE(bad);
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem);
+        FemWorld world(GetParam());
         btSoftBody& cube = world.addSoft(
             btFemHelpers::createBox(world.info(), btVector3(0, 0, 0), btVector3(0.5, 0.5, 0.5), btScalar(0.5)));
         world.step(5);
-        world.world().stepSimulation(bad, 0);
+        world.bullet().stepSimulation(bad, 0);
         world.step(5);
         EXPECT_TRUE(allFinite(cube));
         EXPECT_NEAR(velocityOf(cube).z, -kGravity * 10 * kStep, 1e-4);
     }
 }
 
-TEST(BadSteps, ABodyFirstSteppedWithOneIsSetUpByTheNext)
+TEST_P(BadSteps, ABodyFirstSteppedWithOneIsSetUpByTheNext)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& cube = world.addSoft(
         btFemHelpers::createBox(world.info(), btVector3(0, 0, 0), btVector3(0.5, 0.5, 0.5), btScalar(0.5)));
-    world.world().stepSimulation(3, 0);
+    world.bullet().stepSimulation(3, 0);
     EXPECT_TRUE(allFinite(cube));
     world.step(2);
     EXPECT_TRUE(fem.isFem(&cube));

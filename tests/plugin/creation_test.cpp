@@ -11,6 +11,7 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/generators.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -106,21 +107,27 @@ double largestDistance(const btSoftBody& a, const btSoftBody& b)
     return largest;
 }
 
-class Creator : public testing::TestWithParam<Way>
+class Creator : public EachWorldWith<Way>
 {
 };
 
+class Creation : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Creation, eachWorld(), nameOfWorld);
+
 TEST_P(Creator, MakesTheSameBodyAsOurHelpers)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(worldClass());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& ours = addBar(world, fem, btFemHelpers::createFromTetMesh(world.info(), barMesh()));
-    btSoftBody& theirs = addBar(world, fem, GetParam().m_make(world, barMesh()));
+    btSoftBody& theirs = addBar(world, fem, value().m_make(world, barMesh()));
     EXPECT_NEAR(massOf(theirs), massOf(ours), 1e-5 * massOf(ours));
     const std::vector<Vec3> rest = edgesOf(ours);
     world.step(60);
     EXPECT_TRUE(fem.isFem(&theirs));
-    EXPECT_EQ(fem.stepReport(&theirs).m_flags, GetParam().m_flags);
+    EXPECT_EQ(fem.stepReport(&theirs).m_flags, value().m_flags);
     const double bent = largestDifference(rest, edgesOf(ours));
     EXPECT_GT(bent, 0.05);
     EXPECT_LT(largestDistance(ours, theirs), 2e-3 * bent);  // two solves to 1e-3
@@ -129,20 +136,21 @@ TEST_P(Creator, MakesTheSameBodyAsOurHelpers)
 
 INSTANTIATE_TEST_SUITE_P(
     Creation, Creator,
-    testing::Values(Way{"createFromTetGenData", [](auto& w, auto& m) { return fromTetGen(w, m, false); }},
-                    Way{"createFromTetGenDataWithLinks", [](auto& w, auto& m) { return fromTetGen(w, m, true); }},
-                    Way{"createFromVtkFile", [](auto& w, auto& m) { return fromVtk(w, m); }},
-                    Way{"appendNodeAndAppendTetra", [](auto& w, auto& m) { return byHand(w, m, false); }},
-                    Way{"appendTetraOfNegativeOrientation", [](auto& w, auto& m) { return byHand(w, m, true); },
-                        BT_FEM_TURNED_TETS}),
-    [](const auto& suite) { return suite.param.m_name; });
+    testing::Combine(
+        eachWorld(),
+        testing::Values(Way{"createFromTetGenData", [](auto& w, auto& m) { return fromTetGen(w, m, false); }},
+                        Way{"createFromTetGenDataWithLinks", [](auto& w, auto& m) { return fromTetGen(w, m, true); }},
+                        Way{"createFromVtkFile", [](auto& w, auto& m) { return fromVtk(w, m); }},
+                        Way{"appendNodeAndAppendTetra", [](auto& w, auto& m) { return byHand(w, m, false); }},
+                        Way{"appendTetraOfNegativeOrientation", [](auto& w, auto& m) { return byHand(w, m, true); },
+                            BT_FEM_TURNED_TETS})),
+    nameOfWorldWith([](const Way& way) { return way.m_name; }));
 
 // --- Faces ---
 
-TEST(Creation, FacesAreMadeOutwardWhereTheCreatorMadeNone)
+TEST_P(Creation, FacesAreMadeOutwardWhereTheCreatorMadeNone)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     const TetMesh mesh = barMesh();
     btSoftBody& body = world.addSoft(byHand(world, mesh, true));
     ASSERT_EQ(body.m_faces.size(), 0);
@@ -158,10 +166,10 @@ TEST(Creation, FacesAreMadeOutwardWhereTheCreatorMadeNone)
     EXPECT_GT(velocityOf(body).x, 1e-3);  // wind has something to push at
 }
 
-TEST(Creation, FacesThatExistAreLeftAlone)
+TEST_P(Creation, FacesThatExistAreLeftAlone)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made = byHand(world, barMesh(), false);
     made->appendFace(3, 1, 0);  // one alone, and of whatever orientation
     btSoftBody& body = world.addSoft(made);
@@ -192,10 +200,10 @@ btSoftBody* makeWithUnusedNodes(SoftWorld& world)
     return with;
 }
 
-TEST(Creation, UnusedNodesStandStillAndTheBodyMovesAsWithoutThem)
+TEST_P(Creation, UnusedNodesStandStillAndTheBodyMovesAsWithoutThem)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     world.addPlane();
     btSoftBody& plain = world.addSoft(byHand(world, barMesh(), false));
     btSoftBody& body = world.addSoft(makeWithUnusedNodes(world));
@@ -224,15 +232,15 @@ TEST(Creation, UnusedNodesStandStillAndTheBodyMovesAsWithoutThem)
 }
 
 // Every detail turns its factor by other rotations.
-TEST(Creation, UnusedNodesDoNoHarmInAnyDetailOrPrecision)
+TEST_P(Creation, UnusedNodesDoNoHarmInAnyDetailOrPrecision)
 {
     for (const btScalar tolerance : {btScalar(1e-3), btScalar(1e-6)})
         for (const btFemDetail detail : {btFemDetail::nodalWarp, btFemDetail::globalWarp, btFemDetail::direct})
         {
             btFemSolverInfo info;
             info.m_tolerance = tolerance;
-            btFemSoftBodySolver fem(info);
-            SoftWorld world(fem);
+            FemWorld world(GetParam(), info);
+            btFemSoftBodySolver& fem = world.fem();
             btSoftBody& body = world.addSoft(makeWithUnusedNodes(world));
             fem.setDetail(&body, detail);
             world.step(30);
@@ -242,10 +250,10 @@ TEST(Creation, UnusedNodesDoNoHarmInAnyDetailOrPrecision)
         }
 }
 
-TEST(Creation, UnusedNodesGetNoMassFromADensity)
+TEST_P(Creation, UnusedNodesGetNoMassFromADensity)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& body = world.addSoft(makeWithUnusedNodes(world));
     btFemMaterial material;
     material.m_density = 1000;
@@ -255,10 +263,9 @@ TEST(Creation, UnusedNodesGetNoMassFromADensity)
     EXPECT_NEAR(body.getTotalMass(), 192 + 7 + 1, 0.01);  // theirs are what they were
 }
 
-TEST(Creation, AllNodesUnusedButAPieceIsStillRefusedByOurHelpers)
+TEST_P(Creation, AllNodesUnusedButAPieceIsStillRefusedByOurHelpers)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
     const btVector3 x[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 5}};
     const int tet[] = {0, 1, 2, 3};
     EXPECT_THROW(btFemHelpers::createFromTetMesh(world.info(), x, 5, tet, 1), std::invalid_argument);
@@ -267,10 +274,10 @@ TEST(Creation, AllNodesUnusedButAPieceIsStillRefusedByOurHelpers)
 // --- Links that FEM bodies also carry ---
 
 // Their stiffness is the material's: springs, whose stiffness depends on the step and the iterations, add nothing.
-TEST(Creation, LinksAreIgnoredBitForBit)
+TEST_P(Creation, LinksAreIgnoredBitForBit)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& plain = addBar(world, fem, fromTetGen(world, barMesh(), false));
     btSoftBody& body = addBar(world, fem, fromTetGen(world, barMesh(), true));
     const int links = body.m_links.size();

@@ -9,6 +9,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_world.h"
 
@@ -22,10 +23,24 @@ btSoftBody* makeCube(SoftWorld& world, const btVector3& center = {0, 0, 0}, btSc
     return btFemHelpers::createBox(world.info(), center, btVector3(0.5, 0.5, 0.5), cell);
 }
 
-TEST(Lifecycle, BodiesComeAndGoAtAnyTime)
+class Lifecycle : public EachWorld
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Lifecycle, eachWorld(), nameOfWorld);
+
+// A btFemDeformableBodySolver serves one world.
+class LifecycleOfWorlds : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, LifecycleOfWorlds, testing::Values(WorldClass::softRigid, WorldClass::softMultiBody),
+                         nameOfWorld);
+
+TEST_P(Lifecycle, BodiesComeAndGoAtAnyTime)
+{
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     world.addPlane();
     btSoftBody& first = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.55))));
     world.step(30);
@@ -64,7 +79,7 @@ btSoftBody* makeInPlace(SoftWorld& world, const btSoftBody& pattern, btScalar st
         for (int a = 0; a < 4; ++a) node[a] = static_cast<int>(pattern.m_tetras[e].m_n[a] - &pattern.m_nodes[0]);
         body->appendTetra(node[0], node[1], node[2], node[3]);
     }
-    world.world().addSoftBody(body);
+    world.put(*body);
     return body;
 }
 
@@ -75,68 +90,67 @@ void stepAndRemoveAtRest(SoftWorld& world, const btFemSoftBodySolver& fem, btSof
     EXPECT_TRUE(fem.isFem(body));
     EXPECT_EQ(fem.stepReport(body).m_flags, 0);
     EXPECT_LT(largestDifference(shape, edgesOf(*body)), 1e-4);  // at rest: this is its rest shape
-    world.world().removeSoftBody(body);
+    world.take(*body);
     body->~btSoftBody();
 }
 
-TEST(Lifecycle, AnotherBodyAtTheAddressOfADeletedOneIsKnownAsAnother)
+TEST_P(Lifecycle, AnotherBodyAtTheAddressOfADeletedOneIsKnownAsAnother)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     const std::unique_ptr<btSoftBody> pattern(makeCube(world));
     for (const btScalar stretch : {btScalar(1), btScalar(1.2)})
         stepAndRemoveAtRest(world, fem, makeInPlace(world, *pattern, stretch));
 }
 
 // The next world gives out the same broadphase ids, and may itself be at the address of the last.
-TEST(Lifecycle, AnotherBodyAtTheSameAddressInTheNextWorldIsKnownAsAnother)
+TEST_P(LifecycleOfWorlds, AnotherBodyAtTheSameAddressInTheNextWorldIsKnownAsAnother)
 {
     btFemSoftBodySolver fem;
-    SoftWorld home(fem, btVector3(0, 0, 0));
+    SoftWorld home(GetParam(), fem, btVector3(0, 0, 0));
     const std::unique_ptr<btSoftBody> pattern(makeCube(home));
     for (const btScalar stretch : {btScalar(1), btScalar(1.2), btScalar(0.9)})
     {
-        SoftWorld world(fem, btVector3(0, 0, 0));
+        SoftWorld world(GetParam(), fem, btVector3(0, 0, 0));
         stepAndRemoveAtRest(world, fem, makeInPlace(world, *pattern, stretch));
     }
 }
 
-TEST(Lifecycle, ABodyTakenOutAndPutBackKeepsItsRestShapeAndMaterial)
+TEST_P(Lifecycle, ABodyTakenOutAndPutBackKeepsItsRestShapeAndMaterial)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = world.addSoft(makeCube(world));
     const std::vector<Vec3> rest = edgesOf(cube);
     for (int i = 0; i < cube.m_nodes.size(); ++i) cube.m_nodes[i].m_v.setX(10 * cube.m_nodes[i].m_x.x());
     world.step(3);
     ASSERT_GT(largestDifference(rest, edgesOf(cube)), 0.005);
-    world.world().removeSoftBody(&cube);
-    world.world().addSoftBody(&cube);  // no step in between
+    world.take(cube);
+    world.put(cube);  // no step in between
     world.step(300);
     EXPECT_LT(largestDifference(rest, edgesOf(cube)), 1e-3);
 }
 
-TEST(Lifecycle, ABodyAddedTwiceIsSteppedOnceAndFlagged)
+TEST_P(Lifecycle, ABodyAddedTwiceIsSteppedOnceAndFlagged)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& cube = world.addSoft(makeCube(world));
-    world.world().getSoftBodyArray().push_back(&cube);
+    world.softBodies().push_back(&cube);
     world.step(30);
     EXPECT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_ADDED_TWICE);
     EXPECT_NEAR(velocityOf(cube).z, -kGravity * 30 * kStep, 1e-4);
-    world.world().getSoftBodyArray().pop_back();
+    world.softBodies().pop_back();
     world.step();
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
 }
 
-TEST(Lifecycle, ABodyInTwoWorldsOfOneSolverIsSteppedByOne)
+TEST_P(LifecycleOfWorlds, ABodyInTwoWorldsOfOneSolverIsSteppedByOne)
 {
     btFemSoftBodySolver fem;
-    SoftWorld one(fem), other(fem);
+    SoftWorld one(GetParam(), fem), other(GetParam(), fem);
     btSoftBody& cube = one.addSoft(makeCube(one));
     one.step(2);
-    other.world().getSoftBodyArray().push_back(&cube);
+    other.softBodies().push_back(&cube);
     for (int k = 0; k < 10; ++k)
     {
         other.step();
@@ -144,20 +158,20 @@ TEST(Lifecycle, ABodyInTwoWorldsOfOneSolverIsSteppedByOne)
     }
     EXPECT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_OTHER_WORLD);
     EXPECT_NEAR(velocityOf(cube).z, -kGravity * 12 * kStep, 2.01 * kGravity * kStep);
-    other.world().getSoftBodyArray().pop_back();
+    other.softBodies().pop_back();
     other.step(2);
     one.step(2);
     EXPECT_EQ(fem.stepReport(&cube).m_flags & BT_FEM_OTHER_WORLD, 0);
     EXPECT_TRUE(allFinite(cube));
 }
 
-TEST(Lifecycle, ABodyInWorldsOfTwoSolversIsSteppedByOne)
+TEST_P(LifecycleOfWorlds, ABodyInWorldsOfTwoSolversIsSteppedByOne)
 {
     btFemSoftBodySolver firstFem, secondFem;
-    SoftWorld first(firstFem), second(secondFem);
+    SoftWorld first(GetParam(), firstFem), second(GetParam(), secondFem);
     btSoftBody& cube = first.addSoft(makeCube(first));
     first.step(2);
-    second.world().getSoftBodyArray().push_back(&cube);  // the body still says that the first solver is its own
+    second.softBodies().push_back(&cube);  // the body still says that the first solver is its own
     for (int k = 0; k < 10; ++k)
     {
         first.step();
@@ -165,18 +179,18 @@ TEST(Lifecycle, ABodyInWorldsOfTwoSolversIsSteppedByOne)
     }
     EXPECT_TRUE(secondFem.stepReport(&cube).m_flags & BT_FEM_OTHER_WORLD);
     EXPECT_NEAR(velocityOf(cube).z, -kGravity * 12 * kStep, 1e-4);
-    second.world().getSoftBodyArray().pop_back();
+    second.softBodies().pop_back();
     second.step();
     first.step();
     EXPECT_EQ(firstFem.stepReport(&cube).m_flags, 0);
 }
 
-TEST(Lifecycle, ASolverOutlivesItsWorldAndServesTheNext)
+TEST_P(LifecycleOfWorlds, ASolverOutlivesItsWorldAndServesTheNext)
 {
     btFemSoftBodySolver fem;
     for (int k = 0; k < 3; ++k)
     {
-        SoftWorld world(fem);
+        SoftWorld world(GetParam(), fem);
         world.addPlane();
         btSoftBody& cube = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.51))));
         world.step(120);
@@ -185,10 +199,10 @@ TEST(Lifecycle, ASolverOutlivesItsWorldAndServesTheNext)
     }
 }
 
-TEST(Lifecycle, TwoWorldsMayTakeTurnsWithOneSolver)
+TEST_P(LifecycleOfWorlds, TwoWorldsMayTakeTurnsWithOneSolver)
 {
     btFemSoftBodySolver fem;
-    SoftWorld one(fem), other(fem);
+    SoftWorld one(GetParam(), fem), other(GetParam(), fem);
     btSoftBody& cube = one.addSoft(makeCube(one));
     btSoftBody& twin = other.addSoft(makeCube(other));
     for (int k = 0; k < 30; ++k)
@@ -218,10 +232,10 @@ void deleteInTick(btDynamicsWorld* world, btScalar)
     deletion->m_rigid = nullptr;
 }
 
-TEST(Lifecycle, BodiesMayBeDeletedBetweenCollisionAndSolve)
+TEST_P(Lifecycle, BodiesMayBeDeletedBetweenCollisionAndSolve)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btRigidBody& floor = world.addFloorBox();
     btSoftBody& cube = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.51))));
     btSoftBody& doomed = world.addSoft(makeCube(world, btVector3(3, 0, btScalar(0.51))));
@@ -229,7 +243,7 @@ TEST(Lifecycle, BodiesMayBeDeletedBetweenCollisionAndSolve)
     ASSERT_GT(fem.contacts(&doomed).size(), 0);
 
     Deletion deletion = {&world, &doomed, nullptr};
-    world.world().setInternalTickCallback(deleteInTick, &deletion);
+    world.bullet().setInternalTickCallback(deleteInTick, &deletion);
     world.step();
     EXPECT_EQ(deletion.m_soft, nullptr);
     world.step(20);
@@ -243,10 +257,10 @@ TEST(Lifecycle, BodiesMayBeDeletedBetweenCollisionAndSolve)
     EXPECT_TRUE(allFinite(cube));
 }
 
-TEST(Lifecycle, KeysNeverAddedAreForgotten)
+TEST_P(Lifecycle, KeysNeverAddedAreForgotten)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     const std::unique_ptr<btSoftBody> never(makeCube(world)), forgotten(makeCube(world));
     fem.prepare(never.get(), kStep);
     fem.prepare(forgotten.get(), kStep);
@@ -260,15 +274,16 @@ TEST(Lifecycle, KeysNeverAddedAreForgotten)
 // A FEM body whose elements a program breaks is Bullet's again, with Bullet's own contacts, from the next step on.
 // Asked for or not, its constants are updated without the tree of nodes that Bullet never finishes for a body without
 // links.
-class BrokenBody : public testing::TestWithParam<bool>
+class BrokenBody : public EachWorldWith<bool>
 {
 };
 
 TEST_P(BrokenBody, MovesAndTouchesAsInBulletAlone)
 {
-    btFemSoftBodySolver fem;
     btDefaultSoftBodySolver plain;
-    SoftWorld world(fem), other(plain);
+    FemWorld world(worldClass());
+    btFemSoftBodySolver& fem = world.fem();
+    SoftWorld other(worldClass(), plain);
     world.addFloorBox();
     other.addFloorBox();
     btSoftBody& body = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.55))));
@@ -278,7 +293,7 @@ TEST_P(BrokenBody, MovesAndTouchesAsInBulletAlone)
 
     body.m_tetras[0].m_n[1] = body.m_tetras[0].m_n[0];
     body.activate();
-    body.m_bUpdateRtCst = GetParam();
+    body.m_bUpdateRtCst = value();
     twin.m_bUpdateRtCst = false;
     for (int i = 0; i < body.m_nodes.size(); ++i)
     {
@@ -299,8 +314,35 @@ TEST_P(BrokenBody, MovesAndTouchesAsInBulletAlone)
     EXPECT_LT(furthest, 1e-3);  // [m]
 }
 
-INSTANTIATE_TEST_SUITE_P(Lifecycle, BrokenBody, testing::Bool(),
-                         [](const auto& suite) { return suite.param ? "constantsAsked" : "constantsLeft"; });
+INSTANTIATE_TEST_SUITE_P(Lifecycle, BrokenBody,
+                         testing::Combine(testing::Values(WorldClass::softRigid, WorldClass::softMultiBody),
+                                          testing::Bool()),
+                         nameOfWorldWith([](bool asked) { return asked ? "constantsAsked" : "constantsLeft"; }));
+
+// In a deformable world Bullet has nothing to move bodies without links by.
+TEST(BrokenBodyInADeformableWorld, StandsStillAndSaysWhyUntilItIsMended)
+{
+    FemWorld world(WorldClass::deformable);
+    btFemSoftBodySolver& fem = world.fem();
+    btSoftBody& body = world.addSoft(makeCube(world));
+    world.step(10);
+    btSoftBody::Node*& corner = body.m_tetras[0].m_n[1];
+    btSoftBody::Node* const whole = corner;
+    corner = body.m_tetras[0].m_n[0];
+    world.step();
+    const std::vector<btScalar> before = bitsOf(body);
+    world.step(5);
+    EXPECT_FALSE(fem.isFem(&body));
+    EXPECT_EQ(fem.stepReport(&body).m_flags, BT_FEM_REJECTED);
+    EXPECT_NE(std::string(fem.stepReport(&body).m_message).find("element 0"), std::string::npos);
+    EXPECT_EQ(bitsOf(body), before);
+    corner = whole;
+    fem.setMaterial(&body, btFemMaterial::rubber());
+    world.step(5);
+    EXPECT_TRUE(fem.isFem(&body));
+    EXPECT_EQ(fem.stepReport(&body).m_flags & BT_FEM_REJECTED, 0);
+    EXPECT_LT(velocityOf(body).z, -kGravity * 14 * kStep);
+}
 
 }  // namespace
 }  // namespace bullet_fem

@@ -7,6 +7,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -20,10 +21,21 @@ btSoftBody& addCube(SoftWorld& world)
     return addUnitCube(world, btVector3(0, 0, 0));
 }
 
-TEST(Loads, AForceOfTheUserAcceleratesByForceOverMass)
+class Loads : public EachWorld
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Loads, eachWorld(), nameOfWorld);
+
+class Steps : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Steps, eachWorld(), nameOfWorld);
+
+TEST_P(Loads, AForceOfTheUserAcceleratesByForceOverMass)
+{
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = addCube(world);
     const double mass = massOf(cube);
     for (int k = 0; k < 60; ++k)
@@ -39,10 +51,17 @@ TEST(Loads, AForceOfTheUserAcceleratesByForceOverMass)
     EXPECT_GT(velocityOf(cube).x - before, 1e-3);
 }
 
-TEST(Loads, GravityIsThatOfTheBodysOwnWorldInfo)
+// In a deformable world it is that of its forces.
+class LoadsOfTheWorldInfo : public EachWorld
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, LoadsOfTheWorldInfo, testing::Values(WorldClass::softRigid, WorldClass::softMultiBody),
+                         nameOfWorld);
+
+TEST_P(LoadsOfTheWorldInfo, GravityIsThatOfTheBodysOwn)
+{
+    FemWorld world(GetParam());
     btSoftBodyWorldInfo moon = world.info();
     moon.m_gravity = btVector3(0, 0, btScalar(-1.62));
     btSoftBody& onEarth = addCube(world);
@@ -55,13 +74,12 @@ TEST(Loads, GravityIsThatOfTheBodysOwnWorldInfo)
     EXPECT_NEAR(centerOf(onEarth).z, -kGravity * kStep * kStep * 60 * 61 / 2, 1e-5 * kGravity);
 }
 
-TEST(Loads, WindPushesAndDragFollowsBulletsCoefficient)
+TEST_P(Loads, WindPushesAndDragFollowsBulletsCoefficient)
 {
     double speed[2];
     for (const int k : {0, 1})
     {
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem, btVector3(0, 0, 0));
+        FemWorld world(GetParam(), btVector3(0, 0, 0));
         btSoftBody& cube = addCube(world);
         cube.m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSided;
         cube.m_cfg.kDG = btScalar(k == 0 ? 0.05 : 0.1);
@@ -74,21 +92,19 @@ TEST(Loads, WindPushesAndDragFollowsBulletsCoefficient)
     EXPECT_NEAR(speed[1] / speed[0], 2, 0.05);
 }
 
-TEST(Loads, BulletsDampingSlowsAFlyingBodyAsItDoesBulletsBodies)
+TEST_P(Loads, BulletsDampingSlowsAFlyingBodyAsItDoesBulletsBodies)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = addCube(world);
-    cube.m_cfg.kDP = btScalar(0.02);
+    (GetParam() == WorldClass::deformable ? cube.m_cfg.drag : cube.m_cfg.kDP) = btScalar(0.02);  // as Bullet's have it
     cube.setVelocity(btVector3(1, 0, 0));
     world.step(50);
     EXPECT_NEAR(velocityOf(cube).x, std::pow(0.98, 50), 1e-4);
 }
 
-TEST(Loads, VelocitiesThatTheUserSetsAreTakenOver)
+TEST_P(Loads, VelocitiesThatTheUserSetsAreTakenOver)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = addCube(world);
     cube.setVelocity(btVector3(1, 2, 3));
     world.step(10);
@@ -102,14 +118,14 @@ TEST(Loads, VelocitiesThatTheUserSetsAreTakenOver)
     EXPECT_NEAR(velocityOf(cube).z, 3 + share, 1e-5);
 }
 
-TEST(Loads, TranslateInMidRunTeleportsWithoutDeforming)
+TEST_P(Loads, TranslateInMidRunTeleportsWithoutDeforming)
 {
     std::vector<Vec3> shape[2];
     Vec3 pin[2];
     for (const int k : {0, 1})
     {
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem);
+        FemWorld world(GetParam());
+        btFemSoftBodySolver& fem = world.fem();
         btSoftBody& cube = addCube(world);
         cube.setMass(0, 0);  // a pin goes along
         world.step(30);
@@ -124,10 +140,9 @@ TEST(Loads, TranslateInMidRunTeleportsWithoutDeforming)
               1e-4);  // the rounding of positions 20 m away, times some stiffness
 }
 
-TEST(Loads, RotateTurnsTheBodyAndItsShapeStays)
+TEST_P(Loads, RotateTurnsTheBodyAndItsShapeStays)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = addCube(world);
     world.step(2);
     const btQuaternion turn(btVector3(1, 2, 3).normalized(), btScalar(1.3));
@@ -138,22 +153,22 @@ TEST(Loads, RotateTurnsTheBodyAndItsShapeStays)
     EXPECT_LT(fastestNode(cube), 1e-3);
 }
 
-TEST(Steps, SubStepsFallAsFarAsSingleOnes)
+TEST_P(Steps, SubStepsFallAsFarAsSingleOnes)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& cube = addCube(world);
-    for (int k = 0; k < 20; ++k) world.world().stepSimulation(btScalar(0.05), 10, btScalar(1) / 120);
+    for (int k = 0; k < 20; ++k) world.bullet().stepSimulation(btScalar(0.05), 10, btScalar(1) / 120);
     const double n = 120;
     EXPECT_NEAR(centerOf(cube).z, -kGravity * n * (n + 1) / 2 / (120 * 120), 0.02 * kGravity / 2);
     EXPECT_NEAR(velocityOf(cube).z, -kGravity, 0.02 * kGravity);
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
 }
 
-TEST(Steps, AChangingStepIsFlaggedAsStaleAndRefactorMendsThat)
+TEST_P(Steps, AChangingStepIsFlaggedAsStaleAndRefactorMendsThat)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& cube = addCube(world);
     cube.setMass(0, 0);
     world.step(10);
@@ -168,10 +183,10 @@ TEST(Steps, AChangingStepIsFlaggedAsStaleAndRefactorMendsThat)
 }
 
 // A body that touches something is given the factor of its step when the step is far off.
-TEST(Steps, ThatComeAndGoInContactAreFactoredFor)
+TEST_P(Steps, ThatComeAndGoInContactAreFactoredFor)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     world.addPlane(btScalar(-0.501));
     btSoftBody& cube = addCube(world);
     world.step(30);

@@ -7,6 +7,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -19,7 +20,7 @@ namespace
 class Scales
 {
 public:
-    Scales() : m_world(m_fem)
+    explicit Scales(WorldClass worldClass) : m_world(worldClass)
     {
         m_world.addPlane();
         m_body = btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(0.501)), btVector3(0.5, 0.5, 0.5),
@@ -27,7 +28,7 @@ public:
     }
 
     btSoftBody& body() { return *m_body; }
-    btFemSoftBodySolver& fem() { return m_fem; }
+    btFemSoftBodySolver& fem() { return m_world.fem(); }
     SoftWorld& world() { return m_world; }
     void put() { m_world.addSoft(m_body); }
 
@@ -35,12 +36,11 @@ public:
     double weigh()
     {
         m_world.step(240);
-        return impulseOn(m_fem, *m_body).z / kStep / kGravity;
+        return impulseOn(m_world.fem(), *m_body).z / kStep / kGravity;
     }
 
 private:
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
     btSoftBody* m_body;
 };
 
@@ -52,60 +52,66 @@ struct Setter
     int m_flags = 0;  // when it is set
 };
 
-class MassSetter : public testing::TestWithParam<Setter>
+class MassSetter : public EachWorldWith<Setter>
 {
 };
 
 TEST_P(MassSetter, SaysWhatTheBodyWeighs)
 {
-    Scales scales;
-    GetParam().m_set(scales.body());
+    Scales scales(worldClass());
+    value().m_set(scales.body());
     scales.put();
     scales.world().step();
-    EXPECT_EQ(scales.fem().stepReport(&scales.body()).m_flags, GetParam().m_flags);
-    EXPECT_NEAR(scales.weigh(), GetParam().m_weighs, 1e-3 * GetParam().m_weighs);
-    EXPECT_NEAR(massOf(scales.body()), GetParam().m_weighs, 1e-4 * GetParam().m_weighs);  // and its nodes say so
+    EXPECT_EQ(scales.fem().stepReport(&scales.body()).m_flags, value().m_flags);
+    EXPECT_NEAR(scales.weigh(), value().m_weighs, 1e-3 * value().m_weighs);
+    EXPECT_NEAR(massOf(scales.body()), value().m_weighs, 1e-4 * value().m_weighs);  // and its nodes say so
 }
 
 TEST_P(MassSetter, SaysWhatTheBodyWeighsInMidRun)
 {
-    Scales scales;
+    Scales scales(worldClass());
     scales.put();
     EXPECT_NEAR(scales.weigh(), 1000, 1);
-    GetParam().m_set(scales.body());
+    value().m_set(scales.body());
     scales.world().step();
     const int about = BT_FEM_STALE_FACTOR | BT_FEM_REFACTORED | BT_FEM_REFACTOR_PAYS;
-    EXPECT_EQ(scales.fem().stepReport(&scales.body()).m_flags & ~about, GetParam().m_flags);
-    EXPECT_NEAR(scales.weigh(), GetParam().m_weighs, 0.02 * GetParam().m_weighs);  // of what it has sunk in
+    EXPECT_EQ(scales.fem().stepReport(&scales.body()).m_flags & ~about, value().m_flags);
+    EXPECT_NEAR(scales.weigh(), value().m_weighs, 0.02 * value().m_weighs);  // of what it has sunk in
     EXPECT_NEAR(scales.weigh(), massOf(scales.body()), 1e-3 * massOf(scales.body()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Masses, MassSetter,
-                         testing::Values(Setter{"setTotalMass", [](btSoftBody& b) { b.setTotalMass(300); }, 300},
-                                         Setter{"setVolumeMass", [](btSoftBody& b) { b.setVolumeMass(300); }, 300},
-                                         // Bullet adds every element's volume four times.
-                                         Setter{"setVolumeDensityIsFourTimesTheDensity",
-                                                [](btSoftBody& b) { b.setVolumeDensity(300); }, 1200},
-                                         // Bullet leaves inner nodes without mass.
-                                         Setter{"setTotalMassFromFaces",
-                                                [](btSoftBody& b) { b.setTotalMass(300, true); }, 300, BT_FEM_BAD_MASS},
-                                         Setter{"setTotalDensity", [](btSoftBody& b) { b.setTotalDensity(300); }, 300,
-                                                BT_FEM_BAD_MASS},
-                                         Setter{"setMassOfEveryNode",
-                                                [](btSoftBody& b)
-                                                {
-                                                    for (int i = 0; i < b.m_nodes.size(); ++i)
-                                                        b.setMass(i, btScalar(300.0 / b.m_nodes.size()));
-                                                },
-                                                300}),
-                         [](const auto& suite) { return suite.param.m_name; });
+INSTANTIATE_TEST_SUITE_P(
+    Masses, MassSetter,
+    testing::Combine(eachWorld(),
+                     testing::Values(Setter{"setTotalMass", [](btSoftBody& b) { b.setTotalMass(300); }, 300},
+                                     Setter{"setVolumeMass", [](btSoftBody& b) { b.setVolumeMass(300); }, 300},
+                                     // Bullet adds every element's volume four times.
+                                     Setter{"setVolumeDensityIsFourTimesTheDensity",
+                                            [](btSoftBody& b) { b.setVolumeDensity(300); }, 1200},
+                                     // Bullet leaves inner nodes without mass.
+                                     Setter{"setTotalMassFromFaces", [](btSoftBody& b) { b.setTotalMass(300, true); },
+                                            300, BT_FEM_BAD_MASS},
+                                     Setter{"setTotalDensity", [](btSoftBody& b) { b.setTotalDensity(300); }, 300,
+                                            BT_FEM_BAD_MASS},
+                                     Setter{"setMassOfEveryNode",
+                                            [](btSoftBody& b)
+                                            {
+                                                for (int i = 0; i < b.m_nodes.size(); ++i)
+                                                    b.setMass(i, btScalar(300.0 / b.m_nodes.size()));
+                                            },
+                                            300})),
+    nameOfWorldWith([](const Setter& setter) { return setter.m_name; }));
+
+class Masses : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Masses, eachWorld(), nameOfWorld);
 
 // Inner nodes move like the others, not like massless ones.
-TEST(Masses, FromFacesAreSharedOutByVolume)
+TEST_P(Masses, FromFacesAreSharedOutByVolume)
 {
-    Scales scales;
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
     std::vector<double> before;
     for (int i = 0; i < cube.m_nodes.size(); ++i) before.push_back(1 / double(cube.m_nodes[i].m_im));
@@ -116,9 +122,9 @@ TEST(Masses, FromFacesAreSharedOutByVolume)
 }
 
 // Without faces Bullet makes NaN of all masses, and what was asked for is lost.
-TEST(Masses, FromFacesThatAreNotThereAreThoseOfWater)
+TEST_P(Masses, FromFacesThatAreNotThereAreThoseOfWater)
 {
-    Scales scales;
+    Scales scales(GetParam());
     scales.body().m_faces.clear();
     scales.body().setTotalMass(300, true);
     scales.put();
@@ -130,7 +136,7 @@ TEST(Masses, FromFacesThatAreNotThereAreThoseOfWater)
 /// A bar of 1 x 0.25 x 0.25 m, nu = 0, that hangs from z = 0.
 struct Hanging
 {
-    Hanging() : m_world(m_fem)
+    explicit Hanging(WorldClass worldClass) : m_world(worldClass)
     {
         m_body = btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(-0.5)),
                                          btVector3(btScalar(0.125), btScalar(0.125), btScalar(0.5)), btScalar(0.125));
@@ -139,7 +145,7 @@ struct Hanging
         material.m_poissonRatio = 0;
         material.m_massDamping = 5;
         material.m_density = 1000;
-        m_fem.setMaterial(m_body, material);
+        m_world.fem().setMaterial(m_body, material);
         for (int i = 0; i < m_body->m_nodes.size(); ++i)
             if (m_body->m_nodes[i].m_x.z() > btScalar(-1e-3)) m_body->setMass(i, 0);
         m_world.addSoft(m_body);
@@ -152,15 +158,14 @@ struct Hanging
         return -1 - lowestHeight(*m_body);
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
     btSoftBody* m_body;
 };
 
 // The clamped bar's free nodes have 15/16 of it all: m g L / (2 E A) with the whole.
-TEST(Masses, SetWhilePinnedAreWeighedAndThePinsStay)
+TEST_P(Masses, SetWhilePinnedAreWeighedAndThePinsStay)
 {
-    Hanging bar;
+    Hanging bar(GetParam());
     const double freeShare = massOf(*bar.m_body) / 62.5;
     const double expected = 62.5 * kGravity / (2 * 2e6 * 0.0625);
     EXPECT_NEAR(bar.sag(), expected, 0.01 * expected);
@@ -171,9 +176,9 @@ TEST(Masses, SetWhilePinnedAreWeighedAndThePinsStay)
 }
 
 // Let go with another mass: it falls freely, with that mass, in its own shape.
-TEST(Masses, ANodeReleasedWithAnotherMassHasThat)
+TEST_P(Masses, ANodeReleasedWithAnotherMassHasThat)
 {
-    Hanging bar;
+    Hanging bar(GetParam());
     bar.sag();
     double pinned = 0;
     for (int i = 0; i < bar.m_body->m_nodes.size(); ++i)
@@ -184,7 +189,7 @@ TEST(Masses, ANodeReleasedWithAnotherMassHasThat)
         }
     const double mass = massOf(*bar.m_body);
     EXPECT_GT(pinned, 10);
-    bar.m_world.info().m_gravity = btVector3(0, 0, 0);
+    bar.m_world.setSoftGravity(btVector3(0, 0, 0));
     bar.m_body->m_nodes[0].m_f = btVector3(btScalar(60 * mass), 0, 0);
     bar.m_world.step();
     const double h = kStep;

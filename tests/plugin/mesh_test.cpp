@@ -8,6 +8,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_world.h"
 
@@ -36,23 +37,23 @@ struct BadMesh
     const char* m_says;
 };
 
-class BadMeshTest : public testing::TestWithParam<BadMesh>
+class BadMeshTest : public EachWorldWith<BadMesh>
 {
 };
 
 TEST_P(BadMeshTest, IsFlaggedWithItsReasonAndNothingCrashes)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(worldClass());
+    btFemSoftBodySolver& fem = world.fem();
     world.addFloorBox();
-    btSoftBody& body = world.addSoft(makeByHand(world, GetParam().m_positions, GetParam().m_tets));
+    btSoftBody& body = world.addSoft(makeByHand(world, value().m_positions, value().m_tets));
     btSoftBody& good = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(3, 0, btScalar(0.51)),
                                                              btVector3(0.5, 0.5, 0.5), btScalar(0.5)));
     world.step(60);
     EXPECT_FALSE(fem.isFem(&body));
     EXPECT_TRUE(fem.stepReport(&body).m_flags & BT_FEM_REJECTED);
     const std::string message = fem.stepReport(&body).m_message;
-    EXPECT_NE(message.find(GetParam().m_says), std::string::npos) << message;
+    EXPECT_NE(message.find(value().m_says), std::string::npos) << message;
     EXPECT_EQ(fem.stepReport(&good).m_flags, 0);
     EXPECT_TRUE(allFinite(good));
 }
@@ -61,16 +62,42 @@ const btScalar kNaN = std::numeric_limits<btScalar>::quiet_NaN();
 
 INSTANTIATE_TEST_SUITE_P(
     Meshes, BadMeshTest,
-    testing::Values(BadMesh{"flatElement", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}, "degenerate"},
-                    BadMesh{"nodeTwice", kCorners, {{0, 1, 2, 3}, {0, 1, 2, 2}}, "element 1"},
-                    BadMesh{
-                        "nanAtTheStart", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, kNaN, 2}}, {{0, 1, 2, 3}}, "finite"}),
-    [](const auto& scene) { return scene.param.m_name; });
+    testing::Combine(
+        eachWorld(),
+        testing::Values(
+            BadMesh{"flatElement", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}, "degenerate"},
+            BadMesh{"nodeTwice", kCorners, {{0, 1, 2, 3}, {0, 1, 2, 2}}, "element 1"},
+            BadMesh{"nanAtTheStart", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, kNaN, 2}}, {{0, 1, 2, 3}}, "finite"})),
+    nameOfWorldWith([](const BadMesh& mesh) { return mesh.m_name; }));
 
-TEST(Meshes, ARejectedBodyIsTriedAgainWhenItGetsAMaterial)
+class Meshes : public EachWorld
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Meshes, eachWorld(), nameOfWorld);
+
+class DefaultMaterial : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, DefaultMaterial, eachWorld(), nameOfWorld);
+
+class Material : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Material, eachWorld(), nameOfWorld);
+
+class Detail : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Detail, eachWorld(), nameOfWorld);
+
+TEST_P(Meshes, ARejectedBodyIsTriedAgainWhenItGetsAMaterial)
+{
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& body = world.addSoft(makeByHand(world, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}));
     world.step(2);
     ASSERT_TRUE(fem.stepReport(&body).m_flags & BT_FEM_REJECTED);
@@ -81,10 +108,10 @@ TEST(Meshes, ARejectedBodyIsTriedAgainWhenItGetsAMaterial)
     EXPECT_EQ(fem.stepReport(&body).m_flags & BT_FEM_REJECTED, 0);
 }
 
-TEST(Meshes, InvertedElementsAreTurnedAndFlagged)
+TEST_P(Meshes, InvertedElementsAreTurnedAndFlagged)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& body = world.addSoft(makeByHand(world, kCorners, {{0, 1, 3, 2}}));
     world.step(30);
     EXPECT_TRUE(fem.isFem(&body));
@@ -93,10 +120,10 @@ TEST(Meshes, InvertedElementsAreTurnedAndFlagged)
     EXPECT_NEAR((body.m_nodes[1].m_x - body.m_nodes[0].m_x).length(), 1, 1e-4);
 }
 
-TEST(Meshes, PiecesThatAreNotConnectedMoveOnTheirOwn)
+TEST_P(Meshes, PiecesThatAreNotConnectedMoveOnTheirOwn)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     std::vector<btVector3> x = kCorners;
     for (const btVector3& corner : kCorners) x.push_back(corner + btVector3(3, 0, 0));
     btSoftBody& body = world.addSoft(makeByHand(world, x, {{0, 1, 2, 3}, {4, 5, 6, 7}}));
@@ -108,10 +135,10 @@ TEST(Meshes, PiecesThatAreNotConnectedMoveOnTheirOwn)
 
 // Own weight shortens a cube by rho g L^2 / (2 E); so the same from kLST as from a material, and ten times less when it
 // is ten times stiffer.
-double sagOf(btScalar kLST, const btFemMaterial* material)
+double sagOf(WorldClass worldClass, btScalar kLST, const btFemMaterial* material)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(worldClass);
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made =
         btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.5)), btVector3(0.5, 0.5, 0.5), btScalar(0.25));
     made->m_materials[0]->m_kLST = kLST;
@@ -124,24 +151,24 @@ double sagOf(btScalar kLST, const btFemMaterial* material)
     return top - centerOf(cube).z;
 }
 
-TEST(DefaultMaterial, IsAMegapascalTimesBulletsStiffness)
+TEST_P(DefaultMaterial, IsAMegapascalTimesBulletsStiffness)
 {
     btFemMaterial material;
     material.m_density = 0;
     for (const btScalar kLST : {btScalar(1), btScalar(0.5)})
     {
         material.m_youngModulus = btScalar(1e6) * kLST;
-        const double sag = sagOf(kLST, nullptr);
+        const double sag = sagOf(GetParam(), kLST, nullptr);
         EXPECT_GT(sag, 1e-3);
-        EXPECT_NEAR(sag, sagOf(1, &material), 1e-3 * sag);
+        EXPECT_NEAR(sag, sagOf(GetParam(), 1, &material), 1e-3 * sag);
     }
-    EXPECT_NEAR(sagOf(btScalar(0.5), nullptr) / sagOf(1, nullptr), 2, 0.05);  // but for what is not linear in it
+    EXPECT_NEAR(sagOf(GetParam(), btScalar(0.5), nullptr) / sagOf(GetParam(), 1, nullptr), 2,
+                0.05);  // but for what is not linear in it
 }
 
-TEST(DefaultMaterial, KeepsTheBodysOwnMasses)
+TEST_P(DefaultMaterial, KeepsTheBodysOwnMasses)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& body = world.addSoft(makeByHand(world, kCorners, {{0, 1, 2, 3}}));
     body.setTotalMass(7);
     world.step();
@@ -151,10 +178,10 @@ TEST(DefaultMaterial, KeepsTheBodysOwnMasses)
     EXPECT_NEAR(velocityOf(body).x, 1 * kStep, 1e-6);
 }
 
-TEST(Material, ChangesOfItTakeEffectInTheNextStep)
+TEST_P(Material, ChangesOfItTakeEffectInTheNextStep)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& cube = world.addSoft(
         btFemHelpers::createBox(world.info(), btVector3(0, 0, 0), btVector3(0.5, 0.5, 0.5), btScalar(0.5)));
     EXPECT_NEAR(massOf(cube), 1000, 0.01);
@@ -168,13 +195,13 @@ TEST(Material, ChangesOfItTakeEffectInTheNextStep)
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);  // factored anew
 }
 
-TEST(Detail, EveryOneCarriesTheWeightAndKeepsMomentum)
+TEST_P(Detail, EveryOneCarriesTheWeightAndKeepsMomentum)
 {
     for (const btFemDetail detail : {btFemDetail::nodalWarp, btFemDetail::globalWarp, btFemDetail::direct})
     {
         SCOPED_TRACE(int(detail));
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem);
+        FemWorld world(GetParam());
+        btFemSoftBodySolver& fem = world.fem();
         world.addPlane();
         btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.51)),
                                                                  btVector3(0.5, 0.5, 0.5), btScalar(0.25)));

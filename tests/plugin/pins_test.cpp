@@ -5,6 +5,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_world.h"
 
@@ -17,8 +18,8 @@ namespace
 class Beam
 {
 public:
-    explicit Beam(bool pinned, const btVector3& gravity = {0, 0, btScalar(-kGravity)})
-        : m_world(m_fem, gravity), m_body(make())
+    Beam(WorldClass worldClass, bool pinned, const btVector3& gravity = {0, 0, btScalar(-kGravity)})
+        : m_world(worldClass, gravity), m_fem(m_world.fem()), m_body(make())
     {
         for (int i = 0; i < m_body.m_nodes.size(); ++i)
             if (m_body.m_nodes[i].m_x.x() < btScalar(1e-6)) m_root.push_back(i);
@@ -34,8 +35,8 @@ public:
         return (moved - offset).length() < btScalar(1e-6);
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
+    btFemSoftBodySolver& m_fem;
     btSoftBody& m_body;
     std::vector<int> m_root;
     btVector3 m_start;
@@ -49,9 +50,21 @@ private:
     }
 };
 
-TEST(Pins, HoldNodesOfInverseMassZeroToTheBit)
+class Pins : public EachWorld
 {
-    Beam beam(true);
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Pins, eachWorld(), nameOfWorld);
+
+class NodeTarget : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, NodeTarget, eachWorld(), nameOfWorld);
+
+TEST_P(Pins, HoldNodesOfInverseMassZeroToTheBit)
+{
+    Beam beam(GetParam(), true);
     std::vector<btVector3> before;
     for (int i : beam.m_root) before.push_back(beam.m_body.m_nodes[i].m_x);
     beam.m_world.step(60);
@@ -64,19 +77,19 @@ TEST(Pins, HoldNodesOfInverseMassZeroToTheBit)
     EXPECT_EQ(beam.m_fem.stepReport(&beam.m_body).m_flags, 0);
 }
 
-TEST(Pins, ArePutInAndTakenOutAtAnyTimeAndTheRestShapeStays)
+TEST_P(Pins, ArePutInAndTakenOutAtAnyTimeAndTheRestShapeStays)
 {
-    Beam beam(false, btVector3(0, 0, 0));
+    Beam beam(GetParam(), false, btVector3(0, 0, 0));
     const std::vector<Vec3> rest = edgesOf(beam.m_body);
     beam.m_world.step(2);
     for (int i : beam.m_root) beam.m_body.m_nodes[i].m_im = 0;
-    beam.m_world.info().m_gravity = btVector3(0, 0, btScalar(-kGravity));
+    beam.m_world.setSoftGravity(btVector3(0, 0, btScalar(-kGravity)));
     beam.m_world.step(120);
     EXPECT_TRUE(beam.rootIsAt(btVector3(0, 0, 0)));
     EXPECT_GT(largestDifference(rest, edgesOf(beam.m_body)), 0.005);
     EXPECT_TRUE(beam.m_fem.stepReport(&beam.m_body).m_flags & BT_FEM_STALE_FACTOR);
 
-    beam.m_world.info().m_gravity.setZero();
+    beam.m_world.setSoftGravity(btVector3(0, 0, 0));
     const btScalar inverse = beam.m_body.m_nodes[beam.m_body.m_nodes.size() / 2].m_im;
     for (int i : beam.m_root) beam.m_body.m_nodes[i].m_im = inverse;
     beam.m_world.step(300);
@@ -84,9 +97,9 @@ TEST(Pins, ArePutInAndTakenOutAtAnyTimeAndTheRestShapeStays)
         EXPECT_NEAR(norm(edgesOf(beam.m_body)[i]), norm(rest[i]), 1e-3);
 }
 
-TEST(Pins, GoWithinTheStepToThePositionWrittenToThem)
+TEST_P(Pins, GoWithinTheStepToThePositionWrittenToThem)
 {
-    Beam beam(true);
+    Beam beam(GetParam(), true);
     beam.m_world.step(300);
     const double tip = beam.tipHeight();
     for (int k = 1; k <= 30; ++k)
@@ -103,18 +116,18 @@ TEST(Pins, GoWithinTheStepToThePositionWrittenToThem)
     EXPECT_NEAR(beam.tipHeight() - tip, 0.3, 0.01 * 0.3);  // the rest came along
 }
 
-TEST(Pins, MoveWithTheVelocityWrittenToThem)
+TEST_P(Pins, MoveWithTheVelocityWrittenToThem)
 {
-    Beam beam(true);
+    Beam beam(GetParam(), true);
     beam.m_world.step(5);
     for (int i : beam.m_root) beam.m_body.m_nodes[i].m_v = btVector3(0, btScalar(0.6), 0);
     beam.m_world.step(60);
     EXPECT_NEAR(beam.m_body.m_nodes[beam.m_root[0]].m_x.y() - beam.m_start.y(), 0.6, 1e-5);
 }
 
-TEST(NodeTarget, IsReachedWithinTheStepHeldAndLetGo)
+TEST_P(NodeTarget, IsReachedWithinTheStepHeldAndLetGo)
 {
-    Beam beam(false, btVector3(0, 0, 0));
+    Beam beam(GetParam(), false, btVector3(0, 0, 0));
     beam.m_world.step(2);
     const int node = beam.m_root[0];
     const btScalar inverse = beam.m_body.m_nodes[node].m_im;
@@ -133,9 +146,9 @@ TEST(NodeTarget, IsReachedWithinTheStepHeldAndLetGo)
     EXPECT_NEAR(velocityOf(beam.m_body).x, 1, 1e-3);
 }
 
-TEST(NodeTarget, PullsTheWholeBodyAlong)
+TEST_P(NodeTarget, PullsTheWholeBodyAlong)
 {
-    Beam beam(false, btVector3(0, 0, 0));
+    Beam beam(GetParam(), false, btVector3(0, 0, 0));
     beam.m_world.step(1);
     for (int k = 1; k <= 120; ++k)
     {

@@ -5,6 +5,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -27,21 +28,22 @@ btFemMaterial softMaterial(btScalar youngModulus)
     return material;
 }
 
-class Matching : public testing::TestWithParam<double>
+class Matching : public EachWorldWith<double>
 {
 };
 
-std::string shareName(const testing::TestParamInfo<double>& suite)
+std::string shareName(double share)
 {
-    return "kMT" + std::to_string(int(std::lround(100 * suite.param))) + "Percent";
+    return "kMT" + std::to_string(int(std::lround(100 * share))) + "Percent";
 }
 
 // A body of next to no stiffness goes the way that nodes without springs go in Bullet, to the rounding of floats.
 TEST_P(Matching, MovesNodesTheSameShareOfTheWayAsBulletDoes)
 {
-    btFemSoftBodySolver fem;
     btDefaultSoftBodySolver plain;
-    SoftWorld world(fem, btVector3(0, 0, -1)), other(plain, btVector3(0, 0, -1));
+    FemWorld world(worldClass(), btVector3(0, 0, -1));
+    btFemSoftBodySolver& fem = world.fem();
+    SoftWorld other(plain, btVector3(0, 0, -1));
     btSoftBody& body = world.addSoft(makeCube(world));
     btSoftBody& twin = other.addSoft(makeCube(other));
     fem.setMaterial(&body, softMaterial(1));
@@ -50,7 +52,7 @@ TEST_P(Matching, MovesNodesTheSameShareOfTheWayAsBulletDoes)
     {
         for (int i = 0; i < b->m_nodes.size(); ++i) b->m_nodes[i].m_im = 1;  // Bullet's have to be those of the pose
         b->setPose(false, true);
-        b->m_cfg.kMT = btScalar(GetParam());
+        b->m_cfg.kMT = btScalar(value());
         b->m_cfg.collisions = 0;
         b->m_bUpdateRtCst = false;
     }
@@ -73,11 +75,11 @@ TEST_P(Matching, MovesNodesTheSameShareOfTheWayAsBulletDoes)
 // It falls, flies and spins as without it.
 TEST_P(Matching, LeavesRigidMotionAndMomentumAlone)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(worldClass());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made = makeCube(world);
     made->setPose(false, true);
-    made->m_cfg.kMT = btScalar(GetParam());
+    made->m_cfg.kMT = btScalar(value());
     for (int i = 0; i < made->m_nodes.size(); ++i)
         made->m_nodes[i].m_v = btVector3(2, 0, 0) + btVector3(1, 0, 3).cross(made->m_nodes[i].m_x);
     btSoftBody& cube = world.addSoft(made);
@@ -91,12 +93,12 @@ TEST_P(Matching, LeavesRigidMotionAndMomentumAlone)
 
 TEST_P(Matching, LeavesTheWeightToTheFloor)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(worldClass());
+    btFemSoftBodySolver& fem = world.fem();
     world.addPlane(btScalar(-0.501));
     btSoftBody& cube = world.addSoft(makeCube(world));
     cube.setPose(false, true);
-    cube.m_cfg.kMT = btScalar(GetParam());
+    cube.m_cfg.kMT = btScalar(value());
     world.step(180);
     EXPECT_NEAR(impulseOn(fem, cube).z / kStep, massOf(cube) * kGravity, 2e-3 * massOf(cube) * kGravity);
     EXPECT_LT(fastestNode(cube), 1e-3);
@@ -105,31 +107,38 @@ TEST_P(Matching, LeavesTheWeightToTheFloor)
 // Pinned nodes hold the pose: what hangs from them sags by g h^2 (1 - kMT) / kMT, where it is soft, as in Bullet.
 TEST_P(Matching, HoldsAPinnedBodyUpAsBulletDoes)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(worldClass());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made = makeCube(world, btScalar(0.125));
     fem.setMaterial(made, softMaterial(500));
     for (int i = 0; i < made->m_nodes.size(); ++i)
         if (made->m_nodes[i].m_x.z() > btScalar(0.499)) made->setMass(i, 0);
     made->setPose(false, true);
-    made->m_cfg.kMT = btScalar(GetParam());
+    made->m_cfg.kMT = btScalar(value());
     made->m_cfg.kDP = btScalar(0.02);
     btSoftBody& cube = world.addSoft(made);
     world.step(400);
-    const double sag = kGravity * kStep * kStep * (1 - GetParam()) / GetParam();
+    const double sag = kGravity * kStep * kStep * (1 - value()) / value();
     EXPECT_NEAR(-0.5 - lowestHeight(cube), sag, 0.02 * sag);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pose, Matching, testing::Values(0.1, 0.5, 0.9), shareName);
+INSTANTIATE_TEST_SUITE_P(Pose, Matching, testing::Combine(eachWorld(), testing::Values(0.1, 0.5, 0.9)),
+                         nameOfWorldWith(shareName));
+
+class Pose : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Pose, eachWorld(), nameOfWorld);
 
 // A pendulum: the pose goes with the swing, and does not brake it.
-TEST(Pose, DoesNotBrakeAPendulum)
+TEST_P(Pose, DoesNotBrakeAPendulum)
 {
     double height[2];
     for (const int k : {0, 1})
     {
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem);
+        FemWorld world(GetParam());
+        btFemSoftBodySolver& fem = world.fem();
         btSoftBody* made = makeCube(world);
         fem.setMaterial(made, softMaterial(btScalar(1e8)));  // the pose stiffens it: as good as rigid with and without
         made->setMass(0, 0);
@@ -143,13 +152,12 @@ TEST(Pose, DoesNotBrakeAPendulum)
     EXPECT_NEAR(height[1], height[0], 0.01 * std::fabs(height[0]));
 }
 
-TEST(Pose, IsIgnoredWithoutItsFrameAndForOtherNumbersOfNodes)
+TEST_P(Pose, IsIgnoredWithoutItsFrameAndForOtherNumbersOfNodes)
 {
     std::vector<btScalar> bits[3];
     for (const int k : {0, 1, 2})
     {
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem);
+        FemWorld world(GetParam());
         btSoftBody& cube = world.addSoft(makeCube(world));
         cube.setMass(0, 0);
         if (k == 1) cube.setPose(true, false);
@@ -169,13 +177,14 @@ TEST(Pose, IsIgnoredWithoutItsFrameAndForOtherNumbersOfNodes)
 class FreeCube
 {
 public:
-    FreeCube() : m_world(m_fem, btVector3(0, 0, 0)), m_body(&m_world.addSoft(makeCube(m_world)))
+    explicit FreeCube(WorldClass worldClass)
+        : m_world(worldClass, btVector3(0, 0, 0)), m_body(&m_world.addSoft(makeCube(m_world)))
     {
         m_material.m_youngModulus = btScalar(1e6);
         m_material.m_poissonRatio = btScalar(0.3);
         m_material.m_density = 1000;
         m_material.m_massDamping = 5;
-        m_fem.setMaterial(m_body, m_material);
+        m_world.fem().setMaterial(m_body, m_material);
     }
 
     btSoftBody& body() { return *m_body; }
@@ -199,16 +208,27 @@ public:
     }
 
 private:
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
     btFemMaterial m_material;
     btSoftBody* m_body;
 };
 
-// Linear expansion is p (1 - 2 nu) / E, and that of the volume three times as much.
-TEST(Pressure, ExpandsACubeByItsFormula)
+class Pressure : public EachWorld
 {
-    FreeCube cube;
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Pressure, eachWorld(), nameOfWorld);
+
+class VolumeConservation : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, VolumeConservation, eachWorld(), nameOfWorld);
+
+// Linear expansion is p (1 - 2 nu) / E, and that of the volume three times as much.
+TEST_P(Pressure, ExpandsACubeByItsFormula)
+{
+    FreeCube cube(GetParam());
     cube.body().m_cfg.kPR = 4000;
     const double expansion = cube.expansion();
     const double p = 4000 * cube.virialShare() / cube.body().getVolume();
@@ -217,9 +237,9 @@ TEST(Pressure, ExpandsACubeByItsFormula)
 }
 
 // kVC is a bulk modulus that adds to the material's.
-TEST(VolumeConservation, StiffensTheCubeAgainstPressureByItsFormula)
+TEST_P(VolumeConservation, StiffensTheCubeAgainstPressureByItsFormula)
 {
-    FreeCube cube;
+    FreeCube cube(GetParam());
     cube.body().setPose(true, false);
     cube.body().m_cfg.kVC = btScalar(1e6);
     cube.body().m_cfg.kPR = 8000;

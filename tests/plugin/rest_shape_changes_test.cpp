@@ -8,6 +8,7 @@
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -46,10 +47,16 @@ double largestDifference(const std::vector<double>& a, const std::vector<double>
 
 // --- The rest shape is that of initializeDmInverse ---
 
-TEST(RestShape, ABodyDeformedBeforeItsFirstStepSpringsBackToItsElementMatrices)
+class RestShape : public EachWorld
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, RestShape, eachWorld(), nameOfWorld);
+
+TEST_P(RestShape, ABodyDeformedBeforeItsFirstStepSpringsBackToItsElementMatrices)
+{
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made = makeCube(world);
     made->rotate(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(2.5)));
     made->translate(btVector3(3, 0, 1));
@@ -66,10 +73,9 @@ TEST(RestShape, ABodyDeformedBeforeItsFirstStepSpringsBackToItsElementMatrices)
 }
 
 // A body that was only moved is not stirred by the rounding of its matrices.
-TEST(RestShape, ABodyMovedBeforeItsFirstStepStandsStill)
+TEST_P(RestShape, ABodyMovedBeforeItsFirstStepStandsStill)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody* made = makeCube(world);
     for (int k = 0; k < 5; ++k)
     {
@@ -82,10 +88,9 @@ TEST(RestShape, ABodyMovedBeforeItsFirstStepStandsStill)
 }
 
 // Bodies assembled with appendTetra have matrices of zero: their shape in the first step is the one that they keep.
-TEST(RestShape, WithoutElementMatricesItIsThePresentShape)
+TEST_P(RestShape, WithoutElementMatricesItIsThePresentShape)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody* made = makeCube(world);
     for (int e = 0; e < made->m_tetras.size(); ++e) made->m_tetras[e].m_Dm_inverse.setValue(0, 0, 0, 0, 0, 0, 0, 0, 0);
     stretch(*made, btVector3(btScalar(1.2), 1, 1));
@@ -95,13 +100,13 @@ TEST(RestShape, WithoutElementMatricesItIsThePresentShape)
 }
 
 // Matrices that nobody set, or that do not fit to each other, are not believed.
-TEST(RestShape, ElementMatricesThatAreNoShapeAreIgnored)
+TEST_P(RestShape, ElementMatricesThatAreNoShapeAreIgnored)
 {
     for (const int kind : {0, 1, 2})
     {
         SCOPED_TRACE(kind);
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem, btVector3(0, 0, 0));
+        FemWorld world(GetParam(), btVector3(0, 0, 0));
+        btFemSoftBodySolver& fem = world.fem();
         btSoftBody* made = makeCube(world);
         btSoftBody::Tetra& tetra = made->m_tetras[7];
         if (kind == 0) tetra.m_Dm_inverse[1][2] = std::numeric_limits<btScalar>::quiet_NaN();
@@ -119,10 +124,10 @@ TEST(RestShape, ElementMatricesThatAreNoShapeAreIgnored)
 }
 
 // Where fromRest leads nodes of a body that was deformed when it became FEM: to its rest shape, laid over it.
-TEST(RestShape, TransformsFromRestStartFromTheElementMatrices)
+TEST_P(RestShape, TransformsFromRestStartFromTheElementMatrices)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made = makeCube(world, btScalar(0.5));
     made->rotate(btQuaternion(btVector3(0, 0, 1), btScalar(1)));
     made->translate(btVector3(5, 0, 0));
@@ -148,7 +153,7 @@ TEST(RestShape, TransformsFromRestStartFromTheElementMatrices)
 class HangingBar
 {
 public:
-    explicit HangingBar(double filled = 1) : m_fem(), m_world(m_fem)
+    explicit HangingBar(WorldClass worldClass, double filled = 1) : m_world(worldClass)
     {
         m_body = btFemHelpers::createBox(m_world.info(), btVector3(0, 0, -1), btVector3(.2, .2, 1), btScalar(0.2));
         for (int e = 0; e < m_body->m_tetras.size() && filled < 1; ++e) storeFill(*m_body, e, filled, 1);
@@ -158,12 +163,12 @@ public:
         m_material.m_poissonRatio = 0;
         m_material.m_density = 1000;
         m_material.m_massDamping = 5;
-        m_fem.setMaterial(m_body, m_material);
+        m_world.fem().setMaterial(m_body, m_material);
         m_world.addSoft(m_body);
     }
 
     btSoftBody& body() { return *m_body; }
-    btFemSoftBodySolver& fem() { return m_fem; }
+    btFemSoftBodySolver& fem() { return m_world.fem(); }
     SoftWorld& world() { return m_world; }
     const btFemMaterial& material() const { return m_material; }
     double length() const { return -lowestHeight(*m_body); }
@@ -177,23 +182,22 @@ public:
     }
 
 private:
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
     btSoftBody* m_body;
     btFemMaterial m_material;
 };
 
 constexpr double kBarMass = 320;  // [kg]; 8 x its volume once scaled to twice the size, if that set masses
 
-class ScaledBar : public testing::TestWithParam<double>
+class ScaledBar : public EachWorldWith<double>
 {
 };
 
 // Twice as long and four times as thick, of the same mass: half the sag, from the hanging shape as rest shape.
 TEST_P(ScaledBar, HasTheStiffnessOfTheLargerBodyAndItsOldMass)
 {
-    const double filled = GetParam();
-    HangingBar bar(filled);
+    const double filled = value();
+    HangingBar bar(worldClass(), filled);
     bar.settle();
     const double first = bar.sag(2, 0.16 * filled, kBarMass * filled);
     EXPECT_NEAR(bar.length() - 2, first, 0.02 * first);
@@ -213,13 +217,13 @@ TEST_P(ScaledBar, HasTheStiffnessOfTheLargerBodyAndItsOldMass)
     EXPECT_NEAR(bar.length() - scaled, 8 * second, 0.02 * 8 * second);
 }
 
-INSTANTIATE_TEST_SUITE_P(RestShape, ScaledBar, testing::Values(1, 0.25),
-                         [](const auto& suite) { return suite.param == 1 ? "full" : "cageFilledByAQuarter"; });
+INSTANTIATE_TEST_SUITE_P(RestShape, ScaledBar, testing::Combine(eachWorld(), testing::Values(1, 0.25)),
+                         nameOfWorldWith([](double filled) { return filled == 1 ? "full" : "cageFilledByAQuarter"; }));
 
-TEST(RestShape, ADensityGivesTheMassesOfTheShapeAtRestAndNotOfTheDeformedOne)
+TEST_P(RestShape, ADensityGivesTheMassesOfTheShapeAtRestAndNotOfTheDeformedOne)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& cube = world.addSoft(makeCube(world));
     world.step();
     stretch(cube, btVector3(btScalar(1.3), 1, 1));
@@ -229,24 +233,23 @@ TEST(RestShape, ADensityGivesTheMassesOfTheShapeAtRestAndNotOfTheDeformedOne)
     EXPECT_NEAR(massOf(cube), 500, 1e-3);
 }
 
-TEST(RestShape, InitializeDmInverseInMidRunMakesThePresentShapeTheRestShape)
+TEST_P(RestShape, InitializeDmInverseInMidRunMakesThePresentShapeTheRestShape)
 {
     for (const bool called : {false, true})
     {
-        HangingBar bar;
+        HangingBar bar(GetParam());
         bar.settle();
         const double hanging = bar.length();
         if (called) bar.body().initializeDmInverse();
-        bar.world().info().m_gravity = btVector3(0, 0, 0);
+        bar.world().setSoftGravity(btVector3(0, 0, 0));
         bar.settle();
         EXPECT_NEAR(bar.length(), called ? hanging : 2, 1e-5);
     }
 }
 
-TEST(RestShape, TranslateRotateAndTransformKeepIt)
+TEST_P(RestShape, TranslateRotateAndTransformKeepIt)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = world.addSoft(makeCube(world));
     const std::vector<double> rest = lengthsOf(cube);
     for (int i = 0; i < cube.m_nodes.size(); ++i) cube.m_nodes[i].m_v.setX(20 * cube.m_nodes[i].m_x.x());
@@ -259,10 +262,10 @@ TEST(RestShape, TranslateRotateAndTransformKeepIt)
     EXPECT_LT(largestDifference(rest, lengthsOf(cube)), 1e-4);
 }
 
-TEST(RestShape, AMirroredBodyIsTheMirroredOne)
+TEST_P(RestShape, AMirroredBodyIsTheMirroredOne)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& cube = world.addSoft(makeCube(world));
     world.step(5);
     cube.scale(btVector3(-1, 1, 1));
@@ -273,9 +276,9 @@ TEST(RestShape, AMirroredBodyIsTheMirroredOne)
 }
 
 // What no longer makes a shape is not taken: the old one stays.
-TEST(RestShape, SpoiltElementMatricesInMidRunChangeNothing)
+TEST_P(RestShape, SpoiltElementMatricesInMidRunChangeNothing)
 {
-    HangingBar bar;
+    HangingBar bar(GetParam());
     bar.settle();
     const double length = bar.length();
     for (int e = 0; e < bar.body().m_tetras.size(); ++e)
@@ -284,10 +287,10 @@ TEST(RestShape, SpoiltElementMatricesInMidRunChangeNothing)
     EXPECT_NEAR(bar.length(), length, 1e-6);
 }
 
-TEST(RestShape, CopiesScaledAlikeShareTheirFactor)
+TEST_P(RestShape, CopiesScaledAlikeShareTheirFactor)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody &a = world.addSoft(makeCube(world)), &b = world.addSoft(makeCube(world));
     b.translate(btVector3(4, 0, 0));
     world.step();
@@ -300,10 +303,9 @@ TEST(RestShape, CopiesScaledAlikeShareTheirFactor)
 }
 
 // Asleep on the floor under its own weight it is as it was made less its sag; that taken as rest shape, it sags again.
-TEST(RestShape, ItsChangeWakesASleepingBody)
+TEST_P(RestShape, ItsChangeWakesASleepingBody)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
     world.addPlane();
     btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.501)),
                                                              btVector3(0.5, 0.5, 0.5), btScalar(0.25)));

@@ -10,6 +10,9 @@
 #include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
 #include "btBulletDynamicsCommon.h"
 #include "bullet_fem/btFemConstraintSolver.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+
+class btDeformableGravityForce;
 
 namespace bullet_fem
 {
@@ -40,13 +43,30 @@ inline const char* couplingName(Coupling coupling)
     return coupling == Coupling::swap ? "swap" : "coupled";
 }
 
-/// A btSoftRigidDynamicsWorld that deletes its bodies, their shapes and motion states. Gravity is along -z, for rigid
-/// and soft bodies alike; nothing falls asleep.
+/// Bullet's worlds with soft bodies, by the names of their classes.
+enum class WorldClass
+{
+    softRigid,
+    softMultiBody,
+    deformable  ///< its soft body solver is a btDeformableBodySolver
+};
+
+/// For names of tests.
+inline const char* worldName(WorldClass worldClass)
+{
+    return worldClass == WorldClass::softRigid       ? "softRigid"
+           : worldClass == WorldClass::softMultiBody ? "softMultiBody"
+                                                     : "deformable";
+}
+
+/// One of Bullet's worlds, a btSoftRigidDynamicsWorld unless said otherwise, that deletes its bodies, their shapes and
+/// motion states. Gravity is along -z, for rigid and soft bodies alike; nothing falls asleep.
 class SoftWorld
 {
 public:
-    /// The solver must outlive the world.
+    /// The solver must outlive the world, and be of its class.
     explicit SoftWorld(btSoftBodySolver& solver, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
+    SoftWorld(WorldClass worldClass, btSoftBodySolver& solver, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
     SoftWorld(btFemSoftBodySolver& solver, Coupling coupling, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
     ~SoftWorld();
     SoftWorld(const SoftWorld&) = delete;
@@ -67,25 +87,66 @@ public:
     /// Takes the body over and adds it to the world.
     btSoftBody& addSoft(btSoftBody* body);
 
+    /// Adds a body that was taken out, or that somebody else will delete, to the world.
+    void put(btSoftBody& body, int group = btBroadphaseProxy::DefaultFilter, int mask = btBroadphaseProxy::AllFilter);
+    void take(btSoftBody& body);  ///< out of the world, and does not delete it
+
     void deleteSoft(btSoftBody& body);
     void deleteRigid(btRigidBody& body);
 
     /// Steps of exactly `h` [s], no sub-steps.
     void step(int count = 1, btScalar h = kStep);
 
-    btSoftRigidDynamicsWorld& world() { return *m_world; }
-    btSoftBodyWorldInfo& info() { return m_world->getWorldInfo(); }
+    /// Of the soft bodies that are in the world and those to come [m/s2].
+    void setSoftGravity(const btVector3& gravity);
+
+    btDiscreteDynamicsWorld& bullet() { return *m_world; }  ///< of whatever class
+    btSoftRigidDynamicsWorld& world() { return dynamic_cast<btSoftRigidDynamicsWorld&>(*m_world); }
+    btSoftBodyWorldInfo& info() { return *m_info; }
+    btAlignedObjectArray<btSoftBody*>& softBodies() { return *m_inWorld; }
+
+protected:
+    void couple(btFemSoftBodySolver& solver);
 
 private:
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
     btDbvtBroadphase m_broadphase;
-    btSequentialImpulseConstraintSolver m_rigidSolver;
-    std::unique_ptr<btSoftRigidDynamicsWorld> m_world;
+    std::unique_ptr<btSequentialImpulseConstraintSolver> m_rigidSolver;
+    std::unique_ptr<btDeformableGravityForce> m_gravityForce;  // of a deformable world
+    std::unique_ptr<btDiscreteDynamicsWorld> m_world;
+    btSoftBodyWorldInfo* m_info = nullptr;                   // the world's
+    btAlignedObjectArray<btSoftBody*>* m_inWorld = nullptr;  // likewise
+    const WorldClass m_class;
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<btSoftBody*> m_soft;
     std::vector<btRigidBody*> m_rigid;
     std::unique_ptr<btFemConstraintSolver> m_coupledSolver;  // in place of m_rigidSolver; null if not coupled
+};
+
+/// A FEM solver for a class of worlds.
+class FemSolverOf
+{
+protected:
+    FemSolverOf(WorldClass worldClass, const btFemSolverInfo& info);
+    ~FemSolverOf();
+
+    std::unique_ptr<btSoftBodySolver> m_solver;
+    btFemSoftBodySolver* m_fem;
+};
+
+/// A world of any class with its FEM solver, and nothing else, so that what is shown for one can be shown for all. In a
+/// deformable world gravity is Bullet's btDeformableGravityForce on all soft bodies.
+class FemWorld : private FemSolverOf, public SoftWorld
+{
+public:
+    explicit FemWorld(WorldClass worldClass, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
+    FemWorld(WorldClass worldClass, Coupling coupling);  ///< `coupled` is for softRigid
+    FemWorld(WorldClass worldClass, const btFemSolverInfo& info,
+             const btVector3& gravity = {0, 0, btScalar(-kGravity)});
+
+    btFemSoftBodySolver& fem() { return *m_fem; }
+    const btFemSoftBodySolver& fem() const { return *m_fem; }
 };
 
 /// A placement without rotation.

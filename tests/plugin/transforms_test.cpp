@@ -5,6 +5,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -13,11 +14,16 @@ namespace bullet_fem
 namespace
 {
 
-// Lifted by translate() while it sleeps on the floor, it wakes and falls back.
-TEST(Transforms, ASleepingBodyWakesAndFalls)
+class Transforms : public EachWorld
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Transforms, eachWorld(), nameOfWorld);
+
+// Lifted by translate() while it sleeps on the floor, it wakes and falls back.
+TEST_P(Transforms, ASleepingBodyWakesAndFalls)
+{
+    FemWorld world(GetParam());
     world.addPlane();
     btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.501)));
     cube.forceActivationState(ACTIVE_TAG);
@@ -33,12 +39,12 @@ TEST(Transforms, ASleepingBodyWakesAndFalls)
 }
 
 // Turned by a quarter about the vertical, pins and all: it hangs as it did.
-TEST(Transforms, APinnedBodyTurnsWithItsPinsAndStaysAsItHung)
+TEST_P(Transforms, APinnedBodyTurnsWithItsPinsAndStaysAsItHung)
 {
     btFemSolverInfo info;
     info.m_tolerance = btScalar(1e-6);
-    btFemSoftBodySolver fem(info);
-    SoftWorld world(fem);
+    FemWorld world(GetParam(), info);
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made = btFemHelpers::createBox(world.info(), btVector3(2, 0, 0),
                                                btVector3(1, btScalar(.25), btScalar(.25)), btScalar(0.125));
     for (int i = 0; i < made->m_nodes.size(); ++i)
@@ -61,10 +67,9 @@ TEST(Transforms, APinnedBodyTurnsWithItsPinsAndStaysAsItHung)
     for (int i = 0; i < beam.m_nodes.size(); ++i) EXPECT_LT((beam.m_nodes[i].m_x - expected[i]).length(), 1e-4) << i;
 }
 
-TEST(Transforms, ABodyWithAllNodesPinnedIsWhereItIsPut)
+TEST_P(Transforms, ABodyWithAllNodesPinnedIsWhereItIsPut)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
     btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
     for (int i = 0; i < cube.m_nodes.size(); ++i) cube.setMass(i, 0);
     world.step(2);
