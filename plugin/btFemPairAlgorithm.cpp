@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "plugin/btFemPairAlgorithm.h"
 
-#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "BulletCollision/BroadphaseCollision/btDispatcher.h"
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
@@ -11,6 +11,7 @@
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodyConcaveCollisionAlgorithm.h"
+#include "bullet_bridge/friction.h"
 #include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemPair.h"
@@ -49,9 +50,7 @@ Deepest deepestOf(const btFemPair& pair)
 void setCoefficients(const btFemPair& pair, btManifoldPoint& point)
 {
     const btSoftBody& body = *pair.m_entry->m_softBody;
-    const btSoftBody* other = btSoftBody::upcast(pair.m_other);
-    point.m_combinedFriction =
-        other ? std::max(body.m_cfg.kDF, other->m_cfg.kDF) : body.m_cfg.kDF * pair.m_other->getFriction();
+    point.m_combinedFriction = static_cast<btScalar>(bullet_fem::frictionBetween(body, *pair.m_other));
     point.m_combinedRestitution = body.getRestitution() * pair.m_other->getRestitution();
 }
 

@@ -9,6 +9,7 @@
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/friction.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/nearest_contacts.h"
 #include "bullet_fem/fem/stepping.h"
@@ -272,7 +273,7 @@ ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const bt
     Surface surface;
     surface.m_hardness = atLeastZero(object.isStaticOrKinematicObject() ? soft.m_cfg.kKHR / kUsualKineticHardness
                                                                         : double(soft.m_cfg.kCHR));
-    surface.m_friction = atLeastZero(double(soft.m_cfg.kDF) * object.getFriction());
+    surface.m_friction = frictionBetween(soft, object);
     surface.m_restitution = std::min(1.0, atLeastZero(double(soft.getRestitution()) * object.getRestitution()));
     if (!(object.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING)) return surface;
     if (!(object.getContactStiffness() < kRigidStiffness)) return surface;

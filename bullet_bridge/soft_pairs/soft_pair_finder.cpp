@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/friction.h"
 #include "bullet_bridge/joints/node_attachments.h"
 #include "bullet_bridge/nearest_contacts.h"
 #include "bullet_bridge/rigid_obstacles.h"
@@ -77,7 +78,7 @@ void SoftPairFinder::append(const Roles& roles, double offset)
     ContactPoint common;
     common.m_slop = kSlop * std::min(soft.size(), other.size());
     common.m_hardness = std::max(0.0, double(std::min(softBody.m_cfg.kSHR, otherBody.m_cfg.kSHR)));
-    common.m_friction = std::max(0.0, double(std::max(softBody.m_cfg.kDF, otherBody.m_cfg.kDF)));
+    common.m_friction = frictionBetween(softBody, otherBody);
     common.m_restitution = std::max(0.0, std::min(1.0, double(softBody.getRestitution()) * otherBody.getRestitution()));
     for (const SurfaceTouch& touch : m_touches)
     {
