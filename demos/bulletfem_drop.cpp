@@ -14,7 +14,7 @@
 #include "demos/drop_report.h"
 #include "demos/drop_scene.h"
 #include "demos/drop_size.h"
-#include "demos/progress_line.h"
+#include "tools/console/progress_line.h"
 
 namespace
 {

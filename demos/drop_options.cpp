@@ -2,32 +2,10 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "demos/drop_options.h"
 
-#include <CLI/CLI.hpp>
-#include <sstream>
+#include "tools/console/option_range.h"
 
 namespace bullet_fem
 {
-namespace
-{
-
-constexpr int kUsageError = 2;
-
-// CLI::Range lets NaN pass.
-CLI::Validator inRange(double low, double high)
-{
-    std::ostringstream range;
-    range << "in [" << low << ", " << high << "]";
-    const auto check = [low, high, text = range.str()](const std::string& input)
-    {
-        double value = 0;
-        const bool isNumber = CLI::detail::lexical_cast(input, value);
-        if (isNumber && value >= low && value <= high) return std::string();
-        return "is " + input + ", must be a number " + text;
-    };
-    return CLI::Validator(check, range.str());
-}
-
-}  // namespace
 
 std::optional<int> parseOptions(int argc, char** argv, DropOptions& options)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "demos/progress_line.h"
+#include "tools/console/progress_line.h"
 
 #include <unistd.h>
 

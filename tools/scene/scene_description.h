@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bullet_fem/fem/material.h"
+#include "bullet_fem/fem/vec3.h"
+
+/// A scene as its file tells it (docs/scene.schema.json), in SI units: plain values, before any Bullet object is made.
+namespace bullet_fem
+{
+
+/// Where a body starts.
+struct ScenePose
+{
+    Vec3 m_position;       ///< [m]
+    Vec3 m_axis{0, 1, 0};  ///< of its rotation about its own origin; not 0
+    double m_angle = 0;    ///< [rad]
+};
+
+/// Picks the nodes of a soft body that start in it.
+struct SceneBox
+{
+    Vec3 m_low, m_high;  ///< corners in the world [m]
+
+    bool contains(const Vec3& x) const
+    {
+        for (int i = 0; i < 3; ++i)
+            if (x[i] < m_low[i] || x[i] > m_high[i]) return false;
+        return true;
+    }
+};
+
+/// Where a soft body's elements come from.
+struct SceneMesh
+{
+    enum class Kind
+    {
+        box,         ///< a block, centred on its origin
+        surface,     ///< a cage around a surface file
+        tetrahedra,  ///< a mesh file
+        baked        ///< a .bfem file, with its material and pins
+    };
+    Kind m_kind = Kind::box;
+    std::string m_path;     ///< of a file, found beside the scene
+    Vec3 m_size{1, 1, 1};   ///< of a box [m], > 0
+    double m_cellSize = 0;  ///< of a box or cage [m]; 0: by m_tets
+    int m_tets = 2000;      ///< about so many elements in a cage or box
+    double m_scale = 1;     ///< times the file's positions [-], > 0
+};
+
+struct SceneSoftBody
+{
+    std::string m_name;
+    SceneMesh m_mesh;
+    ScenePose m_pose;
+    Vec3 m_velocity;          ///< [m/s]
+    Material m_material;      ///< of baked bodies: the file's
+    double m_friction = 0.5;  ///< [-]; times the other body's
+    bool m_selfContact = false;
+    Vec3 m_colour{0.86, 0.64, 0.42};  ///< sRGB
+    std::vector<SceneBox> m_pins;     ///< nodes that stand still
+};
+
+struct SceneShape
+{
+    enum class Kind
+    {
+        plane,     ///< through the body's position, m_size its normal
+        box,       ///< m_size its edges
+        sphere,    ///< m_radius
+        cylinder,  ///< about y, m_radius and m_height
+        capsule    ///< about y, m_radius, and m_height between the middles of its caps
+    };
+    Kind m_kind = Kind::box;
+    Vec3 m_size{1, 1, 1};                 ///< [m]
+    double m_radius = 0.5, m_height = 1;  ///< [m], > 0
+};
+
+struct SceneRigidBody
+{
+    std::string m_name;
+    SceneShape m_shape;
+    double m_mass = 0;  ///< [kg]; 0: it stands still, or moves as m_velocity and m_spin say
+    ScenePose m_pose;
+    Vec3 m_velocity, m_spin;                   ///< [m/s], [rad/s]
+    double m_friction = 1, m_restitution = 0;  ///< [-]
+    Vec3 m_colour{0.55, 0.60, 0.68};           ///< sRGB
+};
+
+struct SceneConstraint
+{
+    enum class Kind
+    {
+        anchor,  ///< nodes of a soft body in m_box, to a rigid one
+        point,   ///< a ball joint at m_pivot, between two rigid bodies or one and the world
+        hinge    ///< likewise, about m_axis, with a motor if m_torque > 0
+    };
+    Kind m_kind = Kind::anchor;
+    std::string m_a, m_b;  ///< names; of joints m_b may be empty: the world
+    SceneBox m_box;
+    Vec3 m_pivot, m_axis{0, 1, 0};     ///< in the world at the start [m]
+    double m_speed = 0, m_torque = 0;  ///< of the motor [rad/s], [N m]
+};
+
+/// A force on a body while time is in [m_from, m_to).
+struct SceneForce
+{
+    std::string m_body;
+    bool m_everywhere = true;  ///< on all nodes, by mass; else on those in m_box, in equal parts
+    SceneBox m_box;
+    Vec3 m_force;                    ///< of all together [N]
+    double m_from = 0, m_to = 1e30;  ///< [s]
+};
+
+struct SceneCamera
+{
+    bool m_placed = false;          ///< m_eye and m_target are given; else the scene is framed from m_direction
+    Vec3 m_direction{1, 0.6, 1.6};  ///< from the scene to the eye
+    Vec3 m_eye, m_target;           ///< [m]
+    double m_fieldOfView = 0.6;     ///< [rad]
+};
+
+/// What pictures show.
+struct ScenePictures
+{
+    int m_width = 1280, m_height = 720;  ///< [pixels]
+    bool m_stress = false;               ///< colours are von Mises stress
+    double m_hottest = 0;   ///< of the last colour [Pa]; 0: 98 % of the surface are below, in the first frame
+    bool m_forces = false;  ///< arrows of contact forces
+    bool m_wireframe = false;
+};
+
+struct SceneDescription
+{
+    std::string m_folder;  ///< where its files are looked for
+    std::string m_title;
+    Vec3 m_gravity{0, -9.81, 0};  ///< [m/s2]; up is opposite, or y
+    double m_step = 1.0 / 60;     ///< [s]
+    double m_seconds = 4;         ///< to simulate
+    double m_framesPerSecond = 30;
+    bool m_coupled = true;  ///< rigid and soft bodies are solved together (btFemConstraintSolver)
+    double m_tolerance = 1e-3, m_contactTolerance = 3e-5;
+    int m_threads = 1;
+    std::vector<SceneSoftBody> m_softBodies;
+    std::vector<SceneRigidBody> m_rigidBodies;
+    std::vector<SceneConstraint> m_constraints;
+    std::vector<SceneForce> m_forces;
+    SceneCamera m_camera;
+    ScenePictures m_pictures;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/scene/scene_frames.h"
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "tools/scene/scene_shapes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+template <class Entry, class First>
+int indexIn(const Entry* entry, const First& first)
+{
+    return static_cast<int>(entry - &first);
+}
+
+std::vector<Vec3> positionsOf(const btSoftBody& body)
+{
+    std::vector<Vec3> positions(body.m_nodes.size());
+    for (int i = 0; i < body.m_nodes.size(); ++i) positions[i] = vec3(body.m_nodes[i].m_x);
+    return positions;
+}
+
+std::vector<Tet> tetsOf(const btSoftBody& body)
+{
+    std::vector<Tet> tets(body.m_tetras.size());
+    for (int e = 0; e < body.m_tetras.size(); ++e)
+        for (int a = 0; a < 4; ++a) tets[e][a] = indexIn(body.m_tetras[e].m_n[a], body.m_nodes[0]);
+    return tets;
+}
+
+bool isEmbedded(const btSoftBody& body)
+{
+    return body.m_renderFaces.size() > 0 && body.m_renderNodesParents.size() == body.m_renderNodes.size();
+}
+
+std::vector<Triangle> surfaceOf(const btSoftBody& body)
+{
+    std::vector<Triangle> triangles(isEmbedded(body) ? body.m_renderFaces.size() : body.m_faces.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (int a = 0; a < 3; ++a)
+            triangles[t][a] = isEmbedded(body) ? indexIn(body.m_renderFaces[int(t)].m_n[a], body.m_renderNodes[0])
+                                               : indexIn(body.m_faces[int(t)].m_n[a], body.m_nodes[0]);
+    return triangles;
+}
+
+Stress stressOf(const btFemStress& s)
+{
+    return {s.m_xx, s.m_yy, s.m_zz, s.m_xy, s.m_yz, s.m_xz};
+}
+
+void take(const btAlignedObjectArray<btFemStress>& from, std::vector<Stress>& to)
+{
+    to.resize(from.size());
+    for (int i = 0; i < from.size(); ++i) to[i] = stressOf(from[i]);
+}
+
+}  // namespace
+
+SceneFrames::SceneFrames(const SceneWorld& world) : m_world(world)
+{
+    for (int i = 0; i < world.softCount(); ++i)
+    {
+        const btSoftBody& body = world.soft(i);
+        m_rest.push_back(positionsOf(body));
+        m_volumes.emplace_back();
+        m_volumes.back().m_id = i;
+        m_volumes.back().m_tets = tetsOf(body);
+        m_surfaces.emplace_back();
+        m_surfaces.back().m_id = i;
+        m_surfaces.back().m_triangles = surfaceOf(body);
+    }
+    for (int i = 0; i < world.rigidCount(); ++i)
+    {
+        SurfaceMesh drawn = drawnShape(world.description().m_rigidBodies[i].m_shape);
+        if (drawn.m_triangles.empty()) continue;
+        m_rigidRest.push_back(std::move(drawn.m_vertices));
+        m_surfaces.emplace_back();
+        m_surfaces.back().m_id = world.softCount() + i;
+        m_surfaces.back().m_triangles = std::move(drawn.m_triangles);
+        m_surfaces.back().m_nodeStress.resize(m_rigidRest.back().size());  // none: films with colours want some of all
+    }
+    update();
+}
+
+void SceneFrames::update()
+{
+    for (int i = 0; i < m_world.softCount(); ++i)
+    {
+        updateVolume(i);
+        updateSoftSurface(i);
+    }
+    for (int s = m_world.softCount(); s < static_cast<int>(m_surfaces.size()); ++s) updateRigidSurface(s);
+}
+
+void SceneFrames::updateVolume(int i)
+{
+    const btSoftBody& body = m_world.soft(i);
+    BodyFrame& frame = m_volumes[i];
+    const int count = body.m_nodes.size();
+    frame.m_positions = positionsOf(body);
+    frame.m_displacement.resize(count);
+    frame.m_velocity.resize(count);
+    frame.m_contactForce.assign(count, Vec3{});
+    for (int n = 0; n < count; ++n)
+    {
+        frame.m_displacement[n] = frame.m_positions[n] - m_rest[i][n];
+        frame.m_velocity[n] = vec3(body.m_nodes[n].m_v);
+    }
+    const btAlignedObjectArray<btFemContact>& contacts = m_world.fem().contacts(&body);
+    for (int c = 0; c < contacts.size(); ++c)
+        for (int a = 0; a < 3; ++a)
+            frame.m_contactForce[contacts[c].m_nodes[a]] +=
+                double(contacts[c].m_weights[a]) / m_world.description().m_step * vec3(contacts[c].m_impulse);
+    if (m_world.fem().getStress(&body, m_stress)) take(m_stress, frame.m_tetStress);
+    if (m_world.fem().getNodeStress(&body, m_stress)) take(m_stress, frame.m_nodeStress);
+}
+
+void SceneFrames::updateSoftSurface(int i)
+{
+    const btSoftBody& body = m_world.soft(i);
+    const BodyFrame& volume = m_volumes[i];
+    BodyFrame& frame = m_surfaces[i];
+    if (!isEmbedded(body))
+    {
+        frame.m_positions = volume.m_positions;
+        frame.m_nodeStress = volume.m_nodeStress;
+        return;
+    }
+    frame.m_positions.resize(body.m_renderNodes.size());
+    frame.m_nodeStress.assign(volume.m_nodeStress.empty() ? 0 : frame.m_positions.size(), Stress{});
+    for (int v = 0; v < body.m_renderNodes.size(); ++v)
+    {
+        frame.m_positions[v] = vec3(body.m_renderNodes[v].m_x);
+        if (frame.m_nodeStress.empty()) continue;
+        for (int a = 0; a < body.m_renderNodesParents[v].size(); ++a)
+        {
+            Stress part = volume.m_nodeStress[indexIn(body.m_renderNodesParents[v][a], body.m_nodes[0])];
+            frame.m_nodeStress[v] += part *= double(body.m_renderNodesInterpolationWeights[v][a]);
+        }
+    }
+}
+
+void SceneFrames::updateRigidSurface(int surface)
+{
+    const btTransform& pose = m_world.rigid(bodyOf(surface) - m_world.softCount()).getWorldTransform();
+    const std::vector<Vec3>& rest = m_rigidRest[surface - m_world.softCount()];
+    BodyFrame& frame = m_surfaces[surface];
+    frame.m_positions.resize(rest.size());
+    for (std::size_t v = 0; v < rest.size(); ++v) frame.m_positions[v] = vec3(pose * bulletVector(rest[v]));
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_fem/btFemReports.h"
+#include "bullet_fem/io/body_frame.h"
+#include "tools/scene/scene_world.h"
+
+namespace bullet_fem
+{
+
+/// What writers and pictures show of a scene: taken anew by `update`, after a step.
+class SceneFrames
+{
+public:
+    /// The world must live longer.
+    explicit SceneFrames(const SceneWorld& world);
+
+    void update();
+
+    /// The soft bodies' elements, in the scene's order: all fields.
+    const std::vector<BodyFrame>& volumes() const { return m_volumes; }
+    /// Surfaces: of the soft bodies, embedded ones where there are, with their stress; then of the rigid ones that have
+    /// a shape with an end.
+    const std::vector<BodyFrame>& surfaces() const { return m_surfaces; }
+    /// Which body of the scene a surface is: index of a soft body, or the number of soft bodies plus that of a rigid
+    /// one.
+    int bodyOf(int surface) const { return m_surfaces[surface].m_id; }
+
+private:
+    void updateVolume(int i);
+    void updateSoftSurface(int i);
+    void updateRigidSurface(int surface);
+
+    const SceneWorld& m_world;
+    std::vector<BodyFrame> m_volumes, m_surfaces;
+    std::vector<std::vector<Vec3>> m_rest;       // a soft body: nodes at the start
+    std::vector<std::vector<Vec3>> m_rigidRest;  // a surface of a rigid body: in its own frame
+    btAlignedObjectArray<btFemStress> m_stress;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/scene/scene_world.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/fem/baked_body.h"
+#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/io/surface_file.h"
+#include "bullet_fem/io/tet_mesh_file.h"
+#include "fem/message.h"
+#include "tools/scene/scene_shapes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+btFemSolverInfo solverInfo(const SceneDescription& scene)
+{
+    btFemSolverInfo info;
+    info.m_tolerance = btScalar(scene.m_tolerance);
+    info.m_contactTolerance = btScalar(scene.m_contactTolerance);
+    info.m_threads = scene.m_threads;
+    return info;
+}
+
+std::unique_ptr<btConstraintSolver> rigidSolver(bool coupled, btFemSoftBodySolver& fem)
+{
+    if (coupled) return std::make_unique<btFemConstraintSolver>(&fem);
+    return std::make_unique<btSequentialImpulseConstraintSolver>();
+}
+
+btTransform transformOf(const ScenePose& pose)
+{
+    return btTransform(btQuaternion(bulletVector(pose.m_axis), btScalar(pose.m_angle)), bulletVector(pose.m_position));
+}
+
+btFemMaterial materialOf(const Material& material)
+{
+    btFemMaterial result;
+    result.m_youngModulus = btScalar(material.m_youngModulus);
+    result.m_poissonRatio = btScalar(material.m_poissonRatio);
+    result.m_density = btScalar(material.m_density);
+    result.m_massDamping = btScalar(material.m_massDamping);
+    result.m_stiffnessDamping = btScalar(material.m_stiffnessDamping);
+    return result;
+}
+
+TetMesh blockOf(const SceneMesh& mesh)
+{
+    const double volume = mesh.m_size.x * mesh.m_size.y * mesh.m_size.z;
+    const double cell = mesh.m_cellSize > 0 ? mesh.m_cellSize : std::cbrt(5 * volume / mesh.m_tets);
+    std::array<int, 3> cells;
+    for (int i = 0; i < 3; ++i) cells[i] = static_cast<int>(std::clamp(std::round(mesh.m_size[i] / cell), 1.0, 1000.0));
+    return makeBox(mesh.m_scale * mesh.m_size, cells, -0.5 * mesh.m_scale * mesh.m_size);
+}
+
+CageSettings cageOf(const SceneMesh& mesh)
+{
+    CageSettings settings;
+    settings.m_cellSize = mesh.m_cellSize;
+    settings.m_targetTets = mesh.m_cellSize > 0 ? 0 : mesh.m_tets;
+    settings.m_maxTets = 5000000;
+    return settings;
+}
+
+std::vector<int> nodesIn(const btSoftBody& body, const SceneBox& box)
+{
+    std::vector<int> nodes;
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+        if (box.contains(vec3(body.m_nodes[i].m_x))) nodes.push_back(i);
+    return nodes;
+}
+
+// Calls what makes a body; what goes wrong then names it.
+template <class Make>
+void named(const std::string& name, const Make& make)
+{
+    try
+    {
+        make();
+    }
+    catch (const std::exception& error)
+    {
+        throw std::runtime_error("'" + name + "': " + error.what());
+    }
+}
+
+}  // namespace
+
+SceneWorld::SceneWorld(const SceneDescription& description)
+    : m_description(description),
+      m_fem(solverInfo(description)),
+      m_rigidSolver(rigidSolver(description.m_coupled, m_fem)),
+      m_world(&m_dispatcher, &m_broadphase, m_rigidSolver.get(), &m_configuration, &m_fem)
+{
+    m_configuration.setPlaneConvexMultipointIterations();  // else boxes touch a plane in one point, and sink into it
+    m_world.setGravity(bulletVector(description.m_gravity));
+    m_world.getWorldInfo().m_gravity = bulletVector(description.m_gravity);
+    for (const SceneRigidBody& body : description.m_rigidBodies) addRigid(body);
+    for (const SceneSoftBody& body : description.m_softBodies) named(body.m_name, [&] { addSoft(body); });
+    for (const SceneConstraint& constraint : description.m_constraints) addConstraint(constraint);
+    for (int i = 0; i < softCount(); ++i)
+        named(description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
+}
+
+SceneWorld::~SceneWorld()
+{
+    for (const auto& joint : m_joints) m_world.removeConstraint(joint.get());
+    for (const auto& body : m_softBodies) m_world.removeSoftBody(body.get());
+    for (const auto& body : m_rigidBodies) m_world.removeRigidBody(body.get());
+}
+
+void SceneWorld::step()
+{
+    for (const SceneForce& force : m_description.m_forces)
+        if (time() >= force.m_from && time() < force.m_to) apply(force);
+    m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of just this size
+    ++m_steps;
+}
+
+std::unique_ptr<btSoftBody> SceneWorld::makeSoft(const SceneSoftBody& from)
+{
+    btSoftBodyWorldInfo& info = m_world.getWorldInfo();
+    const SceneMesh& mesh = from.m_mesh;
+    switch (mesh.m_kind)
+    {
+        case SceneMesh::Kind::box:
+            return std::unique_ptr<btSoftBody>(btFemHelpers::createFromTetMesh(info, blockOf(mesh)));
+        case SceneMesh::Kind::surface:
+            return std::unique_ptr<btSoftBody>(
+                btFemHelpers::createFromSurface(info, readSurfaceFile(mesh.m_path, mesh.m_scale), cageOf(mesh)));
+        case SceneMesh::Kind::tetrahedra:
+            return std::unique_ptr<btSoftBody>(
+                btFemHelpers::createFromTetMesh(info, readTetMeshFile(mesh.m_path, mesh.m_scale).mesh()));
+        default:
+            break;
+    }
+    if (mesh.m_scale != 1) reject("scale is ", mesh.m_scale, ", but a baked body has its size; leave it out");
+    const BakedBody baked = readBakedBody(mesh.m_path);
+    std::unique_ptr<btSoftBody> body(btFemHelpers::createFromBaked(info, baked));
+    m_fem.useBaked(body.get(), baked);
+    return body;
+}
+
+void SceneWorld::addSoft(const SceneSoftBody& from)
+{
+    std::unique_ptr<btSoftBody> body = makeSoft(from);
+    if (from.m_mesh.m_kind != SceneMesh::Kind::baked) m_fem.setMaterial(body.get(), materialOf(from.m_material));
+    body->transform(transformOf(from.m_pose));
+    body->m_cfg.kDF = btScalar(from.m_friction);
+    if (from.m_selfContact) body->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
+    for (const SceneBox& box : from.m_pins)
+    {
+        const std::vector<int> nodes = nodesIn(*body, box);
+        if (nodes.empty()) throw std::runtime_error("a box of its pins holds no node at the start; move or enlarge it");
+        for (const int node : nodes) body->setMass(node, 0);
+    }
+    body->setVelocity(bulletVector(from.m_velocity));
+    m_world.addSoftBody(body.get());
+    m_softBodies.push_back(std::move(body));
+}
+
+void SceneWorld::addRigid(const SceneRigidBody& from)
+{
+    m_shapes.push_back(makeShape(from.m_shape));
+    btVector3 inertia(0, 0, 0);
+    if (from.m_mass > 0) m_shapes.back()->calculateLocalInertia(btScalar(from.m_mass), inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(btScalar(from.m_mass), nullptr, m_shapes.back().get(), inertia);
+    info.m_startWorldTransform = transformOf(from.m_pose);
+    info.m_friction = btScalar(from.m_friction);
+    info.m_restitution = btScalar(from.m_restitution);
+    m_rigidBodies.push_back(std::make_unique<btRigidBody>(info));
+    btRigidBody& body = *m_rigidBodies.back();
+    const bool moves = norm(from.m_velocity) > 0 || norm(from.m_spin) > 0;
+    if (from.m_mass == 0 && moves)
+    {
+        body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+        body.setActivationState(DISABLE_DEACTIVATION);
+    }
+    m_world.addRigidBody(&body);
+    body.setLinearVelocity(bulletVector(from.m_velocity));
+    body.setAngularVelocity(bulletVector(from.m_spin));
+}
+
+btRigidBody& SceneWorld::rigidCalled(const std::string& name)
+{
+    for (int i = 0; i < rigidCount(); ++i)
+        if (m_description.m_rigidBodies[i].m_name == name) return *m_rigidBodies[i];
+    throw std::runtime_error("there is no rigid body '" + name + "'");
+}
+
+btSoftBody& SceneWorld::softCalled(const std::string& name)
+{
+    for (int i = 0; i < softCount(); ++i)
+        if (m_description.m_softBodies[i].m_name == name) return *m_softBodies[i];
+    throw std::runtime_error("there is no soft body '" + name + "'");
+}
+
+void SceneWorld::addAnchors(const SceneConstraint& from)
+{
+    btSoftBody& soft = softCalled(from.m_a);
+    btRigidBody& rigid = rigidCalled(from.m_b);
+    const std::vector<int> nodes = nodesIn(soft, from.m_box);
+    if (nodes.empty())
+        throw std::runtime_error("'" + from.m_a + "': the box of its anchors to '" + from.m_b +
+                                 "' holds no node at the start; move or enlarge it");
+    for (const int node : nodes) soft.appendAnchor(node, &rigid, true);
+}
+
+void SceneWorld::addConstraint(const SceneConstraint& from)
+{
+    if (from.m_kind == SceneConstraint::Kind::anchor) return addAnchors(from);
+    btRigidBody& a = rigidCalled(from.m_a);
+    btRigidBody& b = from.m_b.empty() ? btTypedConstraint::getFixedBody() : rigidCalled(from.m_b);
+    const btTransform intoA = a.getWorldTransform().inverse(), intoB = b.getWorldTransform().inverse();
+    const btVector3 pivot = bulletVector(from.m_pivot), axis = bulletVector(from.m_axis).normalized();
+    if (from.m_kind == SceneConstraint::Kind::point)
+        m_joints.push_back(std::make_unique<btPoint2PointConstraint>(a, b, intoA * pivot, intoB * pivot));
+    else
+    {
+        btVector3 axisInA = intoA.getBasis() * axis, axisInB = intoB.getBasis() * axis;
+        auto hinge = std::make_unique<btHingeConstraint>(a, b, intoA * pivot, intoB * pivot, axisInA, axisInB);
+        if (from.m_torque > 0)
+            hinge->enableAngularMotor(true, btScalar(from.m_speed),
+                                      btScalar(from.m_torque * m_description.m_step));  // an impulse
+        m_joints.push_back(std::move(hinge));
+    }
+    m_world.addConstraint(m_joints.back().get(), true);
+}
+
+void SceneWorld::apply(const SceneForce& force)
+{
+    for (int i = 0; i < rigidCount(); ++i)
+        if (m_description.m_rigidBodies[i].m_name == force.m_body)
+        {
+            m_rigidBodies[i]->activate();
+            m_rigidBodies[i]->applyCentralForce(bulletVector(force.m_force));
+            return;
+        }
+    btSoftBody& body = softCalled(force.m_body);
+    body.activate();
+    const bool all = force.m_everywhere;
+    double sum = 0;
+    const auto share = [&](int i)
+    {
+        const btSoftBody::Node& node = body.m_nodes[i];
+        if (node.m_im <= 0 || !(all || force.m_box.contains(vec3(node.m_x)))) return 0.0;
+        return all ? 1 / double(node.m_im) : 1.0;
+    };
+    for (int i = 0; i < body.m_nodes.size(); ++i) sum += share(i);
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+        if (const double part = share(i); part > 0) body.addForce(bulletVector(part / sum * force.m_force), i);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h"
+#include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
+#include "btBulletDynamicsCommon.h"
+#include "bullet_fem/btFemConstraintSolver.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "tools/scene/scene_description.h"
+
+namespace bullet_fem
+{
+
+/// A scene as Bullet's world, in motion. It owns all that it makes.
+class SceneWorld
+{
+public:
+    /// Makes bodies, joints and anchors, and factors. The description must live longer. Throws std::runtime_error, or
+    /// std::invalid_argument, that begins with the body's name: a file that is bad, a mesh or material that no body can
+    /// have, a pin or anchor that holds no node.
+    explicit SceneWorld(const SceneDescription& description);
+    ~SceneWorld();
+    SceneWorld(const SceneWorld&) = delete;
+    SceneWorld& operator=(const SceneWorld&) = delete;
+
+    /// Advances by the description's step.
+    void step();
+    double time() const { return m_steps * m_description.m_step; }  ///< [s]
+
+    const SceneDescription& description() const { return m_description; }
+    btSoftRigidDynamicsWorld& world() { return m_world; }
+    btFemSoftBodySolver& fem() { return m_fem; }
+    const btFemSoftBodySolver& fem() const { return m_fem; }
+    int softCount() const { return static_cast<int>(m_softBodies.size()); }
+    int rigidCount() const { return static_cast<int>(m_rigidBodies.size()); }
+    /// In the description's order.
+    btSoftBody& soft(int i) { return *m_softBodies[i]; }
+    const btSoftBody& soft(int i) const { return *m_softBodies[i]; }
+    const btRigidBody& rigid(int i) const { return *m_rigidBodies[i]; }
+
+private:
+    void addSoft(const SceneSoftBody& from);
+    void addRigid(const SceneRigidBody& from);
+    void addConstraint(const SceneConstraint& from);
+    void addAnchors(const SceneConstraint& from);
+    std::unique_ptr<btSoftBody> makeSoft(const SceneSoftBody& from);
+    void apply(const SceneForce& force);
+    btRigidBody& rigidCalled(const std::string& name);
+    btSoftBody& softCalled(const std::string& name);
+
+    const SceneDescription& m_description;
+    btSoftBodyRigidBodyCollisionConfiguration m_configuration;
+    btCollisionDispatcher m_dispatcher{&m_configuration};
+    btDbvtBroadphase m_broadphase;
+    btFemSoftBodySolver m_fem;
+    std::unique_ptr<btConstraintSolver> m_rigidSolver;
+    btSoftRigidDynamicsWorld m_world;
+    std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
+    std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
+    std::vector<std::unique_ptr<btTypedConstraint>> m_joints;
+    std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
+    long m_steps = 0;
+};
+
+}  // namespace bullet_fem
