@@ -18,7 +18,8 @@ namespace bullet_fem
 ///
 /// with the target t at the start of the step and the velocity v_t that it moves with. Ours are free of momentum: v_t
 /// is the rigid motion that the loads give the body, and t - x has no rigid part. Both are fitted with the node masses,
-/// of which pinned nodes have, as in Bullet, 1000 n times the body's: they hold the pose.
+/// of which pinned nodes have, as in Bullet, 1000 n times the body's: they hold the pose. What hits the body later in
+/// the step moves the frame along: of a body that hangs on pinned nodes in one place or on one line, turns it.
 void matchPose(FemSoftBody& fem, double step);
 
 }  // namespace bullet_fem

@@ -3,6 +3,7 @@
 #include "fem/rigid_momentum.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace bullet_fem
 {
@@ -17,6 +18,9 @@ Mat3 boundedInverse(const Mat3& inertia, double rounding)
     if (!(size > rounding)) return {};
     return inverse(inertia + Mat3::diagonal(1e-14 * size));
 }
+
+// Share of a piece's size by which fixed nodes may lie beside a point or a line.
+constexpr double kOnLine = 1e-4;
 
 double damping(const Body& body)
 {
@@ -76,6 +80,80 @@ void RigidMomentum::prescribe(const Body& body, double step)
             boundedInverse(piece.m_inverseInertia, 1e-24 * piece.m_mass * dot(piece.m_center, piece.m_center));
 }
 
+// Centre, mass, inertia and axis of the pieces with fixed nodes, by any of those and the one farthest from it; false if
+// there are no such pieces.
+bool RigidMomentum::findPivots(const Body& body)
+{
+    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    bool any = false;
+    for (Piece& piece : m_pieces)
+        if (!piece.m_free) piece = Piece();
+    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        if (!s.m_fixed[i] || !piece.m_free) continue;
+        piece.m_free = false;
+        piece.m_center = s.m_x[i];
+        any = true;
+    }
+    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        if (piece.m_free) continue;
+        const Vec3 r = s.m_x[i] - piece.m_center;
+        piece.m_mass += s.m_mass[i];
+        piece.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+        if (s.m_fixed[i] && dot(r, r) > dot(piece.m_axis, piece.m_axis)) piece.m_axis = r;
+    }
+    return any;
+}
+
+// A piece is clamped, not hung, if a fixed node lies beside the point or line of the others.
+void RigidMomentum::findClamped(const Body& body)
+{
+    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    const auto slack = [](const Piece& piece)
+    { return kOnLine * std::sqrt(trace(piece.m_inverseInertia) / piece.m_mass); };
+    for (Piece& piece : m_pieces)
+    {
+        piece.m_hung = !piece.m_free;
+        if (piece.m_hung && norm(piece.m_axis) <= slack(piece)) piece.m_axis = {};
+    }
+    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        if (!s.m_fixed[i]) continue;
+        const Vec3 r = s.m_x[i] - piece.m_center;
+        const double length2 = dot(piece.m_axis, piece.m_axis);
+        const Vec3 beside = length2 > 0 ? r - (dot(r, piece.m_axis) / length2) * piece.m_axis : r;
+        if (norm(beside) > slack(piece)) piece.m_hung = false;
+    }
+}
+
+void RigidMomentum::keepHung(const Body& body, const std::vector<Vec3>& velocity)
+{
+    if (!(body.m_loads.m_frameDamping > 0) || !findPivots(body)) return;
+    findClamped(body);
+    for (Piece& piece : m_pieces)
+    {
+        if (!piece.m_hung) continue;
+        const double about = dot(piece.m_axis, piece.m_inverseInertia * piece.m_axis);  // it is the inertia so far
+        piece.m_inverseInertia =
+            about > 0 ? (1 / about) * outer(piece.m_axis, piece.m_axis) : boundedInverse(piece.m_inverseInertia, 0);
+        piece.m_mass = std::numeric_limits<double>::infinity();
+        piece.m_free = m_anyFree = true;
+    }
+    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        if (piece.m_hung) piece.m_angular += cross(s.m_x[i] - piece.m_center, s.m_mass[i] * velocity[i]);
+    }
+}
+
 void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step)
 {
     if (!m_anyFree) return;
@@ -119,7 +197,7 @@ void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
     forEachNode(component, m_pieces,
                 [&](const Piece& piece, int i)
                 {
-                    if (piece.m_free)
+                    if (piece.m_free && !s.m_fixed[i])
                         velocity[i] +=
                             piece.m_linearVelocity + cross(piece.m_angularVelocity, s.m_x[i] - piece.m_center);
                 });

@@ -22,6 +22,11 @@ public:
     /// it to the loads' frame is added likewise.
     void prescribe(const Body& body, double step);
 
+    /// Pieces that hang on fixed nodes in one place or on one line keep the angular momentum about these that
+    /// `velocity` gives them, the motion without the impulses to come, if they are drawn to a frame: else it would damp
+    /// the part of those that turns them. Nothing else changes.
+    void keepHung(const Body& body, const std::vector<Vec3>& velocity);
+
     /// Adds node impulses J [N s] to the prescription; the frame, which moves along, does not damp them.
     void addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step);
 
@@ -34,13 +39,18 @@ public:
 private:
     struct Piece
     {
-        bool m_free = true;
+        bool m_free = true;   // or hung: infinitely heavy, its centre on what it hangs on
+        bool m_hung = false;  // not free, but turns about a point or a line
         double m_mass = 0;
         Vec3 m_center;             // [m]
+        Vec3 m_axis;               // to the farthest fixed node of a hung piece [m]
         Vec3 m_linear, m_angular;  // prescribed [kg m/s], [kg m2/s]
         Mat3 m_inverseInertia;     // [1/(kg m2)]; zero where the piece has collapsed to a point
         Vec3 m_linearVelocity, m_angularVelocity;
     };
+    bool findPivots(const Body& body);
+    void findClamped(const Body& body);
+
     std::vector<Piece> m_pieces;
     bool m_anyFree = false;  // of the last prescription; all is skipped where there is none
 };

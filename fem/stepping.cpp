@@ -123,8 +123,10 @@ void beginFreeMotion(Body& body, const StepSettings& settings, std::optional<Inc
 SolveReport endFreeMotion(Body& body, IncrementSolve& solve)
 {
     const SolveReport report = solve.addToVelocity();
+    StepScratch& scratch = body.m_workspace.scratch();
+    scratch.m_momentum.keepHung(body, scratch.m_velocity);
     std::swap(body.m_state.m_lastIncrement[0], body.m_state.m_lastIncrement[1]);
-    body.m_state.m_lastIncrement[0] = body.m_workspace.scratch().m_increment;
+    body.m_state.m_lastIncrement[0] = scratch.m_increment;
     return report;
 }
 

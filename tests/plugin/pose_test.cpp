@@ -152,6 +152,60 @@ TEST_P(Pose, DoesNotBrakeAPendulum)
     EXPECT_NEAR(height[1], height[0], 0.01 * std::fabs(height[0]));
 }
 
+/// Momenta about (-0.5, -0.5, -0.5), where a cube hangs on a hinge along z, or on one node.
+class HungCube : public testing::TestWithParam<int>
+{
+protected:
+    /// What a stone that hits the far side leaves of its momentum about the pins in cube and stone.
+    Vec3 keptShare(btScalar kMT) const
+    {
+        btFemSoftBodySolver fem;
+        SoftWorld world(fem, btVector3(0, 0, 0));
+        btSoftBody* made = makeCube(world);
+        fem.setMaterial(made, softMaterial(btScalar(1e6)));
+        int pins = 0;
+        for (int i = 0; i < made->m_nodes.size(); ++i)
+        {
+            const btVector3& x = made->m_nodes[i].m_x;
+            const bool onEdge = x.x() < btScalar(-0.49) && x.y() < btScalar(-0.49);
+            if (!onEdge || (GetParam() == 1 && x.z() > btScalar(-0.49))) continue;
+            made->setMass(i, 0);
+            ++pins;
+        }
+        EXPECT_EQ(pins, GetParam());
+        made->setPose(false, true);
+        made->m_cfg.kMT = kMT;
+        btSoftBody& cube = world.addSoft(made);
+        RigidSettings settings{100, at(btScalar(0.3), btScalar(-0.72), btScalar(0.1))};
+        settings.m_velocity = {0, 2, 0};
+        const btRigidBody& stone = world.addRigid(new btSphereShape(btScalar(0.2)), settings);
+        const auto total = [&]
+        {
+            Motion sum = motionOf(cube);
+            sum += motionOf(stone);
+            return sum.m_angular - cross(Vec3{-0.5, -0.5, -0.5}, sum.m_linear);
+        };
+        const Vec3 before = total();
+        world.step(30);
+        EXPECT_GT(norm(motionOf(cube).m_angular), 0.1 * norm(before));
+        const Vec3 after = total();
+        return (1 / norm(before)) * (after - before);
+    }
+};
+
+TEST_P(HungCube, FeelsAllThatHitsItHoweverItsPoseIsMatched)
+{
+    for (const double kMT : {0.0, 0.3, 0.9})
+    {
+        const Vec3 lost = keptShare(btScalar(kMT));
+        const double free = GetParam() == 1 ? norm(lost) : std::fabs(lost.z);  // a hinge takes the rest
+        EXPECT_LT(free, 0.01) << kMT;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pose, HungCube, testing::Values(1, 5),
+                         [](const auto& test) { return test.param == 1 ? "OnANode" : "OnAHinge"; });
+
 TEST_P(Pose, IsIgnoredWithoutItsFrameAndForOtherNumbersOfNodes)
 {
     std::vector<btScalar> bits[3];

@@ -43,7 +43,8 @@ struct StepLoads
     std::vector<Vec3> m_targetVelocity;  ///< velocity of fixed nodes during the step [m/s]; not read elsewhere
     double m_massDamping = 0;            ///< added to the material's alpha [1/s], >= 0
     /// Rate at which velocities are drawn to m_frameVelocity [1/s], >= 0: forces m rate (v_frame - v), implicitly. The
-    /// frame is a rigid one that moves with the body, so impulses of contact change its momentum undamped.
+    /// frame is a rigid one that moves with the body, so impulses of contact change its momentum undamped; that about
+    /// fixed nodes, if it hangs on a point or a line of them.
     double m_frameDamping = 0;
     std::vector<Vec3> m_frameVelocity;  ///< at the end of the step [m/s]; not read if m_frameDamping is 0
     /// Velocities of the nodes before BodyState::m_v was changed from outside since the last step [m/s], so that the
