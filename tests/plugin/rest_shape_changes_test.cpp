@@ -45,6 +45,36 @@ double largestDifference(const std::vector<double>& a, const std::vector<double>
     return largest;
 }
 
+// --- Copies share what is the same, and nothing else ---
+
+// A body that has left the world is known until the next step. Who becomes FEM before that shares its factor and rest
+// shape if it is a copy of what that was; not if it has a shape of its own, nor what that one has become.
+TEST(RestShape, OfABodyThatFollowsARemovedCopyIsItsOwn)
+{
+    for (const bool isPrepared : {true, false})
+        for (const double growth : {0.0, 2e-4, 1e-2})
+        {
+            btFemSoftBodySolver fem;
+            SoftWorld world(fem, btVector3(0, 0, 0));
+            btSoftBody& first = world.addSoft(makeCube(world));
+            world.step();
+            world.world().removeSoftBody(&first);
+            first.scale(btVector3(2, 1, 1));  // its rest shape, too
+            btSoftBody* made = makeCube(world);
+            const btScalar scale = btScalar(1 + growth);
+            made->scale(btVector3(scale, scale, scale));
+            const std::vector<double> rest = lengthsOf(*made);
+            btSoftBody& second = world.addSoft(made);
+            if (isPrepared) fem.prepare(&second, kStep);
+            world.step(20);
+            EXPECT_LT(largestDifference(lengthsOf(second), rest), 2e-6) << isPrepared << ' ' << growth;
+            stretch(second, btVector3(btScalar(1.05), 1, 1));
+            second.m_cfg.kDP = btScalar(0.1);
+            world.step(300);
+            EXPECT_LT(largestDifference(lengthsOf(second), rest), 2e-5) << isPrepared << ' ' << growth;
+        }
+}
+
 // --- The rest shape is that of initializeDmInverse ---
 
 class RestShape : public EachWorld
