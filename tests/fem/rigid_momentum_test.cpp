@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fem/elasticity_scenes.h"
 
 namespace bullet_fem
@@ -180,6 +182,102 @@ TEST_F(RigidMomentumTest, LeavesAPieceWithAFixedNodeAlone)
     EXPECT_EQ(changed[fixedPiece], 0);
     EXPECT_GT(changed[1 - fixedPiece], 0);
     expectSame(restored(1 - fixedPiece), prescribed(1 - fixedPiece, 1), 1e-14);
+}
+
+// A piece drawn to a frame that hangs on the nodes of one edge of its box, or on one node.
+class HungPiece : public RigidMomentumTest
+{
+protected:
+    // Box 0's nodes on the edge along x, not yet where the random numbers put them.
+    void hang(int nodes, double drawn)
+    {
+        m_body.m_loads.m_frameDamping = drawn;
+        const std::vector<Vec3>& X = m_body.m_model->mesh().restPositions();
+        for (std::size_t i = 0; i < X.size() && nodes > 0; ++i)
+        {
+            if (X[i].y != 0 || X[i].z != 0 || m_component[i] != 0) continue;
+            m_body.m_state.m_x[i] = X[i] + Vec3{10, -20, 30};
+            m_body.m_state.m_fixed[i] = 1;
+            --nodes;
+        }
+        ASSERT_EQ(nodes, 0);
+        m_momentum.prescribe(m_body, kStep);
+        m_momentum.keepHung(m_body, m_velocity);
+    }
+
+    // About the first node of that edge.
+    template <class Value>
+    Vec3 aboutPin(const Value& p) const
+    {
+        Vec3 sum;
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+            if (m_component[i] == 0) sum += cross(m_body.m_state.m_x[i] - Vec3{10, -20, 30}, p(i));
+        return sum;
+    }
+    Vec3 momentumAboutPin() const
+    {
+        return aboutPin([this](std::size_t i) { return m_body.m_state.m_mass[i] * m_velocity[i]; });
+    }
+
+    // What the impulses leave of it when all velocities of free nodes were taken away since.
+    Vec3 momentumOfImpulses()
+    {
+        const Vec3 before = momentumAboutPin();
+        for (std::size_t i = 0; i < m_impulses.size(); ++i)
+            if (m_body.m_state.m_fixed[i]) m_impulses[i] = {};
+        m_momentum.addImpulses(m_body, m_impulses, kStep);
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+            if (!m_body.m_state.m_fixed[i]) m_velocity[i] = {};
+        const std::vector<Vec3> still = m_velocity;
+        m_momentum.restore(m_body, m_velocity);
+        for (std::size_t i = 0; i < still.size(); ++i)
+            m_pinsMoved = m_pinsMoved || (m_body.m_state.m_fixed[i] && norm(m_velocity[i] - still[i]) > 0);
+        return momentumAboutPin() - before;
+    }
+    Vec3 expected() const
+    {
+        return (1 / (1 + kStep * 0.8)) * aboutPin([this](std::size_t i) { return m_impulses[i]; });
+    }
+
+    double fastestFree() const
+    {
+        double fastest = 0;
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+            if (m_component[i] == 0 && !m_body.m_state.m_fixed[i]) fastest = std::max(fastest, norm(m_velocity[i]));
+        return fastest;
+    }
+
+    bool m_pinsMoved = false;
+};
+
+TEST_F(HungPiece, KeepsTheAngularMomentumAboutItsPin)
+{
+    hang(1, 50);
+    const Vec3 got = momentumOfImpulses();
+    EXPECT_FALSE(m_pinsMoved);
+    EXPECT_LE(norm(got - expected()), 1e-11 * norm(expected()));
+}
+
+TEST_F(HungPiece, KeepsTheAngularMomentumAboutItsHinge)
+{
+    hang(3, 50);
+    const Vec3 got = momentumOfImpulses();
+    EXPECT_FALSE(m_pinsMoved);
+    EXPECT_NEAR(got.x, expected().x, 1e-11 * norm(expected()));
+    EXPECT_GT(norm(got - expected()), 0.1 * norm(expected()));  // the hinge takes the rest
+}
+
+TEST_F(HungPiece, IsLeftAloneWithoutAFrameAndWhereItIsClamped)
+{
+    hang(3, 0);
+    momentumOfImpulses();
+    EXPECT_EQ(fastestFree(), 0);
+    const std::vector<Vec3>& X = m_body.m_model->mesh().restPositions();
+    for (std::size_t i = 0; i < X.size(); ++i)
+        if (m_component[i] == 0 && X[i].z == 1) m_body.m_state.m_fixed[i] = 1;
+    hang(3, 50);
+    momentumOfImpulses();
+    EXPECT_EQ(fastestFree(), 0);
 }
 
 // Random velocities and loads are of order one; so is what is left of them, whatever rounding makes of the inertia.
