@@ -26,6 +26,15 @@ inline std::string_view takeWord(std::string_view& text)
     return word;
 }
 
+/// A word of a file for a message: what is too long or not printable, and could be meant for a terminal, is left out.
+inline std::string printable(std::string_view word)
+{
+    std::string text(word.substr(0, 40));
+    for (char& c : text)
+        if (c < ' ' || c > '~') c = '?';
+    return text;
+}
+
 /// A whole word as a number, whatever the locale. Throws std::runtime_error naming the word and `what` it should be.
 template <typename Number>
 Number parseNumber(std::string_view word, const char* what)
@@ -34,7 +43,7 @@ Number parseNumber(std::string_view word, const char* what)
     const std::string_view digits = word.substr(word.size() > 1 && word[0] == '+' ? 1 : 0);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size())
-        throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not " + what);
+        throw std::runtime_error("'" + printable(word) + "' is not " + what);
     return value;
 }
 

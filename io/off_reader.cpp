@@ -48,7 +48,7 @@ void readHeader(Lines& lines, std::int64_t& vertexCount, std::int64_t& faceCount
     for (const char* name : {"OFF", "COFF", "NOFF", "CNOFF", "NCOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"})
         known = known || kind == name;
     if (!known)
-        throw std::runtime_error("'" + std::string(kind.substr(0, 40)) +
+        throw std::runtime_error("'" + printable(kind) +
                                  "' is not a known OFF header (OFF, or with the prefixes ST, C, N)");
     std::string_view word = takeWord(line);
     if (word == "BINARY") throw std::runtime_error("binary OFF is not supported; save it as text");

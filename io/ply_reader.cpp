@@ -59,7 +59,7 @@ NumberType parseType(std::string_view word)
         {"float", "float32", {NumberType::floating, 4}},    {"double", "float64", {NumberType::floating, 8}}};
     for (const Named& t : types)
         if (word == t.name || word == t.alias) return t.type;
-    throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a PLY number type");
+    throw std::runtime_error("'" + printable(word) + "' is not a PLY number type");
 }
 
 Encoding parseEncoding(std::string_view word)
@@ -67,7 +67,7 @@ Encoding parseEncoding(std::string_view word)
     if (word == "ascii") return Encoding::text;
     if (word == "binary_little_endian") return Encoding::littleEndian;
     if (word == "binary_big_endian") return Encoding::bigEndian;
-    throw std::runtime_error("'" + std::string(word.substr(0, 40)) + "' is not a PLY encoding");
+    throw std::runtime_error("'" + printable(word) + "' is not a PLY encoding");
 }
 
 Property parseProperty(std::string_view line)
@@ -110,7 +110,7 @@ Header takeHeader(std::string_view& bytes)
         else if (key == "property" && !header.elements.empty())
             header.elements.back().properties.push_back(parseProperty(line));
         else if (!key.empty() && key != "ply" && key != "comment" && key != "obj_info")
-            throw std::runtime_error("unexpected '" + std::string(key.substr(0, 40)) + "' in the header");
+            throw std::runtime_error("unexpected '" + printable(key) + "' in the header");
     }
 }
 
@@ -213,7 +213,7 @@ PolygonMesh readPly(std::string_view bytes)
             }
             catch (const std::runtime_error& error)
             {
-                throw std::runtime_error(element.name + " " + std::to_string(i) + " of " +
+                throw std::runtime_error(printable(element.name) + " " + std::to_string(i) + " of " +
                                          std::to_string(element.count) + ": " + error.what());
             }
         }

@@ -24,7 +24,7 @@ ByteOrder readByteOrder(MeshScanner& scanner)
 int readFormat(GmshFile& file)
 {
     MeshScanner& scanner = file.scanner;
-    const std::string version(scanner.word("a version").substr(0, 40));
+    const std::string version = printable(scanner.word("a version"));
     const bool is2 = version == "2" || version == "2.0" || version == "2.1" || version == "2.2";
     if (!is2 && version != "4.1")
         scanner.fail("MSH version " + version + " cannot be read, only 2.0 to 2.2 and 4.1; convert it: " +
@@ -51,7 +51,7 @@ void readEnd(MeshScanner& scanner, const std::string& section)
 {
     const std::string end = "$End" + section;
     const std::string_view word = scanner.word(end.c_str());
-    if (word != end) scanner.fail("'" + std::string(word.substr(0, 40)) + "' stands where " + end + " should be");
+    if (word != end) scanner.fail("'" + printable(word) + "' stands where " + end + " should be");
 }
 
 void readNodes(GmshFile& file, int version)
@@ -78,14 +78,14 @@ TetMeshFile readGmsh(std::string_view bytes)
     {
         const std::string_view word = scanner.word("a section");
         if (word.size() < 2 || word[0] != '$' || (version == 0 && word != "$MeshFormat" && word != "$Comments"))
-            scanner.fail("'" + std::string(word.substr(0, 40)) + "' stands where a section such as " +
+            scanner.fail("'" + printable(word) + "' stands where a section such as " +
                          (version == 0 ? "$MeshFormat" : "$Nodes") + " should begin");
         const std::string section(word.substr(1));
         const bool isFormat = section == "MeshFormat", isNodes = section == "Nodes", isElements = section == "Elements";
         if (!isFormat && !isNodes && !isElements)
         {
             if (!scanner.skipPast("$End" + section.substr(0, 200)))
-                scanner.fail("the section $" + section.substr(0, 40) + " has no end");
+                scanner.fail("the section $" + printable(section) + " has no end");
             continue;
         }
         scanner.restOfLine();

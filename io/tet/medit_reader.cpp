@@ -109,7 +109,7 @@ TetMeshFile readMedit(std::string_view bytes)
     {
         const std::string_view keyword = text.word("a keyword");
         if (!beginsWithLetter(keyword))
-            text.fail("'" + std::string(keyword.substr(0, 40)) + "' stands where a keyword such as Vertices should");
+            text.fail("'" + printable(keyword) + "' stands where a keyword such as Vertices should");
         if (keyword == "Dimension")
         {
             const int dimension = text.text<int>("a dimension");

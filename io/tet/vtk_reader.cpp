@@ -19,9 +19,10 @@ struct VtkFile
     bool hasPoints = false, hasCells = false, hasTypes = false;
 };
 
+/// A keyword, of which VTK ignores the case.
 std::string upperCase(std::string_view word)
 {
-    std::string upper(word.substr(0, 40));
+    std::string upper = printable(word);
     for (char& c : upper)
         if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
     return upper;
@@ -54,7 +55,7 @@ NumberType parseVtkType(const MeshScanner& scanner, std::string_view word)
     const std::string name = upperCase(word);
     for (const Named& known : types)
         if (name == known.name) return known.type;
-    scanner.fail("'" + std::string(word.substr(0, 40)) + "' is not a VTK number type");
+    scanner.fail("'" + printable(word) + "' is not a VTK number type");
 }
 
 /// `count` numbers of an array; the scanner stands behind the line that announces it.
@@ -91,7 +92,7 @@ void readHeader(VtkFile& file)
     const std::string_view first = scanner.restOfLine();
     if (first.substr(0, magic.size()) != magic) scanner.fail("a VTK file begins with '# vtk DataFile Version'");
     std::string_view rest = first.substr(magic.size());
-    const std::string version(takeWord(rest).substr(0, 40));
+    const std::string version = printable(takeWord(rest));
     file.major = scanner.parse<int>(std::string_view(version).substr(0, version.find('.')), "a version");
     if (file.major < 1 || file.major > 5) scanner.fail("the version is " + version + "; it must be in [1.0, 5.1]");
     scanner.restOfLine();  // the title

@@ -18,12 +18,6 @@ namespace
 
 constexpr std::uint64_t kMostInflation = 1032;  // of deflate, bytes from a byte
 
-std::string attribute(const tinyxml2::XMLElement& element, const char* name)
-{
-    const char* value = element.Attribute(name);
-    return value ? std::string(value).substr(0, 100) : std::string();
-}
-
 NumberType parseVtuType(const std::string& name)
 {
     struct Named
@@ -96,7 +90,7 @@ std::string_view textOf(const tinyxml2::XMLElement& array)
 EncodedBytes encodedBytes(const tinyxml2::XMLElement& array, const std::string& format, const VtuEncoding& encoding)
 {
     if (format == "binary") return EncodedBytes(textOf(array), true);
-    const auto offset = parseNumber<std::uint64_t>(attribute(array, "offset"), "an offset");
+    const auto offset = parseNumber<std::uint64_t>(vtuAttribute(array, "offset"), "an offset");
     if (offset >= encoding.appended.size())
         throw std::runtime_error(
             message("its offset is ", offset, ", but AppendedData has ", encoding.appended.size(), " bytes"));
@@ -115,10 +109,10 @@ std::vector<Number> readText(std::string_view text)
 template <class Number>
 std::vector<Number> readNumbers(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
 {
-    const NumberType type = parseVtuType(attribute(array, "type"));
+    const NumberType type = parseVtuType(vtuAttribute(array, "type"));
     if (std::is_integral_v<Number> && type.kind == NumberType::floating)
         throw std::runtime_error("its type is not an integer");
-    const std::string format = attribute(array, "format");
+    const std::string format = vtuAttribute(array, "format");
     if (format.empty() || format == "ascii") return readText<Number>(textOf(array));
     if (format != "binary" && format != "appended")
         throw std::runtime_error("its format '" + format + "' is not ascii, binary or appended");
@@ -150,11 +144,17 @@ std::vector<Number> readNamed(const tinyxml2::XMLElement& array, VtuEncoding& en
     catch (const std::runtime_error& error)
     {
         throw std::runtime_error(
-            message("line ", array.GetLineNum(), ": DataArray '", attribute(array, "Name"), "': ", error.what()));
+            message("line ", array.GetLineNum(), ": DataArray '", vtuAttribute(array, "Name"), "': ", error.what()));
     }
 }
 
 }  // namespace
+
+std::string vtuAttribute(const tinyxml2::XMLElement& element, const char* name, const char* otherwise)
+{
+    const char* value = element.Attribute(name);
+    return value ? printable(value) : std::string(otherwise);
+}
 
 std::vector<double> readVtuDoubles(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
 {

@@ -28,6 +28,9 @@ struct VtuEncoding
     std::uint64_t decodable = 0;  ///< bytes that may still be made by decompression
 };
 
+/// An attribute's first characters, or `otherwise` if the element does not have it.
+std::string vtuAttribute(const tinyxml2::XMLElement& element, const char* name, const char* otherwise = "");
+
 /// The numbers of a <DataArray>. Throw std::runtime_error with the element's line.
 std::vector<double> readVtuDoubles(const tinyxml2::XMLElement& array, VtuEncoding& encoding);
 std::vector<std::int64_t> readVtuIntegers(const tinyxml2::XMLElement& array, VtuEncoding& encoding);

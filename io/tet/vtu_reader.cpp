@@ -21,12 +21,6 @@ using tinyxml2::XMLElement;
     throw std::runtime_error(message("line ", element.GetLineNum(), ": ", cause));
 }
 
-std::string attributeOr(const XMLElement& element, const char* name, const char* otherwise)
-{
-    const char* value = element.Attribute(name);
-    return value ? std::string(value).substr(0, 100) : std::string(otherwise);
-}
-
 /// Takes the content of <AppendedData>, which is no XML, out of the file; returns what is left as XML.
 std::string cutAppendedData(std::string_view bytes, std::string_view& data)
 {
@@ -45,7 +39,7 @@ std::string cutAppendedData(std::string_view bytes, std::string_view& data)
 
 ByteOrder readOrder(const XMLElement& root)
 {
-    const std::string order = attributeOr(root, "byte_order", "LittleEndian");
+    const std::string order = vtuAttribute(root, "byte_order", "LittleEndian");
     if (order != "LittleEndian" && order != "BigEndian")
         failAt(root, "byte_order is '" + order + "'; it must be LittleEndian or BigEndian");
     return order == "BigEndian" ? ByteOrder::big : ByteOrder::little;
@@ -55,17 +49,17 @@ VtuEncoding readEncoding(const XMLElement& root)
 {
     VtuEncoding encoding;
     encoding.order = readOrder(root);
-    const std::string header = attributeOr(root, "header_type", "UInt32");
+    const std::string header = vtuAttribute(root, "header_type", "UInt32");
     if (header != "UInt32" && header != "UInt64")
         failAt(root, "header_type is '" + header + "'; it must be UInt32 or UInt64");
     encoding.headerBytes = header == "UInt64" ? 8 : 4;
-    const std::string compressor = attributeOr(root, "compressor", "");
+    const std::string compressor = vtuAttribute(root, "compressor");
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
         failAt(root, "the compressor '" + compressor + "' is not known; save with zlib or without compression");
     encoding.compressed = !compressor.empty();
     if (const XMLElement* appended = root.FirstChildElement("AppendedData"))
     {
-        const std::string kind = attributeOr(*appended, "encoding", "");
+        const std::string kind = vtuAttribute(*appended, "encoding");
         if (kind != "raw" && kind != "base64")
             failAt(*appended, "the encoding of AppendedData is '" + kind + "'; it must be raw or base64");
         encoding.appendedBase64 = kind == "base64";
@@ -83,7 +77,7 @@ const XMLElement& childOf(const XMLElement& element, const char* name)
 const XMLElement& namedArray(const XMLElement& cells, const std::string& name)
 {
     for (const XMLElement* a = cells.FirstChildElement("DataArray"); a; a = a->NextSiblingElement("DataArray"))
-        if (attributeOr(*a, "Name", "") == name) return *a;
+        if (vtuAttribute(*a, "Name") == name) return *a;
     failAt(cells, "<Cells> has no DataArray '" + name + "'");
 }
 
@@ -91,7 +85,7 @@ std::uint64_t countOf(const XMLElement& piece, const char* name)
 {
     try
     {
-        return parseNumber<std::uint64_t>(attributeOr(piece, name, "0"), name);
+        return parseNumber<std::uint64_t>(vtuAttribute(piece, name, "0"), name);
     }
     catch (const std::runtime_error& error)
     {
@@ -104,7 +98,7 @@ void readPoints(const XMLElement& piece, VtuEncoding& encoding, TetMeshFile& mes
     const std::uint64_t count = countOf(piece, "NumberOfPoints");
     const XMLElement& points = childOf(piece, "Points");
     const XMLElement& array = childOf(points, "DataArray");
-    const std::string components = attributeOr(array, "NumberOfComponents", "3");
+    const std::string components = vtuAttribute(array, "NumberOfComponents", "3");
     if (components != "3") failAt(array, "points have " + components + " components, not 3");
     const std::vector<double> x = readVtuDoubles(array, encoding);
     if (x.size() % 3 != 0 || x.size() / 3 != count)
@@ -152,7 +146,7 @@ TetMeshFile readVtu(std::string_view bytes)
     const XMLElement* root = document.RootElement();
     if (!root || std::string_view(root->Name()) != "VTKFile")
         throw std::runtime_error("line 1: the file has no <VTKFile>");
-    const std::string type = attributeOr(*root, "type", "");
+    const std::string type = vtuAttribute(*root, "type");
     if (type != "UnstructuredGrid")
         failAt(*root, "the type is '" + type + "'; tetrahedra are in an UnstructuredGrid only");
 
@@ -161,7 +155,7 @@ TetMeshFile readVtu(std::string_view bytes)
     encoding.decodable = (std::uint64_t{64} << 20) + 200 * std::uint64_t{bytes.size()};
     TetMeshFile mesh;
     mesh.m_format = "VTK XML";
-    mesh.m_version = attributeOr(*root, "version", "");
+    mesh.m_version = vtuAttribute(*root, "version");
     const XMLElement& grid = childOf(*root, "UnstructuredGrid");
     for (const XMLElement* piece = grid.FirstChildElement("Piece"); piece; piece = piece->NextSiblingElement("Piece"))
         readPiece(*piece, encoding, mesh);

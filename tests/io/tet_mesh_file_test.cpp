@@ -240,6 +240,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 1: 'solid' stands where a section such as $Mesh"},
         BadMesh{"ByteOrder", TetMeshFormat::gmsh, gmshByteOrder(2), "byte 20: the number that tells the byte order"},
         BadMesh{"Version1", TetMeshFormat::gmsh, "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "line 1: '$NOD' stands where"},
+        BadMesh{"Terminal", TetMeshFormat::gmsh, std::string("\033[2J\0\n", 6),
+                "line 1: '?[2J?' stands where a section such as $MeshFormat"},
         badGmsh("Version40", "4.1 0 8", "4.0 0 8",
                 "line 5: MSH version 4.0 cannot be read, only 2.0 to 2.2 and 4.1; convert it: gmsh OLD.msh -save "
                 "-format msh41 -o NEW.msh"),

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Zlib
+# run_fuzzer.sh <build folder of the fuzzers> <reader>: executes the fuzzer from its seeds, always in the same way.
+# BULLETFEM_FUZZ_RUNS is the number of executions; BULLETFEM_FUZZ_SECONDS, if set, the time in its place, with another
+# random seed each time and a corpus that is kept. What fails is left in <build folder>/failed.
+set -euo pipefail
+build=$1 reader=$2
+
+corpus=$build/corpus/$reader
+if [ -n "${BULLETFEM_FUZZ_SECONDS:-}" ]; then
+    length=(-max_total_time="$BULLETFEM_FUZZ_SECONDS")
+else
+    length=(-runs="${BULLETFEM_FUZZ_RUNS:-100000}" -seed=1)
+    rm -rf "$corpus"
+fi
+mkdir -p "$corpus" "$build/failed"
+exec "$build/fuzz_$reader" "${length[@]}" -max_len=4096 -timeout=10 -rss_limit_mb=1024 -detect_leaks=0 \
+    -print_final_stats=1 -artifact_prefix="$build/failed/$reader-" "$corpus" "$build/seeds/$reader"
