@@ -8,8 +8,9 @@ source "$root/cmake/install_packages.sh"
 
 build=$root/build/release
 
-install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev \
-    nlohmann-json3-dev xvfb xauth
+# clang is for the fuzzers of the file readers. Gmsh, if it is installed, adds tests of the files that it writes.
+install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev nlohmann-json3-dev \
+    xvfb xauth clang libclang-rt-14-dev
 
 say "building in $build"
 (cd "$root" && cmake --preset release)

@@ -24,16 +24,15 @@ int base64Digit(char c)
 
 }  // namespace
 
-/// Four digits to up to three pending bytes; false at the end.
-bool EncodedBytes::decodeQuartet()
+/// Appends the up to three bytes of the next four digits; false at the end.
+bool EncodedBytes::decodeQuartet(std::string& bytes)
 {
     std::uint32_t bits = 0;
     int digits = 0, padding = 0;
-    while (digits + padding < 4)
+    for (std::size_t at = 0; at < m_rest.size(); ++at)
     {
-        m_rest.remove_prefix(std::min(m_rest.find_first_not_of(" \t\r\n"), m_rest.size()));
-        if (m_rest.empty()) return false;
-        const char c = m_rest.front();
+        const char c = m_rest[at];
+        if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
         const int digit = base64Digit(c);
         if (c == '=' && digits >= 2)
             ++padding;
@@ -43,10 +42,12 @@ bool EncodedBytes::decodeQuartet()
         else
             ++digits;
         bits = bits << 6 | static_cast<std::uint32_t>(std::max(digit, 0));
-        m_rest.remove_prefix(1);
+        if (digits + padding < 4) continue;
+        for (int i = 0; i + 1 < digits; ++i) bytes += static_cast<char>(bits >> (16 - 8 * i) & 0xff);
+        m_rest.remove_prefix(at + 1);
+        return true;
     }
-    for (int i = 0; i + 1 < digits; ++i) m_pending += static_cast<char>(bits >> (16 - 8 * i) & 0xff);
-    return true;
+    return false;
 }
 
 std::string EncodedBytes::take(std::size_t count)
@@ -63,12 +64,8 @@ std::string EncodedBytes::take(std::size_t count)
     bytes.reserve(count + 2);
     bytes.swap(m_pending);
     while (bytes.size() < count)
-    {
-        if (!decodeQuartet())
+        if (!decodeQuartet(bytes))
             throw std::runtime_error(message("base64 ends after ", bytes.size(), " of ", count, " bytes"));
-        bytes += m_pending;
-        m_pending.clear();
-    }
     m_pending = bytes.substr(count);
     bytes.resize(count);
     return bytes;

@@ -23,7 +23,7 @@ public:
     std::size_t most() const { return m_pending.size() + (m_base64 ? m_rest.size() / 4 * 3 : m_rest.size()); }
 
 private:
-    bool decodeQuartet();
+    bool decodeQuartet(std::string& bytes);
 
     std::string_view m_rest;
     bool m_base64;

@@ -20,15 +20,19 @@ ByteOrder readByteOrder(MeshScanner& scanner)
     scanner.fail("the number that tells the byte order is not 1");
 }
 
+[[noreturn]] void failVersion(const MeshScanner& scanner, const std::string& version)
+{
+    scanner.fail("MSH version " + version + " cannot be read, only 2.0 to 2.2 and 4.1; convert it: " +
+                 "gmsh OLD.msh -save -format msh41 -o NEW.msh");
+}
+
 /// The content of $MeshFormat; returns the version's first digit.
 int readFormat(GmshFile& file)
 {
     MeshScanner& scanner = file.scanner;
     const std::string version = printable(scanner.word("a version"));
     const bool is2 = version == "2" || version == "2.0" || version == "2.1" || version == "2.2";
-    if (!is2 && version != "4.1")
-        scanner.fail("MSH version " + version + " cannot be read, only 2.0 to 2.2 and 4.1; convert it: " +
-                     "gmsh OLD.msh -save -format msh41 -o NEW.msh");
+    if (!is2 && version != "4.1") failVersion(scanner, version);
     const int type = scanner.text<int>("the file type, 0 or 1");
     if (type != 0 && type != 1) scanner.fail(message("the file type is ", type, "; it must be 0 (text) or 1 (binary)"));
     file.sizeBytes = scanner.text<int>("a data size");
@@ -77,6 +81,7 @@ TetMeshFile readGmsh(std::string_view bytes)
     while (!scanner.atEnd())
     {
         const std::string_view word = scanner.word("a section");
+        if (version == 0 && word == "$NOD") failVersion(scanner, "1");
         if (word.size() < 2 || word[0] != '$' || (version == 0 && word != "$MeshFormat" && word != "$Comments"))
             scanner.fail("'" + printable(word) + "' stands where a section such as " +
                          (version == 0 ? "$MeshFormat" : "$Nodes") + " should begin");

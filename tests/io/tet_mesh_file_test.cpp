@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadMesh{"OtherFile", TetMeshFormat::gmsh, "solid box\n",
                 "line 1: 'solid' stands where a section such as $Mesh"},
         BadMesh{"ByteOrder", TetMeshFormat::gmsh, gmshByteOrder(2), "byte 20: the number that tells the byte order"},
-        BadMesh{"Version1", TetMeshFormat::gmsh, "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "line 1: '$NOD' stands where"},
+        BadMesh{"Version1", TetMeshFormat::gmsh, "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "line 1: MSH version 1 cannot be read"},
         BadMesh{"Terminal", TetMeshFormat::gmsh, std::string("\033[2J\0\n", 6),
                 "line 1: '?[2J?' stands where a section such as $MeshFormat"},
         badGmsh("Version40", "4.1 0 8", "4.0 0 8",
