@@ -42,14 +42,19 @@ std::uint64_t takeCount(EncodedBytes& bytes, const VtuEncoding& encoding)
     return readBits(bytes.take(size).data(), size, encoding.order);
 }
 
+/// Counts numbers that are about to be decoded.
+void spend(VtuEncoding& encoding, std::uint64_t numbers)
+{
+    if (numbers > encoding.numbersLeft)
+        throw std::runtime_error("the file decodes to far more numbers than it has bytes; save without compression");
+    encoding.numbersLeft -= numbers;
+}
+
 /// Appends a compressed block that should have `size` bytes when it is no longer.
-void inflateBlock(const std::string& block, std::uint64_t size, VtuEncoding& encoding, std::string& out)
+void inflateBlock(const std::string& block, std::uint64_t size, std::string& out)
 {
     if (size > kMostInflation * (block.size() + 1))
         throw std::runtime_error(message("a zlib block of ", block.size(), " bytes cannot hold ", size));
-    if (size > encoding.decodable)
-        throw std::runtime_error("the file would be more than 200 times as large without compression");
-    encoding.decodable -= size;
     const std::size_t before = out.size();
     out.resize(before + static_cast<std::size_t>(size) + 1);  // one more, so that too much is noticed
     auto inflated = static_cast<uLongf>(size + 1);
@@ -62,10 +67,14 @@ void inflateBlock(const std::string& block, std::uint64_t size, VtuEncoding& enc
 
 /// Binary data with the counts before it: of bytes, or with compression of blocks, of the bytes in each and in the last
 /// one if that is not full (else 0), and of the bytes of each when compressed.
-std::string decode(EncodedBytes bytes, VtuEncoding& encoding)
+std::string decode(EncodedBytes bytes, std::uint64_t numberBytes, VtuEncoding& encoding)
 {
     const std::uint64_t count = takeCount(bytes, encoding);
-    if (!encoding.compressed) return bytes.take(static_cast<std::size_t>(count));
+    if (!encoding.compressed)
+    {
+        spend(encoding, count / numberBytes);
+        return bytes.take(static_cast<std::size_t>(count));
+    }
     if (count == 0) return {};
     const std::uint64_t size = takeCount(bytes, encoding), partSize = takeCount(bytes, encoding);
     if (count > bytes.most() / static_cast<std::uint64_t>(encoding.headerBytes))
@@ -75,8 +84,9 @@ std::string decode(EncodedBytes bytes, VtuEncoding& encoding)
     std::string out;
     for (std::size_t b = 0; b < compressed.size(); ++b)
     {
-        const bool part = partSize > 0 && b + 1 == compressed.size();
-        inflateBlock(bytes.take(static_cast<std::size_t>(compressed[b])), part ? partSize : size, encoding, out);
+        const std::uint64_t inflated = partSize > 0 && b + 1 == compressed.size() ? partSize : size;
+        spend(encoding, inflated / numberBytes);
+        inflateBlock(bytes.take(static_cast<std::size_t>(compressed[b])), inflated, out);
     }
     return out;
 }
@@ -116,8 +126,8 @@ std::vector<Number> readNumbers(const tinyxml2::XMLElement& array, VtuEncoding& 
     if (format.empty() || format == "ascii") return readText<Number>(textOf(array));
     if (format != "binary" && format != "appended")
         throw std::runtime_error("its format '" + format + "' is not ascii, binary or appended");
-    const std::string bytes = decode(encodedBytes(array, format, encoding), encoding);
     const auto size = static_cast<std::size_t>(type.size);
+    const std::string bytes = decode(encodedBytes(array, format, encoding), size, encoding);
     if (bytes.size() % size != 0)
         throw std::runtime_error(message(bytes.size(), " bytes are no whole number of ", size, "-byte numbers"));
     std::vector<Number> numbers;

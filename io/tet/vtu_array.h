@@ -21,11 +21,11 @@ namespace bullet_fem
 struct VtuEncoding
 {
     ByteOrder order = ByteOrder::little;
-    int headerBytes = 4;          ///< of the counts before binary data
-    bool compressed = false;      ///< by zlib
-    std::string_view appended;    ///< what follows the underscore in <AppendedData>
-    bool appendedBase64 = false;  ///< and not raw
-    std::uint64_t decodable = 0;  ///< bytes that may still be made by decompression
+    int headerBytes = 4;            ///< of the counts before binary data
+    bool compressed = false;        ///< by zlib
+    std::string_view appended;      ///< what follows the underscore in <AppendedData>
+    bool appendedBase64 = false;    ///< and not raw
+    std::uint64_t numbersLeft = 0;  ///< that may still be decoded
 };
 
 /// An attribute's first characters, or `otherwise` if the element does not have it.

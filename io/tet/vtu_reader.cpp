@@ -16,6 +16,10 @@ namespace
 
 using tinyxml2::XMLElement;
 
+// How many numbers a file may decode to: honest ones have one for each byte or two, and ten or so in grids that
+// compress well; small files of zlib, or of pieces that share their arrays, could fill the memory.
+constexpr std::uint64_t kNumbers = 1000000, kNumbersPerByte = 12;
+
 [[noreturn]] void failAt(const XMLElement& element, const std::string& cause)
 {
     throw std::runtime_error(message("line ", element.GetLineNum(), ": ", cause));
@@ -152,7 +156,7 @@ TetMeshFile readVtu(std::string_view bytes)
 
     VtuEncoding encoding = readEncoding(*root);
     encoding.appended = appended;
-    encoding.decodable = (std::uint64_t{64} << 20) + 200 * std::uint64_t{bytes.size()};
+    encoding.numbersLeft = kNumbers + kNumbersPerByte * std::uint64_t{bytes.size()};
     TetMeshFile mesh;
     mesh.m_format = "VTK XML";
     mesh.m_version = vtuAttribute(*root, "version");

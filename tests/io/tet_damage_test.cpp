@@ -138,7 +138,24 @@ TEST(TetDamage, BombsOfZlibAreRefused)
         "</UnstructuredGrid><AppendedData encoding=\"raw\">_" +
         data + "</AppendedData></VTKFile>";
     EXPECT_THAT(messageOf<std::runtime_error>([&] { readTetMesh(file.data(), file.size(), TetMeshFormat::vtu); }),
-                testing::HasSubstr("more than 200 times as large without compression"));
+                testing::HasSubstr("far more numbers than it has bytes"));
+}
+
+/// Pieces that all have the same array of points.
+TEST(TetDamage, ArraysUsedAgainAndAgainAreRefused)
+{
+    constexpr int points = 4000, pieces = 400;
+    std::string file = "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt64\"><UnstructuredGrid>";
+    for (int i = 0; i < pieces; ++i)
+        file += "<Piece NumberOfPoints=\"" + std::to_string(points) +
+                "\" NumberOfCells=\"0\"><Points><DataArray type=\"Float64\" format=\"appended\" offset=\"0\"/></Points>"
+                "<Cells><DataArray type=\"Int8\" Name=\"connectivity\"/><DataArray type=\"Int8\" Name=\"offsets\"/>"
+                "<DataArray type=\"Int8\" Name=\"types\"/></Cells></Piece>";
+    file += "</UnstructuredGrid><AppendedData encoding=\"raw\">_";
+    for (int i = 0; i < 8; ++i) file += static_cast<char>(std::uint64_t{points} * 24 >> 8 * i & 0xff);
+    file += std::string(points * 24, '\0') + "</AppendedData></VTKFile>";
+    EXPECT_THAT(messageOf<std::runtime_error>([&] { readTetMesh(file.data(), file.size(), TetMeshFormat::vtu); }),
+                testing::HasSubstr("far more numbers than it has bytes"));
 }
 
 }  // namespace
