@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Zlib
 # run_fuzzer.sh <build folder of the fuzzers> <reader>: executes the fuzzer from its seeds, always in the same way.
 # BULLETFEM_FUZZ_RUNS is the number of executions; BULLETFEM_FUZZ_SECONDS, if set, the time in its place, with another
-# random seed each time and a corpus that is kept. What fails is left in <build folder>/failed.
+# random seed each time and a corpus that is kept for the next. What fails is left in <build folder>/failed.
 set -euo pipefail
 build=$1 reader=$2
 
-corpus=$build/corpus/$reader
 if [ -n "${BULLETFEM_FUZZ_SECONDS:-}" ]; then
+    corpus=$build/kept/$reader
     length=(-max_total_time="$BULLETFEM_FUZZ_SECONDS")
 else
+    corpus=$build/corpus/$reader
     length=(-runs="${BULLETFEM_FUZZ_RUNS:-100000}" -seed=1)
     rm -rf "$corpus"
 fi

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,11 @@ struct TetFixture
     std::size_t faces = 1, edges = 1, points = 1;  ///< that are skipped
     std::string version;                           ///< what m_version must be
 };
+
+inline std::ostream& operator<<(std::ostream& out, const TetFixture& fixture)
+{
+    return out << fixture.name;
+}
 
 /// The nodes that all the files have, in their order; number 3 is the one without tetrahedra. Exact in single
 /// precision.
