@@ -9,9 +9,11 @@ __asm__(
     "bulletfem_embedded_font:\n"
     ".incbin \"" BULLETFEM_FONT_FILE
     "\"\n"
+    "bulletfem_embedded_font_end:\n"
     ".byte 0\n"
     ".previous\n");
 extern "C" const unsigned char bulletfem_embedded_font[] __attribute__((visibility("hidden")));
+extern "C" const unsigned char bulletfem_embedded_font_end[] __attribute__((visibility("hidden")));
 
 namespace bullet_fem
 {
@@ -19,6 +21,11 @@ namespace bullet_fem
 const unsigned char* embeddedFont()
 {
     return bulletfem_embedded_font;
+}
+
+int embeddedFontSize()
+{
+    return static_cast<int>(bulletfem_embedded_font_end - bulletfem_embedded_font);
 }
 
 }  // namespace bullet_fem

@@ -8,5 +8,6 @@ namespace bullet_fem
 /// The bytes of DejaVu Sans, a TrueType font that may be embedded (Bitstream Vera's licence), put into the program when
 /// it is built.
 const unsigned char* embeddedFont();
+int embeddedFontSize();
 
 }  // namespace bullet_fem

@@ -25,7 +25,7 @@ struct PictureMesh
     std::vector<Triangle> m_triangles;  ///< indices of positions
     Colour m_colour{0.86, 0.64, 0.42};  ///< where there are no scalars
     std::vector<double> m_scalars;      ///< none, or one a position: coloured by PictureScene::m_colourScale
-    double m_creaseAngle = 0.7;  ///< edges sharper than this stay sharp, others are shaded round [rad], in [0, pi]
+    double m_creaseAngle = 0.9;  ///< edges sharper than this stay sharp, others are shaded round [rad], in [0, pi]
     bool m_wireframe = false;    ///< draws the triangles' edges over the surface
     bool m_lit = true;           ///< false: the plain colour, without light and shadow
 };

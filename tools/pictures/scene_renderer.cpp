@@ -21,8 +21,9 @@ namespace
 
 constexpr int kKeyMapSide = 2048, kSkyMapSide = 512;  // [texels]
 constexpr double kSkyReach = 0.3;                     // how far the sky's map goes beyond the scene [radii]
-constexpr double kGroundExtent = 14;                  // half the side of the ground's square [radii]
-constexpr double kFar = 60;                           // farthest thing drawn, beyond the distance to the scene [radii]
+constexpr double kGroundExtent = 14;                  // half the side of the ground's square [radii], at least,
+constexpr double kGroundReach = 6;                    // and in distances of the eye from the scene
+constexpr double kFar = 60;                           // farthest thing drawn, beyond the ground [radii]
 constexpr double kNear = 0.004;                       // nearest, of the distance to the scene
 constexpr int kMapUnit = 0, kKeyUnit = 1, kKeyShadowUnit = 2, kSkyUnit = 3;  // texture units
 
@@ -61,12 +62,18 @@ struct Uniforms
     void set(const char* name, const Matrix4& m) const { glUniformMatrix4fv(at(name), 1, GL_FALSE, m.data()); }
 };
 
+double groundExtent(const PictureCamera& camera)
+{
+    return std::max(kGroundExtent, kGroundReach * norm(camera.m_eye));
+}
+
 /// From PictureUnits to OpenGL's clip space.
 Matrix4 clipFromScene(const PictureCamera& camera, const PictureSize& size)
 {
     const CameraAxes a = axes(camera);
     const double s = std::tan(0.5 * camera.m_fieldOfView), wide = static_cast<double>(size.m_width) / size.m_height;
-    const double distance = norm(camera.m_eye), nearest = kNear * std::max(distance, 0.1), farthest = distance + kFar;
+    const double distance = norm(camera.m_eye), nearest = kNear * std::max(distance, 0.1);
+    const double farthest = distance + 1.5 * groundExtent(camera) + kFar;
     const double c = (farthest + nearest) / (farthest - nearest), d = -2 * farthest * nearest / (farthest - nearest);
     Matrix4Rows rows;
     const Vec3 row[] = {a.m_right * (1 / (s * wide)), a.m_up * (1 / s), -c * a.m_back, -a.m_back};
@@ -105,6 +112,8 @@ struct SceneRenderer::Parts
     GlObject m_buffer, m_vertexArray, m_noVertices, m_colourMap, m_shadowSampler;
     LightMap m_key{kKeyMapSide}, m_sky{kSkyMapSide};
     Overlay m_overlay;
+
+    bool m_allWires = false;
 
     // Of the picture being drawn:
     PictureUnits m_units;
@@ -191,7 +200,7 @@ void SceneRenderer::Parts::collect(const PictureScene& scene)
     for (const PictureMesh& mesh : scene.m_meshes)
     {
         appendVertices(mesh, m_units, scene.m_colourScale, m_vertices);
-        close({0, 0, mesh.m_colour, !mesh.m_scalars.empty(), mesh.m_lit, mesh.m_wireframe});
+        close({0, 0, mesh.m_colour, !mesh.m_scalars.empty(), mesh.m_lit, mesh.m_wireframe || m_allWires});
     }
     const std::size_t casters = m_vertices.size();
     for (const PictureArrows& arrows : scene.m_arrows)
@@ -278,7 +287,7 @@ void SceneRenderer::Parts::drawGround(const PictureScene& scene) const
     uniforms.set("centre", centre);
     uniforms.set("side0", side0);
     uniforms.set("side1", side1);
-    uniforms.set("extent", kGroundExtent);
+    uniforms.set("extent", groundExtent(m_camera));
     uniforms.set("colour", scene.m_ground.m_colour);
     uniforms.set("spacing", spacing);
     if (spacing > 0) uniforms.set("gridOrigin", phase(side0), phase(side1));
@@ -316,6 +325,11 @@ SceneRenderer::SceneRenderer()
 }
 
 SceneRenderer::~SceneRenderer() = default;
+
+void SceneRenderer::setWireframe(bool all)
+{
+    m_parts->m_allWires = all;
+}
 
 void SceneRenderer::draw(const PictureScene& scene, const PictureCamera& camera, const PictureSize& size)
 {

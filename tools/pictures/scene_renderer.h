@@ -24,6 +24,9 @@ public:
     /// scene's own camera is not used. Throws std::invalid_argument on a scene that is not `valid`.
     void draw(const PictureScene& scene, const PictureCamera& camera, const PictureSize& size);
 
+    /// Whether all meshes show their edges from now on, not only those with m_wireframe.
+    void setWireframe(bool all);
+
 private:
     struct Parts;
     std::unique_ptr<Parts> m_parts;

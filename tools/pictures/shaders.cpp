@@ -83,7 +83,7 @@ vec3 shaded(vec3 base, vec3 p, vec3 n, float gloss)
     float rim = max(dot(n, towardsRim), 0.0) * pow(1.0 - max(dot(n, v), 0.0), 2.0);
     float open = skyLight(p, n);
     vec3 light = vec3(0.90, 0.87, 0.82) * key + open * (vec3(0.10, 0.115, 0.14) * fill +
-                 mix(vec3(0.13, 0.125, 0.12), vec3(0.31, 0.33, 0.36), sky));
+                 mix(vec3(0.20, 0.195, 0.19), vec3(0.31, 0.33, 0.36), sky));
     vec3 half_ = normalize(towardsKey + v);
     float shine = gloss * pow(max(dot(n, half_), 0.0), 40.0) * key;
     return base * light + vec3(0.16, 0.17, 0.19) * shine + 0.30 * gloss * rim * open * mix(base, vec3(1.0), 0.4);
@@ -99,8 +99,8 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in float shareOfMap;
 uniform mat4 clipFromScene;
-out vec3 place, direction, corner;
-out float share;
+centroid out vec3 place, direction, corner;
+centroid out float share;
 void main()
 {
     place = position;
@@ -116,8 +116,8 @@ void main()
 std::string surfaceFragmentShader()
 {
     return std::string(kLight) + R"(
-in vec3 place, direction, corner;
-in float share;
+centroid in vec3 place, direction, corner;
+centroid in float share;
 uniform vec3 colour;
 uniform bool coloured, lit, wires;
 uniform float wireWidth;  // [pixels]
@@ -128,7 +128,7 @@ void main()
     vec3 base = colour;
     if (coloured) base = texture(colourMap, vec2((clamp(share, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb;
     vec3 n = normalize(direction);
-    if (dot(n, eye - place) < 0.0) n = -n;
+    if (!gl_FrontFacing) n = -n;
     vec3 c = lit ? screen(shaded(linear(base), place, n, coloured ? 0.35 : 1.0)) : base;
     if (wires)
     {

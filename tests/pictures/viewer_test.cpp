@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// Needs a display: run through xvfb-run where there is none.
+#include "tools/pictures/viewer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "pictures/ball_simulation.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+class ViewerTest : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        if (!getenv("DISPLAY")) GTEST_SKIP() << "there is no display, and no xvfb-run";
+        ViewerSettings settings;
+        settings.m_size = {800, 600};
+        m_viewer = std::make_unique<Viewer>(m_simulation, settings);
+        m_viewer->frame(0);
+    }
+
+    /// Each in a frame of its own.
+    void play(const std::vector<ViewerEvent>& events)
+    {
+        for (const ViewerEvent& event : events)
+        {
+            m_viewer->inject(event);
+            EXPECT_TRUE(m_viewer->frame());
+        }
+    }
+    ViewerEvent moveTo(const Vec3& point) const
+    {
+        const PicturePoint p = projected(m_viewer->control().camera(), m_viewer->size(), point);
+        return ViewerEvent::move(p.m_x, p.m_y);
+    }
+    ViewerEvent moveToSlider(std::size_t index, double share) const
+    {
+        const PictureRectangle area = m_viewer->sliderArea(index);
+        return ViewerEvent::move(area.m_x + share * area.m_width, area.m_y + 0.5 * area.m_height);
+    }
+
+    BallSimulation m_simulation;
+    std::unique_ptr<Viewer> m_viewer;
+};
+
+TEST_F(ViewerTest, AScriptedDragMovesTheBallInThePictureToo)
+{
+    const Vec3 from{0.4, 0.5, 0}, to{0.9, 0.2, 0};
+    const PictureCamera camera = m_viewer->control().camera();
+    const Image before = m_viewer->screenshot();
+    play({moveTo(from), ViewerEvent::press(), moveTo({0.7, 0.3, 0}), moveTo(to), ViewerEvent::release()});
+    EXPECT_NEAR(norm(m_simulation.m_centre - to), 0, 1e-9);
+    EXPECT_FALSE(m_simulation.m_held);
+    EXPECT_EQ(m_simulation.m_steps, 5);
+    const Image after = m_viewer->screenshot();
+    ASSERT_EQ(after.m_size.m_width, 800);
+    const auto isBall = [&](const Image& image, const Vec3& x)  // orange before blue and white
+    {
+        const std::array<int, 3> p = pixelAt(image, camera, x);
+        return p[0] > 1.4 * p[2];
+    };
+    EXPECT_TRUE(isBall(before, from) && !isBall(before, to));
+    EXPECT_TRUE(isBall(after, to) && !isBall(after, from));
+}
+
+TEST_F(ViewerTest, SlidersSetParametersAndKeepTheCameraStill)
+{
+    const PictureCamera camera = m_viewer->control().camera();
+    play({moveToSlider(1, 0.5), ViewerEvent::press(), moveToSlider(1, 0.9), ViewerEvent::release()});
+    EXPECT_NEAR(m_simulation.m_values[1], 0.9 * 0.49, 0.03);
+    EXPECT_EQ(m_simulation.m_values[0], 1e6);
+    play({moveToSlider(0, 0.25), ViewerEvent::press(), ViewerEvent::release()});
+    EXPECT_NEAR(std::log10(m_simulation.m_values[0]), 5, 0.2) << "a quarter of the way from 1e4 to 1e8";
+    EXPECT_EQ(norm(m_viewer->control().camera().m_eye - camera.m_eye), 0);
+    m_simulation.m_refusal = "E must be smaller";
+    EXPECT_NO_THROW(play({moveToSlider(0, 0.75), ViewerEvent::press(), ViewerEvent::release()}));
+    EXPECT_NEAR(std::log10(m_simulation.m_values[0]), 5, 0.2) << "refused";
+}
+
+TEST_F(ViewerTest, PausesStepsHidesItsPanelAndCloses)
+{
+    play({ViewerEvent::key(ViewerKey::pause)});
+    m_viewer->frame(5);
+    EXPECT_EQ(m_simulation.m_steps, 0);
+    play({ViewerEvent::key(ViewerKey::step)});
+    EXPECT_EQ(m_simulation.m_steps, 1);
+    EXPECT_GT(m_viewer->sliderArea(0).m_width, 100);
+    const Image panel = m_viewer->screenshot();
+    play({ViewerEvent::key(ViewerKey::panel)});
+    EXPECT_EQ(m_viewer->sliderArea(0).m_width, 0);
+    const Image bare = m_viewer->screenshot();
+    int different = 0;
+    for (std::size_t i = 0; i < bare.m_pixels.size(); i += 3) different += bare.m_pixels[i] != panel.m_pixels[i];
+    EXPECT_GT(different, 10000) << "of the panel's some 80,000 pixels";
+    m_viewer->inject(ViewerEvent::key(ViewerKey::close));
+    EXPECT_FALSE(m_viewer->frame());
+}
+
+TEST_F(ViewerTest, AnOffscreenRendererWorksBesideIt)
+{
+    OffscreenRenderer renderer;
+    const Image first = renderer.render(m_simulation.m_scene, {160, 120});
+    m_viewer->frame();
+    EXPECT_EQ(renderer.render(m_simulation.m_scene, {160, 120}).m_pixels, first.m_pixels);
+    EXPECT_TRUE(m_viewer->frame());
+}
+
+}  // namespace
+}  // namespace bullet_fem

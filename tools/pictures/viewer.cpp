@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/pictures/viewer.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "tools/pictures/picture_framebuffer.h"
+#include "tools/pictures/scene_renderer.h"
+#include "tools/pictures/viewer_panel.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+[[noreturn]] void noWindow()
+{
+    const char* words = nullptr;
+    glfwGetError(&words);
+    throw std::runtime_error(
+        std::string("viewer: no window can be opened: ") + (words ? words : "unknown reason") +
+        "; it needs a display with OpenGL 3.3. Without one, xvfb-run gives a virtual one, and pictures "
+        "can be drawn off-screen");
+}
+
+/// Opens and closes the library with its owner.
+struct Glfw
+{
+    Glfw()
+    {
+        if (!glfwInit()) noWindow();
+    }
+    ~Glfw() { glfwTerminate(); }
+    Glfw(const Glfw&) = delete;
+    Glfw& operator=(const Glfw&) = delete;
+};
+
+/// Makes a window's context current as long as it lives, and none afterwards: off-screen renderers work between frames
+/// then.
+struct Current
+{
+    explicit Current(GLFWwindow* window) { glfwMakeContextCurrent(window); }
+    ~Current() { glfwMakeContextCurrent(nullptr); }
+    Current(const Current&) = delete;
+    Current& operator=(const Current&) = delete;
+};
+
+double milliseconds(double seconds)
+{
+    return 1e3 * seconds;
+}
+
+}  // namespace
+
+/// The window, and what was done in it since the last frame.
+struct Viewer::Window
+{
+    Glfw m_library;
+    GLFWwindow* m_window = nullptr;
+    std::vector<ViewerEvent> m_events;
+
+    explicit Window(const ViewerSettings& settings)
+    {
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        m_window = glfwCreateWindow(settings.m_size.m_width, settings.m_size.m_height, settings.m_title.c_str(),
+                                    nullptr, nullptr);
+        if (!m_window) noWindow();
+        glfwSetWindowUserPointer(m_window, this);
+        glfwSetCursorPosCallback(m_window, onMove);
+        glfwSetMouseButtonCallback(m_window, onButton);
+        glfwSetScrollCallback(m_window, onScroll);
+        glfwSetKeyCallback(m_window, onKey);
+        const Current current(m_window);
+        glfwSwapInterval(1);
+    }
+    ~Window() { glfwDestroyWindow(m_window); }
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    PictureSize pixels() const
+    {
+        PictureSize size;
+        glfwGetFramebufferSize(m_window, &size.m_width, &size.m_height);
+        return size;
+    }
+
+    static std::vector<ViewerEvent>& events(GLFWwindow* window)
+    {
+        return static_cast<Window*>(glfwGetWindowUserPointer(window))->m_events;
+    }
+    static void onMove(GLFWwindow* window, double x, double y)
+    {
+        int width = 1, height = 1, columns = 1, rows = 1;  // of the window, whose units need not be pixels
+        glfwGetWindowSize(window, &width, &height);
+        glfwGetFramebufferSize(window, &columns, &rows);
+        events(window).push_back(ViewerEvent::move(x * columns / std::max(width, 1), y * rows / std::max(height, 1)));
+    }
+    static void onButton(GLFWwindow* window, int button, int action, int)
+    {
+        if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+        const MouseButton b = button == GLFW_MOUSE_BUTTON_LEFT    ? MouseButton::left
+                              : button == GLFW_MOUSE_BUTTON_RIGHT ? MouseButton::right
+                                                                  : MouseButton::middle;
+        events(window).push_back(action == GLFW_PRESS ? ViewerEvent::press(b) : ViewerEvent::release(b));
+    }
+    static void onScroll(GLFWwindow* window, double, double clicks)
+    {
+        events(window).push_back(ViewerEvent::scroll(clicks));
+    }
+    static void onKey(GLFWwindow* window, int key, int, int action, int)
+    {
+        constexpr std::pair<int, ViewerKey> keys[] = {
+            {GLFW_KEY_SPACE, ViewerKey::pause}, {GLFW_KEY_RIGHT, ViewerKey::step}, {GLFW_KEY_W, ViewerKey::wireframe},
+            {GLFW_KEY_R, ViewerKey::resetView}, {GLFW_KEY_H, ViewerKey::panel},    {GLFW_KEY_ESCAPE, ViewerKey::close}};
+        for (const auto& [code, meaning] : keys)
+            if (key == code && (action == GLFW_PRESS || (action == GLFW_REPEAT && meaning == ViewerKey::step)))
+                events(window).push_back(ViewerEvent::key(meaning));
+    }
+};
+
+struct Viewer::Parts
+{
+    ViewerSimulation& m_simulation;
+    ViewerControl m_control;
+    SceneRenderer m_renderer;
+    ViewerPanel m_panel;
+    std::unique_ptr<PictureFramebuffer> m_framebuffer;
+    ViewerTimes m_times;
+    double m_lastFrame = 0;  // [s]
+    int m_largestCatchUp;
+
+    Parts(ViewerSimulation& simulation, const ViewerSettings& settings)
+        : m_simulation(simulation), m_control(simulation), m_largestCatchUp(settings.m_largestCatchUp)
+    {
+        m_control.setPaused(settings.m_paused);
+    }
+
+    void step(int due)
+    {
+        const double start = glfwGetTime();
+        for (int steps = m_control.takeSteps(due); steps > 0; --steps) m_simulation.step();
+        const double end = glfwGetTime();
+        m_times.add(milliseconds(end - start), milliseconds(end - m_lastFrame));
+        m_lastFrame = end;
+    }
+
+    void draw(const PictureSize& size)
+    {
+        if (!m_framebuffer || m_framebuffer->size().m_width != size.m_width ||
+            m_framebuffer->size().m_height != size.m_height)
+        {
+            m_framebuffer.reset();
+            m_framebuffer = std::make_unique<PictureFramebuffer>(size);
+        }
+        m_framebuffer->bind();
+        m_renderer.setWireframe(m_control.wireframe());
+        m_renderer.draw(m_simulation.scene(), m_control.camera(), size);
+        m_framebuffer->resolve();
+        m_panel.draw();
+        m_framebuffer->copyTo(0);
+    }
+};
+
+Viewer::Viewer(ViewerSimulation& simulation, const ViewerSettings& settings)
+    : m_window(std::make_unique<Window>(settings))
+{
+    const Current current(m_window->m_window);
+    m_parts = std::make_unique<Parts>(simulation, settings);
+}
+
+Viewer::~Viewer()
+{
+    const Current current(m_window->m_window);
+    m_parts.reset();
+}
+
+bool Viewer::frame(int steps)
+{
+    const Current current(m_window->m_window);
+    glfwPollEvents();
+    Parts& parts = *m_parts;
+    const PictureSize size = m_window->pixels();
+    if (size.m_width > 0 && size.m_height > 0)  // else it is minimised
+    {
+        for (const ViewerEvent& event : m_window->m_events)
+            if (!parts.m_panel.handle(event)) parts.m_control.handle(event, size);
+        m_window->m_events.clear();
+        parts.m_panel.update(parts.m_simulation, parts.m_control, parts.m_times, size);
+    }
+    parts.step(steps);
+    if (size.m_width > 0 && size.m_height > 0) parts.draw(size);
+    glfwSwapBuffers(m_window->m_window);
+    return !parts.m_control.closing() && !glfwWindowShouldClose(m_window->m_window);
+}
+
+void Viewer::run()
+{
+    double before = glfwGetTime(), due = 0;
+    for (int steps = 1; frame(steps);)
+    {
+        const double now = glfwGetTime(), length = m_parts->m_simulation.timeStep();
+        due = std::min(due + (now - before) / length, static_cast<double>(m_parts->m_largestCatchUp));
+        before = now;
+        steps = static_cast<int>(due);
+        due -= steps;
+    }
+}
+
+void Viewer::inject(const ViewerEvent& event)
+{
+    m_window->m_events.push_back(event);
+}
+
+PictureRectangle Viewer::sliderArea(std::size_t index) const
+{
+    const std::vector<PictureRectangle>& sliders = m_parts->m_panel.sliders();
+    return index < sliders.size() ? sliders[index] : PictureRectangle{};
+}
+
+Image Viewer::screenshot() const
+{
+    const Current current(m_window->m_window);
+    return m_parts->m_framebuffer ? m_parts->m_framebuffer->read() : Image();
+}
+
+const ViewerControl& Viewer::control() const
+{
+    return m_parts->m_control;
+}
+
+PictureSize Viewer::size() const
+{
+    return m_window->pixels();
+}
+
+}  // namespace bullet_fem

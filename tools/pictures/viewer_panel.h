@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "tools/pictures/overlay.h"
+#include "tools/pictures/viewer_control.h"
+
+namespace bullet_fem
+{
+
+/// Times of the last frames, for the plot.
+struct ViewerTimes
+{
+    static constexpr int kCount = 180;
+    std::array<float, kCount> m_step{};  ///< of all steps of a frame [ms]
+    float m_frame = 0;                   ///< from one frame to the next [ms]
+    int m_next = 0;                      ///< where the next goes
+
+    void add(double stepMs, double frameMs);
+};
+
+/// Sliders, buttons and plot, through Dear ImGui, whose context and OpenGL part it owns. A context of OpenGL must be
+/// current in all calls.
+class ViewerPanel
+{
+public:
+    ViewerPanel();
+    ~ViewerPanel();
+    ViewerPanel(const ViewerPanel&) = delete;
+    ViewerPanel& operator=(const ViewerPanel&) = delete;
+
+    /// Tells ImGui of an event. True if it is the panel's alone.
+    bool handle(const ViewerEvent& event);
+    /// Lets the user change the simulation's parameters and the control.
+    void update(ViewerSimulation& simulation, ViewerControl& control, const ViewerTimes& times,
+                const PictureSize& size);
+    /// Draws what `update` made into the bound framebuffer.
+    void draw() const;
+
+    const std::vector<PictureRectangle>& sliders() const { return m_sliders; }
+
+private:
+    void showSliders(ViewerSimulation& simulation);
+    bool isOverPanel(double x, double y) const;
+
+    PictureRectangle m_area;  // in the last update
+    std::vector<PictureRectangle> m_sliders;
+    std::string m_message;  // of the last setting that was refused
+};
+
+}  // namespace bullet_fem
