@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 

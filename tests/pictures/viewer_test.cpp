@@ -7,6 +7,10 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <cmath>
+#include <memory>
+#include <vector>
+
 #include "pictures/ball_simulation.h"
 
 namespace bullet_fem
@@ -101,6 +105,19 @@ TEST_F(ViewerTest, PausesStepsHidesItsPanelAndCloses)
     EXPECT_GT(different, 10000) << "of the panel's some 80,000 pixels";
     m_viewer->inject(ViewerEvent::key(ViewerKey::close));
     EXPECT_FALSE(m_viewer->frame());
+}
+
+TEST_F(ViewerTest, ASceneThatCannotBeDrawnPausesIt)
+{
+    m_simulation.place({std::nan(""), 0, 0});
+    EXPECT_TRUE(m_viewer->frame());
+    EXPECT_TRUE(m_viewer->control().paused());
+    const Image before = m_viewer->screenshot();
+    EXPECT_TRUE(m_viewer->frame()) << "with the reason in the panel now";
+    EXPECT_NE(m_viewer->screenshot().m_pixels, before.m_pixels);
+    m_simulation.place({0, 0.5, 0});
+    play({ViewerEvent::key(ViewerKey::pause)});
+    EXPECT_FALSE(m_viewer->control().paused());
 }
 
 TEST_F(ViewerTest, AnOffscreenRendererWorksBesideIt)

@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 #include <stb_truetype.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>

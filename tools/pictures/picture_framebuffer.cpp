@@ -60,6 +60,7 @@ PictureFramebuffer::PictureFramebuffer(const PictureSize& size)
     attach(m_samplesColour, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, kSamples);
     attach(m_samplesDepth, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, kSamples);
     checkComplete();
+    glClear(GL_COLOR_BUFFER_BIT);
     checkGl("making a framebuffer");
 }
 

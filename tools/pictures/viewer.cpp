@@ -162,7 +162,16 @@ struct Viewer::Parts
         }
         m_framebuffer->bind();
         m_renderer.setWireframe(m_control.wireframe());
-        m_renderer.draw(m_simulation.scene(), m_control.camera(), size);
+        try
+        {
+            m_renderer.draw(m_simulation.scene(), m_control.camera(), size);
+            m_panel.setFault({});
+        }
+        catch (const std::invalid_argument& fault)  // the picture stays as it was
+        {
+            m_panel.setFault(fault.what());
+            m_control.setPaused(true);
+        }
         m_framebuffer->resolve();
         m_panel.draw();
         m_framebuffer->copyTo(0);

@@ -34,7 +34,8 @@ public:
 
     /// Steps in real time and draws, until the user closes the window.
     void run();
-    /// Handles what the user did, makes `steps` steps unless paused, and draws. False if the window is to be closed.
+    /// Handles what the user did, makes `steps` steps unless paused, and draws. A scene that is not `valid` pauses the
+    /// viewer, which says why. False if the window is to be closed.
     bool frame(int steps = 1);
 
     /// As if the user had done it; takes effect in the next frame. Sliders and buttons feel one event a frame.

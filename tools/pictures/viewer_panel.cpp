@@ -177,7 +177,8 @@ void ViewerPanel::update(ViewerSimulation& simulation, ViewerControl& control, c
         const std::string status = simulation.status();
         ImGui::PushTextWrapPos(0);
         if (!status.empty()) ImGui::TextUnformatted(status.c_str());
-        if (!m_message.empty()) ImGui::TextColored({0.75f, 0.1f, 0.1f, 1}, "%s", m_message.c_str());
+        for (const std::string& words : {m_message, m_fault})
+            if (!words.empty()) ImGui::TextColored({0.75f, 0.1f, 0.1f, 1}, "%s", words.c_str());
         ImGui::PopTextWrapPos();
         m_area = {kMargin, kMargin, kWidth, static_cast<double>(ImGui::GetWindowHeight())};
         ImGui::End();

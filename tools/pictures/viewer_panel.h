@@ -41,6 +41,8 @@ public:
     /// Draws what `update` made into the bound framebuffer.
     void draw() const;
 
+    /// What is wrong with the scene, shown until it is empty.
+    void setFault(const std::string& fault) { m_fault = fault; }
     const std::vector<PictureRectangle>& sliders() const { return m_sliders; }
 
 private:
@@ -50,6 +52,7 @@ private:
     PictureRectangle m_area;  // in the last update
     std::vector<PictureRectangle> m_sliders;
     std::string m_message;  // of the last setting that was refused
+    std::string m_fault;
 };
 
 }  // namespace bullet_fem
