@@ -286,7 +286,6 @@ void btFemDeformableBodySolver::applyTransforms(btScalar timeStep)
         impl.m_quiet.push_back(impl.m_femBodies[i]->getDeactivationTime());
     impl.m_fem.updateSoftBodies();
     impl.settleSleep(timeStep);
-    for (int i = 0; i < impl.m_femBodies.size(); ++i) impl.m_femBodies[i]->interpolateRenderMesh();
 }
 
 void btFemDeformableBodySolver::setGravity(const btVector3& gravity)

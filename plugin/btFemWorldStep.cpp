@@ -117,7 +117,7 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         readBody(entry);
         renewFactor(registry, entry, h);
         refreshBulletConstants(soft, h);
-        soft.applyForces();
+        applyBulletForces(*entry.m_fem, h);
         markForces(entry);
         if (soft.m_cfg.collisions & btSoftBody::fCollision::CL_SELF) entry.m_fem->m_touchingSoft.push_back(&soft);
         setSweptBounds(*entry.m_fem, h, kReach * entry.m_fem->m_body.m_model->mesh().meanEdgeLength());
@@ -130,6 +130,20 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         keepFaceTree(*entry->m_softBody);
         clearBulletContacts(*entry->m_softBody);
     }
+}
+
+// Wind, pressure and volume conservation. Bullet's wind meets nodes to whose velocities gravity's has just been added.
+void btFemWorldStep::applyBulletForces(const FemSoftBody& fem, double step)
+{
+    btSoftBody& soft = *fem.m_softBody;
+    const btVector3 fall = bulletVector(step * fem.gravity());
+    const bool inWind = soft.m_cfg.kLF > 0 || soft.m_cfg.kDG > 0;
+    if (!inWind || !isFinite(vec3(fall))) return soft.applyForces();
+    m_change.clear();
+    for (int i = 0; i < soft.m_nodes.size(); ++i) m_change.push_back(vec3(soft.m_nodes[i].m_v));
+    soft.addVelocity(fall);  // of nodes that are not pinned
+    soft.applyForces();
+    for (int i = 0; i < soft.m_nodes.size(); ++i) soft.m_nodes[i].m_v = bulletVector(m_change[i]);
 }
 
 // Without contact a stale factor costs iterations only; contact would rest on a wrong picture of the compliance.

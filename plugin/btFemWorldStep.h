@@ -54,6 +54,7 @@ public:
 private:
     bool isDue(btFemEntry& entry, double worldStep) const;
     static void readBody(btFemEntry& entry);
+    void applyBulletForces(const bullet_fem::FemSoftBody& fem, double step);
     void renewFactor(btFemBodyRegistry& registry, btFemEntry& entry, double step);
     void readChanges(btFemEntry& entry);
     void solveFree();

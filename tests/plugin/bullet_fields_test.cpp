@@ -4,12 +4,15 @@
 // collision flags and filters, the world info, aerodynamics.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/fem/generators.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -19,7 +22,7 @@ namespace
 {
 
 // A cube of 1 m above a floor, in cells of 0.25 m.
-class BulletFields : public ::testing::Test
+class BulletFields : public EachWorld
 {
 protected:
     static SoftBox cube()
@@ -36,11 +39,13 @@ protected:
         return velocityOf(m_body).z < -0.95 * kGravity * 20 * double(kStep);
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    FemWorld m_world{GetParam()};
+    btFemSoftBodySolver& m_fem = m_world.fem();
     btRigidBody& m_floor = m_world.addFloorBox();
     btSoftBody& m_body = addSoftBox(m_world, m_fem, cube());
 };
+
+INSTANTIATE_TEST_SUITE_P(Worlds, BulletFields, eachWorld(), nameOfWorld);
 
 class RenderNodes : public BulletFields
 {
@@ -59,7 +64,9 @@ protected:
     std::vector<btVector3> m_start;
 };
 
-TEST_F(RenderNodes, WithBulletsInterpolationFollowTheirTetrahedra)
+INSTANTIATE_TEST_SUITE_P(Worlds, RenderNodes, eachWorld(), nameOfWorld);
+
+TEST_P(RenderNodes, WithBulletsInterpolationFollowTheirTetrahedra)
 {
     btSoftBodyHelpers::interpolateBarycentricWeights(&m_body);
     m_world.step();
@@ -81,7 +88,7 @@ TEST_F(RenderNodes, WithBulletsInterpolationFollowTheirTetrahedra)
     }
 }
 
-TEST_F(RenderNodes, WithBulletsExtrapolationKeepTheirDistanceFromTheFaces)
+TEST_P(RenderNodes, WithBulletsExtrapolationKeepTheirDistanceFromTheFaces)
 {
     btSoftBodyHelpers::extrapolateBarycentricWeights(&m_body);
     m_world.step();
@@ -91,7 +98,15 @@ TEST_F(RenderNodes, WithBulletsExtrapolationKeepTheirDistanceFromTheFaces)
         EXPECT_LT(m_body.m_renderNodes[v].m_x.distance(m_start[v] + btVector3(1, 2, 3)), 2e-2);
 }
 
-TEST_F(RenderNodes, WithoutWeightsOrParentsStayWhereTheyAre)
+// btSoftMultiBodyDynamicsWorld itself reads the weights of all soft bodies, whatever their solver.
+class RenderNodesAlone : public RenderNodes
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, RenderNodesAlone, testing::Values(WorldClass::softRigid, WorldClass::deformable),
+                         nameOfWorld);
+
+TEST_P(RenderNodesAlone, WithoutWeightsOrParentsStayWhereTheyAre)
 {
     const auto expectStill = [this]
     {
@@ -118,7 +133,7 @@ TEST_F(RenderNodes, WithoutWeightsOrParentsStayWhereTheyAre)
     EXPECT_EQ(m_body.m_renderNodes[4].m_x, later.m_x);
 }
 
-TEST_F(BulletFields, GenerateBoundaryFacesMakesTheFacesOfTheSurface)
+TEST_P(BulletFields, GenerateBoundaryFacesMakesTheFacesOfTheSurface)
 {
     const int faces = m_body.m_faces.size();
     m_world.step();
@@ -133,19 +148,19 @@ TEST_F(BulletFields, GenerateBoundaryFacesMakesTheFacesOfTheSurface)
 }
 
 // Bullet's world knows no sweeps against soft bodies: what lies behind is hit.
-TEST_F(BulletFields, ConvexSweepTestPassesFemBodiesAsItPassesBulletsSoftBodies)
+TEST_P(BulletFields, ConvexSweepTestPassesFemBodiesAsItPassesBulletsSoftBodies)
 {
     m_world.step();
     btSphereShape sphere(btScalar(0.2));
     const btTransform from = at(0, 0, 4), to = at(0, 0, -4);
     btCollisionWorld::ClosestConvexResultCallback sweep(from.getOrigin(), to.getOrigin());
-    m_world.world().convexSweepTest(&sphere, from, to, sweep);
+    m_world.bullet().convexSweepTest(&sphere, from, to, sweep);
     ASSERT_TRUE(sweep.hasHit());
     EXPECT_EQ(sweep.m_hitCollisionObject, &m_floor);
     EXPECT_NEAR(sweep.m_closestHitFraction, 3.8 / 8, 1e-2);
 }
 
-TEST_F(BulletFields, CheckContactTellsDistanceAndNormalOfARigidBodyAtAnyPoint)
+TEST_P(BulletFields, CheckContactTellsDistanceAndNormalOfARigidBodyAtAnyPoint)
 {
     m_world.info().m_sparsesdf.Initialize();
     RigidSettings settings;
@@ -202,17 +217,17 @@ private:
     btSoftBody& m_body;
 };
 
-TEST_F(BulletFields, UserPointersIndicesAndTagsAreNeverTouched)
+TEST_P(BulletFields, UserPointersIndicesAndTagsAreNeverTouched)
 {
     UserData data(m_body);
     m_body.forceActivationState(ACTIVE_TAG);
     m_world.step(300);
     ASSERT_EQ(m_body.getActivationState(), ISLAND_SLEEPING);
     data.expectUntouched();
-    m_world.world().removeSoftBody(&m_body);
+    m_world.take(m_body);
     m_world.step(10);
     data.expectUntouched();
-    m_world.world().addSoftBody(&m_body);
+    m_world.put(m_body);
     m_body.activate(true);  // as a rigid body that was put back asleep
     m_fem.setMaterial(&m_body, btFemMaterial::rubber());
     m_body.translate(btVector3(0, 0, 1));
@@ -221,7 +236,7 @@ TEST_F(BulletFields, UserPointersIndicesAndTagsAreNeverTouched)
     EXPECT_TRUE(m_fem.isFem(&m_body));
 }
 
-TEST_F(BulletFields, ActivateWakesASleeperAndForcedStatesAreKept)
+TEST_P(BulletFields, ActivateWakesASleeperAndForcedStatesAreKept)
 {
     m_body.forceActivationState(ACTIVE_TAG);
     m_world.step(300);
@@ -244,41 +259,47 @@ TEST_F(BulletFields, ActivateWakesASleeperAndForcedStatesAreKept)
     EXPECT_EQ(bitsOf(m_body), before);
 }
 
-TEST_F(BulletFields, NoContactResponseOfTheSoftBodyMakesItAGhost)
+TEST_P(BulletFields, NoContactResponseOfTheSoftBodyMakesItAGhost)
 {
     m_body.setCollisionFlags(m_body.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
     EXPECT_TRUE(fallsFreely());
     EXPECT_EQ(m_fem.contacts(&m_body).size(), 0);
 }
 
-TEST_F(BulletFields, CollisionFiltersSayWhatItTouches)
+TEST_P(BulletFields, CollisionFiltersSayWhatItTouches)
 {
     constexpr int kSoft = 64;
     m_world.step(30);
     EXPECT_GT(m_fem.contacts(&m_body).size(), 0);
-    m_world.world().removeSoftBody(&m_body);
-    m_world.world().addSoftBody(&m_body, kSoft, btBroadphaseProxy::AllFilter & ~btBroadphaseProxy::StaticFilter);
+    m_world.take(m_body);
+    m_world.put(m_body, kSoft, btBroadphaseProxy::AllFilter & ~btBroadphaseProxy::StaticFilter);
     EXPECT_TRUE(fallsFreely());
     m_body.translate(btVector3(0, 0, 3));
-    m_world.world().removeSoftBody(&m_body);
-    m_world.world().addSoftBody(&m_body, kSoft, btBroadphaseProxy::AllFilter);
+    m_world.take(m_body);
+    m_world.put(m_body, kSoft, btBroadphaseProxy::AllFilter);
     m_body.setVelocity(btVector3(0, 0, 0));
     m_world.step(120);
     EXPECT_GT(m_fem.contacts(&m_body).size(), 0);
     EXPECT_GT(centerOf(m_body).z, 0);
 }
 
-TEST_F(BulletFields, IgnoredObjectsAreNotTouched)
+TEST_P(BulletFields, IgnoredObjectsAreNotTouched)
 {
     m_body.setIgnoreCollisionCheck(&m_floor, true);
     EXPECT_TRUE(fallsFreely());
 }
 
-// Its own world info: gravity is the body's; dispatcher and broadphase need not be set for contact.
-TEST(UserMadeWorldInfo, WorksWithNothingButGravity)
+class UserMadeWorldInfo : public EachWorld
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, UserMadeWorldInfo, eachWorld(), nameOfWorld);
+
+// Its own world info: gravity is the body's; dispatcher and broadphase need not be set for contact.
+TEST_P(UserMadeWorldInfo, WorksWithNothingButGravity)
+{
+    FemWorld world(GetParam());
+    world.setSoftGravity(btVector3(0, 0, btScalar(-1.62)));  // a deformable world's, which is not the body's
     world.addFloorBox();
     btSoftBodyWorldInfo info;
     info.m_gravity = btVector3(0, 0, btScalar(-1.62));
@@ -293,17 +314,17 @@ TEST(UserMadeWorldInfo, WorksWithNothingButGravity)
 }
 
 // Engines take the world info away with the world.
-TEST_F(BulletFields, AWorldInfoOfNullOffWorldIsTolerated)
+TEST_P(BulletFields, AWorldInfoOfNullOffWorldIsTolerated)
 {
     m_world.step(10);
-    m_world.world().removeSoftBody(&m_body);
+    m_world.take(m_body);
     m_body.m_worldInfo = nullptr;
     m_fem.setMaterial(&m_body, btFemMaterial::rubber());
     m_fem.prepare(&m_body, kStep);
     m_world.step(10);
     EXPECT_TRUE(btFemSoftBodySolver::valid(&m_body));
     m_body.m_worldInfo = &m_world.info();
-    m_world.world().addSoftBody(&m_body);
+    m_world.put(m_body);
     m_world.step(60);
     EXPECT_TRUE(m_fem.isFem(&m_body));
     EXPECT_GT(m_fem.contacts(&m_body).size(), 0);
@@ -311,7 +332,7 @@ TEST_F(BulletFields, AWorldInfoOfNullOffWorldIsTolerated)
 
 // Bullet's formulas for nodes: with a node's area A, normal n, v relative to the wind, dvn = v . n > 0 (two-sided: |v .
 // n|), f = -rho A dvn v^2 / 2 (kLF n + kDG v / |v|).
-class Aerodynamics : public testing::TestWithParam<btSoftBody::eAeroModel::_>
+class Aerodynamics : public EachWorldWith<btSoftBody::eAeroModel::_>
 {
 protected:
     static btVector3 expectedForce(const btSoftBody& body, const btVector3& wind, double density)
@@ -335,14 +356,14 @@ protected:
 
 TEST_P(Aerodynamics, DragAndLiftAreBulletsFormulasAndWaterHasNoneAsInBullet)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, btVector3(0, 0, 0));
+    FemWorld world(worldClass(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
     SoftBox box;
     btSoftBody& body = addSoftBox(world, fem, box);
     const btVector3 speed(btScalar(2), btScalar(1), btScalar(-0.5)), wind(0, btScalar(3), 0);
     body.setVelocity(speed);
     body.setWindVelocity(wind);
-    body.m_cfg.aeromodel = GetParam();
+    body.m_cfg.aeromodel = value();
     body.m_cfg.kDG = btScalar(0.3);
     body.m_cfg.kLF = btScalar(0.1);
     world.info().air_density = btScalar(1.5);
@@ -358,13 +379,101 @@ TEST_P(Aerodynamics, DragAndLiftAreBulletsFormulasAndWaterHasNoneAsInBullet)
     EXPECT_LT(norm(gained - double(kStep) * expected), 2e-3 * norm(double(kStep) * expected) + 2e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, Aerodynamics,
-                         testing::Values(btSoftBody::eAeroModel::V_Point, btSoftBody::eAeroModel::V_TwoSided,
-                                         btSoftBody::eAeroModel::V_OneSided));
-
-TEST_F(BulletFields, AddAeroForceToNodeAndFaceAreFeltOnce)
+std::string modelName(btSoftBody::eAeroModel::_ model)
 {
-    m_world.info().m_gravity.setZero();
+    const char* names[] = {"V_Point",    "V_TwoSided",         "V_TwoSidedLiftDrag", "V_OneSided",
+                           "F_TwoSided", "F_TwoSidedLiftDrag", "F_OneSided"};
+    return names[model];
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Aerodynamics,
+                         testing::Combine(eachWorld(), testing::Values(btSoftBody::eAeroModel::V_Point,
+                                                                       btSoftBody::eAeroModel::V_TwoSided,
+                                                                       btSoftBody::eAeroModel::V_OneSided)),
+                         nameOfWorldWith(modelName));
+
+class Water : public EachWorldWith<btSoftBody::eAeroModel::_>
+{
+protected:
+    // A cube of next to no stiffness, without links, that flies and spins through the wind; velocities after a step.
+    static std::vector<btScalar> stepped(SoftWorld& world, btFemSoftBodySolver* fem, double waterDensity,
+                                         btScalar drag = btScalar(0.3))
+    {
+        btSoftBody& body = addUnitCube(world, btVector3(0, 0, 0));
+        if (fem)
+        {
+            btFemMaterial soft;
+            soft.m_youngModulus = 1;
+            soft.m_density = 0;  // its masses stay
+            fem->setMaterial(&body, soft);
+        }
+        body.m_cfg.collisions = 0;
+        body.m_cfg.aeromodel = value();
+        body.m_cfg.kDG = drag;
+        body.m_cfg.kLF = drag / 3;
+        body.m_cfg.kPR = 40;
+        body.setWindVelocity(btVector3(3, 0, 1));
+        for (int i = 0; i < body.m_nodes.size(); ++i)
+            body.m_nodes[i].m_v = btVector3(2, 1, 0) + btVector3(0, 3, 1).cross(body.m_nodes[i].m_x);
+        world.info().air_density = btScalar(1.5);
+        world.info().water_density = btScalar(waterDensity);
+        world.info().water_normal = btVector3(0, 0, 1);  // all of it, 50 m deep
+        world.info().water_offset = -50;
+        body.m_bUpdateRtCst = false;  // Bullet alone would build a tree along the links
+        body.updateArea();
+        body.updateNormals();
+        world.step();
+        std::vector<btScalar> velocities;
+        for (int i = 0; i < body.m_nodes.size(); ++i)
+            for (int c = 0; c < 3; ++c) velocities.push_back(body.m_nodes[i].m_v[c]);
+        return velocities;
+    }
+
+    static std::vector<btScalar> ofBullet(double waterDensity, btScalar drag = btScalar(0.3))
+    {
+        btDefaultSoftBodySolver plain;
+        SoftWorld world(plain);
+        return stepped(world, nullptr, waterDensity, drag);
+    }
+    static std::vector<btScalar> ofFem(double waterDensity)
+    {
+        btFemSolverInfo info;
+        info.m_tolerance = btScalar(1e-6);
+        FemWorld world(worldClass(), info);
+        return stepped(world, &world.fem(), waterDensity);
+    }
+
+    static double largestDifference(const std::vector<btScalar>& a, const std::vector<btScalar>& b)
+    {
+        double largest = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::fabs(double(a[k]) - double(b[k])));
+        return largest;
+    }
+};
+
+// Bullet 3.24 looks the medium up, and takes the density of air all the same: whoever swims in it swims in air.
+TEST_P(Water, DoesToFemBodiesWhatItDoesToBulletsBodiesNothing)
+{
+    const std::vector<btScalar> bullet = ofBullet(1000), inAir = ofBullet(0), fem = ofFem(1000);
+    EXPECT_EQ(bullet, inAir);
+    EXPECT_EQ(fem, ofFem(0));
+    const double wind = largestDifference(bullet, ofBullet(0, 0));
+    EXPECT_GT(wind, 1e-4);
+    EXPECT_LT(largestDifference(fem, bullet), 1e-3 * wind + 1e-5);  // Bullet rounds x by x / h
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, Water,
+    testing::Combine(eachWorld(),
+                     testing::Values(btSoftBody::eAeroModel::V_Point, btSoftBody::eAeroModel::V_TwoSided,
+                                     btSoftBody::eAeroModel::V_TwoSidedLiftDrag, btSoftBody::eAeroModel::V_OneSided,
+                                     btSoftBody::eAeroModel::F_TwoSided, btSoftBody::eAeroModel::F_TwoSidedLiftDrag,
+                                     btSoftBody::eAeroModel::F_OneSided)),
+    nameOfWorldWith(modelName));
+
+TEST_P(BulletFields, AddAeroForceToNodeAndFaceAreFeltOnce)
+{
+    m_world.setSoftGravity(btVector3(0, 0, 0));
     m_body.translate(btVector3(0, 0, 3));
     m_body.m_cfg.aeromodel = btSoftBody::eAeroModel::V_TwoSided;
     m_body.setVelocity(btVector3(0, 0, btScalar(0.5)));

@@ -10,6 +10,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemDebugDraw.h"
 #include "bullet_fem/fem/generators.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -56,7 +57,7 @@ public:
 };
 
 // A cube at rest on a floor.
-class Drawing : public ::testing::Test
+class Drawing : public EachWorld
 {
 protected:
     Drawing()
@@ -79,13 +80,15 @@ protected:
         return box;
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    FemWorld m_world{GetParam()};
+    btFemSoftBodySolver& m_fem = m_world.fem();
     btRigidBody& m_floor = m_world.addFloorBox();
     btSoftBody& m_body = addSoftBox(m_world, m_fem, cube());
 };
 
-TEST_F(Drawing, ElementsAreTheSixEdgesOfEveryTetrahedronShrunk)
+INSTANTIATE_TEST_SUITE_P(Worlds, Drawing, eachWorld(), nameOfWorld);
+
+TEST_P(Drawing, ElementsAreTheSixEdgesOfEveryTetrahedronShrunk)
 {
     btFemDrawSettings settings;
     settings.m_shrink = btScalar(0.5);
@@ -102,7 +105,7 @@ TEST_F(Drawing, ElementsAreTheSixEdgesOfEveryTetrahedronShrunk)
 }
 
 // Squeezed and turned, the rest shape has its own size, and the body's place.
-TEST_F(Drawing, StressFreeIsTheRestShapeInTheBodysPlace)
+TEST_P(Drawing, StressFreeIsTheRestShapeInTheBodysPlace)
 {
     const btQuaternion turn(btVector3(1, 2, 3).normalized(), btScalar(2.5));
     const btVector3 place(3, -4, 5);
@@ -128,7 +131,7 @@ TEST_F(Drawing, StressFreeIsTheRestShapeInTheBodysPlace)
     EXPECT_EQ(corners.size(), 98u);  // surface nodes of 4 x 4 x 4 cells
 }
 
-TEST_F(Drawing, ContactsArePointsNormalsAndImpulsesToScale)
+TEST_P(Drawing, ContactsArePointsNormalsAndImpulsesToScale)
 {
     btFemDrawSettings settings;
     settings.m_pointSize = btScalar(0.03);
@@ -159,7 +162,7 @@ TEST_F(Drawing, ContactsArePointsNormalsAndImpulsesToScale)
     EXPECT_EQ(drawn(BT_FEM_DRAW_CONTACTS, settings).m_lines.size(), crosses.size());
 }
 
-TEST_F(Drawing, ModesAddUpAndOthersDrawNothing)
+TEST_P(Drawing, ModesAddUpAndOthersDrawNothing)
 {
     const std::size_t all = drawn(BT_FEM_DRAW_ELEMENTS | BT_FEM_DRAW_STRESS_FREE | BT_FEM_DRAW_CONTACTS).m_lines.size();
     EXPECT_EQ(all, drawn(BT_FEM_DRAW_ELEMENTS).m_lines.size() + drawn(BT_FEM_DRAW_STRESS_FREE).m_lines.size() +
@@ -173,7 +176,7 @@ TEST_F(Drawing, ModesAddUpAndOthersDrawNothing)
     EXPECT_EQ(recorder.m_lines.size(), 0u);
 }
 
-TEST_F(Drawing, BadSettingsAreRejected)
+TEST_P(Drawing, BadSettingsAreRejected)
 {
     std::vector<btFemDrawSettings> bad(5);
     bad[0].m_shrink = 0;
@@ -190,7 +193,7 @@ TEST_F(Drawing, BadSettingsAreRejected)
     }
 }
 
-TEST_F(Drawing, ByBulletWithAllItsFlagsShowsNodesFacesAndContacts)
+TEST_P(Drawing, ByBulletWithAllItsFlagsShowsNodesFacesAndContacts)
 {
     m_body.generateClusters(0);
     m_body.appendAnchor(0, &m_floor);
@@ -212,22 +215,22 @@ TEST_F(Drawing, ByBulletWithAllItsFlagsShowsNodesFacesAndContacts)
     for (const Line& line : contacts.m_lines) EXPECT_NEAR(std::min(line.m_from.z(), line.m_to.z()), 0, 0.02);
 }
 
-TEST_F(Drawing, ByTheWorldGoesOn)
+TEST_P(Drawing, ByTheWorldGoesOn)
 {
     Recorder recorder;
-    m_world.world().setDebugDrawer(&recorder);
+    m_world.bullet().setDebugDrawer(&recorder);
     for (const int mode : {int(btIDebugDraw::DBG_DrawWireframe), int(btIDebugDraw::DBG_DrawAabb), 0xffff})
     {
         recorder.m_mode = mode;
         recorder.m_lines.clear();
-        m_world.world().debugDrawWorld();
+        m_world.bullet().debugDrawWorld();
         EXPECT_GT(recorder.m_lines.size(), 0u);
         EXPECT_TRUE(recorder.allFinite());
     }
-    m_world.world().setDebugDrawer(nullptr);
+    m_world.bullet().setDebugDrawer(nullptr);
 }
 
-TEST_F(Drawing, BulletsContactArraysTellWhatOursTell)
+TEST_P(Drawing, BulletsContactArraysTellWhatOursTell)
 {
     const auto& contacts = m_fem.contacts(&m_body);
     int touching = 0;
@@ -253,14 +256,14 @@ TEST_F(Drawing, BulletsContactArraysTellWhatOursTell)
     EXPECT_EQ(m_body.m_faceRigidContacts.size(), touching);
 }
 
-TEST_F(Drawing, BulletsContactArraysAreNotSolvedByAnybody)
+TEST_P(Drawing, BulletsContactArraysAreNotSolvedByAnybody)
 {
     const std::vector<btScalar> before = bitsOf(m_body);
     btSoftBody::PSolve_RContacts(&m_body, 1, 0);
     EXPECT_EQ(bitsOf(m_body), before);
 }
 
-TEST_F(Drawing, BulletsContactArraysAreEmptyWhenTheObjectIsGoneOrTheBodyInactive)
+TEST_P(Drawing, BulletsContactArraysAreEmptyWhenTheObjectIsGoneOrTheBodyInactive)
 {
     ASSERT_GT(m_body.m_rcontacts.size(), 0);
     m_body.forceActivationState(DISABLE_SIMULATION);
@@ -274,7 +277,7 @@ TEST_F(Drawing, BulletsContactArraysAreEmptyWhenTheObjectIsGoneOrTheBodyInactive
     EXPECT_EQ(m_body.m_rcontacts.size() + m_body.m_faceRigidContacts.size(), 0);
 }
 
-TEST_F(Drawing, BulletsContactArraysAreEmptyWhenTheBodyLiftsOffOrComesBack)
+TEST_P(Drawing, BulletsContactArraysAreEmptyWhenTheBodyLiftsOffOrComesBack)
 {
     m_body.translate(btVector3(0, 0, 1));
     m_world.step();
@@ -282,10 +285,10 @@ TEST_F(Drawing, BulletsContactArraysAreEmptyWhenTheBodyLiftsOffOrComesBack)
     m_body.translate(btVector3(0, 0, -1));
     m_world.step(3);
     ASSERT_GT(m_body.m_rcontacts.size(), 0);
-    m_world.world().removeSoftBody(&m_body);
+    m_world.take(m_body);
     m_world.step();
     m_body.translate(btVector3(0, 0, 1));
-    m_world.world().addSoftBody(&m_body);
+    m_world.put(m_body);
     m_world.step();
     EXPECT_EQ(m_body.m_rcontacts.size() + m_body.m_faceRigidContacts.size(), 0);
 }
@@ -330,13 +333,16 @@ TEST_F(Drawing, BulletsContactArraysKeepWhatIsStillThereWhenAnObjectLeaves)
 }
 
 // A rigid body that a tick callback deletes within the step is not to be found in them.
-TEST(BulletsContactArrays, HaveNoObjectThatATickCallbackDeleted)
+class BulletsContactArrays : public EachWorldWith<Coupling>
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, Coupling::coupled);
+};
+
+TEST_P(BulletsContactArrays, HaveNoObjectThatATickCallbackDeleted)
+{
+    FemWorld world(worldClass(), value());
     SoftBox box;
     box.m_center = {0, 0, 0.5};
-    btSoftBody& body = addSoftBox(world, fem, box);
+    btSoftBody& body = addSoftBox(world, world.fem(), box);
     struct Scene
     {
         SoftWorld* m_world;
@@ -348,13 +354,19 @@ TEST(BulletsContactArrays, HaveNoObjectThatATickCallbackDeleted)
         auto& s = *static_cast<Scene*>(bullet->getWorldUserInfo());
         if (s.m_now && s.m_doomed) s.m_world->deleteRigid(*s.m_doomed), s.m_doomed = nullptr;
     };
-    world.world().setInternalTickCallback(callback, &scene);
+    world.bullet().setInternalTickCallback(callback, &scene);
     world.step(60);
     ASSERT_GT(body.m_rcontacts.size(), 0);
     scene.m_now = true;
     world.step();
     EXPECT_EQ(body.m_rcontacts.size() + body.m_faceRigidContacts.size(), 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Swap, BulletsContactArrays, testing::Combine(eachWorld(), testing::Values(Coupling::swap)),
+                         nameOfWorldWith(couplingName));
+INSTANTIATE_TEST_SUITE_P(Coupled, BulletsContactArrays,
+                         testing::Combine(testing::Values(WorldClass::softRigid), testing::Values(Coupling::coupled)),
+                         nameOfWorldWith(couplingName));
 
 }  // namespace
 }  // namespace bullet_fem

@@ -165,6 +165,19 @@ TEST_P(Steps, SubStepsFallAsFarAsSingleOnes)
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
 }
 
+TEST_P(Steps, TimescaleIsAFactorOnTheStepOfABody)
+{
+    FemWorld world(GetParam());
+    btSoftBody& cube = addCube(world);
+    cube.m_cfg.timescale = btScalar(0.5);
+    world.step(1);
+    EXPECT_EQ(world.fem().stepReport(&cube).m_flags, 0);  // factored for the step that it makes
+    world.step(59);
+    const double h = 0.5 * kStep;
+    EXPECT_NEAR(velocityOf(cube).z, -kGravity * 60 * h, 1e-4);
+    EXPECT_NEAR(centerOf(cube).z, -kGravity * h * h * 60 * 61 / 2, 1e-4);
+}
+
 TEST_P(Steps, AChangingStepIsFlaggedAsStaleAndRefactorMendsThat)
 {
     FemWorld world(GetParam());

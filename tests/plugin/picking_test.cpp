@@ -8,6 +8,7 @@
 
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemRay.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -34,13 +35,13 @@ btVector3 pathAt(double t)
     return {btScalar(std::sin(w * t)), btScalar(0.5 * std::sin(2 * w * t)), btScalar(0.3 * std::sin(w * t))};
 }
 
-class Picking : public ::testing::Test
+class Picking : public EachWorld
 {
 protected:
     btFemRayHit pickFromAbove(btScalar x = 0, btScalar y = 0)
     {
         btFemClosestRay ray(btVector3(x, y, 10), btVector3(x, y, -10));
-        m_world.world().rayTest(ray.m_rayFromWorld, ray.m_rayToWorld, ray);
+        m_world.bullet().rayTest(ray.m_rayFromWorld, ray.m_rayToWorld, ray);
         EXPECT_EQ(ray.m_collisionObject, &m_body);
         return ray.m_hit;
     }
@@ -52,22 +53,30 @@ protected:
         return point;
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    FemWorld m_world{GetParam()};
+    btFemSoftBodySolver& m_fem = m_world.fem();
     btSoftBody& m_body = addSoftBox(m_world, m_fem, cubeAt({0, 0, 0}));
 };
 
+INSTANTIATE_TEST_SUITE_P(Worlds, Picking, eachWorld(), nameOfWorld);
+
+class PickingInTheSoftDemo : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, PickingInTheSoftDemo, eachWorld(), nameOfWorld);
+
 // Bullet's soft demo: the nearest node of the face that was hit gets, before every step, the velocity that would take
 // it to the mouse.
-TEST(PickingInTheSoftDemo, ByNodeVelocityAsInBulletsSoftDemoDragsTheBodyForFiveSeconds)
+TEST_P(PickingInTheSoftDemo, ByNodeVelocityAsInBulletsSoftDemoDragsTheBodyForFiveSeconds)
 {
     struct Drag
     {
         btSoftBody::Node* m_node;
         btVector3 m_goal;
     };
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& body = addSoftBox(world, fem, cubeAt({0, 0, 0}));
     const btVector3 from(btScalar(0.05), btScalar(0.03), 10), to(btScalar(0.05), btScalar(0.03), -10);
     world.step();
@@ -86,7 +95,7 @@ TEST(PickingInTheSoftDemo, ByNodeVelocityAsInBulletsSoftDemoDragsTheBodyForFiveS
         if (delta.length2() > 100) delta = delta.normalized() * 10;
         pulled.m_node->m_v += delta / step;
     };
-    world.world().setInternalTickCallback(pull, &drag, true);
+    world.bullet().setInternalTickCallback(pull, &drag, true);
     double most = 0, farthest = 0;
     for (int k = 0; k < 300; ++k)
     {
@@ -104,7 +113,7 @@ TEST(PickingInTheSoftDemo, ByNodeVelocityAsInBulletsSoftDemoDragsTheBodyForFiveS
 }
 
 // As engines lead soft bodies: the node is pinned, and its position written.
-TEST_F(Picking, ByWritingThePositionOfAPinnedNodeDragsTheBodyForFiveSeconds)
+TEST_P(Picking, ByWritingThePositionOfAPinnedNodeDragsTheBodyForFiveSeconds)
 {
     m_world.step();
     const int picked = pickFromAbove().m_nodes[0];
@@ -130,7 +139,7 @@ TEST_F(Picking, ByWritingThePositionOfAPinnedNodeDragsTheBodyForFiveSeconds)
 }
 
 // A node that is free and written to every step pulls by its own mass alone; nothing blows up.
-TEST_F(Picking, ByWritingTheMotionOfAFreeNodeAddsNoEnergy)
+TEST_P(Picking, ByWritingTheMotionOfAFreeNodeAddsNoEnergy)
 {
     m_world.step();
     btSoftBody::Node& node = m_body.m_nodes[pickFromAbove().m_nodes[0]];
@@ -146,7 +155,7 @@ TEST_F(Picking, ByWritingTheMotionOfAFreeNodeAddsNoEnergy)
     }
 }
 
-TEST_F(Picking, BySpringHangsWeightOverStiffnessBelowTheTarget)
+TEST_P(Picking, BySpringHangsWeightOverStiffnessBelowTheTarget)
 {
     m_world.step();
     for (const btScalar stiffness : {btScalar(2e3), btScalar(2e5)})
@@ -178,7 +187,7 @@ struct SpringCase
     Coupling m_coupling;
 };
 
-class Dragging : public ::testing::TestWithParam<SpringCase>
+class Dragging : public EachWorldWith<SpringCase>
 {
 };
 
@@ -186,9 +195,9 @@ class Dragging : public ::testing::TestWithParam<SpringCase>
 // let go, it flies on as fast as it was.
 TEST_P(Dragging, BySpringForFiveSecondsKeepsEnergyBoundedAndReleasesGently)
 {
-    const SpringCase& c = GetParam();
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem, c.m_coupling);
+    const SpringCase& c = value();
+    FemWorld world(worldClass(), c.m_coupling);
+    btFemSoftBodySolver& fem = world.fem();
     btSoftBody& body = addSoftBox(world, fem, cubeAt({0, 0, -0.2}));
     world.step(1, c.m_step);
     btFemRayHit hit;
@@ -231,11 +240,21 @@ const SpringCase kSprings[] = {
     {"Limited", 1e7, 0, btScalar(8 * kMass * kGravity), kStep, Coupling::swap},
 };
 
-INSTANTIATE_TEST_SUITE_P(Springs, Dragging, testing::ValuesIn(kSprings),
-                         [](const auto& spring) { return std::string(spring.param.m_name); });
+std::string springName(const SpringCase& spring)
+{
+    return spring.m_name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Springs, Dragging,
+                         testing::Combine(testing::Values(WorldClass::softRigid), testing::ValuesIn(kSprings)),
+                         nameOfWorldWith(springName));
+INSTANTIATE_TEST_SUITE_P(OtherWorlds, Dragging,
+                         testing::Combine(testing::Values(WorldClass::softMultiBody, WorldClass::deformable),
+                                          testing::Values(kSprings[0], kSprings[1])),
+                         nameOfWorldWith(springName));
 
 // A target that jumps tears at the body with the largest force and no more.
-TEST_F(Picking, BySpringWithALargestForceOutlastsATargetThatJumps)
+TEST_P(Picking, BySpringWithALargestForceOutlastsATargetThatJumps)
 {
     m_world.step();
     btFemSpring spring = btFemSpring::at(pickFromAbove());
@@ -253,7 +272,7 @@ TEST_F(Picking, BySpringWithALargestForceOutlastsATargetThatJumps)
 }
 
 // What lies on the floor and is pulled aside.
-TEST_F(Picking, BySpringDragsABodyOverTheFloorAgainstFriction)
+TEST_P(Picking, BySpringDragsABodyOverTheFloorAgainstFriction)
 {
     const btRigidBody& plane = m_world.addPlane(btScalar(-0.2));
     m_world.step(30);
@@ -278,7 +297,7 @@ TEST_F(Picking, BySpringDragsABodyOverTheFloorAgainstFriction)
     EXPECT_GT(floor.z(), 0.2 * kMass * kGravity);
 }
 
-TEST_F(Picking, SpringsWakeASleeperAndLetItSleep)
+TEST_P(Picking, SpringsWakeASleeperAndLetItSleep)
 {
     m_world.addPlane(btScalar(-0.2));
     m_body.forceActivationState(ACTIVE_TAG);
@@ -296,7 +315,7 @@ TEST_F(Picking, SpringsWakeASleeperAndLetItSleep)
     EXPECT_GT(velocityOf(m_body).z, 0.1);
 }
 
-TEST_F(Picking, BadSpringsAreRejected)
+TEST_P(Picking, BadSpringsAreRejected)
 {
     m_world.step();
     const btFemSpring good = btFemSpring::at(pickFromAbove());
@@ -328,7 +347,7 @@ TEST_F(Picking, BadSpringsAreRejected)
     EXPECT_NEAR(velocityOf(m_body).z, -kGravity * 31 * double(kStep), 1e-3);
 }
 
-TEST_F(Picking, ASpringOfPinnedNodesOrOfNoStiffnessDoesNothing)
+TEST_P(Picking, ASpringOfPinnedNodesOrOfNoStiffnessDoesNothing)
 {
     m_world.step();
     btFemSpring spring = btFemSpring::at(pickFromAbove());

@@ -12,6 +12,7 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemRay.h"
 #include "bullet_fem/fem/generators.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -104,9 +105,9 @@ private:
 
 struct Scene
 {
-    explicit Scene(const btFemSolverInfo& info = {}) : m_fem(info) {}
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    explicit Scene(WorldClass worldClass = WorldClass::softRigid) : m_world(worldClass), m_fem(m_world.fem()) {}
+    FemWorld m_world;
+    btFemSoftBodySolver& m_fem;
 };
 
 using Maker = std::function<btSoftBody*(Scene&)>;
@@ -169,10 +170,10 @@ struct RayCase
     bool m_ordered;  // faces and tetrahedra in an order that makes Bullet say face
 };
 
-class RayTestOfAFemBody : public testing::TestWithParam<RayCase>
+class RayTestOfAFemBody : public EachWorldWith<RayCase>
 {
 protected:
-    RayTestOfAFemBody() : m_body(m_scene.m_world.addSoft(GetParam().m_make(m_scene)))
+    RayTestOfAFemBody() : m_scene(worldClass()), m_body(m_scene.m_world.addSoft(value().m_make(m_scene)))
     {
         m_scene.m_world.addPlane(btScalar(-1.2));
     }
@@ -209,7 +210,7 @@ protected:
         EXPECT_LT(unclear, hits / 2);
         EXPECT_LT(beside, kRays / 100);  // within Bullet's tolerance
         EXPECT_LE(wrong, hits / 1000);
-        EXPECT_LE(asTets, GetParam().m_ordered ? hits / 1000 : hits);
+        EXPECT_LE(asTets, value().m_ordered ? hits / 1000 : hits);
         RecordProperty("hits", hits);
         RecordProperty("asTets", asTets);
     }
@@ -257,13 +258,29 @@ const RayCase kRayCases[] = {
     {"WithoutLinks", [](Scene& scene) { return assembled(scene, false, true); }, false},
 };
 
-INSTANTIATE_TEST_SUITE_P(Bodies, RayTestOfAFemBody, testing::ValuesIn(kRayCases),
-                         [](const auto& ray) { return std::string(ray.param.m_name); });
+std::string rayName(const RayCase& ray)
+{
+    return ray.m_name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, RayTestOfAFemBody,
+                         testing::Combine(testing::Values(WorldClass::softRigid), testing::ValuesIn(kRayCases)),
+                         nameOfWorldWith(rayName));
+INSTANTIATE_TEST_SUITE_P(OtherWorlds, RayTestOfAFemBody,
+                         testing::Combine(testing::Values(WorldClass::softMultiBody, WorldClass::deformable),
+                                          testing::Values(kRayCases[0])),
+                         nameOfWorldWith(rayName));
+
+class RayTestNeverHangs : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, RayTestNeverHangs, eachWorld(), nameOfWorld);
 
 // Bullet's own tree is never finished where faces or nodes are not connected.
-TEST(RayTestNeverHangs, WhateverWasDoneToTheFaces)
+TEST_P(RayTestNeverHangs, WhateverWasDoneToTheFaces)
 {
-    Scene scene;
+    Scene scene(GetParam());
     btSoftBody& body = scene.m_world.addSoft(assembled(scene, false, true));
     btSoftBody::sRayCast found;
     const btVector3 from(btScalar(0.4), btScalar(0.3), 3), to(btScalar(0.4), btScalar(0.3), -30);
@@ -285,9 +302,9 @@ TEST(RayTestNeverHangs, WhateverWasDoneToTheFaces)
     EXPECT_EQ(found.feature, btSoftBody::eFeature::Tetra);
 }
 
-TEST(RayTestNeverHangs, OfABodyThatWasRejected)
+TEST_P(RayTestNeverHangs, OfABodyThatWasRejected)
 {
-    Scene scene;
+    Scene scene(GetParam());
     btSoftBody& body = scene.m_world.addSoft(assembled(scene, false, true));
     scene.m_fem.prepare(&body, kStep);
     body.appendTetra(0, 0, 1, 2);
@@ -331,10 +348,17 @@ TEST(BadRays, HitNothing)
     EXPECT_TRUE(btFemRay::test(&body, far, deep));
 }
 
-// Bullet's tolerance is an absolute one, which makes triangles of 1 cm as large as a hand.
-TEST(WorldRayTest, IsExactForSmallTrianglesWithOurCallback)
+class WorldRayTest : public EachWorld
 {
-    Scene scene;
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, WorldRayTest, eachWorld(), nameOfWorld);
+
+// Bullet's tolerance is an absolute one, which makes triangles of 1 cm as large as a hand.
+TEST_P(WorldRayTest, IsExactForSmallTrianglesWithOurCallback)
+{
+    Scene scene(GetParam());
+    const int count = GetParam() == WorldClass::softRigid ? kRays : kRays / 10;
     SoftBox box;
     box.m_size = {0.1, 0.1, 0.1};
     box.m_cells = {8, 8, 8};
@@ -345,7 +369,7 @@ TEST(WorldRayTest, IsExactForSmallTrianglesWithOurCallback)
     scene.m_world.step();
     Rays rays(body);
     int soft = 0;
-    for (int k = 0; k < kRays; ++k)
+    for (int k = 0; k < count; ++k)
     {
         btVector3 from, to;
         rays.next(from, to);
@@ -353,7 +377,7 @@ TEST(WorldRayTest, IsExactForSmallTrianglesWithOurCallback)
         to.setZ(-4);
         const Reference reference = bruteForce(body, vec3(from), vec3(to));
         btFemClosestRay ray(from, to);
-        scene.m_world.world().rayTest(from, to, ray);
+        scene.m_world.bullet().rayTest(from, to, ray);
         ASSERT_TRUE(ray.hasHit());
         if (reference.m_face >= 0 && reference.m_smallest < 1e-9) continue;
         ASSERT_EQ(ray.m_hit.m_face, reference.m_face);
@@ -361,17 +385,17 @@ TEST(WorldRayTest, IsExactForSmallTrianglesWithOurCallback)
         ASSERT_NEAR(ray.m_closestHitFraction, std::min(reference.m_fraction, 1.9 / 4.4), 1e-5);
         soft += reference.m_face >= 0;
     }
-    EXPECT_GT(soft, kRays / 50);
+    EXPECT_GT(soft, count / 50);
 }
 
-TEST(WorldRayTest, TellsBodyFaceNormalAndPlace)
+TEST_P(WorldRayTest, TellsBodyFaceNormalAndPlace)
 {
-    Scene scene;
+    Scene scene(GetParam());
     btSoftBody& body = scene.m_world.addSoft(block(scene));
     scene.m_world.step(3);
     const btVector3 from(btScalar(0.1), btScalar(0.17), 4), to(btScalar(0.1), btScalar(0.17), -4);
     btCollisionWorld::ClosestRayResultCallback ray(from, to);
-    scene.m_world.world().rayTest(from, to, ray);
+    scene.m_world.bullet().rayTest(from, to, ray);
     ASSERT_EQ(ray.m_collisionObject, &body);
     const Reference reference = bruteForce(body, vec3(from), vec3(to));
     EXPECT_NEAR(ray.m_closestHitFraction, reference.m_fraction, 1e-6);

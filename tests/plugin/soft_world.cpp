@@ -196,7 +196,8 @@ FemWorld::FemWorld(WorldClass worldClass, const btVector3& gravity) : FemWorld(w
 {
 }
 
-FemWorld::FemWorld(WorldClass worldClass, Coupling coupling) : FemWorld(worldClass)
+FemWorld::FemWorld(WorldClass worldClass, Coupling coupling, const btVector3& gravity, const btFemSolverInfo& info)
+    : FemWorld(worldClass, info, gravity)
 {
     if (coupling == Coupling::coupled) couple(*m_fem);
 }

@@ -141,7 +141,9 @@ class FemWorld : private FemSolverOf, public SoftWorld
 {
 public:
     explicit FemWorld(WorldClass worldClass, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
-    FemWorld(WorldClass worldClass, Coupling coupling);  ///< `coupled` is for softRigid
+    /// `coupled` is for softRigid.
+    FemWorld(WorldClass worldClass, Coupling coupling, const btVector3& gravity = {0, 0, btScalar(-kGravity)},
+             const btFemSolverInfo& info = btFemSolverInfo());
     FemWorld(WorldClass worldClass, const btFemSolverInfo& info,
              const btVector3& gravity = {0, 0, btScalar(-kGravity)});
 
