@@ -4,17 +4,22 @@
 #include <gtest/gtest.h>
 
 #include "plugin/anchor_scene.h"
+#include "plugin/each_world.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-class AnchorChangesTest : public AnchorScene, public ::testing::Test
+class AnchorChangesTest : public AnchorScene, public EachWorld
 {
+protected:
+    AnchorChangesTest() : AnchorScene(Coupling::swap, {0, 0, btScalar(-kGravity)}, GetParam()) {}
 };
 
-TEST_F(AnchorChangesTest, removedAnchorsLetGo)
+INSTANTIATE_TEST_SUITE_P(Worlds, AnchorChangesTest, eachWorld(), nameOfWorld);
+
+TEST_P(AnchorChangesTest, removedAnchorsLetGo)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -29,7 +34,7 @@ TEST_F(AnchorChangesTest, removedAnchorsLetGo)
     EXPECT_EQ(cube.m_nodes[node].m_battach, 0);
 }
 
-TEST_F(AnchorChangesTest, aDeletedBodyLetsGoAndIsNotTouched)
+TEST_P(AnchorChangesTest, aDeletedBodyLetsGoAndIsNotTouched)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -44,7 +49,7 @@ TEST_F(AnchorChangesTest, aDeletedBodyLetsGoAndIsNotTouched)
     EXPECT_LT(velocityOf(cube).z, -0.9 * kGravity * 30 * double(kStep));
 }
 
-TEST_F(AnchorChangesTest, anAnchorToABodyOfAnotherWorldIsRemoved)
+TEST_P(AnchorChangesTest, anAnchorToABodyOfAnotherWorldIsRemoved)
 {
     btFemSoftBodySolver otherFem;
     SoftWorld other(otherFem);
@@ -56,7 +61,7 @@ TEST_F(AnchorChangesTest, anAnchorToABodyOfAnotherWorldIsRemoved)
     EXPECT_EQ(cube.m_anchors.size(), 0);
 }
 
-TEST_F(AnchorChangesTest, aForeignNodeIsFlagged)
+TEST_P(AnchorChangesTest, aForeignNodeIsFlagged)
 {
     btSoftBody &cube = addCube({0, 0, 0}), &other = addCube({3, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});

@@ -24,8 +24,9 @@ public:
     static constexpr double kHalf = 0.25;                  ///< of cubes and boxes [m]
     static constexpr double kCubeWeight = 125 * kGravity;  ///< of a soft cube of 1000 kg/m3 [N]
 
-    explicit AnchorScene(Coupling coupling = Coupling::swap, const btVector3& gravity = {0, 0, btScalar(-kGravity)})
-        : m_world(m_fem, coupling, gravity)
+    explicit AnchorScene(Coupling coupling = Coupling::swap, const btVector3& gravity = {0, 0, btScalar(-kGravity)},
+                         WorldClass worldClass = WorldClass::softRigid)
+        : m_world(worldClass, coupling, gravity)
     {
     }
 
@@ -94,8 +95,8 @@ public:
         return worst;
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
+    btFemSoftBodySolver& m_fem = m_world.fem();
 };
 
 }  // namespace bullet_fem

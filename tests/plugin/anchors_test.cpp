@@ -4,22 +4,23 @@
 #include <gtest/gtest.h>
 
 #include "plugin/anchor_scene.h"
+#include "plugin/each_world.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-class AnchorsTest : public AnchorScene, public ::testing::TestWithParam<Coupling>
+class AnchorsTest : public AnchorScene, public EachWorldWith<Coupling>
 {
 protected:
-    AnchorsTest() : AnchorScene(GetParam()) {}
+    AnchorsTest() : AnchorScene(value(), {0, 0, btScalar(-kGravity)}, worldClass()) {}
 };
 
-class FloatingAnchorsTest : public AnchorScene, public ::testing::TestWithParam<Coupling>
+class FloatingAnchorsTest : public AnchorScene, public EachWorldWith<Coupling>
 {
 protected:
-    FloatingAnchorsTest() : AnchorScene(GetParam(), btVector3(0, 0, 0)) {}
+    FloatingAnchorsTest() : AnchorScene(value(), btVector3(0, 0, 0), worldClass()) {}
 };
 
 TEST_P(AnchorsTest, aStaticCeilingCarriesTheWeight)
@@ -258,13 +259,13 @@ TEST(CoupledAnchorsTest, aHangingWeightIsStill)
     EXPECT_LT(scene.speedOfWeight(), 1e-4);
 }
 
-std::string nameOf(const ::testing::TestParamInfo<Coupling>& info)
-{
-    return couplingName(info.param);
-}
+const auto swapEverywhere = ::testing::Combine(eachWorld(), ::testing::Values(Coupling::swap));
+const auto coupled = ::testing::Combine(::testing::Values(WorldClass::softRigid), ::testing::Values(Coupling::coupled));
 
-INSTANTIATE_TEST_SUITE_P(Couplings, AnchorsTest, ::testing::Values(Coupling::swap, Coupling::coupled), nameOf);
-INSTANTIATE_TEST_SUITE_P(Couplings, FloatingAnchorsTest, ::testing::Values(Coupling::swap, Coupling::coupled), nameOf);
+INSTANTIATE_TEST_SUITE_P(Swap, AnchorsTest, swapEverywhere, nameOfWorldWith(couplingName));
+INSTANTIATE_TEST_SUITE_P(Swap, FloatingAnchorsTest, swapEverywhere, nameOfWorldWith(couplingName));
+INSTANTIATE_TEST_SUITE_P(Coupled, AnchorsTest, coupled, nameOfWorldWith(couplingName));
+INSTANTIATE_TEST_SUITE_P(Coupled, FloatingAnchorsTest, coupled, nameOfWorldWith(couplingName));
 
 }  // namespace
 }  // namespace bullet_fem

@@ -9,14 +9,14 @@ namespace
 
 btDbvtBroadphase& broadphaseOf(SoftWorld& world)
 {
-    return *static_cast<btDbvtBroadphase*>(world.world().getBroadphase());
+    return *static_cast<btDbvtBroadphase*>(world.bullet().getBroadphase());
 }
 
 }  // namespace
 
 BulletState::BulletState(SoftWorld& world)
 {
-    const btCollisionObjectArray& objects = world.world().getCollisionObjectArray();
+    const btCollisionObjectArray& objects = world.bullet().getCollisionObjectArray();
     for (int k = 0; k < objects.size(); ++k)
     {
         auto* proxy = static_cast<btDbvtProxy*>(objects[k]->getBroadphaseHandle());
@@ -48,7 +48,7 @@ void BulletState::restore(SoftWorld& world) const
         body.setDeactivationTime(rigid.m_deactivationTime);
     }
     btDbvtBroadphase& broadphase = broadphaseOf(world);
-    btDispatcher* dispatcher = world.world().getDispatcher();
+    btDispatcher* dispatcher = world.bullet().getDispatcher();
     for (const Bounds& bounds : m_bounds)
         broadphase.setAabbForceUpdate(bounds.m_proxy, bounds.m_low, bounds.m_high, dispatcher);
     btOverlappingPairCache& cache = *broadphase.getOverlappingPairCache();

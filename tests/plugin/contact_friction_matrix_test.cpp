@@ -7,6 +7,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_world.h"
 
@@ -26,15 +27,14 @@ struct FrictionCase
     bool m_plane;  // else a box
 };
 
-std::string nameOf(const testing::TestParamInfo<FrictionCase>& info)
+std::string nameOf(const FrictionCase& c)
 {
-    const FrictionCase& c = info.param;
     return "steepness" + std::to_string(int(100 * c.m_steepness + 0.5)) + (c.m_young > 1e6 ? "stiff" : "soft") + "At" +
            std::to_string(c.m_stepsPerSecond) + "Hz" + (c.m_plane ? "OnAPlane" : "OnABox");
 }
 
 /// A cube of 1 m on a ground that falls towards +x. The swap alone: the ground is static.
-class FrictionMatrix : public testing::TestWithParam<FrictionCase>
+class FrictionMatrix : public EachWorldWith<FrictionCase>
 {
 protected:
     explicit FrictionMatrix(double massDamping = 0)
@@ -45,16 +45,16 @@ protected:
         m_downhill = vec3(quatRotate(tilt, btVector3(1, 0, 0)));
         RigidSettings settings;
         settings.m_friction = btScalar(kRigidFriction);
-        if (!GetParam().m_plane) settings.m_transform = btTransform(tilt, -normal);
-        m_world.addRigid(GetParam().m_plane ? static_cast<btCollisionShape*>(new btStaticPlaneShape(normal, 0))
-                                            : new btBoxShape(btVector3(40, 40, 1)),
+        if (!value().m_plane) settings.m_transform = btTransform(tilt, -normal);
+        m_world.addRigid(value().m_plane ? static_cast<btCollisionShape*>(new btStaticPlaneShape(normal, 0))
+                                         : new btBoxShape(btVector3(40, 40, 1)),
                          settings);
         btSoftBody* cube = btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(0.5)),
                                                    btVector3(0.5, 0.5, 0.5), btScalar(0.25));
         cube->rotate(tilt);
         cube->m_cfg.kDF = btScalar(kSoftFriction);
         btFemMaterial material;
-        material.m_youngModulus = btScalar(GetParam().m_young);
+        material.m_youngModulus = btScalar(value().m_young);
         material.m_massDamping = btScalar(massDamping);
         m_fem.setMaterial(cube, material);
         m_cube = &m_world.addSoft(cube);
@@ -73,10 +73,10 @@ protected:
     // Acceleration that Coulomb's law leaves [m/s2].
     double expectedAcceleration() const { return kGravity * (std::sin(m_slope) - kFriction * std::cos(m_slope)); }
 
-    const double m_h = 1.0 / GetParam().m_stepsPerSecond;                  // [s]
-    const double m_slope = std::atan(GetParam().m_steepness * kFriction);  // [rad]
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    const double m_h = 1.0 / value().m_stepsPerSecond;                  // [s]
+    const double m_slope = std::atan(value().m_steepness * kFriction);  // [rad]
+    FemWorld m_world{worldClass()};
+    btFemSoftBodySolver& m_fem = m_world.fem();
     Vec3 m_normal, m_downhill;
     btSoftBody* m_cube = nullptr;
 };
@@ -126,8 +126,19 @@ std::vector<FrictionCase> cases(const std::vector<double>& steepness)
     return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Contact, Sliding, testing::ValuesIn(cases({1.05, 1.3, 2})), nameOf);
-INSTANTIATE_TEST_SUITE_P(Contact, Sticking, testing::ValuesIn(cases({0.95})), nameOf);
+const auto softRigid = testing::Values(WorldClass::softRigid);
+const auto otherWorlds = testing::Values(WorldClass::softMultiBody, WorldClass::deformable);
+
+INSTANTIATE_TEST_SUITE_P(Contact, Sliding, testing::Combine(softRigid, testing::ValuesIn(cases({1.05, 1.3, 2}))),
+                         nameOfWorldWith(nameOf));
+INSTANTIATE_TEST_SUITE_P(Contact, Sticking, testing::Combine(softRigid, testing::ValuesIn(cases({0.95}))),
+                         nameOfWorldWith(nameOf));
+INSTANTIATE_TEST_SUITE_P(OtherWorlds, Sliding,
+                         testing::Combine(otherWorlds, testing::Values(FrictionCase{1.3, 1e5, 60, false})),
+                         nameOfWorldWith(nameOf));
+INSTANTIATE_TEST_SUITE_P(OtherWorlds, Sticking,
+                         testing::Combine(otherWorlds, testing::Values(FrictionCase{0.95, 1e5, 60, false})),
+                         nameOfWorldWith(nameOf));
 
 }  // namespace
 }  // namespace bullet_fem

@@ -7,6 +7,7 @@
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/soft_boxes.h"
 
 namespace bullet_fem
@@ -34,7 +35,7 @@ struct Told : btCollisionWorld::ContactResultCallback
 };
 
 /// A cube at rest on a compound, and a sphere on the cube.
-class ContactQuery : public testing::Test
+class ContactQuery : public EachWorld
 {
 protected:
     void SetUp() override
@@ -63,16 +64,18 @@ protected:
         return count;
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    FemWorld m_world{GetParam()};
+    btFemSoftBodySolver& m_fem = m_world.fem();
     btRigidBody *m_ground, *m_sphere;
     btSoftBody* m_cube;
 };
 
-TEST_F(ContactQuery, OfASoftBodyTellsAllThatItTouches)
+INSTANTIATE_TEST_SUITE_P(Worlds, ContactQuery, eachWorld(), nameOfWorld);
+
+TEST_P(ContactQuery, OfASoftBodyTellsAllThatItTouches)
 {
     Told told;
-    m_world.world().contactTest(m_cube, told);
+    m_world.bullet().contactTest(m_cube, told);
     const int onGround = pointsWith(*m_cube, m_ground), onSphere = pointsWith(*m_cube, m_sphere);
     EXPECT_GT(onGround, 4);
     EXPECT_GT(onSphere, 0);
@@ -80,10 +83,10 @@ TEST_F(ContactQuery, OfASoftBodyTellsAllThatItTouches)
     for (std::size_t k = 0; k < told.m_points.size(); ++k) EXPECT_EQ(told.m_first[k], m_cube);
 }
 
-TEST_F(ContactQuery, OfARigidBodyTellsTheSoftOne)
+TEST_P(ContactQuery, OfARigidBodyTellsTheSoftOne)
 {
     Told told;
-    m_world.world().contactTest(m_sphere, told);
+    m_world.bullet().contactTest(m_sphere, told);
     ASSERT_GT(told.m_points.size(), 0u);
     EXPECT_EQ(int(told.m_points.size()), pointsWith(*m_cube, m_sphere));
     for (std::size_t k = 0; k < told.m_points.size(); ++k)
@@ -96,11 +99,11 @@ TEST_F(ContactQuery, OfARigidBodyTellsTheSoftOne)
     }
 }
 
-TEST_F(ContactQuery, OfAPairIsTheSameBothWays)
+TEST_P(ContactQuery, OfAPairIsTheSameBothWays)
 {
     Told there, back;
-    m_world.world().contactPairTest(m_cube, m_ground, there);
-    m_world.world().contactPairTest(m_ground, m_cube, back);
+    m_world.bullet().contactPairTest(m_cube, m_ground, there);
+    m_world.bullet().contactPairTest(m_ground, m_cube, back);
     ASSERT_GT(there.m_points.size(), 0u);
     EXPECT_EQ(int(there.m_points.size()), pointsWith(*m_cube, m_ground));
     ASSERT_EQ(back.m_points.size(), there.m_points.size());
@@ -117,12 +120,12 @@ TEST_F(ContactQuery, OfAPairIsTheSameBothWays)
     }
 }
 
-TEST_F(ContactQuery, OfSoftBodiesTellsWhereTheyTouch)
+TEST_P(ContactQuery, OfSoftBodiesTellsWhereTheyTouch)
 {
     btSoftBody &lower = addCube(btScalar(0.001), 1), &upper = addCube(btScalar(0.402), 1);
     m_world.step(60);
     Told told;
-    m_world.world().contactPairTest(&upper, &lower, told);
+    m_world.bullet().contactPairTest(&upper, &lower, told);
     EXPECT_EQ(int(told.m_points.size()), pointsWith(upper, &lower));
     ASSERT_GT(told.m_points.size(), 0u);
     EXPECT_GT(told.m_points[0].m_normalWorldOnB.z(), 0.9);
@@ -138,44 +141,44 @@ TEST_F(ContactQuery, OfSoftBodiesTellsWhereTheyTouch)
     }
 }
 
-TEST_F(ContactQuery, TellsNearPointsWithinTheThresholdOfThePairTest)
+TEST_P(ContactQuery, TellsNearPointsWithinTheThresholdOfThePairTest)
 {
-    m_world.info().m_gravity.setZero();
+    m_world.setSoftGravity(btVector3(0, 0, 0));
     btSoftBody& near = addCube(btScalar(0.003), 1);  // 3 mm; the slack is about 1 mm
     m_world.step(2);
     for (const btScalar threshold : {btScalar(0), btScalar(0.005)})
     {
         Told told;
         told.m_closestDistanceThreshold = threshold;
-        m_world.world().contactPairTest(&near, m_ground, told);
+        m_world.bullet().contactPairTest(&near, m_ground, told);
         EXPECT_EQ(told.m_points.empty(), threshold == 0);
     }
 }
 
-TEST_F(ContactQuery, TellsNothingOfBodiesApartRemovedOrNew)
+TEST_P(ContactQuery, TellsNothingOfBodiesApartRemovedOrNew)
 {
     btSoftBody& apart = addCube(1, 1);
     m_world.step();
     Told told;
-    m_world.world().contactTest(&apart, told);
-    m_world.world().contactPairTest(&apart, m_ground, told);
+    m_world.bullet().contactTest(&apart, told);
+    m_world.bullet().contactPairTest(&apart, m_ground, told);
     btSoftBody& fresh = addCube(btScalar(-0.01), 2);  // not stepped yet
-    m_world.world().contactPairTest(&fresh, m_ground, told);
-    m_world.world().contactPairTest(m_ground, &fresh, told);
+    m_world.bullet().contactPairTest(&fresh, m_ground, told);
+    m_world.bullet().contactPairTest(m_ground, &fresh, told);
     m_world.deleteRigid(*m_sphere);
-    m_world.world().contactTest(m_cube, told);
+    m_world.bullet().contactTest(m_cube, told);
     EXPECT_GT(told.m_points.size(), 0u);
     EXPECT_EQ(int(told.m_points.size()), pointsWith(*m_cube, m_ground));
 }
 
-TEST_F(ContactQuery, OfBodiesThatSpringsMoveIsWhatBulletMakesOfIt)
+TEST_P(ContactQuery, OfBodiesThatSpringsMoveIsWhatBulletMakesOfIt)
 {
     btSoftBody& ball = m_world.addSoft(btSoftBodyHelpers::CreateEllipsoid(
         m_world.info(), btVector3(1, 0, btScalar(0.2)), btVector3(0.3, 0.3, 0.3), 64));
     m_world.step();
     Told told;
-    m_world.world().contactTest(&ball, told);
-    m_world.world().contactPairTest(m_ground, &ball, told);
+    m_world.bullet().contactTest(&ball, told);
+    m_world.bullet().contactPairTest(m_ground, &ball, told);
     EXPECT_TRUE(told.m_points.empty());
 }
 

@@ -7,6 +7,7 @@
 
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -21,7 +22,7 @@ btSoftBody& addCube(SoftWorld& world, btScalar lowest)
 }
 
 /// A cube that rests on two static boxes, one under each half.
-class OnTwoBoxes : public testing::Test
+class OnTwoBoxes : public EachWorld
 {
 protected:
     void SetUp() override
@@ -36,13 +37,15 @@ protected:
         m_world.step(240);
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    FemWorld m_world{GetParam()};
+    btFemSoftBodySolver& m_fem = m_world.fem();
     btRigidBody* m_ground[2];
     btSoftBody* m_cube;
 };
 
-TEST_F(OnTwoBoxes, ContactForceIsThatOfEachOfThem)
+INSTANTIATE_TEST_SUITE_P(Worlds, OnTwoBoxes, eachWorld(), nameOfWorld);
+
+TEST_P(OnTwoBoxes, ContactForceIsThatOfEachOfThem)
 {
     const double weight = massOf(*m_cube) * kGravity;
     Vec3 mean[2], torque;  // about the cube's centre: how two supports share a weight is open, their torques are not
@@ -67,7 +70,7 @@ TEST_F(OnTwoBoxes, ContactForceIsThatOfEachOfThem)
     EXPECT_LT(norm(torque), 1e-4 * weight);  // the cube is 1 m wide
 }
 
-TEST_F(OnTwoBoxes, ContactsSayWhereAndWithWhom)
+TEST_P(OnTwoBoxes, ContactsSayWhereAndWithWhom)
 {
     const btAlignedObjectArray<btFemContact>& contacts = m_fem.contacts(m_cube);
     ASSERT_GT(contacts.size(), 0);
@@ -95,7 +98,7 @@ TEST_F(OnTwoBoxes, ContactsSayWhereAndWithWhom)
     }
 }
 
-TEST_F(OnTwoBoxes, TheReportHasEveryField)
+TEST_P(OnTwoBoxes, TheReportHasEveryField)
 {
     const btFemStepReport& report = m_fem.stepReport(m_cube);
     EXPECT_EQ(report.m_flags, 0);
@@ -111,7 +114,7 @@ TEST_F(OnTwoBoxes, TheReportHasEveryField)
         EXPECT_TRUE(std::isfinite(cost) && cost >= 0) << cost;
 }
 
-TEST_F(OnTwoBoxes, ContactsEndWithTheTouch)
+TEST_P(OnTwoBoxes, ContactsEndWithTheTouch)
 {
     m_cube->translate(btVector3(0, 0, 5));
     m_world.step();
@@ -121,10 +124,22 @@ TEST_F(OnTwoBoxes, ContactsEndWithTheTouch)
     EXPECT_EQ(m_fem.contactForce(m_cube, m_ground[0]), btVector3(0, 0, 0));
 }
 
-TEST(ContactOffset, KeepsTheSurfaceAway)
+class ContactOffset : public EachWorld
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, ContactOffset, eachWorld(), nameOfWorld);
+
+class ContactFlags : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, ContactFlags, eachWorld(), nameOfWorld);
+
+TEST_P(ContactOffset, KeepsTheSurfaceAway)
+{
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
     world.addPlane();
     btSoftBody& onPlane = addCube(world, btScalar(0.1));
     fem.setContactOffset(&onPlane, btScalar(0.05));
@@ -139,34 +154,37 @@ struct HardnessCase
     double m_share;     // of the penetration that a step takes back, at an m_erp of .2
 };
 
-class ContactHardness : public testing::TestWithParam<HardnessCase>
+class ContactHardness : public EachWorldWith<HardnessCase>
 {
 };
 
 TEST_P(ContactHardness, IsHowMuchOfAPenetrationAStepTakesBack)
 {
     constexpr double kDepth = 0.01;  // less than m_maxPushVelocity takes back in a step
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
-    world.info().m_gravity.setZero();
-    world.world().setGravity(btVector3(0, 0, 0));
-    world.addRigid(new btBoxShape(btVector3(2, 2, 1)), {btScalar(GetParam().m_mass), at(0, 0, -1)});
+    FemWorld world(worldClass(), btVector3(0, 0, 0));
+    world.addRigid(new btBoxShape(btVector3(2, 2, 1)), {btScalar(value().m_mass), at(0, 0, -1)});
     btSoftBody& cube = addCube(world, btScalar(-kDepth));
-    (GetParam().m_mass > 0 ? cube.m_cfg.kCHR : cube.m_cfg.kKHR) = static_cast<btScalar>(GetParam().m_hardness);
+    (value().m_mass > 0 ? cube.m_cfg.kCHR : cube.m_cfg.kKHR) = static_cast<btScalar>(value().m_hardness);
     world.step();
     // Up to a ten thousandth of the size may be left.
-    EXPECT_NEAR(lowestHeight(cube), -(1 - GetParam().m_share) * kDepth, 1.1e-4);
+    EXPECT_NEAR(lowestHeight(cube), -(1 - value().m_share) * kDepth, 1.1e-4);
+}
+
+std::string hardnessName(const HardnessCase& hardness)
+{
+    return std::string(hardness.m_mass > 0 ? "kCHR" : "kKHR") + std::to_string(int(1000 * hardness.m_hardness));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, ContactHardness,
-                         testing::Values(HardnessCase{0, 0.1, 0.2}, HardnessCase{0, 0.05, 0.1}, HardnessCase{0, 0, 0},
-                                         HardnessCase{0, 1, 1}, HardnessCase{1e9, 1, 0.2},
-                                         HardnessCase{1e9, 0.5, 0.1}));
+                         testing::Combine(eachWorld(),
+                                          testing::Values(HardnessCase{0, 0.1, 0.2}, HardnessCase{0, 0.05, 0.1},
+                                                          HardnessCase{0, 0, 0}, HardnessCase{0, 1, 1},
+                                                          HardnessCase{1e9, 1, 0.2}, HardnessCase{1e9, 0.5, 0.1})),
+                         nameOfWorldWith(hardnessName));
 
-TEST(ContactFlags, BodiesWithoutContactResponseAreNotTouched)
+TEST_P(ContactFlags, BodiesWithoutContactResponseAreNotTouched)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
     btRigidBody& ghost = world.addFloorBox();
     ghost.setCollisionFlags(ghost.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
     btSoftBody& cube = addCube(world, btScalar(0.01));
@@ -174,10 +192,9 @@ TEST(ContactFlags, BodiesWithoutContactResponseAreNotTouched)
     EXPECT_NEAR(velocityOf(cube).z, -kGravity * 30 * kStep, 1e-4);
 }
 
-TEST(ContactFlags, SoftBodiesThatCollideWithNothingFallThrough)
+TEST_P(ContactFlags, SoftBodiesThatCollideWithNothingFallThrough)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
+    FemWorld world(GetParam());
     world.addFloorBox();
     btSoftBody& cube = addCube(world, btScalar(0.01));
     cube.m_cfg.collisions = 0;

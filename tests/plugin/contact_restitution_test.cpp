@@ -8,6 +8,7 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/generators.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_world.h"
 
@@ -19,10 +20,10 @@ namespace
 constexpr double kSoftRestitution = 0.6, kFloorRestitution = 1;
 constexpr double kRestitution = kSoftRestitution * kFloorRestitution;  // Bullet's rule [-]
 
-class Bounce : public testing::TestWithParam<int>  // steps a second
+class Bounce : public EachWorldWith<int>  // steps a second
 {
 protected:
-    explicit Bounce(const btVector3& gravity = {0, 0, btScalar(-kGravity)}) : m_world(m_fem, gravity)
+    explicit Bounce(const btVector3& gravity = {0, 0, btScalar(-kGravity)}) : m_world(worldClass(), gravity)
     {
         m_floor = &m_world.addFloorBox();
         m_floor->setRestitution(btScalar(kFloorRestitution));
@@ -59,7 +60,7 @@ protected:
     // Steps until something pushes the body, a second at most.
     void stepUntilTouched(const btSoftBody& body)
     {
-        for (int k = 0; k < GetParam(); ++k)
+        for (int k = 0; k < value(); ++k)
         {
             step();
             if (impulseOn(m_fem, body).z > 0) return;
@@ -67,9 +68,9 @@ protected:
     }
 
     static constexpr double kRadius = 0.2;  // [m]
-    const double m_h = 1.0 / GetParam();    // [s]
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    const double m_h = 1.0 / value();       // [s]
+    FemWorld m_world;
+    btFemSoftBodySolver& m_fem = m_world.fem();
     btRigidBody* m_floor = nullptr;
 };
 
@@ -102,7 +103,7 @@ TEST_P(BounceInSpace, AStiffBodyLeavesAtItsShareOfTheSpeed)
     btSoftBody& ball = addBall(0.3);
     ball.setVelocity(btVector3(0, 0, -2));
     stepUntilTouched(ball);
-    for (int k = 0; k < GetParam() / 4; ++k) step();
+    for (int k = 0; k < value() / 4; ++k) step();
     EXPECT_NEAR(velocityOf(ball).z, 2 * kRestitution, 0.05 * 2 * kRestitution);
     EXPECT_LT(std::hypot(velocityOf(ball).x, velocityOf(ball).y), 0.02);
 }
@@ -114,7 +115,7 @@ TEST_P(Bounce, AStiffBallRisesToTheSquareOfItsRestitution)
     btSoftBody& ball = addBall(kDrop + kRadius);
     stepUntilTouched(ball);
     double apex = 0;
-    for (int k = 0; k < GetParam() / 2; ++k)
+    for (int k = 0; k < value() / 2; ++k)
     {
         step();
         apex = std::max(apex, lowestHeight(ball));
@@ -128,7 +129,7 @@ TEST_P(Bounce, WithoutRestitutionAStiffBallStays)
     btSoftBody& ball = addBall(1 + kRadius);
     ball.setRestitution(0);
     stepUntilTouched(ball);
-    for (int k = 0; k < GetParam() / 2; ++k)
+    for (int k = 0; k < value() / 2; ++k)
     {
         step();
         EXPECT_LT(lowestHeight(ball), 0.01);
@@ -139,8 +140,8 @@ TEST_P(Bounce, WithoutRestitutionAStiffBallStays)
 TEST_P(Bounce, ABodyComesToRest)
 {
     btSoftBody& cube = addCube(1e7, 0.25);
-    for (int k = 0; k < 3 * GetParam(); ++k) step();
-    for (int k = 0; k < GetParam(); ++k)
+    for (int k = 0; k < 3 * value(); ++k) step();
+    for (int k = 0; k < value(); ++k)
     {
         step();
         EXPECT_LT(fastestNode(cube), 1e-3);
@@ -148,8 +149,15 @@ TEST_P(Bounce, ABodyComesToRest)
     EXPECT_NEAR(m_fem.contactForce(&cube, m_floor).z(), massOf(cube) * kGravity, 1e-3 * massOf(cube) * kGravity);
 }
 
-INSTANTIATE_TEST_SUITE_P(Contact, Bounce, testing::Values(60, 240), testing::PrintToStringParamName());
-INSTANTIATE_TEST_SUITE_P(Contact, BounceInSpace, testing::Values(60, 240), testing::PrintToStringParamName());
+std::string rateName(int stepsPerSecond)
+{
+    return std::to_string(stepsPerSecond);
+}
+
+INSTANTIATE_TEST_SUITE_P(Contact, Bounce, testing::Combine(eachWorld(), testing::Values(60, 240)),
+                         nameOfWorldWith(rateName));
+INSTANTIATE_TEST_SUITE_P(Contact, BounceInSpace, testing::Combine(eachWorld(), testing::Values(60, 240)),
+                         nameOfWorldWith(rateName));
 
 class SpringyFloor : public Bounce
 {
@@ -161,7 +169,7 @@ TEST_P(SpringyFloor, YieldsByTheForceOverTheStiffnessOfItsPoints)
     constexpr double kStiffness = 2e3, kDamping = 100;  // of every point [N/m], [N s/m]
     m_floor->setContactStiffnessAndDamping(btScalar(kStiffness), btScalar(kDamping));
     btSoftBody& cube = addCube(1e8, 0.2);
-    for (int k = 0; k < 4 * GetParam(); ++k) step();
+    for (int k = 0; k < 4 * value(); ++k) step();
     const double weight = massOf(cube) * kGravity;
     const btAlignedObjectArray<btFemContact>& contacts = m_fem.contacts(&cube);
     ASSERT_EQ(contacts.size(), 25);
@@ -176,7 +184,8 @@ TEST_P(SpringyFloor, YieldsByTheForceOverTheStiffnessOfItsPoints)
     EXPECT_NEAR(force, weight, 1e-3 * weight);
 }
 
-INSTANTIATE_TEST_SUITE_P(Contact, SpringyFloor, testing::Values(60, 240), testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Contact, SpringyFloor, testing::Combine(eachWorld(), testing::Values(60, 240)),
+                         nameOfWorldWith(rateName));
 
 }  // namespace
 }  // namespace bullet_fem

@@ -8,6 +8,7 @@
 
 #include "bullet_bridge/soft_body_mesh.h"
 #include "plugin/btFemEnvelope.h"
+#include "plugin/each_world.h"
 #include "plugin/snapshot_scene.h"
 
 namespace bullet_fem
@@ -45,7 +46,7 @@ btSoftBody* copyOf(const btSoftBody& body, btSoftBodyWorldInfo& info)
 }
 
 /// A beam that hangs from one end, bent by its weight, at rest.
-class Definition : public testing::Test
+class Definition : public EachWorld
 {
 protected:
     Definition()
@@ -80,17 +81,19 @@ protected:
         EXPECT_TRUE(m_scene.m_fem.isFem(&body));
     }
 
-    SnapshotScene m_scene;
+    SnapshotScene m_scene{Coupling::swap, {}, GetParam()};
     btSoftBody* m_beam;
     Bytes m_saved;
     const double m_straight = 3.2;  ///< height of the tip at rest without weight [m]
 };
 
-TEST_F(Definition, KeepsTheRestShapeMaterialMassesAndPinsOfABentBody)
+INSTANTIATE_TEST_SUITE_P(Worlds, Definition, eachWorld(), nameOfWorld);
+
+TEST_P(Definition, KeepsTheRestShapeMaterialMassesAndPinsOfABentBody)
 {
     const double sag = m_straight - tip(*m_beam);
     ASSERT_GT(sag, 0.05);
-    SnapshotScene other;
+    SnapshotScene other{Coupling::swap, {}, GetParam()};
     btSoftBody& copy = other.m_world.addSoft(copyOf(*m_beam, other.m_world.info()));
     other.m_fem.applyDefinition(&copy, m_saved.data(), m_saved.size());
     for (int i = 0; i < copy.m_nodes.size(); ++i) EXPECT_EQ(copy.m_nodes[i].m_im, m_beam->m_nodes[i].m_im);
@@ -111,9 +114,9 @@ TEST_F(Definition, KeepsTheRestShapeMaterialMassesAndPinsOfABentBody)
     EXPECT_LT(tip(lost), tip(*m_beam) - 0.5 * sag);
 }
 
-TEST_F(Definition, IsTheSameOfTheBodyThatGotIt)
+TEST_P(Definition, IsTheSameOfTheBodyThatGotIt)
 {
-    SnapshotScene other;
+    SnapshotScene other{Coupling::swap, {}, GetParam()};
     btSoftBody& copy = other.m_world.addSoft(copyOf(*m_beam, other.m_world.info()));
     other.m_fem.applyDefinition(&copy, m_saved.data(), m_saved.size());
     Bytes again;
@@ -125,10 +128,10 @@ TEST_F(Definition, IsTheSameOfTheBodyThatGotIt)
     EXPECT_TRUE(again == m_saved);
 }
 
-TEST_F(Definition, AndASavedStateContinueBitForBit)
+TEST_P(Definition, AndASavedStateContinueBitForBit)
 {
     const Bytes state = m_scene.save();
-    SnapshotScene other;
+    SnapshotScene other{Coupling::swap, {}, GetParam()};
     btSoftBody& copy = other.m_world.addSoft(copyOf(*m_beam, other.m_world.info()));
     other.m_soft.push_back(&copy);
     other.m_fem.applyDefinition(&copy, m_saved.data(), m_saved.size());
@@ -138,21 +141,21 @@ TEST_F(Definition, AndASavedStateContinueBitForBit)
     EXPECT_TRUE(other.run(100) == m_scene.run(100));
 }
 
-TEST_F(Definition, KeepsTheFilledFractionsOfACage)
+TEST_P(Definition, KeepsTheFilledFractionsOfACage)
 {
     btSoftBody& cage = m_scene.add({{0.5, 0.5, 0.5}, {2, 2, 2}, {3, 0, 1}});
     for (int e = 0; e < cage.m_tetras.size(); e += 2) storeFill(cage, e, 0.5, 1.25);
     m_scene.m_world.step();
     Bytes bytes;
     m_scene.m_fem.saveDefinition(&cage, bytes);
-    SnapshotScene other;
+    SnapshotScene other{Coupling::swap, {}, GetParam()};
     btSoftBody& copy = other.m_world.addSoft(copyOf(cage, other.m_world.info()));
     other.m_fem.applyDefinition(&copy, bytes.data(), bytes.size());
     EXPECT_EQ(filledFractionsOf(copy), filledFractionsOf(cage));
     EXPECT_EQ(massScaleOf(copy), 1.25);
 }
 
-TEST_F(Definition, IsRefusedByOtherBodies)
+TEST_P(Definition, IsRefusedByOtherBodies)
 {
     btSoftBody& box = m_scene.add({{0.5, 0.5, 0.5}, {2, 2, 2}, {3, 0, 1}});
     m_scene.m_world.step();
@@ -166,7 +169,7 @@ TEST_F(Definition, IsRefusedByOtherBodies)
     EXPECT_FALSE(m_scene.m_fem.applyDefinition(nullptr, swapped.data(), swapped.size(), nullptr));
 }
 
-TEST_F(Definition, IsRefusedIfDamaged)
+TEST_P(Definition, IsRefusedIfDamaged)
 {
     expectRefused(*m_beam, {}, "header");
     expectRefused(*m_beam, m_scene.save(), "not a body's definition");
@@ -180,7 +183,7 @@ TEST_F(Definition, IsRefusedIfDamaged)
     }
 }
 
-TEST_F(Definition, OfAnyBytesIsRefusedOrMoves)
+TEST_P(Definition, OfAnyBytesIsRefusedOrMoves)
 {
     std::mt19937 random(3);
     int refused = 0;
@@ -201,7 +204,7 @@ TEST_F(Definition, OfAnyBytesIsRefusedOrMoves)
     EXPECT_GT(refused, 1000);
 }
 
-TEST_F(Definition, OfABodyThatCannotBeOneIsRefused)
+TEST_P(Definition, OfABodyThatCannotBeOneIsRefused)
 {
     Bytes bytes(10, 1);
     std::string why;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "plugin/each_world.h"
 #include "plugin/snapshot_scene.h"
 
 namespace bullet_fem
@@ -31,12 +32,12 @@ private:
     std::vector<std::unique_ptr<char[]>> m_pieces;
 };
 
-class Determinism : public testing::TestWithParam<Coupling>
+class Determinism : public EachWorldWith<Coupling>
 {
 protected:
     static std::vector<double> reference()
     {
-        SnapshotScene scene(GetParam());
+        SnapshotScene scene(value(), {}, worldClass());
         scene.build();
         return scene.run(kSteps);
     }
@@ -46,7 +47,7 @@ TEST_P(Determinism, TheSameBitsWithAnotherLayoutOfAddresses)
 {
     const std::vector<double> bits = reference();
     const Junk before(1);
-    SnapshotScene scene(GetParam());
+    SnapshotScene scene(value(), {}, worldClass());
     scene.addTower();
     const Junk between(2);
     scene.addSlope();
@@ -64,7 +65,7 @@ TEST_P(Determinism, TheSameBitsWithAnotherLayoutOfAddresses)
 TEST_P(Determinism, TheSameBitsAfterOtherBodiesCameAndWent)
 {
     const std::vector<double> bits = reference();
-    SnapshotScene scene(GetParam());
+    SnapshotScene scene(value(), {}, worldClass());
     btRigidBody& ground = scene.m_world.addFloorBox();
     std::vector<btSoftBody*> guests;
     for (int k = 0; k < 3; ++k)
@@ -83,8 +84,11 @@ TEST_P(Determinism, TheSameBitsAfterOtherBodiesCameAndWent)
     EXPECT_TRUE(scene.run(kSteps) == bits);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, Determinism, testing::Values(Coupling::swap, Coupling::coupled),
-                         [](const auto& test) { return couplingName(test.param); });
+INSTANTIATE_TEST_SUITE_P(Swap, Determinism, testing::Combine(eachWorld(), testing::Values(Coupling::swap)),
+                         nameOfWorldWith(couplingName));
+INSTANTIATE_TEST_SUITE_P(Coupled, Determinism,
+                         testing::Combine(testing::Values(WorldClass::softRigid), testing::Values(Coupling::coupled)),
+                         nameOfWorldWith(couplingName));
 
 }  // namespace
 }  // namespace bullet_fem

@@ -10,6 +10,7 @@
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -42,7 +43,7 @@ std::vector<const btPersistentManifold*> manifoldsOf(SoftWorld& world, const btC
                                                      const btCollisionObject& b)
 {
     std::vector<const btPersistentManifold*> found;
-    btDispatcher& dispatcher = *world.world().getDispatcher();
+    btDispatcher& dispatcher = *world.bullet().getDispatcher();
     for (int k = 0; k < dispatcher.getNumManifolds(); ++k)
     {
         const btPersistentManifold* m = dispatcher.getManifoldByIndexInternal(k);
@@ -55,11 +56,11 @@ std::vector<const btPersistentManifold*> manifoldsOf(SoftWorld& world, const btC
 
 int countOf(SoftWorld& world)
 {
-    return world.world().getDispatcher()->getNumManifolds();
+    return world.bullet().getDispatcher()->getNumManifolds();
 }
 
 /// A cube at rest on a floor, with manifolds.
-class Manifolds : public testing::Test
+class Manifolds : public EachWorld
 {
 protected:
     void SetUp() override
@@ -76,11 +77,13 @@ protected:
         return *found.at(0);
     }
 
-    btFemSoftBodySolver m_fem{withManifolds()};
-    SoftWorld m_world{m_fem};
+    FemWorld m_world{GetParam(), withManifolds()};
+    btFemSoftBodySolver& m_fem = m_world.fem();
     btRigidBody* m_floor;
     btSoftBody* m_cube;
 };
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Manifolds, eachWorld(), nameOfWorld);
 
 TEST(ManifoldsAreOff, UnlessAskedFor)
 {
@@ -92,14 +95,14 @@ TEST(ManifoldsAreOff, UnlessAskedFor)
     EXPECT_EQ(countOf(world), 0);
 }
 
-TEST_F(Manifolds, LeaveBulletsContactArraysWithTheBody)
+TEST_P(Manifolds, LeaveBulletsContactArraysWithTheBody)
 {
     ASSERT_GT(m_cube->m_rcontacts.size(), 0);
     m_world.world().removeSoftBody(m_cube);
     EXPECT_EQ(m_cube->m_rcontacts.size() + m_cube->m_faceRigidContacts.size(), 0);
 }
 
-TEST_F(Manifolds, HaveTheRigidBodyFirstAndAreLeftAloneByTheRigidSolver)
+TEST_P(Manifolds, HaveTheRigidBodyFirstAndAreLeftAloneByTheRigidSolver)
 {
     EXPECT_EQ(countOf(m_world), 1);
     EXPECT_EQ(manifold().getBody0(), m_floor);
@@ -107,7 +110,7 @@ TEST_F(Manifolds, HaveTheRigidBodyFirstAndAreLeftAloneByTheRigidSolver)
     EXPECT_EQ(manifold().getContactProcessingThreshold(), -BT_LARGE_FLOAT);
 }
 
-TEST_F(Manifolds, HoldTheFourDeepestContactPoints)
+TEST_P(Manifolds, HoldTheFourDeepestContactPoints)
 {
     const auto& contacts = m_fem.contacts(m_cube);
     std::vector<btScalar> gaps;
@@ -140,7 +143,7 @@ TEST_F(Manifolds, HoldTheFourDeepestContactPoints)
     }
 }
 
-TEST_F(Manifolds, StayTheSameWhileTheTouchLasts)
+TEST_P(Manifolds, StayTheSameWhileTheTouchLasts)
 {
     const btPersistentManifold* first = &manifold();
     const int lifeTime = first->getContactPoint(0).getLifeTime();
@@ -153,14 +156,14 @@ TEST_F(Manifolds, StayTheSameWhileTheTouchLasts)
     EXPECT_EQ(first->getContactPoint(0).m_userPersistentData, &user);
 }
 
-TEST_F(Manifolds, GoWithTheTouch)
+TEST_P(Manifolds, GoWithTheTouch)
 {
     m_cube->translate(btVector3(0, 0, btScalar(0.05)));
     m_world.step();
     EXPECT_EQ(countOf(m_world), 0);
 }
 
-TEST_F(Manifolds, GoAtOnceWithTheRigidBody)
+TEST_P(Manifolds, GoAtOnceWithTheRigidBody)
 {
     m_world.deleteRigid(*m_floor);
     EXPECT_EQ(countOf(m_world), 0);
@@ -168,7 +171,7 @@ TEST_F(Manifolds, GoAtOnceWithTheRigidBody)
     EXPECT_EQ(countOf(m_world), 0);
 }
 
-TEST_F(Manifolds, GoAtOnceWithTheSoftBody)
+TEST_P(Manifolds, GoAtOnceWithTheSoftBody)
 {
     m_world.deleteSoft(*m_cube);
     EXPECT_EQ(countOf(m_world), 0);
@@ -176,14 +179,14 @@ TEST_F(Manifolds, GoAtOnceWithTheSoftBody)
     EXPECT_EQ(countOf(m_world), 0);
 }
 
-TEST_F(Manifolds, SurviveASolverThatForgetsTheBody)
+TEST_P(Manifolds, SurviveASolverThatForgetsTheBody)
 {
     m_fem.forget(m_cube);
     m_world.step(2);
     EXPECT_EQ(countOf(m_world), 1);
 }
 
-TEST_F(Manifolds, OfABodyThatSleepsAreKeptAndDoNotKeepItAwake)
+TEST_P(Manifolds, OfABodyThatSleepsAreKeptAndDoNotKeepItAwake)
 {
     m_floor->forceActivationState(ISLAND_SLEEPING);
     m_cube->forceActivationState(ACTIVE_TAG);

@@ -6,6 +6,7 @@
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_world.h"
 
@@ -47,11 +48,19 @@ std::vector<btSoftBody*> addPlainBodies(SoftWorld& world)
     return bodies;
 }
 
-TEST(PlainBodies, MoveBitForBitAsWithBulletsOwnSolverBesideAFemBody)
+// In a deformable world they are its own solver's.
+class PlainBodies : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, PlainBodies, testing::Values(WorldClass::softRigid, WorldClass::softMultiBody),
+                         nameOfWorld);
+
+TEST_P(PlainBodies, MoveBitForBitAsWithBulletsOwnSolverBesideAFemBody)
 {
     btDefaultSoftBodySolver plain;
     btFemSoftBodySolver fem;
-    SoftWorld plainWorld(plain), femWorld(fem);
+    SoftWorld plainWorld(GetParam(), plain), femWorld(GetParam(), fem);
     const std::vector<btSoftBody*> expected = addPlainBodies(plainWorld), bodies = addPlainBodies(femWorld);
     btSoftBody& cube = femWorld.addSoft(btFemHelpers::createBox(femWorld.info(), btVector3(40, 40, btScalar(0.6)),
                                                                 btVector3(0.5, 0.5, 0.5), btScalar(0.5)));
@@ -74,13 +83,12 @@ TEST(PlainBodies, MoveBitForBitAsWithBulletsOwnSolverBesideAFemBody)
 }
 
 // Bullet's own handlers would move the nodes of a FEM body behind its back.
-TEST(PlainBodies, DoNotMoveFemBodies)
+TEST_P(PlainBodies, DoNotMoveFemBodies)
 {
     std::vector<btScalar> bits[2];
     for (const int k : {0, 1})
     {
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem);
+        FemWorld world(GetParam());
         world.addFloorBox();
         btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.51)),
                                                                  btVector3(0.5, 0.5, 0.5), btScalar(0.25)));

@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST_F(Sleeping, ARigidBodyThatFallsOnItWakesIt)
+TEST_P(Sleeping, ARigidBodyThatFallsOnItWakesIt)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -32,7 +32,7 @@ TEST_F(Sleeping, ARigidBodyThatFallsOnItWakesIt)
     EXPECT_GT(lowest, -1e-3 * 0.4);
 }
 
-TEST_F(Sleeping, ABodyWithARigidOneOnTopSleeps)
+TEST_P(Sleeping, ABodyWithARigidOneOnTopSleeps)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -44,7 +44,7 @@ TEST_F(Sleeping, ABodyWithARigidOneOnTopSleeps)
     EXPECT_NEAR(m_fem.contactForce(&cube, &sphere).z(), -5 * kGravity, 1e-3 * 5 * kGravity);
 }
 
-TEST_F(Sleeping, APusherWakesItAndMovesIt)
+TEST_P(Sleeping, APusherWakesItAndMovesIt)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -61,7 +61,7 @@ TEST_F(Sleeping, APusherWakesItAndMovesIt)
     EXPECT_GT(cube.m_nodes[cube.m_nodes.size() - 1].m_x.x(), 0.3);
 }
 
-TEST_F(Sleeping, APusherThatComesInOneStepIsFeltInThatStep)
+TEST_P(Sleeping, APusherThatComesInOneStepIsFeltInThatStep)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -74,7 +74,7 @@ TEST_F(Sleeping, APusherThatComesInOneStepIsFeltInThatStep)
     EXPECT_GT(m_fem.stepReport(&cube).m_contacts, 0);
 }
 
-TEST_F(Sleeping, AStaticObjectPutBesideItWakesIt)
+TEST_P(Sleeping, AStaticObjectPutBesideItWakesIt)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -86,7 +86,7 @@ TEST_F(Sleeping, AStaticObjectPutBesideItWakesIt)
     EXPECT_TRUE(cube.isActive());
 }
 
-TEST_F(Sleeping, AnObjectAtRestThatTheUserKeepsAwakeDoesNotWakeIt)
+TEST_P(Sleeping, AnObjectAtRestThatTheUserKeepsAwakeDoesNotWakeIt)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -99,7 +99,7 @@ TEST_F(Sleeping, AnObjectAtRestThatTheUserKeepsAwakeDoesNotWakeIt)
 }
 
 // A body with a sphere that hangs 0.9 m below it by an anchor: Bullet has them in two islands.
-class SleepingHanging : public Sleeping
+class SleepingHanging : public SleepingScene, public testing::Test
 {
 protected:
     SleepingHanging()
@@ -145,7 +145,7 @@ TEST_F(SleepingHanging, ItsRemovalWakesTheBody)
     EXPECT_TRUE(m_cube.isActive());
 }
 
-class SleepingSupport : public Sleeping, public testing::WithParamInterface<int>
+class SleepingSupport : public SleepingScene, public testing::TestWithParam<int>
 {
 protected:
     // A board of 1 m on the ground, of the given mass.

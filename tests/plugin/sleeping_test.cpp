@@ -16,7 +16,9 @@ namespace bullet_fem
 namespace
 {
 
-TEST_F(Sleeping, ABodyAtRestSleepsWithinFiveSecondsStaysPutAndKeepsItsContacts)
+INSTANTIATE_TEST_SUITE_P(Worlds, Sleeping, eachWorld(), nameOfWorld);
+
+TEST_P(Sleeping, ABodyAtRestSleepsWithinFiveSecondsStaysPutAndKeepsItsContacts)
 {
     btRigidBody& ground = addGround();
     btSoftBody& cube = addCube();
@@ -31,7 +33,7 @@ TEST_F(Sleeping, ABodyAtRestSleepsWithinFiveSecondsStaysPutAndKeepsItsContacts)
     EXPECT_NEAR(m_fem.contactForce(&cube, &ground).z(), weight, 1e-3 * weight);
 }
 
-TEST_F(Sleeping, ASleepingBodyIsNotSolvedFor)
+TEST_P(Sleeping, ASleepingBodyIsNotSolvedFor)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -46,7 +48,7 @@ TEST_F(Sleeping, ASleepingBodyIsNotSolvedFor)
     EXPECT_GT(report.m_nodes, 0);
 }
 
-TEST_F(Sleeping, ABodyThatIsWokenLiesWhereItLay)
+TEST_P(Sleeping, ABodyThatIsWokenLiesWhereItLay)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -74,8 +76,10 @@ void PrintTo(const Write& write, std::ostream* stream)
     *stream << write.m_name;
 }
 
-class SleepingWritten : public Sleeping, public testing::WithParamInterface<Write>
+class SleepingWritten : public SleepingScene, public EachWorldWith<Write>
 {
+protected:
+    SleepingWritten() : SleepingScene(worldClass()) {}
 };
 
 TEST_P(SleepingWritten, WakesInTheNextStep)
@@ -83,7 +87,7 @@ TEST_P(SleepingWritten, WakesInTheNextStep)
     addGround();
     btSoftBody& cube = addCube();
     sleepAll(cube);
-    GetParam().m_do(m_fem, cube);
+    value().m_do(m_fem, cube);
     m_world.step();
     EXPECT_TRUE(cube.isActive());
     EXPECT_GT(m_fem.stepReport(&cube).m_contactSweeps + fastestNode(cube), 0);  // on the ground, or lifted off it
@@ -98,7 +102,7 @@ TEST_P(SleepingWritten, StaysAwakeWhenAboutToSleep)
     btSoftBody& cube = addCube();
     for (int k = 0; k < kFiveSeconds && cube.getActivationState() != WANTS_DEACTIVATION; ++k) m_world.step();
     ASSERT_EQ(cube.getActivationState(), WANTS_DEACTIVATION);
-    GetParam().m_do(m_fem, cube);
+    value().m_do(m_fem, cube);
     m_world.step();
     EXPECT_TRUE(cube.isActive());
     m_world.step(60);
@@ -127,15 +131,20 @@ const Write kWrites[] = {
     {"Wind", [](btFemSoftBodySolver&, btSoftBody& b) { b.setWindVelocity(btVector3(10, 0, 0)); }},
     {"Pressure", [](btFemSoftBodySolver&, btSoftBody& b) { b.m_cfg.kPR = 100; }},
     {"Friction", [](btFemSoftBodySolver&, btSoftBody& b) { b.m_cfg.kDF = 0; }},
-    {"Gravity", [](btFemSoftBodySolver&, btSoftBody& b) { b.m_worldInfo->m_gravity.setX(1); }},
+    {"Gravity",
+     [](btFemSoftBodySolver&, btSoftBody& b)
+     {
+         b.m_worldInfo->m_gravity.setX(1);
+         b.m_gravityFactor = btScalar(0.99);  // of a deformable world's force
+     }},
     {"Activation", [](btFemSoftBodySolver&, btSoftBody& b) { b.activate(true); }},
 };
 
-INSTANTIATE_TEST_SUITE_P(Writes, SleepingWritten, testing::ValuesIn(kWrites),
-                         [](const auto& write) { return std::string(write.param.m_name); });
+INSTANTIATE_TEST_SUITE_P(Writes, SleepingWritten, testing::Combine(eachWorld(), testing::ValuesIn(kWrites)),
+                         nameOfWorldWith([](const Write& write) { return write.m_name; }));
 
 // Where nothing is wrong with a write, it is taken back; and so is the sleep.
-TEST_F(Sleeping, ABadWriteIsRestoredAndNotSleptOver)
+TEST_P(Sleeping, ABadWriteIsRestoredAndNotSleptOver)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -146,7 +155,7 @@ TEST_F(Sleeping, ABadWriteIsRestoredAndNotSleptOver)
     EXPECT_TRUE(allFinite(cube));
 }
 
-TEST_F(Sleeping, TheSameTargetAgainDoesNotWake)
+TEST_P(Sleeping, TheSameTargetAgainDoesNotWake)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -164,7 +173,7 @@ TEST_F(Sleeping, TheSameTargetAgainDoesNotWake)
     EXPECT_NEAR(cube.m_nodes[0].m_x.z(), target.z() + 0.001, 1e-6);
 }
 
-TEST_F(Sleeping, WhatIsDrivenSlowerThanTheThresholdMovesOn)
+TEST_P(Sleeping, WhatIsDrivenSlowerThanTheThresholdMovesOn)
 {
     btSoftBody& cube = addCube();
     for (int i = 0; i < cube.m_nodes.size(); ++i)
@@ -177,7 +186,7 @@ TEST_F(Sleeping, WhatIsDrivenSlowerThanTheThresholdMovesOn)
     EXPECT_NEAR(cube.m_nodes[0].m_x.x() - start, 0.1, 1e-4);
 }
 
-TEST_F(Sleeping, AForceThatIsGivenEveryStepIsFelt)
+TEST_P(Sleeping, AForceThatIsGivenEveryStepIsFelt)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -191,26 +200,25 @@ TEST_F(Sleeping, AForceThatIsGivenEveryStepIsFelt)
 
 void pullFromTick(btDynamicsWorld* world, btScalar)
 {
-    auto* soft = static_cast<btSoftRigidDynamicsWorld*>(world)->getSoftBodyArray()[0];
-    soft->addForce(btVector3(1, 0, 0), 3);
+    static_cast<btSoftBody*>(world->getWorldUserInfo())->addForce(btVector3(1, 0, 0), 3);
 }
 
-TEST_F(Sleeping, AForceFromATickCallbackIsFelt)
+TEST_P(Sleeping, AForceFromATickCallbackIsFelt)
 {
     addGround();
     btSoftBody& cube = addCube();
-    m_world.world().setInternalTickCallback(pullFromTick);
+    m_world.bullet().setInternalTickCallback(pullFromTick, &cube);
     for (int k = 0; k < kFiveSeconds; ++k)
     {
         m_world.step();
         ASSERT_TRUE(cube.isActive()) << "step " << k;
     }
-    m_world.world().setInternalTickCallback(nullptr);
+    m_world.bullet().setInternalTickCallback(nullptr);
     m_world.step(kFiveSeconds);
     EXPECT_FALSE(cube.isActive());
 }
 
-TEST_F(Sleeping, NeighboursThatDoNotTouchSleepOnTheirOwn)
+TEST_P(Sleeping, NeighboursThatDoNotTouchSleepOnTheirOwn)
 {
     addGround();
     btSoftBody& left = addCube(-1);
@@ -225,7 +233,7 @@ TEST_F(Sleeping, NeighboursThatDoNotTouchSleepOnTheirOwn)
     EXPECT_EQ(bitsOf(left), leftAsleep);
 }
 
-TEST_F(Sleeping, DisabledDeactivationNeverSleeps)
+TEST_P(Sleeping, DisabledDeactivationNeverSleeps)
 {
     addGround();
     btSoftBody& cube = addCube(0, btScalar(0.01), DISABLE_DEACTIVATION);
@@ -234,7 +242,7 @@ TEST_F(Sleeping, DisabledDeactivationNeverSleeps)
     EXPECT_GT(m_fem.stepReport(&cube).m_contacts, 0);
 }
 
-TEST_F(Sleeping, DisabledSimulationStaysPutWhateverHappens)
+TEST_P(Sleeping, DisabledSimulationStaysPutWhateverHappens)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -248,7 +256,7 @@ TEST_F(Sleeping, DisabledSimulationStaysPutWhateverHappens)
     EXPECT_EQ(bitsOf(cube), before);
 }
 
-TEST_F(Sleeping, BulletsGlobalSwitchKeepsAllAwake)
+TEST_P(Sleeping, BulletsGlobalSwitchKeepsAllAwake)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -261,7 +269,7 @@ TEST_F(Sleeping, BulletsGlobalSwitchKeepsAllAwake)
     EXPECT_FALSE(cube.isActive());
 }
 
-TEST_F(Sleeping, TheThresholdIsTheBodys)
+TEST_P(Sleeping, TheThresholdIsTheBodys)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -270,12 +278,11 @@ TEST_F(Sleeping, TheThresholdIsTheBodys)
     EXPECT_TRUE(cube.isActive());
 }
 
-TEST_F(Sleeping, IsRepeatableToTheBit)
+TEST_P(Sleeping, IsRepeatableToTheBit)
 {
     const auto run = [](std::vector<btScalar>& bits)
     {
-        btFemSoftBodySolver fem;
-        SoftWorld world(fem);
+        FemWorld world(GetParam());
         world.addFloorBox();
         btSoftBody* cube = btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.25)),
                                                    btVector3(0.2, 0.2, 0.2), btScalar(0.1));

@@ -6,7 +6,7 @@
 
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/soft_world.h"
+#include "plugin/each_world.h"
 
 namespace bullet_fem
 {
@@ -14,9 +14,11 @@ namespace bullet_fem
 constexpr int kFiveSeconds = 300;  ///< steps in which a body at rest must have fallen asleep
 
 /// Cubes of 0.4 m that may sleep, and rigid bodies that do as Bullet's do by default.
-class Sleeping : public testing::Test
+class SleepingScene
 {
 protected:
+    explicit SleepingScene(WorldClass worldClass = WorldClass::softRigid) : m_world(worldClass) {}
+
     btSoftBody& addCube(btScalar x = 0, btScalar height = btScalar(0.01), int state = ACTIVE_TAG)
     {
         btSoftBody* cube = btFemHelpers::createBox(m_world.info(), btVector3(x, 0, height + btScalar(0.2)),
@@ -47,9 +49,9 @@ protected:
     btRigidBody& addPusher(const btTransform& transform)
     {
         btRigidBody& pusher = m_world.addRigid(new btBoxShape(btVector3(0.1, 0.1, 0.1)), {0, transform});
-        m_world.world().removeRigidBody(&pusher);
+        m_world.bullet().removeRigidBody(&pusher);
         pusher.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
-        m_world.world().addRigidBody(&pusher);
+        m_world.bullet().addRigidBody(&pusher);
         return pusher;
     }
 
@@ -59,8 +61,14 @@ protected:
         ASSERT_EQ(body.getActivationState(), ISLAND_SLEEPING);
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    FemWorld m_world;
+    btFemSoftBodySolver& m_fem = m_world.fem();
+};
+
+class Sleeping : public SleepingScene, public EachWorld
+{
+protected:
+    Sleeping() : SleepingScene(GetParam()) {}
 };
 
 }  // namespace bullet_fem

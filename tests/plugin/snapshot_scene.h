@@ -20,8 +20,9 @@ namespace bullet_fem
 class SnapshotScene
 {
 public:
-    explicit SnapshotScene(Coupling coupling = Coupling::swap, const btFemSolverInfo& info = {})
-        : m_ground(makeTriangleMesh()), m_fem(info), m_world(m_fem, coupling)
+    explicit SnapshotScene(Coupling coupling = Coupling::swap, const btFemSolverInfo& info = {},
+                           WorldClass worldClass = WorldClass::softRigid)
+        : m_ground(makeTriangleMesh()), m_world(worldClass, coupling, {0, 0, btScalar(-kGravity)}, info)
     {
     }
 
@@ -195,8 +196,8 @@ public:
     }
 
     ConcaveShape m_ground;
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world;
+    FemWorld m_world;
+    btFemSoftBodySolver& m_fem = m_world.fem();
     std::vector<btSoftBody*> m_soft;
     std::vector<btRigidBody*> m_rigid;
 };

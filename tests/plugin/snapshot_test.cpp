@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "plugin/each_world.h"
 #include "plugin/snapshot_scene.h"
 
 namespace bullet_fem
@@ -26,6 +27,21 @@ struct SnapshotCase
     int m_threads;
 };
 
+void expectToContinueInTheMidstOfContact(SnapshotScene& scene)
+{
+    scene.build();
+    scene.m_world.step(40);
+    ASSERT_GT(scene.contacts(), 50);
+    const SnapshotScene::Saved saved = scene.saveAll();
+    const std::vector<double> state = scene.state(), bits = scene.run(kLong);
+    scene.restore(saved);
+    EXPECT_TRUE(scene.state() == state);
+    EXPECT_TRUE(scene.save() == saved.m_fem);
+    EXPECT_TRUE(scene.run(kLong) == bits);
+    scene.restore(saved);
+    EXPECT_TRUE(scene.run(kLong) == bits);
+}
+
 class Snapshot : public testing::TestWithParam<SnapshotCase>
 {
 protected:
@@ -34,18 +50,21 @@ protected:
 
 TEST_P(Snapshot, ContinuesBitForBitInTheMidstOfContact)
 {
-    m_scene.build();
-    m_scene.m_world.step(40);
-    ASSERT_GT(m_scene.contacts(), 50);
-    const SnapshotScene::Saved saved = m_scene.saveAll();
-    const std::vector<double> state = m_scene.state(), bits = m_scene.run(kLong);
-    m_scene.restore(saved);
-    EXPECT_TRUE(m_scene.state() == state);
-    EXPECT_TRUE(m_scene.save() == saved.m_fem);
-    EXPECT_TRUE(m_scene.run(kLong) == bits);
-    m_scene.restore(saved);
-    EXPECT_TRUE(m_scene.run(kLong) == bits);
+    expectToContinueInTheMidstOfContact(m_scene);
 }
+
+class SnapshotInOtherWorlds : public EachWorld
+{
+};
+
+TEST_P(SnapshotInOtherWorlds, ContinuesBitForBitInTheMidstOfContact)
+{
+    SnapshotScene scene(Coupling::swap, {}, GetParam());
+    expectToContinueInTheMidstOfContact(scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, SnapshotInOtherWorlds,
+                         testing::Values(WorldClass::softMultiBody, WorldClass::deformable), nameOfWorld);
 
 TEST_P(Snapshot, OfBodiesThatFallAsleepOrSleepContinuesBitForBit)
 {

@@ -26,7 +26,7 @@ struct Count
     int m_began = 0, m_lasting = 0, m_ended = 0;
 };
 
-class Touches : public testing::Test
+class Touches : public EachWorld
 {
 protected:
     const btAlignedObjectArray<btFemTouch>& of(const btSoftBody& body) const { return m_fem.touches(&body); }
@@ -45,11 +45,13 @@ protected:
         }
     }
 
-    btFemSoftBodySolver m_fem;
-    SoftWorld m_world{m_fem};
+    FemWorld m_world{GetParam()};
+    btFemSoftBodySolver& m_fem = m_world.fem();
 };
 
-TEST_F(Touches, AreNoneInFlight)
+INSTANTIATE_TEST_SUITE_P(Worlds, Touches, eachWorld(), nameOfWorld);
+
+TEST_P(Touches, AreNoneInFlight)
 {
     btSoftBody& cube = addSmallCube(m_world, 3);
     m_world.addFloorBox();
@@ -58,7 +60,7 @@ TEST_F(Touches, AreNoneInFlight)
     EXPECT_EQ(m_fem.touches(nullptr).size(), 0);
 }
 
-TEST_F(Touches, OfABodyThatFallsAndRestsBeginOnceAndLast)
+TEST_P(Touches, OfABodyThatFallsAndRestsBeginOnceAndLast)
 {
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.02));
@@ -75,7 +77,7 @@ TEST_F(Touches, OfABodyThatFallsAndRestsBeginOnceAndLast)
     EXPECT_EQ(of(cube)[0].m_otherId, floor.getBroadphaseHandle()->m_uniqueId);
 }
 
-TEST_F(Touches, SumTheImpulsesOfTheirPoints)
+TEST_P(Touches, SumTheImpulsesOfTheirPoints)
 {
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
@@ -91,7 +93,7 @@ TEST_F(Touches, SumTheImpulsesOfTheirPoints)
     EXPECT_NEAR(touch.m_normalImpulse, massOf(cube) * kGravity * kStep, 1e-2 * massOf(cube) * kGravity * kStep);
 }
 
-TEST_F(Touches, EndOnceAndWithoutAnImpulse)
+TEST_P(Touches, EndOnceAndWithoutAnImpulse)
 {
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
@@ -109,9 +111,9 @@ TEST_F(Touches, EndOnceAndWithoutAnImpulse)
     EXPECT_EQ(of(cube).size(), 0);
 }
 
-TEST_F(Touches, ALiftWithinTheSlackDoesNotEndThem)
+TEST_P(Touches, ALiftWithinTheSlackDoesNotEndThem)
 {
-    m_world.info().m_gravity.setZero();
+    m_world.setSoftGravity(btVector3(0, 0, 0));
     m_world.addFloorBox();
     btSoftBody& cube = addSmallCube(m_world, btScalar(-1e-5));
     m_world.step();
@@ -128,9 +130,9 @@ TEST_F(Touches, ALiftWithinTheSlackDoesNotEndThem)
     }
 }
 
-TEST_F(Touches, ABodyThatComesNearWithoutTouchingHasNone)
+TEST_P(Touches, ABodyThatComesNearWithoutTouchingHasNone)
 {
-    m_world.info().m_gravity.setZero();
+    m_world.setSoftGravity(btVector3(0, 0, 0));
     m_world.addFloorBox();
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.0002));
     m_world.step(5);
@@ -138,7 +140,7 @@ TEST_F(Touches, ABodyThatComesNearWithoutTouchingHasNone)
     EXPECT_EQ(of(cube).size(), 0);
 }
 
-TEST_F(Touches, OfSeveralObjectsAreToldApart)
+TEST_P(Touches, OfSeveralObjectsAreToldApart)
 {
     btRigidBody &left = addBlock(m_world, btScalar(-0.2)), &right = addBlock(m_world, btScalar(0.25));
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
@@ -154,14 +156,14 @@ TEST_F(Touches, OfSeveralObjectsAreToldApart)
     EXPECT_EQ(of(cube)[1 - gone].m_other, &left);
 }
 
-TEST_F(Touches, AnotherObjectAtTheSameAddressIsAnotherTouch)
+TEST_P(Touches, AnotherObjectAtTheSameAddressIsAnotherTouch)
 {
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
     m_world.step(60);
     const int id = of(cube)[0].m_otherId;
-    m_world.world().removeRigidBody(&floor);
-    m_world.world().addRigidBody(&floor);  // gets another id, as a new one at the address would
+    m_world.bullet().removeRigidBody(&floor);
+    m_world.bullet().addRigidBody(&floor);  // gets another id, as a new one at the address would
     m_world.step();
     ASSERT_EQ(of(cube).size(), 2);
     EXPECT_EQ(of(cube)[0].m_otherId, id);
@@ -170,7 +172,7 @@ TEST_F(Touches, AnotherObjectAtTheSameAddressIsAnotherTouch)
     EXPECT_EQ(of(cube)[1].m_state, State::began);
 }
 
-TEST_F(Touches, OfTwoSoftBodiesAgree)
+TEST_P(Touches, OfTwoSoftBodiesAgree)
 {
     m_world.addFloorBox();
     btSoftBody &lower = addSmallCube(m_world, btScalar(0.001)), &upper = addSmallCube(m_world, btScalar(0.402));
@@ -202,22 +204,23 @@ TEST_F(Touches, OfTwoSoftBodiesAgree)
         EXPECT_EQ(of(lower)[k].m_state, of(lower)[k].m_other == gone ? State::ended : State::lasting);
 }
 
-TEST_F(Touches, WithTheCoupledSolverToo)
+TEST(TouchesInTheCoupledWorld, AreToldToo)
 {
-    SoftWorld world(m_fem, Coupling::coupled);
+    FemWorld world(WorldClass::softRigid, Coupling::coupled);
     btRigidBody& block = addRigidBox(world, {0.2, 0.2, 0.2}, {10, at(0, 0, btScalar(0.52))});
     btRigidBody& floor = world.addFloorBox();
     btSoftBody& cube = addSmallCube(world, btScalar(0.001));
     world.step(180);
-    ASSERT_EQ(of(cube).size(), 2);
+    const btAlignedObjectArray<btFemTouch>& touches = world.fem().touches(&cube);
+    ASSERT_EQ(touches.size(), 2);
     for (int k = 0; k < 2; ++k)
     {
-        EXPECT_EQ(of(cube)[k].m_state, State::lasting);
-        EXPECT_EQ(of(cube)[k].m_other, k == 0 ? static_cast<btCollisionObject*>(&floor) : &block);  // floor came first
+        EXPECT_EQ(touches[k].m_state, State::lasting);
+        EXPECT_EQ(touches[k].m_other, k == 0 ? static_cast<btCollisionObject*>(&floor) : &block);  // floor came first
     }
 }
 
-TEST_F(Touches, OfAThrownBodyBeginAndEndAtEveryBounce)
+TEST_P(Touches, OfAThrownBodyBeginAndEndAtEveryBounce)
 {
     m_world.addFloorBox().setRestitution(1);
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.3));
@@ -230,7 +233,7 @@ TEST_F(Touches, OfAThrownBodyBeginAndEndAtEveryBounce)
     EXPECT_LE(count.m_began, 30);
 }
 
-class SleepingTouches : public Sleeping
+class SleepingTouches : public SleepingScene, public testing::Test
 {
 };
 
