@@ -172,7 +172,7 @@ TEST_P(BulletFields, CheckContactTellsDistanceAndNormalOfARigidBodyAtAnyPoint)
     EXPECT_TRUE(m_body.checkContact(&wrapper, btVector3(btScalar(2.98), 0, 0), btScalar(0.1), touch));
     EXPECT_EQ(touch.m_colObj, &box);
     EXPECT_NEAR(touch.m_normal.x(), -1, 1e-3);
-    EXPECT_NEAR(touch.m_offset, 3, 0.1);  // Bullet's field has cells of 0.25 m
+    EXPECT_NEAR(touch.m_offset, 3, 0.125);  // half a cell of Bullet's field
     EXPECT_FALSE(m_body.checkContact(&wrapper, btVector3(btScalar(2.5), 0, 0), btScalar(0.1), touch));
 }
 

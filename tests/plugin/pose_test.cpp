@@ -122,7 +122,12 @@ TEST_P(Matching, HoldsAPinnedBodyUpAsBulletDoes)
     EXPECT_NEAR(-0.5 - lowestHeight(cube), sag, 0.02 * sag);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pose, Matching, testing::Combine(eachWorld(), testing::Values(0.1, 0.5, 0.9)),
+INSTANTIATE_TEST_SUITE_P(Pose, Matching,
+                         testing::Combine(testing::Values(WorldClass::softRigid), testing::Values(0.1, 0.5, 0.9)),
+                         nameOfWorldWith(shareName));
+INSTANTIATE_TEST_SUITE_P(OtherWorlds, Matching,
+                         testing::Combine(testing::Values(WorldClass::softMultiBody, WorldClass::deformable),
+                                          testing::Values(0.5)),
                          nameOfWorldWith(shareName));
 
 class Pose : public EachWorld
