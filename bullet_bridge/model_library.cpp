@@ -21,9 +21,11 @@ constexpr double kSameMass = 1e-3;
 // Share by which steps may differ: Bullet tells the step in single precision at first, in its own later.
 constexpr double kSameStep = 1e-6;
 
-// True if the factor of one is as good as new for the other.
-bool serves(const FactorInput& factored, const FactorInput& input)
+// True if the factor is as good as new for the input.
+bool serves(const BodyModel& model, const FactorInput& input)
 {
+    const FactorInput& factored = model.factorInput();
+    if (model.materialMismatch() > 1) return false;
     const auto same = [](double a, double b) { return std::fabs(a - b) <= kSameMass * b; };
     return std::fabs(factored.m_step - input.m_step) <= kSameStep * input.m_step && factored.m_fixed == input.m_fixed &&
            std::equal(factored.m_mass.begin(), factored.m_mass.end(), input.m_mass.begin(), input.m_mass.end(), same);
@@ -61,6 +63,33 @@ std::shared_ptr<const RestShape> ModelLibrary::restShape(const TetMesh& mesh, co
     return shape;
 }
 
+std::shared_ptr<const RestShape> ModelLibrary::adoptShape(const std::shared_ptr<const RestShape>& shape,
+                                                          const std::vector<double>& filled)
+{
+    dropDead(m_shapes, &Shape::m_shape);
+    for (const Shape& entry : m_shapes)
+        if (const auto known = entry.m_shape.lock())
+            if (known == shape || (known->m_material == shape->m_material && entry.m_filled == filled &&
+                                   sameUpToTranslation(known->m_mesh, shape->m_mesh)))
+                return known;
+    m_shapes.push_back({shape, filled, {}});
+    return shape;
+}
+
+std::shared_ptr<const BodyModel> ModelLibrary::modelWithFactor(const std::shared_ptr<const RestShape>& shape,
+                                                               const FactorInput& input,
+                                                               const std::shared_ptr<const BodyModel>& factored)
+{
+    if (auto known = find(shape, input)) return known;
+    dropDead(m_models, &Model::m_model);
+    for (const Model& entry : m_models)
+        if (auto model = entry.m_model.lock())
+            if (model->sharedShape() == shape && &model->factor() == &factored->factor()) return model;
+    const bool own = factored->sharedShape() == shape;
+    m_models.push_back({own ? factored : BodyModel::withFactor(shape, factored->sharedFactor()), {}});
+    return m_models.back().m_model.lock();
+}
+
 std::shared_ptr<const BodyModel> ModelLibrary::model(const std::shared_ptr<const RestShape>& shape,
                                                      const FactorInput& input)
 {
@@ -80,7 +109,7 @@ std::shared_ptr<const BodyModel> ModelLibrary::find(const std::shared_ptr<const 
 {
     for (const Model& entry : m_models)
         if (auto model = entry.m_model.lock())
-            if (model->sharedShape() == shape && serves(model->factorInput(), input)) return model;
+            if (model->sharedShape() == shape && serves(*model, input)) return model;
     return nullptr;
 }
 
@@ -89,7 +118,8 @@ std::shared_ptr<const BodyModel> ModelLibrary::findExact(const std::shared_ptr<c
 {
     for (const Model& entry : m_models)
         if (auto model = entry.m_model.lock())
-            if (model->sharedShape() == shape && model->factorInput() == input) return model;
+            if (model->sharedShape() == shape && model->factorInput() == input && model->materialMismatch() == 1)
+                return model;
     return nullptr;
 }
 

@@ -28,6 +28,10 @@ public:
     std::shared_ptr<const RestShape> restShape(const TetMesh& mesh, const Material& material,
                                                const std::vector<double>& filled);
 
+    /// A shape that was made elsewhere, or one like it that is here already.
+    std::shared_ptr<const RestShape> adoptShape(const std::shared_ptr<const RestShape>& shape,
+                                                const std::vector<double>& filled);
+
     /// A model of that shape, for masses that differ by rounding at most; factors if there is none yet. Throws what
     /// BodyModel::create throws.
     std::shared_ptr<const BodyModel> model(const std::shared_ptr<const RestShape>& shape, const FactorInput& input);
@@ -45,6 +49,15 @@ public:
 
     /// A model that was made elsewhere, or one like it that is here already.
     std::shared_ptr<const BodyModel> adopt(std::shared_ptr<const BodyModel> model);
+
+    /// A model of that shape with a factor that may be for another step, masses, pins or material. One that fits better
+    /// is taken if it is here.
+    std::shared_ptr<const BodyModel> modelWithFactor(const std::shared_ptr<const RestShape>& shape,
+                                                     const FactorInput& input,
+                                                     const std::shared_ptr<const BodyModel>& factored);
+
+    /// True if a factor of this size is within the library's limit [B].
+    bool allows(std::size_t bytes) const { return m_maxFactorBytes == 0 || bytes <= m_maxFactorBytes; }
 
     /// The input with the library's limit and choice of factors.
     FactorInput limited(FactorInput input) const;

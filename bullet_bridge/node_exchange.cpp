@@ -170,12 +170,13 @@ double factorMismatch(const FemSoftBody& fem, double step)
 {
     const FactorInput& input = fem.m_body.m_model->factorInput();
     double mismatch = std::max(step / input.m_step, input.m_step / step);
+    const double material = fem.m_body.m_model->materialMismatch();
     for (std::size_t i = 0; i < input.m_mass.size(); ++i)
     {
         const double ratio = fem.m_body.m_state.m_mass[i] / input.m_mass[i];
         mismatch = std::max({mismatch, ratio, 1 / ratio});
     }
-    return mismatch;
+    return material * mismatch;
 }
 
 bool readLoads(FemSoftBody& fem, double step)

@@ -50,24 +50,17 @@ namespace
 // the hit over if they are nearer by a rounding error. The same corner first means the same bits.
 std::vector<Triangle> facesOf(const TetMesh& mesh)
 {
-    constexpr int kSides[4][3] = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};  // in Bullet's order
-    std::vector<std::pair<Triangle, int>> first;                                // of a side with ascending nodes
-    for (const Tet& tet : mesh.tets())
-        for (const auto& side : kSides)
+    std::vector<Triangle> faces = mesh.surface();
+    const std::vector<unsigned char> sides = mesh.boundarySides();
+    auto face = faces.begin();
+    for (int e = 0; e < mesh.tetCount(); ++e)
+        for (int a = 0; a < 4; ++a)
         {
-            Triangle key = {tet[side[0]], tet[side[1]], tet[side[2]]};
-            std::sort(key.begin(), key.end());
-            first.push_back({key, tet[side[0]]});
+            if (!(sides[e] >> a & 1)) continue;
+            const int first = mesh.tets()[e][a == 0 ? 1 : 0];  // Bullet begins a side with the first node that it has
+            std::rotate(face->begin(), std::find(face->begin(), face->end(), first), face->end());
+            ++face;
         }
-    std::sort(first.begin(), first.end());
-    std::vector<Triangle> faces(mesh.surface().begin(), mesh.surface().end());
-    for (Triangle& face : faces)
-    {
-        Triangle key = face;
-        std::sort(key.begin(), key.end());
-        const auto side = std::lower_bound(first.begin(), first.end(), std::make_pair(key, 0));
-        std::rotate(face.begin(), std::find(face.begin(), face.end(), side->second), face.end());
-    }
     return faces;
 }
 
@@ -103,15 +96,6 @@ void writeMasses(btSoftBody& body, const std::vector<double>& mass)
     for (int i = 0; i < body.m_nodes.size(); ++i)
         if (body.m_nodes[i].m_im != 0 && mass[i] > 0) body.m_nodes[i].m_im = static_cast<btScalar>(1 / mass[i]);
     body.m_bUpdateRtCst = true;
-}
-
-std::vector<double> massesOf(const TetMesh& mesh, const std::vector<double>& filled, double density)
-{
-    std::vector<double> mass(mesh.nodeCount(), 0.0);
-    for (int e = 0; e < mesh.tetCount(); ++e)
-        for (int node : mesh.tets()[e])
-            mass[node] += density * mesh.tetVolume(e) * (filled.empty() ? 1.0 : filled[e]) / 4;
-    return mass;
 }
 
 bool isMassless(btScalar inverseMass)

@@ -7,6 +7,7 @@
 #include "LinearMath/btScalar.h"
 #include "bullet_fem/fem/material.h"
 #include "bullet_fem/fem/tet_mesh.h"
+#include "fem/lumped_mass.h"
 
 class btSoftBody;
 
@@ -47,9 +48,6 @@ Material unsetMaterialOf(const btSoftBody& body);
 
 /// Writes masses [kg] > 0 to the inverse masses of the nodes that are not pinned.
 void writeMasses(btSoftBody& body, const std::vector<double>& mass);
-
-/// Masses that a density gives the nodes: sum of rho V_e filled_e / 4 [kg].
-std::vector<double> massesOf(const TetMesh& mesh, const std::vector<double>& filled, double density);
 
 /// True for an infinite inverse mass: btSoftBody::setTotalMass leaves that in nodes that are in no face.
 bool isMassless(btScalar inverseMass);

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/body_model.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <stdexcept>
 
@@ -32,6 +34,22 @@ void validateInput(const RestShape& shape, const FactorInput& input)
             reject("node ", i, " belongs to no element and is not fixed; fix it, or remove it from the mesh");
 }
 
+// The eigenvalues of A0 lie between those of its parts: 1 + h alpha times the mass, and h^2 + h beta times K, which is
+// monotonous in the eigenvalues 2 mu and 3 lambda + 2 mu of Hooke's matrix. A step that is off by a ratio changes them
+// by its square.
+double mismatch(const Material& a, const Material& b, double h)
+{
+    const auto parts = [h](const Material& m)
+    {
+        const double stiff = h * h + h * m.m_stiffnessDamping;
+        return std::array<double, 3>{1 + h * m.m_massDamping, stiff * m.lameMu(),
+                                     stiff * (3 * m.lameLambda() + 2 * m.lameMu())};
+    };
+    double most = 1;
+    for (std::size_t k = 0; k < 3; ++k) most = std::max({most, parts(a)[k] / parts(b)[k], parts(b)[k] / parts(a)[k]});
+    return std::sqrt(most);
+}
+
 }  // namespace
 
 std::shared_ptr<const BodyModel> BodyModel::create(std::shared_ptr<const RestShape> shape, FactorInput input)
@@ -41,10 +59,27 @@ std::shared_ptr<const BodyModel> BodyModel::create(std::shared_ptr<const RestSha
     validateInput(*shape, input);
     std::shared_ptr<BodyModel> model(new BodyModel);
     model->m_shape = std::move(shape);
-    model->m_input = std::move(input);
-    model->m_factor = std::make_unique<const RestFactor>(*model->m_shape, model->m_input, model->m_report);
+    FactorOfModel& factor = model->m_factor;
+    factor.m_input = std::move(input);
+    factor.m_material = model->m_shape->m_material;
+    factor.m_factor = std::make_shared<const RestFactor>(*model->m_shape, factor.m_input, factor.m_report);
     model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
-    model->m_report.m_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    factor.m_report.m_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return model;
+}
+
+std::shared_ptr<const BodyModel> BodyModel::withFactor(std::shared_ptr<const RestShape> shape, FactorOfModel factor)
+{
+    if (!shape || !factor.m_factor) throw std::invalid_argument("BodyModel: the rest shape or the factor is null");
+    if (static_cast<int>(factor.m_input.m_mass.size()) != shape->m_mesh.nodeCount())
+        reject("the factor is one for ", factor.m_input.m_mass.size(), " nodes, and the shape has ",
+               shape->m_mesh.nodeCount());
+    std::shared_ptr<BodyModel> model(new BodyModel);
+    model->m_shape = std::move(shape);
+    model->m_factor = std::move(factor);
+    model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
+    model->m_materialMismatch =
+        mismatch(model->m_shape->m_material, model->m_factor.m_material, model->m_factor.m_input.m_step);
     return model;
 }
 

@@ -104,6 +104,12 @@ int turnNegative(const std::vector<Vec3>& X, std::vector<Tet>& tets)
     return turned;
 }
 
+/// The face opposite node a of an element.
+Triangle sideOf(const Tet& tet, int a)
+{
+    return {tet[kFaces[a][0]], tet[kFaces[a][1]], tet[kFaces[a][2]]};
+}
+
 struct Face
 {
     Triangle m_sorted;  // its nodes, ascending
@@ -119,7 +125,7 @@ std::vector<Face> sortedFaces(const std::vector<Tet>& tets)
     for (std::size_t e = 0; e < tets.size(); ++e)
         for (int a = 0; a < 4; ++a)
         {
-            Triangle nodes = {tets[e][kFaces[a][0]], tets[e][kFaces[a][1]], tets[e][kFaces[a][2]]};
+            Triangle nodes = sideOf(tets[e], a);
             std::sort(nodes.begin(), nodes.end());
             faces.push_back({nodes, static_cast<int>(e), a});
         }
@@ -147,8 +153,7 @@ std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
     std::vector<Triangle> surface;
     for (std::size_t e = 0; e < tets.size(); ++e)
         for (int a = 0; a < 4; ++a)
-            if (onBoundary[4 * e + a])
-                surface.push_back({tets[e][kFaces[a][0]], tets[e][kFaces[a][1]], tets[e][kFaces[a][2]]});
+            if (onBoundary[4 * e + a]) surface.push_back(sideOf(tets[e], a));
     return surface;
 }
 
@@ -188,8 +193,50 @@ double meanEdge(const std::vector<Vec3>& X, const std::vector<Tet>& tets)
 }  // namespace
 
 TetMesh::TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose)
-    : m_restPositions(std::move(restPositions)), m_tets(std::move(tets))
 {
+    takeElements(std::move(restPositions), std::move(tets), loose);
+    m_surface = boundaryFaces(m_tets);
+    measure();
+}
+
+TetMesh TetMesh::withSides(std::vector<Vec3> restPositions, std::vector<Tet> tets,
+                           const std::vector<unsigned char>& sides)
+{
+    TetMesh mesh;
+    mesh.takeElements(std::move(restPositions), std::move(tets), LooseNodes::kept);
+    if (mesh.m_turnedCount > 0) reject(mesh.m_turnedCount, " elements have negative orientation; turn them first");
+    if (sides.size() != mesh.m_tets.size())
+        reject("sides on the boundary are given for ", sides.size(), " of ", mesh.m_tets.size(), " elements");
+    for (std::size_t e = 0; e < sides.size(); ++e)
+    {
+        if (sides[e] > 15) reject("element ", e, " has the sides ", static_cast<int>(sides[e]), ", not in [0, 15]");
+        for (int a = 0; a < 4; ++a)
+            if (sides[e] >> a & 1) mesh.m_surface.push_back(sideOf(mesh.m_tets[e], a));
+    }
+    mesh.measure();
+    return mesh;
+}
+
+// The surface has the sides in the order of the elements.
+std::vector<unsigned char> TetMesh::boundarySides() const
+{
+    std::vector<unsigned char> sides(m_tets.size(), 0);
+    auto next = m_surface.begin();
+    for (std::size_t e = 0; e < m_tets.size(); ++e)
+        for (int a = 0; a < 4 && next != m_surface.end(); ++a)
+            if (*next == sideOf(m_tets[e], a))
+            {
+                sides[e] = static_cast<unsigned char>(sides[e] | 1 << a);
+                ++next;
+            }
+    return sides;
+}
+
+// Checks them, and turns what is to be turned.
+void TetMesh::takeElements(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose)
+{
+    m_restPositions = std::move(restPositions);
+    m_tets = std::move(tets);
     constexpr std::size_t most = std::numeric_limits<int>::max() / 12;  // three numbers a node, four faces an element
     if (m_tets.empty()) reject("the mesh has 0 elements; at least 1 tetrahedron is needed");
     if (m_tets.size() > most || m_restPositions.size() > most)
@@ -201,12 +248,15 @@ TetMesh::TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNo
     if (loose == LooseNodes::refused) refuseLooseNodes(m_loose);
     m_looseCount = static_cast<int>(std::count(m_loose.begin(), m_loose.end(), 1));
     m_turnedCount = turnNegative(m_restPositions, m_tets);
-    m_surface = boundaryFaces(m_tets);
+}
 
+void TetMesh::measure()
+{
+    std::vector<unsigned char> onSurface(m_restPositions.size(), 0);
     for (const Triangle& triangle : m_surface)
-        m_surfaceNodes.insert(m_surfaceNodes.end(), triangle.begin(), triangle.end());
-    std::sort(m_surfaceNodes.begin(), m_surfaceNodes.end());
-    m_surfaceNodes.erase(std::unique(m_surfaceNodes.begin(), m_surfaceNodes.end()), m_surfaceNodes.end());
+        for (const int i : triangle) onSurface[i] = 1;
+    for (int i = 0; i < nodeCount(); ++i)
+        if (onSurface[i]) m_surfaceNodes.push_back(i);
 
     m_nodeComponent.resize(m_restPositions.size());
     m_componentCount = labelComponents(m_tets, m_nodeComponent);

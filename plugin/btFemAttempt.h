@@ -2,21 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include <exception>
-#include <string>
+#include "fem/attempt.h"
 
-/// Calls what may throw; false and the reason in `why` (if given) if it did.
-template <class Call>
-bool succeeds(const Call& call, std::string* why)
-{
-    try
-    {
-        call();
-        return true;
-    }
-    catch (const std::exception& error)
-    {
-        if (why) *why = error.what();
-        return false;
-    }
-}
+using bullet_fem::succeeds;

@@ -17,6 +17,7 @@
 #include "plugin/btFemRealTime.h"
 #include "plugin/btFemSleeping.h"
 
+struct btFemBaked;
 struct btFemDefinition;
 struct btFemFactorJob;
 
@@ -47,6 +48,7 @@ struct btFemEntry
     btFemDetail m_detail = btFemDetail::automatic;
     double m_contactOffset = 0;                           // [m]
     std::shared_ptr<const btFemDefinition> m_definition;  // rest shape and masses, until it is set up
+    std::shared_ptr<const btFemBaked> m_baked;            // rest shape and factor, likewise
 
     // What became of it. Without m_fem and without m_rejected it was not tried yet.
     std::unique_ptr<bullet_fem::FemSoftBody> m_fem;
@@ -72,6 +74,9 @@ struct btFemEntry
 
     bool isStepped() const { return m_present && m_fem; }
 };
+
+/// What a body is made of: what the user said, or what Bullet's fields say.
+bullet_fem::Material materialOf(const btFemEntry& entry);
 
 /// The masses [kg] that a density [kg/m3] gives a body's nodes at rest, however it is deformed now. Throws
 /// std::invalid_argument on an unusable mesh.
@@ -160,6 +165,8 @@ private:
     std::size_t indexOf(const btSoftBody* body) const;
     static void lookAgain(btFemEntry& entry);
     void registerWithDispatcher(btSoftBody& body) const;
+    bool canUseBaked(const btFemEntry& entry) const;
+    std::shared_ptr<const bullet_fem::RestShape> bakedShape(const btFemEntry& entry, const std::vector<double>& filled);
     void setUpNew(btFemEntry& entry, double step);
     void renew(btFemEntry& entry, double step);
     void exchangeModel(btFemEntry& entry, const std::shared_ptr<const bullet_fem::BodyModel>& model);

@@ -64,6 +64,7 @@ void restoreReports(const btFemEntrySnapshot& s, const WorldIds& world, btFemEnt
     report.m_fullFactorMegabytes = static_cast<btScalar>(1e-6 * static_cast<double>(factor.m_fullBytes));
     report.m_lowMemory = factor.m_path == FactorPath::lowMemory;
     report.m_factorSeconds = static_cast<btScalar>(factor.m_seconds);
+    report.m_bakedFactor = factor.m_baked;
     report.m_tooSlow = last.m_tooSlow;
     entry.m_report = report;
 }

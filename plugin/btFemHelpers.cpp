@@ -10,6 +10,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_fem/fem/baked_body.h"
 #include "bullet_fem/fem/generators.h"
 
 using namespace bullet_fem;
@@ -19,16 +20,25 @@ namespace
 
 constexpr double kWaterDensity = 1000;  // [kg/m3]
 
-std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const TetMesh& mesh,
-                                       const std::vector<double>& filled, double massScale)
+/// What a body is made of.
+struct Solid
 {
+    const TetMesh& m_mesh;
+    const std::vector<Vec3>& m_positions;  // of its nodes
+    std::vector<double> m_mass;            // likewise
+    const std::vector<double>& m_filled;
+    double m_massScale;
+};
+
+std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Solid& solid)
+{
+    const TetMesh& mesh = solid.m_mesh;
     btAlignedObjectArray<btVector3> positions;
     btAlignedObjectArray<btScalar> masses;
-    const std::vector<double> mass = massesOf(mesh, filled, kWaterDensity * massScale);
     for (int i = 0; i < mesh.nodeCount(); ++i)
     {
-        positions.push_back(bulletVector(mesh.restPositions()[i]));
-        masses.push_back(static_cast<btScalar>(mass[i]));
+        positions.push_back(bulletVector(solid.m_positions[i]));
+        masses.push_back(static_cast<btScalar>(solid.m_mass[i]));
     }
     auto body = std::make_unique<btSoftBody>(&worldInfo, mesh.nodeCount(), &positions[0], &masses[0]);
     body->m_tetras.reserve(mesh.tetCount());
@@ -36,13 +46,29 @@ std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Tet
     makeFaces(*body, mesh);
     keepFaceTree(*body);
     body->initializeDmInverse();
-    for (std::size_t e = 0; e < filled.size(); ++e) storeFill(*body, static_cast<int>(e), filled[e], massScale);
+    for (std::size_t e = 0; e < solid.m_filled.size(); ++e)
+        storeFill(*body, static_cast<int>(e), solid.m_filled[e], solid.m_massScale);
     body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;  // as users of solids expect; Bullet's default is none
     return body;
 }
 
+std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const TetMesh& mesh,
+                                       const std::vector<double>& filled, double massScale)
+{
+    return softBodyOf(
+        worldInfo, {mesh, mesh.restPositions(), massesOf(mesh, filled, kWaterDensity * massScale), filled, massScale});
+}
+
+/// A surface that follows tetrahedra.
+struct EmbeddedSurface
+{
+    const std::vector<Tet>& m_tets;
+    const std::vector<Embedding>& m_vertices;
+    const std::vector<Triangle>& m_triangles;
+};
+
 // Bullet's fields for a surface that follows the tetrahedra.
-void embed(btSoftBody& body, const SurfaceMesh& surface, const Cage& cage)
+void embed(btSoftBody& body, const EmbeddedSurface& surface)
 {
     const int vertexCount = static_cast<int>(surface.m_vertices.size());
     body.m_renderNodes.resize(vertexCount);
@@ -50,8 +76,8 @@ void embed(btSoftBody& body, const SurfaceMesh& surface, const Cage& cage)
     body.m_renderNodesInterpolationWeights.resize(vertexCount);
     for (int v = 0; v < vertexCount; ++v)
     {
-        const Embedding& embedding = cage.m_embedding[v];
-        const Tet& tet = cage.m_mesh.tets()[embedding.m_tet];
+        const Embedding& embedding = surface.m_vertices[v];
+        const Tet& tet = surface.m_tets[embedding.m_tet];
         for (int a = 0; a < 4; ++a)
         {
             body.m_renderNodesParents[v].push_back(&body.m_nodes[tet[a]]);
@@ -91,7 +117,7 @@ btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, cons
 {
     const Cage cage = makeCage(surface, settings);
     std::unique_ptr<btSoftBody> body = softBodyOf(worldInfo, cage.m_mesh, cage.m_filled, cage.m_massScale);
-    embed(*body, surface, cage);
+    embed(*body, {cage.m_mesh.tets(), cage.m_embedding, surface.m_triangles});
     return body.release();
 }
 
@@ -131,6 +157,20 @@ btSoftBody* btFemHelpers::createBox(btSoftBodyWorldInfo& worldInfo, const btVect
         cells[c] = std::max(1, static_cast<int>(count));
     }
     return createFromTetMesh(worldInfo, makeBox(size, cells, vec3(center) - 0.5 * size));
+}
+
+btSoftBody* btFemHelpers::createFromBaked(btSoftBodyWorldInfo& worldInfo, const BakedBody& baked)
+{
+    if (!baked.m_model)
+        throw std::invalid_argument("createFromBaked: the baked body is empty; read it with readBakedBody");
+    const BodyModel& model = *baked.m_model;
+    const std::vector<unsigned char>& fixed = model.factorInput().m_fixed;
+    std::unique_ptr<btSoftBody> body = softBodyOf(
+        worldInfo, {model.mesh(), baked.m_positions, model.factorInput().m_mass, baked.m_filled, baked.m_massScale});
+    for (int i = 0; i < body->m_nodes.size(); ++i)
+        body->m_nodes[i].m_im = fixed[i] ? btScalar(0) : static_cast<btScalar>(baked.m_inverseMass[i]);
+    if (!baked.m_embedding.empty()) embed(*body, {model.mesh().tets(), baked.m_embedding, baked.m_triangles});
+    return body.release();
 }
 
 void btFemHelpers::updateEmbeddedSurface(btSoftBody* body)

@@ -13,6 +13,7 @@
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemHelpers.h"
+#include "plugin/btFemBaked.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemCoupling.h"
 #include "plugin/btFemManifolds.h"
@@ -152,6 +153,11 @@ void btFemSoftBodySolver::prepare(btSoftBody* body, btScalar fixedTimeStep)
     btFemEntry& entry = m_impl->m_registry.entry(body);
     m_impl->m_registry.setUp(entry, fixedTimeStep);
     entry.m_rejected = false;
+}
+
+void btFemSoftBodySolver::useBaked(btSoftBody* body, const BakedBody& baked)
+{
+    ::useBaked(m_impl->m_registry, body, baked);
 }
 
 void btFemSoftBodySolver::refactor(btSoftBody* body)

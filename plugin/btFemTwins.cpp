@@ -28,6 +28,11 @@ bool btFemSoftBodySolver::prepare(btSoftBody* body, btScalar fixedTimeStep, std:
     return succeeds([&] { prepare(body, fixedTimeStep); }, why);
 }
 
+bool btFemSoftBodySolver::useBaked(btSoftBody* body, const bullet_fem::BakedBody& baked, std::string* why)
+{
+    return succeeds([&] { useBaked(body, baked); }, why);
+}
+
 bool btFemSoftBodySolver::refactor(btSoftBody* body, std::string* why)
 {
     return succeeds([&] { refactor(body); }, why);
@@ -138,4 +143,12 @@ bool btFemDebugDraw::draw(const btFemSoftBodySolver& fem, const btSoftBody* body
                           const btFemDrawSettings& settings, std::string* why)
 {
     return succeeds([&] { draw(fem, body, drawer, modes, settings); }, why);
+}
+
+btSoftBody* btFemHelpers::createFromBaked(btSoftBodyWorldInfo& worldInfo, const bullet_fem::BakedBody& baked,
+                                          std::string* why)
+{
+    btSoftBody* body = nullptr;
+    succeeds([&] { body = createFromBaked(worldInfo, baked); }, why);
+    return body;
 }

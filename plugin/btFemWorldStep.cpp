@@ -62,6 +62,7 @@ void clearReport(btFemEntry& entry)
         report.m_fullFactorMegabytes = static_cast<btScalar>(1e-6 * static_cast<double>(factor.m_fullBytes));
         report.m_lowMemory = factor.m_path == FactorPath::lowMemory;
         report.m_factorSeconds = static_cast<btScalar>(factor.m_seconds);
+        report.m_bakedFactor = factor.m_baked;
     }
     entry.m_report = report;
 }

@@ -33,16 +33,33 @@ std::size_t PackedFactor::bytesFor(const SupernodeTree& tree, NodeEntry entry)
 PackedFactor::PackedFactor(SupernodeTree tree, NodeEntry entry)
     : m_entry(entry), m_tree(std::move(tree)), m_division(m_tree), m_all(m_tree.m_supernodes.size())
 {
+    layOutPanels();
+    const std::shared_ptr<AlignedFloats> own = std::make_shared<AlignedFloats>(allocateFloats(floatCount()));
+    m_packing = own->get();
+    std::fill(m_packing, m_packing + floatCount(), 0.f);
+    m_panels = std::shared_ptr<const float>(own, m_packing);
+}
+
+PackedFactor::PackedFactor(SupernodeTree tree, NodeEntry entry, std::shared_ptr<const float> panels)
+    : m_entry(entry),
+      m_tree(std::move(tree)),
+      m_division(m_tree),
+      m_all(m_tree.m_supernodes.size()),
+      m_panels(std::move(panels))
+{
+    layOutPanels();
+}
+
+void PackedFactor::layOutPanels()
+{
     std::iota(m_all.begin(), m_all.end(), 0);
     m_panelStart.push_back(0);
     for (const Supernode& s : m_tree.m_supernodes)
     {
-        m_panelStart.push_back(m_panelStart.back() + paddedRows(s, entry) * rowsOfNode(entry) * s.m_columns);
-        m_scratchRows = std::max(m_scratchRows, paddedRows(s, entry));
+        m_panelStart.push_back(m_panelStart.back() + paddedRows(s, m_entry) * rowsOfNode(m_entry) * s.m_columns);
+        m_scratchRows = std::max(m_scratchRows, paddedRows(s, m_entry));
     }
     layOutScratch();
-    m_panels = allocateFloats(m_panelStart.back());
-    std::fill(m_panels.get(), m_panels.get() + m_panelStart.back(), 0.f);
 }
 
 Panel PackedFactor::panel(int supernode) const
@@ -56,7 +73,7 @@ Panel PackedFactor::panel(int supernode) const
 void PackedFactor::pack(int supernode, const double* S, const double* M)
 {
     const Panel p = panel(supernode);
-    float* out = m_panels.get() + m_panelStart[supernode];
+    float* out = m_packing + m_panelStart[supernode];
     const int chunkColumns = m_entry == NodeEntry::block ? kPanelColumns : kIsotropicColumns;
     for (int chunk = 0; chunk < p.m_columns; chunk += chunkColumns)
     {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "bullet_fem/fem/threads.h"
@@ -30,13 +31,23 @@ public:
     /// Room for a factor of this pattern, with zeros in it.
     explicit PackedFactor(SupernodeTree tree, NodeEntry entry = NodeEntry::block);
 
-    /// Sets supernode s: S is k nc x k nc and symmetric, M is k nr x k nc, k = rowsOfNode(entry()), both by columns.
+    /// A factor that was packed before: `panels` are its floatCount() floats, aligned to 64 bytes, shared and not
+    /// copied.
+    PackedFactor(SupernodeTree tree, NodeEntry entry, std::shared_ptr<const float> panels);
+
+    /// Sets supernode s, of a factor that was not packed before: S is k nc x k nc and symmetric, M is k nr x k nc, k =
+    /// rowsOfNode(entry()), both by columns.
     void pack(int supernode, const double* S, const double* M);
 
     const SupernodeTree& tree() const { return m_tree; }
     NodeEntry entry() const { return m_entry; }
     int size() const { return 3 * m_tree.m_nodeCount; }
-    std::size_t byteCount() const { return m_panelStart.empty() ? 0 : sizeof(float) * m_panelStart.back(); }
+    std::size_t byteCount() const { return sizeof(float) * floatCount(); }
+
+    /// The panels of all supernodes, one after the other. They are the same on every machine of the same byte order,
+    /// whatever its vectors; null if there is no node.
+    const float* panels() const { return m_panels.get(); }
+    std::size_t floatCount() const { return m_panelStart.empty() ? 0 : m_panelStart.back(); }
 
     /// Floats that solve() writes: the vector with what follows it, and scratch.
     std::size_t vectorSize() const { return 3 * static_cast<std::size_t>(m_division.m_rowCount); }
@@ -67,6 +78,7 @@ private:
     void backward(const Panel& panel, const PanelGroup& group) const;
     Panel panel(int supernode) const;
     Panel forwardPanelOf(int supernode) const;
+    void layOutPanels();
     void layOutScratch();
     void forwardSubtree(int t, const PanelGroup& group) const;
     void backwardSubtree(int t, const PanelGroup& group) const;
@@ -77,7 +89,8 @@ private:
     TreeDivision m_division{SupernodeTree()};
     std::vector<int> m_all;
     std::vector<std::size_t> m_panelStart;  // per supernode and the end, in floats
-    AlignedFloats m_panels;
+    std::shared_ptr<const float> m_panels;
+    float* m_packing = nullptr;                     // the same; null if they were packed before
     std::size_t m_scratchRows = 0;                  // of the longest panel
     std::vector<std::size_t> m_scratchStart = {0};  // per subtree, of the top, and the end, in floats
 };

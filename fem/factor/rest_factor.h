@@ -28,6 +28,15 @@ public:
     /// Throws std::runtime_error if A0 cannot be factored. Writes backend, ordering and fill to the report.
     RestFactor(const RestShape& shape, const FactorInput& input, FactorReport& report);
 
+    /// One that was made before, of its parts. They must fit together.
+    RestFactor(std::vector<int> position, std::vector<double> diagonal, PackedFactor lower, RestMatrix rest)
+        : m_position(std::move(position)),
+          m_diagonal(std::move(diagonal)),
+          m_lower(std::move(lower)),
+          m_rest(std::move(rest))
+    {
+    }
+
     const PackedFactor& lower() const { return m_lower; }
     /// A0 itself over the free nodes on the low-memory path, where it cannot be had from the factor; else empty.
     const RestMatrix& rest() const { return m_rest; }

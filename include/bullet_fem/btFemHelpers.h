@@ -12,6 +12,11 @@ class btSoftBody;
 struct btFemMaterial;
 struct btSoftBodyWorldInfo;
 
+namespace bullet_fem
+{
+struct BakedBody;  // bullet_fem/fem/baked_body.h
+}
+
 /// Makes tetrahedral soft bodies. All have water's density (1000 kg/m3) until setMaterial says otherwise, outward
 /// boundary faces for collision and drawing, no links; the caller owns them. All throw std::invalid_argument
 /// (std::runtime_error for files) naming value, range and remedy.
@@ -46,6 +51,10 @@ struct btFemHelpers
     static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,
                                  btScalar cellSize);
 
+    /// From a baked body, where it was baked, with its masses, pins and embedded surface. It does not keep the factor:
+    /// give both to btFemSoftBodySolver::useBaked.
+    static btSoftBody* createFromBaked(btSoftBodyWorldInfo& worldInfo, const bullet_fem::BakedBody& baked);
+
     /// Twins for engines without exceptions: null, and the reason in `why` (null: not told) where those throw.
     static btSoftBody* createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
                                              btScalar scale, std::string* why);
@@ -59,6 +68,8 @@ struct btFemHelpers
                                          const int* tets, int tetCount, std::string* why);
     static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,
                                  btScalar cellSize, std::string* why);
+    static btSoftBody* createFromBaked(btSoftBodyWorldInfo& worldInfo, const bullet_fem::BakedBody& baked,
+                                       std::string* why);
 
     /// Moves m_renderNodes with the body, as Bullet's interpolateBarycentricWeights or extrapolateBarycentricWeights
     /// have tied them to it; nothing if weights or parents are missing. The solver does so after every step.

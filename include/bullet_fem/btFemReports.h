@@ -46,7 +46,9 @@ enum btFemFlags
     BT_FEM_CHANGED_MESH = 1 << 19,   ///< nodes or tetrahedra were appended, removed or joined otherwise: the body was
                                      ///< set up anew in this step, without its targets and attachments
     BT_FEM_UNUSED_NODES = 1 << 18,   ///< no element uses some nodes: they stand still, or go where m_x is written
-    BT_FEM_BAD_INTEREST = 1 << 17    ///< its interest was NaN, taken for 1, or not in [0, 1], and clamped
+    BT_FEM_BAD_INTEREST = 1 << 17,   ///< its interest was NaN, taken for 1, or not in [0, 1], and clamped
+    BT_FEM_BAKED_UNUSED = 1 << 24    ///< it was factored anew in place of its baked factor, which is larger than the
+                                   ///< solver's limit, or of another rest shape: it was scaled, or its elements changed
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.
@@ -70,7 +72,8 @@ struct btFemStepReport
     btScalar m_factorMegabytes = 0;      ///< memory of the factor that it has [MB, 1e6 bytes]
     btScalar m_fullFactorMegabytes = 0;  ///< of the full one, which it has or would have had [MB]
     bool m_lowMemory = false;            ///< its factor is the low-memory one
-    btScalar m_factorSeconds = 0;        ///< wall time that factoring took, when it was made [s]
+    btScalar m_factorSeconds = 0;        ///< wall time that factoring took, when it was made [s]; 0 if it was baked
+    bool m_bakedFactor = false;          ///< its factor was read from a file, see btFemSoftBodySolver::useBaked
     btScalar m_freeMotionMs = 0;  ///< wall time of forces, rotations and the free solve [ms]; an equal share of a batch
     btScalar m_contactMs = 0;     ///< wall time of contacts and joints of all bodies of its contact group [ms]
     /// The sum of both has been longer than the step, in more of the last steps than not: the body, or what it touches,

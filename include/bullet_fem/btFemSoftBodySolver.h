@@ -17,6 +17,11 @@
 class btSoftBody;
 struct btFemCoupling;
 
+namespace bullet_fem
+{
+struct BakedBody;  // bullet_fem/fem/baked_body.h
+}
+
 /// Who gives a body a new factor when its step, masses or pins are not the factor's any more (BT_FEM_STALE_FACTOR). A
 /// new one pays as soon as the stale one has cost as many iterations of the free motion as it takes time; both are
 /// counted from the sizes of mesh and factor, never by a clock.
@@ -145,6 +150,14 @@ public:
     /// [s], in [1e-6, 1], so that the first step does not hitch. Throws std::invalid_argument on a bad step or mesh.
     void prepare(btSoftBody* body, btScalar fixedTimeStep);
 
+    /// Gives a body that btFemHelpers::createFromBaked made of it, or one with the same nodes and tetrahedra, its rest
+    /// shape, material and factor: when it is stepped or prepared next nothing is factored. Before addSoftBody or
+    /// after. If the step, masses, pins, or a material that setMaterial gives before then, are others than those that
+    /// it was baked for, the factor is stale: that costs iterations (BT_FEM_STALE_FACTOR), and it is replaced like any
+    /// other. The file's data live as long as a body uses them. All else that was known of the body, but for detail and
+    /// contact offset, is forgotten. Throws std::invalid_argument if nodes or tetrahedra are others.
+    void useBaked(btSoftBody* body, const bullet_fem::BakedBody& baked);
+
     /// Factors anew for the present masses and pins and the last step size. Throws std::invalid_argument if the body is
     /// not FEM.
     void refactor(btSoftBody* body);
@@ -196,6 +209,7 @@ public:
     bool setDetail(btSoftBody* body, btFemDetail detail, std::string* why);
     bool setInterest(btFemInterest* interest, const btFemDetailPolicy& policy, std::string* why);
     bool prepare(btSoftBody* body, btScalar fixedTimeStep, std::string* why);
+    bool useBaked(btSoftBody* body, const bullet_fem::BakedBody& baked, std::string* why);
     bool refactor(btSoftBody* body, std::string* why);
     bool setNodeTarget(btSoftBody* body, int node, const btVector3& position, std::string* why);
     bool clearNodeTarget(btSoftBody* body, int node, std::string* why);

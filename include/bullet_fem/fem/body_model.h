@@ -59,7 +59,17 @@ struct FactorReport
     FactorPath m_path = FactorPath::full;  ///< what was built
     std::size_t m_bytes = 0;               ///< memory of its packed panels [B], without A0 on the low-memory path
     std::size_t m_fullBytes = 0;           ///< what the full factor takes, or would have taken [B]
-    double m_seconds = 0;                  ///< wall time of assembly, ordering, factorization and packing [s]
+    double m_seconds = 0;  ///< wall time of assembly, ordering, factorization and packing [s]; 0 of a baked factor
+    bool m_baked = false;  ///< it was not made here, but read from a file (see baked_body.h)
+};
+
+/// A factor with what it was made for.
+struct FactorOfModel
+{
+    std::shared_ptr<const RestFactor> m_factor;
+    FactorInput m_input;
+    Material m_material;
+    FactorReport m_report;
 };
 
 /// A body's const half: its rest shape and the factor of A0 = (1 + h alpha) M + (h^2 + h beta) K. Immutable, so it may
@@ -73,24 +83,31 @@ public:
     /// std::invalid_argument naming the value on a bad step, mass or array size, std::runtime_error if A0 cannot be
     /// factored or its factor would be larger than input.m_maxBytes (said before it is computed).
     static std::shared_ptr<const BodyModel> create(std::shared_ptr<const RestShape> shape, FactorInput input);
+    /// A model with a factor that was made before, for a shape of the same nodes; of another material, too: then it is
+    /// a stale one, which costs iterations. Throws std::invalid_argument if there is none, or for another number of
+    /// nodes.
+    static std::shared_ptr<const BodyModel> withFactor(std::shared_ptr<const RestShape> shape, FactorOfModel factor);
     ~BodyModel();
 
     const RestShape& shape() const { return *m_shape; }
     const std::shared_ptr<const RestShape>& sharedShape() const { return m_shape; }
     const TetMesh& mesh() const { return m_shape->m_mesh; }
-    const FactorInput& factorInput() const { return m_input; }
-    const RestFactor& factor() const { return *m_factor; }
+    const FactorInput& factorInput() const { return m_factor.m_input; }
+    const RestFactor& factor() const { return *m_factor.m_factor; }
+    const FactorOfModel& sharedFactor() const { return m_factor; }
     const ModelElements& elements() const { return *m_elements; }
-    const FactorReport& factorReport() const { return m_report; }
+    const FactorReport& factorReport() const { return m_factor.m_report; }
+    /// By how much the factor's material is off [-]: 1 if it is the shape's, else the ratio of steps that would be as
+    /// bad, > 1. Masses, and so the density, are not in it.
+    double materialMismatch() const { return m_materialMismatch; }
     int nodeCount() const { return m_shape->m_mesh.nodeCount(); }
 
 private:
     BodyModel() = default;
     std::shared_ptr<const RestShape> m_shape;
-    FactorInput m_input;
-    std::unique_ptr<const RestFactor> m_factor;
+    FactorOfModel m_factor;
     std::unique_ptr<const ModelElements> m_elements;
-    FactorReport m_report;
+    double m_materialMismatch = 1;
 };
 
 }  // namespace bullet_fem

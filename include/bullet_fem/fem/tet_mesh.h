@@ -33,6 +33,16 @@ public:
     /// these are kept; a face shared by more than two elements.
     TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose = LooseNodes::refused);
 
+    /// The mesh that another one was, loose nodes kept, without the search for its surface, which takes most of the
+    /// time: `sides` are the other's boundarySides(). Throws std::invalid_argument as the constructor does, and on
+    /// elements of negative orientation or sides that no element has; whether the sides are the right ones is not
+    /// looked at.
+    static TetMesh withSides(std::vector<Vec3> restPositions, std::vector<Tet> tets,
+                             const std::vector<unsigned char>& sides);
+
+    /// Which sides of every element are on the surface: bit a is the one opposite its node a.
+    std::vector<unsigned char> boundarySides() const;
+
     const std::vector<Vec3>& restPositions() const { return m_restPositions; }  ///< X [m], n entries
     const std::vector<Tet>& tets() const { return m_tets; }
     const std::vector<Triangle>& surface() const { return m_surface; }         ///< boundary triangles, oriented outward
@@ -49,6 +59,9 @@ public:
     double meanEdgeLength() const { return m_meanEdgeLength; }  ///< mean over the elements' edges [m]
 
 private:
+    void takeElements(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose);
+    void measure();
+
     std::vector<Vec3> m_restPositions;
     std::vector<Tet> m_tets;
     std::vector<Triangle> m_surface;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <stdexcept>
+
+#include "bullet_fem/fem/baked_body.h"
+#include "fem/lumped_mass.h"
+#include "fem/message.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kWaterDensity = 1000;  // [kg/m3]
+
+/// Numbers as Bullet holds them.
+struct Rounding
+{
+    bool m_single;
+
+    // By way of memory: GCC 12.2 takes a vector's conversion there and back for none at all.
+    double operator()(double value) const
+    {
+        if (!m_single) return value;
+        const volatile float single = static_cast<float>(value);
+        return static_cast<double>(single);
+    }
+    Vec3 operator()(const Vec3& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
+    Material operator()(const Material& m) const
+    {
+        return {(*this)(m.m_youngModulus), (*this)(m.m_poissonRatio), (*this)(m.m_density), (*this)(m.m_massDamping),
+                (*this)(m.m_stiffnessDamping)};
+    }
+};
+
+std::vector<unsigned char> fixedNodes(const TetMesh& mesh, const std::vector<int>& pins)
+{
+    std::vector<unsigned char> fixed(mesh.nodeCount(), 0);
+    for (int i = 0; i < mesh.nodeCount(); ++i) fixed[i] = mesh.isLoose(i) ? 1 : 0;
+    for (const int i : pins)
+    {
+        if (i < 0 || i >= mesh.nodeCount())
+            reject("pinned node ", i, " is not in [0, ", mesh.nodeCount(), "); give nodes of the mesh");
+        fixed[i] = 1;
+    }
+    return fixed;
+}
+
+// As the bridge reads a body's nodes: relative to the first.
+TetMesh meshAround(const std::vector<Vec3>& positions, const std::vector<Tet>& tets)
+{
+    std::vector<Vec3> X = positions;
+    for (Vec3& x : X) x -= positions[0];
+    TetMesh mesh(std::move(X), tets, LooseNodes::kept);
+    if (mesh.turnedCount() > 0)
+        reject("rounding to Bullet's single precision turns ", mesh.turnedCount(),
+               " elements inside out; move the mesh towards the origin or make it coarser");
+    return mesh;
+}
+
+/// What is baked, as it was given.
+struct Given
+{
+    const TetMesh& m_mesh;
+    std::vector<double> m_filled;
+    double m_massScale = 1;
+};
+
+// The masses that the plug-in gives: with a density those of the rounded mesh, as setMaterial does; without one
+// water's, as btFemHelpers does.
+void setMasses(BakedBody& body, const Given& given, const TetMesh& mesh, double density, const Rounding& round)
+{
+    const bool own = density > 0;
+    const std::vector<double> mass = own ? massesOf(mesh, body.m_filled, density * body.m_massScale)
+                                         : massesOf(given.m_mesh, given.m_filled, kWaterDensity * given.m_massScale);
+    for (std::size_t i = 0; i < mass.size(); ++i)
+        body.m_inverseMass.push_back(mass[i] > 0 ? round(1 / (own ? mass[i] : round(mass[i]))) : 1);
+}
+
+BakedBody bakeMesh(const Given& given, const BakeSettings& settings)
+{
+    if (given.m_mesh.tetCount() == 0) reject("bakeBody: the mesh is empty; build it from elements");
+    const Rounding round{settings.m_singlePrecision};
+    BakedBody body;
+    body.m_singlePrecision = settings.m_singlePrecision;
+    body.m_massScale = round(given.m_massScale);
+    bool filled = false;
+    for (const double fraction : given.m_filled)
+    {
+        body.m_filled.push_back(round(fraction));
+        filled = filled || body.m_filled.back() < 1;
+    }
+    if (!filled) body.m_filled.clear();
+    for (const Vec3& X : given.m_mesh.restPositions()) body.m_positions.push_back(round(X));
+    settings.m_material.validate();
+    const Material material = round(settings.m_material);
+    auto shape =
+        std::make_shared<const RestShape>(meshAround(body.m_positions, given.m_mesh.tets()), material, body.m_filled);
+    setMasses(body, given, shape->m_mesh, material.m_density, round);
+
+    FactorInput input;
+    for (const double inverse : body.m_inverseMass) input.m_mass.push_back(1 / inverse);
+    input.m_fixed = fixedNodes(shape->m_mesh, settings.m_pins);
+    input.m_step = round(settings.m_step);
+    input.m_choice = settings.m_choice;
+    input.m_maxBytes = settings.m_maxBytes;
+    body.m_model = BodyModel::create(std::move(shape), std::move(input));
+    return body;
+}
+
+}  // namespace
+
+BakedBody bakeBody(const TetMesh& mesh, const BakeSettings& settings)
+{
+    return bakeMesh({mesh, {}, 1}, settings);
+}
+
+BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings)
+{
+    if (cage.m_embedding.size() != surface.m_vertices.size())
+        reject("bakeBody: the cage embeds ", cage.m_embedding.size(), " vertices, and the surface has ",
+               surface.m_vertices.size(), "; give the surface that the cage was made of");
+    BakedBody body = bakeMesh({cage.m_mesh, cage.m_filled, cage.m_massScale}, settings);
+    body.m_embedding = cage.m_embedding;
+    body.m_triangles = surface.m_triangles;
+    return body;
+}
+
+}  // namespace bullet_fem

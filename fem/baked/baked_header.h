@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bullet_fem/fem/baked_body.h"
+
+namespace bullet_fem
+{
+
+/// The version of the format. A reader takes its own alone: files are made anew in seconds.
+constexpr std::uint32_t kBakedVersion = 1;
+
+/// Sections, and with them the panels, start at multiples of this.
+constexpr std::size_t kBakedAlignment = 64;
+
+/// The first bytes of a file, as they lie there. What has no use is 0.
+struct BakedHeader
+{
+    std::array<char, 8> m_magic;
+    std::uint32_t m_byteOrder, m_version;
+    std::uint64_t m_fileBytes, m_headerChecksum, m_bodyChecksum;  // the first of the header with itself 0
+    std::uint64_t m_panelFloats, m_entries, m_fullBytes;
+    std::uint32_t m_nodes, m_tets, m_filled, m_embedded, m_triangles;
+    std::uint32_t m_freeNodes, m_supernodes, m_rows, m_restBlocks;
+    std::uint32_t m_lowMemory, m_singlePrecision, m_reserved;
+    double m_step, m_massScale;
+    double m_youngModulus, m_poissonRatio, m_density, m_massDamping, m_stiffnessDamping;
+    std::array<char, 48> m_backend;  // with zeros behind
+    std::array<char, 16> m_ordering;
+    std::array<char, 24> m_reserved2;
+};
+static_assert(sizeof(BakedHeader) == 256 && sizeof(BakedHeader) % kBakedAlignment == 0);
+
+/// A supernode as it stands in a file; columns and rows lie one after the other.
+struct BakedSupernode
+{
+    std::int32_t m_columns, m_rows, m_parent;
+};
+
+/// All that follows the panels.
+struct BakedArrays
+{
+    std::vector<Vec3> m_positions;
+    std::vector<double> m_inverseMass, m_filled, m_diagonal;
+    std::vector<std::array<double, 4>> m_weights;
+    std::vector<float> m_restValues;
+    std::vector<Tet> m_tets;
+    std::vector<Triangle> m_triangles;
+    std::vector<int> m_vertexTet, m_order, m_row, m_restRowStart, m_restColumn;
+    std::vector<BakedSupernode> m_supernodes;
+    std::vector<unsigned char> m_sides, m_fixed;
+};
+
+/// Calls section(array, length) for each of them, in the order of the file.
+template <class Arrays, class Section>
+void forEachSection(Arrays& a, const BakedHeader& h, const Section& section)
+{
+    const std::size_t restRows = h.m_lowMemory ? std::size_t(h.m_freeNodes) + 1 : 0;
+    section(a.m_positions, h.m_nodes);
+    section(a.m_inverseMass, h.m_nodes);
+    section(a.m_diagonal, h.m_nodes);
+    section(a.m_filled, h.m_filled);
+    section(a.m_weights, h.m_embedded);
+    section(a.m_restValues, 9 * std::size_t(h.m_restBlocks));
+    section(a.m_tets, h.m_tets);
+    section(a.m_triangles, h.m_triangles);
+    section(a.m_vertexTet, h.m_embedded);
+    section(a.m_order, h.m_freeNodes);
+    section(a.m_supernodes, h.m_supernodes);
+    section(a.m_row, h.m_rows);
+    section(a.m_restRowStart, restRows);
+    section(a.m_restColumn, h.m_restBlocks);
+    section(a.m_sides, h.m_tets);
+    section(a.m_fixed, h.m_nodes);
+}
+
+/// Where the next section starts after so many bytes.
+constexpr std::uint64_t alignedBytes(std::uint64_t bytes)
+{
+    return (bytes + kBakedAlignment - 1) / kBakedAlignment * kBakedAlignment;
+}
+
+/// Bytes of the file that such a header belongs to.
+std::uint64_t bakedFileBytes(const BakedHeader& header);
+
+/// XXH3 of some bytes, 64 bits.
+std::uint64_t checksumOf(const void* data, std::size_t size);
+
+/// Makes the header one of this format, of which the counts and values stand; `body` is all that follows it.
+void sealHeader(BakedHeader& header, const unsigned char* body, std::size_t bodyBytes);
+
+/// The header of a file of `fileBytes`, of which the first `size` are at hand. Throws std::invalid_argument with what
+/// is wrong and what to do; the header that it returns has its counts in keeping with the file's length, and values in
+/// their ranges.
+BakedHeader openHeader(const unsigned char* data, std::size_t size, std::uint64_t fileBytes);
+
+/// What a header tells.
+BakedFileInfo infoOf(const BakedHeader& header);
+
+}  // namespace bullet_fem
