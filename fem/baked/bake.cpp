@@ -28,8 +28,9 @@ struct Rounding
     Vec3 operator()(const Vec3& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
     Material operator()(const Material& m) const
     {
-        return {(*this)(m.m_youngModulus), (*this)(m.m_poissonRatio), (*this)(m.m_density), (*this)(m.m_massDamping),
-                (*this)(m.m_stiffnessDamping)};
+        constexpr double kMostPoisson = 0.49;  // the plug-in, too, takes its rounded value for what is meant
+        return {(*this)(m.m_youngModulus), m.m_poissonRatio == kMostPoisson ? kMostPoisson : (*this)(m.m_poissonRatio),
+                (*this)(m.m_density), (*this)(m.m_massDamping), (*this)(m.m_stiffnessDamping)};
     }
 };
 

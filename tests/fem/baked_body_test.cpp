@@ -134,6 +134,9 @@ TEST(Baking, RoundsToSinglePrecisionUnlessToldOtherwise)
     settings.m_material.m_poissonRatio = 0.47;
     const TetMesh mesh = makeBox({1, 1, 1}, {3, 3, 3}, {0.1, 0, 0});
     const BakedBody single = bakeBody(mesh, settings);
+    settings.m_material.m_poissonRatio = 0.49;
+    EXPECT_EQ(bakeBody(mesh, settings).m_model->shape().m_material.m_poissonRatio, 0.49);
+    settings.m_material.m_poissonRatio = 0.47;
     settings.m_singlePrecision = false;
     const BakedBody twice = bakeBody(mesh, settings);
     EXPECT_EQ(single.m_model->shape().m_material.m_poissonRatio, static_cast<double>(0.47f));

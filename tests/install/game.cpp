@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// A game: what the tool has baked falls as the tool says, to the bit.
+#include <bullet_fem/btFemHelpers.h>
+#include <bullet_fem/fem/baked_body.h>
+
+#include <iostream>
+
+#include "drop_bits.h"
+
+int main(int argc, char** argv)
+{
+    if (argc != 2) return 2;
+    const std::string name = argv[1];
+    const bullet_fem::BakedBody baked = bullet_fem::readBakedBody(name + ".bfem");
+    DropWorld world;
+    btSoftBody* body = btFemHelpers::createFromBaked(world.m_world.getWorldInfo(), baked);
+    world.m_fem.useBaked(body, baked);
+    const std::uint64_t bits = world.bitsAfterDrop(body);
+    std::uint64_t expected = 0;
+    std::ifstream(name + ".bits") >> expected;
+    std::cout << "bits " << bits << ", expected " << expected << ", baked " << world.m_baked << std::endl;
+    return bits == expected && world.m_touches && world.m_baked ? 0 : 1;
+}
