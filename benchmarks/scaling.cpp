@@ -7,6 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/bake_times.h"
 #include "benchmarks/fem_beam.h"
 #include "benchmarks/json_file.h"
 #include "benchmarks/scaling_report.h"
@@ -24,6 +25,8 @@ factor    the packed factor in single precision, 1e6 bytes; fill: entries of the
 all MB    heap held after the last step by model and body
 CPU       median of the processor time that the stepping thread got, which the exponent is fitted to
 residual  largest true |b - A dv| / |b| of all steps
+With --bake another table has what baked bodies save: set-up from positions and elements beside reading the file, mapped
+or copied, which the system has in its cache; medians of 9 runs.
 )";
 
 struct Options
@@ -35,6 +38,7 @@ struct Options
     int m_threads = 1;
     bool m_large = false;
     bool m_lowMemory = false;
+    bool m_bake = false;
     std::string m_jsonFile;
 };
 
@@ -46,15 +50,20 @@ struct Table
     FactorChoice m_choice;
 };
 
+BeamCase beamOf(int tets, const Options& options)
+{
+    Material material;
+    material.m_youngModulus = options.m_youngModulus;
+    material.m_stiffnessDamping = 0.01;
+    return makeBeamCase(beamCells(tets), material);
+}
+
 ScalingFigures runSize(int tets, const Table& table)
 {
     const Options& options = table.m_options;
     std::cerr << tets << " tets" << (table.m_choice == FactorChoice::lowMemory ? ", low memory" : "") << " ..."
               << std::endl;
-    Material material;
-    material.m_youngModulus = options.m_youngModulus;
-    material.m_stiffnessDamping = 0.01;
-    BeamCase beam = makeBeamCase(beamCells(tets), material);
+    BeamCase beam = beamOf(tets, options);
     beam.m_steps = options.m_steps;
     ScalingFigures row;
     row.m_stages = measureSetup(*makeBeamModel(beam, table.m_choice));
@@ -73,6 +82,17 @@ std::vector<ScalingFigures> runSizes(const Table& table)
     return rows;
 }
 
+std::vector<BakeTimes> bakeSizes(const Options& options)
+{
+    std::vector<BakeTimes> rows;
+    for (int tets : options.m_tets)
+    {
+        std::cerr << tets << " tets, baked ..." << std::endl;
+        rows.push_back(measureBake(beamOf(tets, options)));
+    }
+    return rows;
+}
+
 void addOptions(CLI::App& app, Options& options)
 {
     app.add_option("--tets", options.m_tets, "mesh sizes, each 24 n^3 with n in [1, 32] cells per metre")
@@ -88,6 +108,7 @@ void addOptions(CLI::App& app, Options& options)
         ->check(CLI::Range(0, Threads::kMost))
         ->capture_default_str();
     app.add_flag("--low-memory", options.m_lowMemory, "the low-memory path, too");
+    app.add_flag("--bake", options.m_bake, "what baked bodies save, too");
     app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
     app.footer(
         "Example, a quick look: bulletfem_bench_scaling --tets 192,1536,12288 --steps 20\n"
@@ -113,6 +134,8 @@ int main(int argc, char** argv)
         const std::vector<ScalingFigures> rows = runSizes({options, threads, FactorChoice::full});
         std::vector<ScalingFigures> lowMemory;
         if (options.m_lowMemory) lowMemory = runSizes({options, threads, FactorChoice::lowMemory});
+        std::vector<BakeTimes> baked;
+        if (options.m_bake) baked = bakeSizes(options);
         std::cout << toText(machine) << "\nClamped beam 4 x 1 x 1 m, E " << options.m_youngModulus
                   << " Pa, nu .3, rho 1000 kg/m3, beta .01 s, h 1/60 s, " << options.m_steps
                   << " steps from rest, tolerance " << options.m_tolerance << "\n\n";
@@ -122,12 +145,18 @@ int main(int argc, char** argv)
             std::cout << "\nLow-memory path:\n\n";
             printTable(std::cout, lowMemory);
         }
+        if (options.m_bake)
+        {
+            std::cout << "\nBaked:\n\n";
+            printTable(std::cout, baked);
+        }
         std::cout << g_legend;
         nlohmann::json document = toJson(rows);
         document["young_modulus_pa"] = options.m_youngModulus;
         document["steps"] = options.m_steps;
         document["tolerance"] = options.m_tolerance;
         if (options.m_lowMemory) document["low_memory"] = toJson(lowMemory);
+        if (options.m_bake) document["baked"] = toJson(baked);
         json.write(machine, std::move(document));
     }
     catch (const std::exception& error)
