@@ -81,6 +81,36 @@ TEST_F(ModelLibraryTest, modelsMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
     EXPECT_EQ(m_library.model(shape, input), first);
 }
 
+TEST_F(ModelLibraryTest, factorsOfAnotherMaterialAreBorrowedAndNeverTakenForFresh)
+{
+    const TestBox a;
+    const auto mesh = tetMeshOf(*a.m_body);
+    const auto shape = m_library.restShape(mesh, Material(), {}),
+               wooden = m_library.restShape(mesh, Material::wood(), {});
+    const FactorInput input = factorInputOf(*a.m_body);
+    const auto factored = BodyModel::create(shape, input);
+    EXPECT_EQ(m_library.modelWithFactor(shape, input, factored), factored);
+    const auto borrowed = m_library.modelWithFactor(wooden, input, factored);
+    EXPECT_EQ(&borrowed->factor(), &factored->factor());
+    EXPECT_EQ(borrowed->sharedShape(), wooden);
+    EXPECT_EQ(m_library.modelWithFactor(wooden, input, factored), borrowed);  // copies share it
+    EXPECT_FALSE(m_library.find(wooden, input));
+    EXPECT_FALSE(m_library.findExact(wooden, input));
+    const auto own = m_library.model(wooden, input);
+    EXPECT_NE(own, borrowed);
+    EXPECT_EQ(m_library.modelWithFactor(wooden, input, factored), own);  // which fits better
+}
+
+TEST_F(ModelLibraryTest, shapesMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
+{
+    const TestBox a;
+    const auto first = std::make_shared<const RestShape>(tetMeshOf(*a.m_body), Material());
+    const auto second = std::make_shared<const RestShape>(tetMeshOf(*a.m_body), Material());
+    EXPECT_EQ(m_library.adoptShape(first, {}), first);
+    EXPECT_EQ(m_library.adoptShape(second, {}), first);
+    EXPECT_EQ(m_library.restShape(tetMeshOf(*a.m_body), Material(), {}), first);
+}
+
 TEST_F(ModelLibraryTest, modelsDieWithTheirLastBody)
 {
     const TestBox a;

@@ -90,6 +90,33 @@ TEST(TetMesh, QualityDoesNotDependOnTheUnitOfLength)
     }
 }
 
+TEST(TetMesh, IsTheSameWithTheSidesThatWereFoundBefore)
+{
+    std::vector<Vec3> X = makeBox({1, 2, 3}, {3, 2, 4}).restPositions();
+    std::vector<Tet> tets = makeBox({1, 2, 3}, {3, 2, 4}).tets();
+    X.push_back({9, 9, 9});  // a loose node
+    tets.erase(tets.begin() + 7);
+    const TetMesh mesh(X, tets, LooseNodes::kept);
+    const TetMesh again = TetMesh::withSides(X, tets, mesh.boundarySides());
+    EXPECT_EQ(again.surface(), mesh.surface());
+    EXPECT_EQ(again.surfaceNodes(), mesh.surfaceNodes());
+    EXPECT_EQ(again.nodeComponent(), mesh.nodeComponent());
+    EXPECT_EQ(again.componentCount(), mesh.componentCount());
+    EXPECT_EQ(again.looseCount(), 1);
+    EXPECT_EQ(again.volume(), mesh.volume());
+    EXPECT_EQ(again.meanEdgeLength(), mesh.meanEdgeLength());
+    EXPECT_EQ(again.boundarySides(), mesh.boundarySides());
+    EXPECT_EQ(TetMesh(kCorner, {{0, 1, 2, 3}}).boundarySides(), (std::vector<unsigned char>{15}));
+}
+
+TEST(TetMeshRejects, SidesThatNoElementHas)
+{
+    expectRejected([] { TetMesh::withSides(kCorner, {{0, 1, 2, 3}}, {16}); }, {"element 0", "16", "[0, 15]"});
+    expectRejected([] { TetMesh::withSides(kCorner, {{0, 1, 2, 3}}, {}); }, {"0 of 1 elements"});
+    expectRejected([] { TetMesh::withSides(kCorner, {{0, 1, 3, 2}}, {15}); }, {"negative orientation"});
+    expectRejected([] { TetMesh::withSides(kCorner, {{0, 1, 2, 4}}, {15}); }, {"node 4"});
+}
+
 TEST(TetMeshRejects, NoElement)
 {
     expectRejected([] { TetMesh(kCorner, {}); }, {"0 elements", "at least 1"});

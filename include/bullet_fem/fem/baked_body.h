@@ -15,7 +15,7 @@ namespace bullet_fem
 {
 
 /// A body that was made ready off line: what a .bfem file holds. Reading one takes milliseconds, and neither orders nor
-/// factors. docs/files.md has the format and what is promised.
+/// factors. docs/baked.md has the format and what is promised.
 struct BakedBody
 {
     std::vector<Vec3> m_positions;       ///< of the nodes at rest [m]; the model's mesh has node 0 at the origin
