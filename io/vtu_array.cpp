@@ -9,10 +9,11 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <stdexcept>
 #include <string_view>
+
+#include "io/written_number.h"
 
 namespace bullet_fem
 {
@@ -86,7 +87,7 @@ void appendText(std::string& xml, int perLine, const std::vector<Number>& values
     for (std::size_t i = 0; i < values.size(); ++i)
     {
         if constexpr (std::is_same_v<Number, double>)
-            xml += numberText(values[i]);
+            xml += writtenNumber(values[i]);
         else
             xml += std::to_string(values[i]);
         xml += (i + 1) % perLine == 0 || i + 1 == values.size() ? '\n' : ' ';
@@ -141,12 +142,6 @@ std::string encodingAttributes(VtuEncoding encoding)
     attributes += "\" header_type=\"UInt64\"";
     if (encoding == VtuEncoding::compressed) attributes += " compressor=\"vtkZLibDataCompressor\"";
     return attributes;
-}
-
-std::string numberText(double value, int digits)
-{
-    char text[40];
-    return std::string(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr);
 }
 
 }  // namespace bullet_fem

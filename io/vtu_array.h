@@ -30,7 +30,4 @@ void appendArray(std::string& xml, VtuEncoding encoding, const VtuArray& array,
 /// The attributes of a VTKFile element that say how its arrays are encoded: with a space in front, or nothing.
 std::string encodingAttributes(VtuEncoding encoding);
 
-/// A number with `digits` digits, alike in every locale.
-std::string numberText(double value, int digits = 9);
-
 }  // namespace bullet_fem

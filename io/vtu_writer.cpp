@@ -9,8 +9,8 @@
 #include "fem/message.h"
 #include "io/body_frame_check.h"
 #include "io/output_file.h"
-#include "io/vtu_array.h"
 #include "io/vtu_frame.h"
+#include "io/written_number.h"
 
 namespace bullet_fem
 {
@@ -34,7 +34,8 @@ void writePvd(const std::string& path, const std::string& name, const std::vecto
 {
     std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
     for (std::size_t i = 0; i < times.size(); ++i)
-        xml += "<DataSet timestep=\"" + numberText(times[i]) + "\" part=\"0\" file=\"" + frameFile(name, i) + "\"/>\n";
+        xml +=
+            "<DataSet timestep=\"" + writtenNumber(times[i]) + "\" part=\"0\" file=\"" + frameFile(name, i) + "\"/>\n";
     xml += "</Collection>\n</VTKFile>\n";
     writeOutputFile(path, xml);
 }

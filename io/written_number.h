@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <charconv>
+#include <string>
+
+namespace bullet_fem
+{
+
+/// A number with nine digits, those of a float, which is what Bullet knows; alike in every locale.
+inline std::string writtenNumber(double value)
+{
+    constexpr int digits = 9;
+    char text[40];
+    return std::string(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr);
+}
+
+}  // namespace bullet_fem
