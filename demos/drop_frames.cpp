@@ -52,7 +52,7 @@ DropFrames::DropFrames(const std::string& folder, const DropScene& scene)
         Triangle triangle;
         for (int a = 0; a < 3; ++a)
             triangle[a] = static_cast<int>(body.m_renderFaces[t].m_n[a] - &body.m_renderNodes[0]);
-        m_bodyTriangles.push_back(triangle);
+        m_body.m_triangles.push_back(triangle);
     }
 }
 
@@ -65,14 +65,29 @@ void DropFrames::write(double time)
 void DropFrames::writeBody(double time)
 {
     const btSoftBody& body = m_scene.softBody();
-    std::vector<Vec3> positions;
-    positions.reserve(body.m_renderNodes.size());
-    for (int i = 0; i < body.m_renderNodes.size(); ++i) positions.push_back(vec3(body.m_renderNodes[i].m_x));
-    if (m_firstPositions.empty()) m_firstPositions = positions;
+    m_body.m_positions.clear();
+    for (int i = 0; i < body.m_renderNodes.size(); ++i) m_body.m_positions.push_back(vec3(body.m_renderNodes[i].m_x));
+    if (m_firstPositions.empty()) m_firstPositions = m_body.m_positions;
 
-    std::vector<Vec3> displacement = positions;
-    for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] -= m_firstPositions[i];
-    m_bodySeries.writeTriangles(time, positions, m_bodyTriangles, displacement);
+    m_body.m_displacement = m_body.m_positions;
+    for (std::size_t i = 0; i < m_firstPositions.size(); ++i) m_body.m_displacement[i] -= m_firstPositions[i];
+    interpolateStress();
+    m_bodySeries.writeBodies(time, {m_body});
+}
+
+// The surface's vertices lie in elements of the cage, with barycentric weights of their nodes.
+void DropFrames::interpolateStress()
+{
+    const btSoftBody& body = m_scene.softBody();
+    m_scene.getStress(m_nodeStress);
+    m_body.m_nodeStress.assign(m_body.m_positions.size(), {});
+    for (int i = 0; i < body.m_renderNodes.size(); ++i)
+        for (int a = 0; a < body.m_renderNodesParents[i].size(); ++a)
+        {
+            const btFemStress& s = m_nodeStress[static_cast<int>(body.m_renderNodesParents[i][a] - &body.m_nodes[0])];
+            Stress share = {s.m_xx, s.m_yy, s.m_zz, s.m_xy, s.m_yz, s.m_xz};
+            m_body.m_nodeStress[i] += share *= body.m_renderNodesInterpolationWeights[i][a];
+        }
 }
 
 void DropFrames::writeRigid(double time)

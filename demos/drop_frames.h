@@ -11,8 +11,8 @@
 namespace bullet_fem
 {
 
-/// The scene as two ParaView series: "body", the file's surface with its displacement [m] from the first frame, and
-/// "rigid", the boxes and a piece of the plane.
+/// The scene as two ParaView series: "body", the file's surface with its displacement [m] from the first frame and the
+/// stress [Pa] of the elements around it, and "rigid", the boxes and a piece of the plane.
 class DropFrames
 {
 public:
@@ -29,11 +29,13 @@ public:
 private:
     void writeBody(double time);
     void writeRigid(double time);
+    void interpolateStress();
 
     const DropScene& m_scene;
     VtuSeries m_bodySeries, m_rigidSeries;
-    std::vector<Triangle> m_bodyTriangles;
+    BodyFrame m_body;
     std::vector<Vec3> m_firstPositions;
+    btAlignedObjectArray<btFemStress> m_nodeStress;
 };
 
 }  // namespace bullet_fem

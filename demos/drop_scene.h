@@ -35,6 +35,10 @@ public:
     const btSoftBody& softBody() const { return *m_softBody; }
     const btFemStepReport& report() const { return m_fem.stepReport(m_softBody.get()); }
     const btAlignedObjectArray<btFemContact>& contacts() const { return m_fem.contacts(m_softBody.get()); }
+    void getStress(btAlignedObjectArray<btFemStress>& perNode) const  ///< [Pa]
+    {
+        m_fem.getNodeStress(m_softBody.get(), perNode);
+    }
     /// The tilted box first, which is static; then those that fall.
     const std::vector<std::unique_ptr<btRigidBody>>& boxes() const { return m_boxes; }
     btVector3 gravity() const { return m_world.getGravity(); }  ///< [m/s2]
