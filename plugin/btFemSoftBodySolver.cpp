@@ -244,6 +244,23 @@ btVector3 btFemSoftBodySolver::contactForce(const btSoftBody* body, const btColl
     return sum / static_cast<btScalar>(entry->m_lastStep);
 }
 
+bool btFemSoftBodySolver::getContactForces(const btSoftBody* body, btAlignedObjectArray<btVector3>& perNode) const
+{
+    const btFemEntry* entry = m_impl->m_registry.find(body);
+    const bool known = entry && entry->m_fem && arraysAsSetUp(*entry->m_fem);
+    perNode.resize(known ? body->m_nodes.size() : 0);
+    for (int i = 0; i < perNode.size(); ++i) perNode[i].setZero();
+    for (int k = 0; known && entry->m_lastStep > 0 && k < entry->m_contacts.size(); ++k)
+    {
+        const btFemContact& contact = entry->m_contacts[k];
+        for (int a = 0; a < 3; ++a)
+            if (contact.m_nodes[a] < perNode.size())  // prepare() may have found fewer nodes than the last step
+                perNode[contact.m_nodes[a]] +=
+                    contact.m_impulse * (contact.m_weights[a] / static_cast<btScalar>(entry->m_lastStep));
+    }
+    return known;
+}
+
 btFemContactGroup* btFemCoupling::beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
                                              double step)
 {

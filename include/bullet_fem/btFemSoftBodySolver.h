@@ -254,6 +254,11 @@ public:
     /// known.
     btVector3 contactForce(const btSoftBody* body, const btCollisionObject* other) const;
 
+    /// Mean force of contact on every node during the last step [N], in the order of m_nodes: each point's impulse / h,
+    /// shared out by the weights of its nodes (of self contact the one side that contacts() tells). False, and an empty
+    /// array, if the body is not FEM, or its arrays were changed since. Allocates only when the array grows.
+    bool getContactForces(const btSoftBody* body, btAlignedObjectArray<btVector3>& perNode) const;
+
     /// Elastic stress of every tetrahedron [Pa] where the last step left the nodes (or where prepare found them), in
     /// the order of m_tetras: R (2 mu eps + lambda tr(eps) I) R^T, Hooke's law in the frame that turns with the
     /// element, without viscous stress; of an element of a cage that is partly filled, the stress of what fills it.

@@ -9,6 +9,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "plugin/clamped_beam.h"
+#include "plugin/scene_measures.h"
 
 namespace bullet_fem
 {
@@ -117,6 +118,32 @@ TEST(StressOfABody, IsThereOnceTheBodyIsPrepared)
     ASSERT_TRUE(fem.getVonMises(&cube, vonMises));
     const double shear = 1e6 / 2.6;  // of the unset material, nu .3
     for (int e = 0; e < vonMises.size(); ++e) EXPECT_NEAR(double(vonMises[e]), 2 * shear * 0.01, 0.02 * shear * 0.01);
+}
+
+// What rests on the plane is carried by the nodes of its lower face.
+TEST(ContactForcesOfNodes, CarryTheWeight)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    btRigidBody& plane = world.addPlane();
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.501)));
+    btAlignedObjectArray<btVector3> forces;
+    EXPECT_FALSE(fem.getContactForces(&cube, forces));
+    world.step(120);
+    ASSERT_TRUE(fem.getContactForces(&cube, forces));
+    ASSERT_EQ(forces.size(), cube.m_nodes.size());
+    btVector3 sum(0, 0, 0);
+    for (int i = 0; i < forces.size(); ++i)
+    {
+        sum += forces[i];
+        EXPECT_EQ(forces[i].z() > 0, cube.m_nodes[i].m_x.z() < btScalar(0.1)) << i;
+    }
+    const double weight = massOf(cube) * kGravity;
+    EXPECT_NEAR(double(sum.z()), weight, 1e-3 * weight);
+    EXPECT_LT(double((sum - fem.contactForce(&cube, &plane)).length()), 1e-5 * weight);
+    cube.appendNode(btVector3(5, 5, 5), 1);
+    EXPECT_FALSE(fem.getContactForces(&cube, forces));
+    EXPECT_EQ(forces.size(), 0);
 }
 
 TEST(StressOfABody, OfOthersIsNone)
