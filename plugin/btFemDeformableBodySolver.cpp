@@ -66,6 +66,7 @@ struct btFemDeformableBodySolver::Impl
     void reportRejections();
     void setAside();
     void takeBack();
+    void drawNodes();
     void settleSleep(btScalar step);
 
     btFemSoftBodySolver m_fem;
@@ -187,6 +188,21 @@ void btFemDeformableBodySolver::Impl::takeBack()
     m_aside.clear();
 }
 
+// Springs of a step take the place of those of the step before; the user's own have positive handles.
+void btFemDeformableBodySolver::Impl::drawNodes()
+{
+    for (int i = 0; i < m_femBodies.size(); ++i)
+    {
+        const btFemEntry* entry = btFemCoupling::entry(m_fem, *m_femBodies[i]);
+        if (!entry || !entry->m_fem) continue;
+        std::vector<NodeSpring>& springs = entry->m_fem->m_joints.m_springs;
+        const auto isDrawn = [](const NodeSpring& s) { return s.m_id < 0; };
+        springs.erase(std::remove_if(springs.begin(), springs.end(), isDrawn), springs.end());
+        for (const btFemDrawnNode& drawn : m_forces.drawn())
+            if (drawn.m_body == m_femBodies[i]) springs.push_back(drawn.m_spring);
+    }
+}
+
 // The world will add the step to the time for which a body has been slow, as m_fem has just done; and judges by that
 // time alone, where m_fem has reasons to keep a body awake.
 void btFemDeformableBodySolver::Impl::settleSleep(btScalar step)
@@ -246,6 +262,7 @@ void btFemDeformableBodySolver::predictMotion(btScalar solverdt)
 {
     Impl& impl = *m_impl;
     impl.m_forces.addTo(impl.m_femBodies, impl.m_plain, solverdt);
+    impl.drawNodes();
     if (impl.m_plain.size() > 0) btDeformableBodySolver::predictMotion(solverdt);
     impl.m_fem.predictMotion(solverdt);
 }

@@ -144,6 +144,7 @@ void btFemDeformableForces::show(const Bodies& world)
 
 void btFemDeformableForces::addTo(const Bodies& fem, const Bodies& plain, double step)
 {
+    m_drawn.clear();
     const auto acts = [](const Hidden& h) { return isExternal(*h.m_force); };
     if (std::none_of(m_hidden.begin(), m_hidden.end(), acts)) return;
     int size = 0;
@@ -160,6 +161,7 @@ void btFemDeformableForces::addTo(const Bodies& fem, const Bodies& plain, double
     for (int k = 0; k < m_all.size(); ++k)
     {
         if (!isExternal(*m_all[k]) || !evaluate(*m_all[k], size, step)) continue;
+        if (m_all[k]->getForceType() == BT_MOUSE_PICKING_FORCE) takeDrawn(k, fem, step);
         for (int b = 0; b < fem.size(); ++b)
             for (int i = 0; i < fem[b]->m_nodes.size(); ++i)
                 fem[b]->m_nodes[i].m_f += (1 / btScalar(step)) * yieldingImpulse(fem[b]->m_nodes[i], step);
@@ -205,15 +207,65 @@ bool btFemDeformableForces::evaluate(Force& force, int size, double step)
     return ours;
 }
 
+// The elastic part as springs, which are solved with the body: taken at the step's beginning it would overshoot, and
+// what keeps one node alone from that holds less than it should. Bullet's force does not tell where the mouse is: where
+// its pull ends, unless it is at its limit and still pulls there.
+void btFemDeformableForces::takeDrawn(int number, const Bodies& fem, double step)
+{
+    constexpr double kRounding = 1e-5;  // of a place in single precision [-]
+    Force& force = *m_all[number];
+    const std::size_t first = m_drawn.size();
+    clear(m_change, m_impulse.size());
+    force.addScaledExplicitForce(1, m_change);
+    for (int b = 0; b < fem.size(); ++b)
+        for (int i = 0; i < fem[b]->m_nodes.size(); ++i)
+        {
+            btSoftBody::Node& node = fem[b]->m_nodes[i];
+            const btVector3 pull = m_change[node.index];
+            NodeSpring spring;
+            spring.m_stiffness = stiffnessOf(node);
+            if (!(spring.m_stiffness > 0) || !std::isfinite(pull.length())) continue;
+            spring.m_id = -(number * fem[b]->m_nodes.size() + i + 1);
+            spring.m_nodes[0] = i;
+            spring.m_target = vec3(node.m_x) + (1 / spring.m_stiffness) * vec3(pull);
+            m_impulse[node.index] -= btScalar(step) * pull;
+            m_stiffness[node.index].setZero();
+            node.m_q = bulletVector(spring.m_target);
+            m_drawn.push_back({fem[b], spring});
+        }
+    clear(m_change, m_impulse.size());
+    force.addScaledExplicitForce(1, m_change);
+    for (std::size_t k = first; k < m_drawn.size(); ++k)
+    {
+        NodeSpring& spring = m_drawn[k].m_spring;
+        // The body is one of `fem`, whose nodes may be written.
+        btSoftBody::Node& node = const_cast<btSoftBody*>(m_drawn[k].m_body)->m_nodes[spring.m_nodes[0]];
+        const Vec3 way = spring.m_target - vec3(node.m_x);
+        const double left = double(m_change[node.index].length()) / spring.m_stiffness;
+        if (left > 1e-3 * norm(way) + kRounding * norm(spring.m_target))
+        {
+            spring.m_maxForce = spring.m_stiffness * norm(way);
+            spring.m_target += way;
+        }
+        node.m_q = node.m_x;
+    }
+}
+
+// The same in all directions.
+double btFemDeformableForces::stiffnessOf(const btSoftBody::Node& node) const
+{
+    const btVector3& k = m_stiffness[node.index];
+    return std::max(0.0, -(double(k.x()) + double(k.y()) + double(k.z())) / 3);
+}
+
 // Each node as if it were alone, by implicit Euler: m dv = h f(x + h (v + dv), v + dv). What other nodes hold it with
-// makes it but steadier. Stiffness is the same in all directions; damping may act in one alone.
+// makes it but steadier. Damping may act in one direction alone.
 btVector3 btFemDeformableForces::yieldingImpulse(const btSoftBody::Node& node, double step) const
 {
     const auto sum = [](const btVector3& v) { return double(v.x()) + double(v.y()) + double(v.z()); };
     const Vec3 impulse = vec3(m_impulse[node.index]);
     if (node.m_im == 0 || dot(impulse, impulse) == 0) return btVector3(0, 0, 0);
-    const double stiffness = std::max(0.0, -sum(m_stiffness[node.index]) / 3);
     const double damping = std::max(0.0, -sum(m_damping[node.index]));
-    const double yields = 1 + step * (damping + step * stiffness) * double(node.m_im);
+    const double yields = 1 + step * (damping + step * stiffnessOf(node)) * double(node.m_im);
     return bulletVector((1 / yields) * impulse);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "BulletSoftBody/btDeformableBodySolver.h"
+#include "bullet_bridge/joints/held_joint.h"
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/fem/vec3.h"
 
@@ -16,6 +17,13 @@ struct btFemForceMaterial
 
     bool operator==(const btFemForceMaterial& b) const;
     bool operator!=(const btFemForceMaterial& b) const { return !(*this == b); }
+};
+
+/// A node that a mouse draws. The spring's handle is negative, and the same in every step.
+struct btFemDrawnNode
+{
+    const btSoftBody* m_body;
+    bullet_fem::NodeSpring m_spring;
 };
 
 /// The forces of a deformable world. Bullet's solver must not see those on FEM bodies: it finds nodes by an index that
@@ -43,9 +51,13 @@ public:
     void show(const Bodies& world);
 
     /// Adds to m_f of FEM bodies what forces other than elasticity, springs and gravity do to them in a step of `step`
-    /// [s], and to the velocities of `plain` bodies what such forces do to them if they are on FEM bodies, too. While
-    /// they are hidden; the plain bodies' nodes must have their indices. FEM bodies' nodes have index 0 after that.
+    /// [s], and to the velocities of `plain` bodies what such forces do to them if they are on FEM bodies, too; but for
+    /// how a mouse draws FEM bodies, which drawn() tells. While they are hidden; the plain bodies' nodes must have
+    /// their indices. FEM bodies' nodes have index 0 after that.
     void addTo(const Bodies& fem, const Bodies& plain, double step);
+
+    /// By mouse picking forces, in the step of the last addTo. Their damping is not in it: addTo adds that.
+    const std::vector<btFemDrawnNode>& drawn() const { return m_drawn; }
 
 private:
     struct Hidden
@@ -56,10 +68,13 @@ private:
     using Vectors = btAlignedObjectArray<btVector3>;
 
     bool evaluate(Force& force, int size, double step);
+    void takeDrawn(int number, const Bodies& fem, double step);
+    double stiffnessOf(const btSoftBody::Node& node) const;
     btVector3 yieldingImpulse(const btSoftBody::Node& node, double step) const;
 
     btAlignedObjectArray<Force*> m_all;
     std::vector<Hidden> m_hidden;
+    std::vector<btFemDrawnNode> m_drawn;
     Vectors m_impulse, m_direction, m_change, m_stiffness, m_damping, m_place;  // scratch, per index of a node
     Bodies m_others;                                                            // likewise
 };

@@ -28,7 +28,8 @@ struct btFemAnchorReport
 {
     btFemHold m_kind = btFemHold::anchor;         ///< what it is
     int m_node = -1;                              ///< that is held; -1 where it is a cluster or a point between nodes
-    int m_attachment = 0;                         ///< its handle, or that of a spring; 0 for other kinds
+    int m_attachment = 0;                         ///< its handle, or that of a spring (negative: of a mouse picking
+                                                  ///< force); 0 for other kinds
     const void* m_joint = nullptr;                ///< the element of m_joints; null for other kinds
     const btCollisionObject* m_object = nullptr;  ///< at the other end; null: the world
     btVector3 m_point{0, 0, 0};                   ///< where the body is held, as the step began [m]
