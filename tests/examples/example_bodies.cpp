@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "examples/example_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "BulletSoftBody/btSoftBodyHelpers.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/fem/generators.h"
+#include "fem/rotation.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kTurn = 2 * 3.14159265358979323846;
+
+// Of an element, and its volume at rest.
+struct Deformation
+{
+    Mat3 m_F;
+    double m_restVolume;
+};
+
+Deformation deformationOf(const btSoftBody::Tetra& tet)
+{
+    const Vec3 x = vec3(tet.m_n[0]->m_x);
+    const Mat3 edges =
+        Mat3::fromColumns(vec3(tet.m_n[1]->m_x) - x, vec3(tet.m_n[2]->m_x) - x, vec3(tet.m_n[3]->m_x) - x);
+    Mat3 inverseRest;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) inverseRest(i, j) = double(tet.m_Dm_inverse[i][j]);
+    return {edges * inverseRest, 1 / (6 * std::fabs(determinant(inverseRest)))};
+}
+
+double bump(const Vec3& direction, const Vec3& toward, double width)
+{
+    const Vec3 away = direction - (1 / norm(toward)) * toward;
+    return std::exp(-dot(away, away) / (width * width));
+}
+
+}  // namespace
+
+TetMesh exampleCube()
+{
+    return makeBox({2, 2, 2}, {7, 7, 7}, {-1, -1, -1});
+}
+
+// A rod, bent to a ring whose ends are joined.
+TetMesh exampleTorus()
+{
+    const int cells = 4, layers = 20;
+    const double ring = 0.5, tube = 0.25;
+    const TetMesh rod = makeCylinder(tube, 1, cells, layers);
+    const int section = rod.nodeCount() / (layers + 1);
+    std::vector<Vec3> positions;
+    std::vector<int> node(rod.nodeCount());
+    for (int i = 0; i < rod.nodeCount(); ++i)
+    {
+        const Vec3& X = rod.restPositions()[i];
+        if (i >= layers * section)
+        {
+            node[i] = i - layers * section;
+            continue;
+        }
+        node[i] = i;
+        const double angle = kTurn * (X.z + 0.5), r = ring + X.x;
+        positions.push_back({r * std::cos(angle), X.y, -r * std::sin(angle)});
+    }
+    std::vector<Tet> tets;
+    for (const Tet& t : rod.tets()) tets.push_back({node[t[0]], node[t[1]], node[t[2]], node[t[3]]});
+    return TetMesh(positions, tets);
+}
+
+SurfaceMesh lumpySurface()
+{
+    const int around = 24, along = 12;
+    SurfaceMesh surface;
+    const auto add = [&](double polar, double turn)
+    {
+        const Vec3 d = {std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)};
+        const double r = 1 + 0.06 * std::sin(3 * turn) * std::sin(2 * polar) + 0.45 * bump(d, {0.35, 0.8, 0.45}, 0.4) +
+                         0.45 * bump(d, {-0.35, 0.8, 0.45}, 0.4) - 0.2 * bump(d, {0, 1, -0.2}, 0.5);
+        surface.m_vertices.push_back({2.8 * r * d.x, 3.7 * r * d.y, 5.6 * r * d.z});
+    };
+    add(0, 0);
+    for (int j = 1; j < along; ++j)
+        for (int i = 0; i < around; ++i) add(kTurn / 2 * j / along, kTurn * i / around);
+    add(kTurn / 2, 0);
+    const int last = static_cast<int>(surface.m_vertices.size()) - 1;
+    for (int i = 0; i < around; ++i)
+    {
+        const int next = (i + 1) % around, bottom = last - around;
+        surface.m_triangles.push_back({0, 1 + next, 1 + i});
+        surface.m_triangles.push_back({last, bottom + i, bottom + next});
+        for (int j = 0; j + 2 < along; ++j)
+        {
+            const int a = 1 + j * around, b = a + around;
+            surface.m_triangles.push_back({a + i, a + next, b + i});
+            surface.m_triangles.push_back({a + next, b + next, b + i});
+        }
+    }
+    return surface;
+}
+
+btSoftBody* createFromTetGenText(btSoftBodyWorldInfo& info, const TetMesh& mesh)
+{
+    std::ostringstream nodes, elements;
+    nodes.precision(17);
+    nodes << mesh.nodeCount() << " 3 0 0\n";
+    for (int i = 0; i < mesh.nodeCount(); ++i)
+    {
+        const Vec3& X = mesh.restPositions()[i];
+        nodes << i << " " << X.x << " " << X.y << " " << X.z << "\n";
+    }
+    elements << mesh.tetCount() << " 4 0\n";
+    for (int e = 0; e < mesh.tetCount(); ++e)
+    {
+        elements << e;
+        for (int i : mesh.tets()[e]) elements << " " << i;
+        elements << "\n";
+    }
+    return btSoftBodyHelpers::CreateFromTetGenData(info, elements.str().c_str(), nullptr, nodes.str().c_str(), false,
+                                                   true, true);
+}
+
+double smallestVolumeRatio(const btSoftBody& body)
+{
+    double smallest = 1;
+    for (int e = 0; e < body.m_tetras.size(); ++e)
+        smallest = std::min(smallest, determinant(deformationOf(body.m_tetras[e]).m_F));
+    return smallest;
+}
+
+double elasticEnergy(const btSoftBody& body, double young, double poisson)
+{
+    const double mu = young / (2 * (1 + poisson)), lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+    double sum = 0;
+    for (int e = 0; e < body.m_tetras.size(); ++e)
+    {
+        const Deformation d = deformationOf(body.m_tetras[e]);
+        const Mat3 S = transposeTimes(polarRotation(d.m_F, Mat3::identity()), d.m_F);
+        const Mat3 strain = 0.5 * (S + transpose(S)) - Mat3::identity();
+        sum += d.m_restVolume * (mu * squaredNorm(strain) + 0.5 * lambda * trace(strain) * trace(strain));
+    }
+    return sum;
+}
+
+}  // namespace bullet_fem

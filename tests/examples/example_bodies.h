@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/fem/surface_mesh.h"
+#include "bullet_fem/fem/tet_mesh.h"
+
+class btSoftBody;
+struct btSoftBodyWorldInfo;
+
+namespace bullet_fem
+{
+
+/// Like the cube of Bullet's soft demo, which has 1,580 elements: edges of 2 m around the origin, 1,715 elements.
+TetMesh exampleCube();
+
+/// Like the torus of Bullet's data, which has 4,436 elements: tube of 0.25 m, 1.5 m across, around y; 1,920 elements.
+TetMesh exampleTorus();
+
+/// Like the bunny of Bullet's soft demo: a lumpy body with two ears in a box of 5.8 x 8.7 x 11.8 m around the origin.
+SurfaceMesh lumpySurface();
+
+/// What Bullet's examples do: CreateFromTetGenData, with links along all edges.
+btSoftBody* createFromTetGenText(btSoftBodyWorldInfo& info, const TetMesh& mesh);
+
+/// Smallest volume of an element as a share of what it is at rest [-]; negative where one is inside out.
+double smallestVolumeRatio(const btSoftBody& body);
+
+/// Of the isotropic corotated linear material, sum of V (mu |S - I|^2 + lambda / 2 tr(S - I)^2) with F = R S [J].
+double elasticEnergy(const btSoftBody& body, double young, double poisson);
+
+}  // namespace bullet_fem
