@@ -110,11 +110,8 @@ void SceneFrames::updateVolume(int i)
         frame.m_displacement[n] = frame.m_positions[n] - m_rest[i][n];
         frame.m_velocity[n] = vec3(body.m_nodes[n].m_v);
     }
-    const btAlignedObjectArray<btFemContact>& contacts = m_world.fem().contacts(&body);
-    for (int c = 0; c < contacts.size(); ++c)
-        for (int a = 0; a < 3; ++a)
-            frame.m_contactForce[contacts[c].m_nodes[a]] +=
-                double(contacts[c].m_weights[a]) / m_world.description().m_step * vec3(contacts[c].m_impulse);
+    if (m_world.fem().getContactForces(&body, m_forces))
+        for (int n = 0; n < count; ++n) frame.m_contactForce[n] = vec3(m_forces[n]);
     if (m_world.fem().getStress(&body, m_stress)) take(m_stress, frame.m_tetStress);
     if (m_world.fem().getNodeStress(&body, m_stress)) take(m_stress, frame.m_nodeStress);
 }

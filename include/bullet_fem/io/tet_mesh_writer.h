@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <string>
+
+#include "bullet_fem/fem/tet_mesh.h"
+
+namespace bullet_fem
+{
+
+/// Writes a mesh as text, so that readTetMeshFile gives the same bits: Gmsh .msh (2.2), VTK legacy .vtk (2.0, which
+/// Bullet's own reader takes), Medit .mesh, or TetGen .node and .ele, both of which are written, counted from 1.
+/// Each file appears as a whole or not at all. Throws std::runtime_error naming the path if it cannot be written or its
+/// ending is another.
+void writeTetMeshFile(const std::string& path, const TetMesh& mesh);
+
+}  // namespace bullet_fem

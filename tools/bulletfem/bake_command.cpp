@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <cstdlib>
+#include <memory>
+
+#include "bullet_fem/fem/baked_body.h"
+#include "tools/bulletfem/commands.h"
+#include "tools/bulletfem/figures.h"
+#include "tools/bulletfem/material_options.h"
+#include "tools/bulletfem/mesh_input.h"
+#include "tools/console/option_range.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// A number, or one over another: 1/60.
+double numberOf(const std::string& text)
+{
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (*end != '/') return *end == 0 ? value : std::nan("");
+    const double below = std::strtod(end + 1, &end);
+    return *end == 0 ? value / below : std::nan("");
+}
+
+struct BakeCommand
+{
+    std::string m_mesh, m_output, m_step = "1/60";
+    double m_scale = 1;
+    bool m_double = false, m_lowMemory = false;
+    std::vector<double> m_pinBox;
+    MaterialOptions m_material;
+    CageOptions m_cage;
+    Figures m_figures;
+
+    void run()
+    {
+        const MeshInput input = MeshInput::read(m_mesh, m_scale, m_cage);
+        const BakeSettings wanted = settings(input.m_mesh);
+        const BakedBody body =
+            input.m_cage ? bakeBody(*input.m_cage, input.m_surface, wanted) : bakeBody(input.m_mesh, wanted);
+        writeBakedBody(m_output, body);
+        const BakedFileInfo info = inspectBakedBody(m_output);
+        m_figures.add("file", m_output);
+        m_figures.add("bytes", info.m_fileBytes);
+        m_figures.add("factorBytes", info.m_factorBytes);
+        m_figures.add("nodes", info.m_nodes);
+        m_figures.add("tets", info.m_tets);
+        m_figures.add("pinned", info.m_nodes - info.m_freeNodes, "nodes");
+        m_figures.add("factorSeconds", body.m_model->factorReport().m_seconds, "s, which loading saves");
+        m_figures.print();
+    }
+
+    BakeSettings settings(const TetMesh& mesh) const
+    {
+        BakeSettings settings;
+        settings.m_material = m_material.material();
+        settings.m_step = numberOf(m_step);
+        settings.m_singlePrecision = !m_double;
+        if (m_lowMemory) settings.m_choice = FactorChoice::lowMemory;
+        for (std::size_t at = 0; at + 6 <= m_pinBox.size(); at += 6) pin(mesh, &m_pinBox[at], settings.m_pins);
+        return settings;
+    }
+
+    static void pin(const TetMesh& mesh, const double* box, std::vector<int>& pins)
+    {
+        const std::size_t before = pins.size();
+        for (int i = 0; i < mesh.nodeCount(); ++i)
+        {
+            bool inside = true;
+            for (int c = 0; c < 3; ++c)
+            {
+                const double x = mesh.restPositions()[i][c];
+                inside = inside && x >= box[c] && x <= box[c + 3];
+            }
+            if (inside) pins.push_back(i);
+        }
+        if (pins.size() == before)
+            throw std::runtime_error("a --pin box holds no node; look at the mesh's bounds with info");
+    }
+};
+
+}  // namespace
+
+void addBakeCommand(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "bake",
+        "Makes a body ready: mesh, material, pins and factor in one .bfem file that a game loads in milliseconds.");
+    const auto options = std::make_shared<BakeCommand>();
+    command
+        ->add_option("mesh", options->m_mesh,
+                     "tetrahedra (.msh, .vtk, .vtu, .mesh, .node) or a surface (.off, .obj, .stl, .ply)")
+        ->required();
+    command->add_option("-o,--output", options->m_output, "the .bfem file")->required();
+    command->add_option("--scale", options->m_scale, "times the file's positions (default 1)")
+        ->check(inRange(1e-9, 1e9));
+    command->add_option("--step", options->m_step, "fixed time step of the game [s], as 0.01 or 1/60 (default 1/60)")
+        ->check(
+            [](const std::string& text)
+            {
+                const double step = numberOf(text);
+                return step >= 1e-6 && step <= 1 ? "" : "is " + text + ", must be in [1e-6, 1] s, as 0.01 or 1/60";
+            });
+    command
+        ->add_option("--pin", options->m_pinBox,
+                     "nodes in this box stand still: x y z of its low corner, then of its high one [m]")
+        ->expected(6)
+        ->allow_extra_args(false)
+        ->check(inRange(-1e6, 1e6));
+    command->add_flag("--double", options->m_double, "for Bullet in double precision");
+    command->add_flag("--low-memory", options->m_lowMemory,
+                      "with the small factor: about a ninth of the memory, slower steps");
+    options->m_material.add(*command);
+    options->m_cage.add(*command);
+    options->m_figures.addOption(*command);
+    command->callback([options] { options->run(); });
+}
+
+}  // namespace bullet_fem

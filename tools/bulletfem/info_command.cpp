@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "bullet_fem/fem/baked_body.h"
+#include "bullet_fem/fem/cage_report.h"
+#include "bullet_fem/io/surface_file.h"
+#include "bullet_fem/io/tet_mesh_file.h"
+#include "tools/bulletfem/commands.h"
+#include "tools/bulletfem/figures.h"
+#include "tools/bulletfem/mesh_input.h"
+#include "tools/scene/scene_reader.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+struct InfoCommand
+{
+    std::string m_file;
+    Figures m_figures;
+
+    void run()
+    {
+        const std::string ending = std::filesystem::path(m_file).extension().string();
+        m_figures.add("file", m_file);
+        if (ending == ".bfem")
+            tellBaked(inspectBakedBody(m_file));
+        else if (ending == ".json")
+            tellScene(readScene(m_file));
+        else if (isSurfaceFile(m_file))
+            tellSurface(readSurfaceFile(m_file));
+        else
+            tellMesh(readTetMeshFile(m_file));
+        m_figures.print();
+    }
+
+    void tellBaked(const BakedFileInfo& info)
+    {
+        m_figures.add("kind", "baked body");
+        m_figures.add("version", info.m_version);
+        m_figures.add("bytes", info.m_fileBytes);
+        m_figures.add("factorBytes", info.m_factorBytes);
+        m_figures.add("nodes", info.m_nodes);
+        m_figures.add("tets", info.m_tets);
+        m_figures.add("pinned", info.m_nodes - info.m_freeNodes, "nodes");
+        m_figures.add("embeddedVertices", info.m_embeddedVertices);
+        m_figures.add("young", info.m_material.m_youngModulus, "Pa");
+        m_figures.add("poisson", info.m_material.m_poissonRatio);
+        m_figures.add("density", info.m_material.m_density, "kg/m3");
+        m_figures.add("massDamping", info.m_material.m_massDamping, "1/s");
+        m_figures.add("stiffnessDamping", info.m_material.m_stiffnessDamping, "s");
+        m_figures.add("step", info.m_step, "s");
+        m_figures.add("precision", info.m_singlePrecision ? "single" : "double");
+    }
+
+    void tellScene(const SceneDescription& scene)
+    {
+        m_figures.add("kind", "scene");
+        m_figures.add("title", scene.m_title);
+        m_figures.add("step", scene.m_step, "s");
+        m_figures.add("seconds", scene.m_seconds, "s");
+        m_figures.add("softBodies", scene.m_softBodies.size());
+        m_figures.add("rigidBodies", scene.m_rigidBodies.size());
+        m_figures.add("constraints", scene.m_constraints.size());
+        m_figures.add("forces", scene.m_forces.size());
+    }
+
+    void tellSurface(const SurfaceMesh& surface)
+    {
+        m_figures.add("kind", "surface");
+        m_figures.add("vertices", surface.m_vertices.size());
+        m_figures.add("triangles", surface.m_triangles.size());
+        m_figures.add("signedVolume", signedVolume(surface), "m3, negative if inside out");
+        tellBounds(surface.m_vertices);
+    }
+
+    void tellMesh(const TetMeshFile& file)
+    {
+        const TetMesh mesh = file.mesh();
+        double least = 1;
+        for (const Tet& t : mesh.tets())
+        {
+            const std::vector<Vec3>& x = mesh.restPositions();
+            least = std::min(least, meanRatio({x[t[0]], x[t[1]], x[t[2]], x[t[3]]}));
+        }
+        m_figures.add("kind", "tetrahedra");
+        m_figures.add("format", file.m_format + " " + file.m_version);
+        m_figures.add("nodes", mesh.nodeCount());
+        m_figures.add("tets", mesh.tetCount());
+        m_figures.add("pieces", mesh.componentCount());
+        m_figures.add("turned", mesh.turnedCount(), "tetrahedra of negative orientation");
+        m_figures.add("unusedNodes", file.m_unusedNodes);
+        m_figures.add("skippedFaces", file.m_skippedFaces);
+        m_figures.add("volume", mesh.volume(), "m3");
+        m_figures.add("meanEdge", mesh.meanEdgeLength(), "m");
+        m_figures.add("leastQuality", least, "mean ratio, 1 is a regular tetrahedron");
+        tellBounds(mesh.restPositions());
+    }
+
+    void tellBounds(const std::vector<Vec3>& positions)
+    {
+        constexpr double inf = std::numeric_limits<double>::infinity();
+        Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
+        for (const Vec3& x : positions)
+            for (int c = 0; c < 3; ++c)
+            {
+                low[c] = std::min(low[c], x[c]);
+                high[c] = std::max(high[c], x[c]);
+            }
+        m_figures.add("low", {low.x, low.y, low.z}, "m");
+        m_figures.add("high", {high.x, high.y, high.z}, "m");
+    }
+};
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "info", "Tells what a file holds: tetrahedra, a surface, a baked body (.bfem) or a scene (.json).");
+    const auto options = std::make_shared<InfoCommand>();
+    command->add_option("file", options->m_file, "the file")->required();
+    options->m_figures.addOption(*command);
+    command->callback([options] { options->run(); });
+}
+
+}  // namespace bullet_fem

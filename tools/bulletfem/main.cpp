@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// From a mesh to a body, and from a scene to pictures.
+#include <cstdio>
+
+#include "tools/bulletfem/commands.h"
+#include "tools/console/option_range.h"
+
+int main(int argc, char** argv)
+{
+    using namespace bullet_fem;
+    CLI::App app(
+        "Makes finite-element bodies of meshes, and runs scenes of them. All lengths are metres, all values SI.\n"
+        "Each command explains itself: bulletfem cage --help\n\n"
+        "  bulletfem cage bunny.off --tets 4000 -o bunny.msh      tetrahedra around a surface\n"
+        "  bulletfem bake bunny.off --material rubber -o bunny.bfem   a body that loads in milliseconds\n"
+        "  bulletfem simulate scene.json --out run --film run.mp4  a scene, to ParaView and to a film\n\n"
+        "Exit code: 0 if all is well, 1 on bad data, 2 on bad usage.");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", BULLETFEM_VERSION);
+    addCageCommand(app);
+    addBakeCommand(app);
+    addInfoCommand(app);
+    addConvertCommand(app);
+    addSimulateCommand(app);
+    try
+    {
+        app.parse(argc, argv);
+        return 0;
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? 0 : kUsageError;
+    }
+    catch (const std::exception& error)
+    {
+        std::fprintf(stderr, "bulletfem: %s\n", error.what());
+        return kDataError;
+    }
+}

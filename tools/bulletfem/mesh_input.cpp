@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/bulletfem/mesh_input.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "bullet_fem/io/surface_file.h"
+#include "bullet_fem/io/tet_mesh_file.h"
+#include "tools/console/option_range.h"
+
+namespace bullet_fem
+{
+
+void CageOptions::add(CLI::App& command)
+{
+    CLI::Option* cell = command.add_option("--cell", m_cellSize, "of a surface: edge of the cage's cells [m]")
+                            ->check(inRange(1e-9, 1e6));
+    command.add_option("--tets", m_tets, "of a surface: about so many tetrahedra (default 2000)")
+        ->check(inRange(5, 5e6))
+        ->excludes(cell);
+}
+
+CageSettings CageOptions::settings() const
+{
+    CageSettings settings;
+    settings.m_cellSize = m_cellSize;
+    settings.m_targetTets = m_cellSize > 0 ? 0 : m_tets;
+    settings.m_maxTets = 5000000;
+    return settings;
+}
+
+bool isSurfaceFile(const std::string& path)
+{
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& c : ending)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return ending == ".off" || ending == ".obj" || ending == ".stl" || ending == ".ply";
+}
+
+MeshInput MeshInput::read(const std::string& path, double scale, const CageOptions& options)
+{
+    MeshInput input;
+    if (isSurfaceFile(path)) input.m_surface = readSurfaceFile(path, scale);
+    try
+    {
+        if (isSurfaceFile(path))
+        {
+            input.m_cage = makeCage(input.m_surface, options.settings());
+            input.m_mesh = input.m_cage->m_mesh;
+        }
+        else
+            input.m_mesh = readTetMeshFile(path, scale).mesh();
+    }
+    catch (const std::invalid_argument& error)
+    {
+        throw std::runtime_error("'" + path + "': " + error.what());
+    }
+    return input;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_fem/io/glb_film.h"
+#include "bullet_fem/io/vtu_writer.h"
+#include "tools/scene/scene_frames.h"
+#ifdef BULLETFEM_HAS_PICTURES
+#include "tools/scene/scene_painter.h"
+#endif
+
+namespace bullet_fem
+{
+
+/// What a run leaves behind.
+struct RunOutputSettings
+{
+    std::string m_folder;              ///< of all files, made if missing
+    bool m_pvd = false;                ///< elements.pvd and surfaces.pvd
+    bool m_glb = false;                ///< run.glb
+    bool m_png = false;                ///< first.png, last.png and strip.png
+    std::vector<std::string> m_films;  ///< files in the folder, .mp4 or .gif
+};
+
+/// Writes a scene's frames while it runs, and what needs all of them at its end.
+class RunOutput
+{
+public:
+    /// Both must live longer. Throws std::runtime_error if the folder cannot be made, or pictures are asked for and
+    /// cannot be had.
+    RunOutput(const RunOutputSettings& settings, const SceneWorld& world, const SceneFrames& frames);
+    ~RunOutput();
+
+    /// The frames as they are now.
+    void add();
+    /// Draws pictures and closes films. Returns the names of the files that were written.
+    std::vector<std::string> finish();
+    int frameCount() const { return m_frameCount; }
+
+private:
+    void drawPictures(std::vector<std::string>& written);
+    bool drawsPictures() const { return m_settings.m_png || !m_settings.m_films.empty(); }
+    std::string path(const std::string& name) const { return m_settings.m_folder + "/" + name; }
+
+    RunOutputSettings m_settings;
+    const SceneWorld& m_world;
+    const SceneFrames& m_frames;
+    std::unique_ptr<VtuSeries> m_elements, m_surfaces;
+    std::unique_ptr<GlbFilm> m_film;
+#ifdef BULLETFEM_HAS_PICTURES
+    std::unique_ptr<ScenePainter> m_painter;
+    std::vector<SceneSnapshot> m_snapshots;
+#endif
+    int m_frameCount = 0;
+};
+
+}  // namespace bullet_fem
