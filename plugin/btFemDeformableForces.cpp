@@ -209,45 +209,69 @@ bool btFemDeformableForces::evaluate(Force& force, int size, double step)
 
 // The elastic part as springs, which are solved with the body: taken at the step's beginning it would overshoot, and
 // what keeps one node alone from that holds less than it should. Bullet's force does not tell where the mouse is: where
-// its pull ends, unless it is at its limit and still pulls there.
+// its pull ends, unless it is at its limit, which is one of the impulse in a step, and still pulls there.
 void btFemDeformableForces::takeDrawn(int number, const Bodies& fem, double step)
 {
     constexpr double kRounding = 1e-5;  // of a place in single precision [-]
     Force& force = *m_all[number];
     const std::size_t first = m_drawn.size();
     clear(m_change, m_impulse.size());
-    force.addScaledExplicitForce(1, m_change);
+    force.addScaledExplicitForce(static_cast<btScalar>(step), m_change);
     for (int b = 0; b < fem.size(); ++b)
         for (int i = 0; i < fem[b]->m_nodes.size(); ++i)
         {
             btSoftBody::Node& node = fem[b]->m_nodes[i];
-            const btVector3 pull = m_change[node.index];
+            const Vec3 pull = vec3(m_change[node.index]);  // in the step [N s]
             NodeSpring spring;
             spring.m_stiffness = stiffnessOf(node);
-            if (!(spring.m_stiffness > 0) || !std::isfinite(pull.length())) continue;
+            if (!(spring.m_stiffness > 0) || !isFinite(pull)) continue;
             spring.m_id = -(number * fem[b]->m_nodes.size() + i + 1);
             spring.m_nodes[0] = i;
-            spring.m_target = vec3(node.m_x) + (1 / spring.m_stiffness) * vec3(pull);
-            m_impulse[node.index] -= btScalar(step) * pull;
+            spring.m_target = vec3(node.m_x) + (1 / (step * spring.m_stiffness)) * pull;
+            m_impulse[node.index] -= m_change[node.index];
             m_stiffness[node.index].setZero();
-            node.m_q = bulletVector(spring.m_target);
             m_drawn.push_back({fem[b], spring});
         }
-    clear(m_change, m_impulse.size());
-    force.addScaledExplicitForce(1, m_change);
     for (std::size_t k = first; k < m_drawn.size(); ++k)
     {
         NodeSpring& spring = m_drawn[k].m_spring;
         // The body is one of `fem`, whose nodes may be written.
         btSoftBody::Node& node = const_cast<btSoftBody*>(m_drawn[k].m_body)->m_nodes[spring.m_nodes[0]];
         const Vec3 way = spring.m_target - vec3(node.m_x);
-        const double left = double(m_change[node.index].length()) / spring.m_stiffness;
-        if (left > 1e-3 * norm(way) + kRounding * norm(spring.m_target))
-        {
-            spring.m_maxForce = spring.m_stiffness * norm(way);
-            spring.m_target += way;
-        }
+        const Vec3 left = wayLeft(force, node, spring, step);
+        if (norm(left) > 1e-3 * norm(way) + kRounding * norm(spring.m_target)) findMouse(force, node, spring, step);
         node.m_q = node.m_x;
+    }
+}
+
+// From the spring's target on, if the node were there [m]; no longer than the limit allows.
+Vec3 btFemDeformableForces::wayLeft(Force& force, btSoftBody::Node& node, const NodeSpring& spring, double step)
+{
+    node.m_q = bulletVector(spring.m_target);
+    clear(m_change, m_impulse.size());
+    force.addScaledExplicitForce(static_cast<btScalar>(step), m_change);
+    return (1 / (step * spring.m_stiffness)) * vec3(m_change[node.index]);
+}
+
+// Along the pull, of which only the direction is known: twice as far each time, and by halves once it is passed.
+void btFemDeformableForces::findMouse(Force& force, btSoftBody::Node& node, NodeSpring& spring, double step)
+{
+    constexpr double kFarthest = 1e6;  // [m]
+    const Vec3 x = vec3(node.m_x), limit = spring.m_target - x;
+    const double length = norm(limit);
+    spring.m_maxForce = spring.m_stiffness * length;
+    double before = 1, beyond = 0;  // the mouse is between, in lengths; 0: not known yet
+    for (int k = 0; k < 100 && before * length < kFarthest; ++k)
+    {
+        const double middle = beyond > 0 ? 0.5 * (before + beyond) : 2 * before;
+        spring.m_target = x + middle * limit;
+        const Vec3 left = wayLeft(force, node, spring, step);
+        if (norm(left) < 0.999 * length)
+        {
+            spring.m_target += left;
+            return;
+        }
+        (dot(left, limit) > 0 ? before : beyond) = middle;
     }
 }
 

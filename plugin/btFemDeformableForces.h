@@ -69,6 +69,8 @@ private:
 
     bool evaluate(Force& force, int size, double step);
     void takeDrawn(int number, const Bodies& fem, double step);
+    bullet_fem::Vec3 wayLeft(Force& force, btSoftBody::Node& node, const bullet_fem::NodeSpring& spring, double step);
+    void findMouse(Force& force, btSoftBody::Node& node, bullet_fem::NodeSpring& spring, double step);
     double stiffnessOf(const btSoftBody::Node& node) const;
     btVector3 yieldingImpulse(const btSoftBody::Node& node, double step) const;
 

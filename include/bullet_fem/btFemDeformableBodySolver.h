@@ -24,12 +24,13 @@
 /// stays with Bullet's, or stands still; rejection() and its report say why.
 ///
 /// Of other forces on FEM bodies, gravity acts as Bullet's does: only where the world has a btDeformableGravityForce
-/// for the body, times its m_gravityFactor. Mouse picking becomes springs of its stiffness and largest force on the
-/// three nodes (as addSpring() makes them, with negative handles in anchors()). Its damping, and forces of the user's
-/// own, are taken at the step's beginning, divided by 1 + (h d + h^2 k) / m of their node, with their stiffness k and
-/// damping d, so that none is too stiff for the step. Springs along links (btDeformableMassSpringForce) and Bullet's
-/// settings of its own solver (implicit, line search, projection) mean nothing to FEM bodies. Wind, pressure, volume
-/// conservation and poses act on them as in other worlds; m_cfg.drag, not kDP, damps them, as it does Bullet's.
+/// for the body, times its m_gravityFactor. Mouse picking becomes springs of its stiffness on the three nodes (as
+/// addSpring() makes them, with negative handles in anchors()); its largest force is one of the impulse in a step [N
+/// s], as in Bullet. Its damping, and forces of the user's own, are taken at the step's beginning, divided by 1 + (h d
+/// + h^2 k) / m of their node, with their stiffness k and damping d, so that none is too stiff for the step. Springs
+/// along links (btDeformableMassSpringForce) and Bullet's settings of its own solver (implicit, line search,
+/// projection) mean nothing to FEM bodies. Wind, pressure, volume conservation and poses act on them as in other
+/// worlds; m_cfg.drag, not kDP, damps them, as it does Bullet's.
 ///
 /// FEM bodies touch rigid bodies, links of multibodies and each other (flags VF_DD, VF_SS or CL_SS in common), after
 /// the rigid bodies have moved, as in btSoftRigidDynamicsWorld. They do not touch cloth.

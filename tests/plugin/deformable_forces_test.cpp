@@ -147,6 +147,47 @@ TEST_F(DeformableWorldTest, mousePickingDragsABodyToTheMouse)
     EXPECT_LT(norm(velocityOf(cube)), 0.05);
 }
 
+TEST_F(DeformableWorldTest, mousePickingHoldsWithItsFullStiffness)
+{
+    btSoftBody& cube = addCube(m_world, {0, 0, 1});
+    addForces(m_world, cube);
+    cube.m_cfg.drag = btScalar(0.02);  // it swings
+    const btSoftBody::Face& face = cube.m_faces[0];
+    const auto held = [&] { return (face.m_n[0]->m_x + face.m_n[1]->m_x + face.m_n[2]->m_x) / 3; };
+    const btVector3 mouse = held();
+    addForce(m_world, cube, std::make_unique<btDeformableMousePickingForce>(4000, 200, face, mouse, btScalar(1e10)));
+    m_world.step(600);
+    double sag = 0;
+    for (int k = 0; k < 300; ++k)
+    {
+        m_world.step();
+        sag += double((mouse - held()).z()) / 300;
+    }
+    const double wanted = massOf(cube) * kGravity / (3 * 4000);
+    EXPECT_NEAR(sag, wanted, 0.02 * wanted);
+}
+
+TEST_F(DeformableWorldTest, mousePickingPullsWithItsLargestImpulseAndLetsGo)
+{
+    btSoftBody& cube = addCube(m_world, {0, 0, 1});
+    addForce(m_world, cube, makeForce(Elastic::linear, kMu, kLambda));
+    const btVector3 mouse(0, 40, 1);
+    btDeformableLagrangianForce& force = addForce(
+        m_world, cube, std::make_unique<btDeformableMousePickingForce>(4000, 0, cube.m_faces[0], mouse, btScalar(0.1)));
+    m_world.step(60);
+    const double impulse = 3 * 0.1 * 60;
+    EXPECT_NEAR(motionOf(cube).m_linear.y, impulse, 0.01 * impulse);  // the body turns a little
+    ASSERT_EQ(m_solver.fem().anchors(&cube).size(), 3);
+    for (int k = 0; k < 3; ++k)
+    {
+        EXPECT_NEAR(m_solver.fem().anchors(&cube)[k].m_impulse.length(), 0.1, 1e-4);
+        EXPECT_LT(m_solver.fem().anchors(&cube)[k].m_attachment, 0);
+    }
+    m_world.world().removeForce(&cube, &force);
+    m_world.step();
+    EXPECT_EQ(m_solver.fem().anchors(&cube).size(), 0);
+}
+
 class ImpossibleModuli : public DeformableWorldTest, public ::testing::WithParamInterface<bool>
 {
 };
