@@ -14,14 +14,15 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kSamples = 4;  // a pixel
+constexpr int kSamples = 4;         // a pixel
+constexpr int kLargestSide = 8192;  // [pixels]: 2 GB of samples
 
 void checkSize(const PictureSize& size)
 {
     int largest = 0, texture = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
-    largest = std::min(largest, texture);
+    largest = std::min({largest, texture, kLargestSide});
     const auto fits = [&](int n) { return n > 0 && n <= largest; };
     if (!fits(size.m_width) || !fits(size.m_height))
         reject("picture: the size is ", size.m_width, " x ", size.m_height, " pixels; each must be in [1, ", largest,
