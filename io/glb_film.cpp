@@ -170,7 +170,7 @@ void GlbFilm::write(const std::string& path) const
     if (m_impl->coloured()) hottest = settings.m_hottest > 0 ? settings.m_hottest : highestVonMises();
     if (m_impl->coloured() && !(hottest > 0)) hottest = 1;  // all cold
     writeOutputFile(path, glbBytes({m_impl->m_bodies, m_impl->m_times, settings.m_stepped, settings.m_normals,
-                                    settings.m_colours == GlbColours::peakVonMises, hottest}));
+                                    settings.m_zUp, settings.m_colours == GlbColours::peakVonMises, hottest}));
 }
 
 int GlbFilm::frameCount() const

@@ -231,6 +231,7 @@ void appendBody(Document& document, const GlbModel& film, const GlbBody& body)
     model.meshes.push_back(std::move(mesh));
     gltf::Node node;
     node.name = "body " + std::to_string(body.m_id);
+    if (film.m_zUp) node.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // z to y, about x
     node.mesh = static_cast<int>(model.meshes.size()) - 1;
     model.nodes.push_back(node);
     model.scenes[0].nodes.push_back(static_cast<int>(model.nodes.size()) - 1);

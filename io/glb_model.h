@@ -32,6 +32,7 @@ struct GlbModel
     const std::vector<float>& m_times;  ///< [s], ascending from 0
     bool m_stepped = false;
     bool m_normals = true;
+    bool m_zUp = false;
     bool m_peakColours = false;  ///< the highest of all frames rather than each frame's
     double m_hottest = 0;        ///< of the last colour [Pa]; 0: no colours
 };

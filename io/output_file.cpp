@@ -31,7 +31,8 @@ std::error_code writeTo(const std::string& path, std::string_view bytes, bool& o
     opened = file != nullptr;
     if (!opened) return lastError();
     std::error_code error;
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() || std::fflush(file) != 0) error = lastError();
+    const bool written = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    if (!written || std::fflush(file) != 0) error = lastError();
     if (std::fclose(file) != 0 && !error) error = lastError();
     return error;
 }

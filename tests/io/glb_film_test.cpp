@@ -161,7 +161,7 @@ TEST(GlbFilm, NormalsAreOfUnitLengthAndPointOutward)
     EXPECT_FALSE(written(sampleFilm(flat)).surface(0)["attributes"].contains("NORMAL"));
 }
 
-// Vertex 17 of the first box is its node 18, at (8, 0, 1) in the first row of the upper face; 25 is node 26.
+// Vertex 25 is node 26, because node 13 is inside.
 TEST(GlbFilm, ColoursAreThoseOfTheStressOrOfItsPeak)
 {
     GlbSettings settings;
@@ -186,6 +186,16 @@ TEST(GlbFilm, ColoursAreThoseOfTheStressOrOfItsPeak)
     EXPECT_NEAR(film.highestVonMises(), vonMises(sampleBox(9).m_nodeStress[26]), 1e-2);
     EXPECT_NEAR(written(film).m_json["asset"]["extras"]["hottest_von_mises_pa"].get<double>(), film.highestVonMises(),
                 1e-9);
+}
+
+// Quaternions of glTF are (x, y, z, w): q turns (0, 0, 1) to (2 x z + 2 w y, 2 y z - 2 w x, ...).
+TEST(GlbFilm, TurnsAWorldWhoseZIsUp)
+{
+    EXPECT_FALSE(written(sampleFilm()).m_json["nodes"][1].contains("rotation"));
+    GlbSettings settings;
+    settings.m_zUp = true;
+    const std::vector<double> q = written(sampleFilm(settings)).m_json["nodes"][1]["rotation"];
+    EXPECT_NEAR(2 * q[1] * q[2] - 2 * q[3] * q[0], 1, 1e-9);
 }
 
 TEST(GlbFilm, OneFrameIsAStill)

@@ -17,7 +17,7 @@ void writeFilms(const std::string& folder, int colours, bool normals)
 {
     GlbSettings settings;
     settings.m_colours = static_cast<GlbColours>(colours);
-    settings.m_normals = settings.m_stepped = normals;
+    settings.m_normals = settings.m_stepped = settings.m_zUp = normals;
     GlbFilm film(settings);
     const std::string name = folder + "/colours" + std::to_string(colours) + (normals ? "normals" : "");
     for (int k = 0; k < 5; ++k)

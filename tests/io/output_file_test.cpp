@@ -45,6 +45,7 @@ TEST(OutputFile, OnAFullDiskTheOldFileStaysAndNoPartIsLeft)
 TEST(OutputFile, DevicesAreWrittenToAndStayDevices)
 {
     EXPECT_THAT(messageOfWriting("/dev/full"), AllOf(HasSubstr("/dev/full"), HasSubstr("No space left")));
+    EXPECT_THROW(writeOutputFile("/dev/full", "few, which a buffer holds until the end"), std::runtime_error);
     writeOutputFile("/dev/null", "nothing");
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));

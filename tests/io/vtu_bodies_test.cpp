@@ -83,7 +83,7 @@ template <class Number>
 std::vector<double> numbersIn(const std::string& bytes)
 {
     std::vector<Number> numbers(bytes.size() / sizeof(Number));
-    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
     return {numbers.begin(), numbers.end()};
 }
 

@@ -17,7 +17,7 @@ enum class GlbColours
 {
     plain,     ///< one colour a body
     vonMises,  ///< von Mises' stress of the instant; viewers may ignore that colours change, and show the first frame
-    peakVonMises,  ///< the highest of each vertex in the whole film; every viewer shows it
+    peakVonMises  ///< the highest of each vertex in the whole film; every viewer shows it
 };
 
 /// How a film is written.
@@ -26,13 +26,14 @@ struct GlbSettings
     bool m_stepped = false;  ///< frames follow each other with a jump (STEP), not along straight lines (LINEAR)
     bool m_normals = true;   ///< smooth shading, at the price of half the size; else viewers shade every triangle flat
     GlbColours m_colours = GlbColours::plain;
+    bool m_zUp = false;     ///< the world's z is up: bodies are turned so that it is viewers' y
     double m_hottest = 0;   ///< von Mises' stress of the last colour [Pa], >= 0; 0: the highest in the film
     int m_maxFrames = 256;  ///< in [1, 65535]; many viewers hold no more than 256 morph targets
     std::size_t m_maxBytes = 512u << 20;  ///< of the file [B], in [1, 2^32 - 1], which is the format's limit
 };
 
 /// A run as one animated binary glTF 2.0 file: every frame is a morph target of the bodies' surfaces, every body a
-/// node. Lengths are metres; glTF's viewers take y for up. Give it every k-th frame of the run: frames are kept, at 12
+/// node. Lengths are metres. Give it every k-th frame of the run: frames are kept, at 12
 /// bytes a vertex and 4 more with colours, until write(). Not for bodies that come, go, or change their triangles.
 class GlbFilm
 {
@@ -55,7 +56,7 @@ public:
     void write(const std::string& path) const;
 
     int frameCount() const;
-    /// At least what write() would write now [B].
+    /// An upper bound of what write() would write now [B].
     std::size_t byteCount() const;
     /// Highest von Mises stress so far [Pa]; 0 without colours.
     double highestVonMises() const;
