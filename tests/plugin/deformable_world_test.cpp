@@ -70,6 +70,25 @@ TEST_F(DeformableWorldTest, bodiesThatLeaveTheWorldLeaveTheirContacts)
     EXPECT_EQ(cube.m_rcontacts.size() + cube.m_faceRigidContacts.size(), 0);
 }
 
+// Held at a strain of 1 % along x: Hooke's law with the force's coefficients.
+TEST_F(DeformableWorldTest, stressIsThatOfTheForcesCoefficients)
+{
+    btSoftBody& cube = addCube(m_world, {0, 0, 1});
+    addForce(m_world, cube, makeForce(Elastic::corotated, kMu, kLambda));
+    for (int i = 0; i < cube.m_nodes.size(); ++i) cube.setMass(i, 0);
+    m_world.step();
+    for (int i = 0; i < cube.m_nodes.size(); ++i) cube.m_nodes[i].m_x *= btVector3(btScalar(1.01), 1, 1);
+    m_world.step();
+    btAlignedObjectArray<btFemStress> stress;
+    ASSERT_TRUE(m_solver.fem().getStress(&cube, stress));
+    ASSERT_EQ(stress.size(), cube.m_tetras.size());
+    for (int e = 0; e < stress.size(); ++e)
+    {
+        EXPECT_NEAR(double(stress[e].m_xx), (2 * kMu + kLambda) * 0.01, 1e-3 * kMu * 0.01);
+        EXPECT_NEAR(double(stress[e].vonMises()), 2 * kMu * 0.01, 1e-3 * kMu * 0.01);
+    }
+}
+
 TEST_F(DeformableWorldTest, bodiesWithoutAnElasticForceStayBullets)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
