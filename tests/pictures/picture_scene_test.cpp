@@ -103,6 +103,11 @@ INSTANTIATE_TEST_SUITE_P(
               {"up", "along its view"}},
         Fault{
             "FieldOfView", [](PictureScene& s) { s.m_camera.m_fieldOfView = 3.2; }, {"field of view is 3.2", "(0, 3)"}},
+        Fault{"Bounds",
+              [](PictureScene& s) {
+                  s.m_bounds = PictureBounds{{1, 1, 1}, {1, 1, 1}};
+              },
+              {"bounds are (1, 1, 1)"}},
         Fault{"EmptyRange",
               [](PictureScene& s) { s.m_colourScale.m_high = s.m_colourScale.m_low; },
               {"0 to 0", "below"}}),

@@ -251,6 +251,21 @@ TEST(Render, PlaceAndSizeOfTheWorldDoNotMatter)
     EXPECT_LT(differentPixels(here, scene({0, 0, 0}, 1e3)), few);
 }
 
+/// What moves out of the picture changes the ground in it, unless the film has bounds.
+TEST(Render, BoundsKeepTheGroundOfAFilmTheSame)
+{
+    PictureScene scene;
+    scene.m_light.m_towards = {0, 1, 0};
+    const auto frame = [&](double height)
+    {
+        scene.m_meshes = {cube({0, 0.1, 0}, 0.1), cube({30, height, 0}, 0.1)};
+        return render(scene);
+    };
+    EXPECT_GT(differentPixels(frame(1), frame(80)), 1500);
+    scene.m_bounds = PictureBounds{{-1, 0, -1}, {1, 1, 1}};
+    EXPECT_LT(differentPixels(frame(1), frame(80)), 50) << "texels of the shadow";
+}
+
 TEST(Render, EmptyScenesAndFlatMeshesAreDrawn)
 {
     PictureScene scene;

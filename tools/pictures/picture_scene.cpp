@@ -116,6 +116,13 @@ std::string fault(const PictureCamera& camera)
     return {};
 }
 
+std::string fault(const PictureBounds& box)
+{
+    if (usable(box.m_low) && usable(box.m_high) && box.radius() > 0) return {};
+    return message("the bounds are ", text(box.m_low), " to ", text(box.m_high),
+                   "; they must be finite, below 1e15 m, and enclose something");
+}
+
 std::string fault(const PictureColourScale& scale)
 {
     if (std::isfinite(scale.m_low) && std::isfinite(scale.m_high) && scale.m_low < scale.m_high) return {};
@@ -156,6 +163,7 @@ bool valid(const PictureScene& scene, const PictureCamera& camera, std::string* 
     if (f.empty()) f = light();
     if (f.empty()) f = background();
     if (f.empty()) f = fault(scene.m_colourScale);
+    if (f.empty() && scene.m_bounds) f = fault(*scene.m_bounds);
     if (why) *why = f.empty() ? std::string() : "picture: " + f;
     return f.empty();
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,15 @@ struct PictureColourScale
     bool m_legend = true;          ///< draws the legend, if any mesh has scalars
 };
 
+/// A box along the axes.
+struct PictureBounds
+{
+    Vec3 m_low, m_high;  ///< [m]
+
+    Vec3 centre() const { return 0.5 * (m_low + m_high); }
+    double radius() const { return 0.5 * norm(m_high - m_low); }
+};
+
 /// A picture's content. Lengths are in metres, of any magnitude: the scene may be a millimetre or a kilometre wide.
 struct PictureScene
 {
@@ -82,6 +92,9 @@ struct PictureScene
     PictureLight m_light;
     PictureCamera m_camera;
     PictureColourScale m_colourScale;
+    /// What the softness of shadows and the reach of the ground are measured by; `bounds` unless given. Frames of a
+    /// film get the same one, or these would change with what moves.
+    std::optional<PictureBounds> m_bounds;
     Colour m_sky{0.80, 0.85, 0.91}, m_horizon{0.955, 0.96, 0.965};  ///< background, above and at half height
     std::string m_caption;  ///< text at the lower left, ASCII and Latin-1 as UTF-8
 };
@@ -90,13 +103,6 @@ struct PictureScene
 bool valid(const PictureScene& scene, const PictureCamera& camera, std::string* why = nullptr);
 
 /// The smallest box around meshes and arrows' origins [m]; a box of 1 m around the origin if there are none.
-struct PictureBounds
-{
-    Vec3 m_low, m_high;
-
-    Vec3 centre() const { return 0.5 * (m_low + m_high); }
-    double radius() const { return 0.5 * norm(m_high - m_low); }
-};
 PictureBounds bounds(const PictureScene& scene);
 
 /// A camera that looks from `direction` (from the scene to the eye, not 0), with `up` upwards, and as near as it can be

@@ -173,7 +173,7 @@ SceneRenderer::Parts::Parts()
 /// Fixes the units and turns camera, ground and light into them.
 void SceneRenderer::Parts::place(const PictureScene& scene, const PictureCamera& camera)
 {
-    const PictureBounds box = bounds(scene);
+    const PictureBounds box = scene.m_bounds ? *scene.m_bounds : bounds(scene);
     m_units.m_origin = box.centre();
     m_units.m_length = box.radius() > 0 ? box.radius() : 1;
     m_camera = camera;
