@@ -333,7 +333,7 @@ private:
 
 SceneDescription parseScene(const std::string& json, const std::string& folder)
 {
-    constexpr int deepest = 32;  // scenes need six; messages show what is there by recursion
+    static constexpr int deepest = 32;  // scenes need six; messages show what is there by recursion
     const auto allowed = [](int depth, nlohmann::json::parse_event_t, nlohmann::json&)
     {
         if (depth > deepest) throw std::runtime_error(message("it is nested deeper than ", deepest, " levels"));
