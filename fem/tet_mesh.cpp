@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
+#include "fem/joined_sets.h"
 #include "fem/message.h"
 
 namespace bullet_fem
@@ -160,23 +160,13 @@ std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
 /// Numbers the pieces connected through shared nodes from 0 by their lowest node; returns their count.
 int labelComponents(const std::vector<Tet>& tets, std::vector<int>& label)
 {
-    std::vector<int> parent(label.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int i)
-    {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    JoinedSets pieces(label.size());
     for (const Tet& tet : tets)
-        for (int a = 1; a < 4; ++a)
-        {
-            const int r = root(tet[0]), s = root(tet[a]);
-            parent[std::max(r, s)] = std::min(r, s);  // the lowest node of a piece is its root
-        }
+        for (int a = 1; a < 4; ++a) pieces.join(tet[0], tet[a]);
     int count = 0;
     for (std::size_t i = 0; i < label.size(); ++i)
     {
-        const int r = root(static_cast<int>(i));
+        const int r = pieces.root(static_cast<int>(i));
         label[i] = r == static_cast<int>(i) ? count++ : label[r];
     }
     return count;

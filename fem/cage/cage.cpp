@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "fem/cage/cage_fill.h"
-#include "fem/cage/cage_lattice.h"
-#include "fem/cage/surface_inspection.h"
+#include "fem/cage/cage_size.h"
 #include "fem/message.h"
 
 namespace bullet_fem
@@ -16,6 +15,19 @@ namespace
 
 constexpr double kOnTet = -1e-9;    // least barycentric weight of a vertex that lies in or on an element
 constexpr double kThinnest = 1e-7;  // volume over area times length below which nothing is enclosed
+
+/// Mean ratio of the tets that cut off a cube's corners, less rounding: 12 (1/2)^(2/3) / 9; the middle one is regular.
+constexpr double kLatticeQuality = 0.8399;
+
+/// The winding number with its origin at the centre of the bounding box, for digits.
+WindingNumber windingAboutCentre(const SurfaceInspection& surface)
+{
+    const Vec3 centre = 0.5 * (surface.m_low + surface.m_high);
+    std::vector<Vec3> x;
+    x.reserve(surface.m_repaired.m_surface.m_vertices.size());
+    for (const Vec3& vertex : surface.m_repaired.m_surface.m_vertices) x.push_back(vertex - centre);
+    return WindingNumber(x, surface.m_repaired.m_surface.m_triangles);
+}
 
 /// A tet of the lattice, in the order of the cage's elements.
 int latticeTet(int cube, int tet)
@@ -72,7 +84,7 @@ std::vector<int> holdVertices(const CageLattice& lattice, const std::vector<Vec3
     for (std::size_t i = 0; i < vertices.size(); ++i)
         if (used[i])
         {
-            const Holder holder = findHolder(lattice, fill.m_kept, vertices[i]);
+            const Holder holder = findHolder(lattice, fill.m_kept, lattice.toLattice(vertices[i]));
             if (!holder.m_kept)
             {
                 fill.m_kept[holder.m_cube] |= static_cast<std::uint8_t>(1 << holder.m_tet);
@@ -127,41 +139,68 @@ std::vector<Embedding> embed(const std::vector<Vec3>& vertices, const std::vecto
 }
 
 /// The enclosed volume [m3]: exact where the divergence theorem counts every point once, else what the samples say.
-double enclosedVolume(const SurfaceMesh& surface, const SurfaceInspection& inspection, const CageFill& fill,
-                      double cellSize)
+double enclosedVolume(const SurfaceInspection& surface, const CageFill& fill, double cellSize, bool exact)
 {
-    const double exact = std::abs(signedVolume(surface));
-    const bool clean = inspection.m_openEdges == 0 && !fill.m_selfIntersecting;
-    const double volume = clean ? exact : fill.m_insideVolume * cellSize * cellSize * cellSize;
-    const double size = norm(inspection.m_high - inspection.m_low);
-    if (!(volume > kThinnest * inspection.m_area * size))
+    const double volume = exact ? std::abs(signedVolume(surface.m_repaired.m_surface))
+                                : fill.m_insideVolume * cellSize * cellSize * cellSize;
+    const double size = norm(surface.m_high - surface.m_low);
+    if (!(volume > kThinnest * surface.m_area * size))
         reject("the surface has no inside: its volume is ", volume, " m3, less than ", kThinnest,
-               " of area times length, with ", inspection.m_openEdges, " open edges and ", fill.m_sampleCount,
+               " of area times length, with ", surface.m_openEdges, " open edges and ", fill.m_sampleCount,
                " points looked at; close the surface, or use a cell size below ", cellSize, " m if it is only thin");
     return volume;
 }
 
+CageReport reportOn(const SurfaceInspection& surface, const CageFill& fill, double cellSize)
+{
+    CageReport report;
+    report.m_cellSize = cellSize;
+    report.m_volumeIsExact = surface.m_openEdges == 0 && !fill.m_selfIntersecting;
+    report.m_surfaceVolume = enclosedVolume(surface, fill, cellSize, report.m_volumeIsExact);
+    report.m_pieces = surface.m_pieces;
+    report.m_insideOut = fill.m_insideOut;
+    report.m_selfIntersecting = fill.m_selfIntersecting;
+    report.m_openEdges = surface.m_openEdges;
+    report.m_openShare = static_cast<double>(surface.m_openEdges) / surface.m_edges;
+    report.m_duplicates = surface.m_repaired.m_duplicates;
+    report.m_degenerate = surface.m_repaired.m_degenerate;
+    report.m_turned = surface.m_repaired.m_turned;
+    return report;
+}
+
+void reportElements(const TetMesh& mesh, CageReport& report)
+{
+    report.m_tets = mesh.tetCount();
+    report.m_nodes = mesh.nodeCount();
+    report.m_volumeRatio = mesh.volume() / report.m_surfaceVolume;
+    report.m_qualityBound = kLatticeQuality;
+    report.m_leastQuality = 1;
+    const std::vector<Vec3>& X = mesh.restPositions();
+    for (const Tet& t : mesh.tets())
+    {
+        const double quality = meanRatio({X[t[0]], X[t[1]], X[t[2]], X[t[3]]});
+        report.m_leastQuality = std::min(report.m_leastQuality, quality);
+        ++report.m_qualityHistogram[std::clamp(static_cast<int>(10 * quality), 0, 9)];
+    }
+}
+
 }  // namespace
 
-Cage makeCage(const SurfaceMesh& surface, const CageSettings& settings)
+Cage makeCage(const SurfaceMesh& surface, const CageSettings& givenSettings)
 {
+    checkSettings(givenSettings);
     const SurfaceInspection inspection = inspectSurface(surface);
-    CageLattice lattice(inspection, settings);
+    const WindingNumber winding = windingAboutCentre(inspection);
+    CageSettings settings = givenSettings;
+    if (settings.m_targetTets > 0) settings.m_cellSize = findCellSize(inspection, winding, settings);
 
-    std::vector<Vec3> vertices;  // in lattice units from here on
-    vertices.reserve(surface.m_vertices.size());
-    for (const Vec3& x : surface.m_vertices) vertices.push_back(lattice.toLattice(x));
-    lattice.markSurface(vertices, surface.m_triangles);
-    CageFill fill =
-        fillCage(lattice, WindingNumber(vertices, surface.m_triangles), inspection.m_openEdges == 0, settings);
+    CageLattice lattice(inspection, settings);
+    lattice.markSurface(surface);
+    CageFill fill = fillCage(lattice, winding, inspection.m_openEdges == 0, settings);
 
     Cage cage;
-    cage.m_surfaceVolume = enclosedVolume(surface, inspection, fill, lattice.cellSize());
-    cage.m_openEdges = inspection.m_openEdges;
-    cage.m_insideOut = fill.m_insideOut;
-    cage.m_selfIntersecting = fill.m_selfIntersecting;
-
-    const std::vector<int> held = holdVertices(lattice, vertices, inspection.m_used, fill);
+    cage.m_report = reportOn(inspection, fill, lattice.cellSize());
+    const std::vector<int> held = holdVertices(lattice, surface.m_vertices, inspection.m_used, fill);
     cage.m_mesh = meshOf(lattice, fill.m_tets);
     cage.m_embedding = embed(surface.m_vertices, held, fill.m_tets, cage.m_mesh);
     double filledVolume = 0;
@@ -170,7 +209,8 @@ Cage makeCage(const SurfaceMesh& surface, const CageSettings& settings)
         cage.m_filled.push_back(std::max(settings.m_fillFloor, fill.m_tets[e].m_fraction));
         filledVolume += cage.m_filled[e] * cage.m_mesh.tetVolume(e);
     }
-    cage.m_massScale = cage.m_surfaceVolume / filledVolume;
+    cage.m_massScale = cage.m_report.m_surfaceVolume / filledVolume;
+    reportElements(cage.m_mesh, cage.m_report);
     return cage;
 }
 

@@ -44,7 +44,8 @@ public:
 
     CageFill run()
     {
-        findWholeTets();
+        const double atLeast = findWholeTets(m_settings.m_maxTets);
+        if (atLeast > m_settings.m_maxTets) rejectTooMany(atLeast);
         m_fill.m_kept.assign(m_lattice.cubeCount(), 0);
         for (int cube = 0; cube < m_lattice.cubeCount(); ++cube)
             for (int tet = 0; tet < 5; ++tet)
@@ -58,11 +59,9 @@ public:
         return std::move(m_fill);
     }
 
-private:
-    static constexpr std::uint8_t kAll = 31;  // the five tets of a cube
-
     /// The untouched tets that are inside as a whole: cheap, so that too many are refused before any is sampled.
-    void findWholeTets()
+    /// Returns how many these and the entered ones are; ends beyond `most`.
+    double findWholeTets(double most)
     {
         double atLeast = 0;
         for (int cube = 0, previous = -1; cube < m_lattice.cubeCount(); previous = cube++)
@@ -77,9 +76,16 @@ private:
             else
                 findWholeTetsOf(cube);
             atLeast += bits(m_whole[cube] | m_lattice.entered(cube));
-            if (atLeast > m_settings.m_maxTets) rejectTooMany(atLeast);
+            if (atLeast > most) break;
         }
+        return atLeast;
     }
+
+    /// As many again are likely to be kept: those near winding number 1/2 whose centre is inside.
+    double likely() const { return m_likely; }
+
+private:
+    static constexpr std::uint8_t kAll = 31;  // the five tets of a cube
 
     void findWholeTetsOf(int cube)
     {
@@ -97,11 +103,14 @@ private:
         }
         for (int tet = 0; tet < 5; ++tet)
         {
-            if (m_lattice.touched(cube) >> tet & 1) continue;
+            if (isCut(cube, tet)) continue;
             const std::array<Vec3, 4> x = m_lattice.corners(cube, tet);
             const double w = windingAt((x[0] + x[1] + x[2] + x[3]) * 0.25);
             if (!m_closed && std::abs(std::abs(w) - 0.5) < 0.25)
+            {
                 m_unsure.push_back(5LL * cube + tet);
+                m_likely += inside(w);
+            }
             else if (inside(w))
             {
                 m_whole[cube] |= static_cast<std::uint8_t>(1 << tet);
@@ -115,7 +124,7 @@ private:
         if (m_whole[cube] >> tet & 1) return 1;
         const bool unsure = m_nextUnsure < m_unsure.size() && m_unsure[m_nextUnsure] == 5LL * cube + tet;
         if (unsure) ++m_nextUnsure;
-        if (!unsure && !(m_lattice.touched(cube) >> tet & 1)) return 0;
+        if (!unsure && !isCut(cube, tet)) return 0;
         const std::array<Vec3, 4> x = m_lattice.corners(cube, tet);
         int hits = 0;
         for (const Weights& w : m_samples)
@@ -126,6 +135,12 @@ private:
             tally(winding, CageLattice::tetVolume(tet) / m_settings.m_fillSamples);
         }
         return static_cast<double>(hits) / m_settings.m_fillSamples;
+    }
+
+    /// Must it be sampled? What a closed surface only touches is inside or outside as a whole.
+    bool isCut(int cube, int tet) const
+    {
+        return (m_closed ? m_lattice.entered(cube) : m_lattice.touched(cube)) >> tet & 1;
     }
 
     void keep(const FilledTet& tet)
@@ -139,7 +154,7 @@ private:
     double windingAt(const Vec3& p)
     {
         ++m_fill.m_sampleCount;
-        return m_winding.at(p);
+        return m_winding.at(m_lattice.toCentred(p));
     }
 
     void tally(double winding, double volume)
@@ -169,6 +184,7 @@ private:
     std::vector<std::uint8_t> m_whole;  // per cube: a bit for each tet that is inside and untouched
     std::vector<long long> m_unsure;    // 5 cube + tet, ascending: untouched, but near winding number 1/2
     std::size_t m_nextUnsure = 0;
+    double m_likely = 0;
     double m_lastWinding = 0;
     double m_outward = 0, m_inward = 0;  // volume of positive and of negative winding number, in lattice units
     bool m_overlapping = false;
@@ -180,6 +196,13 @@ private:
 CageFill fillCage(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)
 {
     return Filler(lattice, winding, closed, settings).run();
+}
+
+double countTets(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)
+{
+    Filler filler(lattice, winding, closed, settings);
+    const double whole = filler.findWholeTets(2.0 * settings.m_targetTets);
+    return whole + filler.likely();
 }
 
 }  // namespace bullet_fem

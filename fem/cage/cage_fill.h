@@ -29,8 +29,13 @@ struct CageFill
     bool m_selfIntersecting = false;   ///< magnitudes above 3/2, or both signs
 };
 
-/// Fills a marked lattice. `closed` says that the winding number is constant away from the triangles. Throws
-/// std::invalid_argument if more than m_maxTets tets are kept, before they are stored.
+/// Fills a marked lattice. The winding number is about the centre of the lattice, in metres; `closed` says that the
+/// winding number is constant away from the triangles. Throws std::invalid_argument if more than m_maxTets tets are
+/// kept, before they are stored.
 CageFill fillCage(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings);
+
+/// About how many elements fillCage keeps: exactly where the surface is closed and no vertex needs another element.
+/// Counting ends beyond twice m_targetTets.
+double countTets(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings);
 
 }  // namespace bullet_fem

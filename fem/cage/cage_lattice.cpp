@@ -39,34 +39,32 @@ double leastCellSize(const Vec3& extent, double most)
     return 1.001 * fits;
 }
 
-void checkSettings(const CageSettings& settings)
+double mostCubes(const CageSettings& settings)
 {
-    if (settings.m_maxTets < 5 || settings.m_maxTets > 5'000'000)
-        reject("the most elements of a cage is ", settings.m_maxTets,
-               ", outside [5, 5000000]; choose another m_maxTets");
-    if (!(settings.m_fillFloor > 0 && settings.m_fillFloor <= 1))
-        reject("the least filled fraction of a cage is ", settings.m_fillFloor,
-               ", outside (0, 1]; choose another m_fillFloor, 0.05 is usual");
-    if (settings.m_fillSamples < 8 || settings.m_fillSamples > 4096)
-        reject("the samples for an element's filled fraction are ", settings.m_fillSamples,
-               ", outside [8, 4096]; choose another m_fillSamples, 64 is usual");
+    return std::min(kMostCubes, kMostCubesPerTet * settings.m_maxTets);
 }
 
 }  // namespace
 
+CellSizeRange CageLattice::cellSizeRange(const SurfaceInspection& surface, const CageSettings& settings)
+{
+    const Vec3 extent = surface.m_high - surface.m_low;
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    return {std::min(leastCellSize(extent, mostCubes(settings)), longest), longest};
+}
+
 CageLattice::CageLattice(const SurfaceInspection& surface, const CageSettings& settings)
     : m_cellSize(settings.m_cellSize)
 {
-    checkSettings(settings);
     const Vec3 extent = surface.m_high - surface.m_low;
-    const double longest = std::max({extent.x, extent.y, extent.z});
-    const double most = std::min(kMostCubes, kMostCubesPerTet * settings.m_maxTets);
-    const double least = std::min(leastCellSize(extent, most), longest);
+    const double most = mostCubes(settings);
+    const auto [least, longest] = cellSizeRange(surface, settings);
     m_safeCellSize = std::min(leastCellSize(extent, std::floor(settings.m_maxTets / 5.0)), longest);
     if (!(m_cellSize > 0 && m_cellSize <= longest) || cubesIn(extent, m_cellSize) > most)
         reject("the cage's cell size is ", m_cellSize, " m, outside [", least, ", ", longest,
                "] m for this surface (at most ", most, " cubes, at least one along the longest side); ", m_safeCellSize,
-               " m is sure to fit, ", std::max(m_safeCellSize, longest / 10), " m is a good start");
+               " m is sure to fit, ", std::max(m_safeCellSize, longest / 10),
+               " m is a good start; or give m_targetTets");
 
     for (int a = 0; a < 3; ++a)
     {
@@ -101,11 +99,12 @@ std::array<Vec3, 4> CageLattice::corners(int cube, int tet) const
             nodePlace(node(cube, tet, 3))};
 }
 
-void CageLattice::markSurface(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles)
+void CageLattice::markSurface(const SurfaceMesh& surface)
 {
-    for (const Triangle& t : triangles)
+    const std::vector<Vec3>& x = surface.m_vertices;
+    for (const Triangle& t : surface.m_triangles)
     {
-        const TriangleCorners triangle = {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+        const TriangleCorners triangle = {toLattice(x[t[0]]), toLattice(x[t[1]]), toLattice(x[t[2]])};
         std::array<int, 3> low, high;  // the cubes of its bounding box
         for (int a = 0; a < 3; ++a)
         {

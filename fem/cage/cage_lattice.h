@@ -12,16 +12,24 @@
 namespace bullet_fem
 {
 
+/// Cell sizes that a lattice takes [m].
+struct CellSizeRange
+{
+    double m_least, m_most;
+};
+
 /// A lattice of cubes around a surface, each split into five tets. "Lattice units": one cube is [0, 1]^3 there.
 class CageLattice
 {
 public:
-    /// Centres the lattice on the bounding box. Throws std::invalid_argument on settings out of range and on a cell
-    /// size that is longer than the surface or gives more cubes than m_maxTets can need.
+    /// From the cell size that gives as many cubes as m_maxTets can need, to the longest side of the bounding box.
+    static CellSizeRange cellSizeRange(const SurfaceInspection& surface, const CageSettings& settings);
+
+    /// Centres the lattice on the bounding box. Throws std::invalid_argument on a cell size out of that range.
     CageLattice(const SurfaceInspection& surface, const CageSettings& settings);
 
-    /// Sets the touched and entered tets of every cube. Vertices in lattice units.
-    void markSurface(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
+    /// Sets the touched and entered tets of every cube.
+    void markSurface(const SurfaceMesh& surface);
 
     int cubeCount() const { return m_cubes[0] * m_cubes[1] * m_cubes[2]; }
     const std::array<int, 3>& cubes() const { return m_cubes; }
@@ -32,6 +40,11 @@ public:
 
     Vec3 toLattice(const Vec3& x) const { return (x - m_origin) * (1 / m_cellSize); }  ///< from metres
     Vec3 toWorld(const Vec3& u) const { return m_origin + u * m_cellSize; }            ///< to metres
+    /// From lattice units to metres from the centre of the bounding box.
+    Vec3 toCentred(const Vec3& u) const
+    {
+        return (u - Vec3{0.5 * m_cubes[0], 0.5 * m_cubes[1], 0.5 * m_cubes[2]}) * m_cellSize;
+    }
 
     /// Number of node `corner` of a tet among the lattice's nodes, x fastest.
     int node(int cube, int tet, int corner) const;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <tuple>
 
+#include "fem/cage/surface_edges.h"
+#include "fem/joined_sets.h"
 #include "fem/message.h"
 
 namespace bullet_fem
@@ -87,45 +87,40 @@ double thickness(const SurfaceMesh& surface, const std::vector<char>& used, cons
     return distance(extremeVertex(surface, used, distance));
 }
 
-/// For every vertex the lowest vertex at the same place: files without shared vertices are closed as well.
-std::vector<int> weldCoincident(const std::vector<Vec3>& x)
+/// Edges that are not passed equally often both ways, and those of them that have more than one triangle.
+void countEdges(SurfaceInspection& result)
 {
-    const auto key = [&](int i) { return std::tie(x[i].x, x[i].y, x[i].z); };
-    std::vector<int> order(x.size()), first(x.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
-    for (std::size_t n = 0; n < order.size(); ++n)
-        first[order[n]] = n > 0 && key(order[n]) == key(order[n - 1]) ? first[order[n - 1]] : order[n];
-    return first;
+    const std::vector<TriangleSide> sides =
+        sortedSides(result.m_repaired.m_surface.m_triangles, result.m_repaired.m_welded);
+    int misoriented = 0;
+    forEachEdge(sides,
+                [&](std::size_t first, std::size_t last)
+                {
+                    int sum = 0;
+                    for (std::size_t s = first; s < last; ++s) sum += sides[s].m_way;
+                    ++result.m_edges;
+                    result.m_openEdges += sum != 0;
+                    misoriented += sum != 0 && last - first > 1;
+                });
+    if (misoriented > kMostMisoriented * result.m_edges)
+        reject("the surface is not oriented: at ", misoriented, " of ", result.m_edges,
+               " edges the triangles turn against each other and cannot be mended, at most ", kMostMisoriented,
+               " of them may; order the vertices of all triangles counter-clockwise seen from outside");
 }
 
-/// Edges that are not passed equally often both ways, and those of them that have more than one triangle.
-void countEdges(const SurfaceMesh& surface, SurfaceInspection& result)
+void countPieces(const SurfaceMesh& surface, SurfaceInspection& result)
 {
-    const std::vector<int> welded = weldCoincident(surface.m_vertices);
-    std::vector<std::array<int, 3>> edges;  // lower vertex, higher vertex, +1 or -1
-    edges.reserve(3 * surface.m_triangles.size());
+    const std::vector<int>& welded = result.m_repaired.m_welded;
+    JoinedSets joined(welded.size());
     for (const Triangle& t : surface.m_triangles)
-        for (int a = 0; a < 3; ++a)
-        {
-            const int i = welded[t[a]], j = welded[t[(a + 1) % 3]];
-            if (i != j) edges.push_back({std::min(i, j), std::max(i, j), i < j ? 1 : -1});
-        }
-    std::sort(edges.begin(), edges.end());
-    int total = 0, misoriented = 0;
-    for (std::size_t e = 0; e < edges.size(); ++total)
+        for (int a = 1; a < 3; ++a) joined.join(welded[t[0]], welded[t[a]]);
+    std::vector<char> counted(welded.size(), 0);
+    for (const Triangle& t : surface.m_triangles)
     {
-        const std::size_t first = e;
-        int sum = 0;
-        for (; e < edges.size() && edges[e][0] == edges[first][0] && edges[e][1] == edges[first][1]; ++e)
-            sum += edges[e][2];
-        result.m_openEdges += sum != 0;
-        misoriented += sum != 0 && e - first > 1;
+        char& isCounted = counted[joined.root(welded[t[0]])];
+        result.m_pieces += !isCounted;
+        isCounted = 1;
     }
-    if (misoriented > kMostMisoriented * total)
-        reject("the surface is not oriented: at ", misoriented, " of ", total,
-               " edges the triangles turn against each other, at most ", kMostMisoriented,
-               " of them may; order the vertices of all triangles counter-clockwise seen from outside");
 }
 
 }  // namespace
@@ -135,16 +130,18 @@ SurfaceInspection inspectSurface(const SurfaceMesh& surface)
     checkSoup(surface);
     SurfaceInspection result;
     measureBounds(surface, result);
+    result.m_repaired = repairSurface(surface);
 
     Vec3 vectorArea;
-    for (const Triangle& t : surface.m_triangles)
+    for (const Triangle& t : result.m_repaired.m_surface.m_triangles)
     {
         const Vec3 area = 0.5 * cross(surface.m_vertices[t[1]] - surface.m_vertices[t[0]],
                                       surface.m_vertices[t[2]] - surface.m_vertices[t[0]]);
         vectorArea += area;
         result.m_area += norm(area);
     }
-    countEdges(surface, result);
+    countEdges(result);
+    countPieces(surface, result);
 
     const double size = norm(result.m_high - result.m_low), thick = thickness(surface, result.m_used, result.m_low);
     if (!(thick > kFlat * size) || !(result.m_area > 0))

@@ -63,6 +63,22 @@ TEST(CageRejects, SettingsOutOfRange)
     expectRejected(with(&CageSettings::m_fillSamples, 4097), {"are 4097", "[8, 4096]"});
 }
 
+TEST(CageRejects, NumbersOfElements)
+{
+    const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 1, 1});
+    CageSettings settings = withCell(0.5);
+    settings.m_targetTets = 100;
+    expectRejected([&] { makeCage(box, settings); },
+                   {"both a cell size (0.5 m)", "elements (100)", "leave the other 0"});
+    settings = withCell(0);
+    for (const int target : {-1, 4, 200001})
+    {
+        settings.m_targetTets = target;
+        expectRejected([&] { makeCage(box, settings); }, {"elements wanted", "outside [5, 200000]", "m_targetTets"});
+    }
+    expectRejected([&] { makeCage(box, CageSettings()); }, {"cell size is 0 m", "or give m_targetTets"});
+}
+
 TEST(CageRejects, SoupsThatAreNoSurface)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 1, 1});
@@ -89,13 +105,16 @@ TEST(CageRejects, SoupsThatAreNoSurface)
         {"1.7320508", "1000000001 m", "1e-07", "nearer to the origin"});
 }
 
-TEST(CageRejects, RandomOrientation)
+// Where three triangles meet nobody can say which of them is the wrong way round.
+TEST(CageRejects, TrianglesThatCannotBeOriented)
 {
-    SurfaceMesh ball = sphereSurface(1, {}, 3);
-    for (std::size_t t = 0; t < ball.m_triangles.size(); t += 3)
-        std::swap(ball.m_triangles[t][0], ball.m_triangles[t][1]);
-    expectRejected([&] { makeCage(ball, withCell(0.2)); },
-                   {"not oriented", "of 1920 edges", "0.1", "counter-clockwise"});
+    const SurfaceMesh ball = sphereSurface(1, {}, 3);
+    SurfaceMesh fans = ball;
+    const int tip = static_cast<int>(fans.m_vertices.size());
+    fans.m_vertices.push_back({3, 0, 0});
+    for (const Triangle& t : ball.m_triangles) fans.m_triangles.push_back({t[0], t[1], tip});
+    expectRejected([&] { makeCage(fans, withCell(0.2)); },
+                   {"not oriented", "of 2562 edges", "cannot be mended", "0.1", "counter-clockwise"});
 }
 
 TEST(CageRejects, SurfacesWithoutInside)

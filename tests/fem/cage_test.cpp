@@ -30,7 +30,8 @@ void expectPromises(const Cage& cage, const SurfaceMesh& surface, const CageSett
     ASSERT_EQ(cage.m_filled.size(), static_cast<std::size_t>(cage.m_mesh.tetCount()));
     EXPECT_GE(*std::min_element(cage.m_filled.begin(), cage.m_filled.end()), settings.m_fillFloor);
     EXPECT_LE(*std::max_element(cage.m_filled.begin(), cage.m_filled.end()), 1);
-    EXPECT_NEAR(filledVolume(cage), cage.m_surfaceVolume, 1e-11 * cage.m_surfaceVolume);  // sums of some 1e4 terms
+    EXPECT_NEAR(filledVolume(cage), cage.m_report.m_surfaceVolume,
+                1e-11 * cage.m_report.m_surfaceVolume);  // sums of some 1e4 terms
 
     ASSERT_EQ(cage.m_embedding.size(), surface.m_vertices.size());
     double worst = 0, leastWeight = 1;
@@ -65,12 +66,12 @@ TEST(Cage, OfAnAlignedBoxIsTheBox)
     expectPromises(cage, surface, settings);
     EXPECT_EQ(cage.m_mesh.tetCount(), 8 * 6 * 4 * 5);
     EXPECT_EQ(cage.m_mesh.nodeCount(), 9 * 7 * 5);
-    EXPECT_NEAR(cage.m_surfaceVolume, 3, 3e-14);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, 3, 3e-14);
     EXPECT_NEAR(cage.m_massScale, 1, 1e-12);
     EXPECT_EQ(*std::min_element(cage.m_filled.begin(), cage.m_filled.end()), 1);  // no element is cut
-    EXPECT_FALSE(cage.m_insideOut);
-    EXPECT_FALSE(cage.m_selfIntersecting);
-    EXPECT_EQ(cage.m_openEdges, 0);
+    EXPECT_FALSE(cage.m_report.m_insideOut);
+    EXPECT_FALSE(cage.m_report.m_selfIntersecting);
+    EXPECT_EQ(cage.m_report.m_openEdges, 0);
 }
 
 // The notch's sides lie on sides of lattice cubes: the cubes beyond are touched, but hold nothing.
@@ -90,8 +91,8 @@ TEST(Cage, OfAnAlignedAngleHasNothingInItsNotch)
     const CageSettings settings = withCell(0.25);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_EQ(cage.m_openEdges, 0);
-    EXPECT_NEAR(cage.m_surfaceVolume, 3, 3e-14);
+    EXPECT_EQ(cage.m_report.m_openEdges, 0);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, 3, 3e-14);
     EXPECT_EQ(cage.m_mesh.tetCount(), 3 * 4 * 4 * 4 * 5);
     EXPECT_NEAR(cage.m_massScale, 1, 1e-12);
 }
@@ -105,7 +106,7 @@ TEST(Cage, IsCentredOnTheBoundingBox)
     EXPECT_EQ(cage.m_mesh.tetCount(), 4 * 4 * 4 * 5);
     EXPECT_NEAR(cage.m_mesh.restPositions().front().x, 9.9, 1e-12);
     EXPECT_NEAR(cage.m_mesh.restPositions().back().z, 31.1, 1e-12);
-    EXPECT_NEAR(cage.m_surfaceVolume, 1, 1e-12);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, 1, 1e-12);
 }
 
 // Filled fractions of a half space by hand: a box whose top cuts the upper layer of cubes at 3/5 of its height.
@@ -147,10 +148,10 @@ TEST_P(CageOfSphere, HoldsItsVolume)
     settings.m_fillFloor = 0.05;  // so that the samples are seen, not the floor
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_NEAR(cage.m_surfaceVolume, signedVolume(surface), 1e-14);
-    EXPECT_NEAR(cage.m_surfaceVolume, kPi / 6, 0.004 * kPi / 6);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, signedVolume(surface), 1e-14);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, kPi / 6, 0.004 * kPi / 6);
     EXPECT_NEAR(cage.m_massScale, 1, GetParam().m_volumeTolerance);
-    EXPECT_GT(cage.m_mesh.volume(), cage.m_surfaceVolume);
+    EXPECT_GT(cage.m_mesh.volume(), cage.m_report.m_surfaceVolume);
     EXPECT_EQ(cage.m_mesh.componentCount(), 1);
 }
 
@@ -165,7 +166,7 @@ TEST(Cage, LeavesTheHoleOfATorusFree)
     const CageSettings settings = withCell(0.1);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_NEAR(cage.m_surfaceVolume, signedVolume(surface), 1e-13);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, signedVolume(surface), 1e-13);
     for (const Vec3& X : cage.m_mesh.restPositions()) EXPECT_GT(std::hypot(X.x, X.y), 0.7 - 0.1 * std::sqrt(3.0));
 }
 
@@ -175,8 +176,8 @@ TEST(Cage, KeepsACavityEmpty)
     const CageSettings settings = withCell(0.1);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_FALSE(cage.m_selfIntersecting);
-    EXPECT_NEAR(cage.m_surfaceVolume, signedVolume(surface), 1e-13);
+    EXPECT_FALSE(cage.m_report.m_selfIntersecting);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, signedVolume(surface), 1e-13);
     for (const Vec3& X : cage.m_mesh.restPositions()) EXPECT_GT(norm(X), 0.4);
 }
 
@@ -186,11 +187,11 @@ TEST(Cage, AcceptsASurfaceThatIsInsideOut)
     const CageSettings settings = withCell(0.2);
     const Cage expected = makeCage(outward, settings), cage = makeCage(inward, settings);
     expectPromises(cage, inward, settings);
-    EXPECT_TRUE(cage.m_insideOut);
-    EXPECT_FALSE(cage.m_selfIntersecting);
+    EXPECT_TRUE(cage.m_report.m_insideOut);
+    EXPECT_FALSE(cage.m_report.m_selfIntersecting);
     EXPECT_EQ(cage.m_mesh.tets(), expected.m_mesh.tets());
     EXPECT_EQ(cage.m_filled, expected.m_filled);
-    EXPECT_NEAR(cage.m_surfaceVolume, expected.m_surfaceVolume, 1e-14);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, expected.m_report.m_surfaceVolume, 1e-14);
 }
 
 TEST(Cage, CountsOverlapsOnce)
@@ -200,10 +201,10 @@ TEST(Cage, CountsOverlapsOnce)
     const CageSettings settings = withCell(0.1);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_TRUE(cage.m_selfIntersecting);
-    EXPECT_EQ(cage.m_openEdges, 0);
+    EXPECT_TRUE(cage.m_report.m_selfIntersecting);
+    EXPECT_EQ(cage.m_report.m_openEdges, 0);
     const double both = 8.0 / 3 * kPi - 5.0 / 12 * kPi;
-    EXPECT_NEAR(cage.m_surfaceVolume, both, 0.005 * both);  // facets miss 0.2 %, sampling less
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, both, 0.005 * both);  // facets miss 0.2 %, sampling less
 }
 
 TEST(Cage, CountsPiecesOfBothOrientations)
@@ -212,11 +213,11 @@ TEST(Cage, CountsPiecesOfBothOrientations)
     const CageSettings settings = withCell(0.1);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_TRUE(cage.m_selfIntersecting);
-    EXPECT_FALSE(cage.m_insideOut);
+    EXPECT_TRUE(cage.m_report.m_selfIntersecting);
+    EXPECT_FALSE(cage.m_report.m_insideOut);
     EXPECT_EQ(cage.m_mesh.componentCount(), 2);
     const double both = 4.0 / 3 * kPi * 1.125;
-    EXPECT_NEAR(cage.m_surfaceVolume, both, 0.015 * both);  // facets miss 0.8 %
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, both, 0.015 * both);  // facets miss 0.8 %
 }
 
 TEST(Cage, ClosesSmallHoles)
@@ -226,9 +227,9 @@ TEST(Cage, ClosesSmallHoles)
     const CageSettings settings = withCell(0.1);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_EQ(cage.m_openEdges, 6);
-    EXPECT_FALSE(cage.m_insideOut);
-    EXPECT_NEAR(cage.m_surfaceVolume, signedVolume(closed), 0.005 * signedVolume(closed));
+    EXPECT_EQ(cage.m_report.m_openEdges, 6);
+    EXPECT_FALSE(cage.m_report.m_insideOut);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, signedVolume(closed), 0.005 * signedVolume(closed));
 }
 
 TEST(Cage, ClosesAnOpenBox)
@@ -237,9 +238,9 @@ TEST(Cage, ClosesAnOpenBox)
     const CageSettings settings = withCell(0.1);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_EQ(cage.m_openEdges, 4);
+    EXPECT_EQ(cage.m_report.m_openEdges, 4);
     // A flat hole is closed by its plane: there the missing side fills half of the view.
-    EXPECT_NEAR(cage.m_surfaceVolume, 1, 1e-10);  // a sum of 320,000 samples
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, 1, 1e-10);  // a sum of 320,000 samples
     EXPECT_EQ(cage.m_mesh.tetCount(), 10 * 10 * 10 * 5);
 }
 
@@ -256,7 +257,7 @@ TEST(Cage, WeldsCoincidentVertices)
     const CageSettings settings = withCell(0.25);
     const Cage cage = makeCage(soup, settings);
     expectPromises(cage, soup, settings);
-    EXPECT_EQ(cage.m_openEdges, 0);
+    EXPECT_EQ(cage.m_report.m_openEdges, 0);
     EXPECT_EQ(cage.m_mesh.tets(), makeCage(shared, settings).m_mesh.tets());
 }
 
@@ -266,7 +267,7 @@ TEST(Cage, HoldsAPlateThinnerThanACell)
     const CageSettings settings = withCell(0.2);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_NEAR(cage.m_surfaceVolume, 0.001, 1e-15);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, 0.001, 1e-15);
     EXPECT_EQ(cage.m_mesh.tetCount(), 5 * 5 * 5);  // the plate enters every element of its layer
     EXPECT_EQ(cage.m_mesh.componentCount(), 1);
 }
@@ -281,7 +282,7 @@ TEST(Cage, HoldsAFinWithoutThickness)
     const CageSettings settings = withCell(0.25);
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
-    EXPECT_NEAR(cage.m_surfaceVolume, 1, 1e-14);
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, 1, 1e-14);
     EXPECT_EQ(cage.m_mesh.tetCount(), 4 * 4 * 4 * 5 + 2);  // one element for each of the far vertices
 }
 

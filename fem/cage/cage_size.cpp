@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/cage/cage_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/cage/cage_fill.h"
+#include "fem/message.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kMostLattices = 20;
+constexpr double kNearEnough = 0.03;  // of the wanted number
+
+/// A lattice cube holds five tets. The cage holds the solid and a skin of cut elements, half of which stands out: about
+/// half a cell thick over the whole surface (measured on a dozen meshes). The estimate falls with the cell.
+double estimateCellSize(const SurfaceInspection& surface, const CageSettings& settings, CellSizeRange range)
+{
+    const Vec3 extent = surface.m_high - surface.m_low;  // its box bounds the volume of what overlaps itself
+    const double volume =
+        std::min(std::abs(signedVolume(surface.m_repaired.m_surface)), extent.x * extent.y * extent.z);
+    for (int n = 0; n < 60; ++n)
+    {
+        const double cell = std::sqrt(range.m_least * range.m_most);
+        const double tets = 5 * (volume + 0.5 * surface.m_area * cell) / (cell * cell * cell);
+        (tets > settings.m_targetTets ? range.m_least : range.m_most) = cell;
+    }
+    return range.m_most;
+}
+
+/// The logarithm of a cell size, and of the count there over the wanted one.
+struct Trial
+{
+    double m_cell, m_excess;
+};
+
+class Search
+{
+public:
+    Search(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings)
+        : m_surface(surface), m_winding(winding), m_settings(settings)
+    {
+    }
+
+    double run()
+    {
+        const CellSizeRange range = CageLattice::cellSizeRange(m_surface, m_settings);
+        const double least = std::log(range.m_least), most = std::log(range.m_most);
+        Trial finer{least, 1}, coarser{most, -1}, best{0, 1e300};  // a bracket; its ends are not known at first
+        bool knowsFiner = false, knowsCoarser = false;
+        double cell = std::log(estimateCellSize(m_surface, m_settings, range));
+        for (int n = 0; n < kMostLattices && coarser.m_cell - finer.m_cell > 1e-6; ++n)
+        {
+            const Trial trial = look(cell);
+            if (std::abs(trial.m_excess) < std::abs(best.m_excess)) best = trial;
+            if (std::abs(best.m_excess) < kNearEnough) break;
+            const bool tooMany = trial.m_excess > 0;
+            (tooMany ? finer : coarser) = trial;
+            (tooMany ? knowsFiner : knowsCoarser) = true;
+            if (!knowsFiner || !knowsCoarser)
+                cell = std::clamp(cell + kSlope * trial.m_excess, least, most);
+            else if (n % 2 == 0)
+                cell = finer.m_cell +
+                       (coarser.m_cell - finer.m_cell) * finer.m_excess / (finer.m_excess - coarser.m_excess);
+            else
+                cell = 0.5 * (finer.m_cell + coarser.m_cell);
+            if (cell == trial.m_cell) break;  // at an end of the range
+        }
+        return std::clamp(std::exp(best.m_cell), range.m_least, range.m_most);
+    }
+
+private:
+    static constexpr double kSlope = 0.5;  // counts fall with the square to the cube of the cell: no step is too short
+
+    Trial look(double cell) const
+    {
+        CageSettings settings = m_settings;
+        settings.m_cellSize = std::exp(cell);
+        const CellSizeRange range = CageLattice::cellSizeRange(m_surface, m_settings);
+        settings.m_cellSize = std::clamp(settings.m_cellSize, range.m_least, range.m_most);
+        CageLattice lattice(m_surface, settings);
+        lattice.markSurface(m_surface.m_repaired.m_surface);
+        const double count = countTets(lattice, m_winding, m_surface.m_openEdges == 0, settings);
+        return {cell, std::log(std::max(1.0, count) / m_settings.m_targetTets)};
+    }
+
+    const SurfaceInspection& m_surface;
+    const WindingNumber& m_winding;
+    const CageSettings& m_settings;
+};
+
+}  // namespace
+
+void checkSettings(const CageSettings& settings)
+{
+    if (settings.m_maxTets < 5 || settings.m_maxTets > 5'000'000)
+        reject("the most elements of a cage is ", settings.m_maxTets,
+               ", outside [5, 5000000]; choose another m_maxTets");
+    if (!(settings.m_fillFloor > 0 && settings.m_fillFloor <= 1))
+        reject("the least filled fraction of a cage is ", settings.m_fillFloor,
+               ", outside (0, 1]; choose another m_fillFloor, 0.25 is usual");
+    if (settings.m_fillSamples < 8 || settings.m_fillSamples > 4096)
+        reject("the samples for an element's filled fraction are ", settings.m_fillSamples,
+               ", outside [8, 4096]; choose another m_fillSamples, 64 is usual");
+    if (settings.m_targetTets != 0 && settings.m_cellSize != 0)
+        reject("the cage has both a cell size (", settings.m_cellSize, " m) and a number of elements (",
+               settings.m_targetTets, "); give one of m_cellSize and m_targetTets, and leave the other 0");
+    if (settings.m_targetTets != 0 && (settings.m_targetTets < 5 || settings.m_targetTets > settings.m_maxTets))
+        reject("the elements wanted of a cage are ", settings.m_targetTets, ", outside [5, ", settings.m_maxTets,
+               "]; choose another m_targetTets or raise m_maxTets");
+}
+
+double findCellSize(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings)
+{
+    return Search(surface, winding, settings).run();
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace bullet_fem
+{
+
+/// Things [0, n) that are joined pairwise to pieces; the lowest of a piece stands for it.
+class JoinedSets
+{
+public:
+    explicit JoinedSets(std::size_t count) : m_parent(count) { std::iota(m_parent.begin(), m_parent.end(), 0); }
+
+    int root(int i)
+    {
+        while (m_parent[i] != i) i = m_parent[i] = m_parent[m_parent[i]];
+        return i;
+    }
+
+    void join(int i, int j)
+    {
+        const int r = root(i), s = root(j);
+        m_parent[std::max(r, s)] = std::min(r, s);
+    }
+
+private:
+    std::vector<int> m_parent;
+};
+
+}  // namespace bullet_fem
