@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "LinearMath/btTransformUtil.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/fem/baked_body.h"
@@ -122,8 +123,24 @@ void SceneWorld::step()
 {
     for (const SceneForce& force : m_description.m_forces)
         if (time() >= force.m_from && time() < force.m_to) apply(force);
+    moveKinematic();
     m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of just this size
     ++m_steps;
+}
+
+// Bullet takes a kinematic body's velocity from where it is put.
+void SceneWorld::moveKinematic()
+{
+    for (int i = 0; i < rigidCount(); ++i)
+    {
+        btRigidBody& body = *m_rigidBodies[i];
+        if (!body.isKinematicObject()) continue;
+        const SceneRigidBody& from = m_description.m_rigidBodies[i];
+        btTransform next;
+        btTransformUtil::integrateTransform(body.getWorldTransform(), bulletVector(from.m_velocity),
+                                            bulletVector(from.m_spin), btScalar(m_description.m_step), next);
+        body.setWorldTransform(next);
+    }
 }
 
 std::unique_ptr<btSoftBody> SceneWorld::makeSoft(const SceneSoftBody& from)

@@ -49,6 +49,7 @@ private:
     void addAnchors(const SceneConstraint& from);
     std::unique_ptr<btSoftBody> makeSoft(const SceneSoftBody& from);
     void apply(const SceneForce& force);
+    void moveKinematic();
     btRigidBody& rigidCalled(const std::string& name);
     btSoftBody& softCalled(const std::string& name);
 
