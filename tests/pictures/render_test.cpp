@@ -264,6 +264,9 @@ TEST(Render, BoundsKeepTheGroundOfAFilmTheSame)
     EXPECT_GT(differentPixels(frame(1), frame(80)), 1500);
     scene.m_bounds = PictureBounds{{-1, 0, -1}, {1, 1, 1}};
     EXPECT_LT(differentPixels(frame(1), frame(80)), 50) << "texels of the shadow";
+    const Image crowded = frame(80);
+    scene.m_meshes.pop_back();
+    EXPECT_LT(differentPixels(crowded, render(scene)), 50) << "shadows are as fine as without the far one";
 }
 
 TEST(Render, EmptyScenesAndFlatMeshesAreDrawn)

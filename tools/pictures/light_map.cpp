@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr double kFarthestShadow = 20;  // below the scene [radii]: low light would need an endless map
+constexpr double kFarthestCaster = 6;   // from the centre [radii], of those that the map is fitted around
 constexpr double kLowestLight = 1e-3;   // sine of its height above the ground
 
 /// The box of the casters along the light's axes; z grows away from the light.
@@ -65,8 +66,12 @@ void LightMap::render(const std::vector<PictureVertex>& casters, const Vec3& tow
                       double margin, const std::function<void(const Matrix4&)>& draw)
 {
     LightBox box(towardsLight);
-    for (const PictureVertex& v : casters) box.add({v.m_position[0], v.m_position[1], v.m_position[2]}, ground);
-    if (casters.empty()) box.m_low = box.m_high = {};
+    for (const PictureVertex& v : casters)
+    {
+        const Vec3 x{v.m_position[0], v.m_position[1], v.m_position[2]};
+        if (norm(x) < kFarthestCaster) box.add(x, ground);
+    }
+    if (box.m_low.x > box.m_high.x) box.m_low = box.m_high = {};
     const double half = 0.5 * std::max(box.m_high.x - box.m_low.x, box.m_high.y - box.m_low.y) + margin;
     const Vec3 middle = 0.5 * (box.m_low + box.m_high);
     const double halfDepth = 0.5 * (box.m_high.z - box.m_low.z) + 0.02;
@@ -89,10 +94,12 @@ void LightMap::render(const std::vector<PictureVertex>& casters, const Vec3& tow
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_CLAMP);  // what is nearer to the light than the box casts shadows into it
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.5f, 4);
     draw(matrix4(clip));
     glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_DEPTH_CLAMP);
 }
 
 }  // namespace bullet_fem

@@ -93,7 +93,8 @@ struct PictureScene
     PictureCamera m_camera;
     PictureColourScale m_colourScale;
     /// What the softness of shadows and the reach of the ground are measured by; `bounds` unless given. Frames of a
-    /// film get the same one, or these would change with what moves.
+    /// film get the same one, or these would change with what moves. Shadows of what is farther than six of its radii
+    /// may be missing.
     std::optional<PictureBounds> m_bounds;
     Colour m_sky{0.80, 0.85, 0.91}, m_horizon{0.955, 0.96, 0.965};  ///< background, above and at half height
     std::string m_caption;  ///< text at the lower left, ASCII and Latin-1 as UTF-8
