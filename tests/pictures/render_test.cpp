@@ -201,6 +201,22 @@ TEST(Render, ArrowsReachAsFarAsTheirScaleSays)
     EXPECT_EQ(pixelAt(image, scene.m_camera, {0.4, 0, 0}), pixelAt(bare, scene.m_camera, {0.4, 0, 0})) << "too short";
 }
 
+TEST(Render, ArrowsBehindSurfacesShineThrough)
+{
+    PictureScene scene = emptyScene();
+    scene.m_meshes = {rectangle({0, 0, 0.2}, {1, 0, 0}, {0, 1, 0})};
+    scene.m_meshes[0].m_colour = {0.8, 0.8, 0.8};
+    scene.m_light.m_towards = {0, 0.3, 1};
+    const Image bare = render(scene);
+    scene.m_arrows = {PictureArrows{{PictureArrow{{0, -0.4, -0.3}, {0, 0.8, 0}}}, 1, 0.08, {1, 0, 0}}};
+    const Image image = render(scene);
+    const std::array<int, 3> before = pixelAt(bare, scene.m_camera, {0, 0, 0.2}),
+                             after = pixelAt(image, scene.m_camera, {0, 0, 0.2});
+    EXPECT_LT(after[1], 0.8 * before[1]);
+    EXPECT_GT(after[1], 0.3 * before[1]) << "but faintly";
+    EXPECT_GT(after[0], 1.3 * after[1]) << "in its colour";
+}
+
 TEST(Render, GroundIsSeenFromAboveOnlyAndHasAGrid)
 {
     PictureScene scene;

@@ -38,7 +38,7 @@ struct PictureArrow
     Vec3 m_vector;  ///< finite; arrows shorter than a thousandth of the longest are left out
 };
 
-/// Arrows of one kind, such as contact forces.
+/// Arrows of one kind, such as contact forces. Behind surfaces they shine through faintly.
 struct PictureArrows
 {
     std::vector<PictureArrow> m_arrows;

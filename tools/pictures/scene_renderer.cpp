@@ -19,11 +19,12 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kKeyMapSide = 2048, kSkyMapSide = 512;  // [texels]
+constexpr int kKeyMapSide = 2048, kSkyMapSide = 192;  // [texels]
 constexpr double kSkyReach = 0.3;                     // how far the sky's map goes beyond the scene [radii]
 constexpr double kGroundExtent = 14;                  // half the side of the ground's square [radii], at least,
 constexpr double kGroundReach = 6;                    // and in distances of the eye from the scene
 constexpr double kFar = 60;                           // farthest thing drawn, beyond the ground [radii]
+constexpr double kHiddenArrows = 0.45;                // opacity of arrows behind surfaces
 constexpr double kNear = 0.004;                       // nearest, of the distance to the scene
 constexpr int kMapUnit = 0, kKeyUnit = 1, kKeyShadowUnit = 2, kSkyUnit = 3;  // texture units
 
@@ -37,7 +38,7 @@ struct Range
 {
     int m_first = 0, m_count = 0;
     Colour m_colour;
-    bool m_coloured = false, m_lit = true, m_wires = false;
+    bool m_coloured = false, m_lit = true, m_wires = false, m_arrows = false;
 };
 
 /// Sets uniforms of a program by name; names that the compiler dropped are no error.
@@ -206,7 +207,7 @@ void SceneRenderer::Parts::collect(const PictureScene& scene)
     for (const PictureArrows& arrows : scene.m_arrows)
     {
         appendVertices(arrows, m_units, m_vertices);
-        close({0, 0, arrows.m_colour, false, true, false});
+        close({0, 0, arrows.m_colour, false, true, false, true});
     }
     glBindBuffer(GL_ARRAY_BUFFER, m_buffer.id());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(m_vertices.size() * sizeof(PictureVertex)), m_vertices.data(),
@@ -304,14 +305,31 @@ void SceneRenderer::Parts::drawSurfaces(const PictureScene& scene) const
     glUseProgram(uniforms.m_program);
     setLight(scene, uniforms);
     glBindVertexArray(m_vertexArray.id());
-    for (const Range& range : m_ranges)
+    const auto draw = [&](bool arrows, double opacity)
     {
-        uniforms.set("colour", range.m_colour);
-        uniforms.set("coloured", range.m_coloured);
-        uniforms.set("lit", range.m_lit);
-        uniforms.set("wires", range.m_wires);
-        glDrawArrays(GL_TRIANGLES, range.m_first, range.m_count);
-    }
+        uniforms.set("opacity", opacity);
+        for (const Range& range : m_ranges)
+        {
+            if (range.m_arrows != arrows) continue;
+            uniforms.set("colour", range.m_colour);
+            uniforms.set("coloured", range.m_coloured);
+            uniforms.set("lit", range.m_lit && opacity == 1);  // inside a body there is no light
+            uniforms.set("wires", range.m_wires);
+            glDrawArrays(GL_TRIANGLES, range.m_first, range.m_count);
+        }
+    };
+    draw(false, 1);
+    // First the arrows behind surfaces: contact forces point into bodies.
+    glEnable(GL_BLEND);
+    glEnable(GL_CULL_FACE);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_GREATER);
+    draw(true, kHiddenArrows);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    draw(true, 1);
 }
 
 SceneRenderer::SceneRenderer()

@@ -120,7 +120,7 @@ centroid in vec3 place, direction, corner;
 centroid in float share;
 uniform vec3 colour;
 uniform bool coloured, lit, wires;
-uniform float wireWidth;  // [pixels]
+uniform float wireWidth, opacity;  // [pixels], [-]
 uniform sampler2D colourMap;
 out vec4 pixel;
 void main()
@@ -136,7 +136,7 @@ void main()
         float line = 1.0 - smoothstep(0.5 * wireWidth - 0.5, 0.5 * wireWidth + 0.5, min(d.x, min(d.y, d.z)));
         c = mix(c, 0.25 * c, 0.75 * line);
     }
-    pixel = vec4(c, 1.0);
+    pixel = vec4(c, opacity);
 }
 )";
 }
