@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/cage/cage_fill.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fem/message.h"
@@ -27,6 +28,11 @@ std::vector<Weights> spreadSamples(int count)
         samples.push_back({1 - s, s * (1 - t), s * t * u, s * t * (1 - u)});
     }
     return samples;
+}
+
+bool inside(double winding)
+{
+    return std::abs(winding) >= 0.5;
 }
 
 class Filler
@@ -163,7 +169,6 @@ private:
         if (std::abs(winding) > 1.5) m_overlapping = true;
     }
 
-    static bool inside(double winding) { return std::abs(winding) >= 0.5; }
     static int bits(unsigned mask)
     {
         return (mask & 1) + (mask >> 1 & 1) + (mask >> 2 & 1) + (mask >> 3 & 1) + (mask >> 4 & 1);
@@ -196,6 +201,22 @@ private:
 CageFill fillCage(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)
 {
     return Filler(lattice, winding, closed, settings).run();
+}
+
+void refill(const MovedTets& tets, const WindingNumber& winding, const CageSettings& settings, CageFill& fill)
+{
+    const std::vector<Weights> samples = spreadSamples(settings.m_fillSamples);
+    const std::vector<Vec3>&X = tets.m_after.restPositions(), &before = tets.m_before.restPositions();
+    for (int e = 0; e < tets.m_after.tetCount(); ++e)
+    {
+        const Tet& t = tets.m_after.tets()[e];
+        if (std::all_of(t.begin(), t.end(), [&](int i) { return norm(X[i] - before[i]) == 0; })) continue;
+        int hits = 0;
+        for (const Weights& w : samples)
+            hits +=
+                inside(winding.at(X[t[0]] * w[0] + X[t[1]] * w[1] + X[t[2]] * w[2] + X[t[3]] * w[3] - tets.m_centre));
+        fill.m_tets[e].m_fraction = static_cast<double>(hits) / settings.m_fillSamples;
+    }
 }
 
 double countTets(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)

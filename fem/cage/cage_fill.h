@@ -34,6 +34,17 @@ struct CageFill
 /// kept, before they are stored.
 CageFill fillCage(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings);
 
+/// A cage's elements before and after nodes have moved.
+struct MovedTets
+{
+    const TetMesh& m_before;
+    const TetMesh& m_after;
+    Vec3 m_centre;  ///< where the winding number has its origin [m]
+};
+
+/// Measures the filled fractions of the elements that have moved.
+void refill(const MovedTets& tets, const WindingNumber& winding, const CageSettings& settings, CageFill& fill);
+
 /// About how many elements fillCage keeps: exactly where the surface is closed and no vertex needs another element.
 /// Counting ends beyond twice m_targetTets.
 double countTets(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings);

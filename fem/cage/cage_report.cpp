@@ -26,8 +26,9 @@ std::string describe(const CageReport& report)
                                "), elements by tenths:");
     for (const int count : report.m_qualityHistogram) text += message(' ', count);
     text += message("\nvolume ", report.m_surfaceVolume, " m3 (", report.m_volumeIsExact ? "exact" : "of samples",
-                    "), the cage's is ", report.m_volumeRatio, " times that\n", report.m_pieces, " pieces, ",
-                    report.m_openEdges, " open edges (", 100 * report.m_openShare, " %)");
+                    "), the cage's is ", report.m_volumeRatio, " times that (", report.m_latticeVolumeRatio,
+                    " before snapping)\n", report.m_pieces, " pieces, ", report.m_openEdges, " open edges (",
+                    100 * report.m_openShare, " %)");
     if (report.m_insideOut) text += ", inside out";
     if (report.m_selfIntersecting) text += ", intersects itself";
     if (report.m_duplicates) text += message(", ", report.m_duplicates, " duplicate triangles left out");

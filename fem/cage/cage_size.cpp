@@ -106,6 +106,9 @@ void checkSettings(const CageSettings& settings)
     if (settings.m_fillSamples < 8 || settings.m_fillSamples > 4096)
         reject("the samples for an element's filled fraction are ", settings.m_fillSamples,
                ", outside [8, 4096]; choose another m_fillSamples, 64 is usual");
+    if (!(settings.m_snap >= 0 && settings.m_snap <= 1))
+        reject("the share that a cage's boundary is snapped by is ", settings.m_snap,
+               ", outside [0, 1]; choose another m_snap, 0 for none");
     if (settings.m_targetTets != 0 && settings.m_cellSize != 0)
         reject("the cage has both a cell size (", settings.m_cellSize, " m) and a number of elements (",
                settings.m_targetTets, "); give one of m_cellSize and m_targetTets, and leave the other 0");

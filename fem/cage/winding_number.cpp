@@ -18,15 +18,47 @@ Vec3 vectorArea(const Vec3& a, const Vec3& b, const Vec3& c)
     return 0.5 * cross(b - a, c - a);
 }
 
-/// Signed solid angle of a triangle seen from the origin [van Oosterom and Strackee 1983, eq. 8]; positive if its
-/// normal points away from the origin.
-double solidAngle(const Vec3& a, const Vec3& b, const Vec3& c)
+/// A sum of solid angles of triangles seen from the origin. Half of one is the argument of a complex number [van
+/// Oosterom and Strackee 1983, eq. 8]; numbers in the right half plane are multiplied before an argument is taken,
+/// which costs more than all the rest.
+class SolidAngles
 {
-    const double la = norm(a), lb = norm(b), lc = norm(c);
-    const double numerator = dot(a, cross(b, c));
-    const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-    return numerator == 0 ? 0 : 2 * std::atan2(numerator, denominator);  // 0: in the plane, seen edge on
-}
+public:
+    /// Positive if the triangle's normal points away from the origin.
+    void add(const Vec3& a, const Vec3& b, const Vec3& c)
+    {
+        const double la = norm(a), lb = norm(b), lc = norm(c), scale = 1 / (la * lb * lc);
+        const double im = dot(a, cross(b, c)) * scale;
+        const double re = 1 + (dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb) * scale;
+        if (im == 0 || !std::isfinite(scale)) return;  // in the plane, seen edge on, or a corner
+        if (!(re > 0))
+        {
+            m_sum += 2 * std::atan2(im, re);
+            return;
+        }
+        const double product = m_re * re - m_im * im;
+        m_im = m_re * im + m_im * re;
+        m_re = product;
+        if (!(m_re > 0 && m_re < 1e100 && std::abs(m_im) < 1e100)) flush();
+    }
+
+    double sum()
+    {
+        flush();
+        return m_sum;
+    }
+
+private:
+    void flush()
+    {
+        m_sum += 2 * std::atan2(m_im, m_re);
+        m_re = 1;
+        m_im = 0;
+    }
+
+    double m_sum = 0;
+    double m_re = 1, m_im = 0;  // the product, in the right half plane
+};
 
 }  // namespace
 
@@ -96,6 +128,7 @@ WindingNumber::Node WindingNumber::summarise(int first, int last) const
 double WindingNumber::at(const Vec3& p) const
 {
     double angle = 0;
+    SolidAngles near;
     for (std::size_t n = 0; n < m_nodes.size();)
     {
         const Node& node = m_nodes[n];
@@ -109,7 +142,7 @@ double WindingNumber::at(const Vec3& p) const
         }
         else if (node.m_leaf)
             for (int t = node.m_first; t < node.m_last; ++t)
-                angle += solidAngle(m_triangles[t].m_a - p, m_triangles[t].m_b - p, m_triangles[t].m_c - p);
+                near.add(m_triangles[t].m_a - p, m_triangles[t].m_b - p, m_triangles[t].m_c - p);
         else
         {
             ++n;
@@ -117,7 +150,7 @@ double WindingNumber::at(const Vec3& p) const
         }
         n = node.m_skip;
     }
-    return angle / (4 * kPi);
+    return (angle + near.sum()) / (4 * kPi);
 }
 
 }  // namespace bullet_fem

@@ -19,6 +19,9 @@ struct CageSettings
     /// Elements wanted, in [5, m_maxTets]; 0: as m_cellSize says. The lattice does not give every number: within 20 %
     /// from some hundred elements on, and else the nearest that was found.
     int m_targetTets = 0;
+    /// Share of the way that boundary nodes move toward the nearest point of the surface, in [0, 1]; 0: none. They stop
+    /// where an element would fall below a mean ratio of .3, or the surface would no longer be inside.
+    double m_snap = 0;
     int m_maxTets = 200000;  ///< refuse beyond this many elements, in [5, 5e6]
     /// Least filled fraction that an element's mass and stiffness are scaled by, in (0, 1]. Contact is on the cage's
     /// boundary, where emptier elements are softer; below about .2 they turn inside out under a hard landing.
@@ -48,13 +51,14 @@ struct Cage
 /// a sample inside, that a triangle enters or that a vertex needs, measures how much of each is filled, and embeds the
 /// surface's vertices. The inside is where the generalised winding number [Jacobson et al. 2013] has magnitude at least
 /// 1/2, so self-intersecting, inside-out and slightly open surfaces have one. Triangles that are given twice are left
-/// out, those that turn against their neighbours turned over; the report tells. The same bits on every call.
-/// Throws std::invalid_argument naming value, range and remedy: settings out of range; no triangles, indices out of
-/// range, vertices that are not finite, a surface below 1e-7 of its distance from the origin; one whose triangles
-/// still disagree at more than 1/10 of the edges, because more than two meet there; a surface without inside (flat,
-/// wide open: |vector area| above 9/10 of the area, or volume below 1e-7 of area times length); a cell size that is
-/// longer than the surface, needs more than min(20 m_maxTets, 2e7) cubes for the bounding box, or gives more than
-/// m_maxTets elements.
+/// out, those that turn against their neighbours turned over; the report tells. The cage encloses the whole surface,
+/// its triangles as well as its vertices, and does not overlap itself; the mean ratio of every element is at least
+/// .8399, or .3 with m_snap. The same bits on every call. Throws std::invalid_argument naming value, range and remedy:
+/// settings out of range; no triangles, indices out of range, vertices that are not finite, a surface below 1e-7 of its
+/// distance from the origin; one whose triangles still disagree at more than 1/10 of the edges, because more than two
+/// meet there; a surface without inside (flat, wide open: |vector area| above 9/10 of the area, or volume below 1e-7 of
+/// area times length); a cell size that is longer than the surface, needs more than min(20 m_maxTets, 2e7) cubes for
+/// the bounding box, or gives more than m_maxTets elements.
 Cage makeCage(const SurfaceMesh& surface, const CageSettings& settings);
 
 }  // namespace bullet_fem

@@ -26,8 +26,9 @@ struct CageReport
     /// surface in which no overlap was found; else the volume of the samples with a winding number of magnitude 1/2 or
     /// more, overlaps once.
     double m_surfaceVolume = 0;
-    bool m_volumeIsExact = false;  ///< which of the two it is
-    double m_volumeRatio = 0;      ///< the cage's volume over the solid's [-]
+    bool m_volumeIsExact = false;     ///< which of the two it is
+    double m_volumeRatio = 0;         ///< the cage's volume over the solid's [-]
+    double m_latticeVolumeRatio = 0;  ///< the same before boundary nodes were snapped
 
     int m_pieces = 0;                 ///< parts of the surface that neither an edge nor a vertex joins
     bool m_insideOut = false;         ///< most of the inside has triangles oriented inward (accepted)

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/cage/triangle_tree.h"
+
+#include <algorithm>
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kLeafSize = 4;
+
+/// a / b, 0 where b is: in triangles without area.
+double ratio(double a, double b)
+{
+    return b != 0 ? a / b : 0;
+}
+
+/// The nearest point of a triangle, by the regions of its corners, edges and face [Ericson 2005, 5.1.5].
+Vec3 nearestOn(const TriangleCorners& t, const Vec3& p)
+{
+    const Vec3 ab = t[1] - t[0], ac = t[2] - t[0];
+    const double d1 = dot(ab, p - t[0]), d2 = dot(ac, p - t[0]);
+    if (d1 <= 0 && d2 <= 0) return t[0];
+    const double d3 = dot(ab, p - t[1]), d4 = dot(ac, p - t[1]);
+    if (d3 >= 0 && d4 <= d3) return t[1];
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return t[0] + ab * ratio(d1, d1 - d3);
+    const double d5 = dot(ab, p - t[2]), d6 = dot(ac, p - t[2]);
+    if (d6 >= 0 && d5 <= d6) return t[2];
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return t[0] + ac * ratio(d2, d2 - d6);
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 >= d3 && d5 >= d6) return t[1] + (t[2] - t[1]) * ratio(d4 - d3, (d4 - d3) + (d5 - d6));
+    return t[0] + ab * ratio(vb, va + vb + vc) + ac * ratio(vc, va + vb + vc);
+}
+
+double squaredDistance(const Vec3& low, const Vec3& high, const Vec3& p)
+{
+    double sum = 0;
+    for (int a = 0; a < 3; ++a)
+    {
+        const double d = std::max({low[a] - p[a], p[a] - high[a], 0.0});
+        sum += d * d;
+    }
+    return sum;
+}
+
+/// Half spaces and box of a tet: what is certainly outside of either does not meet it.
+class TetRegion
+{
+public:
+    explicit TetRegion(const std::array<Vec3, 4>& tet) : m_low(tet[0]), m_high(tet[0])
+    {
+        for (int i = 0; i < 4; ++i)
+        {
+            const Vec3 &a = tet[(i + 1) % 4], &b = tet[(i + 2) % 4], &c = tet[(i + 3) % 4];
+            m_normals[i] = cross(b - a, c - a);
+            const double inner = dot(m_normals[i], tet[i] - a);
+            if (inner > 0) m_normals[i] = -m_normals[i];
+            m_offsets[i] = dot(m_normals[i], a);
+            for (int c3 = 0; c3 < 3; ++c3)
+            {
+                m_low[c3] = std::min(m_low[c3], tet[i][c3]);
+                m_high[c3] = std::max(m_high[c3], tet[i][c3]);
+            }
+        }
+    }
+
+    bool mayMeet(const Vec3& low, const Vec3& high) const
+    {
+        for (int a = 0; a < 3; ++a)
+            if (low[a] > m_high[a] || high[a] < m_low[a]) return false;
+        for (int i = 0; i < 4; ++i)
+        {
+            const Vec3& n = m_normals[i];
+            const Vec3 deepest = {n.x > 0 ? low.x : high.x, n.y > 0 ? low.y : high.y, n.z > 0 ? low.z : high.z};
+            if (dot(n, deepest) > m_offsets[i]) return false;
+        }
+        return true;
+    }
+
+private:
+    Vec3 m_low, m_high;
+    std::array<Vec3, 4> m_normals;
+    std::array<double, 4> m_offsets = {};
+};
+
+}  // namespace
+
+TriangleTree::TriangleTree(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles)
+{
+    for (const Triangle& t : triangles) m_triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+    build(0, static_cast<int>(m_triangles.size()));
+}
+
+void TriangleTree::build(int first, int last)
+{
+    const std::size_t self = m_nodes.size();
+    Node node{m_triangles[first][0], m_triangles[first][0], first, last, 0, 0};
+    for (int t = first; t < last; ++t)
+        for (const Vec3& x : m_triangles[t])
+            for (int a = 0; a < 3; ++a)
+            {
+                node.m_low[a] = std::min(node.m_low[a], x[a]);
+                node.m_high[a] = std::max(node.m_high[a], x[a]);
+            }
+    m_nodes.push_back(node);
+    if (last - first <= kLeafSize)
+    {
+        m_nodes[self].m_skip = static_cast<int>(self) + 1;
+        return;
+    }
+    const Vec3 extent = node.m_high - node.m_low;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const int middle = first + (last - first) / 2;
+    const auto along = [axis](const TriangleCorners& t) { return t[0][axis] + t[1][axis] + t[2][axis]; };
+    std::nth_element(m_triangles.begin() + first, m_triangles.begin() + middle, m_triangles.begin() + last,
+                     [&](const TriangleCorners& s, const TriangleCorners& t) { return along(s) < along(t); });
+    build(first, middle);
+    m_nodes[self].m_right = static_cast<int>(m_nodes.size());
+    build(middle, last);
+    m_nodes[self].m_skip = static_cast<int>(m_nodes.size());
+}
+
+Vec3 TriangleTree::nearest(const Vec3& p) const
+{
+    Vec3 best = m_triangles[0][0];
+    double bestSquared = dot(best - p, best - p);
+    nearestIn(0, p, best, bestSquared);
+    return best;
+}
+
+void TriangleTree::nearestIn(int at, const Vec3& p, Vec3& best, double& bestSquared) const
+{
+    const Node& node = m_nodes[at];
+    if (node.m_right == 0)
+    {
+        for (int t = node.m_first; t < node.m_last; ++t)
+        {
+            const Vec3 q = nearestOn(m_triangles[t], p);
+            const double squared = dot(q - p, q - p);
+            if (squared < bestSquared) best = q, bestSquared = squared;
+        }
+        return;
+    }
+    int nearer = at + 1, farther = node.m_right;
+    double d1 = squaredDistance(m_nodes[nearer].m_low, m_nodes[nearer].m_high, p);
+    double d2 = squaredDistance(m_nodes[farther].m_low, m_nodes[farther].m_high, p);
+    if (d2 < d1) std::swap(nearer, farther), std::swap(d1, d2);
+    if (d1 < bestSquared) nearestIn(nearer, p, best, bestSquared);
+    if (d2 < bestSquared) nearestIn(farther, p, best, bestSquared);
+}
+
+bool TriangleTree::entersTet(const std::array<Vec3, 4>& tet, double depth) const
+{
+    const TetRegion region(tet);
+    for (std::size_t n = 0; n < m_nodes.size();)
+    {
+        const Node& node = m_nodes[n];
+        if (!region.mayMeet(node.m_low, node.m_high))
+        {
+            n = node.m_skip;
+            continue;
+        }
+        if (node.m_right == 0)
+            for (int t = node.m_first; t < node.m_last; ++t)
+                if (triangleMeetsTet(m_triangles[t], tet, -depth)) return true;
+        ++n;
+    }
+    return false;
+}
+
+}  // namespace bullet_fem
