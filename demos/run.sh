@@ -5,36 +5,17 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
+source "$root/cmake/mesh_package.sh"
 
-mesh_package=libcgal-demo
-mesh_archive=usr/share/doc/libcgal-dev/data.tar.gz
 mesh_in_archive=data/meshes/elephant.off
 build=$root/build/demo # of its own, so that neither script changes the options of the other's
 mesh=$build/$mesh_in_archive
-
-# Takes the mesh out of its package. The package need not be installed: slim images leave out /usr/share/doc.
-extract_mesh()
-{
-    local folder
-    mkdir -p "$build"
-    if [ -r "/$mesh_archive" ]; then
-        tar -xzf "/$mesh_archive" -C "$build" "$mesh_in_archive"
-        return
-    fi
-    folder=$(mktemp -d "$build/package.XXXXXX")
-    (
-        cd "$folder"
-        apt-get download "$mesh_package" || { as_root apt-get update && apt-get download "$mesh_package"; }
-        dpkg-deb --fsys-tarfile ./*.deb | tar -xO "./$mesh_archive" | tar -xz -C "$build" "$mesh_in_archive"
-    ) || fail "cannot get $mesh_in_archive from the package $mesh_package"
-    rm -r "$folder"
-}
 
 install_packages "${build_packages[@]}" "${picture_packages[@]}"
 
 if [ ! -s "$mesh" ]; then
     say "extracting $mesh_in_archive from $mesh_package"
-    extract_mesh
+    extract_meshes "$build" "$mesh_in_archive" || fail "cannot get $mesh_in_archive from the package $mesh_package"
 fi
 
 say "building in $build"

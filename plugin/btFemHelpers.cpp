@@ -115,9 +115,17 @@ bool isEmbedded(const btSoftBody& body)
 btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, const SurfaceMesh& surface,
                                             const CageSettings& settings)
 {
+    CageReport report;
+    return createFromSurface(worldInfo, surface, settings, report);
+}
+
+btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, const SurfaceMesh& surface,
+                                            const CageSettings& settings, CageReport& report)
+{
     const Cage cage = makeCage(surface, settings);
     std::unique_ptr<btSoftBody> body = softBodyOf(worldInfo, cage.m_mesh, cage.m_filled, cage.m_massScale);
     embed(*body, {cage.m_mesh.tets(), cage.m_embedding, surface.m_triangles});
+    report = cage.m_report;
     return body.release();
 }
 

@@ -115,6 +115,15 @@ btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, cons
     return body;
 }
 
+btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
+                                            const bullet_fem::CageSettings& settings, bullet_fem::CageReport& report,
+                                            std::string* why)
+{
+    btSoftBody* body = nullptr;
+    succeeds([&] { body = createFromSurface(worldInfo, surface, settings, report); }, why);
+    return body;
+}
+
 btSoftBody* btFemHelpers::createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh,
                                             std::string* why)
 {

@@ -5,12 +5,19 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
+source "$root/cmake/mesh_package.sh"
 
 build=$root/build/release
+meshes=data/meshes # in the package, and in the folder where the tests look
 
 # clang is for the fuzzers of the file readers. Gmsh, if it is installed, adds tests of the files that it writes.
 install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev \
     xvfb xauth clang libclang-rt-14-dev
+
+if [ ! -d "$build/meshes/$meshes" ]; then
+    say "extracting $meshes from $mesh_package"
+    extract_meshes "$build/meshes" "$meshes" || say "cannot get them: the test of cages of them will be skipped"
+fi
 
 say "building in $build"
 (cd "$root" && cmake --preset release)

@@ -32,6 +32,10 @@ struct btFemHelpers
     static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
                                          const bullet_fem::CageSettings& settings);
 
+    /// The same, with a report on the cage and on what was found in the surface.
+    static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
+                                         const bullet_fem::CageSettings& settings, bullet_fem::CageReport& report);
+
     /// As the first `<deformable>` of a URDF file says, which is how pybullet loads soft bodies: mesh of tetrahedra,
     /// mass, friction, margin, gravity factor, and the surface to draw as m_renderNodes. `material` takes Young's
     /// modulus, Poisson's ratio and damping from the file, if it gives moduli, and density 0, so that the mass stays
@@ -60,6 +64,9 @@ struct btFemHelpers
                                              btScalar scale, std::string* why);
     static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
                                          const bullet_fem::CageSettings& settings, std::string* why);
+    static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
+                                         const bullet_fem::CageSettings& settings, bullet_fem::CageReport& report,
+                                         std::string* why);
     static btSoftBody* createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
                                       btScalar scale, std::string* why);
     static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh,

@@ -158,7 +158,7 @@ TEST_F(BakedBodies, ShareTheirFactor)
     m_fem.setMaterial(plain, bulletMaterial(m_settings.m_material));
     m_world.addSoft(plain);
     m_world.step(2);
-    for (const btSoftBody* body : {&a, &b, static_cast<const btSoftBody*>(plain)})
+    for (const btSoftBody* body : std::initializer_list<const btSoftBody*>{&a, &b, plain})
         EXPECT_TRUE(m_fem.stepReport(body).m_bakedFactor);
 }
 

@@ -115,6 +115,10 @@ TEST_F(Twins, OfHelpersGiveNull)
     expectRefused([&](std::string* why)
                   { return isMade(btFemHelpers::createFromSurface(info, SurfaceMesh(), CageSettings(), why)); },
                   "");
+    CageReport report;
+    expectRefused([&](std::string* why)
+                  { return isMade(btFemHelpers::createFromSurface(info, SurfaceMesh(), CageSettings(), report, why)); },
+                  "0 triangles");
 #ifdef BULLETFEM_TESTS_HAVE_FILES
     expectRefused([&](std::string* why)
                   { return isMade(btFemHelpers::createFromSurfaceFile(info, "missing.off", 1, 1, why)); },
