@@ -87,6 +87,7 @@ void RunOutput::drawPictures(std::vector<std::string>& written)
     const PictureSize size = {pictures.m_width, pictures.m_height};
     const int count = static_cast<int>(m_snapshots.size());
     if (pictures.m_hottest <= 0) m_painter->setHottest(hottestOf(m_snapshots));
+    if (const double largest = largestForceOf(m_snapshots); largest > 0) m_painter->setLargestForce(largest);
     OffscreenRenderer renderer;
     std::vector<std::unique_ptr<FilmWriter>> films;
     const int rate = static_cast<int>(std::clamp(std::round(m_world.description().m_framesPerSecond), 1.0, 100.0));

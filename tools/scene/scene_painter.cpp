@@ -44,14 +44,6 @@ PictureGround groundOf(const SceneWorld& world, double size)
     return ground;
 }
 
-double heaviestWeight(const SceneWorld& world)
-{
-    double weight = 1e-6;
-    for (int i = 0; i < world.softCount(); ++i)
-        weight = std::max(weight, norm(world.description().m_gravity) * double(world.soft(i).getTotalMass()));
-    return weight;
-}
-
 }  // namespace
 
 SceneSnapshot snapshotOf(const SceneWorld& world, const SceneFrames& frames)
@@ -92,6 +84,14 @@ double hottestOf(const std::vector<SceneSnapshot>& snapshots)
     return hottest;
 }
 
+double largestForceOf(const std::vector<SceneSnapshot>& snapshots)
+{
+    double largest = 0;
+    for (const SceneSnapshot& snapshot : snapshots)
+        for (const PictureArrow& arrow : snapshot.m_forces) largest = std::max(largest, norm(arrow.m_vector));
+    return largest;
+}
+
 ScenePainter::ScenePainter(const SceneWorld& world, const SceneFrames& frames) : m_world(world)
 {
     const SceneDescription& scene = world.description();
@@ -107,14 +107,18 @@ ScenePainter::ScenePainter(const SceneWorld& world, const SceneFrames& frames) :
         mesh.m_wireframe = soft && scene.m_pictures.m_wireframe;
         m_picture.m_meshes.push_back(std::move(mesh));
     }
-    const double size = bounds(m_picture).radius();
-    m_picture.m_ground = groundOf(world, size);
+    m_size = bounds(m_picture).radius();
+    m_picture.m_ground = groundOf(world, m_size);
     m_picture.m_arrows.resize(scene.m_pictures.m_forces ? 1 : 0);
-    for (PictureArrows& arrows : m_picture.m_arrows) arrows.m_scale = 3 * size / heaviestWeight(world);
     m_picture.m_colourScale.m_high = scene.m_pictures.m_hottest > 0 ? scene.m_pictures.m_hottest : 1;
     m_picture.m_colourScale.m_title = "von Mises stress";
     m_picture.m_colourScale.m_unit = "Pa";
     placeCamera();
+}
+
+void ScenePainter::setLargestForce(double newton)
+{
+    for (PictureArrows& arrows : m_picture.m_arrows) arrows.m_scale = 0.5 * m_size / newton;
 }
 
 void ScenePainter::placeCamera()

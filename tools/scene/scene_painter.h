@@ -24,6 +24,9 @@ SceneSnapshot snapshotOf(const SceneWorld& world, const SceneFrames& frames);
 /// Pa. Single elements at clamps and edges are hotter than all else, and would leave the rest of a picture dark.
 double hottestOf(const std::vector<SceneSnapshot>& snapshots);
 
+/// The largest force at a node in all snapshots [N]; 0 if none is shown.
+double largestForceOf(const std::vector<SceneSnapshot>& snapshots);
+
 /// Draws snapshots of one scene, all with the same camera, colours and scale.
 class ScenePainter
 {
@@ -34,6 +37,9 @@ public:
     /// The stress of the last colour [Pa], > 0.
     void setHottest(double pascal) { m_picture.m_colourScale.m_high = pascal; }
 
+    /// The force whose arrow is a quarter of the scene long [N], > 0.
+    void setLargestForce(double newton);
+
     /// Valid until the next call.
     const PictureScene& paint(const SceneSnapshot& snapshot);
 
@@ -42,6 +48,7 @@ private:
 
     const SceneWorld& m_world;
     PictureScene m_picture;
+    double m_size;  // radius of the scene at the start [m]
 };
 
 }  // namespace bullet_fem

@@ -45,6 +45,8 @@ const PictureScene& SceneSimulation::scene()
     const double wanted = m_world.description().m_pictures.m_hottest;
     m_hottest = std::max(m_hottest, hottestOf({snapshot}));
     m_painter.setHottest(wanted > 0 ? wanted : m_hottest);
+    m_largestForce = std::max(m_largestForce, largestForceOf({snapshot}));
+    if (m_largestForce > 0) m_painter.setLargestForce(m_largestForce);
     return m_painter.paint(snapshot);
 }
 

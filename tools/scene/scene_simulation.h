@@ -38,6 +38,7 @@ private:
     int m_spring = 0;
     double m_holdDistance = 0;  // from the eye [m]
     double m_hottest = 1;       // so far [Pa]
+    double m_largestForce = 0;  // so far [N]
 };
 
 }  // namespace bullet_fem
