@@ -103,7 +103,7 @@ TEST(CageReport, ElementsNearTheWantedNumber)
 {
     const SurfaceMesh surfaces[] = {boxSurface({0, 0, 0}, {3, 1, 1}), sphereSurface(1, {5, 0, 0}, 3),
                                     torusSurface(1, 0.2, 24), boxSurface({0, 0, 0}, {1, 1, 0.01}),
-                                    without(sphereSurface(1, {}, 2), 0, 16)};
+                                    without(boxSurface({0, 0, 0}, {1, 1, 1}), 0, 4)};
     CageSettings settings;
     settings.m_fillSamples = 8;
     for (const SurfaceMesh& surface : surfaces)

@@ -7,6 +7,7 @@
 
 #include "bullet_fem/fem/cage.h"
 #include "fem/cage/triangle_tree.h"
+#include "fem/cage/winding_number.h"
 #include "fem/expect_rejected.h"
 #include "fem/test_surfaces.h"
 
@@ -38,6 +39,28 @@ bool piercesBoundary(const Cage& cage, const SurfaceMesh& surface, double depth)
                        });
 }
 
+/// The least barycentric weight of the middle of a boundary triangle in the element of the lattice that holds it best.
+double deepestOutside(const Cage& cage, const Cage& lattice)
+{
+    const std::vector<Vec3>& X = lattice.m_mesh.restPositions();
+    double deepest = 0;
+    const std::vector<Vec3>& x = cage.m_mesh.restPositions();
+    for (const Triangle& f : cage.m_mesh.surface())
+    {
+        const Vec3 middle = (x[f[0]] + x[f[1]] + x[f[2]]) * (1.0 / 3);
+        double best = -1e300;
+        for (const Tet& t : lattice.m_mesh.tets())
+        {
+            const Vec3 p = middle - X[t[0]], a = X[t[1]] - X[t[0]], b = X[t[2]] - X[t[0]], c = X[t[3]] - X[t[0]];
+            const double v = dot(cross(a, b), c);
+            const std::array<double, 3> w = {dot(cross(p, b), c) / v, dot(cross(a, p), c) / v, dot(cross(a, b), p) / v};
+            best = std::max(best, std::min({w[0], w[1], w[2], 1 - w[0] - w[1] - w[2]}));
+        }
+        deepest = std::min(deepest, best);
+    }
+    return deepest;
+}
+
 /// What snapping promises, whatever the surface.
 void expectPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh& surface)
 {
@@ -49,6 +72,7 @@ void expectPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh& su
     EXPECT_EQ(report.m_latticeVolumeRatio, lattice.m_report.m_volumeRatio);
     EXPECT_LE(report.m_volumeRatio, lattice.m_report.m_volumeRatio);
     EXPECT_GE(report.m_volumeRatio, 1 - 1e-9);
+    EXPECT_GE(deepestOutside(cage, lattice), -1e-8);  // it only shrinks
     EXPECT_FALSE(piercesBoundary(cage, surface, 1e-7 * report.m_cellSize));
     double filled = 0, leastWeight = 1, farthest = 0;
     for (int e = 0; e < cage.m_mesh.tetCount(); ++e)
@@ -67,6 +91,19 @@ void expectPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh& su
     EXPECT_NEAR(filled, report.m_surfaceVolume, 1e-11 * report.m_surfaceVolume);
     EXPECT_GE(leastWeight, -1e-6);
     EXPECT_LT(farthest, 1e-11 * report.m_cellSize);  // up to some 10,000 cells from the origin
+}
+
+/// A plate through another, along no axis.
+SurfaceMesh tiltedCross()
+{
+    SurfaceMesh cross = joined(boxSurface({0, 0, 0}, {1, 1, 0.15}), boxSurface({0.2, 0.3, -0.8}, {0.35, 0.6, 0.9}));
+    const double c = std::cos(0.2), s = std::sin(0.2);
+    for (Vec3& x : cross.m_vertices)
+    {
+        x = {c * x.x - s * x.y, s * x.x + c * x.y, x.z};
+        x = {x.x, c * x.y - s * x.z, s * x.y + c * x.z};
+    }
+    return cross;
 }
 
 struct Case
@@ -96,6 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
     Surfaces, SnappedCage,
     testing::Values(Case{"ball", sphereSurface(1, {}, 3), 0.3, 1.2}, Case{"torus", torusSurface(1, 0.3, 32), 0.2, 1.5},
                     Case{"tiltedPlate", boxSurface({0.01, 0, 0}, {1, 0.93, 0.11}), 0.15, 1.2},
+                    Case{"tiltedCross", tiltedCross(), 0.2, 1.9},
                     Case{"overlap", joined(sphereSurface(1, {}, 2), sphereSurface(1, {1, 0, 0}, 2)), 0.3, 1.25},
                     Case{"insideOut", flipped(sphereSurface(1, {}, 2)), 0.3, 1.2},
                     Case{"farAway", sphereSurface(1, {1000, 2000, 500}, 2), 0.3, 1.2}),
@@ -134,6 +172,47 @@ TEST(SnappedCage, StaysOutOfTheHolesOfAnOpenSurface)
     EXPECT_GE(cage.m_report.m_leastQuality, 0.3);
 }
 
+// A slit in the wall of a cavity: what closes it bulges into the cavity, across the way to its rim.
+TEST(SnappedCage, StaysOutOfASlit)
+{
+    SurfaceMesh cavity = flipped(sphereSurface(1, {}, 3));
+    const auto isSlit = [&](const Triangle& t)
+    {
+        const Vec3 middle = (cavity.m_vertices[t[0]] + cavity.m_vertices[t[1]] + cavity.m_vertices[t[2]]) * (1.0 / 3);
+        return std::abs(middle.y) < 0.2 && middle.x > -0.5;
+    };
+    std::vector<Triangle>& triangles = cavity.m_triangles;
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), isSlit), triangles.end());
+    const SurfaceMesh surface = joined(cavity, sphereSurface(1.5, {}, 3));
+    CageSettings settings = withCell(0.3);
+    settings.m_fillSamples = 16;
+    const Cage lattice = makeCage(surface, settings);
+    settings.m_snap = 1;
+    const Cage cage = makeCage(surface, settings);
+    const WindingNumber winding(surface.m_vertices, surface.m_triangles);
+    const TriangleTree tree(surface.m_vertices, surface.m_triangles);
+    double most = 0;
+    for (const int i : cage.m_mesh.surfaceNodes())
+    {
+        const Vec3& x = cage.m_mesh.restPositions()[i];
+        const bool onSurface = norm(tree.nearest(x) - x) < 1e-6;  // where the winding number jumps
+        const bool hasMoved = norm(x - lattice.m_mesh.restPositions()[i]) > 0;
+        if (hasMoved && !onSurface) most = std::max(most, winding.at(x));
+    }
+    EXPECT_LT(most, 0.501);  // it is about another origin there
+    EXPECT_GT(most, 0.3);
+}
+
+// Half of the ball's volume lies in elements that moved: their fractions, measured anew, make up the ball.
+TEST(SnappedCage, MeasuresFilledFractionsAnew)
+{
+    const SurfaceMesh ball = sphereSurface(1, {}, 3);
+    CageSettings settings = snapping(0.3);
+    settings.m_fillFloor = 1e-3;
+    settings.m_fillSamples = 256;
+    EXPECT_NEAR(makeCage(ball, settings).m_massScale, 1, 0.01);
+}
+
 TEST(SnappedCage, RejectsShares)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 1);
@@ -169,6 +248,20 @@ TEST(TriangleTree, FindsWhatEntersATet)
     EXPECT_TRUE(tree.entersTet(cornerAt({0, 0, 0}, 1.1), 0));
     EXPECT_FALSE(tree.entersTet(cornerAt({0, 0, 0}, 1.1), 0.2));  // not as deep
     EXPECT_FALSE(tree.entersTet(cornerAt({1, 1, 1}, 1), 0));
+    int entered = 0;
+    for (int n = 0; n < 300; ++n)
+    {
+        const std::array<Vec3, 4> tet =
+            cornerAt({std::sin(1.3 * n), std::sin(2.1 * n), std::sin(0.7 * n)}, 0.05 + 0.3 * std::abs(std::sin(n)));
+        const bool expected = std::any_of(
+            ball.m_triangles.begin(), ball.m_triangles.end(),
+            [&](const Triangle& t) {
+                return triangleMeetsTet({ball.m_vertices[t[0]], ball.m_vertices[t[1]], ball.m_vertices[t[2]]}, tet, 0);
+            });
+        EXPECT_EQ(tree.entersTet(tet, 0), expected) << n;
+        entered += expected;
+    }
+    EXPECT_GT(entered, 30);
 }
 
 }  // namespace
