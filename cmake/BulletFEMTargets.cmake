@@ -57,15 +57,13 @@ endfunction()
 
 # bulletfem_test(<name> <source>...  LIBS <target>...  LABEL <label>  [SUFFIX <suffix>]
 # [KIND <kind>  PRECOMPILE <header>...]): one GoogleTest program; each test is known to ctest, by its name with the suffix
-# behind. Programs of the same kind and suffix share precompiled headers; those of the kind "alone" have none.
+# behind. Programs of the same kind and suffix share precompiled headers.
 function(bulletfem_test name)
     cmake_parse_arguments(ARG "" "LABEL;SUFFIX;KIND" "LIBS;PRECOMPILE" ${ARGN})
     add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
     bulletfem_test_flags(${name} ${ARG_LIBS})
-    if(NOT ARG_KIND STREQUAL "alone")
-        bulletfem_precompile(${name} "${ARG_SUFFIX}${ARG_KIND}" LIBS ${ARG_LIBS}
-            HEADERS <gtest/gtest.h> <algorithm> <cmath> <memory> <sstream> <string> <vector> ${ARG_PRECOMPILE})
-    endif()
+    bulletfem_precompile(${name} "${ARG_SUFFIX}${ARG_KIND}" LIBS ${ARG_LIBS}
+        HEADERS <gtest/gtest.h> <algorithm> <cmath> <memory> <sstream> <string> <vector> ${ARG_PRECOMPILE})
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_SUFFIX "${ARG_SUFFIX}"
         PROPERTIES TIMEOUT 600 LABELS "${ARG_LABEL}")
 endfunction()

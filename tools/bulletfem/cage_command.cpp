@@ -17,7 +17,7 @@ namespace
 struct CageCommand
 {
     std::string m_surface, m_output;
-    double m_scale = 1, m_snap = 0;
+    double m_scale = 1;
     CageOptions m_cage;
     Figures m_figures;
 

@@ -19,6 +19,10 @@ void CageOptions::add(CLI::App& command)
     command.add_option("--tets", m_tets, "of a surface: about so many tetrahedra (default 2000)")
         ->check(inRange(5, 5e6))
         ->excludes(cell);
+    command
+        .add_option("--snap", m_snap,
+                    "of a surface: move the cage's boundary by this share toward it [0 to 1] (default 0)")
+        ->check(inRange(0, 1));
 }
 
 CageSettings CageOptions::settings() const
@@ -27,6 +31,7 @@ CageSettings CageOptions::settings() const
     settings.m_cellSize = m_cellSize;
     settings.m_targetTets = m_cellSize > 0 ? 0 : m_tets;
     settings.m_maxTets = 5000000;
+    settings.m_snap = m_snap;
     return settings;
 }
 
