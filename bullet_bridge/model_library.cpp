@@ -86,8 +86,9 @@ std::shared_ptr<const BodyModel> ModelLibrary::modelWithFactor(const std::shared
         if (auto model = entry.m_model.lock())
             if (model->sharedShape() == shape && &model->factor() == &factored->factor()) return model;
     const bool own = factored->sharedShape() == shape;
-    m_models.push_back({own ? factored : BodyModel::withFactor(shape, factored->sharedFactor()), {}});
-    return m_models.back().m_model.lock();
+    const auto model = own ? factored : BodyModel::withFactor(shape, factored->sharedFactor());
+    m_models.push_back({model, {}});
+    return model;
 }
 
 std::shared_ptr<const BodyModel> ModelLibrary::model(const std::shared_ptr<const RestShape>& shape,
