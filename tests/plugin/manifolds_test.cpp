@@ -98,8 +98,9 @@ TEST(ManifoldsAreOff, UnlessAskedFor)
 TEST_P(Manifolds, LeaveBulletsContactArraysWithTheBody)
 {
     ASSERT_GT(m_cube->m_rcontacts.size(), 0);
-    m_world.world().removeSoftBody(m_cube);
+    m_world.take(*m_cube);
     EXPECT_EQ(m_cube->m_rcontacts.size() + m_cube->m_faceRigidContacts.size(), 0);
+    m_world.put(*m_cube);
 }
 
 TEST_P(Manifolds, HaveTheRigidBodyFirstAndAreLeftAloneByTheRigidSolver)
