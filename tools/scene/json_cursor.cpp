@@ -43,9 +43,14 @@ void JsonCursor::fail(const std::string& what) const
     throw std::runtime_error((m_path.empty() ? "the document" : m_path) + " " + what);
 }
 
+void JsonCursor::expected(const std::string& what) const
+{
+    fail("is " + shown(*m_value) + "; it must be " + what);
+}
+
 void JsonCursor::onlyMembers(std::initializer_list<const char*> names) const
 {
-    if (!m_value->is_object()) fail("is " + shown(*m_value) + "; it must be an object with " + listed(names));
+    if (!m_value->is_object()) expected("an object with " + listed(names));
     for (const auto& [name, value] : m_value->items())
         if (std::find(names.begin(), names.end(), name) == names.end())
             fail("has a member '" + name.substr(0, 40) + "', which is not known; those that are: " + listed(names));
@@ -71,7 +76,7 @@ double JsonCursor::number(const JsonRange& range) const
 {
     const double value = m_value->is_number() ? m_value->get<double>() : std::nan("");
     const bool inside = (range.m_openBelow ? value > range.m_low : value >= range.m_low) && value <= range.m_high;
-    if (!inside) fail("is " + shown(*m_value) + "; it must be " + told(range));
+    if (!inside) expected(told(range));
     return value;
 }
 
@@ -79,27 +84,26 @@ int JsonCursor::integer(int low, int high) const
 {
     const double value = m_value->is_number() ? m_value->get<double>() : std::nan("");
     if (!(value >= low && value <= high && value == std::floor(value)))
-        fail(message("is ", shown(*m_value), "; it must be a whole number in [", low, ", ", high, "]"));
+        expected(message("a whole number in [", low, ", ", high, "]"));
     return static_cast<int>(value);
 }
 
 bool JsonCursor::flag() const
 {
-    if (!m_value->is_boolean()) fail("is " + shown(*m_value) + "; it must be true or false");
+    if (!m_value->is_boolean()) expected("true or false");
     return m_value->get<bool>();
 }
 
 std::string JsonCursor::text() const
 {
     if (!m_value->is_string() || m_value->get_ref<const std::string&>().empty())
-        fail("is " + shown(*m_value) + "; it must be a text in quotes, not empty");
+        expected("a text in quotes, not empty");
     return m_value->get<std::string>();
 }
 
 Vec3 JsonCursor::vector(const JsonRange& range) const
 {
-    if (!m_value->is_array() || m_value->size() != 3)
-        fail("is " + shown(*m_value) + "; it must be an array of three numbers");
+    if (!m_value->is_array() || m_value->size() != 3) expected("an array of three numbers");
     const std::vector<JsonCursor> parts = items();
     return {parts[0].number(range), parts[1].number(range), parts[2].number(range)};
 }
@@ -116,13 +120,13 @@ std::size_t JsonCursor::choice(std::initializer_list<const char*> texts) const
     const auto found = m_value->is_string()
                            ? std::find(texts.begin(), texts.end(), m_value->get_ref<const std::string&>())
                            : texts.end();
-    if (found == texts.end()) fail("is " + shown(*m_value) + "; it must be one of: " + listed(texts));
+    if (found == texts.end()) expected("one of: " + listed(texts));
     return static_cast<std::size_t>(found - texts.begin());
 }
 
 std::vector<JsonCursor> JsonCursor::items() const
 {
-    if (!m_value->is_array()) fail("is " + shown(*m_value) + "; it must be an array, in []");
+    if (!m_value->is_array()) expected("an array, in []");
     std::vector<JsonCursor> result;
     for (const nlohmann::json& item : *m_value) result.emplace_back(item, message(m_path, "[", result.size(), "]"));
     return result;
@@ -130,7 +134,7 @@ std::vector<JsonCursor> JsonCursor::items() const
 
 std::vector<JsonCursor> JsonCursor::members(std::vector<std::string>& names) const
 {
-    if (!m_value->is_object()) fail("is " + shown(*m_value) + "; it must be an object, in {}");
+    if (!m_value->is_object()) expected("an object, in {}");
     std::vector<JsonCursor> result;
     for (const auto& [name, value] : m_value->items())
     {

@@ -29,6 +29,8 @@ public:
     JsonCursor(const nlohmann::json& value, std::string path) : m_value(&value), m_path(std::move(path)) {}
 
     [[noreturn]] void fail(const std::string& what) const;
+    /// Fails, saying what is here and that it must be `what`.
+    [[noreturn]] void expected(const std::string& what) const;
 
     /// This must be an object with no other members than these.
     void onlyMembers(std::initializer_list<const char*> names) const;

@@ -25,25 +25,35 @@ constexpr JsonRange kLength = {0, 1e6, true}, kPlace = {-1e6, 1e6}, kSpeed = {-1
 
 using Materials = std::map<std::string, Material>;
 
+// With the plug-in's own damping where a scene has none.
+Material damped(Material material)
+{
+    material.m_stiffnessDamping = 0.005;
+    return material;
+}
+
 Materials presets()
 {
-    return {{"rubber", Material::rubber()},
-            {"foam", Material::foam()},
-            {"jelly", Material::jelly()},
-            {"flesh", Material::flesh()},
-            {"wood", Material::wood()}};
+    return {{"rubber", damped(Material::rubber())},
+            {"foam", damped(Material::foam())},
+            {"jelly", damped(Material::jelly())},
+            {"flesh", damped(Material::flesh())},
+            {"wood", damped(Material::wood())}};
+}
+
+const Material& materialCalled(const JsonCursor& at, const Materials& known)
+{
+    const auto found = known.find(at.text());
+    if (found != known.end()) return found->second;
+    std::string names;
+    for (const auto& [name, value] : known) names += (names.empty() ? "" : ", ") + name.substr(0, 40);
+    at.expected("the name of a material: " + names);
 }
 
 Material readMaterial(const JsonCursor& at, const Materials& known)
 {
     at.onlyMembers({"like", "young", "poisson", "density", "massDamping", "stiffnessDamping"});
-    Material material;
-    if (at.has("like"))
-    {
-        const auto found = known.find(at["like"].text());
-        if (found == known.end()) at["like"].fail("names no material that is known here");
-        material = found->second;
-    }
+    Material material = at.has("like") ? materialCalled(at["like"], known) : damped({});
     at.read("young", {0, 1e13, true}, material.m_youngModulus);
     at.read("poisson", {0, 0.49}, material.m_poissonRatio);
     at.read("density", {0, 1e6, true}, material.m_density);
@@ -81,6 +91,8 @@ public:
     {
         at.onlyMembers({"$schema", "title", "gravity", "step", "seconds", "framesPerSecond", "solver", "materials",
                         "softBodies", "rigidBodies", "constraints", "forces", "camera", "pictures"});
+        std::string schema;  // for editors
+        at.read("$schema", schema);
         at.read("title", m_scene.m_title);
         at.read("gravity", {-1e4, 1e4}, m_scene.m_gravity);
         at.read("step", {1e-6, 1}, m_scene.m_step);
@@ -118,12 +130,7 @@ private:
 
     Material material(const JsonCursor& at) const
     {
-        if (at.isObject()) return readMaterial(at, m_materials);
-        const auto found = m_materials.find(at.text());
-        if (found != m_materials.end()) return found->second;
-        std::string names;
-        for (const auto& [name, value] : m_materials) names += (names.empty() ? "" : ", ") + name;
-        at.fail("names no material; those that are known: " + names);
+        return at.isObject() ? readMaterial(at, m_materials) : materialCalled(at, m_materials);
     }
 
     std::string file(const JsonCursor& at) const
@@ -139,7 +146,7 @@ private:
     std::string name(const JsonCursor& at) const
     {
         const std::string name = at["name"].text();
-        if (isSoft(name) || isRigid(name)) at["name"].fail("is '" + name + "', as another body's; names must differ");
+        if (isSoft(name) || isRigid(name)) at["name"].expected("a name that no other body has");
         return name;
     }
     bool isSoft(const std::string& name) const
@@ -155,13 +162,13 @@ private:
     std::string softName(const JsonCursor& at) const
     {
         const std::string name = at.text();
-        if (!isSoft(name)) at.fail("is '" + name + "'; it must be the name of a soft body");
+        if (!isSoft(name)) at.expected("the name of a soft body");
         return name;
     }
     std::string rigidName(const JsonCursor& at) const
     {
         const std::string name = at.text();
-        if (!isRigid(name)) at.fail("is '" + name + "'; it must be the name of a rigid body");
+        if (!isRigid(name)) at.expected("the name of a rigid body");
         return name;
     }
 
@@ -181,6 +188,11 @@ private:
                                   : SceneMesh::Kind::tetrahedra;
             mesh.m_path = file(at[surface ? "surface" : baked ? "baked" : "tetrahedra"]);
         }
+        const bool hasElements = mesh.m_kind == SceneMesh::Kind::tetrahedra || mesh.m_kind == SceneMesh::Kind::baked;
+        for (const char* name : {"cell", "tets"})
+            if (hasElements && at.has(name)) at[name].fail("is given, but the file has its elements; leave it out");
+        if (mesh.m_kind == SceneMesh::Kind::baked && at.has("scale"))
+            at["scale"].fail("is given, but a baked body has its size; leave it out, or bake it anew");
         if (at.has("cell") && at.has("tets")) at.fail("has 'cell' and 'tets'; give one of them");
         at.read("cell", kLength, mesh.m_cellSize);
         at.read("tets", 5, 5000000, mesh.m_tets);
@@ -194,6 +206,7 @@ private:
                         "colour", "pins"});
         SceneSoftBody body;
         body.m_name = name(at);
+        body.m_material = damped({});
         body.m_mesh = mesh(at["mesh"]);
         readPose(at, body.m_pose);
         at.read("velocity", kSpeed, body.m_velocity);
@@ -272,6 +285,9 @@ private:
             constraint.m_a = rigidName(at["body"]);
             if (at.has("to")) constraint.m_b = rigidName(at["to"]);
             constraint.m_pivot = at["pivot"].vector(kPlace);
+            for (const char* name : {"axis", "speed", "torque"})
+                if (constraint.m_kind == SceneConstraint::Kind::point && at.has(name))
+                    at[name].fail("is given, but only a hinge has one; leave it out");
             at.readDirection("axis", constraint.m_axis);
             at.read("speed", kSpeed, constraint.m_speed);
             at.read("torque", kNotNegative, constraint.m_torque);
@@ -284,8 +300,7 @@ private:
         at.onlyMembers({"body", "nodes", "force", "from", "to"});
         SceneForce force;
         force.m_body = at["body"].text();
-        if (!isSoft(force.m_body) && !isRigid(force.m_body))
-            at["body"].fail("is '" + force.m_body + "'; it must be the name of a body");
+        if (!isSoft(force.m_body) && !isRigid(force.m_body)) at["body"].expected("the name of a body");
         if (at.has("nodes"))
         {
             if (!isSoft(force.m_body)) at["nodes"].fail("is given, but only soft bodies have nodes");
