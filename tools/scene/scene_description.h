@@ -109,7 +109,7 @@ struct SceneConstraint
 struct SceneForce
 {
     std::string m_body;
-    bool m_everywhere = true;  ///< on all nodes, by mass; else on those in m_box, in equal parts
+    bool m_everywhere = true;  ///< on all nodes, by mass; else on those that start in m_box, in equal parts
     SceneBox m_box;
     Vec3 m_force;                    ///< of all together [N]
     double m_from = 0, m_to = 1e30;  ///< [s]

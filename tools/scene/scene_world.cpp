@@ -15,7 +15,6 @@
 #include "bullet_fem/fem/generators.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
-#include "fem/message.h"
 #include "tools/scene/scene_shapes.h"
 
 namespace bullet_fem
@@ -54,13 +53,35 @@ btFemMaterial materialOf(const Material& material)
     return result;
 }
 
+constexpr double kMostCells = 1e6;  // along an edge; more than makeBox takes, which then says so
+
+double cellsAlong(double edge, double cell)
+{
+    return std::clamp(std::round(edge / cell), 1.0, kMostCells);
+}
+
+// The cell [m] that gives a block about `tets` elements, five a cell. By bisection: thin blocks have one cell across
+// however large it is.
+double cellFor(const Vec3& size, double tets)
+{
+    const auto count = [&](double cell)
+    { return 5 * cellsAlong(size.x, cell) * cellsAlong(size.y, cell) * cellsAlong(size.z, cell); };
+    double low = 1e-12 * (size.x + size.y + size.z), high = 2 * (size.x + size.y + size.z);
+    for (int k = 0; k < 100; ++k)
+    {
+        const double middle = std::sqrt(low * high);
+        (count(middle) < tets ? high : low) = middle;
+    }
+    return tets * tets < count(low) * count(high) ? high : low;  // the nearer one, as a ratio
+}
+
 TetMesh blockOf(const SceneMesh& mesh)
 {
-    const double volume = mesh.m_size.x * mesh.m_size.y * mesh.m_size.z;
-    const double cell = mesh.m_cellSize > 0 ? mesh.m_cellSize : std::cbrt(5 * volume / mesh.m_tets);
+    const Vec3 size = mesh.m_scale * mesh.m_size;
+    const double cell = mesh.m_cellSize > 0 ? mesh.m_cellSize : cellFor(size, mesh.m_tets);
     std::array<int, 3> cells;
-    for (int i = 0; i < 3; ++i) cells[i] = static_cast<int>(std::clamp(std::round(mesh.m_size[i] / cell), 1.0, 1000.0));
-    return makeBox(mesh.m_scale * mesh.m_size, cells, -0.5 * mesh.m_scale * mesh.m_size);
+    for (int i = 0; i < 3; ++i) cells[i] = static_cast<int>(cellsAlong(size[i], cell));
+    return makeBox(size, cells, -0.5 * size);
 }
 
 CageSettings cageOf(const SceneMesh& mesh)
@@ -108,6 +129,7 @@ SceneWorld::SceneWorld(const SceneDescription& description)
     for (const SceneRigidBody& body : description.m_rigidBodies) addRigid(body);
     for (const SceneSoftBody& body : description.m_softBodies) named(body.m_name, [&] { addSoft(body); });
     for (const SceneConstraint& constraint : description.m_constraints) addConstraint(constraint);
+    for (const SceneForce& force : description.m_forces) addForce(force);
     for (int i = 0; i < softCount(); ++i)
         named(description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
 }
@@ -121,8 +143,7 @@ SceneWorld::~SceneWorld()
 
 void SceneWorld::step()
 {
-    for (const SceneForce& force : m_description.m_forces)
-        if (time() >= force.m_from && time() < force.m_to) apply(force);
+    applyForces();
     moveKinematic();
     m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of just this size
     ++m_steps;
@@ -160,7 +181,6 @@ std::unique_ptr<btSoftBody> SceneWorld::makeSoft(const SceneSoftBody& from)
         default:
             break;
     }
-    if (mesh.m_scale != 1) reject("scale is ", mesh.m_scale, ", but a baked body has its size; leave it out");
     const BakedBody baked = readBakedBody(mesh.m_path);
     std::unique_ptr<btSoftBody> body(btFemHelpers::createFromBaked(info, baked));
     m_fem.useBaked(body.get(), baked);
@@ -254,28 +274,47 @@ void SceneWorld::addConstraint(const SceneConstraint& from)
     m_world.addConstraint(m_joints.back().get(), true);
 }
 
-void SceneWorld::apply(const SceneForce& force)
+void SceneWorld::addForce(const SceneForce& from)
 {
+    m_forces.emplace_back();
+    ForceNodes& target = m_forces.back();
     for (int i = 0; i < rigidCount(); ++i)
-        if (m_description.m_rigidBodies[i].m_name == force.m_body)
-        {
-            m_rigidBodies[i]->activate();
-            m_rigidBodies[i]->applyCentralForce(bulletVector(force.m_force));
-            return;
-        }
-    btSoftBody& body = softCalled(force.m_body);
-    body.activate();
-    const bool all = force.m_everywhere;
+        if (m_description.m_rigidBodies[i].m_name == from.m_body) target.m_rigid = m_rigidBodies[i].get();
+    if (target.m_rigid) return;
+    target.m_soft = &softCalled(from.m_body);
     double sum = 0;
-    const auto share = [&](int i)
+    for (int i = 0; i < target.m_soft->m_nodes.size(); ++i)
     {
-        const btSoftBody::Node& node = body.m_nodes[i];
-        if (node.m_im <= 0 || !(all || force.m_box.contains(vec3(node.m_x)))) return 0.0;
-        return all ? 1 / double(node.m_im) : 1.0;
-    };
-    for (int i = 0; i < body.m_nodes.size(); ++i) sum += share(i);
-    for (int i = 0; i < body.m_nodes.size(); ++i)
-        if (const double part = share(i); part > 0) body.addForce(bulletVector(part / sum * force.m_force), i);
+        const btSoftBody::Node& node = target.m_soft->m_nodes[i];
+        if (node.m_im <= 0 || !(from.m_everywhere || from.m_box.contains(vec3(node.m_x)))) continue;
+        target.m_nodes.push_back(i);
+        target.m_shares.push_back(from.m_everywhere ? 1 / double(node.m_im) : 1.0);
+        sum += target.m_shares.back();
+    }
+    if (target.m_nodes.empty())
+        throw std::runtime_error("'" + from.m_body +
+                                 "': the box of a force holds no free node at the start; move or enlarge it");
+    for (double& share : target.m_shares) share /= sum;
+}
+
+void SceneWorld::applyForces()
+{
+    const double now = time() + 1e-6 * m_description.m_step;  // steps that begin at a force's end are after it
+    for (std::size_t f = 0; f < m_forces.size(); ++f)
+    {
+        const SceneForce& force = m_description.m_forces[f];
+        const ForceNodes& target = m_forces[f];
+        if (now < force.m_from || now >= force.m_to) continue;
+        if (target.m_rigid)
+        {
+            target.m_rigid->activate();
+            target.m_rigid->applyCentralForce(bulletVector(force.m_force));
+            continue;
+        }
+        target.m_soft->activate();
+        for (std::size_t i = 0; i < target.m_nodes.size(); ++i)
+            target.m_soft->addForce(bulletVector(target.m_shares[i] * force.m_force), target.m_nodes[i]);
+    }
 }
 
 }  // namespace bullet_fem

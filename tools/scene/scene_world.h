@@ -21,7 +21,7 @@ class SceneWorld
 public:
     /// Makes bodies, joints and anchors, and factors. The description must live longer. Throws std::runtime_error, or
     /// std::invalid_argument, that begins with the body's name: a file that is bad, a mesh or material that no body can
-    /// have, a pin or anchor that holds no node.
+    /// have, a pin, anchor or force that holds no node.
     explicit SceneWorld(const SceneDescription& description);
     ~SceneWorld();
     SceneWorld(const SceneWorld&) = delete;
@@ -43,12 +43,21 @@ public:
     const btRigidBody& rigid(int i) const { return *m_rigidBodies[i]; }
 
 private:
+    /// What a force of the scene acts on: a rigid body, or nodes with their shares of it.
+    struct ForceNodes
+    {
+        btRigidBody* m_rigid = nullptr;
+        btSoftBody* m_soft = nullptr;
+        std::vector<int> m_nodes;
+        std::vector<double> m_shares;  // sum 1
+    };
     void addSoft(const SceneSoftBody& from);
     void addRigid(const SceneRigidBody& from);
     void addConstraint(const SceneConstraint& from);
     void addAnchors(const SceneConstraint& from);
     std::unique_ptr<btSoftBody> makeSoft(const SceneSoftBody& from);
-    void apply(const SceneForce& force);
+    void addForce(const SceneForce& from);
+    void applyForces();
     void moveKinematic();
     btRigidBody& rigidCalled(const std::string& name);
     btSoftBody& softCalled(const std::string& name);
@@ -57,13 +66,15 @@ private:
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
     btDbvtBroadphase m_broadphase;
-    btFemSoftBodySolver m_fem;
-    std::unique_ptr<btConstraintSolver> m_rigidSolver;
-    btSoftRigidDynamicsWorld m_world;
+    // Before the world, which looks at them when it goes, also where the constructor throws.
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
     std::vector<std::unique_ptr<btTypedConstraint>> m_joints;
     std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
+    btFemSoftBodySolver m_fem;
+    std::unique_ptr<btConstraintSolver> m_rigidSolver;
+    btSoftRigidDynamicsWorld m_world;
+    std::vector<ForceNodes> m_forces;  // as in the description
     long m_steps = 0;
 };
 
