@@ -127,18 +127,19 @@ void SceneFrames::updateSoftSurface(int i)
         frame.m_nodeStress = volume.m_nodeStress;
         return;
     }
-    frame.m_positions.resize(body.m_renderNodes.size());
+    // Bullet moves what is drawn in its steps, so that it is not where the body is before the first.
+    frame.m_positions.assign(body.m_renderNodes.size(), Vec3{});
     frame.m_nodeStress.assign(volume.m_nodeStress.empty() ? 0 : frame.m_positions.size(), Stress{});
     for (int v = 0; v < body.m_renderNodes.size(); ++v)
-    {
-        frame.m_positions[v] = vec3(body.m_renderNodes[v].m_x);
-        if (frame.m_nodeStress.empty()) continue;
         for (int a = 0; a < body.m_renderNodesParents[v].size(); ++a)
         {
-            Stress part = volume.m_nodeStress[indexIn(body.m_renderNodesParents[v][a], body.m_nodes[0])];
-            frame.m_nodeStress[v] += part *= double(body.m_renderNodesInterpolationWeights[v][a]);
+            const int parent = indexIn(body.m_renderNodesParents[v][a], body.m_nodes[0]);
+            const double weight = double(body.m_renderNodesInterpolationWeights[v][a]);
+            frame.m_positions[v] += weight * volume.m_positions[parent];
+            if (frame.m_nodeStress.empty()) continue;
+            Stress part = volume.m_nodeStress[parent];
+            frame.m_nodeStress[v] += part *= weight;
         }
-    }
 }
 
 void SceneFrames::updateRigidSurface(int surface)
