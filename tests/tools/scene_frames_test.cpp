@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/scene/scene_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "bullet_fem/fem/surface_mesh.h"
+#include "tools/scene/scene_reader.h"
+#include "tools/scene_samples.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+const double kPi = std::acos(-1.);
+
+/// Every edge is there once in each direction: no hole, and one side is outside everywhere.
+bool isClosed(const std::vector<Triangle>& triangles)
+{
+    std::map<std::pair<int, int>, int> edges;
+    for (const Triangle& t : triangles)
+        for (int a = 0; a < 3; ++a) ++edges[{t[a], t[(a + 1) % 3]}];
+    for (const auto& [edge, count] : edges)
+    {
+        const auto back = edges.find({edge.second, edge.first});
+        if (count != 1 || back == edges.end()) return false;
+    }
+    return true;
+}
+
+// A polygon of 32 corners has this share of the circle around it. Round ends are polyhedra inside the ball, of 32 by
+// some 16 faces: a share that is at most 2 % smaller still.
+const double kPolygon = 32 / (2 * kPi) * std::sin(2 * kPi / 32);
+
+struct ShapeVolume
+{
+    const char* m_shape;
+    double m_least, m_most;  // [m3]
+};
+
+class RigidSurface : public testing::TestWithParam<ShapeVolume>
+{
+};
+
+TEST_P(RigidSurface, IsClosedOutwardAndFollowsTheBody)
+{
+    const std::string shape = GetParam().m_shape;
+    const SceneDescription scene = parseScene(R"({ "gravity": [0, 0, 0], "step": 0.01, "rigidBodies": [
+            { "name": "ground", "shape": { "plane": [0, 0, 1] }, "position": [0, 0, -50] },
+            { "name": "a", "mass": 1, "velocity": [1, 0, 0], "position": [0, 2, 0],
+              "rotation": { "axis": [1, 2, 3], "degrees": 70 }, "shape": )" +
+                                                  shape + " }] }",
+                                              ".");
+    SceneWorld world(scene);
+    SceneFrames frames(world);
+    ASSERT_EQ(frames.surfaces().size(), 1u) << "of a plane there is none";
+    EXPECT_EQ(frames.bodyOf(0), 1);
+    const std::vector<Triangle> triangles = frames.surfaces()[0].m_triangles;
+    EXPECT_TRUE(isClosed(triangles));
+    const std::vector<Vec3> before = frames.surfaces()[0].m_positions;
+    const double volume = signedVolume({before, triangles});
+    EXPECT_GE(volume, GetParam().m_least * (1 - 1e-5));
+    EXPECT_LE(volume, GetParam().m_most * (1 + 1e-5));
+    for (int k = 0; k < 50; ++k) world.step();
+    frames.update();
+    for (std::size_t i = 0; i < before.size(); ++i)
+        EXPECT_NEAR(norm(frames.surfaces()[0].m_positions[i] - before[i] - Vec3{0.5, 0, 0}), 0, 1e-4);
+}
+
+std::string nameOf(const testing::TestParamInfo<ShapeVolume>& info)
+{
+    const std::string shape = info.param.m_shape;
+    return shape.substr(3, shape.find('"', 3) - 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, RigidSurface,
+    testing::Values(ShapeVolume{R"({ "box": [1, 2, 3] })", 6, 6},
+                    ShapeVolume{R"({ "sphere": 0.5 })", 0.98 * kPolygon* kPi / 6, kPolygon* kPi / 6},
+                    ShapeVolume{R"({ "cylinder": { "radius": 0.5, "height": 2 } })", kPolygon* kPi / 2,
+                                kPolygon* kPi / 2},
+                    ShapeVolume{R"({ "capsule": { "radius": 0.5, "height": 2 } })", 0.98 * kPolygon*(kPi / 6 + kPi / 2),
+                                kPolygon*(kPi / 6 + kPi / 2)}),
+    nameOf);
+
+TEST(SceneFrames, AnEmbeddedSurfaceFollowsItsCage)
+{
+    const TemporaryFolder folder;
+    writeSampleMeshes(folder);
+    const SceneDescription scene = parseScene(
+        R"({ "gravity": [0, 0, 0], "step": 0.01, "softBodies": [{ "name": "a", "mesh": { "surface": "cube.off", "tets": 200 },
+          "position": [0, 0, 7], "rotation": { "axis": [0, 0, 1], "degrees": 90 }, "velocity": [0, 0.2, 0] }] })",
+        folder.path(""));
+    SceneWorld world(scene);
+    SceneFrames frames(world);
+    ASSERT_EQ(frames.volumes().size(), 1u);
+    ASSERT_EQ(frames.surfaces().size(), 1u);
+    EXPECT_EQ(frames.bodyOf(0), 0);
+    const BodyFrame &volume = frames.volumes()[0], &surface = frames.surfaces()[0];
+    EXPECT_GE(volume.m_tets.size(), 100u);
+    ASSERT_EQ(surface.m_positions.size(), 8u) << "the file's corners, not the cage's nodes";
+    EXPECT_TRUE(isClosed(surface.m_triangles));
+    EXPECT_NEAR(signedVolume({surface.m_positions, surface.m_triangles}), 1, 1e-4);
+    EXPECT_EQ(surface.m_nodeStress.size(), 8u);
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const Vec3 turned{corner & 2 ? -1. : 0., corner & 1 ? 1. : 0., corner & 4 ? 8. : 7.};
+        EXPECT_NEAR(norm(surface.m_positions[corner] - turned), 0, 1e-4);
+    }
+    const std::vector<Vec3> before = surface.m_positions;
+    for (int k = 0; k < 100; ++k) world.step();
+    frames.update();
+    for (int corner = 0; corner < 8; ++corner)
+        EXPECT_NEAR(norm(surface.m_positions[corner] - before[corner] - Vec3{0, 0.2, 0}), 0, 1e-4);
+    for (std::size_t i = 0; i < volume.m_positions.size(); ++i)
+    {
+        EXPECT_NEAR(norm(volume.m_displacement[i] - Vec3{0, 0.2, 0}), 0, 1e-4);
+        EXPECT_NEAR(norm(volume.m_velocity[i] - Vec3{0, 0.2, 0}), 0, 1e-4);
+    }
+}
+
+TEST(SceneFrames, ContactForcesSumToTheWeightAndStressToTheLoad)
+{
+    const SceneDescription scene = parseScene(
+        R"({ "softBodies": [{ "name": "a", "mesh": { "box": [0.5, 1, 0.4], "cell": 0.125 }, "position": [0, 0.5, 0], "friction": 0,
+          "material": { "young": 1e6, "poisson": 0, "density": 1000, "stiffnessDamping": 0.05 } }],
+          "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }] })",
+        ".");
+    SceneWorld world(scene);
+    SceneFrames frames(world);
+    while (world.time() < 1.5) world.step();
+    frames.update();
+    const BodyFrame& frame = frames.volumes()[0];
+    Vec3 sum;
+    for (const Vec3& force : frame.m_contactForce) sum += force;
+    const double weight = 200 * 9.81;
+    EXPECT_NEAR(norm(sum - Vec3{0, weight, 0}), 0, 1e-3 * weight);
+    double load = 0;  // mean of sigma_yy by volume: - rho g H / 2 in a column that stands free
+    for (const Stress& stress : frame.m_tetStress) load += stress.yy / double(frame.m_tetStress.size());
+    // Elements of a cell are not all of one size, but of one stress nearly.
+    EXPECT_NEAR(load, -1000 * 9.81 * 0.5, 0.02 * 1000 * 9.81 * 0.5);
+    EXPECT_EQ(frames.surfaces()[0].m_nodeStress.size(), frame.m_positions.size());
+}
+
+}  // namespace
+}  // namespace bullet_fem

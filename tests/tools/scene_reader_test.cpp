@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/scene/scene_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "tools/scene_samples.h"
+
+namespace bullet_fem
+{
+
+bool operator==(const Vec3& a, const Vec3& b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+namespace
+{
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const double kPi = std::acos(-1.);
+
+class SceneReader : public testing::Test
+{
+protected:
+    SceneReader() { writeSampleMeshes(m_folder); }
+    SceneDescription parse(const std::string& json) const { return parseScene(json, m_folder.path("")); }
+
+    TemporaryFolder m_folder;
+};
+
+TEST_F(SceneReader, ReadsTheWholeScene)
+{
+    const SceneDescription scene = parse(fullScene());
+    EXPECT_EQ(scene.m_title, "everything");
+    EXPECT_TRUE(scene.m_gravity == Vec3({0, 0, -5}));
+    EXPECT_EQ(scene.m_step, 0.004);
+    EXPECT_EQ(scene.m_seconds, 2.5);
+    EXPECT_EQ(scene.m_framesPerSecond, 24);
+    EXPECT_FALSE(scene.m_coupled);
+    EXPECT_EQ(scene.m_tolerance, 1e-4);
+    EXPECT_EQ(scene.m_contactTolerance, 1e-3);
+    EXPECT_EQ(scene.m_threads, 2);
+    EXPECT_TRUE(scene.m_camera.m_placed);
+    EXPECT_TRUE(scene.m_camera.m_eye == Vec3({5, 4, 3}));
+    EXPECT_TRUE(scene.m_camera.m_target == Vec3({0, 1, 0}));
+    EXPECT_NEAR(scene.m_camera.m_fieldOfView, kPi / 3, 1e-12);
+    EXPECT_EQ(scene.m_pictures.m_width, 640);
+    EXPECT_EQ(scene.m_pictures.m_height, 360);
+    EXPECT_TRUE(scene.m_pictures.m_stress);
+    EXPECT_EQ(scene.m_pictures.m_hottest, 2e5);
+    EXPECT_TRUE(scene.m_pictures.m_forces);
+    EXPECT_TRUE(scene.m_pictures.m_wireframe);
+}
+
+TEST_F(SceneReader, ReadsSoftBodies)
+{
+    const SceneDescription scene = parse(fullScene());
+    ASSERT_EQ(scene.m_softBodies.size(), 2u);
+    const SceneSoftBody& body = scene.m_softBodies[0];
+    EXPECT_EQ(body.m_name, "block");
+    EXPECT_EQ(body.m_mesh.m_kind, SceneMesh::Kind::box);
+    EXPECT_TRUE(body.m_mesh.m_size == Vec3({1, 2, 3}));
+    EXPECT_EQ(body.m_mesh.m_cellSize, 0.5);
+    EXPECT_EQ(body.m_mesh.m_scale, 0.25);
+    EXPECT_TRUE(body.m_pose.m_position == Vec3({0.5, 1.5, -2}));
+    EXPECT_TRUE(body.m_pose.m_axis == Vec3({0, 0, 2}));
+    EXPECT_NEAR(body.m_pose.m_angle, kPi / 2, 1e-12);
+    EXPECT_TRUE(body.m_velocity == Vec3({1, 2, 3}));
+    EXPECT_TRUE(body.m_material == (Material{4e5, 0.2, 800, 0.1, 0.01}));
+    EXPECT_EQ(body.m_friction, 0.9);
+    EXPECT_TRUE(body.m_selfContact);
+    EXPECT_TRUE(body.m_colour == Vec3({0.1, 0.2, 0.3}));
+    ASSERT_EQ(body.m_pins.size(), 2u);
+    EXPECT_TRUE(body.m_pins[0].m_high == Vec3({9, 9, 0}));
+    EXPECT_TRUE(body.m_pins[1].m_low == Vec3({1, 1, 1}));
+    const SceneMesh& scan = scene.m_softBodies[1].m_mesh;
+    EXPECT_EQ(scan.m_kind, SceneMesh::Kind::surface);
+    EXPECT_EQ(scan.m_tets, 500);
+    EXPECT_EQ(scan.m_cellSize, 0);
+    EXPECT_TRUE(std::filesystem::equivalent(scan.m_path, m_folder.path("cube.off")));
+}
+
+TEST_F(SceneReader, ReadsRigidBodiesConstraintsAndForces)
+{
+    const SceneDescription scene = parse(fullScene());
+    ASSERT_EQ(scene.m_rigidBodies.size(), 2u);
+    const SceneRigidBody& hammer = scene.m_rigidBodies[0];
+    EXPECT_EQ(hammer.m_name, "hammer");
+    EXPECT_EQ(hammer.m_shape.m_kind, SceneShape::Kind::capsule);
+    EXPECT_EQ(hammer.m_shape.m_radius, 0.2);
+    EXPECT_EQ(hammer.m_shape.m_height, 0.7);
+    EXPECT_EQ(hammer.m_mass, 3);
+    EXPECT_TRUE(hammer.m_pose.m_position == Vec3({4, 5, 6}));
+    EXPECT_TRUE(hammer.m_pose.m_axis == Vec3({1, 0, 0}));
+    EXPECT_NEAR(hammer.m_pose.m_angle, -kPi / 4, 1e-12);
+    EXPECT_TRUE(hammer.m_velocity == Vec3({0, 1, 0}));
+    EXPECT_TRUE(hammer.m_spin == Vec3({0, 0, 2}));
+    EXPECT_EQ(hammer.m_friction, 0.4);
+    EXPECT_EQ(hammer.m_restitution, 0.6);
+    EXPECT_TRUE(hammer.m_colour == Vec3({1, 0, 0.5}));
+    EXPECT_EQ(scene.m_rigidBodies[1].m_shape.m_kind, SceneShape::Kind::box);
+    EXPECT_TRUE(scene.m_rigidBodies[1].m_shape.m_size == Vec3({0.1, 0.2, 0.3}));
+
+    ASSERT_EQ(scene.m_constraints.size(), 2u);
+    const SceneConstraint &anchor = scene.m_constraints[0], &hinge = scene.m_constraints[1];
+    EXPECT_EQ(anchor.m_kind, SceneConstraint::Kind::anchor);
+    EXPECT_EQ(anchor.m_a + anchor.m_b, "blockhammer");
+    EXPECT_TRUE(anchor.m_box.m_low == Vec3({-9, -9, -9}));
+    EXPECT_EQ(hinge.m_kind, SceneConstraint::Kind::hinge);
+    EXPECT_EQ(hinge.m_a + hinge.m_b, "hammeranvil");
+    EXPECT_TRUE(hinge.m_pivot == Vec3({1, 1, 1}));
+    EXPECT_TRUE(hinge.m_axis == Vec3({0, 0, 1}));
+    EXPECT_EQ(hinge.m_speed, 2);
+    EXPECT_EQ(hinge.m_torque, 7);
+
+    ASSERT_EQ(scene.m_forces.size(), 1u);
+    EXPECT_EQ(scene.m_forces[0].m_body, "block");
+    EXPECT_FALSE(scene.m_forces[0].m_everywhere);
+    EXPECT_TRUE(scene.m_forces[0].m_box.m_high == Vec3({9, 9, 9}));
+    EXPECT_TRUE(scene.m_forces[0].m_force == Vec3({1, 0, -1}));
+    EXPECT_EQ(scene.m_forces[0].m_from, 0.5);
+    EXPECT_EQ(scene.m_forces[0].m_to, 1.5);
+}
+
+TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
+{
+    const SceneDescription scene = parse(otherScene());
+    EXPECT_EQ(scene.m_softBodies[0].m_mesh.m_kind, SceneMesh::Kind::tetrahedra);
+    EXPECT_EQ(scene.m_softBodies[0].m_material.m_youngModulus, Material::jelly().m_youngModulus);
+    EXPECT_EQ(scene.m_softBodies[0].m_material.m_stiffnessDamping, 0.005) << "the plug-in's";
+    EXPECT_EQ(scene.m_softBodies[1].m_mesh.m_kind, SceneMesh::Kind::baked);
+    EXPECT_EQ(scene.m_rigidBodies[0].m_shape.m_kind, SceneShape::Kind::plane);
+    EXPECT_EQ(scene.m_rigidBodies[1].m_shape.m_kind, SceneShape::Kind::sphere);
+    EXPECT_EQ(scene.m_rigidBodies[1].m_shape.m_radius, 0.3);
+    EXPECT_EQ(scene.m_rigidBodies[2].m_shape.m_kind, SceneShape::Kind::cylinder);
+    EXPECT_EQ(scene.m_constraints[0].m_kind, SceneConstraint::Kind::point);
+    EXPECT_TRUE(scene.m_forces[0].m_everywhere);
+    EXPECT_FALSE(scene.m_camera.m_placed);
+    EXPECT_TRUE(scene.m_camera.m_direction == Vec3({1, 2, 3}));
+    EXPECT_TRUE(scene.m_gravity == Vec3({0, -9.81, 0}));
+    EXPECT_TRUE(scene.m_coupled);
+}
+
+TEST_F(SceneReader, CommentsAreWelcomeAndOrderIsFree)
+{
+    const SceneDescription scene = parse(R"(// a scene
+        { "forces": [{ "body": "a", "force": [0, 1, 0] }], /* names are known
+          from below */ "softBodies": [{ "mesh": { "box": [1, 1, 1] }, "name": "a", "material": "own" }],
+          "materials": { "own": { "young": 5 } } })");
+    EXPECT_EQ(scene.m_forces.size(), 1u);
+    EXPECT_EQ(scene.m_softBodies[0].m_material.m_youngModulus, 5);
+}
+
+TEST_F(SceneReader, FilesAreFoundBesideTheScene)
+{
+    std::filesystem::create_directory(m_folder.path("scenes"));
+    const std::string body = R"({ "softBodies": [{ "name": "a", "mesh": { "surface": ")";
+    const std::string path = m_folder.write("scenes/a.json", body + "../cube.off\" } }] }");
+    const SceneDescription scene = readScene(path);
+    EXPECT_TRUE(std::filesystem::equivalent(scene.m_softBodies[0].m_mesh.m_path, m_folder.path("cube.off")));
+    const std::string absolute = m_folder.write("scenes/b.json", body + m_folder.path("cube.off") + "\" } }] }");
+    EXPECT_TRUE(std::filesystem::equivalent(readScene(absolute).m_softBodies[0].m_mesh.m_path,
+                                            scene.m_softBodies[0].m_mesh.m_path));
+}
+
+TEST_F(SceneReader, SceneFilesThatCannotBeReadAreNamed)
+{
+    const auto messageOfFile = [&](const std::string& path)
+    { return messageOf<std::runtime_error>([&] { readScene(path); }); };
+    const std::string missing = m_folder.path("missing.json");
+    EXPECT_THAT(messageOfFile(missing), StartsWith("cannot read the scene '" + missing + "': there is no such file"));
+    EXPECT_THAT(messageOfFile(m_folder.path("")), HasSubstr("no such file")) << "a folder";
+    const std::string text = m_folder.write("text.json", "{\n  \"step\": 0,01\n}");
+    EXPECT_THAT(messageOfFile(text), testing::AllOf(HasSubstr("'" + text + "'"), HasSubstr("it is not JSON"),
+                                                    HasSubstr("line 2, column 13")));
+    const std::string bad = m_folder.write("bad.json", "{ \"step\": 2 }");
+    EXPECT_THAT(messageOfFile(bad), HasSubstr("bad.json': step is 2; it must be a number in [1e-06, 1]"));
+}
+
+}  // namespace
+}  // namespace bullet_fem

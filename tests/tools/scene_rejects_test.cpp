@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// Every kind of bad scene gets a message with the path in the document, what is there, and what is expected.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/scene/scene_reader.h"
+#include "tools/scene_samples.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+using nlohmann::json;
+
+/// `m_value`, as JSON, is put at `m_at` in one of the sample scenes; "" takes the place out.
+struct BadValue
+{
+    const char* m_test;
+    bool m_full;  ///< in fullScene, else in otherScene
+    const char* m_at;
+    const char* m_value;
+    const char* m_message;  ///< the whole
+};
+
+void PrintTo(const BadValue& bad, std::ostream* out)
+{
+    *out << bad.m_at << " = " << bad.m_value;
+}
+
+class RejectedScene : public testing::TestWithParam<BadValue>
+{
+};
+
+TEST_P(RejectedScene, SaysWhereWhatAndWhy)
+{
+    const TemporaryFolder folder;
+    writeSampleMeshes(folder);
+    const BadValue& bad = GetParam();
+    json scene = json::parse(bad.m_full ? fullScene() : otherScene());
+    const json::json_pointer at(bad.m_at);
+    if (*bad.m_value)
+        scene[at] = json::parse(bad.m_value);
+    else
+        scene[at.parent_pointer()].erase(at.back());
+    const std::string message = messageOf<std::runtime_error>(
+        [&] { parseScene(scene.dump(), folder.path("").substr(0, folder.path("").size() - 1)); });
+    std::string expected = bad.m_message;
+    if (const std::size_t place = expected.find("FOLDER"); place != std::string::npos)
+        expected.replace(place, 6, folder.path("").substr(0, folder.path("").size() - 1));
+    EXPECT_EQ(message, expected);
+}
+
+const BadValue kUnknown[] = {
+    {"InTheDocument", true, "/gravitation", "1",
+     "the document has a member 'gravitation', which is not known; those that are: $schema, title, gravity, step, "
+     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, forces, camera, pictures"},
+    {"InSolver", true, "/solver/iterations", "1",
+     "solver has a member 'iterations', which is not known; those that are: coupled, tolerance, contactTolerance, "
+     "threads"},
+    {"InAMaterial", true, "/materials/gum/nu", "1",
+     "materials.gum has a member 'nu', which is not known; those that are: like, young, poisson, density, massDamping, "
+     "stiffnessDamping"},
+    {"InASoftBody", true, "/softBodies/1/mass", "1",
+     "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "
+     "material, friction, selfContact, colour, pins"},
+    {"InAMesh", true, "/softBodies/0/mesh/boxes", "1",
+     "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, surface, tetrahedra, baked, "
+     "cell, tets, scale"},
+    {"InARotation", true, "/softBodies/0/rotation/angle", "1",
+     "softBodies[0].rotation has a member 'angle', which is not known; those that are: axis, degrees"},
+    {"InAPin", true, "/softBodies/0/pins/1/middle", "1",
+     "softBodies[0].pins[1] has a member 'middle', which is not known; those that are: low, high"},
+    {"InARigidBody", true, "/rigidBodies/0/density", "1",
+     "rigidBodies[0] has a member 'density', which is not known; those that are: name, shape, mass, position, "
+     "rotation, "
+     "velocity, spin, friction, restitution, colour"},
+    {"InAShape", true, "/rigidBodies/1/shape/cone", "1",
+     "rigidBodies[1].shape has a member 'cone', which is not known; those that are: plane, box, sphere, cylinder, "
+     "capsule"},
+    {"InACapsule", true, "/rigidBodies/0/shape/capsule/length", "1",
+     "rigidBodies[0].shape.capsule has a member 'length', which is not known; those that are: radius, height"},
+    {"InAnAnchor", true, "/constraints/0/pivot", "[0,0,0]",
+     "constraints[0] has a member 'pivot', which is not known; those that are: kind, soft, rigid, nodes"},
+    {"InAHinge", true, "/constraints/1/soft", "1",
+     "constraints[1] has a member 'soft', which is not known; those that are: kind, body, to, pivot, axis, speed, "
+     "torque"},
+    {"InAForce", true, "/forces/0/until", "1",
+     "forces[0] has a member 'until', which is not known; those that are: body, nodes, force, from, to"},
+    {"InTheCamera", true, "/camera/zoom", "1",
+     "camera has a member 'zoom', which is not known; those that are: direction, eye, target, fieldOfView"},
+    {"InPictures", true, "/pictures/size", "1",
+     "pictures has a member 'size', which is not known; those that are: width, height, stress, hottest, forces, "
+     "wireframe"},
+};
+
+const BadValue kWrongKind[] = {
+    {"TextForANumber", true, "/step", R"("0.01")", "step is \"0.01\"; it must be a number in [1e-06, 1]"},
+    {"NaNAsText", true, "/seconds", R"("NaN")", "seconds is \"NaN\"; it must be a number in (0, 100000]"},
+    {"NullForANumber", true, "/step", "null", "step is null; it must be a number in [1e-06, 1]"},
+    {"FlagForANumber", true, "/softBodies/0/friction", "true",
+     "softBodies[0].friction is true; it must be a number in [0, 10]"},
+    {"NumberForAFlag", true, "/softBodies/0/selfContact", "1",
+     "softBodies[0].selfContact is 1; it must be true or false"},
+    {"NumberForAText", true, "/softBodies/0/name", "7",
+     "softBodies[0].name is 7; it must be a text in quotes, not empty"},
+    {"EmptyText", true, "/softBodies/0/name", R"("")",
+     "softBodies[0].name is \"\"; it must be a text in quotes, not empty"},
+    {"SchemaThatIsNoText", true, "/$schema", "3", "$schema is 3; it must be a text in quotes, not empty"},
+    {"NumberForAVector", true, "/gravity", "9.81", "gravity is 9.81; it must be an array of three numbers"},
+    {"TwoNumbersForAVector", true, "/gravity", "[0,1]", "gravity is [0,1]; it must be an array of three numbers"},
+    {"TextInAVector", true, "/gravity", R"([0,"1",0])", "gravity[1] is \"1\"; it must be a number in [-10000, 10000]"},
+    {"ObjectForAnArray", true, "/softBodies", "{}", "softBodies is {}; it must be an array, in []"},
+    {"ArrayForAnObject", true, "/camera", "[]",
+     "camera is []; it must be an object with direction, eye, target, fieldOfView"},
+    {"ArrayForMaterials", true, "/materials", "[]", "materials is []; it must be an object, in {}"},
+    {"NumberInAnArrayOfBodies", true, "/softBodies/1", "3",
+     "softBodies[1] is 3; it must be an object with name, mesh, position, rotation, velocity, material, friction, "
+     "selfContact, colour, pins"},
+    {"FractionForAWholeNumber", true, "/solver/threads", "1.5",
+     "solver.threads is 1.5; it must be a whole number in [1, 64]"},
+    {"KindThatIsNone", true, "/constraints/0/kind", R"("glue")",
+     "constraints[0].kind is \"glue\"; it must be one of: anchor, point, hinge"},
+    {"LongTextsAreCut", true, "/step", R"("0123456789012345678901234567890123456789012345678901234567890")",
+     "step is \"012345678901234567890123456789012345...; it must be a number in [1e-06, 1]"},
+};
+
+const BadValue kOutOfRange[] = {
+    {"Gravity", true, "/gravity", "[0,20000,0]", "gravity[1] is 20000; it must be a number in [-10000, 10000]"},
+    {"StepOfNothing", true, "/step", "0", "step is 0; it must be a number in [1e-06, 1]"},
+    {"NegativeSeconds", true, "/seconds", "-1", "seconds is -1; it must be a number in (0, 100000]"},
+    {"Frames", true, "/framesPerSecond", "0", "framesPerSecond is 0; it must be a number in [0.01, 10000]"},
+    {"Tolerance", true, "/solver/tolerance", "0.6", "solver.tolerance is 0.6; it must be a number in [1e-08, 0.5]"},
+    {"ContactTolerance", true, "/solver/contactTolerance", "1",
+     "solver.contactTolerance is 1; it must be a number in [1e-07, 0.1]"},
+    {"Threads", true, "/solver/threads", "0", "solver.threads is 0; it must be a whole number in [1, 64]"},
+    {"Young", true, "/materials/gum/young", "0", "materials.gum.young is 0; it must be a number in (0, 1e+13]"},
+    {"Poisson", true, "/softBodies/0/material/poisson", "0.5",
+     "softBodies[0].material.poisson is 0.5; it must be a number in [0, 0.49]"},
+    {"Density", true, "/materials/gum/density", "-1",
+     "materials.gum.density is -1; it must be a number in (0, 1000000]"},
+    {"Box", true, "/softBodies/0/mesh/box", "[1,0,1]",
+     "softBodies[0].mesh.box[1] is 0; it must be a number in (0, 1000000]"},
+    {"Cell", true, "/softBodies/0/mesh/cell", "-0.1",
+     "softBodies[0].mesh.cell is -0.1; it must be a number in (0, 1000000]"},
+    {"Tets", true, "/softBodies/1/mesh/tets", "4",
+     "softBodies[1].mesh.tets is 4; it must be a whole number in [5, 5000000]"},
+    {"Scale", true, "/softBodies/1/mesh/scale", "0",
+     "softBodies[1].mesh.scale is 0; it must be a number in (0, 1000000000]"},
+    {"Colour", true, "/softBodies/0/colour", "[0,0,255]",
+     "softBodies[0].colour[2] is 255; it must be a number in [0, 1]"},
+    {"Axis", true, "/softBodies/0/rotation/axis", "[0,0,0]",
+     "softBodies[0].rotation.axis is [0,0,0]; it must have a length"},
+    {"Normal", false, "/rigidBodies/0/shape/plane", "[0,0,0]",
+     "rigidBodies[0].shape.plane is [0,0,0]; it must have a length"},
+    {"Radius", false, "/rigidBodies/1/shape/sphere", "-2",
+     "rigidBodies[1].shape.sphere is -2; it must be a number in (0, 1000000]"},
+    {"Mass", true, "/rigidBodies/0/mass", "-3", "rigidBodies[0].mass is -3; it must be a number in [0, 1000000000]"},
+    {"Restitution", true, "/rigidBodies/0/restitution", "1.1",
+     "rigidBodies[0].restitution is 1.1; it must be a number in [0, 1]"},
+    {"Torque", true, "/constraints/1/torque", "-1", "constraints[1].torque is -1; it must be a number of at least 0"},
+    {"FieldOfView", true, "/camera/fieldOfView", "180", "camera.fieldOfView is 180; it must be a number in [1, 150]"},
+    {"Width", true, "/pictures/width", "9000", "pictures.width is 9000; it must be a whole number in [16, 8192]"},
+    {"LowAboveHigh", true, "/softBodies/0/pins/0/low", "[0,10,0]",
+     "softBodies[0].pins[0] has a 'low' above its 'high'"},
+    {"ToBeforeFrom", true, "/forces/0/to", "0.25", "forces[0].to is before 'from'"},
+    {"EyeInTheTarget", true, "/camera/eye", "[0,1,0]", "camera.target is where 'eye' is; they must differ"},
+};
+
+const BadValue kMeaning[] = {
+    {"NoName", true, "/softBodies/0/name", "", "softBodies[0] lacks 'name'"},
+    {"NoMesh", true, "/softBodies/0/mesh", "", "softBodies[0] lacks 'mesh'"},
+    {"NoPivot", true, "/constraints/1/pivot", "", "constraints[1] lacks 'pivot'"},
+    {"NoDegrees", true, "/softBodies/0/rotation/degrees", "", "softBodies[0].rotation lacks 'degrees'"},
+    {"NameTwice", true, "/rigidBodies/1/name", R"("hammer")",
+     "rigidBodies[1].name is \"hammer\"; it must be a name that no other body has"},
+    {"NameOfASoftAndARigidBody", true, "/rigidBodies/0/name", R"("scan")",
+     "rigidBodies[0].name is \"scan\"; it must be a name that no other body has"},
+    {"UnknownMaterial", false, "/softBodies/0/material", R"("gold")",
+     "softBodies[0].material is \"gold\"; it must be the name of a material: flesh, foam, jelly, rubber, wood"},
+    {"UnknownMaterialAsKind", true, "/softBodies/0/material/like", R"("gold")",
+     "softBodies[0].material.like is \"gold\"; it must be the name of a material: flesh, foam, gum, jelly, rubber, "
+     "wood"},
+    {"UnknownSoftBody", true, "/constraints/0/soft", R"("hammer")",
+     "constraints[0].soft is \"hammer\"; it must be the name of a soft body"},
+    {"UnknownRigidBody", true, "/constraints/1/to", R"("block")",
+     "constraints[1].to is \"block\"; it must be the name of a rigid body"},
+    {"UnknownBody", true, "/forces/0/body", R"("nobody")",
+     "forces[0].body is \"nobody\"; it must be the name of a body"},
+    {"NodesOfARigidBody", true, "/forces/0/body", R"("hammer")",
+     "forces[0].nodes is given, but only soft bodies have nodes"},
+    {"MissingFile", true, "/softBodies/1/mesh/surface", R"("bunny.off")",
+     "softBodies[1].mesh.surface names 'FOLDER/bunny.off', which is no file"},
+    {"FolderForAFile", true, "/softBodies/1/mesh/surface", R"("..")",
+     "softBodies[1].mesh.surface names 'FOLDER/..', which is no file"},
+    {"TwoMeshes", true, "/softBodies/0/mesh/surface", R"("cube.off")",
+     "softBodies[0].mesh must have one of: box, surface, tetrahedra, baked"},
+    {"NoMeshKind", true, "/softBodies/0/mesh/box", "",
+     "softBodies[0].mesh must have one of: box, surface, tetrahedra, baked"},
+    {"CellAndTets", true, "/softBodies/0/mesh/tets", "500",
+     "softBodies[0].mesh has 'cell' and 'tets'; give one of them"},
+    {"CellOfAMeshFile", false, "/softBodies/0/mesh/cell", "0.1",
+     "softBodies[0].mesh.cell is given, but the file has its elements; leave it out"},
+    {"ScaleOfABakedBody", false, "/softBodies/1/mesh/scale", "2",
+     "softBodies[1].mesh.scale is given, but a baked body has its size; leave it out, or bake it anew"},
+    {"MaterialOfABakedBody", false, "/softBodies/1/material", R"("jelly")",
+     "softBodies[1].material is given for a baked body, which has its own; leave it out, or bake it anew"},
+    {"TwoShapes", true, "/rigidBodies/1/shape/sphere", "1",
+     "rigidBodies[1].shape must have one of: plane, box, sphere, cylinder, capsule"},
+    {"HeavyPlane", false, "/rigidBodies/0/mass", "1",
+     "rigidBodies[0].mass is given for a plane, which stands still; leave it out"},
+    {"TorqueOfAPoint", false, "/constraints/0/torque", "1",
+     "constraints[0].torque is given, but only a hinge has one; leave it out"},
+    {"EyeWithoutTarget", true, "/camera/target", "", "camera needs both 'eye' and 'target', or 'direction'"},
+    {"EyeAndDirection", true, "/camera/direction", "[1,0,0]", "camera has 'eye' and 'direction'; give one of them"},
+};
+
+std::string nameOf(const testing::TestParamInfo<BadValue>& info)
+{
+    return info.param.m_test;
+}
+
+INSTANTIATE_TEST_SUITE_P(Unknown, RejectedScene, testing::ValuesIn(kUnknown), nameOf);
+INSTANTIATE_TEST_SUITE_P(WrongKind, RejectedScene, testing::ValuesIn(kWrongKind), nameOf);
+INSTANTIATE_TEST_SUITE_P(OutOfRange, RejectedScene, testing::ValuesIn(kOutOfRange), nameOf);
+INSTANTIATE_TEST_SUITE_P(Meaning, RejectedScene, testing::ValuesIn(kMeaning), nameOf);
+
+std::string messageOfText(const std::string& text)
+{
+    return messageOf<std::runtime_error>([&] { parseScene(text, "."); });
+}
+
+TEST(SceneText, ThatIsNoSceneIsRefused)
+{
+    using testing::HasSubstr;
+    using testing::StartsWith;
+    for (const char* text : {"", "scene", "{", "{}}", "{ \"step\": NaN }", "{ \"step\": 1e999 }", "{ \"step\": .1 }",
+                             "{ \"title\": \"\xff\" }", "{ \"step\": 1, }", "\xef\xbb\xbf"})
+        EXPECT_THAT(messageOfText(text), StartsWith("it is not JSON: ")) << text;
+    EXPECT_THAT(messageOfText("[]"), StartsWith("the document is []; it must be an object with"));
+    EXPECT_THAT(messageOfText("3"), StartsWith("the document is 3; it must be an object with"));
+    EXPECT_EQ(messageOfText("{}"), "the document has neither 'softBodies' nor 'rigidBodies'; a scene needs a body");
+    EXPECT_THAT(messageOfText("{ \"solver\": " + std::string(40, '[') + std::string(40, ']') + "}"),
+                HasSubstr("nested deeper than 32 levels"));
+    EXPECT_THAT(messageOfText(std::string(1000000, '[')), HasSubstr("nested deeper than 32 levels"));
+}
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/scene_samples.h"
+
+#include "bullet_fem/fem/baked_body.h"
+#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/io/tet_mesh_writer.h"
+
+namespace bullet_fem
+{
+
+void writeSampleMeshes(const TemporaryFolder& folder)
+{
+    folder.write("cube.off",
+                 "OFF\n8 6 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"
+                 "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n");
+    const TetMesh block = makeBox({1, 1, 1}, {2, 2, 2});
+    writeTetMeshFile(folder.path("two.node"), block);
+    BakeSettings settings;
+    settings.m_step = 0.01;
+    writeBakedBody(folder.path("body.bfem"), bakeBody(block, settings));
+}
+
+std::string fullScene()
+{
+    return R"({
+  "$schema": "scene.schema.json",
+  "title": "everything",
+  "gravity": [0, 0, -5],
+  "step": 0.004,
+  "seconds": 2.5,
+  "framesPerSecond": 24,
+  "solver": { "coupled": false, "tolerance": 1e-4, "contactTolerance": 1e-3, "threads": 2 },
+  "materials": {
+    "gum": { "like": "rubber", "young": 3e5, "poisson": 0.41, "density": 900, "massDamping": 0.2, "stiffnessDamping": 0.03 }
+  },
+  "softBodies": [
+    {
+      "name": "block",
+      "mesh": { "box": [1, 2, 3], "cell": 0.5, "scale": 0.25 },
+      "position": [0.5, 1.5, -2],
+      "rotation": { "axis": [0, 0, 2], "degrees": 90 },
+      "velocity": [1, 2, 3],
+      "material": { "like": "gum", "young": 4e5, "poisson": 0.2, "density": 800, "massDamping": 0.1, "stiffnessDamping": 0.01 },
+      "friction": 0.9,
+      "selfContact": true,
+      "colour": [0.1, 0.2, 0.3],
+      "pins": [{ "low": [-9, -9, -9], "high": [9, 9, 0] }, { "low": [1, 1, 1], "high": [2, 2, 2] }]
+    },
+    { "name": "scan", "mesh": { "surface": "cube.off", "tets": 500, "scale": 0.5 } }
+  ],
+  "rigidBodies": [
+    {
+      "name": "hammer",
+      "shape": { "capsule": { "radius": 0.2, "height": 0.7 } },
+      "mass": 3,
+      "position": [4, 5, 6],
+      "rotation": { "axis": [1, 0, 0], "degrees": -45 },
+      "velocity": [0, 1, 0],
+      "spin": [0, 0, 2],
+      "friction": 0.4,
+      "restitution": 0.6,
+      "colour": [1, 0, 0.5]
+    },
+    { "name": "anvil", "shape": { "box": [0.1, 0.2, 0.3] } }
+  ],
+  "constraints": [
+    { "kind": "anchor", "soft": "block", "rigid": "hammer", "nodes": { "low": [-9, -9, -9], "high": [9, 9, 9] } },
+    { "kind": "hinge", "body": "hammer", "to": "anvil", "pivot": [1, 1, 1], "axis": [0, 0, 1], "speed": 2, "torque": 7 }
+  ],
+  "forces": [
+    { "body": "block", "nodes": { "low": [-9, -9, -9], "high": [9, 9, 9] }, "force": [1, 0, -1], "from": 0.5, "to": 1.5 }
+  ],
+  "camera": { "eye": [5, 4, 3], "target": [0, 1, 0], "fieldOfView": 60 },
+  "pictures": { "width": 640, "height": 360, "stress": true, "hottest": 2e5, "forces": true, "wireframe": true }
+})";
+}
+
+std::string otherScene()
+{
+    return R"({
+  "softBodies": [
+    { "name": "tets", "mesh": { "tetrahedra": "two.node" }, "material": "jelly" },
+    { "name": "baked", "mesh": { "baked": "body.bfem" } }
+  ],
+  "rigidBodies": [
+    { "name": "ground", "shape": { "plane": [0, 1, 0] } },
+    { "name": "ball", "shape": { "sphere": 0.3 }, "mass": 2 },
+    { "name": "rod", "shape": { "cylinder": { "radius": 0.1, "height": 2 } }, "mass": 1 }
+  ],
+  "constraints": [{ "kind": "point", "body": "ball", "to": "rod", "pivot": [0, 1, 0] }],
+  "forces": [{ "body": "ball", "force": [0, 5, 0] }],
+  "camera": { "direction": [1, 2, 3] }
+})";
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// Scenes in motion, against formulas.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tools/scene_run.h"
+#include "tools/scene_samples.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// A cantilever under its own weight: w L^4 / (8 E I) by Euler and Bernoulli, and w L^2 / (2 k G A) of shear by
+// Timoshenko, k = 5/6. It is so stiff that it bends by 0.3 % of its length: beam theory is linear. Linear tetrahedra
+// are too stiff in bending by a share that falls with the square of their size, so that two meshes tell the limit.
+double tipDeflection(double cell)
+{
+    SceneRun run(R"({ "step": 0.02, "softBodies": [{ "name": "beam", "mesh": { "box": [1, 0.2, 0.2], "cell": )" +
+                 std::to_string(cell) +
+                 R"( }, "material": { "young": 4e6, "poisson": 0, "density": 1000, "stiffnessDamping": 0.1 },
+              "pins": [{ "low": [-0.51, -1, -1], "high": [-0.49, 1, 1] }] }] })");
+    const std::vector<int> tip = run.nodesIn(0, {{0.49, -1, -1}, {0.51, 1, 1}});
+    const std::vector<int> clamp = run.nodesIn(0, {{-0.51, -1, -1}, {-0.49, 1, 1}});
+    std::vector<Vec3> before;
+    for (const int i : clamp) before.push_back(run.node(0, i));
+    run.until(1.5);
+    for (std::size_t i = 0; i < clamp.size(); ++i) EXPECT_EQ(norm(run.node(0, clamp[i]) - before[i]), 0) << "pinned";
+    double sum = 0;
+    for (const int i : tip) sum -= run.node(0, i).y;
+    return sum / double(tip.size());
+}
+
+TEST(SceneWorld, ABeamBendsAsBeamTheorySays)
+{
+    const double E = 4e6, G = E / 2, L = 1, A = 0.2 * 0.2, I = std::pow(0.2, 4) / 12, w = 1000 * 9.81 * A;
+    const double theory = w * std::pow(L, 4) / (8 * E * I) + w * L * L / (2 * 5. / 6 * G * A);
+    const double coarse = tipDeflection(0.05), fine = tipDeflection(0.025);
+    RecordProperty("coarse", std::to_string(coarse / theory));
+    RecordProperty("fine", std::to_string(fine / theory));
+    EXPECT_NEAR(fine / theory, 1, 0.06);
+    EXPECT_LT(coarse, fine);
+    EXPECT_NEAR((4 * fine - coarse) / 3 / theory, 1, 0.015) << "the limit of small elements";
+}
+
+TEST(SceneWorld, APressedBlockPushesBackByItsStiffness)
+{
+    SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01, "solver": { "tolerance": 1e-5 },
+      "softBodies": [{ "name": "block", "mesh": { "box": [0.4, 0.4, 0.5], "tets": 600 }, "position": [0, 0.2, 0], "friction": 0,
+        "material": { "young": 1e5, "poisson": 0, "density": 40, "stiffnessDamping": 0.0001 } }],
+      "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } },
+        { "name": "plate", "shape": { "box": [0.7, 0.06, 0.7] }, "position": [0, 0.43, 0], "velocity": [0, -0.05, 0] }] })");
+    run.until(0.4);
+    const btRigidBody& plate = run.m_world.rigid(1);
+    EXPECT_NEAR(plate.getWorldTransform().getOrigin().y(), 0.43 - 0.05 * 0.4, 1e-5) << "speed by time";
+    double top = 0;
+    for (int i = 0; i < run.nodeCount(0); ++i) top = std::max(top, run.node(0, i).y);
+    EXPECT_NEAR(top, 0.38, 2e-4);
+    const double strain = 0.02 / 0.4, expected = 1e5 * 0.4 * 0.5 * strain;  // E A strain
+    const btSoftBody& block = run.m_world.soft(0);
+    EXPECT_NEAR(run.m_world.fem().contactForce(&block, &plate).y(), -expected, 0.03 * expected);
+    EXPECT_NEAR(run.m_world.fem().contactForce(&block, &run.m_world.rigid(0)).y(), expected, 0.03 * expected);
+}
+
+TEST(SceneWorld, AnchorsFollowWhatTheyAreFixedTo)
+{
+    SceneRun run(
+        R"({ "softBodies": [{ "name": "block", "mesh": { "box": [0.2, 0.2, 0.2], "tets": 300 }, "material": "rubber" }],
+      "rigidBodies": [{ "name": "hook", "shape": { "box": [0.2, 0.2, 0.2] }, "position": [0, 0.5, 0], "velocity": [0.1, 0, 0] }],
+      "constraints": [{ "kind": "anchor", "soft": "block", "rigid": "hook",
+        "nodes": { "low": [-1, 0.09, -1], "high": [1, 1, 1] } }] })");
+    const std::vector<int> held = run.nodesIn(0, {{-1, 0.09, -1}, {1, 1, 1}});
+    ASSERT_GE(held.size(), 9u);
+    std::vector<Vec3> before;
+    for (const int i : held) before.push_back(run.node(0, i));
+    run.until(1);
+    for (std::size_t i = 0; i < held.size(); ++i)
+        EXPECT_NEAR(norm(run.node(0, held[i]) - before[i] - Vec3{0.1, 0, 0}), 0, 1e-4);
+    for (int i = 0; i < run.nodeCount(0); ++i) EXPECT_GT(run.node(0, i).y, -0.11) << "hangs";
+}
+
+// A free motor of torque T turns a body of inertia I to T t / I, until it has its speed; right-handed about the axis.
+TEST(SceneWorld, AHingeTurnsByItsMotor)
+{
+    const std::string scene = R"({ "gravity": [0, 0, 0], "step": 0.01,
+      "rigidBodies": [{ "name": "arm", "shape": { "box": [0.6, 0.3, 0.3] }, "mass": 2 }],
+      "constraints": [{ "kind": "hinge", "body": "arm", "pivot": [0, 0, 0], "axis": [0, 0, 3], "speed": 2, "torque": )";
+    const double inertia = 2. / 12 * (0.36 + 0.09);
+    SceneRun weak(scene + "0.05 }] }");
+    weak.until(0.5);
+    EXPECT_NEAR(weak.m_world.rigid(0).getAngularVelocity().z(), 0.05 * 0.5 / inertia, 0.01 * 0.05 * 0.5 / inertia);
+    SceneRun strong(scene + "50 }] }");
+    strong.until(0.5);
+    EXPECT_NEAR(strong.m_world.rigid(0).getAngularVelocity().z(), 2, 1e-3);
+    EXPECT_NEAR(norm(vec3(strong.m_world.rigid(0).getWorldTransform().getOrigin())), 0, 1e-4);
+}
+
+// A pendulum of a point mass at the end of 1 m: it keeps its distance from the pivot.
+TEST(SceneWorld, APointHoldsItsPivot)
+{
+    SceneRun run(
+        R"({ "step": 0.005, "rigidBodies": [{ "name": "bob", "shape": { "sphere": 0.1 }, "mass": 1, "position": [1, 0, 0] },
+      { "name": "post", "shape": { "box": [0.1, 0.1, 0.1] }, "position": [0, 0, 5] }],
+      "constraints": [{ "kind": "point", "body": "bob", "to": "post", "pivot": [0, 0, 0] }] })");
+    double lowest = 0;
+    for (int k = 0; k < 200; ++k)
+    {
+        run.m_world.step();
+        const btVector3 x = run.m_world.rigid(0).getWorldTransform().getOrigin();
+        EXPECT_NEAR(x.length(), 1, 0.02);
+        lowest = std::min<double>(lowest, x.y());
+    }
+    EXPECT_LT(lowest, -0.9);
+}
+
+TEST(SceneWorld, AForceActsInItsTimeAlone)
+{
+    SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01,
+      "softBodies": [{ "name": "soft", "mesh": { "box": [0.2, 0.2, 0.2], "tets": 100 }, "material": { "density": 1000 } }],
+      "rigidBodies": [{ "name": "rigid", "shape": { "sphere": 0.1 }, "mass": 2, "position": [0, 2, 0] }],
+      "forces": [{ "body": "soft", "force": [10, 0, 0], "from": 0.2, "to": 0.5 },
+        { "body": "rigid", "force": [0, 4, 0], "from": 0.1, "to": 0.3 }] })");
+    run.until(0.2);
+    EXPECT_LT(norm(run.momentum(0)), 1e-12);
+    run.until(0.35);
+    EXPECT_NEAR(run.momentum(0).x, 10 * 0.15, 1e-3 * 1.5);
+    run.until(1);
+    EXPECT_NEAR(norm(run.momentum(0) - Vec3{3, 0, 0}), 0, 3e-3);
+    EXPECT_NEAR(run.m_world.rigid(0).getLinearVelocity().y(), 4 * 0.2 / 2, 1e-3);
+}
+
+// Pulled nodes leave the box that chose them, and are pulled on.
+TEST(SceneWorld, AForceStaysWithTheNodesThatStartedInItsBox)
+{
+    SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01,
+      "softBodies": [{ "name": "soft", "mesh": { "box": [0.2, 0.2, 0.2], "tets": 300 }, "material": "rubber" }],
+      "forces": [{ "body": "soft", "force": [50, 0, 0], "nodes": { "low": [0.099, -1, -1], "high": [0.101, 1, 1] } }] })");
+    run.until(0.5);
+    EXPECT_NEAR(run.momentum(0).x, 50 * 0.5, 1e-2);
+    for (int i = 0; i < run.nodeCount(0); ++i) EXPECT_GT(run.node(0, i).x, 0.2) << "all have left the box";
+}
+
+TEST(SceneWorld, ABakedBodyFallsWithItsOwnMass)
+{
+    const TemporaryFolder folder;
+    writeSampleMeshes(folder);
+    SceneRun run(
+        R"({ "step": 0.01, "softBodies": [{ "name": "b", "mesh": { "baked": "body.bfem" }, "position": [3, 0, 0],
+        "rotation": { "axis": [0, 0, 1], "degrees": 90 }, "velocity": [0, 0, 1] }] })",
+        folder.path(""));
+    EXPECT_NEAR(run.m_world.soft(0).getTotalMass(), 1000, 0.1) << "a cubic metre of 1000 kg/m3";
+    const Vec3 corner = run.node(0, 0);
+    EXPECT_NEAR(norm(corner - Vec3{3, 0, 0}), 0, 1e-5);
+    EXPECT_NEAR(norm(run.node(0, 1) - Vec3{3, 0.5, 0}), 0, 1e-5) << "x has turned to y";
+    run.until(0.5);
+    const double fall = 9.81 * 0.01 * 0.01 * 50 * 51 / 2;  // of semi-implicit steps
+    EXPECT_NEAR(norm(run.node(0, 0) - corner - Vec3{0, -fall, 0.5}), 0, 1e-4);
+}
+
+TEST(SceneWorld, MeshesGetTheSizesAndElementsThatAreAskedFor)
+{
+    const auto countOf = [](const std::string& mesh)
+    {
+        SceneRun run(R"({ "softBodies": [{ "name": "b", "mesh": { )" + mesh + " } }] }");
+        return run.m_world.soft(0).m_tetras.size();
+    };
+    EXPECT_EQ(countOf(R"("box": [1, 1, 1], "cell": 0.25)"), 5 * 64);
+    EXPECT_EQ(countOf(R"("box": [1, 1, 1], "cell": 0.25, "scale": 0.5)"), 5 * 8) << "the cell is in metres";
+    EXPECT_NEAR(countOf(R"("box": [1, 1, 1], "tets": 2000)"), 2000, 600);
+    EXPECT_NEAR(countOf(R"("box": [20, 0.02, 0.02], "tets": 500)"), 500, 50) << "thin: one cell across";
+    const TemporaryFolder folder;
+    writeSampleMeshes(folder);
+    SceneRun scan(R"({ "softBodies": [{ "name": "b", "mesh": { "surface": "cube.off", "tets": 600, "scale": 0.5 },
+        "material": { "density": 800 } }, { "name": "t", "mesh": { "tetrahedra": "two.node", "scale": 2 }, "position": [9, 0, 0] }] })",
+                  folder.path(""));
+    EXPECT_NEAR(scan.m_world.soft(0).m_tetras.size(), 600, 300);
+    EXPECT_NEAR(scan.m_world.soft(0).getTotalMass(), 800 * 0.125, 0.5);
+    EXPECT_NEAR(scan.m_world.soft(1).getTotalMass(), 1000 * 8, 8);
+}
+
+TEST(SceneWorld, ASceneGivesTheSameBitsAgain)
+{
+    const auto run = []
+    {
+        const auto scene = std::make_unique<SceneRun>(
+            R"({ "softBodies": [{ "name": "a", "mesh": { "box": [0.2, 0.2, 0.2], "tets": 300 }, "position": [0, 0.15, 0] }],
+              "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } },
+                { "name": "ball", "shape": { "sphere": 0.1 }, "mass": 3, "position": [0.03, 0.5, 0] }] })");
+        scene->until(0.5);
+        std::vector<double> numbers;
+        for (int i = 0; i < scene->nodeCount(0); ++i)
+            for (int c = 0; c < 3; ++c) numbers.push_back(scene->node(0, i)[c]);
+        return numbers;
+    };
+    EXPECT_EQ(run(), run());
+}
+
+// What the reader cannot know is said when the world is made, after other bodies were added to it.
+std::string refusal(const std::string& softMember, const std::string& more, const std::string& folder = ".")
+{
+    const std::string json = R"({ "softBodies": [{ "name": "first", "mesh": { "box": [1, 1, 1], "tets": 40 } },
+        { "name": "pad", )" + softMember +
+                             R"( }], "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } },
+        { "name": "ball", "shape": { "sphere": 0.1 }, "mass": 3, "position": [0, 3, 0] }])" +
+                             more + "}";
+    return messageOf<std::exception>([&] { SceneRun(json, folder); });
+}
+
+TEST(SceneWorld, WhatNoBodyCanHaveIsRefusedWithTheBodysName)
+{
+    const std::string mesh = R"("mesh": { "box": [1, 1, 1], "tets": 40 })";
+    EXPECT_EQ(refusal(mesh + R"(, "pins": [{ "low": [5, 5, 5], "high": [6, 6, 6] }])", ""),
+              "'pad': a box of its pins holds no node at the start; move or enlarge it");
+    EXPECT_EQ(refusal(mesh, R"(, "constraints": [{ "kind": "anchor", "soft": "pad", "rigid": "ball",
+        "nodes": { "low": [5, 5, 5], "high": [6, 6, 6] } }])"),
+              "'pad': the box of its anchors to 'ball' holds no node at the start; move or enlarge it");
+    EXPECT_EQ(refusal(mesh, R"(, "forces": [{ "body": "pad", "force": [1, 0, 0],
+        "nodes": { "low": [5, 5, 5], "high": [6, 6, 6] } }])"),
+              "'pad': the box of a force holds no free node at the start; move or enlarge it");
+    EXPECT_THAT(refusal(R"("mesh": { "box": [1, 1, 1], "cell": 1e-5 })", ""), StartsWith("'pad': "));
+    EXPECT_THAT(refusal(R"("mesh": { "box": [1, 1, 1], "cell": 1e-5 })", ""),
+                HasSubstr("cell count along x is 100000, outside [1, 1000]"));
+    const TemporaryFolder folder;
+    folder.write("bad.off", "OFF\n3 1 0\n0 0 0\n");
+    folder.write("bad.bfem", "no body");
+    folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    for (const char* member : {R"("surface": "bad.off")", R"("tetrahedra": "bad.off")", R"("baked": "bad.bfem")"})
+        EXPECT_THAT(refusal(std::string("\"mesh\": {") + member + "}", "", folder.path("")),
+                    testing::AllOf(StartsWith("'pad': "), HasSubstr(folder.path("")), HasSubstr("bad.")))
+            << member;
+    EXPECT_THAT(refusal(R"("mesh": { "surface": "open.off" })", "", folder.path("")), StartsWith("'pad': "));
+}
+
+}  // namespace
+}  // namespace bullet_fem
