@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "io/file_bytes.h"
 #include "io/output_file.h"
 
 namespace bullet_fem
@@ -118,7 +119,7 @@ std::string eleText(const TetMesh& mesh)
 void writeTetMeshFile(const std::string& path, const TetMesh& mesh)
 {
     const std::filesystem::path name = path;
-    const std::string ending = name.extension().string();
+    const std::string ending = lowerCaseEnding(path);
     if (ending == ".msh") return writeOutputFile(path, gmshText(mesh));
     if (ending == ".vtk") return writeOutputFile(path, vtkText(mesh));
     if (ending == ".mesh") return writeOutputFile(path, meditText(mesh));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -9,6 +8,7 @@
 #include "bullet_fem/io/surface_writer.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "bullet_fem/io/tet_mesh_writer.h"
+#include "io/file_bytes.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/mesh_input.h"
 #include "tools/console/option_range.h"
@@ -34,7 +34,7 @@ struct ConvertCommand
 
     TetMesh mesh() const
     {
-        if (std::filesystem::path(m_input).extension() != ".bfem") return readTetMeshFile(m_input, m_scale).mesh();
+        if (lowerCaseEnding(m_input) != ".bfem") return readTetMeshFile(m_input, m_scale).mesh();
         const BakedBody baked = readBakedBody(m_input);
         std::vector<Vec3> positions = baked.m_positions;
         for (Vec3& x : positions) x *= m_scale;
@@ -56,7 +56,7 @@ struct ConvertCommand
             frame.m_positions = solid.restPositions();
             frame.m_triangles = solid.surface();
         }
-        const std::string ending = std::filesystem::path(m_output).extension().string();
+        const std::string ending = lowerCaseEnding(m_output);
         if (ending == ".obj") return writeObj(m_output, {frame});
         if (ending == ".ply") return writePly(m_output, {frame});
         throw std::runtime_error("cannot write '" + m_output + "': surfaces are written as .obj or .ply");

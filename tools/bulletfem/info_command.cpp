@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -8,6 +7,7 @@
 #include "bullet_fem/fem/cage_report.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
+#include "io/file_bytes.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
 #include "tools/bulletfem/mesh_input.h"
@@ -25,7 +25,7 @@ struct InfoCommand
 
     void run()
     {
-        const std::string ending = std::filesystem::path(m_file).extension().string();
+        const std::string ending = lowerCaseEnding(m_file);
         m_figures.add("file", m_file);
         if (ending == ".bfem")
             tellBaked(inspectBakedBody(m_file));

@@ -2,11 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/bulletfem/mesh_input.h"
 
-#include <filesystem>
 #include <stdexcept>
 
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
+#include "io/file_bytes.h"
 #include "tools/console/option_range.h"
 
 namespace bullet_fem
@@ -37,9 +37,7 @@ CageSettings CageOptions::settings() const
 
 bool isSurfaceFile(const std::string& path)
 {
-    std::string ending = std::filesystem::path(path).extension().string();
-    for (char& c : ending)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string ending = lowerCaseEnding(path);
     return ending == ".off" || ending == ".obj" || ending == ".stl" || ending == ".ply";
 }
 
