@@ -90,13 +90,17 @@ void RunOutput::drawPictures(std::vector<std::string>& written)
     if (const double largest = largestForceOf(m_snapshots); largest > 0) m_painter->setLargestForce(largest);
     OffscreenRenderer renderer;
     std::vector<std::unique_ptr<FilmWriter>> films;
-    const int rate = static_cast<int>(std::clamp(std::round(m_world.description().m_framesPerSecond), 1.0, 100.0));
+    const SceneDescription& scene = m_world.description();
+    const double perSecond = std::min(scene.m_framesPerSecond, 1 / scene.m_step);  // a step has one frame at most
+    const int rate = static_cast<int>(std::clamp(std::round(perSecond), 1.0, 100.0));
     for (const std::string& name : m_settings.m_films)
         films.push_back(std::make_unique<FilmWriter>(path(name), size, rate));
     std::vector<Image> strip;
+    const int inAll = std::min(count, kStripFrames);
     for (int k = 0; k < count; ++k)
     {
-        const bool inStrip = m_settings.m_png && k == static_cast<int>(strip.size()) * (count - 1) / (kStripFrames - 1);
+        const int place = static_cast<int>(strip.size());
+        const bool inStrip = m_settings.m_png && place < inAll && k == place * (count - 1) / std::max(1, inAll - 1);
         if (!inStrip && films.empty()) continue;
         const Image image = renderer.render(m_painter->paint(m_snapshots[k]), size);
         for (const auto& film : films) film->append(image);
