@@ -128,7 +128,7 @@ struct ScenePictures
 {
     int m_width = 1280, m_height = 720;  ///< [pixels]
     bool m_stress = false;               ///< colours are von Mises stress
-    double m_hottest = 0;   ///< of the last colour [Pa]; 0: 98 % of the surface are below, in the first frame
+    double m_hottest = 0;   ///< of the last colour [Pa]; 0: 98 % of the nodes are below, in the hottest frame
     bool m_forces = false;  ///< arrows of contact forces
     bool m_wireframe = false;
 };

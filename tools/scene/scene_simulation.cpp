@@ -9,6 +9,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemRay.h"
+#include "bullet_fem/fem/baked_body.h"
 
 namespace bullet_fem
 {
@@ -30,7 +31,10 @@ constexpr double kPull = 20;  // weights of the body that the mouse pulls with a
 SceneSimulation::SceneSimulation(SceneWorld& world)
     : m_world(world), m_frames(world), m_painter(world, m_frames), m_gravity(norm(world.description().m_gravity))
 {
-    if (world.softCount() > 0) m_material = world.description().m_softBodies[0].m_material;
+    for (const SceneSoftBody& body : world.description().m_softBodies)
+        m_materials.push_back(body.m_mesh.m_kind == SceneMesh::Kind::baked
+                                  ? inspectBakedBody(body.m_mesh.m_path).m_material
+                                  : body.m_material);
 }
 
 void SceneSimulation::step()
@@ -89,10 +93,11 @@ void SceneSimulation::endDrag()
 
 std::vector<ViewerParameter> SceneSimulation::parameters() const
 {
+    const Material first = m_materials.empty() ? Material() : m_materials[0];
     std::vector<ViewerParameter> all(4);
-    all[kYoung] = {"Young's modulus", "Pa", m_material.m_youngModulus, 1e3, 1e10, true};
-    all[kPoisson] = {"Poisson's ratio", "", m_material.m_poissonRatio, 0, 0.49, false};
-    all[kDamping] = {"Stiffness damping", "s", m_material.m_stiffnessDamping, 0, 0.1, false};
+    all[kYoung] = {"Young's modulus", "Pa", first.m_youngModulus, 1e3, 1e10, true};
+    all[kPoisson] = {"Poisson's ratio", "", first.m_poissonRatio, 0, 0.49, false};
+    all[kDamping] = {"Stiffness damping", "s", first.m_stiffnessDamping, 0, 0.1, false};
     all[kGravity] = {"Gravity", "m/s\u00b2", m_gravity, 0, 30, false};
     return all;
 }
@@ -102,14 +107,11 @@ void SceneSimulation::setParameter(std::size_t index, double value)
     switch (index)
     {
         case kYoung:
-            m_material.m_youngModulus = value;
-            return applyMaterial();
+            return setMaterials(&Material::m_youngModulus, value);
         case kPoisson:
-            m_material.m_poissonRatio = value;
-            return applyMaterial();
+            return setMaterials(&Material::m_poissonRatio, value);
         case kDamping:
-            m_material.m_stiffnessDamping = value;
-            return applyMaterial();
+            return setMaterials(&Material::m_stiffnessDamping, value);
         case kGravity:
             m_gravity = value;
             return applyGravity();
@@ -118,16 +120,13 @@ void SceneSimulation::setParameter(std::size_t index, double value)
     }
 }
 
-void SceneSimulation::applyMaterial()
+void SceneSimulation::setMaterials(double Material::*member, double value)
 {
-    btFemMaterial material;
-    material.m_youngModulus = btScalar(m_material.m_youngModulus);
-    material.m_poissonRatio = btScalar(m_material.m_poissonRatio);
-    material.m_massDamping = btScalar(m_material.m_massDamping);
-    material.m_stiffnessDamping = btScalar(m_material.m_stiffnessDamping);
-    material.m_density = 0;  // masses stay
     for (int i = 0; i < m_world.softCount(); ++i)
     {
+        m_materials[i].*member = value;
+        btFemMaterial material = materialOf(m_materials[i]);
+        material.m_density = 0;  // masses stay
         m_world.fem().setMaterial(&m_world.soft(i), material);
         m_world.soft(i).activate();
     }

@@ -8,7 +8,8 @@
 namespace bullet_fem
 {
 
-/// A scene in a window: the mouse pulls soft bodies by an implicit spring, sliders change material and gravity of all.
+/// A scene in a window: the mouse pulls soft bodies by an implicit spring, sliders show the
+/// first body's material, and change one value of it for all.
 class SceneSimulation : public ViewerSimulation
 {
 public:
@@ -26,14 +27,14 @@ public:
     std::string status() const override;
 
 private:
-    void applyMaterial();
+    void setMaterials(double Material::*member, double value);
     void applyGravity();
 
     SceneWorld& m_world;
     SceneFrames m_frames;
     ScenePainter m_painter;
-    Material m_material;  // of the first soft body at the start; then of all
-    double m_gravity;     // [m/s2]
+    std::vector<Material> m_materials;  // of the soft bodies
+    double m_gravity;                   // [m/s2]
     btSoftBody* m_held = nullptr;
     int m_spring = 0;
     double m_holdDistance = 0;  // from the eye [m]

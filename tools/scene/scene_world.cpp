@@ -42,17 +42,6 @@ btTransform transformOf(const ScenePose& pose)
     return btTransform(btQuaternion(bulletVector(pose.m_axis), btScalar(pose.m_angle)), bulletVector(pose.m_position));
 }
 
-btFemMaterial materialOf(const Material& material)
-{
-    btFemMaterial result;
-    result.m_youngModulus = btScalar(material.m_youngModulus);
-    result.m_poissonRatio = btScalar(material.m_poissonRatio);
-    result.m_density = btScalar(material.m_density);
-    result.m_massDamping = btScalar(material.m_massDamping);
-    result.m_stiffnessDamping = btScalar(material.m_stiffnessDamping);
-    return result;
-}
-
 constexpr double kMostCells = 1e6;  // along an edge; more than makeBox takes, which then says so
 
 double cellsAlong(double edge, double cell)
@@ -116,6 +105,17 @@ void named(const std::string& name, const Make& make)
 }
 
 }  // namespace
+
+btFemMaterial materialOf(const Material& material)
+{
+    btFemMaterial result;
+    result.m_youngModulus = btScalar(material.m_youngModulus);
+    result.m_poissonRatio = btScalar(material.m_poissonRatio);
+    result.m_density = btScalar(material.m_density);
+    result.m_massDamping = btScalar(material.m_massDamping);
+    result.m_stiffnessDamping = btScalar(material.m_stiffnessDamping);
+    return result;
+}
 
 SceneWorld::SceneWorld(const SceneDescription& description)
     : m_description(description),

@@ -15,6 +15,9 @@
 namespace bullet_fem
 {
 
+/// The plug-in's form of a material.
+btFemMaterial materialOf(const Material& material);
+
 /// A scene as Bullet's world, in motion. It owns all that it makes.
 class SceneWorld
 {
