@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// A scene in a window, steered by a scripted mouse. Needs a display: run through xvfb-run where there is none.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "tools/pictures/viewer.h"
+#include "tools/scene/scene_simulation.h"
+#include "tools/scene_run.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+class SceneViewer : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        if (!getenv("DISPLAY")) GTEST_SKIP() << "there is no display, and no xvfb-run";
+    }
+    void open(const std::string& json)
+    {
+        m_run = std::make_unique<SceneRun>(json);
+        m_simulation.emplace(m_run->m_world);
+        ViewerSettings settings;
+        settings.m_size = {800, 600};
+        m_viewer = std::make_unique<Viewer>(*m_simulation, settings);
+        m_viewer->frame(0);
+    }
+    void play(const ViewerEvent& event, int steps = 1)
+    {
+        m_viewer->inject(event);
+        EXPECT_TRUE(m_viewer->frame(steps));
+    }
+    ViewerEvent moveTo(const Vec3& point) const
+    {
+        const PicturePoint p = projected(m_viewer->control().camera(), m_viewer->size(), point);
+        return ViewerEvent::move(p.m_x, p.m_y);
+    }
+    void slide(std::size_t index, double share)
+    {
+        const PictureRectangle area = m_viewer->sliderArea(index);
+        ASSERT_GT(area.m_width, 50);
+        play(ViewerEvent::move(area.m_x + share * area.m_width, area.m_y + 0.5 * area.m_height), 0);
+        play(ViewerEvent::press(), 0);
+        play(ViewerEvent::release(), 0);
+    }
+    Vec3 middle() const
+    {
+        Vec3 sum;
+        for (int i = 0; i < m_run->nodeCount(0); ++i) sum += m_run->node(0, i);
+        return (1. / m_run->nodeCount(0)) * sum;
+    }
+
+    std::unique_ptr<SceneRun> m_run;
+    std::optional<SceneSimulation> m_simulation;
+    std::unique_ptr<Viewer> m_viewer;
+};
+
+const char* const kCube = R"({ "step": 0.01, "softBodies": [
+    { "name": "cube", "mesh": { "box": [0.4, 0.4, 0.4], "tets": 300 }, "material": "rubber", "position": [0, 0.2, 0], "friction": 0.3 },
+    { "name": "other", "mesh": { "box": [0.2, 0.2, 0.2], "tets": 100 }, "material": "jelly", "position": [1, 0.1, 0] }],
+    "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }], "camera": { "direction": [0, 0.4, 1] } })";
+
+TEST_F(SceneViewer, AScriptedDragPullsTheBodyAlong)
+{
+    open(kCube);
+    const Image before = m_viewer->screenshot();
+    std::set<std::array<int, 3>> colours;
+    for (int y = 0; y < before.m_size.m_height; ++y)
+        for (int x = 0; x < before.m_size.m_width; ++x) colours.insert(before.at(x, y));
+    EXPECT_GT(colours.size(), 500u) << "bodies, ground, shadow, sky and the panel";
+
+    play(ViewerEvent::key(ViewerKey::panel), 0);  // what it covers cannot be held
+    const Vec3 hold{0, 0.3, 0.2};
+    play(moveTo(hold));
+    play(ViewerEvent::press());
+    EXPECT_TRUE(m_viewer->control().dragging());
+    for (int k = 1; k <= 5; ++k) play(moveTo(hold + Vec3{-0.1 * k, 0.04 * k, 0}), 10);
+    m_viewer->frame(50);
+    EXPECT_LT(middle().x, -0.3);
+    EXPECT_GT(middle().y, 0.22) << "lifted";
+    EXPECT_NEAR(m_run->momentum(1).x, 0, 0.01) << "the other body was not held";
+    play(ViewerEvent::release());
+    EXPECT_FALSE(m_viewer->control().dragging());
+    m_viewer->frame(100);
+    EXPECT_NEAR(middle().y, 0.2, 0.02) << "let go, it lies on the ground again";
+    EXPECT_NE(m_viewer->screenshot().m_pixels, before.m_pixels);
+}
+
+TEST_F(SceneViewer, BesideABodyTheMouseTurnsTheCamera)
+{
+    open(kCube);
+    const Vec3 eye = m_viewer->control().camera().m_eye;
+    play(ViewerEvent::move(790, 590), 0);
+    play(ViewerEvent::press(), 0);
+    EXPECT_FALSE(m_viewer->control().dragging());
+    play(ViewerEvent::move(700, 590), 0);
+    EXPECT_GT(norm(m_viewer->control().camera().m_eye - eye), 0.01);
+}
+
+TEST_F(SceneViewer, WithoutGravityNothingFallsOn)
+{
+    open(
+        R"({ "step": 0.01, "softBodies": [{ "name": "cube", "mesh": { "box": [0.4, 0.4, 0.4], "tets": 300 }, "material": "rubber" }],
+             "rigidBodies": [{ "name": "ball", "shape": { "sphere": 0.2 }, "mass": 1, "position": [1, 0, 0] }] })");
+    m_viewer->frame(10);
+    const double mass = m_run->m_world.soft(0).getTotalMass(), fallen = -9.81 * 0.1;
+    EXPECT_NEAR(m_run->momentum(0).y / mass, fallen, 1e-3);
+    slide(3, 0);
+    EXPECT_EQ(m_simulation->parameters()[3].m_value, 0);
+    m_viewer->frame(30);
+    EXPECT_NEAR(m_run->momentum(0).y / mass, fallen, 1e-3);
+    EXPECT_NEAR(m_run->m_world.rigid(0).getLinearVelocity().y(), fallen, 1e-3);
+    slide(3, 0.9);
+    EXPECT_NEAR(m_simulation->parameters()[3].m_value, 27, 1);
+    m_viewer->frame(10);
+    EXPECT_NEAR(m_run->momentum(0).y / mass, fallen - m_simulation->parameters()[3].m_value * 0.1, 0.01);
+}
+
+// A slider changes one value, and leaves what bodies do not have in common.
+TEST_F(SceneViewer, SlidersOfTheMaterialKeepWhatTheyDoNotShow)
+{
+    open(kCube);
+    const double mass = m_run->m_world.soft(0).getTotalMass();
+    EXPECT_NEAR(m_simulation->parameters()[0].m_value, Material::rubber().m_youngModulus, 1);
+    slide(2, 0.5);
+    EXPECT_NEAR(m_simulation->parameters()[2].m_value, 0.05, 0.005);
+    EXPECT_NEAR(m_simulation->parameters()[0].m_value, Material::rubber().m_youngModulus, 1);
+    m_viewer->frame(100);
+    EXPECT_EQ(m_run->m_world.soft(0).getTotalMass(), mass);
+    double top = 0;
+    for (int i = 0; i < m_run->nodeCount(1); ++i) top = std::max(top, m_run->node(1, i).y);
+    EXPECT_LT(top, 0.19) << "jelly sags by rho g h^2 / 2 E = 20 mm under its weight, rubber would by 0.1 mm";
+    EXPECT_THAT(m_simulation->status(), testing::HasSubstr("tetrahedra"));
+}
+
+}  // namespace
+}  // namespace bullet_fem
