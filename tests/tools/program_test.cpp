@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// The program bulletfem, from its command line: exit codes, messages, figures, files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tools/program_run.h"
+#include "tools/scene_samples.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Program : public testing::Test
+{
+protected:
+    Program() { writeSampleMeshes(m_folder); }
+    std::string path(const std::string& name) const { return "'" + m_folder.path(name) + "'"; }
+    bool exists(const std::string& name) const
+    {
+        return std::filesystem::exists(std::filesystem::symlink_status(m_folder.path(name)));
+    }
+    /// Must be well, and returns what --json tells.
+    json figures(const std::string& arguments) const
+    {
+        const ProgramRun run = bulletfem(arguments + " --json");
+        EXPECT_EQ(run.m_code, 0) << run.m_output;
+        const json told = json::parse(run.m_output, nullptr, false);
+        EXPECT_TRUE(told.is_object()) << run.m_output;
+        return told;
+    }
+    void refused(const std::string& arguments, int code, const std::string& part) const
+    {
+        const ProgramRun run = bulletfem(arguments);
+        EXPECT_EQ(run.m_code, code) << arguments << '\n' << run.m_output;
+        EXPECT_THAT(run.m_output, HasSubstr(part)) << arguments;
+    }
+
+    TemporaryFolder m_folder;
+};
+
+TEST_F(Program, ExplainsItself)
+{
+    const ProgramRun all = bulletfem("--help");
+    EXPECT_EQ(all.m_code, 0);
+    EXPECT_THAT(all.m_output, AllOf(HasSubstr("Exit code: 0 if all is well, 1 on bad data, 2 on bad usage")));
+    for (const char* command : {"cage", "bake", "info", "convert", "simulate"})
+    {
+        EXPECT_THAT(all.m_output, HasSubstr(std::string("\n  ") + command + " ")) << command;
+        const ProgramRun help = bulletfem(std::string(command) + " --help");
+        EXPECT_EQ(help.m_code, 0);
+        EXPECT_THAT(help.m_output, AllOf(HasSubstr("Usage"), HasSubstr(command))) << command;
+    }
+    EXPECT_EQ(bulletfem("--version").m_code, 0);
+}
+
+TEST_F(Program, BadUsageIsToldWithItsRange)
+{
+    refused("", 2, "subcommand is required");
+    refused("mesh a.off", 2, "subcommand is required");
+    refused("simulate", 2, "scene is required");
+    refused("simulate a.json --fast", 2, "--fast");
+    refused("simulate a.json --seconds -1", 2, "is -1, must be a number in [1e-06, 100000]");
+    refused("simulate a.json --seconds nan", 2, "is nan, must be a number in [1e-06, 100000]");
+    refused("simulate a.json --film run.avi", 2, "run.avi must end in .mp4 or .gif");
+    refused("bake a.msh -o a.bfem --young 0", 2, "must be a number in [0.001, 1e+13]");
+    refused("bake a.msh -o a.bfem --poisson 0.5", 2, "must be a number in [0, 0.49]");
+    refused("bake a.msh -o a.bfem --step 0", 2, "must be in [1e-6, 1] s");
+    refused("bake a.msh -o a.bfem --step 1/0", 2, "must be in [1e-6, 1] s");
+    refused("bake a.msh -o a.bfem --material gold", 2, "gold");
+    refused("bake a.msh -o a.bfem --pin 1 2 3", 2, "--pin");
+    refused("bake a.msh", 2, "--output is required");
+    refused("cage a.off --tets 1", 2, "must be a number in [5, 5");
+    refused("cage a.off --tets 100 --cell 1", 2, "excludes");
+    refused("convert a.msh", 2, "output is required");
+}
+
+TEST_F(Program, BadDataIsToldWithTheFile)
+{
+    m_folder.write("bad.json", R"({ "step": 0, "softBodies": [] })");
+    m_folder.write("damaged.off", "OFF\n3 1 0\n0 0 0\n");
+    refused("simulate " + path("missing.json"), 1, m_folder.path("missing.json") + "': there is no such file");
+    refused("simulate " + path("bad.json"), 1, "bad.json': step is 0; it must be a number in [1e-06, 1]");
+    refused("info " + path("missing.off"), 1, m_folder.path("missing.off"));
+    refused("info " + path("damaged.off"), 1, m_folder.path("damaged.off"));
+    refused("info " + path("bad.json"), 1, m_folder.path("bad.json"));
+    refused("cage " + path("two.node"), 1, "is no surface file; it must end in .off, .obj, .stl or .ply");
+    refused("cage " + path("damaged.off"), 1, m_folder.path("damaged.off"));
+    refused("cage " + path("cube.off") + " -o " + path("a.stl"), 1, "must be .msh, .vtk, .mesh, .node or .ele");
+    refused("convert " + path("cube.off") + " " + path("a.msh"), 1, "bulletfem cage makes them");
+    refused("convert " + path("two.node") + " " + path("a.off"), 1, "surfaces are written as .obj or .ply");
+    refused("bake " + path("damaged.off") + " -o " + path("a.bfem"), 1, m_folder.path("damaged.off"));
+    refused("bake " + path("two.node") + " -o " + path("a.bfem") + " --pin 5 5 5 6 6 6", 1, "--pin box holds no node");
+    for (const char* name : {"a.stl", "a.msh", "a.off", "a.bfem"}) EXPECT_FALSE(exists(name)) << name;
+}
+
+TEST_F(Program, CagesTellWhatWasMade)
+{
+    const json told = figures("cage " + path("cube.off") + " --tets 600 -o " + path("cage.msh"));
+    EXPECT_NEAR(told["tets"].get<double>(), 600, 300);
+    EXPECT_NEAR(told["volume"].get<double>(), 1, 1e-6);
+    EXPECT_GE(told["leastQuality"].get<double>(), told["qualityBound"].get<double>());
+    const json mesh = figures("info " + path("cage.msh"));
+    EXPECT_EQ(mesh["kind"], "tetrahedra");
+    EXPECT_EQ(mesh["tets"], told["tets"]);
+    EXPECT_EQ(mesh["nodes"], told["nodes"]);
+    EXPECT_NEAR(mesh["volume"].get<double>() / told["volumeRatio"].get<double>(), 1, 1e-6);
+}
+
+TEST_F(Program, ConvertsWithoutLosingABit)
+{
+    ASSERT_EQ(bulletfem("convert " + path("two.node") + " " + path("a.vtk")).m_code, 0);
+    ASSERT_EQ(bulletfem("convert " + path("a.vtk") + " " + path("b.MSH")).m_code, 0);
+    ASSERT_EQ(bulletfem("convert " + path("b.MSH") + " " + path("c.node")).m_code, 0);
+    EXPECT_EQ(m_folder.read("c.node"), m_folder.read("two.node"));
+    EXPECT_EQ(m_folder.read("c.ele"), m_folder.read("two.ele"));
+    ASSERT_EQ(bulletfem("convert " + path("body.bfem") + " " + path("d.node")).m_code, 0);
+    EXPECT_EQ(m_folder.read("d.ele"), m_folder.read("two.ele"));
+    ASSERT_EQ(bulletfem("convert " + path("two.ele") + " " + path("skin.ply") + " --scale 2").m_code, 0);
+    const json skin = figures("info " + path("skin.ply"));
+    EXPECT_EQ(skin["triangles"], 48);
+    EXPECT_NEAR(skin["signedVolume"].get<double>(), 8, 1e-5);
+}
+
+TEST_F(Program, BakesWhatInfoTells)
+{
+    const json baked =
+        figures("bake " + path("cube.off") + " --tets 300 --material jelly --young 2e4 --step 1/100 -o " +
+                path("cube.bfem") + " --pin -1 -1 -1 2 0.01 2");
+    const json told = figures("info " + path("cube.bfem"));
+    EXPECT_EQ(told["kind"], "baked body");
+    EXPECT_EQ(told["tets"], baked["tets"]);
+    EXPECT_EQ(told["young"], 2e4);
+    EXPECT_NEAR(told["poisson"].get<double>(), 0.45, 1e-6);
+    EXPECT_NEAR(told["step"].get<double>(), 0.01, 1e-9);
+    EXPECT_GT(told["pinned"].get<int>(), 3);
+    EXPECT_EQ(told["pinned"], baked["pinned"]);
+    EXPECT_EQ(told["embeddedVertices"], 8);
+    EXPECT_EQ(told["bytes"].get<std::uintmax_t>(), std::filesystem::file_size(m_folder.path("cube.bfem")));
+}
+
+TEST_F(Program, FiguresForPeopleHaveTheSameNames)
+{
+    const json told = figures("info " + path("two.node"));
+    const ProgramRun run = bulletfem("info " + path("two.node"));
+    for (const auto& [name, value] : told.items()) EXPECT_THAT(run.m_output, HasSubstr(name + " ")) << value;
+}
+
+// A folder that cannot be made, and a device without room in the place of the file.
+TEST_F(Program, WhatCannotBeWrittenIsToldAndLeavesNothing)
+{
+    m_folder.write("scene.json",
+                   R"({ "seconds": 0.05, "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1], "tets": 40 } }] })");
+    m_folder.write("file", "in the way");
+    refused("simulate " + path("scene.json") + " -o " + path("file/run"), 1,
+            "cannot make the folder '" + m_folder.path("file/run"));
+    EXPECT_EQ(m_folder.read("file"), "in the way");
+    std::filesystem::create_directory(m_folder.path("run"));
+    for (const char* name : {"run/run.glb", "run/elements.pvd", "mesh.msh"})
+        std::filesystem::create_symlink("/dev/full", m_folder.path(std::string(name) + ".part"));
+    refused("simulate " + path("scene.json") + " --glb -o " + path("run"), 1, m_folder.path("run/run.glb"));
+    refused("simulate " + path("scene.json") + " --pvd -o " + path("run"), 1, m_folder.path("run/elements.pvd"));
+    refused("convert " + path("two.node") + " " + path("mesh.msh"), 1, "No space left");
+    refused("convert " + path("two.node") + " " + path("missing/mesh.msh"), 1, m_folder.path("missing/mesh.msh"));
+    refused("bake " + path("two.node") + " -o " + path("missing/a.bfem"), 1, m_folder.path("missing/a.bfem"));
+    for (const char* name : {"run/run.glb", "run/elements.pvd", "mesh.msh", "missing"})
+        EXPECT_FALSE(exists(name)) << name;
+}
+
+}  // namespace
+}  // namespace bullet_fem
