@@ -11,7 +11,7 @@ build=$root/build/release
 meshes=data/meshes # in the package, and in the folder where the tests look
 
 # clang is for the fuzzers of the file readers. Gmsh, if it is installed, adds tests of the files that it writes.
-install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev \
+install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev libvalijson-dev \
     xvfb xauth clang libclang-rt-14-dev
 
 if [ ! -d "$build/meshes/$meshes" ]; then
