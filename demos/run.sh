@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs what is missing (Debian 12, as root or with sudo), builds the drop demo and runs it on a scanned elephant.
+# Installs what is missing (Debian 12, as root or with sudo), builds the drop demo, runs it on a scanned elephant and
+# draws it.
 # Further arguments go to the demo: demos/run.sh --young 2e5 --seconds 2
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -20,7 +21,11 @@ fi
 
 say "building in $build"
 (cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
-cmake --build "$build" --target bulletfem_drop --parallel "$(nproc)"
+cmake --build "$build" --target bulletfem_drop bulletfem --parallel "$(nproc)"
 
 say "running the demo; its frames go to $root/out/drop unless --out says otherwise"
 "$build/demos/bulletfem_drop" --mesh "$mesh" --out "$root/out/drop" "$@"
+
+say "drawing it, as the scene demos/scenes/drop.json"
+"$build/tools/bulletfem/bulletfem" simulate "$root/demos/scenes/drop.json" --png --out "$root/out/drop" ||
+    say "no pictures: see above; everything else is in $root/out/drop"
