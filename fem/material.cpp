@@ -42,11 +42,6 @@ Material isotropic(double youngModulus, double poissonRatio, double density)
 
 }  // namespace
 
-LameModuli LameModuli::ofNeoHookean(double mu, double lambda)
-{
-    return {0.75 * mu, lambda - 0.625 * mu};
-}
-
 LameModuli& LameModuli::operator+=(const LameModuli& b)
 {
     m_mu += b.m_mu;

@@ -75,11 +75,11 @@ double massOf(const XMLElement& block)
 }
 
 /// Adds the moduli of one law; damping is weighed by mu.
-void addLaw(const XMLElement& law, bool neoHookean, UrdfDeformable& result)
+void addLaw(const XMLElement& law, UrdfDeformable& result)
 {
     const double mu = numberIn(law, "mu", kPositive), lambda = numberIn(law, "lambda", kNotNegative);
     const double damping = law.Attribute("damping") ? numberIn(law, "damping", kNotNegative) : 0;
-    const LameModuli moduli = neoHookean ? LameModuli::ofNeoHookean(mu, lambda) : LameModuli{mu, lambda};
+    const LameModuli moduli = {mu, lambda};
     const double viscosity = result.m_damping * result.m_moduli.m_mu + damping * moduli.m_mu;
     result.m_moduli += moduli;
     result.m_damping = viscosity / result.m_moduli.m_mu;
@@ -136,8 +136,8 @@ UrdfDeformable readBlock(const XMLElement& block, const std::filesystem::path& u
     readValue(block, "collision_margin", kNotNegative, result.m_collisionMargin);
     readValue(block, "friction", kNotNegative, result.m_friction);
     readValue(block, "gravity_factor", kFinite, result.m_gravityFactor);
-    if (const XMLElement* law = block.FirstChildElement("corotated")) addLaw(*law, false, result);
-    if (const XMLElement* law = block.FirstChildElement("neohookean")) addLaw(*law, true, result);
+    for (const char* name : {"corotated", "neohookean"})
+        if (const XMLElement* law = block.FirstChildElement(name)) addLaw(*law, result);
     findMeshes(block, urdf, result);
     return result;
 }

@@ -52,7 +52,7 @@ Elasticity elasticityOf(Force& force)
         case BT_NEOHOOKEAN_FORCE:
         {
             const auto& f = static_cast<btDeformableNeoHookeanForce&>(force);
-            return {LameModuli::ofNeoHookean(f.m_mu, f.m_lambda), 0, f.m_mu > 0 ? f.m_mu_damp / double(f.m_mu) : 0};
+            return {{f.m_mu, f.m_lambda}, 0, f.m_mu > 0 ? f.m_mu_damp / double(f.m_mu) : 0};
         }
         case BT_COROTATED_FORCE:
         {

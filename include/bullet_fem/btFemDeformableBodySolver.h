@@ -14,10 +14,10 @@
 /// A body becomes FEM when it has tetrahedra and a material: from the btDeformableLinearElasticityForce,
 /// btDeformableCorotatedForce or btDeformableNeoHookeanForce that the world has for it, or by fem().setMaterial().
 /// Lame's coefficients mu and lambda become E = mu (3 lambda + 2 mu) / (lambda + mu) and nu = lambda / (2 (lambda +
-/// mu)), at most .49 and at least 0; those of a Neo-Hookean force are 3/4 of its mu, and its lambda less 5/8 of its mu
-/// (what its stress is at small strain, see LameModuli); linear elasticity's damping is Rayleigh's, Neo-Hookean damping
-/// is stiffness damping. A change of the forces' values is obeyed at the next step. What setMaterial() gave is kept
-/// until then. Masses stay the body's.
+/// mu)), at most .49 and at least 0; of a Neo-Hookean force, too, whose setYoungsModulus() means just that, though
+/// Bullet's formula is softer at small strain (3/4 of its mu and lambda - 5/8 mu) and stiffer when it is pressed.
+/// Linear elasticity's damping is Rayleigh's, Neo-Hookean damping is stiffness damping. A change of the forces' values
+/// is obeyed at the next step. What setMaterial() gave is kept until then. Masses stay the body's.
 ///
 /// A tetrahedral body without a material stays with Bullet's solver, or, if it lacks the links and scratch arrays that
 /// Bullet's solver needs (bodies of btFemHelpers do), is FEM with E = 1e6 kLST Pa, nu .3. One that cannot become FEM

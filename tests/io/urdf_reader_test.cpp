@@ -51,8 +51,8 @@ TEST_F(UrdfReader, takesEveryValueThatTheBlockGives)
     EXPECT_EQ(body.m_friction, 0.5);
     EXPECT_EQ(body.m_gravityFactor, -0.25);
     EXPECT_TRUE(body.m_elastic);
-    EXPECT_DOUBLE_EQ(body.m_moduli.m_mu, 135);
-    EXPECT_DOUBLE_EQ(body.m_moduli.m_lambda, 487.5);
+    EXPECT_DOUBLE_EQ(body.m_moduli.m_mu, 180);
+    EXPECT_DOUBLE_EQ(body.m_moduli.m_lambda, 600);
     EXPECT_DOUBLE_EQ(body.m_damping, 0.01);
     EXPECT_EQ(body.m_meshPath, m_folder.path("ball.vtk"));
     EXPECT_EQ(body.m_visualPath, "");
@@ -74,9 +74,9 @@ TEST_F(UrdfReader, addsTwoLaws)
     const UrdfDeformable body = read(kInertial +
                                      "<corotated mu='100' lambda='50'/>"
                                      "<neohookean mu='400' lambda='500' damping='0.04'/><visual filename='ball.vtk'/>");
-    EXPECT_DOUBLE_EQ(body.m_moduli.m_mu, 400);
-    EXPECT_DOUBLE_EQ(body.m_moduli.m_lambda, 300);
-    EXPECT_DOUBLE_EQ(body.m_damping, 0.03);  // that of 300 Pa of the 400 Pa
+    EXPECT_DOUBLE_EQ(body.m_moduli.m_mu, 500);
+    EXPECT_DOUBLE_EQ(body.m_moduli.m_lambda, 550);
+    EXPECT_DOUBLE_EQ(body.m_damping, 0.032);  // that of 400 Pa of the 500 Pa
 }
 
 TEST_F(UrdfReader, tellsTheMeshThatMovesFromTheOneThatIsDrawn)

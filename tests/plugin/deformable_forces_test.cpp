@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "bullet_fem/fem/material.h"
 #include "plugin/deformable_scene.h"
 
 namespace bullet_fem
@@ -53,42 +52,6 @@ TEST_P(ElasticForces, letABodyRestOnTheGround)
 INSTANTIATE_TEST_SUITE_P(Kinds, ElasticForces,
                          ::testing::Values(Elastic::linear, Elastic::corotated, Elastic::neoHookean),
                          [](const auto& kind) { return nameOf(kind.param); });
-
-double traceOf(const btMatrix3x3& m)
-{
-    return double(m[0][0]) + m[1][1] + m[2][2];
-}
-
-// Bullet's own function for the stress P of a deformation gradient F.
-btMatrix3x3 stressOf(btDeformableNeoHookeanForce& force, const btMatrix3x3& F)
-{
-    btSoftBody::TetraScratch scratch;
-    scratch.m_F = F;
-    scratch.m_trace = btScalar(traceOf(F.transpose() * F));
-    scratch.m_J = F.determinant();
-    scratch.m_cofF = F.adjoint().transpose();
-    btMatrix3x3 stress;
-    force.firstPiola(scratch, stress);
-    return stress;
-}
-
-TEST(NeoHookeanModuli, areThoseOfBulletsStressAtSmallStrain)
-{
-    btDeformableNeoHookeanForce force(180, 600);
-    const LameModuli moduli = LameModuli::ofNeoHookean(180, 600);
-    for (const btScalar sign : {btScalar(1), btScalar(-1)})
-    {
-        const btMatrix3x3 strain =
-            btMatrix3x3(3, 1, -2, 1, -1, btScalar(.5), -2, btScalar(.5), 1) * (sign * btScalar(1e-3));
-        const btMatrix3x3 stress = stressOf(force, btMatrix3x3::getIdentity() + strain);
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-            {
-                const double bulk = i == j ? moduli.m_lambda * traceOf(strain) : 0;
-                EXPECT_NEAR(stress[i][j], 2 * moduli.m_mu * strain[i][j] + bulk, 0.01);  // of 2.3 Pa: second order
-            }
-    }
-}
 
 TEST_F(DeformableWorldTest, changedModuliAreObeyed)
 {

@@ -48,9 +48,7 @@ inline std::unique_ptr<btDeformableLagrangianForce> makeForce(Elastic elastic, d
     const btScalar m = btScalar(mu), l = btScalar(lambda);
     if (elastic == Elastic::linear) return std::make_unique<btDeformableLinearElasticityForce>(m, l, 0, btScalar(0.01));
     if (elastic == Elastic::corotated) return std::make_unique<btDeformableCorotatedForce>(m, l);
-    // Whose parameters are others: those that give mu and lambda at small strain [Smith, de Goes, Kim 2018].
-    return std::make_unique<btDeformableNeoHookeanForce>(btScalar(4 * mu / 3), btScalar(lambda + 5 * mu / 6),
-                                                         btScalar(0.01));
+    return std::make_unique<btDeformableNeoHookeanForce>(m, l, btScalar(0.01));
 }
 
 /// Soft boxes and cloth as programs for Bullet's deformables have them.

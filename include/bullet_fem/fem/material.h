@@ -13,11 +13,6 @@ struct LameModuli
     double m_mu = 0;      ///< [Pa]
     double m_lambda = 0;  ///< [Pa]
 
-    /// Of the elasticity P = mu (1 - 1 / (|F|^2 + 1)) F + (lambda (J - 1) - 3/4 mu) cof(F), to first order about F = I:
-    /// 3/4 mu and lambda - 5/8 mu. This is the stable Neo-Hookean law [Smith, de Goes, Kim 2018] and
-    /// Bullet's btDeformableNeoHookeanForce, whose parameters are not Lame's.
-    static LameModuli ofNeoHookean(double mu, double lambda);
-
     LameModuli& operator+=(const LameModuli& b);
 
     /// E = mu (3 lambda + 2 mu) / (lambda + mu) [Pa]; a lambda below 0 counts as 0, which keeps mu.

@@ -18,7 +18,7 @@ struct UrdfDeformable
     double m_friction = 1;            ///< [-], >= 0
     double m_gravityFactor = 1;       ///< [-], finite
     bool m_elastic = false;           ///< `<corotated>` or `<neohookean>` is there; else there are no moduli
-    LameModuli m_moduli;              ///< [Pa], mu > 0: of small strain, both laws added as pybullet's forces do
+    LameModuli m_moduli;              ///< [Pa], mu > 0: of both laws added, as pybullet's forces do
     double m_damping = 0;             ///< of stiffness, Rayleigh's beta [s], >= 0
     std::string m_meshPath;           ///< file of tetrahedra: that of `<collision>`, or of `<visual>` without one
     std::string m_visualPath;         ///< file of the surface to draw; empty if it is the same
