@@ -265,6 +265,78 @@ TEST_F(SceneSchema, AgreesWithTheReaderOnEveryMemberThatIsAdded)
     EXPECT_GT(m_invalid, 1000);
 }
 
+// The scene as text, so that scenes can be compared: what has a default.
+std::string written(const SceneDescription& scene)
+{
+    json all = {scene.m_title,   scene.m_step,      scene.m_seconds,          scene.m_framesPerSecond,
+                scene.m_coupled, scene.m_tolerance, scene.m_contactTolerance, scene.m_threads};
+    const auto add = [&](const Vec3& x) { all.insert(all.end(), {x.x, x.y, x.z}); };
+    add(scene.m_gravity);
+    for (const SceneSoftBody& body : scene.m_softBodies)
+    {
+        const Material& m = body.m_material;
+        all.insert(all.end(), {m.m_youngModulus, m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping,
+                               body.m_mesh.m_cellSize, double(body.m_mesh.m_tets), body.m_mesh.m_scale, body.m_friction,
+                               double(body.m_selfContact)});
+        for (const Vec3& x : {body.m_pose.m_position, body.m_velocity, body.m_colour}) add(x);
+    }
+    for (const SceneRigidBody& body : scene.m_rigidBodies)
+    {
+        all.insert(all.end(), {body.m_mass, body.m_friction, body.m_restitution});
+        for (const Vec3& x : {body.m_pose.m_position, body.m_velocity, body.m_spin, body.m_colour}) add(x);
+    }
+    for (const SceneConstraint& constraint : scene.m_constraints)
+    {
+        all.insert(all.end(), {constraint.m_speed, constraint.m_torque});
+        add(constraint.m_axis);
+    }
+    for (const SceneForce& force : scene.m_forces) all.insert(all.end(), {force.m_from, force.m_to});
+    const ScenePictures& pictures = scene.m_pictures;
+    all.insert(all.end(), {pictures.m_width, pictures.m_height, int(pictures.m_stress), int(pictures.m_forces),
+                           int(pictures.m_wireframe)});
+    all.insert(all.end(), {pictures.m_hottest, std::round(1e4 * scene.m_camera.m_fieldOfView) / 1e4});
+    add(scene.m_camera.m_direction);
+    return all.dump();
+}
+
+// A member that is left out is as one with the schema's default, and not as it was.
+TEST_F(SceneSchema, HasTheReadersDefaults)
+{
+    int count = 0;
+    for (const SchemaPlace& place : kObjects)
+        for (const auto& [name, property] : m_document.at(json::json_pointer(place.m_inSchema))["properties"].items())
+        {
+            json scene = sample(place.m_full), &object = scene[json::json_pointer(place.m_at)];
+            object.erase("like");                                             // whose values are taken otherwise
+            const bool isSeen = std::string(place.m_at) != "/materials/gum";  // its user has values of its own
+            if (!property.contains("default") || !object.contains(name) || !isSeen) continue;
+            const std::string before = written(parseScene(scene.dump(), m_folder.path("")));
+            object.erase(name);
+            const std::string without = written(parseScene(scene.dump(), m_folder.path("")));
+            object[name] = property["default"];
+            EXPECT_EQ(written(parseScene(scene.dump(), m_folder.path(""))), without) << place.m_at << '/' << name;
+            EXPECT_NE(without, before) << place.m_at << '/' << name;
+            ++count;
+        }
+    EXPECT_GE(count, 40);
+}
+
+TEST_F(SceneSchema, AndItsDocumentNameTheSameMembers)
+{
+    std::ifstream file(BULLETFEM_SCENES_DOCUMENT);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    for (const SchemaPlace& place : kObjects)
+        for (const std::string& name : namesOf(m_document.at(json::json_pointer(place.m_inSchema))["properties"]))
+            EXPECT_TRUE(text.find('`' + name + '`') != std::string::npos ||
+                        text.find('"' + name + '"') != std::string::npos)
+                << place.m_at << '/' << name;
+    const std::string begin = "```json\n";
+    const std::size_t at = text.find(begin) + begin.size();
+    const json example = json::parse(text.substr(at, text.find("```", at) - at));
+    EXPECT_EQ(refusal(example), "") << "the document's example";
+    EXPECT_TRUE(isValid(example));
+}
+
 class DemoScene : public testing::TestWithParam<const char*>
 {
 };
