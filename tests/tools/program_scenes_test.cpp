@@ -22,10 +22,10 @@ using testing::HasSubstr;
 class ProgramScene : public testing::TestWithParam<const char*>
 {
 protected:
-    ProgramRun simulate(const std::string& options) const
+    ProgramRun simulate(const std::string& options, const std::string& seconds = "0.2") const
     {
-        return bulletfem("simulate '" BULLETFEM_SCENES "/" + std::string(GetParam()) +
-                         ".json' --seconds 0.2 --json -o '" + m_folder.path("run") + "' " + options);
+        return bulletfem("simulate '" BULLETFEM_SCENES "/" + std::string(GetParam()) + ".json' --json --seconds " +
+                         seconds + " -o '" + m_folder.path("run") + "' " + options);
     }
     std::string file(const std::string& name) const { return m_folder.read("run/" + name); }
 
@@ -65,6 +65,15 @@ TEST_P(ProgramScene, GivesPictures)
         EXPECT_GT(file(name).size(), 20000u) << "a picture of one colour has less";
     }
     EXPECT_TRUE(file("first.png") != file("last.png"));
+}
+
+TEST_P(ProgramScene, AStripOfTwoFramesEndsWithTheLast)
+{
+    const ProgramRun run = simulate("--png", "0.01");
+    if (run.m_output.find("install") != std::string::npos) GTEST_SKIP() << run.m_output;
+    ASSERT_EQ(run.m_code, 0) << run.m_output;
+    EXPECT_EQ(json::parse(run.m_output)["frames"], 2);
+    EXPECT_TRUE(file("first.png") != file("last.png")) << "their captions differ, at least";
 }
 
 TEST_P(ProgramScene, GivesAFilm)

@@ -42,6 +42,11 @@ struct ShapeVolume
     double m_least, m_most;  // [m3]
 };
 
+void PrintTo(const ShapeVolume& shape, std::ostream* out)
+{
+    *out << shape.m_shape;
+}
+
 class RigidSurface : public testing::TestWithParam<ShapeVolume>
 {
 };
@@ -62,6 +67,9 @@ TEST_P(RigidSurface, IsClosedOutwardAndFollowsTheBody)
     const std::vector<Triangle> triangles = frames.surfaces()[0].m_triangles;
     EXPECT_TRUE(isClosed(triangles));
     const std::vector<Vec3> before = frames.surfaces()[0].m_positions;
+    for (const Triangle& t : triangles)
+        EXPECT_GT(norm(cross(before[t[1]] - before[t[0]], before[t[2]] - before[t[0]])), 1e-9)
+            << "a triangle of no area";
     const double volume = signedVolume({before, triangles});
     EXPECT_GE(volume, GetParam().m_least * (1 - 1e-5));
     EXPECT_LE(volume, GetParam().m_most * (1 + 1e-5));
