@@ -88,10 +88,14 @@ std::vector<std::int64_t> readIntegers(VtkFile& file, NumberType type, std::uint
 void readHeader(VtkFile& file)
 {
     MeshScanner& scanner = file.scanner;
-    constexpr std::string_view magic = "# vtk DataFile Version ";
-    const std::string_view first = scanner.restOfLine();
-    if (first.substr(0, magic.size()) != magic) scanner.fail("a VTK file begins with '# vtk DataFile Version'");
-    std::string_view rest = first.substr(magic.size());
+    constexpr std::string_view magic = "vtk DataFile Version ";
+    std::string_view rest = scanner.restOfLine();
+    const bool marked = rest.substr(0, 1) == "#";
+    rest.remove_prefix(marked ? 1 : 0);
+    if (rest.substr(0, 1) == " ") rest.remove_prefix(1);  // files of Bullet's own come without the blank
+    if (!marked || rest.substr(0, magic.size()) != magic)
+        scanner.fail("a VTK file begins with '# vtk DataFile Version'");
+    rest.remove_prefix(magic.size());
     const std::string version = printable(takeWord(rest));
     file.major = scanner.parse<int>(std::string_view(version).substr(0, version.find('.')), "a version");
     if (file.major < 1 || file.major > 5) scanner.fail("the version is " + version + "; it must be in [1.0, 5.1]");

@@ -95,6 +95,16 @@ TEST(TetMeshFile, TellsWhatTheFileCallsItsNodes)
     EXPECT_EQ(readText(vtuText(), TetMeshFormat::vtu).m_unusedNodes, 1u);
 }
 
+// As some of the files that come with Bullet are.
+TEST(TetMeshFile, TakesVtkFilesWithoutTheBlankOfTheirFirstLine)
+{
+    const std::string text =
+        "#vtk DataFile Version 2.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+        "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+    EXPECT_EQ(readTetMesh(text.data(), text.size(), TetMeshFormat::vtk).mesh().tetCount(), 1);
+    EXPECT_THROW(readTetMesh(text.data() + 1, text.size() - 1, TetMeshFormat::vtk), std::runtime_error);
+}
+
 TEST(TetMeshFile, ScaleMultipliesPositions)
 {
     const TetMeshFile mesh = readText(meditText(2), TetMeshFormat::medit, 0.001);
