@@ -10,8 +10,9 @@ source "$root/cmake/mesh_package.sh"
 build=$root/build/release
 meshes=data/meshes # in the package, and in the folder where the tests look
 
-# clang is for the fuzzers of the file readers. Gmsh, if it is installed, adds tests of the files that it writes.
-install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev libvalijson-dev \
+# clang is for the fuzzers of the file readers. Gmsh, if it is installed, adds tests of the files that it writes, and
+# libvalijson-dev one that holds the schema of scenes against their reader; both bring more than a hundred packages.
+install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev \
     xvfb xauth clang libclang-rt-14-dev
 
 if [ ! -d "$build/meshes/$meshes" ]; then
