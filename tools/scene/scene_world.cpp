@@ -192,7 +192,6 @@ void SceneWorld::addSoft(const SceneSoftBody& from)
     std::unique_ptr<btSoftBody> body = makeSoft(from);
     if (from.m_mesh.m_kind != SceneMesh::Kind::baked) m_fem.setMaterial(body.get(), materialOf(from.m_material));
     body->transform(transformOf(from.m_pose));
-    btFemHelpers::updateEmbeddedSurface(body.get());
     body->m_cfg.kDF = btScalar(from.m_friction);
     if (from.m_selfContact) body->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
     for (const SceneBox& box : from.m_pins)
