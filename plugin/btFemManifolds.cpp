@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "BulletCollision/CollisionDispatch/btCollisionConfiguration.h"
 #include "BulletCollision/CollisionDispatch/btCollisionDispatcher.h"
+#include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemCoupling.h"
 #include "plugin/btFemPair.h"
@@ -35,12 +35,7 @@ public:
             void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(btFemPairAlgorithm));
             return new (memory) btFemPairAlgorithm(info, {first, second}, manifolds);
         }
-        btCollisionConfiguration* bullet =
-            static_cast<btCollisionDispatcher*>(info.m_dispatcher1)->getCollisionConfiguration();
-        return bullet
-            ->getCollisionAlgorithmCreateFunc(a->getCollisionShape()->getShapeType(),
-                                              b->getCollisionShape()->getShapeType())
-            ->CreateCollisionAlgorithm(info, a, b);
+        return bullet_fem::createBulletsAlgorithm(info, a, b);
     }
 };
 

@@ -52,12 +52,7 @@ public:
         if (soft && isMarked(*soft))
             return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(FemRigidAlgorithm)))
                 FemRigidAlgorithm(info, a, b, m_swapped);
-        btCollisionConfiguration* bullet =
-            static_cast<btCollisionDispatcher*>(info.m_dispatcher1)->getCollisionConfiguration();
-        return bullet
-            ->getCollisionAlgorithmCreateFunc(a->getCollisionShape()->getShapeType(),
-                                              b->getCollisionShape()->getShapeType())
-            ->CreateCollisionAlgorithm(info, a, b);
+        return createBulletsAlgorithm(info, a, b);
     }
 };
 
@@ -76,6 +71,15 @@ void removeContactsWith(const btCollisionObject* object, btAlignedObjectArray<Co
 }
 
 }  // namespace
+
+btCollisionAlgorithm* createBulletsAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                             const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b)
+{
+    btCollisionConfiguration* bullet =
+        static_cast<btCollisionDispatcher*>(info.m_dispatcher1)->getCollisionConfiguration();
+    const int first = a->getCollisionShape()->getShapeType(), second = b->getCollisionShape()->getShapeType();
+    return bullet->getCollisionAlgorithmCreateFunc(first, second)->CreateCollisionAlgorithm(info, a, b);
+}
 
 void removeContactsWith(const btCollisionObject* object, btSoftBody& body)
 {

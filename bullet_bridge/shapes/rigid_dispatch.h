@@ -2,7 +2,10 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+class btCollisionAlgorithm;
+struct btCollisionAlgorithmConstructionInfo;
 class btCollisionObject;
+struct btCollisionObjectWrapper;
 class btDispatcher;
 class btSoftBody;
 
@@ -15,6 +18,10 @@ namespace bullet_fem
 /// ends, because one of the two left the world or they parted, removeContactsWith is called. Bodies moved by Bullet's
 /// springs keep Bullet's algorithms. Does nothing if `dispatcher` is null or no btCollisionDispatcher.
 void dispatchRigidShapes(btDispatcher* dispatcher);
+
+/// What the dispatcher's configuration has for a pair: for create functions that took its place, and are not meant.
+btCollisionAlgorithm* createBulletsAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                             const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b);
 
 /// Takes the contacts with an object out of m_rcontacts and m_faceRigidContacts: it may be deleted before anybody looks
 /// there again. Leaves it alone.
