@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/fem/generators.h"
 #include "fem/rotation.h"
+#include "plugin/tetgen_text.h"
 
 namespace bullet_fem
 {
@@ -108,22 +108,8 @@ SurfaceMesh lumpySurface()
 
 btSoftBody* createFromTetGenText(btSoftBodyWorldInfo& info, const TetMesh& mesh)
 {
-    std::ostringstream nodes, elements;
-    nodes.precision(17);
-    nodes << mesh.nodeCount() << " 3 0 0\n";
-    for (int i = 0; i < mesh.nodeCount(); ++i)
-    {
-        const Vec3& X = mesh.restPositions()[i];
-        nodes << i << " " << X.x << " " << X.y << " " << X.z << "\n";
-    }
-    elements << mesh.tetCount() << " 4 0\n";
-    for (int e = 0; e < mesh.tetCount(); ++e)
-    {
-        elements << e;
-        for (int i : mesh.tets()[e]) elements << " " << i;
-        elements << "\n";
-    }
-    return btSoftBodyHelpers::CreateFromTetGenData(info, elements.str().c_str(), nullptr, nodes.str().c_str(), false,
+    const TetGenText text(mesh);
+    return btSoftBodyHelpers::CreateFromTetGenData(info, text.m_elements.c_str(), nullptr, text.m_nodes.c_str(), false,
                                                    true, true);
 }
 

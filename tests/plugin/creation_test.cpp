@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <functional>
-#include <sstream>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_bridge/bullet_vectors.h"
@@ -14,6 +13,7 @@
 #include "plugin/each_world.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
+#include "plugin/tetgen_text.h"
 
 namespace bullet_fem
 {
@@ -29,22 +29,8 @@ TetMesh barMesh()
 
 btSoftBody* fromTetGen(SoftWorld& world, const TetMesh& mesh, bool links)
 {
-    std::ostringstream nodes, elements;
-    nodes.precision(9);
-    nodes << mesh.nodeCount() << " 3 0 0\n";
-    for (int i = 0; i < mesh.nodeCount(); ++i)
-    {
-        const Vec3& X = mesh.restPositions()[i];
-        nodes << i << " " << X.x << " " << X.y << " " << X.z << "\n";
-    }
-    elements << mesh.tetCount() << " 4 0\n";
-    for (int e = 0; e < mesh.tetCount(); ++e)
-    {
-        elements << e;
-        for (int i : mesh.tets()[e]) elements << " " << i;
-        elements << "\n";
-    }
-    return btSoftBodyHelpers::CreateFromTetGenData(world.info(), elements.str().c_str(), nullptr, nodes.str().c_str(),
+    const TetGenText text(mesh);
+    return btSoftBodyHelpers::CreateFromTetGenData(world.info(), text.m_elements.c_str(), nullptr, text.m_nodes.c_str(),
                                                    false, links, false);
 }
 
