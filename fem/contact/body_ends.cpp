@@ -91,63 +91,19 @@ void BodyEnds::assemble(int denseLimit)
 void BodyEnds::formDense()
 {
     m_W.resize(size());
-    m_touched.clear();
+    m_points.clear(m_nodeIn.size());
     for (const End& end : m_ends)
-        if (!isGroup(end)) m_touched.insert(m_touched.end(), end.m_point.m_nodes.begin(), end.m_point.m_nodes.end());
-    std::sort(m_touched.begin(), m_touched.end());
-    m_touched.erase(std::unique(m_touched.begin(), m_touched.end()), m_touched.end());
-    m_body.m_compliance->request(m_touched);
-    m_placeOfNode.resize(m_nodeIn.size());
-    for (std::size_t t = 0; t < m_touched.size(); ++t) m_placeOfNode[m_touched[t]] = static_cast<int>(t);
-    m_column.resize(m_touched.size());
-    for (int e = 0; e < size(); ++e)
-        if (isGroup(m_ends[e]))
-            formGroupColumns(e);
+        if (isGroup(end))
+            m_points.addEmpty();
         else
-            formPointColumns(e);
-    // What single precision and the warp left asymmetric would feed energy to the sweeps.
-    for (std::size_t i = 0; i < m_W.order(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-        {
-            const bool group = isGroup(m_ends[j / 3]);  // its column knows the points; theirs do not know it
-            m_W(i, j) = m_W(j, i) = group ? m_W(i, j) : m_W(j, i);
-        }
+            m_points.add(end.m_point);
+    m_points.form(m_body, m_scale, m_W);
+    for (int e = 0; e < size(); ++e)
+        if (isGroup(m_ends[e])) formGroup(e);
 }
 
-// Columns of a point: R_t (sum_b w_b (A0^-1)_tb R_b^T) at the touched nodes t, read at the other points.
-void BodyEnds::formPointColumns(int e)
-{
-    const WarpedPreconditioner P(*m_body.m_body);
-    const RestFactor& factor = m_body.m_body->m_model->factor();
-    const std::vector<unsigned char>& fixed = m_body.m_body->m_state.m_fixed;
-    const SurfacePoint& source = m_ends[e].m_point;
-    for (std::size_t t = 0; t < m_touched.size(); ++t)
-    {
-        const int i = m_touched[t];
-        Mat3 sum, own;  // own: of nodes that are not in the factor
-        for (int b = 0; b < 3; ++b)
-        {
-            const int j = source.m_nodes[b];
-            if (source.m_weights[b] == 0 || fixed[i] || fixed[j]) continue;
-            if (factor.position(i) >= 0 && factor.position(j) >= 0)
-                sum += source.m_weights[b] * timesTranspose(m_body.m_compliance->block(i, j), P.rotation(j));
-            else if (i == j)
-                own += Mat3::diagonal(source.m_weights[b] / factor.diagonal(i));
-        }
-        m_column[t] = m_scale * (P.rotation(i) * sum + own);
-    }
-    for (int f = 0; f < size(); ++f)
-    {
-        Mat3 w;
-        if (!isGroup(m_ends[f]))
-            for (int a = 0; a < 3; ++a)
-                if (m_ends[f].m_point.m_weights[a] != 0)
-                    w += m_ends[f].m_point.m_weights[a] * m_column[m_placeOfNode[m_ends[f].m_point.m_nodes[a]]];
-        m_W.setBlock(f, e, w);
-    }
-}
-
-void BodyEnds::formGroupColumns(int e)
+// Columns of a group of nodes, and its rows: those that it shares with an earlier group stay.
+void BodyEnds::formGroup(int e)
 {
     const WarpedCompliance P(*m_body.m_body);
     for (int c = 0; c < 3; ++c)
@@ -159,8 +115,10 @@ void BodyEnds::formGroupColumns(int e)
         P.apply(m_nodeIn, m_nodeOut);
         for (int f = 0; f < size(); ++f)
         {
+            if (f < e && isGroup(m_ends[f])) continue;
             const Vec3 w = m_scale * read(m_ends[f], m_nodeOut);
-            for (int i = 0; i < 3; ++i) m_W(3 * f + i, 3 * e + c) = static_cast<float>(w[i]);
+            for (int i = 0; i < 3; ++i)
+                if (f != e || i >= c) m_W(3 * f + i, 3 * e + c) = m_W(3 * e + c, 3 * f + i) = static_cast<float>(w[i]);
         }
     }
 }

@@ -7,6 +7,7 @@
 #include "bullet_fem/fem/contact_solver.h"
 #include "bullet_fem/fem/stepping.h"
 #include "fem/contact/compliance_cache.h"
+#include "fem/contact/point_compliance.h"
 #include "fem/contact/working_set.h"
 
 namespace bullet_fem
@@ -93,8 +94,7 @@ private:
     Vec3 read(const End& end, const std::vector<Vec3>& nodeValues) const;
     void scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& nodeImpulses) const;
     void formDense();
-    void formPointColumns(int e);
-    void formGroupColumns(int e);
+    void formGroup(int e);
     void estimateDiagonal();
     bool gatherBeyond(const std::vector<Vec3>& known);
     void learn(double trueWork, double predictedWork);
@@ -108,10 +108,8 @@ private:
     std::vector<Vec3> m_seen;      // per end, in m_velocity
     std::vector<Vec3> m_before;    // per end: velocity before the impulses of this round
     DenseCompliance m_W;           // of all ends
+    PointCompliance m_points;      // forms it
     WorkingSet m_working;
-    std::vector<int> m_touched;  // nodes of the points
-    std::vector<int> m_placeOfNode;
-    std::vector<Mat3> m_column;             // response of the touched nodes
     std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes
     Mat3 m_meanDiagonal;                    // not dense: estimate of W_ee, without the learnt scale
     double m_scale = 1;                     // learnt

@@ -34,6 +34,11 @@ public:
     /// when the factor was built; the inverse diagonal where that node is free now is the caller's business.
     Mat3 block(int i, int j) const;
 
+    /// What block() reads, for kernels: the blocks (A0^-1)_ij of all surface nodes i, nine values each, row by row;
+    /// that of i begins at offset(i).
+    const float* column(int j) const { return m_columns[m_slotOfNode[j]].get(); }
+    int offset(int i) const { return 9 * m_surfaceIndex[i]; }
+
     /// Columns solved so far.
     long solvedColumns() const { return m_solvedColumns; }
 

@@ -31,6 +31,9 @@ public:
     /// The velocity of row i for an impulse of one along column j.
     float& operator()(std::size_t i, std::size_t j) { return m_values[j * m_order + i]; }
 
+    /// All rows of column j.
+    float* column(std::size_t j) { return &m_values[j * m_order]; }
+
     /// W_ef: velocity of end e for impulses on f.
     Mat3 block(int e, int f) const
     {
