@@ -77,10 +77,11 @@ void btFemContactGroup::collect(const Scope& scope)
     m_rigid.connectLinks(m_problem.m_responses);
     m_problem.m_obstacles.assign(m_rigid.obstacles().begin(), m_rigid.obstacles().end());
     m_settings.m_step.m_step = m_step;
-    m_settings.m_step.m_tolerance = m_info.m_tolerance;
+    const bool joints = !m_problem.m_joints.empty();
+    m_settings.m_step.m_tolerance =
+        joints ? m_info.m_tolerance : std::max(m_info.m_tolerance, m_info.m_contactTolerance);
     m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
     m_settings.m_rounds = m_info.m_contactRounds;
-    const bool joints = !m_problem.m_joints.empty();
     m_settings.m_sweeps = joints ? std::min(m_info.m_contactSweeps, kSweepsWithJoints) : m_info.m_contactSweeps;
     m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the rounds, too
     m_settings.m_tolerance = m_info.m_contactTolerance;

@@ -56,7 +56,7 @@ struct btFemSolverInfo
     /// Errors of velocity at which contact ends, as a share of what gravity gives a body in a step, or of what contact
     /// changes at first if that is more [-], in [1e-7, 0.1]. 3e-5 keeps tall stacks still; at 1e-2 crowds cost
     /// half or less, but stacks of soft bodies may fall over without btFemConstraintSolver. Joints are solved more
-    /// closely.
+    /// closely; without any, contact's own linear solves are no closer than this.
     btScalar m_contactTolerance = btScalar(3e-5);
     int m_maxContacts = 2000;                  ///< contact points a body, in [8, 20000]
     btScalar m_erp = btScalar(0.2);            ///< share of a penetration taken back a step [-], in [0, 1]
