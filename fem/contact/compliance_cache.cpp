@@ -12,8 +12,6 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kNodesAtOnce = kPanelLanes / 3;  // three directions each; the last lane is idle
-
 // Of columns on the low-memory path, see LaneGradients. At 1e-2 stiff bodies (1 GPa) bounced higher than they fell.
 constexpr double kColumnTolerance = 1e-3;
 
@@ -107,48 +105,58 @@ void ComplianceCache::request(const std::vector<int>& nodes)
     const RestFactor& factor = m_model->factor();
     std::sort(m_newNodes.begin(), m_newNodes.end(),
               [&factor](int a, int b) { return std::pair(factor.position(a), a) < std::pair(factor.position(b), b); });
-    for (std::size_t first = 0; first < m_newNodes.size(); first += kNodesAtOnce)
-        solveColumns(&m_newNodes[first], std::min<int>(kNodesAtOnce, static_cast<int>(m_newNodes.size() - first)));
+    const std::size_t columns = 3 * m_newNodes.size();
+    for (std::size_t first = 0; first < columns; first += kPanelLanes)
+        solveColumns(first, std::min<std::size_t>(first + kPanelLanes, columns));
 }
 
-// Scaled by the diagonal, so that single precision sees numbers of order one whatever the body weighs.
-void ComplianceCache::solveColumns(const int* nodes, int count)
+// Three columns a new node, one a lane. Scaled by the diagonal, so that single precision sees numbers of order one
+// whatever the body weighs.
+void ComplianceCache::solveColumns(std::size_t first, std::size_t end)
 {
     const RestFactor& factor = m_model->factor();
     std::fill(m_marked.begin(), m_marked.end(), static_cast<unsigned char>(0));
     std::fill(m_rightSide.get(), m_rightSide.get() + static_cast<std::size_t>(factor.lower().size()) * kPanelLanes,
               0.f);
-    for (int k = 0; k < count; ++k)
+    for (std::size_t column = first; column < end; ++column)
     {
-        const int position = factor.position(nodes[k]);
+        const int node = m_newNodes[column / 3], position = factor.position(node);
         if (position < 0) continue;
-        markNode(nodes[k]);
-        for (int c = 0; c < 3; ++c)
-            m_rightSide[(3 * static_cast<std::size_t>(position) + c) * kPanelLanes + 3 * k + c] =
-                static_cast<float>(factor.diagonal(nodes[k]));
+        markNode(node);
+        m_rightSide[(3 * static_cast<std::size_t>(position) + column % 3) * kPanelLanes + column - first] =
+            static_cast<float>(factor.diagonal(node));
     }
     listMarked(m_marked, m_reach);
     if (m_gradients)
         m_gradients->solve(m_reach, kColumnTolerance, m_rightSide.get(), m_scratch.get());
     else
         factor.lower().solveLanes(m_reach, m_surfaceSupernodes, m_rightSide.get(), m_scratch.get());
-    for (int k = 0; k < count; ++k) copyColumn(nodes[k], 3 * k, m_columns[m_slotOfNode[nodes[k]]].get());
+    copyColumns(first, end);
 }
 
-void ComplianceCache::copyColumn(int node, int firstLane, float* column) const
+void ComplianceCache::copyColumns(std::size_t first, std::size_t end)
 {
     const RestFactor& factor = m_model->factor();
     const std::vector<int>& surface = m_model->mesh().surfaceNodes();
-    const float scale = factor.position(node) < 0 ? 0.f : 1 / static_cast<float>(factor.diagonal(node));
+    float* out[kPanelLanes];
+    float scale[kPanelLanes];
+    const std::size_t count = end - first;
+    for (std::size_t lane = 0; lane < count; ++lane)
+    {
+        const int node = m_newNodes[(first + lane) / 3];
+        out[lane] = m_columns[m_slotOfNode[node]].get() + (first + lane) % 3;
+        scale[lane] = factor.position(node) < 0 ? 0.f : 1 / static_cast<float>(factor.diagonal(node));
+    }
     for (std::size_t k = 0; k < surface.size(); ++k)
     {
-        const int row = factor.position(surface[k]);
-        for (int i = 0; i < 3; ++i)
-            for (int c = 0; c < 3; ++c)
-                column[9 * k + 3 * i + c] =
-                    row < 0
-                        ? 0.f
-                        : scale * m_rightSide[(3 * static_cast<std::size_t>(row) + i) * kPanelLanes + firstLane + c];
+        const int position = factor.position(surface[k]);
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            const float* row =
+                position < 0 ? nullptr : &m_rightSide[(3 * static_cast<std::size_t>(position) + i) * kPanelLanes];
+            for (std::size_t lane = 0; lane < count; ++lane)
+                out[lane][9 * k + 3 * i] = row ? scale[lane] * row[lane] : 0.f;
+        }
     }
 }
 

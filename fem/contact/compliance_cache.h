@@ -46,8 +46,8 @@ private:
     void markNode(int node);
     void makeRoom(std::size_t columns);
     int claimSlot();
-    void solveColumns(const int* nodes, int count);
-    void copyColumn(int node, int firstLane, float* column) const;
+    void solveColumns(std::size_t first, std::size_t end);
+    void copyColumns(std::size_t first, std::size_t end);
 
     std::shared_ptr<const BodyModel> m_model;
     std::size_t m_budget;             // [B]

@@ -131,9 +131,9 @@ void BackwardIsotropic(const Panel& panel, float* y, float* scratch)
     forEachChunk<1>(panel, IsotropicMultiplyTransposed{scratch, own, panel.blocks()});
 }
 
-void ForwardIsotropicLanes(const Panel& panel, float* y, float* scratch)
+void ForwardIsotropicLanes(const Panel& panel, float* y, float*)
 {
-    forwardLanes<1>(panel, y, scratch);
+    forwardLanes<1>(panel, y);
 }
 
 void BackwardIsotropicLanes(const Panel& panel, float* y, float* scratch)

@@ -98,9 +98,9 @@ void BackwardPanel(const Panel& panel, float* y, float* scratch)
     forEachChunk<3>(panel, MultiplyTransposed{scratch, own, panel.blocks()});
 }
 
-void ForwardPanelLanes(const Panel& panel, float* y, float* scratch)
+void ForwardPanelLanes(const Panel& panel, float* y, float*)
 {
-    forwardLanes<3>(panel, y, scratch);
+    forwardLanes<3>(panel, y);
 }
 
 void BackwardPanelLanes(const Panel& panel, float* y, float* scratch)

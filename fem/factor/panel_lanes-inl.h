@@ -28,8 +28,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, kPanelLanes>;
 using V = hn::Vec<D>;
 constexpr int kN = static_cast<int>(hn::MaxLanes(D()));
-constexpr int kRows = HWY_CAP_GE512 ? 8 : 4;  // of a batch that fit into the registers; divides kPanelLanes
-constexpr int kNodeLanes = 3 * kPanelLanes;   // of a node in a batch
+constexpr int kNodeLanes = 3 * kPanelLanes;  // of a node in a batch
 
 /// Calls run for the last chunk, of `width` columns: less than a whole one.
 template <int Width, int Unit, class Run>
@@ -57,52 +56,57 @@ HWY_INLINE void forEachChunk(const Panel& panel, const Run& run)
     runLastChunk<kWidth - RowsOfNode, RowsOfNode>(panel.m_columns - c, c, values, run);
 }
 
-/// out += (rows of M) x: kRows rows at a time.
+/// Entry (r, 0) of a chunk of C columns; those of its row are kPanelLanes apart.
+template <int C>
+HWY_INLINE const float* entriesOfRow(const float* values, int r)
+{
+    return values + static_cast<std::size_t>(r / kPanelLanes) * C * kPanelLanes + r % kPanelLanes;
+}
+
+/// y_below -= M x, with the x of a chunk in registers.
 template <int RowsOfNode>
-struct MultiplyLanes
+struct SubtractLanes
 {
     static constexpr int kLanes = kNodeLanes / RowsOfNode;  // of a row
+    const Panel& m_panel;
     const float* m_x;
-    float* m_out;
-    int m_rows;
+    float* m_y;
 
     template <int C>
     HWY_INLINE void operator()(std::integral_constant<int, C>, int firstColumn, const float* values) const
     {
         const D d;
-        const float* x = m_x + static_cast<std::size_t>(firstColumn) * kLanes;
-        for (int r = 0; r < m_rows; r += kRows)
+        for (int h = 0; h < kLanes; h += kN)
         {
-            const float* entries = values + (r / kPanelLanes) * C * kPanelLanes + r % kPanelLanes;
-            for (int h = 0; h < kLanes; h += kN)
+            V x[C];
+            HWY_UNROLL(12)
+            for (int c = 0; c < C; ++c) x[c] = hn::Load(d, m_x + (firstColumn + c) * kLanes + h);
+            for (int r = 0; r < m_panel.m_rowsBelow; r += RowsOfNode)
             {
-                float* out = m_out + r * kLanes + h;
-                V sum[kRows];
-                HWY_UNROLL(8)
-                for (int i = 0; i < kRows; ++i) sum[i] = hn::Load(d, out + i * kLanes);
-                HWY_UNROLL(12)
-                for (int c = 0; c < C; ++c)
+                float* y = m_y + static_cast<std::size_t>(m_panel.m_row[r / RowsOfNode]) * kNodeLanes + h;
+                HWY_UNROLL(3)
+                for (int i = 0; i < RowsOfNode; ++i)
                 {
-                    const V xc = hn::Load(d, x + c * kLanes + h);
-                    HWY_UNROLL(8)
-                    for (int i = 0; i < kRows; ++i)
-                        sum[i] = hn::MulAdd(hn::Set(d, entries[c * kPanelLanes + i]), xc, sum[i]);
+                    const float* entries = entriesOfRow<C>(values, r + i);
+                    V rest = hn::Load(d, y + i * kLanes);
+                    HWY_UNROLL(12)
+                    for (int c = 0; c < C; ++c) rest = hn::NegMulAdd(hn::Set(d, entries[c * kPanelLanes]), x[c], rest);
+                    hn::Store(rest, d, y + i * kLanes);
                 }
-                HWY_UNROLL(8)
-                for (int i = 0; i < kRows; ++i) hn::Store(sum[i], d, out + i * kLanes);
             }
         }
     }
 };
 
-/// out_c = (column c of the panel) . rows.
+/// out_c = (column c of S) . own - (column c of M) . y_below, with the sums of a chunk in registers.
 template <int RowsOfNode>
 struct MultiplyTransposedLanes
 {
     static constexpr int kLanes = kNodeLanes / RowsOfNode;
-    const float* m_rows;
+    const Panel& m_panel;
+    const float* m_y;
+    const float* m_own;
     float* m_out;
-    int m_rowCount;
 
     template <int C>
     HWY_INLINE void operator()(std::integral_constant<int, C>, int firstColumn, const float* values) const
@@ -113,10 +117,23 @@ struct MultiplyTransposedLanes
             V sum[C];
             HWY_UNROLL(12)
             for (int c = 0; c < C; ++c) sum[c] = hn::Zero(d);
-            for (int r = 0; r < m_rowCount; ++r)
+            for (int r = 0; r < m_panel.m_rowsBelow; r += RowsOfNode)
             {
-                const float* entries = values + (r / kPanelLanes) * C * kPanelLanes + r % kPanelLanes;
-                const V row = hn::Load(d, m_rows + r * kLanes + h);
+                const float* y = m_y + static_cast<std::size_t>(m_panel.m_row[r / RowsOfNode]) * kNodeLanes + h;
+                HWY_UNROLL(3)
+                for (int i = 0; i < RowsOfNode; ++i)
+                {
+                    const float* entries = entriesOfRow<C>(values, r + i);
+                    const V row = hn::Load(d, y + i * kLanes);
+                    HWY_UNROLL(12)
+                    for (int c = 0; c < C; ++c)
+                        sum[c] = hn::NegMulAdd(hn::Set(d, entries[c * kPanelLanes]), row, sum[c]);
+                }
+            }
+            for (int r = 0; r < m_panel.m_columns; ++r)
+            {
+                const float* entries = entriesOfRow<C>(values, m_panel.m_rowsBelow + r);
+                const V row = hn::Load(d, m_own + r * kLanes + h);
                 HWY_UNROLL(12)
                 for (int c = 0; c < C; ++c) sum[c] = hn::MulAdd(hn::Set(d, entries[c * kPanelLanes]), row, sum[c]);
             }
@@ -127,37 +144,18 @@ struct MultiplyTransposedLanes
 };
 
 template <int RowsOfNode>
-HWY_INLINE void forwardLanes(const Panel& panel, float* y, float* scratch)
+HWY_INLINE void forwardLanes(const Panel& panel, float* y)
 {
-    const D d;
-    constexpr int kLanes = kNodeLanes / RowsOfNode;
-    const int rows = (panel.m_rowsBelow + kRows - 1) / kRows * kRows;
-    for (int i = 0; i < rows * kLanes; i += kN) hn::Store(hn::Zero(d), d, scratch + i);
     const float* own = y + static_cast<std::size_t>(panel.m_firstNode) * kNodeLanes;
-    forEachChunk<RowsOfNode>(panel, MultiplyLanes<RowsOfNode>{own, scratch, rows});
-    for (int k = 0; k < panel.m_rowsBelow / RowsOfNode; ++k)
-    {
-        float* yk = y + static_cast<std::size_t>(panel.m_row[k]) * kNodeLanes;
-        for (int i = 0; i < kNodeLanes; i += kN)
-            hn::Store(hn::Sub(hn::Load(d, yk + i), hn::Load(d, scratch + k * kNodeLanes + i)), d, yk + i);
-    }
+    forEachChunk<RowsOfNode>(panel, SubtractLanes<RowsOfNode>{panel, own, y});
 }
 
 template <int RowsOfNode>
 HWY_INLINE void backwardLanes(const Panel& panel, float* y, float* scratch)
 {
-    const D d;
-    constexpr int kLanes = kNodeLanes / RowsOfNode;
     float* own = y + static_cast<std::size_t>(panel.m_firstNode) * kNodeLanes;
-    for (int k = 0; k < panel.m_rowsBelow / RowsOfNode; ++k)
-    {
-        const float* yk = y + static_cast<std::size_t>(panel.m_row[k]) * kNodeLanes;
-        for (int i = 0; i < kNodeLanes; i += kN)
-            hn::Store(hn::Neg(hn::Load(d, yk + i)), d, scratch + k * kNodeLanes + i);
-    }
-    std::copy(own, own + panel.m_columns * kLanes, scratch + panel.m_rowsBelow * kLanes);
-    forEachChunk<RowsOfNode>(panel,
-                             MultiplyTransposedLanes<RowsOfNode>{scratch, own, panel.m_rowsBelow + panel.m_columns});
+    std::copy(own, own + panel.m_columns * (kNodeLanes / RowsOfNode), scratch);
+    forEachChunk<RowsOfNode>(panel, MultiplyTransposedLanes<RowsOfNode>{panel, y, scratch, own});
 }
 
 }  // namespace HWY_NAMESPACE
