@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "fem/message.h"
+#include "fem/output_file.h"
 #include "io/body_frame_check.h"
 #include "io/glb_model.h"
-#include "io/output_file.h"
 #include "io/surface_part.h"
 
 namespace bullet_fem

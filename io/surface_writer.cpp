@@ -9,8 +9,8 @@
 
 #include "bullet_fem/io/colour_map.h"
 #include "fem/message.h"
+#include "fem/output_file.h"
 #include "io/body_frame_check.h"
-#include "io/output_file.h"
 #include "io/surface_part.h"
 #include "io/written_number.h"
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "fem/output_file.h"
 #include "io/file_bytes.h"
-#include "io/output_file.h"
 
 namespace bullet_fem
 {

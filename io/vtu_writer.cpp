@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "fem/message.h"
+#include "fem/output_file.h"
 #include "io/body_frame_check.h"
-#include "io/output_file.h"
 #include "io/vtu_frame.h"
 #include "io/written_number.h"
 

@@ -6,9 +6,9 @@
 
 #include "fem/baked/baked_checks.h"
 #include "fem/baked/baked_header.h"
-#include "fem/baked/file_bytes.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/message.h"
+#include "fem/output_file.h"
 
 namespace bullet_fem
 {
@@ -133,15 +133,19 @@ std::vector<unsigned char> bytesOf(const BakedBody& body)
 
 void writeBakedBody(const std::string& path, const BakedBody& body)
 {
+    std::vector<unsigned char> bytes;
     try
     {
-        const std::vector<unsigned char> bytes = bytesOf(body);
-        replaceFile(path, bytes.data(), bytes.size());
+        bytes = bytesOf(body);
     }
     catch (const std::exception& error)
     {
         throw std::runtime_error("cannot write '" + path + "': " + error.what());
     }
+    OutputFile file(path);
+    file.write(bytes.data(), bytes.size());
+    file.sync();
+    file.commit();
 }
 
 }  // namespace bullet_fem

@@ -3,11 +3,9 @@
 #include "fem/baked/file_bytes.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <stdexcept>
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -19,7 +17,6 @@
 #endif
 
 #include "fem/aligned_floats.h"
-#include "fem/message.h"
 
 namespace bullet_fem
 {
@@ -100,70 +97,6 @@ FileBytes copyBytes(const unsigned char* data, std::size_t size)
     const std::shared_ptr<unsigned char> copy = allocateBytes(size);
     if (size > 0) std::memcpy(copy.get(), data, size);
     return {copy, size};
-}
-
-namespace
-{
-
-// A file of its own beside another one, gone with this unless it has taken its name.
-class FileBeside
-{
-public:
-    explicit FileBeside(const std::string& path)
-    {
-        std::random_device random;
-        for (int k = 0; k < 100 && !m_file; ++k)
-        {
-            m_name = message(path, ".", std::hex, random(), ".part");
-            m_file = std::fopen(m_name.c_str(), "wbx");
-            if (!m_file && errno != EEXIST) break;
-        }
-        if (!m_file) fail("a file beside it cannot be made: " + systemReason() + "; check that its folder is writable");
-    }
-    ~FileBeside()
-    {
-        if (m_file) std::fclose(m_file);
-        if (!m_name.empty()) std::remove(m_name.c_str());
-    }
-    FileBeside(const FileBeside&) = delete;
-    FileBeside& operator=(const FileBeside&) = delete;
-
-    void write(const unsigned char* data, std::size_t size)
-    {
-        bool whole = std::fwrite(data, 1, size, m_file) == size && std::fflush(m_file) == 0;
-#ifdef BULLETFEM_HAS_MMAP
-        whole = whole && fsync(fileno(m_file)) == 0;  // or the name could outlive a power failure, and the bytes not
-#endif
-        std::string reason = whole ? "" : systemReason();
-        if (std::fclose(m_file) != 0 && whole) whole = false, reason = systemReason();
-        m_file = nullptr;
-        if (!whole) fail(reason + "; check that its disk is not full");
-    }
-
-    void take(const std::string& path)
-    {
-        std::error_code error;
-        std::filesystem::rename(m_name, path, error);
-        if (error) fail("it cannot be replaced: " + error.message() + "; check that its folder is writable");
-        m_name.clear();
-    }
-
-private:
-    std::string m_name;
-    std::FILE* m_file = nullptr;
-};
-
-}  // namespace
-
-void replaceFile(const std::string& path, const unsigned char* data, std::size_t size)
-{
-    std::error_code ignored;
-    const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        fail("it is a directory or device; give the name of a file");
-    FileBeside beside(path);
-    beside.write(data, size);
-    beside.take(path);
 }
 
 }  // namespace bullet_fem

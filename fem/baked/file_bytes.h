@@ -27,8 +27,4 @@ FileBytes copyBytes(const unsigned char* data, std::size_t size);
 /// Length of a file; throws std::runtime_error if it is missing or no regular file.
 std::uint64_t fileLength(const std::string& path);
 
-/// Puts bytes into a file. They are written to another one beside it, which then takes its name: whatever happens, the
-/// file is whole, or as it was. Throws std::runtime_error with the reason and what to do.
-void replaceFile(const std::string& path, const unsigned char* data, std::size_t size);
-
 }  // namespace bullet_fem

@@ -102,7 +102,7 @@ Glb written(const GlbFilm& film)
 {
     const TemporaryFolder folder;
     film.write(folder.path("film.glb"));
-    EXPECT_FALSE(std::filesystem::exists(folder.path("film.glb.part")));
+    EXPECT_THAT(folder.names(), testing::ElementsAre("film.glb"));
     return Glb(folder.read("film.glb"));
 }
 
@@ -286,10 +286,7 @@ TEST(GlbFilmRejects, PlacesThatCannotBeWritten)
     const GlbFilm film = sampleFilm();
     EXPECT_THAT(messageOf<std::runtime_error>([&] { film.write(folder.path("missing/film.glb")); }),
                 HasSubstr("missing/film.glb'"));
-    std::filesystem::create_symlink("/dev/full", folder.path("film.glb.part"));
-    EXPECT_THAT(messageOf<std::runtime_error>([&] { film.write(folder.path("film.glb")); }),
-                HasSubstr("No space left"));
-    EXPECT_FALSE(std::filesystem::exists(folder.path("film.glb")));
+    EXPECT_THAT(messageOf<std::runtime_error>([&] { film.write("/dev/full"); }), HasSubstr("No space left"));
 }
 
 TEST(HeatColour, GoesFromBlueToRedAndStopsAtTheEnds)

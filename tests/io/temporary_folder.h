@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace bullet_fem
 {
@@ -41,6 +43,15 @@ public:
         std::ifstream file(path(name), std::ios::binary);
         EXPECT_TRUE(file.is_open()) << path(name);
         return std::string(std::istreambuf_iterator<char>(file), {});
+    }
+    /// Of everything in it, sorted.
+    std::vector<std::string> names() const
+    {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(m_path))
+            names.push_back(entry.path().filename().string());
+        std::sort(names.begin(), names.end());
+        return names;
     }
 
 private:

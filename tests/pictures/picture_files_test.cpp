@@ -37,14 +37,6 @@ Image gradient(const PictureSize& size, int t = 0)
     return image;
 }
 
-std::vector<std::string> filesIn(const TemporaryFolder& folder)
-{
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
-        names.push_back(entry.path().filename().string());
-    return names;
-}
-
 TEST(Png, HoldsThePixels)
 {
     const TemporaryFolder folder;
@@ -59,7 +51,7 @@ TEST(Png, HoldsThePixels)
     stbi_image_free(pixels);
     writePng(image, folder.path("b.png"));
     EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
-    EXPECT_EQ(filesIn(folder).size(), 2u);
+    EXPECT_EQ(folder.names().size(), 2u);
 }
 
 TEST(Png, UnwritablePathsAreNamedAndLeaveNothing)
@@ -71,13 +63,13 @@ TEST(Png, UnwritablePathsAreNamedAndLeaveNothing)
                 HasSubstr("cannot write '" + missing));
     std::filesystem::create_directory(folder.path("folder.png"));
     EXPECT_THAT(messageOf<std::runtime_error>([&] { writePng(image, folder.path("folder.png")); }),
-                HasSubstr("it is a folder"));
+                HasSubstr("it is a directory"));
     EXPECT_THAT(messageOf<std::invalid_argument>([&] { writePng(Image(), folder.path("a.png")); }), HasSubstr("0 x 0"));
     Image broken = image;
     broken.m_pixels.pop_back();
     EXPECT_THAT(messageOf<std::invalid_argument>([&] { writePng(broken, folder.path("a.png")); }),
                 HasSubstr("47 bytes"));
-    EXPECT_THAT(filesIn(folder), testing::ElementsAre("folder.png"));
+    EXPECT_THAT(folder.names(), testing::ElementsAre("folder.png"));
 }
 
 TEST(Strip, PutsImagesBesideEachOther)
@@ -133,7 +125,7 @@ TEST(Film, GifHasAllFrames)
     stbi_image_free(delays);
     writeFilm(folder.path("b.gif"), {40, 30});
     EXPECT_EQ(bytes, folder.read("b.gif"));
-    EXPECT_EQ(filesIn(folder).size(), 2u);
+    EXPECT_EQ(folder.names().size(), 2u);
 }
 
 TEST(Film, Mp4HasAllFramesAndAnEvenSize)
@@ -159,7 +151,7 @@ TEST(Film, AbandonedFilmsLeaveNothing)
         EXPECT_THAT(messageOf<std::invalid_argument>([&] { film.append(gradient({30, 40})); }), HasSubstr("40 x 30"));
     }
     EXPECT_EQ(folder.read("a.mp4"), "the old one");
-    EXPECT_EQ(filesIn(folder).size(), 1u);
+    EXPECT_EQ(folder.names().size(), 1u);
     FilmWriter empty(folder.path("b.mp4"), {40, 30}, 25);
     EXPECT_THAT(messageOf<std::invalid_argument>([&] { empty.finish(); }), HasSubstr("no frames"));
 }
@@ -174,7 +166,7 @@ TEST(Film, RejectsWhatIsNoFilm)
     EXPECT_THAT(start("a.mp4", {0, 30}, 25), HasSubstr("0 x 30"));
     const std::string missing = folder.path("missing/a.gif");
     EXPECT_THAT(messageOf<std::runtime_error>([&] { FilmWriter film(missing, {40, 30}, 25); }), HasSubstr(missing));
-    EXPECT_THAT(filesIn(folder), IsEmpty());
+    EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 /// Puts a program of its own in place of ffmpeg, or none.
@@ -201,7 +193,7 @@ TEST_F(FilmWithout, FfmpegSaysSo)
                         writeFilm(m_folder.path("a.mp4"), {40, 30});
                     }),
                 AllOf(HasSubstr("a.mp4"), HasSubstr("ffmpeg cannot be started"), HasSubstr("install it")));
-    EXPECT_THAT(filesIn(m_folder), IsEmpty());
+    EXPECT_THAT(m_folder.names(), IsEmpty());
 }
 
 TEST_F(FilmWithout, AnFfmpegThatWorksRepeatsItsWords)
@@ -219,7 +211,7 @@ TEST_F(FilmWithout, AnFfmpegThatWorksRepeatsItsWords)
                         writeFilm(m_folder.path("a.mp4"), {40, 30});
                     }),
                 HasSubstr("late failure"));
-    EXPECT_THAT(filesIn(m_folder), testing::ElementsAre("bin"));
+    EXPECT_THAT(m_folder.names(), testing::ElementsAre("bin"));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "fem/message.h"
-#include "tools/pictures/pending_file.h"
+#include "fem/output_file.h"
 
 extern char** environ;
 
@@ -64,7 +64,7 @@ std::string contents(std::FILE* file)
 /// The running program, fed through a socket: writing to one whose reader is gone is an error there, not a signal.
 struct FilmWriter::Child
 {
-    PendingFile m_file;
+    OutputFile m_file;
     std::FILE* m_words = std::tmpfile();
     pid_t m_process = -1;
     int m_socket = -1;

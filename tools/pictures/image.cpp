@@ -5,11 +5,10 @@
 #include <stb_image_write.h>
 
 #include <algorithm>
-#include <fstream>
-#include <stdexcept>
+#include <new>
 
 #include "fem/message.h"
-#include "tools/pictures/pending_file.h"
+#include "fem/output_file.h"
 
 namespace bullet_fem
 {
@@ -45,14 +44,12 @@ void writePng(const Image& image, const std::string& path)
     if (size.m_width <= 0 || size.m_height <= 0 || image.m_pixels.size() != Image(size).m_pixels.size())
         reject("picture: the image for '", path, "' is ", size.m_width, " x ", size.m_height, " pixels with ",
                image.m_pixels.size(), " bytes; it must have pixels, 3 bytes each");
-    PendingFile pending(path);
-    std::ofstream file(pending.temporaryPath(), std::ios::binary);
-    const auto write = [](void* out, void* bytes, int count)
-    { static_cast<std::ofstream*>(out)->write(static_cast<const char*>(bytes), count); };
-    const int encoded = stbi_write_png_to_func(write, &file, size.m_width, size.m_height, 3, image.m_pixels.data(), 0);
-    file.close();
-    if (!encoded || !file) pending.fail("check that its folder is writable and its disk not full");
-    pending.commit();
+    std::string png;
+    const auto append = [](void* to, void* bytes, int count)
+    { static_cast<std::string*>(to)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(count)); };
+    if (!stbi_write_png_to_func(append, &png, size.m_width, size.m_height, 3, image.m_pixels.data(), 0))
+        throw std::bad_alloc();
+    writeOutputFile(path, png);
 }
 
 }  // namespace bullet_fem

@@ -38,7 +38,7 @@ Image besideEachOther(const std::vector<Image>& images, int gap);
 
 /// Writes a PNG as one act: the file has its name only when it is whole, and one that was there stays until then. Equal
 /// images give equal bytes. Throws std::invalid_argument on an empty image, std::runtime_error naming the path if it
-/// cannot be written.
+/// cannot be written, std::bad_alloc.
 void writePng(const Image& image, const std::string& path);
 
 }  // namespace bullet_fem
