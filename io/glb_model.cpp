@@ -152,7 +152,7 @@ std::vector<Float3> coloursOf(const std::vector<float>& vonMises, double hottest
     std::vector<Float3> colours;
     for (const float s : vonMises)
     {
-        const Vec3 c = linearColour(heatColour(s / hottest));
+        const Vec3 c = linearColour(viridis(s / hottest));
         colours.push_back({static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)});
     }
     return colours;

@@ -76,7 +76,7 @@ void appendVertex(std::string& bytes, const BodyFrame& body, int node, double ho
     if (!(hottest > 0)) return;
     const double stress = vonMisesOf(body, node);
     appendFloat(bytes, stress);
-    const Vec3 colour = heatColour(stress / hottest);
+    const Vec3 colour = viridis(stress / hottest);
     for (int i = 0; i < 3; ++i) bytes += static_cast<char>(std::lround(255 * colour[i]));
 }
 

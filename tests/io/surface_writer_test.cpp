@@ -71,8 +71,7 @@ TEST(SurfaceWriter, PlyHasStressColoursAndBodies)
     std::memcpy(&written, &bytes[begin + 25 * 19 + 12], 4);
     EXPECT_NEAR(written, stress, 1e-3);
     for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(static_cast<unsigned char>(bytes[begin + 25 * 19 + 16 + i]), 255 * heatColour(stress / 2000)[i],
-                    0.51);
+        EXPECT_NEAR(static_cast<unsigned char>(bytes[begin + 25 * 19 + 16 + i]), 255 * viridis(stress / 2000)[i], 0.51);
     std::int32_t body;
     std::memcpy(&body, &bytes[begin + 55 * 19 + 48 * 17 + 13], 4);
     EXPECT_EQ(body, 7);

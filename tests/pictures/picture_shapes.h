@@ -84,10 +84,10 @@ inline int difference(const std::array<int, 3>& a, const std::array<int, 3>& b)
 }
 
 /// A colour as pixels hold it.
-inline std::array<int, 3> bytes(const Colour& c)
+inline std::array<int, 3> bytes(const Vec3& c)
 {
     const auto byte = [](double part) { return static_cast<int>(std::lround(255 * part)); };
-    return {byte(c.r), byte(c.g), byte(c.b)};
+    return {byte(c.x), byte(c.y), byte(c.z)};
 }
 
 }  // namespace bullet_fem

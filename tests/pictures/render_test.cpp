@@ -7,9 +7,9 @@
 #include <cmath>
 #include <set>
 
+#include "bullet_fem/io/colour_map.h"
 #include "io/temporary_folder.h"
 #include "pictures/picture_shapes.h"
-#include "tools/pictures/colour_map.h"
 
 namespace bullet_fem
 {
@@ -133,7 +133,7 @@ TEST(Render, LegendHasTheColourMapItsTitleAndItsNumbers)
     scene.m_meshes[0].m_scalars = {0, 1, 1, 0};
     scene.m_colourScale = {0, 1e6, "von Mises stress", "Pa"};
     const Image image = render(scene);
-    const auto nearest = [&](const Colour& colour)  // of all pixels in the right half
+    const auto nearest = [&](const Vec3& colour)  // of all pixels in the right half
     {
         int least = 255;
         for (int y = 0; y < kSize.m_height; ++y)

@@ -10,8 +10,9 @@
 #include <optional>
 #include <set>
 
+#include "bullet_fem/io/colour_map.h"
 #include "pictures/picture_shapes.h"
-#include "tools/pictures/colour_map.h"
+#include "tools/pictures/legend_text.h"
 #include "tools/pictures/offscreen_renderer.h"
 #include "tools/scene_run.h"
 
@@ -79,9 +80,8 @@ TEST(SceneHeat, IsToldFromAColourInAnyLight)
 {
     for (double s = 0; s <= 1; s += 0.05)
     {
-        const Colour c = viridis(s);
-        EXPECT_NEAR(heat(bytes(c)), s, 0.02);
-        EXPECT_NEAR(heat(bytes({0.6 * c.r, 0.6 * c.g, 0.6 * c.b})), s, 0.05);
+        EXPECT_NEAR(heat(bytes(viridis(s))), s, 0.02);
+        EXPECT_NEAR(heat(bytes(0.6 * viridis(s))), s, 0.05);
     }
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/pictures/colour_map.h"
+#include "tools/pictures/legend_text.h"
 
 namespace bullet_fem
 {

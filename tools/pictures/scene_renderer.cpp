@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "tools/pictures/colour_map.h"
+#include "bullet_fem/io/colour_map.h"
 #include "tools/pictures/legend.h"
 #include "tools/pictures/light_map.h"
 #include "tools/pictures/shaders.h"
@@ -92,8 +92,8 @@ unsigned textureOfColourMap(unsigned texture)
     std::vector<unsigned char> pixels;
     for (int i = 0; i < 256; ++i)
     {
-        const Colour c = viridis(i / 255.);
-        for (const double part : {c.r, c.g, c.b}) pixels.push_back(static_cast<unsigned char>(std::lround(255 * part)));
+        const Vec3 c = viridis(i / 255.);
+        for (const double part : {c.x, c.y, c.z}) pixels.push_back(static_cast<unsigned char>(std::lround(255 * part)));
     }
     glBindTexture(GL_TEXTURE_2D, texture);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -10,10 +10,6 @@
 namespace bullet_fem
 {
 
-/// The colour map viridis at `s`, clamped to [0, 1]: equal steps of s look equally large, also in grey and to the
-/// colour-blind. By Smith and van der Walt, 2015, who dedicated it to the public domain (CC0).
-Colour viridis(double s);
-
 /// A number of a legend and where it stands.
 struct LegendLabel
 {
