@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "bullet_fem/fem/surface_mesh.h"
 #include "tools/scene/scene_reader.h"
@@ -151,7 +153,35 @@ TEST(SceneFrames, ContactForcesSumToTheWeightAndStressToTheLoad)
     for (const Stress& stress : frame.m_tetStress) load += stress.yy / double(frame.m_tetStress.size());
     // Elements of a cell are not all of one size, but of one stress nearly.
     EXPECT_NEAR(load, -1000 * 9.81 * 0.5, 0.02 * 1000 * 9.81 * 0.5);
-    EXPECT_EQ(frames.surfaces()[0].m_nodeStress.size(), frame.m_positions.size());
+}
+
+// Four by four by four cells: 125 nodes, 98 of them outside.
+TEST(SceneFrames, ASurfaceHasOnlyWhatIsSeen)
+{
+    const SceneDescription scene = parseScene(
+        R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1], "cell": 0.25 },
+          "pins": [{ "low": [-1, -1, -1], "high": [-0.49, 1, 1] }] }] })",
+        ".");
+    SceneWorld world(scene);
+    SceneFrames frames(world);
+    for (int k = 0; k < 5; ++k) world.step();
+    frames.update();
+    const BodyFrame &volume = frames.volumes()[0], &surface = frames.surfaces()[0];
+    EXPECT_EQ(volume.m_positions.size(), 125u);
+    ASSERT_EQ(surface.m_positions.size(), 98u);
+    ASSERT_EQ(surface.m_nodeStress.size(), 98u);
+    EXPECT_TRUE(isClosed(surface.m_triangles));
+    std::set<int> seen;
+    for (const Triangle& t : surface.m_triangles) seen.insert(t.begin(), t.end());
+    EXPECT_EQ(seen.size(), 98u);
+    for (std::size_t v = 0; v < 98; ++v)
+    {
+        const auto& all = volume.m_positions;
+        const auto node =
+            std::find_if(all.begin(), all.end(), [&](const Vec3& x) { return norm(x - surface.m_positions[v]) == 0; });
+        ASSERT_NE(node, all.end()) << v;
+        EXPECT_EQ(vonMises(surface.m_nodeStress[v]), vonMises(volume.m_nodeStress[std::size_t(node - all.begin())]));
+    }
 }
 
 }  // namespace

@@ -47,6 +47,16 @@ std::vector<Triangle> surfaceOf(const btSoftBody& body)
     return triangles;
 }
 
+// Without the nodes inside, and vertices of no triangle: nobody sees their stress.
+SurfacePart drawnPart(const btSoftBody& body, int id)
+{
+    BodyFrame whole;
+    whole.m_id = id;
+    whole.m_positions.resize(isEmbedded(body) ? body.m_renderNodes.size() : body.m_nodes.size());
+    whole.m_triangles = surfaceOf(body);
+    return SurfacePart("SceneFrames", whole);
+}
+
 Stress stressOf(const btFemStress& s)
 {
     return {s.m_xx, s.m_yy, s.m_zz, s.m_xy, s.m_yz, s.m_xz};
@@ -71,7 +81,8 @@ SceneFrames::SceneFrames(const SceneWorld& world) : m_world(world)
         m_volumes.back().m_tets = tetsOf(body);
         m_surfaces.emplace_back();
         m_surfaces.back().m_id = i;
-        m_surfaces.back().m_triangles = surfaceOf(body);
+        m_drawn.push_back(drawnPart(body, i));
+        m_surfaces.back().m_triangles = m_drawn.back().m_triangles;
     }
     for (int i = 0; i < world.rigidCount(); ++i)
     {
@@ -121,25 +132,28 @@ void SceneFrames::updateSoftSurface(int i)
     const btSoftBody& body = m_world.soft(i);
     const BodyFrame& volume = m_volumes[i];
     BodyFrame& frame = m_surfaces[i];
-    if (!isEmbedded(body))
+    const std::vector<int>& drawn = m_drawn[i].m_node;
+    frame.m_positions.assign(drawn.size(), Vec3{});
+    frame.m_nodeStress.assign(volume.m_nodeStress.empty() ? 0 : drawn.size(), Stress{});
+    const auto add = [&](std::size_t v, int node, double weight)
     {
-        frame.m_positions = volume.m_positions;
-        frame.m_nodeStress = volume.m_nodeStress;
-        return;
-    }
-    // Bullet moves what is drawn in its steps, so that it is not where the body is before the first.
-    frame.m_positions.assign(body.m_renderNodes.size(), Vec3{});
-    frame.m_nodeStress.assign(volume.m_nodeStress.empty() ? 0 : frame.m_positions.size(), Stress{});
-    for (int v = 0; v < body.m_renderNodes.size(); ++v)
-        for (int a = 0; a < body.m_renderNodesParents[v].size(); ++a)
+        frame.m_positions[v] += weight * volume.m_positions[node];
+        if (frame.m_nodeStress.empty()) return;
+        Stress part = volume.m_nodeStress[node];
+        frame.m_nodeStress[v] += part *= weight;
+    };
+    for (std::size_t v = 0; v < drawn.size(); ++v)
+    {
+        if (!isEmbedded(body))
         {
-            const int parent = indexIn(body.m_renderNodesParents[v][a], body.m_nodes[0]);
-            const double weight = double(body.m_renderNodesInterpolationWeights[v][a]);
-            frame.m_positions[v] += weight * volume.m_positions[parent];
-            if (frame.m_nodeStress.empty()) continue;
-            Stress part = volume.m_nodeStress[parent];
-            frame.m_nodeStress[v] += part *= weight;
+            add(v, drawn[v], 1);
+            continue;
         }
+        // Bullet moves what is drawn in its steps, so that it is not where the body is before the first.
+        const auto& parents = body.m_renderNodesParents[drawn[v]];
+        for (int a = 0; a < parents.size(); ++a)
+            add(v, indexIn(parents[a], body.m_nodes[0]), double(body.m_renderNodesInterpolationWeights[drawn[v]][a]));
+    }
 }
 
 void SceneFrames::updateRigidSurface(int surface)

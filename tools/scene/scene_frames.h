@@ -7,6 +7,7 @@
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_fem/btFemReports.h"
 #include "bullet_fem/io/body_frame.h"
+#include "io/surface_part.h"
 #include "tools/scene/scene_world.h"
 
 namespace bullet_fem
@@ -23,8 +24,8 @@ public:
 
     /// The soft bodies' elements, in the scene's order: all fields.
     const std::vector<BodyFrame>& volumes() const { return m_volumes; }
-    /// Surfaces: of the soft bodies, embedded ones where there are, with their stress; then of the rigid ones that have
-    /// a shape with an end.
+    /// Surfaces: of the soft bodies, embedded ones where there are, with their stress and without nodes that no
+    /// triangle has; then of the rigid ones that have a shape with an end.
     const std::vector<BodyFrame>& surfaces() const { return m_surfaces; }
     /// Which body of the scene a surface is: index of a soft body, or the number of soft bodies plus that of a rigid
     /// one.
@@ -37,6 +38,7 @@ private:
 
     const SceneWorld& m_world;
     std::vector<BodyFrame> m_volumes, m_surfaces;
+    std::vector<SurfacePart> m_drawn;            // a soft body: its surface's nodes or embedded vertices
     std::vector<std::vector<Vec3>> m_rest;       // a soft body: nodes at the start
     std::vector<std::vector<Vec3>> m_rigidRest;  // a surface of a rigid body: in its own frame
     btAlignedObjectArray<btFemStress> m_stress;
