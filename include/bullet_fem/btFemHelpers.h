@@ -79,6 +79,8 @@ struct btFemHelpers
                                        std::string* why);
 
     /// Moves m_renderNodes with the body, as Bullet's interpolateBarycentricWeights or extrapolateBarycentricWeights
-    /// have tied them to it; nothing if weights or parents are missing. The solver does so after every step.
+    /// have tied them to it; nothing if weights or parents are missing. The solver does so after every step, and
+    /// Bullet's transform, translate, rotate and scale do not: call this after them to draw the body before the next
+    /// one.
     static void updateEmbeddedSurface(btSoftBody* body);
 };

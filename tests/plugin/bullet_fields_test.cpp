@@ -88,6 +88,18 @@ TEST_P(RenderNodes, WithBulletsInterpolationFollowTheirTetrahedra)
     }
 }
 
+// Bullet's transform does not know them.
+TEST_P(RenderNodes, WaitForTheStepAfterATransformUnlessTheyAreUpdated)
+{
+    btSoftBodyHelpers::interpolateBarycentricWeights(&m_body);
+    const btTransform pose(btQuaternion(btVector3(0, 0, 1), btScalar(0.7)), btVector3(1, 2, 3));
+    m_body.transform(pose);
+    for (int v = 0; v < m_body.m_renderNodes.size(); ++v) EXPECT_EQ(m_body.m_renderNodes[v].m_x, m_start[v]);
+    btFemHelpers::updateEmbeddedSurface(&m_body);
+    for (int v = 0; v < m_body.m_renderNodes.size(); ++v)
+        EXPECT_LT(m_body.m_renderNodes[v].m_x.distance(pose * m_start[v]), 1e-5);
+}
+
 TEST_P(RenderNodes, WithBulletsExtrapolationKeepTheirDistanceFromTheFaces)
 {
     btSoftBodyHelpers::extrapolateBarycentricWeights(&m_body);
