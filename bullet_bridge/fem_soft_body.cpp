@@ -27,13 +27,13 @@ btScalar& seenMark(btAlignedObjectArray<btSoftBody::Tetra>& tetras)
 }  // namespace
 
 FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
-                         std::shared_ptr<ComplianceCache> compliance, std::shared_ptr<const RestNeighbours> neighbours)
+                         std::shared_ptr<ComplianceCache> compliance)
     : m_softBody(&softBody),
       m_firstNode(&softBody.m_nodes[0]),
       m_mark(markBody(softBody)),
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
-      m_surface(m_body.m_model->mesh(), std::move(neighbours))
+      m_surface(m_body.m_model->mesh())
 {
     const int n = softBody.m_nodes.size();
     m_restOrigin = vec3(softBody.m_nodes[0].m_x);
@@ -86,7 +86,7 @@ void noteRestMatrices(FemSoftBody& fem)
 }
 
 void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
-                     std::shared_ptr<ComplianceCache> compliance, std::shared_ptr<const RestNeighbours> neighbours)
+                     std::shared_ptr<ComplianceCache> compliance)
 {
     Body body(std::move(model));
     BodyState &now = body.m_state, &before = fem.m_body.m_state;
@@ -96,7 +96,7 @@ void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
     now.m_fixed.swap(before.m_fixed);
     fem.m_body = std::move(body);
     fem.m_compliance = std::move(compliance);
-    fem.m_surface = SoftSurface(fem.m_body.m_model->mesh(), std::move(neighbours));
+    fem.m_surface = SoftSurface(fem.m_body.m_model->mesh());
     fem.m_edgeGap.resize(fem.m_surface.features().m_edges.size());
     fem.m_contacts.clear();
     fem.m_origins.clear();

@@ -70,8 +70,7 @@ struct NodePins
 struct FemSoftBody
 {
     FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
-                std::shared_ptr<ComplianceCache> compliance,
-                std::shared_ptr<const RestNeighbours> neighbours = nullptr);
+                std::shared_ptr<ComplianceCache> compliance);
 
     btSoftBody* m_softBody;
     const btSoftBody::Node* m_firstNode;  ///< where the array of its nodes begins, as seen last
@@ -112,7 +111,7 @@ void noteRestMatrices(FemSoftBody& fem);
 
 /// Gives a body another rest shape of the same nodes, and keeps its motion and what holds it; contacts begin anew.
 void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
-                     std::shared_ptr<ComplianceCache> compliance, std::shared_ptr<const RestNeighbours> neighbours);
+                     std::shared_ptr<ComplianceCache> compliance);
 
 /// Largest speed of a surface node relative to a velocity [m/s]; NaN counts as none.
 double fastestNode(const Body& body, const Vec3& relativeTo);

@@ -110,6 +110,10 @@ public:
     /// setUp for use within a step: a failure is written to the entry, and the body left to Bullet.
     void trySetUp(btFemEntry& entry, double step);
 
+    /// Whether the body touches itself; what that needs is made where it was switched on since the body was set up, and
+    /// costs as much as half of a set-up with a baked factor.
+    bool readyForSelfContact(btFemEntry& entry);
+
     /// Leaves a body that cannot be FEM to Bullet.
     static void reject(btFemEntry& entry);
 

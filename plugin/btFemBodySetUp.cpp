@@ -79,6 +79,7 @@ void btFemBodyRegistry::setUp(btFemEntry& entry, double step)
         renew(entry, step);
     else
         setUpNew(entry, step);
+    readyForSelfContact(entry);
     entry.m_materialChanged = false;
 }
 
@@ -121,8 +122,7 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
     input.m_step = step;
     const auto model =
         baked ? m_library.modelWithFactor(shape, input, entry.m_baked->m_model) : m_library.model(shape, input);
-    entry.m_fem =
-        std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model), m_library.restNeighbours(shape));
+    entry.m_fem = std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model));
     entry.m_fem->m_body.m_state.m_mass = input.m_mass;    // the model's may be those of a copy elsewhere,
     entry.m_fem->m_body.m_state.m_fixed = input.m_fixed;  // or of when it was baked
     entry.m_fem->m_restOrigin = rest.m_origin;
@@ -155,7 +155,7 @@ void btFemBodyRegistry::renew(btFemEntry& entry, double step)
     const auto model = m_library.model(shape, factorInput(entry, step));
     if (rest.m_known)
     {
-        changeRestShape(fem, model, m_library.compliance(model), m_library.restNeighbours(shape));
+        changeRestShape(fem, model, m_library.compliance(model));
         fem.m_restOrigin = rest.m_origin;
         entry.m_setUpFlags = flagsOf(mesh);
         entry.m_formerModel.reset();
@@ -168,6 +168,15 @@ void btFemBodyRegistry::renew(btFemEntry& entry, double step)
     }
     entry.m_factorAccount = {};
     entry.m_factorJob.reset();
+}
+
+bool btFemBodyRegistry::readyForSelfContact(btFemEntry& entry)
+{
+    if (!(entry.m_softBody->m_cfg.collisions & btSoftBody::fCollision::CL_SELF)) return false;
+    SoftSurface& surface = entry.m_fem->m_surface;
+    if (!surface.hasRestNeighbours())
+        surface.setRestNeighbours(m_library.restNeighbours(entry.m_fem->m_body.m_model->sharedShape()));
+    return true;
 }
 
 void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)

@@ -120,7 +120,7 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         refreshBulletConstants(soft, h);
         applyBulletForces(*entry.m_fem, h);
         markForces(entry);
-        if (soft.m_cfg.collisions & btSoftBody::fCollision::CL_SELF) entry.m_fem->m_touchingSoft.push_back(&soft);
+        if (registry.readyForSelfContact(entry)) entry.m_fem->m_touchingSoft.push_back(&soft);
         setSweptBounds(*entry.m_fem, h, kReach * entry.m_fem->m_body.m_model->mesh().meanEdgeLength());
         m_detailChooser.choose(entry, h);
     }

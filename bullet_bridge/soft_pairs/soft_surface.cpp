@@ -19,14 +19,13 @@ double angleBetween(const Vec3& a, const Vec3& b)
 
 }  // namespace
 
-SoftSurface::SoftSurface(const TetMesh& mesh, std::shared_ptr<const RestNeighbours> neighbours)
+SoftSurface::SoftSurface(const TetMesh& mesh)
     : m_triangles(mesh.surface()),
       m_nodes(mesh.surfaceNodes()),
       m_features(mesh),
       m_meanEdge(mesh.meanEdgeLength()),
       m_size(std::cbrt(mesh.volume())),
       m_tree(mesh.restPositions(), mesh.surface()),
-      m_restNeighbours(neighbours ? std::move(neighbours) : std::make_shared<const RestNeighbours>(mesh)),
       m_edgeTriangles(m_features.m_edges.size(), {-1, -1}),
       m_manifoldEdge(m_features.m_edges.size(), 1),
       m_firstAround(mesh.nodeCount() + 1),
@@ -58,6 +57,11 @@ SoftSurface::SoftSurface(const TetMesh& mesh, std::shared_ptr<const RestNeighbou
         m_around.insert(m_around.end(), around[i].begin(), around[i].end());
         m_firstAround[i + 1] = static_cast<int>(m_around.size());
     }
+}
+
+void SoftSurface::setRestNeighbours(std::shared_ptr<const RestNeighbours> neighbours)
+{
+    m_restNeighbours = std::move(neighbours);
 }
 
 void SoftSurface::update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h)

@@ -30,8 +30,11 @@ inline Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, con
 class SoftSurface
 {
 public:
-    /// `neighbours` are the mesh's own, if they are known already; null: they are found out.
-    explicit SoftSurface(const TetMesh& mesh, std::shared_ptr<const RestNeighbours> neighbours = nullptr);
+    explicit SoftSurface(const TetMesh& mesh);
+
+    /// The mesh's own, which only contact of the surface with itself needs, and must have.
+    void setRestNeighbours(std::shared_ptr<const RestNeighbours> neighbours);
+    bool hasRestNeighbours() const { return m_restNeighbours != nullptr; }
 
     /// Takes the positions at the start of a step of h [s] and the free velocities: once a step.
     void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);

@@ -69,6 +69,7 @@ public:
     {
         m_x = mesh.restPositions();
         m_v.resize(m_x.size());
+        m_fem.m_surface.setRestNeighbours(std::make_shared<const RestNeighbours>(mesh));
     }
 
     PairBody& move(const Vec3& by)

@@ -93,6 +93,27 @@ TEST(SelfContact, IsOffUnlessAskedFor)
     EXPECT_EQ(strip.selfContacts(), 0);
 }
 
+TEST(SelfContact, IsTheSameIfItIsAskedForLater)
+{
+    FoldingStrip early(true), late(false);
+    late.m_strip->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;  // it is prepared already
+    early.m_world.step(60);
+    late.m_world.step(60);
+    EXPECT_GT(late.selfContacts(), 10);
+    EXPECT_EQ(bitsOf(*late.m_strip), bitsOf(*early.m_strip));
+}
+
+TEST(SelfContact, GoesOnWithAnotherRestShape)
+{
+    FoldingStrip strip(true);
+    strip.m_world.step(60);
+    const int before = strip.selfContacts();
+    strip.m_strip->scale(btVector3(btScalar(1.001), 1, 1));
+    strip.m_world.step(10);
+    EXPECT_TRUE(allFinite(*strip.m_strip));
+    EXPECT_GT(strip.selfContacts(), before / 2);
+}
+
 // Self contact of a body that does not touch itself changes nothing.
 TEST(SelfContact, DoesNotDisturbABodyThatIsSquashed)
 {
