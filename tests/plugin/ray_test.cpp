@@ -3,9 +3,7 @@
 // Rays against FEM bodies.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <functional>
-#include <random>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_bridge/bullet_vectors.h"
@@ -13,6 +11,7 @@
 #include "bullet_fem/btFemRay.h"
 #include "bullet_fem/fem/generators.h"
 #include "plugin/each_world.h"
+#include "plugin/random_rays.h"
 #include "plugin/scene_measures.h"
 #include "plugin/soft_boxes.h"
 
@@ -20,88 +19,6 @@ namespace bullet_fem
 {
 namespace
 {
-
-constexpr int kRays = 10000;
-constexpr double kEdge = 0.02;  // barycentric: nearer to an edge than this, Bullet may take the neighbour
-
-// The first face that a ray meets, by the plane of every triangle.
-struct Reference
-{
-    int m_face = -1;
-    double m_fraction = 2;
-    double m_smallest = 0;  // barycentric coordinate
-    double m_cosine = 1;    // between ray and normal
-    double m_nearMiss = 2;  // smallest fraction of a triangle that the ray just misses
-
-    // What single precision can tell of the fraction.
-    double tolerance(const Vec3& from, const Vec3& to) const
-    {
-        return 1e-6 * (1 + norm(from) / norm(to - from)) / m_cosine;
-    }
-    bool isClear() const { return m_face >= 0 && m_smallest > kEdge && m_nearMiss > m_fraction; }
-};
-
-Reference bruteForce(const btSoftBody& body, const Vec3& from, const Vec3& to)
-{
-    Reference best;
-    double nearMiss = 2;
-    for (int f = 0; f < body.m_faces.size(); ++f)
-    {
-        Vec3 x[3];
-        for (int a = 0; a < 3; ++a) x[a] = vec3(body.m_faces[f].m_n[a]->m_x);
-        const Vec3 n = cross(x[1] - x[0], x[2] - x[0]);
-        const double slope = dot(to - from, n);
-        if (slope == 0) continue;
-        const double t = dot(x[0] - from, n) / slope;
-        const Vec3 p = from + t * (to - from);
-        double smallest = 1;
-        for (int a = 0; a < 3; ++a)
-        {
-            const Vec3 &b = x[(a + 1) % 3], &c = x[(a + 2) % 3];
-            smallest = std::min(smallest, dot(cross(b - p, c - p), n) / dot(n, n));
-        }
-        const double cosine = std::fabs(slope) / (norm(n) * norm(to - from));
-        // In single precision, triangles that are seen from the edge may be anywhere along the ray.
-        if (smallest < 0 && smallest > -kEdge / cosine) nearMiss = std::min(nearMiss, t - 1e-4 / cosine);
-        if (smallest >= 0 && t >= 0 && t <= 1 && t < best.m_fraction) best = {f, t, smallest, cosine, 2};
-    }
-    best.m_nearMiss = nearMiss;
-    return best;
-}
-
-// Ends of random rays through the body's neighbourhood: from a sphere around it to a point near it, and as far again.
-class Rays
-{
-public:
-    explicit Rays(const btSoftBody& body)
-    {
-        Vec3 low = vec3(body.m_nodes[0].m_x), high = low;
-        for (int i = 0; i < body.m_nodes.size(); ++i)
-            for (int c = 0; c < 3; ++c)
-            {
-                low[c] = std::min(low[c], double(body.m_nodes[i].m_x[c]));
-                high[c] = std::max(high[c], double(body.m_nodes[i].m_x[c]));
-            }
-        m_middle = 0.5 * (low + high);
-        m_half = 0.6 * (high - low);
-    }
-
-    void next(btVector3& from, btVector3& to)
-    {
-        const Vec3 way = {unit(), unit(), unit()};
-        const Vec3 start = m_middle + (2.5 * norm(m_half) / std::max(norm(way), 1e-3)) * way;
-        Vec3 through = m_middle;
-        for (int c = 0; c < 3; ++c) through[c] += unit() * m_half[c];
-        from = bulletVector(start);
-        to = bulletVector(start + 2.0 * (through - start));
-    }
-
-private:
-    double unit() { return std::uniform_real_distribution<double>(-1, 1)(m_random); }
-
-    std::mt19937 m_random{7};
-    Vec3 m_middle, m_half;
-};
 
 struct Scene
 {
@@ -188,7 +105,7 @@ protected:
         {
             btVector3 from, to;
             rays.next(from, to);
-            const Reference reference = bruteForce(m_body, vec3(from), vec3(to));
+            const RayReference reference = bruteForce(m_body, vec3(from), vec3(to));
             compareOurs(reference, from, to);
             btSoftBody::sRayCast found;
             const bool hit = m_body.rayTest(from, to, found);
@@ -216,7 +133,7 @@ protected:
         RecordProperty("asTets", asTets);
     }
 
-    void compareOurs(const Reference& reference, const btVector3& from, const btVector3& to)
+    void compareOurs(const RayReference& reference, const btVector3& from, const btVector3& to)
     {
         btFemRayHit hit;
         const bool hits = btFemRay::test(&m_body, from, to, &hit);
@@ -347,61 +264,6 @@ TEST(BadRays, HitNothing)
     EXPECT_FALSE(btFemRay::test(&body, far, broken));
     EXPECT_FALSE(btFemRay::test(&body, broken, deep));
     EXPECT_TRUE(btFemRay::test(&body, far, deep));
-}
-
-class WorldRayTest : public EachWorld
-{
-};
-
-INSTANTIATE_TEST_SUITE_P(Worlds, WorldRayTest, eachWorld(), nameOfWorld);
-
-// Bullet's tolerance is an absolute one, which makes triangles of 1 cm as large as a hand.
-TEST_P(WorldRayTest, IsExactForSmallTrianglesWithOurCallback)
-{
-    Scene scene(GetParam());
-    const int count = GetParam() == WorldClass::softRigid ? kRays : kRays / 10;
-    SoftBox box;
-    box.m_size = {0.1, 0.1, 0.1};
-    box.m_cells = {8, 8, 8};
-    btSoftBody& body = addSoftBox(scene.m_world, scene.m_fem, box);
-    RigidSettings wall;
-    wall.m_transform = at(0, 0, -2);
-    btRigidBody& behind = addRigidBox(scene.m_world, {10, 10, 1}, wall);
-    scene.m_world.step();
-    Rays rays(body);
-    int soft = 0;
-    for (int k = 0; k < count; ++k)
-    {
-        btVector3 from, to;
-        rays.next(from, to);
-        from.setZ(btScalar(0.4));
-        to.setZ(-4);
-        const Reference reference = bruteForce(body, vec3(from), vec3(to));
-        btFemClosestRay ray(from, to);
-        scene.m_world.bullet().rayTest(from, to, ray);
-        ASSERT_TRUE(ray.hasHit());
-        if (reference.m_face >= 0 && reference.m_smallest < 1e-9) continue;
-        ASSERT_EQ(ray.m_hit.m_face, reference.m_face);
-        ASSERT_EQ(ray.m_collisionObject, reference.m_face >= 0 ? static_cast<btCollisionObject*>(&body) : &behind);
-        ASSERT_NEAR(ray.m_closestHitFraction, std::min(reference.m_fraction, 1.9 / 4.4), 1e-5);
-        soft += reference.m_face >= 0;
-    }
-    EXPECT_GT(soft, count / 50);
-}
-
-TEST_P(WorldRayTest, TellsBodyFaceNormalAndPlace)
-{
-    Scene scene(GetParam());
-    btSoftBody& body = scene.m_world.addSoft(block(scene));
-    scene.m_world.step(3);
-    const btVector3 from(btScalar(0.1), btScalar(0.17), 4), to(btScalar(0.1), btScalar(0.17), -4);
-    btCollisionWorld::ClosestRayResultCallback ray(from, to);
-    scene.m_world.bullet().rayTest(from, to, ray);
-    ASSERT_EQ(ray.m_collisionObject, &body);
-    const Reference reference = bruteForce(body, vec3(from), vec3(to));
-    EXPECT_NEAR(ray.m_closestHitFraction, reference.m_fraction, 1e-6);
-    EXPECT_NEAR(ray.m_hitNormalWorld.z(), 1, 1e-4);
-    EXPECT_NEAR(ray.m_hitPointWorld.z(), 4 - 8 * reference.m_fraction, 1e-5);
 }
 
 }  // namespace
