@@ -51,8 +51,8 @@ void simulate(DropScene& scene, const DropOptions& options, DropFrames& frames, 
 DropSize sizeOf(const DropOptions& options)
 {
     const DropSize size = chooseSize(readSurfaceFile(options.m_meshFile), options);
-    std::printf("%s: longest side %.4g, times %.4g = %.4g m; cells of %.4g m\n", options.m_meshFile.c_str(),
-                size.m_fileLength, size.m_scale, size.m_length, size.m_cellSize);
+    std::printf("%s: longest side %.4g, times %.4g = %.4g m\n", options.m_meshFile.c_str(), size.m_fileLength,
+                size.m_scale, size.m_length);
     std::fflush(stdout);  // before what stderr may say
     return size;
 }

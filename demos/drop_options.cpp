@@ -19,7 +19,7 @@ std::optional<int> parseOptions(int argc, char** argv, DropOptions& options)
     app.add_option("--scale", options.m_scale, "times the file's positions (default: the longest side becomes 1 m)")
         ->check(inRange(1e-9, 1e9));
     app.add_option("--cell", options.m_cellSize,
-                   "edge of the cage's cells [m] after scaling (default: for about 4500 tets)")
+                   "edge of the cage's cells [m] after scaling (default: for about 5000 tets)")
         ->check(inRange(1e-6, 1e3));
     app.add_option("--young", options.m_youngModulus, "Young's modulus [Pa] (default 1e6)")->check(inRange(1, 1e13));
     app.add_option("--poisson", options.m_poissonRatio, "Poisson's ratio [-] (default 0.4)")->check(inRange(0, 0.49));

@@ -38,7 +38,7 @@ const char* verdict(bool good)
 void printBody(const DropScene& scene, const DropFigures& figures)
 {
     const btFemStepReport& report = scene.report();
-    row("nodes, tets", "%d, %d", report.m_nodes, report.m_tets);
+    row("nodes, tets", "%d, %d, in cells of %.4g m", report.m_nodes, report.m_tets, scene.cage().m_cellSize);
     row("mass, longest side", "%.4g kg, %.4g m", figures.mass(), scene.length());
     row("factor", "%.2f million entries, %.1f times the matrix's, made in %.0f ms", report.m_factorEntries / 1e6,
         double(report.m_factorEntries) / matrixEntries(scene.softBody()), 1e3 * report.m_factorSeconds);

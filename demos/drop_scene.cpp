@@ -4,12 +4,14 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/io/surface_file.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
+constexpr int kWantedTets = 5000;
 const btVector3 kGravity(0, btScalar(-9.81), 0);  // [m/s2]
 
 // Friction between soft body and rigid one is the product of the two: 0.2 on the ramp, on which it slides as
@@ -130,9 +132,11 @@ void DropScene::addSoftBody(const DropOptions& options, const DropSize& size)
     material.m_poissonRatio = static_cast<btScalar>(options.m_poissonRatio);
     material.m_density = static_cast<btScalar>(options.m_density);
 
-    m_softBody.reset(btFemHelpers::createFromSurfaceFile(m_world.getWorldInfo(), options.m_meshFile.c_str(),
-                                                         static_cast<btScalar>(size.m_cellSize),
-                                                         static_cast<btScalar>(size.m_scale)));
+    CageSettings cage;
+    cage.m_cellSize = options.m_cellSize;
+    cage.m_targetTets = options.m_cellSize > 0 ? 0 : kWantedTets;
+    m_softBody.reset(btFemHelpers::createFromSurface(m_world.getWorldInfo(),
+                                                     readSurfaceFile(options.m_meshFile, size.m_scale), cage, m_cage));
     m_softBody->m_cfg.kDF = kSoftFriction;
     m_fem.setMaterial(m_softBody.get(), material);
 

@@ -10,6 +10,7 @@
 #include "btBulletDynamicsCommon.h"
 #include "bullet_fem/btFemConstraintSolver.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/fem/cage_report.h"
 #include "demos/drop_options.h"
 #include "demos/drop_size.h"
 
@@ -33,6 +34,7 @@ public:
     void step();  ///< by options.m_step
 
     const btSoftBody& softBody() const { return *m_softBody; }
+    const CageReport& cage() const { return m_cage; }  ///< that it was made with
     const btFemStepReport& report() const { return m_fem.stepReport(m_softBody.get()); }
     const btAlignedObjectArray<btFemContact>& contacts() const { return m_fem.contacts(m_softBody.get()); }
     void getStress(btAlignedObjectArray<btFemStress>& perNode) const  ///< [Pa]
@@ -63,6 +65,7 @@ private:
     std::unique_ptr<btRigidBody> m_plane;
     std::vector<std::unique_ptr<btRigidBody>> m_boxes;
     std::unique_ptr<btSoftBody> m_softBody;
+    CageReport m_cage;
 };
 
 }  // namespace bullet_fem

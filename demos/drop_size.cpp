@@ -3,7 +3,6 @@
 #include "demos/drop_size.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,7 +11,6 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kWantedTets = 4500;
 constexpr double kLeastLength = 0.01, kMostLength = 100;  // [m]
 
 Vec3 boundingBoxSides(const SurfaceMesh& surface)
@@ -25,32 +23,6 @@ Vec3 boundingBoxSides(const SurfaceMesh& surface)
             high[c] = std::max(high[c], v[c]);
         }
     return high - low;
-}
-
-double area(const SurfaceMesh& surface)
-{
-    double sum = 0;
-    for (const Triangle& t : surface.m_triangles)
-    {
-        const Vec3& a = surface.m_vertices[t[0]];
-        sum += norm(cross(surface.m_vertices[t[1]] - a, surface.m_vertices[t[2]] - a)) / 2;
-    }
-    return sum;
-}
-
-// A lattice cube holds five tets. The cage holds the solid and a skin of cut elements, half of which stands out: about
-// half a cell thick over the whole surface (measured on a dozen meshes). The estimate falls with the cell, so bisection
-// finds it.
-double cellForWantedTets(double volume, double surfaceArea, double length)
-{
-    const auto tets = [&](double cell) { return 5 * (volume + 0.5 * surfaceArea * cell) / (cell * cell * cell); };
-    double low = 1e-3 * length, high = length / 2;
-    for (int i = 0; i < 60; ++i)
-    {
-        const double middle = std::sqrt(low * high);
-        (tets(middle) > kWantedTets ? low : high) = middle;
-    }
-    return high;
 }
 
 }  // namespace
@@ -69,14 +41,6 @@ DropSize chooseSize(const SurfaceMesh& surface, const DropOptions& options)
                 << " in the file), must be in [" << kLeastLength << ", " << kMostLength
                 << "] m; choose another --scale, or none for 1 m";
         throw std::invalid_argument(message.str());
-    }
-    size.m_cellSize = options.m_cellSize;
-    if (size.m_cellSize == 0)
-    {
-        const double s = size.m_scale;
-        const double box = sides.x * sides.y * sides.z;  // bounds the volume of surfaces that overlap themselves
-        const double volume = std::min(std::abs(signedVolume(surface)), box) * s * s * s;
-        size.m_cellSize = cellForWantedTets(volume, area(surface) * s * s, size.m_length);
     }
     return size;
 }

@@ -8,16 +8,15 @@
 namespace bullet_fem
 {
 
-/// How large a surface becomes in the scene, and how finely it is filled.
+/// How large a surface becomes in the scene.
 struct DropSize
 {
     double m_fileLength = 0;  ///< longest side of the surface's bounding box as the file has it [-]
     double m_scale = 1;       ///< scene metres a unit of the file [m]
     double m_length = 0;      ///< longest side in the scene [m]: the scene's unit of length
-    double m_cellSize = 0;    ///< edge of a lattice cube [m]
 };
 
-/// Takes scale and cell size from the options, or chooses them: 1 m, and a cell that gives about 4500 tets.
+/// Takes the scale from the options, or chooses it: 1 m.
 /// Throws std::invalid_argument if the body would be smaller than 1 cm or larger than 100 m, which is beyond what
 /// single precision and Bullet's margins are made for.
 DropSize chooseSize(const SurfaceMesh& surface, const DropOptions& options);
