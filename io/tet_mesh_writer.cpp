@@ -114,22 +114,49 @@ std::string eleText(const TetMesh& mesh)
     return out.text();
 }
 
+std::string withEnding(const std::string& path, const char* ending)
+{
+    return std::filesystem::path(path).replace_extension(ending).string();
+}
+
+// One is nothing without the other.
+void writeTetGen(const std::string& path, const TetMesh& mesh)
+{
+    OutputFile nodes(withEnding(path, ".node")), elements(withEnding(path, ".ele"));
+    const std::string nodeLines = nodeText(mesh), elementLines = eleText(mesh);
+    nodes.write(nodeLines.data(), nodeLines.size());
+    elements.write(elementLines.data(), elementLines.size());
+    nodes.sync();
+    elements.sync();
+    nodes.commit();
+    elements.commit();
+}
+
+[[noreturn]] void failEnding(const std::string& path)
+{
+    throw std::runtime_error("cannot write the mesh file '" + path + "': the ending '" + lowerCaseEnding(path) +
+                             "' is not known; it must be .msh, .vtk, .mesh, .node or .ele");
+}
+
 }  // namespace
+
+void checkTetMeshOutput(const std::string& path)
+{
+    const std::string ending = lowerCaseEnding(path);
+    if (ending == ".msh" || ending == ".vtk" || ending == ".mesh") return checkWritable(path);
+    if (ending != ".node" && ending != ".ele") failEnding(path);
+    checkWritable(withEnding(path, ".node"));
+    checkWritable(withEnding(path, ".ele"));
+}
 
 void writeTetMeshFile(const std::string& path, const TetMesh& mesh)
 {
-    const std::filesystem::path name = path;
     const std::string ending = lowerCaseEnding(path);
     if (ending == ".msh") return writeOutputFile(path, gmshText(mesh));
     if (ending == ".vtk") return writeOutputFile(path, vtkText(mesh));
     if (ending == ".mesh") return writeOutputFile(path, meditText(mesh));
-    if (ending == ".node" || ending == ".ele")
-    {
-        writeOutputFile(std::filesystem::path(name).replace_extension(".node").string(), nodeText(mesh));
-        return writeOutputFile(std::filesystem::path(name).replace_extension(".ele").string(), eleText(mesh));
-    }
-    throw std::runtime_error("cannot write the mesh file '" + path + "': the ending '" + ending +
-                             "' is not known; it must be .msh, .vtk, .mesh, .node or .ele");
+    if (ending == ".node" || ending == ".ele") return writeTetGen(path, mesh);
+    failEnding(path);
 }
 
 }  // namespace bullet_fem

@@ -90,8 +90,20 @@ TEST(TetMeshWriterEndings, OthersAreRefusedAndNothingIsWritten)
                             writeTetMeshFile(path, makeBox({1, 1, 1}, {1, 1, 1}));
                         }),
                     AllOf(HasSubstr("'" + path + "'"), HasSubstr("must be .msh, .vtk, .mesh, .node or .ele")));
+        EXPECT_THAT(messageOf<std::runtime_error>([&] { checkTetMeshOutput(path); }),
+                    HasSubstr("must be .msh, .vtk, .mesh, .node or .ele"));
         EXPECT_FALSE(std::filesystem::exists(path));
     }
+}
+
+TEST(TetMeshWriterEndings, OneTetGenFileIsNotWrittenWithoutTheOther)
+{
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path("a.ele"));
+    const auto refused = [&](const auto& act) { EXPECT_THAT(messageOf<std::runtime_error>(act), HasSubstr("a.ele'")); };
+    refused([&] { checkTetMeshOutput(folder.path("a.node")); });
+    refused([&] { writeTetMeshFile(folder.path("a.node"), makeBox({1, 1, 1}, {1, 1, 1})); });
+    EXPECT_THAT(folder.names(), testing::ElementsAre("a.ele"));
 }
 
 TEST(TetMeshWriterEndings, BothTetGenFilesAreWritten)

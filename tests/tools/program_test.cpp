@@ -154,26 +154,5 @@ TEST_F(Program, FiguresForPeopleHaveTheSameNames)
     for (const auto& [name, value] : told.items()) EXPECT_THAT(run.m_output, HasSubstr(name + " ")) << value;
 }
 
-// A folder that cannot be made, and a device without room in the place of the file.
-TEST_F(Program, WhatCannotBeWrittenIsToldAndLeavesNothing)
-{
-    m_folder.write("scene.json",
-                   R"({ "seconds": 0.05, "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1], "tets": 40 } }] })");
-    m_folder.write("file", "in the way");
-    refused("simulate " + path("scene.json") + " -o " + path("file/run"), 1,
-            "cannot make the folder '" + m_folder.path("file/run"));
-    EXPECT_EQ(m_folder.read("file"), "in the way");
-    std::filesystem::create_directory(m_folder.path("run"));
-    for (const char* name : {"run/run.glb", "run/elements.pvd", "mesh.msh"})
-        std::filesystem::create_symlink("/dev/full", m_folder.path(std::string(name) + ".part"));
-    refused("simulate " + path("scene.json") + " --glb -o " + path("run"), 1, m_folder.path("run/run.glb"));
-    refused("simulate " + path("scene.json") + " --pvd -o " + path("run"), 1, m_folder.path("run/elements.pvd"));
-    refused("convert " + path("two.node") + " " + path("mesh.msh"), 1, "No space left");
-    refused("convert " + path("two.node") + " " + path("missing/mesh.msh"), 1, m_folder.path("missing/mesh.msh"));
-    refused("bake " + path("two.node") + " -o " + path("missing/a.bfem"), 1, m_folder.path("missing/a.bfem"));
-    for (const char* name : {"run/run.glb", "run/elements.pvd", "mesh.msh", "missing"})
-        EXPECT_FALSE(exists(name)) << name;
-}
-
 }  // namespace
 }  // namespace bullet_fem

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bullet_fem/fem/baked_body.h"
+#include "fem/output_file.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
 #include "tools/bulletfem/material_options.h"
@@ -37,6 +38,7 @@ struct BakeCommand
 
     void run()
     {
+        checkWritable(m_output);
         const MeshInput input = MeshInput::read(m_mesh, m_scale, m_cage);
         const BakeSettings wanted = settings(input.m_mesh);
         const BakedBody body =

@@ -25,6 +25,7 @@ struct CageCommand
     {
         if (!isSurfaceFile(m_surface))
             throw std::runtime_error("'" + m_surface + "' is no surface file; it must end in .off, .obj, .stl or .ply");
+        if (!m_output.empty()) checkTetMeshOutput(m_output);
         const MeshInput input = MeshInput::read(m_surface, m_scale, m_cage);
         if (!m_output.empty()) writeTetMeshFile(m_output, input.m_mesh);
         tell(input.m_cage->m_report);

@@ -8,6 +8,7 @@
 #include "bullet_fem/io/surface_writer.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "bullet_fem/io/tet_mesh_writer.h"
+#include "fem/output_file.h"
 #include "io/file_bytes.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/mesh_input.h"
@@ -29,6 +30,7 @@ struct ConvertCommand
         if (isSurfaceFile(m_input))
             throw std::runtime_error("'" + m_input + "' is a surface, '" + m_output +
                                      "' is for tetrahedra: bulletfem cage makes them");
+        checkTetMeshOutput(m_output);
         writeTetMeshFile(m_output, mesh());
     }
 
@@ -43,6 +45,10 @@ struct ConvertCommand
 
     void writeSurface() const
     {
+        const std::string ending = lowerCaseEnding(m_output);
+        if (ending != ".obj" && ending != ".ply")
+            throw std::runtime_error("cannot write '" + m_output + "': surfaces are written as .obj or .ply");
+        checkWritable(m_output);
         BodyFrame frame;
         if (isSurfaceFile(m_input))
         {
@@ -56,10 +62,10 @@ struct ConvertCommand
             frame.m_positions = solid.restPositions();
             frame.m_triangles = solid.surface();
         }
-        const std::string ending = lowerCaseEnding(m_output);
-        if (ending == ".obj") return writeObj(m_output, {frame});
-        if (ending == ".ply") return writePly(m_output, {frame});
-        throw std::runtime_error("cannot write '" + m_output + "': surfaces are written as .obj or .ply");
+        if (ending == ".obj")
+            writeObj(m_output, {frame});
+        else
+            writePly(m_output, {frame});
     }
 };
 

@@ -3,10 +3,12 @@
 #include "tools/bulletfem/run_output.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
+#include "fem/output_file.h"
 #ifdef BULLETFEM_HAS_PICTURES
 #include "tools/pictures/film_writer.h"
 #include "tools/pictures/offscreen_renderer.h"
@@ -18,6 +20,8 @@ namespace
 {
 
 constexpr int kStripFrames = 4, kStripGap = 8;  // [pixels]
+const char* const kGlbName = "run.glb";
+const std::array<const char*, 3> kPngNames = {"first.png", "last.png", "strip.png"};
 
 GlbSettings glbSettings(const SceneDescription& scene)
 {
@@ -36,6 +40,7 @@ RunOutput::RunOutput(const RunOutputSettings& settings, const SceneWorld& world,
     std::error_code error;
     std::filesystem::create_directories(settings.m_folder, error);
     if (error) throw std::runtime_error("cannot make the folder '" + settings.m_folder + "': " + error.message());
+    checkFiles();
     if (settings.m_pvd)
     {
         m_elements = std::make_unique<VtuSeries>(settings.m_folder, "elements", VtuEncoding::compressed);
@@ -46,6 +51,7 @@ RunOutput::RunOutput(const RunOutputSettings& settings, const SceneWorld& world,
 #ifdef BULLETFEM_HAS_PICTURES
     if (!settings.m_films.empty() && !FilmWriter::available())
         throw std::runtime_error("a film needs the program ffmpeg, which is not found: install the package ffmpeg");
+    m_renderer = std::make_unique<OffscreenRenderer>();
     m_painter = std::make_unique<ScenePainter>(world, frames);
 #else
     throw std::runtime_error(
@@ -54,6 +60,15 @@ RunOutput::RunOutput(const RunOutputSettings& settings, const SceneWorld& world,
 }
 
 RunOutput::~RunOutput() = default;
+
+// All that is written at the run's end, which is no time to find out that it cannot be.
+void RunOutput::checkFiles() const
+{
+    if (m_settings.m_glb) checkWritable(path(kGlbName));
+    for (const char* name : kPngNames)
+        if (m_settings.m_png) checkWritable(path(name));
+    for (const std::string& name : m_settings.m_films) checkWritable(path(name));
+}
 
 void RunOutput::add()
 {
@@ -73,8 +88,8 @@ std::vector<std::string> RunOutput::finish()
         if (*series && (*series)->frameCount() > 0) written.push_back((*series)->pvdPath());
     if (m_film && m_film->frameCount() > 0)
     {
-        m_film->write(path("run.glb"));
-        written.push_back(path("run.glb"));
+        m_film->write(path(kGlbName));
+        written.push_back(path(kGlbName));
     }
     if (drawsPictures()) drawPictures(written);
     return written;
@@ -88,7 +103,6 @@ void RunOutput::drawPictures(std::vector<std::string>& written)
     const int count = static_cast<int>(m_snapshots.size());
     if (pictures.m_hottest <= 0) m_painter->setHottest(hottestOf(m_snapshots));
     if (const double largest = largestForceOf(m_snapshots); largest > 0) m_painter->setLargestForce(largest);
-    OffscreenRenderer renderer;
     std::vector<std::unique_ptr<FilmWriter>> films;
     const SceneDescription& scene = m_world.description();
     const double perSecond = std::min(scene.m_framesPerSecond, 1 / scene.m_step);  // a step has one frame at most
@@ -102,7 +116,7 @@ void RunOutput::drawPictures(std::vector<std::string>& written)
         const int place = static_cast<int>(strip.size());
         const bool inStrip = m_settings.m_png && place < inAll && k == place * (count - 1) / std::max(1, inAll - 1);
         if (!inStrip && films.empty()) continue;
-        const Image image = renderer.render(m_painter->paint(m_snapshots[k]), size);
+        const Image image = m_renderer->render(m_painter->paint(m_snapshots[k]), size);
         for (const auto& film : films) film->append(image);
         if (inStrip) strip.push_back(image);
     }
@@ -112,10 +126,10 @@ void RunOutput::drawPictures(std::vector<std::string>& written)
         written.push_back(path(m_settings.m_films[i]));
     }
     if (strip.empty()) return;
-    writePng(strip.front(), path("first.png"));
-    writePng(strip.back(), path("last.png"));
-    writePng(besideEachOther(strip, kStripGap), path("strip.png"));
-    for (const char* name : {"first.png", "last.png", "strip.png"}) written.push_back(path(name));
+    writePng(strip.front(), path(kPngNames[0]));
+    writePng(strip.back(), path(kPngNames[1]));
+    writePng(besideEachOther(strip, kStripGap), path(kPngNames[2]));
+    for (const char* name : kPngNames) written.push_back(path(name));
 }
 #else
 void RunOutput::drawPictures(std::vector<std::string>&) {}

@@ -16,6 +16,10 @@
 namespace bullet_fem
 {
 
+#ifdef BULLETFEM_HAS_PICTURES
+class OffscreenRenderer;
+#endif
+
 /// What a run leaves behind.
 struct RunOutputSettings
 {
@@ -30,8 +34,8 @@ struct RunOutputSettings
 class RunOutput
 {
 public:
-    /// Both must live longer. Throws std::runtime_error if the folder cannot be made, or pictures are asked for and
-    /// cannot be had.
+    /// Both must live longer. Throws std::runtime_error if the folder or a file in it cannot be made, or pictures are
+    /// asked for and cannot be had.
     RunOutput(const RunOutputSettings& settings, const SceneWorld& world, const SceneFrames& frames);
     ~RunOutput();
 
@@ -42,6 +46,7 @@ public:
     int frameCount() const { return m_frameCount; }
 
 private:
+    void checkFiles() const;
     void drawPictures(std::vector<std::string>& written);
     bool drawsPictures() const { return m_settings.m_png || !m_settings.m_films.empty(); }
     std::string path(const std::string& name) const { return m_settings.m_folder + "/" + name; }
@@ -52,6 +57,7 @@ private:
     std::unique_ptr<VtuSeries> m_elements, m_surfaces;
     std::unique_ptr<GlbFilm> m_film;
 #ifdef BULLETFEM_HAS_PICTURES
+    std::unique_ptr<OffscreenRenderer> m_renderer;
     std::unique_ptr<ScenePainter> m_painter;
     std::vector<SceneSnapshot> m_snapshots;
 #endif

@@ -35,8 +35,9 @@ bool endsWith(const std::string& text, const std::string& end)
 /// The program's arguments. No metadata and one thread: equal frames give equal bytes.
 std::vector<std::string> arguments(const PictureSize& size, int rate, const std::string& path, bool gif)
 {
-    std::vector<std::string> a{"ffmpeg", "-hide_banner", "-loglevel", "error", "-y",
-                               "-f",     "rawvideo",     "-pix_fmt",  "rgb24"};
+    std::vector<std::string> a{"ffmpeg",  "-hide_banner", "-loglevel", "error", "-y",
+                               "-xerror",  // or what does not fit onto the disk is a word, and no failure
+                               "-f",      "rawvideo",     "-pix_fmt",  "rgb24"};
     const auto add = [&](std::initializer_list<std::string> more) { a.insert(a.end(), more); };
     add({"-s", message(size.m_width, "x", size.m_height), "-r", std::to_string(rate), "-i", "pipe:0", "-an"});
     if (gif)  // with the best 256 colours of the whole film

@@ -15,4 +15,7 @@ namespace bullet_fem
 /// ending is another.
 void writeTetMeshFile(const std::string& path, const TetMesh& mesh);
 
+/// Throws what writeTetMeshFile would if it could not begin: before work whose result goes there. Nothing is left.
+void checkTetMeshOutput(const std::string& path);
+
 }  // namespace bullet_fem
