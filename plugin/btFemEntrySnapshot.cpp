@@ -10,6 +10,7 @@
 #include "fem/message.h"
 #include "plugin/btFemAttachments.h"
 #include "plugin/btFemFactorThread.h"
+#include "plugin/btFemModelReport.h"
 
 using namespace bullet_fem;
 
@@ -54,18 +55,9 @@ void restoreReports(const btFemEntrySnapshot& s, const WorldIds& world, btFemEnt
     entry.m_setUpFlags = s.m_setUpFlags;
     entry.m_message = s.m_message;
     btFemStepReport report = s.m_report;
-    const btFemStepReport& last = entry.m_report;  // sizes, and what the clock said
     report.m_message = entry.m_message.c_str();
-    report.m_nodes = last.m_nodes;
-    report.m_tets = last.m_tets;
-    const FactorReport& factor = entry.m_fem->m_body.m_model->factorReport();
-    report.m_factorEntries = factor.m_entries;
-    report.m_factorMegabytes = static_cast<btScalar>(1e-6 * static_cast<double>(factor.m_bytes));
-    report.m_fullFactorMegabytes = static_cast<btScalar>(1e-6 * static_cast<double>(factor.m_fullBytes));
-    report.m_lowMemory = factor.m_path == FactorPath::lowMemory;
-    report.m_factorSeconds = static_cast<btScalar>(factor.m_seconds);
-    report.m_bakedFactor = factor.m_baked;
-    report.m_tooSlow = last.m_tooSlow;
+    reportModel(*entry.m_fem->m_body.m_model, report);
+    report.m_tooSlow = entry.m_report.m_tooSlow;  // which the clock said
     entry.m_report = report;
 }
 

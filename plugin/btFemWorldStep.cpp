@@ -11,6 +11,7 @@
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_fem/fem/stepping.h"
+#include "plugin/btFemModelReport.h"
 #include "plugin/btFemStopwatch.h"
 #include "plugin/btFemTouches.h"
 
@@ -51,19 +52,7 @@ void clearReport(btFemEntry& entry)
     btFemStepReport report;
     report.m_flags = entry.m_report.m_flags | entry.m_setUpFlags | (entry.m_rejected ? BT_FEM_REJECTED : 0);
     report.m_message = entry.m_message.c_str();
-    if (entry.m_fem)
-    {
-        const BodyModel& model = *entry.m_fem->m_body.m_model;
-        report.m_nodes = model.nodeCount();
-        report.m_tets = model.mesh().tetCount();
-        const FactorReport& factor = model.factorReport();
-        report.m_factorEntries = factor.m_entries;
-        report.m_factorMegabytes = static_cast<btScalar>(1e-6 * static_cast<double>(factor.m_bytes));
-        report.m_fullFactorMegabytes = static_cast<btScalar>(1e-6 * static_cast<double>(factor.m_fullBytes));
-        report.m_lowMemory = factor.m_path == FactorPath::lowMemory;
-        report.m_factorSeconds = static_cast<btScalar>(factor.m_seconds);
-        report.m_bakedFactor = factor.m_baked;
-    }
+    if (entry.m_fem) reportModel(*entry.m_fem->m_body.m_model, report);
     entry.m_report = report;
 }
 
