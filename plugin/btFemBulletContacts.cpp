@@ -51,7 +51,8 @@ void refresh(btFemFaceIndex& index, const btSoftBody& soft, const TetMesh& mesh)
 // The node next to the point.
 int nearestNode(const btFemContact& contact)
 {
-    return contact.m_nodes[std::max_element(contact.m_weights, contact.m_weights + 3) - contact.m_weights];
+    const btScalar* const weights = contact.m_weights;
+    return contact.m_nodes[std::max_element(weights, weights + contact.m_nodeCount) - weights];
 }
 
 // A face that has the point, and its weights in the face's order; null if there is none.
@@ -68,7 +69,7 @@ btSoftBody::Face* faceAt(const btFemContact& contact, const btFemEntry& entry, b
         weights.setZero();
         btScalar sum = 0;
         for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < 3; ++b)
+            for (int b = 0; b < contact.m_nodeCount; ++b)
                 if (contact.m_weights[b] != 0 && contact.m_nodes[b] == nodes[a])
                     weights[a] += contact.m_weights[b], sum += contact.m_weights[b];
         if (sum > btScalar(0.999)) return &soft.m_faces[index];

@@ -36,7 +36,9 @@ void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
     contact.m_impulse = bulletVector(impulse);
     contact.m_normalImpulse = static_cast<btScalar>(dot(impulse, normal));
     contact.m_frictionImpulse = bulletVector(impulse - dot(impulse, normal) * normal);
-    for (int a = 0; a < 3; ++a)
+    static_assert(btFemContact::kMostNodes == SurfacePoint::kMostNodes);
+    contact.m_nodeCount = side.m_count;
+    for (int a = 0; a < side.m_count; ++a)
     {
         contact.m_nodes[a] = side.m_nodes[a];
         contact.m_weights[a] = static_cast<btScalar>(side.m_weights[a]);

@@ -26,7 +26,7 @@ btFemNeighbour withoutScratch(btFemNeighbour neighbour)
 void checkReports(const btFemEntrySnapshot& s)
 {
     for (const auto& contact : s.m_contacts)
-        for (int a = 0; a < 3; ++a)
+        for (int a = 0; a < contact.m_value.m_nodeCount; ++a)
             if (contact.m_value.m_nodes[a] < 0 || contact.m_value.m_nodes[a] >= s.m_nodeCount)
                 reject("a reported contact has node ", contact.m_value.m_nodes[a]);
     for (const auto& touch : s.m_touches)

@@ -69,8 +69,10 @@ void transfer(Bytes& bytes, btTransform& t)
 template <class Bytes>
 void transfer(Bytes& bytes, btFemContact& c)
 {
-    bytes(c.m_point, c.m_normal, c.m_gap, c.m_impulse, c.m_normalImpulse, c.m_frictionImpulse, c.m_part, c.m_index);
-    for (int a = 0; a < 3; ++a) bytes(c.m_nodes[a], c.m_weights[a]);
+    bytes(c.m_point, c.m_normal, c.m_gap, c.m_impulse, c.m_normalImpulse, c.m_frictionImpulse, c.m_part, c.m_index,
+          c.m_nodeCount);
+    bullet_fem::checkNodeCount(c.m_nodeCount);
+    for (int a = 0; a < c.m_nodeCount; ++a) bytes(c.m_nodes[a], c.m_weights[a]);
 }
 
 template <class Bytes>

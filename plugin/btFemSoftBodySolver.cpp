@@ -253,7 +253,7 @@ bool btFemSoftBodySolver::getContactForces(const btSoftBody* body, btAlignedObje
     for (int k = 0; known && entry->m_lastStep > 0 && k < entry->m_contacts.size(); ++k)
     {
         const btFemContact& contact = entry->m_contacts[k];
-        for (int a = 0; a < 3; ++a)
+        for (int a = 0; a < contact.m_nodeCount; ++a)
             if (contact.m_nodes[a] < perNode.size())  // prepare() may have found fewer nodes than the last step
                 perNode[contact.m_nodes[a]] +=
                     contact.m_impulse * (contact.m_weights[a] / static_cast<btScalar>(entry->m_lastStep));

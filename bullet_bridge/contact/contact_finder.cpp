@@ -303,7 +303,7 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     const Vec3& inverseMass = target.m_obstacle.m_inverseMass;
     ContactPoint contact;
     contact.m_point = interpolated(fem.m_body.m_state.m_x, nodes, d.m_barycentric);
-    contact.m_soft = {m_bodyIndex, nodes, d.m_barycentric};
+    contact.m_soft = pointOf(m_bodyIndex, nodes, d.m_barycentric);
     contact.m_obstacle = target.m_leaf.m_obstacle;
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap;
@@ -359,8 +359,7 @@ void ContactFinder::inheritImpulses(const FemSoftBody& fem)
         {
             const ContactPoint& old = fem.m_contacts[end];
             if (m_continued[end]) continue;
-            m_heirs.addLost(interpolated(fem.m_body.m_state.m_x, old.m_soft.m_nodes, old.m_soft.m_weights),
-                            old.m_normal, old.m_impulse);
+            m_heirs.addLost(old.m_soft.of(fem.m_body.m_state.m_x), old.m_normal, old.m_impulse);
         }
         while (k < m_origins.size() && idOf(m_origins[k]) < id) ++k;
         for (; k < m_origins.size() && idOf(m_origins[k]) == id; ++k) m_heirs.addHeir(m_contacts[k], 1);

@@ -37,21 +37,27 @@ int nodesOf(const FemSoftBody& fem)
     return fem.m_softBody->m_nodes.size();
 }
 
-template <std::size_t count>
-void checkNodes(const std::array<int, count>& nodes, const FemSoftBody& fem, const char* what)
+void checkNode(int node, const FemSoftBody& fem, const char* what)
 {
-    for (int node : nodes)
-        if (node < 0 || node >= nodesOf(fem)) reject("node ", node, " of ", what, " is not in [0, ", nodesOf(fem), ")");
+    if (node < 0 || node >= nodesOf(fem)) reject("node ", node, " of ", what, " is not in [0, ", nodesOf(fem), ")");
+}
+
+void checkSurfacePoint(const SurfacePoint& point, const FemSoftBody& fem, const char* what)
+{
+    for (int a = 0; a < point.m_count; ++a)
+    {
+        checkNode(point.m_nodes[a], fem, what);
+        checkSane("a contact", point.m_weights[a]);
+    }
 }
 
 // `soft` feels the impulse; null for what has left the world.
 void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBody* other)
 {
-    checkNodes(c.m_soft.m_nodes, soft, "a contact");
-    if (other) checkNodes(c.m_other.m_nodes, *other, "a contact's other side");
-    const auto &w = c.m_soft.m_weights, &v = c.m_other.m_weights;
-    checkSane("a contact", w[0], w[1], w[2], v[0], v[1], v[2], c.m_gap, c.m_slop, c.m_friction, c.m_restitution,
-              c.m_stiffness, c.m_damping, c.m_point, c.m_approach, c.m_normal, c.m_impulse, c.m_slip);
+    checkSurfacePoint(c.m_soft, soft, "a contact");
+    if (other) checkSurfacePoint(c.m_other, *other, "a contact's other side");
+    checkSane("a contact", c.m_gap, c.m_slop, c.m_friction, c.m_restitution, c.m_stiffness, c.m_damping, c.m_point,
+              c.m_approach, c.m_normal, c.m_impulse, c.m_slip);
 }
 
 bool isAnchor(const HeldJoint& joint)
@@ -75,9 +81,9 @@ void checkHeld(const HeldJoint& joint, const FemSoftBody& fem)
 
 void checkAttachment(const AttachmentSnapshot& a, const FemSoftBody& fem, const WorldIds& world)
 {
-    checkNodes(std::array<int, 1>{a.m_attachment.m_node}, fem, "an attachment");
+    checkNode(a.m_attachment.m_node, fem, "an attachment");
     if (const FemSoftBody* other = world.bodyOf(a.m_other))
-        checkNodes(a.m_attachment.m_otherNodes, *other, "an attachment's other side");
+        for (int node : a.m_attachment.m_otherNodes) checkNode(node, *other, "an attachment's other side");
     for (double weight : a.m_attachment.m_weights) checkSane("an attachment", weight);
 }
 
@@ -126,6 +132,12 @@ void restoreJoints(const ContactSnapshot& s, const WorldIds& world, HeldJoints& 
 }
 
 }  // namespace
+
+void checkNodeCount(int count)
+{
+    if (count < 1 || count > SurfacePoint::kMostNodes)
+        reject("a contact point has ", count, " nodes, not 1 to ", SurfacePoint::kMostNodes);
+}
 
 ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
 {

@@ -53,10 +53,15 @@ void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world);
 /// Throws std::invalid_argument unless all numbers are finite.
 void check(const RigidObstacles::Memory& memory);
 
+/// Throws std::invalid_argument unless a SurfacePoint may have so many nodes.
+void checkNodeCount(int count);
+
 template <class Bytes>
 void transfer(Bytes& bytes, SurfacePoint& p)
 {
-    bytes(p.m_nodes, p.m_weights);
+    bytes(p.m_count);
+    checkNodeCount(p.m_count);
+    for (int a = 0; a < p.m_count; ++a) bytes(p.m_nodes[a], p.m_weights[a]);
 }
 
 template <class Bytes>

@@ -19,15 +19,6 @@ constexpr double kBand = 0.05;        // share of the smaller mean edge that the
 constexpr double kSlop = 5e-4;        // share of the smaller body's size by which surfaces may sink in
 constexpr double kSameContact = 0.9;  // cosine between the normals of a node's contact in two steps
 
-SurfacePoint pointOn(const SoftPairSide& side, const Triangle& nodes, const std::array<double, 3>& weights)
-{
-    SurfacePoint point;
-    point.m_body = side.m_index;
-    point.m_nodes = nodes;
-    point.m_weights = weights;
-    return point;
-}
-
 }  // namespace
 
 SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
@@ -86,8 +77,8 @@ void SoftPairFinder::append(const Roles& roles, double offset)
             isAttached(roles.m_other.m_fem, touch.m_otherNodes, roles.m_soft.m_fem))
             continue;
         ContactPoint contact = common;
-        contact.m_soft = pointOn(roles.m_soft, touch.m_nodes, touch.m_weights);
-        contact.m_other = pointOn(roles.m_other, touch.m_otherNodes, touch.m_otherWeights);
+        contact.m_soft = pointOf(roles.m_soft.m_index, touch.m_nodes, touch.m_weights);
+        contact.m_other = pointOf(roles.m_other.m_index, touch.m_otherNodes, touch.m_otherWeights);
         contact.m_point = 0.5 * (interpolated(soft.position(), touch.m_nodes, touch.m_weights) +
                                  interpolated(other.position(), touch.m_otherNodes, touch.m_otherWeights));
         contact.m_normal = touch.m_normal;
@@ -148,8 +139,7 @@ void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSi
         const SoftSurface& surface = (ofSecond ? second : first).m_fem.m_surface;
         const double sign = ofSecond ? -1 : 1;
         const ContactPoint& last = m_last.m_contacts[k];
-        m_heirs.addLost(interpolated(surface.position(), last.m_soft.m_nodes, last.m_soft.m_weights),
-                        sign * last.m_normal, sign * last.m_impulse);
+        m_heirs.addLost(last.m_soft.of(surface.position()), sign * last.m_normal, sign * last.m_impulse);
     }
     for (std::size_t k = 0; k < m_found.size(); ++k) m_heirs.addHeir(m_found[k], isSecond(m_foundOrigins[k]) ? -1 : 1);
     m_heirs.settle(std::max(first.m_fem.m_surface.meanEdge(), second.m_fem.m_surface.meanEdge()));

@@ -2,12 +2,14 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "bullet_bridge/soft_pairs/rest_neighbours.h"
 #include "bullet_bridge/soft_pairs/surface_features.h"
 #include "bullet_bridge/soft_pairs/surface_tree.h"
+#include "bullet_fem/fem/contact_solver.h"
 
 namespace bullet_fem
 {
@@ -23,6 +25,16 @@ inline Vec3 unit(const Vec3& a)
 inline Vec3 interpolated(const std::vector<Vec3>& values, const Triangle& t, const std::array<double, 3>& w)
 {
     return w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]];
+}
+
+/// That point of a mesh's surface, for the solver.
+inline SurfacePoint pointOf(int body, const Triangle& nodes, const std::array<double, 3>& weights)
+{
+    SurfacePoint point;
+    point.m_body = body;
+    std::copy(nodes.begin(), nodes.end(), point.m_nodes.begin());
+    std::copy(weights.begin(), weights.end(), point.m_weights.begin());
+    return point;
 }
 
 /// The surface of a deforming body as contacts between soft bodies see it: normals of faces, edges and corners, how the

@@ -55,7 +55,8 @@ Vec3 BodyEnds::read(const End& end, const std::vector<Vec3>& nodeValues) const
     if (isGroup(end))
         for (int i = 0; i < end.m_count; ++i) sum += end.m_blocks[i] * nodeValues[end.m_nodes[i]];
     else
-        for (int a = 0; a < 3; ++a) sum += end.m_point.m_weights[a] * nodeValues[end.m_point.m_nodes[a]];
+        for (int a = 0; a < end.m_point.m_count; ++a)
+            sum += end.m_point.m_weights[a] * nodeValues[end.m_point.m_nodes[a]];
     return sum;
 }
 
@@ -64,7 +65,8 @@ void BodyEnds::scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& n
     if (isGroup(end))
         for (int i = 0; i < end.m_count; ++i) nodeImpulses[end.m_nodes[i]] += transposeTimes(end.m_blocks[i], impulse);
     else
-        for (int a = 0; a < 3; ++a) nodeImpulses[end.m_point.m_nodes[a]] += end.m_point.m_weights[a] * impulse;
+        for (int a = 0; a < end.m_point.m_count; ++a)
+            nodeImpulses[end.m_point.m_nodes[a]] += end.m_point.m_weights[a] * impulse;
 }
 
 void BodyEnds::assemble(int denseLimit)

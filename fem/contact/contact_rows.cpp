@@ -171,11 +171,7 @@ void ContactRows::finishRow(Row& row) const
 // Relative velocity of a contact as the step began.
 Vec3 ContactRows::priorVelocity(const Row& row, const ContactPoint& contact) const
 {
-    const auto soft = [this](const SurfacePoint& p)
-    {
-        const std::vector<Vec3>& v = m_problem->m_bodies[p.m_body].m_body->m_state.m_v;
-        return p.m_weights[0] * v[p.m_nodes[0]] + p.m_weights[1] * v[p.m_nodes[1]] + p.m_weights[2] * v[p.m_nodes[2]];
-    };
+    const auto soft = [this](const SurfacePoint& p) { return p.of(m_problem->m_bodies[p.m_body].m_body->m_state.m_v); };
     return soft(contact.m_soft) - (row.m_b.m_body >= 0 ? soft(contact.m_other) : velocity(row.m_b));
 }
 

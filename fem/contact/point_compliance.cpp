@@ -39,7 +39,7 @@ void PointCompliance::clear(std::size_t nodes)
 
 void PointCompliance::add(const SurfacePoint& point)
 {
-    for (std::size_t a = 0; a < point.m_nodes.size(); ++a)
+    for (int a = 0; a < point.m_count; ++a)
     {
         if (point.m_weights[a] == 0) continue;
         m_weight.push_back(static_cast<float>(point.m_weights[a]));

@@ -96,8 +96,12 @@ struct btFemContact
                                                  ///< compare, never to follow
     int m_part = -1, m_index = -1;  ///< the part and triangle of a mesh, as Bullet numbers them: of a height field 2
                                     ///< column (+ 1 for a cell's second) and row; -1 for other shapes and soft bodies
-    int m_nodes[3] = {0, 0, 0};     ///< nodes of this body that carry the point; unused ones repeat
-    btScalar m_weights[3] = {1, 0, 0};  ///< barycentric [-], sum 1; 0 for those that repeat
+    /// Nodes that may carry a point: those of a triangle, or of up to three tetrahedra where the surface that follows
+    /// them collides.
+    static constexpr int kMostNodes = 12;
+    int m_nodes[kMostNodes] = {0};         ///< nodes of this body that carry the point; among the first 3 they repeat
+    btScalar m_weights[kMostNodes] = {1};  ///< [-], sum 1; 0 for those that repeat
+    int m_nodeCount = 3;                   ///< how many they are, in [1, kMostNodes]
 };
 
 /// A stress in the world's axes [Pa], tension positive.

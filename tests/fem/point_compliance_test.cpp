@@ -83,29 +83,23 @@ protected:
         solveFreeMotion(m_body, StepSettings());
     }
 
-    SurfacePoint point(const std::array<int, 3>& nodes, const std::array<double, 3>& weights) const
+    static SurfacePoint point(const std::vector<int>& nodes, const std::vector<double>& weights)
     {
         SurfacePoint result;
         result.m_body = 0;
-        result.m_nodes = nodes;
-        result.m_weights = weights;
+        result.m_count = static_cast<int>(nodes.size());
+        std::copy(nodes.begin(), nodes.end(), result.m_nodes.begin());
+        std::copy(weights.begin(), weights.end(), result.m_weights.begin());
         return result;
-    }
-
-    static Vec3 velocityOf(const SurfacePoint& p, const std::vector<Vec3>& v)
-    {
-        Vec3 sum;
-        for (std::size_t a = 0; a < p.m_nodes.size(); ++a) sum += p.m_weights[a] * v[p.m_nodes[a]];
-        return sum;
     }
 
     // By the preconditioner itself, which is that factor turned with the nodes.
     Vec3 expected(const SurfacePoint& to, const SurfacePoint& from, int axis) const
     {
         std::vector<Vec3> in(m_body.m_state.m_x.size()), out = in;
-        for (std::size_t a = 0; a < from.m_nodes.size(); ++a) in[from.m_nodes[a]][axis] += from.m_weights[a];
+        for (int a = 0; a < from.m_count; ++a) in[from.m_nodes[a]][axis] += from.m_weights[a];
         WarpedPreconditioner(m_body).apply(in, out);
-        return velocityOf(to, out);
+        return to.of(out);
     }
 
     Body m_body;
@@ -116,11 +110,10 @@ protected:
 
 TEST_F(PointComplianceTest, IsWhatTheTurnedFactorDoesBetweenPoints)
 {
-    const std::vector<SurfacePoint> points = {point({m_free[0], m_free[0], m_free[0]}, {1, 0, 0}),
-                                              point({m_free[5], m_free[9], m_free[20]}, {.2, .3, .5}),
-                                              point({m_free[20], m_free[5], m_free[20]}, {.25, .75, 0}),
-                                              point({m_clamped[0], m_free[3], m_held}, {.5, .4, .1}),
-                                              point({m_clamped[1], m_clamped[1], m_clamped[1]}, {1, 0, 0})};
+    const std::vector<SurfacePoint> points = {
+        point({m_free[0]}, {1}), point({m_free[5], m_free[9], m_free[20]}, {.2, .3, .5}),
+        point({m_free[20], m_free[5], m_free[20], m_free[7], m_free[8]}, {.15, .45, .1, 0, .3}),
+        point({m_clamped[0], m_free[3], m_held}, {.5, .4, .1}), point({m_clamped[1]}, {1})};
     constexpr double kScale = 2.5;
     PointCompliance form;
     DenseCompliance W;
@@ -154,7 +147,7 @@ TEST_F(PointComplianceTest, IsSymmetricHoweverManyPoints)
     ASSERT_GT(count, static_cast<int>(kNodePadding));
     form.clear(m_body.m_state.m_x.size());
     W.resize(count);
-    for (int k = 0; k < count; ++k) form.add(point({m_free[k], m_free[(k + 7) % count], m_free[k]}, {.625, .375, 0}));
+    for (int k = 0; k < count; ++k) form.add(point({m_free[k], m_free[(k + 7) % count]}, {.625, .375}));
     form.form({&m_body, m_cache.get()}, 1, W);
     const double size = std::sqrt(squaredNorm(W.block(0, 0)));
     for (int f = 0; f < count; ++f)

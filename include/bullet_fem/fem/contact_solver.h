@@ -51,12 +51,24 @@ struct ObstacleResponse
     Mat3 m_angular;          ///< [1/(kg m2)]
 };
 
-/// A point of a soft surface: barycentric in at most three surface nodes of a body.
+/// A point of a soft surface: a weighted sum of nodes of a body, of those that its compliance cache serves. An impulse
+/// on it is shared out by the same weights, and so has no other moment than that of the impulse at the point.
 struct SurfacePoint
 {
-    int m_body = -1;                              ///< index into the bodies of the solve; -1: none
-    std::array<int, 3> m_nodes = {0, 0, 0};       ///< unused ones repeat the first
-    std::array<double, 3> m_weights = {1, 0, 0};  ///< [-], sum 1
+    static constexpr int kMostNodes = 12;  ///< three corners of a triangle, each in a tetrahedron
+
+    int m_body = -1;                                    ///< index into the bodies of the solve; -1: none
+    std::array<int, kMostNodes> m_nodes = {0, 0, 0};    ///< of a surface of the mesh its triangle's; may repeat
+    std::array<double, kMostNodes> m_weights = {1, 0};  ///< [-], sum 1
+    int m_count = 3;                                    ///< nodes that it has, in [1, kMostNodes]
+
+    /// What the nodes have, at the point.
+    Vec3 of(const std::vector<Vec3>& nodeValues) const
+    {
+        Vec3 sum = m_weights[0] * nodeValues[m_nodes[0]];
+        for (int a = 1; a < m_count; ++a) sum += m_weights[a] * nodeValues[m_nodes[a]];
+        return sum;
+    }
 };
 
 /// Where a soft surface touches an obstacle, another soft body or itself, or may do so within the step.
