@@ -41,9 +41,7 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
     m_pins.m_position.resize(n);
     m_pins.m_hasTarget.assign(n, 0);
     m_pins.m_moved.assign(n, 0);
-    m_nodeGap.resize(n);
-    m_nodeNormal.resize(n);
-    m_edgeGap.resize(m_surface.features().m_edges.size());
+    sizeScratch();
     noteRestMatrices(*this);
     for (int i = 0; i < n; ++i)
     {
@@ -59,6 +57,38 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
         m_written.m_inverseMass.push_back(node.m_im);
         if (node.m_im == 0) m_pins.m_velocity[i] = m_body.m_state.m_v[i];
     }
+}
+
+void FemSoftBody::sizeScratch()
+{
+    m_nodeGap.resize(m_surface.vertexCount());
+    m_nodeNormal.resize(m_surface.vertexCount());
+    m_edgeGap.resize(m_surface.features().m_edges.size());
+    m_contacts.clear();
+    m_origins.clear();
+}
+
+void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
+{
+    m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(m_body.m_model->mesh());
+    if (skin || m_skin) m_sheetSides.clear();
+    m_skin = std::move(skin);
+    m_skinPosition.resize(m_skin ? m_surface.vertexCount() : 0);
+    m_skinVelocity.resize(m_skinPosition.size());
+    m_compliance = std::move(compliance);
+    sizeScratch();
+}
+
+void FemSoftBody::updateSkin()
+{
+    if (!m_skin) return;
+    m_skin->follow(m_body.m_state.m_x, m_skinPosition);
+    m_skin->follow(velocity(m_body), m_skinVelocity);
+}
+
+const std::vector<Vec3>& FemSoftBody::surfaceVelocity() const
+{
+    return m_skin ? m_skinVelocity : velocity(m_body);
 }
 
 bool restMatricesChanged(const FemSoftBody& fem)
@@ -95,11 +125,7 @@ void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
     now.m_mass.swap(before.m_mass);
     now.m_fixed.swap(before.m_fixed);
     fem.m_body = std::move(body);
-    fem.m_compliance = std::move(compliance);
-    fem.m_surface = SoftSurface(fem.m_body.m_model->mesh());
-    fem.m_edgeGap.resize(fem.m_surface.features().m_edges.size());
-    fem.m_contacts.clear();
-    fem.m_origins.clear();
+    fem.setSkin(nullptr, std::move(compliance));
 }
 
 double fastestNode(const Body& body, const Vec3& relativeTo)
@@ -107,6 +133,14 @@ double fastestNode(const Body& body, const Vec3& relativeTo)
     const std::vector<Vec3>& v = velocity(body);
     double fastest = 0;
     for (int i : body.m_model->mesh().surfaceNodes()) fastest = std::max(fastest, norm(v[i] - relativeTo));
+    return fastest;
+}
+
+double fastestVertex(const FemSoftBody& fem, const Vec3& relativeTo)
+{
+    if (!fem.m_skin) return fastestNode(fem.m_body, relativeTo);
+    double fastest = 0;
+    for (const Vec3& v : fem.m_skinVelocity) fastest = std::max(fastest, norm(v - relativeTo));
     return fastest;
 }
 

@@ -9,6 +9,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btMatrix3x3.h"
+#include "bullet_bridge/collision_skin.h"
 #include "bullet_bridge/joints/held_joint.h"
 #include "bullet_bridge/model_library.h"
 #include "bullet_bridge/soft_pairs/soft_surface.h"
@@ -23,9 +24,10 @@ namespace bullet_fem
 struct ContactOrigin
 {
     const btCollisionObject* m_object = nullptr;
-    int m_objectId = 0;   ///< broadphase id; orders the contacts
-    int m_leaf = 0;       ///< leaf of the object's shape
-    int m_feature = 0;    ///< surface node; then of every edge its middle and nearest point, then of every triangle
+    int m_objectId = 0;  ///< broadphase id; orders the contacts
+    int m_leaf = 0;      ///< leaf of the object's shape
+    int m_feature =
+        0;  ///< vertex of what collides; then of every edge its middle and nearest point, then of every triangle
     int m_part = -1;      ///< Bullet's number of a mesh's part; -1: not a mesh
     int m_triangle = -1;  ///< and of a triangle in it
 
@@ -36,7 +38,7 @@ struct ContactOrigin
     }
 };
 
-/// Where a surface node was seen last near a concave shape, whose sheets have two sides.
+/// Where a vertex of what collides was seen last near a concave shape, whose sheets have two sides.
 struct SheetSide
 {
     int m_objectId = 0, m_leaf = 0, m_node = 0;  ///< as in ContactOrigin
@@ -72,6 +74,23 @@ struct FemSoftBody
     FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
                 std::shared_ptr<ComplianceCache> compliance);
 
+    /// Makes a skin what collides, or the mesh's boundary again (null). `compliance` serves the nodes that this
+    /// depends on; contacts begin anew.
+    void setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance);
+
+    /// Takes a skin to where the nodes are: in every step, after solveFreeMotion, before contacts are searched.
+    void updateSkin();
+
+    /// Of the vertices of what collides, which are the nodes if there is no skin [m], [m/s].
+    const std::vector<Vec3>& surfacePosition() const { return m_skin ? m_skinPosition : m_body.m_state.m_x; }
+    const std::vector<Vec3>& surfaceVelocity() const;
+
+    /// A point of a triangle of it, for the solver.
+    SurfacePoint pointOn(int body, const Triangle& vertices, const std::array<double, 3>& weights) const
+    {
+        return m_skin ? m_skin->pointOf(body, vertices, weights) : pointOf(body, vertices, weights);
+    }
+
     btSoftBody* m_softBody;
     const btSoftBody::Node* m_firstNode;  ///< where the array of its nodes begins, as seen last
     std::uint64_t m_mark;                 ///< on the btSoftBody: see body_mark.h
@@ -95,13 +114,18 @@ struct FemSoftBody
 
     HeldJoints m_joints;  ///< what holds the body
 
-    std::vector<ContactPoint> m_contacts;  ///< of the last step
-    std::vector<ContactOrigin> m_origins;  ///< one a contact, ascending
-    std::vector<SheetSide> m_sheetSides;   ///< of the last step, ascending
-    SoftSurface m_surface;                 ///< of m_body's mesh; update() it before soft bodies are searched
-    std::vector<double> m_nodeGap;         ///< scratch of the contact search, one a node
-    std::vector<Vec3> m_nodeNormal;        ///< likewise
-    std::vector<double> m_edgeGap;         ///< likewise, one a surface edge: at its middle
+    std::vector<ContactPoint> m_contacts;              ///< of the last step
+    std::vector<ContactOrigin> m_origins;              ///< one a contact, ascending
+    std::vector<SheetSide> m_sheetSides;               ///< of the last step, ascending
+    SoftSurface m_surface;                             ///< what collides; update() it before soft bodies are searched
+    std::shared_ptr<const CollisionSkin> m_skin;       ///< what collides follows the mesh; null: it is its boundary
+    std::vector<Vec3> m_skinPosition, m_skinVelocity;  ///< see updateSkin
+    std::vector<double> m_nodeGap;                     ///< scratch of the contact search, one a vertex
+    std::vector<Vec3> m_nodeNormal;                    ///< likewise
+    std::vector<double> m_edgeGap;                     ///< likewise, one a surface edge: at its middle
+
+private:
+    void sizeScratch();
 };
 
 /// True if the user called initializeDmInverse, or scaled the body, since noteRestMatrices, and that changed a matrix.
@@ -109,11 +133,15 @@ struct FemSoftBody
 bool restMatricesChanged(const FemSoftBody& fem);
 void noteRestMatrices(FemSoftBody& fem);
 
-/// Gives a body another rest shape of the same nodes, and keeps its motion and what holds it; contacts begin anew.
+/// Gives a body another rest shape of the same nodes, and keeps its motion and what holds it; contacts begin anew, with
+/// the boundary.
 void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
                      std::shared_ptr<ComplianceCache> compliance);
 
 /// Largest speed of a surface node relative to a velocity [m/s]; NaN counts as none.
 double fastestNode(const Body& body, const Vec3& relativeTo);
+
+/// The same for the vertices of what collides.
+double fastestVertex(const FemSoftBody& fem, const Vec3& relativeTo);
 
 }  // namespace bullet_fem

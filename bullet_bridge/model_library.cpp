@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_bridge/collision_skin.h"
 #include "bullet_fem/fem/contact_solver.h"
 
 namespace bullet_fem
@@ -142,29 +143,37 @@ std::shared_ptr<const BodyModel> ModelLibrary::adopt(std::shared_ptr<const BodyM
     return model;
 }
 
-std::shared_ptr<const RestNeighbours> ModelLibrary::restNeighbours(const std::shared_ptr<const RestShape>& shape)
+template <class T, class Make>
+std::shared_ptr<T> ModelLibrary::findOrMake(Shared<T>& known, const CollisionSkin* skin, const Make& make)
 {
-    for (Shape& entry : m_shapes)
-    {
-        if (entry.m_shape.lock() != shape) continue;
-        auto neighbours = entry.m_neighbours.lock();
-        if (!neighbours) entry.m_neighbours = neighbours = std::make_shared<const RestNeighbours>(shape->m_mesh);
-        return neighbours;
-    }
-    return std::make_shared<const RestNeighbours>(shape->m_mesh);
+    dropDead(known, &OfNodes<T>::m_shared);
+    const std::vector<int> nodes = skin ? skin->nodes() : std::vector<int>();
+    for (const OfNodes<T>& entry : known)
+        if (entry.m_nodes == nodes)
+            if (auto shared = entry.m_shared.lock()) return shared;
+    std::shared_ptr<T> made = make();
+    known.push_back({nodes, made});
+    return made;
 }
 
-std::shared_ptr<ComplianceCache> ModelLibrary::compliance(const std::shared_ptr<const BodyModel>& model)
+std::shared_ptr<const RestNeighbours> ModelLibrary::restNeighbours(const std::shared_ptr<const RestShape>& shape,
+                                                                   const CollisionSkin* skin)
 {
+    const TetMesh& mesh = shape->m_mesh;
+    const auto make = [&]
+    { return std::make_shared<const RestNeighbours>(mesh, skin ? skin->nodes() : mesh.surfaceNodes()); };
+    for (Shape& entry : m_shapes)
+        if (entry.m_shape.lock() == shape) return findOrMake(entry.m_neighbours, skin, make);
+    return make();
+}
+
+std::shared_ptr<ComplianceCache> ModelLibrary::compliance(const std::shared_ptr<const BodyModel>& model,
+                                                          const CollisionSkin* skin)
+{
+    const auto make = [&] { return skin ? makeComplianceCache(model, skin->nodes()) : makeComplianceCache(model); };
     for (Model& entry : m_models)
-    {
-        if (entry.m_model.lock() != model) continue;
-        if (auto cache = entry.m_compliance.lock()) return cache;
-        auto cache = makeComplianceCache(model);
-        entry.m_compliance = cache;
-        return cache;
-    }
-    return makeComplianceCache(model);
+        if (entry.m_model.lock() == model) return findOrMake(entry.m_compliance, skin, make);
+    return make();
 }
 
 }  // namespace bullet_fem

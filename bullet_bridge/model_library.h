@@ -11,6 +11,7 @@
 namespace bullet_fem
 {
 
+class CollisionSkin;
 class ComplianceCache;
 
 /// Finds the models that bodies can share: the same elements, material, masses, pins and step, and rest positions that
@@ -62,24 +63,38 @@ public:
     /// The input with the library's limit and choice of factors.
     FactorInput limited(FactorInput input) const;
 
-    /// The neighbours at rest that the surfaces of a shape's bodies share.
-    std::shared_ptr<const RestNeighbours> restNeighbours(const std::shared_ptr<const RestShape>& shape);
+    /// The neighbours at rest that the surfaces of a shape's bodies share. A `skin` has those of the nodes that it
+    /// follows; null: the mesh's boundary collides.
+    std::shared_ptr<const RestNeighbours> restNeighbours(const std::shared_ptr<const RestShape>& shape,
+                                                         const CollisionSkin* skin = nullptr);
 
-    /// The compliance cache that the bodies of a model share.
-    std::shared_ptr<ComplianceCache> compliance(const std::shared_ptr<const BodyModel>& model);
+    /// The compliance cache that the bodies of a model share which touch with the same nodes.
+    std::shared_ptr<ComplianceCache> compliance(const std::shared_ptr<const BodyModel>& model,
+                                                const CollisionSkin* skin = nullptr);
 
 private:
+    template <class T>
+    struct OfNodes
+    {
+        std::vector<int> m_nodes;  // of a skin; empty: of the boundary
+        std::weak_ptr<T> m_shared;
+    };
+    template <class T>
+    using Shared = std::vector<OfNodes<T>>;
     struct Shape
     {
         std::weak_ptr<const RestShape> m_shape;
         std::vector<double> m_filled;
-        std::weak_ptr<const RestNeighbours> m_neighbours;
+        Shared<const RestNeighbours> m_neighbours;
     };
     struct Model
     {
         std::weak_ptr<const BodyModel> m_model;
-        std::weak_ptr<ComplianceCache> m_compliance;
+        Shared<ComplianceCache> m_compliance;
     };
+    template <class T, class Make>
+    static std::shared_ptr<T> findOrMake(Shared<T>& known, const CollisionSkin* skin, const Make& make);
+
     std::size_t m_maxFactorBytes;
     FactorChoice m_choice;
     std::vector<Shape> m_shapes;

@@ -232,7 +232,7 @@ void btFemBodyRegistry::giveFactors(btFemEntry& entry, const std::shared_ptr<con
 {
     exchangeModel(entry, model);
     entry.m_formerModel = former;
-    entry.m_formerCompliance = former ? m_library.compliance(former) : nullptr;
+    entry.m_formerCompliance = former ? m_library.compliance(former, entry.m_fem->m_skin.get()) : nullptr;
 }
 
 void btFemBodyRegistry::putFirst(const std::vector<btFemEntry*>& entries)
@@ -250,5 +250,5 @@ void btFemBodyRegistry::exchangeModel(btFemEntry& entry, const std::shared_ptr<c
     entry.m_formerModel = fem.m_body.m_model;
     entry.m_formerCompliance = fem.m_compliance;
     fem.m_body.setModel(model);
-    fem.m_compliance = m_library.compliance(model);
+    fem.m_compliance = m_library.compliance(model, fem.m_skin.get());
 }

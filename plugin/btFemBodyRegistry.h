@@ -55,6 +55,7 @@ struct btFemEntry
     std::shared_ptr<const bullet_fem::BodyModel> m_formerModel;       // kept, so that a step size that comes and goes
     std::shared_ptr<bullet_fem::ComplianceCache> m_formerCompliance;  // is not factored for again and again
     bool m_rejected = false;
+    bool m_asksSkin = false, m_hasAskedSurface = false;  // what the user wanted to collide when that was last looked at
     std::string m_message;
     bool m_wasChanged = false;  // by the program, which appended, removed or rejoined nodes or tetrahedra
     int m_setUpFlags = 0;       // flags that hold until the body is set up anew
@@ -113,6 +114,13 @@ public:
     /// Whether the body touches itself; what that needs is made where it was switched on since the body was set up, and
     /// costs as much as half of a set-up with a baked factor.
     bool readyForSelfContact(btFemEntry& entry);
+
+    /// Makes that of a FEM body collide which its m_cfg.collisions asks for; costs nothing if it is so already. Throws
+    /// std::invalid_argument if the surface cannot collide: then the mesh's boundary does until it is asked anew.
+    void chooseSurface(btFemEntry& entry);
+
+    /// chooseSurface for use within a step: a failure is written to the entry.
+    void tryChooseSurface(btFemEntry& entry);
 
     /// Leaves a body that cannot be FEM to Bullet.
     static void reject(btFemEntry& entry);

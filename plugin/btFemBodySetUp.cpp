@@ -156,6 +156,7 @@ void btFemBodyRegistry::renew(btFemEntry& entry, double step)
     if (rest.m_known)
     {
         changeRestShape(fem, model, m_library.compliance(model));
+        entry.m_hasAskedSurface = false;
         fem.m_restOrigin = rest.m_origin;
         entry.m_setUpFlags = flagsOf(mesh);
         entry.m_formerModel.reset();
@@ -164,7 +165,7 @@ void btFemBodyRegistry::renew(btFemEntry& entry, double step)
     else
     {
         fem.m_body.setModel(model);
-        fem.m_compliance = m_library.compliance(model);
+        fem.m_compliance = m_library.compliance(model, fem.m_skin.get());
     }
     entry.m_factorAccount = {};
     entry.m_factorJob.reset();
@@ -173,10 +174,47 @@ void btFemBodyRegistry::renew(btFemEntry& entry, double step)
 bool btFemBodyRegistry::readyForSelfContact(btFemEntry& entry)
 {
     if (!(entry.m_softBody->m_cfg.collisions & btSoftBody::fCollision::CL_SELF)) return false;
-    SoftSurface& surface = entry.m_fem->m_surface;
-    if (!surface.hasRestNeighbours())
-        surface.setRestNeighbours(m_library.restNeighbours(entry.m_fem->m_body.m_model->sharedShape()));
+    FemSoftBody& fem = *entry.m_fem;
+    if (!fem.m_surface.hasRestNeighbours())
+        fem.m_surface.setRestNeighbours(m_library.restNeighbours(fem.m_body.m_model->sharedShape(), fem.m_skin.get()));
     return true;
+}
+
+void btFemBodyRegistry::chooseSurface(btFemEntry& entry)
+{
+    FemSoftBody& fem = *entry.m_fem;
+    const bool wanted = wantsSkin(*fem.m_softBody);
+    if (entry.m_hasAskedSurface && wanted == entry.m_asksSkin) return;
+    entry.m_asksSkin = wanted;
+    entry.m_hasAskedSurface = true;
+    entry.m_setUpFlags &= ~BT_FEM_BAD_SURFACE;
+    const std::shared_ptr<const BodyModel> model = fem.m_body.m_model;
+    const auto take = [&](const std::shared_ptr<const CollisionSkin>& skin)
+    { fem.setSkin(skin, m_library.compliance(model, skin.get())); };
+    try
+    {
+        if (wanted || fem.m_skin) take(wanted ? skinOf(*fem.m_softBody, model->mesh()) : nullptr);
+    }
+    catch (const std::exception&)
+    {
+        entry.m_setUpFlags |= BT_FEM_BAD_SURFACE;
+        take(nullptr);
+        throw;
+    }
+    entry.m_formerModel.reset();  // its compliance is for other nodes
+    entry.m_formerCompliance.reset();
+}
+
+void btFemBodyRegistry::tryChooseSurface(btFemEntry& entry)
+{
+    try
+    {
+        chooseSurface(entry);
+    }
+    catch (const std::exception& error)
+    {
+        entry.m_message = error.what();
+    }
 }
 
 void btFemBodyRegistry::trySetUp(btFemEntry& entry, double step)

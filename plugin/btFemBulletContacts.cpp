@@ -58,6 +58,7 @@ int nearestNode(const btFemContact& contact)
 // A face that has the point, and its weights in the face's order; null if there is none.
 btSoftBody::Face* faceAt(const btFemContact& contact, const btFemEntry& entry, btVector3& weights)
 {
+    if (entry.m_fem->m_skin) return nullptr;  // no face of the mesh has points of a skin
     btSoftBody& soft = *entry.m_softBody;
     const SurfaceFeatures& features = entry.m_fem->m_surface.features();
     const int node = nearestNode(contact);

@@ -73,8 +73,10 @@ private:
 void drawStressFree(const FemSoftBody& fem, btIDebugDraw& drawer, const btFemDrawSettings& settings)
 {
     const RigidFit fit(fem);
-    for (const auto& edge : fem.m_surface.features().m_edges)
-        drawer.drawLine(fit.place(edge[0]), fit.place(edge[1]), settings.m_restColor);
+    for (const Triangle& t : fem.m_body.m_model->mesh().surface())
+        for (int k = 0; k < 3; ++k)
+            if (t[k] < t[(k + 1) % 3])  // every edge once: the other triangle has it the other way round
+                drawer.drawLine(fit.place(t[k]), fit.place(t[(k + 1) % 3]), settings.m_restColor);
 }
 
 void drawArrow(const btVector3& from, const btVector3& way, btIDebugDraw& drawer, const btVector3& color)

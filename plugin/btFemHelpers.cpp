@@ -125,6 +125,7 @@ btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, cons
     const Cage cage = makeCage(surface, settings);
     std::unique_ptr<btSoftBody> body = softBodyOf(worldInfo, cage.m_mesh, cage.m_filled, cage.m_massScale);
     embed(*body, {cage.m_mesh.tets(), cage.m_embedding, surface.m_triangles});
+    if (cage.m_surfaceCollides) body->m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
     report = cage.m_report;
     return body.release();
 }
@@ -178,6 +179,7 @@ btSoftBody* btFemHelpers::createFromBaked(btSoftBodyWorldInfo& worldInfo, const 
     for (int i = 0; i < body->m_nodes.size(); ++i)
         body->m_nodes[i].m_im = fixed[i] ? btScalar(0) : static_cast<btScalar>(baked.m_inverseMass[i]);
     if (!baked.m_embedding.empty()) embed(*body, {model.mesh().tets(), baked.m_embedding, baked.m_triangles});
+    if (baked.m_surfaceCollides) body->m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
     return body.release();
 }
 

@@ -153,6 +153,7 @@ void btFemSoftBodySolver::prepare(btSoftBody* body, btScalar fixedTimeStep)
     btFemEntry& entry = m_impl->m_registry.entry(body);
     m_impl->m_registry.setUp(entry, fixedTimeStep);
     entry.m_rejected = false;
+    m_impl->m_registry.chooseSurface(entry);
 }
 
 void btFemSoftBodySolver::useBaked(btSoftBody* body, const BakedBody& baked)

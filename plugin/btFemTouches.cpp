@@ -100,7 +100,7 @@ void updateTouches(btFemEntry& entry, const std::vector<btFemEntry*>& together)
 
 btScalar touchSlack(const btFemEntry& entry)
 {
-    return static_cast<btScalar>(kSlack * entry.m_fem->m_body.m_model->mesh().meanEdgeLength());
+    return static_cast<btScalar>(kSlack * entry.m_fem->m_surface.meanEdge());
 }
 
 const btFemTouch* touchWith(const btFemEntry& entry, const btCollisionObject* other)

@@ -103,6 +103,7 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         if (!isUsableStep(h)) continue;
         if (!entry.m_fem || entry.m_materialChanged || restMatricesChanged(*entry.m_fem)) registry.trySetUp(entry, h);
         if (!entry.m_fem) continue;
+        registry.tryChooseSurface(entry);
 
         readBody(entry);
         renewFactor(registry, entry, h);

@@ -76,8 +76,8 @@ void moveBack(btAlignedObjectArray<ShapeLeaf>& leaves, const Obstacle& obstacle,
 bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
 {
     constexpr double kAgainst = -0.5;  // cosine
-    const std::vector<Triangle>& triangles = fem.m_body.m_model->mesh().surface();
-    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const std::vector<Triangle>& triangles = fem.m_surface.triangles();
+    const std::vector<Vec3>& x = fem.surfacePosition();
     const SurfaceFeatures& features = fem.m_surface.features();
     Vec3 mean;
     for (int k = features.m_firstAround[nodes[0]]; k < features.m_firstAround[nodes[0] + 1]; ++k)
@@ -117,15 +117,16 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
     m_sheetSides.clear();
     m_measured = false;
     m_bodyIndex = bodyIndex;
-    m_edge = fem.m_body.m_model->mesh().meanEdgeLength();
+    m_edge = fem.m_surface.meanEdge();
     m_band = kBand * m_edge;
     m_advantage = kAdvantage * m_edge;
-    m_size = std::cbrt(fem.m_body.m_model->mesh().volume());
+    m_size = fem.m_surface.size();
     removeGone(fem, m_overlapping);
     std::sort(fem.m_touching.begin(), fem.m_touching.end(),
               [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
 
-    const double softReach = m_band + fem.m_contactOffset + step * fastestNode(fem.m_body, Vec3());
+    if (!fem.m_touching.empty()) fem.updateSkin();
+    const double softReach = m_band + fem.m_contactOffset + step * fastestVertex(fem, Vec3());
     for (const btCollisionObject* object : fem.m_touching)
     {
         m_leaves.resize(0);
@@ -159,7 +160,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
 
 void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
 {
-    for (int i : fem.m_body.m_model->mesh().surfaceNodes())
+    for (int i : fem.m_surface.nodes())
     {
         SurfaceDistance d;
         fem.m_nodeGap[i] = gapAt(fem, target, {i, i, i}, {1, 0, 0}, d);
@@ -190,9 +191,9 @@ bool ContactFinder::isNear(const Target& target, const std::array<Vec3, 3>& corn
 
 void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
 {
-    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const std::vector<Vec3>& x = fem.surfacePosition();
     const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
-    const int firstFeature = fem.m_body.m_model->nodeCount();
+    const int firstFeature = fem.m_surface.vertexCount();
     for (int k = 0; k < edgeCount; ++k)
     {
         const auto [a, b] = fem.m_surface.features().m_edges[k];
@@ -208,13 +209,13 @@ void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
 
 void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
 {
-    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
-    const TetMesh& mesh = fem.m_body.m_model->mesh();
-    const int triangleCount = static_cast<int>(mesh.surface().size());
-    const int firstFeature = mesh.nodeCount() + 2 * static_cast<int>(fem.m_surface.features().m_edges.size());
+    const std::vector<Vec3>& x = fem.surfacePosition();
+    const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
+    const int firstFeature =
+        fem.m_surface.vertexCount() + 2 * static_cast<int>(fem.m_surface.features().m_edges.size());
     for (int k = 0; k < triangleCount; ++k)
     {
-        const Triangle& t = mesh.surface()[k];
+        const Triangle& t = fem.m_surface.triangles()[k];
         if (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2])) continue;
         if (!isNear(target, {x[t[0]], x[t[1]], x[t[2]]})) continue;
         SurfaceDistance d;
@@ -233,7 +234,7 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
 double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                                       double nearest)
 {
-    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const std::vector<Vec3>& x = fem.surfacePosition();
     SurfaceDistance d;
     if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
         return nearest;
@@ -257,7 +258,7 @@ double ContactFinder::gapAsTheStepBegan(const FemSoftBody& fem, const Target& ta
 double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
                             SurfaceDistance& d) const
 {
-    const Vec3 point = interpolated(fem.m_body.m_state.m_x, nodes, weights);
+    const Vec3 point = interpolated(fem.surfacePosition(), nodes, weights);
     if (!overlaps(point, point, target.m_shape, target.m_leaf.m_reach) ||
         !pointShapeDistance(target.m_shape, point, target.m_leaf.m_reach, d))
         return kNotNear;
@@ -286,9 +287,9 @@ ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const bt
 void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                              const SurfaceDistance& d)
 {
-    const Vec3 point = interpolated(fem.m_body.m_state.m_x, nodes, d.m_barycentric);
+    const Vec3 point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     const Vec3 relative =
-        interpolated(velocity(fem.m_body), nodes, d.m_barycentric) - target.m_obstacle.velocityAt(point);
+        interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_obstacle.velocityAt(point);
     if (d.m_gap > m_band && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band) return;
     if (d.m_gap > -m_band && !faces(fem, nodes, d.m_normal)) return;
     keep(fem, target, feature, nodes, d);
@@ -298,12 +299,12 @@ void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature
 ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                                   const SurfaceDistance& d)
 {
-    for (int node : nodes)
-        if (isAnchoredTo(fem, node, *target.m_leaf.m_object)) return nullptr;
-    const Vec3& inverseMass = target.m_obstacle.m_inverseMass;
     ContactPoint contact;
-    contact.m_point = interpolated(fem.m_body.m_state.m_x, nodes, d.m_barycentric);
-    contact.m_soft = pointOf(m_bodyIndex, nodes, d.m_barycentric);
+    contact.m_soft = fem.pointOn(m_bodyIndex, nodes, d.m_barycentric);
+    for (int a = 0; a < contact.m_soft.m_count; ++a)
+        if (isAnchoredTo(fem, contact.m_soft.m_nodes[a], *target.m_leaf.m_object)) return nullptr;
+    const Vec3& inverseMass = target.m_obstacle.m_inverseMass;
+    contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     contact.m_obstacle = target.m_leaf.m_obstacle;
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap;
@@ -363,7 +364,7 @@ void ContactFinder::inheritImpulses(const FemSoftBody& fem)
         }
         while (k < m_origins.size() && idOf(m_origins[k]) < id) ++k;
         for (; k < m_origins.size() && idOf(m_origins[k]) == id; ++k) m_heirs.addHeir(m_contacts[k], 1);
-        m_heirs.settle(m_edge);
+        m_heirs.settle(fem.m_body.m_model->mesh().meanEdgeLength());
     }
 }
 

@@ -40,15 +40,16 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
 {
     const SweptShape swept =
         pathOf(target.m_shape, target.m_obstacle, target.m_step, target.m_leaf.m_object->isKinematicObject());
-    const double speed = fastestNode(fem.m_body, swept.m_motion.m_linearVelocity);
-    const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
-    if (!isFast(swept, speed - 2 * fallingSpeed(fem, target.m_step), m_edge)) return false;
+    const double nodeSpeed = fastestNode(fem.m_body, swept.m_motion.m_linearVelocity);
+    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as RigidObstacles decides
+    if (!isFast(swept, nodeSpeed - 2 * fallingSpeed(fem, target.m_step), edge)) return false;
 
-    const TetMesh& mesh = fem.m_body.m_model->mesh();
+    const double speed = fastestVertex(fem, swept.m_motion.m_linearVelocity);
+    const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
     const PathSearch search = {fem, target, swept, speed + spin};
-    for (int i : mesh.surfaceNodes()) fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
+    for (int i : fem.m_surface.nodes()) fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
     const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
-    int firstFeature = mesh.nodeCount() + 1;  // ids are those of nearest points
+    int firstFeature = fem.m_surface.vertexCount() + 1;  // ids are those of nearest points
     for (int k = 0; k < edgeCount; ++k)
     {
         const auto [a, b] = fem.m_surface.features().m_edges[k];
@@ -56,11 +57,11 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
         if (!overOneFace(fem, a, b))
             fem.m_edgeGap[k] = considerPath(search, firstFeature + 2 * k, {a, b, a}, fem.m_edgeGap[k]);
     }
-    const int triangleCount = static_cast<int>(mesh.surface().size());
+    const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
     firstFeature += 2 * edgeCount;
     for (int k = 0; k < triangleCount; ++k)
     {
-        const Triangle& t = mesh.surface()[k];
+        const Triangle& t = fem.m_surface.triangles()[k];
         if (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2])) continue;
         double earliest = kNever;
         for (int a = 0; a < 3; ++a)
@@ -81,8 +82,8 @@ double ContactFinder::considerPath(const PathSearch& search, int feature, const 
     path.m_count = nodes[1] == nodes[0] ? 1 : nodes[2] == nodes[0] ? 2 : 3;
     for (int i = 0; i < path.m_count; ++i)
     {
-        path.m_position[i] = fem.m_body.m_state.m_x[nodes[i]];
-        path.m_velocity[i] = velocity(fem.m_body)[nodes[i]];
+        path.m_position[i] = fem.surfacePosition()[nodes[i]];
+        path.m_velocity[i] = fem.surfaceVelocity()[nodes[i]];
     }
     SweptContact contact;
     if (!mayMeet(search.m_swept, path, fem.m_contactOffset) ||

@@ -31,8 +31,8 @@ Vec3 normalOf(const std::vector<Vec3>& x, const Triangle& t)
 
 void ContactFinder::findOnSheets(FemSoftBody& fem, const Target& target)
 {
-    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
-    const std::vector<int>& nodes = fem.m_body.m_model->mesh().surfaceNodes();
+    const std::vector<Vec3>& x = fem.surfacePosition();
+    const std::vector<int>& nodes = fem.m_surface.nodes();
     const double thickness = target.m_shape.m_shape->getMargin() + fem.m_contactOffset;
     Vec3 low = x[nodes.front()], high = low;
     for (int i : nodes)
@@ -60,20 +60,20 @@ void ContactFinder::measureSurface(const FemSoftBody& fem)
 {
     if (m_measured) return;
     m_measured = true;
-    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
-    const TetMesh& mesh = fem.m_body.m_model->mesh();
+    const std::vector<Vec3>& x = fem.surfacePosition();
+    const std::vector<Triangle>& triangles = fem.m_surface.triangles();
     m_outward.assign(x.size(), Vec3());
     m_edgeOutward.assign(fem.m_surface.features().m_edges.size(), Vec3());
-    for (std::size_t k = 0; k < mesh.surface().size(); ++k)
+    for (std::size_t k = 0; k < triangles.size(); ++k)
     {
-        const Vec3 n = normalOf(x, mesh.surface()[k]);
+        const Vec3 n = normalOf(x, triangles[k]);
         for (int a = 0; a < 3; ++a)
         {
-            m_outward[mesh.surface()[k][a]] += n;
+            m_outward[triangles[k][a]] += n;
             m_edgeOutward[fem.m_surface.features().m_triangleEdges[k][a]] += n;
         }
     }
-    for (int i : mesh.surfaceNodes()) m_outward[i] = unit(m_outward[i]);
+    for (int i : fem.m_surface.nodes()) m_outward[i] = unit(m_outward[i]);
 }
 
 // Where a point of the soft surface was relative to the object as the step began: kinematic objects have moved already.
@@ -86,9 +86,9 @@ Vec3 ContactFinder::asTheStepBegan(const Target& target, const Vec3& point)
 // The free motion of a node in the step relative to the object.
 Vec3 ContactFinder::wayOf(const SheetSearch& search, int node) const
 {
-    const Body& body = search.m_fem.m_body;
+    const FemSoftBody& fem = search.m_fem;
     return search.m_target.m_step *
-           (velocity(body)[node] - search.m_target.m_obstacle.velocityAt(body.m_state.m_x[node]));
+           (fem.surfaceVelocity()[node] - search.m_target.m_obstacle.velocityAt(fem.surfacePosition()[node]));
 }
 
 // Where the node was on the right side of the sheets: remembered if the leaf was near in the last step. A node that has
@@ -110,12 +110,12 @@ Vec3 ContactFinder::safePosition(const SheetSearch& search, int node, const Vec3
 void ContactFinder::findOnSheetNodes(const SheetSearch& search)
 {
     const Target& target = search.m_target;
-    const Body& body = search.m_fem.m_body;
+    const FemSoftBody& fem = search.m_fem;
     const int objectId = broadphaseId(*target.m_leaf.m_object);
-    for (int i : body.m_model->mesh().surfaceNodes())
+    for (int i : fem.m_surface.nodes())
     {
         SheetProbe probe;
-        probe.m_position = asTheStepBegan(target, body.m_state.m_x[i]);
+        probe.m_position = asTheStepBegan(target, fem.surfacePosition()[i]);
         probe.m_path = wayOf(search, i);
         probe.m_band = m_band;
         probe.m_thickness = search.m_thickness;
@@ -130,13 +130,12 @@ void ContactFinder::findOnSheetNodes(const SheetSearch& search)
 
 void ContactFinder::findOnSheetTriangles(const SheetSearch& search)
 {
-    const Body& body = search.m_fem.m_body;
-    const TetMesh& mesh = body.m_model->mesh();
-    const std::vector<Vec3>& x = body.m_state.m_x;
-    const int firstFeature = mesh.nodeCount();
-    for (std::size_t k = 0; k < mesh.surface().size(); ++k)
+    const SoftSurface& surface = search.m_fem.m_surface;
+    const std::vector<Vec3>& x = search.m_fem.surfacePosition();
+    const int firstFeature = surface.vertexCount();
+    for (std::size_t k = 0; k < surface.triangles().size(); ++k)
     {
-        const Triangle& t = mesh.surface()[k];
+        const Triangle& t = surface.triangles()[k];
         SheetFeature feature;
         feature.m_outward = normalOf(x, t);
         double closing = 0;
@@ -155,11 +154,10 @@ void ContactFinder::findOnSheetTriangles(const SheetSearch& search)
 
 void ContactFinder::findOnSheetEdges(const SheetSearch& search)
 {
-    const Body& body = search.m_fem.m_body;
-    const TetMesh& mesh = body.m_model->mesh();
-    const std::vector<Vec3>& x = body.m_state.m_x;
-    const int firstFeature = mesh.nodeCount() + static_cast<int>(mesh.surface().size());
-    const std::vector<std::array<int, 2>>& edges = search.m_fem.m_surface.features().m_edges;
+    const SoftSurface& surface = search.m_fem.m_surface;
+    const std::vector<Vec3>& x = search.m_fem.surfacePosition();
+    const int firstFeature = surface.vertexCount() + static_cast<int>(surface.triangles().size());
+    const std::vector<std::array<int, 2>>& edges = surface.features().m_edges;
     for (std::size_t k = 0; k < edges.size(); ++k)
     {
         const auto [a, b] = edges[k];

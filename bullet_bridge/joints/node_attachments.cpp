@@ -93,7 +93,13 @@ JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& 
 
 bool isAttached(const FemSoftBody& fem, const std::array<int, 3>& nodes, const FemSoftBody& other)
 {
-    const auto isAmong = [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
+    return isAttached(fem, pointOf(0, nodes, {1, 0, 0}), other);
+}
+
+bool isAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other)
+{
+    const auto end = point.m_nodes.begin() + point.m_count;
+    const auto isAmong = [&](int node) { return std::find(point.m_nodes.begin(), end, node) != end; };
     for (const NodeAttachment& attachment : fem.m_joints.m_attachments)
         if (attachment.m_other == other.m_softBody && isAmong(attachment.m_node)) return true;
     for (const NodeAttachment& attachment : other.m_joints.m_attachments)

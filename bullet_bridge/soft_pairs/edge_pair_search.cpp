@@ -92,10 +92,9 @@ void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, c
 bool EdgePairSearch::areClose(const Pair& pair) const
 {
     if (m_first != m_second) return false;
-    const RestNeighbours& rest = m_first->restNeighbours();
     const std::array<int, 4>& n = pair.m_nodes;
-    return rest.areClose(n[0], n[2]) || rest.areClose(n[0], n[3]) || rest.areClose(n[1], n[2]) ||
-           rest.areClose(n[1], n[3]);
+    const auto areClose = [this](int a, int b) { return m_first->areCloseAtRest(a, b); };
+    return areClose(n[0], n[2]) || areClose(n[0], n[3]) || areClose(n[1], n[2]) || areClose(n[1], n[3]);
 }
 
 void EdgePairSearch::tryPair(int edgeA, int edgeB, const NodesFound& nodes)

@@ -45,8 +45,8 @@ bool NodeSurfaceSearch::isClose(int node, int triangle) const
 {
     if (m_nodes != m_faces) return false;
     const Triangle& t = m_faces->triangles()[triangle];
-    const RestNeighbours& rest = m_faces->restNeighbours();
-    return rest.areClose(node, t[0]) || rest.areClose(node, t[1]) || rest.areClose(node, t[2]);
+    return m_faces->areCloseAtRest(node, t[0]) || m_faces->areCloseAtRest(node, t[1]) ||
+           m_faces->areCloseAtRest(node, t[2]);
 }
 
 void NodeSurfaceSearch::findNode(int node)

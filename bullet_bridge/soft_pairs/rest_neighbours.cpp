@@ -31,22 +31,22 @@ std::vector<std::vector<int>> edgesAround(const TetMesh& mesh)
 
 }  // namespace
 
-// From every surface node the shortest ways along the tetrahedra's edges (Dijkstra's algorithm), as far as they are
+// From every one of the nodes the shortest ways along the tetrahedra's edges (Dijkstra's algorithm), as far as they are
 // needed.
-RestNeighbours::RestNeighbours(const TetMesh& mesh) : m_first(mesh.nodeCount() + 1)
+RestNeighbours::RestNeighbours(const TetMesh& mesh, const std::vector<int>& nodes) : m_first(mesh.nodeCount() + 1)
 {
     const std::vector<std::vector<int>> around = edgesAround(mesh);
     const std::vector<Vec3>& X = mesh.restPositions();
     const double h = mesh.meanEdgeLength();
-    std::vector<unsigned char> onSurface(mesh.nodeCount(), 0);
-    for (int i : mesh.surfaceNodes()) onSurface[i] = 1;
+    std::vector<unsigned char> asked(mesh.nodeCount(), 0);
+    for (int i : nodes) asked[i] = 1;
     std::vector<double> way(mesh.nodeCount(), std::numeric_limits<double>::infinity());
     std::vector<int> reached;
     using Step = std::pair<double, int>;
     std::priority_queue<Step, std::vector<Step>, std::greater<Step>> front;
     for (int i = 0; i < mesh.nodeCount(); ++i)
     {
-        if (onSurface[i]) front.push({0, i});
+        if (asked[i]) front.push({0, i});
         while (!front.empty())
         {
             const auto [length, at] = front.top();
@@ -63,7 +63,7 @@ RestNeighbours::RestNeighbours(const TetMesh& mesh) : m_first(mesh.nodeCount() +
         for (int j : reached)
         {
             const bool neighbour = std::binary_search(around[i].begin(), around[i].end(), j);
-            if (onSurface[j] && (neighbour || norm(X[j] - X[i]) <= kCloseInSpace * h)) m_close.push_back(j);
+            if (asked[j] && (neighbour || norm(X[j] - X[i]) <= kCloseInSpace * h)) m_close.push_back(j);
             way[j] = std::numeric_limits<double>::infinity();
         }
         reached.clear();

@@ -15,9 +15,12 @@ namespace bullet_fem
 class RestNeighbours
 {
 public:
-    explicit RestNeighbours(const TetMesh& mesh);
+    explicit RestNeighbours(const TetMesh& mesh) : RestNeighbours(mesh, mesh.surfaceNodes()) {}
 
-    /// For surface nodes; true for a node and itself.
+    /// For other nodes than those of the mesh's surface, each in [0, n).
+    RestNeighbours(const TetMesh& mesh, const std::vector<int>& nodes);
+
+    /// For these nodes; true for a node and itself.
     bool areClose(int nodeA, int nodeB) const;
 
 private:

@@ -73,12 +73,12 @@ void SoftPairFinder::append(const Roles& roles, double offset)
     common.m_restitution = std::max(0.0, std::min(1.0, double(softBody.getRestitution()) * otherBody.getRestitution()));
     for (const SurfaceTouch& touch : m_touches)
     {
-        if (isAttached(roles.m_soft.m_fem, touch.m_nodes, roles.m_other.m_fem) ||
-            isAttached(roles.m_other.m_fem, touch.m_otherNodes, roles.m_soft.m_fem))
-            continue;
         ContactPoint contact = common;
-        contact.m_soft = pointOf(roles.m_soft.m_index, touch.m_nodes, touch.m_weights);
-        contact.m_other = pointOf(roles.m_other.m_index, touch.m_otherNodes, touch.m_otherWeights);
+        contact.m_soft = roles.m_soft.m_fem.pointOn(roles.m_soft.m_index, touch.m_nodes, touch.m_weights);
+        contact.m_other = roles.m_other.m_fem.pointOn(roles.m_other.m_index, touch.m_otherNodes, touch.m_otherWeights);
+        if (isAttached(roles.m_soft.m_fem, contact.m_soft, roles.m_other.m_fem) ||
+            isAttached(roles.m_other.m_fem, contact.m_other, roles.m_soft.m_fem))
+            continue;
         contact.m_point = 0.5 * (interpolated(soft.position(), touch.m_nodes, touch.m_weights) +
                                  interpolated(other.position(), touch.m_otherNodes, touch.m_otherWeights));
         contact.m_normal = touch.m_normal;
@@ -136,13 +136,15 @@ void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSi
     {
         if (m_continued[k]) continue;
         const bool ofSecond = isSecond(m_last.m_origins[k]);
-        const SoftSurface& surface = (ofSecond ? second : first).m_fem.m_surface;
+        const FemSoftBody& fem = (ofSecond ? second : first).m_fem;
         const double sign = ofSecond ? -1 : 1;
         const ContactPoint& last = m_last.m_contacts[k];
-        m_heirs.addLost(last.m_soft.of(surface.position()), sign * last.m_normal, sign * last.m_impulse);
+        m_heirs.addLost(last.m_soft.of(fem.m_skin ? fem.m_body.m_state.m_x : fem.m_surface.position()),
+                        sign * last.m_normal, sign * last.m_impulse);
     }
     for (std::size_t k = 0; k < m_found.size(); ++k) m_heirs.addHeir(m_found[k], isSecond(m_foundOrigins[k]) ? -1 : 1);
-    m_heirs.settle(std::max(first.m_fem.m_surface.meanEdge(), second.m_fem.m_surface.meanEdge()));
+    const auto edgeOf = [](const SoftPairSide& side) { return side.m_fem.m_body.m_model->mesh().meanEdgeLength(); };
+    m_heirs.settle(std::max(edgeOf(first), edgeOf(second)));
 }
 
 }  // namespace bullet_fem

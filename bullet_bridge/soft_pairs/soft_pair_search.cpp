@@ -6,7 +6,6 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rigid_obstacles.h"
-#include "bullet_fem/fem/stepping.h"
 #include "bullet_fem/fem/threads.h"
 
 namespace bullet_fem
@@ -31,7 +30,8 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                   [&](int k)
                   {
                       FemSoftBody& fem = *bodies[m_paired[k]];
-                      fem.m_surface.update(fem.m_body.m_state.m_x, velocity(fem.m_body), step);
+                      fem.updateSkin();
+                      fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
                   });
     m_threads.run(kParts, [&](int part) { findPairs(bodies, maxContacts, part); });
     m_contacts.clear();

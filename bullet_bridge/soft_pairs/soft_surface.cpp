@@ -19,44 +19,64 @@ double angleBetween(const Vec3& a, const Vec3& b)
 
 }  // namespace
 
-SoftSurface::SoftSurface(const TetMesh& mesh)
-    : m_triangles(mesh.surface()),
-      m_nodes(mesh.surfaceNodes()),
-      m_features(mesh),
-      m_meanEdge(mesh.meanEdgeLength()),
-      m_size(std::cbrt(mesh.volume())),
-      m_tree(mesh.restPositions(), mesh.surface()),
+RestSurface boundaryOf(const TetMesh& mesh)
+{
+    return {mesh.restPositions(),  mesh.surface(),           mesh.surfaceNodes(),
+            mesh.meanEdgeLength(), std::cbrt(mesh.volume()), {}};
+}
+
+SoftSurface::SoftSurface(const TetMesh& mesh) : SoftSurface(boundaryOf(mesh)) {}
+
+SoftSurface::SoftSurface(const RestSurface& rest)
+    : m_triangles(rest.m_triangles),
+      m_nodes(rest.m_vertices),
+      m_features(rest.m_triangles, static_cast<int>(rest.m_positions.size())),
+      m_meanEdge(rest.m_meanEdge),
+      m_size(rest.m_size),
+      m_tree(rest.m_positions, rest.m_triangles),
+      m_nearestNode(rest.m_nearestNode),
       m_edgeTriangles(m_features.m_edges.size(), {-1, -1}),
       m_manifoldEdge(m_features.m_edges.size(), 1),
-      m_firstAround(mesh.nodeCount() + 1),
-      m_x(mesh.restPositions()),
-      m_change(mesh.nodeCount()),
-      m_faceNormal(mesh.surface().size()),
+      m_firstAround(rest.m_positions.size() + 1),
+      m_x(rest.m_positions),
+      m_change(rest.m_positions.size()),
+      m_faceNormal(rest.m_triangles.size()),
       m_edgeNormal(m_features.m_edges.size()),
-      m_nodeNormal(mesh.nodeCount()),
+      m_nodeNormal(rest.m_positions.size()),
       m_bend(m_features.m_edges.size()),
       m_intoFaces(m_features.m_edges.size()),
       m_flatEdge(m_features.m_edges.size()),
-      m_flatNode(mesh.nodeCount())
+      m_flatNode(rest.m_positions.size())
 {
-    for (std::size_t t = 0; t < mesh.surface().size(); ++t)
+    listEdgeTriangles();
+    std::vector<std::vector<int>> around(rest.m_positions.size());
+    for (const auto& [a, b] : m_features.m_edges)
+    {
+        around[a].push_back(b);
+        around[b].push_back(a);
+    }
+    for (std::size_t i = 0; i < around.size(); ++i)
+    {
+        m_around.insert(m_around.end(), around[i].begin(), around[i].end());
+        m_firstAround[i + 1] = static_cast<int>(m_around.size());
+    }
+}
+
+void SoftSurface::listEdgeTriangles()
+{
+    for (std::size_t t = 0; t < m_triangles.size(); ++t)
         for (int edge : m_features.m_triangleEdges[t])
         {
             std::array<int, 2>& triangles = m_edgeTriangles[edge];
             if (triangles[1] >= 0) m_manifoldEdge[edge] = 0;
             triangles[triangles[0] < 0 ? 0 : 1] = static_cast<int>(t);
         }
-    std::vector<std::vector<int>> around(mesh.nodeCount());
-    for (const auto& [a, b] : m_features.m_edges)
-    {
-        around[a].push_back(b);
-        around[b].push_back(a);
-    }
-    for (int i = 0; i < mesh.nodeCount(); ++i)
-    {
-        m_around.insert(m_around.end(), around[i].begin(), around[i].end());
-        m_firstAround[i + 1] = static_cast<int>(m_around.size());
-    }
+    for (std::size_t k = 0; k < m_edgeTriangles.size(); ++k)
+        if (m_edgeTriangles[k][1] < 0)
+        {
+            m_edgeTriangles[k][1] = m_edgeTriangles[k][0];
+            m_manifoldEdge[k] = 0;
+        }
 }
 
 void SoftSurface::setRestNeighbours(std::shared_ptr<const RestNeighbours> neighbours)
@@ -101,8 +121,9 @@ void SoftSurface::updateEdges()
         const int edge = static_cast<int>(k);
         const auto [first, second] = m_edgeTriangles[k];
         m_intoFaces[k] = {intoFace(edge, first), intoFace(edge, second)};
-        // Where more than two faces meet, none may take the edge for a ridge.
-        m_bend[k] = m_manifoldEdge[k] ? dot(m_faceNormal[first], m_intoFaces[k][1]) : 1;
+        // Where more than two faces meet, none may take the edge for a ridge; a rim is neither ridge nor groove.
+        const double single = first == second ? 0 : 1;
+        m_bend[k] = m_manifoldEdge[k] ? dot(m_faceNormal[first], m_intoFaces[k][1]) : single;
     }
 }
 

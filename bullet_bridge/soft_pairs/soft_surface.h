@@ -37,14 +37,34 @@ inline SurfacePoint pointOf(int body, const Triangle& nodes, const std::array<do
     return point;
 }
 
+/// A surface in its rest shape: what of a body collides.
+struct RestSurface
+{
+    std::vector<Vec3> m_positions;      ///< of the vertices [m]
+    std::vector<Triangle> m_triangles;  ///< outward
+    std::vector<int> m_vertices;        ///< of the triangles, ascending
+    double m_meanEdge = 0;              ///< that bands and margins are shares of [m]
+    double m_size = 0;                  ///< cube root of the body's volume [m]
+    std::vector<int> m_nearestNode;     ///< per vertex: node of the mesh; empty: the vertices are the nodes
+};
+
+/// The boundary of a mesh.
+RestSurface boundaryOf(const TetMesh& mesh);
+
 /// The surface of a deforming body as contacts between soft bodies see it: normals of faces, edges and corners, how the
 /// surface is bent, and a tree over its triangles. Built at set-up; update() never allocates.
 class SoftSurface
 {
 public:
+    /// The boundary of a mesh.
     explicit SoftSurface(const TetMesh& mesh);
 
-    /// The mesh's own, which only contact of the surface with itself needs, and must have.
+    /// Any surface, which may be open, or have edges of more than two triangles: both kinds of edges only touch as
+    /// parts of their triangles.
+    explicit SoftSurface(const RestSurface& rest);
+
+    /// Of the nodes that are nearest to its vertices, which only contact of the surface with itself needs, and must
+    /// have.
     void setRestNeighbours(std::shared_ptr<const RestNeighbours> neighbours);
     bool hasRestNeighbours() const { return m_restNeighbours != nullptr; }
 
@@ -52,13 +72,15 @@ public:
     void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
 
     const std::vector<Triangle>& triangles() const { return m_triangles; }
-    const std::vector<int>& nodes() const { return m_nodes; }  ///< of the surface, ascending
+    const std::vector<int>& nodes() const { return m_nodes; }  ///< vertices of the surface, ascending
+    int vertexCount() const { return static_cast<int>(m_x.size()); }
     const SurfaceFeatures& features() const { return m_features; }
-    double meanEdge() const { return m_meanEdge; }  ///< of the tetrahedra at rest [m]
+    double meanEdge() const { return m_meanEdge; }  ///< of the tetrahedra at rest, or of finer triangles [m]
     double size() const { return m_size; }          ///< cube root of the volume at rest [m]
     const SurfaceTree& tree() const { return m_tree; }
-    const RestNeighbours& restNeighbours() const { return *m_restNeighbours; }
-    const std::vector<Vec3>& position() const { return m_x; }     ///< [m], of all nodes
+    /// True if two vertices cannot touch each other however the body is bent: see RestNeighbours.
+    bool areCloseAtRest(int a, int b) const { return m_restNeighbours->areClose(nodeAt(a), nodeAt(b)); }
+    const std::vector<Vec3>& position() const { return m_x; }     ///< [m], of all vertices
     const std::vector<Vec3>& change() const { return m_change; }  ///< h v [m]
 
     /// Outward unit normals; zero where triangles have no area.
@@ -83,9 +105,11 @@ public:
     double leastAlongEdges(int node, const Vec3& direction) const;
 
 private:
+    void listEdgeTriangles();
     void updateFaces();
     void updateEdges();
     void updateFlatness();
+    int nodeAt(int vertex) const { return m_nearestNode.empty() ? vertex : m_nearestNode[vertex]; }
     Vec3 intoFace(int edge, int triangle) const;
 
     std::vector<Triangle> m_triangles;
@@ -94,9 +118,10 @@ private:
     double m_meanEdge, m_size;
     SurfaceTree m_tree;
     std::shared_ptr<const RestNeighbours> m_restNeighbours;
-    std::vector<std::array<int, 2>> m_edgeTriangles;  // -1: none
+    std::vector<int> m_nearestNode;
+    std::vector<std::array<int, 2>> m_edgeTriangles;  // twice the same at a rim
     std::vector<unsigned char> m_manifoldEdge;        // 1: of exactly two triangles
-    std::vector<int> m_firstAround, m_around;         // surface edges' other nodes around every node
+    std::vector<int> m_firstAround, m_around;         // surface edges' other ends around every vertex
     std::vector<Vec3> m_x, m_change, m_faceNormal, m_edgeNormal, m_nodeNormal;
     std::vector<double> m_bend;
     std::vector<std::array<Vec3, 2>> m_intoFaces;

@@ -124,6 +124,7 @@ BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSetti
     BakedBody body = bakeMesh({cage.m_mesh, cage.m_filled, cage.m_massScale}, settings);
     body.m_embedding = cage.m_embedding;
     body.m_triangles = surface.m_triangles;
+    body.m_surfaceCollides = cage.m_surfaceCollides;
     return body;
 }
 

@@ -74,6 +74,8 @@ void checkCounts(const BakedHeader& h)
     if (h.m_panelFloats > h.m_fileBytes / sizeof(float) || h.m_entries > kMostEntries || h.m_fullBytes > kMostEntries)
         reject("its factor has ", h.m_panelFloats, " floats of ", h.m_fullBytes, " bytes and ", h.m_entries, " entries",
                kDamaged);
+    if (h.m_surfaceCollides > (h.m_triangles > 0 ? 1 : 0))
+        reject("its header says that a surface of ", h.m_triangles, " triangles collides", kDamaged);
     if (h.m_lowMemory > 1 || h.m_singlePrecision > 1 || (h.m_restBlocks > 0) != (h.m_lowMemory == 1))
         reject("its header tells no kind of factor", kDamaged);
 }
@@ -85,7 +87,7 @@ void checkValues(const BakedHeader& h)
     if (!(h.m_massScale > 0) || !std::isfinite(h.m_massScale))
         reject("its mass scale is ", h.m_massScale, ", not in (0, inf)", kDamaged);
     const auto isZero = [](char c) { return c == '\0'; };
-    if (!isText(h.m_backend) || !isText(h.m_ordering) || h.m_reserved != 0 ||
+    if (!isText(h.m_backend) || !isText(h.m_ordering) ||
         !std::all_of(h.m_reserved2.begin(), h.m_reserved2.end(), isZero))
         reject("its header has values of no meaning", kDamaged);
 }
@@ -144,6 +146,7 @@ BakedFileInfo infoOf(const BakedHeader& h)
     info.m_freeNodes = static_cast<int>(h.m_freeNodes);
     info.m_embeddedVertices = static_cast<int>(h.m_embedded);
     info.m_embeddedTriangles = static_cast<int>(h.m_triangles);
+    info.m_surfaceCollides = h.m_surfaceCollides == 1;
     info.m_material = materialOf(h);
     info.m_step = h.m_step;
     info.m_singlePrecision = h.m_singlePrecision == 1;

@@ -100,6 +100,7 @@ BakedBody assemble(const BakedHeader& header, BakedArrays arrays, const FileByte
     body.m_massScale = header.m_massScale;
     body.m_triangles = std::move(arrays.m_triangles);
     body.m_singlePrecision = header.m_singlePrecision == 1;
+    body.m_surfaceCollides = header.m_surfaceCollides == 1;
     body.m_model = BodyModel::withFactor(std::move(shape), std::move(factor));
     return body;
 }

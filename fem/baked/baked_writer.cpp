@@ -46,6 +46,7 @@ BakedHeader headerOf(const BakedBody& body, const BakedArrays& arrays)
     h.m_rows = countOf(arrays.m_row.size());
     h.m_restBlocks = countOf(arrays.m_restColumn.size());
     h.m_lowMemory = h.m_restBlocks > 0;
+    h.m_surfaceCollides = body.m_surfaceCollides;
     h.m_singlePrecision = body.m_singlePrecision;
     h.m_step = model.factorInput().m_step;
     h.m_massScale = body.m_massScale;

@@ -117,6 +117,7 @@ Cage makeCage(const SurfaceMesh& surface, const CageSettings& givenSettings)
     CageFill fill = fillCage(lattice, winding, inspection.m_openEdges == 0, settings);
 
     Cage cage;
+    cage.m_surfaceCollides = settings.m_surfaceCollides;
     cage.m_report = reportOn(inspection, fill, lattice.cellSize());
     const std::vector<int> held = holdVertices(lattice, surface.m_vertices, inspection.m_used, fill);
     cage.m_mesh = meshOf(lattice, fill.m_tets);

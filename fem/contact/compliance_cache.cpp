@@ -31,9 +31,15 @@ void listMarked(const std::vector<unsigned char>& marked, std::vector<int>& list
 }  // namespace
 
 ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model, std::size_t budget)
+    : ComplianceCache(model, model->mesh().surfaceNodes(), budget)
+{
+}
+
+ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model, std::vector<int> nodes, std::size_t budget)
     : m_model(std::move(model)),
       m_budget(budget),
-      m_surfaceIndex(m_model->nodeCount(), -1),
+      m_nodes(std::move(nodes)),
+      m_placeOfNode(m_model->nodeCount(), -1),
       m_slotOfNode(m_model->nodeCount(), -1),
       m_supernodeOfPosition(m_model->factor().freeNodeCount()),
       m_marked(m_model->factor().lower().tree().m_supernodes.size()),
@@ -45,15 +51,14 @@ ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model, std::si
         for (int c = 0; c < tree.m_supernodes[s].m_columns; ++c)
             m_supernodeOfPosition[tree.m_supernodes[s].m_first + c] = static_cast<int>(s);
 
-    const std::vector<int>& surface = m_model->mesh().surfaceNodes();
-    for (std::size_t k = 0; k < surface.size(); ++k)
+    for (std::size_t k = 0; k < m_nodes.size(); ++k)
     {
-        m_surfaceIndex[surface[k]] = static_cast<int>(k);
-        markNode(surface[k]);
+        m_placeOfNode[m_nodes[k]] = static_cast<int>(k);
+        markNode(m_nodes[k]);
     }
     m_reach.reserve(m_marked.size());
-    m_newNodes.reserve(surface.size());
-    listMarked(m_marked, m_surfaceSupernodes);
+    m_newNodes.reserve(m_nodes.size());
+    listMarked(m_marked, m_nodeSupernodes);
 }
 
 void ComplianceCache::markNode(int node)
@@ -74,9 +79,9 @@ int ComplianceCache::claimSlot()
 // For twice as many columns as are needed now, or all that the budget allows. What is not written takes no memory yet.
 void ComplianceCache::makeRoom(std::size_t columns)
 {
-    const std::size_t surface = m_model->mesh().surfaceNodes().size(), columnSize = 9 * surface;
+    const std::size_t all = m_nodes.size(), columnSize = 9 * all;
     const std::size_t affordable = m_budget / (sizeof(float) * columnSize);
-    const std::size_t room = std::max(std::min(surface, std::max(2 * columns, affordable)), m_columns.size());
+    const std::size_t room = std::max(std::min(all, std::max(2 * columns, affordable)), m_columns.size());
     while (m_columns.size() < room) m_columns.push_back(allocateFloats(columnSize));
     m_nodeOfSlot.resize(room, -1);
     m_lastUse.resize(room, 0);
@@ -130,14 +135,13 @@ void ComplianceCache::solveColumns(std::size_t first, std::size_t end)
     if (m_gradients)
         m_gradients->solve(m_reach, kColumnTolerance, m_rightSide.get(), m_scratch.get());
     else
-        factor.lower().solveLanes(m_reach, m_surfaceSupernodes, m_rightSide.get(), m_scratch.get());
+        factor.lower().solveLanes(m_reach, m_nodeSupernodes, m_rightSide.get(), m_scratch.get());
     copyColumns(first, end);
 }
 
 void ComplianceCache::copyColumns(std::size_t first, std::size_t end)
 {
     const RestFactor& factor = m_model->factor();
-    const std::vector<int>& surface = m_model->mesh().surfaceNodes();
     float* out[kPanelLanes];
     float scale[kPanelLanes];
     const std::size_t count = end - first;
@@ -147,9 +151,9 @@ void ComplianceCache::copyColumns(std::size_t first, std::size_t end)
         out[lane] = m_columns[m_slotOfNode[node]].get() + (first + lane) % 3;
         scale[lane] = factor.position(node) < 0 ? 0.f : 1 / static_cast<float>(factor.diagonal(node));
     }
-    for (std::size_t k = 0; k < surface.size(); ++k)
+    for (std::size_t k = 0; k < m_nodes.size(); ++k)
     {
-        const int position = factor.position(surface[k]);
+        const int position = factor.position(m_nodes[k]);
         for (std::size_t i = 0; i < 3; ++i)
         {
             const float* row =
@@ -162,7 +166,7 @@ void ComplianceCache::copyColumns(std::size_t first, std::size_t end)
 
 Mat3 ComplianceCache::block(int i, int j) const
 {
-    const float* c = &m_columns[m_slotOfNode[j]][9 * static_cast<std::size_t>(m_surfaceIndex[i])];
+    const float* c = &m_columns[m_slotOfNode[j]][9 * static_cast<std::size_t>(m_placeOfNode[i])];
     return {{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}};
 }
 

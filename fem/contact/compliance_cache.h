@@ -12,32 +12,37 @@
 namespace bullet_fem
 {
 
-/// The 3x3 blocks of A0^-1 between surface nodes of one model [1/kg]. They are constants; a node's column is solved
-/// when it is first asked for and kept while there is room: within the budget, or as many as one request has needed.
-/// Bodies of the same model may share a cache on one thread. On the low-memory path, whose factor is not that of A0, a
-/// column is iterated to some 1e-3 of sqrt((A0^-1)_ii (A0^-1)_jj); such columns cost some ten to thirty times those of
-/// the full factor. request() allocates when it is called first, and when it is given more nodes than there is room
-/// for.
+/// The 3x3 blocks of A0^-1 between nodes of one model that may be touched [1/kg]. They are constants; a node's column
+/// is solved when it is first asked for and kept while there is room: within the budget, or as many as one request has
+/// needed. Bodies of the same model may share a cache on one thread. On the low-memory path, whose factor is not that
+/// of A0, a column is iterated to some 1e-3 of sqrt((A0^-1)_ii (A0^-1)_jj); such columns cost some ten to thirty times
+/// those of the full factor. request() allocates when it is called first, and when it is given more nodes than there is
+/// room for.
 class ComplianceCache
 {
 public:
     static constexpr std::size_t kBudget = 16'000'000;  ///< for all columns of a body of 4,000 tets [B]
 
+    /// For the nodes of the mesh's surface.
     explicit ComplianceCache(std::shared_ptr<const BodyModel> model, std::size_t budget = kBudget);
+
+    /// For these nodes, each once.
+    ComplianceCache(std::shared_ptr<const BodyModel> model, std::vector<int> nodes, std::size_t budget = kBudget);
 
     const BodyModel& model() const { return *m_model; }
 
-    /// Makes the columns of these surface nodes available until the next request. Repeated nodes are allowed.
+    /// Makes the columns of these nodes, which are among those it was made for, available until the next request.
+    /// Repeated nodes are allowed.
     void request(const std::vector<int>& nodes);
 
-    /// (A0^-1)_ij between surface nodes i and j; the column of j must have been requested. Zero if either was fixed
+    /// (A0^-1)_ij between such nodes i and j; the column of j must have been requested. Zero if either was fixed
     /// when the factor was built; the inverse diagonal where that node is free now is the caller's business.
     Mat3 block(int i, int j) const;
 
-    /// What block() reads, for kernels: the blocks (A0^-1)_ij of all surface nodes i, nine values each, row by row;
+    /// What block() reads, for kernels: the blocks (A0^-1)_ij of all its nodes i, nine values each, row by row;
     /// that of i begins at offset(i).
     const float* column(int j) const { return m_columns[m_slotOfNode[j]].get(); }
-    int offset(int i) const { return 9 * m_surfaceIndex[i]; }
+    int offset(int i) const { return 9 * m_placeOfNode[i]; }
 
     /// Columns solved so far.
     long solvedColumns() const { return m_solvedColumns; }
@@ -50,14 +55,15 @@ private:
     void copyColumns(std::size_t first, std::size_t end);
 
     std::shared_ptr<const BodyModel> m_model;
-    std::size_t m_budget;             // [B]
-    std::vector<int> m_surfaceIndex;  // per node: its place among the surface nodes, or -1
-    std::vector<int> m_slotOfNode;    // per node, or -1
+    std::size_t m_budget;            // [B]
+    std::vector<int> m_nodes;        // that may be touched
+    std::vector<int> m_placeOfNode;  // per node: its place among them, or -1
+    std::vector<int> m_slotOfNode;   // per node, or -1
     std::vector<int> m_nodeOfSlot;
     std::vector<unsigned long> m_lastUse;  // per slot: number of the request that last named it
     std::vector<AlignedFloats> m_columns;
     std::vector<int> m_supernodeOfPosition;  // by the factor's order of nodes
-    std::vector<int> m_surfaceSupernodes;    // those with surface nodes and what is above them
+    std::vector<int> m_nodeSupernodes;       // those with these nodes and what is above them
     std::vector<int> m_newNodes, m_reach;
     std::vector<unsigned char> m_marked;         // per supernode
     AlignedFloats m_rightSide, m_scratch;        // kPanelLanes interleaved

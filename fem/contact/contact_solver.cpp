@@ -9,6 +9,11 @@
 namespace bullet_fem
 {
 
+std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model, std::vector<int> nodes)
+{
+    return std::make_shared<ComplianceCache>(std::move(model), std::move(nodes));
+}
+
 std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model)
 {
     return std::make_shared<ComplianceCache>(std::move(model));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "LinearMath/btVector3.h"
+#include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/cage.h"
 
@@ -24,7 +25,8 @@ struct btFemHelpers
 {
     /// A cage of lattice cells of `cellSize` [m] around the closed surface of an OFF, OBJ, STL or PLY file, which
     /// follows the cage as m_renderNodes and m_renderFaces. What collides is the cage's surface, up to a cell outside
-    /// the file's. `scale` [-], > 0, multiplies the file's positions.
+    /// the file's, unless BT_FEM_RENDER_SURFACE is put into m_cfg.collisions. `scale` [-], > 0, multiplies the file's
+    /// positions.
     static btSoftBody* createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
                                              btScalar scale = btScalar(1));
 

@@ -47,6 +47,8 @@ enum btFemFlags
                                      ///< set up anew in this step, without its targets and attachments
     BT_FEM_UNUSED_NODES = 1 << 18,   ///< no element uses some nodes: they stand still, or go where m_x is written
     BT_FEM_BAD_INTEREST = 1 << 17,   ///< its interest was NaN, taken for 1, or not in [0, 1], and clamped
+    BT_FEM_BAD_SURFACE = 1 << 20,    ///< its render surface cannot collide, as BT_FEM_RENDER_SURFACE asks (see
+                                     ///< m_message): the boundary of its tetrahedra does
     BT_FEM_BAKED_UNUSED = 1 << 24    ///< it was factored anew in place of its baked factor, which is larger than the
                                    ///< solver's limit, or of another rest shape: it was scaled, or its elements changed
 };
@@ -55,8 +57,8 @@ enum btFemFlags
 struct btFemStepReport
 {
     int m_flags = 0;             ///< btFemFlags
-    const char* m_message = "";  ///< why the body was rejected, or its factor not made anew; owned by the solver, valid
-                                 ///< until the body is removed
+    const char* m_message = "";  ///< why the body was rejected, its factor not made anew, or its surface not taken;
+                                 ///< owned by the solver, valid until the body is removed
     btFemDetail m_detail = btFemDetail::nodalWarp;  ///< what its free motion was solved with; never automatic
     int m_nodes = 0, m_tets = 0;                    ///< of its mesh
     int m_iterations = 0;                           ///< conjugate gradient iterations of the free motion, >= 0

@@ -24,6 +24,7 @@ struct BakedBody
     double m_massScale = 1;              ///< of a cage, factor on all masses [-], > 0; the masses have it
     std::vector<Embedding> m_embedding;  ///< per vertex of the surface that follows the body; empty if there is none
     std::vector<Triangle> m_triangles;   ///< of that surface
+    bool m_surfaceCollides = false;      ///< that surface collides, not the boundary of the elements
     bool m_singlePrecision = true;       ///< numbers are rounded to what Bullet in single precision holds of them
     std::shared_ptr<const BodyModel> m_model;  ///< mesh, material, masses, pins, step and factor; never null
 };
@@ -79,6 +80,7 @@ struct BakedFileInfo
     int m_freeNodes = 0;         ///< that are neither pinned nor loose
     int m_embeddedVertices = 0;  ///< 0: there is no embedded surface
     int m_embeddedTriangles = 0;
+    bool m_surfaceCollides = false;  ///< the embedded surface does, not the boundary
     Material m_material;
     double m_step = 0;              ///< that the factor was made for [s]
     bool m_singlePrecision = true;  ///< see BakeSettings

@@ -27,6 +27,9 @@ struct CageSettings
     /// boundary, where emptier elements are softer; below about .2 they turn inside out under a hard landing.
     double m_fillFloor = 0.25;
     int m_fillSamples = 64;  ///< points an element's filled fraction is measured with, in [8, 4096]
+    /// What collides: the surface, not the boundary of the cage, which stands up to a cell outside it. For the bodies
+    /// that are made of the cage; the cage itself is the same.
+    bool m_surfaceCollides = false;
 };
 
 /// A vertex of the surface as a fixed affine combination of four cage nodes.
@@ -43,6 +46,7 @@ struct Cage
     TetMesh m_mesh;
     std::vector<double> m_filled;        ///< per element: filled fraction [-], in [floor, 1]; scales mass and stiffness
     std::vector<Embedding> m_embedding;  ///< per surface vertex
+    bool m_surfaceCollides = false;      ///< as CageSettings asked
     double m_massScale = 1;              ///< [-]: sum over e of m_massScale m_filled[e] V_e is m_report.m_surfaceVolume
     CageReport m_report;
 };

@@ -17,6 +17,9 @@ class ComplianceCache;
 /// thread. `model` must not be null.
 std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model);
 
+/// The same for contact points on other nodes than those of the mesh's surface: each once, in [0, n).
+std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model, std::vector<int> nodes);
+
 /// A rigid body as the contact solver sees it.
 struct Obstacle
 {
