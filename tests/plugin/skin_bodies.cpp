@@ -14,6 +14,7 @@ SkinBody skinBall(const Vec3& centre)
 {
     SkinBody body;
     body.m_surface = sphereSurface(0.5, centre, 3);
+    body.m_cell = 0.14;
     return body;
 }
 
@@ -24,7 +25,6 @@ SkinBody skinBox(const Vec3& size, const Vec3& centre)
     const TetMesh mesh = makeBox(size, cells, centre - 0.5 * size);
     SkinBody body;
     body.m_surface = {mesh.restPositions(), mesh.surface()};
-    body.m_cell = 0.13;
     return body;
 }
 

@@ -12,7 +12,7 @@ namespace bullet_fem
 struct SkinBody
 {
     SurfaceMesh m_surface;
-    double m_cell = 0.125;  ///< of the cage [m]
+    double m_cell = 0.13;  ///< of the cage [m]
     bool m_surfaceCollides = true;
     btScalar m_youngModulus = btScalar(5e5);  ///< [Pa]
     btScalar m_friction = btScalar(0.5);      ///< its kDF [-]

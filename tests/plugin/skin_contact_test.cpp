@@ -95,44 +95,50 @@ TEST_P(SkinGround, ABoxStandsOnAnother)
     const double weight = (massOf(lower) + massOf(upper)) * kGravity;
     EXPECT_NEAR(m_fem.contactForce(&lower, &floor).z(), weight, 1e-3 * weight);
     EXPECT_NEAR(m_fem.contactForce(&upper, &lower).z(), massOf(upper) * kGravity, 1e-3 * massOf(upper) * kGravity);
-    // The lower one yields by some 0.7 mm; both cages reach 4 cm into the other body.
-    EXPECT_NEAR(lowestVertex(upper), 0.4, 2e-3);
+    EXPECT_NEAR(lowestVertex(upper), 0.4, 5e-3);  // the lower one yields; both cages are cells of 13 cm
+    EXPECT_LT(m_fem.stepReport(&upper).m_deepestPenetration, 1e-3);
 }
 
-TEST_P(SkinGround, WhatFollowsTheBoundaryOfABodyCollidesLikeIt)
+// A soft box that falls on a floor, a knob and a rail, and is hit by a stone.
+std::vector<btScalar> runOfABox(Coupling coupling, bool drawn)
 {
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem, coupling);
     SoftBox box;
     box.m_size = {0.5, 0.4, 0.3};
     box.m_cells = {3, 3, 2};
     box.m_center = {0, 0, 0.3};
-    btSoftBody& plain = addSoftBox(m_world, m_fem, box);
-    box.m_center.y = 3;
-    btSoftBody& drawn = addSoftBox(m_world, m_fem, box);
-    drawBoundary(drawn);
-    drawn.m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
-    m_world.addFloorBox();
-    for (const double y : {0.0, 3.0})
+    btSoftBody& soft = addSoftBox(world, fem, box);
+    if (drawn)
     {
-        addRigidBox(m_world, {0.2, 0.2, 0.2}, {btScalar(10), at(btScalar(0.1), btScalar(y + 0.05), btScalar(0.8))});
-        m_world.addRigid(new btSphereShape(btScalar(0.1)), {0, at(btScalar(-0.2), btScalar(y), btScalar(-0.05))});
+        drawBoundary(soft);
+        soft.m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
     }
-    plain.setVelocity(btVector3(btScalar(0.5), btScalar(0.2), -1));
-    drawn.setVelocity(btVector3(btScalar(0.5), btScalar(0.2), -1));
-    int touching = 0;
-    for (int k = 0; k < 90; ++k)
+    world.addFloorBox();
+    world.addRigid(new btSphereShape(btScalar(0.1)), {0, at(btScalar(-0.2), 0, btScalar(-0.05))});
+    addRigidBox(world, {0.03, 1, 0.1}, {0, at(btScalar(0.15), 0, 0)});
+    addRigidBox(world, {0.2, 0.2, 0.2}, {10, at(btScalar(0.1), btScalar(0.05), btScalar(0.8))});
+    soft.setVelocity(btVector3(btScalar(0.5), btScalar(0.2), -1));
+    std::vector<btScalar> bits;
+    for (int k = 0; k < 60; ++k)
     {
-        m_world.step();
-        const Vec3 a = impulseOn(m_fem, plain), b = impulseOn(m_fem, drawn);
-        touching += norm(a) > 0;
-        // Places 3 m apart are rounded differently: in single precision by 2e-7.
-        ASSERT_LT(norm(a - b), (sizeof(btScalar) == 4 ? 2e-3 : 1e-9) * massOf(plain)) << "step " << k;
-        ASSERT_EQ(m_fem.contacts(&plain).size(), m_fem.contacts(&drawn).size()) << "step " << k;
+        world.step();
+        const std::vector<btScalar> now = bitsOf(soft);
+        bits.insert(bits.end(), now.begin(), now.end());
+        const Vec3 impulse = impulseOn(fem, soft);
+        bits.insert(bits.end(), {btScalar(impulse.x), btScalar(impulse.y), btScalar(impulse.z)});
     }
-    EXPECT_GT(touching, 30);
+    EXPECT_EQ(fem.stepReport(&soft).m_flags, 0);
+    return bits;
+}
+
+TEST_P(SkinGround, WhatFollowsTheBoundaryOfABodyCollidesLikeItToTheBit)
+{
+    EXPECT_TRUE(runOfABox(GetParam(), true) == runOfABox(GetParam(), false));
 }
 
 INSTANTIATE_TEST_SUITE_P(Couplings, SkinGround, testing::Values(Coupling::swap, Coupling::coupled),
-                         [](const auto& info) { return couplingName(info.param); });
+                         [](const auto& scene) { return couplingName(scene.param); });
 
 /// A box whose drawn surface lies on a plane that falls towards +x, with tan(slope) = steepness * mu.
 class SkinIncline
@@ -198,22 +204,32 @@ TEST(SkinFriction, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves)
                 kGravity * (std::sin(slope) - kFriction * std::cos(slope)), 0.01 * kGravity * std::sin(slope));
 }
 
-TEST(SkinFriction, ABallRollsOnWithLittleLoss)
+// Speed after two seconds of a ball that rolls at 1 m/s [m/s].
+double speedOfARollingBall(bool surfaceCollides)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
     world.addPlane().setFriction(1);
     SkinBody settings = skinBall({0, 0, 0.5});
+    settings.m_surface = sphereSurface(0.5, {0, 0, 0.5}, 4);
     settings.m_youngModulus = btScalar(5e6);
-    btSoftBody& ball = addSkinBody(world, fem, settings);
+    settings.m_surfaceCollides = surfaceCollides;
+    btSoftBody* ball = makeSkinBody(world, fem, settings);
+    if (!surfaceCollides) ball->translate(btVector3(0, 0, btScalar(0.06)));
+    world.addSoft(ball);
     world.step(60);
-    const Vec3 centre = centerOf(ball);
-    for (int i = 0; i < ball.m_nodes.size(); ++i)  // 1 m/s, and the spin of a ball that rolls
-        ball.m_nodes[i].m_v = btVector3(btScalar(1 + (ball.m_nodes[i].m_x.z() - centre.z) / 0.5), 0,
-                                        btScalar(-(ball.m_nodes[i].m_x.x() - centre.x) / 0.5));
+    const Vec3 centre = centerOf(*ball);
+    for (int i = 0; i < ball->m_nodes.size(); ++i)
+        ball->m_nodes[i].m_v = btVector3(btScalar(1 + (ball->m_nodes[i].m_x.z() - centre.z) / 0.5), 0,
+                                         btScalar(-(ball->m_nodes[i].m_x.x() - centre.x) / 0.5));
     world.step(120);
-    EXPECT_GT(velocityOf(ball).x, 0.85);
-    EXPECT_NEAR(lowestVertex(ball), 0, 1e-3);
+    return velocityOf(*ball).x;
+}
+
+TEST(SkinFriction, ABallRollsOnItsSurfaceAndHardlyOnItsCage)
+{
+    EXPECT_GT(speedOfARollingBall(true), 0.7);
+    EXPECT_LT(speedOfARollingBall(false), 0.3);
 }
 
 /// Without gravity.
@@ -302,7 +318,7 @@ TEST_P(SkinCollision, AtAnySpeedIsFelt)
 }
 
 INSTANTIATE_TEST_SUITE_P(Couplings, SkinCollision, testing::Values(Coupling::swap, Coupling::coupled),
-                         [](const auto& info) { return couplingName(info.param); });
+                         [](const auto& scene) { return couplingName(scene.param); });
 
 }  // namespace
 }  // namespace bullet_fem
