@@ -204,7 +204,8 @@ TEST(SkinFriction, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves)
                 kGravity * (std::sin(slope) - kFriction * std::cos(slope)), 0.01 * kGravity * std::sin(slope));
 }
 
-// Speed after two seconds of a ball that rolls at 1 m/s [m/s].
+// Speed of a ball that has rolled at 1 m/s for a second [m/s]. Contact acts where the surface will be as the step ends,
+// v h ahead, which alone takes 5/7 g v h / R = 0.06 m/s.
 double speedOfARollingBall(bool surfaceCollides)
 {
     btFemSoftBodySolver fem;
@@ -217,19 +218,20 @@ double speedOfARollingBall(bool surfaceCollides)
     btSoftBody* ball = makeSkinBody(world, fem, settings);
     if (!surfaceCollides) ball->translate(btVector3(0, 0, btScalar(0.06)));
     world.addSoft(ball);
-    world.step(60);
+    const btScalar h = kStep / 4;
+    world.step(120, h);
     const Vec3 centre = centerOf(*ball);
     for (int i = 0; i < ball->m_nodes.size(); ++i)
         ball->m_nodes[i].m_v = btVector3(btScalar(1 + (ball->m_nodes[i].m_x.z() - centre.z) / 0.5), 0,
                                          btScalar(-(ball->m_nodes[i].m_x.x() - centre.x) / 0.5));
-    world.step(120);
+    world.step(240, h);
     return velocityOf(*ball).x;
 }
 
 TEST(SkinFriction, ABallRollsOnItsSurfaceAndHardlyOnItsCage)
 {
-    EXPECT_GT(speedOfARollingBall(true), 0.7);
-    EXPECT_LT(speedOfARollingBall(false), 0.3);
+    EXPECT_GT(speedOfARollingBall(true), 0.88);
+    EXPECT_LT(speedOfARollingBall(false), 0.6);
 }
 
 /// Without gravity.
