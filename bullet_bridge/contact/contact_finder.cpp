@@ -150,6 +150,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
             findOnTriangles(fem, target);
         }
     }
+    thin(fem, step, obstacles);
     report.m_limited = keepNearest(maxContacts, m_contacts, m_origins, m_order);
     takeOverImpulses(fem);
     fem.m_contacts.assign(m_contacts.begin(), m_contacts.end());
@@ -318,6 +319,27 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     const btCollisionObject* object = target.m_leaf.m_object;
     m_origins.push_back({object, broadphaseId(*object), target.m_leaf.m_index, feature});
     return &m_contacts.back();
+}
+
+// By the motion of the last step: the free one is not slowed down by what the body lies on.
+void ContactFinder::thin(const FemSoftBody& fem, double step, const RigidObstacles& obstacles)
+{
+    const double cell = ContactThinning::cellOf(fem);
+    if (!(cell > 0)) return;
+    m_thinning.clear(cell);
+    const std::vector<Vec3>& X = fem.m_body.m_model->mesh().restPositions();
+    for (std::size_t k = 0; k < m_contacts.size(); ++k)
+    {
+        const ContactPoint& contact = m_contacts[k];
+        const Vec3 relative = contact.m_soft.of(fem.m_body.m_state.m_v) -
+                              obstacles.obstacles()[contact.m_obstacle].velocityAt(contact.m_point);
+        const auto [first, last] = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), m_origins[k]);
+        const auto isHeld = [&](const ContactOrigin& old)
+        { return isPushing(fem.m_contacts[&old - fem.m_origins.data()]); };
+        m_thinning.add({m_origins[k].m_objectId, contact, contact.m_soft.of(X),
+                        contact.m_gap + step * dot(contact.m_normal, relative), std::any_of(first, last, isHeld)});
+    }
+    m_thinning.thin(m_contacts, m_origins);
 }
 
 // Both lists ascend, as the features were searched. Of several contacts of a feature with a leaf, the one before is

@@ -5,6 +5,7 @@
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_bridge/contact/sheet_touch.h"
 #include "bullet_bridge/contact_heirs.h"
+#include "bullet_bridge/contact_thinning.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/rigid_obstacles.h"
 #include "bullet_bridge/shapes/shape_distance.h"
@@ -113,6 +114,7 @@ private:
     void consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, const SurfaceDistance& d);
     ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                        const SurfaceDistance& d);
+    void thin(const FemSoftBody& fem, double step, const RigidObstacles& obstacles);
     void takeOverImpulses(const FemSoftBody& fem);
     void inheritImpulses(const FemSoftBody& fem);
 
@@ -122,6 +124,7 @@ private:
     std::vector<int> m_order;
     std::vector<unsigned char> m_continued;  // contacts of the last step
     ContactHeirs m_heirs;
+    ContactThinning m_thinning;
     std::vector<const void*> m_overlapping;  // the body, in the broad phase
     TriangleSoup m_soup;
     std::vector<SheetTouch> m_touches;

@@ -51,8 +51,9 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     append(roles, offset);
 
     SoftPairReport report;
-    report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
     m_last = m_memory->lastOf(roles.m_origin.m_firstId, roles.m_origin.m_secondId);
+    thin(first, second);
+    report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
     m_continued.assign(m_last.m_count, 0);
     takeOverImpulses();
     inheritImpulses(first, second);
@@ -89,6 +90,28 @@ void SoftPairFinder::append(const Roles& roles, double offset)
         m_found.push_back(contact);
         m_foundOrigins.push_back(origin);
     }
+}
+
+void SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
+{
+    const double cells[2] = {ContactThinning::cellOf(first.m_fem), ContactThinning::cellOf(second.m_fem)};
+    if (!(cells[0] > 0 || cells[1] > 0)) return;
+    const bool byFirst = cells[0] > 0 && !(cells[1] > 0 && cells[1] < cells[0]);
+    const FemSoftBody& fem = (byFirst ? first : second).m_fem;
+    m_thinning.clear(byFirst ? cells[0] : cells[1]);
+    const std::vector<Vec3>& X = fem.m_body.m_model->mesh().restPositions();
+    for (std::size_t k = 0; k < m_found.size(); ++k)
+    {
+        const ContactPoint& contact = m_found[k];
+        const bool softIsFirst = m_foundOrigins[k].m_kind != SoftPairKind::nodeOfSecond;
+        const SurfacePoint& point = softIsFirst == byFirst ? contact.m_soft : contact.m_other;
+        const SoftPairOrigin* const end = m_last.m_origins + m_last.m_count;
+        const SoftPairOrigin* const old = std::lower_bound(m_last.m_origins, end, m_foundOrigins[k]);
+        const bool known = old != end && !(m_foundOrigins[k] < *old);
+        m_thinning.add(
+            {0, contact, point.of(X), contact.m_gap, known && isPushing(m_last.m_contacts[old - m_last.m_origins])});
+    }
+    m_thinning.thin(m_found, m_foundOrigins);
 }
 
 void SoftPairFinder::takeOverImpulses()

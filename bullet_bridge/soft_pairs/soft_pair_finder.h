@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bullet_bridge/contact_heirs.h"
+#include "bullet_bridge/contact_thinning.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/soft_pairs/edge_pair_search.h"
 #include "bullet_bridge/soft_pairs/soft_pair_memory.h"
@@ -52,6 +53,7 @@ private:
 
     void append(const Roles& roles, double offset);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
+    void thin(const SoftPairSide& first, const SoftPairSide& second);
     void takeOverImpulses();
     void inheritImpulses(const SoftPairSide& first, const SoftPairSide& second);
 
@@ -65,6 +67,7 @@ private:
     SoftPairMemory::Last m_last;             // of the pair
     std::vector<unsigned char> m_continued;  // of these
     ContactHeirs m_heirs;
+    ContactThinning m_thinning;
 };
 
 }  // namespace bullet_fem

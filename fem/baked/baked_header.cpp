@@ -87,7 +87,7 @@ void checkValues(const BakedHeader& h)
     if (!(h.m_massScale > 0) || !std::isfinite(h.m_massScale))
         reject("its mass scale is ", h.m_massScale, ", not in (0, inf)", kDamaged);
     const auto isZero = [](char c) { return c == '\0'; };
-    if (!isText(h.m_backend) || !isText(h.m_ordering) ||
+    if (!isText(h.m_backend) || !isText(h.m_ordering) || h.m_reserved != 0 ||
         !std::all_of(h.m_reserved2.begin(), h.m_reserved2.end(), isZero))
         reject("its header has values of no meaning", kDamaged);
 }

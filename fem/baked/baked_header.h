@@ -27,12 +27,13 @@ struct BakedHeader
     std::uint64_t m_panelFloats, m_entries, m_fullBytes;
     std::uint32_t m_nodes, m_tets, m_filled, m_embedded, m_triangles;
     std::uint32_t m_freeNodes, m_supernodes, m_rows, m_restBlocks;
-    std::uint32_t m_lowMemory, m_singlePrecision, m_surfaceCollides;
+    std::uint32_t m_lowMemory, m_singlePrecision, m_reserved;
     double m_step, m_massScale;
     double m_youngModulus, m_poissonRatio, m_density, m_massDamping, m_stiffnessDamping;
     std::array<char, 48> m_backend;  // with zeros behind
     std::array<char, 16> m_ordering;
-    std::array<char, 24> m_reserved2;
+    std::uint32_t m_surfaceCollides;
+    std::array<char, 20> m_reserved2;
 };
 static_assert(sizeof(BakedHeader) == 256 && sizeof(BakedHeader) % kBakedAlignment == 0);
 
