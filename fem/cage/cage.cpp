@@ -8,6 +8,7 @@
 #include "fem/cage/cage_fill.h"
 #include "fem/cage/cage_size.h"
 #include "fem/cage/cage_snap.h"
+#include "fem/cage/graded_lattice.h"
 #include "fem/message.h"
 
 namespace bullet_fem
@@ -19,6 +20,9 @@ constexpr double kThinnest = 1e-7;  // volume over area times length below which
 
 /// Mean ratio of the tets that cut off a cube's corners, less rounding: 12 (1/2)^(2/3) / 9; the middle one is regular.
 constexpr double kLatticeQuality = 0.8399;
+
+/// The same of a cube's sixth, less rounding: 12 (1/2)^(2/3) / 10. Its halves are better.
+constexpr double kGradedQuality = 0.7559;
 
 Vec3 centreOf(const SurfaceInspection& surface)
 {
@@ -86,12 +90,54 @@ CageReport reportOn(const SurfaceInspection& surface, const CageFill& fill, doub
     return report;
 }
 
-void reportElements(const TetMesh& mesh, double snap, CageReport& report)
+/// What a lattice is filled with.
+struct FillInput
+{
+    const SurfaceInspection& m_surface;
+    const WindingNumber& m_winding;
+    const CageLattice& m_lattice;
+    const CageSettings& m_settings;
+
+    bool isClosed() const { return m_surface.m_openEdges == 0; }
+    const std::vector<Vec3>& vertices() const { return m_surface.m_repaired.m_surface.m_vertices; }
+};
+
+/// Makes mesh and report of a cage whose cells are alike. Returns every vertex's element.
+std::vector<int> fillAlike(const FillInput& input, CageFill& fill, Cage& cage)
+{
+    const CageLattice& lattice = input.m_lattice;
+    fill = fillCage(lattice, input.m_winding, input.isClosed(), input.m_settings);
+    cage.m_report = reportOn(input.m_surface, fill, lattice.cellSize());
+    std::vector<int> held = holdVertices(lattice, input.vertices(), input.m_surface.m_used, fill);
+    cage.m_mesh = meshOf(lattice, fill.m_tets);
+    cage.m_report.m_smallestCell = cage.m_report.m_largestCell = lattice.cellSize();
+    cage.m_report.m_levelTets[0] = cage.m_mesh.tetCount();
+    return held;
+}
+
+/// The same of a graded cage.
+std::vector<int> fillGraded(const FillInput& input, CageFill& fill, Cage& cage)
+{
+    const CageLattice& lattice = input.m_lattice;
+    const GradedSurface surface(input.m_surface, input.m_winding, input.m_settings, lattice.cellSize());
+    GradedLattice graded({lattice, input.m_winding, surface, input.isClosed(), input.m_settings},
+                         input.m_settings.m_maxTets);
+    fill = graded.fill();
+    cage.m_report = reportOn(input.m_surface, fill, lattice.cellSize());
+    std::vector<int> held = graded.holdVertices(input.vertices(), input.m_surface.m_used, fill);
+    cage.m_mesh = graded.mesh(fill.m_tets);
+    graded.report(fill.m_tets, cage.m_report);
+    return held;
+}
+
+void reportElements(const TetMesh& mesh, const CageSettings& settings, CageReport& report)
 {
     report.m_tets = mesh.tetCount();
     report.m_nodes = mesh.nodeCount();
     report.m_volumeRatio = mesh.volume() / report.m_surfaceVolume;
-    report.m_qualityBound = snap > 0 ? kSnappedQuality : kLatticeQuality;
+    report.m_qualityBound = settings.m_snap > 0          ? kSnappedQuality
+                            : settings.m_cellsAcross > 0 ? kGradedQuality
+                                                         : kLatticeQuality;
     report.m_leastQuality = 1;
     const std::vector<Vec3>& X = mesh.restPositions();
     for (const Tet& t : mesh.tets())
@@ -114,18 +160,17 @@ Cage makeCage(const SurfaceMesh& surface, const CageSettings& givenSettings)
 
     CageLattice lattice(inspection, settings);
     lattice.markSurface(surface);
-    CageFill fill = fillCage(lattice, winding, inspection.m_openEdges == 0, settings);
-
+    const FillInput input{inspection, winding, lattice, settings};
     Cage cage;
     cage.m_surfaceCollides = settings.m_surfaceCollides;
-    cage.m_report = reportOn(inspection, fill, lattice.cellSize());
-    const std::vector<int> held = holdVertices(lattice, surface.m_vertices, inspection.m_used, fill);
-    cage.m_mesh = meshOf(lattice, fill.m_tets);
+    CageFill fill;
+    const std::vector<int> held =
+        settings.m_cellsAcross > 0 ? fillGraded(input, fill, cage) : fillAlike(input, fill, cage);
     cage.m_report.m_latticeVolumeRatio = cage.m_mesh.volume() / cage.m_report.m_surfaceVolume;
     cage.m_embedding = embed(surface.m_vertices, held, cage.m_mesh);
     if (settings.m_snap > 0)
     {
-        const TetMesh mesh = snapped(cage.m_mesh, {inspection, winding, settings.m_snap, lattice.cellSize()});
+        const TetMesh mesh = snapped(cage.m_mesh, {inspection, winding, settings.m_snap, cage.m_report.m_smallestCell});
         refill(MovedTets{cage.m_mesh, mesh, centreOf(inspection)}, winding, settings, fill);
         embedAnew(mesh, surface.m_vertices, inspection.m_used, cage.m_embedding);
         cage.m_mesh = mesh;
@@ -137,7 +182,7 @@ Cage makeCage(const SurfaceMesh& surface, const CageSettings& givenSettings)
         filledVolume += cage.m_filled[e] * cage.m_mesh.tetVolume(e);
     }
     cage.m_massScale = cage.m_report.m_surfaceVolume / filledVolume;
-    reportElements(cage.m_mesh, settings.m_snap, cage.m_report);
+    reportElements(cage.m_mesh, settings, cage.m_report);
     return cage;
 }
 

@@ -7,6 +7,16 @@
 
 namespace bullet_fem
 {
+
+std::array<double, 4> barycentric(const std::array<Vec3, 4>& x, const Vec3& p)
+{
+    const Vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0], d = p - x[0];
+    const double volume = dot(cross(a, b), c);
+    const double w1 = dot(cross(d, b), c) / volume, w2 = dot(cross(a, d), c) / volume,
+                 w3 = dot(cross(a, b), d) / volume;
+    return {1 - w1 - w2 - w3, w1, w2, w3};
+}
+
 namespace
 {
 
@@ -16,16 +26,6 @@ constexpr double kOnTet = -1e-9;  // least barycentric weight of a vertex that l
 int latticeTet(int cube, int tet)
 {
     return 5 * cube + tet;
-}
-
-/// Barycentric weights of p in a tet, sum exactly 1 but for rounding.
-std::array<double, 4> barycentric(const std::array<Vec3, 4>& x, const Vec3& p)
-{
-    const Vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0], d = p - x[0];
-    const double volume = dot(cross(a, b), c);
-    const double w1 = dot(cross(d, b), c) / volume, w2 = dot(cross(a, d), c) / volume,
-                 w3 = dot(cross(a, b), d) / volume;
-    return {1 - w1 - w2 - w3, w1, w2, w3};
 }
 
 /// The lattice tet that holds p best, and its least weight there: kept ones before others.
@@ -38,24 +38,16 @@ struct Holder
 
 Holder findHolder(const CageLattice& lattice, const std::vector<std::uint8_t>& kept, const Vec3& p)
 {
-    std::array<int, 3> low, high;  // one cube, or all those that share the face, edge or corner p lies on
-    for (int a = 0; a < 3; ++a)
-    {
-        low[a] = std::clamp(static_cast<int>(std::floor(p[a] - 1e-6)), 0, lattice.cubes()[a] - 1);
-        high[a] = std::clamp(static_cast<int>(std::floor(p[a] + 1e-6)), 0, lattice.cubes()[a] - 1);
-    }
+    constexpr double kNear = 1e-6;  // one cube, or all those that share the face, edge or corner p lies on
     Holder best;
-    for (int k = low[2]; k <= high[2]; ++k)
-        for (int j = low[1]; j <= high[1]; ++j)
-            for (int i = low[0]; i <= high[0]; ++i)
-                for (int tet = 0; tet < 5; ++tet)
-                {
-                    const int cube = lattice.cube({i, j, k});
-                    const std::array<double, 4> w = barycentric(lattice.corners(cube, tet), p);
-                    const double least = *std::min_element(w.begin(), w.end());
-                    const bool isKept = (kept[cube] >> tet & 1) && least >= kOnTet;
-                    if (isKept != best.m_kept ? isKept : least > best.m_leastWeight) best = {cube, tet, least, isKept};
-                }
+    for (const int cube : lattice.cubesAround(p, kNear))
+        for (int tet = 0; tet < 5; ++tet)
+        {
+            const std::array<double, 4> w = barycentric(lattice.corners(cube, tet), p);
+            const double least = *std::min_element(w.begin(), w.end());
+            const bool isKept = (kept[cube] >> tet & 1) && least >= kOnTet;
+            if (isKept != best.m_kept ? isKept : least > best.m_leastWeight) best = {cube, tet, least, isKept};
+        }
     return best;
 }
 

@@ -9,6 +9,9 @@
 namespace bullet_fem
 {
 
+/// Barycentric weights of p in a tet, sum exactly 1 but for rounding.
+std::array<double, 4> barycentric(const std::array<Vec3, 4>& x, const Vec3& p);
+
 /// Makes sure that every used vertex [m] lies in a kept tet, and returns its element in the order of fill.m_tets (0 for
 /// unused vertices).
 std::vector<int> holdVertices(const CageLattice& lattice, const std::vector<Vec3>& vertices,

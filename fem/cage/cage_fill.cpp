@@ -9,18 +9,11 @@
 
 namespace bullet_fem
 {
-namespace
-{
 
-using Weights = std::array<double, 4>;
-
-/// Barycentric weights of points spread evenly over a tet: the additive recurrence with the powers of 1 / g,
-/// g^4 = g + 1 [Roberts 2018], in the unit cube, mapped to the tet so that volumes keep their ratio: planes parallel to
-/// the face opposite node 0 cut the volume by the cube root, lines in them the area by the square root.
-std::vector<Weights> spreadSamples(int count)
+std::vector<std::array<double, 4>> spreadSamples(int count)
 {
     constexpr double g = 1.2207440846057596;
-    std::vector<Weights> samples;
+    std::vector<std::array<double, 4>> samples;
     for (int n = 1; n <= count; ++n)
     {
         const double s = std::cbrt(std::fmod(0.5 + n / g, 1)), t = std::sqrt(std::fmod(0.5 + n / (g * g), 1)),
@@ -30,10 +23,17 @@ std::vector<Weights> spreadSamples(int count)
     return samples;
 }
 
-bool inside(double winding)
+void report(const FillTally& tally, CageFill& fill)
 {
-    return std::abs(winding) >= 0.5;
+    fill.m_insideVolume = tally.m_outward + tally.m_inward;
+    fill.m_insideOut = tally.m_inward > tally.m_outward;
+    fill.m_selfIntersecting = tally.m_overlapping || (tally.m_inward > 0 && tally.m_outward > 0);
 }
+
+namespace
+{
+
+using Weights = std::array<double, 4>;
 
 class Filler
 {
@@ -59,9 +59,7 @@ public:
                 const double fraction = fractionOf(cube, tet);
                 if (fraction > 0 || m_lattice.entered(cube) >> tet & 1) keep({cube, tet, fraction});
             }
-        m_fill.m_insideVolume = m_outward + m_inward;
-        m_fill.m_insideOut = m_inward > m_outward;
-        m_fill.m_selfIntersecting = m_overlapping || (m_inward > 0 && m_outward > 0);
+        report(m_tally, m_fill);
         return std::move(m_fill);
     }
 
@@ -77,7 +75,7 @@ public:
             if (sameAsPrevious)
             {
                 m_whole[cube] = m_whole[previous];
-                if (m_whole[cube]) tally(m_lastWinding, 1);
+                if (m_whole[cube]) m_tally.add(m_lastWinding, 1);
             }
             else
                 findWholeTetsOf(cube);
@@ -102,8 +100,8 @@ private:
             // Around an open surface the winding number falls off smoothly: a value near 1/2 needs samples.
             if (m_closed || std::abs(std::abs(m_lastWinding) - 0.5) > 0.25)
             {
-                m_whole[cube] = inside(m_lastWinding) ? kAll : 0;
-                if (m_whole[cube]) tally(m_lastWinding, 1);
+                m_whole[cube] = isInside(m_lastWinding) ? kAll : 0;
+                if (m_whole[cube]) m_tally.add(m_lastWinding, 1);
                 return;
             }
         }
@@ -115,12 +113,12 @@ private:
             if (!m_closed && std::abs(std::abs(w) - 0.5) < 0.25)
             {
                 m_unsure.push_back(5LL * cube + tet);
-                m_likely += inside(w);
+                m_likely += isInside(w);
             }
-            else if (inside(w))
+            else if (isInside(w))
             {
                 m_whole[cube] |= static_cast<std::uint8_t>(1 << tet);
-                tally(w, CageLattice::tetVolume(tet));
+                m_tally.add(w, CageLattice::tetVolume(tet));
             }
         }
     }
@@ -136,9 +134,9 @@ private:
         for (const Weights& w : m_samples)
         {
             const double winding = windingAt(x[0] * w[0] + x[1] * w[1] + x[2] * w[2] + x[3] * w[3]);
-            if (!inside(winding)) continue;
+            if (!isInside(winding)) continue;
             ++hits;
-            tally(winding, CageLattice::tetVolume(tet) / m_settings.m_fillSamples);
+            m_tally.add(winding, CageLattice::tetVolume(tet) / m_settings.m_fillSamples);
         }
         return static_cast<double>(hits) / m_settings.m_fillSamples;
     }
@@ -163,12 +161,6 @@ private:
         return m_winding.at(m_lattice.toCentred(p));
     }
 
-    void tally(double winding, double volume)
-    {
-        (winding > 0 ? m_outward : m_inward) += volume;
-        if (std::abs(winding) > 1.5) m_overlapping = true;
-    }
-
     static int bits(unsigned mask)
     {
         return (mask & 1) + (mask >> 1 & 1) + (mask >> 2 & 1) + (mask >> 3 & 1) + (mask >> 4 & 1);
@@ -191,8 +183,7 @@ private:
     std::size_t m_nextUnsure = 0;
     double m_likely = 0;
     double m_lastWinding = 0;
-    double m_outward = 0, m_inward = 0;  // volume of positive and of negative winding number, in lattice units
-    bool m_overlapping = false;
+    FillTally m_tally;  // in lattice units
     CageFill m_fill;
 };
 
@@ -214,7 +205,7 @@ void refill(const MovedTets& tets, const WindingNumber& winding, const CageSetti
         int hits = 0;
         for (const Weights& w : samples)
             hits +=
-                inside(winding.at(X[t[0]] * w[0] + X[t[1]] * w[1] + X[t[2]] * w[2] + X[t[3]] * w[3] - tets.m_centre));
+                isInside(winding.at(X[t[0]] * w[0] + X[t[1]] * w[1] + X[t[2]] * w[2] + X[t[3]] * w[3] - tets.m_centre));
         fill.m_tets[e].m_fraction = static_cast<double>(hits) / settings.m_fillSamples;
     }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fem/cage/cage_lattice.h"
+#include "fem/cage/fill_samples.h"
 #include "fem/cage/winding_number.h"
 
 namespace bullet_fem
@@ -22,12 +23,15 @@ struct FilledTet
 struct CageFill
 {
     std::vector<FilledTet> m_tets;     ///< every tet with a sample inside or entered by a triangle, by cube, then tet
-    std::vector<std::uint8_t> m_kept;  ///< per cube: a bit for each of its tets in m_tets
+    std::vector<std::uint8_t> m_kept;  ///< per cube: a bit for each of its tets in m_tets; empty if graded
     double m_insideVolume = 0;         ///< in lattice units
     double m_sampleCount = 0;          ///< points whose winding number was looked at
     bool m_insideOut = false;          ///< most of the inside has a negative winding number
     bool m_selfIntersecting = false;   ///< magnitudes above 3/2, or both signs
 };
+
+/// What the points inside say of the surface.
+void report(const FillTally& tally, CageFill& fill);
 
 /// Fills a marked lattice. The winding number is about the centre of the lattice, in metres; `closed` says that the
 /// winding number is constant away from the triangles. Throws std::invalid_argument if more than m_maxTets tets are

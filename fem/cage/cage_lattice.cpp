@@ -59,7 +59,8 @@ CageLattice::CageLattice(const SurfaceInspection& surface, const CageSettings& s
     const Vec3 extent = surface.m_high - surface.m_low;
     const double most = mostCubes(settings);
     const auto [least, longest] = cellSizeRange(surface, settings);
-    m_safeCellSize = std::min(leastCellSize(extent, std::floor(settings.m_maxTets / 5.0)), longest);
+    const double tetsPerCube = settings.m_cellsAcross > 0 ? std::ldexp(6, 3 * settings.m_mostLevels) : 5;
+    m_safeCellSize = std::min(leastCellSize(extent, std::floor(settings.m_maxTets / tetsPerCube)), longest);
     if (!(m_cellSize > 0 && m_cellSize <= longest) || cubesIn(extent, m_cellSize) > most)
         reject("the cage's cell size is ", m_cellSize, " m, outside [", least, ", ", longest,
                "] m for this surface (at most ", most, " cubes, at least one along the longest side); ", m_safeCellSize,
@@ -78,6 +79,27 @@ CageLattice::CageLattice(const SurfaceInspection& surface, const CageSettings& s
 std::array<int, 3> CageLattice::place(int cube) const
 {
     return {cube % m_cubes[0], cube / m_cubes[0] % m_cubes[1], cube / m_cubes[0] / m_cubes[1]};
+}
+
+Vec3 CageLattice::cubeMiddle(int cube) const
+{
+    const auto [i, j, k] = place(cube);
+    return {i + 0.5, j + 0.5, k + 0.5};
+}
+
+std::vector<int> CageLattice::cubesAround(const Vec3& p, double near) const
+{
+    std::array<int, 3> low, high;
+    for (int a = 0; a < 3; ++a)
+    {
+        low[a] = std::clamp(static_cast<int>(std::floor(p[a] - near)), 0, m_cubes[a] - 1);
+        high[a] = std::clamp(static_cast<int>(std::floor(p[a] + near)), 0, m_cubes[a] - 1);
+    }
+    std::vector<int> cubes;
+    for (int k = low[2]; k <= high[2]; ++k)
+        for (int j = low[1]; j <= high[1]; ++j)
+            for (int i = low[0]; i <= high[0]; ++i) cubes.push_back(cube({i, j, k}));
+    return cubes;
 }
 
 int CageLattice::node(int cube, int tet, int corner) const

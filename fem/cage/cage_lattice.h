@@ -46,6 +46,15 @@ public:
         return (u - Vec3{0.5 * m_cubes[0], 0.5 * m_cubes[1], 0.5 * m_cubes[2]}) * m_cellSize;
     }
 
+    /// From metres from the centre of the bounding box to lattice units.
+    Vec3 fromCentred(const Vec3& x) const
+    {
+        return x * (1 / m_cellSize) + Vec3{0.5 * m_cubes[0], 0.5 * m_cubes[1], 0.5 * m_cubes[2]};
+    }
+    Vec3 cubeMiddle(int cube) const;  ///< in lattice units
+    /// The cubes that p [lattice units] lies in, or within `near` of.
+    std::vector<int> cubesAround(const Vec3& p, double near) const;
+
     /// Number of node `corner` of a tet among the lattice's nodes, x fastest.
     int node(int cube, int tet, int corner) const;
     int nodeCount() const { return (m_cubes[0] + 1) * (m_cubes[1] + 1) * (m_cubes[2] + 1); }

@@ -25,6 +25,12 @@ std::string describe(const CageReport& report)
                                " m\nmean ratio at least ", report.m_leastQuality, " (bound ", report.m_qualityBound,
                                "), elements by tenths:");
     for (const int count : report.m_qualityHistogram) text += message(' ', count);
+    if (report.m_levels > 0)
+    {
+        text += message("\ngraded, cells of ", report.m_smallestCell, " to ", report.m_largestCell,
+                        " m, elements by halvings:");
+        for (int level = 0; level <= report.m_levels; ++level) text += message(' ', report.m_levelTets[level]);
+    }
     text += message("\nvolume ", report.m_surfaceVolume, " m3 (", report.m_volumeIsExact ? "exact" : "of samples",
                     "), the cage's is ", report.m_volumeRatio, " times that (", report.m_latticeVolumeRatio,
                     " before snapping)\n", report.m_pieces, " pieces, ", report.m_openEdges, " open edges (",

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "fem/cage/cage_fill.h"
+#include "fem/cage/graded_lattice.h"
 #include "fem/message.h"
 
 namespace bullet_fem
@@ -53,6 +55,7 @@ public:
         Trial finer{least, 1}, coarser{most, -1}, best{0, 1e300};  // a bracket; its ends are not known at first
         bool knowsFiner = false, knowsCoarser = false;
         double cell = std::log(estimateCellSize(m_surface, m_settings, range));
+        if (m_settings.m_cellsAcross > 0) gradeFor(std::exp(cell));
         for (int n = 0; n < kMostLattices && coarser.m_cell - finer.m_cell > 1e-6; ++n)
         {
             const Trial trial = look(cell);
@@ -74,7 +77,16 @@ public:
     }
 
 private:
+    static constexpr double kMostOverEstimate = 4;
     static constexpr double kSlope = 0.5;  // counts fall with the square to the cube of the cell: no step is too short
+
+    /// Thin parts take elements, so that cells become longer than estimated.
+    void gradeFor(double estimate)
+    {
+        CageSettings settings = m_settings;
+        settings.m_cellSize = estimate;
+        m_graded.emplace(m_surface, m_winding, settings, kMostOverEstimate * estimate);
+    }
 
     Trial look(double cell) const
     {
@@ -84,13 +96,22 @@ private:
         settings.m_cellSize = std::clamp(settings.m_cellSize, range.m_least, range.m_most);
         CageLattice lattice(m_surface, settings);
         lattice.markSurface(m_surface.m_repaired.m_surface);
-        const double count = countTets(lattice, m_winding, m_surface.m_openEdges == 0, settings);
+        const double count = countIn(lattice, settings);
         return {cell, std::log(std::max(1.0, count) / m_settings.m_targetTets)};
+    }
+
+    double countIn(const CageLattice& lattice, const CageSettings& settings) const
+    {
+        const bool closed = m_surface.m_openEdges == 0;
+        if (!m_graded) return countTets(lattice, m_winding, closed, settings);
+        const double most = 2.0 * settings.m_targetTets;
+        return GradedLattice({lattice, m_winding, *m_graded, closed, settings}, most).count(most);
     }
 
     const SurfaceInspection& m_surface;
     const WindingNumber& m_winding;
     const CageSettings& m_settings;
+    std::optional<GradedSurface> m_graded;
 };
 
 }  // namespace
@@ -109,6 +130,12 @@ void checkSettings(const CageSettings& settings)
     if (!(settings.m_snap >= 0 && settings.m_snap <= 1))
         reject("the share that a cage's boundary is snapped by is ", settings.m_snap,
                ", outside [0, 1]; choose another m_snap, 0 for none");
+    if (settings.m_cellsAcross != 0 && !(settings.m_cellsAcross >= 1 && settings.m_cellsAcross <= 8))
+        reject("the cells across thin parts of a graded cage are ", settings.m_cellsAcross,
+               ", neither 0 nor in [1, 8]; choose another m_cellsAcross, 2 is usual, 0 for cells that are alike");
+    if (settings.m_mostLevels < 1 || settings.m_mostLevels > 6)
+        reject("the most levels of a graded cage are ", settings.m_mostLevels,
+               ", outside [1, 6]; choose another m_mostLevels, 3 is usual");
     if (settings.m_targetTets != 0 && settings.m_cellSize != 0)
         reject("the cage has both a cell size (", settings.m_cellSize, " m) and a number of elements (",
                settings.m_targetTets, "); give one of m_cellSize and m_targetTets, and leave the other 0");

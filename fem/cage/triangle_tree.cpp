@@ -4,12 +4,15 @@
 
 #include <algorithm>
 
+#include "fem/cage/tet_region.h"
+
 namespace bullet_fem
 {
 namespace
 {
 
 constexpr int kLeafSize = 4;
+constexpr double kRayRounding = 1e-9;  // of lengths along a ray: in and out of boxes without thickness
 
 /// a / b, 0 where b is: in triangles without area.
 double ratio(double a, double b)
@@ -47,45 +50,40 @@ double squaredDistance(const Vec3& low, const Vec3& high, const Vec3& p)
     return sum;
 }
 
-/// Half spaces and box of a tet: what is certainly outside of either does not meet it.
-class TetRegion
+/// How far along the ray from `from` the triangle is met [in lengths of `way`], negative if it is not
+/// [Moeller and Trumbore 1997]; rays through an edge meet both of its triangles.
+double alongRay(const TriangleCorners& t, const Vec3& from, const Vec3& way)
 {
-public:
-    explicit TetRegion(const std::array<Vec3, 4>& tet) : m_low(tet[0]), m_high(tet[0])
-    {
-        for (int i = 0; i < 4; ++i)
-        {
-            const Vec3 &a = tet[(i + 1) % 4], &b = tet[(i + 2) % 4], &c = tet[(i + 3) % 4];
-            m_normals[i] = cross(b - a, c - a);
-            const double inner = dot(m_normals[i], tet[i] - a);
-            if (inner > 0) m_normals[i] = -m_normals[i];
-            m_offsets[i] = dot(m_normals[i], a);
-            for (int c3 = 0; c3 < 3; ++c3)
-            {
-                m_low[c3] = std::min(m_low[c3], tet[i][c3]);
-                m_high[c3] = std::max(m_high[c3], tet[i][c3]);
-            }
-        }
-    }
+    constexpr double kOnEdge = -1e-9;
+    const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], p = cross(way, ac);
+    const double determinant = dot(ab, p);
+    if (determinant == 0) return -1;
+    const double u = dot(from - t[0], p) / determinant;
+    if (!(u >= kOnEdge && u <= 1 - kOnEdge)) return -1;
+    const Vec3 q = cross(from - t[0], ab);
+    const double v = dot(way, q) / determinant;
+    if (!(v >= kOnEdge && u + v <= 1 - kOnEdge)) return -1;
+    return dot(ac, q) / determinant;
+}
 
-    bool mayMeet(const Vec3& low, const Vec3& high) const
+/// The part of a ray that is in a box; empty if m_first is greater than m_last.
+bool rayMeetsBox(const Vec3& low, const Vec3& high, const Ray& ray)
+{
+    double first = ray.m_first, last = ray.m_last;
+    for (int a = 0; a < 3; ++a)
     {
-        for (int a = 0; a < 3; ++a)
-            if (low[a] > m_high[a] || high[a] < m_low[a]) return false;
-        for (int i = 0; i < 4; ++i)
+        if (ray.m_way[a] == 0)
         {
-            const Vec3& n = m_normals[i];
-            const Vec3 deepest = {n.x > 0 ? low.x : high.x, n.y > 0 ? low.y : high.y, n.z > 0 ? low.z : high.z};
-            if (dot(n, deepest) > m_offsets[i]) return false;
+            if (ray.m_from[a] < low[a] || ray.m_from[a] > high[a]) return false;
+            continue;
         }
-        return true;
+        const auto [in, out] =
+            std::minmax({(low[a] - ray.m_from[a]) / ray.m_way[a], (high[a] - ray.m_from[a]) / ray.m_way[a]});
+        first = std::max(first, in - kRayRounding);
+        last = std::min(last, out + kRayRounding);
     }
-
-private:
-    Vec3 m_low, m_high;
-    std::array<Vec3, 4> m_normals;
-    std::array<double, 4> m_offsets = {};
-};
+    return first <= last;
+}
 
 }  // namespace
 
@@ -155,7 +153,7 @@ void TriangleTree::nearestIn(int at, const Vec3& p, Vec3& best, double& bestSqua
 
 bool TriangleTree::entersTet(const std::array<Vec3, 4>& tet, double depth) const
 {
-    const TetRegion region(tet);
+    const TetRegion region(tet, std::max(0.0, -depth));
     for (std::size_t n = 0; n < m_nodes.size();)
     {
         const Node& node = m_nodes[n];
@@ -170,6 +168,32 @@ bool TriangleTree::entersTet(const std::array<Vec3, 4>& tet, double depth) const
         ++n;
     }
     return false;
+}
+
+RayHit TriangleTree::firstAlong(const Ray& ray) const
+{
+    RayHit hit{-1, {}};
+    Ray rest = ray;
+    for (std::size_t n = 0; n < m_nodes.size();)
+    {
+        const Node& node = m_nodes[n];
+        if (!rayMeetsBox(node.m_low, node.m_high, rest))
+        {
+            n = node.m_skip;
+            continue;
+        }
+        if (node.m_right == 0)
+            for (int t = node.m_first; t < node.m_last; ++t)
+            {
+                const TriangleCorners& x = m_triangles[t];
+                const double along = alongRay(x, ray.m_from, ray.m_way);
+                if (!(along >= rest.m_first && along < rest.m_last)) continue;
+                rest.m_last = along;
+                hit = {along, cross(x[1] - x[0], x[2] - x[0])};
+            }
+        ++n;
+    }
+    return hit;
 }
 
 }  // namespace bullet_fem

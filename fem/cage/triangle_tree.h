@@ -10,6 +10,20 @@
 namespace bullet_fem
 {
 
+/// The points m_from + s m_way with s in [m_first, m_last).
+struct Ray
+{
+    Vec3 m_from, m_way;
+    double m_first = 0, m_last = 1;
+};
+
+/// Where a ray first meets a triangle.
+struct RayHit
+{
+    double m_along = -1;  ///< the ray's s; negative if it meets none
+    Vec3 m_normal;        ///< of the triangle, not of unit length
+};
+
 /// A tree of boxes over a triangle soup. Immutable; copies the corners.
 class TriangleTree
 {
@@ -20,7 +34,10 @@ public:
     /// The point of the triangles that is nearest to p.
     Vec3 nearest(const Vec3& p) const;
 
-    /// True if a triangle enters the tet deeper than `depth`.
+    /// The first triangle along a ray, of either side. One that meets it at an edge counts.
+    RayHit firstAlong(const Ray& ray) const;
+
+    /// True if a triangle enters the tet deeper than `depth`; with a negative one, if it comes within -depth of it.
     bool entersTet(const std::array<Vec3, 4>& tet, double depth) const;
 
 private:

@@ -22,6 +22,11 @@ struct CageSettings
     /// Share of the way that boundary nodes move toward the nearest point of the surface, in [0, 1]; 0: none. They stop
     /// where an element would fall below a mean ratio of .3, or the surface would no longer be inside.
     double m_snap = 0;
+    /// Cells that thin parts are to have across, in [1, 8], 2 is usual; 0: cells are alike. Cells stay m_cellSize long
+    /// where the surface's other side is farther away than that many; elsewhere they are halved as often as it takes,
+    /// and in narrow gaps, too, so that their sides come apart.
+    double m_cellsAcross = 0;
+    int m_mostLevels = 3;    ///< most halvings of a cell's edge where cells are graded, in [1, 6]
     int m_maxTets = 200000;  ///< refuse beyond this many elements, in [5, 5e6]
     /// Least filled fraction that an element's mass and stiffness are scaled by, in (0, 1]. Contact is on the cage's
     /// boundary, where emptier elements are softer; below about .2 they turn inside out under a hard landing.
@@ -57,12 +62,14 @@ struct Cage
 /// 1/2, so self-intersecting, inside-out and slightly open surfaces have one. Triangles that are given twice are left
 /// out, those that turn against their neighbours turned over; the report tells. The cage encloses the whole surface,
 /// its triangles as well as its vertices, and does not overlap itself; the mean ratio of every element is at least
-/// .8399, or .3 with m_snap. The same bits on every call. Throws std::invalid_argument naming value, range and remedy:
-/// settings out of range; no triangles, indices out of range, vertices that are not finite, a surface below 1e-7 of its
-/// distance from the origin; one whose triangles still disagree at more than 1/10 of the edges, because more than two
-/// meet there; a surface without inside (flat, wide open: |vector area| above 9/10 of the area, or volume below 1e-7 of
-/// area times length); a cell size that is longer than the surface, needs more than min(20 m_maxTets, 2e7) cubes for
-/// the bounding box, or gives more than m_maxTets elements.
+/// .8399, with m_cellsAcross .7559, or .3 with m_snap. With m_cellsAcross cubes are split into six tets, which are
+/// bisected [Maubach 1995] until opposite sides of the surface have that many cells between them. The same bits on
+/// every call. Throws std::invalid_argument naming value, range and remedy: settings out of range; no triangles,
+/// indices out of range, vertices that are not finite, a surface below 1e-7 of its distance from the origin; one whose
+/// triangles still disagree at more than 1/10 of the edges, because more than two meet there; a surface without inside
+/// (flat, wide open: |vector area| above 9/10 of the area, or volume below 1e-7 of area times length); a cell size that
+/// is longer than the surface, needs more than min(20 m_maxTets, 2e7) cubes for the bounding box, or gives more than
+/// m_maxTets elements.
 Cage makeCage(const SurfaceMesh& surface, const CageSettings& settings);
 
 }  // namespace bullet_fem

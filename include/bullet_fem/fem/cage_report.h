@@ -19,6 +19,10 @@ struct CageReport
 {
     int m_tets = 0, m_nodes = 0;
     double m_cellSize = 0;                     ///< edge of a lattice cube [m]
+    double m_smallestCell = 0;                 ///< of an element: edge of a cube of six times its volume [m], or
+    double m_largestCell = 0;                  ///< m_cellSize where cells are not graded
+    int m_levels = 0;                          ///< halvings of m_cellSize, rounded up, in the smallest cell
+    std::array<int, 7> m_levelTets{};          ///< elements by such halvings
     std::array<int, 10> m_qualityHistogram{};  ///< elements by mean ratio: [0, .1), [.1, .2), ... [.9, 1]
     double m_leastQuality = 0;                 ///< least mean ratio of an element
     double m_qualityBound = 0;                 ///< what no element of any cage with these settings is below

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "fem/cage/cage_fill.h"
+#include "fem/cage/grading.h"
+
+namespace bullet_fem
+{
+
+/// What a graded cage is made of, all about the centre of the surface's bounding box.
+struct GradingInput
+{
+    const CageLattice& m_lattice;  ///< marked
+    const WindingNumber& m_winding;
+    const GradedSurface& m_surface;
+    bool m_closed;  ///< the winding number is constant away from the triangles
+    const CageSettings& m_settings;
+};
+
+/// The cubes of a lattice that hold something, split into tets that are smaller where the surface is thin. In what it
+/// gives, FilledTet::m_tet is the number of a tet in all of the lattice.
+class GradedLattice
+{
+public:
+    /// Splits until the thin parts have what they want or there are far more than `mostTets`; see isTooLarge.
+    GradedLattice(const GradingInput& input, double mostTets);
+
+    bool isTooLarge() const { return m_tooLarge; }
+
+    /// About how many elements are kept: exactly where the surface is closed and no vertex needs another element.
+    /// Counting ends beyond `most`. Call either this or fill, once.
+    double count(double most);
+
+    /// Throws std::invalid_argument if more than m_maxTets tets are kept.
+    CageFill fill();
+
+    /// Makes sure that every used vertex [m] lies in a kept tet, and returns its element in the order of fill.m_tets
+    /// (0 for unused vertices).
+    std::vector<int> holdVertices(const std::vector<Vec3>& vertices, const std::vector<char>& used, CageFill& fill);
+
+    /// The kept tets in metres, nodes in ascending order of z, y and x.
+    TetMesh mesh(const std::vector<FilledTet>& kept) const;
+
+    /// Sizes of the kept tets.
+    void report(const std::vector<FilledTet>& kept, CageReport& report) const;
+
+private:
+    enum class State
+    {
+        outside,
+        inside,
+        unsure,  // not entered, but near winding number 1/2: it must be sampled
+        entered
+    };
+    struct Holder
+    {
+        int m_tet = -1;
+        double m_leastWeight = -1e300;
+        bool m_kept = false;
+    };
+
+    void addCubes();
+    void findLeaves(int tet);
+    State look(int tet);
+    double fractionOf(int tet, State state);
+    void findHolder(int tet, const Vec3& p, Holder& best) const;
+    double windingAt(const Vec3& p);
+    [[noreturn]] void rejectTooMany(double atLeast) const;
+
+    const GradingInput m_input;
+    BisectedTets m_tets;
+    std::vector<int> m_leaves;  // depth first from cube to cube
+    std::vector<char> m_kept;   // per tet
+    std::vector<std::array<double, 4>> m_samples;
+    FillTally m_tally;
+    double m_sampleCount = 0;
+    bool m_tooLarge = false;
+};
+
+}  // namespace bullet_fem

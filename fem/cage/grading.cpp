@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/cage/grading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "fem/cage/tet_region.h"
+#include "fem/cage/triangle_overlap.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kTouching = 1e-9;  // of a cell
+constexpr double kWithin = 1e-6;    // of a wanted cell: tets that come less deep do not count
+constexpr int kMostCopies = 64;     // of a part on its way across; more are never needed for 8 cells
+
+std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
+{
+    std::vector<Vec3> x = surface.m_repaired.m_surface.m_vertices;
+    const Vec3 centre = 0.5 * (surface.m_low + surface.m_high);
+    for (Vec3& vertex : x) vertex -= centre;
+    return x;
+}
+
+/// Halvings of a tet after which `cells` of its size are not longer than `width` cells of the lattice.
+int generationFor(double cells, double width, int mostLevels)
+{
+    return std::clamp(static_cast<int>(std::ceil(3 * std::log2(cells / width) - kTouching)), 0, 3 * mostLevels);
+}
+
+class Wanting
+{
+public:
+    Wanting(const CageLattice& lattice, const CageSettings& settings) : m_lattice(lattice), m_settings(settings) {}
+
+    void add(const ThinPart& part)
+    {
+        const double width = norm(part.m_across) / m_lattice.cellSize();
+        const double cells = m_settings.m_cellsAcross;
+        if (part.m_isGap && std::ldexp(width, m_settings.m_mostLevels) < cells) return;
+        WantedCell cell;
+        cell.m_generation = generationFor(cells, width, m_settings.m_mostLevels);
+        if (cell.m_generation == 0) return;
+        cell.m_level = (cell.m_generation + 2) / 3;
+        const int copies =
+            part.m_isGap ? 0 : std::min(kMostCopies, static_cast<int>(std::ceil(std::ldexp(width, cell.m_level))));
+        for (int n = 0; n <= copies; ++n)
+        {
+            TriangleCorners x = part.m_corners;
+            for (Vec3& corner : x)
+                corner = m_lattice.fromCentred(corner + (copies > 0 ? 1.0 * n / copies : 0) * part.m_across);
+            add(x, cell);
+        }
+    }
+
+    std::vector<WantedCell> run()
+    {
+        const auto key = [](const WantedCell& c) { return std::tuple(c.m_level, c.m_place, -c.m_generation); };
+        std::sort(m_cells.begin(), m_cells.end(),
+                  [&](const WantedCell& a, const WantedCell& b) { return key(a) < key(b); });
+        m_cells.erase(std::unique(m_cells.begin(), m_cells.end(),
+                                  [](const WantedCell& a, const WantedCell& b)
+                                  { return a.m_level == b.m_level && a.m_place == b.m_place; }),
+                      m_cells.end());
+        return std::move(m_cells);
+    }
+
+private:
+    /// The cells of that level that a triangle touches.
+    void add(TriangleCorners x, WantedCell cell)
+    {
+        for (Vec3& corner : x) corner *= std::ldexp(1.0, cell.m_level);
+        std::array<int, 3> low, high;
+        for (int a = 0; a < 3; ++a)
+        {
+            const auto [least, most] = std::minmax({x[0][a], x[1][a], x[2][a]});
+            const int last = (m_lattice.cubes()[a] << cell.m_level) - 1;
+            low[a] = std::clamp(static_cast<int>(std::floor(least - kTouching)), 0, last);
+            high[a] = std::clamp(static_cast<int>(std::floor(most + kTouching)), 0, last);
+        }
+        std::array<int, 3>& at = cell.m_place;
+        for (at[2] = low[2]; at[2] <= high[2]; ++at[2])
+            for (at[1] = low[1]; at[1] <= high[1]; ++at[1])
+                for (at[0] = low[0]; at[0] <= high[0]; ++at[0])
+                {
+                    const Vec3 corner = {1.0 * at[0], 1.0 * at[1], 1.0 * at[2]};
+                    if (triangleMeetsBox(x, corner, corner + Vec3{1, 1, 1}, kTouching)) m_cells.push_back(cell);
+                }
+    }
+
+    const CageLattice& m_lattice;
+    const CageSettings& m_settings;
+    std::vector<WantedCell> m_cells;
+};
+
+/// A wanted cell and a tet that may have to be halved for it.
+struct Wish
+{
+    const WantedCell* m_cell;
+    int m_tet;
+};
+
+bool meets(const WantedCell& cell, const std::array<Vec3, 4>& tet)
+{
+    const double edge = std::ldexp(1.0, -cell.m_level), in = kWithin * edge;
+    const Vec3 low = Vec3{1.0 * cell.m_place[0], 1.0 * cell.m_place[1], 1.0 * cell.m_place[2]} * edge;
+    return TetRegion(tet).mayMeet(low + Vec3{in, in, in}, low + Vec3{edge - in, edge - in, edge - in});
+}
+
+/// Replaces what a wish is about by its leaves that are too large.
+void follow(const Wish& wish, const BisectedTets& tets, std::vector<Wish>& wishes)
+{
+    const BisectedTet& tet = tets.tets()[wish.m_tet];
+    if (tet.m_generation >= wish.m_cell->m_generation || !meets(*wish.m_cell, tets.corners(wish.m_tet))) return;
+    if (tet.m_child == 0) return wishes.push_back(wish);
+    follow({wish.m_cell, tet.m_child}, tets, wishes);
+    follow({wish.m_cell, tet.m_child + 1}, tets, wishes);
+}
+
+}  // namespace
+
+GradedSurface::GradedSurface(const SurfaceInspection& surface, const WindingNumber& winding,
+                             const CageSettings& settings, double mostCell)
+    : m_tree(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles)
+{
+    ThinSearch search{m_tree, winding};
+    search.m_reach = settings.m_cellsAcross * mostCell;
+    search.m_coarsest = settings.m_cellSize / 2;
+    search.m_finest = std::ldexp(settings.m_cellSize, -settings.m_mostLevels);
+    search.m_edgePerWidth = 2 / settings.m_cellsAcross;
+    m_parts = findThinParts(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles, search);
+}
+
+std::vector<WantedCell> wantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts,
+                                    const CageSettings& settings)
+{
+    Wanting wanting(lattice, settings);
+    for (const ThinPart& part : parts) wanting.add(part);
+    return wanting.run();
+}
+
+bool grade(const std::vector<WantedCell>& wanted, std::size_t most, BisectedTets& tets)
+{
+    std::vector<Wish> wishes, rest;
+    for (const WantedCell& cell : wanted)
+    {
+        const std::array<int, 3>& at = cell.m_place;
+        const int first = tets.firstOf({at[0] >> cell.m_level, at[1] >> cell.m_level, at[2] >> cell.m_level});
+        for (int n = 0; n < 6 && first >= 0; ++n) wishes.push_back({&cell, first + n});
+    }
+    std::vector<char> marks;
+    for (;;)
+    {
+        rest.clear();
+        for (const Wish& wish : wishes) follow(wish, tets, rest);
+        wishes.swap(rest);
+        if (wishes.empty()) return true;
+        marks.assign(tets.tets().size(), 0);
+        for (const Wish& wish : wishes) marks[wish.m_tet] = 1;
+        if (!tets.halve(marks, most)) return false;
+    }
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "fem/cage/bisected_tets.h"
+#include "fem/cage/cage_lattice.h"
+#include "fem/cage/thin_parts.h"
+
+namespace bullet_fem
+{
+
+/// A surface about the centre of its bounding box, and where it is thin, for cells up to a size.
+class GradedSurface
+{
+public:
+    /// Looks for parts that are thin for cells of m_cellSize, and, less closely, for ones up to `mostCell` [m].
+    GradedSurface(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings,
+                  double mostCell);
+
+    const TriangleTree& tree() const { return m_tree; }
+    const std::vector<ThinPart>& parts() const { return m_parts; }
+
+private:
+    TriangleTree m_tree;
+    std::vector<ThinPart> m_parts;
+};
+
+/// A cube [m_place, m_place + 1] / 2^m_level in lattice units that wants tets of a generation.
+struct WantedCell
+{
+    std::array<int, 3> m_place = {};
+    int m_level = 0, m_generation = 0;
+};
+
+/// What the parts want, each place once a level, in ascending order: m_cellsAcross cells across solid parts, or as many
+/// as m_mostLevels allow; the same across gaps, but nothing where m_mostLevels do not allow it.
+std::vector<WantedCell> wantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts,
+                                    const CageSettings& settings);
+
+/// Halves until no tet that meets a wanted cell is of a lower generation. Returns false, in the midst, if there are
+/// more than `most` tets.
+bool grade(const std::vector<WantedCell>& wanted, std::size_t most, BisectedTets& tets);
+
+}  // namespace bullet_fem
