@@ -97,6 +97,7 @@ struct FillInput
     const WindingNumber& m_winding;
     const CageLattice& m_lattice;
     const CageSettings& m_settings;
+    const Grading m_grading;
 
     bool isClosed() const { return m_surface.m_openEdges == 0; }
     const std::vector<Vec3>& vertices() const { return m_surface.m_repaired.m_surface.m_vertices; }
@@ -120,13 +121,14 @@ std::vector<int> fillGraded(const FillInput& input, CageFill& fill, Cage& cage)
 {
     const CageLattice& lattice = input.m_lattice;
     const GradedSurface surface(input.m_surface, input.m_winding, input.m_settings, lattice.cellSize());
-    GradedLattice graded({lattice, input.m_winding, surface, input.isClosed(), input.m_settings},
+    GradedLattice graded({lattice, input.m_winding, surface, input.isClosed(), input.m_settings, input.m_grading},
                          input.m_settings.m_maxTets);
     fill = graded.fill();
     cage.m_report = reportOn(input.m_surface, fill, lattice.cellSize());
     std::vector<int> held = graded.holdVertices(input.vertices(), input.m_surface.m_used, fill);
     cage.m_mesh = graded.mesh(fill.m_tets);
     graded.report(fill.m_tets, cage.m_report);
+    cage.m_report.m_cellsAcross = input.m_grading.m_cellsAcross;
     return held;
 }
 
@@ -156,11 +158,17 @@ Cage makeCage(const SurfaceMesh& surface, const CageSettings& givenSettings)
     const SurfaceInspection inspection = inspectSurface(surface);
     const WindingNumber winding = windingAboutCentre(inspection);
     CageSettings settings = givenSettings;
-    if (settings.m_targetTets > 0) settings.m_cellSize = findCellSize(inspection, winding, settings);
+    Grading grading = Grading::of(settings);
+    if (settings.m_targetTets > 0)
+    {
+        const CageSize size = findCageSize(inspection, winding, settings);
+        settings.m_cellSize = size.m_cellSize;
+        grading = size.m_grading;
+    }
 
     CageLattice lattice(inspection, settings);
     lattice.markSurface(surface);
-    const FillInput input{inspection, winding, lattice, settings};
+    const FillInput input{inspection, winding, lattice, settings, grading};
     Cage cage;
     cage.m_surfaceCollides = settings.m_surfaceCollides;
     CageFill fill;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "fem/cage/cage_fill.h"
@@ -48,14 +49,19 @@ public:
     {
     }
 
-    double run()
+    CageSize run()
     {
         const CellSizeRange range = CageLattice::cellSizeRange(m_surface, m_settings);
-        const double least = std::log(range.m_least), most = std::log(range.m_most);
+        const double least = std::log(range.m_least);
+        double most = std::log(range.m_most);
+        double cell = std::log(estimateCellSize(m_surface, m_settings, range));
+        if (m_settings.m_cellsAcross > 0)
+        {
+            gradeFor(std::exp(cell));
+            most = std::log(std::min(m_longest, range.m_most) * kMostLess);
+        }
         Trial finer{least, 1}, coarser{most, -1}, best{0, 1e300};  // a bracket; its ends are not known at first
         bool knowsFiner = false, knowsCoarser = false;
-        double cell = std::log(estimateCellSize(m_surface, m_settings, range));
-        if (m_settings.m_cellsAcross > 0) gradeFor(std::exp(cell));
         for (int n = 0; n < kMostLattices && coarser.m_cell - finer.m_cell > 1e-6; ++n)
         {
             const Trial trial = look(cell);
@@ -73,45 +79,60 @@ public:
                 cell = 0.5 * (finer.m_cell + coarser.m_cell);
             if (cell == trial.m_cell) break;  // at an end of the range
         }
-        return std::clamp(std::exp(best.m_cell), range.m_least, range.m_most);
+        return sizeAt(best.m_cell);
     }
 
 private:
-    static constexpr double kMostOverEstimate = 4;
-    static constexpr double kSlope = 0.5;  // counts fall with the square to the cube of the cell: no step is too short
+    static constexpr double kMostOverEstimate = 2;
+    static constexpr double kMostLess = 8;  // cells across than asked for; nothing is graded then
+    static constexpr double kSlope = 0.5;   // counts fall with the square to the cube of the cell: no step is too short
 
-    /// Thin parts take elements, so that cells become longer than estimated.
+    /// Thin parts take elements, so that cells become longer than without them.
     void gradeFor(double estimate)
     {
+        m_longest = kMostOverEstimate * estimate;
         CageSettings settings = m_settings;
         settings.m_cellSize = estimate;
-        m_graded.emplace(m_surface, m_winding, settings, kMostOverEstimate * estimate);
+        m_graded.emplace(m_surface, m_winding, settings, m_longest);
+    }
+
+    /// Up to a length cells grow; after that a graded cage has fewer across thin parts, and fewer levels.
+    CageSize sizeAt(double cell) const
+    {
+        const CellSizeRange range = CageLattice::cellSizeRange(m_surface, m_settings);
+        const double wanted = std::exp(cell), longest = std::min(m_longest, range.m_most);
+        CageSize size{std::clamp(wanted, range.m_least, longest), Grading::of(m_settings)};
+        if (wanted <= longest) return size;
+        size.m_grading.m_cellsAcross *= longest / wanted;
+        size.m_grading.m_mostGenerations = static_cast<int>(
+            std::round(size.m_grading.m_mostGenerations * (1 - std::log(wanted / longest) / std::log(kMostLess))));
+        return size;
     }
 
     Trial look(double cell) const
     {
+        const CageSize size = sizeAt(cell);
         CageSettings settings = m_settings;
-        settings.m_cellSize = std::exp(cell);
-        const CellSizeRange range = CageLattice::cellSizeRange(m_surface, m_settings);
-        settings.m_cellSize = std::clamp(settings.m_cellSize, range.m_least, range.m_most);
+        settings.m_cellSize = size.m_cellSize;
         CageLattice lattice(m_surface, settings);
         lattice.markSurface(m_surface.m_repaired.m_surface);
-        const double count = countIn(lattice, settings);
+        const double count = countIn(lattice, size.m_grading);
         return {cell, std::log(std::max(1.0, count) / m_settings.m_targetTets)};
     }
 
-    double countIn(const CageLattice& lattice, const CageSettings& settings) const
+    double countIn(const CageLattice& lattice, const Grading& grading) const
     {
         const bool closed = m_surface.m_openEdges == 0;
-        if (!m_graded) return countTets(lattice, m_winding, closed, settings);
-        const double most = 2.0 * settings.m_targetTets;
-        return GradedLattice({lattice, m_winding, *m_graded, closed, settings}, most).count(most);
+        if (!m_graded) return countTets(lattice, m_winding, closed, m_settings);
+        GradedLattice graded({lattice, m_winding, *m_graded, closed, m_settings, grading}, m_settings.m_targetTets);
+        return graded.count(2.0 * m_settings.m_targetTets);
     }
 
     const SurfaceInspection& m_surface;
     const WindingNumber& m_winding;
     const CageSettings& m_settings;
     std::optional<GradedSurface> m_graded;
+    double m_longest = std::numeric_limits<double>::infinity();  // cell [m]
 };
 
 }  // namespace
@@ -130,9 +151,9 @@ void checkSettings(const CageSettings& settings)
     if (!(settings.m_snap >= 0 && settings.m_snap <= 1))
         reject("the share that a cage's boundary is snapped by is ", settings.m_snap,
                ", outside [0, 1]; choose another m_snap, 0 for none");
-    if (settings.m_cellsAcross != 0 && !(settings.m_cellsAcross >= 1 && settings.m_cellsAcross <= 8))
+    if (settings.m_cellsAcross != 0 && !(settings.m_cellsAcross >= 0.5 && settings.m_cellsAcross <= 8))
         reject("the cells across thin parts of a graded cage are ", settings.m_cellsAcross,
-               ", neither 0 nor in [1, 8]; choose another m_cellsAcross, 2 is usual, 0 for cells that are alike");
+               ", neither 0 nor in [0.5, 8]; choose another m_cellsAcross, 2 is usual, 0 for cells that are alike");
     if (settings.m_mostLevels < 1 || settings.m_mostLevels > 6)
         reject("the most levels of a graded cage are ", settings.m_mostLevels,
                ", outside [1, 6]; choose another m_mostLevels, 3 is usual");
@@ -144,7 +165,7 @@ void checkSettings(const CageSettings& settings)
                "]; choose another m_targetTets or raise m_maxTets");
 }
 
-double findCellSize(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings)
+CageSize findCageSize(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings)
 {
     return Search(surface, winding, settings).run();
 }

@@ -33,7 +33,7 @@ GradedLattice::GradedLattice(const GradingInput& input, double mostTets)
 {
     addCubes();
     const std::size_t most = m_tets.tets().size() + static_cast<std::size_t>(kSplitPerKept * mostTets);
-    const std::vector<WantedCell> wanted = wantedCells(input.m_lattice, input.m_surface.parts(), input.m_settings);
+    const std::vector<WantedCell> wanted = wantedCells(input.m_lattice, input.m_surface.parts(), input.m_grading);
     m_tooLarge = !grade(wanted, most, m_tets);
     for (int tet = 0; tet < m_tets.rootCount() && !m_tooLarge; ++tet) findLeaves(tet);
     m_kept.assign(m_tets.tets().size(), 0);

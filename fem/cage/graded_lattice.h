@@ -16,6 +16,7 @@ struct GradingInput
     const GradedSurface& m_surface;
     bool m_closed;  ///< the winding number is constant away from the triangles
     const CageSettings& m_settings;
+    Grading m_grading;
 };
 
 /// The cubes of a lattice that hold something, split into tets that are smaller where the surface is thin. In what it

@@ -27,25 +27,35 @@ std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
 }
 
 /// Halvings of a tet after which `cells` of its size are not longer than `width` cells of the lattice.
-int generationFor(double cells, double width, int mostLevels)
+int generationFor(double cells, double width)
 {
-    return std::clamp(static_cast<int>(std::ceil(3 * std::log2(cells / width) - kTouching)), 0, 3 * mostLevels);
+    return std::max(0, static_cast<int>(std::ceil(3 * std::log2(cells / width) - kTouching)));
+}
+
+/// Halvings of a cell's edge, the last of them begun.
+int levelOf(int generation)
+{
+    return (generation + 2) / 3;
 }
 
 class Wanting
 {
 public:
-    Wanting(const CageLattice& lattice, const CageSettings& settings) : m_lattice(lattice), m_settings(settings) {}
+    Wanting(const CageLattice& lattice, const Grading& grading) : m_lattice(lattice), m_grading(grading) {}
 
     void add(const ThinPart& part)
     {
         const double width = norm(part.m_across) / m_lattice.cellSize();
-        const double cells = m_settings.m_cellsAcross;
-        if (part.m_isGap && std::ldexp(width, m_settings.m_mostLevels) < cells) return;
+        int generation = generationFor(m_grading.m_cellsAcross, width);
+        if (part.m_isGap)
+        {
+            generation = 3 * levelOf(generation);  // so that planes of the lattice lie between the sides
+            if (generation > m_grading.m_mostGenerations) return;
+        }
         WantedCell cell;
-        cell.m_generation = generationFor(cells, width, m_settings.m_mostLevels);
+        cell.m_generation = std::min(generation, m_grading.m_mostGenerations);
+        cell.m_level = levelOf(cell.m_generation);
         if (cell.m_generation == 0) return;
-        cell.m_level = (cell.m_generation + 2) / 3;
         const int copies =
             part.m_isGap ? 0 : std::min(kMostCopies, static_cast<int>(std::ceil(std::ldexp(width, cell.m_level))));
         for (int n = 0; n <= copies; ++n)
@@ -82,6 +92,11 @@ private:
             low[a] = std::clamp(static_cast<int>(std::floor(least - kTouching)), 0, last);
             high[a] = std::clamp(static_cast<int>(std::floor(most + kTouching)), 0, last);
         }
+        if (low == high)
+        {
+            cell.m_place = low;
+            return m_cells.push_back(cell);
+        }
         std::array<int, 3>& at = cell.m_place;
         for (at[2] = low[2]; at[2] <= high[2]; ++at[2])
             for (at[1] = low[1]; at[1] <= high[1]; ++at[1])
@@ -93,7 +108,7 @@ private:
     }
 
     const CageLattice& m_lattice;
-    const CageSettings& m_settings;
+    const Grading m_grading;
     std::vector<WantedCell> m_cells;
 };
 
@@ -136,9 +151,9 @@ GradedSurface::GradedSurface(const SurfaceInspection& surface, const WindingNumb
 }
 
 std::vector<WantedCell> wantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts,
-                                    const CageSettings& settings)
+                                    const Grading& grading)
 {
-    Wanting wanting(lattice, settings);
+    Wanting wanting(lattice, grading);
     for (const ThinPart& part : parts) wanting.add(part);
     return wanting.run();
 }

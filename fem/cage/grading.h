@@ -9,6 +9,15 @@
 namespace bullet_fem
 {
 
+/// How far cells are halved.
+struct Grading
+{
+    double m_cellsAcross = 0;   ///< [-], > 0
+    int m_mostGenerations = 0;  ///< halvings of a tet, three a level
+
+    static Grading of(const CageSettings& settings) { return {settings.m_cellsAcross, 3 * settings.m_mostLevels}; }
+};
+
 /// A surface about the centre of its bounding box, and where it is thin, for cells up to a size.
 class GradedSurface
 {
@@ -33,9 +42,9 @@ struct WantedCell
 };
 
 /// What the parts want, each place once a level, in ascending order: m_cellsAcross cells across solid parts, or as many
-/// as m_mostLevels allow; the same across gaps, but nothing where m_mostLevels do not allow it.
+/// as m_mostGenerations allow; as many across gaps, and in whole levels, but nothing where that is not allowed.
 std::vector<WantedCell> wantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts,
-                                    const CageSettings& settings);
+                                    const Grading& grading);
 
 /// Halves until no tet that meets a wanted cell is of a lower generation. Returns false, in the midst, if there are
 /// more than `most` tets.

@@ -21,6 +21,7 @@ struct CageReport
     double m_cellSize = 0;                     ///< edge of a lattice cube [m]
     double m_smallestCell = 0;                 ///< of an element: edge of a cube of six times its volume [m], or
     double m_largestCell = 0;                  ///< m_cellSize where cells are not graded
+    double m_cellsAcross = 0;                  ///< wanted across thin parts; less than asked for if m_targetTets is low
     int m_levels = 0;                          ///< halvings of m_cellSize, rounded up, in the smallest cell
     std::array<int, 7> m_levelTets{};          ///< elements by such halvings
     std::array<int, 10> m_qualityHistogram{};  ///< elements by mean ratio: [0, .1), [.1, .2), ... [.9, 1]
