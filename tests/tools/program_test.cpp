@@ -147,6 +147,33 @@ TEST_F(Program, BakesWhatInfoTells)
     EXPECT_EQ(told["bytes"].get<std::uintmax_t>(), std::filesystem::file_size(m_folder.path("cube.bfem")));
 }
 
+TEST_F(Program, PinsAsManyBoxesAsAreGiven)
+{
+    const std::string bake = "bake " + path("two.node") + " -o " + path("pinned.bfem");
+    const std::string low = " --pin -9 -9 -9 9 9 0.01", high = " --pin -9 -9 0.99 9 9 9";
+    const int below = figures(bake + low)["pinned"], above = figures(bake + high)["pinned"];
+    EXPECT_GT(below, 3);
+    EXPECT_GT(above, 3);
+    EXPECT_EQ(figures(bake + low + high)["pinned"], below + above);
+    EXPECT_EQ(figures("bake" + low + " " + path("two.node") + " -o " + path("pinned.bfem"))["pinned"], below);
+    refused(bake + low + " 7", 2, "7");
+    refused(bake + low + " --pin 1 2 3 4 5", 2, "--pin");
+    refused(bake + " --pin -9 -9 -9 9 9 nan", 2, "must be a number in [-1000000, 1000000]");
+}
+
+TEST_F(Program, TellsHowFarARunAndItsPicturesAre)
+{
+    m_folder.write("scene.json",
+                   R"({ "seconds": 0.05, "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1], "tets": 40 } }],
+                                      "pictures": { "width": 64, "height": 48 } })");
+    const std::string simulate = "simulate " + path("scene.json") + " --png -o " + path("run");
+    const ProgramRun run = bulletfem(simulate);
+    if (run.m_output.find("install") != std::string::npos) GTEST_SKIP() << run.m_output;
+    EXPECT_EQ(run.m_code, 0) << run.m_output;
+    EXPECT_THAT(run.m_output, testing::ContainsRegex("100 %  simulating\n(.*\n)*100 %  drawing\n"));
+    EXPECT_THAT(bulletfem(simulate + " --quiet").m_output, testing::Not(HasSubstr("%")));
+}
+
 TEST_F(Program, FiguresForPeopleHaveTheSameNames)
 {
     const json told = figures("info " + path("two.node"));

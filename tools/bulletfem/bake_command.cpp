@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <array>
 #include <cstdlib>
 #include <memory>
 
@@ -31,7 +32,7 @@ struct BakeCommand
     std::string m_mesh, m_output, m_step = "1/60";
     double m_scale = 1;
     bool m_double = false, m_lowMemory = false;
-    std::vector<double> m_pinBox;
+    std::vector<std::array<double, 6>> m_pinBoxes;  // low corner, high corner [m]
     MaterialOptions m_material;
     CageOptions m_cage;
     Figures m_figures;
@@ -62,11 +63,11 @@ struct BakeCommand
         settings.m_step = numberOf(m_step);
         settings.m_singlePrecision = !m_double;
         if (m_lowMemory) settings.m_choice = FactorChoice::lowMemory;
-        for (std::size_t at = 0; at + 6 <= m_pinBox.size(); at += 6) pin(mesh, &m_pinBox[at], settings.m_pins);
+        for (const auto& box : m_pinBoxes) pin(mesh, box, settings.m_pins);
         return settings;
     }
 
-    static void pin(const TetMesh& mesh, const double* box, std::vector<int>& pins)
+    static void pin(const TetMesh& mesh, const std::array<double, 6>& box, std::vector<int>& pins)
     {
         const std::size_t before = pins.size();
         for (int i = 0; i < mesh.nodeCount(); ++i)
@@ -107,9 +108,10 @@ void addBakeCommand(CLI::App& app)
                 return step >= 1e-6 && step <= 1 ? "" : "is " + text + ", must be in [1e-6, 1] s, as 0.01 or 1/60";
             });
     command
-        ->add_option("--pin", options->m_pinBox,
-                     "nodes in this box stand still: x y z of its low corner, then of its high one [m]")
-        ->expected(6)
+        ->add_option(
+            "--pin", options->m_pinBoxes,
+            "nodes in this box stand still: x y z of its low corner, then of its high one [m]; may be given again")
+        ->type_name("x y z x y z")
         ->allow_extra_args(false)
         ->check(inRange(-1e6, 1e6));
     command->add_flag("--double", options->m_double, "for Bullet in double precision");

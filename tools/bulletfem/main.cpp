@@ -13,9 +13,10 @@ int main(int argc, char** argv)
     CLI::App app(
         "Makes finite-element bodies of meshes, and runs scenes of them. All lengths are metres, all values SI.\n"
         "Each command explains itself: bulletfem cage --help\n\n"
-        "  bulletfem cage bunny.off --tets 4000 -o bunny.msh      tetrahedra around a surface\n"
+        "  bulletfem cage bunny.off --tets 4000 -o bunny.msh          tetrahedra around a surface\n"
         "  bulletfem bake bunny.off --material rubber -o bunny.bfem   a body that loads in milliseconds\n"
-        "  bulletfem simulate scene.json --out run --film run.mp4  a scene, to ParaView and to a film\n\n"
+        "  bulletfem simulate scene.json --pvd --film run.mp4         a scene, to ParaView and to a film in "
+        "out/scene\n\n"
         "Exit code: 0 if all is well, 1 on bad data, 2 on bad usage.");
     app.require_subcommand(1);
     app.set_version_flag("--version", BULLETFEM_VERSION);

@@ -81,7 +81,7 @@ void RunOutput::add()
 #endif
 }
 
-std::vector<std::string> RunOutput::finish()
+std::vector<std::string> RunOutput::finish(const std::function<void(double)>& progress)
 {
     std::vector<std::string> written;
     for (const auto* series : {&m_elements, &m_surfaces})
@@ -91,12 +91,12 @@ std::vector<std::string> RunOutput::finish()
         m_film->write(path(kGlbName));
         written.push_back(path(kGlbName));
     }
-    if (drawsPictures()) drawPictures(written);
+    if (drawsPictures()) drawPictures(written, progress);
     return written;
 }
 
 #ifdef BULLETFEM_HAS_PICTURES
-void RunOutput::drawPictures(std::vector<std::string>& written)
+void RunOutput::drawPictures(std::vector<std::string>& written, const std::function<void(double)>& progress)
 {
     const ScenePictures& pictures = m_world.description().m_pictures;
     const PictureSize size = {pictures.m_width, pictures.m_height};
@@ -119,6 +119,7 @@ void RunOutput::drawPictures(std::vector<std::string>& written)
         const Image image = m_renderer->render(m_painter->paint(m_snapshots[k]), size);
         for (const auto& film : films) film->append(image);
         if (inStrip) strip.push_back(image);
+        progress(double(k + 1) / count);
     }
     for (std::size_t i = 0; i < films.size(); ++i)
     {
@@ -132,7 +133,7 @@ void RunOutput::drawPictures(std::vector<std::string>& written)
     for (const char* name : kPngNames) written.push_back(path(name));
 }
 #else
-void RunOutput::drawPictures(std::vector<std::string>&) {}
+void RunOutput::drawPictures(std::vector<std::string>&, const std::function<void(double)>&) {}
 #endif
 
 }  // namespace bullet_fem

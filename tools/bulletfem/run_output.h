@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,13 +42,14 @@ public:
 
     /// The frames as they are now.
     void add();
-    /// Draws pictures and closes films. Returns the names of the files that were written.
-    std::vector<std::string> finish();
+    /// Draws pictures, which may take longer than the run, and closes films; `progress` is told the share of them that
+    /// is done. Returns the names of the files that were written.
+    std::vector<std::string> finish(const std::function<void(double)>& progress);
     int frameCount() const { return m_frameCount; }
 
 private:
     void checkFiles() const;
-    void drawPictures(std::vector<std::string>& written);
+    void drawPictures(std::vector<std::string>& written, const std::function<void(double)>& progress);
     bool drawsPictures() const { return m_settings.m_png || !m_settings.m_films.empty(); }
     std::string path(const std::string& name) const { return m_settings.m_folder + "/" + name; }
 

@@ -68,7 +68,8 @@ struct SimulateCommand
         const SceneDescription& scene = world.description();
         SceneFrames frames(world);
         RunOutput output(m_output, world, frames);
-        ProgressLine progress;
+        const bool shown = !m_quiet && !m_figures.asJson();
+        ProgressLine simulating, drawing;
         RunFigures figures;
         const long steps = std::lround(std::ceil(scene.m_seconds / scene.m_step - 1e-9));
         output.add();
@@ -83,28 +84,34 @@ struct SimulateCommand
                 frames.update();
                 output.add();
             }
-            if (!m_quiet && !m_figures.asJson()) progress.show(double(k) / double(steps), "simulating");
+            if (shown) simulating.show(double(k) / double(steps), "simulating");
         }
-        if (!m_quiet && !m_figures.asJson()) progress.finish();
-        tell(world, figures, output);
+        simulating.finish();
+        const auto draw = [&](double share)
+        {
+            if (shown) drawing.show(share, "drawing");
+        };
+        const std::vector<std::string> files = output.finish(draw);
+        drawing.finish();
+        tell(world, figures, output.frameCount());
+        m_figures.add("files", files);
+        m_figures.print();
     }
 
-    void tell(const SceneWorld& world, RunFigures& figures, RunOutput& output)
+    void tell(const SceneWorld& world, RunFigures& figures, int frames)
     {
         int tets = 0;
         for (int i = 0; i < world.softCount(); ++i) tets += world.fem().stepReport(&world.soft(i)).m_tets;
         std::vector<double>& cost = figures.m_milliseconds;
         std::sort(cost.begin(), cost.end());
         m_figures.add("steps", cost.size());
-        m_figures.add("frames", output.frameCount());
+        m_figures.add("frames", frames);
         m_figures.add("tets", tets);
         m_figures.add("mostContacts", figures.m_mostContacts, "points");
         m_figures.add("medianStep", cost.empty() ? 0 : cost[cost.size() / 2], "ms");
         m_figures.add("worstStep", cost.empty() ? 0 : cost.back(), "ms");
         m_figures.add("notConverged", (figures.m_flags & BT_FEM_NOT_CONVERGED) != 0);
         m_figures.add("restored", (figures.m_flags & BT_FEM_RESTORED) != 0);
-        m_figures.add("files", output.finish());
-        m_figures.print();
     }
 
 #ifdef BULLETFEM_HAS_VIEWER
