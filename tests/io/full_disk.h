@@ -30,7 +30,7 @@ public:
 
 private:
     rlimit m_before = {};
-    sighandler_t m_handler;
+    void (*m_handler)(int);
 };
 
 }  // namespace bullet_fem
