@@ -4,9 +4,10 @@
 // Compiled once for every instruction set; the processor chooses when the program runs.
 #include "benchmarks/machine_limits.h"
 
+#include "fem/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "benchmarks/machine_limits.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 // after foreach_target.h
 #include <hwy/highway.h>

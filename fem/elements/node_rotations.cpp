@@ -4,9 +4,10 @@
 // Compiled once for every instruction set; the processor chooses when the program runs.
 #include "fem/elements/node_rotations.h"
 
+#include "fem/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/elements/node_rotations.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 // after foreach_target.h
 #include <hwy/highway.h>

@@ -4,9 +4,12 @@
 // Compiled once for every instruction set; the processor chooses when the program runs.
 #include "fem/elements/node_sums.h"
 
+#include "fem/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/elements/node_sums.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL)
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (BULLETFEM_DISABLED_TARGETS | HWY_AVX3)
 #include <hwy/foreach_target.h>
 // after foreach_target.h
 #include <hwy/highway.h>

@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// Two x86 levels add compile time and no speed here.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include "fem/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/factor/dense_kernels.cpp"
 #include <hwy/foreach_target.h>

@@ -8,9 +8,10 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "fem/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/factor/panel_group_kernels.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 // after foreach_target.h
 #include "fem/factor/panel_lanes-inl.h"

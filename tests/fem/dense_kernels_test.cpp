@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-// As in dense_kernels.cpp: HWY_TARGETS are then the targets that it was compiled for.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include "fem/vector_targets.h"
+
 #include <hwy/highway.h>
 
 namespace bullet_fem

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-// As the kernels are compiled.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include "fem/vector_targets.h"
+
 #include <hwy/highway.h>
 
 #include "fem/elasticity_scenes.h"

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/vector_targets.h"
+
 #include <hwy/targets.h>
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,10 @@
 #include "fem/contact/working_set.h"
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
+#include "fem/vector_targets.h"
+
+#include <hwy/highway.h>
 #include <random>
 
 #include "fem/contact_scene.h"
