@@ -79,12 +79,11 @@ struct DeformedEdges
     }
 
 private:
-    /// Of quaternions of length 1 but for the rounding of Real, which 1.5 - |q|^2 / 2 takes away.
+    /// R of quaternions of length 1 but for the rounding of Real: 2 / |q|^2 = 4 - 2 |q|^2 then.
     HWY_INLINE static Matrix<double> unitMatrix(const Quaternions<double>& q)
     {
         const Vector<double> squares = hn::MulAdd(q.w, q.w, dot3(q.x, q.x, q.y, q.y, q.z, q.z));
-        const Vector<double> s = hn::NegMulAdd(number<double>(0.5), squares, number<double>(1.5));
-        return toMatrix<double>({q.x * s, q.y * s, q.z * s, q.w * s});
+        return toMatrix<double>(q, hn::NegMulAdd(number<double>(2), squares, number<double>(4)));
     }
 
     /// C - A B.

@@ -4,9 +4,10 @@
 // Compiled once for every instruction set; the processor chooses when the program runs.
 #include "fem/elements/element_pass.h"
 
+#include "fem/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/elements/element_pass.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 // after foreach_target.h
 #include <hwy/highway.h>
@@ -30,22 +31,21 @@ void passBlocks(const ElementPass<Real>& pass, Range blocks)
 
 #else
 
-/// sym(A R^T).
+/// The strain sym(A B^T), shears doubled.
 template <class Real>
-HWY_INLINE Symmetric<Real> symmetricPart(const Matrix<Real>& A, const Matrix<Real>& R)
+HWY_INLINE Symmetric<Real> strainOf(const Matrix<Real>& A, const Matrix<Real>& B)
 {
     const auto entry = [&](int i, int j)
-    { return dot3(A.m[i][0], R.m[j][0], A.m[i][1], R.m[j][1], A.m[i][2], R.m[j][2]); };
-    const Vector<Real> half = number<Real>(0.5);
+    { return dot3(A.m[i][0], B.m[j][0], A.m[i][1], B.m[j][1], A.m[i][2], B.m[j][2]); };
     return {entry(0, 0),
             entry(1, 1),
             entry(2, 2),
-            half * (entry(1, 2) + entry(2, 1)),
-            half * (entry(0, 2) + entry(2, 0)),
-            half * (entry(0, 1) + entry(1, 0))};
+            entry(1, 2) + entry(2, 1),
+            entry(0, 2) + entry(2, 0),
+            entry(0, 1) + entry(1, 0)};
 }
 
-/// 2 mu E + lambda tr(E) I, the Lame constants times the volume.
+/// 2 mu E + lambda tr(E) I of a strain with doubled shears; the Lame constants times the volume.
 template <class Real>
 HWY_INLINE Symmetric<Real> hooke(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& E)
 {
@@ -53,48 +53,70 @@ HWY_INLINE Symmetric<Real> hooke(Vector<Real> lambda, Vector<Real> mu, const Sym
     return {hn::MulAdd(twoMu, E.xx, pressure),
             hn::MulAdd(twoMu, E.yy, pressure),
             hn::MulAdd(twoMu, E.zz, pressure),
-            twoMu * E.yz,
-            twoMu * E.xz,
-            twoMu * E.xy};
+            mu * E.yz,
+            mu * E.xz,
+            mu * E.xy};
 }
 
+/// What a vector of elements needs of its nodes.
+template <class Real>
+struct StagedNodes
+{
+    StagedEdges<double, width<Real>()> m_x;
+    StagedEdges<Real> m_v;
+
+    HWY_INLINE void stage(const ElementPass<Real>& pass, const std::int32_t (*node)[4], Range lanes)
+    {
+        HWY_UNROLL(4)
+        for (int lane = lanes.m_begin; lane < lanes.m_end; ++lane)
+        {
+            const std::int32_t own[4] = {node[lane][0], node[lane][1], node[lane][2], node[lane][3]};
+            m_x.stageLane(lane, own, pass.m_x);
+            m_v.stageLane(lane, own, pass.m_v);
+        }
+    }
+};
+
 /// The elements of a block from `lane` on, as many as a vector has lanes. Strains and stresses are those of the world's
-/// frame, R E R^T = sym(F R^T) - I: forces and tension then need R by g' = R g alone.
+/// frame, R E R^T = sym(F R^T) - I: with F R^T = D_s g'^T, g' = R D_m^-T, forces and tension need R by g' alone.
 template <class Real>
 struct PassLanes
 {
     const ElementPass<Real>& m_pass;
-    const DeformedEdges<Real> m_x;
-    const StagedEdges<Real>& m_v;
+    const StagedNodes<Real>& m_nodes;
     int m_block, m_lane;
 
     HWY_INLINE const ElementBlock<Real>& block() const { return m_pass.m_elements->m_blocks[m_block]; }
+    HWY_INLINE DeformedEdges<Real> x() const { return {m_nodes.m_x}; }
     HWY_INLINE Quaternion* rotations() const { return m_pass.m_rotation + m_block * kLanes + m_lane; }
 
     HWY_INLINE Matrix<Real> deformationGradient() const
     {
-        return times(m_x.edges(), loadMatrix(block().m_DmInverse, m_lane));
+        return times(x().edges(), loadMatrix(block().m_DmInverse, m_lane));
     }
 
-    /// All that follows from the rotations.
-    HWY_INLINE void run(const Quaternions<Real>& q) const
+    /// All that follows from the rotations; between its parts, other(part) for part in [0, 3].
+    template <class Other>
+    HWY_INLINE void run(const Quaternions<Real>& q, const Other& other) const
     {
         const Lanes<Real> d;
-        const Matrix<Real> DmInverse = loadMatrix(block().m_DmInverse, m_lane);
         const Vector<Real> lambda = hn::Load(d, block().m_lambdaVolume + m_lane);
         const Vector<Real> mu = hn::Load(d, block().m_muVolume + m_lane);
-        const Matrix<Real> R = toMatrix(q), g = timesTranspose(R, DmInverse);  // column a is R g_a
-        // F - R instead of F: sym(F R^T) - I would lose strains to rounding.
-        const Matrix<Real> FminusR = times(m_x.minusRotated(q, block().m_Dm, m_lane), DmInverse);
-        const Symmetric<Real> elastic = hooke<Real>(lambda, mu, symmetricPart(FminusR, R));
-        const Matrix<Real> Fdot = times(m_v.load(), DmInverse);
-        const Symmetric<Real> viscous = hooke<Real>(lambda, mu, symmetricPart(Fdot, R));
-
-        const Symmetric<Real> minusStress =
-            combined<Real>(number<Real>(-1), elastic, number<Real>(-m_pass.m_damping), viscous);
+        other(0);
+        const Matrix<Real> R = toMatrix(q, number<Real>(2));
+        const Matrix<Real> g = timesTranspose(R, loadMatrix(block().m_DmInverse, m_lane));  // R D_m^-T
+        // D_s - R D_m instead of D_s: sym(F R^T) - I would lose strains to rounding.
+        const Matrix<Real> stretch = x().minusRotated(q, block().m_Dm, m_lane);
+        const Symmetric<Real> strain = strainOf(stretch, g);
+        other(1);
+        const Symmetric<Real> rate = strainOf(m_nodes.m_v.load(), g);
+        const Symmetric<Real> damped = combined<Real>(number<Real>(m_pass.m_damping), rate, number<Real>(1), strain);
+        const Symmetric<Real> minusStress = hooke<Real>(hn::Neg(lambda), hn::Neg(mu), damped);
+        other(2);
         storeCorners(times(full(minusStress), g), m_pass.m_force[m_block], m_lane);
         storeWarped(g, lambda, mu);
-        storeTension(elastic);
+        other(3);
+        storeTension(hooke<Real>(lambda, mu, strain));
     }
 
     HWY_INLINE void storeWarped(const Matrix<Real>& g, Vector<Real> lambda, Vector<Real> mu) const
@@ -111,12 +133,12 @@ struct PassLanes
     HWY_INLINE void storeTension(const Symmetric<Real>& elastic) const
     {
         const Lanes<Real> d;
-        const Vector<Real> factor = number<Real>(m_pass.m_tensionFactor), zero = number<Real>(0);
+        const Vector<Real> zero = number<Real>(0);
         Symmetric<Real> T = {zero, zero, zero, zero, zero, zero};
-        if (m_pass.m_tensionFactor != 0) T = positivePart(elastic);
+        if (m_pass.m_tensionFactor != 0) T = positivePart(number<Real>(m_pass.m_tensionFactor), elastic);
         const Vector<Real> entries[6] = {T.xx, T.yy, T.zz, T.yz, T.xz, T.xy};
         HWY_UNROLL(6)
-        for (int k = 0; k < 6; ++k) hn::Store(factor * entries[k], d, m_pass.m_warped[m_block].m_tension[k] + m_lane);
+        for (int k = 0; k < 6; ++k) hn::Store(entries[k], d, m_pass.m_warped[m_block].m_tension[k] + m_lane);
     }
 };
 
@@ -124,32 +146,35 @@ template <class Real>
 HWY_INLINE void passBlocks(const ElementPass<Real>& pass, Range blocks)
 {
     constexpr int kN = width<Real>(), kVectors = kLanes / kN;  // of a block
-    StagedEdges<double, kN> x[kBatch];
-    StagedEdges<Real> v[kBatch];
+    StagedNodes<Real> staged[2][kBatch];
     Matrix<Real> F[kBatch];
     Quaternions<Real> q[kBatch];
-    const auto lanes = [&](int k, int i) {
-        return PassLanes<Real>{pass, {x[i]}, v[i], (k + i) / kVectors, (k + i) % kVectors * kN};
-    };
+    const int begin = blocks.m_begin * kVectors, end = blocks.m_end * kVectors;
+    const auto nodes = [&](int k) { return pass.m_elements->m_blocks[k / kVectors].m_node + k % kVectors * kN; };
 
-    const int end = blocks.m_end * kVectors;
-    for (int k = blocks.m_begin * kVectors; k < end; k += kBatch)
+    for (int k = begin; k < HWY_MIN(begin + kBatch, end); ++k) staged[0][k - begin].stage(pass, nodes(k), {0, kN});
+    for (int k = begin, turn = 0; k < end; k += kBatch, turn = 1 - turn)
     {
         const int count = HWY_MIN(kBatch, end - k);
+        const auto lanes = [&](int i) {
+            return PassLanes<Real>{pass, staged[turn][i], (k + i) / kVectors, (k + i) % kVectors * kN};
+        };
         for (int i = 0; i < count; ++i)
         {
-            const PassLanes<Real> l = lanes(k, i);
-            x[i].stage(l.block().m_node + l.m_lane, pass.m_x);
-            v[i].stage(l.block().m_node + l.m_lane, pass.m_v);
-        }
-        for (int i = 0; i < count; ++i)
-        {
-            F[i] = lanes(k, i).deformationGradient();
-            q[i] = loadQuaternions(lanes(k, i).rotations(), Real());
+            F[i] = lanes(i).deformationGradient();
+            q[i] = loadQuaternions(lanes(i).rotations(), Real());
         }
         polarRotations(F, count, q);
-        for (int i = 0; i < count; ++i) storeQuaternions(q[i], lanes(k, i).rotations());
-        for (int i = 0; i < count; ++i) lanes(k, i).run(q[i]);
+        for (int i = 0; i < count; ++i)
+        {
+            storeQuaternions(q[i], lanes(i).rotations());
+            // The processor loads for the next batch while it computes; beyond the end, once more for the last vector.
+            const auto next = nodes(HWY_MIN(k + kBatch + i, end - 1));
+            const auto stageNext = [&](int part) {
+                staged[1 - turn][i].stage(pass, next, {part * kN / 4, (part + 1) * kN / 4});
+            };
+            lanes(i).run(q[i], stageNext);
+        }
     }
 }
 

@@ -43,10 +43,12 @@ HWY_INLINE Vector<Real> number(double value)
     return hn::Set(Lanes<Real>(), static_cast<Real>(value));
 }
 
-/// A 3x3 matrix.
+/// A 3x3 matrix. The constructors here are named because an implicit one would be compiled for the least processor of
+/// its kind, and GCC does not inline NEON into that.
 template <class Real>
 struct Matrix
 {
+    HWY_INLINE Matrix() = default;
     Vector<Real> m[3][3];
 };
 
@@ -54,6 +56,7 @@ struct Matrix
 template <class Real>
 struct Symmetric
 {
+    HWY_INLINE Symmetric() = default;
     Vector<Real> xx, yy, zz, yz, xz, xy;
 };
 
@@ -113,12 +116,13 @@ struct StagedEdges
 
     HWY_INLINE void stage(const std::int32_t (*node)[4], const PaddedVec3* u)
     {
-        for (int lane = 0; lane < Count; ++lane)
-        {
-            const PaddedVec3& u0 = u[node[lane][0]];
-            HWY_UNROLL(3)
-            for (int a = 0; a < 3; ++a) storeDifference(u[node[lane][a + 1]], u0, a, lane);
-        }
+        for (int lane = 0; lane < Count; ++lane) stageLane(lane, node[lane], u);
+    }
+
+    HWY_INLINE void stageLane(int lane, const std::int32_t (&node)[4], const PaddedVec3* u)
+    {
+        HWY_UNROLL(3)
+        for (int a = 0; a < 3; ++a) storeDifference(u[node[a + 1]], u[node[0]], a, lane);
     }
 
     /// Those of the elements from `lane` on.

@@ -25,6 +25,7 @@ namespace HWY_NAMESPACE
 template <class Real>
 struct Quaternions
 {
+    HWY_INLINE Quaternions() = default;
     Vector<Real> x, y, z, w;
 };
 
@@ -36,12 +37,12 @@ HWY_INLINE Quaternions<Real> normalised(const Quaternions<Real>& q)
     return {q.x * s, q.y * s, q.z * s, q.w * s};
 }
 
-/// R of unit quaternions.
+/// R of quaternions, two = 2 / |q|^2.
 template <class Real>
-HWY_INLINE Matrix<Real> toMatrix(const Quaternions<Real>& q)
+HWY_INLINE Matrix<Real> toMatrix(const Quaternions<Real>& q, Vector<Real> two)
 {
     using V = Vector<Real>;
-    const V one = number<Real>(1), x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
+    const V one = number<Real>(1), x2 = two * q.x, y2 = two * q.y, z2 = two * q.z;
     const V wx = q.w * x2, wy = q.w * y2, wz = q.w * z2, yy = q.y * y2, zz = q.z * z2;
     return {{{one - (yy + zz), hn::MulSub(q.x, y2, wz), hn::MulAdd(q.x, z2, wy)},
              {hn::MulAdd(q.x, y2, wz), one - hn::MulAdd(q.x, x2, zz), hn::MulSub(q.y, z2, wx)},
@@ -131,7 +132,7 @@ HWY_INLINE void singleRotations(const Matrix<Real>& F, hn::Mask<Lanes<Real>> kno
     hn::LoadInterleaved4(d, &rotation[0].x, q.x, q.y, q.z, q.w);
 }
 
-constexpr int kBatch = 4;  // vectors of elements; what one waits for, another has time to compute
+constexpr int kBatch = 2;  // vectors of elements; what one waits for, another has time to compute
 
 /// q <- the polar rotations of `count` F, started from q. Those that Newton's iteration cannot answer for go one by
 /// one.

@@ -49,12 +49,12 @@ HWY_INLINE Symmetric<Real> adjugate(const Symmetric<Real>& A)
             hn::MulSub(A.xy, A.yz, A.yy * A.xz), hn::MulSub(A.yz, A.xz, A.zz * A.xy)};
 }
 
-/// An eigenvalue and N = v v^T of its eigenvector.
+/// An eigenvalue and the projection v v^T on its eigenvector, m_scale times m_adjugate.
 template <class Real>
 struct Eigenpair
 {
-    Vector<Real> m_value;
-    Symmetric<Real> m_projection;
+    Vector<Real> m_value, m_scale;
+    Symmetric<Real> m_adjugate;
 };
 
 /// The one of the largest and the smallest eigenvalue that is farther from the middle one. With A = S - tr(S)/3 I,
@@ -87,42 +87,37 @@ HWY_INLINE Eigenpair<Real> farthestEigenpair(const Symmetric<Real>& S)
         c = hn::MulAdd(number<Real>(8) * c, c * c, r) / hn::MulSub(number<Real>(12) * c, c, three);
     const V value = hn::CopySign(two * p * c, det);
     const Symmetric<Real> N = adjugate(shifted<Real>(A, hn::Neg(value)));
-    const V scale = number<Real>(1) / hn::Max(trace(N), tiny);
-    return {mean + value, {scale * N.xx, scale * N.yy, scale * N.zz, scale * N.yz, scale * N.xz, scale * N.xy}};
+    return {mean + value, number<Real>(1) / hn::Max(trace(N), tiny), N};
 }
 
-/// The positive part of M, which has an eigenvalue 0 whose projection is N. The other two, e1 >= e2, have the sum T =
-/// tr(M) and the product D, the sum of the principal minors. Of different signs (D < 0) they are apart, and M+ = e1 (M
-/// - e2 (I - N)) / (e1 - e2); of one sign M+ is M or 0.
+/// factor S with its negative eigenvalues set to zero, by splitting off the eigenvalue e that is farthest from the
+/// others; exact to rounding of the largest entry of S also where eigenvalues are equal. The rest M = S - e N, N = v
+/// v^T, has the eigenvalues e1 >= e2 beside 0, with the sum T = tr(M) and the product D, the sum of the principal
+/// minors. Of different signs (D < 0) they are apart, and M+ = e1 (M - e2 (I - N)) / (e1 - e2); of one sign M+ is M or
+/// 0. So S+ = k S + (max(e, 0) - k (e - e2)) N - k e2 I.
 template <class Real>
-HWY_INLINE Symmetric<Real> positivePartBeside(const Symmetric<Real>& N, const Symmetric<Real>& M)
+HWY_INLINE Symmetric<Real> positivePart(Vector<Real> factor, const Symmetric<Real>& S)
 {
     using V = Vector<Real>;
     const V zero = number<Real>(0), one = number<Real>(1), half = number<Real>(0.5);
-    const V T = trace(M), D = trace(adjugate(M));
-    const auto mixed = D < zero;
-    const V root = hn::Sqrt(hn::MulAdd(half * T, half * T, hn::Max(zero, hn::Neg(D))));
-    const V e1 = hn::Max(zero, hn::MulAdd(half, T, root)), e2 = hn::IfThenElseZero(mixed, hn::MulSub(half, T, root));
-    const V k = hn::IfThenElse(mixed, e1 / (root + root), hn::IfThenElseZero(T > zero, one));
-    return combined<Real>(k, shifted<Real>(M, hn::Neg(e2)), k * e2, N);
-}
-
-/// S with its negative eigenvalues set to zero, by splitting off the eigenvalue that is farthest from the others; exact
-/// to rounding of the largest entry of S also where eigenvalues are equal.
-template <class Real>
-HWY_INLINE Symmetric<Real> positivePart(const Symmetric<Real>& S)
-{
-    using V = Vector<Real>;
-    const V zero = number<Real>(0), one = number<Real>(1);
     const V diagonal = hn::Max(hn::Max(hn::Abs(S.xx), hn::Abs(S.yy)), hn::Abs(S.zz));
     const V others = hn::Max(hn::Max(hn::Abs(S.yz), hn::Abs(S.xz)), hn::Abs(S.xy));
     const V size = hn::Max(hn::Max(diagonal, others), number<Real>(1e-35)), inverse = one / size;
     const Symmetric<Real> unit = {S.xx * inverse, S.yy * inverse, S.zz * inverse,
                                   S.yz * inverse, S.xz * inverse, S.xy * inverse};
     const Eigenpair<Real> far = farthestEigenpair(unit);
-    const Symmetric<Real> rest = combined<Real>(one, unit, hn::Neg(far.m_value), far.m_projection);
-    const Symmetric<Real> beside = positivePartBeside(far.m_projection, rest);
-    return combined<Real>(size, beside, size * hn::Max(zero, far.m_value), far.m_projection);
+    const V e = far.m_value;
+    const Symmetric<Real> M = combined<Real>(one, unit, hn::Neg(e * far.m_scale), far.m_adjugate);
+
+    const V T = trace(M), D = trace(adjugate(M));
+    const auto mixed = D < zero;
+    const V root = hn::Sqrt(hn::MulAdd(half * T, half * T, hn::Max(zero, hn::Neg(D))));
+    const V e1 = hn::Max(zero, hn::MulAdd(half, T, root)), e2 = hn::IfThenElseZero(mixed, hn::MulSub(half, T, root));
+    const V k = hn::IfThenElse(mixed, e1 / (root + root), hn::IfThenElseZero(T > zero, one));
+
+    const V onN = far.m_scale * hn::NegMulAdd(k, e - e2, hn::Max(zero, e)), onI = k * e2;
+    const V scale = factor * size;
+    return shifted<Real>(combined<Real>(factor * k, S, scale * onN, far.m_adjugate), hn::Neg(scale * onI));
 }
 
 }  // namespace HWY_NAMESPACE
