@@ -23,22 +23,6 @@ CageSettings snapping(double cellSize, double share = 1)
     return settings;
 }
 
-/// True if a triangle of the surface comes through a face of the cage's boundary, deeper than `depth` [m] at every
-/// edge.
-bool piercesBoundary(const Cage& cage, const SurfaceMesh& surface, double depth)
-{
-    const TriangleTree tree(surface.m_vertices, surface.m_triangles);
-    const std::vector<Vec3>& X = cage.m_mesh.restPositions();
-    return std::any_of(cage.m_mesh.surface().begin(), cage.m_mesh.surface().end(),
-                       [&](const Triangle& t)
-                       {
-                           // A thin tet that stands on the outer side of the face.
-                           const Vec3 &a = X[t[0]], &b = X[t[1]], &c = X[t[2]], n = cross(b - a, c - a);
-                           const Vec3 tip = (a + b + c) * (1.0 / 3) + n * (1e-3 / std::sqrt(norm(n)));
-                           return tree.entersTet({a, c, b, tip}, depth);
-                       });
-}
-
 /// The least barycentric weight of the middle of a boundary triangle in the element of the lattice that holds it best.
 double deepestOutside(const Cage& cage, const Cage& lattice)
 {

@@ -2,7 +2,10 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/test_surfaces.h"
 
+#include <algorithm>
 #include <map>
+
+#include "fem/cage/triangle_tree.h"
 
 namespace bullet_fem
 {
@@ -92,6 +95,20 @@ CageSettings withCell(double cellSize)
     CageSettings settings;
     settings.m_cellSize = cellSize;
     return settings;
+}
+
+bool piercesBoundary(const Cage& cage, const SurfaceMesh& surface, double depth)
+{
+    const TriangleTree tree(surface.m_vertices, surface.m_triangles);
+    const std::vector<Vec3>& X = cage.m_mesh.restPositions();
+    return std::any_of(cage.m_mesh.surface().begin(), cage.m_mesh.surface().end(),
+                       [&](const Triangle& t)
+                       {
+                           // A thin tet that stands on the outer side of the face.
+                           const Vec3 &a = X[t[0]], &b = X[t[1]], &c = X[t[2]], n = cross(b - a, c - a);
+                           const Vec3 tip = (a + b + c) * (1.0 / 3) + n * (1e-3 / std::sqrt(norm(n)));
+                           return tree.entersTet({a, c, b, tip}, depth);
+                       });
 }
 
 }  // namespace bullet_fem

@@ -20,6 +20,10 @@ SurfaceMesh flipped(SurfaceMesh surface);
 /// Without the triangles from `first` to before `last`.
 SurfaceMesh without(SurfaceMesh surface, int first, int last);
 
+/// True if a triangle of the surface comes through a face of the cage's boundary, deeper than `depth` [m] at every
+/// edge.
+bool piercesBoundary(const Cage& cage, const SurfaceMesh& surface, double depth);
+
 /// Settings for a cage with cells of this size [m].
 CageSettings withCell(double cellSize);
 

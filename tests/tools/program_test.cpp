@@ -115,6 +115,36 @@ TEST_F(Program, CagesTellWhatWasMade)
     EXPECT_NEAR(mesh["volume"].get<double>() / told["volumeRatio"].get<double>(), 1, 1e-6);
 }
 
+TEST_F(Program, GradedCagesTellTheirSizes)
+{
+    m_folder.write("slab.off", R"(OFF
+8 6 0
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 .1
+1 0 .1
+1 1 .1
+0 1 .1
+4 3 2 1 0
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+)");
+    const json told = figures("cage " + path("slab.off") + " --cell 0.2 --grade 2 --levels 2");
+    EXPECT_EQ(told["levels"], 2);
+    EXPECT_NEAR(told["smallestCell"].get<double>(), 0.05, 1e-9);
+    EXPECT_EQ(told["levelTets"][2], told["tets"]);
+    EXPECT_EQ(figures("bake " + path("slab.off") + " --cell 0.2 --grade 2 --levels 2 -o " + path("slab.bfem"))["tets"],
+              told["tets"]);
+    EXPECT_FALSE(figures("cage " + path("slab.off") + " --cell 0.2").contains("levels"));
+    refused("cage " + path("slab.off") + " --grade 9", 2, "--grade");
+    refused("cage " + path("slab.off") + " --levels 2", 2, "--levels requires --grade");
+}
+
 TEST_F(Program, ConvertsWithoutLosingABit)
 {
     ASSERT_EQ(bulletfem("convert " + path("two.node") + " " + path("a.vtk")).m_code, 0);

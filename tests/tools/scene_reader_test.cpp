@@ -84,6 +84,9 @@ TEST_F(SceneReader, ReadsSoftBodies)
     EXPECT_EQ(scan.m_kind, SceneMesh::Kind::surface);
     EXPECT_EQ(scan.m_tets, 500);
     EXPECT_EQ(scan.m_cellSize, 0);
+    EXPECT_EQ(scan.m_cellsAcross, 1.5);
+    EXPECT_EQ(scan.m_mostLevels, 2);
+    EXPECT_EQ(body.m_mesh.m_cellsAcross, 0);
     EXPECT_TRUE(std::filesystem::equivalent(scan.m_path, m_folder.path("cube.off")));
 }
 

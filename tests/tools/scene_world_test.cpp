@@ -168,17 +168,19 @@ TEST(SceneWorld, ABakedBodyFallsWithItsOwnMass)
 
 TEST(SceneWorld, MeshesGetTheSizesAndElementsThatAreAskedFor)
 {
-    const auto countOf = [](const std::string& mesh)
+    const TemporaryFolder folder;
+    writeSampleMeshes(folder);
+    const auto countOf = [&](const std::string& mesh)
     {
-        SceneRun run(R"({ "softBodies": [{ "name": "b", "mesh": { )" + mesh + " } }] }");
+        SceneRun run(R"({ "softBodies": [{ "name": "b", "mesh": { )" + mesh + " } }] }", folder.path(""));
         return run.m_world.soft(0).m_tetras.size();
     };
     EXPECT_EQ(countOf(R"("box": [1, 1, 1], "cell": 0.25)"), 5 * 64);
     EXPECT_EQ(countOf(R"("box": [1, 1, 1], "cell": 0.25, "scale": 0.5)"), 5 * 8) << "the cell is in metres";
     EXPECT_NEAR(countOf(R"("box": [1, 1, 1], "tets": 2000)"), 2000, 600);
     EXPECT_NEAR(countOf(R"("box": [20, 0.02, 0.02], "tets": 500)"), 500, 50) << "thin: one cell across";
-    const TemporaryFolder folder;
-    writeSampleMeshes(folder);
+    EXPECT_EQ(countOf(R"("surface": "cube.off", "cell": 0.5)"), 5 * 8);
+    EXPECT_EQ(countOf(R"("surface": "cube.off", "cell": 0.5, "grade": 4, "levels": 2)"), 6 * 64);
     SceneRun scan(R"({ "softBodies": [{ "name": "b", "mesh": { "surface": "cube.off", "tets": 600, "scale": 0.5 },
         "material": { "density": 800 } }, { "name": "t", "mesh": { "tetrahedra": "two.node", "scale": 2 }, "position": [9, 0, 0] }] })",
                   folder.path(""));

@@ -37,6 +37,7 @@ struct CageCommand
         m_figures.add("tets", report.m_tets);
         m_figures.add("nodes", report.m_nodes);
         m_figures.add("cell", report.m_cellSize, "m");
+        if (m_cage.m_cellsAcross > 0) tellGrading(report);
         m_figures.add("leastQuality", report.m_leastQuality, "mean ratio, 1 is a regular tetrahedron");
         m_figures.add("qualityBound", report.m_qualityBound);
         m_figures.add("qualityHistogram", report.m_qualityHistogram, "tetrahedra in tenths from 0 to 1");
@@ -50,6 +51,16 @@ struct CageCommand
         m_figures.add("duplicates", report.m_duplicates, "triangles left out");
         m_figures.add("degenerate", report.m_degenerate, "triangles without area");
         m_figures.add("turned", report.m_turned, "triangles turned over");
+    }
+
+    void tellGrading(const CageReport& report)
+    {
+        m_figures.add("smallestCell", report.m_smallestCell, "m");
+        m_figures.add("largestCell", report.m_largestCell, "m");
+        m_figures.add("cellsAcross", report.m_cellsAcross,
+                      "wanted in thin parts; fewer than asked for if --tets is low");
+        m_figures.add("levels", report.m_levels, "halvings of cells");
+        m_figures.add("levelTets", report.m_levelTets, "tetrahedra by halvings from 0 to 6");
     }
 };
 

@@ -23,6 +23,14 @@ void CageOptions::add(CLI::App& command)
         .add_option("--snap", m_snap,
                     "of a surface: move the cage's boundary by this share toward it [0 to 1] (default 0)")
         ->check(inRange(0, 1));
+    CLI::Option* grade =
+        command
+            .add_option("--grade", m_cellsAcross,
+                        "of a surface: smaller cells where it is thin, so many across [0.5 to 8], 2 is usual")
+            ->check(inRange(0.5, 8));
+    command.add_option("--levels", m_mostLevels, "with --grade: cells are halved up to so often [1 to 6] (default 3)")
+        ->check(inRange(1, 6))
+        ->needs(grade);
 }
 
 CageSettings CageOptions::settings() const
@@ -32,6 +40,8 @@ CageSettings CageOptions::settings() const
     settings.m_targetTets = m_cellSize > 0 ? 0 : m_tets;
     settings.m_maxTets = 5000000;
     settings.m_snap = m_snap;
+    settings.m_cellsAcross = m_cellsAcross;
+    settings.m_mostLevels = m_mostLevels;
     return settings;
 }
 

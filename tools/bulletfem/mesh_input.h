@@ -20,6 +20,8 @@ struct CageOptions
     double m_cellSize = 0;  // [m]; 0: by m_tets
     int m_tets = 2000;
     double m_snap = 0;
+    double m_cellsAcross = 0;
+    int m_mostLevels = 3;
 };
 
 /// Elements, from a mesh file, or from a surface file by a cage around it.

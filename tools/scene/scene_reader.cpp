@@ -174,7 +174,7 @@ private:
 
     SceneMesh mesh(const JsonCursor& at) const
     {
-        at.onlyMembers({"box", "surface", "tetrahedra", "baked", "cell", "tets", "scale"});
+        at.onlyMembers({"box", "surface", "tetrahedra", "baked", "cell", "tets", "grade", "levels", "scale"});
         SceneMesh mesh;
         const int kinds = at.has("box") + at.has("surface") + at.has("tetrahedra") + at.has("baked");
         if (kinds != 1) at.fail("must have one of: box, surface, tetrahedra, baked");
@@ -191,11 +191,17 @@ private:
         const bool hasElements = mesh.m_kind == SceneMesh::Kind::tetrahedra || mesh.m_kind == SceneMesh::Kind::baked;
         for (const char* name : {"cell", "tets"})
             if (hasElements && at.has(name)) at[name].fail("is given, but the file has its elements; leave it out");
+        for (const char* name : {"grade", "levels"})
+            if (mesh.m_kind != SceneMesh::Kind::surface && at.has(name))
+                at[name].fail("is given, but only cages around a surface are graded; leave it out");
+        if (at.has("levels") && !at.has("grade")) at["levels"].fail("is given without 'grade'; give that, too");
         if (mesh.m_kind == SceneMesh::Kind::baked && at.has("scale"))
             at["scale"].fail("is given, but a baked body has its size; leave it out, or bake it anew");
         if (at.has("cell") && at.has("tets")) at.fail("has 'cell' and 'tets'; give one of them");
         at.read("cell", kLength, mesh.m_cellSize);
         at.read("tets", 5, 5000000, mesh.m_tets);
+        at.read("grade", {0.5, 8}, mesh.m_cellsAcross);
+        at.read("levels", 1, 6, mesh.m_mostLevels);
         at.read("scale", {0, 1e9, true}, mesh.m_scale);
         return mesh;
     }

@@ -78,6 +78,8 @@ CageSettings cageOf(const SceneMesh& mesh)
     CageSettings settings;
     settings.m_cellSize = mesh.m_cellSize;
     settings.m_targetTets = mesh.m_cellSize > 0 ? 0 : mesh.m_tets;
+    settings.m_cellsAcross = mesh.m_cellsAcross;
+    settings.m_mostLevels = mesh.m_mostLevels;
     settings.m_maxTets = 5000000;
     return settings;
 }
