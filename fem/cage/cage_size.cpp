@@ -57,7 +57,8 @@ public:
         double cell = std::log(estimateCellSize(m_surface, m_settings, range));
         if (m_settings.m_cellsAcross > 0)
         {
-            gradeFor(std::exp(cell));
+            m_longest = kMostOverEstimate * std::exp(cell);
+            m_graded.emplace(m_surface, m_winding, m_settings, m_longest);
             most = std::log(std::min(m_longest, range.m_most) * kMostLess);
         }
         Trial finer{least, 1}, coarser{most, -1}, best{0, 1e300};  // a bracket; its ends are not known at first
@@ -83,18 +84,9 @@ public:
     }
 
 private:
-    static constexpr double kMostOverEstimate = 2;
-    static constexpr double kMostLess = 8;  // cells across than asked for; nothing is graded then
-    static constexpr double kSlope = 0.5;   // counts fall with the square to the cube of the cell: no step is too short
-
-    /// Thin parts take elements, so that cells become longer than without them.
-    void gradeFor(double estimate)
-    {
-        m_longest = kMostOverEstimate * estimate;
-        CageSettings settings = m_settings;
-        settings.m_cellSize = estimate;
-        m_graded.emplace(m_surface, m_winding, settings, m_longest);
-    }
+    static constexpr double kMostOverEstimate = 2;  // thin parts take elements, so that other cells become longer
+    static constexpr double kMostLess = 8;          // cells across than asked for; nothing is graded then
+    static constexpr double kSlope = 0.5;  // counts fall with the square to the cube of the cell: no step is too short
 
     /// Up to a length cells grow; after that a graded cage has fewer across thin parts, and fewer levels.
     CageSize sizeAt(double cell) const

@@ -16,6 +16,7 @@ namespace
 
 constexpr double kTouching = 1e-9;  // of a cell
 constexpr double kWithin = 1e-6;    // of a wanted cell: tets that come less deep do not count
+constexpr double kEdge = 2;         // longest edge of a part, in cells that it wants
 constexpr int kMostCopies = 64;     // of a part on its way across; more are never needed for 8 cells
 
 std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
@@ -139,14 +140,14 @@ void follow(const Wish& wish, const BisectedTets& tets, std::vector<Wish>& wishe
 }  // namespace
 
 GradedSurface::GradedSurface(const SurfaceInspection& surface, const WindingNumber& winding,
-                             const CageSettings& settings, double mostCell)
+                             const CageSettings& settings, double cellSize)
     : m_tree(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles)
 {
     ThinSearch search{m_tree, winding};
-    search.m_reach = settings.m_cellsAcross * mostCell;
-    search.m_coarsest = settings.m_cellSize / 2;
-    search.m_finest = std::ldexp(settings.m_cellSize, -settings.m_mostLevels);
-    search.m_edgePerWidth = 2 / settings.m_cellsAcross;
+    search.m_reach = settings.m_cellsAcross * cellSize;
+    search.m_coarsest = cellSize / 2;
+    search.m_edgePerWidth = kEdge / settings.m_cellsAcross;
+    search.m_finest = kEdge * std::ldexp(cellSize, -settings.m_mostLevels);
     m_parts = findThinParts(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles, search);
 }
 

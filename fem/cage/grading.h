@@ -22,9 +22,9 @@ struct Grading
 class GradedSurface
 {
 public:
-    /// Looks for parts that are thin for cells of m_cellSize, and, less closely, for ones up to `mostCell` [m].
+    /// Looks for parts that are thin for cells of that size [m], or shorter ones, with m_cellsAcross and m_mostLevels.
     GradedSurface(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings,
-                  double mostCell);
+                  double cellSize);
 
     const TriangleTree& tree() const { return m_tree; }
     const std::vector<ThinPart>& parts() const { return m_parts; }

@@ -102,6 +102,35 @@ TEST(ThinParts, AreNotWhereSolidsOverlap)
     EXPECT_TRUE(partsOf(joined(boxSurface({0, 0, 0}, {1, 1, 1}), boxSurface({0.8, 0, 0}, {1.8, 1, 1}))).empty());
 }
 
+/// Every triangle in four.
+SurfaceMesh split(const SurfaceMesh& surface)
+{
+    SurfaceMesh fine;
+    for (const Triangle& t : surface.m_triangles)
+    {
+        const Vec3 &a = surface.m_vertices[t[0]], &b = surface.m_vertices[t[1]], &c = surface.m_vertices[t[2]];
+        const int n = static_cast<int>(fine.m_vertices.size());
+        fine.m_vertices.insert(fine.m_vertices.end(), {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)});
+        for (const Triangle& part : {Triangle{0, 3, 5}, Triangle{3, 1, 4}, Triangle{5, 4, 2}, Triangle{3, 4, 5}})
+            fine.m_triangles.push_back({n + part[0], n + part[1], n + part[2]});
+    }
+    return fine;
+}
+
+// The rim's triangles share blocks with the faces', and are 1 m across.
+TEST(ThinParts, OfAFinePlateAreNotItsRim)
+{
+    SurfaceMesh plate = boxSurface({0, 0, 0}, {1, 1, 0.02});
+    for (int n = 0; n < 4; ++n) plate = split(plate);
+    const TriangleTree tree(plate.m_vertices, plate.m_triangles);
+    const WindingNumber winding(plate.m_vertices, plate.m_triangles);
+    const std::vector<ThinPart> parts =
+        findThinParts(plate.m_vertices, plate.m_triangles, {tree, winding, 0.5, 0.3, 0.15, 1});
+    const Found solid = found(parts, false);
+    EXPECT_NEAR(solid.m_area, 2, 1e-12);
+    EXPECT_NEAR(solid.m_most, 0.02, 1e-12);
+}
+
 TEST(ThinParts, OfFineTrianglesAreTheSame)
 {
     const Found ring = found(partsOf(torusSurface(1, 0.15, 400)), false);  // triangles of 0.005 to 0.02 m

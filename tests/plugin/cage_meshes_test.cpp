@@ -26,6 +26,7 @@ constexpr std::size_t kMostTriangles = 100000;
 constexpr double kDensity = 1000;    // [kg/m3]
 constexpr double kDropHeight = 0.1;  // [m]; bodies are 1 m long
 constexpr int kSteps = 120;          // two seconds
+constexpr int kEvery = 12;           // of so many two are graded
 
 struct NamedSurface
 {
@@ -135,6 +136,7 @@ protected:
         CageSettings settings;
         settings.m_targetTets = kTargetTets;
         settings.m_snap = m_snap;
+        settings.m_cellsAcross = m_cellsAcross;
         settings.m_fillSamples = 32;  // half the usual, for time
         std::unique_ptr<btSoftBody> body(
             btFemHelpers::createFromSurface(world.info(), given.m_surface, settings, report, &why));
@@ -144,7 +146,7 @@ protected:
             EXPECT_NE(why.find("no inside"), std::string::npos) << why;
             return write(given, report, "refused: " + why.substr(0, why.find(':', 16)));
         }
-        EXPECT_NEAR(report.m_tets, kTargetTets, 0.2 * kTargetTets);
+        EXPECT_NEAR(report.m_tets, kTargetTets, (m_cellsAcross > 0 ? 0.45 : 0.2) * kTargetTets);
         EXPECT_GE(report.m_leastQuality, report.m_qualityBound);
         expectInside(*body, given.m_surface);
         fem.setMaterial(body.get(), material());
@@ -189,9 +191,10 @@ protected:
 
     void write(const NamedSurface& given, const CageReport& report, const std::string& result) const
     {
-        std::printf("%-32s %6zu %5d  %.3f  %5.2f %5.2f  %-34s %s\n", given.m_name.c_str(),
+        std::printf("%-32s %6zu %5d  %.3f  %5.2f %5.2f  %6d  %-34s %s\n", given.m_name.c_str(),
                     given.m_surface.m_triangles.size(), report.m_tets, report.m_leastQuality,
-                    report.m_latticeVolumeRatio, report.m_volumeRatio, findings(report).c_str(), result.c_str());
+                    report.m_latticeVolumeRatio, report.m_volumeRatio, report.m_levels, findings(report).c_str(),
+                    result.c_str());
     }
 
     static btFemMaterial material()
@@ -202,7 +205,7 @@ protected:
         return result;
     }
 
-    double m_snap = 0;
+    double m_snap = 0, m_cellsAcross = 0;
     int m_closed = 0, m_open = 0, m_refused = 0;
 };
 
@@ -210,11 +213,13 @@ TEST_F(CageMeshes, BecomeBodies)
 {
     if (!fs::is_directory(meshFolder()))
         GTEST_SKIP() << "no meshes in " << meshFolder() << "; tests/run.sh fetches them from libcgal-demo";
-    std::printf("%-32s %6s %5s  %-5s  %-11s  %-34s %s\n", "surface", "tris", "tets", "q", "cage/solid", "found",
-                "result");
+    std::printf("%-32s %6s %5s  %-5s  %-11s  %-6s  %-34s %s\n", "surface", "tris", "tets", "q", "cage/solid", "levels",
+                "found", "result");
+    int count = 0;
     for (const NamedSurface& surface : readMeshes())
     {
-        m_snap = 1 - m_snap;  // every other one
+        m_snap = 1 - m_snap;                                  // every other one
+        m_cellsAcross = count++ % kEvery / 2 == 3 ? 1.5 : 0;  // one of them snapped
         tryOne(surface);
     }
     std::printf("%d closed, %d open, %d refused\n", m_closed, m_open, m_refused);
