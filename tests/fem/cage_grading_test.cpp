@@ -212,6 +212,33 @@ TEST(GradedCage, IsFineOnlyWhereTheSurfaceIsThin)
     EXPECT_GT(inCore, 100);
 }
 
+TEST(GradedCage, MeasuresFilledFractions)
+{
+    CageSettings settings = graded(0.4);
+    settings.m_fillFloor = 1e-3;
+    settings.m_fillSamples = 128;
+    const Cage cage = makeCage(torusSurface(1, 0.15, 48), settings);
+    EXPECT_NEAR(cage.m_massScale, 1, 0.01);
+    EXPECT_LT(*std::min_element(cage.m_filled.begin(), cage.m_filled.end()), 0.1);
+    EXPECT_EQ(*std::max_element(cage.m_filled.begin(), cage.m_filled.end()), 1);
+}
+
+// Of what overlaps, and of what is open, the samples tell the volume.
+TEST(GradedCage, CountsOverlapsOnceAndClosesHoles)
+{
+    const SurfaceMesh block = boxSurface({0, 0, 0}, {1, 1, 1});
+    CageSettings settings = graded(0.1);
+    settings.m_fillSamples = 64;
+    const Cage both = makeCage(tilted(joined(block, boxSurface({0.5, 0.5, 0.9}, {0.6, 0.6, 2}))), settings);
+    EXPECT_TRUE(both.m_report.m_selfIntersecting);
+    EXPECT_GT(both.m_report.m_levels, 0);
+    EXPECT_NEAR(both.m_report.m_surfaceVolume, 1.01, 0.005);
+    const Cage open = makeCage(without(boxSurface({0, 0, 0}, {1, 1, 0.15}), 4, 6), settings);
+    EXPECT_EQ(open.m_report.m_openEdges, 4);
+    EXPECT_GT(open.m_report.m_levels, 0);
+    EXPECT_NEAR(open.m_report.m_surfaceVolume, 0.15, 0.004);  // the plate cuts all elements alike
+}
+
 TEST(GradedCage, EndsAtTheMostLevels)
 {
     const SurfaceMesh surface = boxSurface({0, 0, 0}, {1, 1, 0.001});
@@ -249,8 +276,10 @@ TEST(GradedCage, LeavesNarrowGapsAlone)
 // Boxes and plates come in whole layers, and what is of one thickness is halved all at once.
 TEST(GradedCage, ComesNearAWantedNumber)
 {
+    // The last is thinner than any level: what is wanted there becomes less with the levels.
+    const SurfaceMesh fin = joined(boxSurface({0, 0, 0}, {1, 1, 1}), boxSurface({0.9, 0, 0.5}, {2, 1, 0.502}));
     const SurfaceMesh surfaces[] = {blockWithRod(), tilted(twoPlates()), torusSurface(1, 0.2, 24),
-                                    without(boxSurface({0, 0, 0}, {1, 1, 0.3}), 0, 2)};
+                                    without(boxSurface({0, 0, 0}, {1, 1, 0.3}), 0, 2), tilted(fin)};
     for (const SurfaceMesh& surface : surfaces)
         for (const int target : {600, 3000})
         {
@@ -308,6 +337,8 @@ TEST(GradedCage, IsNotWhereItIsNotAskedFor)
     const Cage same = makeCage(surface, settings);
     EXPECT_EQ(cage.m_mesh.tets(), same.m_mesh.tets());
     EXPECT_EQ(cage.m_report.m_levels, 0);
+    EXPECT_EQ(cage.m_report.m_qualityBound, 0.8399);
+    EXPECT_EQ(cage.m_mesh.tetCount(), 436);  // as it was before there was grading
     EXPECT_EQ(cage.m_report.m_smallestCell, 0.25);
     EXPECT_EQ(cage.m_report.m_largestCell, 0.25);
     EXPECT_EQ(cage.m_report.m_cellsAcross, 0);
