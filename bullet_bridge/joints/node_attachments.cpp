@@ -93,10 +93,10 @@ JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& 
 
 bool isAttached(const FemSoftBody& fem, const std::array<int, 3>& nodes, const FemSoftBody& other)
 {
-    return isAttached(fem, pointOf(0, nodes, {1, 0, 0}), other);
+    return isPointAttached(fem, pointOf(0, nodes, {1, 0, 0}), other);
 }
 
-bool isAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other)
+bool isPointAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other)
 {
     const auto end = point.m_nodes.begin() + point.m_count;
     const auto isAmong = [&](int node) { return std::find(point.m_nodes.begin(), end, node) != end; };

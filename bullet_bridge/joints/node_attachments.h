@@ -14,6 +14,6 @@ JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& 
 /// True if one of the nodes is attached to the other body, or carries a point that a node of it is attached to: contact
 /// must not push there.
 bool isAttached(const FemSoftBody& fem, const std::array<int, 3>& nodes, const FemSoftBody& other);
-bool isAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other);
+bool isPointAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other);
 
 }  // namespace bullet_fem

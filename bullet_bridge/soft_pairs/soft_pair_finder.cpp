@@ -77,8 +77,8 @@ void SoftPairFinder::append(const Roles& roles, double offset)
         ContactPoint contact = common;
         contact.m_soft = roles.m_soft.m_fem.pointOn(roles.m_soft.m_index, touch.m_nodes, touch.m_weights);
         contact.m_other = roles.m_other.m_fem.pointOn(roles.m_other.m_index, touch.m_otherNodes, touch.m_otherWeights);
-        if (isAttached(roles.m_soft.m_fem, contact.m_soft, roles.m_other.m_fem) ||
-            isAttached(roles.m_other.m_fem, contact.m_other, roles.m_soft.m_fem))
+        if (isPointAttached(roles.m_soft.m_fem, contact.m_soft, roles.m_other.m_fem) ||
+            isPointAttached(roles.m_other.m_fem, contact.m_other, roles.m_soft.m_fem))
             continue;
         contact.m_point = 0.5 * (interpolated(soft.position(), touch.m_nodes, touch.m_weights) +
                                  interpolated(other.position(), touch.m_otherNodes, touch.m_otherWeights));

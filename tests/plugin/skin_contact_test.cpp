@@ -90,7 +90,7 @@ TEST_P(SkinGround, ABoxStandsOnAnother)
     btSoftBody& lower = add(skinBox({0.8, 0.8, 0.4}, {0, 0, 0.205}));
     btSoftBody& upper = add(skinBox({0.6, 0.6, 0.3}, {0.05, 0, 0.565}));
     const btRigidBody& floor = m_world.addFloorBox();
-    m_world.step(240);
+    m_world.step(150);
     EXPECT_NEAR(lowestVertex(lower), 0, kSlop);
     const double weight = (massOf(lower) + massOf(upper)) * kGravity;
     EXPECT_NEAR(m_fem.contactForce(&lower, &floor).z(), weight, 1e-3 * weight);

@@ -83,6 +83,8 @@ TEST_F(SceneReader, ReadsSoftBodies)
     const SceneMesh& scan = scene.m_softBodies[1].m_mesh;
     EXPECT_EQ(scan.m_kind, SceneMesh::Kind::surface);
     EXPECT_EQ(scan.m_tets, 500);
+    EXPECT_TRUE(scan.m_surfaceCollides);
+    EXPECT_FALSE(body.m_mesh.m_surfaceCollides);
     EXPECT_EQ(scan.m_cellSize, 0);
     EXPECT_EQ(scan.m_cellsAcross, 1.5);
     EXPECT_EQ(scan.m_mostLevels, 2);

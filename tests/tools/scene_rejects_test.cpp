@@ -212,6 +212,8 @@ const BadValue kMeaning[] = {
      "softBodies[0].mesh.cell is given, but the file has its elements; leave it out"},
     {"ScaleOfABakedBody", false, "/softBodies/1/mesh/scale", "2",
      "softBodies[1].mesh.scale is given, but a baked body has its size; leave it out, or bake it anew"},
+    {"SurfaceOfAMeshFile", false, "/softBodies/1/mesh/surfaceCollides", "true",
+     "softBodies[1].mesh.surfaceCollides is for a 'surface' with a cage around it; a baked body has it from baking"},
     {"MaterialOfABakedBody", false, "/softBodies/1/material", R"("jelly")",
      "softBodies[1].material is given for a baked body, which has its own; leave it out, or bake it anew"},
     {"TwoShapes", true, "/rigidBodies/1/shape/sphere", "1",

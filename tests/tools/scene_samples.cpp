@@ -47,7 +47,7 @@ std::string fullScene()
       "colour": [0.1, 0.2, 0.3],
       "pins": [{ "low": [-9, -9, -9], "high": [9, 9, 0] }, { "low": [1, 1, 1], "high": [2, 2, 2] }]
     },
-    { "name": "scan", "mesh": { "surface": "cube.off", "tets": 500, "grade": 1.5, "levels": 2, "scale": 0.5 } }
+    { "name": "scan", "mesh": { "surface": "cube.off", "tets": 500, "grade": 1.5, "levels": 2, "scale": 0.5, "surfaceCollides": true } }
   ],
   "rigidBodies": [
     {

@@ -119,6 +119,8 @@ void addBakeCommand(CLI::App& app)
                       "with the small factor: about a ninth of the memory, slower steps");
     options->m_material.add(*command);
     options->m_cage.add(*command);
+    command->add_flag("--surface-collides", options->m_cage.m_surfaceCollides,
+                      "of a surface: it collides itself, and not the cage around it");
     options->m_figures.addOption(*command);
     command->callback([options] { options->run(); });
 }

@@ -48,6 +48,7 @@ struct InfoCommand
         m_figures.add("tets", info.m_tets);
         m_figures.add("pinned", info.m_nodes - info.m_freeNodes, "nodes");
         m_figures.add("embeddedVertices", info.m_embeddedVertices);
+        if (info.m_embeddedVertices > 0) m_figures.add("collides", info.m_surfaceCollides ? "surface" : "cage");
         m_figures.add("young", info.m_material.m_youngModulus, "Pa");
         m_figures.add("poisson", info.m_material.m_poissonRatio);
         m_figures.add("density", info.m_material.m_density, "kg/m3");

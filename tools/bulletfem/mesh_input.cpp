@@ -42,6 +42,7 @@ CageSettings CageOptions::settings() const
     settings.m_snap = m_snap;
     settings.m_cellsAcross = m_cellsAcross;
     settings.m_mostLevels = m_mostLevels;
+    settings.m_surfaceCollides = m_surfaceCollides;
     return settings;
 }
 

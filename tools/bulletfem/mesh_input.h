@@ -22,6 +22,7 @@ struct CageOptions
     double m_snap = 0;
     double m_cellsAcross = 0;
     int m_mostLevels = 3;
+    bool m_surfaceCollides = false;
 };
 
 /// Elements, from a mesh file, or from a surface file by a cage around it.

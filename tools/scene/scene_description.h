@@ -44,13 +44,14 @@ struct SceneMesh
         baked        ///< a .bfem file, with its material and pins
     };
     Kind m_kind = Kind::box;
-    std::string m_path;        ///< of a file, found beside the scene
-    Vec3 m_size{1, 1, 1};      ///< of a box [m], > 0
-    double m_cellSize = 0;     ///< of a box or cage [m]; 0: by m_tets
-    int m_tets = 2000;         ///< about so many elements in a cage or box
-    double m_cellsAcross = 0;  ///< of thin parts of a cage [-], in [0.5, 8]; 0: cells are alike
-    int m_mostLevels = 3;      ///< most halvings of a graded cage's cells
-    double m_scale = 1;        ///< times the file's positions [-], > 0
+    std::string m_path;              ///< of a file, found beside the scene
+    Vec3 m_size{1, 1, 1};            ///< of a box [m], > 0
+    double m_cellSize = 0;           ///< of a box or cage [m]; 0: by m_tets
+    int m_tets = 2000;               ///< about so many elements in a cage or box
+    double m_cellsAcross = 0;        ///< of thin parts of a cage [-], in [0.5, 8]; 0: cells are alike
+    int m_mostLevels = 3;            ///< most halvings of a graded cage's cells
+    double m_scale = 1;              ///< times the file's positions [-], > 0
+    bool m_surfaceCollides = false;  ///< of a surface: what collides, in place of its cage
 };
 
 struct SceneSoftBody

@@ -174,7 +174,8 @@ private:
 
     SceneMesh mesh(const JsonCursor& at) const
     {
-        at.onlyMembers({"box", "surface", "tetrahedra", "baked", "cell", "tets", "grade", "levels", "scale"});
+        at.onlyMembers(
+            {"box", "surface", "tetrahedra", "baked", "cell", "tets", "grade", "levels", "scale", "surfaceCollides"});
         SceneMesh mesh;
         const int kinds = at.has("box") + at.has("surface") + at.has("tetrahedra") + at.has("baked");
         if (kinds != 1) at.fail("must have one of: box, surface, tetrahedra, baked");
@@ -203,6 +204,9 @@ private:
         at.read("grade", {0.5, 8}, mesh.m_cellsAcross);
         at.read("levels", 1, 6, mesh.m_mostLevels);
         at.read("scale", {0, 1e9, true}, mesh.m_scale);
+        if (mesh.m_kind != SceneMesh::Kind::surface && at.has("surfaceCollides"))
+            at["surfaceCollides"].fail("is for a 'surface' with a cage around it; a baked body has it from baking");
+        at.read("surfaceCollides", mesh.m_surfaceCollides);
         return mesh;
     }
 

@@ -81,6 +81,7 @@ CageSettings cageOf(const SceneMesh& mesh)
     settings.m_cellsAcross = mesh.m_cellsAcross;
     settings.m_mostLevels = mesh.m_mostLevels;
     settings.m_maxTets = 5000000;
+    settings.m_surfaceCollides = mesh.m_surfaceCollides;
     return settings;
 }
 
