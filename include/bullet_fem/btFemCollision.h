@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/btFemPrecision.h"
+
 /// Bits of btSoftBody::m_cfg.collisions beyond Bullet's own, which ignores them.
 enum btFemCollisionFlags
 {

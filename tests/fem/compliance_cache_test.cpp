@@ -71,6 +71,22 @@ TEST_P(ComplianceCacheTest, HoldsTheInverseOfA0)
     EXPECT_EQ(compared, 40 * 40);  // 56 of 64 nodes on the surface, 16 of them clamped
 }
 
+TEST_P(ComplianceCacheTest, ServesTheNodesThatItIsMadeFor)
+{
+    const FactorInput& input = m_model->factorInput();
+    const Eigen::MatrixXd inverse = constrained(denseRestSystem(m_model->shape(), input), input.m_fixed).inverse();
+    const std::vector<int> nodes = {21, 22, 25, 26, 37, 63};  // but for the last, inside
+    ComplianceCache cache(m_model, nodes);
+    cache.request({25, 63, 21, 22, 26, 37});
+    for (int j : nodes)
+        for (int i : nodes)
+        {
+            const Eigen::Matrix3d expected = inverse.block<3, 3>(3 * i, 3 * j);
+            const double size = inverse.block<3, 3>(3 * j, 3 * j).norm();
+            EXPECT_LE((dense(cache.block(i, j)) - expected).norm(), m_error * size) << i << " " << j;
+        }
+}
+
 TEST_P(ComplianceCacheTest, IsZeroForFixedNodes)
 {
     ComplianceCache cache(m_model);

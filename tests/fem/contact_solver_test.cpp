@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <numeric>
 
 #include "bullet_fem/fem/stepping.h"
 #include "fem/contact_scene.h"
@@ -86,6 +87,39 @@ TEST(Contact, OnAFaceStopsThePointInIt)
     scene.solve();
     EXPECT_GT(scene.m_contacts[0].m_impulse.z, 0);
     EXPECT_NEAR(scene.relativeVelocity(scene.m_contacts[0]).z, 0, kSolved);
+}
+
+// Anywhere in the body, if the cache serves the nodes: with the point's own compliance, and no moment about it.
+TEST(Contact, OnAPointOfThreeElementsActsThere)
+{
+    ContactScene scene;
+    const Body& body = scene.m_body;
+    std::vector<int> all(body.m_model->nodeCount());
+    std::iota(all.begin(), all.end(), 0);
+    scene.m_cache = makeComplianceCache(body.m_model, all);
+    scene.setVelocity({0.5, 0, -2});
+    ContactPoint contact;
+    contact.m_obstacle = 0;
+    contact.m_soft.m_body = 0;
+    contact.m_soft.m_count = SurfacePoint::kMostNodes;
+    for (int a = 0; a < SurfacePoint::kMostNodes; ++a)
+    {
+        contact.m_soft.m_nodes[a] = 2 * a;  // 13, the middle of the cube, is not among them, but 12 and 14 are
+        contact.m_soft.m_weights[a] = (a + 1) / 78.0;
+    }
+    contact.m_point = contact.m_soft.of(body.m_state.m_x);
+    contact.m_normal = {0, 0, 1};
+    contact.m_friction = 0.3;
+    scene.m_contacts = {contact};
+    const Vec3 linear = linearMomentum(body.m_state), angular = angularMomentum(body.m_state);
+    scene.solve();
+    const Vec3 impulse = scene.m_contacts[0].m_impulse;
+    EXPECT_GT(impulse.z, 0);
+    EXPECT_LT(impulse.x, 0);
+    EXPECT_NEAR(scene.m_contacts[0].m_soft.of(velocity(body)).z, 0, kSolved);
+    finishStep(scene.m_body, scene.m_settings.m_step);
+    EXPECT_LT(norm(linearMomentum(body.m_state) - linear - impulse), 1e-8 * norm(impulse));
+    EXPECT_LT(norm(angularMomentum(body.m_state) - angular - cross(contact.m_point, impulse)), 1e-8 * norm(impulse));
 }
 
 TEST(Contact, NeverPulls)

@@ -7,6 +7,7 @@
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/link_world.h"
 #include "plugin/scene_measures.h"
+#include "plugin/skin_bodies.h"
 #include "plugin/soft_boxes.h"
 #include "support/allocation_counter.h"
 
@@ -118,6 +119,24 @@ TEST(Allocations, NoneForABodyThatASpringDragsOverTheFloor)
     fem.addSpring(&cube, spring);
     EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 90), 40);
     EXPECT_GT(cube.m_rcontacts.size(), 0);
+}
+
+// Their contacts are thinned: what is found may grow although what is kept does not, so the bodies move first as they
+// do then.
+TEST(Allocations, NoneForBodiesWhoseDrawnSurfaceCollides)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& box = addSkinBody(world, fem, skinBox({0.8, 0.8, 0.2}, {0, 0, 0.101}));
+    btSoftBody& ball = addSkinBody(world, fem, skinBall({0, 0, 0.72}));
+    box.m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
+    world.step(60);
+    ball.setVelocity(btVector3(0, 0, btScalar(0.3)));
+    world.step(60);
+    ball.setVelocity(btVector3(0, 0, btScalar(0.2)));
+    EXPECT_GT(expectNoAllocations(fem, world, {&box, &ball}, 30), 10);
+    EXPECT_GT(fem.contacts(&ball).size(), 0);
 }
 
 // Interest that goes up and down takes it through all levels; a stale factor is kept account of.

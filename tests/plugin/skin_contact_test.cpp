@@ -4,6 +4,7 @@
 // Bodies whose drawn surface collides: where they rest, and what they feel.
 #include <gtest/gtest.h>
 
+#include "bridge/concave_test_shapes.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/fem/generators.h"
@@ -60,6 +61,26 @@ TEST_P(SkinGround, ABallRestsOnABox)
     m_world.step(240);
     EXPECT_NEAR(lowestVertex(ball), 0, kSlop);
     expectToCarry(ball, floor);
+}
+
+TEST_P(SkinGround, ABallRestsOnATriangleMeshAndIsNotShotThroughIt)
+{
+    static btTriangleMesh mesh;  // outlives the world
+    if (mesh.getNumTriangles() == 0) addGrid(mesh, {});
+    btBvhTriangleMeshShape* shape = new btBvhTriangleMeshShape(&mesh, true);
+    shape->setMargin(btScalar(0.01));
+    const btRigidBody& sheet = m_world.addRigid(shape);
+    btSoftBody& ball = add(skinBall({0, 0, 0.6}));
+    m_world.step(240);
+    EXPECT_NEAR(lowestVertex(ball), 0.01, kSlop);
+    expectToCarry(ball, sheet);
+    ball.translate(btVector3(0, 0, 1));
+    ball.setVelocity(btVector3(1, 0, -60));
+    for (int k = 0; k < 20; ++k)
+    {
+        m_world.step();
+        ASSERT_GT(centerOf(ball).z, 0) << "step " << k;
+    }
 }
 
 TEST_P(SkinGround, ItsCageStandsHigher)

@@ -293,6 +293,7 @@ TEST_F(SkinSurface, OfABakedBodyCollidesToTheSameBits)
         btSoftBody* soft =
             fromFile ? btFemHelpers::createFromBaked(world.info(), baked) : makeSkinBody(world, fem, body);
         if (fromFile) fem.useBaked(soft, baked);
+        soft->m_cfg.kDF = btScalar(0.4);
         world.addSoft(soft);
         world.step(120);
         EXPECT_NEAR(lowestVertex(*soft), 0, kSlop);
