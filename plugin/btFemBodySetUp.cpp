@@ -190,7 +190,12 @@ void btFemBodyRegistry::chooseSurface(btFemEntry& entry)
     entry.m_setUpFlags &= ~BT_FEM_BAD_SURFACE;
     const std::shared_ptr<const BodyModel> model = fem.m_body.m_model;
     const auto take = [&](const std::shared_ptr<const CollisionSkin>& skin)
-    { fem.setSkin(skin, m_library.compliance(model, skin.get())); };
+    {
+        fem.setSkin(skin, m_library.compliance(model, skin.get()));
+        readyForSelfContact(entry);
+        entry.m_formerModel.reset();  // its compliance is for other nodes
+        entry.m_formerCompliance.reset();
+    };
     try
     {
         if (wanted || fem.m_skin) take(wanted ? skinOf(*fem.m_softBody, model->mesh()) : nullptr);
@@ -201,8 +206,6 @@ void btFemBodyRegistry::chooseSurface(btFemEntry& entry)
         take(nullptr);
         throw;
     }
-    entry.m_formerModel.reset();  // its compliance is for other nodes
-    entry.m_formerCompliance.reset();
 }
 
 void btFemBodyRegistry::tryChooseSurface(btFemEntry& entry)
