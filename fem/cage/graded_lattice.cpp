@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double kTouching = 1e-9;    // of a cell, as in the lattice without grading
-constexpr double kSplitPerKept = 20;  // bounds memory: inner generations and what is dropped
+constexpr double kSplitPerKept = 12;  // bounds memory: inner generations and what is dropped
 
 double least(const std::array<double, 4>& weights)
 {
@@ -33,8 +33,9 @@ GradedLattice::GradedLattice(const GradingInput& input, double mostTets)
 {
     addCubes();
     const std::size_t most = m_tets.tets().size() + static_cast<std::size_t>(kSplitPerKept * mostTets);
-    const std::vector<WantedCell> wanted = wantedCells(input.m_lattice, input.m_surface.parts(), input.m_grading);
-    m_tooLarge = !grade(wanted, most, m_tets);
+    WantedCells wanted{most, {}};
+    m_tooLarge = !findWantedCells(input.m_lattice, input.m_surface.parts(), input.m_grading, wanted) ||
+                 !grade(wanted.m_cells, most, m_tets);
     for (int tet = 0; tet < m_tets.rootCount() && !m_tooLarge; ++tet) findLeaves(tet);
     m_kept.assign(m_tets.tets().size(), 0);
 }

@@ -14,10 +14,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTouching = 1e-9;  // of a cell
-constexpr double kWithin = 1e-6;    // of a wanted cell: tets that come less deep do not count
-constexpr double kEdge = 2;         // longest edge of a part, in cells that it wants
-constexpr int kMostCopies = 64;     // of a part on its way across; more are never needed for 8 cells
+constexpr double kTouching = 1e-9;         // of a cell
+constexpr double kWithin = 1e-6;           // of a wanted cell: tets that come less deep do not count
+constexpr double kEdge = 2;                // longest edge of a part, in cells that it wants
+constexpr std::size_t kRepeated = 100000;  // cells that are not yet looked through
+constexpr int kMostCopies = 64;            // of a part on its way across; more are never needed for 8 cells
 
 std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
 {
@@ -68,17 +69,19 @@ public:
         }
     }
 
-    std::vector<WantedCell> run()
+    /// Puts the cells in order, each place once a level.
+    std::vector<WantedCell>& cells()
     {
         const auto key = [](const WantedCell& c) { return std::tuple(c.m_level, c.m_place, -c.m_generation); };
+        const auto same = [](const WantedCell& a, const WantedCell& b)
+        { return a.m_level == b.m_level && a.m_place == b.m_place; };
         std::sort(m_cells.begin(), m_cells.end(),
                   [&](const WantedCell& a, const WantedCell& b) { return key(a) < key(b); });
-        m_cells.erase(std::unique(m_cells.begin(), m_cells.end(),
-                                  [](const WantedCell& a, const WantedCell& b)
-                                  { return a.m_level == b.m_level && a.m_place == b.m_place; }),
-                      m_cells.end());
-        return std::move(m_cells);
+        m_cells.erase(std::unique(m_cells.begin(), m_cells.end(), same), m_cells.end());
+        return m_cells;
     }
+
+    std::size_t size() const { return m_cells.size(); }  ///< some may be there more than once
 
 private:
     /// The cells of that level that a triangle touches.
@@ -147,16 +150,23 @@ GradedSurface::GradedSurface(const SurfaceInspection& surface, const WindingNumb
     search.m_reach = settings.m_cellsAcross * cellSize;
     search.m_coarsest = cellSize / 2;
     search.m_edgePerWidth = kEdge / settings.m_cellsAcross;
-    search.m_finest = kEdge * std::ldexp(cellSize, -settings.m_mostLevels);
+    // Parts of that area take more than m_maxTets if cells are any shorter.
+    search.m_finest =
+        std::max(kEdge * std::ldexp(cellSize, -settings.m_mostLevels), std::sqrt(surface.m_area / settings.m_maxTets));
     m_parts = findThinParts(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles, search);
 }
 
-std::vector<WantedCell> wantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts,
-                                    const Grading& grading)
+bool findWantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts, const Grading& grading,
+                     WantedCells& wanted)
 {
     Wanting wanting(lattice, grading);
-    for (const ThinPart& part : parts) wanting.add(part);
-    return wanting.run();
+    for (const ThinPart& part : parts)
+    {
+        wanting.add(part);
+        if (wanting.size() > 2 * wanted.m_most + kRepeated && wanting.cells().size() > wanted.m_most) return false;
+    }
+    wanted.m_cells = std::move(wanting.cells());
+    return true;
 }
 
 bool grade(const std::vector<WantedCell>& wanted, std::size_t most, BisectedTets& tets)

@@ -41,10 +41,16 @@ struct WantedCell
     int m_level = 0, m_generation = 0;
 };
 
-/// What the parts want, each place once a level, in ascending order: m_cellsAcross cells across solid parts, or as many
-/// as m_mostGenerations allow; as many across gaps, and in whole levels, but nothing where that is not allowed.
-std::vector<WantedCell> wantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts,
-                                    const Grading& grading);
+struct WantedCells
+{
+    std::size_t m_most = 0;           ///< cells after which counting ends
+    std::vector<WantedCell> m_cells;  ///< each place once a level, in ascending order
+};
+
+/// What the parts want: m_cellsAcross cells across solid parts, or as many as m_mostGenerations allow; as many across
+/// gaps, and in whole levels, but nothing where that is not allowed. Returns false if that is far more than m_most.
+bool findWantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts, const Grading& grading,
+                     WantedCells& wanted);
 
 /// Halves until no tet that meets a wanted cell is of a lower generation. Returns false, in the midst, if there are
 /// more than `most` tets.

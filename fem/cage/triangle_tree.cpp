@@ -51,7 +51,7 @@ double squaredDistance(const Vec3& low, const Vec3& high, const Vec3& p)
 }
 
 /// How far along the ray from `from` the triangle is met [in lengths of `way`], negative if it is not
-/// [Moeller and Trumbore 1997]; rays through an edge meet both of its triangles.
+/// [Moeller & Trumbore 1997]; rays through an edge meet both of its triangles.
 double alongRay(const TriangleCorners& t, const Vec3& from, const Vec3& way)
 {
     constexpr double kOnEdge = -1e-9;
