@@ -33,7 +33,7 @@ GradedLattice::GradedLattice(const GradingInput& input, double mostTets)
 {
     addCubes();
     const std::size_t most = m_tets.tets().size() + static_cast<std::size_t>(kSplitPerKept * mostTets);
-    WantedCells wanted{most, {}};
+    WantedCells wanted{static_cast<std::size_t>(mostTets), {}};  // each takes more than one
     m_tooLarge = !findWantedCells(input.m_lattice, input.m_surface.parts(), input.m_grading, wanted) ||
                  !grade(wanted.m_cells, most, m_tets);
     for (int tet = 0; tet < m_tets.rootCount() && !m_tooLarge; ++tet) findLeaves(tet);

@@ -150,9 +150,9 @@ GradedSurface::GradedSurface(const SurfaceInspection& surface, const WindingNumb
     search.m_reach = settings.m_cellsAcross * cellSize;
     search.m_coarsest = cellSize / 2;
     search.m_edgePerWidth = kEdge / settings.m_cellsAcross;
-    // Parts of that area take more than m_maxTets if cells are any shorter.
-    search.m_finest =
-        std::max(kEdge * std::ldexp(cellSize, -settings.m_mostLevels), std::sqrt(surface.m_area / settings.m_maxTets));
+    // Cells much shorter than that make more than m_maxTets of such an area.
+    search.m_finest = std::max(kEdge * std::ldexp(cellSize, -settings.m_mostLevels),
+                               3 * std::sqrt(surface.m_area / settings.m_maxTets));
     m_parts = findThinParts(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles, search);
 }
 
