@@ -18,10 +18,10 @@ SkinBody skinBall(const Vec3& centre)
     return body;
 }
 
-SkinBody skinBox(const Vec3& size, const Vec3& centre)
+SkinBody skinBox(const Vec3& size, const Vec3& centre, double square)
 {
     std::array<int, 3> cells;
-    for (int c = 0; c < 3; ++c) cells[c] = static_cast<int>(std::round(10 * size[c]));
+    for (int c = 0; c < 3; ++c) cells[c] = static_cast<int>(std::round(size[c] / square));
     const TetMesh mesh = makeBox(size, cells, centre - 0.5 * size);
     SkinBody body;
     body.m_surface = {mesh.restPositions(), mesh.surface()};

@@ -21,8 +21,9 @@ struct SkinBody
 /// A ball of radius 0.5 m around a point, of 1,280 triangles, in a cage of eight cells across.
 SkinBody skinBall(const Vec3& centre);
 
-/// A box with these edges [m] around a point, of squares of some 0.1 m, in a cage that stands out on all sides.
-SkinBody skinBox(const Vec3& size, const Vec3& centre);
+/// A box with these edges [m] around a point, of squares of some 0.1 m unless told otherwise, in a cage that stands out
+/// on all sides.
+SkinBody skinBox(const Vec3& size, const Vec3& centre, double square = 0.1);
 
 /// Makes one, of 1000 kg/m3; the caller owns it.
 btSoftBody* makeSkinBody(SoftWorld& world, btFemSoftBodySolver& fem, const SkinBody& body);

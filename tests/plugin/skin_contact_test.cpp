@@ -70,16 +70,19 @@ TEST_P(SkinGround, ABallRestsOnATriangleMeshAndIsNotShotThroughIt)
     btBvhTriangleMeshShape* shape = new btBvhTriangleMeshShape(&mesh, true);
     shape->setMargin(btScalar(0.01));
     const btRigidBody& sheet = m_world.addRigid(shape);
-    btSoftBody& ball = add(skinBall({0, 0, 0.6}));
-    m_world.step(240);
+    SkinBody settings = skinBall({0, 0, 0.6});
+    settings.m_youngModulus = btScalar(5e6);
+    btSoftBody& ball = add(settings);
+    m_world.step(360);
     EXPECT_NEAR(lowestVertex(ball), 0.01, kSlop);
     expectToCarry(ball, sheet);
     ball.translate(btVector3(0, 0, 1));
-    ball.setVelocity(btVector3(1, 0, -60));
+    ball.setVelocity(btVector3(1, 0, -20));
     for (int k = 0; k < 20; ++k)
     {
         m_world.step();
-        ASSERT_GT(centerOf(ball).z, 0) << "step " << k;
+        ASSERT_GT(lowestVertex(ball), -0.01) << "step " << k;
+        ASSERT_GT(centerOf(ball).z, 0.2) << "step " << k;
     }
 }
 
@@ -165,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Couplings, SkinGround, testing::Values(Coupling::swap, 
 class SkinIncline
 {
 public:
-    explicit SkinIncline(double steepness) : m_slope(std::atan(steepness * kFriction)), m_world(m_fem)
+    SkinIncline(double steepness, double square) : m_slope(std::atan(steepness * kFriction)), m_world(m_fem)
     {
         const btQuaternion tilt(btVector3(0, 1, 0), btScalar(m_slope));
         m_normal = vec3(quatRotate(tilt, btVector3(0, 0, 1)));
@@ -173,7 +176,7 @@ public:
         RigidSettings settings;
         settings.m_friction = btScalar(kRigidFriction);
         m_world.addRigid(new btStaticPlaneShape(quatRotate(tilt, btVector3(0, 0, 1)), 0), settings);
-        m_box = makeSkinBody(m_world, m_fem, skinBox({0.8, 0.8, 0.4}, {0, 0, 0.201}));
+        m_box = makeSkinBody(m_world, m_fem, skinBox({0.8, 0.8, 0.4}, {0, 0, 0.201}, square));
         m_box->rotate(tilt);
         m_world.addSoft(m_box);
     }
@@ -196,9 +199,14 @@ private:
     btSoftBody* m_box;
 };
 
-TEST(SkinFriction, SticksJustBelowTheFrictionAngle)
+/// By the squares of the surface [m]: as coarse as the cage, and so fine that contacts are thinned.
+class SkinFriction : public testing::TestWithParam<double>
 {
-    SkinIncline incline(0.95);
+};
+
+TEST_P(SkinFriction, SticksJustBelowTheFrictionAngle)
+{
+    SkinIncline incline(0.95, GetParam());
     incline.step(240);
     for (int frame = 0; frame < 30; ++frame)
     {
@@ -209,9 +217,9 @@ TEST(SkinFriction, SticksJustBelowTheFrictionAngle)
     }
 }
 
-TEST(SkinFriction, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves)
+TEST_P(SkinFriction, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves)
 {
-    SkinIncline incline(1.2);
+    SkinIncline incline(1.2, GetParam());
     incline.step(120);
     const double before = incline.downhillSpeed();
     for (int frame = 0; frame < 60; ++frame)
@@ -224,6 +232,9 @@ TEST(SkinFriction, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves)
     EXPECT_NEAR((incline.downhillSpeed() - before) / (60 * kStep),
                 kGravity * (std::sin(slope) - kFriction * std::cos(slope)), 0.01 * kGravity * std::sin(slope));
 }
+
+INSTANTIATE_TEST_SUITE_P(Squares, SkinFriction, testing::Values(0.1, 0.04),
+                         [](const auto& scene) { return scene.param > 0.05 ? "coarse" : "fine"; });
 
 // Speed of a ball that has rolled at 1 m/s for a second [m/s]. Contact acts where the surface will be as the step ends,
 // v h ahead, which alone takes 5/7 g v h / R = 0.06 m/s.
@@ -249,7 +260,7 @@ double speedOfARollingBall(bool surfaceCollides)
     return velocityOf(*ball).x;
 }
 
-TEST(SkinFriction, ABallRollsOnItsSurfaceAndHardlyOnItsCage)
+TEST(SkinRolling, ABallRollsOnItsSurfaceAndHardlyOnItsCage)
 {
     EXPECT_GT(speedOfARollingBall(true), 0.88);
     EXPECT_LT(speedOfARollingBall(false), 0.6);
