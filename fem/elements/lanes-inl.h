@@ -121,8 +121,9 @@ struct StagedEdges
 
     HWY_INLINE void stageLane(int lane, const std::int32_t (&node)[4], const PaddedVec3* u)
     {
+        const PaddedVec3& u0 = u[node[0]];
         HWY_UNROLL(3)
-        for (int a = 0; a < 3; ++a) storeDifference(u[node[a + 1]], u[node[0]], a, lane);
+        for (int a = 0; a < 3; ++a) storeDifference(u[node[a + 1]], u0, a, lane);
     }
 
     /// Those of the elements from `lane` on.
