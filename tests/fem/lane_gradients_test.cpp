@@ -12,6 +12,7 @@
 
 #include "fem/dense_system.h"
 #include "fem/elasticity_scenes.h"
+#include "fem/element_case.h"
 
 namespace bullet_fem
 {
@@ -30,7 +31,7 @@ std::shared_ptr<const BodyModel> makeModel(double young = 1e6, double poisson = 
     return BodyModel::create(body.m_model->sharedShape(), input);
 }
 
-class LaneGradientsTest : public testing::Test
+class LaneGradientsTest : public OnTarget
 {
 protected:
     using Lanes = Eigen::Matrix<float, Eigen::Dynamic, kPanelLanes, Eigen::RowMajor>;  // as they lie in memory
@@ -79,7 +80,7 @@ protected:
     const int m_size = m_model->factor().lower().size();
 };
 
-TEST_F(LaneGradientsTest, MultiplyByA0)
+TEST_P(LaneGradientsTest, MultiplyByA0)
 {
     const Lanes p = randomLanes(1), before = randomLanes(2);
     const AlignedFloats pFloats = aligned(p), q = aligned(before);
@@ -92,7 +93,7 @@ TEST_F(LaneGradientsTest, MultiplyByA0)
         EXPECT_NEAR(pq.m[k], expected.col(k).dot(p.col(k).cast<double>()), kSingle * expected.norm() * p.norm()) << k;
 }
 
-TEST_F(LaneGradientsTest, MoveEveryLaneByItsOwnStep)
+TEST_P(LaneGradientsTest, MoveEveryLaneByItsOwnStep)
 {
     const Lanes x = randomLanes(1), r = randomLanes(2), p = randomLanes(3), q = randomLanes(4);
     const AlignedFloats xf = aligned(x), rf = aligned(r), pf = aligned(p), qf = aligned(q);
@@ -122,7 +123,7 @@ TEST_F(LaneGradientsTest, MoveEveryLaneByItsOwnStep)
 
 // In the energy norm, and up to twice the tolerance where convergence is slow; the scalar factor alone is 40 to 90 %
 // off.
-TEST_F(LaneGradientsTest, SolveToTheTolerance)
+TEST_P(LaneGradientsTest, SolveToTheTolerance)
 {
     for (const double young : {1e4, 1e6, 1e8})
         for (const double poisson : {0.3, 0.45})
@@ -141,7 +142,7 @@ TEST_F(LaneGradientsTest, SolveToTheTolerance)
             }
 }
 
-TEST_F(LaneGradientsTest, DoNotLetLanesActOnEachOther)
+TEST_P(LaneGradientsTest, DoNotLetLanesActOnEachOther)
 {
     const Lanes all = randomLanes(5);
     Lanes some = Lanes::Zero(m_size, int(kPanelLanes));
@@ -154,13 +155,15 @@ TEST_F(LaneGradientsTest, DoNotLetLanesActOnEachOther)
 }
 
 // Numbers that no step length can be made of leave what there is, and no NaN.
-TEST_F(LaneGradientsTest, EndWhereTheyBreakDown)
+TEST_P(LaneGradientsTest, EndWhereTheyBreakDown)
 {
     Lanes extreme = randomLanes(6);
     extreme.col(0) *= 1e30f;
     extreme.col(1) *= 1e-30f;
     EXPECT_TRUE(solved(*m_model, extreme, 1e-3).allFinite());
 }
+
+INSTANTIATE_TEST_SUITE_P(Targets, LaneGradientsTest, testing::ValuesIn(availableTargets()), targetName);
 
 }  // namespace
 }  // namespace bullet_fem
