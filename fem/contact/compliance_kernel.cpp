@@ -4,9 +4,10 @@
 // Compiled once for every instruction set; the processor chooses when the program runs.
 #include "fem/contact/compliance_kernel.h"
 
+#include "fem/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/contact/compliance_kernel.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 // after foreach_target.h
 #include <hwy/highway.h>
@@ -21,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, kNodePadding>;
 using Vector = hn::Vec<Lanes>;
 
-// Row k of A B for a row of A and B^T, or of A B^T for B.
+// Of rows of three.
 HWY_INLINE Vector dot3(const Vector* a, const Vector* b)
 {
     return hn::MulAdd(a[2], b[2], hn::MulAdd(a[1], b[1], hn::Mul(a[0], b[0])));
