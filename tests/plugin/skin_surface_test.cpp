@@ -300,6 +300,7 @@ TEST_F(SkinSurface, OfABakedBodyCollidesToTheSameBits)
             fromFile ? btFemHelpers::createFromBaked(world.info(), baked) : makeSkinBody(world, fem, body);
         if (fromFile) fem.useBaked(soft, baked);
         soft->m_cfg.kDF = btScalar(0.4);
+        fem.prepare(soft, kStep);
         world.addSoft(soft);
         world.step(120);
         EXPECT_NEAR(lowestVertex(*soft), 0, kSlop);

@@ -69,7 +69,7 @@ const BadValue kUnknown[] = {
      "material, friction, selfContact, colour, pins"},
     {"InAMesh", true, "/softBodies/0/mesh/boxes", "1",
      "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, surface, tetrahedra, baked, "
-     "cell, tets, grade, levels, scale"},
+     "cell, tets, grade, levels, scale, surfaceCollides"},
     {"InARotation", true, "/softBodies/0/rotation/angle", "1",
      "softBodies[0].rotation has a member 'angle', which is not known; those that are: axis, degrees"},
     {"InAPin", true, "/softBodies/0/pins/1/middle", "1",

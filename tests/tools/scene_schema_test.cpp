@@ -277,7 +277,8 @@ std::string written(const SceneDescription& scene)
         const Material& m = body.m_material;
         all.insert(all.end(), {m.m_youngModulus, m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping,
                                body.m_mesh.m_cellSize, double(body.m_mesh.m_tets), double(body.m_mesh.m_mostLevels),
-                               body.m_mesh.m_scale, body.m_friction, double(body.m_selfContact)});
+                               body.m_mesh.m_scale, body.m_friction, double(body.m_selfContact),
+                               double(body.m_mesh.m_surfaceCollides)});
         for (const Vec3& x : {body.m_pose.m_position, body.m_velocity, body.m_colour}) add(x);
     }
     for (const SceneRigidBody& body : scene.m_rigidBodies)
