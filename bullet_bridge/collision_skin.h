@@ -70,9 +70,6 @@ private:
     Mended m_mended;
 };
 
-/// True if the user asks that what follows a body collides: see BT_FEM_RENDER_SURFACE.
-bool wantsSkin(const btSoftBody& body);
-
 /// The skin of m_renderNodes and m_renderFaces. Throws std::invalid_argument naming the vertex or face, the value and
 /// the remedy: there are none; a vertex that does not follow four nodes of the body, or lies beyond its tetrahedron by
 /// more than 1 %; a face whose corner is none of m_renderNodes; no face has an area.

@@ -6,7 +6,6 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/collision_skin.h"
-#include "bullet_fem/btFemCollision.h"
 #include "fem/message.h"
 
 namespace bullet_fem
@@ -60,11 +59,6 @@ Triangle triangleOf(const btSoftBody& body, int f)
 }
 
 }  // namespace
-
-bool wantsSkin(const btSoftBody& body)
-{
-    return (body.m_cfg.collisions & BT_FEM_RENDER_SURFACE) != 0;
-}
 
 std::shared_ptr<const CollisionSkin> skinOf(const btSoftBody& body, const TetMesh& mesh)
 {

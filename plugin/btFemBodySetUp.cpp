@@ -9,10 +9,12 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/collision_skin.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_fem/btFemCollision.h"
 #include "plugin/btFemBaked.h"
 #include "plugin/btFemBodyRegistry.h"
 #include "plugin/btFemContactTest.h"
@@ -183,7 +185,7 @@ bool btFemBodyRegistry::readyForSelfContact(btFemEntry& entry)
 void btFemBodyRegistry::chooseSurface(btFemEntry& entry)
 {
     FemSoftBody& fem = *entry.m_fem;
-    const bool wanted = wantsSkin(*fem.m_softBody);
+    const bool wanted = (fem.m_softBody->m_cfg.collisions & BT_FEM_RENDER_SURFACE) != 0;
     if (entry.m_hasAskedSurface && wanted == entry.m_asksSkin) return;
     entry.m_asksSkin = wanted;
     entry.m_hasAskedSurface = true;
