@@ -75,6 +75,7 @@ public:
         for (int k = 0; k < m_subSteps; ++k) m_deformable.step(m_step);
         ContactStep result;
         result.m_milliseconds = 1e3 * watch.seconds();
+        result.m_cpuMilliseconds = 1e3 * watch.cpuSeconds();
         result.m_freeMilliseconds = 1e3 * m_solver.m_seconds;
         result.m_contactMilliseconds = result.m_milliseconds - result.m_freeMilliseconds;
         for (const auto& body : m_soft) addContacts(*body, result);

@@ -19,6 +19,7 @@ using namespace bullet_fem;
 
 const char* const g_legend = R"(
 Times are of steps in contact, on one thread; all bodies factored before the first.
+CPU ms    median of a step's processor time, which other programs add little to
 points    most of a step; Bullet counts two soft bodies' nodes once for every face that they are near
 free      the elastic solve without contact; Bullet's: its only one, after contact
 contact   ours: search, sweeps, corrective solves; Bullet's: all else of the step
@@ -72,12 +73,22 @@ void addBlocks(const Options& options, std::vector<Job>& jobs)
             if (hasBlock(contacts, tets)) jobs.push_back({text("~%.0f", contacts), blockOnBox(contacts, tets)});
 }
 
+void addColumns(const Options& options, std::vector<Job>& jobs)
+{
+    for (int tets : options.m_tets)
+        for (int contacts : options.m_contacts)
+            for (bool pinned : {false, true})
+                jobs.push_back(
+                    {text(pinned ? "~%.0f pinned" : "~%.0f", contacts), columnOnBox(contacts, tets, pinned)});
+}
+
 std::vector<Job> makeJobs(const Options& options)
 {
     std::vector<Job> jobs;
     for (const std::string& scene : options.m_scenes)
     {
         if (scene == "block") addBlocks(options, jobs);
+        if (scene == "column") addColumns(options, jobs);
         if (scene == "ball")
             for (double ratio : options.m_massRatios)
                 jobs.push_back({text("ratio %g", ratio), ballAndCube(ratio, options.m_quick ? 4 : 8)});
@@ -118,11 +129,11 @@ void run(const Job& job, const Options& options, std::vector<ContactFigures>& ro
 void addOptions(CLI::App& app, Options& options)
 {
     app.add_option("--contacts", options.m_contacts,
-                   "touching nodes of the blocks, about; what no block has is left out")
+                   "touching nodes of blocks and columns, about; what no block has is left out")
         ->delimiter(',')
         ->check(CLI::Range(4, 2000))
         ->capture_default_str();
-    app.add_option("--tets", options.m_tets, "elements of the blocks, about")
+    app.add_option("--tets", options.m_tets, "elements of blocks and columns, about")
         ->delimiter(',')
         ->check(CLI::Range(5, 200000))
         ->capture_default_str();
@@ -130,9 +141,9 @@ void addOptions(CLI::App& app, Options& options)
         ->delimiter(',')
         ->check(CLI::Range(1e-4, 1e4))
         ->capture_default_str();
-    app.add_option("--scenes", options.m_scenes, "which of block, ball, slabs, stack")
+    app.add_option("--scenes", options.m_scenes, "which of block, column, ball, slabs, stack")
         ->delimiter(',')
-        ->check(CLI::IsMember({"block", "ball", "slabs", "stack"}))
+        ->check(CLI::IsMember({"block", "column", "ball", "slabs", "stack"}))
         ->capture_default_str();
     app.add_flag("--quick", options.m_quick, "small scenes: seconds instead of minutes");
     app.add_flag("--coupled", options.m_coupled, "btFemConstraintSolver in place of Bullet's rigid solver");

@@ -75,6 +75,7 @@ public:
         m_world.stepSimulation(m_step, 0);
         ContactStep result;
         result.m_milliseconds = 1e3 * watch.seconds();
+        result.m_cpuMilliseconds = 1e3 * watch.cpuSeconds();
         for (const auto& body : m_soft) add(m_fem.stepReport(body.get()), result);
         return result;
     }

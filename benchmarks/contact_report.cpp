@@ -16,11 +16,12 @@ namespace
 void printHeader(std::ostream& out, const ContactFigures& first)
 {
     out << '\n' << first.m_scene << ", " << first.m_steps << " steps\n";
-    print(out, "%-10s %6s  %-7s %6s  %9s %9s %9s %9s  %6s %6s  %8s %9s %7s %8s", "", "tets", "method", "points",
-          "median ms", "worst ms", "free ms", "contact", "sweeps", "corr.", "closing", "deepest", "of", "at end");
+    print(out, "%-10s %6s  %-7s %6s  %9s %9s %9s %9s %9s  %6s %6s  %8s %9s %7s %8s", "", "tets", "method", "points",
+          "median ms", "worst ms", "CPU ms", "free ms", "contact", "sweeps", "corr.", "closing", "deepest", "of",
+          "at end");
     out << (first.m_free ? "   linear  angular" : "    creep") << "  x Bullet\n";
-    print(out, "%-10s %6s  %-7s %6s  %9s %9s %9s %9s  %6s %6s  %8s %9s %7s %8s", "", "", "", "", "", "", "", "ms", "",
-          "it.", "m/s", "mm", "size", "mm");
+    print(out, "%-10s %6s  %-7s %6s  %9s %9s %9s %9s %9s  %6s %6s  %8s %9s %7s %8s", "", "", "", "", "", "", "", "",
+          "ms", "", "it.", "m/s", "mm", "size", "mm");
     out << (first.m_free ? "    error    error" : "     mm/s") << '\n';
 }
 
@@ -34,11 +35,11 @@ std::string countText(double mean)
 
 void printRow(std::ostream& out, const ContactFigures& row)
 {
-    print(out, "%-10s %6d  %-7s %6d  %9.3f %9.3f %9.3f %9.3f  %6s %6s  %8.1e %9.4f %7.0e %8.4f", row.m_variant.c_str(),
-          row.m_tets, row.m_method.c_str(), row.m_contacts, row.m_medianMilliseconds, row.m_worstMilliseconds,
-          row.m_freeMilliseconds, row.m_contactMilliseconds, countText(row.m_sweeps).c_str(),
-          countText(row.m_correctiveIterations).c_str(), row.m_closingSpeed, 1e3 * row.m_deepest,
-          row.m_deepest / row.m_size, 1e3 * row.m_deepestAtEnd);
+    print(out, "%-10s %6d  %-7s %6d  %9.3f %9.3f %9.3f %9.3f %9.3f  %6s %6s  %8.1e %9.4f %7.0e %8.4f",
+          row.m_variant.c_str(), row.m_tets, row.m_method.c_str(), row.m_contacts, row.m_medianMilliseconds,
+          row.m_worstMilliseconds, row.m_cpuMilliseconds, row.m_freeMilliseconds, row.m_contactMilliseconds,
+          countText(row.m_sweeps).c_str(), countText(row.m_correctiveIterations).c_str(), row.m_closingSpeed,
+          1e3 * row.m_deepest, row.m_deepest / row.m_size, 1e3 * row.m_deepestAtEnd);
     if (row.m_free)
         print(out, "  %7.0e  %7.0e", row.m_linearError, row.m_angularError);
     else
@@ -100,6 +101,7 @@ nlohmann::json toJson(const std::vector<ContactFigures>& rows)
                                 {"contacts", row.m_contacts},
                                 {"ms_median", row.m_medianMilliseconds},
                                 {"ms_worst", row.m_worstMilliseconds},
+                                {"ms_cpu_median", row.m_cpuMilliseconds},
                                 {"ms_free_median", row.m_freeMilliseconds},
                                 {"ms_contact_median", row.m_contactMilliseconds},
                                 {"sweeps_mean", row.m_sweeps},

@@ -19,11 +19,12 @@ constexpr double kFailure = 0.5;  // overlap over the cell size from which on a 
 /// One entry a step in contact; if there is none, of every step.
 struct Series
 {
-    std::vector<double> m_total, m_free, m_contact, m_sweeps, m_iterations, m_closing;
+    std::vector<double> m_total, m_cpu, m_free, m_contact, m_sweeps, m_iterations, m_closing;
 
     void add(const ContactStep& step)
     {
         m_total.push_back(step.m_milliseconds);
+        m_cpu.push_back(step.m_cpuMilliseconds);
         m_free.push_back(step.m_freeMilliseconds);
         m_contact.push_back(step.m_contactMilliseconds);
         m_sweeps.push_back(step.m_sweeps);
@@ -41,6 +42,7 @@ void summarise(const Series& series, ContactFigures& row)
 {
     row.m_medianMilliseconds = median(series.m_total);
     row.m_worstMilliseconds = largest(series.m_total);
+    row.m_cpuMilliseconds = median(series.m_cpu);
     row.m_freeMilliseconds = median(series.m_free);
     row.m_contactMilliseconds = median(series.m_contact);
     row.m_sweeps = mean(series.m_sweeps);

@@ -17,6 +17,7 @@ struct ContactFigures
     int m_touchingSteps = 0;                                   ///< steps with contact
     int m_steps = 0;                                           ///< of the run
     double m_medianMilliseconds = 0, m_worstMilliseconds = 0;  ///< a step [ms]
+    double m_cpuMilliseconds = 0;                              ///< median of its processor time [ms]
     double m_freeMilliseconds = 0;                             ///< median of the elastic solve [ms]
     double m_contactMilliseconds = 0;                          ///< median of contact [ms]
     double m_sweeps = 0;                                       ///< mean a step

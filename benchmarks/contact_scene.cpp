@@ -16,7 +16,8 @@ namespace
 constexpr double kCell = 0.05;   // side of the cells of blocks and slabs [m]
 constexpr double kDrop = 0.005;  // height that they fall through before they touch [m]
 constexpr int kTetsPerCell = 5;
-constexpr int kCrushed = 15;  // lower nodes per touching node from which on a cube would be crushed
+constexpr double kColumnStiffness = 5e5;  // E [Pa]: foam would buckle under its own weight
+constexpr int kCrushed = 15;              // lower nodes per touching node from which on a cube would be crushed
 
 /// Upholstery foam. Bullet's deformable contact does not survive stiffer or heavier matter at these cells and steps:
 /// the effective masses of its contacts grow with the square of the elastic forces.
@@ -121,6 +122,24 @@ ContactScene blockOnBox(int contacts, int tets)
     box.m_center = kCell * (first + 0.5 * span) + Vec3{0, 0, -height / 2};
     box.m_halfExtents = kCell * (0.5 * span + Vec3{0.25, 0.25, 0}) + Vec3{0, 0, height / 2};
     scene.m_boxes.push_back(box);
+    return scene;
+}
+
+ContactScene columnOnBox(int contacts, int tets, bool pinned)
+{
+    const int n = std::max(1, static_cast<int>(std::lround(std::sqrt(double(contacts)))) - 1);
+    const int layers = std::max(1, static_cast<int>(std::lround(double(tets) / (kTetsPerCell * n * n))));
+    const double side = n * kCell, height = layers * kCell;
+    ContactScene scene;
+    scene.m_name = "column on its foot";
+    scene.m_material = sceneMaterial();
+    scene.m_material.m_youngModulus = kColumnStiffness;
+    scene.m_steps = 180;
+    scene.m_cellSize = kCell;
+    scene.m_size = height;
+    const TetMesh mesh = makeBox({side, side, height}, {n, n, layers}, {-side / 2, -side / 2, 0});
+    scene.m_soft.push_back({mesh, pinned ? lowestNodes(mesh) : std::vector<int>(), {}});
+    if (!pinned) scene.m_boxes.push_back({{0, 0, -0.5}, {side, side, 0.5}, 0, {}});
     return scene;
 }
 

@@ -58,6 +58,10 @@ bool hasBlock(int contacts, int tets);
 /// std::invalid_argument unless hasBlock(contacts, tets).
 ContactScene blockOnBox(int contacts, int tets);
 
+/// What steady contact costs: a column of about `tets` elements, 5 cm cells, a square foot of about `contacts` nodes,
+/// at rest on a static box; or its foot `pinned` and no box: the same body and load without contact.
+ContactScene columnOnBox(int contacts, int tets, bool pinned);
+
 /// A soft ball of 1 m and `massRatio` times its mass in a rigid cube meet at 1 m/s in zero gravity, off-centre, with
 /// friction. `cells` along the ball's diameter, even.
 ContactScene ballAndCube(double massRatio, int cells);

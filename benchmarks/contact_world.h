@@ -18,6 +18,7 @@ namespace bullet_fem
 struct ContactStep
 {
     double m_milliseconds = 0;      ///< wall time of the whole step [ms]
+    double m_cpuMilliseconds = 0;   ///< processor time of it [ms]
     double m_freeMilliseconds = 0;  ///< of the elastic solve alone [ms]
     double m_contactMilliseconds =
         0;                           ///< of contact: ours of search, sweeps and corrections; Bullet's of the rest [ms]
