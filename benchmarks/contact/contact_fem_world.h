@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "benchmarks/contact/contact_world.h"
+
+namespace bullet_fem
+{
+
+/// The scene in a btSoftRigidDynamicsWorld with btFemSoftBodySolver; `coupled` puts btFemConstraintSolver in place of
+/// Bullet's rigid solver, `lowMemory` gives the bodies the low-memory factor. Everything is factored before the first
+/// step.
+std::unique_ptr<ContactWorld> makeFemContactWorld(const ContactScene& scene, bool coupled, bool lowMemory);
+
+}  // namespace bullet_fem

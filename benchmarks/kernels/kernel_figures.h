@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmarks/kernels/timed_work.h"
+
+namespace bullet_fem
+{
+
+/// One kernel on one beam: one row of the table.
+struct KernelFigures
+{
+    int m_tets = 0;
+    std::string m_kernel;
+    Timing m_time;
+    double m_bytes = 0;       ///< that it must read and write once [B]; 0 where that says nothing
+    double m_operations = 0;  ///< additions and multiplications [flop]; 0 where they were not counted
+
+    double nanosecondsPerTet() const { return 1e9 * m_time.m_best / m_tets; }
+    double gigabytesPerSecond() const { return 1e-9 * m_bytes / m_time.m_best; }
+    double gigaflops() const { return 1e-9 * m_operations / m_time.m_best; }
+};
+
+/// The triangular solves of one beam against the memory they read.
+struct SolveFigures
+{
+    int m_tets = 0;
+    double m_factorMegabytes = 0;    ///< packed [MB]
+    double m_readGigabytes = 0;      ///< read bandwidth of a buffer of that size, in the same turns [GB/s]
+    double m_solveOverTwoReads = 0;  ///< one solve pair over the time of reading the factor twice [-]
+    double m_lanesOverOne = 0;       ///< 16 right-hand sides over one [-]
+};
+
+/// All kernels of one size.
+struct KernelRun
+{
+    std::vector<KernelFigures> m_kernels;
+    SolveFigures m_solves;
+};
+
+/// Times the kernels of the beam of `tets` = 24 n^3 elements, each for about `seconds`. Throws std::invalid_argument.
+KernelRun measureKernels(int tets, double seconds);
+
+}  // namespace bullet_fem

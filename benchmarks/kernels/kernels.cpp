@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// The kernels of one step, each on its own, beside what the machine's memory and arithmetic allow.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/json_file.h"
+#include "benchmarks/kernels/kernel_report.h"
+#include "benchmarks/kernels/machine_limits.h"
+
+namespace
+{
+using namespace bullet_fem;
+
+const char* const g_legend = R"(
+One thread, the clamped beam bent by half a second of its own weight at E = 1e6; five rounds in which the kernels take
+turns. Rates and ratios are those of the best repetition: other programs only ever add.
+element pass    F, rotation, tensile part, force and the part of A of all elements
+preparation     that, the sums over nodes and the rotations of the nodes: all before the first iteration
+product A p     of all elements, with the sums over nodes
+preconditioner  P r: rotations, one solve pair, rotations
+solve pair      forward and backward with the packed factor; GB/s counts the factor twice
+GB/s            bytes that must be read and written once, caches or not
+GFLOP/s         product: 180 a tet; solves: those with the factor's entries; factorization: Cholesky's, in double
+                precision
+pair / 2 reads  one solve pair over reading a buffer as large as the packed factor twice, in the same turns
+16 / 1          16 right-hand sides together over one
+compliance      columns of A0^-1 of 64 neighbouring surface nodes and the 64 x 64 blocks between them, turned
+)";
+
+struct Options
+{
+    std::vector<int> m_tets = {1536, 12288, 41472};
+    bool m_large = false;
+    std::vector<int> m_touch;
+    double m_seconds = 0.5;
+    std::string m_jsonFile;
+};
+
+double measurePeak(double seconds)
+{
+    const int rounds = 100000;
+    float sink = 0;
+    const Timing time = timeInTurns({{"peak", [&] { sink += multiplyAdd(rounds); }, nullptr}}, seconds).front();
+    return sink > 0 ? 1e-9 * multiplyAddOperations(rounds) / time.m_best : 0;
+}
+
+void addOptions(CLI::App& app, Options& options)
+{
+    app.add_option("--tets", options.m_tets, "mesh sizes, each 24 n^3 with n in [1, 32] cells per metre")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_flag("--large", options.m_large, "98,304 tets, too: a factor far larger than the caches");
+    app.add_option("--touch", options.m_touch, "blocks on which 64 nodes are touched on both paths, about so many tets")
+        ->delimiter(',')
+        ->check(CLI::Range(40, 500000));
+    app.add_option("--seconds", options.m_seconds, "time for each kernel and size [s]")
+        ->check(CLI::Range(1e-3, 60.0))
+        ->capture_default_str();
+    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.footer(
+        "Example, a quick look: bulletfem_bench_kernels --tets 1536 --seconds 0.1\n"
+        "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    Options options;
+    CLI::App app("Times the kernels of a step, beside what memory and arithmetic allow", "bulletfem_bench_kernels");
+    addOptions(app, options);
+    CLI11_PARSE(app, argc, argv);
+    if (options.m_large) options.m_tets.push_back(98304);
+
+    try
+    {
+        JsonFile json(options.m_jsonFile);
+        MachineInfo machine = readMachineInfo(1);
+        machine.emplace_back("vectors", vectorTarget());
+        KernelReport report;
+        report.m_peakGigaflops = measurePeak(options.m_seconds);
+        for (int tets : options.m_tets)
+        {
+            std::cerr << tets << " tets ..." << std::endl;
+            report.m_runs.push_back(measureKernels(tets, options.m_seconds));
+        }
+        std::cerr << "compliance ..." << std::endl;
+        report.m_compliance = measureCompliance(kComplianceTets, FactorChoice::full, options.m_seconds);
+        for (int tets : options.m_touch)
+            for (const FactorChoice choice : {FactorChoice::full, FactorChoice::lowMemory})
+                report.m_touch.push_back(measureCompliance(tets, choice, options.m_seconds));
+        std::cout << toText(machine) << '\n';
+        printTables(std::cout, report);
+        std::cout << g_legend;
+        json.write(machine, toJson(report));
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "bulletfem_bench_kernels: " << error.what() << std::endl;
+        return 1;
+    }
+    return 0;
+}

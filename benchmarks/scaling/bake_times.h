@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+#include <vector>
+
+#include "benchmarks/beam/beam_case.h"
+
+namespace bullet_fem
+{
+
+/// What a baked body saves. Times are medians of runs that follow each other, so the file is in the system's cache.
+struct BakeTimes
+{
+    int m_tets = 0;
+    double m_fileMegabytes = 0;  ///< [1e6 B]
+    double m_setupSeconds = 0;   ///< from positions and elements to a factored model [s]
+    double m_writeSeconds = 0;   ///< of such a model [s]
+    double m_mappedSeconds = 0;  ///< from the file to the same model, with BakedLoading::mapped [s]
+    double m_copiedSeconds = 0;  ///< likewise with BakedLoading::copied [s]
+    bool m_sameMotion = false;   ///< ten steps of both have the same bits
+};
+
+/// Bakes the beam to a file in the system's temporary folder, which is removed. Throws std::runtime_error if that
+/// cannot be written.
+BakeTimes measureBake(const BeamCase& beam);
+
+void printTable(std::ostream& out, const std::vector<BakeTimes>& rows);
+nlohmann::json toJson(const std::vector<BakeTimes>& rows);
+
+}  // namespace bullet_fem
