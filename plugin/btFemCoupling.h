@@ -6,8 +6,8 @@
 #include <string>
 
 #include "bullet_fem/fem/stress.h"
-#include "plugin/btFemContactGroup.h"
-#include "plugin/btFemSnapshot.h"
+#include "plugin/contact/btFemContactGroup.h"
+#include "plugin/snapshot/btFemSnapshot.h"
 
 class btFemManifolds;
 class btFemSoftBodySolver;

@@ -13,12 +13,12 @@
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "plugin/btFemBaked.h"
-#include "plugin/btFemBodyRegistry.h"
+#include "plugin/bodies/btFemBaked.h"
+#include "plugin/bodies/btFemBodyRegistry.h"
+#include "plugin/bodies/btFemMaterialConversion.h"
 #include "plugin/btFemCoupling.h"
-#include "plugin/btFemManifolds.h"
-#include "plugin/btFemMaterialConversion.h"
 #include "plugin/btFemWorldStep.h"
+#include "plugin/contact/btFemManifolds.h"
 
 using namespace bullet_fem;
 

@@ -3,7 +3,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_arrays.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/btFemBodyRegistry.h"
+#include "plugin/bodies/btFemBodyRegistry.h"
 #include "plugin/btFemCoupling.h"
 
 using namespace bullet_fem;

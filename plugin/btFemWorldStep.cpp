@@ -11,9 +11,9 @@
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_fem/fem/stepping.h"
-#include "plugin/btFemModelReport.h"
+#include "plugin/bodies/btFemModelReport.h"
 #include "plugin/btFemStopwatch.h"
-#include "plugin/btFemTouches.h"
+#include "plugin/contact/btFemTouches.h"
 
 using namespace bullet_fem;
 

@@ -7,10 +7,10 @@
 #include "bullet_fem/fem/stepping.h"
 #include "bullet_fem/fem/threads.h"
 #include "fem/body_batches.h"
-#include "plugin/btFemBodyRegistry.h"
-#include "plugin/btFemContactGroup.h"
-#include "plugin/btFemDetailChooser.h"
-#include "plugin/btFemRefactorPolicy.h"
+#include "plugin/bodies/btFemBodyRegistry.h"
+#include "plugin/contact/btFemContactGroup.h"
+#include "plugin/policy/btFemDetailChooser.h"
+#include "plugin/policy/btFemRefactorPolicy.h"
 
 /// One step of all FEM bodies of a world, in the places where Bullet calls its soft body solver: before collision
 /// detection and after the rigid bodies have moved; and, with a btFemConstraintSolver, where it solves the rigid

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bullet_bridge/soft_body_mesh.h"
-#include "plugin/btFemEnvelope.h"
+#include "plugin/bodies/btFemEnvelope.h"
 #include "plugin/each_world.h"
 #include "plugin/snapshot_scene.h"
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemHelpers.h"
-#include "plugin/btFemDetailChooser.h"
 #include "plugin/clamped_beam.h"
+#include "plugin/policy/btFemDetailChooser.h"
 #include "plugin/scene_measures.h"
 
 namespace bullet_fem

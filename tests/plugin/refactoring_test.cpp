@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "bullet_fem/fem/generators.h"
-#include "plugin/btFemFactorAccount.h"
-#include "plugin/btFemRealTime.h"
 #include "plugin/clamped_beam.h"
+#include "plugin/policy/btFemFactorAccount.h"
+#include "plugin/policy/btFemRealTime.h"
 #include "plugin/scene_measures.h"
 
 namespace bullet_fem

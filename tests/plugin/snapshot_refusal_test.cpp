@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "plugin/btFemEnvelope.h"
+#include "plugin/bodies/btFemEnvelope.h"
 #include "plugin/snapshot_scene.h"
 
 namespace bullet_fem

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/bodies/btFemBodyRegistry.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body_arrays.h"
+#include "bullet_bridge/body_mark.h"
+#include "bullet_bridge/face_tree.h"
+#include "bullet_bridge/node_exchange.h"
+#include "bullet_bridge/soft_body_mesh.h"
+#include "fem/body_snapshot.h"
+#include "plugin/bodies/btFemDefinition.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+constexpr int kInTwoWorlds = 2;  // claims of a body by its former world that two living worlds alone can make
+
+FactorChoice coreChoice(btFemFactorChoice choice)
+{
+    if (choice == btFemFactorChoice::lowMemoryBeyond) return FactorChoice::lowMemoryBeyond;
+    return choice == btFemFactorChoice::lowMemory ? FactorChoice::lowMemory : FactorChoice::full;
+}
+
+}  // namespace
+
+Material materialOf(const btFemEntry& entry)
+{
+    return entry.m_materialGiven ? entry.m_material : unsetMaterialOf(*entry.m_softBody);
+}
+
+std::vector<double> massesAtRest(const btFemEntry& entry, double density)
+{
+    const btSoftBody& body = *entry.m_softBody;
+    const bool known = entry.m_fem && !restMatricesChanged(*entry.m_fem);
+    const TetMesh mesh = known ? entry.m_fem->m_body.m_model->mesh() : tetMeshOf(body);
+    return massesOf(mesh, filledFractionsOf(body), density * massScaleOf(body));
+}
+
+std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
+{
+    const auto isIt = [body](const auto& entry) { return entry->m_softBody == body; };
+    return std::find_if(m_entries.begin(), m_entries.end(), isIt) - m_entries.begin();
+}
+
+btFemBodyRegistry::btFemBodyRegistry(const btFemSolverInfo& info)
+    : m_showsManifolds(info.m_manifolds),
+      m_library(static_cast<std::size_t>(1e6 * info.m_maxFactorMegabytes), coreChoice(info.m_factorChoice))
+{
+}
+
+btFemEntry* btFemBodyRegistry::find(const btSoftBody* body)
+{
+    const std::size_t k = indexOf(body);
+    return k < m_entries.size() ? m_entries[k].get() : nullptr;
+}
+
+btFemEntry& btFemBodyRegistry::entry(btSoftBody* body)
+{
+    if (!body)
+        throw std::invalid_argument("the soft body is null; give a body made by btFemHelpers or btSoftBodyHelpers");
+    if (btFemEntry* known = find(body))
+    {
+        lookAgain(*known);
+        return *known;
+    }
+    m_entries.push_back(std::make_unique<btFemEntry>(body));
+    return *m_entries.back();
+}
+
+void btFemBodyRegistry::forget(const btSoftBody* body)
+{
+    m_entries.erase(std::remove_if(m_entries.begin(), m_entries.end(),
+                                   [body](const auto& entry) { return entry->m_softBody == body; }),
+                    m_entries.end());
+}
+
+bool btFemBodyRegistry::isAsBuilt(const btFemEntry& entry)
+{
+    return !entry.m_fem || (hasMark(*entry.m_softBody, entry.m_fem->m_mark) && topologyAsSetUp(*entry.m_fem));
+}
+
+// Something else may live at the address, or nodes or tetrahedra were appended, removed, or joined otherwise: then the
+// body keeps what the user asked for it.
+void btFemBodyRegistry::lookAgain(btFemEntry& entry)
+{
+    if (!entry.m_fem) return;
+    if (!hasMark(*entry.m_softBody, entry.m_fem->m_mark))
+    {
+        entry = btFemEntry(entry.m_softBody);
+        return;
+    }
+    followNodes(*entry.m_fem);
+    if (topologyAsSetUp(*entry.m_fem)) return;
+    btFemEntry changed(entry.m_softBody);
+    changed.m_world = entry.m_world;
+    changed.m_material = entry.m_material;
+    changed.m_materialGiven = entry.m_materialGiven;
+    changed.m_detail = entry.m_detail;
+    changed.m_contactOffset = entry.m_contactOffset;
+    changed.m_wasChanged = true;
+    entry.m_softBody->activate();
+    entry = std::move(changed);
+}
+
+// A world that holds a body of another one takes it over. Worlds that take it from each other both hold it; once may be
+// a new world at the address of a deleted one.
+void btFemBodyRegistry::claim(btFemEntry& entry, const void* world, const btSoftBodySolver* solver)
+{
+    if (entry.m_world && entry.m_world != world && entry.m_handedBack < kInTwoWorlds)
+    {
+        entry.m_handedBack = entry.m_formerWorld == world ? entry.m_handedBack + 1 : 0;
+        entry.m_formerWorld = entry.m_world;
+        entry.m_world = world;
+    }
+    if (!entry.m_world) entry.m_world = world;
+    const bool otherSolver = entry.m_softBody->getSoftBodySolver() != solver;
+    if (entry.m_handedBack >= kInTwoWorlds || otherSolver) entry.m_report.m_flags |= BT_FEM_OTHER_WORLD;
+    entry.m_present = entry.m_world == world && !otherSolver;
+}
+
+void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver)
+{
+    const void* world = &softBodies;
+    m_held.assign(m_entries.size(), 0);
+    for (const auto& entry : m_entries)
+    {
+        entry->m_present = false;
+        entry->m_report.m_flags = 0;
+    }
+    for (int i = 0; i < softBodies.size(); ++i)
+    {
+        btSoftBody* soft = softBodies[i];
+        std::size_t known = indexOf(soft);
+        if (known < m_entries.size() && m_held[known])
+        {
+            m_entries[known]->m_report.m_flags |= BT_FEM_ADDED_TWICE;
+            continue;
+        }
+        if (known < m_entries.size()) lookAgain(*m_entries[known]);
+        if (known == m_entries.size() && soft->m_tetras.size() == 0) continue;
+        if (known == m_entries.size())
+        {
+            entry(soft);
+            m_held.push_back(0);
+        }
+        m_held[known] = 1;
+        claim(*m_entries[known], world, solver);
+    }
+    // What this world, or none, has and the world does not hold is gone, and must not be looked at.
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < m_entries.size(); ++k)
+    {
+        const bool gone = !m_held[k] && (m_entries[k]->m_world == world || !m_entries[k]->m_world);
+        if (!gone) std::swap(m_entries[kept++], m_entries[k]);
+    }
+    m_entries.resize(kept);
+}
+
+bool btFemBodyRegistry::worldHolds(const btSoftBody& body, const btCollisionObject* object)
+{
+    m_worldObjects.read(body);
+    return m_worldObjects.holds(object);
+}
+
+FactorInput btFemBodyRegistry::factorInput(const btFemEntry& entry, double step) const
+{
+    FactorInput input;
+    input.m_mass = entry.m_fem->m_body.m_state.m_mass;
+    input.m_fixed = entry.m_fem->m_body.m_state.m_fixed;
+    input.m_step = step;
+    return m_library.limited(std::move(input));
+}
+
+bool btFemBodyRegistry::knowsFactor(const btFemEntry& entry, double step) const
+{
+    return m_library.find(entry.m_fem->m_body.m_model->sharedShape(), factorInput(entry, step)) != nullptr;
+}
+
+void btFemBodyRegistry::refactor(btFemEntry& entry, double step)
+{
+    exchangeModel(entry, m_library.model(entry.m_fem->m_body.m_model->sharedShape(), factorInput(entry, step)));
+}
+
+bool btFemBodyRegistry::tryRefactor(btFemEntry& entry, double step)
+{
+    try
+    {
+        refactor(entry, step);
+        entry.m_message.clear();
+        entry.m_report.m_flags |= BT_FEM_REFACTORED;
+        return true;
+    }
+    catch (const std::exception& error)
+    {
+        entry.m_message = error.what();
+        return false;
+    }
+}
+
+void btFemBodyRegistry::takeFactor(btFemEntry& entry, const std::shared_ptr<const BodyModel>& model)
+{
+    exchangeModel(entry, m_library.adopt(model));
+    entry.m_message.clear();
+    entry.m_report.m_flags |= BT_FEM_REFACTORED;
+}
+
+std::shared_ptr<const RestShape> btFemBodyRegistry::shapeOf(const btFemEntry& entry, std::uint64_t mark)
+{
+    const BodyModel& model = *entry.m_fem->m_body.m_model;
+    if (markOf(model.shape()) == mark) return model.sharedShape();
+    const auto shape = m_library.restShape(model.mesh(), materialOf(entry), filledFractionsOf(*entry.m_softBody));
+    return markOf(*shape) == mark ? shape : nullptr;
+}
+
+std::shared_ptr<const BodyModel> btFemBodyRegistry::exactModel(const btFemEntry& entry,
+                                                               const std::shared_ptr<const RestShape>& shape,
+                                                               const FactorInput& input)
+{
+    const std::shared_ptr<const BodyModel>& own = entry.m_fem->m_body.m_model;
+    if (own->sharedShape() == shape && own->factorInput() == input) return own;
+    return m_library.exactModel(shape, input);
+}
+
+void btFemBodyRegistry::giveFactors(btFemEntry& entry, const std::shared_ptr<const BodyModel>& model,
+                                    const std::shared_ptr<const BodyModel>& former)
+{
+    exchangeModel(entry, model);
+    entry.m_formerModel = former;
+    entry.m_formerCompliance = former ? m_library.compliance(former, entry.m_fem->m_skin.get()) : nullptr;
+}
+
+void btFemBodyRegistry::putFirst(const std::vector<btFemEntry*>& entries)
+{
+    const auto place = [&entries](const std::unique_ptr<btFemEntry>& entry)
+    { return std::find(entries.begin(), entries.end(), entry.get()); };
+    std::stable_sort(m_entries.begin(), m_entries.end(),
+                     [&place](const auto& a, const auto& b) { return place(a) < place(b); });
+}
+
+void btFemBodyRegistry::exchangeModel(btFemEntry& entry, const std::shared_ptr<const BodyModel>& model)
+{
+    FemSoftBody& fem = *entry.m_fem;
+    if (model == fem.m_body.m_model) return;
+    entry.m_formerModel = fem.m_body.m_model;
+    entry.m_formerCompliance = fem.m_compliance;
+    fem.m_body.setModel(model);
+    fem.m_compliance = m_library.compliance(model, fem.m_skin.get());
+}

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/contact/btFemContactGroup.h"
+
+#include <algorithm>
+
+#include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "plugin/btFemStopwatch.h"
+#include "plugin/contact/btFemTouches.h"
+#include "plugin/joints/btFemAttachments.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+// Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
+constexpr int kSweepsWithJoints = 50;
+
+// The user's defaults are the solver's own.
+static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
+static_assert(btFemSolverInfo().m_contactRounds == ContactSettings().m_rounds);
+static_assert(btFemSolverInfo().m_contactTolerance == static_cast<btScalar>(ContactSettings().m_tolerance));
+
+// Sets the impulse on one side, and the point of that side.
+void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
+{
+    const SurfacePoint& side = otherSide ? point.m_other : point.m_soft;
+    const Vec3 normal = otherSide ? -point.m_normal : point.m_normal;
+    const Vec3 impulse = otherSide ? -point.m_impulse : point.m_impulse;
+    contact.m_point = bulletVector(point.m_point);
+    contact.m_normal = bulletVector(normal);
+    contact.m_gap = static_cast<btScalar>(point.m_gap);
+    contact.m_impulse = bulletVector(impulse);
+    contact.m_normalImpulse = static_cast<btScalar>(dot(impulse, normal));
+    contact.m_frictionImpulse = bulletVector(impulse - dot(impulse, normal) * normal);
+    static_assert(btFemContact::kMostNodes == SurfacePoint::kMostNodes);
+    contact.m_nodeCount = side.m_count;
+    for (int a = 0; a < side.m_count; ++a)
+    {
+        contact.m_nodes[a] = side.m_nodes[a];
+        contact.m_weights[a] = static_cast<btScalar>(side.m_weights[a]);
+    }
+}
+
+void deepen(btFemStepReport& report, const ContactPoint& point)
+{
+    report.m_deepestPenetration = std::max(report.m_deepestPenetration, static_cast<btScalar>(-point.m_gap));
+}
+
+}  // namespace
+
+void btFemContactGroup::beginStep()
+{
+    m_rigid.beginStep();
+    m_softPairs.beginStep();
+    m_joints.forgetWorld();
+}
+
+void btFemContactGroup::collect(const Scope& scope)
+{
+    const btFemStopwatch watch;
+    m_step = scope.m_step;
+    m_entries = scope.m_entries;
+    m_rigid.clear(scope.m_phase);
+    m_problem.clear();
+    m_bodies.clear();
+    for (btFemEntry* entry : m_entries)
+    {
+        FemSoftBody& fem = *entry->m_fem;
+        m_bodies.push_back(&fem);
+        m_problem.m_bodies.push_back({&fem.m_body, fem.m_compliance.get()});
+    }
+    collectJoints(scope);  // first: the rigid bodies that they hold are not rewound
+    collectRigid();
+    collectSoft();
+    m_rigid.connectLinks(m_problem.m_responses);
+    m_problem.m_obstacles.assign(m_rigid.obstacles().begin(), m_rigid.obstacles().end());
+    m_settings.m_step.m_step = m_step;
+    const bool joints = !m_problem.m_joints.empty();
+    m_settings.m_step.m_tolerance =
+        joints ? m_info.m_tolerance : std::max(m_info.m_tolerance, m_info.m_contactTolerance);
+    m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
+    m_settings.m_rounds = m_info.m_contactRounds;
+    m_settings.m_sweeps = joints ? std::min(m_info.m_contactSweeps, kSweepsWithJoints) : m_info.m_contactSweeps;
+    m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the rounds, too
+    m_settings.m_tolerance = m_info.m_contactTolerance;
+    m_settings.m_batchBodies = m_info.m_batchBodies;
+    m_settings.m_pushFraction = m_info.m_erp;
+    m_settings.m_maxPushVelocity = m_info.m_maxPushVelocity;
+    m_milliseconds = watch.milliseconds();
+}
+
+void btFemContactGroup::collectRigid()
+{
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+    {
+        FemSoftBody& fem = *m_bodies[b];
+        const ContactSearchReport found =
+            m_finder.find(fem, static_cast<int>(b), m_step, m_info.m_maxContacts, m_rigid);
+        if (found.m_unknownShape) m_entries[b]->m_report.m_flags |= BT_FEM_UNKNOWN_SHAPE;
+        if (found.m_limited) m_entries[b]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
+        for (ContactPoint& contact :
+             fem.m_contacts)  // links go on arcs: only one point in space for both keeps momenta
+            if (m_rigid.isMovableLink(contact.m_obstacle)) contact.m_approach = {};
+        m_problem.m_contacts.insert(m_problem.m_contacts.end(), fem.m_contacts.begin(), fem.m_contacts.end());
+    }
+}
+
+// Bodies in the order of the problem, which does not depend on addresses.
+void btFemContactGroup::collectSoft()
+{
+    m_softPairs.find(m_bodies, m_step, m_info.m_maxContacts);
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+        if (m_softPairs.isLimited(b)) m_entries[b]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
+    m_problem.m_contacts.insert(m_problem.m_contacts.end(), m_softPairs.contacts().begin(),
+                                m_softPairs.contacts().end());
+}
+
+void btFemContactGroup::collectJoints(const Scope& scope)
+{
+    m_outside.clear();
+    for (const auto& entry : scope.m_registry.entries())
+        if (entry->m_present && entry->m_fem &&
+            std::find(m_entries.begin(), m_entries.end(), entry.get()) == m_entries.end())
+            m_outside.push_back(entry->m_fem.get());
+    m_joints.append({m_bodies, m_outside, m_rigid, m_step, scope.m_phase}, m_problem, m_jointFlags);
+    const auto joins = [this](const FemSoftBody* other)
+    { return other->m_softBody->isActive() && reachesInto(*other, m_bodies); };
+    m_reachesOut = std::any_of(m_outside.begin(), m_outside.end(), joins);
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+    {
+        if (m_jointFlags[b].m_lost) m_entries[b]->m_report.m_flags |= BT_FEM_LOST_ANCHOR;
+        if (m_jointFlags[b].m_bad) m_entries[b]->m_report.m_flags |= BT_FEM_BAD_ANCHOR;
+        m_reachesOut = m_reachesOut || m_jointFlags[b].m_outside;
+    }
+}
+
+bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count) const
+{
+    if (m_reachesOut || m_rigid.holdsLinks()) return false;
+    for (std::size_t k = 0; k < m_rigid.obstacles().size(); ++k)
+    {
+        const btRigidBody* body = m_rigid.movableBody(static_cast<int>(k));
+        if (body && std::find(bodies, bodies + count, body) == bodies + count) return false;
+    }
+    return true;
+}
+
+void btFemContactGroup::solve()
+{
+    const btFemStopwatch watch;
+    const ContactReport solved = m_solver.solve(m_problem, m_settings);
+    moveRigid();
+    m_milliseconds += watch.milliseconds();
+    report(solved);
+}
+
+// A part of the solution, with the obstacles' velocities from the rigid solver's bodies and back to them.
+template <class Part>
+void btFemContactGroup::onSolverBodies(const Part& part)
+{
+    const btFemStopwatch watch;
+    m_solverBodies.read(m_problem.m_obstacles);
+    part();
+    m_solverBodies.write(m_problem.m_obstacles);
+    m_milliseconds += watch.milliseconds();
+}
+
+void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool)
+{
+    m_solverBodies.begin(m_rigid, pool);
+    onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
+}
+
+bool btFemContactGroup::sweep()
+{
+    bool moves = false;
+    onSolverBodies([&] { moves = m_solver.sweep(); });
+    return moves;
+}
+
+void btFemContactGroup::correct()
+{
+    const btFemStopwatch watch;
+    m_solver.correct();
+    m_milliseconds += watch.milliseconds();
+}
+
+void btFemContactGroup::finish()
+{
+    ContactReport solved;
+    onSolverBodies([&] { solved = m_solver.finish(); });
+    m_solverBodies.end(m_rigid);
+    report(solved);
+}
+
+void btFemContactGroup::moveRigid()
+{
+    m_rigid.obstacles().assign(m_problem.m_obstacles.begin(), m_problem.m_obstacles.end());
+    m_rigid.applyReactions(m_problem, m_step);
+}
+
+// Gives every body its share of contacts, joints and report.
+void btFemContactGroup::report(const ContactReport& report)
+{
+    auto next = m_problem.m_contacts.begin();
+    for (btFemEntry* entry : m_entries)
+    {
+        FemSoftBody& fem = *entry->m_fem;
+        std::copy(next, next + fem.m_contacts.size(), fem.m_contacts.begin());
+        next += fem.m_contacts.size();
+        entry->m_report.m_contactMs = static_cast<btScalar>(m_milliseconds);
+        entry->m_contacts.resize(0);
+        reportBody(*entry, report);
+    }
+    m_softContacts.assign(next, m_problem.m_contacts.end());
+    for (std::size_t k = 0; k < m_softContacts.size(); ++k) reportSoftContact(k);
+    m_softPairs.remember(m_softContacts);
+    for (btFemEntry* entry : m_entries)
+    {
+        entry->m_report.m_contacts = entry->m_contacts.size();
+        updateTouches(*entry, m_entries);
+        SoftJoints::takeBack(*entry->m_fem, m_problem);
+        writeReports(*entry->m_fem, entry->m_anchors);
+    }
+}
+
+void btFemContactGroup::reportBody(btFemEntry& entry, const ContactReport& report) const
+{
+    const FemSoftBody& fem = *entry.m_fem;
+    entry.m_report.m_contactSweeps = report.m_sweeps;
+    entry.m_report.m_contactIterations = report.m_iterations;
+    entry.m_report.m_contactViolation = static_cast<btScalar>(report.m_violation);
+    entry.m_report.m_deepestPenetration = 0;
+    if (!report.m_converged) entry.m_report.m_flags |= BT_FEM_NOT_CONVERGED;
+    for (std::size_t k = 0; k < fem.m_contacts.size(); ++k)
+    {
+        btFemContact contact;
+        fill(contact, fem.m_contacts[k], false);
+        contact.m_other = fem.m_origins[k].m_object;
+        contact.m_part = fem.m_origins[k].m_part;
+        contact.m_index = fem.m_origins[k].m_triangle;
+        entry.m_contacts.push_back(contact);
+        deepen(entry.m_report, fem.m_contacts[k]);
+    }
+}
+
+// Both bodies see a contact between them, each from its side; self contact is one contact.
+void btFemContactGroup::reportSoftContact(std::size_t k)
+{
+    const ContactPoint& point = m_softContacts[k];
+    btFemEntry &entry = *m_entries[point.m_soft.m_body], &other = *m_entries[point.m_other.m_body];
+    btFemContact contact;
+    fill(contact, point, false);
+    contact.m_other = other.m_softBody;
+    entry.m_contacts.push_back(contact);
+    deepen(entry.m_report, point);
+    if (&entry == &other) return;
+    fill(contact, point, true);
+    contact.m_other = entry.m_softBody;
+    other.m_contacts.push_back(contact);
+    deepen(other.m_report, point);
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/contact/btFemTouches.h"
+
+#include <algorithm>
+
+#include "bullet_bridge/rigid_obstacles.h"
+#include "plugin/bodies/btFemBodyRegistry.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+constexpr double kSlack = 0.01;  // share of a mean edge
+
+/// The other side of contact points, which are listed object by object.
+struct Other
+{
+    const btCollisionObject* m_object = nullptr;
+    int m_id = 0;          // in the broadphase
+    btScalar m_slack = 0;  // of the two [m]
+};
+
+// Both of two FEM bodies must come to the same judgement.
+Other otherOf(const btFemEntry& entry, const btCollisionObject* object, const std::vector<btFemEntry*>& together)
+{
+    Other other = {object, broadphaseId(*object), touchSlack(entry)};
+    const auto isIt = [object](const btFemEntry* candidate) { return candidate->m_softBody == object; };
+    const auto found = std::find_if(together.begin(), together.end(), isIt);
+    if (found != together.end()) other.m_slack = std::min(other.m_slack, touchSlack(**found));
+    return other;
+}
+
+btFemTouch* find(btAlignedObjectArray<btFemTouch>& touches, const Other& other)
+{
+    for (int k = 0; k < touches.size(); ++k)
+        if (touches[k].m_other == other.m_object && touches[k].m_otherId == other.m_id) return &touches[k];
+    return nullptr;
+}
+
+template <class Visitor>
+void visitContacts(const btFemEntry& entry, const std::vector<btFemEntry*>& together, const Visitor& visit)
+{
+    Other other;
+    for (int k = 0; k < entry.m_contacts.size(); ++k)
+    {
+        const btFemContact& contact = entry.m_contacts[k];
+        if (contact.m_other != other.m_object) other = otherOf(entry, contact.m_other, together);
+        visit(contact, other);
+    }
+}
+
+}  // namespace
+
+void ageTouches(btFemEntry& entry)
+{
+    btAlignedObjectArray<btFemTouch>& touches = entry.m_touches;
+    int kept = 0;
+    for (int k = 0; k < touches.size(); ++k)
+    {
+        if (touches[k].m_state == btFemTouchState::ended) continue;
+        touches[kept] = touches[k];
+        touches[kept++].m_state = btFemTouchState::lasting;
+    }
+    touches.resize(kept);
+}
+
+void updateTouches(btFemEntry& entry, const std::vector<btFemEntry*>& together)
+{
+    btAlignedObjectArray<btFemTouch>& touches = entry.m_touches;
+    for (int k = 0; k < touches.size(); ++k)
+    {
+        touches[k].m_points = 0;
+        touches[k].m_impulse.setZero();
+        touches[k].m_normalImpulse = 0;
+    }
+    const auto begin = [&touches](const btFemContact& contact, const Other& other)
+    {
+        if (!isTouch(contact, 0) || find(touches, other)) return;
+        btFemTouch touch;
+        touch.m_other = other.m_object;
+        touch.m_otherId = other.m_id;
+        touch.m_state = btFemTouchState::began;
+        touches.push_back(touch);
+    };
+    const auto sum = [&touches](const btFemContact& contact, const Other& other)
+    {
+        btFemTouch* touch = isTouch(contact, other.m_slack) ? find(touches, other) : nullptr;
+        if (!touch) return;
+        ++touch->m_points;
+        touch->m_impulse += contact.m_impulse;
+        touch->m_normalImpulse += contact.m_normalImpulse;
+    };
+    visitContacts(entry, together, begin);
+    visitContacts(entry, together, sum);
+    for (int k = 0; k < touches.size(); ++k)
+        if (touches[k].m_points == 0) touches[k].m_state = btFemTouchState::ended;
+}
+
+btScalar touchSlack(const btFemEntry& entry)
+{
+    return static_cast<btScalar>(kSlack * entry.m_fem->m_surface.meanEdge());
+}
+
+const btFemTouch* touchWith(const btFemEntry& entry, const btCollisionObject* other)
+{
+    const int id = broadphaseId(*other);
+    for (int k = 0; k < entry.m_touches.size(); ++k)
+    {
+        const btFemTouch& touch = entry.m_touches[k];
+        if (touch.m_other == other && touch.m_otherId == id && touch.m_state != btFemTouchState::ended) return &touch;
+    }
+    return nullptr;
+}

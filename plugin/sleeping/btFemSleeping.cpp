@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/sleeping/btFemSleeping.h"
+
+#include <algorithm>
+
+#include "BulletCollision/BroadphaseCollision/btDispatcher.h"
+#include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "BulletSoftBody/btSoftBodySolvers.h"
+#include "bullet_bridge/node_exchange.h"
+#include "fem/byte_stream.h"
+#include "plugin/bodies/btFemBodyRegistry.h"
+#include "plugin/sleeping/btFemNeighbours.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+// Sleeps, or waits for its island to do so.
+bool isQuiet(const btFemEntry& entry)
+{
+    const int state = entry.m_softBody->getActivationState();
+    return state == ISLAND_SLEEPING || state == WANTS_DEACTIVATION;
+}
+
+bool isWatched(const btFemEntry& entry)
+{
+    return isQuiet(entry) && entry.m_sleep.m_recorded;
+}
+
+bool wokeWithinStep(const btFemEntry& entry)
+{
+    return entry.m_sleep.m_asleep && entry.m_softBody->isActive();
+}
+
+bool nodesWritten(const FemSoftBody& fem)
+{
+    const WrittenNodes& written = fem.m_written;
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        const btSoftBody::Node& node = fem.m_softBody->m_nodes[i];
+        // Not btVector3's ==: the fourth components are the user's.
+        for (int c = 0; c < 3; ++c)
+            if (node.m_x[c] != written.m_x[i][c] || node.m_v[c] != written.m_v[i][c]) return true;
+        if (node.m_im != written.m_inverseMass[i]) return true;
+    }
+    return false;
+}
+
+bool forcesGiven(const btSoftBody& soft)
+{
+    for (int i = 0; i < soft.m_nodes.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            if (soft.m_nodes[i].m_f[c] != 0) return true;
+    return false;
+}
+
+std::uint64_t markOfForces(const btSoftBody& soft)
+{
+    std::uint64_t mark = kEmptyMark;
+    for (int i = 0; i < soft.m_nodes.size(); ++i)
+        for (int c = 0; c < 3; ++c) addToMark(mark, soft.m_nodes[i].m_f[c]);
+    return mark;
+}
+
+std::uint64_t markOfTargets(const FemSoftBody& fem)
+{
+    const NodePins& pins = fem.m_pins;
+    std::uint64_t mark = kEmptyMark;
+    for (const NodeSpring& spring : fem.m_joints.m_springs)
+    {
+        addToMark(mark, spring.m_id);
+        for (int c = 0; c < 3; ++c) addToMark(mark, spring.m_target[c]);
+    }
+    for (std::size_t i = 0; i < pins.m_hasTarget.size(); ++i)
+    {
+        if (!pins.m_hasTarget[i]) continue;
+        addToMark(mark, i);
+        for (int c = 0; c < 3; ++c) addToMark(mark, pins.m_position[i][c]);
+    }
+    return mark;
+}
+
+btFemInfluences influencesOn(const FemSoftBody& fem)
+{
+    const btSoftBody& soft = *fem.m_softBody;
+    const btSoftBodyWorldInfo* info = soft.m_worldInfo;
+    const Vec3 gravity = fem.gravity();
+    const btVector3 wind = const_cast<btSoftBody&>(soft).getWindVelocity();
+    const btSoftBody::Config& cfg = soft.m_cfg;
+    return {gravity.x,
+            gravity.y,
+            gravity.z,
+            wind.x(),
+            wind.y(),
+            wind.z(),
+            info ? double(info->air_density) : 0,
+            double(cfg.aeromodel),
+            cfg.kDG,
+            cfg.kLF,
+            cfg.kPR,
+            cfg.kVC,
+            soft.m_pose.m_bframe ? double(cfg.kMT) : 0,
+            cfg.kDF,
+            double(cfg.collisions),
+            double(soft.m_anchors.size()),
+            double(soft.m_deformableAnchors.size()),
+            double(soft.m_joints.size()),
+            double(fem.m_joints.m_attachments.size()),
+            fem.m_contactOffset};
+}
+
+// Something that the body reacts to was changed since the end of the last step.
+bool isChanged(const btFemEntry& entry)
+{
+    const FemSoftBody& fem = *entry.m_fem;
+    return entry.m_materialChanged || nodesWritten(fem) || restMatricesChanged(fem) || forcesGiven(*fem.m_softBody) ||
+           markOfTargets(fem) != entry.m_sleep.m_targets || influencesOn(fem) != entry.m_sleep.m_influences;
+}
+
+// Fastest node; way over step counts, too, because penetration is taken back without a velocity.
+double fastestSquared(const btFemEntry& entry)
+{
+    const FemSoftBody& fem = *entry.m_fem;
+    double fastest = 0;
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        const btSoftBody::Node& node = fem.m_softBody->m_nodes[i];
+        fastest = std::max({fastest, double(node.m_v.length2()),
+                            double((node.m_x - node.m_q).length2()) / (entry.m_lastStep * entry.m_lastStep)});
+    }
+    return fastest;
+}
+
+// A pinned node that the user gave a velocity moves on, however slowly.
+bool isDriven(const FemSoftBody& fem)
+{
+    for (std::size_t i = 0; i < fem.m_pins.m_velocity.size(); ++i)
+    {
+        const bool byVelocity = fem.m_body.m_state.m_fixed[i] && !fem.m_pins.m_hasTarget[i];
+        if (byVelocity && dot(fem.m_pins.m_velocity[i], fem.m_pins.m_velocity[i]) > 0) return true;
+    }
+    return false;
+}
+
+// Contacts are kept; what tells the cost of a step is zeroed.
+void clearCost(btFemStepReport& report)
+{
+    report.m_iterations = report.m_contactIterations = report.m_contactSweeps = 0;
+    report.m_freeMotionMs = report.m_contactMs = 0;
+    report.m_tooSlow = false;
+}
+
+void fallAsleep(btFemEntry& entry)
+{
+    FemSoftBody& fem = *entry.m_fem;
+    // Tick callbacks write after the step was prepared for a body that was awake.
+    if (nodesWritten(fem) || markOfForces(*fem.m_softBody) != entry.m_sleep.m_forces)
+    {
+        fem.m_softBody->activate();
+        return;
+    }
+    std::fill(fem.m_body.m_state.m_v.begin(), fem.m_body.m_state.m_v.end(), Vec3());
+    writeNodes(fem);
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i) fem.m_softBody->m_nodes[i].m_f.setZero();
+    clearCost(entry.m_report);
+    entry.m_sleep.m_asleep = true;
+}
+
+// What btDiscreteDynamicsWorld::updateActivationState does for rigid bodies.
+void updateActivation(btFemBodyRegistry& registry, btFemEntry& entry)
+{
+    btSoftBody& soft = *entry.m_softBody;
+    if (soft.getActivationState() == DISABLE_SIMULATION) return;
+    if (soft.isActive() && entry.m_lastStep > 0 && (entry.m_report.m_flags & BT_FEM_BAD_STEP) == 0)
+    {
+        const double threshold = isDriven(*entry.m_fem) ? double(soft.m_sleepingThreshold) : 0;
+        soft.m_maxSpeedSquared = static_cast<btScalar>(std::max(fastestSquared(entry), threshold * threshold));
+        soft.updateDeactivation(static_cast<btScalar>(entry.m_lastStep));
+    }
+    if (!soft.wantsSleeping())
+        soft.setActivationState(ACTIVE_TAG);
+    else if (soft.getActivationState() == ACTIVE_TAG && !holdsMovingObject(registry, entry))
+        soft.setActivationState(WANTS_DEACTIVATION);
+}
+
+}  // namespace
+
+void wakeDisturbedBodies(btFemBodyRegistry& registry)
+{
+    for (const auto& pointer : registry.entries())
+    {
+        btFemEntry& entry = *pointer;
+        if (!entry.isStepped()) continue;
+        if (isWatched(entry) && isChanged(entry)) entry.m_softBody->activate();
+    }
+    registry.forgetWorld();
+    wakeByNeighbours(registry);
+    for (const auto& pointer : registry.entries())
+    {
+        btFemEntry& entry = *pointer;
+        if (!entry.isStepped()) continue;
+        if (entry.m_softBody->isActive())
+            entry.m_sleep.m_asleep = false;
+        else
+            markForces(entry);
+    }
+}
+
+void markForces(btFemEntry& entry)
+{
+    entry.m_sleep.m_forces = markOfForces(*entry.m_softBody);
+}
+
+void wakeIfPushed(const btFemEntry& entry, const btCollisionObject& other)
+{
+    const bool moves =
+        !other.getInterpolationLinearVelocity().isZero() || !other.getInterpolationAngularVelocity().isZero();
+    if (!moves || !other.isKinematicObject() || !other.isActive()) return;
+    const std::lock_guard<std::mutex> lock(entry.m_fem->m_touchingMutex);
+    if (isQuiet(entry)) entry.m_softBody->activate();
+}
+
+void completeWokenBodies(btFemBodyRegistry& registry)
+{
+    const auto collide = [](btFemEntry& entry, const btBroadphaseProxy& proxy)
+    {
+        btSoftBody* soft = entry.m_softBody;
+        auto* other = static_cast<btCollisionObject*>(proxy.m_clientObject);
+        btDispatcher* dispatcher = soft->m_worldInfo ? soft->m_worldInfo->m_dispatcher : nullptr;
+        if (dispatcher && !dispatcher->needsCollision(soft, other)) return;
+        const auto& ignored = soft->m_collisionDisabledObjects;
+        if (ignored.findLinearSearch(other) < ignored.size()) return;
+        const btCollisionObjectWrapper wrapper(nullptr, other->getCollisionShape(), other, other->getWorldTransform(),
+                                               -1, -1);
+        if (btSoftBody* otherSoft = btSoftBody::upcast(other))
+            soft->getSoftBodySolver()->processCollision(soft, otherSoft);
+        else
+            soft->getSoftBodySolver()->processCollision(soft, &wrapper);
+    };
+    visitNeighbours(registry, wokeWithinStep, collide);
+    for (const auto& entry : registry.entries())
+    {
+        if (!entry->isStepped() || !wokeWithinStep(*entry)) continue;
+        entry->m_softBody->applyForces();
+        entry->m_sleep.m_asleep = false;
+    }
+}
+
+void updateSleep(btFemBodyRegistry& registry)
+{
+    registry.forgetWorld();
+    for (const auto& pointer : registry.entries())
+    {
+        btFemEntry& entry = *pointer;
+        if (!entry.isStepped()) continue;
+        updateActivation(registry, entry);
+        const bool sleeps = entry.m_softBody->getActivationState() == ISLAND_SLEEPING;
+        if (sleeps && !entry.m_sleep.m_asleep) fallAsleep(entry);
+        if (sleeps) entry.m_report.m_flags |= entry.m_setUpFlags;
+        // The record of a body that sleeps is that of its last step awake.
+        const bool keeps = isWatched(entry) && entry.m_sleep.m_asleep;
+        entry.m_sleep.m_recorded = keeps;
+        if (!keeps) entry.m_sleep.m_neighbours.clear();
+    }
+    const auto lacksRecord = [](const btFemEntry& entry) { return isQuiet(entry) && !entry.m_sleep.m_recorded; };
+    recordNeighbours(registry, lacksRecord);
+    for (const auto& entry : registry.entries())
+    {
+        if (!entry->isStepped() || !lacksRecord(*entry)) continue;
+        entry->m_sleep.m_targets = markOfTargets(*entry->m_fem);
+        entry->m_sleep.m_influences = influencesOn(*entry->m_fem);
+        entry->m_sleep.m_recorded = true;
+    }
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/snapshot/btFemSnapshot.h"
+
+#include <algorithm>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "plugin/bodies/btFemEnvelope.h"
+#include "plugin/snapshot/btFemEntrySnapshot.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+/// All that is written.
+struct WorldSnapshot
+{
+    std::vector<btFemEntrySnapshot> m_bodies;  // in the order in which they became known, which is that of solving
+    SoftPairMemory::Kept m_softPairs;
+    RigidObstacles::Memory m_rigid;
+};
+
+template <class Bytes>
+void transfer(Bytes& bytes, WorldSnapshot& s)
+{
+    bytes(s.m_bodies, s.m_softPairs, s.m_rigid);
+}
+
+// FEM bodies that are in the world. Others may be deleted: they must not be looked at.
+std::vector<btFemEntry*> livingEntries(const btFemSnapshotScope& scope)
+{
+    std::vector<btFemEntry*> living;
+    for (const auto& entry : scope.m_registry.entries())
+    {
+        if (entry->m_stage != btFemStage::none)
+            reject("a step is being made; call it between steps, not from a tick callback");
+        const bool held = !scope.m_worldBodies ||
+                          scope.m_worldBodies->findLinearSearch(entry->m_softBody) < scope.m_worldBodies->size();
+        if (held && entry->m_fem && entry->m_softBody->getBroadphaseHandle() && btFemBodyRegistry::isAsBuilt(*entry))
+            living.push_back(entry.get());
+    }
+    return living;
+}
+
+WorldIds idsOf(const std::vector<btFemEntry*>& entries)
+{
+    if (entries.empty()) return {};
+    for (const btFemEntry* known : entries)
+    {
+        btBroadphaseInterface* broadphase =
+            known->m_softBody->m_worldInfo ? known->m_softBody->m_worldInfo->m_broadphase : nullptr;
+        if (!broadphase) continue;
+        WorldIds world(*broadphase);
+        if (world.idOf(known->m_softBody) < 0) continue;
+        for (const btFemEntry* entry : entries) world.m_bodies.push_back(entry->m_fem.get());
+        return world;
+    }
+    reject(
+        "no FEM body has a btSoftBodyWorldInfo with the world's broad phase, by which objects are told apart; set "
+        "its m_broadphase");
+}
+
+WorldSnapshot read(const unsigned char* data, std::size_t size)
+{
+    WorldSnapshot snapshot;
+    ByteReader bytes = openEnvelope(data, size, btFemContents::state);
+    bytes(snapshot);
+    if (bytes.left() > 0) reject("it has ", bytes.left(), " bytes too many");
+    return snapshot;
+}
+
+std::string nameOf(const btFemEntrySnapshot& s)
+{
+    return message("the FEM body with broad phase id ", s.m_id);
+}
+
+// The entries of the snapshot's bodies.
+std::vector<btFemEntry*> matched(const WorldSnapshot& snapshot, const std::vector<btFemEntry*>& entries,
+                                 const WorldIds& world)
+{
+    std::vector<btFemEntry*> found;
+    for (const btFemEntrySnapshot& s : snapshot.m_bodies)
+    {
+        const FemSoftBody* fem = world.bodyOf(s.m_id);
+        const auto isIt = [fem](const btFemEntry* entry) { return entry->m_fem.get() == fem; };
+        const auto at = std::find_if(entries.begin(), entries.end(), isIt);
+        if (at == entries.end())
+            reject(nameOf(s), " is not in the world, or not FEM yet: prepare() it, or step its world once");
+        if (std::find(found.begin(), found.end(), *at) != found.end()) reject(nameOf(s), " is there twice");
+        found.push_back(*at);
+    }
+    return found;
+}
+
+/// The factors that a body had.
+struct Models
+{
+    std::shared_ptr<const BodyModel> m_model, m_former;
+};
+
+// One that is not at hand is made.
+Models modelsOf(const btFemEntrySnapshot& s, const btFemEntry& entry, btFemBodyRegistry& registry)
+{
+    Models models;
+    models.m_model = entry.m_fem->m_body.m_model;
+    if (s.m_materialChanged) return models;  // the next step makes another in any case
+    const std::shared_ptr<const RestShape> shape = registry.shapeOf(entry, s.m_body.m_shapeMark);
+    if (!shape) reject("its rest shape is another than when the state was saved");
+    models.m_model = registry.exactModel(entry, shape, factorInputOf(s.m_body));
+    if (models.m_model->factorReport().m_path != s.m_body.m_path)
+        reject("its factor was of the other kind: m_factorChoice or m_maxFactorMegabytes of the solver is another");
+    if (s.m_hasFormerFactor) models.m_former = registry.findExactModel(shape, s.m_formerFactor);
+    return models;
+}
+
+void checkEntry(const btFemEntrySnapshot& s, const btFemEntry& entry, const WorldIds& world)
+{
+    try
+    {
+        check(s, entry, world);
+    }
+    catch (const std::invalid_argument& error)
+    {
+        reject(nameOf(s), ": ", error.what());
+    }
+}
+
+}  // namespace
+
+void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& buffer)
+{
+    const std::vector<btFemEntry*> entries = livingEntries(scope);
+    const WorldIds world = idsOf(entries);
+    WorldSnapshot snapshot;
+    for (const btFemEntry* entry : entries) snapshot.m_bodies.push_back(snapshotOf(*entry, world));
+    snapshot.m_softPairs = scope.m_group.softPairs().kept();
+    snapshot.m_rigid = scope.m_group.rigid().memory();
+    beginEnvelope(buffer, btFemContents::state);
+    ByteWriter bytes(buffer);
+    bytes(snapshot);
+    closeEnvelope(buffer);
+}
+
+void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data, std::size_t size)
+{
+    WorldSnapshot snapshot = read(data, size);
+    const std::vector<btFemEntry*> entries = livingEntries(scope);
+    const WorldIds world = idsOf(entries);
+    const std::vector<btFemEntry*> bodies = matched(snapshot, entries, world);
+    for (std::size_t b = 0; b < bodies.size(); ++b) checkEntry(snapshot.m_bodies[b], *bodies[b], world);
+    checkAndDrop(snapshot.m_softPairs, world);
+    check(snapshot.m_rigid);
+    std::vector<Models> models;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        models.push_back(modelsOf(snapshot.m_bodies[b], *bodies[b], scope.m_registry));
+
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+    {
+        scope.m_registry.giveFactors(*bodies[b], models[b].m_model, models[b].m_former);
+        restore(snapshot.m_bodies[b], world, *bodies[b]);
+    }
+    scope.m_registry.putFirst(bodies);
+    scope.m_group.softPairs().restore(snapshot.m_softPairs);
+    scope.m_group.rigid().restore(snapshot.m_rigid);
+}
