@@ -3,7 +3,6 @@
 #include "bullet_bridge/contact/contact_finder.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
@@ -26,7 +25,6 @@ constexpr double kMovableSlop = 1e-4;     // the same for movable objects: posit
 constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
 constexpr double kUsualKineticHardness = 0.1;  // Bullet's value of kKHR; those of kCHR and kSHR are 1
 constexpr double kLeastLikeness = -2;          // of a contact and the one that it was in the last step; 1 is the same
-constexpr double kNotNear = std::numeric_limits<double>::infinity();
 
 // Removes what Bullet's broad phase knows no more: it left the world since it was recorded, and may be deleted.
 // `overlapping` is scratch.
@@ -54,13 +52,6 @@ double fastestPoint(const Obstacle& obstacle, const ShapeLeaf& shape)
     const double spin = norm(obstacle.m_angularVelocity);
     const double size = spin > 0 ? norm(shape.m_boundsMax - shape.m_boundsMin) : 0;  // a plane has none
     return norm(obstacle.m_linearVelocity) + spin * size;
-}
-
-bool overlaps(const Vec3& low, const Vec3& high, const ShapeLeaf& shape, double reach)
-{
-    for (int c = 0; c < 3; ++c)
-        if (high[c] < shape.m_boundsMin[c] - reach || low[c] > shape.m_boundsMax[c] + reach) return false;
-    return true;
 }
 
 // To where the object was before Bullet moved it.
@@ -125,7 +116,12 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
     std::sort(fem.m_touching.begin(), fem.m_touching.end(),
               [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
 
-    if (!fem.m_touching.empty()) fem.updateSkin();
+    if (!fem.m_touching.empty())
+    {
+        fem.updateSkin();
+        m_culling.begin(fem.m_surface, fem.surfacePosition());
+        m_fastest = fastestNode(fem.m_body, Vec3());
+    }
     const double softReach = m_band + fem.m_contactOffset + step * fastestVertex(fem, Vec3());
     for (const btCollisionObject* object : fem.m_touching)
     {
@@ -140,14 +136,10 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
             const ShapeLeaf& shape = m_leaves[l];
             const Leaf leaf = {object, l, index, surface, softReach + step * fastestPoint(obstacle, shape)};
             const Target target = {shape, leaf, obstacle, step};
-            if (shape.m_shape->isConvex() && findOnPaths(fem, target)) continue;
             if (shape.m_shape->isConcave() && !shape.m_shape->isInfinite())
                 findOnSheets(fem, target);
             else
-                findOnNodes(fem, target);
-            if (!shape.m_shape->isConvex()) continue;
-            findOnEdges(fem, target);
-            findOnTriangles(fem, target);
+                findOnFeatures(fem, target);
         }
     }
     thin(fem, step, obstacles);
@@ -157,114 +149,6 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
     fem.m_origins.assign(m_origins.begin(), m_origins.end());
     fem.m_sheetSides.assign(m_sheetSides.begin(), m_sheetSides.end());
     return report;
-}
-
-void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
-{
-    for (int i : fem.m_surface.nodes())
-    {
-        SurfaceDistance d;
-        fem.m_nodeGap[i] = gapAt(fem, target, {i, i, i}, {1, 0, 0}, d);
-        if (fem.m_nodeGap[i] == kNotNear) continue;
-        fem.m_nodeNormal[i] = d.m_normal;
-        consider(fem, target, i, {i, i, i}, d);
-    }
-}
-
-// The nodes say all where they lie over one flat face: their normals agree.
-bool ContactFinder::overOneFace(const FemSoftBody& fem, int a, int b) const
-{
-    return fem.m_nodeGap[a] < kNotNear && fem.m_nodeGap[b] < kNotNear &&
-           dot(fem.m_nodeNormal[a], fem.m_nodeNormal[b]) > 1 - 1e-9;
-}
-
-// False if no point of a triangle (or edge) can be within reach: its middle is farther by more than its corners are
-// away.
-bool ContactFinder::isNear(const Target& target, const std::array<Vec3, 3>& corners) const
-{
-    const Vec3 middle = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
-    double radius = 0;
-    for (const Vec3& corner : corners) radius = std::max(radius, norm(corner - middle));
-    const double reach = target.m_leaf.m_reach + radius;
-    SurfaceDistance d;
-    return overlaps(middle, middle, target.m_shape, reach) && pointShapeDistance(target.m_shape, middle, reach, d);
-}
-
-void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
-{
-    const std::vector<Vec3>& x = fem.surfacePosition();
-    const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
-    const int firstFeature = fem.m_surface.vertexCount();
-    for (int k = 0; k < edgeCount; ++k)
-    {
-        const auto [a, b] = fem.m_surface.features().m_edges[k];
-        fem.m_edgeGap[k] = kNotNear;
-        if (overOneFace(fem, a, b) || !isNear(target, {x[a], x[b], x[a]})) continue;
-        SurfaceDistance d;
-        fem.m_edgeGap[k] = gapAt(fem, target, {a, b, a}, {0.5, 0.5, 0}, d);
-        if (fem.m_edgeGap[k] < kNotNear) consider(fem, target, firstFeature + 2 * k, {a, b, a}, d);
-        const double nearest = std::min({fem.m_edgeGap[k], fem.m_nodeGap[a], fem.m_nodeGap[b]});
-        fem.m_edgeGap[k] = considerNearest(fem, target, firstFeature + 2 * k + 1, {a, b, a}, nearest);
-    }
-}
-
-void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
-{
-    const std::vector<Vec3>& x = fem.surfacePosition();
-    const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
-    const int firstFeature =
-        fem.m_surface.vertexCount() + 2 * static_cast<int>(fem.m_surface.features().m_edges.size());
-    for (int k = 0; k < triangleCount; ++k)
-    {
-        const Triangle& t = fem.m_surface.triangles()[k];
-        if (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2])) continue;
-        if (!isNear(target, {x[t[0]], x[t[1]], x[t[2]]})) continue;
-        SurfaceDistance d;
-        double nearest = gapAt(fem, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
-        if (nearest < kNotNear) consider(fem, target, firstFeature + 2 * k, t, d);
-        for (int a = 0; a < 3; ++a)
-            nearest =
-                std::min({nearest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
-        considerNearest(fem, target, firstFeature + 2 * k + 1, t, nearest);
-    }
-}
-
-// The point of an edge (first and last node equal) or triangle that is nearest to the shape, if it is nearer than the
-// fixed points known, `nearest`; near contact by a margin, because there it wanders. Returns the smaller of the two
-// gaps.
-double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
-                                      double nearest)
-{
-    const std::vector<Vec3>& x = fem.surfacePosition();
-    SurfaceDistance d;
-    if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
-        return nearest;
-    const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
-    if (gap < nearest - (gap < m_band ? m_advantage : 0)) consider(fem, target, feature, nodes, d);
-    return std::min(gap, nearest);
-}
-
-// Takes the contact offset off the gap, and a kinematic object, which has moved already, back to where it was as the
-// step began, so that its velocity, too, is felt.
-double ContactFinder::gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point,
-                                        SurfaceDistance& d) const
-{
-    d.m_gap -= fem.m_contactOffset;
-    if (target.m_leaf.m_object->isKinematicObject())
-        d.m_gap += target.m_step * dot(d.m_normal, target.m_obstacle.velocityAt(point));
-    return d.m_gap;
-}
-
-// Gap at a point of the surface; infinite if out of reach.
-double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
-                            SurfaceDistance& d) const
-{
-    const Vec3 point = interpolated(fem.surfacePosition(), nodes, weights);
-    if (!overlaps(point, point, target.m_shape, target.m_leaf.m_reach) ||
-        !pointShapeDistance(target.m_shape, point, target.m_leaf.m_reach, d))
-        return kNotNear;
-    d.m_barycentric = weights;
-    return gapAsTheStepBegan(fem, target, point, d);
 }
 
 // What Bullet's contacts take of both sides, with the soft body's friction coefficient. Values that are no numbers

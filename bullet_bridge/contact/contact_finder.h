@@ -4,6 +4,7 @@
 
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_bridge/contact/sheet_touch.h"
+#include "bullet_bridge/contact/surface_culling.h"
 #include "bullet_bridge/contact_heirs.h"
 #include "bullet_bridge/contact_thinning.h"
 #include "bullet_bridge/fem_soft_body.h"
@@ -91,6 +92,7 @@ private:
         double m_thickness;  // of the sheet, with the contact offset [m]
     };
 
+    void findOnFeatures(FemSoftBody& fem, const Target& target);
     void findOnNodes(FemSoftBody& fem, const Target& target);
     void findOnEdges(FemSoftBody& fem, const Target& target);
     void findOnTriangles(FemSoftBody& fem, const Target& target);
@@ -105,7 +107,7 @@ private:
     Vec3 wayOf(const SheetSearch& search, int node) const;
     Vec3 safePosition(const SheetSearch& search, int node, const Vec3& position) const;
     void considerTouches(const SheetSearch& search, int feature, const Triangle& nodes);
-    bool isNear(const Target& target, const std::array<Vec3, 3>& corners) const;
+    bool isFar(const Target& target, const Triangle& nodes) const;
     bool overOneFace(const FemSoftBody& fem, int a, int b) const;
     double gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
                  SurfaceDistance& d) const;
@@ -126,6 +128,7 @@ private:
     ContactHeirs m_heirs;
     ContactThinning m_thinning;
     std::vector<const void*> m_overlapping;  // the body, in the broad phase
+    SurfaceCulling m_culling;
     TriangleSoup m_soup;
     std::vector<SheetTouch> m_touches;
     std::vector<SheetSide> m_sheetSides;
@@ -135,6 +138,7 @@ private:
     double m_edge = 0;                // mean length [m]
     double m_size = 0;                // cube root of the body's volume [m]
     double m_advantage = 0;           // by which a nearest point must beat the fixed ones [m]
+    double m_fastest = 0;             // node of the body [m/s]
     double m_band = 0;                // gaps below this are contacts though nothing closes them [m]
     int m_bodyIndex = 0;
 };

@@ -40,14 +40,22 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
 {
     const SweptShape swept =
         pathOf(target.m_shape, target.m_obstacle, target.m_step, target.m_leaf.m_object->isKinematicObject());
-    const double nodeSpeed = fastestNode(fem.m_body, swept.m_motion.m_linearVelocity);
     const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as RigidObstacles decides
-    if (!isFast(swept, nodeSpeed - 2 * fallingSpeed(fem, target.m_step), edge)) return false;
+    const double falling = 2 * fallingSpeed(fem, target.m_step);
+    if (!isFast(swept, m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge)) return false;  // at most
+    const double nodeSpeed = fastestNode(fem.m_body, swept.m_motion.m_linearVelocity);
+    if (!isFast(swept, nodeSpeed - falling, edge)) return false;
 
     const double speed = fastestVertex(fem, swept.m_motion.m_linearVelocity);
     const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
     const PathSearch search = {fem, target, swept, speed + spin};
-    for (int i : fem.m_surface.nodes()) fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
+    m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_contactOffset});
+    for (int i : fem.m_surface.nodes())
+    {
+        const Vec3& x = fem.surfacePosition()[i];
+        m_culling.noteVertex(i, x, x + target.m_step * fem.surfaceVelocity()[i]);
+        fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
+    }
     const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
     int firstFeature = fem.m_surface.vertexCount() + 1;  // ids are those of nearest points
     for (int k = 0; k < edgeCount; ++k)
@@ -78,6 +86,7 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
 double ContactFinder::considerPath(const PathSearch& search, int feature, const Triangle& nodes, double earliest)
 {
     FemSoftBody& fem = search.m_fem;
+    if (m_culling.isOutside(nodes)) return earliest;
     SweptFeature path;
     path.m_count = nodes[1] == nodes[0] ? 1 : nodes[2] == nodes[0] ? 2 : 3;
     for (int i = 0; i < path.m_count; ++i)

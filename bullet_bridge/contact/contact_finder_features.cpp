@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
+#include <limits>
+
+#include "BulletCollision/CollisionDispatch/btCollisionObject.h"
+#include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "bullet_bridge/contact/contact_finder.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kNotNear = std::numeric_limits<double>::infinity();
+constexpr double kSlack = 1e-3;  // of a mean edge: gaps that are bounded by gradients; those may be off as much
+
+bool overlaps(const Vec3& point, const ShapeLeaf& shape, double reach)
+{
+    for (int c = 0; c < 3; ++c)
+        if (point[c] < shape.m_boundsMin[c] - reach || point[c] > shape.m_boundsMax[c] + reach) return false;
+    return true;
+}
+
+}  // namespace
+
+// Of convex shapes and planes.
+void ContactFinder::findOnFeatures(FemSoftBody& fem, const Target& target)
+{
+    const bool isConvex = target.m_shape.m_shape->isConvex();
+    if (isConvex && findOnPaths(fem, target)) return;
+    if (!m_culling.meets({target.m_shape.m_boundsMin, target.m_shape.m_boundsMax, target.m_leaf.m_reach})) return;
+    findOnNodes(fem, target);
+    if (!isConvex) return;
+    findOnEdges(fem, target);
+    findOnTriangles(fem, target);
+}
+
+void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
+{
+    const double reach = target.m_leaf.m_reach;
+    const double farthest = reach + m_culling.longestEdge();  // of what culling asks for
+    for (int i : fem.m_surface.nodes())
+    {
+        const Vec3& x = fem.surfacePosition()[i];
+        fem.m_nodeGap[i] = kNotNear;
+        SurfaceDistance d;
+        if (!m_culling.noteVertex(i, x, x))
+        {
+            m_culling.noteNoGap(i);
+            continue;
+        }
+        const bool isKnown = pointShapeDistance(target.m_shape, x, farthest, d);
+        m_culling.noteGap(i, isKnown ? d.m_gap : kNotNear, d.m_normal);
+        if (!isKnown || d.m_gap > reach) continue;
+        fem.m_nodeGap[i] = gapAsTheStepBegan(fem, target, x, d);
+        fem.m_nodeNormal[i] = d.m_normal;
+        consider(fem, target, i, {i, i, i}, d);
+    }
+}
+
+// The nodes say all where they lie over one flat face: their normals agree.
+bool ContactFinder::overOneFace(const FemSoftBody& fem, int a, int b) const
+{
+    return fem.m_nodeGap[a] < kNotNear && fem.m_nodeGap[b] < kNotNear &&
+           dot(fem.m_nodeNormal[a], fem.m_nodeNormal[b]) > 1 - 1e-9;
+}
+
+// True if no point of an edge or triangle is within reach.
+bool ContactFinder::isFar(const Target& target, const Triangle& nodes) const
+{
+    return m_culling.leastGap(nodes) > target.m_leaf.m_reach + kSlack * m_edge;
+}
+
+void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
+{
+    const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
+    const int firstFeature = fem.m_surface.vertexCount();
+    for (int k = 0; k < edgeCount; ++k)
+    {
+        const auto [a, b] = fem.m_surface.features().m_edges[k];
+        fem.m_edgeGap[k] = kNotNear;
+        const Triangle edge = {a, b, a};
+        if (m_culling.isOutside(edge) || overOneFace(fem, a, b) || isFar(target, edge)) continue;
+        SurfaceDistance d;
+        fem.m_edgeGap[k] = gapAt(fem, target, edge, {0.5, 0.5, 0}, d);
+        if (fem.m_edgeGap[k] < kNotNear) consider(fem, target, firstFeature + 2 * k, edge, d);
+        const double nearest = std::min({fem.m_edgeGap[k], fem.m_nodeGap[a], fem.m_nodeGap[b]});
+        fem.m_edgeGap[k] = considerNearest(fem, target, firstFeature + 2 * k + 1, edge, nearest);
+    }
+}
+
+void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
+{
+    const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
+    const int firstFeature =
+        fem.m_surface.vertexCount() + 2 * static_cast<int>(fem.m_surface.features().m_edges.size());
+    for (int k = 0; k < triangleCount; ++k)
+    {
+        const Triangle& t = fem.m_surface.triangles()[k];
+        if (m_culling.isOutside(t) || (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2]))) continue;
+        if (isFar(target, t)) continue;
+        SurfaceDistance d;
+        double nearest = gapAt(fem, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
+        if (nearest < kNotNear) consider(fem, target, firstFeature + 2 * k, t, d);
+        for (int a = 0; a < 3; ++a)
+            nearest =
+                std::min({nearest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
+        considerNearest(fem, target, firstFeature + 2 * k + 1, t, nearest);
+    }
+}
+
+// The point of an edge (first and last node equal) or triangle that is nearest to the shape, if it is nearer than the
+// fixed points known, `nearest`; near contact by a margin, because there it wanders. Returns the smaller of the two
+// gaps.
+double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
+                                      double nearest)
+{
+    const std::vector<Vec3>& x = fem.surfacePosition();
+    SurfaceDistance d;
+    if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
+        return nearest;
+    const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
+    if (gap < nearest - (gap < m_band ? m_advantage : 0)) consider(fem, target, feature, nodes, d);
+    return std::min(gap, nearest);
+}
+
+// Takes the contact offset off the gap, and a kinematic object, which has moved already, back to where it was as the
+// step began, so that its velocity, too, is felt.
+double ContactFinder::gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point,
+                                        SurfaceDistance& d) const
+{
+    d.m_gap -= fem.m_contactOffset;
+    if (target.m_leaf.m_object->isKinematicObject())
+        d.m_gap += target.m_step * dot(d.m_normal, target.m_obstacle.velocityAt(point));
+    return d.m_gap;
+}
+
+// Gap at a point of the surface; infinite if out of reach.
+double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
+                            SurfaceDistance& d) const
+{
+    const Vec3 point = interpolated(fem.surfacePosition(), nodes, weights);
+    if (!overlaps(point, target.m_shape, target.m_leaf.m_reach) ||
+        !pointShapeDistance(target.m_shape, point, target.m_leaf.m_reach, d))
+        return kNotNear;
+    d.m_barycentric = weights;
+    return gapAsTheStepBegan(fem, target, point, d);
+}
+
+}  // namespace bullet_fem
