@@ -13,7 +13,8 @@ namespace
 {
 
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
-constexpr double kSlack = 1e-3;  // of a mean edge: gaps that are bounded by gradients; those may be off as much
+constexpr double kSlack = 1e-3;     // of a mean edge: gaps that are bounded by gradients; those may be off as much
+constexpr double kRounding = 1e-9;  // of a mean edge, of gaps
 
 bool overlaps(const Vec3& point, const ShapeLeaf& shape, double reach)
 {
@@ -117,11 +118,13 @@ double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, in
                                       double nearest)
 {
     const std::vector<Vec3>& x = fem.surfacePosition();
+    const bool moved = target.m_leaf.m_object->isKinematicObject();
+    if (!moved && m_culling.leastGap(nodes) - fem.m_contactOffset >= nearest - kRounding * m_edge) return nearest;
     SurfaceDistance d;
     if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
         return nearest;
     const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
-    if (gap < nearest - (gap < m_band ? m_advantage : 0)) consider(fem, target, feature, nodes, d);
+    if (gap < nearest - (gap < m_band ? m_advantage : kRounding * m_edge)) consider(fem, target, feature, nodes, d);
     return std::min(gap, nearest);
 }
 
