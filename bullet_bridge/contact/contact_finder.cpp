@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
-#include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/friction.h"
@@ -26,40 +24,12 @@ constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact 
 constexpr double kUsualKineticHardness = 0.1;  // Bullet's value of kKHR; those of kCHR and kSHR are 1
 constexpr double kLeastLikeness = -2;          // of a contact and the one that it was in the last step; 1 is the same
 
-// Removes what Bullet's broad phase knows no more: it left the world since it was recorded, and may be deleted.
-// `overlapping` is scratch.
-void removeGone(FemSoftBody& fem, std::vector<const void*>& overlapping)
-{
-    const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
-    btBroadphaseInterface* broadphase = world ? world->m_broadphase : nullptr;
-    if (!broadphase || !broadphase->getOverlappingPairCache() || fem.m_touching.empty()) return;
-    const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
-    overlapping.clear();
-    for (int i = 0; i < pairs.size(); ++i)
-    {
-        const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
-        if (a == fem.m_softBody) overlapping.push_back(b);
-        if (b == fem.m_softBody) overlapping.push_back(a);
-    }
-    const auto isGone = [&](const void* object)
-    { return std::find(overlapping.begin(), overlapping.end(), object) == overlapping.end(); };
-    fem.m_touching.erase(std::remove_if(fem.m_touching.begin(), fem.m_touching.end(), isGone), fem.m_touching.end());
-}
-
 // Bound on the speed of any of an object's points near the body: its centre's, and its spin over the distance.
 double fastestPoint(const Obstacle& obstacle, const ShapeLeaf& shape)
 {
     const double spin = norm(obstacle.m_angularVelocity);
     const double size = spin > 0 ? norm(shape.m_boundsMax - shape.m_boundsMin) : 0;  // a plane has none
     return norm(obstacle.m_linearVelocity) + spin * size;
-}
-
-// To where the object was before Bullet moved it.
-void moveBack(btAlignedObjectArray<ShapeLeaf>& leaves, const Obstacle& obstacle, double step)
-{
-    const Vec3 present = obstacle.m_center + step * obstacle.m_linearVelocity;
-    for (int l = 0; l < leaves.size(); ++l)
-        leaves[l] = movedBack(leaves[l], {present, obstacle.m_linearVelocity, obstacle.m_angularVelocity}, step);
 }
 
 // True if the surface looks against the normal at a feature: one of its triangles does, or their mean. A point next to
@@ -99,10 +69,47 @@ void recordTouching(FemSoftBody& fem, const btSoftBody& other)
         fem.m_touchingSoft.push_back(&other);
 }
 
-ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double step, int maxContacts,
-                                        RigidObstacles& obstacles)
+ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const RigidSurroundings& around)
 {
     ContactSearchReport report;
+    const double step = around.m_step;
+    begin(fem, bodyIndex);
+    if (around.m_count > 0)
+    {
+        fem.updateSkin();
+        m_culling.begin(fem.m_surface, fem.surfacePosition());
+        m_fastest = fastestNode(fem.m_body, Vec3());
+    }
+    const double softReach = m_band + fem.m_contactOffset + step * fastestVertex(fem, Vec3());
+    for (int k = 0; k < around.m_count; ++k)
+    {
+        const TouchedObject& touched = around.m_touched[k];
+        report.m_unknownShape = touched.m_unknownShape || report.m_unknownShape;
+        const Obstacle& obstacle = around.m_obstacles[touched.m_obstacle];
+        const Surface surface = surfaceOf(*fem.m_softBody, *touched.m_object);
+        for (int l = 0; l < touched.m_leafCount; ++l)
+        {
+            const ShapeLeaf& shape = around.m_leaves[touched.m_firstLeaf + l];
+            const Leaf leaf = {touched.m_object, l, touched.m_obstacle, surface,
+                               softReach + step * fastestPoint(obstacle, shape)};
+            const Target target = {shape, leaf, obstacle, step};
+            if (shape.m_shape->isConcave() && !shape.m_shape->isInfinite())
+                findOnSheets(fem, target);
+            else
+                findOnFeatures(fem, target);
+        }
+    }
+    thin(fem, around);
+    report.m_limited = keepNearest(around.m_maxContacts, m_contacts, m_origins, m_order);
+    takeOverImpulses(fem);
+    fem.m_contacts.assign(m_contacts.begin(), m_contacts.end());
+    fem.m_origins.assign(m_origins.begin(), m_origins.end());
+    fem.m_sheetSides.assign(m_sheetSides.begin(), m_sheetSides.end());
+    return report;
+}
+
+void ContactFinder::begin(const FemSoftBody& fem, int bodyIndex)
+{
     m_contacts.clear();
     m_origins.clear();
     m_sheetSides.clear();
@@ -112,43 +119,6 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, double 
     m_band = kBand * m_edge;
     m_advantage = kAdvantage * m_edge;
     m_size = fem.m_surface.size();
-    removeGone(fem, m_overlapping);
-    std::sort(fem.m_touching.begin(), fem.m_touching.end(),
-              [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
-
-    if (!fem.m_touching.empty())
-    {
-        fem.updateSkin();
-        m_culling.begin(fem.m_surface, fem.surfacePosition());
-        m_fastest = fastestNode(fem.m_body, Vec3());
-    }
-    const double softReach = m_band + fem.m_contactOffset + step * fastestVertex(fem, Vec3());
-    for (const btCollisionObject* object : fem.m_touching)
-    {
-        m_leaves.resize(0);
-        report.m_unknownShape = collectShapeLeaves(*object, m_leaves) > 0 || report.m_unknownShape;
-        const int index = obstacles.indexForContact(*object, step, fem.m_body);
-        const Obstacle& obstacle = obstacles.obstacles()[index];
-        if (obstacles.isRewound(index)) moveBack(m_leaves, obstacle, step);
-        const Surface surface = surfaceOf(*fem.m_softBody, *object);
-        for (int l = 0; l < m_leaves.size(); ++l)
-        {
-            const ShapeLeaf& shape = m_leaves[l];
-            const Leaf leaf = {object, l, index, surface, softReach + step * fastestPoint(obstacle, shape)};
-            const Target target = {shape, leaf, obstacle, step};
-            if (shape.m_shape->isConcave() && !shape.m_shape->isInfinite())
-                findOnSheets(fem, target);
-            else
-                findOnFeatures(fem, target);
-        }
-    }
-    thin(fem, step, obstacles);
-    report.m_limited = keepNearest(maxContacts, m_contacts, m_origins, m_order);
-    takeOverImpulses(fem);
-    fem.m_contacts.assign(m_contacts.begin(), m_contacts.end());
-    fem.m_origins.assign(m_origins.begin(), m_origins.end());
-    fem.m_sheetSides.assign(m_sheetSides.begin(), m_sheetSides.end());
-    return report;
 }
 
 // What Bullet's contacts take of both sides, with the soft body's friction coefficient. Values that are no numbers
@@ -206,7 +176,7 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
 }
 
 // By the motion of the last step: the free one is not slowed down by what the body lies on.
-void ContactFinder::thin(const FemSoftBody& fem, double step, const RigidObstacles& obstacles)
+void ContactFinder::thin(const FemSoftBody& fem, const RigidSurroundings& around)
 {
     const double cell = ContactThinning::cellOf(fem);
     if (!(cell > 0)) return;
@@ -216,12 +186,13 @@ void ContactFinder::thin(const FemSoftBody& fem, double step, const RigidObstacl
     {
         const ContactPoint& contact = m_contacts[k];
         const Vec3 relative = contact.m_soft.of(fem.m_body.m_state.m_v) -
-                              obstacles.obstacles()[contact.m_obstacle].velocityAt(contact.m_point);
+                              around.m_obstacles[contact.m_obstacle].velocityAt(contact.m_point);
         const auto [first, last] = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), m_origins[k]);
         const auto isHeld = [&](const ContactOrigin& old)
         { return isPushing(fem.m_contacts[&old - fem.m_origins.data()]); };
         m_thinning.add({m_origins[k].m_objectId, contact, contact.m_soft.of(X),
-                        contact.m_gap + step * dot(contact.m_normal, relative), std::any_of(first, last, isHeld)});
+                        contact.m_gap + around.m_step * dot(contact.m_normal, relative),
+                        std::any_of(first, last, isHeld)});
     }
     m_thinning.thin(m_contacts, m_origins);
 }

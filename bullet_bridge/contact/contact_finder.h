@@ -22,6 +22,26 @@ struct ContactSearchReport
     bool m_limited = false;       ///< more points than allowed were found; those with the smallest gaps were kept
 };
 
+/// An object that a body may touch.
+struct TouchedObject
+{
+    const btCollisionObject* m_object;
+    int m_obstacle;                ///< its index
+    int m_firstLeaf, m_leafCount;  ///< of its shape, where its obstacle is
+    bool m_unknownShape;           ///< some of its shape has no contact support
+};
+
+/// What a body's contacts are searched among.
+struct RigidSurroundings
+{
+    const TouchedObject* m_touched;  ///< objects near the body, by ascending broadphase id
+    int m_count;
+    const btAlignedObjectArray<ShapeLeaf>& m_leaves;
+    const std::vector<Obstacle>& m_obstacles;
+    double m_step;      ///< [s]
+    int m_maxContacts;  ///< of the body
+};
+
 /// Remembers that Bullet's broad phase found the two overlapping. May be called by several threads at once.
 void recordTouching(FemSoftBody& fem, const btCollisionObject& object);
 /// The same for a FEM body; recorded with one of the two.
@@ -42,13 +62,13 @@ void recordTouching(FemSoftBody& fem, const btSoftBody& other);
 /// came from, which is remembered as long as it is near. One that is seen for the first time is on the side where it
 /// is; if it is less than the contact band beyond, on that of its body.
 ///
-/// Scratch grows with the number of shapes and triangles, never shrinks.
+/// Scratch grows with the surface and the number of triangles, never shrinks.
 class ContactFinder
 {
 public:
     /// After solveFreeMotion: fem.m_contacts and fem.m_origins become those of this step, with m_soft.m_body =
-    /// bodyIndex, at most maxContacts.
-    ContactSearchReport find(FemSoftBody& fem, int bodyIndex, double step, int maxContacts, RigidObstacles& obstacles);
+    /// bodyIndex, at most m_maxContacts. Only `fem` is written to.
+    ContactSearchReport find(FemSoftBody& fem, int bodyIndex, const RigidSurroundings& around);
 
 private:
     /// How a pair of surfaces touches; as in ContactPoint.
@@ -116,18 +136,17 @@ private:
     void consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, const SurfaceDistance& d);
     ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                        const SurfaceDistance& d);
-    void thin(const FemSoftBody& fem, double step, const RigidObstacles& obstacles);
+    void begin(const FemSoftBody& fem, int bodyIndex);
+    void thin(const FemSoftBody& fem, const RigidSurroundings& around);
     void takeOverImpulses(const FemSoftBody& fem);
     void inheritImpulses(const FemSoftBody& fem);
 
-    btAlignedObjectArray<ShapeLeaf> m_leaves;
     std::vector<ContactPoint> m_contacts;
     std::vector<ContactOrigin> m_origins;
     std::vector<int> m_order;
     std::vector<unsigned char> m_continued;  // contacts of the last step
     ContactHeirs m_heirs;
     ContactThinning m_thinning;
-    std::vector<const void*> m_overlapping;  // the body, in the broad phase
     SurfaceCulling m_culling;
     TriangleSoup m_soup;
     std::vector<SheetTouch> m_touches;

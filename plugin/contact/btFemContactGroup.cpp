@@ -95,11 +95,11 @@ void btFemContactGroup::collect(const Scope& scope)
 
 void btFemContactGroup::collectRigid()
 {
+    m_rigidSearch.find(m_bodies, m_step, m_info.m_maxContacts, m_rigid);
     for (std::size_t b = 0; b < m_bodies.size(); ++b)
     {
         FemSoftBody& fem = *m_bodies[b];
-        const ContactSearchReport found =
-            m_finder.find(fem, static_cast<int>(b), m_step, m_info.m_maxContacts, m_rigid);
+        const ContactSearchReport& found = m_rigidSearch.reports()[b];
         if (found.m_unknownShape) m_entries[b]->m_report.m_flags |= BT_FEM_UNKNOWN_SHAPE;
         if (found.m_limited) m_entries[b]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
         for (ContactPoint& contact :

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_bridge/contact/rigid_search.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/soft_pairs/soft_pair_search.h"
 #include "bullet_bridge/solver_bodies.h"
@@ -14,9 +14,9 @@
 class btFemContactGroup
 {
 public:
-    /// `threads` share the search between soft bodies and the corrective solves; they must live as long as the group.
+    /// `threads` share the searches and the corrective solves; they must live as long as the group.
     btFemContactGroup(const btFemSolverInfo& info, const bullet_fem::Threads& threads)
-        : m_info(info), m_softPairs(threads)
+        : m_info(info), m_rigidSearch(threads), m_softPairs(threads)
     {
         m_settings.m_step.m_threads = &threads;
     }
@@ -83,7 +83,7 @@ private:
     double m_step = 0;  // [s]
     std::vector<btFemEntry*> m_entries;
     bullet_fem::ContactSettings m_settings;
-    bullet_fem::ContactFinder m_finder;
+    bullet_fem::RigidSearch m_rigidSearch;
     bullet_fem::SoftPairSearch m_softPairs;
     std::vector<bullet_fem::ContactPoint> m_softContacts;  // solved; after the rigid ones in the problem
     bullet_fem::SoftJoints m_joints;

@@ -8,8 +8,9 @@
 
 #include "bridge/bridge_test_bodies.h"
 #include "btBulletDynamicsCommon.h"
-#include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_bridge/contact/rigid_search.h"
 #include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/threads.h"
 
 namespace bullet_fem
 {
@@ -32,7 +33,8 @@ protected:
         recordTouching(m_fem, object);
         solveFreeMotion(m_fem.m_body, StepSettings());
         m_obstacles.clear();
-        m_report = m_finder.find(m_fem, 0, kStep, most, m_obstacles);
+        m_search.find({&m_fem}, kStep, most, m_obstacles);
+        m_report = m_search.reports().front();
         return m_fem.m_contacts;
     }
 
@@ -46,7 +48,8 @@ protected:
     TestBox m_box;
     FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
     RigidObstacles m_obstacles;
-    ContactFinder m_finder;
+    Threads m_threads;
+    RigidSearch m_search{m_threads};
     ContactSearchReport m_report;
 };
 

@@ -6,6 +6,7 @@
 
 #include <thread>
 
+#include "bridge/concave_test_shapes.h"
 #include "bridge/contact_finder_scene.h"
 
 namespace bullet_fem
@@ -157,6 +158,50 @@ TEST_F(ContactFinderTest, shapesWithoutSupportAreReported)
     m_ground.setCollisionShape(&empty);
     EXPECT_TRUE(find(m_ground).empty());
     EXPECT_TRUE(m_report.m_unknownShape);
+}
+
+// Every third stands on a triangle mesh, too, which is not asked by several threads.
+TEST_F(ContactFinderTest, manyBodiesOnSeveralThreadsFindWhatEachFindsAlone)
+{
+    const ConcaveShape sheet = makeTriangleMesh();
+    btBoxShape box(btVector3(1, 1, 1));
+    btCollisionObject meshObject;
+    meshObject.setCollisionShape(&sheet.shape());
+    m_ball.setCollisionShape(&box);
+    m_ball.getWorldTransform().setOrigin(btVector3(btScalar(1.5), btScalar(0.5), btScalar(-0.5)));
+    constexpr int kCount = 50;
+    std::vector<std::unique_ptr<TestBox>> boxes;
+    std::vector<std::unique_ptr<FemSoftBody>> fems;
+    std::vector<FemSoftBody*> bodies;
+    for (int b = 0; b < kCount; ++b)
+    {
+        boxes.push_back(std::make_unique<TestBox>(Vec3{0.02 * b, 0, 0}));
+        boxes.back()->m_body->m_worldInfo = &m_info;
+        fems.push_back(std::make_unique<FemSoftBody>(*boxes.back()->m_body, m_fem.m_body.m_model, m_fem.m_compliance));
+        bodies.push_back(fems.back().get());
+        for (const btCollisionObject* object : {&m_ball, &m_ground, &meshObject})
+            if (object != &meshObject || b % 3 == 0) recordTouching(*bodies.back(), *object);
+        solveFreeMotion(bodies.back()->m_body, StepSettings());
+    }
+    Threads threads(3);
+    RigidSearch search(threads);
+    search.find(bodies, kStep, 1000, m_obstacles);
+    ASSERT_EQ(search.reports().size(), bodies.size());
+    for (int b = 0; b < kCount; ++b)
+    {
+        const std::vector<ContactPoint> together = bodies[b]->m_contacts;
+        m_obstacles.clear();
+        m_search.find({bodies[b]}, kStep, 1000, m_obstacles);
+        const std::vector<ContactPoint>& alone = bodies[b]->m_contacts;
+        EXPECT_GE(alone.size(), b % 3 == 0 ? 18u : 9u);
+        ASSERT_EQ(together.size(), alone.size());
+        for (std::size_t k = 0; k < alone.size(); ++k)
+        {
+            EXPECT_EQ(together[k].m_soft.m_body, b);
+            EXPECT_EQ(together[k].m_gap, alone[k].m_gap);
+            EXPECT_EQ(norm(together[k].m_point - alone[k].m_point), 0);
+        }
+    }
 }
 
 TEST_F(ContactFinderTest, objectsRecordedByManyThreadsAreFoundOnce)

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact/rigid_search.h"
+
+#include <algorithm>
+
+#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
+#include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
+#include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_fem/fem/threads.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Removes what Bullet's broad phase knows no more: it left the world since it was recorded, and may be deleted.
+// `overlapping` is scratch.
+void removeGone(FemSoftBody& fem, std::vector<const void*>& overlapping)
+{
+    const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
+    btBroadphaseInterface* broadphase = world ? world->m_broadphase : nullptr;
+    if (!broadphase || !broadphase->getOverlappingPairCache() || fem.m_touching.empty()) return;
+    const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
+    overlapping.clear();
+    for (int i = 0; i < pairs.size(); ++i)
+    {
+        const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
+        if (a == fem.m_softBody) overlapping.push_back(b);
+        if (b == fem.m_softBody) overlapping.push_back(a);
+    }
+    const auto isGone = [&](const void* object)
+    { return std::find(overlapping.begin(), overlapping.end(), object) == overlapping.end(); };
+    fem.m_touching.erase(std::remove_if(fem.m_touching.begin(), fem.m_touching.end(), isGone), fem.m_touching.end());
+}
+
+// To where the object was before Bullet moved it.
+void moveBack(ShapeLeaf& leaf, const Obstacle& obstacle, double step)
+{
+    const Vec3 present = obstacle.m_center + step * obstacle.m_linearVelocity;
+    leaf = movedBack(leaf, {present, obstacle.m_linearVelocity, obstacle.m_angularVelocity}, step);
+}
+
+// True for shapes whose distances are closed forms or come of our own search over their corners. Others ask Bullet,
+// which locks meshes and counts in globals, or a program's own code.
+bool bearsThreads(const btCollisionShape& shape)
+{
+    switch (shape.getShapeType())
+    {
+        case BOX_SHAPE_PROXYTYPE:
+        case SPHERE_SHAPE_PROXYTYPE:
+        case CAPSULE_SHAPE_PROXYTYPE:
+        case CYLINDER_SHAPE_PROXYTYPE:
+        case CONE_SHAPE_PROXYTYPE:
+        case STATIC_PLANE_PROXYTYPE:
+        case CONVEX_HULL_SHAPE_PROXYTYPE:
+        case MULTI_SPHERE_SHAPE_PROXYTYPE:
+            return true;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts) {}
+
+void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts, RigidObstacles& obstacles)
+{
+    m_touching.clear();
+    m_touched.clear();
+    m_shapes.clear();
+    m_leaves.resizeNoInitialize(0);
+    for (FemSoftBody* fem : bodies) listTouched(*fem, step, obstacles);
+    m_reports.assign(bodies.size(), {});
+
+    const auto findOf = [&](ContactFinder& finder, std::size_t b)
+    {
+        const Touching& touching = m_touching[b];
+        m_reports[b] = finder.find(*bodies[b], static_cast<int>(b),
+                                   {m_touched.data() + touching.m_first, touching.m_count, m_leaves,
+                                    obstacles.obstacles(), step, maxContacts});
+    };
+    m_threads.run(kParts,
+                  [&](int part)
+                  {
+                      const std::size_t end = bodies.size() * (part + 1) / kParts;
+                      for (std::size_t b = bodies.size() * part / kParts; b < end; ++b)
+                          if (!m_touching[b].m_alone) findOf(m_finders[part], b);
+                  });
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (m_touching[b].m_alone) findOf(m_finders.front(), b);
+}
+
+void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidObstacles& obstacles)
+{
+    removeGone(fem, m_overlapping);
+    std::sort(fem.m_touching.begin(), fem.m_touching.end(),
+              [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
+    Touching touching = {static_cast<int>(m_touched.size()), static_cast<int>(fem.m_touching.size()), false};
+    for (const btCollisionObject* object : fem.m_touching)
+    {
+        const int obstacle = obstacles.indexForContact(*object, step, fem.m_body);
+        const ShapeRange& shape = shapeOf(*object, obstacle, step, obstacles);
+        touching.m_alone = touching.m_alone || shape.m_alone;
+        m_touched.push_back({object, obstacle, shape.m_first, shape.m_count, shape.m_unknown});
+    }
+    m_touching.push_back(touching);
+}
+
+// The leaves of an object's shape, collected when first asked for.
+const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& object, int obstacle, double step,
+                                                    const RigidObstacles& obstacles)
+{
+    if (m_shapes.size() < obstacles.obstacles().size()) m_shapes.resize(obstacles.obstacles().size());
+    ShapeRange& range = m_shapes[obstacle];
+    if (range.m_first >= 0) return range;
+    range.m_first = m_leaves.size();
+    range.m_unknown = collectShapeLeaves(object, m_leaves) > 0;
+    range.m_count = m_leaves.size() - range.m_first;
+    for (int l = range.m_first; l < m_leaves.size(); ++l)
+    {
+        if (obstacles.isRewound(obstacle)) moveBack(m_leaves[l], obstacles.obstacles()[obstacle], step);
+        range.m_alone = range.m_alone || !bearsThreads(*m_leaves[l].m_shape);
+    }
+    return range;
+}
+
+}  // namespace bullet_fem

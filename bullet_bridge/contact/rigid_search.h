@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_bridge/contact/contact_finder.h"
+
+namespace bullet_fem
+{
+
+class Threads;
+
+/// Finds the contacts of FEM bodies with the rigid objects that the broad phase recorded, on the given threads. The
+/// same contacts in the same order for any number of them. Grows, never shrinks.
+class RigidSearch
+{
+public:
+    /// `threads` must live as long as the search.
+    explicit RigidSearch(const Threads& threads);
+    RigidSearch(const RigidSearch&) = delete;
+    RigidSearch& operator=(const RigidSearch&) = delete;
+
+    /// Bodies in an order that does not depend on addresses, after solveFreeMotion: m_contacts and m_origins of each
+    /// become those of this step, with m_soft.m_body = its place. At most maxContacts a body are kept; `step` [s].
+    void find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts, RigidObstacles& obstacles);
+
+    /// What find() found besides contacts, one a body.
+    const std::vector<ContactSearchReport>& reports() const { return m_reports; }
+
+private:
+    static constexpr int kParts = 32;  // of the bodies, whatever the number of threads
+
+    /// What bodies touch is looked up on one thread: obstacles are made when first asked for.
+    struct Touching
+    {
+        int m_first, m_count;  // among m_touched
+        bool m_alone;          // Bullet's shapes are asked that may not bear several threads
+    };
+    struct ShapeRange
+    {
+        int m_first = -1, m_count = 0;  // among m_leaves
+        bool m_unknown = false, m_alone = false;
+    };
+
+    void listTouched(FemSoftBody& fem, double step, RigidObstacles& obstacles);
+    const ShapeRange& shapeOf(const btCollisionObject& object, int obstacle, double step,
+                              const RigidObstacles& obstacles);
+
+    const Threads& m_threads;
+    std::vector<ContactFinder> m_finders;
+    std::vector<Touching> m_touching;      // one a body
+    std::vector<TouchedObject> m_touched;  // body by body
+    std::vector<ShapeRange> m_shapes;      // one an obstacle
+    btAlignedObjectArray<ShapeLeaf> m_leaves;
+    std::vector<ContactSearchReport> m_reports;
+    std::vector<const void*> m_overlapping;  // scratch: a body, in the broad phase
+};
+
+}  // namespace bullet_fem
