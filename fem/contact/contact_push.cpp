@@ -71,12 +71,10 @@ int ContactRows::push()
         obstacle.m_linearVelocity = m_savedLinear[k];
         obstacle.m_angularVelocity = m_savedAngular[k];
     }
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
-    {
-        if (m_bodies[b].size() == 0) continue;
-        const Vec3 gained = m_bodies[b].applyPush(m_settings.m_step);
-        if (dot(gained, gained) > 0) payBack(b, gained);
-    }
+    m_pushed.assign(m_problem->m_bodies.size(), {});
+    forEachTouchedBody(m_settings.m_step.m_threads,
+                       [this](int b) { m_pushed[b].m_gained = m_bodies[b].applyPush(m_settings.m_step); });
+    payBack();
     return sweeps;
 }
 
@@ -100,25 +98,33 @@ void ContactRows::sumPushImpulses()
 
 // Displacing a moving body changes its angular momentum about the origin. The movable obstacles that it was pushed off
 // take the opposite, in proportion to the push; where it was pushed off soft ones it spins itself.
-void ContactRows::payBack(std::size_t body, const Vec3& gained)
+void ContactRows::payBack()
 {
-    const int b = static_cast<int>(body);
-    double total = 0, soft = 0;
-    for (const Row& row : m_rows)
+    const auto visitBodies = [this](const Row& row, auto visit)
     {
-        if (row.m_a.m_body != b && row.m_b.m_body != b) continue;
-        total += norm(row.m_impulse);
-        if (row.m_a.m_body >= 0 && row.m_b.m_body >= 0) soft += norm(row.m_impulse);
-    }
-    if (!(total > 0)) return;
+        const int a = row.m_a.m_body, b = row.m_b.m_body;
+        if (a >= 0) visit(m_pushed[a], row.m_b);
+        if (b >= 0 && b != a) visit(m_pushed[b], row.m_a);
+    };
     for (const Row& row : m_rows)
-    {
-        if (row.m_a.m_body != b && row.m_b.m_body != b) continue;
-        const int o = row.m_a.m_body == b ? row.m_b.m_obstacle : row.m_a.m_obstacle;
-        if (o >= 0 && m_problem->m_obstacles[o].canMove())
-            m_problem->m_obstacles[o].m_angularImpulse -= (norm(row.m_impulse) / total) * gained;
-    }
-    m_bodies[body].spin(-(soft / total) * gained, m_settings.m_step);
+        visitBodies(row,
+                    [&row](Pushed& pushed, const RowEnd& other)
+                    {
+                        pushed.m_total += norm(row.m_impulse);
+                        if (other.m_body >= 0) pushed.m_bySoft += norm(row.m_impulse);
+                    });
+    for (const Row& row : m_rows)
+        visitBodies(row,
+                    [&](const Pushed& pushed, const RowEnd& other)
+                    {
+                        if (other.m_obstacle < 0 || !(pushed.m_total > 0)) return;
+                        Obstacle& obstacle = m_problem->m_obstacles[other.m_obstacle];
+                        if (obstacle.canMove())
+                            obstacle.m_angularImpulse -= (norm(row.m_impulse) / pushed.m_total) * pushed.m_gained;
+                    });
+    for (std::size_t b = 0; b < m_pushed.size(); ++b)
+        if (m_pushed[b].m_total > 0)
+            m_bodies[b].spin(-(m_pushed[b].m_bySoft / m_pushed[b].m_total) * m_pushed[b].m_gained, m_settings.m_step);
 }
 
 }  // namespace bullet_fem

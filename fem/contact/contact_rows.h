@@ -100,6 +100,12 @@ private:
         bool m_tried = false;    // its sweeps have not proved it yet
     };
 
+    struct Pushed  // a body, by its position corrections
+    {
+        Vec3 m_gained;                     // angular momentum [kg m2/s]
+        double m_total = 0, m_bySoft = 0;  // impulses on it, and those of soft bodies [N s]
+    };
+
     void addContactRow(const ContactPoint& contact);
     void addJointRow(const Joint& joint);
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
@@ -154,7 +160,7 @@ private:
     const Threads* threadsForCompliance() const;
     void preparePush();
     void sumPushImpulses();
-    void payBack(std::size_t body, const Vec3& gained);
+    void payBack();
 
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
@@ -174,6 +180,7 @@ private:
     std::vector<std::pair<int, Vec3>> m_saved;        // rows, and their impulses before the last minimization
     std::vector<Vec3> m_probeLinear, m_probeAngular;  // of the obstacles, while their response is asked for
     std::vector<Vec3> m_savedLinear, m_savedAngular;  // of the obstacles, while their pushes are solved for
+    std::vector<Pushed> m_pushed;                     // one a body
 };
 
 }  // namespace bullet_fem
