@@ -10,7 +10,14 @@ namespace
 {
 
 constexpr int kMaxSweepsOfPush = 200;
-constexpr double kPushTolerance = 1e-4;
+constexpr double kPushTolerance = 1e-4;       // share of the speed scale, as of contact
+constexpr double kLoosePushTolerance = 1e-3;  // at most: 1e-3 g h^2 of displacement, at 60 Hz 3e-6 m
+
+// A tenth of what contact is solved to, within bounds.
+double pushTolerance(double contactTolerance)
+{
+    return std::clamp(0.1 * contactTolerance, kPushTolerance, kLoosePushTolerance);
+}
 
 }  // namespace
 
@@ -61,7 +68,8 @@ int ContactRows::push()
     preparePush();
     setSpeedScale();
     int sweeps = 1;
-    while (sweep(kPushTolerance) && sweeps < kMaxSweepsOfPush) ++sweeps;
+    const double tolerance = pushTolerance(m_settings.m_tolerance);
+    while (sweep(tolerance) && sweeps < kMaxSweepsOfPush) ++sweeps;
     sumPushImpulses();
     for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
     {
