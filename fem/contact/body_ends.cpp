@@ -28,6 +28,7 @@ void BodyEnds::clear(const ContactBody& body)
 {
     m_body = body;
     m_ends.clear();
+    m_working.reset(0);
 }
 
 int BodyEnds::addPoint(const SurfacePoint& point, const Vec3& at)
@@ -76,52 +77,57 @@ void BodyEnds::assemble(int denseLimit)
     learnt = std::max(1.0, kForgetting * learnt);
     m_scale = learnt;
     m_dense = size() <= denseLimit;
-    m_velocity.assign(m_ends.size(), Vec3());
-    m_impulse.assign(m_ends.size(), Vec3());
-    m_applied.assign(m_ends.size(), Vec3());
-    m_seen.assign(m_ends.size(), Vec3());
-    m_before.assign(m_ends.size(), Vec3());
-    m_working.reset(size());
+    for (std::vector<Vec3>* vectors : {&m_impulse, &m_applied, &m_seen}) vectors->assign(m_ends.size(), Vec3());
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
-    if (m_dense)
-        formDense();
-    else
-        estimateDiagonal();
-}
-
-void BodyEnds::formDense()
-{
-    m_W.resize(size());
-    m_points.clear(m_nodeIn.size());
+    if (!m_dense)
+    {
+        m_velocity.assign(m_ends.size(), Vec3());
+        m_before.assign(m_ends.size(), Vec3());
+        return;
+    }
+    m_points.clear(nodes);
     for (const End& end : m_ends)
         if (isGroup(end))
-            m_points.addEmpty();
+            m_points.addOwn();
         else
             m_points.add(end.m_point);
-    m_points.form(m_body, m_scale, m_W);
+    m_points.request(m_body);
+    m_working.reset(size());
+    m_responses.reserve(m_ends.size());
+    m_slotVelocity.assign(m_points.order(), 0);
+    m_slotBefore.assign(m_points.order(), 0);
+}
+
+void BodyEnds::form()
+{
+    if (!m_dense) return estimateDiagonal();
+    m_points.form(m_body, m_scale);
     for (int e = 0; e < size(); ++e)
         if (isGroup(m_ends[e])) formGroup(e);
 }
 
-// Columns of a group of nodes, and its rows: those that it shares with an earlier group stay.
+// Between a group of nodes, the nodes of the points, and the groups from it on.
 void BodyEnds::formGroup(int e)
 {
     const WarpedCompliance P(*m_body.m_body);
-    for (int c = 0; c < 3; ++c)
+    const std::vector<int>& nodes = m_points.nodes();
+    const std::size_t own = 3 * static_cast<std::size_t>(m_points.slot(e));
+    for (std::size_t c = 0; c < 3; ++c)
     {
         Vec3 unit;
-        unit[c] = 1;
+        unit[static_cast<int>(c)] = 1;
         std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
         scatter(m_ends[e], unit, m_nodeIn);
         P.apply(m_nodeIn, m_nodeOut);
-        for (int f = 0; f < size(); ++f)
+        const auto set = [&](std::size_t slot, const Vec3& w)
         {
-            if (f < e && isGroup(m_ends[f])) continue;
-            const Vec3 w = m_scale * read(m_ends[f], m_nodeOut);
-            for (int i = 0; i < 3; ++i)
-                if (f != e || i >= c) m_W(3 * f + i, 3 * e + c) = m_W(3 * e + c, 3 * f + i) = static_cast<float>(w[i]);
-        }
+            for (std::size_t i = 0; i < 3; ++i)
+                if (3 * slot != own || i >= c) m_points.set(3 * slot + i, own + c, m_scale * w[static_cast<int>(i)]);
+        };
+        for (std::size_t t = 0; t < nodes.size(); ++t) set(t, m_nodeOut[nodes[t]]);
+        for (int f = e; f < size(); ++f)
+            if (isGroup(m_ends[f])) set(m_points.slot(f), read(m_ends[f], m_nodeOut));
     }
 }
 
@@ -145,7 +151,7 @@ void BodyEnds::estimateDiagonal()
 Mat3 BodyEnds::compliance(int e, int f) const
 {
     if (!m_dense) return e == f ? m_scale * m_meanDiagonal : Mat3();
-    return m_W.block(e, f);
+    return m_points.block(e, f);
 }
 
 Vec3 BodyEnds::trueVelocity(int e) const
@@ -156,19 +162,26 @@ Vec3 BodyEnds::trueVelocity(int e) const
 void BodyEnds::push(int e, const Vec3& impulse)
 {
     m_impulse[e] += impulse;
-    if (m_dense && m_working.has(e)) m_working.push(e, impulse);
+    if (!m_dense) return;
+    if (m_working.has(e))
+        m_working.push(e, impulse);
+    else
+        m_pushedAtRest = true;
 }
 
 void BodyEnds::refresh()
 {
     if (!m_dense) return;
+    m_responses.clear();
     for (int e = 0; e < size(); ++e)
     {
         const Vec3 unseen = m_impulse[e] - m_seen[e];
-        if (dot(unseen, unseen) > 0) m_W.respond(e, unseen, m_velocity);
+        if (dot(unseen, unseen) > 0) m_responses.push_back(m_points.response(e, unseen));
         m_seen[e] = m_impulse[e];
     }
-    m_working.clear();
+    addResponses(m_responses.data(), m_responses.size(), m_points.order(), m_slotVelocity.data());
+    if (m_pushedAtRest) m_working.load(m_points, m_slotVelocity);
+    m_pushedAtRest = false;
 }
 
 void BodyEnds::followProbe(double step)
@@ -188,12 +201,29 @@ void BodyEnds::flush()
 
 void BodyEnds::measure()
 {
-    for (int e = 0; e < size(); ++e)
+    m_seen.assign(m_applied.begin(), m_applied.end());
+    if (m_dense)
     {
-        m_velocity[e] = m_before[e] = trueVelocity(e);
-        m_seen[e] = m_applied[e];
+        measureSlots();
+        m_pushedAtRest = true;  // what works is to see the true velocities
     }
+    else
+        for (int e = 0; e < size(); ++e) m_velocity[e] = m_before[e] = trueVelocity(e);
     flush();
+}
+
+void BodyEnds::measureSlots()
+{
+    const auto put = [this](int slot, const Vec3& v)
+    {
+        for (int i = 0; i < 3; ++i) m_slotVelocity[3 * static_cast<std::size_t>(slot) + i] = v[i];
+    };
+    const std::vector<Vec3>& v = bullet_fem::velocity(*m_body.m_body);
+    int slot = 0;
+    for (int node : m_points.nodes()) put(slot++, v[node]);
+    for (int e = 0; slot < m_points.slots(); ++e)
+        if (isGroup(m_ends[e])) put(slot++, trueVelocity(e));
+    m_slotBefore.assign(m_slotVelocity.begin(), m_slotVelocity.end());
 }
 
 // The nodes' shares of the impulses beyond those known; false if there are none.
@@ -234,10 +264,11 @@ void BodyEnds::endCorrection()
     for (int e = 0; e < size(); ++e)
     {
         const Vec3 impulse = m_impulse[e] - m_applied[e];
-        trueWork += dot(impulse, trueVelocity(e) - m_before[e]);
-        predictedWork += dot(impulse, m_velocity[e] - m_before[e]);
-        m_allWork += dot(m_impulse[e], compliance(e, e) * m_impulse[e]);
         m_applied[e] = m_impulse[e];
+        if (dot(m_impulse[e], m_impulse[e]) > 0) m_allWork += dot(m_impulse[e], compliance(e, e) * m_impulse[e]);
+        if (!(dot(impulse, impulse) > 0)) continue;
+        trueWork += dot(impulse, trueVelocity(e) - before(e));
+        predictedWork += dot(impulse, known(e) - before(e));
     }
     learn(trueWork, predictedWork);
 }
@@ -250,17 +281,16 @@ void BodyEnds::learn(double trueWork, double predictedWork)
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
     if (!m_dense) return;
-    m_W.scale(factor);
+    m_points.scale(factor);
     m_working.reset(size());
 }
 
 void BodyEnds::beginPush()
 {
-    std::fill(m_velocity.begin(), m_velocity.end(), Vec3());
-    std::fill(m_impulse.begin(), m_impulse.end(), Vec3());
-    std::fill(m_applied.begin(), m_applied.end(), Vec3());
-    std::fill(m_seen.begin(), m_seen.end(), Vec3());
-    m_working.clear();
+    for (std::vector<Vec3>* vectors : {&m_velocity, &m_impulse, &m_applied, &m_seen})
+        std::fill(vectors->begin(), vectors->end(), Vec3());
+    std::fill(m_slotVelocity.begin(), m_slotVelocity.end(), 0.0);
+    if (m_dense && size() > 0) m_working.load(m_points, m_slotVelocity);
 }
 
 Vec3 BodyEnds::applyPush(const StepSettings& settings)

@@ -14,9 +14,9 @@ namespace bullet_fem
 {
 
 /// The places of one soft body where contacts and joints pull, and how all of them move when one is pushed: velocities
-/// u = u_true + W (lambda - applied), with W_ef = J_e P J_f^T for the warped rest factor P. Up to a limit W is a dense
-/// matrix, formed from cached columns of A0^-1; beyond it P itself is applied, to all new impulses at once. Grows with
-/// the number of ends, never shrinks.
+/// u = u_true + W (lambda - applied), with W_ef = J_e P J_f^T for the warped rest factor P. Up to a limit of ends, P
+/// between the nodes that they are on is a dense matrix, formed from cached columns of A0^-1; beyond it P itself is
+/// applied, to all new impulses at once. Grows with the number of ends, never shrinks.
 class BodyEnds
 {
 public:
@@ -29,8 +29,11 @@ public:
     /// Adds a group of nodes; returns its index. Its nodes and blocks must live until the step is over.
     int addGroup(const int* nodes, const Mat3* blocks, int count);
 
-    /// Forms W, dense for at most denseLimit ends.
+    /// When all ends are added: makes ready for form(), which is to follow. Not for two bodies of one cache at a time.
     void assemble(int denseLimit);
+
+    /// Forms the compliance, dense for at most denseLimit ends.
+    void form();
 
     int size() const { return static_cast<int>(m_ends.size()); }
 
@@ -43,7 +46,7 @@ public:
     Mat3 compliance(int e, int f) const;
 
     /// As predicted [m/s]; of a dense body that of an end which does not work is that of the last refresh().
-    const Vec3& velocity(int e) const { return m_dense && m_working.has(e) ? m_working.velocity(e) : m_velocity[e]; }
+    Vec3 velocity(int e) const { return m_dense && m_working.has(e) ? m_working.velocity(e) : known(e); }
 
     /// From the true velocities of the body [m/s].
     Vec3 trueVelocity(int e) const;
@@ -53,11 +56,14 @@ public:
     void push(int e, const Vec3& impulse);
     void flush();
 
-    /// Brings all velocities up to date, and ends the work of the working set (dense only): startWork and any number of
-    /// times work(e) choose another.
+    /// Brings all velocities up to date (dense only).
     void refresh();
+
+    /// Chooses another working set (dense only): after a refresh(), choose, work(e) once or again for each end of it,
+    /// and startWork.
+    void choose() { m_working.choose(); }
     void work(int e) { m_working.add(e); }
-    void startWork() { m_working.pack(m_W, m_velocity); }
+    void startWork() { m_working.pack(m_points, m_slotVelocity); }
 
     /// The working set, for probes of directions.
     WorkingSet& working() { return m_working; }
@@ -93,8 +99,10 @@ private:
     bool isGroup(const End& end) const { return end.m_nodes != nullptr; }
     Vec3 read(const End& end, const std::vector<Vec3>& nodeValues) const;
     void scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& nodeImpulses) const;
-    void formDense();
+    Vec3 known(int e) const { return m_dense ? m_points.read(e, m_slotVelocity) : m_velocity[e]; }
+    Vec3 before(int e) const { return m_dense ? m_points.read(e, m_slotBefore) : m_before[e]; }
     void formGroup(int e);
+    void measureSlots();
     void estimateDiagonal();
     bool gatherBeyond(const std::vector<Vec3>& known);
     void learn(double trueWork, double predictedWork);
@@ -102,14 +110,15 @@ private:
     ContactBody m_body;
     bool m_dense = true;
     std::vector<End> m_ends;
-    std::vector<Vec3> m_velocity;  // per end
-    std::vector<Vec3> m_impulse;   // per end, all
-    std::vector<Vec3> m_applied;   // per end, in the body's true velocities
-    std::vector<Vec3> m_seen;      // per end, in m_velocity
-    std::vector<Vec3> m_before;    // per end: velocity before the impulses of this round
-    DenseCompliance m_W;           // of all ends
-    PointCompliance m_points;      // forms it
+    std::vector<Vec3> m_impulse;                       // per end, all
+    std::vector<Vec3> m_applied;                       // per end, in the body's true velocities
+    std::vector<Vec3> m_seen;                          // per end, in the velocities
+    std::vector<Vec3> m_velocity, m_before;            // per end, not dense: now, and before this round's impulses
+    std::vector<double> m_slotVelocity, m_slotBefore;  // dense: the same of the slots of m_points
+    PointCompliance m_points;
     WorkingSet m_working;
+    bool m_pushedAtRest = false;        // dense: an end outside the working set has an impulse that that has not seen
+    std::vector<Response> m_responses;  // of a refresh
     std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes
     Mat3 m_meanDiagonal;                    // not dense: estimate of W_ee, without the learnt scale
     double m_scale = 1;                     // learnt

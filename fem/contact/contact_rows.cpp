@@ -43,6 +43,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
         if (m_bodies[b].size() == 0) continue;
         m_bodies[b].assemble(settings.m_denseLimit);
         m_inTurn = m_inTurn && m_bodies[b].isDense();
+        m_bodies[b].form();
     }
     for (Row& row : m_rows)
     {

@@ -95,6 +95,7 @@ void ContactRows::chooseWorkingSet()
         if (row.m_works) m_working.push_back(static_cast<int>(k));
         if (row.m_works && !worked) ++joined;
     }
+    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].choose();
     for (int k : m_working)
         for (const RowEnd* end : {&m_rows[k].m_a, &m_rows[k].m_b})
             if (end->m_body >= 0) m_bodies[end->m_body].work(end->m_end);

@@ -16,25 +16,20 @@ namespace
 
 constexpr std::size_t kTile = 16;  // of a transposition: what it reads and writes stays in the cache
 
-std::size_t padded(std::size_t count, std::size_t multiple)
+void growTo(std::vector<float>& values, std::size_t size)
 {
-    return (count + multiple - 1) / multiple * multiple;
+    if (values.size() < size) values.resize(size);
 }
 
 }  // namespace
 
-void PointCompliance::Columns::resize(std::size_t rows, std::size_t columns)
-{
-    m_rows = rows;
-    if (m_values.size() < rows * columns) m_values.resize(rows * columns);
-}
-
 void PointCompliance::clear(std::size_t nodes)
 {
-    m_firstWeight.assign(1, 0);
+    m_first.assign(1, 0);
     m_weight.clear();
-    m_node.clear();
-    m_placeOfNode.resize(nodes);
+    m_slot.clear();
+    m_own = 0;
+    m_slotOfNode.resize(nodes);
 }
 
 void PointCompliance::add(const SurfacePoint& point)
@@ -42,47 +37,116 @@ void PointCompliance::add(const SurfacePoint& point)
     for (int a = 0; a < point.m_count; ++a)
     {
         if (point.m_weights[a] == 0) continue;
-        m_weight.push_back(static_cast<float>(point.m_weights[a]));
-        m_node.push_back(point.m_nodes[a]);
+        m_weight.push_back(point.m_weights[a]);
+        m_slot.push_back(point.m_nodes[a]);
     }
-    addEmpty();
+    m_first.push_back(static_cast<int>(m_slot.size()));
 }
 
-void PointCompliance::form(const ContactBody& body, double scale, DenseCompliance& W)
+void PointCompliance::addOwn()
 {
-    listNodes();
+    ++m_own;
+    m_weight.push_back(1);
+    m_slot.push_back(-1);
+    m_first.push_back(static_cast<int>(m_slot.size()));
+}
+
+void PointCompliance::request(const ContactBody& body)
+{
+    m_nodes.clear();
+    for (int node : m_slot)
+        if (node >= 0) m_nodes.push_back(node);
+    std::sort(m_nodes.begin(), m_nodes.end());
+    m_nodes.erase(std::unique(m_nodes.begin(), m_nodes.end()), m_nodes.end());
+    for (std::size_t t = 0; t < m_nodes.size(); ++t) m_slotOfNode[m_nodes[t]] = static_cast<int>(t);
+    int own = static_cast<int>(m_nodes.size());
+    for (int& slot : m_slot) slot = slot >= 0 ? m_slotOfNode[slot] : own++;
     body.m_compliance->request(m_nodes);
+}
+
+void PointCompliance::form(const ContactBody& body, double scale)
+{
+    const std::size_t room = padded(slots(), kNodePadding);
+    m_rows = 3 * room;
+    growTo(m_N, m_rows * 3 * slots());
     turnNodes(body);
     formNodeColumns(body, scale);
     mirrorNodeColumns();
-
-    const std::size_t order = 3 * static_cast<std::size_t>(points()), rows = m_N.m_rows;
-    m_half.resize(rows, padded(order, kTile));
-    for (int e = 0; e < points(); ++e)
-        for (int c = 0; c < 3; ++c) sumOverNodes(m_N, e, c, m_half.column(3 * e + c));
-    m_transposedHalf.resize(padded(order, kTile), rows);
-    for (std::size_t j = 0; j < order; j += kTile)
-        for (std::size_t i = 0; i < rows; i += kTile)
-            for (std::size_t b = i; b < i + kTile; ++b)
-                for (std::size_t a = j; a < j + kTile; ++a) m_transposedHalf.column(b)[a] = m_half.column(a)[b];
-    for (int e = 0; e < points(); ++e)
-        for (int c = 0; c < 3; ++c) sumOverNodes(m_transposedHalf, e, c, W.column(3 * e + c));
+    if (m_own > 0) std::fill(column(3 * m_nodes.size()), column(3 * slots()), 0.f);
+    m_floatWeight.assign(m_weight.begin(), m_weight.end());
+    m_columnsOf.assign(points(), -1);
+    m_columnsFormed = 0;
+    m_columns.reserve(3 * m_rows * points());
 }
 
-void PointCompliance::listNodes()
+void PointCompliance::scale(double factor)
 {
-    m_nodes.assign(m_node.begin(), m_node.end());
-    std::sort(m_nodes.begin(), m_nodes.end());
-    m_nodes.erase(std::unique(m_nodes.begin(), m_nodes.end()), m_nodes.end());
-    for (std::size_t t = 0; t < m_nodes.size(); ++t) m_placeOfNode[m_nodes[t]] = static_cast<int>(t);
-    for (int& node : m_node) node = m_placeOfNode[node];
+    for (std::size_t i = 0; i < m_rows * 3 * slots(); ++i) m_N[i] *= static_cast<float>(factor);
+    m_columnsOf.assign(points(), -1);
+    m_columnsFormed = 0;
+}
+
+void PointCompliance::set(std::size_t i, std::size_t j, double value)
+{
+    column(j)[i] = column(i)[j] = static_cast<float>(value);
+}
+
+Vec3 PointCompliance::read(int point, const std::vector<double>& slotValues) const
+{
+    Vec3 sum;
+    for (int k = m_first[point]; k < m_first[point + 1]; ++k)
+    {
+        const double* value = &slotValues[3 * static_cast<std::size_t>(m_slot[k])];
+        sum += m_weight[k] * Vec3{value[0], value[1], value[2]};
+    }
+    return sum;
+}
+
+const float* PointCompliance::columns(int point)
+{
+    if (m_columnsOf[point] < 0)
+    {
+        m_columnsOf[point] = m_columnsFormed++;
+        growTo(m_columns, 3 * m_rows * m_columnsFormed);
+        float* sums = &m_columns[3 * m_rows * m_columnsOf[point]];
+        const int first = m_first[point], count = m_first[point + 1] - first;
+        for (int c = 0; c < 3; ++c)
+        {
+            m_terms.clear();
+            for (int k = first; k < first + count; ++k)
+                m_terms.push_back(column(3 * static_cast<std::size_t>(m_slot[k]) + c));
+            addWeighted({m_terms.data(), m_floatWeight.data() + first, count}, m_rows, sums + c * m_rows);
+        }
+    }
+    return &m_columns[3 * m_rows * m_columnsOf[point]];
+}
+
+// What is at a point of three columns over the slots.
+Mat3 PointCompliance::readColumns(int point, const float* columns) const
+{
+    float w[9] = {};
+    for (int k = m_first[point]; k < m_first[point + 1]; ++k)
+        for (int c = 0; c < 3; ++c)
+        {
+            const float* value = columns + c * m_rows + 3 * static_cast<std::size_t>(m_slot[k]);
+            for (int i = 0; i < 3; ++i) w[3 * i + c] += m_floatWeight[k] * value[i];
+        }
+    return {{{w[0], w[1], w[2]}, {w[3], w[4], w[5]}, {w[6], w[7], w[8]}}};
+}
+
+Mat3 PointCompliance::block(int e, int f) const
+{
+    Mat3 w;
+    for (int l = m_first[f]; l < m_first[f + 1]; ++l)
+        w += m_weight[l] * readColumns(e, column(3 * static_cast<std::size_t>(m_slot[l])));
+    return w;
 }
 
 void PointCompliance::turnNodes(const ContactBody& body)
 {
     const WarpedPreconditioner P(*body.m_body);
     const std::vector<unsigned char>& fixed = body.m_body->m_state.m_fixed;
-    const std::size_t room = padded(m_nodes.size(), kNodePadding);
+    const std::size_t room = m_rows / 3;
     m_offsets.assign(room, 0);
     m_rotations.assign(9 * room, 0.f);
     for (std::size_t t = 0; t < m_nodes.size(); ++t)
@@ -99,21 +163,19 @@ void PointCompliance::formNodeColumns(const ContactBody& body, double scale)
 {
     const RestFactor& factor = body.m_body->m_model->factor();
     const std::size_t room = m_offsets.size();
-    RestColumn column;
-    column.m_offsets = m_offsets.data();
-    column.m_rotations = m_rotations.data();
-    column.m_padded = room;
-    m_N.resize(3 * room, 3 * m_nodes.size());
+    RestColumn source;
+    source.m_offsets = m_offsets.data();
+    source.m_rotations = m_rotations.data();
+    source.m_padded = room;
     for (std::size_t t = 0; t < m_nodes.size(); ++t)
     {
         const int node = m_nodes[t];
-        column.m_blocks = body.m_compliance->column(node);
-        column.m_first = t / kNodePadding * kNodePadding;
-        for (int k = 0; k < 9; ++k) column.m_source[k] = static_cast<float>(scale) * m_rotations[k * room + t];
-        turnColumn(column, m_N.column(3 * t));
+        source.m_blocks = body.m_compliance->column(node);
+        source.m_first = t / kNodePadding * kNodePadding;
+        for (int k = 0; k < 9; ++k) source.m_source[k] = static_cast<float>(scale) * m_rotations[k * room + t];
+        turnColumn(source, column(3 * t));
         if (factor.position(node) >= 0 || body.m_body->m_state.m_fixed[node]) continue;
-        for (int c = 0; c < 3; ++c)
-            m_N.column(3 * t + c)[3 * t + c] = static_cast<float>(scale / factor.diagonal(node));
+        for (int c = 0; c < 3; ++c) column(3 * t + c)[3 * t + c] = static_cast<float>(scale / factor.diagonal(node));
     }
 }
 
@@ -123,17 +185,7 @@ void PointCompliance::mirrorNodeColumns()
     const std::size_t order = 3 * m_nodes.size();
     for (std::size_t first = 0; first < order; first += kTile)
         for (std::size_t i = first; i < order; ++i)
-            for (std::size_t j = first; j < std::min(i, first + kTile); ++j) m_N.column(i)[j] = m_N.column(j)[i];
-}
-
-// A point's sum over its nodes' columns.
-void PointCompliance::sumOverNodes(Columns& of, int point, int axis, float* sum)
-{
-    const int first = m_firstWeight[point], count = m_firstWeight[point + 1] - first;
-    m_terms.clear();
-    for (int k = first; k < first + count; ++k) m_terms.push_back(of.column(3 * m_node[k] + axis));
-    const std::size_t size = &of == &m_N ? m_N.m_rows : 3 * static_cast<std::size_t>(points());
-    addWeighted({m_terms.data(), m_weight.data() + first, count}, size, sum);
+            for (std::size_t j = first; j < std::min(i, first + kTile); ++j) column(i)[j] = column(j)[i];
 }
 
 }  // namespace bullet_fem

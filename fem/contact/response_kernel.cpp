@@ -19,23 +19,37 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void AddResponse(const float* columns, std::size_t order, const Vec3& impulse, double* velocity)
+using Lanes = hn::CappedTag<double, kResponsePadding>;
+using Vector = hn::Vec<Lanes>;
+
+// kCount responses in one pass over the velocities.
+template <int kCount>
+HWY_INLINE void addSome(const Response* in, std::size_t order, double* velocity)
 {
-    const hn::ScalableTag<double> d;
-    const hn::Rebind<float, hn::ScalableTag<double>> half;
-    const std::size_t lanes = hn::Lanes(d);
-    const float *w0 = columns, *w1 = w0 + order, *w2 = w1 + order;
-    const auto x = hn::Set(d, impulse.x), y = hn::Set(d, impulse.y), z = hn::Set(d, impulse.z);
-    std::size_t i = 0;
-    for (; i + lanes <= order; i += lanes)
+    const Lanes d;
+    const hn::Rebind<float, Lanes> half;
+    Vector impulse[3 * kCount];
+    const float* column[3 * kCount];
+    for (int k = 0; k < kCount; ++k)
+        for (int c = 0; c < 3; ++c)
+        {
+            impulse[3 * k + c] = hn::Set(d, in[k].m_impulse[c]);
+            column[3 * k + c] = in[k].m_columns + c * in[k].m_stride;
+        }
+    for (std::size_t i = 0; i < order; i += hn::Lanes(d))
     {
         auto v = hn::LoadU(d, velocity + i);
-        v = hn::MulAdd(hn::PromoteTo(d, hn::LoadU(half, w0 + i)), x, v);
-        v = hn::MulAdd(hn::PromoteTo(d, hn::LoadU(half, w1 + i)), y, v);
-        v = hn::MulAdd(hn::PromoteTo(d, hn::LoadU(half, w2 + i)), z, v);
+        for (int k = 0; k < 3 * kCount; ++k)
+            v = hn::MulAdd(hn::PromoteTo(d, hn::LoadU(half, column[k] + i)), impulse[k], v);
         hn::StoreU(v, d, velocity + i);
     }
-    for (; i < order; ++i) velocity[i] += w0[i] * impulse.x + w1[i] * impulse.y + w2[i] * impulse.z;
+}
+
+void AddResponses(const Response* responses, std::size_t count, std::size_t order, double* velocity)
+{
+    std::size_t k = 0;
+    for (; k + 4 <= count; k += 4) addSome<4>(responses + k, order, velocity);
+    for (; k < count; ++k) addSome<1>(responses + k, order, velocity);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -46,17 +60,18 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(AddResponse);
+HWY_EXPORT(AddResponses);
 
-void addResponse(const float* columns, std::size_t order, const Vec3& impulse, double* velocity)
+void addResponses(const Response* responses, std::size_t count, std::size_t order, double* velocity)
 {
-    HWY_DYNAMIC_DISPATCH(AddResponse)(columns, order, impulse, velocity);
+    HWY_DYNAMIC_DISPATCH(AddResponses)(responses, count, order, velocity);
 }
 
-void scalar::addResponse(const float* columns, std::size_t order, const Vec3& impulse, double* velocity)
+void scalar::addResponses(const Response* responses, std::size_t count, std::size_t order, double* velocity)
 {
-    for (std::size_t i = 0; i < order; ++i)
-        velocity[i] += columns[i] * impulse.x + columns[order + i] * impulse.y + columns[2 * order + i] * impulse.z;
+    for (const Response* r = responses; r != responses + count; ++r)
+        for (std::size_t i = 0; i < order; ++i)
+            for (int c = 0; c < 3; ++c) velocity[i] += r->m_columns[c * r->m_stride + i] * r->m_impulse[c];
 }
 
 }  // namespace bullet_fem

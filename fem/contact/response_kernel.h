@@ -9,14 +9,31 @@
 namespace bullet_fem
 {
 
-/// velocity_i += w_0i x + w_1i y + w_2i z for i in [0, order), with w_c = columns + c order. On the widest vectors that
-/// the processor has.
-void addResponse(const float* columns, std::size_t order, const Vec3& impulse, double* velocity);
+/// Orders of responses are padded to a multiple of this: no kernel has a rest to do.
+constexpr std::size_t kResponsePadding = 8;
+
+/// The least multiple of a number that is not less than a count.
+constexpr std::size_t padded(std::size_t count, std::size_t multiple)
+{
+    return (count + multiple - 1) / multiple * multiple;
+}
+
+/// An impulse, and what its components do: w_c = m_columns + c m_stride.
+struct Response
+{
+    const float* m_columns = nullptr;
+    std::size_t m_stride = 0;
+    Vec3 m_impulse;
+};
+
+/// velocity_i += w_0i x + w_1i y + w_2i z of every response, in their order, for i in [0, order): a multiple of
+/// kResponsePadding. On the widest vectors that the processor has.
+void addResponses(const Response* responses, std::size_t count, std::size_t order, double* velocity);
 
 /// The same in plain C++: what the kernel is tested against.
 namespace scalar
 {
-void addResponse(const float* columns, std::size_t order, const Vec3& impulse, double* velocity);
+void addResponses(const Response* responses, std::size_t count, std::size_t order, double* velocity);
 }  // namespace scalar
 
 }  // namespace bullet_fem

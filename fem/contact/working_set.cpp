@@ -2,60 +2,147 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/contact/working_set.h"
 
+#include <algorithm>
+
 namespace bullet_fem
 {
+namespace
+{
+
+constexpr double kMostLeft = 0.25;  // share of ends that may have left before the others move together
+
+}  // namespace
 
 void WorkingSet::reset(int ends)
 {
     m_ends.clear();
-    m_packedEnds.clear();
+    m_wanted.clear();
+    m_packed = 0;
     m_place.assign(ends, -1);
-    for (std::vector<int>* indices : {&m_ends, &m_packedEnds}) indices->reserve(ends);
-    for (std::vector<Vec3>* vectors : {&m_velocity, &m_probeImpulse, &m_probeVelocity}) vectors->reserve(ends);
-    m_W.reserve(ends);
+    m_stride = 0;
+    const std::size_t most = padded(3 * static_cast<std::size_t>(ends), kResponsePadding);
+    if (m_W.size() < most * most) m_W.resize(most * most);
+    m_velocity.assign(most, 0);
+    m_probeVelocity.assign(most, 0);
+    m_ends.reserve(ends);
+    m_wanted.reserve(ends);
+    m_probeImpulse.reserve(ends);
+    m_probeResponse.reserve(ends);
 }
 
-void WorkingSet::clear()
+void WorkingSet::choose()
 {
-    for (int e : m_ends) m_place[e] = -1;
-    m_ends.clear();
+    std::fill(m_wanted.begin(), m_wanted.end(), static_cast<unsigned char>(0));
 }
 
 void WorkingSet::add(int e)
 {
-    if (has(e)) return;
-    m_place[e] = static_cast<int>(m_ends.size());
-    m_ends.push_back(e);
+    if (m_place[e] < 0)
+    {
+        m_place[e] = static_cast<int>(m_ends.size());
+        m_ends.push_back(e);
+        m_wanted.push_back(1);
+    }
+    m_wanted[m_place[e]] = 1;
 }
 
-void WorkingSet::pack(const DenseCompliance& W, const std::vector<Vec3>& velocity)
+void WorkingSet::put(const Vec3& v, std::vector<double>& values, std::size_t place)
 {
-    m_velocity.clear();
-    for (int e : m_ends) m_velocity.push_back(velocity[e]);
-    if (m_ends == m_packedEnds) return;
-    m_packedEnds.assign(m_ends.begin(), m_ends.end());
-    m_W.resize(static_cast<int>(m_ends.size()));
+    for (int i = 0; i < 3; ++i) values[3 * place + i] = v[i];
+}
+
+void WorkingSet::pack(PointCompliance& points, const std::vector<double>& slotVelocity)
+{
+    const auto left = std::count(m_wanted.begin(), m_wanted.end(), static_cast<unsigned char>(0));
+    if (static_cast<double>(left) > kMostLeft * static_cast<double>(m_ends.size())) dropThoseThatLeft();
+    if (order() > m_stride) widen();
+    for (; m_packed < m_ends.size(); ++m_packed)
+    {
+        const int f = m_ends[m_packed];
+        put(points.read(f, slotVelocity), m_velocity, m_packed);
+        for (std::size_t k = 0; k <= m_packed; ++k)
+        {
+            const Mat3 w = points.blockByColumns(m_ends[k], f);
+            float *column = block(k, m_packed), *mirrored = block(m_packed, k);
+            for (int c = 0; c < 3; ++c)
+                for (int i = 0; i < 3; ++i)
+                    column[c * m_stride + i] = mirrored[i * m_stride + c] = static_cast<float>(w(i, c));
+        }
+    }
+}
+
+// With room for some that will join; close together, because sweeps go through all of it again and again.
+std::size_t WorkingSet::wantedStride(std::size_t ends) const
+{
+    return padded(3 * std::min(ends + ends / 4 + 2, m_place.size()), kResponsePadding);
+}
+
+void WorkingSet::widen()
+{
+    const std::size_t before = m_stride;
+    m_stride = wantedStride(m_ends.size());
+    for (std::size_t column = 3 * m_packed; column-- > 1;)
+        std::copy_backward(&m_W[column * before], &m_W[column * before] + 3 * m_packed,
+                           &m_W[column * m_stride] + 3 * m_packed);
+}
+
+// Columns, and rows in them, only ever move towards the front.
+void WorkingSet::dropThoseThatLeft()
+{
+    const auto all =
+        static_cast<std::size_t>(std::count(m_wanted.begin(), m_wanted.end(), static_cast<unsigned char>(1)));
+    const std::size_t stride = std::min(m_stride, wantedStride(all));
+    std::size_t kept = 0, packed = 0;
     for (std::size_t f = 0; f < m_ends.size(); ++f)
-        for (std::size_t e = 0; e < m_ends.size(); ++e)
-            m_W.setBlock(static_cast<int>(e), static_cast<int>(f), W.block(m_ends[e], m_ends[f]));
+    {
+        m_place[m_ends[f]] = m_wanted[f] ? static_cast<int>(kept) : -1;
+        if (!m_wanted[f]) continue;
+        if (f < m_packed)
+        {
+            put(at(m_velocity, static_cast<int>(f)), m_velocity, kept);
+            for (int c = 0; c < 3; ++c)
+            {
+                const float* from = &m_W[(3 * f + c) * m_stride];
+                float* to = &m_W[(3 * kept + c) * stride];
+                for (std::size_t e = 0; e < m_packed; ++e, from += 3)
+                {
+                    if (!m_wanted[e]) continue;
+                    for (int i = 0; i < 3; ++i) to[i] = from[i];
+                    to += 3;
+                }
+            }
+            ++packed;
+        }
+        m_ends[kept++] = m_ends[f];
+    }
+    m_ends.resize(kept);
+    m_wanted.assign(kept, 1);
+    m_packed = packed;
+    m_stride = stride;
+}
+
+void WorkingSet::load(const PointCompliance& points, const std::vector<double>& slotVelocity)
+{
+    for (std::size_t k = 0; k < m_ends.size(); ++k) put(points.read(m_ends[k], slotVelocity), m_velocity, k);
 }
 
 void WorkingSet::beginProbe()
 {
     m_probeImpulse.assign(m_ends.size(), Vec3());
-    m_probeVelocity.assign(m_ends.size(), Vec3());
+    std::fill(m_probeVelocity.begin(), m_probeVelocity.begin() + static_cast<std::ptrdiff_t>(order()), 0.0);
 }
 
 void WorkingSet::respondToProbe()
 {
+    m_probeResponse.clear();
     for (std::size_t k = 0; k < m_ends.size(); ++k)
-        if (dot(m_probeImpulse[k], m_probeImpulse[k]) > 0)
-            m_W.respond(static_cast<int>(k), m_probeImpulse[k], m_probeVelocity);
+        if (dot(m_probeImpulse[k], m_probeImpulse[k]) > 0) m_probeResponse.push_back(respond(k, m_probeImpulse[k]));
+    addResponses(m_probeResponse.data(), m_probeResponse.size(), order(), m_probeVelocity.data());
 }
 
 void WorkingSet::followProbe(double step)
 {
-    for (std::size_t k = 0; k < m_ends.size(); ++k) m_velocity[k] += step * m_probeVelocity[k];
+    for (std::size_t i = 0; i < 3 * m_ends.size(); ++i) m_velocity[i] += step * m_probeVelocity[i];
 }
 
 }  // namespace bullet_fem

@@ -4,37 +4,43 @@
 
 #include <vector>
 
-#include "fem/contact/dense_compliance.h"
+#include "fem/contact/point_compliance.h"
 
 namespace bullet_fem
 {
 
-/// The ends of a body whose impulses change in the sweeps, and their part of its dense compliance, packed: three
-/// quarters of the points that are found near a surface carry nothing, and without them a sweep stays in the cache.
-/// Grows, never shrinks.
+/// The ends of a body whose impulses change in the sweeps, their velocities, and the dense compliance between them:
+/// three quarters of the points that are found near a surface carry nothing, and without them a sweep stays in the
+/// cache. The set changes often and by little: an end keeps its place, and one that leaves stays, its velocity right,
+/// until many have left. Grows, never shrinks.
 class WorkingSet
 {
 public:
-    /// Forgets all ends, of which the body has so many. W, the compliance of all, may have changed.
+    /// Forgets all ends, of which the body has so many. The compliance may have changed.
     void reset(int ends);
 
-    /// Forgets all ends; W is still the same.
-    void clear();
-
-    /// Adds an end of the body, once or again.
+    /// Begins another choice of ends: add() each, once or again, then pack(), with what the slots of the compliance
+    /// have.
+    void choose();
     void add(int e);
+    void pack(PointCompliance& points, const std::vector<double>& slotVelocity);
 
-    /// To be called when all are added, with what all ends of the body have.
-    void pack(const DenseCompliance& W, const std::vector<Vec3>& velocity);
+    /// Takes all velocities anew.
+    void load(const PointCompliance& points, const std::vector<double>& slotVelocity);
 
+    /// True for the ends of the last choice, and some that have left.
     bool has(int e) const { return m_place[e] >= 0; }
     const std::vector<int>& ends() const { return m_ends; }
 
     /// Of an end of the set [m/s].
-    const Vec3& velocity(int e) const { return m_velocity[m_place[e]]; }
+    Vec3 velocity(int e) const { return at(m_velocity, m_place[e]); }
 
     /// Adds an impulse to one; the velocities follow.
-    void push(int e, const Vec3& impulse) { m_W.respond(m_place[e], impulse, m_velocity); }
+    void push(int e, const Vec3& impulse)
+    {
+        const Response response = respond(m_place[e], impulse);
+        addResponses(&response, 1, order(), m_velocity.data());
+    }
 
     /// A direction of impulses, and the velocities that it makes, beside the present ones: beginProbe forgets the last,
     /// addToProbe adds an impulse to an end, and followProbe goes `step` times its way.
@@ -42,14 +48,36 @@ public:
     void addToProbe(int e, const Vec3& impulse) { m_probeImpulse[m_place[e]] += impulse; }
     void respondToProbe();
     const Vec3& probeImpulse(int e) const { return m_probeImpulse[m_place[e]]; }
-    const Vec3& probeVelocity(int e) const { return m_probeVelocity[m_place[e]]; }
+    Vec3 probeVelocity(int e) const { return at(m_probeVelocity, m_place[e]); }
     void followProbe(double step);
 
 private:
-    std::vector<int> m_ends, m_packedEnds;  // of the body; those that m_W is of
+    static Vec3 at(const std::vector<double>& values, int place)
+    {
+        const double* v = &values[3 * static_cast<std::size_t>(place)];
+        return {v[0], v[1], v[2]};
+    }
+    static void put(const Vec3& v, std::vector<double>& values, std::size_t place);
+    std::size_t order() const { return padded(3 * m_ends.size(), kResponsePadding); }
+    float* block(std::size_t e, std::size_t f) { return &m_W[3 * f * m_stride + 3 * e]; }
+    Response respond(std::size_t place, const Vec3& impulse) const
+    {
+        return {&m_W[3 * place * m_stride], m_stride, impulse};
+    }
+    std::size_t wantedStride(std::size_t ends) const;
+    void widen();
+    void dropThoseThatLeft();
+
+    std::vector<int> m_ends;                // of the body
     std::vector<int> m_place;               // of the body's ends in the set, or -1
-    DenseCompliance m_W;
-    std::vector<Vec3> m_velocity, m_probeImpulse, m_probeVelocity;  // per end of the set
+    std::vector<unsigned char> m_wanted;    // per end of the set: belongs to the last choice
+    std::size_t m_packed = 0;               // ends that m_W has
+    std::size_t m_stride = 0;               // of its columns
+    std::vector<float> m_W;                 // three columns an end, with room for all ends of the body
+    std::vector<double> m_velocity;         // three an end of the set, padded
+    std::vector<double> m_probeVelocity;    // likewise
+    std::vector<Vec3> m_probeImpulse;       // per end of the set
+    std::vector<Response> m_probeResponse;  // of those that have one
 };
 
 }  // namespace bullet_fem

@@ -93,6 +93,16 @@ protected:
         return result;
     }
 
+    // And a slot of its own behind them.
+    void form(PointCompliance& W, const std::vector<SurfacePoint>& points, double scale)
+    {
+        W.clear(m_body.m_state.m_x.size());
+        for (const SurfacePoint& p : points) W.add(p);
+        W.addOwn();
+        W.request({&m_body, m_cache.get()});
+        W.form({&m_body, m_cache.get()}, scale);
+    }
+
     // By the preconditioner itself, which is that factor turned with the nodes.
     Vec3 expected(const SurfacePoint& to, const SurfacePoint& from, int axis) const
     {
@@ -115,44 +125,57 @@ TEST_F(PointComplianceTest, IsWhatTheTurnedFactorDoesBetweenPoints)
         point({m_free[20], m_free[5], m_free[20], m_free[7], m_free[8]}, {.15, .45, .1, 0, .3}),
         point({m_clamped[0], m_free[3], m_held}, {.5, .4, .1}), point({m_clamped[1]}, {1})};
     constexpr double kScale = 2.5;
-    PointCompliance form;
-    DenseCompliance W;
+    PointCompliance W;
     for (int repeat = 0; repeat < 2; ++repeat)  // nothing of the last time is left
     {
-        form.clear(m_body.m_state.m_x.size());
-        W.resize(static_cast<int>(points.size()) + 1);
-        for (const SurfacePoint& p : points) form.add(p);
-        form.addEmpty();
-        form.form({&m_body, m_cache.get()}, kScale, W);
+        form(W, points, 1);
+        W.scale(kScale);
     }
     const double size = std::sqrt(squaredNorm(W.block(0, 0)));
     ASSERT_GT(size, 0);
     for (int f = 0; f < 5; ++f)
         for (int e = 0; e < 5; ++e)
-            for (int c = 0; c < 3; ++c)
-            {
-                const Mat3 w = W.block(f, e);
-                const Vec3 column = {w(0, c), w(1, c), w(2, c)};
-                EXPECT_LE(norm(column - kScale * expected(points[f], points[e], c)), 1e-5 * size) << f << e << c;
-            }
+            for (const Mat3& w : {W.block(f, e), W.blockByColumns(f, e)})
+                for (int c = 0; c < 3; ++c)
+                {
+                    const Vec3 column = {w(0, c), w(1, c), w(2, c)};
+                    EXPECT_LE(norm(column - kScale * expected(points[f], points[e], c)), 1e-5 * size) << f << e << c;
+                }
     EXPECT_EQ(squaredNorm(W.block(4, 4)), 0);  // clamped
     for (int e = 0; e < 6; ++e) EXPECT_EQ(squaredNorm(W.block(5, e)) + squaredNorm(W.block(e, 5)), 0);
+    W.set(3 * static_cast<std::size_t>(W.slot(5)) + 1, 3 * static_cast<std::size_t>(W.slot(0)), 7);
+    EXPECT_EQ(W.block(5, 0)(1, 0), 7);
+    EXPECT_EQ(W.block(0, 5)(0, 1), 7);
+}
+
+TEST_F(PointComplianceTest, ReadsAndMovesSlotsAsThePointsDo)
+{
+    const std::vector<SurfacePoint> points = {point({m_free[0]}, {1}),
+                                              point({m_free[5], m_free[9], m_free[20]}, {.2, .3, .5})};
+    PointCompliance W;
+    form(W, points, 1);
+    std::vector<double> velocity(W.order());
+    const Vec3 impulse = {1, -2, 3};
+    const Response response = W.response(1, impulse);
+    addResponses(&response, 1, W.order(), velocity.data());
+    for (int e = 0; e < 3; ++e)
+        EXPECT_LE(norm(W.read(e, velocity) - W.block(e, 1) * impulse), 1e-6 * norm(W.block(1, 1) * impulse)) << e;
+    EXPECT_GT(norm(W.read(0, velocity)), 0);
 }
 
 TEST_F(PointComplianceTest, IsSymmetricHoweverManyPoints)
 {
-    PointCompliance form;
-    DenseCompliance W;
+    PointCompliance W;
     const int count = static_cast<int>(m_free.size());
     ASSERT_GT(count, static_cast<int>(kNodePadding));
-    form.clear(m_body.m_state.m_x.size());
-    W.resize(count);
-    for (int k = 0; k < count; ++k) form.add(point({m_free[k], m_free[(k + 7) % count]}, {.625, .375}));
-    form.form({&m_body, m_cache.get()}, 1, W);
+    std::vector<SurfacePoint> points;
+    for (int k = 0; k < count; ++k) points.push_back(point({m_free[k], m_free[(k + 7) % count]}, {.625, .375}));
+    form(W, points, 1);
     const double size = std::sqrt(squaredNorm(W.block(0, 0)));
     for (int f = 0; f < count; ++f)
         for (int e = 0; e < f; ++e)
-            EXPECT_LE(std::sqrt(squaredNorm(W.block(f, e) - transpose(W.block(e, f)))), 5e-7 * size) << f << " " << e;
+            EXPECT_LE(std::sqrt(squaredNorm(W.blockByColumns(f, e) - transpose(W.blockByColumns(e, f)))), 5e-7 * size)
+                << f << " " << e;
 }
 
 }  // namespace
