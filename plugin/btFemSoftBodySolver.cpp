@@ -312,7 +312,7 @@ void btFemSoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& softBodies
 {
     btDefaultSoftBodySolver::optimize(softBodies, forceUpdate);
     m_impl->m_worldBodies = &softBodies;
-    m_impl->m_registry.synchronise(softBodies, this);
+    m_impl->m_registry.synchronise(softBodies, this, m_impl->m_step.threads());
 }
 
 void btFemSoftBodySolver::predictMotion(btScalar timeStep)
@@ -362,14 +362,15 @@ void btFemSoftBodySolver::solveConstraints(btScalar timeStep)
 void btFemSoftBodySolver::updateSoftBodies()
 {
     m_impl->dropRemovedBodies(m_softBodySet);
-    btDefaultSoftBodySolver::updateSoftBodies();
+    for (int i = 0; i < m_softBodySet.size(); ++i)
+    {
+        const btFemEntry* entry = m_impl->m_registry.find(m_softBodySet[i]);
+        if (!(entry && entry->isStepped()) && m_softBodySet[i]->isActive()) m_softBodySet[i]->integrateMotion();
+    }
+    m_impl->m_step.updateSurfaces(m_impl->m_registry);
     m_impl->m_registry.forgetWorld();
     for (const auto& entry : m_impl->m_registry.entries())
-        if (entry->m_present && entry->m_fem && entry->m_softBody->isActive())
-        {
-            btFemHelpers::updateEmbeddedSurface(entry->m_softBody);
-            writeBulletContacts(*entry, m_impl->m_registry);
-        }
+        if (entry->isStepped() && entry->m_softBody->isActive()) writeBulletContacts(*entry, m_impl->m_registry);
     updateSleep(m_impl->m_registry);
     if (m_impl->m_manifolds) m_impl->m_manifolds->update();
 }

@@ -10,6 +10,7 @@
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_bridge/node_exchange.h"
+#include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/fem/stepping.h"
 #include "plugin/bodies/btFemModelReport.h"
 #include "plugin/btFemStopwatch.h"
@@ -87,32 +88,27 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
 {
     wakeDisturbedBodies(registry);
     m_group.beginStep();
+    m_due.clear();
     for (const auto& pointer : registry.entries())
+        if (isToBePredicted(registry, *pointer, step)) m_due.push_back(pointer.get());
+    m_threads.run(static_cast<int>(m_due.size()),
+                  [&](int k)
+                  {
+                      btFemEntry& entry = *m_due[k];
+                      readBody(entry);
+                      const double reach = kReach * entry.m_fem->m_body.m_model->mesh().meanEdgeLength();
+                      setSweptBounds(*entry.m_fem, bodyStep(entry, step), reach);
+                  });
+    for (btFemEntry* entry : m_due)
     {
-        btFemEntry& entry = *pointer;
-        entry.m_stage = btFemStage::predicted;
-        if (entry.m_present) ageTouches(entry);
-        if (entry.m_fem)
-        {
-            entry.m_fem->m_touching.clear();
-            entry.m_fem->m_touchingSoft.clear();
-        }
-        btSoftBody& soft = *entry.m_softBody;
-        if (!entry.m_present || entry.m_rejected || !soft.isActive()) continue;
-        const double h = bodyStep(entry, step);
-        if (!isUsableStep(h)) continue;
-        if (!entry.m_fem || entry.m_materialChanged || restMatricesChanged(*entry.m_fem)) registry.trySetUp(entry, h);
-        if (!entry.m_fem) continue;
-        registry.tryChooseSurface(entry);
-
-        readBody(entry);
-        renewFactor(registry, entry, h);
+        btSoftBody& soft = *entry->m_softBody;
+        const double h = bodyStep(*entry, step);
+        renewFactor(registry, *entry, h);
         refreshBulletConstants(soft, h);
-        applyBulletForces(*entry.m_fem, h);
-        markForces(entry);
-        if (registry.readyForSelfContact(entry)) entry.m_fem->m_touchingSoft.push_back(&soft);
-        setSweptBounds(*entry.m_fem, h, kReach * entry.m_fem->m_body.m_model->mesh().meanEdgeLength());
-        m_detailChooser.choose(entry, h);
+        applyBulletForces(*entry->m_fem, h);
+        markForces(*entry);
+        if (registry.readyForSelfContact(*entry)) entry->m_fem->m_touchingSoft.push_back(&soft);
+        m_detailChooser.choose(*entry, h);
     }
     for (const auto& entry : registry.entries())  // also of bodies that sleep, or have just become FEM
     {
@@ -121,6 +117,38 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
         keepFaceTree(*entry->m_softBody);
         clearBulletContacts(*entry->m_softBody);
     }
+}
+
+// Begins a body's step, and sets it up if that is due. False if it is not a FEM body that moves.
+bool btFemWorldStep::isToBePredicted(btFemBodyRegistry& registry, btFemEntry& entry, double step)
+{
+    entry.m_stage = btFemStage::predicted;
+    if (entry.m_present) ageTouches(entry);
+    if (entry.m_fem)
+    {
+        entry.m_fem->m_touching.clear();
+        entry.m_fem->m_touchingSoft.clear();
+    }
+    if (!entry.m_present || entry.m_rejected || !entry.m_softBody->isActive()) return false;
+    const double h = bodyStep(entry, step);
+    if (!isUsableStep(h)) return false;
+    if (!entry.m_fem || entry.m_materialChanged || restMatricesChanged(*entry.m_fem)) registry.trySetUp(entry, h);
+    if (entry.m_fem) registry.tryChooseSurface(entry);
+    return entry.m_fem != nullptr;
+}
+
+void btFemWorldStep::updateSurfaces(const btFemBodyRegistry& registry)
+{
+    m_active.clear();
+    for (const auto& entry : registry.entries())
+        if (entry->isStepped() && entry->m_softBody->isActive()) m_active.push_back(entry.get());
+    m_threads.run(static_cast<int>(m_active.size()),
+                  [this](int k)
+                  {
+                      btSoftBody* soft = m_active[k]->m_softBody;
+                      soft->integrateMotion();
+                      btFemHelpers::updateEmbeddedSurface(soft);
+                  });
 }
 
 // Wind, pressure and volume conservation. Bullet's wind meets nodes to whose velocities gravity's has just been added.

@@ -48,10 +48,15 @@ public:
     /// the new positions of all. `step` [s].
     void solve(btFemBodyRegistry& registry, double step);
 
+    /// As the step ends: normals and embedded surfaces of the bodies that are awake.
+    void updateSurfaces(const btFemBodyRegistry& registry);
+
+    const bullet_fem::Threads& threads() const { return m_threads; }
     btFemContactGroup& group() { return m_group; }
     const btFemContactGroup& group() const { return m_group; }
 
 private:
+    static bool isToBePredicted(btFemBodyRegistry& registry, btFemEntry& entry, double step);
     bool isDue(btFemEntry& entry, double worldStep) const;
     static void readBody(btFemEntry& entry);
     void applyBulletForces(const bullet_fem::FemSoftBody& fem, double step);
@@ -67,7 +72,7 @@ private:
 
     btFemSolverInfo m_info;
     bullet_fem::Threads m_threads;
-    std::vector<btFemEntry*> m_due;     // their free motion is to be solved
+    std::vector<btFemEntry*> m_due;     // they are to be predicted, or their free motion is to be solved
     std::vector<btFemEntry*> m_active;  // it is solved
     std::vector<const bullet_fem::Body*> m_dueBodies;
     bullet_fem::BodyBatches m_batches;              // of these

@@ -11,6 +11,7 @@
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_fem/fem/threads.h"
 #include "fem/body_snapshot.h"
 #include "plugin/bodies/btFemDefinition.h"
 
@@ -66,7 +67,9 @@ btFemEntry& btFemBodyRegistry::entry(btSoftBody* body)
         throw std::invalid_argument("the soft body is null; give a body made by btFemHelpers or btSoftBodyHelpers");
     if (btFemEntry* known = find(body))
     {
-        lookAgain(*known);
+        const bool follows = known->m_fem && hasMark(*body, known->m_fem->m_mark);
+        if (follows) followNodes(*known->m_fem);
+        lookAgain(*known, follows && topologyAsSetUp(*known->m_fem));
         return *known;
     }
     m_entries.push_back(std::make_unique<btFemEntry>(body));
@@ -87,7 +90,7 @@ bool btFemBodyRegistry::isAsBuilt(const btFemEntry& entry)
 
 // Something else may live at the address, or nodes or tetrahedra were appended, removed, or joined otherwise: then the
 // body keeps what the user asked for it.
-void btFemBodyRegistry::lookAgain(btFemEntry& entry)
+void btFemBodyRegistry::lookAgain(btFemEntry& entry, bool joinedAsBefore)
 {
     if (!entry.m_fem) return;
     if (!hasMark(*entry.m_softBody, entry.m_fem->m_mark))
@@ -95,8 +98,7 @@ void btFemBodyRegistry::lookAgain(btFemEntry& entry)
         entry = btFemEntry(entry.m_softBody);
         return;
     }
-    followNodes(*entry.m_fem);
-    if (topologyAsSetUp(*entry.m_fem)) return;
+    if (joinedAsBefore) return;
     btFemEntry changed(entry.m_softBody);
     changed.m_world = entry.m_world;
     changed.m_material = entry.m_material;
@@ -124,8 +126,32 @@ void btFemBodyRegistry::claim(btFemEntry& entry, const void* world, const btSoft
     entry.m_present = entry.m_world == world && !otherSolver;
 }
 
-void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver)
+// Every tetrahedron of every body is looked at, which takes longer than all else here.
+void btFemBodyRegistry::compareTopologies(const btAlignedObjectArray<btSoftBody*>& softBodies, const Threads& threads)
 {
+    m_joinedAsBefore.assign(m_entries.size(), 0);
+    m_compared.clear();
+    for (int i = 0; i < softBodies.size(); ++i)
+    {
+        const std::size_t known = indexOf(softBodies[i]);
+        if (known == m_entries.size() || m_joinedAsBefore[known] || !m_entries[known]->m_fem) continue;
+        if (!hasMark(*softBodies[i], m_entries[known]->m_fem->m_mark)) continue;
+        followNodes(*m_entries[known]->m_fem);
+        m_joinedAsBefore[known] = 1;
+        m_compared.push_back(static_cast<int>(known));
+    }
+    threads.run(static_cast<int>(m_compared.size()),
+                [this](int k)
+                {
+                    const int known = m_compared[k];
+                    m_joinedAsBefore[known] = topologyAsSetUp(*m_entries[known]->m_fem);
+                });
+}
+
+void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver,
+                                    const Threads& threads)
+{
+    compareTopologies(softBodies, threads);
     const void* world = &softBodies;
     m_held.assign(m_entries.size(), 0);
     for (const auto& entry : m_entries)
@@ -142,7 +168,7 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
             m_entries[known]->m_report.m_flags |= BT_FEM_ADDED_TWICE;
             continue;
         }
-        if (known < m_entries.size()) lookAgain(*m_entries[known]);
+        if (known < m_entries.size()) lookAgain(*m_entries[known], m_joinedAsBefore[known] != 0);
         if (known == m_entries.size() && soft->m_tetras.size() == 0) continue;
         if (known == m_entries.size())
         {

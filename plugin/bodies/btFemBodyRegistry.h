@@ -17,6 +17,11 @@
 #include "plugin/policy/btFemRealTime.h"
 #include "plugin/sleeping/btFemSleeping.h"
 
+namespace bullet_fem
+{
+class Threads;
+}
+
 struct btFemBaked;
 struct btFemDefinition;
 struct btFemFactorJob;
@@ -101,8 +106,9 @@ public:
 
     /// Makes the entries those of the world's bodies: drops entries of bodies that left it or never came, and those
     /// whose address now holds another body; makes entries for new ones with tetrahedra; flags bodies added twice or
-    /// elsewhere.
-    void synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver);
+    /// elsewhere. `threads` compare their tetrahedra with what is known.
+    void synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver,
+                     const bullet_fem::Threads& threads);
 
     /// Makes the body a FEM body, factored for `step` [s]; or, if it is one, gives it a changed material or rest shape.
     /// Throws std::invalid_argument or std::runtime_error.
@@ -175,7 +181,8 @@ public:
 
 private:
     std::size_t indexOf(const btSoftBody* body) const;
-    static void lookAgain(btFemEntry& entry);
+    static void lookAgain(btFemEntry& entry, bool joinedAsBefore);
+    void compareTopologies(const btAlignedObjectArray<btSoftBody*>& softBodies, const bullet_fem::Threads& threads);
     void registerWithDispatcher(btSoftBody& body) const;
     bool canUseBaked(const btFemEntry& entry) const;
     std::shared_ptr<const bullet_fem::RestShape> bakedShape(const btFemEntry& entry, const std::vector<double>& filled);
@@ -187,6 +194,8 @@ private:
     bool m_showsManifolds;
     std::vector<std::unique_ptr<btFemEntry>> m_entries;  // in the order in which they became known
     std::vector<unsigned char> m_held;                   // per entry: the world being stepped holds it
+    std::vector<unsigned char> m_joinedAsBefore;         // likewise: its tetrahedra join the nodes that they did
+    std::vector<int> m_compared;                         // entries
     bullet_fem::ModelLibrary m_library;
     bullet_fem::WorldObjects m_worldObjects;
 };
