@@ -18,6 +18,7 @@ StepScratch::StepScratch(const BodyModel& model)
       m_push(model.nodeCount()),
       m_rightSide(model.nodeCount()),
       m_increment(model.nodeCount()),
+      m_residual(model.nodeCount()),
       m_momentum(model.mesh()),
       m_solver(model.nodeCount()),
       m_elements(model.nodeCount(), model.elements().blockCount()),

@@ -7,21 +7,6 @@ namespace bullet_fem
 namespace
 {
 
-// Where the solve starts: the increment in scratch, with the rigid motion of free pieces that momentum prescribes.
-void completeGuess(const Body& body, StepScratch& scratch)
-{
-    std::vector<Vec3>& dv = scratch.m_increment;
-    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] += scratch.m_velocity[i];
-    scratch.m_momentum.restore(body, dv);
-    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= scratch.m_velocity[i];
-}
-
-LinearProblem problemOf(const Body& body, const WarpedSystem& A, StepScratch& scratch)
-{
-    completeGuess(body, scratch);
-    return {&A, &scratch.m_rightSide, &scratch.m_increment};
-}
-
 ConjugateGradientStop stopOf(const StepSettings& settings, double floor)
 {
     ConjugateGradientStop stop;
@@ -40,12 +25,21 @@ StepSettings sharedSettings(const BodyModel& model, StepSettings settings)
     return settings;
 }
 
+void completeIncrement(Body& body)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    std::vector<Vec3>& dv = scratch.m_increment;
+    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] += scratch.m_velocity[i];
+    scratch.m_momentum.restore(body, dv);
+    for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= scratch.m_velocity[i];
+}
+
 IncrementSolve::IncrementSolve(Body& body, const StepSettings& settings, double floor)
     : m_body(body),
       m_scratch(body.m_workspace.scratch()),
       m_settings(settings),
       m_A(body, settings.m_threads),
-      m_solve(problemOf(body, m_A, m_scratch), stopOf(settings, floor), m_scratch.m_solver)
+      m_solve({&m_A, &m_scratch.m_rightSide, &m_scratch.m_increment}, stopOf(settings, floor), m_scratch.m_solver)
 {
 }
 

@@ -19,6 +19,10 @@ constexpr int kNodesToShare = 1000;
 /// The settings with the threads that may work on a body of this model: none if it is too small.
 StepSettings sharedSettings(const BodyModel& model, StepSettings settings);
 
+/// Adds to the increment in a body's scratch, the guess of a solve, the rigid motion of free pieces that gives them the
+/// momentum prescribed.
+void completeIncrement(Body& body);
+
 /// Solves A dv = b of one body, as its scratch holds b and a guess of dv, and adds dv to the velocities of its free
 /// nodes. `floor`: of |b| for the tolerance [kg m/s], >= 0.
 class IncrementSolve
@@ -35,6 +39,9 @@ public:
 
     /// To be called once, at the end.
     SolveReport addToVelocity();
+
+    /// b - A dv at the end, until the next solve.
+    const std::vector<Vec3>& residual() const { return m_scratch.m_solver.m_r; }
 
 private:
     Body& m_body;

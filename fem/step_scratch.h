@@ -28,6 +28,7 @@ struct StepScratch
     std::vector<Vec3> m_push;       ///< velocities of position correction: moved by, never kept [m/s]
     std::vector<Vec3> m_rightSide;  ///< b [kg m/s]
     std::vector<Vec3> m_increment;  ///< dv [m/s]
+    std::vector<Vec3> m_residual;   ///< what the responses of this step have left of the impulses [kg m/s]
     RigidMomentum m_momentum;       ///< what the impulses prescribe for every connected piece
     double m_complianceScale =
         1;  ///< what contact has learnt: A^-1 is about this times the warped A0^-1 at the surface

@@ -117,6 +117,7 @@ void beginFreeMotion(Body& body, const StepSettings& settings, std::optional<Inc
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
         scratch.m_velocity[i] = body.m_state.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : body.m_state.m_v[i];
     continueIncrements(body.m_state, scratch.m_increment);
+    completeIncrement(body);
     solve.emplace(body, settings, 1e-3 * loadImpulseNorm(body, settings.m_step));
 }
 
@@ -127,6 +128,7 @@ SolveReport endFreeMotion(Body& body, IncrementSolve& solve)
     scratch.m_momentum.keepHung(body, scratch.m_velocity);
     std::swap(body.m_state.m_lastIncrement[0], body.m_state.m_lastIncrement[1]);
     body.m_state.m_lastIncrement[0] = scratch.m_increment;
+    std::fill(scratch.m_residual.begin(), scratch.m_residual.end(), Vec3());
     return report;
 }
 
@@ -134,12 +136,30 @@ void beginResponse(const ImpulseResponse& response, std::optional<IncrementSolve
 {
     Body& body = *response.m_body;
     StepScratch& scratch = body.m_workspace.scratch();
+    const BodyState& s = body.m_state;
     const std::vector<Vec3>& impulses = *response.m_impulses;
-    for (std::size_t i = 0; i < impulses.size(); ++i)
-        scratch.m_rightSide[i] = body.m_state.m_fixed[i] ? Vec3() : impulses[i];
-    scratch.m_momentum.addImpulses(body, scratch.m_rightSide, response.m_settings.m_step);
-    std::fill(scratch.m_increment.begin(), scratch.m_increment.end(), Vec3());
+    std::vector<Vec3>&b = scratch.m_rightSide, &dv = scratch.m_increment;
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] = s.m_fixed[i] ? Vec3() : impulses[i];
+    scratch.m_momentum.addImpulses(body, b, response.m_settings.m_step);
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] += scratch.m_residual[i];
+    if (response.m_steady)
+    {
+        for (std::size_t i = 0; i < dv.size(); ++i) dv[i] = s.m_fixed[i] ? Vec3() : s.m_v[i] - scratch.m_velocity[i];
+        completeIncrement(body);
+    }
+    else
+        std::fill(dv.begin(), dv.end(), Vec3());
     solve.emplace(body, sharedSettings(*body.m_model, response.m_settings), response.m_floor);
+}
+
+void endResponse(ImpulseResponse& response, IncrementSolve& solve)
+{
+    response.m_report = solve.addToVelocity();
+    std::vector<Vec3>& residual = response.m_body->m_workspace.scratch().m_residual;
+    if (response.m_report.m_stop == SolveStop::breakdown)  // it may not be finite
+        std::fill(residual.begin(), residual.end(), Vec3());
+    else
+        residual = solve.residual();
 }
 
 Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
@@ -179,11 +199,7 @@ void applyImpulses(ImpulseResponse* responses, int count)
 {
     forEachModel(responses, count,
                  [responses](int first, int bodies, const Threads* threads)
-                 {
-                     IncrementSolves(threads).run(responses + first, bodies, beginResponse,
-                                                  [](ImpulseResponse& response, IncrementSolve& solve)
-                                                  { response.m_report = solve.addToVelocity(); });
-                 });
+                 { IncrementSolves(threads).run(responses + first, bodies, beginResponse, endResponse); });
 }
 
 SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
@@ -195,7 +211,7 @@ SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
 
 SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings, double floor)
 {
-    ImpulseResponse response{&body, &impulses, settings, floor, {}};
+    ImpulseResponse response{&body, &impulses, settings, floor, false, {}};
     applyImpulses(&response, 1);
     return response.m_report;
 }

@@ -14,9 +14,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFloor = 1e-3;       // share of all impulses that the residual of a few new ones is measured against
-constexpr double kTooStiff = 1.1;     // W may be too stiff by this factor before it is scaled
-constexpr double kScaleMargin = 1.2;  // for directions that the impulses did not show
+constexpr double kTooStiff = 1.1;        // W may be too stiff by this factor before it is scaled
+constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
 constexpr double kLargestScaling = 100;  // in one round
 constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
 constexpr double kForgetting = 0.99;     // of what was learnt, a step
@@ -241,7 +240,7 @@ bool BodyEnds::gatherBeyond(const std::vector<Vec3>& known)
     return any;
 }
 
-ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings)
+ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, double floor)
 {
     m_learnt = false;
     refresh();
@@ -254,7 +253,7 @@ ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings)
                                        cross(m_ends[e].m_offset, m_impulse[e] - m_applied[e]), settings.m_step);
     double all = 0;
     for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
-    return {m_body.m_body, &m_nodeIn, settings, kFloor * std::sqrt(all), {}};
+    return {m_body.m_body, &m_nodeIn, settings, floor * std::sqrt(all), false, {}};
 }
 
 void BodyEnds::endCorrection()

@@ -72,10 +72,10 @@ public:
     /// Takes the velocities from the body, which holds the impulses applied so far, and adds W times the rest.
     void measure();
 
-    /// What is to be solved of the body's true system for the impulses that are not applied yet; without a body if
-    /// there are none. After that is solved, endCorrection: W learns from it, and where it was too stiff, it is scaled
-    /// up.
-    ImpulseResponse beginCorrection(const StepSettings& settings);
+    /// What is to be solved of the body's true system for the impulses that are not applied yet, its residual measured
+    /// against `floor` of all impulses at least; without a body if there are none. After that is solved, endCorrection:
+    /// W learns from it, and where it was too stiff, it is scaled up.
+    ImpulseResponse beginCorrection(const StepSettings& settings, double floor);
     void endCorrection();
 
     /// Forgets velocities and impulses, to solve for position corrections; applyPush then makes them. Returns the

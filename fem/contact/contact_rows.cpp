@@ -294,10 +294,14 @@ void ContactRows::restart()
     }
 }
 
-void ContactRows::apply(ContactReport& report)
+void ContactRows::apply(double floor, bool steady, ContactReport& report)
 {
     forEachTouchedBody(m_settings.m_step.m_threads,
-                       [this](int b) { m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step); });
+                       [&](int b)
+                       {
+                           m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step, floor);
+                           m_corrections[b].m_steady = steady;
+                       });
     solveCorrections();
     forEachTouchedBody(m_settings.m_step.m_threads,
                        [this](int b)

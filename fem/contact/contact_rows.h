@@ -43,8 +43,9 @@ public:
     /// What a sweep would change after measure(), likewise.
     double error() const { return share(largestChange()); }
 
-    /// Solves the bodies' true systems for what is new.
-    void apply(ContactReport& report);
+    /// Solves the bodies' true systems for what is new, with a residual that is measured against `floor` of a body's
+    /// impulses at least. `steady`: the impulses are all of a step much like the one before.
+    void apply(double floor, bool steady, ContactReport& report);
 
     /// Largest change of an impulse since the last call, over the largest impulse.
     double changeOfRound();

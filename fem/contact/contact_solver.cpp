@@ -38,7 +38,9 @@ struct ContactSolver::Scratch
     ContactReport m_report;
     int m_minRounds = 1;
     double m_sweepTolerance = 0, m_roundTolerance = 0;
-    double m_error = 1;  // after the last round
+    double m_error = 1;       // after the last round
+    double m_floor = 0;       // of a body's impulses that residuals are measured against
+    bool m_guessing = false;  // the impulses are those of the last step
     bool m_stalled = false;
     bool m_empty = true;
 };
@@ -50,6 +52,13 @@ namespace
 constexpr int kRoundsWithJoints = 2;
 constexpr double kSweepToleranceWithJoints = 1e-9;
 constexpr double kRoundToleranceWithJoints = 5e-3;  // of the largest impulse
+constexpr double kFloorWithJoints = 1e-3;
+
+// The residuals of a body's corrective solves count as what they leave of its impulses: a share of the tolerance. Where
+// more rounds than usual do not meet that, every further one is solved more closely, down to what joints need.
+constexpr double kResidualShare = 0.3;
+constexpr int kUsualRounds = 3;
+constexpr double kCloser = 0.3;
 
 // A guess that is good enough as it stands must be better than an answer: its error is that of the step before, and
 // would be carried on from step to step.
@@ -110,16 +119,21 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_minRounds = joints ? std::max(settings.m_rounds, kRoundsWithJoints) : settings.m_rounds;
     s.m_sweepTolerance = joints ? kSweepToleranceWithJoints : settings.m_tolerance;
     s.m_roundTolerance = joints ? kRoundToleranceWithJoints : settings.m_tolerance;
+    s.m_floor =
+        joints ? kFloorWithJoints
+               : std::clamp(kResidualShare * settings.m_tolerance / settings.m_step.m_tolerance, kFloorWithJoints, 1.0);
     s.m_rows.assemble(problem, settings);
     s.m_rows.warmStart();
     s.m_error = 1;
     s.m_stalled = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
-    if (!joints && s.m_rows.hasImpulses())
+    s.m_guessing = !joints && s.m_rows.hasImpulses();
+    if (s.m_guessing)
         correct();
     else
         s.m_rows.measure();
+    s.m_guessing = false;
     s.m_rows.setSpeedScale();
     s.m_error = joints ? 1 : s.m_rows.error() / kGuessShare;
 }
@@ -147,7 +161,8 @@ void ContactSolver::correct()
     if (s.m_empty) return;
     ++s.m_report.m_rounds;
     const double change = s.m_rows.changeOfRound();
-    s.m_rows.apply(s.m_report);
+    if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFloorWithJoints);
+    s.m_rows.apply(s.m_floor, s.m_guessing, s.m_report);
     s.m_rows.measure();
     const double before = s.m_error;
     s.m_error = s.m_problem->m_joints.empty() ? s.m_rows.error() : change;

@@ -70,7 +70,7 @@ public:
         {
             m_settings[k].m_threads = threads;
             motions.push_back({&m_bodies[k], m_settings[k], {}});
-            responses.push_back({&m_bodies[k], &m_impulses[k], m_settings[k], 0.1 * k, {}});
+            responses.push_back({&m_bodies[k], &m_impulses[k], m_settings[k], 0.1 * k, k % 2 == 1, {}});
         }
         solveFreeMotions(motions.data(), count());
         applyImpulses(responses.data(), count());
@@ -89,7 +89,9 @@ public:
         for (int k = 0; k < count(); ++k)
         {
             m_reports.push_back(solveFreeMotion(m_bodies[k], m_settings[k]));
-            m_reports.push_back(applyImpulses(m_bodies[k], m_impulses[k], m_settings[k], 0.1 * k));
+            ImpulseResponse response = {&m_bodies[k], &m_impulses[k], m_settings[k], 0.1 * k, k % 2 == 1, {}};
+            applyImpulses(&response, 1);
+            m_reports.push_back(response.m_report);
             finishStep(m_bodies[k], m_settings[k]);
         }
     }

@@ -89,7 +89,7 @@ TEST(BatchAllocations, ThereAreNoneInAnyStep)
     for (Body& body : bodies)
     {
         motions.push_back({&body, {}, {}});
-        responses.push_back({&body, &impulses, {}, 0, {}});
+        responses.push_back({&body, &impulses, {}, 0, false, {}});
     }
     const AllocationCounter counter;
     for (int k = 0; k < 10; ++k)

@@ -141,6 +141,51 @@ TEST_P(DenseStep, ImpulsesAddTheirResponse)
     EXPECT_LE((flat(velocity(m_body)) - before - response).norm(), 1e-6 * response.norm());
 }
 
+// Ten responses that are hardly solved, or not at all, and a last one that is: nothing of the ten is missing.
+TEST_P(DenseStep, WhatAResponseLeavesTheNextOnesMakeGood)
+{
+    solveFreeMotion(m_body, m_settings);
+    assemble();
+    const Eigen::VectorXd before = flat(velocity(m_body));
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(before.size());
+    std::vector<Vec3> impulses(m_fixed.size());
+    RandomVectors random(2);
+    for (int k = 0; k <= 10; ++k)
+    {
+        for (Vec3& J : impulses) J = random.next();
+        const Eigen::VectorXd J = flat(impulses);
+        StepSettings settings = m_settings;
+        if (k < 10) settings.m_tolerance = 0.3;
+        const SolveReport report = applyImpulses(m_body, impulses, settings, k % 2 == 0 && k < 10 ? 10 * J.norm() : 0);
+        EXPECT_EQ(report.m_stop, SolveStop::converged);
+        EXPECT_EQ(report.m_iterations == 0, k % 2 == 0 && k < 10) << k;
+        right += J;
+    }
+    for (std::size_t i = 0; i < m_fixed.size(); ++i)
+        if (m_fixed[i]) right.segment<3>(3 * i).setZero();
+    const Eigen::VectorXd response = constrained(m_A, m_fixed).llt().solve(right);
+    EXPECT_LE((flat(velocity(m_body)) - before - response).norm(), 1e-6 * response.norm());
+}
+
+// What holds a body where it is: the guess is the answer, to rounding.
+TEST_P(DenseStep, SteadyGuessSavesTheSolve)
+{
+    for (Vec3& v : m_body.m_state.m_v) v = {};
+    for (Vec3& v : m_body.m_loads.m_targetVelocity) v = {};
+    solveFreeMotion(m_body, m_settings);
+    assemble();
+    const Eigen::VectorXd holding = -constrained(m_A, m_fixed) * flat(velocity(m_body));
+    std::vector<Vec3> impulses(m_fixed.size());
+    for (std::size_t i = 0; i < impulses.size(); ++i)
+        impulses[i] = {holding(3 * i), holding(3 * i + 1), holding(3 * i + 2)};
+    ImpulseResponse response = {&m_body, &impulses, m_settings, 0, true, {}};
+    response.m_settings.m_tolerance = 1e-3;
+    applyImpulses(&response, 1);
+    EXPECT_EQ(response.m_report.m_stop, SolveStop::converged);
+    EXPECT_EQ(response.m_report.m_iterations, 0);
+    EXPECT_LE(largestDistance(velocity(m_body), m_body.m_state.m_v), 1e-6);
+}
+
 INSTANTIATE_TEST_SUITE_P(Systems, DenseStep,
                          testing::Values(SystemCase{"FreeNodal", false, false, Warp::nodal},
                                          SystemCase{"FreeTensionNodal", false, true, Warp::nodal},

@@ -298,6 +298,25 @@ TEST(Parts, ImpulsesOfZeroAndOnFixedNodesDoNothing)
     EXPECT_EQ(largestDistance(velocity(body), before), 0);
 }
 
+// An impulse that is not worth a solve changes the momentum by itself all the same.
+TEST(Parts, ImpulsesTooSmallToBeSolvedForKeepMomentum)
+{
+    Body body = freeBlock();
+    StepSettings settings;
+    solveFreeMotion(body, settings);
+    BodyState before = body.m_state, after = body.m_state;
+    before.m_v = velocity(body);
+    std::vector<Vec3> impulses(before.m_v.size());
+    impulses.front() = {0.1, 0.2, -0.3};
+    const SolveReport report = applyImpulses(body, impulses, settings, 1e6);
+    EXPECT_EQ(report.m_iterations, 0);
+    after.m_v = velocity(body);
+    const double damped = 1 / (1 + settings.m_step * body.m_model->shape().m_material.m_massDamping);
+    const Vec3 J = damped * impulses.front(), L = cross(before.m_x.front(), J);
+    EXPECT_LE(norm(linearMomentum(after) - linearMomentum(before) - J), 1e-13 * norm(J));
+    EXPECT_LE(norm(angularMomentum(after) - angularMomentum(before) - L), 1e-12 * (norm(L) + norm(J)));
+}
+
 // A push moves this step's positions by h P J, and nothing afterwards.
 TEST(Parts, PushesMoveWithoutVelocity)
 {

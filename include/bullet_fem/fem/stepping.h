@@ -20,8 +20,9 @@ namespace bullet_fem
 SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
 
 /// Adds the response A^-1 J to velocity(body), for impulses J on the nodes [N s]; those on fixed nodes are ignored.
-/// The residual is measured against |J| or `floor`, whichever is larger [N s], >= 0. To be called after
-/// solveFreeMotion, any number of times.
+/// What is left of other impulses since solveFreeMotion is solved for with them, so that no residual adds up; it is
+/// measured against what there is to solve or `floor`, whichever is larger [N s], >= 0. Where it is small enough from
+/// the start only the momentum changes. To be called after solveFreeMotion, any number of times.
 SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings,
                           double floor = 0);
 
@@ -39,8 +40,9 @@ struct ImpulseResponse
     Body* m_body = nullptr;
     const std::vector<Vec3>* m_impulses = nullptr;  ///< [N s], one a node
     StepSettings m_settings;
-    double m_floor = 0;    ///< [N s], >= 0
-    SolveReport m_report;  ///< out
+    double m_floor = 0;     ///< [N s], >= 0
+    bool m_steady = false;  ///< the guess: the body ends with the velocities that it began the step with
+    SolveReport m_report;   ///< out
 };
 
 /// The same for `count` different bodies. Those that share their model and come one after the other are solved
