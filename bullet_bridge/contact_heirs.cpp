@@ -7,7 +7,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastLikeness = 0.7;  // cosine between the normals
+constexpr double kAlikeNormals = 0.7;  // cosine between the normals
 
 bool isZero(const Vec3& v)
 {
@@ -42,7 +42,7 @@ ContactHeirs::Heir* ContactHeirs::nearestHeir(const Lost& lost, double reach)
         const double distance = norm(heir.m_contact->m_point - lost.m_point);
         const double cost = distance + (heir.m_hasImpulse ? reach : 0);
         if (!(distance < reach) || !(cost < best)) continue;
-        if (heir.m_sign * dot(heir.m_contact->m_normal, lost.m_normal) < kLeastLikeness) continue;
+        if (heir.m_sign * dot(heir.m_contact->m_normal, lost.m_normal) < kAlikeNormals) continue;
         best = cost;
         nearest = &heir;
     }

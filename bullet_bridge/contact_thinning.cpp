@@ -10,10 +10,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFine = 0.6;  // mean edge over that of the tetrahedra, below which a skin is fine
-constexpr double kCell = 0.5;  // mean edges of the tetrahedra that a cell is wide
-constexpr int kMost = 8;       // of a cell that held something and are alike
-constexpr double kSame = 0.9;  // cosine of the angle between normals that count as one
+constexpr double kFine = 0.6;        // mean edge over that of the tetrahedra, below which a skin is fine
+constexpr double kCell = 0.5;        // mean edges of the tetrahedra that a cell is wide
+constexpr int kMostAlike = 8;        // of a cell that held something and are alike
+constexpr double kSameNormal = 0.9;  // cosine of the angle between normals that count as one
 
 }  // namespace
 
@@ -59,11 +59,11 @@ bool ContactThinning::isNeeded(std::size_t candidate, std::size_t firstOfCell) c
     for (std::size_t k = firstOfCell; k < candidate; ++k)
     {
         const Candidate& other = m_candidates[k];
-        if (!m_kept[other.m_index] || dot(other.m_normal, c.m_normal) < kSame) continue;
+        if (!m_kept[other.m_index] || dot(other.m_normal, c.m_normal) < kSameNormal) continue;
         ++alike;
         deeper = deeper && c.m_gap < other.m_gap - c.m_slop;
     }
-    return alike == 0 || (c.m_isNew ? deeper : alike < kMost);
+    return alike == 0 || (c.m_isNew ? deeper : alike < kMostAlike);
 }
 
 }  // namespace bullet_fem

@@ -15,7 +15,7 @@ constexpr double kPlaneHalfSide = 2.5;  // of the piece drawn, in units of the b
 constexpr int kBoxTriangles[12][3] = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
                                       {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
 
-Vec3 vec3(const btVector3& v)
+Vec3 place(const btVector3& v)
 {
     return {v.x(), v.y(), v.z()};
 }
@@ -36,7 +36,7 @@ void appendBox(const btRigidBody& body, std::vector<Vec3>& positions, std::vecto
     for (int corner = 0; corner < 8; ++corner)
     {
         const btVector3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        positions.push_back(vec3(body.getWorldTransform() * (half * sign)));
+        positions.push_back(place(body.getWorldTransform() * (half * sign)));
     }
     for (const auto& t : kBoxTriangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
 }
@@ -66,7 +66,7 @@ void DropFrames::writeBody(double time)
 {
     const btSoftBody& body = m_scene.softBody();
     m_body.m_positions.clear();
-    for (int i = 0; i < body.m_renderNodes.size(); ++i) m_body.m_positions.push_back(vec3(body.m_renderNodes[i].m_x));
+    for (int i = 0; i < body.m_renderNodes.size(); ++i) m_body.m_positions.push_back(place(body.m_renderNodes[i].m_x));
     if (m_firstPositions.empty()) m_firstPositions = m_body.m_positions;
 
     m_body.m_displacement = m_body.m_positions;

@@ -12,7 +12,7 @@ namespace
 {
 
 /// One range of a material: (low, high] or [low, high].
-struct Range
+struct ValueRange
 {
     const char* m_what;
     double m_value;
@@ -73,13 +73,13 @@ double Material::lameMu() const
 
 bool Material::valid(std::string* why) const
 {
-    const Range ranges[] = {
+    const ValueRange ranges[] = {
         {"Young's modulus [Pa]", m_youngModulus, true, 0, 1e13, "rubber is about 2e6, steel 2e11"},
         {"Poisson's ratio [-]", m_poissonRatio, false, 0, 0.49, "use 0.45 to 0.49 for a nearly incompressible solid"},
         {"density [kg/m3]", m_density, false, 0, 1e6, "water is 1000; 0 keeps the body's own node masses"},
         {"mass damping [1/s]", m_massDamping, false, 0, 1e4, "0 switches it off"},
         {"stiffness damping [s]", m_stiffnessDamping, false, 0, 10, "0 switches it off, 0.01 is already much"}};
-    for (const Range& range : ranges)
+    for (const ValueRange& range : ranges)
         if (!range.contains())
         {
             if (why) *why = range.complaint();

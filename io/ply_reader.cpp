@@ -115,10 +115,10 @@ Header takeHeader(std::string_view& bytes)
 }
 
 /// Numbers of the body, one after the other.
-class Body
+class PlyBody
 {
 public:
-    Body(std::string_view bytes, Encoding encoding) : m_rest(bytes), m_encoding(encoding) {}
+    PlyBody(std::string_view bytes, Encoding encoding) : m_rest(bytes), m_encoding(encoding) {}
 
     double next(NumberType type)
     {
@@ -155,7 +155,7 @@ private:
 };
 
 /// One vertex, face or other thing; what is not a position or a corner is read and forgotten.
-void readItem(Body& body, const Element& element, PolygonMesh& mesh)
+void readItem(PlyBody& body, const Element& element, PolygonMesh& mesh)
 {
     const bool isVertex = element.name == "vertex", isFace = element.name == "face";
     Vec3 x;
@@ -199,7 +199,7 @@ void checkVertexProperties(const Element& element)
 PolygonMesh readPly(std::string_view bytes)
 {
     const Header header = takeHeader(bytes);
-    Body body(bytes, header.encoding);
+    PlyBody body(bytes, header.encoding);
     PolygonMesh mesh;
     for (const Element& element : header.elements)
     {

@@ -9,6 +9,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "fem/rotation.h"
 #include "plugin/btFemCoupling.h"
+#include "plugin/btFemRangeCheck.h"
 
 using namespace bullet_fem;
 
@@ -16,12 +17,6 @@ namespace
 {
 
 constexpr btScalar kHead = btScalar(0.2);  // of an arrow, as a share of its length
-
-bool check(bool good, std::string* why, const char* name, double value, const char* range)
-{
-    if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;
-    return good;
-}
 
 void drawElements(const btSoftBody& soft, btIDebugDraw& drawer, const btFemDrawSettings& settings)
 {
@@ -111,10 +106,12 @@ void drawContact(const btFemContact& contact, btIDebugDraw& drawer, const btFemD
 bool btFemDrawSettings::valid(std::string* why) const
 {
     const auto isLength = [](btScalar value) { return value >= 0 && value <= btScalar(1e6); };
-    return check(m_shrink > 0 && m_shrink <= 1, why, "m_shrink", m_shrink, "(0, 1]; 0.9 is usual") &&
-           check(isLength(m_pointSize), why, "m_pointSize", m_pointSize, "[0, 1e6] m; 0.02 is usual") &&
-           check(isLength(m_normalLength), why, "m_normalLength", m_normalLength, "[0, 1e6] m; 0.1 is usual") &&
-           check(isLength(m_impulseScale), why, "m_impulseScale", m_impulseScale, "[0, 1e6] m per N s; 0.1 is usual");
+    return btFemRangeCheck(m_shrink > 0 && m_shrink <= 1, why, "m_shrink", m_shrink, "(0, 1]; 0.9 is usual") &&
+           btFemRangeCheck(isLength(m_pointSize), why, "m_pointSize", m_pointSize, "[0, 1e6] m; 0.02 is usual") &&
+           btFemRangeCheck(isLength(m_normalLength), why, "m_normalLength", m_normalLength,
+                           "[0, 1e6] m; 0.1 is usual") &&
+           btFemRangeCheck(isLength(m_impulseScale), why, "m_impulseScale", m_impulseScale,
+                           "[0, 1e6] m per N s; 0.1 is usual");
 }
 
 void btFemDebugDraw::draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,

@@ -8,6 +8,7 @@
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/rigid_obstacles.h"
+#include "plugin/btFemArrays.h"
 #include "plugin/btFemCoupling.h"
 #include "plugin/btFemDeformableForces.h"
 #include "plugin/btFemWorldStep.h"
@@ -18,12 +19,6 @@ namespace
 {
 
 using Bodies = btAlignedObjectArray<btSoftBody*>;
-
-template <class T>
-bool holds(const btAlignedObjectArray<T*>& array, const T* element)
-{
-    return array.findLinearSearch(const_cast<T*>(element)) < array.size();
-}
 
 // Bullet's deformable solver reads what only its own file readers make, and never ends its search along links where
 // there are none.
@@ -93,7 +88,7 @@ Known& btFemDeformableBodySolver::Impl::know(const btSoftBody& body)
 
 void btFemDeformableBodySolver::Impl::forgetRemoved(const Bodies& world)
 {
-    const auto isGone = [&](const Known& k) { return !holds(world, k.m_body); };
+    const auto isGone = [&](const Known& k) { return !btFemHolds(world, k.m_body); };
     m_known.erase(std::remove_if(m_known.begin(), m_known.end(), isGone), m_known.end());
 }
 
@@ -141,13 +136,13 @@ void btFemDeformableBodySolver::Impl::sort(btDeformableBodySolver& solver, const
     for (int i = 0; i < world.size(); ++i)
     {
         btSoftBody* body = world[i];
-        const bool fem = inStep ? becomesFem(*body, dt) : holds(m_femBefore, body);
+        const bool fem = inStep ? becomesFem(*body, dt) : btFemHolds(m_femBefore, body);
         const bool plain = !fem && isForBullet(*body);
         if (plain)
             m_plain.push_back(body);
-        else if (!holds(m_ours, body))  // it may have been added twice
+        else if (!btFemHolds(m_ours, body))  // it may have been added twice
             m_ours.push_back(body);
-        if (fem && !holds(m_femBodies, body)) m_femBodies.push_back(body);
+        if (fem && !btFemHolds(m_femBodies, body)) m_femBodies.push_back(body);
         if (fem || (body->m_tetras.size() > 0 && !know(*body).m_rejection.empty())) m_reported.push_back(body);
         if (inStep) body->setSoftBodySolver(fem ? static_cast<btSoftBodySolver*>(&m_fem) : &solver);
     }
@@ -159,7 +154,7 @@ void btFemDeformableBodySolver::Impl::sort(btDeformableBodySolver& solver, const
 void btFemDeformableBodySolver::Impl::reportRejections()
 {
     for (int i = 0; i < m_reported.size(); ++i)
-        if (!holds(m_femBodies, m_reported[i]))
+        if (!btFemHolds(m_femBodies, m_reported[i]))
             btFemCoupling::reportRejection(m_fem, *m_reported[i], know(*m_reported[i]).m_rejection);
 }
 
@@ -170,7 +165,7 @@ void btFemDeformableBodySolver::Impl::setAside()
     for (int i = 0; i < m_ours.size(); ++i)
     {
         btSoftBody& body = *m_ours[i];
-        if (!holds(*m_world, &body)) continue;
+        if (!btFemHolds(*m_world, &body)) continue;
         m_aside.push_back({&body, body.getActivationState(), body.m_cfg.collisions});
         body.forceActivationState(DISABLE_SIMULATION);
         body.m_cfg.collisions = 0;
@@ -181,7 +176,7 @@ void btFemDeformableBodySolver::Impl::takeBack()
 {
     for (const Aside& aside : m_aside)
     {
-        if (!holds(*m_world, aside.m_body)) continue;
+        if (!btFemHolds(*m_world, aside.m_body)) continue;
         aside.m_body->forceActivationState(aside.m_state);
         aside.m_body->m_cfg.collisions = aside.m_collisions;
     }
@@ -269,12 +264,12 @@ void btFemDeformableBodySolver::predictMotion(btScalar solverdt)
 
 void btFemDeformableBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* other)
 {
-    if (holds(m_impl->m_plain, body)) btDeformableBodySolver::processCollision(body, other);
+    if (btFemHolds(m_impl->m_plain, body)) btDeformableBodySolver::processCollision(body, other);
 }
 
 void btFemDeformableBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
 {
-    const bool bullets = holds(m_impl->m_plain, body) && holds(m_impl->m_plain, other);
+    const bool bullets = btFemHolds(m_impl->m_plain, body) && btFemHolds(m_impl->m_plain, other);
     if (bullets) btDeformableBodySolver::processCollision(body, other);
 }
 

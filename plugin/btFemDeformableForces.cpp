@@ -7,6 +7,7 @@
 
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/fem/material.h"
+#include "plugin/btFemArrays.h"
 
 using namespace bullet_fem;
 
@@ -14,12 +15,6 @@ namespace
 {
 
 using Force = btDeformableLagrangianForce;
-
-template <class T>
-bool holds(const btAlignedObjectArray<T*>& array, const T* element)
-{
-    return array.findLinearSearch(const_cast<T*>(element)) < array.size();
-}
 
 bool isElastic(Force& force)
 {
@@ -88,7 +83,7 @@ btFemForceMaterial btFemDeformableForces::materialOf(const btSoftBody& body) con
     btFemForceMaterial result;
     for (int k = 0; k < m_all.size(); ++k)
     {
-        if (!isElastic(*m_all[k]) || !holds(m_all[k]->m_softBodies, &body)) continue;
+        if (!isElastic(*m_all[k]) || !btFemHolds(m_all[k]->m_softBodies, &body)) continue;
         const Elasticity part = elasticityOf(*m_all[k]);
         sum += part.m_moduli;
         massDamping += part.m_massDamping;
@@ -109,7 +104,7 @@ Vec3 btFemDeformableForces::gravityOf(const btSoftBody& body) const
 {
     Vec3 sum;
     for (int k = 0; k < m_all.size(); ++k)
-        if (m_all[k]->getForceType() == BT_GRAVITY_FORCE && holds(m_all[k]->m_softBodies, &body))
+        if (m_all[k]->getForceType() == BT_GRAVITY_FORCE && btFemHolds(m_all[k]->m_softBodies, &body))
             sum += vec3(static_cast<const btDeformableGravityForce*>(m_all[k])->m_gravity);
     return double(body.m_gravityFactor) * sum;
 }
@@ -122,7 +117,7 @@ void btFemDeformableForces::hide(const Bodies& bodies, btAlignedObjectArray<Forc
         Bodies& all = m_all[k]->m_softBodies;
         int kept = 0;
         for (int i = 0; i < all.size(); ++i)
-            if (holds(bodies, all[i]))
+            if (btFemHolds(bodies, all[i]))
                 m_hidden.push_back({m_all[k], all[i]});
             else
                 all[kept++] = all[i];
@@ -136,8 +131,8 @@ void btFemDeformableForces::hide(const Bodies& bodies, btAlignedObjectArray<Forc
 void btFemDeformableForces::show(const Bodies& world)
 {
     for (const Hidden& hidden : m_hidden)
-        if (holds(m_all, hidden.m_force) && holds(world, hidden.m_body) &&
-            !holds(hidden.m_force->m_softBodies, hidden.m_body))
+        if (btFemHolds(m_all, hidden.m_force) && btFemHolds(world, hidden.m_body) &&
+            !btFemHolds(hidden.m_force->m_softBodies, hidden.m_body))
             hidden.m_force->m_softBodies.push_back(hidden.m_body);
     m_hidden.clear();
 }

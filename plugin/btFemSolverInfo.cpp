@@ -2,43 +2,36 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/threads.h"
+#include "plugin/btFemRangeCheck.h"
 
 using namespace bullet_fem;
 
-namespace
-{
-
-bool check(bool good, std::string* why, const char* name, double value, const char* range)
-{
-    if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;
-    return good;
-}
-
-}  // namespace
-
 bool btFemSolverInfo::valid(std::string* why) const
 {
-    return check(m_tolerance >= btScalar(1e-8) && m_tolerance <= btScalar(0.5), why, "m_tolerance", m_tolerance,
-                 "[1e-8, 0.5]; 1e-3 is usual") &&
-           check(m_maxIterations >= 1 && m_maxIterations <= 10000, why, "m_maxIterations", m_maxIterations,
-                 "[1, 10000]; 100 is usual") &&
-           check(m_contactRounds >= 1 && m_contactRounds <= 10, why, "m_contactRounds", m_contactRounds,
-                 "[1, 10]; 1 is usual") &&
-           check(m_contactSweeps >= 1 && m_contactSweeps <= 1000, why, "m_contactSweeps", m_contactSweeps,
-                 "[1, 1000]; 50 is usual") &&
-           check(m_contactTolerance >= btScalar(1e-7) && m_contactTolerance <= btScalar(0.1), why, "m_contactTolerance",
-                 m_contactTolerance, "[1e-7, 0.1]; 3e-5 is usual, 1e-2 is cheaper") &&
-           check(m_maxContacts >= 8 && m_maxContacts <= 20000, why, "m_maxContacts", m_maxContacts,
-                 "[8, 20000]; 2000 is usual") &&
-           check(m_erp >= 0 && m_erp <= 1, why, "m_erp", m_erp, "[0, 1]; 0.2 is usual") &&
-           check(m_maxPushVelocity >= 0 && m_maxPushVelocity <= 1000, why, "m_maxPushVelocity", m_maxPushVelocity,
-                 "[0, 1000] m/s; 1 is usual") &&
-           check(m_maxFactorMegabytes >= 0 && m_maxFactorMegabytes <= btScalar(1e6), why, "m_maxFactorMegabytes",
-                 m_maxFactorMegabytes, "[0, 1e6] MB; 0, which is no limit, is usual") &&
-           check(m_factorChoice >= btFemFactorChoice::full && m_factorChoice <= btFemFactorChoice::lowMemory, why,
-                 "m_factorChoice", static_cast<int>(m_factorChoice), "[full, lowMemory], 0 to 2; full is usual") &&
-           check(m_threads >= 0 && m_threads <= Threads::kMost, why, "m_threads", m_threads,
-                 "[0, 256]; 1 is usual, 0 takes all that the machine has") &&
-           check(m_refactoring >= btFemRefactoring::onRequest && m_refactoring <= btFemRefactoring::background, why,
-                 "m_refactoring", static_cast<int>(m_refactoring), "btFemRefactoring; onRequest is usual");
+    return btFemRangeCheck(m_tolerance >= btScalar(1e-8) && m_tolerance <= btScalar(0.5), why, "m_tolerance",
+                           m_tolerance, "[1e-8, 0.5]; 1e-3 is usual") &&
+           btFemRangeCheck(m_maxIterations >= 1 && m_maxIterations <= 10000, why, "m_maxIterations", m_maxIterations,
+                           "[1, 10000]; 100 is usual") &&
+           btFemRangeCheck(m_contactRounds >= 1 && m_contactRounds <= 10, why, "m_contactRounds", m_contactRounds,
+                           "[1, 10]; 1 is usual") &&
+           btFemRangeCheck(m_contactSweeps >= 1 && m_contactSweeps <= 1000, why, "m_contactSweeps", m_contactSweeps,
+                           "[1, 1000]; 50 is usual") &&
+           btFemRangeCheck(m_contactTolerance >= btScalar(1e-7) && m_contactTolerance <= btScalar(0.1), why,
+                           "m_contactTolerance", m_contactTolerance, "[1e-7, 0.1]; 3e-5 is usual, 1e-2 is cheaper") &&
+           btFemRangeCheck(m_maxContacts >= 8 && m_maxContacts <= 20000, why, "m_maxContacts", m_maxContacts,
+                           "[8, 20000]; 2000 is usual") &&
+           btFemRangeCheck(m_erp >= 0 && m_erp <= 1, why, "m_erp", m_erp, "[0, 1]; 0.2 is usual") &&
+           btFemRangeCheck(m_maxPushVelocity >= 0 && m_maxPushVelocity <= 1000, why, "m_maxPushVelocity",
+                           m_maxPushVelocity, "[0, 1000] m/s; 1 is usual") &&
+           btFemRangeCheck(m_maxFactorMegabytes >= 0 && m_maxFactorMegabytes <= btScalar(1e6), why,
+                           "m_maxFactorMegabytes", m_maxFactorMegabytes,
+                           "[0, 1e6] MB; 0, which is no limit, is usual") &&
+           btFemRangeCheck(m_factorChoice >= btFemFactorChoice::full && m_factorChoice <= btFemFactorChoice::lowMemory,
+                           why, "m_factorChoice", static_cast<int>(m_factorChoice),
+                           "[full, lowMemory], 0 to 2; full is usual") &&
+           btFemRangeCheck(m_threads >= 0 && m_threads <= Threads::kMost, why, "m_threads", m_threads,
+                           "[0, 256]; 1 is usual, 0 takes all that the machine has") &&
+           btFemRangeCheck(
+               m_refactoring >= btFemRefactoring::onRequest && m_refactoring <= btFemRefactoring::background, why,
+               "m_refactoring", static_cast<int>(m_refactoring), "btFemRefactoring; onRequest is usual");
 }

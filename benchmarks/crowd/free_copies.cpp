@@ -14,9 +14,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSide = 0.2;   // of a cube [m]
-constexpr double kKick = 10;    // about what a kick gives corners [m/s]
-constexpr int kKickSteps = 20;  // between two kicks, so that no body comes to rest
+constexpr double kCopySide = 0.2;  // of a cube [m]
+constexpr double kKick = 10;       // about what a kick gives corners [m/s]
+constexpr int kKickSteps = 20;     // between two kicks, so that no body comes to rest
 
 std::shared_ptr<const BodyModel> makeModel(const FreeCopiesSettings& settings)
 {
@@ -24,7 +24,8 @@ std::shared_ptr<const BodyModel> makeModel(const FreeCopiesSettings& settings)
     Material material;
     material.m_youngModulus = settings.m_young;
     material.m_stiffnessDamping = 0.002;
-    const auto shape = std::make_shared<const RestShape>(makeBox({kSide, kSide, kSide}, {n, n, n}), material);
+    const auto shape =
+        std::make_shared<const RestShape>(makeBox({kCopySide, kCopySide, kCopySide}, {n, n, n}), material);
     FactorInput input;
     input.m_mass = shape->m_lumpedMass;
     input.m_step = StepSettings().m_step / settings.m_stale;
@@ -52,7 +53,7 @@ public:
     // Velocities that twist it about one axis and bend it about another.
     void kick()
     {
-        const double rate = kKick / (0.25 * kSide * kSide);  // [1/(m s)]
+        const double rate = kKick / (0.25 * kCopySide * kCopySide);  // [1/(m s)]
         for (std::size_t k = 0; k < m_bodies.size(); ++k)
         {
             BodyState& state = m_bodies[k].m_state;
@@ -60,7 +61,7 @@ public:
             const double twist = rate * (1 + 0.5 * std::sin(3.0 * k)), bend = rate * (1 + 0.5 * std::cos(5.0 * k));
             for (std::size_t i = 0; i < X.size(); ++i)
             {
-                const Vec3 r = X[i] - 0.5 * Vec3{kSide, kSide, kSide};
+                const Vec3 r = X[i] - 0.5 * Vec3{kCopySide, kCopySide, kCopySide};
                 state.m_v[i] += Vec3{-twist * r.z * r.y, twist * r.z * r.x, bend * r.x * r.x};
             }
         }

@@ -8,13 +8,13 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kParallel = 1 - 1e-6;  // cosine of the angle between normals that count as one
-constexpr int kMostCrossings = 4;       // sheets that a point is moved back through
+constexpr double kParallelNormals = 1 - 1e-6;  // cosine of the angle between normals that count as one
+constexpr int kMostCrossings = 4;              // sheets that a point is moved back through
 
 void addPointTouch(std::vector<SheetTouch>& touches, const SheetTouch& touch)
 {
     for (SheetTouch& known : touches)
-        if (dot(known.m_surface.m_normal, touch.m_surface.m_normal) > kParallel)
+        if (dot(known.m_surface.m_normal, touch.m_surface.m_normal) > kParallelNormals)
         {
             if (touch.m_surface.m_gap < known.m_surface.m_gap) known = touch;
             return;

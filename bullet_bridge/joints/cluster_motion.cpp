@@ -14,8 +14,8 @@ namespace
 {
 
 constexpr double kPinnedMass = 1e6;  // mass of a pinned node, in sums of the free ones; Bullet's 1e18 leaves no digits
-constexpr double kPinnedBeyond = 1e17;  // [kg]
-constexpr double kThinnest = 1e-9;      // share of the largest moment of inertia that a collinear cluster gets
+constexpr double kPinnedBeyond = 1e17;     // [kg]
+constexpr double kThinnestInertia = 1e-9;  // share of the largest moment of inertia that a collinear cluster gets
 
 btMatrix3x3 bulletMatrix(const Mat3& m)
 {
@@ -61,7 +61,7 @@ ClusterMotion::ClusterMotion(const FemSoftBody& fem, const btSoftBody::Cluster& 
         stretch += mass(j) * outer(d, vec3(cluster.m_framerefs[j]) - reference);
     }
     m_rotation = polarRotation(stretch, Mat3::identity());
-    if (trace(inertia) > 0) m_inverse = inverse(inertia + Mat3::diagonal(kThinnest * trace(inertia)));
+    if (trace(inertia) > 0) m_inverse = inverse(inertia + Mat3::diagonal(kThinnestInertia * trace(inertia)));
 }
 
 double ClusterMotion::mass(int j) const

@@ -13,10 +13,10 @@ namespace bullet_fem
 namespace
 {
 
-class Collector : public btBroadphaseAabbCallback
+class ObjectCollector : public btBroadphaseAabbCallback
 {
 public:
-    explicit Collector(std::vector<const void*>& objects) : m_objects(objects) {}
+    explicit ObjectCollector(std::vector<const void*>& objects) : m_objects(objects) {}
     bool process(const btBroadphaseProxy* proxy) override
     {
         m_objects.push_back(proxy->m_clientObject);
@@ -36,7 +36,7 @@ void WorldObjects::read(const btSoftBody& body)
     {
         m_objects.clear();
         const btVector3 all(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
-        Collector collector(m_objects);
+        ObjectCollector collector(m_objects);
         if (broadphase) broadphase->aabbTest(-all, all, collector);
         std::sort(m_objects.begin(), m_objects.end(), std::less<const void*>());
         m_broadphase = broadphase;

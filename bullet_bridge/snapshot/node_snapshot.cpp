@@ -18,7 +18,7 @@ namespace
 using Components = NodeSnapshot::Components;
 using Node = btSoftBody::Node;
 
-constexpr double kFarthest = 1e6;  // [m] and [m/s]; beyond it Bullet's broad phase gives a body up
+constexpr double kFarthestSaved = 1e6;  // [m] and [m/s]; beyond it Bullet's broad phase gives a body up
 constexpr int kLastActivationState = FIXED_BASE_MULTI_BODY;
 
 // The fourth components are the user's, if anyone's.
@@ -79,7 +79,7 @@ void checkRange(const std::vector<T>& values, const char* name)
 {
     for (std::size_t i = 0; i < values.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            if (!(std::fabs(values[i][c]) < kFarthest))
+            if (!(std::fabs(values[i][c]) < kFarthestSaved))
                 reject("number ", i, " of the ", name, " is not in (-1e6, 1e6)");
 }
 

@@ -15,10 +15,10 @@ namespace
 
 using Pair = std::pair<const btCollisionObject*, int>;
 
-class Collector : public btBroadphaseAabbCallback
+class IdCollector : public btBroadphaseAabbCallback
 {
 public:
-    explicit Collector(std::vector<Pair>& pairs) : m_pairs(pairs) {}
+    explicit IdCollector(std::vector<Pair>& pairs) : m_pairs(pairs) {}
     bool process(const btBroadphaseProxy* proxy) override
     {
         m_pairs.emplace_back(static_cast<const btCollisionObject*>(proxy->m_clientObject), proxy->m_uniqueId);
@@ -44,7 +44,7 @@ bool idBefore(const Pair& a, int id)
 WorldIds::WorldIds(btBroadphaseInterface& broadphase)
 {
     const btVector3 all(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
-    Collector collector(m_byAddress);
+    IdCollector collector(m_byAddress);
     broadphase.aabbTest(-all, all, collector);
     m_byId = m_byAddress;
     std::sort(m_byAddress.begin(), m_byAddress.end(),

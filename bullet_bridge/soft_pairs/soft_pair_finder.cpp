@@ -15,8 +15,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kBand = 0.05;        // share of the smaller mean edge that the contact band is wide
-constexpr double kSlop = 5e-4;        // share of the smaller body's size by which surfaces may sink in
+constexpr double kPairBand = 0.05;    // share of the smaller mean edge that the contact band is wide
+constexpr double kPairSlop = 5e-4;    // share of the smaller body's size by which surfaces may sink in
 constexpr double kSameContact = 0.9;  // cosine between the normals of a node's contact in two steps
 
 }  // namespace
@@ -30,7 +30,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     const SoftSurface &a = first.m_fem.m_surface, &b = second.m_fem.m_surface;
     const double offset = self ? 0 : first.m_fem.m_contactOffset + second.m_fem.m_contactOffset;
     const double edge = std::min(a.meanEdge(), b.meanEdge());
-    const TouchReach reach = {kBand * edge + offset, edge};
+    const TouchReach reach = {kPairBand * edge + offset, edge};
     Roles roles = {first, second, {}};
     roles.m_origin.m_firstId = broadphaseId(*first.m_fem.m_softBody);
     roles.m_origin.m_secondId = broadphaseId(*second.m_fem.m_softBody);
@@ -68,7 +68,7 @@ void SoftPairFinder::append(const Roles& roles, double offset)
     const SoftSurface &soft = roles.m_soft.m_fem.m_surface, &other = roles.m_other.m_fem.m_surface;
     const btSoftBody &softBody = *roles.m_soft.m_fem.m_softBody, &otherBody = *roles.m_other.m_fem.m_softBody;
     ContactPoint common;
-    common.m_slop = kSlop * std::min(soft.size(), other.size());
+    common.m_slop = kPairSlop * std::min(soft.size(), other.size());
     common.m_hardness = std::max(0.0, double(std::min(softBody.m_cfg.kSHR, otherBody.m_cfg.kSHR)));
     common.m_friction = frictionBetween(softBody, otherBody);
     common.m_restitution = std::max(0.0, std::min(1.0, double(softBody.getRestitution()) * otherBody.getRestitution()));

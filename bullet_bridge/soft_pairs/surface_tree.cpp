@@ -14,8 +14,8 @@ constexpr int kLeafTriangles = 2;
 
 SweptBox emptyBox()
 {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const Vec3 most{kInfinity, kInfinity, kInfinity};
+    constexpr double kBoundless = std::numeric_limits<double>::infinity();
+    const Vec3 most{kBoundless, kBoundless, kBoundless};
     return {most, -most, most, -most};
 }
 

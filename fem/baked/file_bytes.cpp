@@ -67,7 +67,7 @@ FileBytes readFile(const std::string& path)
 FileBytes mapFile(const std::string& path)
 {
     fileLength(path);  // before open, which would wait at a pipe
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) fail("it cannot be opened: " + systemReason() + "; check its permissions");
     struct stat status = {};
     const std::size_t size = fstat(file, &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;

@@ -13,10 +13,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTouching = 1e-9;    // of a cell, as in the lattice without grading
-constexpr double kSplitPerKept = 12;  // bounds memory: inner generations and what is dropped
+constexpr double kTouchingPlane = 1e-9;  // of a cell, as in the lattice without grading
+constexpr double kSplitPerKept = 12;     // bounds memory: inner generations and what is dropped
 
-double least(const std::array<double, 4>& weights)
+double leastOf(const std::array<double, 4>& weights)
 {
     return *std::min_element(weights.begin(), weights.end());
 }
@@ -94,7 +94,7 @@ GradedLattice::State GradedLattice::look(int tet)
     std::array<Vec3, 4> x = m_tets.corners(tet);
     const Vec3 middle = middleOf(x);
     for (Vec3& corner : x) corner = lattice.toCentred(corner);
-    const double slack = kTouching * lattice.cellSize();
+    const double slack = kTouchingPlane * lattice.cellSize();
     if (tree.entersTet(x, slack)) return State::entered;
     if (!m_input.m_closed && tree.entersTet(x, -slack)) return State::unsure;
     const double winding = windingAt(middle);
@@ -176,7 +176,7 @@ void GradedLattice::findHolder(int tet, const Vec3& p, Holder& best) const
 {
     constexpr double kOnTet = -1e-9;  // least barycentric weight of a vertex that lies in or on an element
     constexpr double kNear = -1e-3;   // ... in or near a tet whose halves are looked at
-    const double weight = least(barycentric(m_tets.corners(tet), p));
+    const double weight = leastOf(barycentric(m_tets.corners(tet), p));
     if (weight < kNear && best.m_tet >= 0) return;
     const int child = m_tets.tets()[tet].m_child;
     if (child != 0)

@@ -9,8 +9,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kLeafSize = 8;
+constexpr double kFullAngle = 4 * 3.14159265358979323846;  // solid angle all around [sr]
+constexpr int kMostInLeaf = 8;
 constexpr double kFarRatio = 2;  // distance over radius from which on moments are used: beta of [Barill et al. 2018]
 
 Vec3 vectorArea(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -72,7 +72,7 @@ void WindingNumber::build(int first, int last)
 {
     const std::size_t self = m_nodes.size();
     m_nodes.push_back(summarise(first, last));
-    if (last - first <= kLeafSize)
+    if (last - first <= kMostInLeaf)
         m_nodes[self].m_leaf = true;
     else
     {
@@ -150,7 +150,7 @@ double WindingNumber::at(const Vec3& p) const
         }
         n = node.m_skip;
     }
-    return (angle + near.sum()) / (4 * kPi);
+    return (angle + near.sum()) / kFullAngle;
 }
 
 }  // namespace bullet_fem

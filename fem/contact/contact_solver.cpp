@@ -62,7 +62,7 @@ constexpr double kCloser = 0.3;
 
 // A guess that is good enough as it stands must be better than an answer: its error is that of the step before, and
 // would be carried on from step to step.
-constexpr double kGuessShare = 0.1;
+constexpr double kRoundGuessShare = 0.1;
 
 // A round that leaves more than this share of a small error has met the error of the corrective solves. Impacts may
 // take rounds that seem to lead nowhere.
@@ -135,7 +135,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
         s.m_rows.measure();
     s.m_guessing = false;
     s.m_rows.setSpeedScale();
-    s.m_error = joints ? 1 : s.m_rows.error() / kGuessShare;
+    s.m_error = joints ? 1 : s.m_rows.error() / kRoundGuessShare;
 }
 
 bool ContactSolver::wantsRound() const

@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-float entry(const Panel& panel, int row, int column)
+float isotropicEntry(const Panel& panel, int row, int column)
 {
     const int chunk = column / kIsotropicColumns * kIsotropicColumns;
     const int width = std::min(kIsotropicColumns, panel.m_columns - chunk);
@@ -35,7 +35,7 @@ void scalar::forwardIsotropic(const Panel& panel, float* y, int lanes)
     for (int r = 0; r < panel.m_rowsBelow; ++r)
         for (int c = 0; c < panel.m_columns; ++c)
             for (std::size_t l = 0; l < size; ++l)
-                y[nodeOf(panel, r) * size + l] -= entry(panel, r, c) * y[(panel.m_firstNode + c) * size + l];
+                y[nodeOf(panel, r) * size + l] -= isotropicEntry(panel, r, c) * y[(panel.m_firstNode + c) * size + l];
 }
 
 void scalar::backwardIsotropic(const Panel& panel, float* y, int lanes)
@@ -47,9 +47,10 @@ void scalar::backwardIsotropic(const Panel& panel, float* y, int lanes)
         for (std::size_t l = 0; l < size; ++l)
         {
             float sum = 0;
-            for (int r = 0; r < panel.m_rowsBelow; ++r) sum -= entry(panel, r, c) * y[nodeOf(panel, r) * size + l];
+            for (int r = 0; r < panel.m_rowsBelow; ++r)
+                sum -= isotropicEntry(panel, r, c) * y[nodeOf(panel, r) * size + l];
             for (int r = 0; r < panel.m_columns; ++r)
-                sum += entry(panel, panel.m_rowsBelow + r, c) * before[r * size + l];
+                sum += isotropicEntry(panel, panel.m_rowsBelow + r, c) * before[r * size + l];
             y[(panel.m_firstNode + c) * size + l] = sum;
         }
 }

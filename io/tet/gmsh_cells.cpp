@@ -56,26 +56,26 @@ constexpr Counted kFaces[] = {
     {60, 36},
     {61, 40}};
 
-struct Named
+struct NamedCell
 {
     int type;
     const char* name;
 };
 
-constexpr Named kVolumes[] = {{5, "a hexahedron"},
-                              {6, "a prism"},
-                              {7, "a pyramid"},
-                              {11, "a tetrahedron of second order (10 nodes)"},
-                              {12, "a hexahedron of second order (27 nodes)"},
-                              {13, "a prism of second order (18 nodes)"},
-                              {14, "a pyramid of second order (14 nodes)"},
-                              {17, "a hexahedron of second order (20 nodes)"},
-                              {18, "a prism of second order (15 nodes)"},
-                              {19, "a pyramid of second order (13 nodes)"},
-                              {29, "a tetrahedron of third order (20 nodes)"},
-                              {30, "a tetrahedron of fourth order (35 nodes)"},
-                              {31, "a tetrahedron of fifth order (56 nodes)"},
-                              {35, "a polyhedron"}};
+constexpr NamedCell kVolumes[] = {{5, "a hexahedron"},
+                                  {6, "a prism"},
+                                  {7, "a pyramid"},
+                                  {11, "a tetrahedron of second order (10 nodes)"},
+                                  {12, "a hexahedron of second order (27 nodes)"},
+                                  {13, "a prism of second order (18 nodes)"},
+                                  {14, "a pyramid of second order (14 nodes)"},
+                                  {17, "a hexahedron of second order (20 nodes)"},
+                                  {18, "a prism of second order (15 nodes)"},
+                                  {19, "a pyramid of second order (13 nodes)"},
+                                  {29, "a tetrahedron of third order (20 nodes)"},
+                                  {30, "a tetrahedron of fourth order (35 nodes)"},
+                                  {31, "a tetrahedron of fifth order (56 nodes)"},
+                                  {35, "a polyhedron"}};
 
 }  // namespace
 
@@ -87,7 +87,7 @@ GmshCell gmshCell(int type)
         if (line.type == type) return {CellKind::edge, line.nodes, {}};
     for (const Counted& face : kFaces)
         if (face.type == type) return {CellKind::face, face.nodes, {}};
-    for (const Named& volume : kVolumes)
+    for (const NamedCell& volume : kVolumes)
         if (volume.type == type)
             return {CellKind::refused, 0, message(volume.name, ", Gmsh's element type ", type, ",")};
     return {CellKind::refused, 0, message("Gmsh's element type ", type)};

@@ -36,14 +36,14 @@ NumberType parseVtuType(const std::string& name)
     throw std::runtime_error("its type '" + name + "' is not one of Int8 to UInt64, Float32 and Float64");
 }
 
-std::uint64_t takeCount(EncodedBytes& bytes, const VtuEncoding& encoding)
+std::uint64_t takeCount(EncodedBytes& bytes, const VtuArrayEncoding& encoding)
 {
     const auto size = static_cast<std::size_t>(encoding.headerBytes);
     return readBits(bytes.take(size).data(), size, encoding.order);
 }
 
 /// Counts numbers that are about to be decoded.
-void spend(VtuEncoding& encoding, std::uint64_t numbers)
+void spend(VtuArrayEncoding& encoding, std::uint64_t numbers)
 {
     if (numbers > encoding.numbersLeft)
         throw std::runtime_error("the file decodes to far more numbers than it has bytes; save without compression");
@@ -67,7 +67,7 @@ void inflateBlock(const std::string& block, std::uint64_t size, std::string& out
 
 /// Binary data with the counts before it: of bytes, or with compression of blocks, of the bytes in each and in the last
 /// one if that is not full (else 0), and of the bytes of each when compressed.
-std::string decode(EncodedBytes bytes, std::uint64_t numberBytes, VtuEncoding& encoding)
+std::string decode(EncodedBytes bytes, std::uint64_t numberBytes, VtuArrayEncoding& encoding)
 {
     const std::uint64_t count = takeCount(bytes, encoding);
     if (!encoding.compressed)
@@ -97,7 +97,8 @@ std::string_view textOf(const tinyxml2::XMLElement& array)
     return text ? std::string_view(text) : std::string_view();
 }
 
-EncodedBytes encodedBytes(const tinyxml2::XMLElement& array, const std::string& format, const VtuEncoding& encoding)
+EncodedBytes encodedBytes(const tinyxml2::XMLElement& array, const std::string& format,
+                          const VtuArrayEncoding& encoding)
 {
     if (format == "binary") return EncodedBytes(textOf(array), true);
     const auto offset = parseNumber<std::uint64_t>(vtuAttribute(array, "offset"), "an offset");
@@ -117,7 +118,7 @@ std::vector<Number> readText(std::string_view text)
 }
 
 template <class Number>
-std::vector<Number> readNumbers(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
+std::vector<Number> readNumbers(const tinyxml2::XMLElement& array, VtuArrayEncoding& encoding)
 {
     const NumberType type = parseVtuType(vtuAttribute(array, "type"));
     if (std::is_integral_v<Number> && type.kind == NumberType::floating)
@@ -145,7 +146,7 @@ std::vector<Number> readNumbers(const tinyxml2::XMLElement& array, VtuEncoding& 
 
 /// Puts the element's line and name before what is thrown.
 template <class Number>
-std::vector<Number> readNamed(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
+std::vector<Number> readNamed(const tinyxml2::XMLElement& array, VtuArrayEncoding& encoding)
 {
     try
     {
@@ -166,12 +167,12 @@ std::string vtuAttribute(const tinyxml2::XMLElement& element, const char* name, 
     return value ? printable(value) : std::string(otherwise);
 }
 
-std::vector<double> readVtuDoubles(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
+std::vector<double> readVtuDoubles(const tinyxml2::XMLElement& array, VtuArrayEncoding& encoding)
 {
     return readNamed<double>(array, encoding);
 }
 
-std::vector<std::int64_t> readVtuIntegers(const tinyxml2::XMLElement& array, VtuEncoding& encoding)
+std::vector<std::int64_t> readVtuIntegers(const tinyxml2::XMLElement& array, VtuArrayEncoding& encoding)
 {
     return readNamed<std::int64_t>(array, encoding);
 }

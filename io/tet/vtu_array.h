@@ -18,7 +18,7 @@ namespace bullet_fem
 {
 
 /// How a .vtu file holds its arrays.
-struct VtuEncoding
+struct VtuArrayEncoding
 {
     ByteOrder order = ByteOrder::little;
     int headerBytes = 4;            ///< of the counts before binary data
@@ -32,7 +32,7 @@ struct VtuEncoding
 std::string vtuAttribute(const tinyxml2::XMLElement& element, const char* name, const char* otherwise = "");
 
 /// The numbers of a <DataArray>. Throw std::runtime_error with the element's line.
-std::vector<double> readVtuDoubles(const tinyxml2::XMLElement& array, VtuEncoding& encoding);
-std::vector<std::int64_t> readVtuIntegers(const tinyxml2::XMLElement& array, VtuEncoding& encoding);
+std::vector<double> readVtuDoubles(const tinyxml2::XMLElement& array, VtuArrayEncoding& encoding);
+std::vector<std::int64_t> readVtuIntegers(const tinyxml2::XMLElement& array, VtuArrayEncoding& encoding);
 
 }  // namespace bullet_fem

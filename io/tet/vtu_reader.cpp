@@ -49,9 +49,9 @@ ByteOrder readOrder(const XMLElement& root)
     return order == "BigEndian" ? ByteOrder::big : ByteOrder::little;
 }
 
-VtuEncoding readEncoding(const XMLElement& root)
+VtuArrayEncoding readEncoding(const XMLElement& root)
 {
-    VtuEncoding encoding;
+    VtuArrayEncoding encoding;
     encoding.order = readOrder(root);
     const std::string header = vtuAttribute(root, "header_type", "UInt32");
     if (header != "UInt32" && header != "UInt64")
@@ -97,7 +97,7 @@ std::uint64_t countOf(const XMLElement& piece, const char* name)
     }
 }
 
-void readPoints(const XMLElement& piece, VtuEncoding& encoding, TetMeshFile& mesh)
+void readPoints(const XMLElement& piece, VtuArrayEncoding& encoding, TetMeshFile& mesh)
 {
     const std::uint64_t count = countOf(piece, "NumberOfPoints");
     const XMLElement& points = childOf(piece, "Points");
@@ -114,7 +114,7 @@ void readPoints(const XMLElement& piece, VtuEncoding& encoding, TetMeshFile& mes
     }
 }
 
-void readPiece(const XMLElement& piece, VtuEncoding& encoding, TetMeshFile& mesh)
+void readPiece(const XMLElement& piece, VtuArrayEncoding& encoding, TetMeshFile& mesh)
 {
     const std::uint64_t cellCount = countOf(piece, "NumberOfCells");
     if (countOf(piece, "NumberOfPoints") == 0 && cellCount == 0) return;
@@ -154,7 +154,7 @@ TetMeshFile readVtu(std::string_view bytes)
     if (type != "UnstructuredGrid")
         failAt(*root, "the type is '" + type + "'; tetrahedra are in an UnstructuredGrid only");
 
-    VtuEncoding encoding = readEncoding(*root);
+    VtuArrayEncoding encoding = readEncoding(*root);
     encoding.appended = appended;
     encoding.numbersLeft = kNumbers + kNumbersPerByte * std::uint64_t{bytes.size()};
     TetMeshFile mesh;

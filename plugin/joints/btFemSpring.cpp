@@ -5,17 +5,12 @@
 #include <cmath>
 
 #include "bullet_fem/btFemRay.h"
+#include "plugin/btFemRangeCheck.h"
 
 namespace
 {
 
-constexpr double kMost = 1e12, kFarthest = 1e6, kWeightTolerance = 1e-4;
-
-bool check(bool good, std::string* why, const char* name, double value, const char* range)
-{
-    if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;
-    return good;
-}
+constexpr double kMost = 1e12, kFarthest = 1e6, kSumTolerance = 1e-4;
 
 }  // namespace
 
@@ -37,16 +32,17 @@ bool btFemSpring::valid(std::string* why) const
     for (int c = 0; c < 3; ++c)
     {
         finite = finite && std::isfinite(m_weights[c]);
-        if (!check(std::fabs(m_target[c]) <= kFarthest, why, "a coordinate of m_target", m_target[c],
-                   "[-1e6, 1e6] m; give a place near the body"))
+        if (!btFemRangeCheck(std::fabs(m_target[c]) <= kFarthest, why, "a coordinate of m_target", m_target[c],
+                             "[-1e6, 1e6] m; give a place near the body"))
             return false;
     }
     const double sum = double(m_weights[0]) + double(m_weights[1]) + double(m_weights[2]);
-    return check(finite && std::fabs(sum - 1) <= kWeightTolerance, why, "the sum of m_weights", sum,
-                 "[0.9999, 1.0001]; take them from a btFemRayHit") &&
-           check(m_stiffness >= 0 && m_stiffness <= kMost, why, "m_stiffness", m_stiffness,
-                 "[0, 1e12] N/m; mass / step^2 is a stiff one") &&
-           check(m_damping >= 0 && m_damping <= kMost, why, "m_damping", m_damping, "[0, 1e12] N s/m; 0 is usual") &&
-           check(m_maxForce >= 0 && m_maxForce <= kMost, why, "m_maxForce", m_maxForce,
-                 "[0, 1e12] N; 0 is no limit, 20 times the weight is usual");
+    return btFemRangeCheck(finite && std::fabs(sum - 1) <= kSumTolerance, why, "the sum of m_weights", sum,
+                           "[0.9999, 1.0001]; take them from a btFemRayHit") &&
+           btFemRangeCheck(m_stiffness >= 0 && m_stiffness <= kMost, why, "m_stiffness", m_stiffness,
+                           "[0, 1e12] N/m; mass / step^2 is a stiff one") &&
+           btFemRangeCheck(m_damping >= 0 && m_damping <= kMost, why, "m_damping", m_damping,
+                           "[0, 1e12] N s/m; 0 is usual") &&
+           btFemRangeCheck(m_maxForce >= 0 && m_maxForce <= kMost, why, "m_maxForce", m_maxForce,
+                           "[0, 1e12] N; 0 is no limit, 20 times the weight is usual");
 }

@@ -7,23 +7,19 @@
 #include <stdexcept>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "plugin/btFemRangeCheck.h"
 
 namespace
 {
 
-bool check(bool good, std::string* why, const char* name, double value, const std::string& range)
-{
-    if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;
-    return good;
-}
-
 // A bound of the interest, in [0, most].
 bool checkBound(std::string* why, const char* name, double value, double most)
 {
-    return check(value >= 0 && value <= most, why, name, value,
-                 "[0, " + std::to_string(most) +
-                     "]; m_reducedUntil <= m_reducedFrom <= m_fullFrom <= 1 and m_reducedUntil <= m_fullUntil <= "
-                     "m_fullFrom are wanted");
+    return btFemRangeCheck(
+        value >= 0 && value <= most, why, name, value,
+        "[0, " + std::to_string(most) +
+            "]; m_reducedUntil <= m_reducedFrom <= m_fullFrom <= 1 and m_reducedUntil <= m_fullUntil <= "
+            "m_fullFrom are wanted");
 }
 
 }  // namespace
@@ -33,7 +29,7 @@ bool btFemDetailPolicy::valid(std::string* why) const
     return checkBound(why, "m_fullFrom", m_fullFrom, 1) && checkBound(why, "m_fullUntil", m_fullUntil, m_fullFrom) &&
            checkBound(why, "m_reducedFrom", m_reducedFrom, m_fullFrom) &&
            checkBound(why, "m_reducedUntil", m_reducedUntil, std::min(m_reducedFrom, m_fullUntil)) &&
-           check(m_dwell >= 0 && m_dwell <= 3600, why, "m_dwell", m_dwell, "[0, 3600] s; 0.5 is usual");
+           btFemRangeCheck(m_dwell >= 0 && m_dwell <= 3600, why, "m_dwell", m_dwell, "[0, 3600] s; 0.5 is usual");
 }
 
 btFemViewerInterest::btFemViewerInterest(btScalar nearDistance, btScalar farDistance)

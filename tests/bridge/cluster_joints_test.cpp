@@ -12,8 +12,6 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double h = JointTestWorld::kStep;
-
 class ClusterJointTest : public ::testing::Test
 {
 protected:
@@ -161,7 +159,7 @@ TEST_F(ClusterJointTest, bulletsClusterSolverMovesNothing)
     const btSoftBody::Joint* joint = soft().m_joints[0];
     hideClusterJoints(m_cube);
     ball.setLinearVelocity(btVector3(0, 5, 0));
-    soft().m_sst.sdt = btScalar(h);
+    soft().m_sst.sdt = btScalar(JointTestWorld::kStep);
     btSoftBody::solveClusters(m_world.world().getSoftBodyArray());
     EXPECT_EQ(ball.getLinearVelocity().y(), 5);
     EXPECT_EQ(ball.getAngularVelocity().length2(), 0);
@@ -223,7 +221,7 @@ TEST_F(ClusterJointTest, takesBackTheShareErpOfADistance)
     soft().m_joints[0]->m_cfm = btScalar(0.25);
     soft().m_joints[0]->m_refs[1] += btVector3(0, 0, btScalar(0.01));
     const Joint joint = append().m_joints[0];
-    expectNear(joint.m_wanted, {0, 0, 0.005 / h}, 1e-4);
+    expectNear(joint.m_wanted, {0, 0, 0.005 / JointTestWorld::kStep}, 1e-4);
     EXPECT_NEAR(joint.m_softness, 3, 1e-6);
 }
 
@@ -238,7 +236,7 @@ TEST_F(ClusterJointTest, anAxisIsTurnedBackAndItsSpinLeftFree)
     EXPECT_EQ(joint.m_limit.y, Joint::kUnlimited);
     Vec3 wanted;
     for (int i = 1; i < 3; ++i) wanted += joint.m_wanted[i] * joint.m_axes[i];
-    expectNear(wanted, {0.1 / h, 0, 0}, 1e-3);  // the cluster turns to where the ball's axis is
+    expectNear(wanted, {0.1 / JointTestWorld::kStep, 0, 0}, 1e-3);  // the cluster turns to where the ball's axis is
     EXPECT_TRUE(joint.m_b.m_angular);
 }
 
@@ -265,7 +263,7 @@ TEST_F(ClusterJointTest, aMotorHoldsTheSpeedThatItSays)
     EXPECT_EQ(joint.m_limit.x, Joint::kUnlimited);
     EXPECT_NEAR(motor.m_current, -2, 1e-5);  // the cluster's spin less the ball's
     EXPECT_TRUE(motor.m_sawRigid);
-    soft().m_sst.sdt = btScalar(h);
+    soft().m_sst.sdt = btScalar(JointTestWorld::kStep);
     btSoftBody::solveClusters(m_world.world().getSoftBodyArray());
     EXPECT_EQ(motor.m_calls, 1);
     showClusterJoints(m_cube);

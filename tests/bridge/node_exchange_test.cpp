@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kFrame = 1.0 / 60;
 
 class NodeExchange : public ::testing::Test
 {
@@ -57,9 +57,9 @@ TEST_F(NodeExchange, aMovedPinIsReachedWithinTheStepAndThenStands)
     const Vec3 start = state().m_x[0];
     readNodes(m_fem);
     EXPECT_EQ(state().m_x[0].x, start.x) << "the pin must not jump";
-    readLoads(m_fem, kStep);
-    EXPECT_NEAR(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0.5 / kStep, 1e-5);
-    readLoads(m_fem, kStep);
+    readLoads(m_fem, kFrame);
+    EXPECT_NEAR(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0.5 / kFrame, 1e-5);
+    readLoads(m_fem, kFrame);
     EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0);
 }
 
@@ -71,7 +71,7 @@ TEST_F(NodeExchange, aBodyMovedAsAWholeTakesItsPinsAlong)
     const double before = state().m_x[0].z;
     readNodes(m_fem);
     EXPECT_NEAR(state().m_x[0].z, before + 4, 1e-6);
-    readLoads(m_fem, kStep);
+    readLoads(m_fem, kFrame);
     EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].z, 0);
 }
 
@@ -82,7 +82,7 @@ TEST_F(NodeExchange, aPinnedNodeThatIsGivenAVelocityKeepsIt)
     readNodes(m_fem);
     for (int step = 0; step < 3; ++step)
     {
-        readLoads(m_fem, kStep);
+        readLoads(m_fem, kFrame);
         EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].y, 2);
     }
 }
@@ -93,7 +93,7 @@ TEST_F(NodeExchange, pinningAMovingNodeStopsIt)
     writeNodes(m_fem);
     node(0).m_im = 0;
     readNodes(m_fem);
-    readLoads(m_fem, kStep);
+    readLoads(m_fem, kFrame);
     EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0);
 }
 
@@ -112,7 +112,7 @@ TEST_F(NodeExchange, dropsForcesThatAreNotFinite)
 {
     node(1).m_f = btVector3(std::numeric_limits<btScalar>::quiet_NaN(), 0, 0);
     node(2).m_f = btVector3(6, 0, 0);
-    EXPECT_FALSE(readLoads(m_fem, kStep));
+    EXPECT_FALSE(readLoads(m_fem, kFrame));
     EXPECT_EQ(m_fem.m_body.m_loads.m_force[1].x, 0);
     EXPECT_EQ(m_fem.m_body.m_loads.m_force[2].x, 6);
     EXPECT_EQ(node(2).m_f, btVector3(0, 0, 0));
@@ -131,23 +131,23 @@ TEST_F(NodeExchange, takesNewMassesAndKeepsTheOldOnesForBadOnes)
 
 TEST_F(NodeExchange, measuresHowFarTheFactorIsOff)
 {
-    EXPECT_NEAR(factorMismatch(m_fem, kStep), 1, 1e-12);
-    EXPECT_NEAR(factorMismatch(m_fem, kStep / 4), 4, 1e-12);
+    EXPECT_NEAR(factorMismatch(m_fem, kFrame), 1, 1e-12);
+    EXPECT_NEAR(factorMismatch(m_fem, kFrame / 4), 4, 1e-12);
     state().m_mass[7] *= 10;
-    EXPECT_NEAR(factorMismatch(m_fem, kStep), 10, 1e-12);
+    EXPECT_NEAR(factorMismatch(m_fem, kFrame), 10, 1e-12);
 }
 
 TEST_F(NodeExchange, turnsBulletsDampingIntoTheRateThatDoesTheSame)
 {
     m_box.m_body->m_cfg.kDP = btScalar(0.5);
-    readLoads(m_fem, kStep);
-    EXPECT_NEAR(1 / (1 + kStep * m_fem.m_body.m_loads.m_massDamping), 0.5, 1e-12);
+    readLoads(m_fem, kFrame);
+    EXPECT_NEAR(1 / (1 + kFrame * m_fem.m_body.m_loads.m_massDamping), 0.5, 1e-12);
 }
 
 TEST_F(NodeExchange, boundsHoldTheMotionToCome)
 {
     for (Vec3& v : state().m_v) v = {60, 0, 0};
-    setSweptBounds(m_fem, kStep, 0.1);
+    setSweptBounds(m_fem, kFrame, 0.1);
     double highest = -1e9;
     for (const Vec3& x : state().m_x) highest = std::max(highest, x.x);
     EXPECT_NEAR(m_box.m_body->m_bounds[1].x(), highest + 1 + 0.1, 1e-5);

@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kObstacleStep = 1.0 / 60;
 
 class RigidObstaclesTest : public ::testing::Test
 {
@@ -24,7 +24,7 @@ protected:
     ContactProblem contact(const Vec3& impulse, const Vec3& point)
     {
         ContactPoint result;
-        result.m_obstacle = m_obstacles.indexOf(m_body, kStep);
+        result.m_obstacle = m_obstacles.indexOf(m_body, kObstacleStep);
         result.m_impulse = impulse;
         result.m_point = point;
         ContactProblem problem;
@@ -45,7 +45,7 @@ TEST_F(RigidObstaclesTest, aDynamicBodyIsSeenWithTheVelocityOfItsNextStep)
 
 TEST_F(RigidObstaclesTest, anObjectHasOneObstacle)
 {
-    EXPECT_EQ(m_obstacles.indexOf(m_body, kStep), m_obstacles.indexOf(m_body, kStep));
+    EXPECT_EQ(m_obstacles.indexOf(m_body, kObstacleStep), m_obstacles.indexOf(m_body, kObstacleStep));
     EXPECT_EQ(m_obstacles.obstacles().size(), 1u);
 }
 
@@ -53,7 +53,7 @@ TEST_F(RigidObstaclesTest, lockedAxesFeelNoImpulse)
 {
     m_body.setLinearFactor(btVector3(1, 1, 0));
     m_body.setAngularFactor(btVector3(0, 0, 1));
-    m_obstacles.applyReactions(contact({-2, 0, -2}, {0, 1, 0}), kStep);
+    m_obstacles.applyReactions(contact({-2, 0, -2}, {0, 1, 0}), kObstacleStep);
     EXPECT_NEAR(m_body.getLinearVelocity().x(), 1, 1e-6);
     EXPECT_EQ(m_body.getLinearVelocity().z(), 0);
     EXPECT_EQ(m_body.getAngularVelocity().x(), 0);
@@ -67,7 +67,7 @@ TEST_F(RigidObstaclesTest, impulsesBelowTheRoundingOfFloatAddUp)
     for (int step = 0; step < 1000; ++step)
     {
         m_obstacles.clear();
-        m_obstacles.applyReactions(contact({-tiny, 0, 0}, {0, 0, 0}), kStep);
+        m_obstacles.applyReactions(contact({-tiny, 0, 0}, {0, 0, 0}), kObstacleStep);
     }
     EXPECT_NEAR(m_body.getLinearVelocity().x(), 1 + 1e-5, 2e-7);
 }
@@ -75,15 +75,15 @@ TEST_F(RigidObstaclesTest, impulsesBelowTheRoundingOfFloatAddUp)
 TEST_F(RigidObstaclesTest, impulsesWakeABody)
 {
     m_body.setActivationState(ISLAND_SLEEPING);
-    m_obstacles.applyReactions(contact({-1, 0, 0}, {0, 0, 0}), kStep);
+    m_obstacles.applyReactions(contact({-1, 0, 0}, {0, 0, 0}), kObstacleStep);
     EXPECT_TRUE(m_body.isActive());
 }
 
 TEST_F(RigidObstaclesTest, aPushMovesTheBodyAndLeavesItsVelocityAlone)
 {
-    m_obstacles.indexOf(m_body, kStep);
+    m_obstacles.indexOf(m_body, kObstacleStep);
     m_obstacles.obstacles()[0].m_pushLinear = {0, 6, 0};
-    m_obstacles.applyReactions(ContactProblem(), kStep);
+    m_obstacles.applyReactions(ContactProblem(), kObstacleStep);
     EXPECT_NEAR(m_body.getCenterOfMassPosition().y(), 0.1, 1e-6);
     EXPECT_EQ(m_body.getLinearVelocity(), btVector3(0, 0, 0));
 }
@@ -92,10 +92,10 @@ TEST_F(RigidObstaclesTest, staticAndKinematicBodiesCannotBeMoved)
 {
     m_body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     m_body.setInterpolationLinearVelocity(btVector3(0, 3, 0));
-    const Obstacle obstacle = m_obstacles.obstacles()[m_obstacles.indexOf(m_body, kStep)];
+    const Obstacle obstacle = m_obstacles.obstacles()[m_obstacles.indexOf(m_body, kObstacleStep)];
     EXPECT_EQ(obstacle.m_inverseMass.x, 0);
     EXPECT_EQ(obstacle.m_linearVelocity.y, 3);
-    m_obstacles.applyReactions(contact({5, 5, 5}, {0, 0, 0}), kStep);
+    m_obstacles.applyReactions(contact({5, 5, 5}, {0, 0, 0}), kObstacleStep);
     EXPECT_EQ(m_body.getLinearVelocity(), btVector3(0, 0, 0));
 }
 

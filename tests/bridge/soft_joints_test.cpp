@@ -15,8 +15,6 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double h = JointTestWorld::kStep;
-
 class SoftAnchorTest : public ::testing::Test
 {
 protected:
@@ -28,7 +26,7 @@ protected:
     {
         const Vec3 arm = joint.m_b.m_point - vec3(body.getCenterOfMassPosition());
         const Vec3 v = vec3(body.getLinearVelocity()) + cross(vec3(body.getAngularVelocity()), arm);
-        return position(node) + h * (v + joint.m_wanted);
+        return position(node) + JointTestWorld::kStep * (v + joint.m_wanted);
     }
 
     JointTestWorld m_world;
@@ -48,7 +46,7 @@ TEST_F(SoftAnchorTest, joinsItsNodeToTheRigidBody)
     EXPECT_EQ(squaredNorm(problem.m_handleBlocks[joint.m_a.m_first] - Mat3::identity()), 0);
     EXPECT_EQ(&m_world.m_obstacles.object(joint.m_b.m_obstacle), &wall);
     expectNear(joint.m_b.m_point, position(5), 1e-12);
-    expectNear(joint.m_wanted, {}, 1e-5);  // what single precision left of the pivot, over h
+    expectNear(joint.m_wanted, {}, 1e-5);  // what single precision left of the pivot, over the step
     EXPECT_EQ(joint.m_softness, 0);
 }
 
@@ -57,7 +55,7 @@ TEST_F(SoftAnchorTest, takesBackTheShareKAHROfADistance)
     btRigidBody& wall = m_world.addRigid(0);
     soft().m_cfg.kAHR = btScalar(0.5);
     soft().appendAnchor(5, &wall, bulletVector(position(5) + Vec3{0.01, 0, 0}));
-    expectNear(m_world.append().m_joints[0].m_wanted, {0.005 / h, 0, 0}, 1e-4);
+    expectNear(m_world.append().m_joints[0].m_wanted, {0.005 / JointTestWorld::kStep, 0, 0}, 1e-4);
 }
 
 TEST_F(SoftAnchorTest, aFarPivotPullsItsNodeInByAQuarterOfAnEdgeAStep)
@@ -65,7 +63,7 @@ TEST_F(SoftAnchorTest, aFarPivotPullsItsNodeInByAQuarterOfAnEdgeAStep)
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall, bulletVector(position(5) + Vec3{0, 7, 0}));
     const double edge = m_cube.m_body.m_model->mesh().meanEdgeLength();
-    expectNear(m_world.append().m_joints[0].m_wanted, {0, 0.25 * edge / h, 0}, 1e-4);
+    expectNear(m_world.append().m_joints[0].m_wanted, {0, 0.25 * edge / JointTestWorld::kStep, 0}, 1e-4);
 }
 
 TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfABodyThatHasMoved)
@@ -77,7 +75,7 @@ TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfABodyThatHasMoved)
     body.setAngularVelocity(btVector3(0, 4, -5));
     btTransform moved;
     btTransformUtil::integrateTransform(body.getWorldTransform(), body.getLinearVelocity(), body.getAngularVelocity(),
-                                        btScalar(h), moved);
+                                        btScalar(JointTestWorld::kStep), moved);
     body.setCenterOfMassTransform(moved);
     const Joint joint = m_world.append(RigidPhase::moved).m_joints[0];
     expectNear(endOfNode(joint, 5, body), vec3(moved * local), 1e-6);
@@ -91,7 +89,7 @@ TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfABodyThatIsAboutToMove)
     body.setAngularVelocity(btVector3(0, 4, -5));
     btTransform moved;
     btTransformUtil::integrateTransform(body.getWorldTransform(), body.getLinearVelocity(), body.getAngularVelocity(),
-                                        btScalar(h), moved);
+                                        btScalar(JointTestWorld::kStep), moved);
     const Joint joint = m_world.append(RigidPhase::solving).m_joints[0];
     expectNear(endOfNode(joint, 5, body), vec3(moved * soft().m_anchors[0].m_local), 1e-6);
 }
@@ -106,7 +104,7 @@ TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfAKinematicBody)
     moved.setOrigin(btVector3(3, 0, btScalar(0.1)));
     moved.setRotation(btQuaternion(btVector3(1, 0, 0), btScalar(0.2)));
     body.setWorldTransform(moved);
-    body.saveKinematicState(btScalar(h));
+    body.saveKinematicState(btScalar(JointTestWorld::kStep));
     const Joint joint = m_world.append(RigidPhase::solving).m_joints[0];
     expectNear(endOfNode(joint, 5, body), vec3(moved * soft().m_anchors[0].m_local), 1e-5);
 }

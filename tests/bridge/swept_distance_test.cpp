@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kSweep = 1.0 / 60;
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 SweptFeature node(const Vec3& x, const Vec3& v = {})
@@ -37,7 +37,7 @@ SweptShape sweep(btCollisionShape& shape, const Vec3& from, const Vec3& velocity
     leaf.m_pose.m_origin = from;  // not through Bullet's floats
     leaf.m_boundsMin += from;
     leaf.m_boundsMax += from;
-    return SweptShape(leaf, {from, velocity, spin}, kStep);
+    return SweptShape(leaf, {from, velocity, spin}, kSweep);
 }
 
 bool touches(const SweptShape& shape, const SweptFeature& feature)
@@ -58,7 +58,7 @@ void expectRowStopsAtTouch(const SweptShape& shape, const SweptFeature& feature,
     const Vec3 rigid = shape.m_motion.m_linearVelocity + cross(shape.m_motion.m_angularVelocity, contact.m_arm);
     const double closing =
         dot(contact.m_surface.m_normal, rigid - interpolate(feature.m_velocity, contact.m_surface.m_barycentric));
-    EXPECT_NEAR(contact.m_surface.m_gap, contact.m_time * closing, 1e-9 * closing * kStep);
+    EXPECT_NEAR(contact.m_surface.m_gap, contact.m_time * closing, 1e-9 * closing * kSweep);
 }
 
 /// Everything once about the origin and once far from it, where a float has 8 micrometres.
@@ -212,7 +212,7 @@ TEST_P(SweptDistance, boundsHoldTheShapeOnAllOfItsWay)
         const SweptShape swept = sweep(box, m_origin, 30 * random.inBox(1), 100 * random.inBox(1));
         for (int i = 0; i <= 20; ++i)
         {
-            const Pose pose = swept.poseAt(i * kStep / 20);
+            const Pose pose = swept.poseAt(i * kSweep / 20);
             for (int corner = 0; corner < 8; ++corner)
             {
                 const Vec3 p =
@@ -232,9 +232,9 @@ TEST(SweptShape, turnsAboutItsCentre)
     btSphereShape sphere(btScalar(0.5));
     ShapeLeaf leaf = leafOf(sphere);
     leaf.m_pose.m_origin = {3, 0, 0};
-    const SweptShape swept(leaf, {{2, 0, 0}, {10, 0, 0}, {0, 0, 0.5 * M_PI / kStep}}, kStep);
-    const Pose end = swept.poseAt(kStep);  // a quarter turn
-    EXPECT_NEAR(norm(end.m_origin - Vec3{2 + 10 * kStep, 1, 0}), 0, 1e-14);
+    const SweptShape swept(leaf, {{2, 0, 0}, {10, 0, 0}, {0, 0, 0.5 * M_PI / kSweep}}, kSweep);
+    const Pose end = swept.poseAt(kSweep);  // a quarter turn
+    EXPECT_NEAR(norm(end.m_origin - Vec3{2 + 10 * kSweep, 1, 0}), 0, 1e-14);
     EXPECT_NEAR(norm(end.m_rotation * Vec3{1, 0, 0} - Vec3{0, 1, 0}), 0, 1e-14);
     EXPECT_NEAR(swept.m_spinRadius, 1, 1e-14) << "the sphere itself turns unseen";
 }
@@ -247,10 +247,10 @@ TEST(SweptShape, movedBackAndForthIsTheSame)
     {
         const ShapeLeaf leaf = leafOf(capsule, random.placement(1));
         const RigidMotion present = {random.inBox(1), 50 * random.inBox(1), 50 * random.inBox(1)};
-        const RigidMotion before = {present.m_center - kStep * present.m_linearVelocity, present.m_linearVelocity,
+        const RigidMotion before = {present.m_center - kSweep * present.m_linearVelocity, present.m_linearVelocity,
                                     present.m_angularVelocity};
-        const ShapeLeaf start = movedBack(leaf, present, kStep);
-        const Pose end = SweptShape(start, before, kStep).poseAt(kStep);
+        const ShapeLeaf start = movedBack(leaf, present, kSweep);
+        const Pose end = SweptShape(start, before, kSweep).poseAt(kSweep);
         EXPECT_NEAR(norm(end.m_origin - leaf.m_pose.m_origin), 0, 1e-13);
         EXPECT_NEAR(squaredNorm(end.m_rotation - leaf.m_pose.m_rotation), 0, 1e-26);
         for (int c = 0; c < 3; ++c)
@@ -278,15 +278,15 @@ TEST(SweptShape, isFastFromHalfAnEdgeOrThicknessAStep)
 {
     btBoxShape box(btVector3(btScalar(0.5), btScalar(0.25), btScalar(0.125)));
     const SweptShape still = sweep(box, {}, {});
-    EXPECT_FALSE(isFast(still, 0.99 * 0.05 / kStep, 0.1));
-    EXPECT_TRUE(isFast(still, 1.01 * 0.05 / kStep, 0.1));
-    EXPECT_FALSE(isFast(still, 0.99 * 0.125 / kStep, 1));
-    EXPECT_TRUE(isFast(still, 1.01 * 0.125 / kStep, 1));
-    EXPECT_FALSE(isFast(still, 0.99 * 0.2 / kStep, 2)) << "thinner than a fifth of an edge";
-    EXPECT_TRUE(isFast(still, 1.01 * 0.2 / kStep, 2));
+    EXPECT_FALSE(isFast(still, 0.99 * 0.05 / kSweep, 0.1));
+    EXPECT_TRUE(isFast(still, 1.01 * 0.05 / kSweep, 0.1));
+    EXPECT_FALSE(isFast(still, 0.99 * 0.125 / kSweep, 1));
+    EXPECT_TRUE(isFast(still, 1.01 * 0.125 / kSweep, 1));
+    EXPECT_FALSE(isFast(still, 0.99 * 0.2 / kSweep, 2)) << "thinner than a fifth of an edge";
+    EXPECT_TRUE(isFast(still, 1.01 * 0.2 / kSweep, 2));
     const double radius = std::sqrt(0.3125);
-    EXPECT_FALSE(isFast(sweep(box, {}, {}, {0, 0, 0.99 * 0.05 / radius / kStep}), 0, 0.1));
-    EXPECT_TRUE(isFast(sweep(box, {}, {}, {0, 0, 1.01 * 0.05 / radius / kStep}), 0, 0.1));
+    EXPECT_FALSE(isFast(sweep(box, {}, {}, {0, 0, 0.99 * 0.05 / radius / kSweep}), 0, 0.1));
+    EXPECT_TRUE(isFast(sweep(box, {}, {}, {0, 0, 1.01 * 0.05 / radius / kSweep}), 0, 0.1));
 }
 
 TEST(SweptShape, whatIsNotANumberIsNoContact)
@@ -324,7 +324,7 @@ protected:
         feature.m_count = 1 + int(1.5 + 1.5 * m_random.inBox(1).x);
         feature.m_position = m_random.triangle(2, 0.7);
         const Vec3 way = target + m_random.inBox(1) - feature.m_position[0];
-        for (Vec3& v : feature.m_velocity) v = (1.5 / kStep) * (way + m_random.inBox(0.1));
+        for (Vec3& v : feature.m_velocity) v = (1.5 / kSweep) * (way + m_random.inBox(0.1));
         return feature;
     }
 
@@ -348,12 +348,12 @@ protected:
     double sampled(const SweptShape& shape, const SweptFeature& feature)
     {
         double before = 0, touch = 0;
-        while (touch <= kStep && gapAt(shape, feature, touch) > 0)
+        while (touch <= kSweep && gapAt(shape, feature, touch) > 0)
         {
             before = touch;
-            touch += kStep / kSamples;
+            touch += kSweep / kSamples;
         }
-        if (touch > kStep) return -1;
+        if (touch > kSweep) return -1;
         for (int k = 0; k < 60; ++k)
         {
             const double middle = 0.5 * (before + touch);
@@ -379,8 +379,8 @@ TEST_P(SweptSolid, firstTouchesAreThoseOfDenseSampling)
         const ShapeLeaf leaf = leafOf(*solid, m_random.placement(1));
         const Vec3 spin = k % 2 == 1 ? 60 * m_random.inBox(0.5) : Vec3{};
         const RigidMotion motion = {leaf.m_pose.m_origin + m_random.inBox(0.3), 60 * m_random.inBox(0.5), spin};
-        const SweptShape shape(leaf, motion, kStep);
-        const SweptFeature feature = randomFeature(leaf.m_pose.m_origin + kStep / 2 * motion.m_linearVelocity);
+        const SweptShape shape(leaf, motion, kSweep);
+        const SweptFeature feature = randomFeature(leaf.m_pose.m_origin + kSweep / 2 * motion.m_linearVelocity);
         const double expected = sampled(shape, feature);
         SweptContact contact;
         contact.m_time = -1;

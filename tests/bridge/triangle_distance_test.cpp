@@ -14,14 +14,14 @@ namespace bullet_fem
 namespace
 {
 
-using Triangle = std::array<Vec3, 3>;
+using Corners = std::array<Vec3, 3>;
 
-constexpr double anyDistance = 1e30;
+constexpr double anyGap = 1e30;
 
-SurfaceDistance distanceTo(const ShapeLeaf& leaf, const Triangle& triangle)
+SurfaceDistance distanceTo(const ShapeLeaf& leaf, const Corners& triangle)
 {
     SurfaceDistance d;
-    EXPECT_TRUE(triangleShapeDistance(leaf, triangle, anyDistance, d));
+    EXPECT_TRUE(triangleShapeDistance(leaf, triangle, anyGap, d));
     return d;
 }
 
@@ -37,7 +37,7 @@ void expectWellFormed(const SurfaceDistance& d)
 struct KnownAnswer
 {
     const char* m_what;
-    Triangle m_triangle;
+    Corners m_triangle;
     double m_gap;
     Vec3 m_normal, m_softPoint;
 };
@@ -56,11 +56,11 @@ void expectAnswers(btCollisionShape& shape, const std::vector<KnownAnswer>& answ
     }
 }
 
-const double s2 = std::sqrt(0.5);
+const double halfRoot = std::sqrt(0.5);
 
 /// The depth of the overlap of a box and a triangle: the least over the separating axes, which are the faces' normals
 /// and the products of the edges. It is also minus the distance if the two are separated along one of these axes.
-double overlapDepth(const Vec3& halfExtents, const Triangle& t)
+double overlapDepth(const Vec3& halfExtents, const Corners& t)
 {
     std::vector<Vec3> axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, cross(t[1] - t[0], t[2] - t[0])};
     for (int i = 0; i < 3; ++i)
@@ -94,7 +94,7 @@ TEST(TriangleShapeDistance, Sphere)
 TEST(TriangleShapeDistance, SphereWithItsCentreInTheTriangleGoesOutThroughItsOutside)
 {
     btSphereShape sphere(1);
-    const Triangle up = {{{-1, 0, -1}, {0, 0, 2}, {1, 0, -1}}};  // its outward normal is +y, so soft goes down
+    const Corners up = {{{-1, 0, -1}, {0, 0, 2}, {1, 0, -1}}};  // its outward normal is +y, so soft goes down
     expectAnswers(sphere, {{"up", up, -1, {0, -1, 0}, {0, 0, 0}}}, 1e-14);
     expectAnswers(sphere, {{"down", {{up[0], up[2], up[1]}}, -1, {0, 1, 0}, {0, 0, 0}}}, 1e-14);
 }
@@ -121,11 +121,11 @@ TEST(TriangleShapeDistance, Box)
          {"vertex in a face", {{{0.5, 0.75, 0}, {1, 2, 1}, {0, 2, 1}}}, -0.25, {0, 1, 0}, {0.5, 0.75, 0}},
          {"edge over a face", {{{-2, 1.5, 0}, {0, 1.25, 0.5}, {2, 1.5, 0}}}, 0.25, {0, 1, 0}, {0, 1.25, 0.5}}},
         2e-6);
-    const Triangle acrossEdge = {{{3, 0, -1}, {0, 3, -1}, {1.5, 1.5, 2}}};  // in the plane x + y = 3
+    const Corners acrossEdge = {{{3, 0, -1}, {0, 3, -1}, {1.5, 1.5, 2}}};  // in the plane x + y = 3
     const SurfaceDistance d = distanceTo(leafOf(box), acrossEdge);
     expectWellFormed(d);
-    EXPECT_NEAR(d.m_gap, s2 + rounded, 1e-7);
-    EXPECT_NEAR(norm(d.m_normal - Vec3{s2, s2, 0}), 0, 1e-7);
+    EXPECT_NEAR(d.m_gap, halfRoot + rounded, 1e-7);
+    EXPECT_NEAR(norm(d.m_normal - Vec3{halfRoot, halfRoot, 0}), 0, 1e-7);
     const Vec3 soft = interpolate(acrossEdge, d.m_barycentric);
     EXPECT_NEAR(soft.x, 1.5, 1e-7);
     EXPECT_NEAR(soft.y, 1.5, 1e-7);
@@ -157,14 +157,14 @@ TEST(TriangleShapeDistance, FartherThanAskedLeavesTheResultAlone)
 {
     btBoxShape box(btVector3(1, 1, 1));
     btStaticPlaneShape plane(btVector3(0, 1, 0), 0);
-    const Triangle above = {{{0.5, 1.5, 0}, {1, 2, 1}, {0, 2, 1}}};
-    Triangle broken = above;
+    const Corners above = {{{0.5, 1.5, 0}, {1, 2, 1}, {0, 2, 1}}};
+    Corners broken = above;
     broken[1].y = std::numeric_limits<double>::quiet_NaN();
     SurfaceDistance d;
     d.m_gap = 42;
     EXPECT_FALSE(triangleShapeDistance(leafOf(box), above, 0.25, d));
-    EXPECT_FALSE(triangleShapeDistance(leafOf(box), broken, anyDistance, d));
-    EXPECT_FALSE(triangleShapeDistance(leafOf(plane), above, anyDistance, d));
+    EXPECT_FALSE(triangleShapeDistance(leafOf(box), broken, anyGap, d));
+    EXPECT_FALSE(triangleShapeDistance(leafOf(plane), above, anyGap, d));
     EXPECT_EQ(d.m_gap, 42);
     EXPECT_TRUE(triangleShapeDistance(leafOf(box), above, 0.75, d));
     EXPECT_NEAR(d.m_gap, 0.5, 1e-7);
@@ -196,7 +196,7 @@ TEST(TriangleShapeDistance, DepthInAHullIsThatOfTheSeparatingAxes)
     int overlapping = 0;
     for (int i = 0; i < 3000; ++i)
     {
-        Triangle t = random.triangle(0.6, 0.7);
+        Corners t = random.triangle(0.6, 0.7);
         t[1] = i % 10 ? t[1] : 0.5 * (t[0] + t[2]) + 1e-6 * t[1];
         const double depth = overlapDepth(h, t);
         const SurfaceDistance d = distanceTo(leaf, t);
@@ -219,9 +219,9 @@ TEST(TriangleShapeDistance, DepthIsRightWhereEverythingIsAligned)
             for (double size : {0.125, 0.5, 2.0})
             {
                 const Vec3 p = {x, y, 0.25};
-                for (const Triangle& t : {Triangle{p, p + Vec3{size, 0, 0}, p + Vec3{0, size, 0}},
-                                          Triangle{p, p + Vec3{0, 0, size}, p + Vec3{size, 0, 0}},
-                                          Triangle{p, p + Vec3{0, size, 0}, p + Vec3{0, 0, size}}})
+                for (const Corners& t : {Corners{p, p + Vec3{size, 0, 0}, p + Vec3{0, size, 0}},
+                                         Corners{p, p + Vec3{0, 0, size}, p + Vec3{size, 0, 0}},
+                                         Corners{p, p + Vec3{0, size, 0}, p + Vec3{0, 0, size}}})
                 {
                     const SurfaceDistance d = distanceTo(leaf, t);
                     expectWellFormed(d);
@@ -250,7 +250,7 @@ TEST_P(TriangleToSolid, NamesTheNearestPointOfTheTriangle)
     int separated = 0;
     for (int i = 0; i < 2000; ++i)
     {
-        const Triangle t = m_random.triangle(1.5, i % 2 ? 0.75 : 0.003);
+        const Corners t = m_random.triangle(1.5, i % 2 ? 0.75 : 0.003);
         const SurfaceDistance d = distanceTo(m_leaf, t);
         expectWellFormed(d);
         double least = std::numeric_limits<double>::infinity();
@@ -258,12 +258,12 @@ TEST_P(TriangleToSolid, NamesTheNearestPointOfTheTriangle)
         for (int a = 0; a <= 8; ++a)
             for (int b = 0; a + b <= 8; ++b)
             {
-                ASSERT_TRUE(pointShapeDistance(m_leaf, interpolate(t, {a / 8.0, b / 8.0, (8 - a - b) / 8.0}),
-                                               anyDistance, point));
+                ASSERT_TRUE(
+                    pointShapeDistance(m_leaf, interpolate(t, {a / 8.0, b / 8.0, (8 - a - b) / 8.0}), anyGap, point));
                 least = std::min(least, point.m_gap);
             }
         EXPECT_LE(d.m_gap, least + edgeError() + 1e-7);
-        ASSERT_TRUE(pointShapeDistance(m_leaf, interpolate(t, d.m_barycentric), anyDistance, point));
+        ASSERT_TRUE(pointShapeDistance(m_leaf, interpolate(t, d.m_barycentric), anyGap, point));
         separated += d.m_gap > 0;
         EXPECT_NEAR(d.m_gap, d.m_gap > 0 ? point.m_gap : d.m_gap, edgeError() + 1e-6);
         EXPECT_GE(point.m_gap, d.m_gap - edgeError() - 1e-6);
@@ -277,7 +277,7 @@ TEST_P(TriangleToSolid, IsResolvedByMovingAlongTheNormal)
 {
     for (int i = 0; i < 1000; ++i)
     {
-        Triangle t = m_random.triangle(0.5, 0.5);
+        Corners t = m_random.triangle(0.5, 0.5);
         const SurfaceDistance before = distanceTo(m_leaf, t);
         for (Vec3& x : t) x += (0.01 - before.m_gap) * before.m_normal;
         const SurfaceDistance after = distanceTo(m_leaf, t);
@@ -290,8 +290,8 @@ TEST_P(TriangleToSolid, IsInvariantUnderRigidMotion)
     for (int i = 0; i < 300; ++i)
     {
         const ShapeLeaf moved = leafOf(*m_shape, m_random.placement(100));
-        const Triangle t = m_random.triangle(1, 0.5);
-        const Triangle there = {moved.m_pose.toWorld(t[0]), moved.m_pose.toWorld(t[1]), moved.m_pose.toWorld(t[2])};
+        const Corners t = m_random.triangle(1, 0.5);
+        const Corners there = {moved.m_pose.toWorld(t[0]), moved.m_pose.toWorld(t[1]), moved.m_pose.toWorld(t[2])};
         EXPECT_NEAR(distanceTo(m_leaf, t).m_gap, distanceTo(moved, there).m_gap, GetParam().m_triangleAccuracy);
     }
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fem/baked_files.h"
+#include "fem/test_constants.h"
 
 namespace bullet_fem
 {
@@ -14,8 +15,6 @@ namespace
 {
 
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Where a section begins.
 template <class Array>

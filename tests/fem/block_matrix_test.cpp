@@ -15,15 +15,6 @@ namespace bullet_fem
 namespace
 {
 
-Eigen::MatrixXd dense(const BlockMatrix& K)
-{
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * K.nodeCount(), 3 * K.nodeCount());
-    for (int i = 0; i < K.nodeCount(); ++i)
-        for (int k = K.m_rowStart[i]; k < K.m_rowStart[i + 1]; ++k)
-            result.block<3, 3>(3 * i, 3 * K.m_column[k]) = dense(K.m_block[k]);
-    return result;
-}
-
 class RestStiffness : public testing::TestWithParam<double>  // nu
 {
 protected:

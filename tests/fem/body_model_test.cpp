@@ -5,18 +5,15 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
 #include "fem/elasticity_scenes.h"
 #include "fem/expect_rejected.h"
+#include "fem/test_constants.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 class BodyModelInput : public testing::Test
 {

@@ -93,7 +93,7 @@ int hangingNodes(const Cage& cage)
 }
 
 /// What every graded cage promises, whatever its surface.
-void expectPromises(const Cage& cage, const SurfaceMesh& surface, const CageSettings& settings)
+void expectGradedPromises(const Cage& cage, const SurfaceMesh& surface, const CageSettings& settings)
 {
     const CageReport& report = cage.m_report;
     EXPECT_EQ(cage.m_mesh.turnedCount(), 0);
@@ -128,7 +128,7 @@ void expectPromises(const Cage& cage, const SurfaceMesh& surface, const CageSett
     EXPECT_LT(farthest, 1e-11 * settings.m_cellSize);  // up to some 10,000 cells from the origin
 }
 
-struct Case
+struct GradedCase
 {
     const char* m_name;
     SurfaceMesh m_surface;
@@ -136,7 +136,7 @@ struct Case
     int m_levels;  // that are used, of three
 };
 
-class GradedCage : public testing::TestWithParam<Case>
+class GradedCage : public testing::TestWithParam<GradedCase>
 {
 };
 
@@ -144,26 +144,27 @@ TEST_P(GradedCage, KeepsItsPromises)
 {
     const auto& [name, surface, cell, levels] = GetParam();
     const Cage cage = makeCage(surface, graded(cell));
-    expectPromises(cage, surface, graded(cell));
+    expectGradedPromises(cage, surface, graded(cell));
     EXPECT_EQ(cage.m_report.m_levels, levels);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Surfaces, GradedCage,
-    testing::Values(Case{"ball", sphereSurface(1, {}, 3), 0.3, 0}, Case{"torus", torusSurface(1, 0.15, 48), 0.4, 2},
-                    Case{"rod", blockWithRod(), 0.25, 3}, Case{"tiltedRod", tilted(blockWithRod()), 0.25, 3},
-                    Case{"tiltedPlates", tilted(twoPlates()), 0.3, 3},
-                    Case{"shell", joined(sphereSurface(1, {}, 3), flipped(sphereSurface(0.8, {}, 3))), 0.3, 2},
-                    Case{"open", without(boxSurface({0, 0, 0}, {1, 1, 0.2}), 4, 6), 0.3, 2},
-                    Case{"insideOut", flipped(boxSurface({0, 0, 0}, {1, 1, 0.2})), 0.3, 2},
-                    Case{"farAway", moved(torusSurface(1, 0.15, 24), {1000, 2000, 500}), 0.4, 2}),
+    testing::Values(GradedCase{"ball", sphereSurface(1, {}, 3), 0.3, 0},
+                    GradedCase{"torus", torusSurface(1, 0.15, 48), 0.4, 2}, GradedCase{"rod", blockWithRod(), 0.25, 3},
+                    GradedCase{"tiltedRod", tilted(blockWithRod()), 0.25, 3},
+                    GradedCase{"tiltedPlates", tilted(twoPlates()), 0.3, 3},
+                    GradedCase{"shell", joined(sphereSurface(1, {}, 3), flipped(sphereSurface(0.8, {}, 3))), 0.3, 2},
+                    GradedCase{"open", without(boxSurface({0, 0, 0}, {1, 1, 0.2}), 4, 6), 0.3, 2},
+                    GradedCase{"insideOut", flipped(boxSurface({0, 0, 0}, {1, 1, 0.2})), 0.3, 2},
+                    GradedCase{"farAway", moved(torusSurface(1, 0.15, 24), {1000, 2000, 500}), 0.4, 2}),
     [](const auto& suite) { return suite.param.m_name; });
 
 TEST(GradedCage, OfAnAlignedBoxIsTheBox)
 {
     const SurfaceMesh surface = boxSurface({-1, 0, 2}, {1, 1.5, 3});
     const Cage cage = makeCage(surface, graded(0.25));
-    expectPromises(cage, surface, graded(0.25));
+    expectGradedPromises(cage, surface, graded(0.25));
     EXPECT_EQ(cage.m_mesh.tetCount(), 8 * 6 * 4 * 6);
     EXPECT_NEAR(cage.m_report.m_volumeRatio, 1, 1e-12);
     EXPECT_EQ(cage.m_report.m_levels, 0);
@@ -290,7 +291,7 @@ TEST(GradedCage, ComesNearAWantedNumber)
             EXPECT_NEAR(cage.m_report.m_tets, target, 0.3 * target);
             EXPECT_LE(cage.m_report.m_cellsAcross, 2);
             settings.m_cellSize = cage.m_report.m_cellSize;
-            expectPromises(cage, surface, settings);
+            expectGradedPromises(cage, surface, settings);
         }
 }
 

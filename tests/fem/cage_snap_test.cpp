@@ -46,7 +46,7 @@ double deepestOutside(const Cage& cage, const Cage& lattice)
 }
 
 /// What snapping promises, whatever the surface.
-void expectPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh& surface)
+void expectSnapPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh& surface)
 {
     const CageReport& report = cage.m_report;
     EXPECT_EQ(cage.m_mesh.tets(), lattice.m_mesh.tets());
@@ -90,7 +90,7 @@ SurfaceMesh tiltedCross()
     return cross;
 }
 
-struct Case
+struct SnapCase
 {
     const char* m_name;
     SurfaceMesh m_surface;
@@ -98,7 +98,7 @@ struct Case
     double m_mostRatio;  // cage over solid; a tenth above what it was when this was written
 };
 
-class SnappedCage : public testing::TestWithParam<Case>
+class SnappedCage : public testing::TestWithParam<SnapCase>
 {
 };
 
@@ -107,7 +107,7 @@ TEST_P(SnappedCage, KeepsItsPromises)
     const auto& [name, surface, cell, mostRatio] = GetParam();
     const Cage lattice = makeCage(surface, withCell(cell));
     const Cage cage = makeCage(surface, snapping(cell));
-    expectPromises(cage, lattice, surface);
+    expectSnapPromises(cage, lattice, surface);
     EXPECT_LT(cage.m_report.m_volumeRatio, mostRatio);
     EXPECT_LT(cage.m_report.m_volumeRatio - 1, 0.6 * (lattice.m_report.m_volumeRatio - 1));
     EXPECT_EQ(makeCage(surface, snapping(cell)).m_mesh.restPositions()[7].x, cage.m_mesh.restPositions()[7].x);
@@ -115,12 +115,13 @@ TEST_P(SnappedCage, KeepsItsPromises)
 
 INSTANTIATE_TEST_SUITE_P(
     Surfaces, SnappedCage,
-    testing::Values(Case{"ball", sphereSurface(1, {}, 3), 0.3, 1.2}, Case{"torus", torusSurface(1, 0.3, 32), 0.2, 1.5},
-                    Case{"tiltedPlate", boxSurface({0.01, 0, 0}, {1, 0.93, 0.11}), 0.15, 1.2},
-                    Case{"tiltedCross", tiltedCross(), 0.2, 1.9},
-                    Case{"overlap", joined(sphereSurface(1, {}, 2), sphereSurface(1, {1, 0, 0}, 2)), 0.3, 1.25},
-                    Case{"insideOut", flipped(sphereSurface(1, {}, 2)), 0.3, 1.2},
-                    Case{"farAway", sphereSurface(1, {1000, 2000, 500}, 2), 0.3, 1.2}),
+    testing::Values(SnapCase{"ball", sphereSurface(1, {}, 3), 0.3, 1.2},
+                    SnapCase{"torus", torusSurface(1, 0.3, 32), 0.2, 1.5},
+                    SnapCase{"tiltedPlate", boxSurface({0.01, 0, 0}, {1, 0.93, 0.11}), 0.15, 1.2},
+                    SnapCase{"tiltedCross", tiltedCross(), 0.2, 1.9},
+                    SnapCase{"overlap", joined(sphereSurface(1, {}, 2), sphereSurface(1, {1, 0, 0}, 2)), 0.3, 1.25},
+                    SnapCase{"insideOut", flipped(sphereSurface(1, {}, 2)), 0.3, 1.2},
+                    SnapCase{"farAway", sphereSurface(1, {1000, 2000, 500}, 2), 0.3, 1.2}),
     [](const auto& suite) { return suite.param.m_name; });
 
 TEST(SnappedCage, OfAnAlignedBoxStaysAsItIs)

@@ -6,14 +6,13 @@
 
 #include <algorithm>
 
+#include "fem/test_constants.h"
 #include "fem/test_surfaces.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double filledVolume(const Cage& cage)
 {

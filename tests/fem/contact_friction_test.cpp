@@ -7,13 +7,12 @@
 #include <cmath>
 
 #include "fem/contact_scene.h"
+#include "fem/test_constants.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Vec3 normalPart(const Vec3& a, const Vec3& n)
 {

@@ -31,6 +31,15 @@ Eigen::Matrix3d dense(const Mat3& a)
     return result;
 }
 
+Eigen::MatrixXd dense(const BlockMatrix& K)
+{
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * K.nodeCount(), 3 * K.nodeCount());
+    for (int i = 0; i < K.nodeCount(); ++i)
+        for (int k = K.m_rowStart[i]; k < K.m_rowStart[i + 1]; ++k)
+            result.block<3, 3>(3 * i, 3 * K.m_column[k]) = dense(K.m_block[k]);
+    return result;
+}
+
 Eigen::MatrixXd textbookElementStiffness(const std::array<Vec3, 4>& X, const Material& material)
 {
     Eigen::Matrix4d P;  // N_a(X) = (P^-1)_0a + (P^-1)_1a X + (P^-1)_2a Y + (P^-1)_3a Z

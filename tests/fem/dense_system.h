@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
+#include "fem/factor/block_matrix.h"
 #include "fem/factor/fill_order.h"
 
 namespace bullet_fem
@@ -17,6 +18,7 @@ namespace bullet_fem
 Eigen::VectorXd flat(const std::vector<Vec3>& u);
 std::vector<Vec3> nodes(const Eigen::VectorXd& u);
 Eigen::Matrix3d dense(const Mat3& a);
+Eigen::MatrixXd dense(const BlockMatrix& K);
 
 /// K_e = V B^T C B [N/m] with the 6x12 strain-displacement matrix B of engineering strains.
 Eigen::MatrixXd textbookElementStiffness(const std::array<Vec3, 4>& X, const Material& material);

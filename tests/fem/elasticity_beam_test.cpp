@@ -184,12 +184,12 @@ const Beam kFineStiff = {"Tets12288E1e7",
                          5e-8,
                          {-.0028764, -.2177265, -.5307857, -.6338102, -.4698975, -.2291923, -.1459210}};
 
-std::string nameOf(const testing::TestParamInfo<Beam>& info)
+std::string beamName(const testing::TestParamInfo<Beam>& info)
 {
     return info.param.m_name;
 }
-INSTANTIATE_TEST_SUITE_P(Both, ElasticityBeam, testing::Values(kCoarseSoft, kCoarseStiff), nameOf);
-INSTANTIATE_TEST_SUITE_P(Both, ElasticityBeamSlow, testing::Values(kFineSoft, kFineStiff), nameOf);
+INSTANTIATE_TEST_SUITE_P(Both, ElasticityBeam, testing::Values(kCoarseSoft, kCoarseStiff), beamName);
+INSTANTIATE_TEST_SUITE_P(Both, ElasticityBeamSlow, testing::Values(kFineSoft, kFineStiff), beamName);
 
 TEST(ElasticityBeamSlow, GlobalWarpIterations)
 {

@@ -12,22 +12,23 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLength = 0.8, kWidth = 0.3, kThickness = 0.05;  // of the plate [m]
-constexpr double kYoung = 1e6;                                    // [Pa]
+constexpr double kPlateLength = 0.8, kWidth = 0.3, kThickness = 0.05;  // of the plate [m]
+constexpr double kPlateYoung = 1e6;                                    // [Pa]
 
 /// The block ends at x = 0, the ball is around the plate's end.
 SurfaceMesh ballOnAPlate()
 {
     const SurfaceMesh block = boxSurface({-0.3, -0.2, -0.2}, {0, 0.2, 0.2});
-    const SurfaceMesh plate = boxSurface({-0.05, -kWidth / 2, -kThickness / 2}, {kLength, kWidth / 2, kThickness / 2});
-    return joined(joined(block, plate), sphereSurface(0.2, {kLength + 0.1, 0, 0}, 2));
+    const SurfaceMesh plate =
+        boxSurface({-0.05, -kWidth / 2, -kThickness / 2}, {kPlateLength, kWidth / 2, kThickness / 2});
+    return joined(joined(block, plate), sphereSurface(0.2, {kPlateLength + 0.1, 0, 0}, 2));
 }
 
 /// How far the ball sinks under 1 N on it, with all nodes fixed that are within the block [m].
 double deflection(const Cage& cage, const SurfaceMesh& surface)
 {
-    const RestShape shape(cage.m_mesh, elasticMaterial(kYoung, 0.3), cage.m_filled);
-    const auto onBall = [&](std::size_t vertex) { return surface.m_vertices[vertex].x > kLength; };
+    const RestShape shape(cage.m_mesh, elasticMaterial(kPlateYoung, 0.3), cage.m_filled);
+    const auto onBall = [&](std::size_t vertex) { return surface.m_vertices[vertex].x > kPlateLength; };
     std::vector<Vec3> force(shape.m_mesh.nodeCount());
     double count = 0, sum = 0;
     const auto forEachWeight = [&](const auto& act)
@@ -47,8 +48,8 @@ double deflection(const Cage& cage, const SurfaceMesh& surface)
 /// The plate as a beam with its load at the centre of the ball, which takes part of its length.
 double beamDeflection()
 {
-    const double L = kLength - 0.1, I = kWidth * kThickness * kThickness * kThickness / 12, arm = 0.2;
-    return (L * L * L / 3 + arm * L * L + arm * arm * L) / (kYoung * I);
+    const double L = kPlateLength - 0.1, I = kWidth * kThickness * kThickness * kThickness / 12, arm = 0.2;
+    return (L * L * L / 3 + arm * L * L + arm * arm * L) / (kPlateYoung * I);
 }
 
 // Measured: .03 of the beam's deflection with cells of 0.15 m, .24 with 12,002 elements alike, .63 with 10,534 graded

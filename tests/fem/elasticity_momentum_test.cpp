@@ -92,7 +92,7 @@ TEST_P(ElasticityMomentum, FollowsTheLoads)
     EXPECT_GT(kineticEnergy(s), 1);
 }
 
-std::string nameOf(const testing::TestParamInfo<Solver>& info)
+std::string solverName(const testing::TestParamInfo<Solver>& info)
 {
     return info.param.m_name;
 }
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, ElasticityMomentum,
                                          Solver{"Global", Warp::global, false, 1e-3},
                                          Solver{"Accurate", Warp::nodal, false, 1e-10},
                                          Solver{"Direct", Warp::nodal, true, 1e-3}),
-                         nameOf);
+                         solverName);
 
 // A plate of 1 x 1 x .25 m, 8 x 8 x 2 Kuhn cells, E 1e6, spinning about its short axis at omega [rad/s], h 1/60.
 class Plate

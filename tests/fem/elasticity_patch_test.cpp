@@ -45,7 +45,7 @@ void PrintTo(const Patch& patch, std::ostream* out)
     *out << patch.m_name;
 }
 
-std::string nameOf(const testing::TestParamInfo<Patch>& info)
+std::string patchName(const testing::TestParamInfo<Patch>& info)
 {
     return info.param.m_name;
 }
@@ -80,9 +80,9 @@ INSTANTIATE_TEST_SUITE_P(Strains, ElasticityPatch,
                                          Patch{"KuhnSmall", CellSplit::kuhnSix, .3, 1e-4},
                                          Patch{"Kuhn20Percent", CellSplit::kuhnSix, .3, .2},
                                          Patch{"KuhnNearlyIncompressible", CellSplit::kuhnSix, .49, .2}),
-                         nameOf);
+                         patchName);
 
-constexpr double kLength = 2, kSide = .5, kYoung = 1e6;  // the bar [m], [m], [Pa]
+constexpr double kPatchLength = 2, kSide = .5, kPatchYoung = 1e6;  // the bar [m], [m], [Pa]
 
 bool onLeft(const Vec3& X)
 {
@@ -90,7 +90,7 @@ bool onLeft(const Vec3& X)
 }
 bool onRight(const Vec3& X)
 {
-    return X.x == kLength;
+    return X.x == kPatchLength;
 }
 
 // x = (1 + eps) X along the bar and (1 - nu eps) X across.
@@ -105,10 +105,10 @@ std::vector<Vec3> uniaxialPositions(const TetMesh& mesh, const Patch& p)
 class ElasticityBar : public testing::TestWithParam<Patch>
 {
 protected:
-    TetMesh m_mesh = irregularBox({kLength, kSide, kSide}, {8, 3, 3}, GetParam().m_split);
+    TetMesh m_mesh = irregularBox({kPatchLength, kSide, kSide}, {8, 3, 3}, GetParam().m_split);
     std::vector<Vec3> m_exact = uniaxialPositions(m_mesh, GetParam());
-    double m_moved = kLength * std::fabs(GetParam().m_strain);
-    double m_force = kYoung * kSide * kSide * GetParam().m_strain;  // E A (lambda - 1) [N]
+    double m_moved = kPatchLength * std::fabs(GetParam().m_strain);
+    double m_force = kPatchYoung * kSide * kSide * GetParam().m_strain;  // E A (lambda - 1) [N]
 };
 
 // End sections held as in the exact state, sides free: the rest follows, and the end carries F = E A (lambda - 1) at
@@ -116,8 +116,8 @@ protected:
 TEST_P(ElasticityBar, ReactionIsLinearInTheStretch)
 {
     Body body = makeBody(
-        m_mesh, elasticMaterial(kYoung, GetParam().m_poisson, 1), [](const Vec3& X) { return onLeft(X) || onRight(X); },
-        1);
+        m_mesh, elasticMaterial(kPatchYoung, GetParam().m_poisson, 1),
+        [](const Vec3& X) { return onLeft(X) || onRight(X); }, 1);
     BodyState& s = body.m_state;
     for (std::size_t i = 0; i < s.m_x.size(); ++i) s.m_x[i] = s.m_fixed[i] ? m_exact[i] : s.m_x[i];
     EXPECT_LE(relax(body, 1e-11 * m_moved), 1e-11 * m_moved);
@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Strains, ElasticityBar,
                                          Patch{"KuhnShortByTenth", CellSplit::kuhnSix, .3, -.1},
                                          Patch{"KuhnNearlyIncompressible", CellSplit::kuhnSix, .49, .2},
                                          Patch{"FiveTetWithoutPoisson", CellSplit::alternatingFive, 0, .5}),
-                         nameOf);
+                         patchName);
 
 using ElasticityPulledBar = ElasticityBar;
 
@@ -149,14 +149,14 @@ using ElasticityPulledBar = ElasticityBar;
 TEST_P(ElasticityPulledBar, FreeBarTakesTheExactShape)
 {
     // A short step: the torque of dead loads on a free body is explicit, so that h sqrt(F L / I) must stay below 1.
-    Body body = makeBody(m_mesh, elasticMaterial(kYoung, GetParam().m_poisson), {}, 1.0 / 60);
+    Body body = makeBody(m_mesh, elasticMaterial(kPatchYoung, GetParam().m_poisson), {}, 1.0 / 60);
     const std::vector<double> left = faceAreas(m_mesh, onLeft), right = faceAreas(m_mesh, onRight);
     for (std::size_t i = 0; i < left.size(); ++i)
         body.m_loads.m_force[i].x = (right[i] - left[i]) / (kSide * kSide) * m_force;
     EXPECT_LE(relax(body, 1e-7 * m_moved), 1e-7 * m_moved);
 
     const std::vector<Vec3>& x = body.m_state.m_x;
-    for (const Vec3& corner : {Vec3{0, 0, 0}, Vec3{kLength, 0, 0}, Vec3{0, kSide, 0}, Vec3{0, 0, kSide}})
+    for (const Vec3& corner : {Vec3{0, 0, 0}, Vec3{kPatchLength, 0, 0}, Vec3{0, kSide, 0}, Vec3{0, 0, kSide}})
     {
         const int c = nodeAt(m_mesh, corner);
         double worst = 0;
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(Strains, ElasticityPulledBar,
                                          Patch{"KuhnLongByHalf", CellSplit::kuhnSix, .3, .5},
                                          Patch{"KuhnNearlyIncompressible", CellSplit::kuhnSix, .49, .2},
                                          Patch{"FiveTetWithoutPoisson", CellSplit::alternatingFive, 0, .2}),
-                         nameOf);
+                         patchName);
 
 }  // namespace
 }  // namespace bullet_fem

@@ -15,19 +15,19 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLength = 8, kYoung = 1e9;  // [m], [Pa]; the section is 1 m x 1 m, z from -1/2 to 1/2
+constexpr double kBarLength = 8, kBarYoung = 1e9;  // [m], [Pa]; the section is 1 m x 1 m, z from -1/2 to 1/2
 
-bool clamped(const Vec3& X)
+bool barEnd(const Vec3& X)
 {
     return X.x == 0;
 }
 
-// A clamped bar in static equilibrium with small forces, n cells through its thickness.
+// A barEnd bar in static equilibrium with small forces, n cells through its thickness.
 struct Bar
 {
     explicit Bar(int n)
-        : m_body(makeBody(makeBox({kLength, 1, 1}, {int(kLength) * n, n, n}, {0, -0.5, -0.5}),
-                          elasticMaterial(kYoung, 0.3), clamped))
+        : m_body(makeBody(makeBox({kBarLength, 1, 1}, {int(kBarLength) * n, n, n}, {0, -0.5, -0.5}),
+                          elasticMaterial(kBarYoung, 0.3), barEnd))
     {
     }
 
@@ -35,7 +35,7 @@ struct Bar
 
     void load(const std::vector<Vec3>& force)
     {
-        const std::vector<Vec3> u = LinearSystem(m_body.m_model->shape(), clamped).displacement(force);
+        const std::vector<Vec3> u = LinearSystem(m_body.m_model->shape(), barEnd).displacement(force);
         for (std::size_t i = 0; i < u.size(); ++i) m_body.m_state.m_x[i] = mesh().restPositions()[i] + u[i];
         elementStresses(m_body, m_element);
         nodeStresses(*m_body.m_model, m_element, m_node);
@@ -58,13 +58,13 @@ TEST(StressInBars, TensionIsForceOverArea)
     Bar bar(2);
     const double force = 1000;  // [N] on 1 m2: a strain of 1e-6
     std::vector<Vec3> load(bar.mesh().nodeCount());
-    const std::vector<double> area = faceAreas(bar.mesh(), [](const Vec3& X) { return X.x == kLength; });
+    const std::vector<double> area = faceAreas(bar.mesh(), [](const Vec3& X) { return X.x == kBarLength; });
     for (std::size_t i = 0; i < load.size(); ++i) load[i].x = force * area[i];
     bar.load(load);
     int looked = 0;
     for (std::size_t e = 0; e < bar.m_element.size(); ++e)
     {
-        const bool inTheMiddle = std::fabs(bar.centre(int(e)).x - kLength / 2) < 2;
+        const bool inTheMiddle = std::fabs(bar.centre(int(e)).x - kBarLength / 2) < 2;
         looked += inTheMiddle;
         EXPECT_LT(inTheMiddle * std::fabs(vonMises(bar.m_element[e]) / force - 1), 0.01) << e;
         EXPECT_LT(inTheMiddle * std::fabs(bar.m_element[e].xx / force - 1), 0.01) << e;
@@ -96,7 +96,7 @@ protected:
             weight[i].z = -kLoad * m_bar.m_body.m_model->shape().m_lumpedMass[i] / 1000;
         m_bar.load(weight);
     }
-    static double moment(double x) { return kLoad * (kLength - x) * (kLength - x) / 2; }
+    static double moment(double x) { return kLoad * (kBarLength - x) * (kBarLength - x) / 2; }
 
     static constexpr double kLoad = 1;  // q [N/m], which bends the bar by 1e-6 of its length
     Bar m_bar;

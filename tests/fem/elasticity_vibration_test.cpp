@@ -32,7 +32,7 @@ class ElasticityVibration : public testing::TestWithParam<Vibration>
 {
 };
 
-bool clamped(const Vec3& X)
+bool rodEnd(const Vec3& X)
 {
     return X.x == 0;
 }
@@ -46,7 +46,7 @@ const TetMesh& bar()
 // The eigenmode of the discrete K and M, so that the mesh has no part in the comparison.
 Mode chosenMode(const RestShape& shape, bool axial)
 {
-    const std::vector<Mode> modes = LinearSystem(shape, clamped).lowestModes(8);
+    const std::vector<Mode> modes = LinearSystem(shape, rodEnd).lowestModes(8);
     const auto along = [&shape](const Mode& m) { return std::fabs(weightedMean(shape.m_lumpedMass, m.m_shape).x); };
     const auto mostAlong = [&along](const Mode& a, const Mode& b) { return along(a) < along(b); };
     return axial ? *std::max_element(modes.begin(), modes.end(), mostAlong) : modes.front();
@@ -67,7 +67,7 @@ TEST_P(ElasticityVibration, FollowsImplicitEulersLaw)
     StepSettings settings;
     settings.m_step = p.m_phaseStep / mode.m_omega;
     settings.m_tolerance = 1e-9;
-    Body body = makeBody(bar(), elasticMaterial(1e6, .3), clamped, settings.m_step);
+    Body body = makeBody(bar(), elasticMaterial(1e6, .3), rodEnd, settings.m_step);
     BodyState& s = body.m_state;
     const std::vector<Vec3> X = s.m_x;
     const double amplitude = 1e-4;  // tip 1e-6 of the length: rotations change nothing
@@ -91,14 +91,14 @@ TEST_P(ElasticityVibration, FollowsImplicitEulersLaw)
     EXPECT_NEAR(std::log(std::abs(previous) / amplitude), -decay, 1e-4 * decay);
 }
 
-std::string nameOf(const testing::TestParamInfo<Vibration>& info)
+std::string vibrationName(const testing::TestParamInfo<Vibration>& info)
 {
     return info.param.m_name;
 }
 INSTANTIATE_TEST_SUITE_P(Modes, ElasticityVibration,
                          testing::Values(Vibration{"BendingSmallSteps", false, .05}, Vibration{"Bending", false, .2},
                                          Vibration{"Axial", true, .2}, Vibration{"AxialLargeSteps", true, .6}),
-                         nameOf);
+                         vibrationName);
 
 }  // namespace
 }  // namespace bullet_fem

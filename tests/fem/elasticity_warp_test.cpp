@@ -7,14 +7,13 @@
 #include <cmath>
 
 #include "fem/elasticity_scenes.h"
+#include "fem/test_constants.h"
 #include "fem/warped_elements.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Turn
 {
@@ -130,7 +129,7 @@ TEST_P(ElasticityWarp, MotionTurnsWithTheState)
     EXPECT_LE(largestDistance(body.m_state.m_x, turned.m_state.m_x), 1e-8 * moved);
 }
 
-std::string nameOf(const testing::TestParamInfo<Turn>& info)
+std::string turnName(const testing::TestParamInfo<Turn>& info)
 {
     return info.param.m_name;
 }
@@ -139,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(Turns, ElasticityWarp,
                                          Turn{"Y90", {0, 1, 0}, 90}, Turn{"Z180", {0, 0, 1}, 180},
                                          Turn{"X180", {1, 0, 0}, 180}, Turn{"Oblique90", {1, 1, 1}, 90},
                                          Turn{"Oblique180", {1, -2, .5}, 180}, Turn{"Oblique137", {-3, 1, 2}, 137}),
-                         nameOf);
+                         turnName);
 
 }  // namespace
 }  // namespace bullet_fem

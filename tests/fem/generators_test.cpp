@@ -8,14 +8,12 @@
 #include <limits>
 
 #include "fem/expect_rejected.h"
+#include "fem/test_constants.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Least volume over longest edge cubed [-].
 double leastQuality(const TetMesh& mesh)

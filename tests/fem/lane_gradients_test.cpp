@@ -19,7 +19,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSingle = 1e-6;  // some rounding errors of single precision
+constexpr double kSingleRounding = 1e-6;  // some rounding errors of single precision
 
 // A block that hangs on one side, its nodes no multiple of sixteen.
 std::shared_ptr<const BodyModel> makeModel(double young = 1e6, double poisson = 0.3)
@@ -88,9 +88,10 @@ TEST_P(LaneGradientsTest, MultiplyByA0)
     const LaneNumbers pq = multiplyLanes(m_model->factor().rest(), v);
     const Eigen::MatrixXd expected = before.cast<double>() + orderedA0() * p.cast<double>();
     const Lanes found = Eigen::Map<const Lanes>(q.get(), m_size, int(kPanelLanes));
-    EXPECT_LE((found.cast<double>() - expected).norm(), kSingle * expected.norm());
+    EXPECT_LE((found.cast<double>() - expected).norm(), kSingleRounding * expected.norm());
     for (int k = 0; k < kPanelLanes; ++k)
-        EXPECT_NEAR(pq.m[k], expected.col(k).dot(p.col(k).cast<double>()), kSingle * expected.norm() * p.norm()) << k;
+        EXPECT_NEAR(pq.m[k], expected.col(k).dot(p.col(k).cast<double>()), kSingleRounding * expected.norm() * p.norm())
+            << k;
 }
 
 TEST_P(LaneGradientsTest, MoveEveryLaneByItsOwnStep)
@@ -107,16 +108,17 @@ TEST_P(LaneGradientsTest, MoveEveryLaneByItsOwnStep)
     for (int k = 0; k < kPanelLanes; ++k)
     {
         const float a = static_cast<float>(step.m[k]);
-        EXPECT_NEAR(rq.m[k], r.col(k).cast<double>().dot(q.col(k).cast<double>()), kSingle * r.norm() * q.norm());
-        EXPECT_LE((lanes(xf).col(k) - x.col(k) - a * p.col(k)).norm(), kSingle * x.norm()) << k;
-        EXPECT_LE((lanes(rf).col(k) - r.col(k) + a * q.col(k)).norm(), kSingle * x.norm()) << k;
+        EXPECT_NEAR(rq.m[k], r.col(k).cast<double>().dot(q.col(k).cast<double>()),
+                    kSingleRounding * r.norm() * q.norm());
+        EXPECT_LE((lanes(xf).col(k) - x.col(k) - a * p.col(k)).norm(), kSingleRounding * x.norm()) << k;
+        EXPECT_LE((lanes(rf).col(k) - r.col(k) + a * q.col(k)).norm(), kSingleRounding * x.norm()) << k;
         EXPECT_EQ((lanes(qf).col(k) - lanes(rf).col(k)).norm(), 0) << k;
     }
     const Lanes residual = lanes(rf);
     turnLanes(v, step);
     for (int k = 0; k < kPanelLanes; ++k)
         EXPECT_LE((lanes(pf).col(k) - residual.col(k) - static_cast<float>(step.m[k]) * p.col(k)).norm(),
-                  kSingle * x.norm())
+                  kSingleRounding * x.norm())
             << k;
     EXPECT_EQ(lanes(qf).norm(), 0);
 }

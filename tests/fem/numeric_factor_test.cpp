@@ -47,15 +47,6 @@ BlockMatrix blocksOf(const MatrixXd& A)
     return result;
 }
 
-MatrixXd dense(const BlockMatrix& A)
-{
-    MatrixXd result = MatrixXd::Zero(3 * A.nodeCount(), 3 * A.nodeCount());
-    for (int i = 0; i < A.nodeCount(); ++i)
-        for (int k = A.m_rowStart[i]; k < A.m_rowStart[i + 1]; ++k)
-            result.block<3, 3>(3 * i, 3 * A.m_column[k]) = dense(A.m_block[k]);
-    return result;
-}
-
 // Each pair of nodes is coupled with this probability. Positive definite, condition below 100.
 MatrixXd randomBlocks(int nodes, double density, unsigned seed)
 {

@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSingle = 1e-5;  // 6e-8 of single precision times a condition of some 100
+constexpr double kSingleSolve = 1e-5;  // 6e-8 of single precision times a condition of some 100
 
 // A box that is clamped at one side: its A0 over the free nodes in the factor's order, dense and packed.
 class PackedSolve : public testing::TestWithParam<int>
@@ -73,7 +73,7 @@ TEST_P(PackedSolve, SolvesOneRightSide)
     const std::vector<float> b = randomVector(m_packed.size(), 1);
     std::copy(b.begin(), b.end(), m_y.get());
     m_packed.solve(m_y.get(), m_scratch.get());
-    EXPECT_LE(error(m_y.get(), b, 1, 0), kSingle);
+    EXPECT_LE(error(m_y.get(), b, 1, 0), kSingleSolve);
 }
 
 TEST_P(PackedSolve, SolvesSixteenEachForItself)
@@ -82,7 +82,8 @@ TEST_P(PackedSolve, SolvesSixteenEachForItself)
     const std::vector<float> b = randomVector(count, 2);
     std::copy(b.begin(), b.end(), m_y.get());
     m_packed.solveLanes(m_packed.allSupernodes(), m_packed.allSupernodes(), m_y.get(), m_scratch.get());
-    for (int lane = 0; lane < kPanelLanes; ++lane) EXPECT_LE(error(m_y.get(), b, kPanelLanes, lane), kSingle) << lane;
+    for (int lane = 0; lane < kPanelLanes; ++lane)
+        EXPECT_LE(error(m_y.get(), b, kPanelLanes, lane), kSingleSolve) << lane;
 
     // The bits of a lane do not depend on the others.
     AlignedFloats alone = allocateFloats(count);

@@ -137,9 +137,9 @@ TEST_P(IsotropicKernels, BackwardOfSixteenIsItsScalarTwin)
 }
 
 // All widths of a last chunk, and rows that fill their last block or do not.
-const PanelSize kSizes[] = {{1, 0}, {1, 1}, {2, 5}, {3, 16}, {4, 7}, {5, 11}, {16, 0}, {23, 40}, {30, 3}};
-INSTANTIATE_TEST_SUITE_P(Sizes, PanelKernels, testing::ValuesIn(kSizes));
-INSTANTIATE_TEST_SUITE_P(Sizes, IsotropicKernels, testing::ValuesIn(kSizes));
+const PanelSize kPanelSizes[] = {{1, 0}, {1, 1}, {2, 5}, {3, 16}, {4, 7}, {5, 11}, {16, 0}, {23, 40}, {30, 3}};
+INSTANTIATE_TEST_SUITE_P(Sizes, PanelKernels, testing::ValuesIn(kPanelSizes));
+INSTANTIATE_TEST_SUITE_P(Sizes, IsotropicKernels, testing::ValuesIn(kPanelSizes));
 
 // One node over one: M = 2 I, S = 3 I, padded.
 TEST(PanelKernelsByHand, OneNodeOverOne)

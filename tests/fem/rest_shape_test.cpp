@@ -4,19 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <numeric>
 
 #include "bullet_fem/fem/generators.h"
 #include "fem/expect_rejected.h"
+#include "fem/test_constants.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 TetMesh unitTet()
 {

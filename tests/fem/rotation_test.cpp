@@ -10,13 +10,12 @@
 
 #include "fem/dense_system.h"
 #include "fem/elasticity_scenes.h"
+#include "fem/test_constants.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct NamedMatrix
 {

@@ -9,13 +9,12 @@
 
 #include "fem/dense_system.h"
 #include "fem/elasticity_scenes.h"
+#include "fem/test_constants.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct NamedMesh
 {
@@ -286,7 +285,7 @@ Mat3 symmetric(const Vec3& eigenvalues, const Mat3& Q)
     return Q * timesTranspose(Mat3{{{eigenvalues.x, 0, 0}, {0, eigenvalues.y, 0}, {0, 0, eigenvalues.z}}}, Q);
 }
 
-double distance(const Mat3& a, const Mat3& b)
+double rotationDistance(const Mat3& a, const Mat3& b)
 {
     return std::sqrt(squaredNorm(a - b));
 }
@@ -305,7 +304,7 @@ TEST_P(PositivePart, SetsNegativeEigenvaluesToZero)
         const Vec3 d = scale * random.next();
         const Mat3 A = symmetric(d, Q);
         const Mat3 expected = symmetric({std::max(0.0, d.x), std::max(0.0, d.y), std::max(0.0, d.z)}, Q);
-        EXPECT_LE(distance(positivePart(0.5 * (A + transpose(A))), expected), 1e-7 * scale) << k;
+        EXPECT_LE(rotationDistance(positivePart(0.5 * (A + transpose(A))), expected), 1e-7 * scale) << k;
     }
 }
 
@@ -321,15 +320,15 @@ TEST_P(PositivePart, StandsEqualEigenvalues)
         Mat3 A = symmetric(scale * d, Q);
         A = 0.5 * (A + transpose(A));
         const Mat3 expected = symmetric(scale * Vec3{std::max(0.0, d.x), std::max(0.0, d.y), std::max(0.0, d.z)}, Q);
-        EXPECT_LE(distance(positivePart(A), expected), 1e-7 * scale) << d.x << " " << d.y << " " << d.z;
-        EXPECT_LE(distance(positivePart(A) - positivePart(-1.0 * A), A), 1e-7 * scale);
+        EXPECT_LE(rotationDistance(positivePart(A), expected), 1e-7 * scale) << d.x << " " << d.y << " " << d.z;
+        EXPECT_LE(rotationDistance(positivePart(A) - positivePart(-1.0 * A), A), 1e-7 * scale);
     }
 }
 
 TEST_P(PositivePart, LeavesPositiveAndRemovesNegativeMatrices)
 {
     const Mat3 A = symmetric(GetParam() * Vec3{1, 2, 3}, rotationAbout({1, 2, -1}, 0.8));
-    EXPECT_EQ(distance(positivePart(A), A), 0);
+    EXPECT_EQ(rotationDistance(positivePart(A), A), 0);
     EXPECT_EQ(squaredNorm(positivePart(-1.0 * A)), 0);
 }
 

@@ -71,13 +71,13 @@ TEST_P(TetMeshWriter, SaysWhatItCannotWrite)
     EXPECT_FALSE(std::filesystem::exists(folder.path("missing")));
 }
 
-std::string nameOf(const testing::TestParamInfo<const char*>& info)
+std::string formatName(const testing::TestParamInfo<const char*>& info)
 {
     return std::string(info.param + 1) + (info.param[1] == 'M' ? "UpperCase" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, TetMeshWriter, testing::Values(".msh", ".vtk", ".mesh", ".node", ".ele", ".MSH"),
-                         nameOf);
+                         formatName);
 
 TEST(TetMeshWriterEndings, OthersAreRefusedAndNothingIsWritten)
 {

@@ -181,14 +181,15 @@ TEST_P(VtuBodies, MayHaveNothingAtAll)
     EXPECT_TRUE(numbersOf(xml, "Points", "Points").empty());
 }
 
-std::string nameOf(const testing::TestParamInfo<VtuEncoding>& info)
+std::string encodingName(const testing::TestParamInfo<VtuEncoding>& info)
 {
     constexpr const char* names[] = {"text", "binary", "compressed"};
     return names[static_cast<int>(info.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Encodings, VtuBodies,
-                         testing::Values(VtuEncoding::text, VtuEncoding::binary, VtuEncoding::compressed), nameOf);
+                         testing::Values(VtuEncoding::text, VtuEncoding::binary, VtuEncoding::compressed),
+                         encodingName);
 
 // 21,483 nodes and 96,000 cells: more than one block of compressed bytes in every array.
 TEST(VtuEncodings, BinaryIsSmallerAndCompressedSmallerStill)

@@ -15,9 +15,9 @@ namespace
 {
 
 constexpr double kSoftFriction = 0.5, kPadFriction = 1;
-constexpr double kFriction = kSoftFriction * kPadFriction;  // Coulomb's mu [-]
-constexpr double kLiftSpeed = 0.2;                          // [m/s]
-constexpr double kPedestal = 0.3;                           // [m]
+constexpr double kPadOnCube = kSoftFriction * kPadFriction;  // Coulomb's mu [-]
+constexpr double kLiftSpeed = 0.2;                           // [m/s]
+constexpr double kPedestal = 0.3;                            // [m]
 
 /// A kinematic carriage with two dynamic pads on sliders along x, and a soft cube of 1 kg between them on a pedestal.
 /// The pads reach far below the cube: it stays between them for a while when it slides.
@@ -104,7 +104,7 @@ private:
 TEST(CoupledGripper, HoldsWhatFrictionCarries)
 {
     Gripper gripper;
-    const double push = 1.25 * gripper.weight() / (2 * kFriction);
+    const double push = 1.25 * gripper.weight() / (2 * kPadOnCube);
     gripper.lift(push);
     EXPECT_NEAR(gripper.height(), kPedestal + 0.05 + 0.15, 0.01);
     const Vec3 held = gripper.hold();
@@ -121,8 +121,8 @@ TEST(CoupledGripper, HoldsWhatFrictionCarries)
 TEST(CoupledGripper, DropsWhatIsTooHeavyWithTheAccelerationThatFrictionLeaves)
 {
     Gripper gripper;
-    gripper.lift(1.25 * gripper.weight() / (2 * kFriction));
-    const double push = 0.75 * gripper.weight() / (2 * kFriction), start = gripper.height();
+    gripper.lift(1.25 * gripper.weight() / (2 * kPadOnCube));
+    const double push = 0.75 * gripper.weight() / (2 * kPadOnCube), start = gripper.height();
     gripper.step(push, 0, 6);  // the cube widens
     const double before = gripper.speed();
     const int frames = 8;
@@ -132,7 +132,7 @@ TEST(CoupledGripper, DropsWhatIsTooHeavyWithTheAccelerationThatFrictionLeaves)
         for (const int side : {0, 1})
         {
             EXPECT_NEAR(std::fabs(gripper.forceOf(side).x), push, 0.01 * push) << "frame " << frame;
-            EXPECT_NEAR(gripper.forceOf(side).z, kFriction * push, 0.01 * push) << "frame " << frame;
+            EXPECT_NEAR(gripper.forceOf(side).z, kPadOnCube * push, 0.01 * push) << "frame " << frame;
         }
     }
     EXPECT_NEAR(gripper.speed() - before, -0.25 * kGravity * frames * kStep, 0.05 * 0.25 * kGravity * frames * kStep);

@@ -13,20 +13,20 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSoftFriction = 0.5, kRigidFriction = 0.8;
-constexpr double kFriction = kSoftFriction * kRigidFriction;  // Coulomb's mu [-]
+constexpr double kCubeFriction = 0.5, kInclineOwnFriction = 0.8;
+constexpr double kInclineFriction = kCubeFriction * kInclineOwnFriction;  // Coulomb's mu [-]
 
 /// A cube on a ground that falls towards +x, with tan(slope) = steepness * mu.
 class Incline
 {
 public:
-    Incline(bool plane, double steepness) : m_slope(std::atan(steepness * kFriction)), m_world(m_fem)
+    Incline(bool plane, double steepness) : m_slope(std::atan(steepness * kInclineFriction)), m_world(m_fem)
     {
         const btQuaternion tilt(btVector3(0, 1, 0), btScalar(m_slope));
         m_normal = vec3(quatRotate(tilt, btVector3(0, 0, 1)));
         m_downhill = vec3(quatRotate(tilt, btVector3(1, 0, 0)));
         RigidSettings settings;
-        settings.m_friction = btScalar(kRigidFriction);
+        settings.m_friction = btScalar(kInclineOwnFriction);
         if (plane)
             m_world.addRigid(new btStaticPlaneShape(quatRotate(tilt, btVector3(0, 0, 1)), 0), settings);
         else
@@ -37,7 +37,7 @@ public:
         btSoftBody* cube = btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(0.5)),
                                                    btVector3(0.5, 0.5, 0.5), btScalar(0.25));
         cube->rotate(tilt);
-        cube->m_cfg.kDF = btScalar(kSoftFriction);
+        cube->m_cfg.kDF = btScalar(kCubeFriction);
         m_fem.setMaterial(cube, btFemMaterial());
         m_cube = &m_world.addSoft(cube);
     }
@@ -78,7 +78,8 @@ TEST_P(InclineTest, SticksJustBelowTheFrictionAngle)
     {
         incline.step(1);
         EXPECT_LT(std::fabs(incline.downhillSpeed()), 1e-4) << "frame " << frame;
-        EXPECT_NEAR(incline.frictionOverNormal(), std::tan(incline.slope()), 1e-3 * kFriction) << "frame " << frame;
+        EXPECT_NEAR(incline.frictionOverNormal(), std::tan(incline.slope()), 1e-3 * kInclineFriction)
+            << "frame " << frame;
         EXPECT_GT(incline.lowestGap(), -1e-4);
     }
 }
@@ -94,12 +95,13 @@ TEST_P(InclineTest, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves
         for (int frame = 0; frame < 60; ++frame)
         {
             incline.step(1);
-            EXPECT_NEAR(incline.frictionOverNormal(), kFriction, 5e-4 * kFriction) << "frame " << frame;
+            EXPECT_NEAR(incline.frictionOverNormal(), kInclineFriction, 5e-4 * kInclineFriction) << "frame " << frame;
             EXPECT_GT(incline.lowestGap(), -1e-4);
         }
         const double slope = incline.slope();
         EXPECT_NEAR((incline.downhillSpeed() - before) / (60 * kStep),
-                    kGravity * (std::sin(slope) - kFriction * std::cos(slope)), 0.01 * kGravity * std::sin(slope));
+                    kGravity * (std::sin(slope) - kInclineFriction * std::cos(slope)),
+                    0.01 * kGravity * std::sin(slope));
     }
 }
 
@@ -123,15 +125,15 @@ TEST(Friction, SlidingBodyComesToRestAfterCoulombsTime)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
-    world.addFloorBox().setFriction(btScalar(kRigidFriction));
+    world.addFloorBox().setFriction(btScalar(kInclineOwnFriction));
     btSoftBody* made =
         btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.5)), btVector3(0.5, 0.5, 0.5), btScalar(0.25));
-    made->m_cfg.kDF = btScalar(kSoftFriction);
+    made->m_cfg.kDF = btScalar(kCubeFriction);
     btSoftBody& cube = world.addSoft(made);
     world.step(120);
     cube.addVelocity(btVector3(2, 0, 0));
     world.step(15);
-    const double stopTime = 2 / (kFriction * kGravity);
+    const double stopTime = 2 / (kInclineFriction * kGravity);
     EXPECT_NEAR(velocityOf(cube).x, 2 * (1 - 15 * kStep / stopTime), 0.05 * 2);
     world.step(180);
     EXPECT_LT(fastestNode(cube), 1e-3);

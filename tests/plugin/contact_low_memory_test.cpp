@@ -62,11 +62,11 @@ TEST_P(ContactWith, ACylinderCarriesACubeToItsWeight)
 // Coulomb's law on both sides of the friction angle, mu = .4.
 TEST_P(ContactWith, FrictionHoldsAndBrakesByCoulombsLaw)
 {
-    constexpr double kFriction = 0.4;
+    constexpr double kRampFriction = 0.4;
     for (const double steepness : {0.95, 1.3})
     {
         SCOPED_TRACE(steepness);
-        const double slope = std::atan(steepness * kFriction), sine = std::sin(slope), cosine = std::cos(slope);
+        const double slope = std::atan(steepness * kRampFriction), sine = std::sin(slope), cosine = std::cos(slope);
         const Vec3 downhill = {cosine, 0, -sine};
         const btQuaternion tilt(btVector3(0, 1, 0), btScalar(slope));
         SoftWorld world(m_fem);
@@ -74,13 +74,13 @@ TEST_P(ContactWith, FrictionHoldsAndBrakesByCoulombsLaw)
         btSoftBody* cube = btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.5)),
                                                    btVector3(0.5, 0.5, 0.5), btScalar(0.25));
         cube->rotate(tilt);
-        cube->m_cfg.kDF = btScalar(kFriction);
+        cube->m_cfg.kDF = btScalar(kRampFriction);
         m_fem.setMaterial(cube, btFemMaterial());
         world.addSoft(cube);
         world.step(180);
         const double before = dot(velocityOf(*cube), downhill);
         world.step(60);
-        const double excess = std::max(0.0, sine - kFriction * cosine);
+        const double excess = std::max(0.0, sine - kRampFriction * cosine);
         EXPECT_NEAR((dot(velocityOf(*cube), downhill) - before) / (60 * kStep), kGravity * excess,
                     0.01 * kGravity * sine);
         expectHealthy(*cube);

@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSize = 0.5;  // edge of the soft cubes [m]
+constexpr double kOverlapSize = 0.5;  // edge of the soft cubes [m]
 
 struct OverlapCase
 {
@@ -31,8 +31,9 @@ protected:
     // Its lowest face at the given height [m].
     btSoftBody& addCube(double lowest)
     {
-        btSoftBody* cube = btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(lowest + kSize / 2)),
-                                                   btVector3(1, 1, 1) * btScalar(kSize / 2), btScalar(kSize / 4));
+        btSoftBody* cube =
+            btFemHelpers::createBox(m_world.info(), btVector3(0, 0, btScalar(lowest + kOverlapSize / 2)),
+                                    btVector3(1, 1, 1) * btScalar(kOverlapSize / 2), btScalar(kOverlapSize / 4));
         m_fem.setMaterial(cube, btFemMaterial());
         m_cubes.push_back(&m_world.addSoft(cube));
         return *m_cubes.back();
@@ -62,7 +63,7 @@ protected:
         }
     }
 
-    double depth() const { return GetParam().m_share * kSize; }
+    double depth() const { return GetParam().m_share * kOverlapSize; }
 
     // Position correction (m_maxPushVelocity, 1 m/s) is not kept as velocity: what remains is what the push strains.
     void expectCalm(double mass) const
@@ -83,7 +84,7 @@ protected:
         EXPECT_LT(lowestHeight(cube), kGone);
     }
 
-    static constexpr double kGone = 1e-3 * kSize;  // overlap that is left alone at movable bodies
+    static constexpr double kGone = 1e-3 * kOverlapSize;  // overlap that is left alone at movable bodies
     btFemSoftBodySolver m_fem;
     SoftWorld m_world{m_fem, GetParam().m_coupling};
     std::vector<btSoftBody*> m_cubes;
@@ -110,12 +111,12 @@ TEST_P(Overlap, WithADynamicBoxOnTopIsResolved)
     m_world.addFloorBox();
     btSoftBody& cube = addCube(0);
     constexpr double kThin = 0.2;
-    btRigidBody& box = addBox({0.5, 0.5, btScalar(kThin)}, kSize + kThin - depth(), 0.5 * massOf(cube));
+    btRigidBody& box = addBox({0.5, 0.5, btScalar(kThin)}, kOverlapSize + kThin - depth(), 0.5 * massOf(cube));
     watch();
     expectCalm(massOf(cube));
     const btVector3& center = box.getCenterOfMassPosition();
     EXPECT_GT(lowestHeight(cube), -kGone);
-    EXPECT_GT(center.z() - kThin, kSize - 0.02);  // its weight presses the top by some mm
+    EXPECT_GT(center.z() - kThin, kOverlapSize - 0.02);  // its weight presses the top by some mm
     EXPECT_LT(std::hypot(center.x(), center.y()), 0.02);
     EXPECT_LT(m_fem.stepReport(&cube).m_deepestPenetration, 2 * kGone);
 }
@@ -127,12 +128,12 @@ TEST_P(Overlap, WithASmallDynamicBoxThrowsNothing)
     btSoftBody& cube = addCube(0);
     constexpr double kHalf = 0.2;
     btRigidBody& box =
-        addBox({btScalar(kHalf), btScalar(kHalf), btScalar(kHalf)}, kSize + kHalf - depth(), 0.5 * massOf(cube));
+        addBox({btScalar(kHalf), btScalar(kHalf), btScalar(kHalf)}, kOverlapSize + kHalf - depth(), 0.5 * massOf(cube));
     watch();
     EXPECT_TRUE(m_finite);
-    EXPECT_LT(m_fastestRigid, std::sqrt(2 * kGravity * kSize) + 1);  // it may fall off
+    EXPECT_LT(m_fastestRigid, std::sqrt(2 * kGravity * kOverlapSize) + 1);  // it may fall off
     // Nodes may spring back at the share of the speed of sound, sqrt(E / rho), that they were strained by.
-    EXPECT_LT(m_fastest, std::sqrt(2 * kGravity * kSize) + GetParam().m_share * std::sqrt(1e6 / 1000));
+    EXPECT_LT(m_fastest, std::sqrt(2 * kGravity * kOverlapSize) + GetParam().m_share * std::sqrt(1e6 / 1000));
     EXPECT_LT(m_largestEnergy, massOf(cube) * 2);  // of 2 m/s
     EXPECT_LT(std::hypot(box.getCenterOfMassPosition().x(), box.getCenterOfMassPosition().y()), 2);
     EXPECT_GT(lowestHeight(cube), -kGone);
@@ -142,10 +143,10 @@ TEST_P(Overlap, OfTwoSoftCubesIsResolved)
 {
     m_world.addFloorBox();
     addCube(0);
-    btSoftBody& upper = addCube(kSize - depth());
+    btSoftBody& upper = addCube(kOverlapSize - depth());
     watch();
     expectCalm(2 * massOf(upper));
-    EXPECT_NEAR(lowestHeight(upper), kSize, 0.02);
+    EXPECT_NEAR(lowestHeight(upper), kOverlapSize, 0.02);
     EXPECT_NEAR(lowestHeight(*m_cubes[0]), 0, kGone);
     EXPECT_LT(m_fem.stepReport(&upper).m_deepestPenetration, 2 * kGone);
     EXPECT_LT(std::hypot(centerOf(upper).x, centerOf(upper).y), 0.02);

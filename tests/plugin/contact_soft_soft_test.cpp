@@ -29,14 +29,14 @@ SoftBox boxFrom(const Vec3& lowest, const Vec3& size = {1, 1, 1}, const std::arr
     return box;
 }
 
-struct RestCase
+struct SoftRestCase
 {
     const char* m_name;
     SoftBox m_upper;
     btScalar m_step;
 };
 
-class SoftOnSoft : public testing::TestWithParam<RestCase>
+class SoftOnSoft : public testing::TestWithParam<SoftRestCase>
 {
 };
 
@@ -63,12 +63,12 @@ TEST_P(SoftOnSoft, IsCarriedToItsWeightOnEveryFrame)
 
 INSTANTIATE_TEST_SUITE_P(
     Places, SoftOnSoft,
-    testing::Values(RestCase{"flush", boxFrom({0, 0, 1.001}), kStep},
-                    RestCase{"otherMesh", boxFrom({0.17, 0.12, 1.001}, {0.7, 0.7, 0.7}, {3, 3, 3}), kStep},
-                    RestCase{"larger", boxFrom({-0.3, -0.3, 1.001}, {1.6, 1.6, 0.5}, {5, 5, 2}), kStep},
-                    RestCase{"turned", boxFrom({0, 0, 1.001}, {1, 1, 1}, {4, 4, 4}, 0.6), kStep},
-                    RestCase{"crossingBar", boxFrom({-1, 0.3, 1.001}, {3, 0.4, 0.4}, {8, 1, 1}, 0.1), kStep},
-                    RestCase{"flushAt240Hz", boxFrom({0, 0, 1.001}), btScalar(1) / 240}),
+    testing::Values(SoftRestCase{"flush", boxFrom({0, 0, 1.001}), kStep},
+                    SoftRestCase{"otherMesh", boxFrom({0.17, 0.12, 1.001}, {0.7, 0.7, 0.7}, {3, 3, 3}), kStep},
+                    SoftRestCase{"larger", boxFrom({-0.3, -0.3, 1.001}, {1.6, 1.6, 0.5}, {5, 5, 2}), kStep},
+                    SoftRestCase{"turned", boxFrom({0, 0, 1.001}, {1, 1, 1}, {4, 4, 4}, 0.6), kStep},
+                    SoftRestCase{"crossingBar", boxFrom({-1, 0.3, 1.001}, {3, 0.4, 0.4}, {8, 1, 1}, 0.1), kStep},
+                    SoftRestCase{"flushAt240Hz", boxFrom({0, 0, 1.001}), btScalar(1) / 240}),
     [](const auto& scene) { return scene.param.m_name; });
 
 TEST(SoftOnSoftPatch, OfNearlyAThousandPointsIsCarriedWithoutSinkingIn)
@@ -136,7 +136,7 @@ TEST_P(SoftOverlapping, PartWithoutFlyingApart)
 INSTANTIATE_TEST_SUITE_P(Shifts, SoftOverlapping, testing::Values(0.0, 0.13),
                          [](const auto& scene) { return scene.param > 0 ? "shifted" : "flush"; });
 
-constexpr double kFriction = 0.5;
+constexpr double kSlabFriction = 0.5;
 
 // A box on a clamped slab, the weight turned by the angle of this tangent.
 class SoftIncline
@@ -149,10 +149,10 @@ public:
           m_box(addSoftBox(m_world, m_fem, boxFrom({0.2, 0.23, 0.4005}, {0.5, 0.5, 0.3}, {3, 3, 2})))
     {
         clampBelow(m_slab, 0.01);
-        m_slab.m_cfg.kDF = btScalar(kFriction);
+        m_slab.m_cfg.kDF = btScalar(kSlabFriction);
         m_box.m_cfg.kDF = btScalar(0.2);
     }
-    double acceleration() const { return kGravity * (std::sin(m_angle) - kFriction * std::cos(m_angle)); }
+    double acceleration() const { return kGravity * (std::sin(m_angle) - kSlabFriction * std::cos(m_angle)); }
 
     const double m_angle;
     btFemSoftBodySolver m_fem;
@@ -162,7 +162,7 @@ public:
 
 TEST(SoftOnSoftIncline, SticksBelowTheAngleOfFriction)
 {
-    SoftIncline scene(0.95 * kFriction);
+    SoftIncline scene(0.95 * kSlabFriction);
     scene.m_world.step(180);
     const double start = centerOf(scene.m_box).x;
     scene.m_world.step(120);
@@ -171,7 +171,7 @@ TEST(SoftOnSoftIncline, SticksBelowTheAngleOfFriction)
 
 TEST(SoftOnSoftIncline, SlidesAboveItWithTheLargerCoefficientOfTheTwo)
 {
-    SoftIncline scene(1.3 * kFriction);
+    SoftIncline scene(1.3 * kSlabFriction);
     scene.m_world.step(20);
     const double before = velocityOf(scene.m_box).x;
     Vec3 sum;
@@ -183,10 +183,10 @@ TEST(SoftOnSoftIncline, SlidesAboveItWithTheLargerCoefficientOfTheTwo)
     }
     const double gained = velocityOf(scene.m_box).x - before;
     EXPECT_NEAR(gained, scene.acceleration() * steps * kStep, 0.01 * kGravity * std::sin(scene.m_angle));
-    EXPECT_NEAR(-sum.x / sum.z, kFriction, 5e-4 * kFriction);
+    EXPECT_NEAR(-sum.x / sum.z, kSlabFriction, 5e-4 * kSlabFriction);
 }
 
-struct CollisionCase
+struct SoftCollisionCase
 {
     const char* m_name;
     double m_densityRatio;
@@ -194,7 +194,7 @@ struct CollisionCase
     double m_speed;  // [m/s]
 };
 
-class SoftCollision : public testing::TestWithParam<CollisionCase>
+class SoftCollision : public testing::TestWithParam<SoftCollisionCase>
 {
 };
 
@@ -239,10 +239,11 @@ TEST_P(SoftCollision, KeepsMomentum)
 }
 
 INSTANTIATE_TEST_SUITE_P(MassRatios, SoftCollision,
-                         testing::Values(CollisionCase{"equalCentral", 1, 0, 3}, CollisionCase{"equalAside", 1, 0.5, 3},
-                                         CollisionCase{"tenfoldAside", 10, 0.5, 2},
-                                         CollisionCase{"hundredfoldAside", 100, 0.5, 1},
-                                         CollisionCase{"hundredthAside", 0.01, 0.5, 5}),
+                         testing::Values(SoftCollisionCase{"equalCentral", 1, 0, 3},
+                                         SoftCollisionCase{"equalAside", 1, 0.5, 3},
+                                         SoftCollisionCase{"tenfoldAside", 10, 0.5, 2},
+                                         SoftCollisionCase{"hundredfoldAside", 100, 0.5, 1},
+                                         SoftCollisionCase{"hundredthAside", 0.01, 0.5, 5}),
                          [](const auto& scene) { return scene.param.m_name; });
 
 // A soft ball at 20 m/s, a third of a metre a step, against a clamped plate one centimetre thick.

@@ -58,7 +58,7 @@ TEST_P(BadMeshTest, IsFlaggedWithItsReasonAndNothingCrashes)
     EXPECT_TRUE(allFinite(good));
 }
 
-const btScalar kNaN = std::numeric_limits<btScalar>::quiet_NaN();
+const btScalar kNoNumber = std::numeric_limits<btScalar>::quiet_NaN();
 
 INSTANTIATE_TEST_SUITE_P(
     Meshes, BadMeshTest,
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
         testing::Values(
             BadMesh{"flatElement", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}, "degenerate"},
             BadMesh{"nodeTwice", kCorners, {{0, 1, 2, 3}, {0, 1, 2, 2}}, "element 1"},
-            BadMesh{"nanAtTheStart", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, kNaN, 2}}, {{0, 1, 2, 3}}, "finite"})),
+            BadMesh{"nanAtTheStart", {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, kNoNumber, 2}}, {{0, 1, 2, 3}}, "finite"})),
     nameOfWorldWith([](const BadMesh& mesh) { return mesh.m_name; }));
 
 class Meshes : public EachWorld

@@ -19,7 +19,7 @@ namespace bullet_fem
 namespace
 {
 
-const btScalar kNaN = std::numeric_limits<btScalar>::quiet_NaN();
+const btScalar kNotANumber = std::numeric_limits<btScalar>::quiet_NaN();
 
 TEST(RejectedMaterial, NamesValueAndRange)
 {
@@ -30,7 +30,7 @@ TEST(RejectedMaterial, NamesValueAndRange)
         const char* m_says;
     } cases[] = {{&btFemMaterial::m_youngModulus, 0, "oung"},
                  {&btFemMaterial::m_youngModulus, btScalar(2e13), "oung"},
-                 {&btFemMaterial::m_youngModulus, kNaN, "oung"},
+                 {&btFemMaterial::m_youngModulus, kNotANumber, "oung"},
                  {&btFemMaterial::m_poissonRatio, btScalar(-0.1), "oisson"},
                  {&btFemMaterial::m_poissonRatio, btScalar(0.5), "oisson"},
                  {&btFemMaterial::m_density, -1, "ensity"},
@@ -86,7 +86,7 @@ TEST(RejectedSolverInfo, NamesValueAndRange)
 {
     expectBadInfo(&btFemSolverInfo::m_tolerance, btScalar(0), "m_tolerance");
     expectBadInfo(&btFemSolverInfo::m_tolerance, btScalar(1), "m_tolerance");
-    expectBadInfo(&btFemSolverInfo::m_tolerance, kNaN, "m_tolerance");
+    expectBadInfo(&btFemSolverInfo::m_tolerance, kNotANumber, "m_tolerance");
     expectBadInfo(&btFemSolverInfo::m_maxIterations, 0, "m_maxIterations");
     expectBadInfo(&btFemSolverInfo::m_maxIterations, 20000, "m_maxIterations");
     expectBadInfo(&btFemSolverInfo::m_contactRounds, 0, "m_contactRounds");
@@ -101,7 +101,7 @@ TEST(RejectedSolverInfo, NamesValueAndRange)
     expectBadInfo(&btFemSolverInfo::m_maxContacts, 20001, "m_maxContacts");
     expectBadInfo(&btFemSolverInfo::m_erp, btScalar(-0.1), "m_erp");
     expectBadInfo(&btFemSolverInfo::m_erp, btScalar(1.1), "m_erp");
-    expectBadInfo(&btFemSolverInfo::m_erp, kNaN, "m_erp");
+    expectBadInfo(&btFemSolverInfo::m_erp, kNotANumber, "m_erp");
     expectBadInfo(&btFemSolverInfo::m_maxPushVelocity, btScalar(-1), "m_maxPushVelocity");
     expectBadInfo(&btFemSolverInfo::m_maxPushVelocity, btScalar(1001), "m_maxPushVelocity");
     EXPECT_TRUE(btFemSolverInfo().valid());
@@ -204,7 +204,7 @@ TEST_F(RejectedCall, SetMaterialOnABadMeshNamesTheElement)
 TEST_F(RejectedCall, PrepareWithABadStep)
 {
     const std::unique_ptr<btSoftBody> cube(makeCube());
-    for (const btScalar step : {btScalar(0), btScalar(-1), btScalar(1.5), btScalar(1e-7), kNaN})
+    for (const btScalar step : {btScalar(0), btScalar(-1), btScalar(1.5), btScalar(1e-7), kNotANumber})
         expectRejected([&] { m_fem.prepare(cube.get(), step); }, {"step", "1e-6", "1"});
     m_fem.prepare(cube.get(), kStep);
     EXPECT_TRUE(m_fem.isFem(cube.get()));
@@ -221,7 +221,7 @@ TEST_F(RejectedCall, NodeTargetsOutOfRange)
                        {std::to_string(node).c_str(), std::to_string(count).c_str()});
         expectRejected([&] { m_fem.clearNodeTarget(cube.get(), node); }, {std::to_string(node).c_str()});
     }
-    expectRejected([&] { m_fem.setNodeTarget(cube.get(), 2, btVector3(0, kNaN, 0)); }, {"node 2", "finite"});
+    expectRejected([&] { m_fem.setNodeTarget(cube.get(), 2, btVector3(0, kNotANumber, 0)); }, {"node 2", "finite"});
 }
 
 TEST_F(RejectedCall, ContactOffsetsOutOfRange)
@@ -229,7 +229,7 @@ TEST_F(RejectedCall, ContactOffsetsOutOfRange)
     const std::unique_ptr<btSoftBody> cube(makeCube());
     expectRejected([&] { m_fem.setContactOffset(cube.get(), btScalar(-0.5)); }, {"-0.5", "[0, 1000]"});
     expectRejected([&] { m_fem.setContactOffset(cube.get(), 2000); }, {"2000", "[0, 1000]"});
-    expectRejected([&] { m_fem.setContactOffset(cube.get(), kNaN); }, {"nan", "[0, 1000]"});
+    expectRejected([&] { m_fem.setContactOffset(cube.get(), kNotANumber); }, {"nan", "[0, 1000]"});
 }
 
 TEST_F(RejectedCall, HelpersOnBadBoxesAndMeshes)
@@ -240,9 +240,11 @@ TEST_F(RejectedCall, HelpersOnBadBoxesAndMeshes)
                    {"createBox", "half extent 0"});
     expectRejected([&] { btFemHelpers::createBox(info, center, btVector3(1, -1, 1), 1); }, {"createBox", "-1"});
     expectRejected([&] { btFemHelpers::createBox(info, center, btVector3(1, 1, 1), 0); }, {"createBox", "> 0"});
-    expectRejected([&] { btFemHelpers::createBox(info, center, btVector3(1, 1, 1), kNaN); }, {"createBox", "nan"});
+    expectRejected([&] { btFemHelpers::createBox(info, center, btVector3(1, 1, 1), kNotANumber); },
+                   {"createBox", "nan"});
     expectRejected([&] { btFemHelpers::createBox(info, center, btVector3(1, 1, 1), btScalar(1e-4)); }, {"1000 cells"});
-    expectRejected([&] { btFemHelpers::createBox(info, btVector3(kNaN, 0, 0), btVector3(1, 1, 1), 1); }, {"finite"});
+    expectRejected([&] { btFemHelpers::createBox(info, btVector3(kNotANumber, 0, 0), btVector3(1, 1, 1), 1); },
+                   {"finite"});
 
     const btVector3 x[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const int good[] = {0, 1, 2, 3}, outside[] = {0, 1, 2, 4};
@@ -284,10 +286,10 @@ TEST_F(RejectedCall, SurfaceFileWithABadCellSizeOrScale)
     std::fputs("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n", file);
     std::fclose(file);
     btSoftBodyWorldInfo& info = m_world.info();
-    for (const btScalar cell : {btScalar(0), btScalar(-1), kNaN})
+    for (const btScalar cell : {btScalar(0), btScalar(-1), kNotANumber})
         expectRejected([&] { btFemHelpers::createFromSurfaceFile(info, path.c_str(), cell); }, {"cell"});
     expectRejected([&] { btFemHelpers::createFromSurfaceFile(info, path.c_str(), btScalar(1e-4)); }, {"cell"});
-    for (const btScalar scale : {btScalar(0), btScalar(-2), kNaN})
+    for (const btScalar scale : {btScalar(0), btScalar(-2), kNotANumber})
         expectRejected([&] { btFemHelpers::createFromSurfaceFile(info, path.c_str(), btScalar(0.25), scale); },
                        {"scale"});
     const std::unique_ptr<btSoftBody> body(btFemHelpers::createFromSurfaceFile(info, path.c_str(), btScalar(0.25)));

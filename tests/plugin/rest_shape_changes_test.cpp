@@ -17,7 +17,7 @@ namespace bullet_fem
 namespace
 {
 
-btSoftBody* makeCube(SoftWorld& world, btScalar cell = btScalar(0.25))
+btSoftBody* makeElasticCube(SoftWorld& world, btScalar cell = btScalar(0.25))
 {
     return btFemHelpers::createBox(world.info(), btVector3(0, 0, 0), btVector3(0.5, 0.5, 0.5), cell);
 }
@@ -56,11 +56,11 @@ TEST(RestShape, OfABodyThatFollowsARemovedCopyIsItsOwn)
         {
             btFemSoftBodySolver fem;
             SoftWorld world(fem, btVector3(0, 0, 0));
-            btSoftBody& first = world.addSoft(makeCube(world));
+            btSoftBody& first = world.addSoft(makeElasticCube(world));
             world.step();
             world.world().removeSoftBody(&first);
             first.scale(btVector3(2, 1, 1));  // its rest shape, too
-            btSoftBody* made = makeCube(world);
+            btSoftBody* made = makeElasticCube(world);
             const btScalar scale = btScalar(1 + growth);
             made->scale(btVector3(scale, scale, scale));
             const std::vector<double> rest = lengthsOf(*made);
@@ -87,7 +87,7 @@ TEST_P(RestShape, ABodyDeformedBeforeItsFirstStepSpringsBackToItsElementMatrices
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();
-    btSoftBody* made = makeCube(world);
+    btSoftBody* made = makeElasticCube(world);
     made->rotate(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(2.5)));
     made->translate(btVector3(3, 0, 1));
     const std::vector<double> rest = lengthsOf(*made);
@@ -106,7 +106,7 @@ TEST_P(RestShape, ABodyDeformedBeforeItsFirstStepSpringsBackToItsElementMatrices
 TEST_P(RestShape, ABodyMovedBeforeItsFirstStepStandsStill)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
-    btSoftBody* made = makeCube(world);
+    btSoftBody* made = makeElasticCube(world);
     for (int k = 0; k < 5; ++k)
     {
         made->rotate(btQuaternion(btVector3(1, k, 3).normalized(), btScalar(0.7)));
@@ -121,7 +121,7 @@ TEST_P(RestShape, ABodyMovedBeforeItsFirstStepStandsStill)
 TEST_P(RestShape, WithoutElementMatricesItIsThePresentShape)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
-    btSoftBody* made = makeCube(world);
+    btSoftBody* made = makeElasticCube(world);
     for (int e = 0; e < made->m_tetras.size(); ++e) made->m_tetras[e].m_Dm_inverse.setValue(0, 0, 0, 0, 0, 0, 0, 0, 0);
     stretch(*made, btVector3(btScalar(1.2), 1, 1));
     btSoftBody& cube = world.addSoft(made);
@@ -137,7 +137,7 @@ TEST_P(RestShape, ElementMatricesThatAreNoShapeAreIgnored)
         SCOPED_TRACE(kind);
         FemWorld world(GetParam(), btVector3(0, 0, 0));
         btFemSoftBodySolver& fem = world.fem();
-        btSoftBody* made = makeCube(world);
+        btSoftBody* made = makeElasticCube(world);
         btSoftBody::Tetra& tetra = made->m_tetras[7];
         if (kind == 0) tetra.m_Dm_inverse[1][2] = std::numeric_limits<btScalar>::quiet_NaN();
         if (kind == 1) tetra.m_Dm_inverse = tetra.m_Dm_inverse.scaled(btVector3(-1, 1, 1));  // turned inside out
@@ -158,7 +158,7 @@ TEST_P(RestShape, TransformsFromRestStartFromTheElementMatrices)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();
-    btSoftBody* made = makeCube(world, btScalar(0.5));
+    btSoftBody* made = makeElasticCube(world, btScalar(0.5));
     made->rotate(btQuaternion(btVector3(0, 0, 1), btScalar(1)));
     made->translate(btVector3(5, 0, 0));
     std::vector<int> all;
@@ -254,7 +254,7 @@ TEST_P(RestShape, ADensityGivesTheMassesOfTheShapeAtRestAndNotOfTheDeformedOne)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();
-    btSoftBody& cube = world.addSoft(makeCube(world));
+    btSoftBody& cube = world.addSoft(makeElasticCube(world));
     world.step();
     stretch(cube, btVector3(btScalar(1.3), 1, 1));
     btFemMaterial material;
@@ -280,7 +280,7 @@ TEST_P(RestShape, InitializeDmInverseInMidRunMakesThePresentShapeTheRestShape)
 TEST_P(RestShape, TranslateRotateAndTransformKeepIt)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
-    btSoftBody& cube = world.addSoft(makeCube(world));
+    btSoftBody& cube = world.addSoft(makeElasticCube(world));
     const std::vector<double> rest = lengthsOf(cube);
     for (int i = 0; i < cube.m_nodes.size(); ++i) cube.m_nodes[i].m_v.setX(20 * cube.m_nodes[i].m_x.x());
     world.step(3);
@@ -296,7 +296,7 @@ TEST_P(RestShape, AMirroredBodyIsTheMirroredOne)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();
-    btSoftBody& cube = world.addSoft(makeCube(world));
+    btSoftBody& cube = world.addSoft(makeElasticCube(world));
     world.step(5);
     cube.scale(btVector3(-1, 1, 1));
     const std::vector<Vec3> shape = edgesOf(cube);
@@ -321,7 +321,7 @@ TEST_P(RestShape, CopiesScaledAlikeShareTheirFactor)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();
-    btSoftBody &a = world.addSoft(makeCube(world)), &b = world.addSoft(makeCube(world));
+    btSoftBody &a = world.addSoft(makeElasticCube(world)), &b = world.addSoft(makeElasticCube(world));
     b.translate(btVector3(4, 0, 0));
     world.step();
     const btScalar first = fem.stepReport(&a).m_factorSeconds;

@@ -25,7 +25,7 @@ namespace
 
 using testing::HasSubstr;
 
-constexpr double kSlop = 1e-4;  // what a surface may sink in at rest [m]
+constexpr double kSinkage = 1e-4;  // what a surface may sink in at rest [m]
 
 /// Balls and boxes that fall on each other, on a box and on a mesh.
 class SkinHeap
@@ -116,7 +116,7 @@ TEST(SkinSelfContact, AThinSlabNeverTouchesItself)
         world.step();
         EXPECT_EQ(norm(impulseOn(fem, slab, &slab)), 0) << "step " << k;
     }
-    EXPECT_NEAR(lowestVertex(slab), 0, kSlop);
+    EXPECT_NEAR(lowestVertex(slab), 0, kSinkage);
 }
 
 // A block with a slot from one end: the upper jaw comes down on the lower.
@@ -170,7 +170,7 @@ protected:
         settings.m_cell = cell;
         btSoftBody& body = addSkinBody(m_world, m_fem, settings);
         m_world.step(120);
-        EXPECT_NEAR(lowestVertex(body), 0, kSlop);
+        EXPECT_NEAR(lowestVertex(body), 0, kSinkage);
         EXPECT_EQ(m_fem.stepReport(&body).m_flags & BT_FEM_BAD_SURFACE, 0);
         EXPECT_TRUE(allFinite(body));
         m_world.deleteSoft(body);
@@ -190,7 +190,7 @@ protected:
         EXPECT_NE(m_fem.stepReport(bad).m_flags & BT_FEM_BAD_SURFACE, 0);
         m_world.step(118);
         EXPECT_LT(lowestHeight(*bad), 0.01);
-        EXPECT_GT(lowestHeight(*bad), -kSlop);
+        EXPECT_GT(lowestHeight(*bad), -kSinkage);
         bad->m_cfg.collisions &= ~BT_FEM_RENDER_SURFACE;
         m_world.step();
         EXPECT_EQ(m_fem.stepReport(bad).m_flags & BT_FEM_BAD_SURFACE, 0);
@@ -303,7 +303,7 @@ TEST_F(SkinSurface, OfABakedBodyCollidesToTheSameBits)
         fem.prepare(soft, kStep);
         world.addSoft(soft);
         world.step(120);
-        EXPECT_NEAR(lowestVertex(*soft), 0, kSlop);
+        EXPECT_NEAR(lowestVertex(*soft), 0, kSinkage);
         EXPECT_LT(lowestHeight(*soft), -0.01);
         bits[fromFile] = bitsOf(*soft);
     }
@@ -349,7 +349,7 @@ TEST_F(SkinSurface, IsKeptWhereTheRestShapeChanges)
     m_world.step(60);
     body->scale(btVector3(1, 1, btScalar(1.1)));
     m_world.step(120);
-    EXPECT_NEAR(lowestVertex(*body), 0, kSlop);
+    EXPECT_NEAR(lowestVertex(*body), 0, kSinkage);
     EXPECT_LT(lowestHeight(*body), -0.005);
 }
 

@@ -103,7 +103,7 @@ TEST_P(ProgramOutput, IsTriedBeforeTheWork)
     EXPECT_TRUE(std::filesystem::is_directory(m_file));
 }
 
-std::string nameOf(const testing::TestParamInfo<OutputCase>& info)
+std::string outputName(const testing::TestParamInfo<OutputCase>& info)
 {
     std::string name = info.param.m_file;
     for (char& c : name)
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
                     OutputCase{"convert two.node", "a.node"}, OutputCase{"convert two.node", "a.ele"},
                     OutputCase{"convert two.node", "a.obj"}, OutputCase{"convert two.node", "a.ply"},
                     OutputCase{"cage cube.off -o", "cage.msh"}, OutputCase{"bake two.node -o", "a.bfem"}),
-    nameOf);
+    outputName);
 
 }  // namespace
 }  // namespace bullet_fem

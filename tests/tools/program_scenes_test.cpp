@@ -86,12 +86,12 @@ TEST_P(ProgramScene, GivesAFilm)
     EXPECT_GT(file("a.mp4").size(), 10000u);
 }
 
-std::string nameOf(const testing::TestParamInfo<const char*>& info)
+std::string sceneName(const testing::TestParamInfo<const char*>& info)
 {
     return info.param;
 }
 
-INSTANTIATE_TEST_SUITE_P(Demos, ProgramScene, testing::Values("beam", "press", "hammer"), nameOf);
+INSTANTIATE_TEST_SUITE_P(Demos, ProgramScene, testing::Values("beam", "press", "hammer"), sceneName);
 
 }  // namespace
 }  // namespace bullet_fem

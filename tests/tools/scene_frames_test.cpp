@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-const double kPi = std::acos(-1.);
+const double kHalfTurn = std::acos(-1.);
 
 /// Every edge is there once in each direction: no hole, and one side is outside everywhere.
 bool isClosed(const std::vector<Triangle>& triangles)
@@ -36,7 +36,7 @@ bool isClosed(const std::vector<Triangle>& triangles)
 
 // A polygon of 32 corners has this share of the circle around it. Round ends are polyhedra inside the ball, of 32 by
 // some 16 faces: a share that is at most 2 % smaller still.
-const double kPolygon = 32 / (2 * kPi) * std::sin(2 * kPi / 32);
+const double kPolygon = 32 / (2 * kHalfTurn) * std::sin(2 * kHalfTurn / 32);
 
 struct ShapeVolume
 {
@@ -81,21 +81,22 @@ TEST_P(RigidSurface, IsClosedOutwardAndFollowsTheBody)
         EXPECT_NEAR(norm(frames.surfaces()[0].m_positions[i] - before[i] - Vec3{0.5, 0, 0}), 0, 1e-4);
 }
 
-std::string nameOf(const testing::TestParamInfo<ShapeVolume>& info)
+std::string shapeName(const testing::TestParamInfo<ShapeVolume>& info)
 {
     const std::string shape = info.param.m_shape;
     return shape.substr(3, shape.find('"', 3) - 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, RigidSurface,
-    testing::Values(ShapeVolume{R"({ "box": [1, 2, 3] })", 6, 6},
-                    ShapeVolume{R"({ "sphere": 0.5 })", 0.98 * kPolygon* kPi / 6, kPolygon* kPi / 6},
-                    ShapeVolume{R"({ "cylinder": { "radius": 0.5, "height": 2 } })", kPolygon* kPi / 2,
-                                kPolygon* kPi / 2},
-                    ShapeVolume{R"({ "capsule": { "radius": 0.5, "height": 2 } })", 0.98 * kPolygon*(kPi / 6 + kPi / 2),
-                                kPolygon*(kPi / 6 + kPi / 2)}),
-    nameOf);
+INSTANTIATE_TEST_SUITE_P(Shapes, RigidSurface,
+                         testing::Values(ShapeVolume{R"({ "box": [1, 2, 3] })", 6, 6},
+                                         ShapeVolume{R"({ "sphere": 0.5 })", 0.98 * kPolygon* kHalfTurn / 6,
+                                                     kPolygon* kHalfTurn / 6},
+                                         ShapeVolume{R"({ "cylinder": { "radius": 0.5, "height": 2 } })",
+                                                     kPolygon* kHalfTurn / 2, kPolygon* kHalfTurn / 2},
+                                         ShapeVolume{R"({ "capsule": { "radius": 0.5, "height": 2 } })",
+                                                     0.98 * kPolygon*(kHalfTurn / 6 + kHalfTurn / 2),
+                                                     kPolygon*(kHalfTurn / 6 + kHalfTurn / 2)}),
+                         shapeName);
 
 TEST(SceneFrames, AnEmbeddedSurfaceFollowsItsCage)
 {

@@ -30,7 +30,7 @@ class SceneReader : public testing::Test
 {
 protected:
     SceneReader() { writeSampleMeshes(m_folder); }
-    SceneDescription parse(const std::string& json) const { return parseScene(json, m_folder.path("")); }
+    SceneDescription parse(const std::string& text) const { return parseScene(text, m_folder.path("")); }
 
     TemporaryFolder m_folder;
 };

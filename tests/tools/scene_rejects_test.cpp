@@ -226,15 +226,15 @@ const BadValue kMeaning[] = {
     {"EyeAndDirection", true, "/camera/direction", "[1,0,0]", "camera has 'eye' and 'direction'; give one of them"},
 };
 
-std::string nameOf(const testing::TestParamInfo<BadValue>& info)
+std::string badValueName(const testing::TestParamInfo<BadValue>& info)
 {
     return info.param.m_test;
 }
 
-INSTANTIATE_TEST_SUITE_P(Unknown, RejectedScene, testing::ValuesIn(kUnknown), nameOf);
-INSTANTIATE_TEST_SUITE_P(WrongKind, RejectedScene, testing::ValuesIn(kWrongKind), nameOf);
-INSTANTIATE_TEST_SUITE_P(OutOfRange, RejectedScene, testing::ValuesIn(kOutOfRange), nameOf);
-INSTANTIATE_TEST_SUITE_P(Meaning, RejectedScene, testing::ValuesIn(kMeaning), nameOf);
+INSTANTIATE_TEST_SUITE_P(Unknown, RejectedScene, testing::ValuesIn(kUnknown), badValueName);
+INSTANTIATE_TEST_SUITE_P(WrongKind, RejectedScene, testing::ValuesIn(kWrongKind), badValueName);
+INSTANTIATE_TEST_SUITE_P(OutOfRange, RejectedScene, testing::ValuesIn(kOutOfRange), badValueName);
+INSTANTIATE_TEST_SUITE_P(Meaning, RejectedScene, testing::ValuesIn(kMeaning), badValueName);
 
 std::string messageOfText(const std::string& text)
 {

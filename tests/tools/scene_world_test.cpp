@@ -209,12 +209,12 @@ TEST(SceneWorld, ASceneGivesTheSameBitsAgain)
 // What the reader cannot know is said when the world is made, after other bodies were added to it.
 std::string refusal(const std::string& softMember, const std::string& more, const std::string& folder = ".")
 {
-    const std::string json = R"({ "softBodies": [{ "name": "first", "mesh": { "box": [1, 1, 1], "tets": 40 } },
+    const std::string text = R"({ "softBodies": [{ "name": "first", "mesh": { "box": [1, 1, 1], "tets": 40 } },
         { "name": "pad", )" + softMember +
                              R"( }], "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } },
         { "name": "ball", "shape": { "sphere": 0.1 }, "mass": 3, "position": [0, 3, 0] }])" +
                              more + "}";
-    return messageOf<std::exception>([&] { SceneRun(json, folder); });
+    return messageOf<std::exception>([&] { SceneRun(text, folder); });
 }
 
 TEST(SceneWorld, WhatNoBodyCanHaveIsRefusedWithTheBodysName)

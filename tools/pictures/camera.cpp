@@ -11,11 +11,6 @@ namespace
 
 constexpr double kSteepest = 1.54;  // elevation [rad]: at pi/2 there is no right and left
 
-Vec3 unit(const Vec3& a)
-{
-    return a * (1 / norm(a));
-}
-
 /// Half the picture's height at distance 1, and its width over its height.
 double slope(const PictureCamera& camera)
 {
@@ -27,6 +22,11 @@ double aspect(const PictureSize& size)
 }
 
 }  // namespace
+
+Vec3 unit(const Vec3& a)
+{
+    return a * (1 / norm(a));
+}
 
 CameraAxes axes(const PictureCamera& camera)
 {

@@ -7,6 +7,9 @@
 namespace bullet_fem
 {
 
+/// The vector of length 1 along `a`, which is not 0.
+Vec3 unit(const Vec3& a);
+
 /// Pixels of a picture.
 struct PictureSize
 {

@@ -19,7 +19,7 @@ constexpr double kShortest = 1e-3;                    // of the longest arrow
 
 constexpr double kFarOut = 1e6;  // shares of the colour map: keeps them within single precision
 
-Vec3 unit(const Vec3& a)
+Vec3 upright(const Vec3& a)
 {
     const double length = norm(a);
     return length > 0 ? a * (1 / length) : Vec3{0, 1, 0};
@@ -66,7 +66,7 @@ struct Lathe
             const Vec3 a = radial(side), b = radial(side + 1);
             const auto corner = [&](const Vec3& outward, double at, double r)
             {
-                const Vec3 normal = unit((at1 - at0) * outward - (r1 - r0) * m_axis);
+                const Vec3 normal = upright((at1 - at0) * outward - (r1 - r0) * m_axis);
                 return vertex(m_start + at * m_axis + r * outward, normal, 0);
             };
             const PictureVertex p = corner(a, at0, r0), q = corner(b, at0, r0), s = corner(b, at1, r1),
@@ -80,8 +80,8 @@ void appendArrow(const Vec3& start, const Vec3& vector, double thickness, std::v
 {
     const double length = norm(vector), head = std::min(kHeadLength * thickness, kHeadShare * length);
     const double width = head * kHeadRadius / kHeadLength, shaft = std::min(0.5 * thickness, 0.5 * width);
-    Lathe lathe{start, unit(vector), {}, {}};
-    lathe.m_u = unit(cross(lathe.m_axis, std::abs(lathe.m_axis.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    Lathe lathe{start, upright(vector), {}, {}};
+    lathe.m_u = upright(cross(lathe.m_axis, std::abs(lathe.m_axis.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     lathe.m_v = cross(lathe.m_axis, lathe.m_u);
     lathe.append(0, 0, 0, shaft, out);
     lathe.append(0, shaft, length - head, shaft, out);
@@ -101,7 +101,7 @@ void appendVertices(const PictureMesh& mesh, const PictureUnits& units, const Pi
         const Triangle& c = mesh.m_triangles[t];
         const Vec3& a = mesh.m_positions[c[0]];
         area[t] = cross(mesh.m_positions[c[1]] - a, mesh.m_positions[c[2]] - a);
-        direction[t] = unit(area[t]);
+        direction[t] = upright(area[t]);
     }
     const auto share = [&](int i)
     {
@@ -117,7 +117,7 @@ void appendVertices(const PictureMesh& mesh, const PictureUnits& units, const Pi
                 if (dot(direction[around.m_faces[k]], direction[t]) >= flattest) normal += area[around.m_faces[k]];
             const Vec3& own = direction[t];
             vertices.push_back(
-                vertex(units.place(mesh.m_positions[i]), norm(normal) > 0 ? unit(normal) : own, share(i)));
+                vertex(units.place(mesh.m_positions[i]), norm(normal) > 0 ? upright(normal) : own, share(i)));
         }
 }
 

@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr double kFramingMargin = 1.12;  // around the meshes, of the picture
 constexpr double kLargest = 1e15;        // [m] and units: squares of it are far from the end of single precision
 
@@ -70,7 +70,7 @@ std::string fault(const PictureMesh& mesh)
     for (std::size_t i = 0; i < mesh.m_scalars.size(); ++i)
         if (!std::isfinite(mesh.m_scalars[i]))
             return message("scalar ", i, " is ", mesh.m_scalars[i], "; it must be finite");
-    const std::string crease = rangeFault("the crease angle", mesh.m_creaseAngle, 0, kPi);
+    const std::string crease = rangeFault("the crease angle", mesh.m_creaseAngle, 0, kHalfTurn);
     return crease.empty() ? colourFault("the colour", mesh.m_colour) : crease;
 }
 

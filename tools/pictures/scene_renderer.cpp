@@ -28,11 +28,6 @@ constexpr double kHiddenArrows = 0.45;                // opacity of arrows behin
 constexpr double kNear = 0.004;                       // nearest, of the distance to the scene
 constexpr int kMapUnit = 0, kKeyUnit = 1, kKeyShadowUnit = 2, kSkyUnit = 3;  // texture units
 
-Vec3 unit(const Vec3& a)
-{
-    return a * (1 / norm(a));
-}
-
 /// Triangles of one look.
 struct Range
 {
