@@ -10,6 +10,11 @@ function(bulletfem_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_17)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+    if(BULLETFEM_UNITY)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${BULLETFEM_UNITY})
+        # GCC takes a class in a source file that such a unit includes for one of a header.
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    endif()
     if(BULLETFEM_SANITIZE)
         target_compile_options(${target} PRIVATE
             -fsanitize=${BULLETFEM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

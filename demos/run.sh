@@ -20,7 +20,8 @@ if [ ! -s "$mesh" ]; then
 fi
 
 say "building in $build"
-(cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
+(cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_UNITY=8 -DBULLETFEM_BUILD_TESTS=OFF \
+    -DBULLETFEM_BUILD_BENCHMARKS=OFF)
 cmake --build "$build" --target bulletfem_drop bulletfem --parallel "$(nproc)"
 
 say "running the demo; its frames go to $root/out/drop unless --out says otherwise"

@@ -21,7 +21,7 @@ if [ ! -d "$build/meshes/$meshes" ]; then
 fi
 
 say "building in $build"
-(cd "$root" && cmake --preset release)
+(cd "$root" && cmake --preset release -DBULLETFEM_UNITY=8)
 cmake --build "$build" --parallel "$(nproc)"
 
 # One test asks the Khronos validator, which npm has; it is skipped, and says so, where that cannot be had.
