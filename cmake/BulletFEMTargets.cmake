@@ -60,15 +60,48 @@ function(bulletfem_test_flags program)
     target_link_libraries(${program} PRIVATE ${ARGN} GTest::gtest GTest::gmock GTest::gtest_main)
 endfunction()
 
-# bulletfem_test(<name> <source>...  LIBS <target>...  LABEL <label>  [SUFFIX <suffix>]
+# Makes ctest run each suite of the program as one test, and not each case, if BULLETFEM_TEST_SUITES is in its environment:
+# most cases take less time than their process does to start. A suite that skips a case fails, as nobody would see it.
+function(bulletfem_test_suites name suffix properties)
+    set(suites "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake")
+    list(APPEND properties FAIL_REGULAR_EXPRESSION ".  SKIPPED .")
+    list(JOIN properties "]=] [=[" properties)
+    add_custom_command(TARGET ${name} POST_BUILD BYPRODUCTS "${suites}" VERBATIM
+        COMMAND ${CMAKE_COMMAND} "-DPROGRAM=$<TARGET_FILE:${name}>" "-DNAME_SUFFIX=${suffix}" "-DOUTPUT=${suites}"
+            "-DEMULATOR=${CMAKE_CROSSCOMPILING_EMULATOR}" "-DPROPERTIES=[=[${properties}]=]"
+            -P "${PROJECT_SOURCE_DIR}/cmake/list_suites.cmake")
+    set(chosen "${CMAKE_CURRENT_BINARY_DIR}/${name}_chosen.cmake")
+    get_property(includes DIRECTORY PROPERTY TEST_INCLUDE_FILES)
+    list(POP_BACK includes cases) # what gtest_discover_tests has just added
+    file(CONFIGURE OUTPUT "${chosen}" @ONLY CONTENT [=[
+if(DEFINED ENV{BULLETFEM_TEST_SUITES} AND EXISTS "@suites@")
+    include("@suites@")
+else()
+    include("@cases@")
+endif()
+]=])
+    set_property(DIRECTORY PROPERTY TEST_INCLUDE_FILES "${includes}" "${chosen}")
+endfunction()
+
+# bulletfem_test(<name> <source>...  LIBS <target>...  LABEL <label>  [SUFFIX <suffix>]  [COST <seconds>]  [MAY_SKIP]
 # [KIND <kind>  PRECOMPILE <header>...]): one GoogleTest program; each test is known to ctest, by its name with the suffix
-# behind. Programs of the same kind and suffix share precompiled headers.
+# behind. Programs of the same kind and suffix share precompiled headers. What costs more is started earlier; MAY_SKIP is
+# for programs whose tests may be skipped: each case is a test then, whatever the environment says.
 function(bulletfem_test name)
-    cmake_parse_arguments(ARG "" "LABEL;SUFFIX;KIND" "LIBS;PRECOMPILE" ${ARGN})
+    cmake_parse_arguments(ARG "MAY_SKIP" "LABEL;SUFFIX;KIND;COST" "LIBS;PRECOMPILE" ${ARGN})
     add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
     bulletfem_test_flags(${name} ${ARG_LIBS})
     bulletfem_precompile(${name} "${ARG_SUFFIX}${ARG_KIND}" LIBS ${ARG_LIBS}
         HEADERS <gtest/gtest.h> <algorithm> <cmath> <memory> <sstream> <string> <vector> ${ARG_PRECOMPILE})
-    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_SUFFIX "${ARG_SUFFIX}"
-        PROPERTIES TIMEOUT 600 LABELS "${ARG_LABEL}")
+    if(NOT ARG_COST)
+        set(ARG_COST 0)
+        if(ARG_LABEL STREQUAL slow)
+            set(ARG_COST 10)
+        endif()
+    endif()
+    set(properties TIMEOUT 600 LABELS "${ARG_LABEL}" COST ${ARG_COST})
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_SUFFIX "${ARG_SUFFIX}" PROPERTIES ${properties})
+    if(NOT ARG_MAY_SKIP)
+        bulletfem_test_suites(${name} "${ARG_SUFFIX}" "${properties}")
+    endif()
 endfunction()

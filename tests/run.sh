@@ -30,5 +30,10 @@ if command -v npm >/dev/null && [ ! -d "$build/npm/node_modules/gltf-validator" 
         say "npm could not install gltf-validator: its test will be skipped"
 fi
 
+# Each suite is one test, unless names of tests are asked for, which may be those of cases.
+case " $* " in
+*\ -[RE]* | *--tests-regex* | *--exclude-regex*) ;;
+*) export BULLETFEM_TEST_SUITES=1 ;;
+esac
 say "running the tests"
 ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)" "$@"
