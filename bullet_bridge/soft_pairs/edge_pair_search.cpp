@@ -3,13 +3,13 @@
 #include "bullet_bridge/soft_pairs/edge_pair_search.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace bullet_fem
 {
 namespace
 {
 
-constexpr double kRidge = -0.03;        // sine of the angle from which an edge is a ridge
 constexpr double kBetween = 0.03;       // sine by which a normal may leave the arc between two faces' normals
 constexpr double kBetweenImpact = 0.2;  // the same at an impact: the faces have turned since the start
 constexpr double kParallel = 0.05;      // sine of the angle below which the nearest points wander
@@ -43,8 +43,8 @@ Vec3 unitNormal(const std::array<Vec3, 4>& ends)
 // True if a triangle lies across the way between its ends.
 bool isCrossed(const SoftSurface& surface, const Vec3& from, const Vec3& way)
 {
-    SweptBox box = SweptBox::of(from, {});
-    box.add(SweptBox::of(from + way, {}));
+    CoarseBox box = CoarseBox::of(from, {});
+    box.add(CoarseBox::of(from + way, {}));
     bool crossed = false;
     surface.tree().visitNear(box, 0,
                              [&](int t)
@@ -68,25 +68,23 @@ void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, c
     m_second = &second;
     m_reach = reach;
     m_touches = &touches;
-    const int edgeCount = static_cast<int>(first.features().m_edges.size());
-    for (int k = 0; k < edgeCount; ++k)
+    const std::size_t begin = touches.size();
+    const double near = reach.m_band + reach.depth();
+    using Leaf = SurfaceTree::Leaf;
+    const auto tryLeaves = [&](const Leaf& leafA, const Leaf& leafB)
     {
-        if (!(first.bend(k) < kRidge)) continue;
-        const auto [a, b] = first.features().m_edges[k];
-        SweptBox box = SweptBox::of(first.position()[a], first.change()[a]);
-        box.add(SweptBox::of(first.position()[b], first.change()[b]));
-        m_candidates.clear();
-        second.tree().visitNear(
-            box, std::max(reach.m_band, reach.depth()),
-            [&](int t)
+        for (const auto *a = first.ridges().begin(leafA), *endA = first.ridges().end(leafA); a != endA; ++a)
+            for (const auto *b = second.ridges().begin(leafB), *endB = second.ridges().end(leafB); b != endB; ++b)
             {
-                for (int m : second.features().m_triangleEdges[t])
-                    if (second.edgeOwner(m) == t && second.bend(m) < kRidge && (m_first != m_second || m > k))
-                        m_candidates.push_back(m);
-            });
-        std::sort(m_candidates.begin(), m_candidates.end());
-        for (int m : m_candidates) tryPair(k, m, nodes);
-    }
+                if (&first == &second && b->m_edge <= a->m_edge) continue;
+                if (a->m_box.startsWithin(b->m_box, coarse(near)) || a->m_box.meets(b->m_box, coarse(reach.m_band)))
+                    tryPair(a->m_edge, b->m_edge, nodes);
+            }
+    };
+    first.tree().visitNearLeaves(second.tree(), near, tryLeaves);
+    const auto key = [](const SurfaceTouch& touch) { return std::pair(touch.m_feature, touch.m_otherFeature); };
+    std::sort(touches.begin() + begin, touches.end(),
+              [&](const SurfaceTouch& a, const SurfaceTouch& b) { return key(a) < key(b); });
 }
 
 bool EdgePairSearch::areClose(const Pair& pair) const
@@ -161,29 +159,37 @@ bool EdgePairSearch::isFreeWayOut(const Pair& pair, const Crossing& crossing) co
     return !isCrossed(*m_first, from, way) && !isCrossed(*m_second, from, way);
 }
 
-// Quick proof that edges cannot meet: they are apart along their common normal before and after the step, and all ends
-// move in straight lines.
-bool EdgePairSearch::stayApart(const Pair& pair) const
+// True if all of the first edge is on one side of the second along a direction, from the start to kSteps later: their
+// ends move in straight lines.
+bool EdgePairSearch::stayApart(const Pair& pair, const Vec3& direction)
 {
-    const Vec3 n = cross(pair.m_x[1] - pair.m_x[0], pair.m_x[3] - pair.m_x[2]);
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (int a = 0; a < 2; ++a)
         for (int b = 2; b < 4; ++b)
         {
-            const double before = dot(n, pair.m_x[a] - pair.m_x[b]);
-            const double after = before + 2 * dot(n, pair.m_change[a] - pair.m_change[b]);
+            const double before = dot(direction, pair.m_x[a] - pair.m_x[b]);
+            const double after = before + SurfaceRidges::kSteps * dot(direction, pair.m_change[a] - pair.m_change[b]);
             least = std::min({least, before, after});
             most = std::max({most, before, after});
         }
     return least > 0 || most < 0;
 }
 
+// Quick proofs that edges cannot meet: they are apart along their common normal, or pass each other by, seen along
+// their way.
+bool EdgePairSearch::cannotMeet(const Pair& pair, const Vec3& travel)
+{
+    const Vec3 a = pair.m_x[1] - pair.m_x[0], b = pair.m_x[3] - pair.m_x[2];
+    return stayApart(pair, cross(a, b)) || stayApart(pair, cross(a, travel)) || stayApart(pair, cross(b, travel));
+}
+
 // Edges that meet on their way.
 bool EdgePairSearch::tryImpact(const Pair& pair, Crossing& crossing) const
 {
     const std::array<Vec3, 4>&x = pair.m_x, &change = pair.m_change;
-    const double travel = norm(between(change, {0.5, 0.5}));
-    if (!(travel > m_reach.m_band) || stayApart(pair)) return false;
+    const Vec3 way = between(change, {0.5, 0.5});
+    const double travel = norm(way);
+    if (!(travel > m_reach.m_band) || cannotMeet(pair, way)) return false;
     const std::array<MovingVector, 3> vectors = {MovingVector{x[2] - x[0], change[2] - change[0]},
                                                  MovingVector{x[1] - x[0], change[1] - change[0]},
                                                  MovingVector{x[3] - x[2], change[3] - change[2]}};

@@ -44,7 +44,8 @@ private:
     void tryPair(int edgeA, int edgeB, const NodesFound& nodes);
     bool tryNear(const Pair& pair, const NodesFound& nodes, Crossing& crossing) const;
     bool isFreeWayOut(const Pair& pair, const Crossing& crossing) const;
-    bool stayApart(const Pair& pair) const;
+    static bool stayApart(const Pair& pair, const Vec3& direction);
+    static bool cannotMeet(const Pair& pair, const Vec3& travel);
     bool tryImpact(const Pair& pair, Crossing& crossing) const;
     bool separates(const Pair& pair, const Vec3& normal, double tolerance) const;
     void emit(const Pair& pair, const Crossing& crossing);
@@ -52,7 +53,6 @@ private:
     const SoftSurface *m_first = nullptr, *m_second = nullptr;
     TouchReach m_reach;
     std::vector<SurfaceTouch>* m_touches = nullptr;
-    std::vector<int> m_candidates;
 };
 
 }  // namespace bullet_fem

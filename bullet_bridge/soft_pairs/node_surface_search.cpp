@@ -36,9 +36,36 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
     m_done = done;
     m_reach = reach;
     m_touches = &touches;
-    m_depth.assign(nodes.position().size(), kInfinity);
-    m_partner.assign(nodes.position().size(), -1);
-    for (int i : nodes.nodes()) findNode(i);
+    forget();
+    listNear();
+    for (int i : m_near) findNode(i);
+}
+
+void NodeSurfaceSearch::forget()
+{
+    for (int i : m_near)
+    {
+        m_depth[i] = kInfinity;
+        m_partner[i] = -1;
+    }
+    m_near.clear();
+    m_near.reserve(m_nodes->nodes().size());
+    const std::size_t count = m_nodes->position().size();
+    if (m_depth.size() >= count) return;
+    m_depth.resize(count, kInfinity);
+    m_partner.resize(count, -1);
+}
+
+// The nodes that may reach the bounds of the faces, and some others.
+void NodeSurfaceSearch::listNear()
+{
+    m_nodes->tree().visitNear(m_faces->tree().coarseBounds(), m_reach.m_band,
+                              [this](int t)
+                              {
+                                  for (int i : m_nodes->triangles()[t])
+                                      if (m_nodes->nodeOwner(i) == t) m_near.push_back(i);
+                              });
+    std::sort(m_near.begin(), m_near.end());
 }
 
 bool NodeSurfaceSearch::isClose(int node, int triangle) const
@@ -57,7 +84,7 @@ void NodeSurfaceSearch::findNode(int node)
     visit.m_change = m_nodes->change()[node];
     if (!lookAround(visit)) return;
     m_hits.clear();
-    m_faces->tree().visitNear(SweptBox::of(visit.m_x, visit.m_change),
+    m_faces->tree().visitNear(CoarseBox::of(visit.m_x, visit.m_change),
                               std::max(m_reach.m_band, std::min(visit.m_limit, m_reach.depth())),
                               [&](int t)
                               {
@@ -78,7 +105,7 @@ bool NodeSurfaceSearch::lookAround(Visit& visit) const
     const SweptBox& bounds = m_faces->tree().bounds();
     if (!bounds.meets(point, m_reach.m_band)) return false;
     const bool self = m_nodes == m_faces;
-    const bool maybeInside = !self && bounds.squaredDistance(visit.m_x) == 0;
+    const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
     const double most =
         maybeInside ? kInfinity : std::max(m_reach.m_band, m_reach.depth()) + largestTravel(point, bounds);
     visit.m_nearestTriangle = m_faces->tree().nearestTriangle(

@@ -55,6 +55,8 @@ private:
         double m_limit = 0;  // depth that is believed
     };
 
+    void forget();
+    void listNear();
     void findNode(int node);
     bool isClose(int node, int triangle) const;
     bool lookAround(Visit& visit) const;
@@ -79,8 +81,9 @@ private:
     TouchReach m_reach;
     std::vector<SurfaceTouch>* m_touches = nullptr;
     std::vector<Hit> m_hits;
-    std::vector<double> m_depth;
-    std::vector<int> m_partner;  // the corner that a node lies on, or -1
+    std::vector<int> m_near;      // nodes that were asked, ascending
+    std::vector<double> m_depth;  // infinite for all others
+    std::vector<int> m_partner;   // the corner that a node lies on; -1: none, and for all others
 };
 
 }  // namespace bullet_fem

@@ -34,6 +34,7 @@ SoftSurface::SoftSurface(const RestSurface& rest)
       m_meanEdge(rest.m_meanEdge),
       m_size(rest.m_size),
       m_tree(rest.m_positions, rest.m_triangles),
+      m_ridges(m_features, m_tree),
       m_nearestNode(rest.m_nearestNode),
       m_edgeTriangles(m_features.m_edges.size(), {-1, -1}),
       m_manifoldEdge(m_features.m_edges.size(), 1),
@@ -91,6 +92,7 @@ void SoftSurface::update(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
     m_tree.refit(m_x, m_change);
     updateFaces();
     updateEdges();
+    m_ridges.update(m_tree, m_bend);
     updateFlatness();
 }
 

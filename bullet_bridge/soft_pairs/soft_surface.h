@@ -8,6 +8,7 @@
 
 #include "bullet_bridge/soft_pairs/rest_neighbours.h"
 #include "bullet_bridge/soft_pairs/surface_features.h"
+#include "bullet_bridge/soft_pairs/surface_ridges.h"
 #include "bullet_bridge/soft_pairs/surface_tree.h"
 #include "bullet_fem/fem/contact_solver.h"
 
@@ -78,6 +79,7 @@ public:
     double meanEdge() const { return m_meanEdge; }  ///< of the tetrahedra at rest, or of finer triangles [m]
     double size() const { return m_size; }          ///< cube root of the volume at rest [m]
     const SurfaceTree& tree() const { return m_tree; }
+    const SurfaceRidges& ridges() const { return m_ridges; }
     /// True if two vertices cannot touch each other however the body is bent: see RestNeighbours.
     bool areCloseAtRest(int a, int b) const { return m_restNeighbours->areClose(nodeAt(a), nodeAt(b)); }
     const std::vector<Vec3>& position() const { return m_x; }     ///< [m], of all vertices
@@ -93,6 +95,8 @@ public:
 
     /// Sine of the angle by which the surface is bent at an edge: > 0 in a groove, < 0 on a ridge [-].
     double bend(int edge) const { return m_bend[edge]; }
+    /// One of the triangles at a node.
+    int nodeOwner(int node) const { return m_features.m_around[m_features.m_firstAround[node]]; }
     int edgeOwner(int edge) const { return m_edgeTriangles[edge][0]; }  ///< one of its triangles
     /// Unit vectors from an edge into its two faces, perpendicular to it.
     const std::array<Vec3, 2>& intoFaces(int edge) const { return m_intoFaces[edge]; }
@@ -117,6 +121,7 @@ private:
     SurfaceFeatures m_features;
     double m_meanEdge, m_size;
     SurfaceTree m_tree;
+    SurfaceRidges m_ridges;
     std::shared_ptr<const RestNeighbours> m_restNeighbours;
     std::vector<int> m_nearestNode;
     std::vector<std::array<int, 2>> m_edgeTriangles;  // twice the same at a rim

@@ -25,14 +25,4 @@ struct TouchReach
     double depth() const { return 0.5 * m_edge; }  ///< to which one may always have sunk into the other [m]
 };
 
-/// Largest distance that points of the two boxes can move relative to each other [m].
-inline double largestTravel(const SweptBox& a, const SweptBox& b)
-{
-    Vec3 most;
-    for (int c = 0; c < 3; ++c)
-        most[c] =
-            std::fmax(std::fabs(a.m_changeHigh[c] - b.m_changeLow[c]), std::fabs(b.m_changeHigh[c] - a.m_changeLow[c]));
-    return norm(most);
-}
-
 }  // namespace bullet_fem

@@ -12,46 +12,7 @@ namespace
 
 constexpr int kLeafTriangles = 2;
 
-SweptBox emptyBox()
-{
-    constexpr double kBoundless = std::numeric_limits<double>::infinity();
-    const Vec3 most{kBoundless, kBoundless, kBoundless};
-    return {most, -most, most, -most};
-}
-
 }  // namespace
-
-void SweptBox::add(const SweptBox& b)
-{
-    for (int c = 0; c < 3; ++c)
-    {
-        m_low[c] = std::min(m_low[c], b.m_low[c]);
-        m_high[c] = std::max(m_high[c], b.m_high[c]);
-        m_changeLow[c] = std::min(m_changeLow[c], b.m_changeLow[c]);
-        m_changeHigh[c] = std::max(m_changeHigh[c], b.m_changeHigh[c]);
-    }
-}
-
-bool SweptBox::meets(const SweptBox& b, double reach) const
-{
-    for (int c = 0; c < 3; ++c)
-    {
-        if (m_low[c] + std::min(0.0, m_changeLow[c] - b.m_changeHigh[c]) > b.m_high[c] + reach) return false;
-        if (m_high[c] + std::max(0.0, m_changeHigh[c] - b.m_changeLow[c]) < b.m_low[c] - reach) return false;
-    }
-    return true;
-}
-
-double SweptBox::squaredDistance(const Vec3& p) const
-{
-    double sum = 0;
-    for (int c = 0; c < 3; ++c)
-    {
-        const double d = std::max({m_low[c] - p[c], p[c] - m_high[c], 0.0});
-        sum += d * d;
-    }
-    return sum;
-}
 
 SurfaceTree::SurfaceTree(const std::vector<Vec3>& restPositions, const std::vector<Triangle>& triangles)
     : m_triangles(triangles), m_corners(triangles.size()), m_order(triangles.size())
@@ -61,6 +22,11 @@ SurfaceTree::SurfaceTree(const std::vector<Vec3>& restPositions, const std::vect
         middles.push_back((1.0 / 3) * (restPositions[t[0]] + restPositions[t[1]] + restPositions[t[2]]));
     std::iota(m_order.begin(), m_order.end(), 0);
     build(0, static_cast<int>(triangles.size()), middles);
+    m_starts.resize(m_nodes.size());
+    m_vertexBoxes.resize(restPositions.size());
+    for (const Triangle& t : triangles) m_vertices.insert(m_vertices.end(), t.begin(), t.end());
+    std::sort(m_vertices.begin(), m_vertices.end());
+    m_vertices.erase(std::unique(m_vertices.begin(), m_vertices.end()), m_vertices.end());
     refit(restPositions, std::vector<Vec3>(restPositions.size()));
 }
 
@@ -72,8 +38,8 @@ int SurfaceTree::build(int first, int count, std::vector<Vec3>& middles)
     m_nodes[at].m_count = count;
     if (count <= kLeafTriangles) return at;
 
-    SweptBox box = emptyBox();
-    for (int k = first; k < first + count; ++k) box.add(SweptBox::of(middles[m_order[k]], {}));
+    VectorBounds box;
+    for (int k = first; k < first + count; ++k) box.add({middles[m_order[k]], middles[m_order[k]]});
     const Vec3 size = box.m_high - box.m_low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const auto before = [&](int a, int b)
@@ -88,19 +54,33 @@ int SurfaceTree::build(int first, int count, std::vector<Vec3>& middles)
 
 void SurfaceTree::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& change)
 {
+    m_bounds = {};
+    for (int i : m_vertices)
+    {
+        m_bounds.add(SweptBox::of(x[i], change[i]));
+        m_vertexBoxes[i] = CoarseBox::of(x[i], change[i]);
+    }
     for (int at = static_cast<int>(m_nodes.size()) - 1; at >= 0; --at)
     {
         Node& node = m_nodes[at];
-        node.m_box = emptyBox();
+        node.m_box = CoarseBox::empty();
+        m_starts[at] = {};
         for (int k = node.m_first; k < node.m_first + node.m_count; ++k)
         {
             const Triangle& t = m_triangles[m_order[k]];
             m_corners[m_order[k]] = {x[t[0]], x[t[1]], x[t[2]]};
-            for (int i : t) node.m_box.add(SweptBox::of(x[i], change[i]));
+            for (int i : t)
+            {
+                node.m_box.add(m_vertexBoxes[i]);
+                m_starts[at].add({x[i], x[i]});
+            }
         }
         if (node.m_count > 0 || m_triangles.empty()) continue;
-        node.m_box.add(m_nodes[at + 1].m_box);
-        node.m_box.add(m_nodes[node.m_right].m_box);
+        for (int child : {at + 1, node.m_right})
+        {
+            node.m_box.add(m_nodes[child].m_box);
+            m_starts[at].add(m_starts[child]);
+        }
     }
 }
 

@@ -2,29 +2,15 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include <limits>
 #include <vector>
 
+#include "bullet_bridge/soft_pairs/coarse_box.h"
+#include "bullet_bridge/soft_pairs/swept_box.h"
 #include "bullet_bridge/soft_pairs/triangle_proximity.h"
 #include "bullet_fem/fem/tet_mesh.h"
 
 namespace bullet_fem
 {
-
-/// Bounds of points and of how far they move within a step.
-struct SweptBox
-{
-    Vec3 m_low, m_high;              ///< at the start [m]
-    Vec3 m_changeLow, m_changeHigh;  ///< [m]
-
-    /// A point that moves by `change`.
-    static SweptBox of(const Vec3& point, const Vec3& change) { return {point, point, change, change}; }
-    void add(const SweptBox& b);
-    /// False only if no two points of this and the other come within `reach` [m], moving relative to each other in a
-    /// straight line: what both have in common does not matter.
-    bool meets(const SweptBox& b, double reach) const;
-    double squaredDistance(const Vec3& p) const;  ///< from p to the bounds at the start [m2]
-};
 
 /// A tree of bounds over the triangles of a surface, built once from the rest shape (median splits along the longest
 /// side) and refitted every step. Lookups never allocate.
@@ -37,23 +23,67 @@ public:
     void refit(const std::vector<Vec3>& x, const std::vector<Vec3>& change);
 
     /// All of it; empty if there are no triangles.
-    const SweptBox& bounds() const { return m_nodes.front().m_box; }
+    const SweptBox& bounds() const { return m_bounds; }
+    const CoarseBox& coarseBounds() const { return m_nodes.front().m_box; }
 
     /// Calls visit(triangle) for all triangles that `box` may come within `reach` [m] of; always in the same order.
     template <class Visit>
-    void visitNear(const SweptBox& box, double reach, Visit visit) const
+    void visitNear(const CoarseBox& box, double reach, Visit visit) const
     {
+        const float most = coarse(reach);
         int stack[kDepth], size = 0;
         stack[size++] = 0;
         while (size > 0)
         {
             const int at = stack[--size];
             const Node& node = m_nodes[at];
-            if (!node.m_box.meets(box, reach)) continue;
+            if (!node.m_box.meets(box, most)) continue;
             for (int k = 0; k < node.m_count; ++k) visit(m_order[node.m_first + k]);
             if (node.m_count > 0) continue;
             stack[size++] = node.m_right;
             stack[size++] = at + 1;
+        }
+    }
+
+    /// A few triangles that lie beside each other: range of triangleAt().
+    struct Leaf
+    {
+        int m_first, m_end;
+    };
+    int triangleAt(int place) const { return m_order[place]; }
+
+    /// Calls visit(a, b) for all leaves a of this and b of the other tree that may come within `reach` [m] of each
+    /// other. The other may be the same: each pair both ways, and every leaf with itself.
+    template <class Visit>
+    void visitNearLeaves(const SurfaceTree& other, double reach, Visit visit) const
+    {
+        const float most = coarse(reach);
+        int stack[2 * kDepth][2], size = 0;
+        const auto push = [&](int a, int b)
+        {
+            stack[size][0] = a;
+            stack[size++][1] = b;
+        };
+        push(0, 0);
+        while (size > 0)
+        {
+            const auto [at, otherAt] = stack[--size];
+            const Node &a = m_nodes[at], &b = other.m_nodes[otherAt];
+            if (!a.m_box.meets(b.m_box, most)) continue;
+            if (a.isLeaf() && b.isLeaf())
+            {
+                visit(Leaf{a.m_first, a.m_first + a.m_count}, Leaf{b.m_first, b.m_first + b.m_count});
+            }
+            else if (b.isLeaf() || (!a.isLeaf() && a.m_box.extent() > b.m_box.extent()))
+            {
+                push(a.m_right, otherAt);
+                push(at + 1, otherAt);
+            }
+            else
+            {
+                push(at, b.m_right);
+                push(at, otherAt + 1);
+            }
         }
     }
 
@@ -64,13 +94,14 @@ public:
     {
         double least = most * most;
         int found = -1;
-        int stack[kDepth], size = 0;
-        stack[size++] = 0;
+        Ahead stack[kDepth];
+        int size = 0;
+        stack[size++] = {0, m_starts[0].squaredDistance(p)};
         while (size > 0)
         {
-            const int at = stack[--size];
-            const Node& node = m_nodes[at];
-            if (!(node.m_box.squaredDistance(p) < least)) continue;
+            const Ahead ahead = stack[--size];
+            if (!(ahead.m_squaredDistance < least)) continue;
+            const Node& node = m_nodes[ahead.m_node];
             for (int k = 0; k < node.m_count; ++k)
             {
                 const int t = m_order[node.m_first + k];
@@ -83,13 +114,17 @@ public:
                 found = t;
             }
             if (node.m_count > 0) continue;
-            const bool leftFirst =
-                m_nodes[at + 1].m_box.squaredDistance(p) <= m_nodes[node.m_right].m_box.squaredDistance(p);
-            stack[size++] = leftFirst ? node.m_right : at + 1;
-            stack[size++] = leftFirst ? at + 1 : node.m_right;
+            const Ahead left = {ahead.m_node + 1, m_starts[ahead.m_node + 1].squaredDistance(p)};
+            const Ahead right = {node.m_right, m_starts[node.m_right].squaredDistance(p)};
+            const bool leftFirst = left.m_squaredDistance <= right.m_squaredDistance;
+            stack[size++] = leftFirst ? right : left;
+            stack[size++] = leftFirst ? left : right;
         }
         return found;
     }
+
+    /// The coarse box of a vertex alone.
+    const CoarseBox& vertexBox(int vertex) const { return m_vertexBoxes[vertex]; }
 
     /// Corners of a triangle at the start [m].
     const Corners& corners(int triangle) const { return m_corners[triangle]; }
@@ -98,9 +133,16 @@ private:
     static constexpr int kDepth = 64;  // of the stacks: twice the depth of a tree over 2^31 triangles
     struct Node
     {
-        SweptBox m_box;
+        CoarseBox m_box;
         int m_right = 0;  // inner node: its left child is the next node
         int m_first = 0, m_count = 0;
+        bool isLeaf() const { return m_count > 0; }
+    };
+
+    struct Ahead  // what a search has not visited yet
+    {
+        int m_node;
+        double m_squaredDistance;
     };
 
     int build(int first, int count, std::vector<Vec3>& middles);
@@ -108,7 +150,11 @@ private:
     std::vector<Triangle> m_triangles;
     std::vector<Corners> m_corners;
     std::vector<int> m_order;
-    std::vector<Node> m_nodes;  // children after their parents
+    std::vector<int> m_vertices;           // of the triangles
+    std::vector<CoarseBox> m_vertexBoxes;  // of these
+    SweptBox m_bounds;
+    std::vector<Node> m_nodes;           // children after their parents
+    std::vector<VectorBounds> m_starts;  // one a node
 };
 
 }  // namespace bullet_fem

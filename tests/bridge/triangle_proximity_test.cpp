@@ -5,26 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
+#include <vector>
 
-#include "bullet_bridge/soft_pairs/surface_tree.h"
-#include "bullet_fem/fem/generators.h"
+#include "bridge/random_vectors.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-class Random
-{
-public:
-    Vec3 point() { return {m_uniform(m_engine), m_uniform(m_engine), m_uniform(m_engine)}; }
-    double number() { return m_uniform(m_engine); }
-
-private:
-    std::mt19937 m_engine{5};
-    std::uniform_real_distribution<double> m_uniform{-1, 1};
-};
 
 // No point of a fine grid on the triangle is nearer, and the point is where its weights say.
 TEST(TriangleProximity, TheNearestPointIsNearerThanAllOthers)
@@ -122,59 +110,6 @@ TEST(TriangleProximity, APointThatFallsOnATriangleMeetsItsPlaneInTime)
     ASSERT_EQ(timesInOnePlane(vectors, 1, times), 1);
     EXPECT_NEAR(times[0], 0.3, 1e-15);
     EXPECT_EQ(timesInOnePlane(vectors, 0.29, times), 0);
-}
-
-TEST(SurfaceTree, FindsTheNearestTriangleAndAllThatABoxMayMeet)
-{
-    Random random;
-    const TetMesh mesh = makeSphere(1, 6);
-    SurfaceTree tree(mesh.restPositions(), mesh.surface());
-    std::vector<Vec3> x = mesh.restPositions(), change(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-        x[i] += 0.02 * random.point();
-        change[i] = Vec3{1, 0, 0} + 0.1 * random.point();
-    }
-    tree.refit(x, change);
-    const int count = static_cast<int>(mesh.surface().size());
-    std::size_t met = 0;
-    for (int k = 0; k < 100; ++k)
-    {
-        const Vec3 p = 1.5 * random.point();
-        TrianglePoint nearest;
-        const int found = tree.nearestTriangle(
-            p, 10, [](int t) { return t % 7 == 0; }, nearest);
-        ASSERT_GE(found, 0);
-        EXPECT_NE(found % 7, 0);
-        double least = 10;
-        for (int t = 0; t < count; ++t)
-            if (t % 7 != 0) least = std::min(least, norm(p - nearestOnTriangle(tree.corners(t), p).m_point));
-        EXPECT_EQ(norm(p - nearest.m_point), least);
-
-        const SweptBox box = SweptBox::of(p, Vec3{1, 0, 0} + 0.3 * random.point());
-        std::vector<int> near;
-        tree.visitNear(box, 0.1, [&](int t) { near.push_back(t); });
-        std::sort(near.begin(), near.end());
-        std::vector<int> expected;
-        for (int t = 0; t < count; ++t)
-        {
-            const Triangle& nodes = mesh.surface()[t];
-            SweptBox own = SweptBox::of(x[nodes[0]], change[nodes[0]]);
-            for (int i : nodes) own.add(SweptBox::of(x[i], change[i]));
-            if (own.meets(box, 0.1)) expected.push_back(t);
-        }
-        EXPECT_TRUE(std::includes(near.begin(), near.end(), expected.begin(), expected.end()));
-        EXPECT_LE(near.size(), 4 * expected.size() + 20) << "and not much more";
-        met += expected.size();
-    }
-    EXPECT_GT(met, 100u);
-}
-
-TEST(SurfaceTree, ACommonMotionDoesNotMatter)
-{
-    const SweptBox a = SweptBox::of({0, 0, 0}, {100, 0, 0}), b = SweptBox::of({50, 0, 0}, {100, 0, 0});
-    EXPECT_FALSE(a.meets(b, 1));
-    EXPECT_TRUE(a.meets(SweptBox::of({50, 0, 0}, {0, 0, 0}), 1));
 }
 
 }  // namespace

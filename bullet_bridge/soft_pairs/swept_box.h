@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "bullet_fem/fem/vec3.h"
+
+namespace bullet_fem
+{
+
+/// An axis-parallel box around vectors; at first around none.
+struct VectorBounds
+{
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Vec3 m_low = {kInfinity, kInfinity, kInfinity}, m_high = {-kInfinity, -kInfinity, -kInfinity};
+
+    void add(const VectorBounds& b)
+    {
+        for (int c = 0; c < 3; ++c)
+        {
+            m_low[c] = std::min(m_low[c], b.m_low[c]);
+            m_high[c] = std::max(m_high[c], b.m_high[c]);
+        }
+    }
+
+    /// From p to the box.
+    double squaredDistance(const Vec3& p) const
+    {
+        double sum = 0;
+        for (int c = 0; c < 3; ++c)
+        {
+            const double d = std::max({m_low[c] - p[c], p[c] - m_high[c], 0.0});
+            sum += d * d;
+        }
+        return sum;
+    }
+};
+
+/// Bounds of points and of how far they move within a step.
+struct SweptBox
+{
+    VectorBounds m_start, m_change;  ///< [m]
+
+    /// A point that moves by `change`.
+    static SweptBox of(const Vec3& point, const Vec3& change) { return {{point, point}, {change, change}}; }
+
+    void add(const SweptBox& b)
+    {
+        m_start.add(b.m_start);
+        m_change.add(b.m_change);
+    }
+
+    /// False only if no two points of this and the other come within `reach` [m], moving relative to each other in a
+    /// straight line: what both have in common does not matter.
+    bool meets(const SweptBox& b, double reach) const
+    {
+        const Vec3 &low = m_start.m_low, &high = m_start.m_high;
+        for (int c = 0; c < 3; ++c)
+        {
+            if (low[c] + std::min(0.0, m_change.m_low[c] - b.m_change.m_high[c]) > b.m_start.m_high[c] + reach)
+                return false;
+            if (high[c] + std::max(0.0, m_change.m_high[c] - b.m_change.m_low[c]) < b.m_start.m_low[c] - reach)
+                return false;
+        }
+        return true;
+    }
+};
+
+/// Largest distance that points of the two boxes can move relative to each other [m].
+inline double largestTravel(const SweptBox& a, const SweptBox& b)
+{
+    Vec3 most;
+    for (int c = 0; c < 3; ++c)
+        most[c] = std::fmax(std::fabs(a.m_change.m_high[c] - b.m_change.m_low[c]),
+                            std::fabs(b.m_change.m_high[c] - a.m_change.m_low[c]));
+    return norm(most);
+}
+
+}  // namespace bullet_fem

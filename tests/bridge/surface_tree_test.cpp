@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/soft_pairs/surface_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bridge/random_vectors.h"
+#include "bullet_bridge/soft_pairs/soft_surface.h"
+#include "bullet_fem/fem/generators.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// A ball whose surface is dented, and whose nodes each move their own way, at any place.
+struct MovingBall
+{
+    MovingBall(Random& random, const Vec3& place)
+        : m_mesh(makeSphere(1, 6)),
+          m_tree(m_mesh.restPositions(), m_mesh.surface()),
+          m_x(m_mesh.restPositions()),
+          m_change(m_x.size())
+    {
+        for (std::size_t i = 0; i < m_x.size(); ++i)
+        {
+            m_x[i] += place + 0.02 * random.point();
+            m_change[i] = Vec3{1, 0, 0} + 0.1 * random.point();
+        }
+        m_tree.refit(m_x, m_change);
+    }
+
+    int count() const { return static_cast<int>(m_mesh.surface().size()); }
+
+    SweptBox exact(int triangle) const
+    {
+        SweptBox box;
+        for (int i : m_mesh.surface()[triangle]) box.add(SweptBox::of(m_x[i], m_change[i]));
+        return box;
+    }
+
+    TetMesh m_mesh;
+    SurfaceTree m_tree;
+    std::vector<Vec3> m_x, m_change;
+};
+
+TEST(SurfaceTree, FindsTheNearestTriangleAndAllThatABoxMayMeet)
+{
+    Random random;
+    const MovingBall surface(random, {});
+    const SurfaceTree& tree = surface.m_tree;
+    const int count = surface.count();
+    std::size_t met = 0;
+    for (int k = 0; k < 100; ++k)
+    {
+        const Vec3 p = 1.5 * random.point();
+        TrianglePoint nearest;
+        const int found = tree.nearestTriangle(
+            p, 10, [](int t) { return t % 7 == 0; }, nearest);
+        ASSERT_GE(found, 0);
+        EXPECT_NE(found % 7, 0);
+        double least = 10;
+        for (int t = 0; t < count; ++t)
+            if (t % 7 != 0) least = std::min(least, norm(p - nearestOnTriangle(tree.corners(t), p).m_point));
+        EXPECT_EQ(norm(p - nearest.m_point), least);
+
+        const Vec3 way = Vec3{1, 0, 0} + 0.3 * random.point();
+        std::vector<int> near;
+        tree.visitNear(CoarseBox::of(p, way), 0.1, [&](int t) { near.push_back(t); });
+        std::sort(near.begin(), near.end());
+        std::vector<int> expected;
+        for (int t = 0; t < count; ++t)
+            if (surface.exact(t).meets(SweptBox::of(p, way), 0.1)) expected.push_back(t);
+        EXPECT_TRUE(std::includes(near.begin(), near.end(), expected.begin(), expected.end()));
+        EXPECT_LE(near.size(), 4 * expected.size() + 20) << "and not much more";
+        met += expected.size();
+    }
+    EXPECT_GT(met, 100u);
+}
+
+TEST(SurfaceTree, ACommonMotionDoesNotMatter)
+{
+    const SweptBox a = SweptBox::of({0, 0, 0}, {100, 0, 0}), b = SweptBox::of({50, 0, 0}, {100, 0, 0});
+    EXPECT_FALSE(a.meets(b, 1));
+    EXPECT_TRUE(a.meets(SweptBox::of({50, 0, 0}, {0, 0, 0}), 1));
+}
+
+using TrianglePairs = std::set<std::array<int, 2>>;
+
+// All pairs of triangles in the leaves that are visited, none twice.
+TrianglePairs visitedPairs(const SurfaceTree& a, const SurfaceTree& b, double reach)
+{
+    TrianglePairs pairs;
+    a.visitNearLeaves(b, reach,
+                      [&](const SurfaceTree::Leaf& leafA, const SurfaceTree::Leaf& leafB)
+                      {
+                          for (int k = leafA.m_first; k < leafA.m_end; ++k)
+                              for (int m = leafB.m_first; m < leafB.m_end; ++m)
+                                  EXPECT_TRUE(pairs.insert({a.triangleAt(k), b.triangleAt(m)}).second);
+                      });
+    return pairs;
+}
+
+TrianglePairs allPairsThatMeet(const MovingBall& a, const MovingBall& b, double reach)
+{
+    TrianglePairs pairs;
+    for (int t = 0; t < a.count(); ++t)
+        for (int u = 0; u < b.count(); ++u)
+            if (a.exact(t).meets(b.exact(u), reach)) pairs.insert({t, u});
+    return pairs;
+}
+
+class PlacedTrees : public testing::TestWithParam<Vec3>
+{
+};
+
+TEST_P(PlacedTrees, FindAllTrianglesOfEachOtherThatMayMeet)
+{
+    Random random;
+    const MovingBall a(random, GetParam()), b(random, GetParam() + Vec3{1.1, 0.9, 1.2});
+    const TrianglePairs expected = allPairsThatMeet(a, b, 0.05), found = visitedPairs(a.m_tree, b.m_tree, 0.05);
+    EXPECT_GT(expected.size(), 30u);
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
+    EXPECT_LE(found.size(), 5 * expected.size()) << "and not much more";
+}
+
+TEST_P(PlacedTrees, FindTheirOwnTrianglesBothWays)
+{
+    Random random;
+    const MovingBall ball(random, GetParam());
+    const TrianglePairs expected = allPairsThatMeet(ball, ball, 0), found = visitedPairs(ball.m_tree, ball.m_tree, 0);
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, PlacedTrees, testing::Values(Vec3{0, 0, 0}, Vec3{1000, -2000, 500}));
+
+// Boxes of some points, exact ones and coarse ones.
+struct BothBoxes
+{
+    BothBoxes(Random& random, const Vec3& place)
+    {
+        const Vec3 middle = random.point();
+        for (int k = 0; k < 2; ++k)
+        {
+            const Vec3 x = place + middle + 0.3 * random.point(), change = Vec3{1, 2, 3} + 0.3 * random.point();
+            m_exact.add(SweptBox::of(x, change));
+            m_coarse.add(CoarseBox::of(x, change));
+        }
+    }
+    SweptBox m_exact;
+    CoarseBox m_coarse = CoarseBox::empty();
+};
+
+// At twice the precision's rounding of the place the answers may differ, one way.
+TEST_P(PlacedTrees, CoarseBoxesSayNoOnlyWhereExactOnesDo)
+{
+    Random random;
+    int no = 0, yes = 0, differ = 0;
+    for (int k = 0; k < 20000; ++k)
+    {
+        const BothBoxes a(random, GetParam()), b(random, GetParam());
+        // Reaches just beyond what the boxes are apart.
+        double apart = 0, apartAtStart = 0;
+        for (int c = 0; c < 3; ++c)
+        {
+            const VectorBounds &x = a.m_exact.m_start, &y = b.m_exact.m_start;
+            const VectorBounds &dx = a.m_exact.m_change, &dy = b.m_exact.m_change;
+            const double above = x.m_low[c] - y.m_high[c], below = y.m_low[c] - x.m_high[c];
+            apartAtStart = std::max({apartAtStart, above, below});
+            apart = std::max({apart, above + std::min(0.0, dx.m_low[c] - dy.m_high[c]),
+                              below + std::min(0.0, dy.m_low[c] - dx.m_high[c])});
+        }
+        EXPECT_TRUE(a.m_coarse.startsWithin(b.m_coarse, coarse(apartAtStart)));
+        EXPECT_TRUE(a.m_coarse.meets(b.m_coarse, coarse(apart)));
+        const bool exact = a.m_exact.meets(b.m_exact, 0.1), quick = a.m_coarse.meets(b.m_coarse, coarse(0.1));
+        ++(exact ? yes : no);
+        differ += exact != quick;
+        EXPECT_TRUE(quick || !exact);
+    }
+    EXPECT_GT(yes, 1000);
+    EXPECT_GT(no, 1000);
+    EXPECT_LT(differ, 100);
+}
+
+TEST(CoarseBox, NothingMeetsNothing)
+{
+    const CoarseBox point = CoarseBox::of({1, 2, 3}, {4, 5, 6});
+    EXPECT_FALSE(CoarseBox::empty().meets(point, 1e6f));
+    EXPECT_FALSE(point.meets(CoarseBox::empty(), 1e6f));
+    EXPECT_FALSE(CoarseBox::empty().meets(CoarseBox::empty(), 1e6f));
+    EXPECT_FALSE(point.startsWithin(CoarseBox::empty(), 1e6f));
+    EXPECT_TRUE(point.meets(point, 0));
+}
+
+// The twelve edges of a cube, and none of the diagonals that its flat faces have.
+TEST(SurfaceRidges, AreListedOnceEach)
+{
+    const TetMesh mesh = makeBox({1, 1, 1}, {1, 1, 1});
+    SoftSurface surface(mesh);
+    std::vector<Vec3> v(mesh.restPositions().size(), Vec3{6, 0, 0});
+    surface.update(mesh.restPositions(), v, 1.0 / 60);
+    std::set<int> edges;
+    const SurfaceTree::Leaf all = {0, static_cast<int>(mesh.surface().size())};
+    for (const auto* ridge = surface.ridges().begin(all); ridge != surface.ridges().end(all); ++ridge)
+    {
+        const auto [a, b] = surface.features().m_edges[ridge->m_edge];
+        EXPECT_NEAR(norm(mesh.restPositions()[b] - mesh.restPositions()[a]), 1, 1e-12);
+        EXPECT_TRUE(edges.insert(ridge->m_edge).second);
+        // It moves 0.2 m in two steps.
+        const Vec3 later = mesh.restPositions()[a] + Vec3{0.199, 0, 0};
+        EXPECT_TRUE(ridge->m_box.meets(CoarseBox::of(later, {}), 0));
+        EXPECT_FALSE(ridge->m_box.meets(CoarseBox::of(mesh.restPositions()[a] + Vec3{1.21, 0, 0}, {}), 0));
+    }
+    EXPECT_EQ(edges.size(), 12u);
+}
+
+}  // namespace
+}  // namespace bullet_fem
