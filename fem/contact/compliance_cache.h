@@ -44,6 +44,9 @@ public:
     const float* column(int j) const { return m_columns[m_slotOfNode[j]].get(); }
     int offset(int i) const { return 9 * m_placeOfNode[i]; }
 
+    /// True if a request may drop columns that an earlier one asked for.
+    bool forgets() const { return m_columns.size() < m_nodes.size(); }
+
     /// Columns solved so far.
     long solvedColumns() const { return m_solvedColumns; }
 

@@ -43,8 +43,13 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
         if (m_bodies[b].size() == 0) continue;
         m_bodies[b].assemble(settings.m_denseLimit);
         m_inTurn = m_inTurn && m_bodies[b].isDense();
-        m_bodies[b].form();
+        if (problem.m_bodies[b].m_compliance->forgets()) m_bodies[b].form();
     }
+    forEachTouchedBody(threadsForCompliance(),
+                       [&](int b)
+                       {
+                           if (!problem.m_bodies[b].m_compliance->forgets()) m_bodies[b].form();
+                       });
     for (Row& row : m_rows)
     {
         finishRow(row);
@@ -287,6 +292,7 @@ double ContactRows::loadSpeed() const
 void ContactRows::restart()
 {
     m_acceleration = 1;
+    if (m_inTurn) return;
     for (Row& row : m_rows)
     {
         row.m_lastImpulse = row.m_impulse;

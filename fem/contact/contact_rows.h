@@ -71,26 +71,26 @@ private:
         bool m_angular = false;
         Vec3 m_arm;  // from the obstacle's centre [m]
     };
-    struct Row
+    struct Row  // what every look at a row reads comes first, what only some need last
     {
         bool m_joint = false;
+        bool m_idle = false;   // nothing can move: no compliance
+        bool m_works = false;  // belongs to the working set
+        int m_freeAxes = 0;    // that nothing limits: 1: the normal; 3: all
         RowEnd m_a, m_b;
-        Mat3 m_compliance;     // of the relative velocity to the impulse [1/kg]
+        Vec3 m_impulse;        // on end a
+        Vec3 m_target;         // relative velocity along the axes: at least (normal), exactly (joint) [m/s]
         Vec3 m_axes[3];        // normal and tangents; a joint's axes
         Vec3 m_rowCompliance;  // of every axis; a contact's tangents share the largest of their plane
-        Vec3 m_target;         // relative velocity along the axes: at least (normal), exactly (joint) [m/s]
-        Vec3 m_limit;          // of a joint's impulses
-        double m_most = 0;     // and of their sum
+        Vec3 m_yield;          // compliance added along the axes [1/kg]
         double m_friction = 0;
-        double m_softness = 0, m_spring = 0;            // of a joint: as a share of its compliance, and [1/kg]
-        Vec3 m_yield;                                   // compliance added along the axes [1/kg]
-        Vec3 m_impulse;                                 // on end a
+        Mat3 m_compliance;                              // of the relative velocity to the impulse [1/kg]
+        Vec3 m_residual, m_direction, m_response;       // of a minimization, along the axes
         Vec3 m_roundImpulse;                            // at the end of the last round
         Vec3 m_lastImpulse, m_lastVelocity, m_pending;  // of the sweeps at once
-        Vec3 m_residual, m_direction, m_response;       // of that, along the axes
-        int m_freeAxes = 0;                             // that nothing limits: 1: the normal; 3: all
-        bool m_idle = false;                            // nothing can move: no compliance
-        bool m_works = false;                           // belongs to the working set
+        Vec3 m_limit;                                   // of a joint's impulses
+        double m_most = 0;                              // and of their sum
+        double m_softness = 0, m_spring = 0;            // of a joint: as a share of its compliance, and [1/kg]
     };
 
     struct Subspace  // how sweeps and minimizations take turns
@@ -131,6 +131,7 @@ private:
     void solveCorrections();
     void restart();
     void chooseWorkingSet();
+    bool wantsToWork(const Row& row) const;
     bool restIsDone(double tolerance);
     double largestChange() const;
     double share(double speed) const;

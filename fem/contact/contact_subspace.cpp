@@ -95,7 +95,7 @@ void ContactRows::respondToDirections()
     const std::vector<Obstacle>& obstacles = m_problem->m_obstacles;
     m_probeLinear.assign(obstacles.size(), Vec3());
     m_probeAngular.assign(obstacles.size(), Vec3());
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].working().beginProbe();
+    forEachTouchedBody(nullptr, [this](int b) { m_bodies[b].working().beginProbe(); });
     const auto push = [&](const RowEnd& end, const Vec3& impulse)
     {
         if (end.m_body >= 0) m_bodies[end.m_body].working().addToProbe(end.m_end, impulse);
@@ -122,7 +122,7 @@ void ContactRows::respondToDirections()
         push(row.m_a, impulse);
         push(row.m_b, -impulse);
     }
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].working().respondToProbe();
+    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].working().respondToProbe(); });
     for (int k : m_working)
     {
         Row& row = m_rows[k];
@@ -144,7 +144,7 @@ void ContactRows::followDirections(double step)
             row.m_residual[i] -= step * row.m_response[i];
         }
     }
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].followProbe(step);
+    forEachTouchedBody(nullptr, [&](int b) { m_bodies[b].followProbe(step); });
     for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
     {
         m_problem->m_obstacles[k].m_linearVelocity += step * m_probeLinear[k];

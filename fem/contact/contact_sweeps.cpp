@@ -11,7 +11,8 @@ namespace
 
 constexpr int kSweepsBetween = 5;  // minimizations: they find out what touches, slides and sticks
 constexpr int kLongLife = 5;       // sweeps of a working set
-constexpr double kNews = 0.02;     // share of rows that have just joined it, beyond which it is good for one sweep
+constexpr int kShortLife = 2;      // where a share of its rows has just joined it
+constexpr double kNews = 0.02;     // that share
 
 }  // namespace
 
@@ -22,7 +23,9 @@ Vec3 ContactRows::solveContact(const Row& row, const Vec3& impulse, Vec3 v, doub
     const Vec3 n = row.m_axes[0];
     const double old = dot(impulse, n);
     const double missing = row.m_target.x - dot(n, v) - row.m_yield.x * old;
+    if (!(old > 0 || missing > 0)) return {};
     const double normal = std::max(0.0, old + step * missing / (row.m_rowCompliance.x + row.m_yield.x));
+    if (!(normal > 0)) return {};
     if (step == 1) v += row.m_compliance * ((normal - old) * n);
 
     // Friction: a step along the sliding velocity, projected to the disc of radius mu lambda_n.
@@ -89,9 +92,8 @@ void ContactRows::chooseWorkingSet()
     for (std::size_t k = 0; k < m_rows.size(); ++k)
     {
         Row& row = m_rows[k];
-        const Vec3 wanted = solveRow(row, row.m_impulse, velocity(row), 1);
         const bool worked = row.m_works;
-        row.m_works = row.m_joint || dot(row.m_impulse, row.m_impulse) > 0 || dot(wanted, wanted) > 0;
+        row.m_works = wantsToWork(row);
         if (row.m_works) m_working.push_back(static_cast<int>(k));
         if (row.m_works && !worked) ++joined;
     }
@@ -101,7 +103,14 @@ void ContactRows::chooseWorkingSet()
             if (end->m_body >= 0) m_bodies[end->m_body].work(end->m_end);
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].startWork(); });
     if (joined > 0) m_subspace.m_tried = false;  // more work is to be expected
-    m_lifeOfSet = joined > kNews * static_cast<double>(m_working.size()) ? 1 : kLongLife;
+    m_lifeOfSet = joined > kNews * static_cast<double>(m_working.size()) ? kShortLife : kLongLife;
+}
+
+bool ContactRows::wantsToWork(const Row& row) const
+{
+    if (row.m_joint || dot(row.m_impulse, row.m_impulse) > 0) return true;
+    const Vec3 wanted = solveRow(row, row.m_impulse, velocity(row), 1);
+    return dot(wanted, wanted) > 0;
 }
 
 // If rows that rest are to change by more than the tolerance, the next sweep chooses another working set.
