@@ -40,6 +40,9 @@ public:
     /// thousand times that.
     bool sweep(double tolerance);
 
+    /// What the last sweep in turn changed, likewise; 0 of one at once, whose short steps need not shrink.
+    double lastChange() const { return m_lastChange; }
+
     /// What a sweep would change after measure(), likewise.
     double error() const { return share(largestChange()); }
 
@@ -176,6 +179,7 @@ private:
     bool m_inTurn = true;                           // Gauss-Seidel
     std::vector<int> m_working;                     // rows that the sweeps in turn are over
     int m_lifeOfSet = -1;                           // sweeps until another is chosen; -1: there is none
+    double m_lastChange = 0;                        // by the last sweep in turn
     double m_speedScale = 0;                        // that errors are measured against [m/s]
     double m_gradientStep = 1, m_acceleration = 1;  // of the sweeps at once
     Subspace m_subspace;

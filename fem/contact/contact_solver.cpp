@@ -30,6 +30,33 @@ void ContactProblem::clear()
     m_handleBlocks.clear();
 }
 
+namespace
+{
+
+// Where points contradict each other, as some that slide do, an impulse grows by the same amount in every sweep and no
+// velocity changes. Two minimizations make up a window; a round ends if the best sweep of one is hardly better than
+// that of the one before.
+constexpr int kWindow = 10;
+constexpr double kHardlyBetter = 0.8;
+
+// The sweeps of a round.
+struct SweepProgress
+{
+    int m_sweeps = 0;
+    double m_best = 0, m_bestBefore = 0;  // changes, of this window and the last
+
+    bool stalls(double change)
+    {
+        m_best = m_sweeps % kWindow == 0 ? change : std::min(m_best, change);
+        if (++m_sweeps % kWindow != 0) return false;
+        const bool stalled = m_sweeps > kWindow && m_best > kHardlyBetter * m_bestBefore;
+        m_bestBefore = m_best;
+        return stalled;
+    }
+};
+
+}  // namespace
+
 struct ContactSolver::Scratch
 {
     ContactRows m_rows;
@@ -41,6 +68,7 @@ struct ContactSolver::Scratch
     double m_error = 1;       // after the last round
     double m_floor = 0;       // of a body's impulses that residuals are measured against
     bool m_guessing = false;  // the impulses are those of the last step
+    SweepProgress m_progress;
     bool m_stalled = false;
     bool m_empty = true;
 };
@@ -125,6 +153,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_rows.assemble(problem, settings);
     s.m_rows.warmStart();
     s.m_error = 1;
+    s.m_progress = {};
     s.m_stalled = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
@@ -152,7 +181,10 @@ bool ContactSolver::sweep()
     Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     ++s.m_report.m_sweeps;
-    return s.m_rows.sweep(s.m_sweepTolerance);
+    if (!s.m_rows.sweep(s.m_sweepTolerance)) return false;
+    // Between rows of others, which are swept in turn with these, and with joints, all are swept to the end.
+    const bool alone = !s.m_settings.m_untilSolved && s.m_problem->m_joints.empty();
+    return !alone || !s.m_progress.stalls(s.m_rows.lastChange());
 }
 
 void ContactSolver::correct()
@@ -160,6 +192,7 @@ void ContactSolver::correct()
     Scratch& s = *m_scratch;
     if (s.m_empty) return;
     ++s.m_report.m_rounds;
+    s.m_progress = {};
     const double change = s.m_rows.changeOfRound();
     if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFloorWithJoints);
     s.m_rows.apply(s.m_floor, s.m_guessing, s.m_report);

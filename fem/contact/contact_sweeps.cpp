@@ -68,6 +68,7 @@ Vec3 ContactRows::solveRow(const Row& row, const Vec3& impulse, const Vec3& v, d
 
 bool ContactRows::sweep(double tolerance)
 {
+    m_lastChange = 0;
     if (!m_inTurn) return sweepAtOnce() > tolerance;
     if (m_lifeOfSet < 0) chooseWorkingSet();
     if (m_problem->m_joints.empty() && m_subspace.m_sweeps == kSweepsBetween)
@@ -78,7 +79,8 @@ bool ContactRows::sweep(double tolerance)
     if (m_lifeOfSet == 0) chooseWorkingSet();
     ++m_subspace.m_sweeps;
     --m_lifeOfSet;
-    return sweepInTurn() > tolerance || !restIsDone(tolerance);
+    m_lastChange = sweepInTurn();
+    return m_lastChange > tolerance || !restIsDone(tolerance);
 }
 
 // Most points that were found near a surface carry nothing, and most of them never will: some sweeps go by without
