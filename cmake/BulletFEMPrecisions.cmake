@@ -72,15 +72,16 @@ function(bulletfem_bullet_library name)
     endforeach()
 endfunction()
 
-# bulletfem_bullet_test(<name> <source>...  LIBS <target>...  LABEL <label>): bulletfem_test for each precision. Those of
-# float64 have the program's and the tests' names with "-float64" behind.
+# bulletfem_bullet_test(<name> <source>...  LIBS <target>...  LABEL <label>  [COST <seconds>]): bulletfem_test for each
+# precision. Those of float64 have the program's and the tests' names with "-float64" behind.
 function(bulletfem_bullet_test name)
-    cmake_parse_arguments(ARG "" "LABEL" "LIBS" ${ARGN})
+    cmake_parse_arguments(ARG "" "LABEL;COST" "LIBS" ${ARGN})
     foreach(precision IN LISTS BULLETFEM_PRECISIONS)
         set(suffix "${BULLETFEM_SUFFIX_${precision}}")
         bulletfem_in_precision(libs "${suffix}" ${ARG_LIBS})
-        bulletfem_test(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS} LIBS ${libs} LABEL ${ARG_LABEL} SUFFIX "${suffix}"
-            KIND -bullet PRECOMPILE <BulletSoftBody/btSoftBody.h> <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+        bulletfem_test(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS} LIBS ${libs} LABEL ${ARG_LABEL} COST ${ARG_COST}
+            SUFFIX "${suffix}" KIND -bullet
+            PRECOMPILE <BulletSoftBody/btSoftBody.h> <BulletSoftBody/btSoftRigidDynamicsWorld.h>
                 <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h> <btBulletDynamicsCommon.h>)
     endforeach()
 endfunction()
