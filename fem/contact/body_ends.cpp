@@ -79,6 +79,7 @@ void BodyEnds::assemble(int denseLimit)
     for (std::vector<Vec3>* vectors : {&m_impulse, &m_applied, &m_seen}) vectors->assign(m_ends.size(), Vec3());
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
+    m_formed = false;
     if (!m_dense)
     {
         m_velocity.assign(m_ends.size(), Vec3());
@@ -96,10 +97,13 @@ void BodyEnds::assemble(int denseLimit)
     m_responses.reserve(m_ends.size());
     m_slotVelocity.assign(m_points.order(), 0);
     m_slotBefore.assign(m_points.order(), 0);
+    if (m_body.m_compliance->forgets()) form();  // before the next body asks
 }
 
 void BodyEnds::form()
 {
+    if (m_formed) return;
+    m_formed = true;
     if (!m_dense) return estimateDiagonal();
     m_points.form(m_body, m_scale);
     for (int e = 0; e < size(); ++e)

@@ -109,6 +109,7 @@ private:
 
     ContactBody m_body;
     bool m_dense = true;
+    bool m_formed = false;
     std::vector<End> m_ends;
     std::vector<Vec3> m_impulse;                       // per end, all
     std::vector<Vec3> m_applied;                       // per end, in the body's true velocities

@@ -43,13 +43,8 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
         if (m_bodies[b].size() == 0) continue;
         m_bodies[b].assemble(settings.m_denseLimit);
         m_inTurn = m_inTurn && m_bodies[b].isDense();
-        if (problem.m_bodies[b].m_compliance->forgets()) m_bodies[b].form();
     }
-    forEachTouchedBody(threadsForCompliance(),
-                       [&](int b)
-                       {
-                           if (!problem.m_bodies[b].m_compliance->forgets()) m_bodies[b].form();
-                       });
+    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
     for (Row& row : m_rows)
     {
         finishRow(row);
