@@ -17,6 +17,8 @@ namespace bullet_fem
 namespace
 {
 
+constexpr double kRounding = 1e-5;  // share of velocities that their differences may be off
+
 Mat3 mat3(const btMatrix3x3& m)
 {
     Mat3 result;
@@ -60,6 +62,13 @@ const btMultiBodyLinkCollider* linkOf(const btCollisionObject& object)
 {
     const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(&object);
     return link && link->m_multiBody && link->m_link < link->m_multiBody->getNumLinks() ? link : nullptr;
+}
+
+// A change of velocity without what goes against the direction in which something holds a body.
+Vec3 heldBack(const Vec3& change, const Vec3& holding)
+{
+    const double against = dot(change, holding);
+    return against < 0 ? change - (against / dot(holding, holding)) * holding : change;
 }
 
 }  // namespace
@@ -119,7 +128,9 @@ int RigidObstacles::indexOf(const btCollisionObject& object, double step)
 {
     for (std::size_t k = 0; k < m_sources.size(); ++k)
         if (m_sources[k].m_object == &object) return static_cast<int>(k);
-    m_sources.push_back({&object, broadphaseId(object), {}, {}});
+    m_sources.push_back({});
+    m_sources.back().m_object = &object;
+    m_sources.back().m_objectId = broadphaseId(object);
     Obstacle obstacle = immovable(object);
     const btMultiBodyLinkCollider* link = linkOf(object);
     if (link && ArticulatedBodies::canMove(*link))
@@ -139,7 +150,9 @@ int RigidObstacles::indexOf(const btCollisionObject& object, double step)
         if (m_phase == RigidPhase::moved)
         {
             obstacle.m_linearVelocity += step * vec3(body->getGravity());
-            addSupport(*body, step, obstacle);
+            const LinkMotion support = supportOf(*body, step, obstacle, false);
+            obstacle.m_linearVelocity += support.m_linear;
+            obstacle.m_angularVelocity += support.m_angular;
         }
         else
         {
@@ -161,27 +174,35 @@ void RigidObstacles::noteBeforeSolve(const btCollisionObject& object)
     m_before.push_back({&object, vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())});
 }
 
-// A body on a floor does not fall in the next step, and gives no way to what presses on it. What Bullet's contacts and
-// joints did to it in this step is what they will do in the next, as far as it withstands gravity and what soft bodies
-// gave it before; the rest, such as an impact, is over.
-void RigidObstacles::addSupport(const btRigidBody& body, double step, Obstacle& obstacle)
+// What Bullet's contacts and joints changed in this step.
+LinkMotion RigidObstacles::doneByBullet(const btRigidBody& body, double step, const Obstacle& obstacle) const
 {
     const auto before =
         std::find_if(m_before.begin(), m_before.end(), [&](const Before& b) { return b.m_object == &body; });
-    if (before == m_before.end()) return;
-    const auto part = [](const Vec3& done, const Vec3& needed)
-    {
-        const double whole = dot(needed, needed);
-        return whole > 0 ? std::clamp(dot(done, needed) / whole, 0.0, 1.0) * needed : Vec3();
-    };
-    const Remainder& memory = remainderOf(broadphaseId(body));
-    const Vec3 gravity = step * vec3(body.getGravity());
+    if (before == m_before.end()) return {};
+    const Vec3 after = vec3(body.getLinearVelocity());
     const Vec3 forces = step * body.getInvMass() * vec3(body.getTotalForce());
     const Vec3 torques = step * (obstacle.m_inverseInertia * vec3(body.getTotalTorque()));
-    obstacle.m_linearVelocity +=
-        part(vec3(body.getLinearVelocity()) - before->m_linear - forces, -(gravity + memory.m_linearGiven));
-    obstacle.m_angularVelocity +=
-        part(vec3(body.getAngularVelocity()) - before->m_angular - torques, -memory.m_angularGiven);
+    LinkMotion done = {after - before->m_linear - forces,
+                       vec3(body.getAngularVelocity()) - before->m_angular - torques};
+    if (norm(done.m_linear) < kRounding * (norm(after) + norm(forces))) done.m_linear = {};
+    return done;
+}
+
+// A body on a floor does not fall in the next step, and gives no way to what presses on it. What Bullet's contacts and
+// joints did to it in this step is what they will do in the next, as far as it withstands gravity and what soft bodies
+// gave it before; the rest, such as an impact, is over. A rewound one is where it was before they did it.
+LinkMotion RigidObstacles::supportOf(const btRigidBody& body, double step, const Obstacle& obstacle, bool rewound)
+{
+    const LinkMotion done = doneByBullet(body, step, obstacle);
+    const auto part = [](const Vec3& whole, const Vec3& needed)
+    {
+        const double square = dot(needed, needed);
+        return square > 0 ? std::clamp(dot(whole, needed) / square, 0.0, 1.0) * needed : Vec3();
+    };
+    const Remainder& memory = remainderOf(broadphaseId(body));
+    const Vec3 gravity = rewound ? Vec3() : step * vec3(body.getGravity());
+    return {part(done.m_linear, -(gravity + memory.m_linearGiven)), part(done.m_angular, -memory.m_angularGiven)};
 }
 
 // What gravity gives in a step is not speed: resting bodies have it as well. Bullet clears the hit fraction of those
@@ -213,9 +234,15 @@ int RigidObstacles::indexForContact(const btCollisionObject& object, double step
         return index;
     Obstacle& obstacle = m_obstacles[index];
     const LinkMotion now = motionNow(index);
+    obstacle.m_center -= step * now.m_linear;
     obstacle.m_linearVelocity = now.m_linear;
-    if (!movable(object)) obstacle.m_angularVelocity = now.m_angular;
-    obstacle.m_center -= step * obstacle.m_linearVelocity;
+    if (const btRigidBody* body = movable(object))
+    {
+        m_sources[index].m_held = doneByBullet(*body, step, obstacle).m_linear;
+        obstacle.m_linearVelocity += supportOf(*body, step, obstacle, true).m_linear;
+    }
+    else
+        obstacle.m_angularVelocity = now.m_angular;
     m_articulated.setCenter(index, obstacle.m_center);
     m_sources[index].m_rewound = true;
     m_rewound.push_back(m_sources[index].m_objectId);
@@ -278,7 +305,7 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
         Vec3 linear = obstacle.m_pushLinear, angular = obstacle.m_pushAngular;
         if (source.m_rewound)  // it went with the old velocity where it should have gone with the new
         {
-            linear += scaled(obstacle.m_inverseMass, source.m_linearImpulse);
+            linear += heldBack(scaled(obstacle.m_inverseMass, source.m_linearImpulse), source.m_held);
             angular += obstacle.m_inverseInertia * source.m_angularImpulse;
         }
         if (dot(linear, linear) + dot(angular, angular) == 0) continue;

@@ -60,13 +60,13 @@ public:
 
     /// Index of an object's obstacle, made when first asked for. `step` [s] is the world's. Rows use the velocity that
     /// a dynamic body will have next without soft bodies: in phase `moved` v + h g, and what other rigid bodies hold it
-    /// with (see addSupport); else v and what all its forces add.
+    /// with (see supportOf); else v and what all its forces add.
     int indexOf(const btCollisionObject& object, double step);
 
     /// The same for contacts with a soft body, after its free motion. Where the two move fast relative to each other
     /// (as isFast() has it) in phase `moved`, the rigid one is rewound: its obstacle is where Bullet moved it from,
-    /// with the velocity that it moved with. It stays so as long as it is asked for in every step. One that was asked
-    /// for before in this step stays as it is.
+    /// with the velocity that it moved with, held by what held it then. It stays so as long as it is asked for in every
+    /// step. One that was asked for before in this step stays as it is.
     int indexForContact(const btCollisionObject& object, double step, const Body& soft);
 
     /// True if Bullet has moved the object already, but its obstacle is as the step began.
@@ -92,7 +92,8 @@ public:
     btRigidBody* movableBody(int obstacle) const;
     Remainder& remainder(int obstacle) { return remainderOf(m_sources[obstacle].m_objectId); }
 
-    /// Moves the bodies by the position corrections, and rewound ones by what their change of velocity makes, and wakes
+    /// Moves the bodies by the position corrections, and rewound ones by what their change of velocity makes (but for
+    /// what goes against Bullet's contacts, which stop it in the next step: a floor stays a floor), and wakes
     /// those that felt impulses; in phase `moved` also adds these to their velocities, in double and once. `problem` is
     /// the one solved, with these obstacles.
     void applyReactions(const ContactProblem& problem, double step);
@@ -100,17 +101,19 @@ public:
 private:
     struct Source
     {
-        const btCollisionObject* m_object;
-        int m_objectId;
+        const btCollisionObject* m_object = nullptr;
+        int m_objectId = -1;
         Vec3 m_linearImpulse, m_angularImpulse;  // of all contacts and joints, on the rigid body
         bool m_rewound = false;
+        Vec3 m_held;            // of a rewound body: what Bullet's contacts and joints gave it in this step [m/s]
         LinkMotion m_now = {};  // of links that can move
     };
 
     void addReaction(int obstacle, const Vec3& impulse, const Vec3& point);
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
     void addToVelocity(btRigidBody& body, const Source& source, const Obstacle& obstacle);
-    void addSupport(const btRigidBody& body, double step, Obstacle& obstacle);
+    LinkMotion doneByBullet(const btRigidBody& body, double step, const Obstacle& obstacle) const;
+    LinkMotion supportOf(const btRigidBody& body, double step, const Obstacle& obstacle, bool rewound);
     bool mustRewind(int obstacle, double step, const Body& soft) const;
     Remainder& remainderOf(int objectId);
 

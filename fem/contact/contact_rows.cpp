@@ -59,8 +59,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     }
     m_gradientStep = 0;
     m_lifeOfSet = -1;
-    m_working.reserve(m_rows.size());
-    m_saved.reserve(m_rows.size());
+    reserve();
     m_subspace = {};
 }
 

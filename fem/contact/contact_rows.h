@@ -133,6 +133,7 @@ private:
     Vec3 solveRow(const Row& row, const Vec3& impulse, const Vec3& velocity, double step) const;
     void solveCorrections();
     void restart();
+    void reserve();
     void chooseWorkingSet();
     bool wantsToWork(const Row& row) const;
     bool restIsDone(double tolerance);

@@ -16,6 +16,15 @@ constexpr double kNews = 0.02;     // that share
 
 }  // namespace
 
+// What only some solves use: which of them is the first shall not matter.
+void ContactRows::reserve()
+{
+    m_working.reserve(m_rows.size());
+    m_saved.reserve(m_rows.size());
+    for (std::vector<Vec3>* saved : {&m_savedLinear, &m_savedAngular}) saved->reserve(m_problem->m_obstacles.size());
+    m_pushed.reserve(m_problem->m_bodies.size());
+}
+
 // The impulse that a contact wants for a relative velocity it has at another impulse; step: share of the way.
 Vec3 ContactRows::solveContact(const Row& row, const Vec3& impulse, Vec3 v, double step) const
 {

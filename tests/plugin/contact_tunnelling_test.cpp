@@ -332,4 +332,30 @@ TEST_P(Tunnelling, aTurningRodHitsWithItsTip)
     EXPECT_LT(rod.getAngularVelocity().y(), 1) << "it was stopped";
 }
 
+// Fast soft bodies see rigid ones where they were. What holds these from behind must count all the same.
+TEST_P(Tunnelling, aBallOnTheFloorIsNotDrivenIntoItByWhatFallsOnIt)
+{
+    for (const double speed : {1.0, 3.0, 6.0})
+    {
+        SCOPED_TRACE(testing::Message() << speed << " m/s");
+        FastScene scene(GetParam(), kGravity);
+        scene.m_world.addFloorBox();
+        const double radius = 0.03;
+        RigidSettings settings;
+        settings.m_mass = btScalar(0.1);
+        settings.m_transform = at(0, 0, btScalar(radius));
+        btRigidBody& ball = scene.m_world.addRigid(new btSphereShape(btScalar(radius)), settings);
+        btSoftBody& soft = scene.addSoft(makeBox({0.1, 0.1, 0.1}, {4, 4, 4}, {-0.05, -0.05, 2 * radius + 0.01}), 1e5);
+        scene.m_world.step(2);
+        soft.setVelocity(btVector3(0, 0, btScalar(-speed)));
+        double lowest = radius;
+        for (int k = 0; k < 60; ++k)
+        {
+            scene.m_world.step();
+            lowest = std::min(lowest, double(ball.getCenterOfMassPosition().z()));
+        }
+        EXPECT_GT(lowest, 0.9 * radius);
+    }
+}
+
 }  // namespace bullet_fem
