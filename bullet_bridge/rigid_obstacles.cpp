@@ -197,8 +197,8 @@ LinkMotion RigidObstacles::supportOf(const btRigidBody& body, double step, const
     const LinkMotion done = doneByBullet(body, step, obstacle);
     const auto part = [](const Vec3& whole, const Vec3& needed)
     {
-        const double square = dot(needed, needed);
-        return square > 0 ? std::clamp(dot(whole, needed) / square, 0.0, 1.0) * needed : Vec3();
+        const double square = dot(whole, whole);
+        return square > 0 ? std::clamp(dot(whole, needed) / square, 0.0, 1.0) * whole : Vec3();
     };
     const Remainder& memory = remainderOf(broadphaseId(body));
     const Vec3 gravity = rewound ? Vec3() : step * vec3(body.getGravity());
