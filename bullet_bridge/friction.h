@@ -18,8 +18,8 @@ constexpr double kLargestFriction = 10;
 inline double frictionBetween(const btSoftBody& body, const btCollisionObject& other)
 {
     const btSoftBody* soft = btSoftBody::upcast(&other);
-    const double mu = soft ? double(std::max(body.m_cfg.kDF, soft->m_cfg.kDF))
-                           : double(body.m_cfg.kDF) * double(other.getFriction());
+    const double mu =
+        soft ? double(std::max(body.m_cfg.kDF, soft->m_cfg.kDF)) : double(body.m_cfg.kDF) * double(other.getFriction());
     return mu > 0 ? std::min(mu, kLargestFriction) : 0;
 }
 

@@ -22,9 +22,9 @@ struct CageSettings
     /// Share of the way that boundary nodes move toward the nearest point of the surface, in [0, 1]; 0: none. They stop
     /// where an element would fall below a mean ratio of .3, or the surface would no longer be inside.
     double m_snap = 0;
-    /// Cells that thin parts are to have across, in [0.5, 8], 2 is usual; 0: cells are alike. Cells stay m_cellSize long
-    /// where the surface's other side is farther away than that many; elsewhere they are halved as often as it takes,
-    /// and in narrow gaps, too, so that their sides come apart.
+    /// Cells that thin parts are to have across, in [0.5, 8], 2 is usual; 0: cells are alike. Cells stay m_cellSize
+    /// long where the surface's other side is farther away than that many; elsewhere they are halved as often as it
+    /// takes, and in narrow gaps, too, so that their sides come apart.
     double m_cellsAcross = 0;
     int m_mostLevels = 3;    ///< most halvings of a cell's edge where cells are graded, in [1, 6]
     int m_maxTets = 200000;  ///< refuse beyond this many elements, in [5, 5e6]
