@@ -3,6 +3,7 @@
 #include "bullet_fem/btFemConstraintSolver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
@@ -11,12 +12,6 @@
 #include "plugin/btFemCoupling.h"
 
 using namespace bullet_fem;
-
-namespace
-{
-constexpr btScalar kRigidResidual =
-    btScalar(1e-12);  // squared change of a rigid row's velocity that ends the sweeps [m2/s2]
-}
 
 btFemConstraintSolver::btFemConstraintSolver(btFemSoftBodySolver* fem) : m_fem(fem)
 {
@@ -116,9 +111,10 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
             const btScalar residual =
                 solveSingleIteration(std::min(sweep, last), bodies, numBodies, manifolds, numManifolds, constraints,
                                      numConstraints, info, debugDrawer);
-            const bool moves = m_group->sweep();
-            if (sweep >= last && !moves && residual <= std::max(info.m_leastSquaresResidualThreshold, kRigidResidual))
-                break;
+            // The residual is the square of the largest change of a row's velocity.
+            const bool rigidMoves = residual > info.m_leastSquaresResidualThreshold;
+            const bool moves = m_group->sweep(rigidMoves ? std::sqrt(residual) : 0);
+            if (sweep >= last && !moves) break;
         }
         m_group->correct();
     } while (m_group->wantsRound());

@@ -43,6 +43,9 @@ public:
     /// What the last sweep in turn changed, likewise; 0 of one at once, whose short steps need not shrink.
     double lastChange() const { return m_lastChange; }
 
+    /// A speed as a share of that scale; 1000 if there is none.
+    double share(double speed) const;
+
     /// What a sweep would change after measure(), likewise.
     double error() const { return share(largestChange()); }
 
@@ -138,7 +141,6 @@ private:
     bool wantsToWork(const Row& row) const;
     bool restIsDone(double tolerance);
     double largestChange() const;
-    double share(double speed) const;
     static double speedOf(const Row& row, const Vec3& difference);
     double wantedSpeed(const Row& row) const;
     double loadSpeed() const;

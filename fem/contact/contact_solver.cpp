@@ -88,6 +88,9 @@ constexpr double kResidualShare = 0.3;
 constexpr int kUsualRounds = 3;
 constexpr double kCloser = 0.3;
 
+// Rows of others may be solved in single precision.
+constexpr double kRoundingOfOthers = 1e-6;  // [m/s]
+
 // A guess that is good enough as it stands must be better than an answer: its error is that of the step before, and
 // would be carried on from step to step.
 constexpr double kRoundGuessShare = 0.1;
@@ -176,15 +179,17 @@ bool ContactSolver::wantsRound() const
            (rounds < s.m_settings.m_maxRounds && s.m_error > s.m_roundTolerance && !s.m_stalled);
 }
 
-bool ContactSolver::sweep()
+bool ContactSolver::sweep(double others)
 {
     Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     ++s.m_report.m_sweeps;
-    if (!s.m_rows.sweep(s.m_sweepTolerance)) return false;
-    // Between rows of others, which are swept in turn with these, and with joints, all are swept to the end.
-    const bool alone = !s.m_settings.m_untilSolved && s.m_problem->m_joints.empty();
-    return !alone || !s.m_progress.stalls(s.m_rows.lastChange());
+    const double othersChange = s.m_rows.share(others);
+    const bool othersMove = others > kRoundingOfOthers && othersChange > s.m_sweepTolerance;
+    const bool moves = s.m_rows.sweep(s.m_sweepTolerance);
+    if (!moves && !othersMove) return false;
+    const bool joints = !s.m_problem->m_joints.empty();  // with them, all are swept to the end
+    return joints || !s.m_progress.stalls(std::max(s.m_rows.lastChange(), othersChange));
 }
 
 void ContactSolver::correct()

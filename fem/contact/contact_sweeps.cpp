@@ -173,7 +173,6 @@ double ContactRows::largestChange() const
     return largest;
 }
 
-// Of the speed scale; 1000 if there is none.
 double ContactRows::share(double speed) const
 {
     return speed > 0 ? speed / std::max(m_speedScale, 1e-3 * speed) : 0;

@@ -175,10 +175,10 @@ void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool)
     onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
 }
 
-bool btFemContactGroup::sweep()
+bool btFemContactGroup::sweep(double others)
 {
     bool moves = false;
-    onSolverBodies([&] { moves = m_solver.sweep(); });
+    onSolverBodies([&] { moves = m_solver.sweep(others); });
     return moves;
 }
 

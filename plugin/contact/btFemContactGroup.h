@@ -55,7 +55,7 @@ public:
     /// Within Bullet's rigid solver, on its solver bodies: begin, then while wantsRound sweep ... sweep, correct, and
     /// at the end finish; after the rigid solver has written its bodies back, moveRigid.
     void begin(btAlignedObjectArray<btSolverBody>& pool);
-    bool sweep();
+    bool sweep(double others);
     bool wantsRound() const { return m_solver.wantsRound(); }
     void correct();
     void finish();

@@ -203,9 +203,10 @@ public:
     /// Gives the obstacles the reactions of the guessed impulses, and measures. `problem` must live until finish.
     void begin(ContactProblem& problem, const ContactSettings& settings);
 
-    /// One sweep over all rows; the obstacles' velocities follow. Returns false if it changed less than the tolerance:
-    /// the round may end.
-    bool sweep();
+    /// One sweep over all rows; the obstacles' velocities follow. Returns false if it changed less than the tolerance,
+    /// and so did rows of others that are swept in turn with these, or both no longer get anywhere: the round may end.
+    /// `others`: the largest change of velocity by those rows since the last sweep [m/s].
+    bool sweep(double others = 0);
 
     /// Ends a round: solves the true systems for the impulses that are new since the last call.
     void correct();
