@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr double kTooStiff = 1.1;        // W may be too stiff by this factor before it is scaled
+constexpr double kTooSoft = 0.7;         // and may promise so much more than comes
 constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
 constexpr double kLargestScaling = 100;  // in one round
 constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
@@ -79,7 +80,7 @@ void BodyEnds::assemble(int denseLimit)
     for (std::vector<Vec3>* vectors : {&m_impulse, &m_applied, &m_seen}) vectors->assign(m_ends.size(), Vec3());
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
-    m_formed = false;
+    m_formed = m_tooSoft = false;
     if (!m_dense)
     {
         m_velocity.assign(m_ends.size(), Vec3());
@@ -278,7 +279,9 @@ void BodyEnds::endCorrection()
 
 void BodyEnds::learn(double trueWork, double predictedWork)
 {
-    if (!(predictedWork > kNoise * m_allWork) || !(trueWork > kTooStiff * predictedWork)) return;
+    if (!(predictedWork > kNoise * m_allWork)) return;
+    m_tooSoft = m_tooSoft || trueWork < kTooSoft * predictedWork;
+    if (!(trueWork > kTooStiff * predictedWork)) return;
     const double factor = std::min(kScaleMargin * trueWork / predictedWork, kLargestScaling);
     m_learnt = factor != 1;
     m_scale *= factor;

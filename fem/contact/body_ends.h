@@ -39,6 +39,10 @@ public:
 
     /// True if the last correction scaled W up; compliance() has grown then.
     bool hasLearnt() const { return m_learnt; }
+
+    /// True if the body has answered much less than W said, in any correction of this problem.
+    bool isTooSoft() const { return m_tooSoft; }
+
     bool isDense() const { return m_dense; }
     const Body& body() const { return *m_body.m_body; }
 
@@ -124,6 +128,7 @@ private:
     Mat3 m_meanDiagonal;                    // not dense: estimate of W_ee, without the learnt scale
     double m_scale = 1;                     // learnt
     bool m_learnt = false;                  // in the last correction
+    bool m_tooSoft = false;                 // in any of this problem
     double m_allWork = 0;                   // of the impulses so far, roughly [J]
 };
 

@@ -53,6 +53,9 @@ public:
     /// impulses at least. `steady`: the impulses are all of a step much like the one before.
     void apply(double floor, bool steady, ContactReport& report);
 
+    /// True if a body has answered less than its compliance said: rounds go a part of the way only.
+    bool isTooSoft() const;
+
     /// Largest change of an impulse since the last call, over the largest impulse.
     double changeOfRound();
 

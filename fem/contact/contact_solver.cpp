@@ -95,9 +95,14 @@ constexpr double kRoundingOfOthers = 1e-6;  // [m/s]
 // would be carried on from step to step.
 constexpr double kRoundGuessShare = 0.1;
 
-// A round that leaves more than this share of a small error has met the error of the corrective solves. Impacts may
-// take rounds that seem to lead nowhere.
-constexpr double kStalled = 0.97, kSmallError = 1e-3;
+// A round that leaves more than this share of a small error has met the error of the corrective solves, or points that
+// slide and hand their load on to each other bit by bit, which the next step takes up. Where W is too soft, every round
+// goes a part of the way. Impacts may take rounds that seem to lead nowhere.
+struct Standstill
+{
+    double m_share, m_smallError;
+};
+constexpr Standstill kStandstill = {0.8, 5e-3}, kStandstillWhereSoft = {0.97, 1e-3};
 
 // An obstacle's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
 // all. Of an articulated one, whoever knows its joints makes the sum.
@@ -204,8 +209,9 @@ void ContactSolver::correct()
     s.m_rows.measure();
     const double before = s.m_error;
     s.m_error = s.m_problem->m_joints.empty() ? s.m_rows.error() : change;
+    const Standstill limit = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
     s.m_stalled = !s.m_settings.m_untilSolved && s.m_report.m_rounds > s.m_minRounds + 1 &&
-                  s.m_error > kStalled * before && s.m_error < kSmallError;
+                  s.m_error > limit.m_share * before && s.m_error < limit.m_smallError;
 }
 
 ContactReport ContactSolver::finish()

@@ -166,6 +166,13 @@ double ContactRows::sweepInTurn()
     return share(largest);
 }
 
+bool ContactRows::isTooSoft() const
+{
+    const auto isSoft = [](const BodyEnds& body) { return body.size() > 0 && body.isTooSoft(); };
+    return std::any_of(m_bodies.begin(), m_bodies.begin() + static_cast<std::ptrdiff_t>(m_problem->m_bodies.size()),
+                       isSoft);
+}
+
 double ContactRows::largestChange() const
 {
     double largest = 0;

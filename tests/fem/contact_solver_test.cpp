@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <cmath>
 #include <numeric>
 
 #include "bullet_fem/fem/stepping.h"
@@ -130,6 +131,34 @@ TEST(Contact, NeverPulls)
     scene.solve();
     for (const ContactPoint& contact : scene.m_contacts) EXPECT_EQ(norm(contact.m_impulse), 0);
     for (const Vec3& v : velocity(scene.m_body)) EXPECT_LE(norm(v - Vec3{0, 0, 2}), 1e-14);
+}
+
+// Rows of others, such as those between rigid bodies, are swept in turn with these until both are done, or get nowhere.
+TEST(Contact, IsSweptAsLongAsOthersMove)
+{
+    constexpr int kMany = 1000;
+    ContactScene scene;
+    scene.setVelocity({0, 0, -2});
+    scene.touchLowerFace(0, 0.5);
+    scene.m_problem.m_bodies = {{&scene.m_body, scene.m_cache.get()}};
+    solveFreeMotion(scene.m_body, scene.m_settings.m_step);
+    scene.m_settings.m_untilSolved = true;
+    scene.m_solver.begin(scene.m_problem, scene.m_settings);
+    const auto sweepsUntilDone = [&](auto others)
+    {
+        int sweeps = 1;
+        while (scene.m_solver.sweep(others(sweeps)) && sweeps < kMany) ++sweeps;
+        scene.m_solver.correct();
+        return sweeps;
+    };
+    const int alone = sweepsUntilDone([](int) { return 0.0; });
+    EXPECT_LT(alone, kMany);
+    EXPECT_EQ(sweepsUntilDone([](int) { return 1e-7; }), 1) << "that others still change by less than they round to";
+    const auto slowing = [](int sweep) { return std::pow(0.7, sweep); };  // [m/s]
+    const int last = sweepsUntilDone(slowing);
+    EXPECT_LE(slowing(last), 2 * scene.m_settings.m_tolerance) << "of 2 m/s that contact changes";
+    EXPECT_GT(slowing(last - 1), 2 * scene.m_settings.m_tolerance);
+    EXPECT_EQ(sweepsUntilDone([](int) { return 1.0; }), 20) << "the second ten are no better than the first";
 }
 
 TEST(Contact, IsNotFeltFromAfar)
