@@ -11,7 +11,7 @@
 #include "bullet_fem/fem/generators.h"
 #include "examples/energy_book.h"
 #include "examples/example_bodies.h"
-#include "plugin/deformable_scene.h"
+#include "plugin/scenes/deformable_scene.h"
 
 namespace bullet_fem
 {

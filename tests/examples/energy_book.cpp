@@ -9,7 +9,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "examples/example_bodies.h"
-#include "plugin/scene_measures.h"
+#include "plugin/scenes/scene_measures.h"
 
 namespace bullet_fem
 {

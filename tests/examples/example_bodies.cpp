@@ -9,7 +9,7 @@
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/fem/generators.h"
 #include "fem/rotation.h"
-#include "plugin/tetgen_text.h"
+#include "plugin/scenes/tetgen_text.h"
 
 namespace bullet_fem
 {

@@ -13,8 +13,8 @@
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "examples/energy_book.h"
 #include "examples/example_bodies.h"
-#include "plugin/scene_measures.h"
-#include "plugin/soft_world.h"
+#include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/soft_world.h"
 
 namespace bullet_fem
 {

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "fem/elasticity_scenes.h"
-#include "fem/expect_rejected.h"
-#include "fem/test_constants.h"
+#include "fem/scenes/elasticity_scenes.h"
+#include "fem/scenes/expect_rejected.h"
+#include "fem/scenes/test_constants.h"
 
 namespace bullet_fem
 {

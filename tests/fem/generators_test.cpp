@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "fem/expect_rejected.h"
-#include "fem/test_constants.h"
+#include "fem/scenes/expect_rejected.h"
+#include "fem/scenes/test_constants.h"
 
 namespace bullet_fem
 {

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <vector>
 
-#include "fem/expect_rejected.h"
-#include "fem/test_constants.h"
+#include "fem/scenes/expect_rejected.h"
+#include "fem/scenes/test_constants.h"
 
 namespace bullet_fem
 {

@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-#include "fem/elasticity_scenes.h"
+#include "fem/scenes/elasticity_scenes.h"
 #include "support/allocation_counter.h"
 
 namespace bullet_fem

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bullet_fem/fem/generators.h"
-#include "fem/expect_rejected.h"
+#include "fem/scenes/expect_rejected.h"
 
 namespace bullet_fem
 {

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/compliance_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "fem/scenes/dense_system.h"
+#include "fem/scenes/elasticity_scenes.h"
+#include "fem/factor/rest_factor.h"
+#include "support/allocation_counter.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kSingle = 1e-5;    // 6e-8 of the factor's single precision times a condition of some 100
+constexpr double kIterated = 1e-3;  // what columns on the low-memory path are iterated to
+
+bool sameBits(const Mat3& a, const Mat3& b)
+{
+    return squaredNorm(a - b) == 0;
+}
+
+class ComplianceCacheTest : public testing::TestWithParam<FactorChoice>
+{
+protected:
+    static std::shared_ptr<const BodyModel> withChoice(const BodyModel& model, FactorInput input)
+    {
+        input.m_choice = GetParam();
+        return BodyModel::create(model.sharedShape(), std::move(input));
+    }
+
+    static Body makeClampedBody()
+    {
+        Material material = elasticMaterial(1e5, 0.3);
+        material.m_massDamping = 2;
+        material.m_stiffnessDamping = 0.01;
+        return makeBody(makeBox({1, 1, 1}, {3, 3, 3}), material, [](const Vec3& X) { return X.x == 0; });
+    }
+
+    static std::shared_ptr<const BodyModel> makeModel()
+    {
+        const auto model = makeClampedBody().m_model;
+        return withChoice(*model, model->factorInput());
+    }
+
+    const double m_error = GetParam() == FactorChoice::full ? kSingle : kIterated;
+    const std::shared_ptr<const BodyModel> m_model = makeModel();
+    const std::vector<int>& m_surface = m_model->mesh().surfaceNodes();
+};
+
+TEST_P(ComplianceCacheTest, HoldsTheInverseOfA0)
+{
+    const FactorInput& input = m_model->factorInput();
+    const Eigen::MatrixXd inverse = constrained(denseRestSystem(m_model->shape(), input), input.m_fixed).inverse();
+    ComplianceCache cache(m_model);
+    cache.request(m_surface);
+    int compared = 0;
+    for (int j : m_surface)
+        for (int i : m_surface)
+        {
+            if (input.m_fixed[i] || input.m_fixed[j]) continue;
+            const Eigen::Matrix3d expected = inverse.block<3, 3>(3 * i, 3 * j);
+            const double size = inverse.block<3, 3>(3 * j, 3 * j).norm();
+            ASSERT_LE((dense(cache.block(i, j)) - expected).norm(), m_error * size) << i << " " << j;
+            ++compared;
+        }
+    EXPECT_EQ(compared, 40 * 40);  // 56 of 64 nodes on the surface, 16 of them clamped
+}
+
+TEST_P(ComplianceCacheTest, ServesTheNodesThatItIsMadeFor)
+{
+    const FactorInput& input = m_model->factorInput();
+    const Eigen::MatrixXd inverse = constrained(denseRestSystem(m_model->shape(), input), input.m_fixed).inverse();
+    const std::vector<int> nodes = {21, 22, 25, 26, 37, 63};  // but for the last, inside
+    ComplianceCache cache(m_model, nodes);
+    cache.request({25, 63, 21, 22, 26, 37});
+    for (int j : nodes)
+        for (int i : nodes)
+        {
+            const Eigen::Matrix3d expected = inverse.block<3, 3>(3 * i, 3 * j);
+            const double size = inverse.block<3, 3>(3 * j, 3 * j).norm();
+            EXPECT_LE((dense(cache.block(i, j)) - expected).norm(), m_error * size) << i << " " << j;
+        }
+}
+
+TEST_P(ComplianceCacheTest, IsZeroForFixedNodes)
+{
+    ComplianceCache cache(m_model);
+    cache.request(m_surface);
+    int zero = 0;
+    for (int j : m_surface)
+        for (int i : m_surface) zero += sameBits(cache.block(i, j), Mat3());
+    EXPECT_EQ(zero, 56 * 56 - 40 * 40);
+}
+
+// One node at a time: room for two columns, so that each is thrown out soon and solved again, to the same bits.
+TEST_P(ComplianceCacheTest, GivesTheSameNumbersAfterEviction)
+{
+    ComplianceCache all(m_model), small(m_model, 0);
+    all.request(m_surface);
+    for (int round = 0; round < 3; ++round)
+        for (int j : m_surface)
+        {
+            small.request({j});
+            for (int i : m_surface) ASSERT_TRUE(sameBits(small.block(i, j), all.block(i, j))) << i << " " << j;
+        }
+}
+
+// Bodies that share a cache ask for different nodes in every step.
+TEST_P(ComplianceCacheTest, SolvesEveryColumnOnceWithinItsBudget)
+{
+    ComplianceCache cache(m_model), small(m_model, 0);
+    for (int step = 0; step < 2; ++step)
+        for (const int node : m_surface)
+            for (ComplianceCache* c : {&cache, &small}) c->request({node});
+    EXPECT_EQ(cache.solvedColumns(), static_cast<long>(m_surface.size()));
+    EXPECT_EQ(small.solvedColumns(), 2 * static_cast<long>(m_surface.size()));
+}
+
+// The columns of one request never throw each other out, whatever was there before.
+TEST_P(ComplianceCacheTest, KeepsAllColumnsOfARequest)
+{
+    ComplianceCache all(m_model), small(m_model, 0);
+    all.request(m_surface);
+    const int n = static_cast<int>(m_surface.size());
+    for (int first = 0; first < n; ++first)
+    {
+        std::vector<int> nodes;
+        for (int k = 0; k < 5; ++k) nodes.push_back(m_surface[(first * 7 + k * 11) % n]);
+        small.request(nodes);
+        for (int j : nodes)
+            for (int i : nodes) ASSERT_TRUE(sameBits(small.block(i, j), all.block(i, j))) << i << " " << j;
+    }
+}
+
+// Room for ten columns, all taken; the request names the oldest of them before four new ones.
+TEST_P(ComplianceCacheTest, DoesNotThrowOutWhatTheRequestNames)
+{
+    ComplianceCache cache(m_model, 0);
+    std::vector<std::vector<int>> requests = {{0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}, {0, 10, 11, 12, 13}};
+    for (std::vector<int>& nodes : requests)
+    {
+        for (int& node : nodes) node = m_surface[4 * node + 1];
+        cache.request(nodes);
+    }
+    ComplianceCache all(m_model);
+    all.request(m_surface);
+    for (int j : requests.back()) EXPECT_TRUE(sameBits(cache.block(j, j), all.block(j, j))) << j;
+}
+
+TEST_P(ComplianceCacheTest, TakesRepeatedNodesAndNone)
+{
+    ComplianceCache all(m_model), cache(m_model);
+    all.request(m_surface);
+    const int a = m_surface[30], b = m_surface[50];
+    cache.request({});
+    cache.request({a, a, b, a, b});
+    EXPECT_TRUE(sameBits(cache.block(a, b), all.block(a, b)));
+    EXPECT_TRUE(sameBits(cache.block(b, a), all.block(b, a)));
+    const std::vector<int> many(3 * m_surface.size(), a);  // more than there are nodes
+    cache.request(many);
+    EXPECT_TRUE(sameBits(cache.block(b, a), all.block(b, a)));
+}
+
+TEST_P(ComplianceCacheTest, DoesNotAllocateForRequestsNoLargerThanBefore)
+{
+    ComplianceCache cache(m_model);
+    std::vector<int> nodes(m_surface.begin() + 10, m_surface.begin() + 20);
+    cache.request(nodes);
+    const AllocationCounter counter;
+    for (std::size_t k = 0; k < m_surface.size(); ++k)
+    {
+        for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = m_surface[(3 * i + k) % m_surface.size()];
+        cache.request(nodes);
+        cache.request(nodes);
+    }
+    EXPECT_EQ(counter.count(), 0);
+}
+
+// Whatever the body weighs: blocks scale as 1 / kg, and single precision keeps its digits.
+TEST_P(ComplianceCacheTest, ScalesWithTheMass)
+{
+    const int a = m_surface[30], b = m_surface[50];
+    ComplianceCache cache(m_model);
+    cache.request({a, b});
+    for (const double scale : {1e-8, 1e8})
+    {
+        Material material = m_model->shape().m_material;
+        material.m_youngModulus *= scale;
+        FactorInput input = m_model->factorInput();
+        for (double& m : input.m_mass) m *= scale;
+        ComplianceCache scaled(
+            BodyModel::create(std::make_shared<const RestShape>(m_model->mesh(), material), std::move(input)));
+        scaled.request({a, b});
+        const Mat3 expected = (1 / scale) * cache.block(a, b);
+        EXPECT_LE(squaredNorm(scaled.block(a, b) - expected), m_error * m_error * squaredNorm(expected)) << scale;
+    }
+}
+
+TEST_P(ComplianceCacheTest, OfAFullyFixedBodyIsZero)
+{
+    FactorInput input = m_model->factorInput();
+    input.m_fixed.assign(input.m_fixed.size(), 1);
+    ComplianceCache cache(withChoice(*m_model, input));
+    cache.request(m_surface);
+    EXPECT_TRUE(sameBits(cache.block(m_surface[0], m_surface[1]), Mat3()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Factors, ComplianceCacheTest, testing::Values(FactorChoice::full, FactorChoice::lowMemory),
+                         [](const auto& factor) { return factor.param == FactorChoice::full ? "full" : "lowMemory"; });
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/point_compliance.h"
+
+#include <random>
+
+#include "bullet_fem/fem/stepping.h"
+#include "fem/contact/compliance_cache.h"
+#include "fem/contact/compliance_kernel.h"
+#include "fem/scenes/element_case.h"
+#include "fem/warped_system.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+std::vector<float> randomFloats(std::size_t count, unsigned seed)
+{
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    std::vector<float> result(count);
+    for (float& x : result) x = uniform(engine);
+    return result;
+}
+
+class ComplianceKernel : public OnTarget
+{
+};
+
+// All nodes, and those from the second vector on: what lies before them is not written.
+TEST_P(ComplianceKernel, TurnsColumnsAsItsTwinDoes)
+{
+    constexpr std::size_t kNodes = 3 * kNodePadding;
+    const std::vector<float> blocks = randomFloats(9 * kNodes, 1), rotations = randomFloats(9 * kNodes, 2);
+    std::vector<int> offsets;
+    for (std::size_t i = 0; i < kNodes; ++i) offsets.push_back(static_cast<int>(9 * ((7 * i) % kNodes)));
+    RestColumn column{blocks.data(), offsets.data(), rotations.data(), kNodes, 0, {1, -2, 3, 4, 5, -6, 7, 8, 9}};
+    for (const std::size_t first : {std::size_t(0), kNodePadding})
+    {
+        column.m_first = first;
+        std::vector<float> out(9 * kNodes, 99.f), expected = out;
+        turnColumn(column, out.data());
+        scalar::turnColumn(column, expected.data());
+        for (std::size_t i = 0; i < out.size(); ++i) EXPECT_NEAR(out[i], expected[i], 1e-5 * 9) << first << " " << i;
+        EXPECT_EQ(out[0] == 99.f, first > 0);
+    }
+}
+
+// Sizes with and without a rest at the end of every vector width; no array at all.
+TEST_P(ComplianceKernel, AddsWeightedArraysAsItsTwinDoes)
+{
+    const std::vector<float> values = randomFloats(4 * 50, 3), weights = {.5f, -2, .25f, 3};
+    const float* arrays[] = {&values[0], &values[50], &values[100], &values[150]};
+    for (const int count : {0, 1, 3, 4})
+        for (const std::size_t size : {1, 5, 16, 33, 50})
+        {
+            std::vector<float> sum(51, 99.f), expected = sum;
+            addWeighted({arrays, weights.data(), count}, size, sum.data());
+            scalar::addWeighted({arrays, weights.data(), count}, size, expected.data());
+            for (std::size_t i = 0; i < size; ++i) EXPECT_NEAR(sum[i], expected[i], 2e-6) << count << " " << size;
+            EXPECT_EQ(sum[size], 99.f);
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryTarget, ComplianceKernel, testing::ValuesIn(availableTargets()), targetName);
+
+/// A box that is clamped at one end and bent, one of its free nodes held since.
+class PointComplianceTest : public testing::Test
+{
+protected:
+    PointComplianceTest()
+        : m_body(makeBody(makeBox({2, 1, 1}, {4, 2, 2}), elasticMaterial(1e5, 0.3),
+                          [](const Vec3& X) { return X.x == 0; })),
+          m_cache(makeComplianceCache(m_body.m_model))
+    {
+        for (Vec3& x : m_body.m_state.m_x) x = {x.x, x.y + 0.2 * x.x * x.x, x.z - 0.1 * x.x * x.y};
+        for (int node : m_body.m_model->mesh().surfaceNodes())
+            (m_body.m_state.m_fixed[node] ? m_clamped : m_free).push_back(node);
+        m_body.m_state.m_fixed[m_free.back()] = 1;
+        m_held = m_free.back();
+        m_free.pop_back();
+        solveFreeMotion(m_body, StepSettings());
+    }
+
+    static SurfacePoint point(const std::vector<int>& nodes, const std::vector<double>& weights)
+    {
+        SurfacePoint result;
+        result.m_body = 0;
+        result.m_count = static_cast<int>(nodes.size());
+        std::copy(nodes.begin(), nodes.end(), result.m_nodes.begin());
+        std::copy(weights.begin(), weights.end(), result.m_weights.begin());
+        return result;
+    }
+
+    // And a slot of its own behind them.
+    void form(PointCompliance& W, const std::vector<SurfacePoint>& points, double scale)
+    {
+        W.clear(m_body.m_state.m_x.size());
+        for (const SurfacePoint& p : points) W.add(p);
+        W.addOwn();
+        W.request({&m_body, m_cache.get()});
+        W.form({&m_body, m_cache.get()}, scale);
+    }
+
+    // By the preconditioner itself, which is that factor turned with the nodes.
+    Vec3 expected(const SurfacePoint& to, const SurfacePoint& from, int axis) const
+    {
+        std::vector<Vec3> in(m_body.m_state.m_x.size()), out = in;
+        for (int a = 0; a < from.m_count; ++a) in[from.m_nodes[a]][axis] += from.m_weights[a];
+        WarpedPreconditioner(m_body).apply(in, out);
+        return to.of(out);
+    }
+
+    Body m_body;
+    std::shared_ptr<ComplianceCache> m_cache;
+    std::vector<int> m_free, m_clamped;
+    int m_held = -1;
+};
+
+TEST_F(PointComplianceTest, IsWhatTheTurnedFactorDoesBetweenPoints)
+{
+    const std::vector<SurfacePoint> points = {
+        point({m_free[0]}, {1}), point({m_free[5], m_free[9], m_free[20]}, {.2, .3, .5}),
+        point({m_free[20], m_free[5], m_free[20], m_free[7], m_free[8]}, {.15, .45, .1, 0, .3}),
+        point({m_clamped[0], m_free[3], m_held}, {.5, .4, .1}), point({m_clamped[1]}, {1})};
+    constexpr double kScale = 2.5;
+    PointCompliance W;
+    for (int repeat = 0; repeat < 2; ++repeat)  // nothing of the last time is left
+    {
+        form(W, points, 1);
+        W.scale(kScale);
+    }
+    const double size = std::sqrt(squaredNorm(W.block(0, 0)));
+    ASSERT_GT(size, 0);
+    for (int f = 0; f < 5; ++f)
+        for (int e = 0; e < 5; ++e)
+            for (const Mat3& w : {W.block(f, e), W.blockByColumns(f, e)})
+                for (int c = 0; c < 3; ++c)
+                {
+                    const Vec3 column = {w(0, c), w(1, c), w(2, c)};
+                    EXPECT_LE(norm(column - kScale * expected(points[f], points[e], c)), 1e-5 * size) << f << e << c;
+                }
+    EXPECT_EQ(squaredNorm(W.block(4, 4)), 0);  // clamped
+    for (int e = 0; e < 6; ++e) EXPECT_EQ(squaredNorm(W.block(5, e)) + squaredNorm(W.block(e, 5)), 0);
+    W.set(3 * static_cast<std::size_t>(W.slot(5)) + 1, 3 * static_cast<std::size_t>(W.slot(0)), 7);
+    EXPECT_EQ(W.block(5, 0)(1, 0), 7);
+    EXPECT_EQ(W.block(0, 5)(0, 1), 7);
+}
+
+TEST_F(PointComplianceTest, ReadsAndMovesSlotsAsThePointsDo)
+{
+    const std::vector<SurfacePoint> points = {point({m_free[0]}, {1}),
+                                              point({m_free[5], m_free[9], m_free[20]}, {.2, .3, .5})};
+    PointCompliance W;
+    form(W, points, 1);
+    std::vector<double> velocity(W.order());
+    const Vec3 impulse = {1, -2, 3};
+    const Response response = W.response(1, impulse);
+    addResponses(&response, 1, W.order(), velocity.data());
+    for (int e = 0; e < 3; ++e)
+        EXPECT_LE(norm(W.read(e, velocity) - W.block(e, 1) * impulse), 1e-6 * norm(W.block(1, 1) * impulse)) << e;
+    EXPECT_GT(norm(W.read(0, velocity)), 0);
+}
+
+TEST_F(PointComplianceTest, IsSymmetricHoweverManyPoints)
+{
+    PointCompliance W;
+    const int count = static_cast<int>(m_free.size());
+    ASSERT_GT(count, static_cast<int>(kNodePadding));
+    std::vector<SurfacePoint> points;
+    for (int k = 0; k < count; ++k) points.push_back(point({m_free[k], m_free[(k + 7) % count]}, {.625, .375}));
+    form(W, points, 1);
+    const double size = std::sqrt(squaredNorm(W.block(0, 0)));
+    for (int f = 0; f < count; ++f)
+        for (int e = 0; e < f; ++e)
+            EXPECT_LE(std::sqrt(squaredNorm(W.blockByColumns(f, e) - transpose(W.blockByColumns(e, f)))), 5e-7 * size)
+                << f << " " << e;
+}
+
+}  // namespace
+}  // namespace bullet_fem

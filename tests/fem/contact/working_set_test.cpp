@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/working_set.h"
+
+#include <gtest/gtest.h>
+
+#include "fem/vector_targets.h"
+
+#include <hwy/highway.h>
+#include <random>
+#include <set>
+
+#include "fem/scenes/contact_scene.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+class Numbers
+{
+public:
+    double operator()() { return m_uniform(m_engine); }
+    Vec3 vector() { return {(*this)(), (*this)(), (*this)()}; }
+
+private:
+    std::mt19937 m_engine{7};
+    std::uniform_real_distribution<double> m_uniform{-1, 1};
+};
+
+// Fewer, as many and more than the kernel takes at a time; orders with and without a rest at the end of its loop.
+TEST(ResponseKernel, AgreesWithItsTwinOnEveryInstructionSet)
+{
+    Numbers random;
+    int compared = 0;
+    for (const std::size_t order : {kResponsePadding, 3 * kResponsePadding})
+        for (const std::size_t count : {0, 1, 4, 6, 11})
+        {
+            const std::size_t stride = order + 5;
+            std::vector<float> columns(3 * stride * count + 1);
+            for (float& w : columns) w = static_cast<float>(random());
+            std::vector<Response> responses;
+            for (std::size_t k = 0; k < count; ++k)
+                responses.push_back({&columns[3 * stride * k], stride, random.vector()});
+            std::vector<double> before(order + 1);
+            for (double& v : before) v = random();
+            std::vector<double> expected = before;
+            scalar::addResponses(responses.data(), count, order, expected.data());
+            for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+            {
+                hwy::SetSupportedTargetsForTest(target);
+                std::vector<double> v = before;
+                addResponses(responses.data(), count, order, v.data());
+                for (std::size_t i = 0; i <= order; ++i, ++compared)
+                    EXPECT_NEAR(v[i], expected[i], 1e-14) << hwy::TargetName(target) << " " << order << " " << i;
+            }
+            hwy::SetSupportedTargetsForTest(0);
+        }
+    EXPECT_GE(compared, 160);
+}
+
+/// Points that are slots of their own, with any compliance between them.
+class RandomPoints
+{
+public:
+    RandomPoints(int points, Numbers& random)
+    {
+        const ContactBody body = {&m_scene.m_body, m_scene.m_cache.get()};
+        m_points.clear(m_scene.m_body.m_state.m_x.size());
+        for (int k = 0; k < points; ++k) m_points.addOwn();
+        m_points.request(body);
+        m_points.form(body, 1);
+        for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(points); ++i)
+            for (std::size_t j = 0; j <= i; ++j) m_points.set(i, j, random());
+    }
+
+    ContactScene m_scene;
+    PointCompliance m_points;
+};
+
+// All, others, fewer until those that left are dropped, the same, and all once more.
+TEST(WorkingSet, MovesAsTheWholeWouldUnderImpulsesOnIt)
+{
+    constexpr int kEnds = 11;
+    Numbers random;
+    RandomPoints all(kEnds, random);
+    PointCompliance& W = all.m_points;
+    std::vector<double> velocity(W.order());
+    for (double& v : velocity) v = random();
+    const auto respond = [&](int e, const Vec3& impulse)
+    {
+        const Response response = W.response(e, impulse);
+        addResponses(&response, 1, W.order(), velocity.data());
+    };
+    WorkingSet set;
+    set.reset(kEnds);
+    const std::vector<std::vector<int>> choices = {{7, 2, 9, 2, 1, 0, 8},
+                                                   {2, 7, 10, 9, 8, 1, 4},
+                                                   {10, 4},
+                                                   {10, 4},
+                                                   {10, 3, 4, 5},
+                                                   {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}};
+    std::size_t largest = 0;
+    for (const std::vector<int>& chosen : choices)
+    {
+        set.choose();
+        for (int e : chosen) set.add(e);
+        set.pack(W, velocity);
+        for (int e : chosen) EXPECT_TRUE(set.has(e)) << e;
+        EXPECT_EQ(std::count_if(velocity.begin(), velocity.end(), [](double v) { return !std::isfinite(v); }), 0);
+        largest = std::max(largest, set.ends().size() - std::set<int>(chosen.begin(), chosen.end()).size());
+        set.beginProbe();
+        for (int e : set.ends())
+        {
+            const Vec3 impulse = random.vector(), direction = random.vector();
+            set.push(e, impulse);
+            respond(e, impulse);
+            set.addToProbe(e, direction);
+            respond(e, 0.5 * direction);
+        }
+        set.respondToProbe();
+        set.followProbe(0.5);
+        for (int e : set.ends()) EXPECT_LE(norm(set.velocity(e) - W.read(e, velocity)), 1e-13) << e;
+    }
+    EXPECT_EQ(largest, 1u);  // one that left stayed, five did not
+}
+
+/// A cube that falls on the floor between two walls that stand `gap` [m] beside it: its sides touch them only because
+/// it is pressed flat.
+class Shaft
+{
+public:
+    explicit Shaft(double gap)
+    {
+        m_scene.m_obstacles.resize(3);
+        m_scene.m_settings.m_tolerance = 1e-9;
+        m_scene.m_settings.m_maxRounds = 30;
+        m_scene.setVelocity({0, 0, -2});
+        m_scene.touchLowerFace(0, 0.3);
+        const std::vector<Vec3>& x = m_scene.m_body.m_state.m_x;
+        for (int i = 0; i < static_cast<int>(x.size()); ++i)
+            if (x[i].x == 0 || x[i].x == 1) touchWall(i, gap, x[i].x == 0 ? 1 : -1);
+    }
+
+    ContactScene m_scene;
+
+private:
+    void touchWall(int node, double gap, double side)
+    {
+        m_scene.touchNode(node, gap, 0.3);
+        m_scene.m_contacts.back().m_normal = {side, 0, 0};
+        m_scene.m_contacts.back().m_obstacle = side > 0 ? 1 : 2;
+    }
+};
+
+TEST(ContactsAtRest, JoinWhenOthersPressOnThem)
+{
+    constexpr double kGap = 1e-4;
+    Shaft shaft(kGap);
+    ContactScene& scene = shaft.m_scene;
+    scene.solve();
+    const double allowed = kGap / scene.m_settings.m_step.m_step;
+    double largest = 0;
+    for (const ContactPoint& c : scene.m_contacts) largest = std::max(largest, norm(c.m_impulse));
+    int pressed = 0;
+    for (std::size_t k = 9; k < scene.m_contacts.size(); ++k)
+    {
+        const ContactPoint& c = scene.m_contacts[k];
+        const double closing = -dot(c.m_normal, scene.relativeVelocity(c)), impulse = dot(c.m_normal, c.m_impulse);
+        EXPECT_LE(closing, allowed + 1e-6) << k;
+        EXPECT_GE(impulse, 0) << k;
+        EXPECT_LE(impulse * std::fabs(closing - allowed), 1e-6 * largest) << k;
+        pressed += impulse > 0 ? 1 : 0;
+    }
+    EXPECT_GE(pressed, 6);
+}
+
+TEST(ContactsAtRest, ChangeNothing)
+{
+    Shaft shaft(1);
+    shaft.m_scene.solve();
+    ContactScene alone;
+    alone.m_settings = shaft.m_scene.m_settings;
+    alone.setVelocity({0, 0, -2});
+    alone.touchLowerFace(0, 0.3);
+    alone.solve();
+    for (std::size_t k = 0; k < alone.m_contacts.size(); ++k)
+    {
+        const Vec3 expected = alone.m_contacts[k].m_impulse;
+        EXPECT_LE(norm(shaft.m_scene.m_contacts[k].m_impulse - expected), 1e-6 * norm(expected)) << k;
+    }
+    for (std::size_t k = 9; k < shaft.m_scene.m_contacts.size(); ++k)
+        EXPECT_EQ(norm(shaft.m_scene.m_contacts[k].m_impulse), 0) << k;
+}
+
+}  // namespace
+}  // namespace bullet_fem

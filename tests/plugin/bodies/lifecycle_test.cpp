@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <new>
+
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/scenes/each_world.h"
+#include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/soft_world.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+btSoftBody* makeCube(SoftWorld& world, const btVector3& center = {0, 0, 0}, btScalar cell = btScalar(0.25))
+{
+    return btFemHelpers::createBox(world.info(), center, btVector3(0.5, 0.5, 0.5), cell);
+}
+
+class Lifecycle : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Lifecycle, eachWorld(), nameOfWorld);
+
+// A btFemDeformableBodySolver serves one world.
+class LifecycleOfWorlds : public EachWorld
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, LifecycleOfWorlds, testing::Values(WorldClass::softRigid, WorldClass::softMultiBody),
+                         nameOfWorld);
+
+TEST_P(Lifecycle, BodiesComeAndGoAtAnyTime)
+{
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
+    world.addPlane();
+    btSoftBody& first = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.55))));
+    world.step(30);
+    btSoftBody& second = world.addSoft(makeCube(world, btVector3(3, 0, btScalar(0.55))));
+    world.step(60);
+    EXPECT_TRUE(fem.isFem(&first));
+    EXPECT_TRUE(fem.isFem(&second));
+    world.deleteSoft(first);
+    world.step(1);
+    EXPECT_FALSE(fem.isFem(&first));
+    EXPECT_EQ(fem.contacts(&first).size(), 0);
+    EXPECT_EQ(fem.stepReport(&first).m_nodes, 0);
+    world.step(60);
+    EXPECT_NEAR(impulseOn(fem, second).z / kStep, massOf(second) * kGravity, 0.01 * massOf(second) * kGravity);
+    for (int k = 0; k < 10; ++k)
+    {
+        btSoftBody& brief = world.addSoft(makeCube(world, btVector3(-3, 0, 2), btScalar(0.5)));
+        world.step(k % 3);
+        world.deleteSoft(brief);
+    }
+    world.step(10);
+    EXPECT_TRUE(allFinite(second));
+}
+
+// A body with the elements of `pattern`, its positions times `stretch`, in a place of our own: addresses are the same
+// for certain.
+btSoftBody* makeInPlace(SoftWorld& world, const btSoftBody& pattern, btScalar stretch)
+{
+    alignas(btSoftBody) static unsigned char place[sizeof(btSoftBody)];
+    btAlignedObjectArray<btVector3> x;
+    for (int i = 0; i < pattern.m_nodes.size(); ++i) x.push_back(stretch * pattern.m_nodes[i].m_x);
+    auto* body = ::new (static_cast<void*>(place)) btSoftBody(&world.info(), x.size(), &x[0], nullptr);
+    for (int e = 0; e < pattern.m_tetras.size(); ++e)
+    {
+        int node[4];
+        for (int a = 0; a < 4; ++a) node[a] = static_cast<int>(pattern.m_tetras[e].m_n[a] - &pattern.m_nodes[0]);
+        body->appendTetra(node[0], node[1], node[2], node[3]);
+    }
+    world.put(*body);
+    return body;
+}
+
+void stepAndRemoveAtRest(SoftWorld& world, const btFemSoftBodySolver& fem, btSoftBody* body)
+{
+    const std::vector<Vec3> shape = edgesOf(*body);
+    world.step(30);
+    EXPECT_TRUE(fem.isFem(body));
+    EXPECT_EQ(fem.stepReport(body).m_flags, 0);
+    EXPECT_LT(largestDifference(shape, edgesOf(*body)), 1e-4);  // at rest: this is its rest shape
+    world.take(*body);
+    body->~btSoftBody();
+}
+
+TEST_P(Lifecycle, AnotherBodyAtTheAddressOfADeletedOneIsKnownAsAnother)
+{
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btFemSoftBodySolver& fem = world.fem();
+    const std::unique_ptr<btSoftBody> pattern(makeCube(world));
+    for (const btScalar stretch : {btScalar(1), btScalar(1.2)})
+        stepAndRemoveAtRest(world, fem, makeInPlace(world, *pattern, stretch));
+}
+
+// The next world gives out the same broadphase ids, and may itself be at the address of the last.
+TEST_P(LifecycleOfWorlds, AnotherBodyAtTheSameAddressInTheNextWorldIsKnownAsAnother)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld home(GetParam(), fem, btVector3(0, 0, 0));
+    const std::unique_ptr<btSoftBody> pattern(makeCube(home));
+    for (const btScalar stretch : {btScalar(1), btScalar(1.2), btScalar(0.9)})
+    {
+        SoftWorld world(GetParam(), fem, btVector3(0, 0, 0));
+        stepAndRemoveAtRest(world, fem, makeInPlace(world, *pattern, stretch));
+    }
+}
+
+TEST_P(Lifecycle, ABodyTakenOutAndPutBackKeepsItsRestShapeAndMaterial)
+{
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btSoftBody& cube = world.addSoft(makeCube(world));
+    const std::vector<Vec3> rest = edgesOf(cube);
+    for (int i = 0; i < cube.m_nodes.size(); ++i) cube.m_nodes[i].m_v.setX(10 * cube.m_nodes[i].m_x.x());
+    world.step(3);
+    ASSERT_GT(largestDifference(rest, edgesOf(cube)), 0.005);
+    world.take(cube);
+    world.put(cube);  // no step in between
+    world.step(300);
+    EXPECT_LT(largestDifference(rest, edgesOf(cube)), 1e-3);
+}
+
+TEST_P(Lifecycle, ABodyAddedTwiceIsSteppedOnceAndFlagged)
+{
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
+    btSoftBody& cube = world.addSoft(makeCube(world));
+    world.softBodies().push_back(&cube);
+    world.step(30);
+    EXPECT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_ADDED_TWICE);
+    EXPECT_NEAR(velocityOf(cube).z, -kGravity * 30 * kStep, 1e-4);
+    world.softBodies().pop_back();
+    world.step();
+    EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
+}
+
+TEST_P(LifecycleOfWorlds, ABodyInTwoWorldsOfOneSolverIsSteppedByOne)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld one(GetParam(), fem), other(GetParam(), fem);
+    btSoftBody& cube = one.addSoft(makeCube(one));
+    one.step(2);
+    other.softBodies().push_back(&cube);
+    for (int k = 0; k < 10; ++k)
+    {
+        other.step();
+        one.step();
+    }
+    EXPECT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_OTHER_WORLD);
+    EXPECT_NEAR(velocityOf(cube).z, -kGravity * 12 * kStep, 2.01 * kGravity * kStep);
+    other.softBodies().pop_back();
+    other.step(2);
+    one.step(2);
+    EXPECT_EQ(fem.stepReport(&cube).m_flags & BT_FEM_OTHER_WORLD, 0);
+    EXPECT_TRUE(allFinite(cube));
+}
+
+TEST_P(LifecycleOfWorlds, ABodyInWorldsOfTwoSolversIsSteppedByOne)
+{
+    btFemSoftBodySolver firstFem, secondFem;
+    SoftWorld first(GetParam(), firstFem), second(GetParam(), secondFem);
+    btSoftBody& cube = first.addSoft(makeCube(first));
+    first.step(2);
+    second.softBodies().push_back(&cube);  // the body still says that the first solver is its own
+    for (int k = 0; k < 10; ++k)
+    {
+        first.step();
+        second.step();
+    }
+    EXPECT_TRUE(secondFem.stepReport(&cube).m_flags & BT_FEM_OTHER_WORLD);
+    EXPECT_NEAR(velocityOf(cube).z, -kGravity * 12 * kStep, 1e-4);
+    second.softBodies().pop_back();
+    second.step();
+    first.step();
+    EXPECT_EQ(firstFem.stepReport(&cube).m_flags, 0);
+}
+
+TEST_P(LifecycleOfWorlds, ASolverOutlivesItsWorldAndServesTheNext)
+{
+    btFemSoftBodySolver fem;
+    for (int k = 0; k < 3; ++k)
+    {
+        SoftWorld world(GetParam(), fem);
+        world.addPlane();
+        btSoftBody& cube = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.51))));
+        world.step(120);
+        EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
+        EXPECT_NEAR(impulseOn(fem, cube).z / kStep, massOf(cube) * kGravity, 0.01 * massOf(cube) * kGravity);
+    }
+}
+
+TEST_P(LifecycleOfWorlds, TwoWorldsMayTakeTurnsWithOneSolver)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld one(GetParam(), fem), other(GetParam(), fem);
+    btSoftBody& cube = one.addSoft(makeCube(one));
+    btSoftBody& twin = other.addSoft(makeCube(other));
+    for (int k = 0; k < 30; ++k)
+    {
+        one.step();
+        other.step();
+    }
+    EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
+    EXPECT_EQ(bitsOf(cube), bitsOf(twin));
+    EXPECT_NEAR(velocityOf(cube).z, -kGravity * 30 * kStep, 1e-4);
+}
+
+/// What a tick callback shall delete: between collision detection and our solve.
+struct Deletion
+{
+    SoftWorld* m_world;
+    btSoftBody* m_soft;
+    btRigidBody* m_rigid;
+};
+
+void deleteInTick(btDynamicsWorld* world, btScalar)
+{
+    auto* deletion = static_cast<Deletion*>(world->getWorldUserInfo());
+    if (deletion->m_soft) deletion->m_world->deleteSoft(*deletion->m_soft);
+    if (deletion->m_rigid) deletion->m_world->deleteRigid(*deletion->m_rigid);
+    deletion->m_soft = nullptr;
+    deletion->m_rigid = nullptr;
+}
+
+TEST_P(Lifecycle, BodiesMayBeDeletedBetweenCollisionAndSolve)
+{
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
+    btRigidBody& floor = world.addFloorBox();
+    btSoftBody& cube = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.51))));
+    btSoftBody& doomed = world.addSoft(makeCube(world, btVector3(3, 0, btScalar(0.51))));
+    world.step(60);
+    ASSERT_GT(fem.contacts(&doomed).size(), 0);
+
+    Deletion deletion = {&world, &doomed, nullptr};
+    world.bullet().setInternalTickCallback(deleteInTick, &deletion);
+    world.step();
+    EXPECT_EQ(deletion.m_soft, nullptr);
+    world.step(20);
+    EXPECT_GT(fem.contacts(&cube).size(), 0);
+
+    deletion.m_rigid = &floor;
+    world.step();
+    EXPECT_EQ(fem.contacts(&cube).size(), 0);
+    world.step(20);
+    EXPECT_LT(velocityOf(cube).z, -0.9 * kGravity * 20 * kStep);
+    EXPECT_TRUE(allFinite(cube));
+}
+
+TEST_P(Lifecycle, KeysNeverAddedAreForgotten)
+{
+    FemWorld world(GetParam());
+    btFemSoftBodySolver& fem = world.fem();
+    const std::unique_ptr<btSoftBody> never(makeCube(world)), forgotten(makeCube(world));
+    fem.prepare(never.get(), kStep);
+    fem.prepare(forgotten.get(), kStep);
+    EXPECT_TRUE(fem.isFem(never.get()));
+    fem.forget(forgotten.get());
+    EXPECT_FALSE(fem.isFem(forgotten.get()));
+    world.step();
+    EXPECT_FALSE(fem.isFem(never.get()));
+}
+
+// A FEM body whose elements a program breaks is Bullet's again, with Bullet's own contacts, from the next step on.
+// Asked for or not, its constants are updated without the tree of nodes that Bullet never finishes for a body without
+// links.
+class BrokenBody : public EachWorldWith<bool>
+{
+};
+
+TEST_P(BrokenBody, MovesAndTouchesAsInBulletAlone)
+{
+    btDefaultSoftBodySolver plain;
+    FemWorld world(worldClass());
+    btFemSoftBodySolver& fem = world.fem();
+    SoftWorld other(worldClass(), plain);
+    world.addFloorBox();
+    other.addFloorBox();
+    btSoftBody& body = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.55))));
+    btSoftBody& twin = other.addSoft(makeCube(other, btVector3(0, 0, btScalar(0.55))));
+    world.step(40);
+    ASSERT_GT(fem.contacts(&body).size(), 0);
+
+    body.m_tetras[0].m_n[1] = body.m_tetras[0].m_n[0];
+    body.activate();
+    body.m_bUpdateRtCst = value();
+    twin.m_bUpdateRtCst = false;
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+    {
+        twin.m_nodes[i].m_x = twin.m_nodes[i].m_q = body.m_nodes[i].m_x;
+        twin.m_nodes[i].m_v = body.m_nodes[i].m_v;
+    }
+    world.step(30);
+    other.step(30);
+    EXPECT_FALSE(fem.isFem(&body));
+    EXPECT_TRUE(allFinite(body));
+    double lowest = 1, furthest = 0;
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+    {
+        lowest = std::min<double>(lowest, body.m_nodes[i].m_x.z());
+        furthest = std::max<double>(furthest, (body.m_nodes[i].m_x - twin.m_nodes[i].m_x).length());
+    }
+    EXPECT_GT(lowest, -0.1);    // it would have fallen by 1.2 m
+    EXPECT_LT(furthest, 1e-3);  // [m]
+}
+
+INSTANTIATE_TEST_SUITE_P(Lifecycle, BrokenBody,
+                         testing::Combine(testing::Values(WorldClass::softRigid, WorldClass::softMultiBody),
+                                          testing::Bool()),
+                         nameOfWorldWith([](bool asked) { return asked ? "constantsAsked" : "constantsLeft"; }));
+
+// In a deformable world Bullet has nothing to move bodies without links by.
+TEST(BrokenBodyInADeformableWorld, StandsStillAndSaysWhyUntilItIsMended)
+{
+    FemWorld world(WorldClass::deformable);
+    btFemSoftBodySolver& fem = world.fem();
+    btSoftBody& body = world.addSoft(makeCube(world));
+    world.step(10);
+    btSoftBody::Node*& corner = body.m_tetras[0].m_n[1];
+    btSoftBody::Node* const whole = corner;
+    corner = body.m_tetras[0].m_n[0];
+    world.step();
+    const std::vector<btScalar> before = bitsOf(body);
+    world.step(5);
+    EXPECT_FALSE(fem.isFem(&body));
+    EXPECT_EQ(fem.stepReport(&body).m_flags, BT_FEM_REJECTED);
+    EXPECT_NE(std::string(fem.stepReport(&body).m_message).find("element 0"), std::string::npos);
+    EXPECT_EQ(bitsOf(body), before);
+    corner = whole;
+    fem.setMaterial(&body, btFemMaterial::rubber());
+    world.step(5);
+    EXPECT_TRUE(fem.isFem(&body));
+    EXPECT_EQ(fem.stepReport(&body).m_flags & BT_FEM_REJECTED, 0);
+    EXPECT_LT(velocityOf(body).z, -kGravity * 14 * kStep);
+}
+
+}  // namespace
+}  // namespace bullet_fem

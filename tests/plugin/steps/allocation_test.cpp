@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// A program of its own: the counter replaces malloc.
+#include <gtest/gtest.h>
+
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/scenes/link_world.h"
+#include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/skin_bodies.h"
+#include "plugin/scenes/soft_boxes.h"
+#include "support/allocation_counter.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// Counts what is allocated inside the solver's virtuals; Bullet's own allocations around them are not ours.
+class CountingSolver : public btFemSoftBodySolver
+{
+public:
+    using btFemSoftBodySolver::btFemSoftBodySolver;
+
+    void optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool forceUpdate = false) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::optimize(bodies, forceUpdate);
+        m_allocations += counter.count();
+    }
+    void predictMotion(btScalar timeStep) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::predictMotion(timeStep);
+        m_allocations += counter.count();
+    }
+    void processCollision(btSoftBody* body, const btCollisionObjectWrapper* other) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::processCollision(body, other);
+        m_allocations += counter.count();
+    }
+    void processCollision(btSoftBody* body, btSoftBody* other) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::processCollision(body, other);
+        m_allocations += counter.count();
+    }
+    void solveConstraints(btScalar timeStep) override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::solveConstraints(timeStep);
+        m_allocations += counter.count();
+    }
+    void updateSoftBodies() override
+    {
+        const AllocationCounter counter;
+        btFemSoftBodySolver::updateSoftBodies();
+        m_allocations += counter.count();
+    }
+
+    long m_allocations = 0;
+};
+
+// Steps without growth of the contact count must not allocate; the first two may. Returns the steps that were looked
+// at.
+template <class World>
+int expectNoAllocations(CountingSolver& fem, World& world, const std::vector<btSoftBody*>& bodies, int steps)
+{
+    std::vector<int> mostContacts(bodies.size(), 0);
+    int checked = 0;
+    for (int k = 0; k < steps; ++k)
+    {
+        fem.m_allocations = 0;
+        world.step();
+        bool grown = k < 2;
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+        {
+            const int contacts = fem.contacts(bodies[b]).size();
+            grown = grown || contacts > mostContacts[b];
+            mostContacts[b] = std::max(mostContacts[b], contacts);
+        }
+        if (grown) continue;
+        ++checked;
+        EXPECT_EQ(fem.m_allocations, 0) << "step " << k;
+    }
+    return checked;
+}
+
+TEST(Allocations, TheFirstStepMakesSome)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    addUnitCube(world, btVector3(0, 0, 0));
+    world.step();
+    EXPECT_GT(fem.m_allocations, 100);  // the counter counts
+}
+
+TEST(Allocations, NoneForABodyInFlight)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
+    cube.setMass(0, 0);
+    EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 60), 58);
+}
+
+TEST(Allocations, NoneForABodyThatASpringDragsOverTheFloor)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.5)));
+    fem.prepare(&cube, kStep);
+    btFemSpring spring;
+    spring.m_nodes[0] = cube.m_nodes.size() - 1;
+    spring.m_target = cube.m_nodes[spring.m_nodes[0]].m_x + btVector3(btScalar(0.5), 0, 0);
+    spring.m_stiffness = btScalar(2e4);
+    fem.addSpring(&cube, spring);
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 90), 40);
+    EXPECT_GT(cube.m_rcontacts.size(), 0);
+}
+
+// Their contacts are thinned: what is found may grow although what is kept does not, so the bodies move first as they
+// do then.
+TEST(Allocations, NoneForBodiesWhoseDrawnSurfaceCollides)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& box = addSkinBody(world, fem, skinBox({0.8, 0.8, 0.2}, {0, 0, 0.101}));
+    btSoftBody& ball = addSkinBody(world, fem, skinBall({0, 0, 0.72}));
+    box.m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
+    world.step(60);
+    ball.setVelocity(btVector3(0, 0, btScalar(0.3)));
+    world.step(60);
+    ball.setVelocity(btVector3(0, 0, btScalar(0.2)));
+    EXPECT_GT(expectNoAllocations(fem, world, {&box, &ball}, 30), 10);
+    EXPECT_GT(fem.contacts(&ball).size(), 0);
+}
+
+// Interest that goes up and down takes it through all levels; a stale factor is kept account of.
+TEST(Allocations, NoneWhileDetailIsChosenAndTheFactorIsStale)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
+    btFemViewerInterest viewer(1, 50);
+    viewer.setVisibility([](const btSoftBody&) { return true; });
+    btFemDetailPolicy policy;
+    policy.m_dwell = 0;
+    fem.setInterest(&viewer, policy);
+    fem.prepare(&cube, kStep / 2);
+    int low = 0;
+    for (int k = 0; k < 60; ++k)
+    {
+        viewer.setViewer(btVector3(btScalar(k % 30) * 2, 0, 0));
+        fem.m_allocations = 0;
+        world.step();
+        EXPECT_EQ(k < 2 ? 0 : fem.m_allocations, 0) << "step " << k;
+        EXPECT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_STALE_FACTOR);
+        low += fem.stepReport(&cube).m_detail != btFemDetail::nodalWarp;
+    }
+    EXPECT_GT(low, 10);
+    EXPECT_LT(low, 50);
+}
+
+TEST(Allocations, NoneForACubeAtRestOnABox)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.501)));
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 120), 110);
+    EXPECT_GT(fem.contacts(&cube).size(), 0);
+}
+
+TEST(Allocations, NoneForACubeThatSlides)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    const btQuaternion tilt(btVector3(0, 1, 0), btScalar(0.5));
+    RigidSettings settings;
+    settings.m_transform = btTransform(tilt, quatRotate(tilt, btVector3(0, 0, -1)));
+    world.addRigid(new btBoxShape(btVector3(30, 30, 1)), settings);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.5)));
+    cube.rotate(tilt);
+    cube.m_cfg.kDF = btScalar(0.3);
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 120), 100);
+    EXPECT_GT(norm(velocityOf(cube)), 1);
+}
+
+TEST(Allocations, NoneForSeveralBodiesAndARigidOneOnTop)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addPlane();
+    btSoftBody& first = addUnitCube(world, btVector3(0, 0, btScalar(0.501)));
+    btSoftBody& second = addUnitCube(world, btVector3(3, 0, btScalar(0.501)));
+    addRigidBox(world, {0.4, 0.4, 0.4}, {50, at(0, 0, btScalar(1.21))});
+    EXPECT_GT(expectNoAllocations(fem, world, {&first, &second}, 120), 60);
+}
+
+TEST(Allocations, NoneForCopiesThatAreSolvedTogether)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    std::vector<btSoftBody*> cubes;
+    for (int k = 0; k < 6; ++k)
+    {
+        cubes.push_back(&addUnitCube(world, btVector3(btScalar(10 * k), 0, 0)));
+        cubes.back()->m_nodes[0].m_v.setX(btScalar(5 * k));
+    }
+    EXPECT_EQ(expectNoAllocations(fem, world, cubes, 60), 58);
+}
+
+TEST(Allocations, NoneForBodiesThatAreHeld)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    btSoftBody &upper = addUnitCube(world, btVector3(0, 0, 0)),
+               &lower = addUnitCube(world, btVector3(0, 0, btScalar(-1.2)));
+    btRigidBody& ceiling = world.addRigid(new btSphereShape(btScalar(0.1)), {0, at(0, 0, 2)});
+    upper.appendAnchor(0, &ceiling);
+    upper.appendDeformableAnchor(1, &ceiling);
+    upper.m_collisionDisabledObjects.push_back(&lower);
+    upper.generateClusters(1);
+    lower.generateClusters(1);
+    btSoftBody::LJoint::Specs joint;
+    joint.position = btVector3(0, 0, btScalar(-0.6));
+    lower.appendLinearJoint(joint, &upper);
+    fem.prepare(&upper, kStep);
+    fem.prepare(&lower, kStep);
+    fem.attachNodes(&upper, 2, &lower, 3);
+    EXPECT_GT(expectNoAllocations(fem, world, {&upper, &lower}, 60), 40);
+    EXPECT_EQ(fem.anchors(&upper).size(), 4);
+}
+
+// A step that comes and goes finds its old factor: what factoring allocates is allocated for the first change only.
+TEST(Allocations, OfAFactorAreMadeOnceForStepsThatComeAndGo)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.501)));
+    world.step(30);
+    fem.m_allocations = 0;
+    world.step(1, kStep / 2);
+    ASSERT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_REFACTORED);
+    const long factored = fem.m_allocations;
+    for (int k = 0; k < 40; ++k)
+    {
+        fem.m_allocations = 0;
+        world.step(1, k % 2 == 0 ? kStep : kStep / 2);
+        ASSERT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_REFACTORED) << "step " << k;
+        EXPECT_LT(fem.m_allocations, factored / 4) << "step " << k;
+    }
+}
+
+TEST(Allocations, NoneForManifoldsThatLast)
+{
+    btFemSolverInfo info;
+    info.m_manifolds = true;
+    CountingSolver fem(info);
+    SoftWorld world(fem);
+    world.addFloorBox();
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.501)));
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 120), 110);
+    EXPECT_EQ(world.world().getDispatcher()->getNumManifolds(), 1);
+}
+
+TEST(Allocations, NoneForStressesOnceTheyHaveGrown)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 1));
+    btAlignedObjectArray<btFemStress> perElement, perNode;
+    btAlignedObjectArray<btScalar> vonMises;
+    for (int k = 0; k < 2; ++k)
+    {
+        world.step();
+        const AllocationCounter counter;
+        ASSERT_TRUE(fem.getStress(&cube, perElement));
+        ASSERT_TRUE(fem.getNodeStress(&cube, perNode));
+        ASSERT_TRUE(fem.getVonMises(&cube, vonMises));
+        EXPECT_EQ(counter.count() > 0, k == 0);
+    }
+}
+
+// It holds a link by an anchor, and lies on another one of the same multibody.
+TEST(Allocations, NoneForLinksOfMultibodies)
+{
+    CountingSolver fem;
+    MultiBodyWorld world(fem);
+    const btVector3 half(1, 1, btScalar(0.1)), inertia(1, 1, 1);
+    auto* body = new btMultiBody(1, 50, inertia, true, false);
+    body->setupRevolute(0, 50, inertia, -1, btQuaternion::getIdentity(), btVector3(0, 1, 0), btVector3(-1, 0, 0),
+                        btVector3(1, 0, 0));
+    world.addMultiBody(body);
+    btMultiBodyLinkCollider& link = world.addCollider(*body, 0, new btBoxShape(half));
+    btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.6)),
+                                                             btVector3(0.5, 0.5, 0.5), btScalar(0.25)));
+    cube.appendDeformableAnchor(0, &link);
+    world.step(60);  // until all has happened once
+    EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 60), 30);
+    EXPECT_GT(fem.touches(&cube).size(), 0);
+}
+
+}  // namespace
+}  // namespace bullet_fem
