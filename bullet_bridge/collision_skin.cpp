@@ -3,6 +3,8 @@
 #include "bullet_bridge/collision_skin.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 

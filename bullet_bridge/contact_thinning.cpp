@@ -3,6 +3,7 @@
 #include "bullet_bridge/contact_thinning.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace bullet_fem

@@ -3,7 +3,9 @@
 #include "bullet_bridge/fem_soft_body.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"

@@ -3,6 +3,7 @@
 #include "bullet_bridge/node_exchange.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"

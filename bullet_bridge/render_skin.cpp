@@ -3,6 +3,9 @@
 //
 // The skin of Bullet's fields for a surface that follows a body.
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/collision_skin.h"

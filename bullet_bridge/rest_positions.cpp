@@ -3,6 +3,7 @@
 #include "bullet_bridge/rest_positions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>

@@ -3,6 +3,8 @@
 #include "bullet_bridge/soft_body_mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rest_positions.h"

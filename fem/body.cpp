@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "fem/elements/model_elements.h"
 #include "fem/factor/rest_factor.h"

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "fem/elements/model_elements.h"
 #include "fem/factor/rest_factor.h"

@@ -3,6 +3,7 @@
 #include "fem/body_snapshot.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/byte_stream.h"
 #include "fem/elements/model_elements.h"

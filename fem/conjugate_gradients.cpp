@@ -3,6 +3,7 @@
 #include "fem/conjugate_gradients.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/pieces.h"
 

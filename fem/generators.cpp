@@ -3,6 +3,8 @@
 #include "bullet_fem/fem/generators.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "fem/cell_split.h"
 #include "fem/message.h"

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/increment_solve.h"
 
+#include <utility>
+
 namespace bullet_fem
 {
 namespace

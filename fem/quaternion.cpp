@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/quaternion.h"
 
+#include <cmath>
+
 namespace bullet_fem
 {
 

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/rest_shape.h"
 
+#include <cmath>
+#include <utility>
+
 #include "fem/message.h"
 
 namespace bullet_fem

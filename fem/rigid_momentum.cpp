@@ -3,6 +3,7 @@
 #include "fem/rigid_momentum.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace bullet_fem

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
 
 #include "bullet_fem/fem/threads.h"
 #include "fem/increment_solve.h"

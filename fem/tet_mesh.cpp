@@ -3,7 +3,10 @@
 #include "bullet_fem/fem/tet_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "fem/joined_sets.h"
 #include "fem/message.h"

@@ -3,6 +3,7 @@
 #include "fem/warped_system.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/elements/element_product.h"
 #include "fem/elements/model_elements.h"

@@ -3,6 +3,7 @@
 #include "bullet_fem/btFemDebugDraw.h"
 
 #include <stdexcept>
+#include <vector>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btIDebugDraw.h"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <string>
+
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/threads.h"
 #include "plugin/btFemRangeCheck.h"

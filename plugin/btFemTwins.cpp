@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // For engines without exceptions.
+#include <string>
+
 #include "bullet_fem/btFemDebugDraw.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
+#include <cmath>
+
 #include "bullet_bridge/contact/sheet_touch.h"
 
 namespace bullet_fem

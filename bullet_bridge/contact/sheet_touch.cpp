@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/contact/sheet_touch.h"
 
+#include <algorithm>
+
 namespace bullet_fem
 {
 

@@ -3,6 +3,7 @@
 #include "bullet_bridge/contact/surface_culling.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bullet_fem
 {

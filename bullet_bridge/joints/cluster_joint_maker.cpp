@@ -3,6 +3,8 @@
 #include "bullet_bridge/joints/cluster_joint_maker.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_bridge/bullet_vectors.h"

@@ -3,6 +3,7 @@
 #include "bullet_bridge/joints/rigid_pivot.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_bridge/bullet_vectors.h"

@@ -3,6 +3,7 @@
 #include "bullet_bridge/joints/soft_anchors.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_bridge/bullet_vectors.h"

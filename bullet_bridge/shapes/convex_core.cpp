@@ -3,6 +3,7 @@
 #include "bullet_bridge/shapes/convex_core.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "BulletCollision/CollisionShapes/btBoxShape.h"
 #include "BulletCollision/CollisionShapes/btCapsuleShape.h"

@@ -3,6 +3,7 @@
 #include "bullet_bridge/shapes/minkowski_simplex.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace bullet_fem

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "bullet_bridge/shapes/convex_distance.h"
 

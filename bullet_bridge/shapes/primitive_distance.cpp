@@ -3,6 +3,7 @@
 #include "bullet_bridge/shapes/primitive_distance.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bullet_fem
 {

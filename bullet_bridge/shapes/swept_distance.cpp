@@ -3,6 +3,7 @@
 #include "bullet_bridge/shapes/swept_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "fem/message.h"

@@ -3,6 +3,8 @@
 #include "bullet_bridge/soft_pairs/edge_pair_search.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace bullet_fem

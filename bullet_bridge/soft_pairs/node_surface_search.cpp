@@ -3,6 +3,8 @@
 #include "bullet_bridge/soft_pairs/node_surface_search.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace bullet_fem
 {

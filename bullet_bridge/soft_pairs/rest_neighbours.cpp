@@ -3,8 +3,10 @@
 #include "bullet_bridge/soft_pairs/rest_neighbours.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <queue>
+#include <utility>
 
 namespace bullet_fem
 {

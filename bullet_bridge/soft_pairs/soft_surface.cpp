@@ -3,6 +3,7 @@
 #include "bullet_bridge/soft_pairs/soft_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace bullet_fem

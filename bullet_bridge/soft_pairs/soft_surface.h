@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -97,7 +98,6 @@ public:
     double bend(int edge) const { return m_bend[edge]; }
     /// One of the triangles at a node.
     int nodeOwner(int node) const { return m_features.m_around[m_features.m_firstAround[node]]; }
-    int edgeOwner(int edge) const { return m_edgeTriangles[edge][0]; }  ///< one of its triangles
     /// Unit vectors from an edge into its two faces, perpendicular to it.
     const std::array<Vec3, 2>& intoFaces(int edge) const { return m_intoFaces[edge]; }
     /// True if all faces at an edge (a node) have nearly (8 degrees) its normal.

@@ -3,6 +3,8 @@
 #include "bullet_bridge/soft_pairs/triangle_proximity.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace bullet_fem
 {

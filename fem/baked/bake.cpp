@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "bullet_fem/fem/baked_body.h"
 #include "fem/lumped_mass.h"

@@ -3,7 +3,10 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "fem/baked/baked_checks.h"
 #include "fem/baked/baked_header.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 
 #include "fem/baked/baked_checks.h"
 #include "fem/baked/baked_header.h"

@@ -3,6 +3,8 @@
 #include "fem/cage/bisected_tets.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace bullet_fem
 {

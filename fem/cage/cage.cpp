@@ -3,6 +3,8 @@
 #include "bullet_fem/fem/cage.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "fem/cage/cage_embedding.h"
 #include "fem/cage/cage_fill.h"

@@ -3,6 +3,7 @@
 #include "fem/cage/cage_lattice.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/cage/triangle_overlap.h"
 #include "fem/cell_split.h"

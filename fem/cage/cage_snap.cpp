@@ -3,6 +3,8 @@
 #include "fem/cage/cage_snap.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "bullet_fem/fem/cage_report.h"
 #include "fem/cage/triangle_tree.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fem/cage/cage_embedding.h"
 #include "fem/message.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "fem/cage/tet_region.h"
 #include "fem/cage/triangle_overlap.h"

@@ -3,6 +3,7 @@
 #include "fem/cage/surface_inspection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fem/cage/surface_edges.h"

@@ -3,7 +3,9 @@
 #include "fem/cage/thin_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "fem/cage/fill_samples.h"
 

@@ -3,6 +3,7 @@
 #include "fem/cage/triangle_tree.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "fem/cage/tet_region.h"
 

@@ -3,6 +3,7 @@
 #include "fem/cage/winding_number.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bullet_fem
 {

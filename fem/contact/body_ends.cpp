@@ -3,6 +3,7 @@
 #include "fem/contact/body_ends.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/factor/rest_factor.h"
 #include "fem/step_scratch.h"

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "bullet_fem/fem/contact_solver.h"

@@ -3,6 +3,7 @@
 #include "bullet_fem/fem/contact_solver.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "fem/contact/contact_rows.h"
 

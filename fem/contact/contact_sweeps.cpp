@@ -3,6 +3,7 @@
 #include "fem/contact/contact_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bullet_fem
 {

@@ -4,6 +4,8 @@
 // Compiled once for every instruction set; the processor chooses when the program runs.
 #include "fem/elements/node_sums.h"
 
+#include <cstddef>
+
 #include "fem/vector_targets.h"
 
 #undef HWY_TARGET_INCLUDE

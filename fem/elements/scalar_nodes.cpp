@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // The node kernels in plain C++, in double precision: what the others are tested against.
+#include <cmath>
+#include <cstddef>
+
 #include "fem/elements/careful_average.h"
 #include "fem/elements/node_sums.h"
 #include "fem/rotation.h"

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/elements/sure_rotation.h"
 
+#include <cmath>
+
 #include "fem/rotation.h"
 
 namespace bullet_fem

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "fem/factor/isotropic_panel_kernels.h"
 #include "fem/pieces.h"

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "plugin/bodies/btFemBaked.h"
 
+#include <utility>
+
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rest_positions.h"
 #include "bullet_fem/fem/baked_body.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_arrays.h"

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // How a body becomes FEM, and gets another material or rest shape.
+#include <memory>
 #include <stdexcept>
 
 #include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"

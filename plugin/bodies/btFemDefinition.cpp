@@ -3,6 +3,9 @@
 #include "plugin/bodies/btFemDefinition.h"
 
 #include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rest_positions.h"

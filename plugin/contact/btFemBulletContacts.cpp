@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "plugin/bodies/btFemBodyRegistry.h"

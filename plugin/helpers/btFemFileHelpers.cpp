@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 #include <stdexcept>
+#include <string>
 
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/io/surface_file.h"

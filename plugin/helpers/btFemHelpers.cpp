@@ -3,8 +3,10 @@
 #include "bullet_fem/btFemHelpers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodyHelpers.h"

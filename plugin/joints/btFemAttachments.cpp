@@ -3,6 +3,7 @@
 #include "plugin/joints/btFemAttachments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 

@@ -3,6 +3,7 @@
 //
 // What leads and holds nodes: targets, attachments, springs.
 #include <stdexcept>
+#include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_fem/btFemSoftBodySolver.h"

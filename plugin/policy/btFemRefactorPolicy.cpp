@@ -4,6 +4,8 @@
 
 #include <exception>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "bullet_bridge/node_exchange.h"
 #include "plugin/bodies/btFemBodyRegistry.h"

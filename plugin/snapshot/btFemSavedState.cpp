@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <string>
+
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "fem/message.h"
 #include "plugin/bodies/btFemDefinition.h"

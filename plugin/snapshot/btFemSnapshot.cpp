@@ -3,6 +3,8 @@
 #include "plugin/snapshot/btFemSnapshot.h"
 
 #include <algorithm>
+#include <memory>
+#include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "plugin/bodies/btFemEnvelope.h"
