@@ -14,16 +14,16 @@ namespace
 
 constexpr std::size_t kManyBodies = 16;  // of dense compliance, worth waking threads for
 
-// A unit vector at a right angle to n, and n x it.
-void makeTangents(const Vec3& n, Vec3& first, Vec3& second)
+}  // namespace
+
+// The normal, a unit vector at a right angle to it, and their cross product.
+void ContactRows::setAxes(const Vec3& n, Row& row)
 {
     const Vec3 axis = std::fabs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    first = cross(axis, n);
-    first *= 1 / norm(first);
-    second = cross(n, first);
+    row.m_axes[0] = n;
+    row.m_axes[1] = (1 / norm(cross(axis, n))) * cross(axis, n);
+    row.m_axes[2] = cross(n, row.m_axes[1]);
 }
-
-}  // namespace
 
 void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings)
 {
@@ -37,6 +37,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     m_rows.clear();
     for (const ContactPoint& contact : problem.m_contacts) addContactRow(contact);
     for (const Joint& joint : problem.m_joints) addJointRow(joint);
+    for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
     m_inTurn = true;
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
@@ -69,8 +70,7 @@ void ContactRows::addContactRow(const ContactPoint& contact)
     row.m_a = softEnd(contact.m_soft, contact.m_point);
     row.m_b = contact.m_obstacle >= 0 ? rigidEnd(contact.m_obstacle, contact.m_point + contact.m_approach)
                                       : softEnd(contact.m_other, contact.m_point);
-    row.m_axes[0] = contact.m_normal;
-    makeTangents(contact.m_normal, row.m_axes[1], row.m_axes[2]);
+    setAxes(contact.m_normal, row);
     row.m_friction = contact.m_friction;
     row.m_impulse = contact.m_impulse;
     m_rows.push_back(row);
@@ -378,7 +378,7 @@ double ContactRows::worstViolation() const
     double worst = 0;
     for (const Row& row : m_rows)
     {
-        if (row.m_joint || row.m_idle) continue;
+        if (row.m_joint || row.m_touch || row.m_idle) continue;
         const double separating = dot(row.m_axes[0], trueVelocity(row));
         const double yields = row.m_yield.x * dot(row.m_axes[0], row.m_impulse);
         worst = std::max(worst, row.m_target.x - separating - yields);

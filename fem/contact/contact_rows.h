@@ -84,6 +84,7 @@ private:
     struct Row  // what every look at a row reads comes first, what only some need last
     {
         bool m_joint = false;
+        bool m_touch = false;  // of obstacles
         bool m_idle = false;   // nothing can move: no compliance
         bool m_works = false;  // belongs to the working set
         int m_freeAxes = 0;    // that nothing limits: 1: the normal; 3: all
@@ -117,8 +118,10 @@ private:
         double m_total = 0, m_bySoft = 0;  // impulses on it, and those of soft bodies [N s]
     };
 
+    static void setAxes(const Vec3& normal, Row& row);
     void addContactRow(const ContactPoint& contact);
     void addJointRow(const Joint& joint);
+    void addTouchRow(const RigidTouch& touch);
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
     RowEnd jointEnd(const JointEnd& end);
     RowEnd rigidEnd(int obstacle, const Vec3& point) const;
@@ -171,6 +174,7 @@ private:
     }
     const Threads* threadsForCompliance() const;
     void preparePush();
+    void prepareTouches();
     void sumPushImpulses();
     void payBack();
 

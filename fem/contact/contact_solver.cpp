@@ -27,6 +27,7 @@ void ContactProblem::clear()
     m_responses.clear();
     m_contacts.clear();
     m_joints.clear();
+    m_rigidTouches.clear();
     m_handleNodes.clear();
     m_handleBlocks.clear();
 }

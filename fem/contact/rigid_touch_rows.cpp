@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
+
+#include "fem/contact/contact_rows.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kAnySpeed = 1e300;  // [m/s]
+
+}  // namespace
+
+void ContactRows::addTouchRow(const RigidTouch& touch)
+{
+    Row row;
+    row.m_touch = true;
+    row.m_a.m_obstacle = touch.m_obstacle;
+    row.m_a.m_arm = touch.m_arm;
+    row.m_b.m_obstacle = touch.m_other;
+    row.m_b.m_arm = touch.m_otherArm;
+    setAxes(touch.m_normal, row);
+    for (int i = 0; i < 3; ++i) row.m_target[i] = dot(touch.m_otherVelocity, row.m_axes[i]);
+    row.m_target.x += touch.m_pushOnly ? -kAnySpeed : touch.m_leastSpeed;
+    row.m_friction = touch.m_friction;
+    m_rows.push_back(row);
+}
+
+// What lies on a floor is not pushed into it: the soft body goes all the way. Whoever moves the obstacles takes back
+// what they penetrate.
+void ContactRows::prepareTouches()
+{
+    std::size_t k = m_problem->m_contacts.size() + m_problem->m_joints.size();
+    for (const RigidTouch& touch : m_problem->m_rigidTouches)
+    {
+        Row& row = m_rows[k++];
+        const double left = touch.m_gap / m_settings.m_step.m_step +
+                            (touch.m_moves ? dot(touch.m_normal, velocity(row) - touch.m_otherVelocity) : 0);
+        row.m_target.x = -std::max(left, 0.0);
+        row.m_friction = 0;
+    }
+}
+
+}  // namespace bullet_fem
