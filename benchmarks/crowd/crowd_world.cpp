@@ -11,6 +11,7 @@
 #include "bullet_fem/btFemConstraintSolver.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/threads.h"
 
 namespace bullet_fem
 {
@@ -92,6 +93,7 @@ void addReport(const btFemStepReport& report, CrowdStep& sum)
 
 CrowdWorld::CrowdWorld(const CrowdSettings& settings)
     : m_settings(settings),
+      m_threadCount(Threads(settings.m_threads).count()),
       m_fem(solverInfo(settings)),
       m_rigidSolver(makeRigidSolver(m_fem, settings.m_coupled)),
       m_world(&m_dispatcher, &m_broadphase, m_rigidSolver.get(), &m_configuration, &m_fem)
@@ -192,6 +194,7 @@ CrowdStep CrowdWorld::step()
         m_groupTimes.push_back(report.m_contactMs);
         if (!body->isActive()) ++result.m_asleep;
     }
+    result.m_freeMilliseconds /= m_threadCount;  // of bodies that were solved at the same time
     std::sort(m_groupTimes.begin(), m_groupTimes.end());
     const auto end = std::unique(m_groupTimes.begin(), m_groupTimes.end());
     result.m_contactMilliseconds = std::accumulate(m_groupTimes.begin(), end, 0.0);

@@ -31,7 +31,7 @@ struct CrowdSettings
 struct CrowdStep
 {
     double m_milliseconds = 0;         ///< wall time of the whole step [ms]
-    double m_freeMilliseconds = 0;     ///< of the elastic solves without contact, all bodies [ms]
+    double m_freeMilliseconds = 0;     ///< of the elastic solves without contact, all bodies, over the threads [ms]
     double m_contactMilliseconds = 0;  ///< of contact: search of surfaces, sweeps, corrective solves, all groups [ms]
     int m_contacts = 0;                ///< contact points of all bodies; between soft bodies they count for both
     int m_sweeps = 0;                  ///< of the group with the most
@@ -69,6 +69,7 @@ private:
     void addRigid(std::unique_ptr<btCollisionShape> shape, const btVector3& center, btScalar mass);
 
     CrowdSettings m_settings;
+    const int m_threadCount;
     btFemSoftBodySolver m_fem;
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
