@@ -97,6 +97,7 @@ void BodyEnds::assemble(int denseLimit)
     m_points.request(m_body);
     m_working.reset(size());
     m_responses.reserve(m_ends.size());
+    m_own.resize(m_ends.size());
     m_slotVelocity.assign(m_points.order(), 0);
     m_slotBefore.assign(m_points.order(), 0);
     if (m_body.m_compliance->forgets()) form();  // before the next body asks
@@ -110,6 +111,12 @@ void BodyEnds::form()
     m_points.form(m_body, m_scale);
     for (int e = 0; e < size(); ++e)
         if (isGroup(m_ends[e])) formGroup(e);
+    formOwn();
+}
+
+void BodyEnds::formOwn()
+{
+    for (int e = 0; e < size(); ++e) m_own[e] = m_points.block(e, e);
 }
 
 // Between a group of nodes, the nodes of the points, and the groups from it on.
@@ -156,7 +163,7 @@ void BodyEnds::estimateDiagonal()
 Mat3 BodyEnds::compliance(int e, int f) const
 {
     if (!m_dense) return e == f ? m_scale * m_meanDiagonal : Mat3();
-    return m_points.block(e, f);
+    return e == f ? m_own[e] : m_points.block(e, f);
 }
 
 Vec3 BodyEnds::trueVelocity(int e) const
@@ -178,15 +185,21 @@ void BodyEnds::refresh()
 {
     if (!m_dense) return;
     m_responses.clear();
-    for (int e = 0; e < size(); ++e)
-    {
-        const Vec3 unseen = m_impulse[e] - m_seen[e];
-        if (dot(unseen, unseen) > 0) m_responses.push_back(m_points.response(e, unseen));
-        m_seen[e] = m_impulse[e];
-    }
+    if (m_pushedAtRest)
+        for (int e = 0; e < size(); ++e) see(e);
+    else
+        for (int e : m_working.ends()) see(e);
+    if (m_responses.empty() && !m_pushedAtRest) return;
     addResponses(m_responses.data(), m_responses.size(), m_points.order(), m_slotVelocity.data());
     if (m_pushedAtRest) m_working.load(m_points, m_slotVelocity);
     m_pushedAtRest = false;
+}
+
+void BodyEnds::see(int e)
+{
+    const Vec3 unseen = m_impulse[e] - m_seen[e];
+    if (dot(unseen, unseen) > 0) m_responses.push_back(m_points.response(e, unseen));
+    m_seen[e] = m_impulse[e];
 }
 
 void BodyEnds::followProbe(double step)
@@ -289,6 +302,7 @@ void BodyEnds::learn(double trueWork, double predictedWork)
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
     if (!m_dense) return;
     m_points.scale(factor);
+    formOwn();
     m_working.reset(size());
 }
 

@@ -109,6 +109,8 @@ private:
     void measureSlots();
     void estimateDiagonal();
     bool gatherBeyond(const std::vector<Vec3>& known);
+    void formOwn();
+    void see(int e);
     void learn(double trueWork, double predictedWork);
 
     ContactBody m_body;
@@ -122,6 +124,7 @@ private:
     std::vector<double> m_slotVelocity, m_slotBefore;  // dense: the same of the slots of m_points
     PointCompliance m_points;
     WorkingSet m_working;
+    std::vector<Mat3> m_own;            // dense: W_ee
     bool m_pushedAtRest = false;        // dense: an end outside the working set has an impulse that that has not seen
     std::vector<Response> m_responses;  // of a refresh
     std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes

@@ -34,7 +34,7 @@ void ContactRows::preparePush()
 {
     const double h = m_settings.m_step.m_step;
     m_subspace = {};
-    m_lifeOfSet = -1;
+    forgetWorkingSet();
     for (std::size_t k = 0; k < m_rows.size(); ++k)
     {
         Row& row = m_rows[k];

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -44,11 +46,14 @@ public:
     /// What the last sweep in turn changed, likewise; 0 of one at once, whose short steps need not shrink.
     double lastChange() const { return m_lastChange; }
 
+    /// Rows of others have changed the obstacles' velocities since the last sweep.
+    void othersMoved() { m_looked = false; }
+
     /// A speed as a share of that scale; 1000 if there is none.
     double share(double speed) const;
 
     /// What a sweep would change after measure(), likewise.
-    double error() const { return share(largestChange()); }
+    double error() { return share(largestChange()); }
 
     /// Solves the bodies' true systems for what is new, with a residual that is measured against `floor` of a body's
     /// impulses at least. `steady`: the impulses are all of a step much like the one before.
@@ -61,7 +66,7 @@ public:
     double changeOfRound();
 
     /// The largest speed [m/s] at which a contact closes faster than allowed, from the bodies' true velocities.
-    double worstViolation() const;
+    double worstViolation();
 
     /// Hands the impulses to the contacts and joints, and the slip of what sticks.
     void store();
@@ -86,7 +91,6 @@ private:
         bool m_joint = false;
         bool m_touch = false;  // of obstacles
         bool m_idle = false;   // nothing can move: no compliance
-        bool m_works = false;  // belongs to the working set
         int m_freeAxes = 0;    // that nothing limits: 1: the normal; 3: all
         RowEnd m_a, m_b;
         Vec3 m_impulse;        // on end a
@@ -112,6 +116,8 @@ private:
         bool m_tried = false;    // its sweeps have not proved it yet
     };
 
+    static constexpr int kRowsOfPiece = 512;  // shorter pieces would not be worth handing out
+
     struct Pushed  // a body, by its position corrections
     {
         Vec3 m_gained;                     // angular momentum [kg m2/s]
@@ -125,6 +131,7 @@ private:
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
     RowEnd jointEnd(const JointEnd& end);
     RowEnd rigidEnd(int obstacle, const Vec3& point) const;
+    void finishRows();
     void finishRow(Row& row) const;
     void setContactTarget(Row& row, const ContactPoint& contact) const;
     Vec3 priorVelocity(const Row& row, const ContactPoint& contact) const;
@@ -132,6 +139,7 @@ private:
     Vec3 velocity(const RowEnd& end) const;
     Vec3 velocity(const Row& row) const { return velocity(row.m_a) - velocity(row.m_b); }
     Vec3 trueVelocity(const Row& row) const;
+    double violation(const Row& row) const;
     Vec3 newSlip(const Row& row, const ContactPoint& contact) const;
     Mat3 compliance(const RowEnd& end) const;
     void react(const RowEnd& end, const Vec3& impulse);
@@ -144,10 +152,12 @@ private:
     void solveCorrections();
     void restart();
     void reserve();
+    void forgetWorkingSet();
     void chooseWorkingSet();
-    bool wantsToWork(const Row& row) const;
+    bool rests(const Row& row) const;
+    void lookForWork();
     bool restIsDone(double tolerance);
-    double largestChange() const;
+    double largestChange();
     static double speedOf(const Row& row, const Vec3& difference);
     double wantedSpeed(const Row& row) const;
     double loadSpeed() const;
@@ -173,6 +183,27 @@ private:
                  });
     }
     const Threads* threadsForCompliance() const;
+    /// Calls part(p, rows) for ranges that make up all rows, where they are many on these threads at the same time: it
+    /// must write to nothing but these rows.
+    template <class Part>
+    void forEachPieceOfRows(const Part& part)
+    {
+        const Pieces pieces(static_cast<int>(m_rows.size()), kRowsOfPiece);
+        runTasks(pieces.count() > 1 ? m_settings.m_step.m_threads : nullptr, pieces.count(),
+                 [&](int p) { part(p, pieces[p]); });
+    }
+    /// The largest value(row) of all rows, or 0 if none is more.
+    template <class Value>
+    double largestOfRows(const Value& value)
+    {
+        std::array<double, Pieces::kMost> largest{};
+        forEachPieceOfRows(
+            [&](int p, Range rows)
+            {
+                for (int k = rows.m_begin; k < rows.m_end; ++k) largest[p] = std::max(largest[p], value(m_rows[k]));
+            });
+        return *std::max_element(largest.begin(), largest.end());
+    }
     void preparePush();
     void prepareTouches();
     void sumPushImpulses();
@@ -189,6 +220,9 @@ private:
     std::vector<Row> m_rows;                        // of the contacts, then of the joints
     bool m_inTurn = true;                           // Gauss-Seidel
     std::vector<int> m_working;                     // rows that the sweeps in turn are over
+    std::vector<unsigned char> m_works;             // per row: belongs to them
+    std::vector<unsigned char> m_wants;             // per row: is to belong to the next, if it has been looked for
+    bool m_looked = false;                          // and nothing has changed since
     int m_lifeOfSet = -1;                           // sweeps until another is chosen; -1: there is none
     double m_lastChange = 0;                        // by the last sweep in turn
     double m_speedScale = 0;                        // that errors are measured against [m/s]

@@ -193,6 +193,7 @@ bool ContactSolver::sweep(double others)
     ++s.m_report.m_sweeps;
     const double othersChange = s.m_rows.share(others);
     const bool othersMove = others > kRoundingOfOthers && othersChange > s.m_sweepTolerance;
+    if (othersMove) s.m_rows.othersMoved();
     const bool moves = s.m_rows.sweep(s.m_sweepTolerance);
     if (!moves && !othersMove) return false;
     const bool joints = !s.m_problem->m_joints.empty();  // with them, all are swept to the end

@@ -11,9 +11,6 @@ namespace
 {
 
 constexpr int kSweepsBetween = 5;  // minimizations: they find out what touches, slides and sticks
-constexpr int kLongLife = 5;       // sweeps of a working set
-constexpr int kShortLife = 2;      // where a share of its rows has just joined it
-constexpr double kNews = 0.02;     // that share
 
 }  // namespace
 
@@ -22,6 +19,7 @@ void ContactRows::reserve()
 {
     m_working.reserve(m_rows.size());
     m_saved.reserve(m_rows.size());
+    for (std::vector<unsigned char>* flags : {&m_works, &m_wants}) flags->assign(m_rows.size(), 0);
     for (std::vector<Vec3>* saved : {&m_savedLinear, &m_savedAngular}) saved->reserve(m_problem->m_obstacles.size());
     m_pushed.reserve(m_problem->m_bodies.size());
 }
@@ -81,73 +79,12 @@ bool ContactRows::sweep(double tolerance)
     m_lastChange = 0;
     if (!m_inTurn) return sweepAtOnce() > tolerance;
     if (m_lifeOfSet < 0) chooseWorkingSet();
-    if (m_problem->m_joints.empty() && m_subspace.m_sweeps == kSweepsBetween)
-    {
-        searchSubspace();
-        m_lifeOfSet = 0;
-    }
+    if (m_problem->m_joints.empty() && m_subspace.m_sweeps == kSweepsBetween) searchSubspace();
     if (m_lifeOfSet == 0) chooseWorkingSet();
     ++m_subspace.m_sweeps;
     --m_lifeOfSet;
     m_lastChange = sweepInTurn();
     return m_lastChange > tolerance || !restIsDone(tolerance);
-}
-
-// Most points that were found near a surface carry nothing, and most of them never will: some sweeps go by without
-// looking at them. What carries an impulse, wants one or is a joint works. Where that changes, it is looked at again
-// soon.
-void ContactRows::chooseWorkingSet()
-{
-    flush();
-    m_working.clear();
-    int joined = 0;
-    for (std::size_t k = 0; k < m_rows.size(); ++k)
-    {
-        Row& row = m_rows[k];
-        const bool worked = row.m_works;
-        row.m_works = wantsToWork(row);
-        if (row.m_works) m_working.push_back(static_cast<int>(k));
-        if (row.m_works && !worked) ++joined;
-    }
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].choose();
-    for (int k : m_working)
-        for (const RowEnd* end : {&m_rows[k].m_a, &m_rows[k].m_b})
-            if (end->m_body >= 0) m_bodies[end->m_body].work(end->m_end);
-    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].startWork(); });
-    if (joined > 0) m_subspace.m_tried = false;  // more work is to be expected
-    m_lifeOfSet = joined > kNews * static_cast<double>(m_working.size()) ? kShortLife : kLongLife;
-}
-
-bool ContactRows::wantsToWork(const Row& row) const
-{
-    if (row.m_joint || dot(row.m_impulse, row.m_impulse) > 0) return true;
-    const Vec3 wanted = solveRow(row, row.m_impulse, velocity(row), 1);
-    return dot(wanted, wanted) > 0;
-}
-
-// If rows that rest are to change by more than the tolerance, the next sweep chooses another working set.
-bool ContactRows::restIsDone(double tolerance)
-{
-    if (m_working.size() == m_rows.size()) return true;
-    flush();
-    m_lifeOfSet = -1;
-    m_subspace.m_tried = false;  // more work is to be expected
-    double largest = 0;
-    for (const Row& row : m_rows)
-        if (!row.m_works) largest = std::max(largest, wantedSpeed(row));
-    return share(largest) <= tolerance;
-}
-
-// The change of a row as a velocity: what it does to its own point.
-double ContactRows::speedOf(const Row& row, const Vec3& difference)
-{
-    const Vec3& w = row.m_rowCompliance;
-    return (row.m_joint ? std::max({w.x, w.y, w.z}) : w.x) * norm(difference);
-}
-
-double ContactRows::wantedSpeed(const Row& row) const
-{
-    return speedOf(row, solveRow(row, row.m_impulse, velocity(row), 1) - row.m_impulse);
 }
 
 double ContactRows::sweepInTurn()
@@ -165,20 +102,6 @@ double ContactRows::sweepInTurn()
         change(row, wanted);
     }
     return share(largest);
-}
-
-bool ContactRows::isTooSoft() const
-{
-    const auto isSoft = [](const BodyEnds& body) { return body.size() > 0 && body.isTooSoft(); };
-    return std::any_of(m_bodies.begin(), m_bodies.begin() + static_cast<std::ptrdiff_t>(m_problem->m_bodies.size()),
-                       isSoft);
-}
-
-double ContactRows::largestChange() const
-{
-    double largest = 0;
-    for (const Row& row : m_rows) largest = std::max(largest, wantedSpeed(row));
-    return largest;
 }
 
 double ContactRows::share(double speed) const

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
+#include <cmath>
+
+#include "fem/contact/contact_rows.h"
+#include "fem/contact/obstacle_response.h"
+
+namespace bullet_fem
+{
+
+// The normal, a unit vector at a right angle to it, and their cross product.
+void ContactRows::setAxes(const Vec3& n, Row& row)
+{
+    const Vec3 axis = std::fabs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    row.m_axes[0] = n;
+    row.m_axes[1] = (1 / norm(cross(axis, n))) * cross(axis, n);
+    row.m_axes[2] = cross(n, row.m_axes[1]);
+}
+
+void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings)
+{
+    m_problem = &problem;
+    m_settings = settings;
+    m_probeLinear.assign(problem.m_obstacles.size(), Vec3());
+    m_probeAngular.assign(problem.m_obstacles.size(), Vec3());
+    if (m_bodies.size() < problem.m_bodies.size()) m_bodies.resize(problem.m_bodies.size());
+    m_corrections.assign(problem.m_bodies.size(), ImpulseResponse());
+    for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b]);
+    m_rows.clear();
+    for (const ContactPoint& contact : problem.m_contacts) addContactRow(contact);
+    for (const Joint& joint : problem.m_joints) addJointRow(joint);
+    for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
+    m_inTurn = true;
+    for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
+    {
+        if (m_bodies[b].size() == 0) continue;
+        m_bodies[b].assemble(settings.m_denseLimit);
+        m_inTurn = m_inTurn && m_bodies[b].isDense();
+    }
+    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
+    finishRows();
+    measure();
+    forEachPieceOfRows(
+        [&](int, Range rows)
+        {
+            const int end = std::min(rows.m_end, static_cast<int>(problem.m_contacts.size()));
+            for (int k = rows.m_begin; k < end; ++k) setContactTarget(m_rows[k], problem.m_contacts[k]);
+        });
+    for (Row& row : m_rows)
+    {
+        if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a guess that nothing would ever change
+        if (row.m_a.m_body >= 0) m_bodies[row.m_a.m_body].push(row.m_a.m_end, row.m_impulse);
+        if (row.m_b.m_body >= 0) m_bodies[row.m_b.m_body].push(row.m_b.m_end, -row.m_impulse);
+    }
+    m_gradientStep = 0;
+    forgetWorkingSet();
+    reserve();
+    m_subspace = {};
+}
+
+void ContactRows::addContactRow(const ContactPoint& contact)
+{
+    Row row;
+    row.m_a = softEnd(contact.m_soft, contact.m_point);
+    row.m_b = contact.m_obstacle >= 0 ? rigidEnd(contact.m_obstacle, contact.m_point + contact.m_approach)
+                                      : softEnd(contact.m_other, contact.m_point);
+    setAxes(contact.m_normal, row);
+    row.m_friction = contact.m_friction;
+    row.m_impulse = contact.m_impulse;
+    m_rows.push_back(row);
+}
+
+void ContactRows::addJointRow(const Joint& joint)
+{
+    Row row;
+    row.m_joint = true;
+    row.m_a = jointEnd(joint.m_a);
+    row.m_b = jointEnd(joint.m_b);
+    for (int i = 0; i < 3; ++i) row.m_axes[i] = joint.m_axes[i];
+    row.m_target = joint.m_wanted;
+    row.m_limit = joint.m_limit;
+    row.m_most = joint.m_most;
+    row.m_softness = joint.m_softness;
+    row.m_spring = joint.m_compliance;
+    row.m_impulse = joint.m_impulse;
+    m_rows.push_back(row);
+}
+
+ContactRows::RowEnd ContactRows::softEnd(const SurfacePoint& point, const Vec3& at)
+{
+    RowEnd end;
+    end.m_body = point.m_body;
+    if (point.m_body >= 0) end.m_end = m_bodies[point.m_body].addPoint(point, at);
+    return end;
+}
+
+ContactRows::RowEnd ContactRows::jointEnd(const JointEnd& joint)
+{
+    if (joint.m_body < 0)
+    {
+        RowEnd end = rigidEnd(joint.m_obstacle, joint.m_point);
+        end.m_angular = joint.m_angular;
+        return end;
+    }
+    RowEnd end;
+    end.m_body = joint.m_body;
+    end.m_end = m_bodies[joint.m_body].addGroup(&m_problem->m_handleNodes[joint.m_first],
+                                                &m_problem->m_handleBlocks[joint.m_first], joint.m_count);
+    return end;
+}
+
+ContactRows::RowEnd ContactRows::rigidEnd(int obstacle, const Vec3& point) const
+{
+    RowEnd end;
+    end.m_obstacle = obstacle;
+    if (obstacle >= 0) end.m_arm = point - m_problem->m_obstacles[obstacle].m_center;
+    return end;
+}
+
+Mat3 ContactRows::compliance(const RowEnd& end) const
+{
+    if (end.m_body >= 0) return m_bodies[end.m_body].compliance(end.m_end, end.m_end);
+    if (end.m_obstacle < 0) return {};
+    return obstacleCompliance(*m_problem, end.m_obstacle, end.m_arm, end.m_angular);
+}
+
+void ContactRows::finishRows()
+{
+    forEachPieceOfRows(
+        [this](int, Range rows)
+        {
+            for (int k = rows.m_begin; k < rows.m_end; ++k) finishRow(m_rows[k]);
+        });
+}
+
+void ContactRows::finishRow(Row& row) const
+{
+    row.m_compliance = compliance(row.m_a) + compliance(row.m_b);
+    if (row.m_a.m_body >= 0 && row.m_a.m_body == row.m_b.m_body)
+    {
+        const Mat3 between = m_bodies[row.m_a.m_body].compliance(row.m_a.m_end, row.m_b.m_end);
+        row.m_compliance -= between + transpose(between);
+    }
+    Vec3 w[3];
+    for (int i = 0; i < 3; ++i) w[i] = row.m_compliance * row.m_axes[i];
+    for (int i = 0; i < 3; ++i) row.m_rowCompliance[i] = dot(row.m_axes[i], w[i]);
+    row.m_idle = !(row.m_rowCompliance.x > 0);
+    if (row.m_joint)
+        row.m_idle = !(trace(row.m_compliance) > 0);
+    else
+    {
+        // A compliance that is the same for all tangents makes friction opposite to the velocity where it slides.
+        const double a = row.m_rowCompliance.y, b = row.m_rowCompliance.z, c = dot(row.m_axes[1], w[2]);
+        row.m_rowCompliance.y = row.m_rowCompliance.z = 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + c * c);
+        if (!(row.m_rowCompliance.y > 0)) row.m_rowCompliance.y = row.m_rowCompliance.z = row.m_rowCompliance.x;
+    }
+    if (!m_inTurn)
+    {
+        const double largest = std::max({row.m_rowCompliance.x, row.m_rowCompliance.y, row.m_rowCompliance.z});
+        row.m_rowCompliance = {largest, largest, largest};
+    }
+    if (row.m_joint)
+        row.m_yield = row.m_softness * row.m_rowCompliance + Vec3{row.m_spring, row.m_spring, row.m_spring};
+}
+
+// Relative velocity of a contact as the step began.
+Vec3 ContactRows::priorVelocity(const Row& row, const ContactPoint& contact) const
+{
+    const auto soft = [this](const SurfacePoint& p) { return p.of(m_problem->m_bodies[p.m_body].m_body->m_state.m_v); };
+    return soft(contact.m_soft) - (row.m_b.m_body >= 0 ? soft(contact.m_other) : velocity(row.m_b));
+}
+
+void ContactRows::setContactTarget(Row& row, const ContactPoint& contact) const
+{
+    const double h = m_settings.m_step.m_step;
+    const Vec3 n = contact.m_normal;
+    const double allowed = -std::max(contact.m_gap, 0.0) / h;
+    row.m_target.x = allowed;
+    for (int i = 1; i < 3; ++i) row.m_target[i] = -m_settings.m_slipFraction / h * dot(contact.m_slip, row.m_axes[i]);
+    if (contact.m_restitution > 0 && dot(n, velocity(row)) < allowed)
+    {
+        const double closing = -dot(n, priorVelocity(row, contact));
+        if (closing > m_settings.m_restitutionVelocity) row.m_target.x = contact.m_restitution * closing;
+    }
+    if (contact.m_stiffness > 0 || contact.m_damping > 0)
+    {
+        // Implicit spring and damper: lambda = h (-k (gap + h v) - d v).
+        const double k = contact.m_stiffness, s = h * k + contact.m_damping;
+        row.m_yield.x = 1 / (h * s);
+        if (contact.m_gap < 0) row.m_target.x = -k * contact.m_gap / s;
+    }
+}
+
+}  // namespace bullet_fem
