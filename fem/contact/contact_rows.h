@@ -29,6 +29,9 @@ public:
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
 
+    /// Lets the touches of obstacles answer what the impulses so far do to them.
+    void settleTouches();
+
     /// Brings the ends' velocities up to the bodies' true ones.
     void measure();
 

@@ -10,6 +10,7 @@ namespace
 {
 
 constexpr double kAnySpeed = 1e300;  // [m/s]
+constexpr int kSettlingSweeps = 10;
 
 }  // namespace
 
@@ -26,6 +27,16 @@ void ContactRows::addTouchRow(const RigidTouch& touch)
     row.m_target.x += touch.m_pushOnly ? -kAnySpeed : touch.m_leastSpeed;
     row.m_friction = touch.m_friction;
     m_rows.push_back(row);
+}
+
+// The guesses of all other impulses push obstacles into what holds them. What that takes back is no change that contact
+// has to make.
+void ContactRows::settleTouches()
+{
+    const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
+    for (int sweep = 0; sweep < kSettlingSweeps; ++sweep)
+        for (std::size_t k = first; k < m_rows.size(); ++k)
+            change(m_rows[k], solveRow(m_rows[k], m_rows[k].m_impulse, velocity(m_rows[k]), 1));
 }
 
 // What lies on a floor is not pushed into it: the soft body goes all the way. Whoever moves the obstacles takes back

@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "bullet_fem/fem/stepping.h"
+#include "fem/factor/rest_factor.h"
 #include "fem/scenes/baked_files.h"
 #include "fem/scenes/expect_rejected.h"
-#include "fem/factor/rest_factor.h"
 
 namespace bullet_fem
 {

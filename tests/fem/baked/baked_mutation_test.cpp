@@ -8,9 +8,9 @@
 
 #include "bullet_fem/fem/contact_solver.h"
 #include "bullet_fem/fem/stepping.h"
-#include "fem/scenes/baked_files.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/factor/rest_factor.h"
+#include "fem/scenes/baked_files.h"
 
 namespace bullet_fem
 {

@@ -6,9 +6,9 @@
 
 #include <Eigen/LU>
 
+#include "fem/factor/rest_factor.h"
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/elasticity_scenes.h"
-#include "fem/factor/rest_factor.h"
 #include "support/allocation_counter.h"
 
 namespace bullet_fem

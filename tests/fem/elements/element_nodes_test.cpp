@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "fem/scenes/element_case.h"
 #include "fem/elements/node_rotations.h"
 #include "fem/rotation.h"
+#include "fem/scenes/element_case.h"
 
 namespace bullet_fem
 {

@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "fem/rotation.h"
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/element_case.h"
-#include "fem/rotation.h"
 
 namespace bullet_fem
 {

@@ -11,9 +11,9 @@
 
 #include "bullet_fem/fem/stepping.h"
 #include "bullet_fem/fem/threads.h"
+#include "fem/factor/rest_factor.h"
 #include "fem/scenes/contact_scene.h"
 #include "fem/scenes/dense_system.h"
-#include "fem/factor/rest_factor.h"
 #include "fem/scenes/stepping_scenes.h"
 #include "support/allocation_counter.h"
 

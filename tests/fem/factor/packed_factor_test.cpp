@@ -7,9 +7,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "fem/factor/rest_factor.h"
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/elasticity_scenes.h"
-#include "fem/factor/rest_factor.h"
 
 namespace bullet_fem
 {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "fem/aligned_floats.h"
-#include "fem/scenes/elasticity_scenes.h"
 #include "fem/factor/isotropic_panel_kernels.h"
+#include "fem/scenes/elasticity_scenes.h"
 
 namespace bullet_fem
 {

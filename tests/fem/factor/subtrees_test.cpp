@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <set>
 
-#include "fem/scenes/elasticity_scenes.h"
 #include "fem/factor/rest_factor.h"
+#include "fem/scenes/elasticity_scenes.h"
 
 namespace bullet_fem
 {

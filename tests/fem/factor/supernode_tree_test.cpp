@@ -10,10 +10,10 @@
 #include <set>
 #include <string>
 
+#include "fem/factor/block_matrix.h"
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/expect_rejected.h"
-#include "fem/factor/block_matrix.h"
 
 namespace bullet_fem
 {

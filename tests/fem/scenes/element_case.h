@@ -11,9 +11,9 @@
 
 #include <hwy/highway.h>
 
-#include "fem/scenes/elasticity_scenes.h"
 #include "fem/elements/element_product.h"
 #include "fem/elements/node_sums.h"
+#include "fem/scenes/elasticity_scenes.h"
 #include "fem/warped_elements.h"
 
 namespace bullet_fem

@@ -8,8 +8,8 @@
 
 #include "bullet_fem/fem/generators.h"
 #include "bullet_fem/fem/stepping.h"
-#include "plugin/scenes/clamped_beam.h"
 #include "plugin/policy/btFemFactorThread.h"
+#include "plugin/scenes/clamped_beam.h"
 #include "plugin/scenes/scene_measures.h"
 
 namespace bullet_fem

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemHelpers.h"
-#include "plugin/scenes/clamped_beam.h"
 #include "plugin/policy/btFemDetailChooser.h"
+#include "plugin/scenes/clamped_beam.h"
 #include "plugin/scenes/scene_measures.h"
 
 namespace bullet_fem

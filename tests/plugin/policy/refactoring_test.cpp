@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "bullet_fem/fem/generators.h"
-#include "plugin/scenes/clamped_beam.h"
 #include "plugin/policy/btFemFactorAccount.h"
 #include "plugin/policy/btFemRealTime.h"
+#include "plugin/scenes/clamped_beam.h"
 #include "plugin/scenes/scene_measures.h"
 
 namespace bullet_fem
