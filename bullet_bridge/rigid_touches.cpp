@@ -156,6 +156,9 @@ void RigidTouchFinder::add(const Pair& pair, const btManifoldPoint& point, doubl
     touch.m_arm = arms[turned ? 1 : 0];
     touch.m_otherArm = arms[turned ? 0 : 1];
     if (touch.m_other < 0) touch.m_otherVelocity = velocities[turned ? 0 : 1];
+    // Friction holds what rests; what slides, or is led, goes on as Bullet has left it.
+    const Vec3 relative = (turned ? -1.0 : 1.0) * (velocities[0] - velocities[1]);
+    touch.m_otherVelocity += relative - dot(relative, touch.m_normal) * touch.m_normal;
     touch.m_friction = std::max(0.0, double(point.m_combinedFriction));
     touch.m_pushOnly = !moved || givesWay;
     touches.push_back(touch);

@@ -107,7 +107,8 @@ struct RigidTouch
     double m_gap = 0;         ///< signed distance [m]; negative inside
     bool m_moves = true;      ///< the velocities of the solve will bring them together or apart from there
     double m_leastSpeed = 0;  ///< at which they part along the normal, at least; < 0: they may close [m/s]
-    Vec3 m_otherVelocity;     ///< of what is immovable, where they touch [m/s]
+    Vec3 m_otherVelocity;     ///< of what is immovable, where they touch; along the touch also the sliding that goes on
+                              ///< [m/s]
     double m_friction = 0;    ///< Coulomb's coefficient [-], >= 0
     bool m_pushOnly = false;  ///< it counts for position corrections alone
 };
