@@ -232,40 +232,21 @@ int RigidObstacles::indexForContact(const btCollisionObject& object, double step
     if (m_sources.size() == known || m_phase != RigidPhase::moved || !m_obstacles[index].canMove() ||
         !mustRewind(index, step, soft))
         return index;
-    rewind(index, step);
-    return index;
-}
-
-int RigidObstacles::indexBeside(const btCollisionObject& object, double step, int neighbour)
-{
-    const int index = indexOf(object, step);
-    const bool asMoved = movableBody(index) && object.getHitFraction() != 0;  // what Bullet stopped on its way was not
-    if (asMoved && isRewound(neighbour) && !isRewound(index)) rewind(index, step);
-    return index;
-}
-
-// Bullet's contacts are touches of the solve; its joints are known by what they did.
-void RigidObstacles::rewind(int index, double step)
-{
-    Source& source = m_sources[index];
     Obstacle& obstacle = m_obstacles[index];
     const LinkMotion now = motionNow(index);
     obstacle.m_center -= step * now.m_linear;
     obstacle.m_linearVelocity = now.m_linear;
-    const btRigidBody* body = movable(*source.m_object);
-    if (!body || body->getNumConstraintRefs() == 0) obstacle.m_angularVelocity = now.m_angular;
-    if (body)
+    if (const btRigidBody* body = movable(object))
     {
-        if (body->getNumConstraintRefs() > 0)
-        {
-            source.m_held = doneByBullet(*body, step, obstacle).m_linear;
-            obstacle.m_linearVelocity += supportOf(*body, step, obstacle, true).m_linear;
-        }
-        source.m_now = {obstacle.m_linearVelocity, obstacle.m_angularVelocity};
+        m_sources[index].m_held = doneByBullet(*body, step, obstacle).m_linear;
+        obstacle.m_linearVelocity += supportOf(*body, step, obstacle, true).m_linear;
     }
+    else
+        obstacle.m_angularVelocity = now.m_angular;
     m_articulated.setCenter(index, obstacle.m_center);
-    source.m_rewound = true;
-    m_rewound.push_back(source.m_objectId);
+    m_sources[index].m_rewound = true;
+    m_rewound.push_back(m_sources[index].m_objectId);
+    return index;
 }
 
 RigidObstacles::Remainder& RigidObstacles::remainderOf(int objectId)
@@ -324,8 +305,8 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
         Vec3 linear = obstacle.m_pushLinear, angular = obstacle.m_pushAngular;
         if (source.m_rewound)  // it went with the old velocity where it should have gone with the new
         {
-            linear += heldBack(obstacle.m_linearVelocity - source.m_now.m_linear, source.m_held);
-            angular += obstacle.m_angularVelocity - source.m_now.m_angular;
+            linear += heldBack(scaled(obstacle.m_inverseMass, source.m_linearImpulse), source.m_held);
+            angular += obstacle.m_inverseInertia * source.m_angularImpulse;
         }
         if (dot(linear, linear) + dot(angular, angular) == 0) continue;
         btTransform pushed;

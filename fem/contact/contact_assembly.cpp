@@ -30,7 +30,6 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     m_rows.clear();
     for (const ContactPoint& contact : problem.m_contacts) addContactRow(contact);
     for (const Joint& joint : problem.m_joints) addJointRow(joint);
-    for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
     m_inTurn = true;
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
