@@ -8,15 +8,19 @@
 
 namespace bullet_fem
 {
+namespace
+{
 
-// The normal, a unit vector at a right angle to it, and their cross product.
-void ContactRows::setAxes(const Vec3& n, Row& row)
+// A unit vector at a right angle to n, and n x it.
+void makeTangents(const Vec3& n, Vec3& first, Vec3& second)
 {
     const Vec3 axis = std::fabs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    row.m_axes[0] = n;
-    row.m_axes[1] = (1 / norm(cross(axis, n))) * cross(axis, n);
-    row.m_axes[2] = cross(n, row.m_axes[1]);
+    first = cross(axis, n);
+    first *= 1 / norm(first);
+    second = cross(n, first);
 }
+
+}  // namespace
 
 void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings)
 {
@@ -64,7 +68,8 @@ void ContactRows::addContactRow(const ContactPoint& contact)
     row.m_a = softEnd(contact.m_soft, contact.m_point);
     row.m_b = contact.m_obstacle >= 0 ? rigidEnd(contact.m_obstacle, contact.m_point + contact.m_approach)
                                       : softEnd(contact.m_other, contact.m_point);
-    setAxes(contact.m_normal, row);
+    row.m_axes[0] = contact.m_normal;
+    makeTangents(contact.m_normal, row.m_axes[1], row.m_axes[2]);
     row.m_friction = contact.m_friction;
     row.m_impulse = contact.m_impulse;
     m_rows.push_back(row);

@@ -123,7 +123,6 @@ private:
         double m_total = 0, m_bySoft = 0;  // impulses on it, and those of soft bodies [N s]
     };
 
-    static void setAxes(const Vec3& normal, Row& row);
     void addContactRow(const ContactPoint& contact);
     void addJointRow(const Joint& joint);
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
