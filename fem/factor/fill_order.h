@@ -16,12 +16,13 @@ struct SparsePattern
     std::vector<int> m_rowIndex;
 };
 
-/// Name of the library that fillReducingOrder() calls: "CHOLMOD x.y.z" or "Eigen x.y.z".
+/// The library that fillReducingOrder() has for large bodies: "METIS x.y.z", or "Eigen x.y.z" where there is no METIS.
 const char* orderingBackend();
 
 /// A permutation that keeps the Cholesky factor of the pattern sparse: entry k is the row that comes k-th.
-/// CHOLMOD tries METIS and AMD and keeps the smaller fill; Eigen has AMD only. The chosen method's name goes to
-/// `methodName`. Not thread-safe (METIS draws from the global random generator). Throws std::runtime_error.
+/// Of METIS's nested dissection and Eigen's approximate minimum degree the one with less fill; its name, METIS or AMD,
+/// goes to `methodName`. May be called at the same time on several threads. Throws std::bad_alloc, or
+/// std::runtime_error if METIS fails.
 std::vector<int> fillReducingOrder(const SparsePattern& pattern, const char*& methodName);
 
 }  // namespace bullet_fem

@@ -3,6 +3,7 @@
 #include "fem/factor/supernode_tree.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -338,6 +339,13 @@ SupernodeTree buildSupernodeTree(const SparsePattern& pattern, std::vector<int>&
     collectRows(graph, tree);
     order = graph.m_order;
     return cutWide(tree);
+}
+
+long blocksOfFactor(const SparsePattern& pattern, const std::vector<int>& order)
+{
+    const OrderedGraph graph = orderedGraph(pattern, order);
+    const std::vector<int> rows = rowsBelow(graph, eliminationTree(graph));
+    return std::accumulate(rows.begin(), rows.end(), long(graph.size()));
 }
 
 }  // namespace bullet_fem

@@ -38,4 +38,7 @@ struct SupernodeTree
 /// std::invalid_argument if `order` is not a permutation of the pattern's rows.
 SupernodeTree buildSupernodeTree(const SparsePattern& pattern, std::vector<int>& order);
 
+/// Blocks of the factor in that elimination order, the diagonal's included, before any merging. Throws likewise.
+long blocksOfFactor(const SparsePattern& pattern, const std::vector<int>& order);
+
 }  // namespace bullet_fem

@@ -52,7 +52,7 @@ struct FactorInput
 /// Figures of a factorization.
 struct FactorReport
 {
-    std::string m_backend;                 ///< library that ordered and factored
+    std::string m_backend;                 ///< library of orders, with its version
     std::string m_ordering;                ///< METIS or AMD
     long m_entries = 0;                    ///< entries of the full factor L, fill included
     int m_supernodes = 0;                  ///< dense panels that L is packed in
