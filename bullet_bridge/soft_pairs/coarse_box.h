@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <limits>
+
+#include "bullet_bridge/soft_pairs/float_lanes.h"
 #include "bullet_fem/fem/vec3.h"
 
 namespace bullet_fem
@@ -15,31 +18,75 @@ inline float coarse(double length)
 
 /// A SweptBox in single precision, rounded outward, for quick answers: these may be yes where the exact one is no,
 /// never the other way round, wherever in the world the box is.
-struct alignas(16) CoarseBox
+struct CoarseBox
 {
-    float m_low[4], m_high[4];              ///< at the start [m]; the fourth component is 0
-    float m_changeLow[4], m_changeHigh[4];  ///< [m]
+    FloatLanes m_low, m_high;              ///< at the start [m]; the fourth component is 0
+    FloatLanes m_changeLow, m_changeHigh;  ///< [m]
 
     /// Of nothing: meets nothing.
-    static CoarseBox empty();
+    static CoarseBox empty()
+    {
+        constexpr float kMost = std::numeric_limits<float>::max();
+        constexpr FloatLanes kHigh = {kMost, kMost, kMost, 0}, kLow = {-kMost, -kMost, -kMost, 0};
+        return {kHigh, kLow, kHigh, kLow};
+    }
 
     /// A point that moves by `change`.
-    static CoarseBox of(const Vec3& point, const Vec3& change);
+    static CoarseBox of(const Vec3& point, const Vec3& change)
+    {
+        const FloatLanes x = {static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z), 0};
+        const FloatLanes d = {static_cast<float>(change.x), static_cast<float>(change.y), static_cast<float>(change.z),
+                              0};
+        return {x - rounding(x), x + rounding(x), d - rounding(d), d + rounding(d)};
+    }
 
-    void add(const CoarseBox& b);
+    void add(const CoarseBox& b)
+    {
+        m_low = least(m_low, b.m_low);
+        m_high = most(m_high, b.m_high);
+        m_changeLow = least(m_changeLow, b.m_changeLow);
+        m_changeHigh = most(m_changeHigh, b.m_changeHigh);
+    }
 
     /// Makes it hold for so many steps of the same motion.
-    void last(int steps);
+    void last(int steps)
+    {
+        m_changeLow *= static_cast<float>(steps);
+        m_changeHigh *= static_cast<float>(steps);
+    }
 
     /// False only if no two points of this and the other are within `reach` [m] of each other at the start.
-    bool startsWithin(const CoarseBox& b, float reach) const;
+    bool startsWithin(const CoarseBox& b, float reach) const
+    {
+        const FloatLanes apart = most(m_low - b.m_high, b.m_low - m_high);
+        return !isAny(kShrink * apart > reach);
+    }
 
     /// False only if no two points of this and the other come within `reach` [m] of each other, moving relative to each
     /// other in a straight line: what both have in common does not matter.
-    bool meets(const CoarseBox& b, float reach) const;
+    bool meets(const CoarseBox& b, float reach) const
+    {
+        const FloatLanes none = {};
+        const FloatLanes above = kShrink * (m_low - b.m_high) + least(none, m_changeLow - b.m_changeHigh);
+        const FloatLanes below = kShrink * (b.m_low - m_high) + least(none, b.m_changeLow - m_changeHigh);
+        return !isAny(most(above, below) > reach);
+    }
 
     /// Sum of the sides at the start [m].
     float extent() const { return (m_high[0] - m_low[0]) + (m_high[1] - m_low[1]) + (m_high[2] - m_low[2]); }
+
+private:
+    // More than what four operations round away. Where boxes are apart, all they take is a share of the distance at the
+    // start: of two values that are near each other the difference is exact.
+    static constexpr float kShrink = 1 - 1e-6f;
+
+    // More than what rounding to single precision can have changed.
+    static FloatLanes rounding(const FloatLanes& a)
+    {
+        constexpr FloatLanes kTiny = {std::numeric_limits<float>::min(), std::numeric_limits<float>::min(),
+                                      std::numeric_limits<float>::min(), 0};
+        return 2e-7f * most(a, -a) + kTiny;
+    }
 };
 
 }  // namespace bullet_fem
