@@ -85,6 +85,7 @@ void NodeSurfaceSearch::findNode(int node)
     visit.m_x = m_nodes->position()[node];
     visit.m_change = m_nodes->change()[node];
     if (!lookAround(visit)) return;
+    visit.m_normal = m_nodes->nodeNormal(node);
     m_hits.clear();
     m_faces->tree().visitNear(CoarseBox::of(visit.m_x, visit.m_change),
                               std::max(m_reach.m_band, std::min(visit.m_limit, m_reach.depth())),
@@ -166,7 +167,7 @@ void NodeSurfaceSearch::tryDeepFace(const Visit& visit)
 
 bool NodeSurfaceSearch::isFacing(const Visit& visit, int triangle) const
 {
-    return dot(m_nodes->nodeNormal(visit.m_node), m_faces->faceNormal(triangle)) < kFacing;
+    return dot(visit.m_normal, m_faces->faceNormal(triangle)) < kFacing;
 }
 
 // Touches at the start, or closes within the step without moving far along the face.
@@ -226,7 +227,7 @@ void NodeSurfaceSearch::tryImpact(const Visit& visit, int triangle)
         const Vec3 normal = cross(then[1] - then[0], then[2] - then[0]);
         hit.m_normal = (1 / norm(normal)) * normal;
         hit.m_gap = dot(hit.m_normal, visit.m_x - interpolated(x, t, hit.m_weights));
-        if (!(hit.m_gap > 0) || dot(m_nodes->nodeNormal(visit.m_node), hit.m_normal) > kFacingImpact) continue;
+        if (!(hit.m_gap > 0) || dot(visit.m_normal, hit.m_normal) > kFacingImpact) continue;
         m_hits.push_back(hit);
         return;
     }
@@ -246,7 +247,7 @@ void NodeSurfaceSearch::dropRims(const Visit& visit)
 {
     Hit* best = nullptr;
     bool over = false;
-    const auto facing = [&](const Hit& hit) { return dot(m_nodes->nodeNormal(visit.m_node), hit.m_normal); };
+    const auto facing = [&](const Hit& hit) { return dot(visit.m_normal, hit.m_normal); };
     for (Hit& hit : m_hits)
     {
         if (hit.m_time > 0) continue;
@@ -297,7 +298,7 @@ void NodeSurfaceSearch::tryNearestFeature(const Visit& visit)
     const Hit hit = {
         visit.m_nearestTriangle, visit.m_nearest.m_weights, normal, visit.m_distance, 0, Place::over, false};
     if (!isNear(visit, hit) || m_nodes->leastAlongEdges(visit.m_node, normal) < kSeparates) return;
-    if (dot(m_nodes->nodeNormal(visit.m_node), normal) > kFacing) return;
+    if (dot(visit.m_normal, normal) > kFacing) return;
     const std::size_t count = m_touches->size();
     emit(visit, hit);
     if (m_touches->size() > count) m_touches->back().m_otherFeature = -1;

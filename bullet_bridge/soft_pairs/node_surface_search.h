@@ -47,7 +47,7 @@ private:
     struct Visit  // of one node
     {
         int m_node = 0;
-        Vec3 m_x, m_change;
+        Vec3 m_x, m_change, m_normal;
         int m_nearestTriangle = -1;
         TrianglePoint m_nearest;
         double m_distance = 0;

@@ -43,12 +43,8 @@ SoftSurface::SoftSurface(const RestSurface& rest)
       m_x(rest.m_positions),
       m_change(rest.m_positions.size()),
       m_faceNormal(rest.m_triangles.size()),
-      m_edgeNormal(m_features.m_edges.size()),
-      m_nodeNormal(rest.m_positions.size()),
-      m_bend(m_features.m_edges.size()),
-      m_intoFaces(m_features.m_edges.size()),
-      m_flatEdge(m_features.m_edges.size()),
-      m_flatNode(rest.m_positions.size())
+      m_intoSecondFace(m_features.m_edges.size()),
+      m_bend(m_features.m_edges.size())
 {
     listEdgeTriangles();
     std::vector<std::vector<int>> around(rest.m_positions.size());
@@ -94,39 +90,26 @@ void SoftSurface::update(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
     updateFaces();
     updateEdges();
     m_ridges.update(m_tree, m_bend);
-    updateFlatness();
 }
 
 void SoftSurface::updateFaces()
 {
-    for (int i : m_nodes) m_nodeNormal[i] = {};
-    std::fill(m_edgeNormal.begin(), m_edgeNormal.end(), Vec3());
     for (std::size_t t = 0; t < m_faceNormal.size(); ++t)
     {
         const Corners& c = m_tree.corners(static_cast<int>(t));
-        const Vec3 n = unit(cross(c[1] - c[0], c[2] - c[0]));
-        m_faceNormal[t] = n;
-        for (int k = 0; k < 3; ++k)
-        {
-            m_edgeNormal[m_features.m_triangleEdges[t][k]] += n;
-            const Vec3 next = c[(k + 1) % 3] - c[k], last = c[(k + 2) % 3] - c[k];
-            m_nodeNormal[m_triangles[t][k]] += angleBetween(next, last) * n;
-        }
+        m_faceNormal[t] = unit(cross(c[1] - c[0], c[2] - c[0]));
     }
-    for (Vec3& n : m_edgeNormal) n = unit(n);
-    for (int i : m_nodes) m_nodeNormal[i] = unit(m_nodeNormal[i]);
 }
 
 void SoftSurface::updateEdges()
 {
     for (std::size_t k = 0; k < m_bend.size(); ++k)
     {
-        const int edge = static_cast<int>(k);
         const auto [first, second] = m_edgeTriangles[k];
-        m_intoFaces[k] = {intoFace(edge, first), intoFace(edge, second)};
+        m_intoSecondFace[k] = intoFace(static_cast<int>(k), second);
         // Where more than two faces meet, none may take the edge for a ridge; a rim is neither ridge nor groove.
         const double single = first == second ? 0 : 1;
-        m_bend[k] = m_manifoldEdge[k] ? dot(m_faceNormal[first], m_intoFaces[k][1]) : single;
+        m_bend[k] = m_manifoldEdge[k] ? dot(m_faceNormal[first], m_intoSecondFace[k]) : single;
     }
 }
 
@@ -140,30 +123,74 @@ Vec3 SoftSurface::intoFace(int edge, int triangle) const
     return unit(r - dot(r, e) * e);
 }
 
-void SoftSurface::updateFlatness()
+// Ascending, so that sums do not depend on how the triangles were found.
+template <class Visit>
+void SoftSurface::visitTrianglesAt(int edge, Visit visit) const
 {
-    std::fill(m_flatEdge.begin(), m_flatEdge.end(), static_cast<unsigned char>(1));
-    std::fill(m_flatNode.begin(), m_flatNode.end(), static_cast<unsigned char>(1));
-    for (std::size_t t = 0; t < m_faceNormal.size(); ++t)
-        for (int k = 0; k < 3; ++k)
-        {
-            const int edge = m_features.m_triangleEdges[t][k], node = m_triangles[t][k];
-            if (dot(m_faceNormal[t], m_edgeNormal[edge]) < kFlat) m_flatEdge[edge] = 0;
-            if (dot(m_faceNormal[t], m_nodeNormal[node]) < kFlat) m_flatNode[node] = 0;
-        }
+    const auto [first, second] = m_edgeTriangles[edge];
+    if (m_manifoldEdge[edge])
+    {
+        visit(first);
+        visit(second);
+        return;
+    }
+    const int node = m_features.m_edges[edge][0];
+    for (int k = m_features.m_firstAround[node]; k < m_features.m_firstAround[node + 1]; ++k)
+    {
+        const int t = m_features.m_around[k];
+        const std::array<int, 3>& edges = m_features.m_triangleEdges[t];
+        if (std::find(edges.begin(), edges.end(), edge) != edges.end()) visit(t);
+    }
 }
 
-const Vec3& SoftSurface::normalAt(int triangle, const TrianglePoint& point) const
+Vec3 SoftSurface::edgeNormal(int edge) const
+{
+    Vec3 sum;
+    visitTrianglesAt(edge, [&](int t) { sum += m_faceNormal[t]; });
+    return unit(sum);
+}
+
+Vec3 SoftSurface::nodeNormal(int node) const
+{
+    Vec3 sum;
+    for (int k = m_features.m_firstAround[node]; k < m_features.m_firstAround[node + 1]; ++k)
+    {
+        const int t = m_features.m_around[k];
+        const Triangle& nodes = m_triangles[t];
+        const int at = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
+        const Vec3 next = m_x[nodes[(at + 1) % 3]] - m_x[node], last = m_x[nodes[(at + 2) % 3]] - m_x[node];
+        sum += angleBetween(next, last) * m_faceNormal[t];
+    }
+    return unit(sum);
+}
+
+Vec3 SoftSurface::normalAt(int triangle, const TrianglePoint& point) const
 {
     switch (point.m_feature)
     {
         case TriangleFeature::edge:
-            return m_edgeNormal[m_features.m_triangleEdges[triangle][point.m_number]];
+            return edgeNormal(m_features.m_triangleEdges[triangle][point.m_number]);
         case TriangleFeature::corner:
-            return m_nodeNormal[m_triangles[triangle][point.m_number]];
+            return nodeNormal(m_triangles[triangle][point.m_number]);
         default:
             return m_faceNormal[triangle];
     }
+}
+
+bool SoftSurface::isFlatEdge(int edge) const
+{
+    const Vec3 normal = edgeNormal(edge);
+    bool flat = true;
+    visitTrianglesAt(edge, [&](int t) { flat = flat && !(dot(m_faceNormal[t], normal) < kFlat); });
+    return flat;
+}
+
+bool SoftSurface::isFlatNode(int node) const
+{
+    const Vec3 normal = nodeNormal(node);
+    const int* const around = m_features.m_around.data();
+    return std::none_of(around + m_features.m_firstAround[node], around + m_features.m_firstAround[node + 1],
+                        [&](int t) { return dot(m_faceNormal[t], normal) < kFlat; });
 }
 
 double SoftSurface::leastAlongEdges(int node, const Vec3& direction) const

@@ -86,23 +86,27 @@ public:
     const std::vector<Vec3>& position() const { return m_x; }     ///< [m], of all vertices
     const std::vector<Vec3>& change() const { return m_change; }  ///< h v [m]
 
-    /// Outward unit normals; zero where triangles have no area.
+    /// Outward unit normals; zero where triangles have no area. Those of edges and nodes are calculated when asked for:
+    /// few are near another body.
     const Vec3& faceNormal(int triangle) const { return m_faceNormal[triangle]; }
-    const Vec3& edgeNormal(int edge) const { return m_edgeNormal[edge]; }  ///< mean of its faces'
-    const Vec3& nodeNormal(int node) const { return m_nodeNormal[node]; }  ///< weighted with the faces' angles
+    Vec3 edgeNormal(int edge) const;  ///< mean of its faces'
+    Vec3 nodeNormal(int node) const;  ///< weighted with the faces' angles
     /// The normal of a feature of a triangle: says on which side of a closed surface a point lies to which this feature
     /// is nearest [Baerentzen and Aanaes 2005].
-    const Vec3& normalAt(int triangle, const TrianglePoint& point) const;
+    Vec3 normalAt(int triangle, const TrianglePoint& point) const;
 
     /// Sine of the angle by which the surface is bent at an edge: > 0 in a groove, < 0 on a ridge [-].
     double bend(int edge) const { return m_bend[edge]; }
     /// One of the triangles at a node.
     int nodeOwner(int node) const { return m_features.m_around[m_features.m_firstAround[node]]; }
     /// Unit vectors from an edge into its two faces, perpendicular to it.
-    const std::array<Vec3, 2>& intoFaces(int edge) const { return m_intoFaces[edge]; }
+    std::array<Vec3, 2> intoFaces(int edge) const
+    {
+        return {intoFace(edge, m_edgeTriangles[edge][0]), m_intoSecondFace[edge]};
+    }
     /// True if all faces at an edge (a node) have nearly (8 degrees) its normal.
-    bool isFlatEdge(int edge) const { return m_flatEdge[edge] != 0; }
-    bool isFlatNode(int node) const { return m_flatNode[node] != 0; }
+    bool isFlatEdge(int edge) const;
+    bool isFlatNode(int node) const;
 
     /// Least dot product of a direction with the unit vectors along the surface edges that leave a node: >= 0 if the
     /// body lies, near the node, on the direction's side of a plane.
@@ -112,7 +116,8 @@ private:
     void listEdgeTriangles();
     void updateFaces();
     void updateEdges();
-    void updateFlatness();
+    template <class Visit>
+    void visitTrianglesAt(int edge, Visit visit) const;
     int nodeAt(int vertex) const { return m_nearestNode.empty() ? vertex : m_nearestNode[vertex]; }
     Vec3 intoFace(int edge, int triangle) const;
 
@@ -127,10 +132,8 @@ private:
     std::vector<std::array<int, 2>> m_edgeTriangles;  // twice the same at a rim
     std::vector<unsigned char> m_manifoldEdge;        // 1: of exactly two triangles
     std::vector<int> m_firstAround, m_around;         // surface edges' other ends around every vertex
-    std::vector<Vec3> m_x, m_change, m_faceNormal, m_edgeNormal, m_nodeNormal;
+    std::vector<Vec3> m_x, m_change, m_faceNormal, m_intoSecondFace;
     std::vector<double> m_bend;
-    std::vector<std::array<Vec3, 2>> m_intoFaces;
-    std::vector<unsigned char> m_flatEdge, m_flatNode;
 };
 
 }  // namespace bullet_fem
