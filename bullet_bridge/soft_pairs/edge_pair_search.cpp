@@ -36,6 +36,16 @@ bool isInterior(const LineParameters& at)
     return at.m_a > kEnd && at.m_a < 1 - kEnd && at.m_b > kEnd && at.m_b < 1 - kEnd;
 }
 
+// False only if the nearest points of the lines lie beyond the ends of one of them: as nearestOfLines, without
+// dividing.
+bool mayCross(const std::array<Vec3, 4>& ends)
+{
+    const Vec3 a = ends[1] - ends[0], b = ends[3] - ends[2], r = ends[2] - ends[0], n = cross(a, b);
+    const Vec3 s = cross(n, r);
+    const double onA = dot(s, b), onB = dot(s, a), whole = dot(n, n);
+    return !(std::min(onA, onB) < -kEnd * whole || std::max(onA, onB) > (1 + kEnd) * whole);
+}
+
 Vec3 unitNormal(const std::array<Vec3, 4>& ends)
 {
     const Vec3 n = cross(ends[1] - ends[0], ends[3] - ends[2]);
@@ -71,19 +81,22 @@ void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, c
     m_reach = reach;
     m_touches = &touches;
     const std::size_t begin = touches.size();
-    const double near = reach.m_band + reach.depth();
+    const float near = coarse(reach.m_band + reach.depth());
+    const SurfaceRidges &ridgesA = first.ridges(), &ridgesB = second.ridges();
     using Leaf = SurfaceTree::Leaf;
+    using Ridge = SurfaceRidges::Ridge;
+    const auto mayMeet = [&](int a, int b) { return mayTouch(ridgesA.box(a), ridgesB.box(b)); };
     const auto tryLeaves = [&](const Leaf& leafA, const Leaf& leafB)
     {
-        for (const auto *a = first.ridges().begin(leafA), *endA = first.ridges().end(leafA); a != endA; ++a)
-            for (const auto *b = second.ridges().begin(leafB), *endB = second.ridges().end(leafB); b != endB; ++b)
+        if (!first.tree().box(leafA.m_node).meets(second.tree().box(leafB.m_node), near)) return;
+        for (const Ridge *a = ridgesA.begin(leafA), *endA = ridgesA.end(leafA); a != endA; ++a)
+            for (const Ridge *b = ridgesB.begin(leafB), *endB = ridgesB.end(leafB); b != endB; ++b)
             {
                 if (&first == &second && b->m_edge <= a->m_edge) continue;
-                if (a->m_box.startsWithin(b->m_box, coarse(near)) || a->m_box.meets(b->m_box, coarse(reach.m_band)))
-                    tryPair(a->m_edge, b->m_edge, nodes);
+                if (mayTouch(a->m_box, b->m_box)) tryPair(*a, *b, nodes);
             }
     };
-    first.tree().visitNearLeaves(second.tree(), near, tryLeaves);
+    first.tree().visitLeafPairs(second.tree(), mayMeet, tryLeaves);
     const auto key = [](const SurfaceTouch& touch) { return std::pair(touch.m_feature, touch.m_otherFeature); };
     std::sort(touches.begin() + begin, touches.end(),
               [&](const SurfaceTouch& a, const SurfaceTouch& b) { return key(a) < key(b); });
@@ -97,17 +110,25 @@ bool EdgePairSearch::areClose(const Pair& pair) const
     return areClose(n[0], n[2]) || areClose(n[0], n[3]) || areClose(n[1], n[2]) || areClose(n[1], n[3]);
 }
 
-void EdgePairSearch::tryPair(int edgeA, int edgeB, const NodesFound& nodes)
+// For boxes that are swept over kSteps steps: near at the start, or closing to the band.
+bool EdgePairSearch::mayTouch(const CoarseBox& a, const CoarseBox& b) const
 {
-    const auto [a0, a1] = m_first->features().m_edges[edgeA];
-    const auto [b0, b1] = m_second->features().m_edges[edgeB];
+    return a.startsWithin(b, coarse(m_reach.m_band + m_reach.depth())) || a.meets(b, coarse(m_reach.m_band));
+}
+
+void EdgePairSearch::tryPair(const SurfaceRidges::Ridge& a, const SurfaceRidges::Ridge& b, const NodesFound& nodes)
+{
     const std::vector<Vec3>&xA = m_first->position(), &xB = m_second->position();
+    const std::array<Vec3, 4> x = {xA[a.m_a], xA[a.m_b], xB[b.m_a], xB[b.m_b]};
+    // Most pairs are ruled out by these two.
+    const bool crosses = mayCross(x), meets = a.m_box.meets(b.m_box, coarse(m_reach.m_band));
+    if (!crosses && !meets) return;
     const std::vector<Vec3>&dA = m_first->change(), &dB = m_second->change();
     const Pair pair = {
-        edgeA, edgeB, {a0, a1, b0, b1}, {xA[a0], xA[a1], xB[b0], xB[b1]}, {dA[a0], dA[a1], dB[b0], dB[b1]}};
+        a.m_edge, b.m_edge, {a.m_a, a.m_b, b.m_a, b.m_b}, x, {dA[a.m_a], dA[a.m_b], dB[b.m_a], dB[b.m_b]}};
     if (areClose(pair)) return;
     Crossing crossing;
-    if (tryNear(pair, nodes, crossing) || tryImpact(pair, crossing)) emit(pair, crossing);
+    if ((crosses && tryNear(pair, nodes, crossing)) || (meets && tryImpact(pair, crossing))) emit(pair, crossing);
 }
 
 // True if the normal, from B to A, lies between those of either edge's faces.

@@ -41,7 +41,8 @@ private:
     };
 
     bool areClose(const Pair& pair) const;
-    void tryPair(int edgeA, int edgeB, const NodesFound& nodes);
+    bool mayTouch(const CoarseBox& a, const CoarseBox& b) const;
+    void tryPair(const SurfaceRidges::Ridge& a, const SurfaceRidges::Ridge& b, const NodesFound& nodes);
     bool tryNear(const Pair& pair, const NodesFound& nodes, Crossing& crossing) const;
     bool isFreeWayOut(const Pair& pair, const Crossing& crossing) const;
     static bool stayApart(const Pair& pair, const Vec3& direction);

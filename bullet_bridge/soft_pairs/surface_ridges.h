@@ -17,6 +17,7 @@ public:
     {
         CoarseBox m_box;  ///< swept over kSteps steps
         int m_edge;
+        int m_a, m_b;  ///< its ends
     };
     static constexpr int kSteps = 2;  ///< a ridge's box holds for longer than a step: impacts may be that late
 
@@ -30,16 +31,22 @@ public:
     const Ridge* begin(const SurfaceTree::Leaf& leaf) const { return m_ridges.data() + m_first[leaf.m_first]; }
     const Ridge* end(const SurfaceTree::Leaf& leaf) const { return m_ridges.data() + m_first[leaf.m_end]; }
 
+    /// Around the ridges in all leaves below a node of the tree; empty if there are none.
+    const CoarseBox& box(int node) const { return m_boxes[node]; }
+
 private:
     struct Edge
     {
         int m_edge, m_a, m_b;  // ends
     };
 
+    void findBoxes(const SurfaceTree& tree);
+
     std::vector<Edge> m_edges;     // as their triangles lie in the tree
     std::vector<int> m_firstEdge;  // per place in the tree; one more
     std::vector<int> m_first;      // likewise, of the ridges
     std::vector<Ridge> m_ridges;
+    std::vector<CoarseBox> m_boxes;  // per node of the tree
 };
 
 }  // namespace bullet_fem

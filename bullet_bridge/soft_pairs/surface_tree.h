@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "bullet_bridge/soft_pairs/coarse_box.h"
@@ -49,8 +50,16 @@ public:
     struct Leaf
     {
         int m_first, m_end;
+        int m_node;  ///< of the tree
     };
     int triangleAt(int place) const { return m_order[place]; }
+
+    /// Of the tree; children come after their parent.
+    int nodeCount() const { return static_cast<int>(m_nodes.size()); }
+    bool isLeaf(int node) const { return m_nodes[node].isLeaf(); }
+    std::array<int, 2> children(int node) const { return {node + 1, m_nodes[node].m_right}; }
+    Leaf leaf(int node) const { return {m_nodes[node].m_first, m_nodes[node].m_first + m_nodes[node].m_count, node}; }
+    const CoarseBox& box(int node) const { return m_nodes[node].m_box; }
 
     /// Calls visit(a, b) for all leaves a of this and b of the other tree that may come within `reach` [m] of each
     /// other. The other may be the same: each pair both ways, and every leaf with itself.
@@ -58,6 +67,14 @@ public:
     void visitNearLeaves(const SurfaceTree& other, double reach, Visit visit) const
     {
         const float most = coarse(reach);
+        visitLeafPairs(
+            other, [&](int a, int b) { return box(a).meets(other.box(b), most); }, visit);
+    }
+
+    /// Likewise, of the leaves for which mayMeet(node, other node) is true, and is for all nodes above them.
+    template <class MayMeet, class Visit>
+    void visitLeafPairs(const SurfaceTree& other, MayMeet mayMeet, Visit visit) const
+    {
         int stack[2 * kDepth][2], size = 0;
         const auto push = [&](int a, int b)
         {
@@ -69,10 +86,10 @@ public:
         {
             const auto [at, otherAt] = stack[--size];
             const Node &a = m_nodes[at], &b = other.m_nodes[otherAt];
-            if (!a.m_box.meets(b.m_box, most)) continue;
+            if (!mayMeet(at, otherAt)) continue;
             if (a.isLeaf() && b.isLeaf())
             {
-                visit(Leaf{a.m_first, a.m_first + a.m_count}, Leaf{b.m_first, b.m_first + b.m_count});
+                visit(leaf(at), other.leaf(otherAt));
             }
             else if (b.isLeaf() || (!a.isLeaf() && a.m_box.extent() > b.m_box.extent()))
             {
