@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "bullet_bridge/soft_pairs/float_lanes.h"
+#include "bullet_bridge/soft_pairs/lanes.h"
 #include "bullet_fem/fem/vec3.h"
 
 namespace bullet_fem
@@ -18,7 +18,7 @@ inline float coarse(double length)
 
 /// A SweptBox in single precision, rounded outward, for quick answers: these may be yes where the exact one is no,
 /// never the other way round, wherever in the world the box is.
-struct CoarseBox
+struct alignas(64) CoarseBox  // a cache line
 {
     FloatLanes m_low, m_high;              ///< at the start [m]; the fourth component is 0
     FloatLanes m_changeLow, m_changeHigh;  ///< [m]
@@ -31,6 +31,8 @@ struct CoarseBox
         return {kHigh, kLow, kHigh, kLow};
     }
 
+    bool isEmpty() const { return m_low[0] > m_high[0]; }
+
     /// A point that moves by `change`.
     static CoarseBox of(const Vec3& point, const Vec3& change)
     {
@@ -42,10 +44,10 @@ struct CoarseBox
 
     void add(const CoarseBox& b)
     {
-        m_low = least(m_low, b.m_low);
-        m_high = most(m_high, b.m_high);
-        m_changeLow = least(m_changeLow, b.m_changeLow);
-        m_changeHigh = most(m_changeHigh, b.m_changeHigh);
+        m_low = laneMin(m_low, b.m_low);
+        m_high = laneMax(m_high, b.m_high);
+        m_changeLow = laneMin(m_changeLow, b.m_changeLow);
+        m_changeHigh = laneMax(m_changeHigh, b.m_changeHigh);
     }
 
     /// Makes it hold for so many steps of the same motion.
@@ -58,7 +60,7 @@ struct CoarseBox
     /// False only if no two points of this and the other are within `reach` [m] of each other at the start.
     bool startsWithin(const CoarseBox& b, float reach) const
     {
-        const FloatLanes apart = most(m_low - b.m_high, b.m_low - m_high);
+        const FloatLanes apart = laneMax(m_low - b.m_high, b.m_low - m_high);
         return !isAny(kShrink * apart > reach);
     }
 
@@ -67,25 +69,25 @@ struct CoarseBox
     bool meets(const CoarseBox& b, float reach) const
     {
         const FloatLanes none = {};
-        const FloatLanes above = kShrink * (m_low - b.m_high) + least(none, m_changeLow - b.m_changeHigh);
-        const FloatLanes below = kShrink * (b.m_low - m_high) + least(none, b.m_changeLow - m_changeHigh);
-        return !isAny(most(above, below) > reach);
+        const FloatLanes above = kShrink * (m_low - b.m_high) + laneMin(none, m_changeLow - b.m_changeHigh);
+        const FloatLanes below = kShrink * (b.m_low - m_high) + laneMin(none, b.m_changeLow - m_changeHigh);
+        return !isAny(laneMax(above, below) > reach);
     }
 
     /// Sum of the sides at the start [m].
     float extent() const { return (m_high[0] - m_low[0]) + (m_high[1] - m_low[1]) + (m_high[2] - m_low[2]); }
 
-private:
     // More than what four operations round away. Where boxes are apart, all they take is a share of the distance at the
     // start: of two values that are near each other the difference is exact.
     static constexpr float kShrink = 1 - 1e-6f;
 
+private:
     // More than what rounding to single precision can have changed.
     static FloatLanes rounding(const FloatLanes& a)
     {
         constexpr FloatLanes kTiny = {std::numeric_limits<float>::min(), std::numeric_limits<float>::min(),
                                       std::numeric_limits<float>::min(), 0};
-        return 2e-7f * most(a, -a) + kTiny;
+        return 2e-7f * laneMax(a, -a) + kTiny;
     }
 };
 

@@ -18,6 +18,7 @@ constexpr double kParallel = 0.05;      // sine of the angle below which the nea
 constexpr double kEnd = 1e-3;           // share of an edge that belongs to its ends
 constexpr double kShallow = 1e-3;       // edges up to which a depth needs no proof
 constexpr double kAside = 1e-3;         // share of the depth that the way out runs beside the edges
+constexpr double kRounding = 3e-7;      // of positions in single precision: what two may be off in all
 constexpr double kWayEnd = 0.01;        // share of the way that belongs to its ends, which lie on the surfaces
 
 Vec3 along(const std::array<Vec3, 4>& ends, int first, double s)
@@ -36,16 +37,6 @@ bool isInterior(const LineParameters& at)
     return at.m_a > kEnd && at.m_a < 1 - kEnd && at.m_b > kEnd && at.m_b < 1 - kEnd;
 }
 
-// False only if the nearest points of the lines lie beyond the ends of one of them: as nearestOfLines, without
-// dividing.
-bool mayCross(const std::array<Vec3, 4>& ends)
-{
-    const Vec3 a = ends[1] - ends[0], b = ends[3] - ends[2], r = ends[2] - ends[0], n = cross(a, b);
-    const Vec3 s = cross(n, r);
-    const double onA = dot(s, b), onB = dot(s, a), whole = dot(n, n);
-    return !(std::min(onA, onB) < -kEnd * whole || std::max(onA, onB) > (1 + kEnd) * whole);
-}
-
 Vec3 unitNormal(const std::array<Vec3, 4>& ends)
 {
     const Vec3 n = cross(ends[1] - ends[0], ends[3] - ends[2]);
@@ -61,7 +52,7 @@ bool isCrossed(const SoftSurface& surface, const Vec3& from, const Vec3& way)
     surface.tree().visitNear(box, 0,
                              [&](int t)
                              {
-                                 const Corners& c = surface.tree().corners(t);
+                                 const Corners c = surface.tree().corners(t);
                                  const Vec3& n = surface.faceNormal(t);
                                  const double s = dot(n, c[0] - from) / dot(n, way);
                                  std::array<double, 3> w;
@@ -81,22 +72,10 @@ void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, c
     m_reach = reach;
     m_touches = &touches;
     const std::size_t begin = touches.size();
-    const float near = coarse(reach.m_band + reach.depth());
-    const SurfaceRidges &ridgesA = first.ridges(), &ridgesB = second.ridges();
-    using Leaf = SurfaceTree::Leaf;
-    using Ridge = SurfaceRidges::Ridge;
-    const auto mayMeet = [&](int a, int b) { return mayTouch(ridgesA.box(a), ridgesB.box(b)); };
-    const auto tryLeaves = [&](const Leaf& leafA, const Leaf& leafB)
-    {
-        if (!first.tree().box(leafA.m_node).meets(second.tree().box(leafB.m_node), near)) return;
-        for (const Ridge *a = ridgesA.begin(leafA), *endA = ridgesA.end(leafA); a != endA; ++a)
-            for (const Ridge *b = ridgesB.begin(leafB), *endB = ridgesB.end(leafB); b != endB; ++b)
-            {
-                if (&first == &second && b->m_edge <= a->m_edge) continue;
-                if (mayTouch(a->m_box, b->m_box)) tryPair(*a, *b, nodes);
-            }
-    };
-    first.tree().visitLeafPairs(second.tree(), mayMeet, tryLeaves);
+    listNear();
+    for (const NearRidges::Run& runA : m_ridgesA.runs())
+        for (const NearRidges::Run& runB : m_ridgesB.runs())
+            if (mayTouch(runA.m_box, runB.m_box)) tryRuns(runA, runB, nodes);
     const auto key = [](const SurfaceTouch& touch) { return std::pair(touch.m_feature, touch.m_otherFeature); };
     std::sort(touches.begin() + begin, touches.end(),
               [&](const SurfaceTouch& a, const SurfaceTouch& b) { return key(a) < key(b); });
@@ -110,35 +89,76 @@ bool EdgePairSearch::areClose(const Pair& pair) const
     return areClose(n[0], n[2]) || areClose(n[0], n[3]) || areClose(n[1], n[2]) || areClose(n[1], n[3]);
 }
 
-// For boxes that are swept over kSteps steps: near at the start, or closing to the band.
-bool EdgePairSearch::mayTouch(const CoarseBox& a, const CoarseBox& b) const
+// Ridges of either surface that are near what the other has near.
+void EdgePairSearch::listNear()
 {
-    return a.startsWithin(b, coarse(m_reach.m_band + m_reach.depth())) || a.meets(b, coarse(m_reach.m_band));
+    const double near = m_reach.m_band + m_reach.depth(), band = m_reach.m_band;
+    m_ridgesA.clear();
+    m_ridgesB.clear();
+    const CoarseBox boxA = NearRidges::bounds(*m_first, m_second->tree().coarseBounds(), near);
+    const CoarseBox boxB = NearRidges::bounds(*m_second, boxA, near);
+    if (boxB.isEmpty()) return;
+    const Vec3 middle = m_first->middle(), direction = unit(m_second->middle() - middle);
+    const BeyondPlane planeA(*m_first, direction, SurfaceRidges::kSteps);
+    const BeyondPlane planeB(*m_second, -direction, SurfaceRidges::kSteps);
+    m_ridgesA.list(*m_first, {boxB, planeB, near, band}, middle);
+    m_ridgesB.list(*m_second, {boxA, planeA, near, band}, middle);
+    const double extent = std::max(m_ridgesA.extent(), m_ridgesB.extent());
+    m_ridgeReach = {coarse(near), coarse(band), coarse(kRounding * extent)};
 }
 
-void EdgePairSearch::tryPair(const SurfaceRidges::Ridge& a, const SurfaceRidges::Ridge& b, const NodesFound& nodes)
+// Of boxes that are swept over SurfaceRidges::kSteps steps.
+bool EdgePairSearch::mayTouch(const CoarseBox& a, const CoarseBox& b) const
 {
+    return a.startsWithin(b, m_ridgeReach.m_near) || a.meets(b, m_ridgeReach.m_band);
+}
+
+void EdgePairSearch::tryRuns(const NearRidges::Run& runA, const NearRidges::Run& runB, const NodesFound& nodes)
+{
+    constexpr int kLanes = RidgeLanes::kCount;
+    for (int a = runA.m_first; a < runA.m_end; ++a)
+    {
+        if (!mayTouch(m_ridgesA[a].m_box, runB.m_box)) continue;
+        const RidgeLanes ridge = m_ridgesA.block(a / kLanes).spread(a % kLanes);
+        for (int b = runB.m_first; b < runB.m_end; b += kLanes)
+        {
+            const RidgesMay may = ridgesMay(ridge, m_ridgesB.block(b / kLanes), m_ridgeReach);
+            if (!isAny(may.m_cross | may.m_meet)) continue;
+            const int count = std::min(kLanes, runB.m_end - b);
+            for (int lane = 0; lane < count; ++lane)
+                if (may.m_cross[lane] || may.m_meet[lane])
+                    tryPair(m_ridgesA[a], m_ridgesB[b + lane], may.m_cross[lane] != 0, may.m_meet[lane] != 0, nodes);
+        }
+    }
+}
+
+void EdgePairSearch::tryPair(const NearRidges::Item& a, const NearRidges::Item& b, bool mayCross, bool mayMeet,
+                             const NodesFound& nodes)
+{
+    const auto [edgeA, a0, a1] = a.m_ridge;
+    const auto [edgeB, b0, b1] = b.m_ridge;
+    if (m_first == m_second && edgeB <= edgeA) return;
     const std::vector<Vec3>&xA = m_first->position(), &xB = m_second->position();
-    const std::array<Vec3, 4> x = {xA[a.m_a], xA[a.m_b], xB[b.m_a], xB[b.m_b]};
-    // Most pairs are ruled out by these two.
-    const bool crosses = mayCross(x), meets = a.m_box.meets(b.m_box, coarse(m_reach.m_band));
-    if (!crosses && !meets) return;
     const std::vector<Vec3>&dA = m_first->change(), &dB = m_second->change();
     const Pair pair = {
-        a.m_edge, b.m_edge, {a.m_a, a.m_b, b.m_a, b.m_b}, x, {dA[a.m_a], dA[a.m_b], dB[b.m_a], dB[b.m_b]}};
+        edgeA, edgeB, {a0, a1, b0, b1}, {xA[a0], xA[a1], xB[b0], xB[b1]}, {dA[a0], dA[a1], dB[b0], dB[b1]}};
     if (areClose(pair)) return;
     Crossing crossing;
-    if ((crosses && tryNear(pair, nodes, crossing)) || (meets && tryImpact(pair, crossing))) emit(pair, crossing);
+    if (!(mayCross && tryNear(pair, nodes, crossing)) && !(mayMeet && tryImpact(pair, crossing))) return;
+    // Of impacts after the step, only those between what is near within it.
+    if (m_first->tree().box(a.m_leaf).meets(m_second->tree().box(b.m_leaf), m_ridgeReach.m_near)) emit(pair, crossing);
 }
 
 // True if the normal, from B to A, lies between those of either edge's faces.
 bool EdgePairSearch::separates(const Pair& pair, const Vec3& normal, double tolerance) const
 {
+    if (!(dot(normal, m_first->edgeNormal(pair.m_edgeA)) < 0 && dot(normal, m_second->edgeNormal(pair.m_edgeB)) > 0))
+        return false;
     for (const Vec3& into : m_first->intoFaces(pair.m_edgeA))
         if (!(dot(normal, into) >= -tolerance)) return false;
     for (const Vec3& into : m_second->intoFaces(pair.m_edgeB))
         if (!(dot(normal, into) <= tolerance)) return false;
-    return dot(normal, m_first->edgeNormal(pair.m_edgeA)) < 0 && dot(normal, m_second->edgeNormal(pair.m_edgeB)) > 0;
+    return true;
 }
 
 // A crossing at the start: touching, or closing within the step without moving far.
@@ -146,11 +166,8 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
 {
     if (!nearestOfLines(pair.m_x, kParallel, crossing.m_at) || !isInterior(crossing.m_at)) return false;
     crossing.m_normal = unitNormal(pair.m_x);
-    if (!separates(pair, crossing.m_normal, kBetween))
-    {
-        crossing.m_normal = -crossing.m_normal;
-        if (!separates(pair, crossing.m_normal, kBetween)) return false;
-    }
+    if (!(dot(crossing.m_normal, m_first->edgeNormal(pair.m_edgeA)) < 0)) crossing.m_normal = -crossing.m_normal;
+    if (!separates(pair, crossing.m_normal, kBetween)) return false;
     crossing.m_gap = dot(crossing.m_normal, between(pair.m_x, crossing.m_at));
     if (crossing.m_gap >= m_reach.m_band)
     {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_bridge/soft_pairs/near_ridges.h"
 #include "bullet_bridge/soft_pairs/node_surface_search.h"
 
 namespace bullet_fem
@@ -41,8 +42,11 @@ private:
     };
 
     bool areClose(const Pair& pair) const;
+    void listNear();
     bool mayTouch(const CoarseBox& a, const CoarseBox& b) const;
-    void tryPair(const SurfaceRidges::Ridge& a, const SurfaceRidges::Ridge& b, const NodesFound& nodes);
+    void tryRuns(const NearRidges::Run& runA, const NearRidges::Run& runB, const NodesFound& nodes);
+    void tryPair(const NearRidges::Item& a, const NearRidges::Item& b, bool mayCross, bool mayMeet,
+                 const NodesFound& nodes);
     bool tryNear(const Pair& pair, const NodesFound& nodes, Crossing& crossing) const;
     bool isFreeWayOut(const Pair& pair, const Crossing& crossing) const;
     static bool stayApart(const Pair& pair, const Vec3& direction);
@@ -53,6 +57,8 @@ private:
 
     const SoftSurface *m_first = nullptr, *m_second = nullptr;
     TouchReach m_reach;
+    RidgeReach m_ridgeReach;
+    NearRidges m_ridgesA, m_ridgesB;
     std::vector<SurfaceTouch>* m_touches = nullptr;
 };
 

@@ -144,7 +144,7 @@ bool NodeSurfaceSearch::placeOf(int triangle, const std::array<double, 3>& weigh
 
 void NodeSurfaceSearch::tryFace(const Visit& visit, int triangle)
 {
-    const Corners& corners = m_faces->tree().corners(triangle);
+    const Corners corners = m_faces->tree().corners(triangle);
     Hit hit = {triangle, {}, m_faces->faceNormal(triangle), 0, 0, Place::over, false};
     if (!projectOnPlane(corners, visit.m_x, hit.m_weights)) return;
     hit.m_gap = dot(hit.m_normal, visit.m_x - corners[0]);

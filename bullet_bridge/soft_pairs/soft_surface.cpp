@@ -40,10 +40,8 @@ SoftSurface::SoftSurface(const RestSurface& rest)
       m_edgeTriangles(m_features.m_edges.size(), {-1, -1}),
       m_manifoldEdge(m_features.m_edges.size(), 1),
       m_firstAround(rest.m_positions.size() + 1),
-      m_x(rest.m_positions),
       m_change(rest.m_positions.size()),
       m_faceNormal(rest.m_triangles.size()),
-      m_intoSecondFace(m_features.m_edges.size()),
       m_bend(m_features.m_edges.size())
 {
     listEdgeTriangles();
@@ -84,9 +82,8 @@ void SoftSurface::setRestNeighbours(std::shared_ptr<const RestNeighbours> neighb
 
 void SoftSurface::update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h)
 {
-    m_x.assign(x.begin(), x.end());
     for (std::size_t i = 0; i < v.size(); ++i) m_change[i] = h * v[i];
-    m_tree.refit(m_x, m_change);
+    m_tree.refit(x, m_change);
     updateFaces();
     updateEdges();
     m_ridges.update(m_tree, m_bend);
@@ -96,7 +93,7 @@ void SoftSurface::updateFaces()
 {
     for (std::size_t t = 0; t < m_faceNormal.size(); ++t)
     {
-        const Corners& c = m_tree.corners(static_cast<int>(t));
+        const Corners c = m_tree.corners(static_cast<int>(t));
         m_faceNormal[t] = unit(cross(c[1] - c[0], c[2] - c[0]));
     }
 }
@@ -106,10 +103,9 @@ void SoftSurface::updateEdges()
     for (std::size_t k = 0; k < m_bend.size(); ++k)
     {
         const auto [first, second] = m_edgeTriangles[k];
-        m_intoSecondFace[k] = intoFace(static_cast<int>(k), second);
         // Where more than two faces meet, none may take the edge for a ridge; a rim is neither ridge nor groove.
         const double single = first == second ? 0 : 1;
-        m_bend[k] = m_manifoldEdge[k] ? dot(m_faceNormal[first], m_intoSecondFace[k]) : single;
+        m_bend[k] = m_manifoldEdge[k] ? dot(m_faceNormal[first], intoFace(static_cast<int>(k), second)) : single;
     }
 }
 
@@ -118,9 +114,21 @@ Vec3 SoftSurface::intoFace(int edge, int triangle) const
 {
     const auto [a, b] = m_features.m_edges[edge];
     const Triangle& t = m_triangles[triangle];
+    const std::vector<Vec3>& x = position();
     const int opposite = t[0] + t[1] + t[2] - a - b;
-    const Vec3 e = unit(m_x[b] - m_x[a]), r = m_x[opposite] - m_x[a];
+    const Vec3 e = unit(x[b] - x[a]), r = x[opposite] - x[a];
     return unit(r - dot(r, e) * e);
+}
+
+Vec3 SoftSurface::middle() const
+{
+    const VectorBounds& bounds = m_tree.bounds().m_start;
+    return 0.5 * (bounds.m_low + bounds.m_high);
+}
+
+std::array<Vec3, 2> SoftSurface::intoFaces(int edge) const
+{
+    return {intoFace(edge, m_edgeTriangles[edge][0]), intoFace(edge, m_edgeTriangles[edge][1])};
 }
 
 // Ascending, so that sums do not depend on how the triangles were found.
@@ -152,13 +160,14 @@ Vec3 SoftSurface::edgeNormal(int edge) const
 
 Vec3 SoftSurface::nodeNormal(int node) const
 {
+    const std::vector<Vec3>& x = position();
     Vec3 sum;
     for (int k = m_features.m_firstAround[node]; k < m_features.m_firstAround[node + 1]; ++k)
     {
         const int t = m_features.m_around[k];
         const Triangle& nodes = m_triangles[t];
         const int at = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
-        const Vec3 next = m_x[nodes[(at + 1) % 3]] - m_x[node], last = m_x[nodes[(at + 2) % 3]] - m_x[node];
+        const Vec3 next = x[nodes[(at + 1) % 3]] - x[node], last = x[nodes[(at + 2) % 3]] - x[node];
         sum += angleBetween(next, last) * m_faceNormal[t];
     }
     return unit(sum);
@@ -197,7 +206,7 @@ double SoftSurface::leastAlongEdges(int node, const Vec3& direction) const
 {
     double least = 1;
     for (int k = m_firstAround[node]; k < m_firstAround[node + 1]; ++k)
-        least = std::min(least, dot(direction, unit(m_x[m_around[k]] - m_x[node])));
+        least = std::min(least, dot(direction, unit(position()[m_around[k]] - position()[node])));
     return least;
 }
 

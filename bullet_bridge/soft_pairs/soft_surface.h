@@ -75,7 +75,7 @@ public:
 
     const std::vector<Triangle>& triangles() const { return m_triangles; }
     const std::vector<int>& nodes() const { return m_nodes; }  ///< vertices of the surface, ascending
-    int vertexCount() const { return static_cast<int>(m_x.size()); }
+    int vertexCount() const { return static_cast<int>(position().size()); }
     const SurfaceFeatures& features() const { return m_features; }
     double meanEdge() const { return m_meanEdge; }  ///< of the tetrahedra at rest, or of finer triangles [m]
     double size() const { return m_size; }          ///< cube root of the volume at rest [m]
@@ -83,8 +83,9 @@ public:
     const SurfaceRidges& ridges() const { return m_ridges; }
     /// True if two vertices cannot touch each other however the body is bent: see RestNeighbours.
     bool areCloseAtRest(int a, int b) const { return m_restNeighbours->areClose(nodeAt(a), nodeAt(b)); }
-    const std::vector<Vec3>& position() const { return m_x; }     ///< [m], of all vertices
-    const std::vector<Vec3>& change() const { return m_change; }  ///< h v [m]
+    Vec3 middle() const;                                                      ///< of the bounds at the start [m]
+    const std::vector<Vec3>& position() const { return m_tree.positions(); }  ///< [m], of all vertices
+    const std::vector<Vec3>& change() const { return m_change; }              ///< h v [m]
 
     /// Outward unit normals; zero where triangles have no area. Those of edges and nodes are calculated when asked for:
     /// few are near another body.
@@ -100,10 +101,7 @@ public:
     /// One of the triangles at a node.
     int nodeOwner(int node) const { return m_features.m_around[m_features.m_firstAround[node]]; }
     /// Unit vectors from an edge into its two faces, perpendicular to it.
-    std::array<Vec3, 2> intoFaces(int edge) const
-    {
-        return {intoFace(edge, m_edgeTriangles[edge][0]), m_intoSecondFace[edge]};
-    }
+    std::array<Vec3, 2> intoFaces(int edge) const;
     /// True if all faces at an edge (a node) have nearly (8 degrees) its normal.
     bool isFlatEdge(int edge) const;
     bool isFlatNode(int node) const;
@@ -131,8 +129,8 @@ private:
     std::vector<int> m_nearestNode;
     std::vector<std::array<int, 2>> m_edgeTriangles;  // twice the same at a rim
     std::vector<unsigned char> m_manifoldEdge;        // 1: of exactly two triangles
-    std::vector<int> m_firstAround, m_around;         // surface edges' other ends around every vertex
-    std::vector<Vec3> m_x, m_change, m_faceNormal, m_intoSecondFace;
+    std::vector<int> m_firstAround, m_around;  // surface edges' other ends around every vertex
+    std::vector<Vec3> m_change, m_faceNormal;
     std::vector<double> m_bend;
 };
 

@@ -32,7 +32,7 @@ SurfaceRidges::SurfaceRidges(const SurfaceFeatures& features, const SurfaceTree&
     }
     m_first.resize(m_firstEdge.size());
     m_ridges.reserve(m_edges.size());
-    m_boxes.resize(tree.nodeCount());
+    m_has.resize(tree.nodeCount());
 }
 
 void SurfaceRidges::update(const SurfaceTree& tree, const std::vector<double>& bend)
@@ -42,34 +42,18 @@ void SurfaceRidges::update(const SurfaceTree& tree, const std::vector<double>& b
     {
         m_first[place] = static_cast<int>(m_ridges.size());
         for (int k = m_firstEdge[place]; k < m_firstEdge[place + 1]; ++k)
-        {
-            const Edge& edge = m_edges[k];
-            if (!(bend[edge.m_edge] < kRidge)) continue;
-            m_ridges.push_back({tree.vertexBox(edge.m_a), edge.m_edge, edge.m_a, edge.m_b});
-            CoarseBox& box = m_ridges.back().m_box;
-            box.add(tree.vertexBox(edge.m_b));
-            box.last(kSteps);
-        }
+            if (bend[m_edges[k].m_edge] < kRidge) m_ridges.push_back(m_edges[k]);
     }
     m_first.back() = static_cast<int>(m_ridges.size());
-    findBoxes(tree);
-}
-
-void SurfaceRidges::findBoxes(const SurfaceTree& tree)
-{
     for (int node = tree.nodeCount() - 1; node >= 0; --node)
     {
-        CoarseBox box = CoarseBox::empty();
         if (tree.isLeaf(node))
         {
-            const SurfaceTree::Leaf leaf = tree.leaf(node);
-            for (const Ridge* ridge = begin(leaf); ridge != end(leaf); ++ridge) box.add(ridge->m_box);
+            m_has[node] = begin(tree.leaf(node)) != end(tree.leaf(node));
+            continue;
         }
-        else
-        {
-            for (int child : tree.children(node)) box.add(m_boxes[child]);
-        }
-        m_boxes[node] = box;
+        const auto [left, right] = tree.children(node);
+        m_has[node] = m_has[left] | m_has[right];
     }
 }
 

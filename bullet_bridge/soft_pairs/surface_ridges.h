@@ -15,9 +15,7 @@ class SurfaceRidges
 public:
     struct Ridge
     {
-        CoarseBox m_box;  ///< swept over kSteps steps
-        int m_edge;
-        int m_a, m_b;  ///< its ends
+        int m_edge, m_a, m_b;  ///< and its ends
     };
     static constexpr int kSteps = 2;  ///< a ridge's box holds for longer than a step: impacts may be that late
 
@@ -31,22 +29,24 @@ public:
     const Ridge* begin(const SurfaceTree::Leaf& leaf) const { return m_ridges.data() + m_first[leaf.m_first]; }
     const Ridge* end(const SurfaceTree::Leaf& leaf) const { return m_ridges.data() + m_first[leaf.m_end]; }
 
-    /// Around the ridges in all leaves below a node of the tree; empty if there are none.
-    const CoarseBox& box(int node) const { return m_boxes[node]; }
+    /// Not 0 for nodes of the tree that have any in a leaf below.
+    const unsigned char* has() const { return m_has.data(); }
+
+    /// Swept over kSteps steps.
+    static CoarseBox boxOf(const Ridge& ridge, const SurfaceTree& tree)
+    {
+        CoarseBox box = tree.vertexBox(ridge.m_a);
+        box.add(tree.vertexBox(ridge.m_b));
+        box.last(kSteps);
+        return box;
+    }
 
 private:
-    struct Edge
-    {
-        int m_edge, m_a, m_b;  // ends
-    };
-
-    void findBoxes(const SurfaceTree& tree);
-
-    std::vector<Edge> m_edges;     // as their triangles lie in the tree
+    std::vector<Ridge> m_edges;    // as their triangles lie in the tree
     std::vector<int> m_firstEdge;  // per place in the tree; one more
     std::vector<int> m_first;      // likewise, of the ridges
     std::vector<Ridge> m_ridges;
-    std::vector<CoarseBox> m_boxes;  // per node of the tree
+    std::vector<unsigned char> m_has;  // per node of the tree
 };
 
 }  // namespace bullet_fem

@@ -7,22 +7,18 @@
 
 namespace bullet_fem
 {
-namespace
-{
-
-constexpr int kLeafTriangles = 2;
-
-}  // namespace
 
 SurfaceTree::SurfaceTree(const std::vector<Vec3>& restPositions, const std::vector<Triangle>& triangles)
-    : m_triangles(triangles), m_corners(triangles.size()), m_order(triangles.size())
+    : m_triangles(triangles), m_order(triangles.size())
 {
     std::vector<Vec3> middles;
     for (const Triangle& t : triangles)
         middles.push_back((1.0 / 3) * (restPositions[t[0]] + restPositions[t[1]] + restPositions[t[2]]));
     std::iota(m_order.begin(), m_order.end(), 0);
     build(0, static_cast<int>(triangles.size()), middles);
-    m_starts.resize(m_nodes.size());
+    m_boxes.resize(m_nodes.size(), CoarseBox::empty());
+    m_parts.resize(m_nodes.size());
+    for (int t : m_order) m_placed.push_back(triangles[t]);
     m_vertexBoxes.resize(restPositions.size());
     for (const Triangle& t : triangles) m_vertices.insert(m_vertices.end(), t.begin(), t.end());
     std::sort(m_vertices.begin(), m_vertices.end());
@@ -34,9 +30,11 @@ int SurfaceTree::build(int first, int count, std::vector<Vec3>& middles)
 {
     const int at = static_cast<int>(m_nodes.size());
     m_nodes.emplace_back();
-    m_nodes[at].m_first = first;
-    m_nodes[at].m_count = count;
-    if (count <= kLeafTriangles) return at;
+    if (count <= kLeafTriangles)
+    {
+        m_nodes[at] = {first, count};
+        return at;
+    }
 
     VectorBounds box;
     for (int k = first; k < first + count; ++k) box.add({middles[m_order[k]], middles[m_order[k]]});
@@ -46,42 +44,51 @@ int SurfaceTree::build(int first, int count, std::vector<Vec3>& middles)
     { return middles[a][axis] != middles[b][axis] ? middles[a][axis] < middles[b][axis] : a < b; };
     const int half = count / 2;
     std::nth_element(m_order.begin() + first, m_order.begin() + first + half, m_order.begin() + first + count, before);
-    m_nodes[at].m_count = 0;
     build(first, half, middles);
-    m_nodes[at].m_right = build(first + half, count - half, middles);
+    const int right = build(first + half, count - half, middles);
+    m_nodes[at].m_next = right;
     return at;
 }
 
 void SurfaceTree::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& change)
 {
+    m_x.assign(x.begin(), x.end());
     m_bounds = {};
     for (int i : m_vertices)
     {
-        m_bounds.add(SweptBox::of(x[i], change[i]));
+        m_bounds.m_change.add({change[i], change[i]});
         m_vertexBoxes[i] = CoarseBox::of(x[i], change[i]);
     }
-    for (int at = static_cast<int>(m_nodes.size()) - 1; at >= 0; --at)
+    if (m_triangles.empty()) return;
+    for (int at = nodeCount() - 1; at >= 0; --at)
     {
-        Node& node = m_nodes[at];
-        node.m_box = CoarseBox::empty();
-        m_starts[at] = {};
-        for (int k = node.m_first; k < node.m_first + node.m_count; ++k)
-        {
-            const Triangle& t = m_triangles[m_order[k]];
-            m_corners[m_order[k]] = {x[t[0]], x[t[1]], x[t[2]]};
-            for (int i : t)
-            {
-                node.m_box.add(m_vertexBoxes[i]);
-                m_starts[at].add({x[i], x[i]});
-            }
-        }
-        if (node.m_count > 0 || m_triangles.empty()) continue;
-        for (int child : {at + 1, node.m_right})
-        {
-            node.m_box.add(m_nodes[child].m_box);
-            m_starts[at].add(m_starts[child]);
-        }
+        if (m_nodes[at].isLeaf())
+            refitLeaf(at);
+        else
+            refitInner(at);
     }
+    m_bounds.m_start = m_parts.front()[0];
+    m_bounds.m_start.add(m_parts.front()[1]);
+}
+
+void SurfaceTree::refitLeaf(int at)
+{
+    const Node& node = m_nodes[at];
+    const Triangle &first = m_placed[node.m_next], &last = m_placed[node.m_next + node.m_count - 1];
+    CoarseBox box = CoarseBox::empty();
+    for (int i : first) box.add(m_vertexBoxes[i]);
+    for (int i : last) box.add(m_vertexBoxes[i]);
+    m_boxes[at] = box;
+    m_parts[at] = BoxPair::of(m_x, first, last);
+}
+
+void SurfaceTree::refitInner(int at)
+{
+    const auto [left, right] = children(at);
+    CoarseBox box = m_boxes[left];
+    box.add(m_boxes[right]);
+    m_boxes[at] = box;
+    m_parts[at] = BoxPair::around(m_parts[left], m_parts[right]);
 }
 
 }  // namespace bullet_fem

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
+#include "bullet_bridge/soft_pairs/box_pair.h"
 #include "bullet_bridge/soft_pairs/coarse_box.h"
 #include "bullet_bridge/soft_pairs/swept_box.h"
 #include "bullet_bridge/soft_pairs/triangle_proximity.h"
@@ -25,7 +27,7 @@ public:
 
     /// All of it; empty if there are no triangles.
     const SweptBox& bounds() const { return m_bounds; }
-    const CoarseBox& coarseBounds() const { return m_nodes.front().m_box; }
+    const CoarseBox& coarseBounds() const { return m_boxes.front(); }
 
     /// Calls visit(triangle) for all triangles that `box` may come within `reach` [m] of; always in the same order.
     template <class Visit>
@@ -38,10 +40,10 @@ public:
         {
             const int at = stack[--size];
             const Node& node = m_nodes[at];
-            if (!node.m_box.meets(box, most)) continue;
-            for (int k = 0; k < node.m_count; ++k) visit(m_order[node.m_first + k]);
-            if (node.m_count > 0) continue;
-            stack[size++] = node.m_right;
+            if (!m_boxes[at].meets(box, most)) continue;
+            for (int k = 0; k < node.m_count; ++k) visit(m_order[node.m_next + k]);
+            if (node.isLeaf()) continue;
+            stack[size++] = node.m_next;
             stack[size++] = at + 1;
         }
     }
@@ -50,57 +52,35 @@ public:
     struct Leaf
     {
         int m_first, m_end;
-        int m_node;  ///< of the tree
     };
     int triangleAt(int place) const { return m_order[place]; }
 
-    /// Of the tree; children come after their parent.
-    int nodeCount() const { return static_cast<int>(m_nodes.size()); }
+    int nodeCount() const { return static_cast<int>(m_nodes.size()); }  ///< of the tree
+    const CoarseBox& box(int node) const { return m_boxes[node]; }
     bool isLeaf(int node) const { return m_nodes[node].isLeaf(); }
-    std::array<int, 2> children(int node) const { return {node + 1, m_nodes[node].m_right}; }
-    Leaf leaf(int node) const { return {m_nodes[node].m_first, m_nodes[node].m_first + m_nodes[node].m_count, node}; }
-    const CoarseBox& box(int node) const { return m_nodes[node].m_box; }
+    Leaf leaf(int node) const { return {m_nodes[node].m_next, m_nodes[node].m_next + m_nodes[node].m_count}; }
+    /// Of one that is no leaf; they come after it.
+    std::array<int, 2> children(int node) const { return {node + 1, m_nodes[node].m_next}; }
 
-    /// Calls visit(a, b) for all leaves a of this and b of the other tree that may come within `reach` [m] of each
-    /// other. The other may be the same: each pair both ways, and every leaf with itself.
+    /// Calls visit(node) for all leaves that `box` may come within `reach` [m] of and that have what is looked for: per
+    /// node, not 0 if a leaf below it has.
     template <class Visit>
-    void visitNearLeaves(const SurfaceTree& other, double reach, Visit visit) const
+    void visitNearLeaves(const CoarseBox& box, double reach, const unsigned char* has, Visit visit) const
     {
         const float most = coarse(reach);
-        visitLeafPairs(
-            other, [&](int a, int b) { return box(a).meets(other.box(b), most); }, visit);
-    }
-
-    /// Likewise, of the leaves for which mayMeet(node, other node) is true, and is for all nodes above them.
-    template <class MayMeet, class Visit>
-    void visitLeafPairs(const SurfaceTree& other, MayMeet mayMeet, Visit visit) const
-    {
-        int stack[2 * kDepth][2], size = 0;
-        const auto push = [&](int a, int b)
-        {
-            stack[size][0] = a;
-            stack[size++][1] = b;
-        };
-        push(0, 0);
+        int stack[kDepth], size = 0;
+        stack[size++] = 0;
         while (size > 0)
         {
-            const auto [at, otherAt] = stack[--size];
-            const Node &a = m_nodes[at], &b = other.m_nodes[otherAt];
-            if (!mayMeet(at, otherAt)) continue;
-            if (a.isLeaf() && b.isLeaf())
+            const int at = stack[--size];
+            if (!has[at] || !m_boxes[at].meets(box, most)) continue;
+            if (m_nodes[at].isLeaf())
             {
-                visit(leaf(at), other.leaf(otherAt));
+                visit(at);
+                continue;
             }
-            else if (b.isLeaf() || (!a.isLeaf() && a.m_box.extent() > b.m_box.extent()))
-            {
-                push(a.m_right, otherAt);
-                push(at + 1, otherAt);
-            }
-            else
-            {
-                push(at, b.m_right);
-                push(at, otherAt + 1);
-            }
+            stack[size++] = m_nodes[at].m_next;
+            stack[size++] = at + 1;
         }
     }
 
@@ -109,30 +89,30 @@ public:
     template <class Skip>
     int nearestTriangle(const Vec3& p, double most, Skip skip, TrianglePoint& nearest) const
     {
-        double least = most * most;
+        double least = most * most, farther = surelyFarther(p, least);
         int found = -1;
         Ahead stack[kDepth];
         int size = 0;
-        stack[size++] = {0, m_starts[0].squaredDistance(p)};
+        stack[size++] = {0, m_bounds.m_start.squaredDistance(p)};
         while (size > 0)
         {
             const Ahead ahead = stack[--size];
             if (!(ahead.m_squaredDistance < least)) continue;
             const Node& node = m_nodes[ahead.m_node];
+            const DoubleLanes parts = m_parts[ahead.m_node].squaredDistances(p);
             for (int k = 0; k < node.m_count; ++k)
             {
-                const int t = m_order[node.m_first + k];
-                if (skip(t)) continue;
-                const TrianglePoint candidate = nearestOnTriangle(m_corners[t], p);
+                if (parts[k] > farther || skip(m_order[node.m_next + k])) continue;
+                const TrianglePoint candidate = nearestOnTriangle(cornersOf(m_placed[node.m_next + k]), p);
                 const Vec3 r = p - candidate.m_point;
                 if (!(dot(r, r) < least)) continue;
                 least = dot(r, r);
+                farther = surelyFarther(p, least);
                 nearest = candidate;
-                found = t;
+                found = m_order[node.m_next + k];
             }
-            if (node.m_count > 0) continue;
-            const Ahead left = {ahead.m_node + 1, m_starts[ahead.m_node + 1].squaredDistance(p)};
-            const Ahead right = {node.m_right, m_starts[node.m_right].squaredDistance(p)};
+            if (node.isLeaf()) continue;
+            const Ahead left = {ahead.m_node + 1, parts[0]}, right = {node.m_next, parts[1]};
             const bool leftFirst = left.m_squaredDistance <= right.m_squaredDistance;
             stack[size++] = leftFirst ? right : left;
             stack[size++] = leftFirst ? left : right;
@@ -140,19 +120,21 @@ public:
         return found;
     }
 
+    /// Of the last refit.
+    const std::vector<Vec3>& positions() const { return m_x; }
+    /// Corners of a triangle [m].
+    Corners corners(int triangle) const { return cornersOf(m_triangles[triangle]); }
     /// The coarse box of a vertex alone.
     const CoarseBox& vertexBox(int vertex) const { return m_vertexBoxes[vertex]; }
 
-    /// Corners of a triangle at the start [m].
-    const Corners& corners(int triangle) const { return m_corners[triangle]; }
+    static constexpr int kLeafTriangles = 2;  ///< at most
 
 private:
     static constexpr int kDepth = 64;  // of the stacks: twice the depth of a tree over 2^31 triangles
     struct Node
     {
-        CoarseBox m_box;
-        int m_right = 0;  // inner node: its left child is the next node
-        int m_first = 0, m_count = 0;
+        int m_next = 0;   // leaf: place of its first triangle; others: right child, the left one is the next node
+        int m_count = 0;  // of a leaf's triangles
         bool isLeaf() const { return m_count > 0; }
     };
 
@@ -162,16 +144,30 @@ private:
         double m_squaredDistance;
     };
 
+    // A squared distance from p to a box at which rounding cannot make any point in it as near as `least`.
+    static double surelyFarther(const Vec3& p, double least)
+    {
+        const double distance = std::sqrt(least), size = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
+        const double farther = distance + 1e-12 * (distance + size);
+        return farther * farther;
+    }
+
     int build(int first, int count, std::vector<Vec3>& middles);
+    void refitLeaf(int at);
+    void refitInner(int at);
+    Corners cornersOf(const Triangle& t) const { return {m_x[t[0]], m_x[t[1]], m_x[t[2]]}; }
 
     std::vector<Triangle> m_triangles;
-    std::vector<Corners> m_corners;
-    std::vector<int> m_order;
+    std::vector<int> m_order;              // triangles by their place in the tree
+    std::vector<Triangle> m_placed;        // in this order
     std::vector<int> m_vertices;           // of the triangles
-    std::vector<CoarseBox> m_vertexBoxes;  // of these
+    std::vector<Vec3> m_x;                 // of the vertices
+    std::vector<CoarseBox> m_vertexBoxes;  // likewise
     SweptBox m_bounds;
-    std::vector<Node> m_nodes;           // children after their parents
-    std::vector<VectorBounds> m_starts;  // one a node
+    // Of the nodes; searches wait for memory more than they calculate, and not all need all of it.
+    std::vector<Node> m_nodes;
+    std::vector<CoarseBox> m_boxes;
+    std::vector<BoxPair> m_parts;  // of children, or of triangles, at the start
 };
 
 }  // namespace bullet_fem

@@ -88,51 +88,54 @@ TEST(SurfaceTree, ACommonMotionDoesNotMatter)
     EXPECT_TRUE(a.meets(SweptBox::of({50, 0, 0}, {0, 0, 0}), 1));
 }
 
-using TrianglePairs = std::set<std::array<int, 2>>;
-
-// All pairs of triangles in the leaves that are visited, none twice.
-TrianglePairs visitedPairs(const SurfaceTree& a, const SurfaceTree& b, double reach)
-{
-    TrianglePairs pairs;
-    a.visitNearLeaves(b, reach,
-                      [&](const SurfaceTree::Leaf& leafA, const SurfaceTree::Leaf& leafB)
-                      {
-                          for (int k = leafA.m_first; k < leafA.m_end; ++k)
-                              for (int m = leafB.m_first; m < leafB.m_end; ++m)
-                                  EXPECT_TRUE(pairs.insert({a.triangleAt(k), b.triangleAt(m)}).second);
-                      });
-    return pairs;
-}
-
-TrianglePairs allPairsThatMeet(const MovingBall& a, const MovingBall& b, double reach)
-{
-    TrianglePairs pairs;
-    for (int t = 0; t < a.count(); ++t)
-        for (int u = 0; u < b.count(); ++u)
-            if (a.exact(t).meets(b.exact(u), reach)) pairs.insert({t, u});
-    return pairs;
-}
-
 class PlacedTrees : public testing::TestWithParam<Vec3>
 {
 };
 
-TEST_P(PlacedTrees, FindAllTrianglesOfEachOtherThatMayMeet)
+// Every other leaf has what is looked for, and all nodes above it.
+std::vector<unsigned char> everyOtherLeaf(const SurfaceTree& tree)
 {
-    Random random;
-    const MovingBall a(random, GetParam()), b(random, GetParam() + Vec3{1.1, 0.9, 1.2});
-    const TrianglePairs expected = allPairsThatMeet(a, b, 0.05), found = visitedPairs(a.m_tree, b.m_tree, 0.05);
-    EXPECT_GT(expected.size(), 30u);
-    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
-    EXPECT_LE(found.size(), 5 * expected.size()) << "and not much more";
+    std::vector<unsigned char> has(tree.nodeCount());
+    for (int node = tree.nodeCount() - 1; node >= 0; --node)
+    {
+        if (tree.isLeaf(node))
+        {
+            has[node] = node % 2;
+            continue;
+        }
+        const auto [left, right] = tree.children(node);
+        has[node] = has[left] | has[right];
+    }
+    return has;
 }
 
-TEST_P(PlacedTrees, FindTheirOwnTrianglesBothWays)
+TEST_P(PlacedTrees, FindAllLeavesThatABoxMayMeetAndThatHaveWhatIsLookedFor)
 {
     Random random;
     const MovingBall ball(random, GetParam());
-    const TrianglePairs expected = allPairsThatMeet(ball, ball, 0), found = visitedPairs(ball.m_tree, ball.m_tree, 0);
-    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
+    const SurfaceTree& tree = ball.m_tree;
+    const std::vector<unsigned char> has = everyOtherLeaf(tree);
+    const Vec3 corner = GetParam() + Vec3{0.8, 0.7, 0.6};
+    std::set<int> found;
+    tree.visitNearLeaves(CoarseBox::of(corner, {}), 0.3, has.data(),
+                         [&](int node) { EXPECT_TRUE(found.insert(node).second); });
+    int expected = 0;
+    for (int node = 0; node < tree.nodeCount(); ++node)
+    {
+        if (!tree.isLeaf(node)) continue;
+        const SurfaceTree::Leaf leaf = tree.leaf(node);
+        bool meets = false;
+        for (int k = leaf.m_first; k < leaf.m_end; ++k)
+            meets = meets || ball.exact(tree.triangleAt(k)).meets(SweptBox::of(corner, {}), 0.3);
+        if (meets && has[node])
+        {
+            ++expected;
+            EXPECT_TRUE(found.count(node));
+        }
+        EXPECT_TRUE(has[node] || !found.count(node));
+    }
+    EXPECT_GT(expected, 3);
+    EXPECT_LE(found.size(), 3u * expected) << "and not much more";
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, PlacedTrees, testing::Values(Vec3{0, 0, 0}, Vec3{1000, -2000, 500}));
@@ -211,8 +214,9 @@ TEST(SurfaceRidges, AreListedOnceEach)
         EXPECT_TRUE(edges.insert(ridge->m_edge).second);
         // It moves 0.2 m in two steps.
         const Vec3 later = mesh.restPositions()[a] + Vec3{0.199, 0, 0};
-        EXPECT_TRUE(ridge->m_box.meets(CoarseBox::of(later, {}), 0));
-        EXPECT_FALSE(ridge->m_box.meets(CoarseBox::of(mesh.restPositions()[a] + Vec3{1.21, 0, 0}, {}), 0));
+        const CoarseBox box = SurfaceRidges::boxOf(*ridge, surface.tree());
+        EXPECT_TRUE(box.meets(CoarseBox::of(later, {}), 0));
+        EXPECT_FALSE(box.meets(CoarseBox::of(mesh.restPositions()[a] + Vec3{1.21, 0, 0}, {}), 0));
     }
     EXPECT_EQ(edges.size(), 12u);
 }

@@ -11,17 +11,17 @@ namespace bullet_fem
 using FloatLanes = float __attribute__((vector_size(16)));
 using LaneMask = std::int32_t __attribute__((vector_size(16)));  ///< of comparisons: all bits set where they hold
 
-inline FloatLanes allLanes(float a)
-{
-    return FloatLanes{a, a, a, a};
-}
+/// Likewise, two doubles.
+using DoubleLanes = double __attribute__((vector_size(16)));
 
 // As std::min and std::max in every lane.
-inline FloatLanes least(const FloatLanes& a, const FloatLanes& b)
+template <class Lanes>
+Lanes laneMin(const Lanes& a, const Lanes& b)
 {
     return b < a ? b : a;
 }
-inline FloatLanes most(const FloatLanes& a, const FloatLanes& b)
+template <class Lanes>
+Lanes laneMax(const Lanes& a, const Lanes& b)
 {
     return a < b ? b : a;
 }
@@ -29,7 +29,7 @@ inline FloatLanes most(const FloatLanes& a, const FloatLanes& b)
 inline bool isAny(const LaneMask& mask)
 {
     using Halves = std::int64_t __attribute__((vector_size(16)));
-    const Halves halves = reinterpret_cast<const Halves&>(mask);
+    const Halves halves = reinterpret_cast<Halves>(mask);
     return (halves[0] | halves[1]) != 0;
 }
 
