@@ -20,6 +20,7 @@ constexpr double kFacingImpact = -0.25;  // the same at an impact: grazing ones 
 constexpr double kSeparates = -0.05;     // sine up to which the body may lie beyond a separating plane
 constexpr double kSame = 0.99;           // cosine of the angle between normals that count as one
 constexpr double kCorner = 2e-3;         // weight that lies on a corner or an edge
+constexpr std::size_t kWorthProof = 8;   // nodes near the other body from which a proof costs less than it saves
 constexpr double kDeepest = 3;           // times its distance from the surface that a node may be led out
 
 double height(const Corners& t, int corner)
@@ -40,6 +41,8 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
     m_touches = &touches;
     forget();
     listNear();
+    m_outside = OutsideProof();
+    m_looks = 0;
     for (int i : m_near) findNode(i);
 }
 
@@ -102,15 +105,18 @@ void NodeSurfaceSearch::findNode(int node)
 }
 
 // Finds the nearest point of the surface, and on which side the node lies. False if it can reach nothing.
-bool NodeSurfaceSearch::lookAround(Visit& visit) const
+bool NodeSurfaceSearch::lookAround(Visit& visit)
 {
     const SweptBox point = SweptBox::of(visit.m_x, visit.m_change);
     const SweptBox& bounds = m_faces->tree().bounds();
     if (!bounds.meets(point, m_reach.m_band)) return false;
+    const double travel = largestTravel(point, bounds);
     const bool self = m_nodes == m_faces;
+    if (!self && ++m_looks == 1 && m_near.size() > kWorthProof)
+        m_outside = OutsideProof(*m_faces, unit(m_nodes->middle() - m_faces->middle()));
+    if (m_outside.isFarOutside(visit.m_x, m_reach.m_band + travel)) return false;
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
-    const double most =
-        maybeInside ? kInfinity : std::max(m_reach.m_band, m_reach.depth()) + largestTravel(point, bounds);
+    const double most = maybeInside ? kInfinity : std::max(m_reach.m_band, m_reach.depth()) + travel;
     visit.m_nearestTriangle = m_faces->tree().nearestTriangle(
         visit.m_x, most, [&](int t) { return isClose(visit.m_node, t); }, visit.m_nearest);
     if (visit.m_nearestTriangle < 0) return false;
@@ -123,7 +129,7 @@ bool NodeSurfaceSearch::lookAround(Visit& visit) const
         visit.m_limit = std::max(kDeepest * visit.m_distance, m_reach.depth());
     else if (visit.m_distance < kRim * m_reach.m_edge)  // on a rim rounding decides between inside and outside
         visit.m_limit = kGroove * m_reach.m_edge;
-    return visit.m_inside || self || visit.m_distance <= m_reach.m_band + largestTravel(point, bounds);
+    return visit.m_inside || self || visit.m_distance <= m_reach.m_band + travel;
 }
 
 // Where a projection lies: over the face, or a little beyond one of its edges. False if farther.

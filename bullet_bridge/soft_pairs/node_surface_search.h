@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_bridge/soft_pairs/outside_proof.h"
 #include "bullet_bridge/soft_pairs/surface_touch.h"
 
 namespace bullet_fem
@@ -59,7 +60,7 @@ private:
     void listNear();
     void findNode(int node);
     bool isClose(int node, int triangle) const;
-    bool lookAround(Visit& visit) const;
+    bool lookAround(Visit& visit);
     void tryFace(const Visit& visit, int triangle);
     void tryDeepFace(const Visit& visit);
     bool isFacing(const Visit& visit, int triangle) const;
@@ -79,6 +80,8 @@ private:
     const SoftSurface *m_nodes = nullptr, *m_faces = nullptr;
     const NodeSurfaceSearch* m_done = nullptr;
     TouchReach m_reach;
+    OutsideProof m_outside;  // of the faces, once it is worth it
+    int m_looks = 0;
     std::vector<SurfaceTouch>* m_touches = nullptr;
     std::vector<Hit> m_hits;
     std::vector<int> m_near;      // nodes that were asked, ascending

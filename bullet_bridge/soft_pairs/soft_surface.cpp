@@ -73,6 +73,7 @@ void SoftSurface::listEdgeTriangles()
             m_edgeTriangles[k][1] = m_edgeTriangles[k][0];
             m_manifoldEdge[k] = 0;
         }
+    m_closed = std::find(m_manifoldEdge.begin(), m_manifoldEdge.end(), 0) == m_manifoldEdge.end();
 }
 
 void SoftSurface::setRestNeighbours(std::shared_ptr<const RestNeighbours> neighbours)

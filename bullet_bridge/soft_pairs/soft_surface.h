@@ -68,6 +68,8 @@ public:
     /// Of the nodes that are nearest to its vertices, which only contact of the surface with itself needs, and must
     /// have.
     void setRestNeighbours(std::shared_ptr<const RestNeighbours> neighbours);
+    /// True if every edge has two triangles.
+    bool isClosed() const { return m_closed; }
     bool hasRestNeighbours() const { return m_restNeighbours != nullptr; }
 
     /// Takes the positions at the start of a step of h [s] and the free velocities: once a step.
@@ -129,6 +131,7 @@ private:
     std::vector<int> m_nearestNode;
     std::vector<std::array<int, 2>> m_edgeTriangles;  // twice the same at a rim
     std::vector<unsigned char> m_manifoldEdge;        // 1: of exactly two triangles
+    bool m_closed = false;
     std::vector<int> m_firstAround, m_around;  // surface edges' other ends around every vertex
     std::vector<Vec3> m_change, m_faceNormal;
     std::vector<double> m_bend;
