@@ -85,6 +85,8 @@ private:
         int m_obstacle = -1;          // rigid
         bool m_angular = false;
         Vec3 m_arm;  // from the obstacle's centre [m]
+
+        bool sharesOwner(const RowEnd& other) const { return m_body == other.m_body && m_obstacle == other.m_obstacle; }
     };
     struct Row  // what every look at a row reads comes first, what only some need last
     {
@@ -113,6 +115,12 @@ private:
         double m_sweepWork = 0;  // of the last sweep's changes
         double m_work = 0;       // the same before the last minimization
         bool m_tried = false;    // its sweeps have not proved it yet
+    };
+
+    struct Swept  // what a sweep in turn over some rows has changed
+    {
+        double m_largest = 0;  // [m/s]
+        double m_work = 0;     // roughly [J]
     };
 
     static constexpr int kRowsOfPiece = 512;  // shorter pieces would not be worth handing out
@@ -159,6 +167,9 @@ private:
     double wantedSpeed(const Row& row) const;
     double loadSpeed() const;
     double sweepInTurn();
+    Swept sweepRows(Range rows);
+    Swept sweepOnce(Range rows);
+    int endOfPair(int begin, int end) const;
     void searchSubspace();
     void chooseSubspace();
     void minimizeOverSubspace();

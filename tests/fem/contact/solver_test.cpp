@@ -314,5 +314,16 @@ TEST(Contacts, KeepToTheirSweepsAndRounds)
     EXPECT_EQ(scene.solve().m_rounds, 2);
 }
 
+// One pair of a cube and the floor: seven more sweeps over it are part of the first; then one finds nothing to do.
+TEST(Contact, PairThatChangesMuchIsSweptAgainAtOnce)
+{
+    ContactScene scene;
+    scene.touchLowerFace(0, 0.5);
+    scene.setVelocity({0.3, 0.1, -2});
+    scene.m_settings.m_tolerance = 5e-3;
+    scene.m_settings.m_rounds = scene.m_settings.m_maxRounds = 1;
+    EXPECT_LE(scene.solve().m_sweeps, 2);
+}
+
 }  // namespace
 }  // namespace bullet_fem
