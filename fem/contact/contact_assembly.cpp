@@ -59,6 +59,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     m_gradientStep = 0;
     forgetWorkingSet();
     reserve();
+    divideRows();
     m_subspace = {};
 }
 
@@ -120,6 +121,23 @@ ContactRows::RowEnd ContactRows::rigidEnd(int obstacle, const Vec3& point) const
     end.m_obstacle = obstacle;
     if (obstacle >= 0) end.m_arm = point - m_problem->m_obstacles[obstacle].m_center;
     return end;
+}
+
+// Joints are swept in their order, and links of one multibody move each other.
+void ContactRows::divideRows()
+{
+    const std::vector<Obstacle>& obstacles = m_problem->m_obstacles;
+    const int bodies = static_cast<int>(m_problem->m_bodies.size());
+    const auto mover = [&](const RowEnd& end)
+    {
+        if (end.m_body >= 0) return end.m_body;
+        return end.m_obstacle >= 0 && obstacles[end.m_obstacle].canMove() ? bodies + end.m_obstacle : -1;
+    };
+    const auto isLink = [](const Obstacle& obstacle) { return obstacle.m_responseCount > 0; };
+    m_parts.clear(bodies + static_cast<int>(obstacles.size()));
+    for (std::size_t k = 0; k < m_problem->m_contacts.size(); ++k)
+        m_parts.add(mover(m_rows[k].m_a), mover(m_rows[k].m_b), m_problem->m_contacts[k].m_point);
+    m_parts.divide(m_problem->m_joints.empty() && std::none_of(obstacles.begin(), obstacles.end(), isLink));
 }
 
 Mat3 ContactRows::compliance(const RowEnd& end) const

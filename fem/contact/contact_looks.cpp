@@ -36,6 +36,7 @@ void ContactRows::chooseWorkingSet()
         if (m_wants[k] && !m_works[k]) ++joined;
     }
     m_works.swap(m_wants);
+    m_parts.sort(m_working);
     for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].choose();
     for (int k : m_working)
         for (const RowEnd* end : {&m_rows[k].m_a, &m_rows[k].m_b})

@@ -29,6 +29,8 @@ void ContactRows::react(const RowEnd& end, const Vec3& impulse)
     if (end.m_body >= 0) m_bodies[end.m_body].push(end.m_end, impulse);
     if (end.m_obstacle < 0) return;
     std::vector<Obstacle>& obstacles = m_problem->m_obstacles;
+    const Obstacle& obstacle = obstacles[end.m_obstacle];
+    if (obstacle.m_responseCount == 0 && !obstacle.canMove()) return;  // others read its velocity meanwhile
     const auto add = [&obstacles](int k, const Vec3& linear, const Vec3& angular)
     {
         obstacles[k].m_linearVelocity += linear;

@@ -10,6 +10,7 @@
 #include "bullet_fem/fem/contact_solver.h"
 #include "fem/body_batches.h"
 #include "fem/contact/body_ends.h"
+#include "fem/contact/sweep_parts.h"
 #include "fem/pieces.h"
 
 namespace bullet_fem
@@ -136,6 +137,7 @@ private:
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
     RowEnd jointEnd(const JointEnd& end);
     RowEnd rigidEnd(int obstacle, const Vec3& point) const;
+    void divideRows();
     void finishRows();
     void finishRow(Row& row) const;
     void setContactTarget(Row& row, const ContactPoint& contact) const;
@@ -226,7 +228,8 @@ private:
     BodyBatches m_batches;                          // of these
     std::vector<Row> m_rows;                        // of the contacts, then of the joints
     bool m_inTurn = true;                           // Gauss-Seidel
-    std::vector<int> m_working;                     // rows that the sweeps in turn are over
+    SweepParts m_parts;                             // of the rows
+    std::vector<int> m_working;                     // rows that the sweeps in turn are over, part by part
     std::vector<unsigned char> m_works;             // per row: belongs to them
     std::vector<unsigned char> m_wants;             // per row: is to belong to the next, if it has been looked for
     bool m_looked = false;                          // and nothing has changed since

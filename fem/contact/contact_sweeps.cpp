@@ -3,6 +3,7 @@
 #include "fem/contact/contact_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace bullet_fem
@@ -94,9 +95,16 @@ bool ContactRows::sweep(double tolerance)
 
 double ContactRows::sweepInTurn()
 {
-    const Swept swept = sweepRows({0, static_cast<int>(m_working.size())});
-    m_subspace.m_sweepWork = swept.m_work;
-    return share(swept.m_largest);
+    std::array<Swept, SweepParts::kMost> swept;
+    m_parts.inTurn(m_settings.m_step.m_threads, [&](int part, Range rows) { swept[part] = sweepRows(rows); });
+    double largest = 0;
+    m_subspace.m_sweepWork = 0;
+    for (int part = 1; part < m_parts.parts(); ++part)
+    {
+        largest = std::max(largest, swept[part].m_largest);
+        m_subspace.m_sweepWork += swept[part].m_work;
+    }
+    return share(largest);
 }
 
 // Of the working ones, one pair of ends after another. Where that has much to do it is swept again at once, while what

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "fem/contact/sweep_parts.h"
+#include "fem/scenes/contact_scene.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// A block of soft cubes of 1 m, side by side and on top of each other, squeezed by their
+/// velocities, without gravity; a ball falls on it, and it falls on a floor.
+class CubeBlock
+{
+public:
+    static constexpr int kSide = 5;
+
+    CubeBlock() : m_model(model()), m_cache(makeComplianceCache(m_model))
+    {
+        const Vec3 middle = 0.5 * kSide * Vec3{1, 1, 1};
+        for (int k = 0; k < kSide * kSide * kSide; ++k)
+        {
+            m_bodies.push_back(std::make_unique<Body>(m_model));
+            const Vec3 corner = {double(k % kSide), double(k / kSide % kSide), double(k / (kSide * kSide))};
+            for (Vec3& x : m_bodies.back()->m_state.m_x) x += corner;
+            for (Vec3& v : m_bodies.back()->m_state.m_v) v = middle - corner + Vec3{0.1 * (k % 7), 0, -4};
+        }
+        m_problem.m_obstacles.resize(2);
+        m_problem.m_obstacles[1].m_center = {2.5, 2.5, kSide + 0.5};
+        m_problem.m_obstacles[1].m_linearVelocity = {0, 0, -3};
+        makeBall(m_problem.m_obstacles[1], 500, 0.5);
+        addContacts();
+    }
+
+    ContactReport solve(const Threads* threads)
+    {
+        ContactSettings settings;
+        settings.m_tolerance = 1e-3;
+        settings.m_step.m_tolerance = 1e-6;
+        settings.m_step.m_threads = threads;
+        for (const auto& body : m_bodies)
+        {
+            solveFreeMotion(*body, settings.m_step);
+            m_problem.m_bodies.push_back({body.get(), m_cache.get()});
+        }
+        return m_solver.solve(m_problem, settings);
+    }
+
+    Vec3 momentum() const
+    {
+        Vec3 sum = (1 / m_problem.m_obstacles[1].m_inverseMass.x) * m_problem.m_obstacles[1].m_linearVelocity;
+        for (const auto& body : m_bodies)
+            for (std::size_t i = 0; i < body->m_state.m_mass.size(); ++i)
+                sum += body->m_state.m_mass[i] * velocity(*body)[i];
+        return sum;
+    }
+    Vec3 momentumBefore() const
+    {
+        Vec3 sum = 500 * m_problem.m_obstacles[1].m_linearVelocity;
+        for (const auto& body : m_bodies)
+            for (std::size_t i = 0; i < body->m_state.m_mass.size(); ++i)
+                sum += body->m_state.m_mass[i] * body->m_state.m_v[i];
+        return sum;
+    }
+    Vec3 impulseOfFloor() const
+    {
+        Vec3 sum;
+        for (const ContactPoint& contact : m_problem.m_contacts)
+            if (contact.m_obstacle == 0) sum += contact.m_impulse;
+        return sum;
+    }
+    std::vector<Vec3> velocities() const
+    {
+        std::vector<Vec3> all = {m_problem.m_obstacles[1].m_linearVelocity, m_problem.m_obstacles[1].m_angularVelocity};
+        for (const auto& body : m_bodies) all.insert(all.end(), velocity(*body).begin(), velocity(*body).end());
+        return all;
+    }
+    std::size_t contacts() const { return m_problem.m_contacts.size(); }
+
+private:
+    static std::shared_ptr<const BodyModel> model()
+    {
+        static const std::shared_ptr<const BodyModel> made =
+            makeBody(makeBox({1, 1, 1}, {2, 2, 2}), elasticMaterial(1e6, 0.3)).m_model;
+        return made;
+    }
+
+    // Cubes meet node by node.
+    void addContacts()
+    {
+        const int step[3] = {1, kSide, kSide * kSide};
+        for (int b = 0; b < static_cast<int>(m_bodies.size()); ++b)
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                const bool first = b / step[axis] % kSide == 0, last = b / step[axis] % kSide == kSide - 1;
+                if (!first) addFace(b, b - step[axis], -1, axis, 0);
+                if (axis == 2 && first) addFace(b, -1, 0, axis, 0);
+                if (b == static_cast<int>(m_bodies.size()) / 2 + 2 * step[2] && axis == 2 && last)
+                    addFace(b, -1, 1, axis, 1);
+            }
+    }
+    void addFace(int body, int other, int obstacle, int axis, double side)
+    {
+        const std::vector<Vec3>& rest = m_bodies[0]->m_state.m_x;  // whose corner is the origin
+        for (int i = 0; i < static_cast<int>(rest.size()); ++i)
+        {
+            if (rest[i][axis] != side) continue;
+            ContactPoint contact;
+            contact.m_soft = {body, {i, i, i}, {1, 0, 0}};
+            contact.m_obstacle = obstacle;
+            contact.m_point = m_bodies[body]->m_state.m_x[i];
+            contact.m_normal[axis] = side == 0 ? 1 : -1;
+            contact.m_friction = 0.3;
+            for (int j = 0; j < static_cast<int>(rest.size()) && other >= 0; ++j)
+            {
+                const Vec3 apart = m_bodies[other]->m_state.m_x[j] - contact.m_point;
+                if (dot(apart, apart) < 1e-6) contact.m_other = {other, {j, j, j}, {1, 0, 0}};
+            }
+            m_problem.m_contacts.push_back(contact);
+        }
+    }
+
+    std::shared_ptr<const BodyModel> m_model;
+    std::shared_ptr<ComplianceCache> m_cache;
+    std::vector<std::unique_ptr<Body>> m_bodies;
+    ContactProblem m_problem;
+    ContactSolver m_solver;
+};
+
+TEST(CrowdSweeps, HaveTheSameBitsOnAllThreads)
+{
+    CubeBlock alone;
+    ASSERT_GT(alone.contacts(), std::size_t(2 * SweepParts::kRowsOfPart));
+    const ContactReport report = alone.solve(nullptr);
+    const std::vector<Vec3> expected = alone.velocities();
+    for (const int count : {1, 2, 3})
+    {
+        const Threads threads(count);
+        CubeBlock shared;
+        EXPECT_EQ(shared.solve(&threads).m_sweeps, report.m_sweeps);
+        const std::vector<Vec3> found = shared.velocities();
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t k = 0; k < found.size(); ++k)
+            for (int i = 0; i < 3; ++i) ASSERT_EQ(found[k][i], expected[k][i]) << count << " threads, " << k;
+    }
+}
+
+TEST(CrowdSweeps, ConserveMomentumAndLeaveNothingClosing)
+{
+    const Threads threads(2);
+    CubeBlock block;
+    const Vec3 before = block.momentumBefore();
+    const ContactReport report = block.solve(&threads);
+    EXPECT_LT(report.m_violation, 2e-2) << "of speeds up to 6 m/s";
+    const Vec3 change = block.momentum() - before;
+    EXPECT_GT(change.z, 1e4);
+    EXPECT_LT(norm(change - block.impulseOfFloor()), 1e-6 * norm(change));
+}
+
+}  // namespace
+}  // namespace bullet_fem
