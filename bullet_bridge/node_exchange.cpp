@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/limits.h"
 #include "bullet_bridge/pose_matching.h"
 #include "bullet_bridge/soft_body_mesh.h"
 
@@ -14,13 +16,6 @@ namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kFarthest = 1e6;  // [m]; beyond it Bullet's broadphase gives a body up
-
-bool isUsable(const Vec3& x)
-{
-    return isFinite(x) && std::max({std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)}) < kFarthest;
-}
 
 bool sameBits(const btVector3& a, const btVector3& b)
 {
@@ -117,7 +112,7 @@ void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report
     Vec3 x = state.m_x[i], v = state.m_v[i];
     loadChanged(node.m_x, writtenX, x);
     loadChanged(node.m_v, writtenV, v);
-    if (!isUsable(x) || !isUsable(v))
+    if (!isBelow(kFarthest, x) || !isBelow(kFastest, v))
     {
         report.m_restored = true;
         node.m_x = writtenX;
@@ -185,13 +180,14 @@ bool readLoads(FemSoftBody& fem, double step)
     btSoftBody& soft = *fem.m_softBody;
     const BodyState& state = fem.m_body.m_state;
     StepLoads& loads = fem.m_body.m_loads;
-    bool finite = true;
+    const double mass = std::accumulate(state.m_mass.begin(), state.m_mass.end(), 0.0);
+    bool usable = true;
     Vec3 gravity = fem.gravity();
-    if (!isFinite(gravity)) gravity = {}, finite = false;
+    if (!isBelow(kFastest, step * gravity)) gravity = {}, usable = false;
     for (int i = 0; i < soft.m_nodes.size(); ++i)
     {
         Vec3 force = vec3(soft.m_nodes[i].m_f);
-        if (!isFinite(force)) force = {}, finite = false;
+        if (!isBelow(kFastest * mass, step * force)) force = {}, usable = false;
         loads.m_force[i] = force + state.m_mass[i] * gravity;
         soft.m_nodes[i].m_f.setZero();
 
@@ -206,7 +202,7 @@ bool readLoads(FemSoftBody& fem, double step)
     const double kDP = fem.m_hasOwnGravity ? soft.m_cfg.drag : soft.m_cfg.kDP;
     loads.m_massDamping = kDP > 0 ? std::min(kDP, 0.999) / (step * (1 - std::min(kDP, 0.999))) : 0;
     matchPose(fem, step);
-    return finite;
+    return usable;
 }
 
 void writeNodes(FemSoftBody& fem)

@@ -27,7 +27,8 @@ NodeReadReport readNodes(FemSoftBody& fem);
 
 /// Collects the external forces of the step: gravity, m_f (to which Bullet's applyForces has added wind and pressure),
 /// and Bullet's per-step velocity damping kDP as a rate; the pull of a pose (matchPose); and the target velocities of
-/// pinned nodes. Zeroes m_f. Returns false if a force was not finite (it is dropped).
+/// pinned nodes. Zeroes m_f. Returns false if a force was not finite, or would give the whole body 1e6 m/s within the
+/// step (it is dropped).
 bool readLoads(FemSoftBody& fem, double step);
 
 /// Writes x to m_x (the old one to m_q), v to m_v (the old one to m_vn).

@@ -8,6 +8,7 @@
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "LinearMath/btTransformUtil.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/limits.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/shapes/swept_distance.h"
 #include "bullet_fem/fem/stepping.h"
@@ -286,6 +287,10 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
     {
         Source& source = m_sources[k];
         const Obstacle& obstacle = m_obstacles[k];
+        if (!isBelow(kFastest, scaled(obstacle.m_inverseMass, source.m_linearImpulse)) ||
+            !isBelow(kFastest, obstacle.m_inverseInertia * (source.m_angularImpulse + obstacle.m_angularImpulse)) ||
+            !isBelow(kFastest, obstacle.m_pushLinear) || !isBelow(kFastest, obstacle.m_pushAngular))
+            continue;
         m_articulated.addImpulse(static_cast<int>(k), source.m_linearImpulse, source.m_angularImpulse);
         if (source.m_rewound)
         {

@@ -4,6 +4,7 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/limits.h"
 
 namespace bullet_fem
 {
@@ -58,6 +59,14 @@ void SolverBodies::end(RigidObstacles& rigid)
     for (std::size_t k = 0; k < m_links.size(); ++k)
     {
         if (m_links[k].m_solverBody < 0) continue;
+        btSolverBody& body = (*m_pool)[m_links[k].m_solverBody];
+        if (!isBelow(kFastest, vec3(body.m_deltaLinearVelocity)) ||
+            !isBelow(kFastest, vec3(body.m_deltaAngularVelocity)))
+        {
+            body.m_deltaLinearVelocity.setZero();
+            body.m_deltaAngularVelocity.setZero();
+            m_links[k].m_linearRemainder = m_links[k].m_angularRemainder = {};
+        }
         RigidObstacles::Remainder& remainder = rigid.remainder(static_cast<int>(k));
         remainder.m_linear = m_links[k].m_linearRemainder;
         remainder.m_angular = m_links[k].m_angularRemainder;

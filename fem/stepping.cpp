@@ -251,7 +251,7 @@ void finishStep(Body& body, const StepSettings& settings)
 
 bool canFinishStep(const Body& body)
 {
-    constexpr double kFastest = 1e12;
+    constexpr double kFastest = 1e6;
     const StepScratch& scratch = body.m_workspace.scratch();
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
     {

@@ -44,6 +44,13 @@ public:
     /// thousand times that.
     bool sweep(double tolerance);
 
+    /// True if the last sweep changed a velocity by so much that sweeping leads nowhere. The compliance of a body may
+    /// be indefinite by its own errors: that of a stiff, light body on the low-memory path.
+    bool runsAway() const;
+
+    /// Takes back the impulses on all bodies and obstacles that run away, and holds them no more in this step.
+    void letGo();
+
     /// What the last sweep in turn changed, likewise; 0 of one at once, whose short steps need not shrink.
     double lastChange() const { return m_lastChange; }
 
@@ -230,11 +237,13 @@ private:
     bool m_inTurn = true;                           // Gauss-Seidel
     SweepParts m_parts;                             // of the rows
     std::vector<int> m_working;                     // rows that the sweeps in turn are over, part by part
+    std::vector<unsigned char> m_runaways;          // per body, then per obstacle: is being let go
     std::vector<unsigned char> m_works;             // per row: belongs to them
     std::vector<unsigned char> m_wants;             // per row: is to belong to the next, if it has been looked for
     bool m_looked = false;                          // and nothing has changed since
     int m_lifeOfSet = -1;                           // sweeps until another is chosen; -1: there is none
     double m_lastChange = 0;                        // by the last sweep in turn
+    double m_lastSpeed = 0;                         // the same, or that of a sweep at once [m/s]
     double m_speedScale = 0;                        // that errors are measured against [m/s]
     double m_gradientStep = 1, m_acceleration = 1;  // of the sweeps at once
     Subspace m_subspace;

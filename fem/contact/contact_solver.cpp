@@ -194,6 +194,12 @@ bool ContactSolver::sweep(double others)
     const bool othersMove = others > kRoundingOfOthers && othersChange > s.m_sweepTolerance;
     if (othersMove) s.m_rows.othersMoved();
     const bool moves = s.m_rows.sweep(s.m_sweepTolerance);
+    if (s.m_rows.runsAway())
+    {
+        s.m_rows.letGo();
+        s.m_report.m_converged = false;
+        return true;
+    }
     if (!moves && !othersMove) return false;
     const bool joints = !s.m_problem->m_joints.empty();  // with them, all are swept to the end
     return joints || !s.m_progress.stalls(std::max(s.m_rows.lastChange(), othersChange));

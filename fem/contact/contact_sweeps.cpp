@@ -18,6 +18,9 @@ constexpr int kMostTimes = 8;
 
 constexpr int kSweepsBetween = 5;  // minimizations: they find out what touches, slides and sticks
 
+// Impacts change velocities by the speed scale, and now and then by some tens of it.
+constexpr double kRunaway = 1e3;
+
 }  // namespace
 
 // What only some solves use: which of them is the first shall not matter.
@@ -28,6 +31,7 @@ void ContactRows::reserve()
     for (std::vector<unsigned char>* flags : {&m_works, &m_wants}) flags->assign(m_rows.size(), 0);
     for (std::vector<Vec3>* saved : {&m_savedLinear, &m_savedAngular}) saved->reserve(m_problem->m_obstacles.size());
     m_pushed.reserve(m_problem->m_bodies.size());
+    m_runaways.reserve(m_problem->m_bodies.size() + m_problem->m_obstacles.size());
 }
 
 // The impulse that a contact wants for a relative velocity it has at another impulse; step: share of the way.
@@ -104,6 +108,7 @@ double ContactRows::sweepInTurn()
         largest = std::max(largest, swept[part].m_largest);
         m_subspace.m_sweepWork += swept[part].m_work;
     }
+    m_lastSpeed = largest;
     return share(largest);
 }
 
@@ -151,6 +156,40 @@ ContactRows::Swept ContactRows::sweepOnce(Range rows)
         change(row, wanted);
     }
     return swept;
+}
+
+bool ContactRows::runsAway() const
+{
+    return m_speedScale > 0 && !(m_lastSpeed <= kRunaway * m_speedScale);
+}
+
+void ContactRows::letGo()
+{
+    const std::size_t bodies = m_problem->m_bodies.size();
+    m_runaways.assign(bodies + m_problem->m_obstacles.size(), 0);
+    const auto forMovableEnds = [&](const Row& row, const auto& visit)
+    {
+        for (const RowEnd* end : {&row.m_a, &row.m_b})
+        {
+            if (end->m_body >= 0) visit(m_runaways[end->m_body]);
+            if (end->m_obstacle >= 0 && m_problem->m_obstacles[end->m_obstacle].canMove())
+                visit(m_runaways[bodies + end->m_obstacle]);
+        }
+    };
+    for (const Row& row : m_rows)
+        if (!(speedOf(row, row.m_impulse) <= m_speedScale)) forMovableEnds(row, [](unsigned char& runs) { runs = 1; });
+    for (Row& row : m_rows)
+    {
+        bool runs = false;
+        forMovableEnds(row, [&runs](unsigned char end) { runs = runs || end; });
+        if (!runs) continue;
+        change(row, {});
+        row.m_idle = true;
+    }
+    flush();
+    m_subspace = {};
+    forgetWorkingSet();
+    restart();
 }
 
 double ContactRows::share(double speed) const
@@ -221,6 +260,7 @@ double ContactRows::sweepAtOnce()
     }
     for (Row& row : m_rows) change(row, row.m_pending);
     flush();
+    m_lastSpeed = largest;
     m_acceleration = uphill > 0 ? 1 : next;
     return kShortSteps * share(largest);
 }

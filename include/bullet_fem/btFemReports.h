@@ -25,7 +25,7 @@ enum btFemFlags
         1 << 0,                    ///< the iteration cap came before the tolerance: usable; raise the cap or refactor()
     BT_FEM_BREAKDOWN = 1 << 1,     ///< the system was not solvable to rounding: best iterate kept; look at masses and E
     BT_FEM_STALE_FACTOR = 1 << 2,  ///< step, masses or pins are not the factor's: more iterations; refactor()
-    BT_FEM_RESTORED = 1 << 3,      ///< NaN or infinity in m_x, m_v or m_f: the last good values were put back
+    BT_FEM_RESTORED = 1 << 3,      ///< m_x or m_v not finite or over 1e6 m, m/s: put back; m_f or gravity: dropped
     BT_FEM_BAD_MASS = 1 << 4,      ///< an inverse mass was negative or NaN: the node got its share of the volume; or
                                    ///< infinite (setTotalMass by faces): the mass of all was shared out by volume
     BT_FEM_BAD_STEP = 1 << 5,      ///< the step was not in [1e-6, 1] s: the body stood still

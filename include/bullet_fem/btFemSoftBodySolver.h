@@ -163,8 +163,8 @@ public:
     void refactor(btSoftBody* body);
 
     /// Makes a node go to a world position [m] within the next step, and stay there; its mass is kept for when it is
-    /// let go. Throws std::invalid_argument on a node index out of range, a position that is not finite, or a body that
-    /// is not FEM.
+    /// let go. Throws std::invalid_argument on a node index out of range, a position that is not in [-1e6, 1e6] m, or a
+    /// body that is not FEM.
     void setNodeTarget(btSoftBody* body, int node, const btVector3& position);
     /// Lets the node go. Throws std::invalid_argument on a node index out of range, or a body that is not FEM.
     void clearNodeTarget(btSoftBody* body, int node);

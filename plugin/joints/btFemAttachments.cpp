@@ -9,6 +9,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/limits.h"
 
 using namespace bullet_fem;
 
@@ -59,6 +60,14 @@ btFemHold holdOf(HeldJoint::Kind kind)
     return btFemHold::angularJoint;
 }
 
+void checkTarget(int node, const Vec3& position)
+{
+    if (isBelow(kFarthest, position)) return;
+    throw std::invalid_argument("setNodeTargets: the position of node " + std::to_string(node) + " is (" +
+                                std::to_string(position.x) + ", " + std::to_string(position.y) + ", " +
+                                std::to_string(position.z) + "), not in [-1e6, 1e6] m; give a place near the body");
+}
+
 }  // namespace
 
 int attachNode(FemSoftBody& body, int node, const FemSoftBody& other, const std::array<int, 4>& otherNodes,
@@ -97,25 +106,17 @@ void setTargets(FemSoftBody& body, const btFemNodeGroup& group, const btVector3*
 {
     checkGroup(body, group, "setNodeTargets");
     if (group.m_count > 0 && !positions) throw std::invalid_argument("setNodeTargets: the positions are null");
-    for (int k = 0; k < group.m_count; ++k)
-        if (!isFinite(vec3(positions[k])))
-            throw std::invalid_argument("setNodeTargets: the position of node " + std::to_string(group.m_nodes[k]) +
-                                        " is not finite");
+    for (int k = 0; k < group.m_count; ++k) checkTarget(group.m_nodes[k], vec3(positions[k]));
     for (int k = 0; k < group.m_count; ++k) setTarget(body, group.m_nodes[k], vec3(positions[k]));
 }
 
 void setTargets(FemSoftBody& body, const btFemNodeGroup& group, const btTransform& fromRest)
 {
     checkGroup(body, group, "setNodeTargets");
-    for (int i = 0; i < 3; ++i)
-        if (!isFinite(vec3(fromRest.getBasis()[i])) || !std::isfinite(fromRest.getOrigin()[i]))
-            throw std::invalid_argument("setNodeTargets: the transform is not finite");
     const std::vector<Vec3>& X = body.m_body.m_model->mesh().restPositions();
-    for (int k = 0; k < group.m_count; ++k)
-    {
-        const int node = group.m_nodes[k];
-        setTarget(body, node, vec3(fromRest * bulletVector(body.m_restOrigin + X[node])));
-    }
+    const auto moved = [&](int node) { return vec3(fromRest * bulletVector(body.m_restOrigin + X[node])); };
+    for (int k = 0; k < group.m_count; ++k) checkTarget(group.m_nodes[k], moved(group.m_nodes[k]));
+    for (int k = 0; k < group.m_count; ++k) setTarget(body, group.m_nodes[k], moved(group.m_nodes[k]));
 }
 
 void clearTargets(FemSoftBody& body, const btFemNodeGroup& group)

@@ -118,6 +118,19 @@ TEST_F(NodeExchange, dropsForcesThatAreNotFinite)
     EXPECT_EQ(node(2).m_f, btVector3(0, 0, 0));
 }
 
+// A pressure of 1e30, say.
+TEST_F(NodeExchange, dropsForcesThatWouldThrowTheBodyOutOfTheWorld)
+{
+    double mass = 0;
+    for (double m : m_fem.m_body.m_state.m_mass) mass += m;
+    const double most = 1e6 * mass / kFrame;
+    node(1).m_f = btVector3(btScalar(1.01 * most), 0, 0);
+    node(2).m_f = btVector3(0, btScalar(-0.99 * most), 0);
+    EXPECT_FALSE(readLoads(m_fem, kFrame));
+    EXPECT_EQ(m_fem.m_body.m_loads.m_force[1].x, 0);
+    EXPECT_NEAR(m_fem.m_body.m_loads.m_force[2].y, -0.99 * most, 1e-5 * most);
+}
+
 TEST_F(NodeExchange, takesNewMassesAndKeepsTheOldOnesForBadOnes)
 {
     const double old = state().m_mass[1];

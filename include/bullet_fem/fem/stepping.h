@@ -63,7 +63,7 @@ Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings
 /// v <- velocity(body), x <- x + h v, and the pushes.
 void finishStep(Body& body, const StepSettings& settings);
 
-/// True if the step's velocities and pushes are numbers that single precision holds, too: below 1e12 m/s.
+/// True if the velocities and pushes of the step are numbers, and below 1e6 m/s.
 bool canFinishStep(const Body& body);
 
 /// In place of finishStep: the body stands still where it is.

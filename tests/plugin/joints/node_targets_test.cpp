@@ -95,6 +95,11 @@ TEST_F(NodeTargetsTest, aBadGroupIsRejectedBeforeAnyNodeIsTouched)
     EXPECT_THROW(m_fem.setNodeTargets(&m_bar, outOfRange, 2, btTransform::getIdentity()), std::invalid_argument);
     EXPECT_THROW(m_fem.setNodeTargets(&m_bar, m_group.data(), count(), positions.data()), std::invalid_argument);
     EXPECT_THROW(m_fem.setNodeTargets(&m_bar, m_group.data(), count(), broken), std::invalid_argument);
+    const btVector3 faraway(0, 0, btScalar(-1.1e6));
+    EXPECT_THROW(m_fem.setNodeTarget(&m_bar, m_group[0], faraway), std::invalid_argument);
+    EXPECT_THROW(
+        m_fem.setNodeTargets(&m_bar, m_group.data(), count(), btTransform(btQuaternion::getIdentity(), faraway)),
+        std::invalid_argument);
     EXPECT_THROW(m_fem.setNodeTargets(&m_bar, nullptr, 2, btTransform::getIdentity()), std::invalid_argument);
     EXPECT_THROW(m_fem.setNodeTargets(&m_bar, m_group.data(), -1, positions.data()), std::invalid_argument);
     EXPECT_THROW(m_fem.clearNodeTargets(&m_bar, outOfRange, 2), std::invalid_argument);

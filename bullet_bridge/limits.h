@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_fem/fem/vec3.h"
+
+namespace bullet_fem
+{
+
+constexpr double kFarthest = 1e6;  ///< [m]; beyond it Bullet's broadphase gives a body up
+constexpr double kFastest = 1e6;   ///< [m/s] or [rad/s]; what would move faster is not moved
+
+/// True if all components are finite and below the limit.
+inline bool isBelow(double limit, const Vec3& x)
+{
+    return isFinite(x) && std::max({std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)}) < limit;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,622 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/scenes/random_program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/fem/generators.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kMostSoft = 5, kMostRigid = 8;
+
+btFemSolverInfo infoOf(std::mt19937& generator)
+{
+    btFemSolverInfo info;
+    info.m_threads = 1 + static_cast<int>(generator() % 2);
+    info.m_manifolds = generator() % 2 == 0;
+    info.m_maxContacts = generator() % 4 == 0 ? 8 : 2000;
+    info.m_contactTolerance = generator() % 2 == 0 ? btScalar(3e-5) : btScalar(1e-2);
+    info.m_factorChoice = generator() % 4 == 0 ? btFemFactorChoice::lowMemory : btFemFactorChoice::full;
+    info.m_refactoring = generator() % 2 == 0 ? btFemRefactoring::synchronous : btFemRefactoring::onRequest;
+    return info;
+}
+
+}  // namespace
+
+RandomProgram::RandomProgram(WorldClass worldClass, Coupling coupling, unsigned number)
+    : m_generator(number),
+      m_world(worldClass, coupling, btVector3(0, 0, btScalar(-kGravity)), infoOf(m_generator)),
+      m_fem(m_world.fem())
+{
+    m_world.addPlane();
+}
+
+const std::vector<RandomProgram::Act>& RandomProgram::acts()
+{
+    using P = RandomProgram;
+    static const std::vector<Act> all = {{"step", 60, &P::step},
+                                         {"addBox", 4, &P::addBox},
+                                         {"addBall", 2, &P::addBall},
+                                         {"addTets", 2, &P::addTets},
+                                         {"removeSoft", 2, &P::removeSoft},
+                                         {"readd", 2, &P::readd},
+                                         {"addRigid", 4, &P::addRigid},
+                                         {"addStatic", 2, &P::addStatic},
+                                         {"removeRigid", 2, &P::removeRigid},
+                                         {"throwRigid", 4, &P::throwRigid},
+                                         {"setMaterial", 4, &P::setMaterial},
+                                         {"setDetail", 2, &P::setDetail},
+                                         {"setFlags", 2, &P::setFlags},
+                                         {"setConfig", 2, &P::setConfig},
+                                         {"writeNodes", 3, &P::writeNodes},
+                                         {"writeBadNodes", 2, &P::writeBadNodes},
+                                         {"pin", 3, &P::pin},
+                                         {"setMasses", 2, &P::setMasses},
+                                         {"setTargets", 3, &P::setTargets},
+                                         {"clearTargets", 2, &P::clearTargets},
+                                         {"anchor", 3, &P::anchor},
+                                         {"attach", 3, &P::attach},
+                                         {"detach", 2, &P::detach},
+                                         {"spring", 3, &P::spring},
+                                         {"move", 3, &P::move},
+                                         {"scale", 2, &P::scale},
+                                         {"remember", 1, &P::remember},
+                                         {"append", 1, &P::append},
+                                         {"removeTets", 1, &P::removeTets},
+                                         {"prepare", 2, &P::prepare},
+                                         {"refactor", 2, &P::refactor},
+                                         {"save", 3, &P::save},
+                                         {"restore", 3, &P::restore},
+                                         {"define", 1, &P::define},
+                                         {"redefine", 1, &P::redefine},
+                                         {"query", 6, &P::query},
+                                         {"setGravity", 1, &P::setGravity},
+                                         {"makeClusters", 1, &P::makeClusters},
+                                         {"setPose", 1, &P::setPose},
+                                         {"setActivation", 2, &P::setActivation}};
+    return all;
+}
+
+void RandomProgram::act()
+{
+    int sum = 0;
+    for (const Act& a : acts()) sum += a.m_weight;
+    int left = below(sum);
+    const Act* chosen = &acts().front();
+    for (const Act& a : acts())
+    {
+        if (left < a.m_weight)
+        {
+            chosen = &a;
+            break;
+        }
+        left -= a.m_weight;
+    }
+    m_last = chosen->m_name;
+    try
+    {
+        (this->*chosen->m_do)();
+    }
+    catch (const std::invalid_argument&)
+    {
+        ++m_refusals;
+    }
+}
+
+double RandomProgram::number(double from, double to)
+{
+    return from + (to - from) * (m_generator() / 4294967296.0);
+}
+
+double RandomProgram::logarithmic(double from, double to)
+{
+    return std::exp(number(std::log(from), std::log(to)));
+}
+
+int RandomProgram::below(int count)
+{
+    return static_cast<int>(m_generator() % static_cast<unsigned>(count));
+}
+
+btVector3 RandomProgram::vector(double size)
+{
+    const double x = number(-size, size), y = number(-size, size), z = number(-size, size);
+    return btVector3(btScalar(x), btScalar(y), btScalar(z));
+}
+
+btVector3 RandomProgram::place()
+{
+    return vector(0.6) + btVector3(0, 0, btScalar(0.8));
+}
+
+btTransform RandomProgram::pose(double size)
+{
+    const btVector3 axis = vector(1) + btVector3(0, 0, 2);
+    return btTransform(btQuaternion(axis.normalized(), btScalar(number(-3, 3))), vector(size));
+}
+
+btSoftBody* RandomProgram::anySoft()
+{
+    if (m_soft.empty()) throw std::invalid_argument("no soft body");
+    return m_soft[below(static_cast<int>(m_soft.size()))];
+}
+
+btRigidBody* RandomProgram::anyRigid()
+{
+    if (m_rigid.empty()) throw std::invalid_argument("no rigid body");
+    return m_rigid[below(static_cast<int>(m_rigid.size()))];
+}
+
+int RandomProgram::nodeOf(const btSoftBody& body)
+{
+    return one(20) ? body.m_nodes.size() : below(body.m_nodes.size());
+}
+
+btSoftBody::Node& RandomProgram::anyNode(btSoftBody& body)
+{
+    return body.m_nodes[below(body.m_nodes.size())];
+}
+
+btScalar RandomProgram::badNumber()
+{
+    constexpr btScalar infinity = std::numeric_limits<btScalar>::infinity();
+    const btScalar values[] = {std::numeric_limits<btScalar>::quiet_NaN(), infinity, -infinity, btScalar(1e30),
+                               btScalar(-1e12)};
+    return values[below(5)];
+}
+
+void RandomProgram::step()
+{
+    const double h = one(4) ? logarithmic(1e-3, 0.1) : 1.0 / 60;
+    if (one(5)) m_world.bullet().stepSimulation(btScalar(number(0, 0.06)), 4, btScalar(h));
+    removeRejected();
+    m_world.step(1 + below(4), btScalar(h));
+    removeRejected();
+}
+
+// Bullet moves what is not FEM, with whatever was written to it, and what is anchored to it.
+void RandomProgram::removeRejected()
+{
+    const std::vector<btSoftBody*> all = m_soft;
+    for (btSoftBody* body : all)
+        if (!m_fem.isFem(body)) remove(body);
+}
+
+void RandomProgram::addSoft(btSoftBody* body)
+{
+    body->translate(place());
+    m_world.addSoft(body);
+    if (one(2)) body->forceActivationState(ACTIVE_TAG);
+    body->m_cfg.kDF = btScalar(number(0, 1));
+    m_soft.push_back(body);
+    if (static_cast<int>(m_soft.size()) > kMostSoft) removeSoft();
+}
+
+void RandomProgram::addBox()
+{
+    const btVector3 half(btScalar(logarithmic(0.02, 0.4)), btScalar(logarithmic(0.02, 0.4)),
+                         btScalar(logarithmic(0.02, 0.4)));
+    addSoft(btFemHelpers::createBox(m_world.info(), btVector3(0, 0, 0), half, btScalar(half.length() / number(1, 3))));
+}
+
+void RandomProgram::addBall()
+{
+    btSoftBody* body = btFemHelpers::createFromTetMesh(m_world.info(), makeSphere(logarithmic(0.05, 0.4), 4));
+    addSoft(body);
+}
+
+// As few as one, in no good shape.
+void RandomProgram::addTets()
+{
+    auto* body = new btSoftBody(&m_world.info());
+    body->appendMaterial();
+    const int count = 4 + below(4);
+    for (int i = 0; i < count; ++i) body->appendNode(vector(0.3), 1);
+    for (int t = 0; t + 3 < count; ++t) body->appendTetra(t, t + 1, t + 2, t + 3);
+    if (one(2)) body->initializeDmInverse();
+    addSoft(body);
+}
+
+void RandomProgram::removeSoft()
+{
+    remove(anySoft());
+}
+
+void RandomProgram::remove(btSoftBody* body)
+{
+    forgetJoints();
+    m_soft.erase(std::find(m_soft.begin(), m_soft.end(), body));
+    m_world.deleteSoft(*body);
+}
+
+// Bullet's joints hold addresses.
+void RandomProgram::forgetJoints()
+{
+    for (btSoftBody* body : m_soft)
+    {
+        for (int k = 0; k < body->m_joints.size(); ++k) btAlignedFree(body->m_joints[k]);
+        body->m_joints.clear();
+    }
+}
+
+void RandomProgram::readd()
+{
+    btSoftBody* body = anySoft();
+    m_world.take(*body);
+    if (one(2)) m_world.step();
+    m_world.put(*body);
+}
+
+void RandomProgram::addRigid()
+{
+    const btScalar r = btScalar(logarithmic(0.03, 0.3)), s = btScalar(logarithmic(0.03, 0.3));
+    btCollisionShape* shape = nullptr;
+    switch (below(6))
+    {
+        case 0:
+            shape = new btSphereShape(r);
+            break;
+        case 1:
+            shape = new btCapsuleShape(r, s);
+            break;
+        case 2:
+            shape = new btCylinderShapeZ(btVector3(r, r, s));
+            break;
+        case 3:
+            shape = new btConeShape(r, s);
+            break;
+        case 4:
+        {
+            auto* compound = new btCompoundShape;
+            compound->addChildShape(pose(0.1), m_world.keep(new btBoxShape(btVector3(r, s, r))));
+            compound->addChildShape(pose(0.1), m_world.keep(new btSphereShape(s)));
+            shape = compound;
+            break;
+        }
+        default:
+            shape = new btBoxShape(btVector3(r, s, r));
+            break;
+    }
+    RigidSettings settings;
+    settings.m_mass = btScalar(logarithmic(0.01, 100));
+    settings.m_transform = pose(0.2);
+    settings.m_transform.setOrigin(place());
+    settings.m_friction = btScalar(number(0, 2));
+    settings.m_velocity = vector(3);
+    m_rigid.push_back(&m_world.addRigid(shape, settings));
+    if (one(2)) m_rigid.back()->forceActivationState(ACTIVE_TAG);
+    if (static_cast<int>(m_rigid.size()) > kMostRigid) removeRigid();
+}
+
+void RandomProgram::addStatic()
+{
+    RigidSettings settings;
+    settings.m_transform = pose(0.2);
+    settings.m_transform.setOrigin(place());
+    btRigidBody& body =
+        m_world.addRigid(new btBoxShape(btVector3(btScalar(0.3), btScalar(0.1), btScalar(0.2))), settings);
+    if (one(2)) body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    m_rigid.push_back(&body);
+    if (static_cast<int>(m_rigid.size()) > kMostRigid) removeRigid();
+}
+
+void RandomProgram::removeRigid()
+{
+    btRigidBody* body = anyRigid();
+    m_rigid.erase(std::find(m_rigid.begin(), m_rigid.end(), body));
+    for (btSoftBody* soft : m_soft)  // Bullet's anchors hold addresses
+        for (int k = soft->m_anchors.size() - 1; k >= 0; --k)
+            if (soft->m_anchors[k].m_body == body)
+            {
+                soft->m_anchors.swap(k, soft->m_anchors.size() - 1);
+                soft->m_anchors.pop_back();
+            }
+    m_world.deleteRigid(*body);
+}
+
+void RandomProgram::throwRigid()
+{
+    btRigidBody* body = anyRigid();
+    body->setLinearVelocity(vector(logarithmic(0.1, 300)));
+    body->setAngularVelocity(vector(logarithmic(0.1, 100)));
+    if (one(4)) body->setWorldTransform(btTransform(btQuaternion::getIdentity(), place()));
+    body->activate(true);
+}
+
+void RandomProgram::setMaterial()
+{
+    btFemMaterial material;
+    material.m_youngModulus = one(20) ? badNumber() : btScalar(logarithmic(1e2, 1e9));
+    material.m_poissonRatio = btScalar(number(0, one(10) ? 0.6 : 0.49));
+    material.m_density = one(4) ? 0 : btScalar(logarithmic(1, 2e4));
+    material.m_stiffnessDamping = btScalar(logarithmic(1e-5, 1e-1));
+    m_fem.setMaterial(anySoft(), material);
+}
+
+void RandomProgram::setDetail()
+{
+    m_fem.setDetail(anySoft(), static_cast<btFemDetail>(below(5)));
+    m_fem.setContactOffset(anySoft(), btScalar(one(2) ? 0 : number(-0.01, 0.05)));
+}
+
+void RandomProgram::setFlags()
+{
+    btSoftBody* body = anySoft();
+    body->m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
+    if (one(2)) body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
+    if (one(3)) body->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
+    if (one(4)) body->m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
+}
+
+void RandomProgram::setConfig()
+{
+    btSoftBody* body = anySoft();
+    btScalar* const values[] = {&body->m_cfg.kDF, &body->m_cfg.kDP, &body->m_cfg.kDG, &body->m_cfg.kLF,
+                                &body->m_cfg.kPR, &body->m_cfg.kVC, &body->m_cfg.kMT, &body->m_cfg.kSHR};
+    *values[below(8)] = one(10) ? badNumber() : btScalar(number(0, 1));
+}
+
+void RandomProgram::writeNodes()
+{
+    btSoftBody& body = *anySoft();
+    for (int k = 0; k < 3; ++k)
+    {
+        btSoftBody::Node& node = anyNode(body);
+        if (one(2)) node.m_x += vector(0.1);
+        if (one(2)) node.m_v += vector(logarithmic(0.1, 100));
+        if (one(2)) node.m_f += vector(100);
+    }
+    if (one(10)) body.setVelocity(vector(50));
+}
+
+void RandomProgram::writeBadNodes()
+{
+    btSoftBody::Node& node = anyNode(*anySoft());
+    switch (below(4))
+    {
+        case 0:
+            node.m_x[below(3)] = badNumber();
+            break;
+        case 1:
+            node.m_v[below(3)] = badNumber();
+            break;
+        case 2:
+            node.m_f[below(3)] = badNumber();
+            break;
+        default:
+            node.m_im = badNumber();
+            break;
+    }
+}
+
+void RandomProgram::pin()
+{
+    btSoftBody& body = *anySoft();
+    const int node = below(body.m_nodes.size());
+    body.setMass(node, one(2) ? 0 : btScalar(logarithmic(1e-3, 10)));
+    if (one(20))
+        for (int i = 0; i < body.m_nodes.size(); ++i) body.setMass(i, 0);
+}
+
+void RandomProgram::setMasses()
+{
+    btSoftBody& body = *anySoft();
+    if (one(2))
+        body.setTotalMass(btScalar(logarithmic(1e-3, 1e3)));
+    else
+        body.setVolumeDensity(btScalar(logarithmic(1, 1e4)));
+}
+
+void RandomProgram::setTargets()
+{
+    btSoftBody& body = *anySoft();
+    const int node = nodeOf(body);
+    if (one(3))
+        m_fem.setNodeTargets(&body, &node, 1, pose(0.5));
+    else
+        m_fem.setNodeTarget(&body, node, one(15) ? btVector3(badNumber(), 0, 0) : place());
+}
+
+void RandomProgram::clearTargets()
+{
+    btSoftBody& body = *anySoft();
+    for (int i = 0; i < body.m_nodes.size(); ++i) m_fem.clearNodeTarget(&body, i);
+}
+
+void RandomProgram::anchor()
+{
+    btSoftBody& body = *anySoft();
+    if (one(4) && body.m_anchors.size() > 0)
+        body.removeAnchor(static_cast<int>(body.m_anchors[0].m_node - &body.m_nodes[0]));
+    else if (m_fem.isFem(&body))
+        body.appendAnchor(below(body.m_nodes.size()), anyRigid(), one(2), btScalar(number(0, 1)));
+}
+
+void RandomProgram::attach()
+{
+    btSoftBody &a = *anySoft(), &b = *anySoft();
+    const btScalar weights[4] = {btScalar(0.25), btScalar(0.25), btScalar(0.25), btScalar(0.25)};
+    m_attachments.push_back(one(2) ? m_fem.attachNodes(&a, nodeOf(a), &b, nodeOf(b))
+                                   : m_fem.attachNodeToTet(&a, nodeOf(a), &b, below(b.m_tetras.size() + 1), weights));
+}
+
+void RandomProgram::detach()
+{
+    btSoftBody* body = anySoft();
+    for (int handle : m_attachments) m_fem.detach(body, handle);
+}
+
+void RandomProgram::spring()
+{
+    btSoftBody& body = *anySoft();
+    if (!m_springs.empty() && one(2))
+    {
+        const int handle = m_springs[below(static_cast<int>(m_springs.size()))];
+        if (one(2))
+            m_fem.removeSpring(&body, handle);
+        else
+            m_fem.setSpringTarget(&body, handle, one(10) ? btVector3(badNumber(), 0, 0) : place());
+        return;
+    }
+    btFemSpring spring;
+    spring.m_nodes[0] = nodeOf(body);
+    spring.m_target = place();
+    spring.m_stiffness = btScalar(logarithmic(1, 1e9));
+    spring.m_damping = btScalar(one(2) ? 0 : logarithmic(1, 1e6));
+    m_springs.push_back(m_fem.addSpring(&body, spring));
+}
+
+void RandomProgram::move()
+{
+    btSoftBody& body = *anySoft();
+    switch (below(3))
+    {
+        case 0:
+            body.translate(vector(0.3));
+            break;
+        case 1:
+            body.rotate(pose(0).getRotation());
+            break;
+        default:
+            body.transform(pose(0.3));
+            break;
+    }
+}
+
+void RandomProgram::scale()
+{
+    const double s = logarithmic(0.5, 2);
+    anySoft()->scale(btVector3(btScalar(s), btScalar(s * number(0.8, 1.2)), btScalar(one(30) ? 0 : s)));
+}
+
+void RandomProgram::remember()
+{
+    anySoft()->initializeDmInverse();
+}
+
+// Bullet's appendNode may move the nodes, and forgets that tetrahedra, clusters and joints point at them.
+void RandomProgram::append()
+{
+    btSoftBody& body = *anySoft();
+    forgetJoints();
+    body.releaseClusters();
+    std::vector<std::ptrdiff_t> corners;
+    for (int t = 0; t < body.m_tetras.size(); ++t)
+        for (btSoftBody::Node* node : body.m_tetras[t].m_n) corners.push_back(node - &body.m_nodes[0]);
+    const int n = body.m_nodes.size();
+    body.appendNode(anyNode(body).m_x + vector(0.1), 1);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        body.m_tetras[static_cast<int>(k / 4)].m_n[k % 4] = &body.m_nodes[static_cast<int>(corners[k])];
+    body.appendTetra(below(n), below(n), below(n), n);
+}
+
+void RandomProgram::removeTets()
+{
+    btSoftBody& body = *anySoft();
+    if (body.m_tetras.size() > 1) body.m_tetras.pop_back();  // without any it is Bullet's
+}
+
+void RandomProgram::prepare()
+{
+    m_fem.prepare(anySoft(), btScalar(logarithmic(1e-4, 0.1)));
+}
+
+void RandomProgram::refactor()
+{
+    m_fem.refactor(anySoft());
+}
+
+void RandomProgram::save()
+{
+    m_fem.saveState(m_state);
+}
+
+void RandomProgram::restore()
+{
+    if (!m_state.empty() && one(3)) m_state[below(static_cast<int>(m_state.size()))] ^= 1 << below(8);
+    m_fem.restoreState(m_state.data(), m_state.size());
+}
+
+void RandomProgram::define()
+{
+    m_fem.saveDefinition(anySoft(), m_definition);
+}
+
+void RandomProgram::redefine()
+{
+    m_fem.applyDefinition(anySoft(), m_definition.data(), m_definition.size());
+}
+
+void RandomProgram::query()
+{
+    btSoftBody* body = anySoft();
+    btAlignedObjectArray<btFemStress> stress;
+    btAlignedObjectArray<btScalar> vonMises;
+    btAlignedObjectArray<btVector3> forces;
+    m_fem.getStress(body, stress);
+    m_fem.getNodeVonMises(body, vonMises);
+    m_fem.getContactForces(body, forces);
+    m_fem.touches(body);
+    m_fem.anchors(body);
+    m_fem.contacts(body);
+    const btVector3 from = place() + btVector3(0, 0, 3), to = from - btVector3(0, 0, 5);
+    btCollisionWorld::ClosestRayResultCallback ray(from, to);
+    m_world.bullet().rayTest(from, to, ray);
+    struct Contacts : btCollisionWorld::ContactResultCallback
+    {
+        btScalar addSingleResult(btManifoldPoint&, const btCollisionObjectWrapper*, int, int,
+                                 const btCollisionObjectWrapper*, int, int) override
+        {
+            return 0;
+        }
+    } contacts;
+    m_world.bullet().contactTest(body, contacts);
+    if (!m_rigid.empty()) m_world.bullet().contactPairTest(body, anyRigid(), contacts);
+    if (!m_rigid.empty()) m_fem.contactForce(body, anyRigid());
+}
+
+void RandomProgram::setGravity()
+{
+    const btVector3 gravity = one(3) ? vector(30) : btVector3(0, 0, btScalar(-kGravity));
+    m_world.bullet().setGravity(gravity);
+    m_world.setSoftGravity(gravity);
+}
+
+void RandomProgram::makeClusters()
+{
+    btSoftBody &a = *anySoft(), &b = *anySoft();
+    forgetJoints();
+    a.generateClusters(1 + below(4));
+    b.generateClusters(1);
+    if (&a == &b || a.m_clusters.size() == 0 || b.m_clusters.size() == 0) return;
+    btSoftBody::LJoint::Specs specs;
+    specs.position = place();
+    a.appendLinearJoint(specs, &b);
+}
+
+void RandomProgram::setPose()
+{
+    btSoftBody* body = anySoft();
+    body->setPose(one(2), one(2));
+    body->m_cfg.kMT = btScalar(number(0, 1));
+}
+
+void RandomProgram::setActivation()
+{
+    const int states[] = {ACTIVE_TAG, ISLAND_SLEEPING, WANTS_DEACTIVATION, DISABLE_DEACTIVATION, DISABLE_SIMULATION};
+    if (one(2))
+        anySoft()->forceActivationState(states[below(5)]);
+    else
+        anyRigid()->forceActivationState(states[below(4)]);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "bullet_fem/fem/vec3.h"
+#include "plugin/scenes/soft_world.h"
+
+namespace bullet_fem
+{
+
+/// A program that calls what a program can call, in any order: bodies come and go, are pinned, scaled, torn and tied,
+/// bad values are written, states saved and restored. The same number gives the same program.
+class RandomProgram
+{
+public:
+    RandomProgram(WorldClass worldClass, Coupling coupling, unsigned number);
+
+    /// Does something, or steps. A refusal (std::invalid_argument) is an answer like any other.
+    void act();
+
+    /// What act() did last, for messages.
+    const char* lastAct() const { return m_last; }
+    int refusals() const { return m_refusals; }
+    FemWorld& world() { return m_world; }
+    const std::vector<btSoftBody*>& soft() const { return m_soft; }  ///< in the world, in the order in which they came
+    const std::vector<btRigidBody*>& rigid() const { return m_rigid; }
+
+private:
+    struct Act
+    {
+        const char* m_name;
+        int m_weight;
+        void (RandomProgram::*m_do)();
+    };
+    static const std::vector<Act>& acts();
+
+    double number(double from, double to);
+    double logarithmic(double from, double to);
+    int below(int count);
+    bool one(int in) { return below(in) == 0; }
+    btVector3 vector(double size);
+    btVector3 place();
+    btTransform pose(double size);
+    btSoftBody* anySoft();
+    btRigidBody* anyRigid();
+    btSoftBody::Node& anyNode(btSoftBody& body);
+    int nodeOf(const btSoftBody& body);
+    btScalar badNumber();
+    void addSoft(btSoftBody* body);
+    void forgetJoints();
+    void remove(btSoftBody* body);
+    void removeRejected();
+
+    void step();
+    void addBox();
+    void addBall();
+    void addTets();
+    void removeSoft();
+    void readd();
+    void addRigid();
+    void addStatic();
+    void removeRigid();
+    void throwRigid();
+    void setMaterial();
+    void setDetail();
+    void setFlags();
+    void setConfig();
+    void writeNodes();
+    void writeBadNodes();
+    void pin();
+    void setMasses();
+    void setTargets();
+    void clearTargets();
+    void anchor();
+    void attach();
+    void detach();
+    void spring();
+    void move();
+    void scale();
+    void remember();
+    void append();
+    void removeTets();
+    void prepare();
+    void refactor();
+    void save();
+    void restore();
+    void define();
+    void redefine();
+    void query();
+    void setGravity();
+    void makeClusters();
+    void setPose();
+    void setActivation();
+
+    std::mt19937 m_generator;
+    FemWorld m_world;
+    btFemSoftBodySolver& m_fem;
+    std::vector<btSoftBody*> m_soft;
+    std::vector<btRigidBody*> m_rigid;
+    std::vector<int> m_attachments, m_springs;
+    std::vector<unsigned char> m_state, m_definition;
+    const char* m_last = "";
+    int m_refusals = 0;
+};
+
+}  // namespace bullet_fem
