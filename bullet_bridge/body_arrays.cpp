@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_bridge/limits.h"
 
 namespace bullet_fem
 {
@@ -78,6 +80,13 @@ bool topologyAsSetUp(const FemSoftBody& fem)
             if (node != &soft.m_nodes[tet[a]] && !(a >= 2 && node == &soft.m_nodes[tet[5 - a]])) return false;
         }
     }
+    return true;
+}
+
+bool hasUsableNodes(const btSoftBody& body)
+{
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+        if (!isBelow(kFarthest, vec3(body.m_nodes[i].m_x))) return false;
     return true;
 }
 

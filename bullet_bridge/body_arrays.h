@@ -19,4 +19,7 @@ bool arraysAsSetUp(const FemSoftBody& fem);
 /// True if the tetrahedra also still join the nodes that they did.
 bool topologyAsSetUp(const FemSoftBody& fem);
 
+/// True if all nodes are within 1e6 m of the origin: Bullet's own collision reads beyond its arrays for others.
+bool hasUsableNodes(const btSoftBody& body);
+
 }  // namespace bullet_fem

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
+#include "bullet_bridge/body_arrays.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/rigid_obstacles.h"
 #include "plugin/btFemArrays.h"
@@ -264,13 +265,15 @@ void btFemDeformableBodySolver::predictMotion(btScalar solverdt)
 
 void btFemDeformableBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* other)
 {
-    if (btFemHolds(m_impl->m_plain, body)) btDeformableBodySolver::processCollision(body, other);
+    if (btFemHolds(m_impl->m_plain, body) && hasUsableNodes(*body))
+        btDeformableBodySolver::processCollision(body, other);
 }
 
 void btFemDeformableBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
 {
     const bool bullets = btFemHolds(m_impl->m_plain, body) && btFemHolds(m_impl->m_plain, other);
-    if (bullets) btDeformableBodySolver::processCollision(body, other);
+    if (bullets && hasUsableNodes(*body) && hasUsableNodes(*other))
+        btDeformableBodySolver::processCollision(body, other);
 }
 
 // Tick callbacks may have given FEM bodies to forces since the step began.

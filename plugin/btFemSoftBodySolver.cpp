@@ -331,7 +331,9 @@ void btFemSoftBodySolver::processCollision(btSoftBody* body, const btCollisionOb
 {
     const btFemEntry* entry = m_impl->m_registry.find(body);
     if (!entry || entry->m_rejected)
-        btDefaultSoftBodySolver::processCollision(body, other);
+    {
+        if (hasUsableNodes(*body)) btDefaultSoftBodySolver::processCollision(body, other);
+    }
     else if (entry->m_present && entry->m_fem && !ignoresRigidBodies(*body) &&
              other->getCollisionObject()->hasContactResponse() &&
              !ignoresCollision(*body, *other->getCollisionObject()))
@@ -347,7 +349,11 @@ void btFemSoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
     const btFemEntry* entry = m_impl->m_registry.find(body);
     const bool fem = entry && entry->m_fem, otherFem = isFem(other);
     // Bullet's handlers would move a FEM body's nodes behind its back.
-    if (!fem && !otherFem) return btDefaultSoftBodySolver::processCollision(body, other);
+    if (!fem && !otherFem)
+    {
+        if (hasUsableNodes(*body) && hasUsableNodes(*other)) btDefaultSoftBodySolver::processCollision(body, other);
+        return;
+    }
     if (fem && otherFem && collide(*body, *other)) recordTouching(*entry->m_fem, *other);
 }
 

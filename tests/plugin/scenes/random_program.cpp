@@ -188,7 +188,7 @@ void RandomProgram::removeRejected()
 {
     const std::vector<btSoftBody*> all = m_soft;
     for (btSoftBody* body : all)
-        if (!m_fem.isFem(body)) remove(body);
+        if (m_fem.stepReport(body).m_flags & BT_FEM_REJECTED) remove(body);
 }
 
 void RandomProgram::addSoft(btSoftBody* body)
