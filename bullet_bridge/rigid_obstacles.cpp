@@ -65,6 +65,11 @@ const btMultiBodyLinkCollider* linkOf(const btCollisionObject& object)
     return link && link->m_multiBody && link->m_link < link->m_multiBody->getNumLinks() ? link : nullptr;
 }
 
+bool isAny(const Vec3& linear, const Vec3& angular)
+{
+    return dot(linear, linear) + dot(angular, angular) > 0;
+}
+
 // A change of velocity without what goes against the direction in which something holds a body.
 Vec3 heldBack(const Vec3& change, const Vec3& holding)
 {
@@ -160,6 +165,7 @@ int RigidObstacles::indexOf(const btCollisionObject& object, double step)
             obstacle.m_linearVelocity += step * body->getInvMass() * vec3(body->getTotalForce());
             obstacle.m_angularVelocity += step * (obstacle.m_inverseInertia * vec3(body->getTotalTorque()));
         }
+        m_sources.back().m_now = {obstacle.m_linearVelocity, obstacle.m_angularVelocity};
     }
     m_obstacles.push_back(obstacle);
     return static_cast<int>(m_obstacles.size()) - 1;
@@ -233,21 +239,40 @@ int RigidObstacles::indexForContact(const btCollisionObject& object, double step
     if (m_sources.size() == known || m_phase != RigidPhase::moved || !m_obstacles[index].canMove() ||
         !mustRewind(index, step, soft))
         return index;
+    rewind(index, step);
+    return index;
+}
+
+int RigidObstacles::indexBeside(const btCollisionObject& object, double step, int neighbour)
+{
+    const int index = indexOf(object, step);
+    const bool asMoved = movableBody(index) && object.getHitFraction() != 0;  // what Bullet stopped on its way was not
+    if (asMoved && isRewound(neighbour) && !isRewound(index)) rewind(index, step);
+    return index;
+}
+
+// Bullet's contacts are touches of the solve; its joints are known by what they did.
+void RigidObstacles::rewind(int index, double step)
+{
+    Source& source = m_sources[index];
     Obstacle& obstacle = m_obstacles[index];
     const LinkMotion now = motionNow(index);
     obstacle.m_center -= step * now.m_linear;
     obstacle.m_linearVelocity = now.m_linear;
-    if (const btRigidBody* body = movable(object))
+    const btRigidBody* body = movable(*source.m_object);
+    if (!body || body->getNumConstraintRefs() == 0) obstacle.m_angularVelocity = now.m_angular;
+    if (body)
     {
-        m_sources[index].m_held = doneByBullet(*body, step, obstacle).m_linear;
-        obstacle.m_linearVelocity += supportOf(*body, step, obstacle, true).m_linear;
+        if (body->getNumConstraintRefs() > 0)
+        {
+            source.m_held = doneByBullet(*body, step, obstacle).m_linear;
+            obstacle.m_linearVelocity += supportOf(*body, step, obstacle, true).m_linear;
+        }
+        source.m_now = {obstacle.m_linearVelocity, obstacle.m_angularVelocity};
     }
-    else
-        obstacle.m_angularVelocity = now.m_angular;
     m_articulated.setCenter(index, obstacle.m_center);
-    m_sources[index].m_rewound = true;
-    m_rewound.push_back(m_sources[index].m_objectId);
-    return index;
+    source.m_rewound = true;
+    m_rewound.push_back(source.m_objectId);
 }
 
 RigidObstacles::Remainder& RigidObstacles::remainderOf(int objectId)
@@ -287,8 +312,9 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
     {
         Source& source = m_sources[k];
         const Obstacle& obstacle = m_obstacles[k];
-        if (!isBelow(kFastest, scaled(obstacle.m_inverseMass, source.m_linearImpulse)) ||
-            !isBelow(kFastest, obstacle.m_inverseInertia * (source.m_angularImpulse + obstacle.m_angularImpulse)) ||
+        const LinkMotion change = {obstacle.m_linearVelocity - source.m_now.m_linear,
+                                   obstacle.m_angularVelocity - source.m_now.m_angular};
+        if (!isBelow(kFastest, change.m_linear) || !isBelow(kFastest, change.m_angular) ||
             !isBelow(kFastest, obstacle.m_pushLinear) || !isBelow(kFastest, obstacle.m_pushAngular))
             continue;
         m_articulated.addImpulse(static_cast<int>(k), source.m_linearImpulse, source.m_angularImpulse);
@@ -300,20 +326,20 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
         btRigidBody* body = movable(*source.m_object);
         if (!body) continue;
         source.m_angularImpulse += obstacle.m_angularImpulse;
-        if (dot(source.m_linearImpulse, source.m_linearImpulse) +
-                dot(source.m_angularImpulse, source.m_angularImpulse) >
-            0)
+        const bool felt = isAny(source.m_linearImpulse, source.m_angularImpulse);
+        const bool throughOthers = m_phase == RigidPhase::moved && body->isActive();
+        if (felt || (throughOthers && isAny(change.m_linear, change.m_angular)))
         {
-            if (m_phase == RigidPhase::moved) addToVelocity(*body, source, obstacle);
+            if (m_phase == RigidPhase::moved) addToVelocity(*body, source, change);
             if (!body->isActive()) body->activate();  // islands know when one that is awake may rest
         }
         Vec3 linear = obstacle.m_pushLinear, angular = obstacle.m_pushAngular;
         if (source.m_rewound)  // it went with the old velocity where it should have gone with the new
         {
-            linear += heldBack(scaled(obstacle.m_inverseMass, source.m_linearImpulse), source.m_held);
-            angular += obstacle.m_inverseInertia * source.m_angularImpulse;
+            linear += heldBack(change.m_linear, source.m_held);
+            angular += change.m_angular;
         }
-        if (dot(linear, linear) + dot(angular, angular) == 0) continue;
+        if (!isAny(linear, angular)) continue;
         btTransform pushed;
         btTransformUtil::integrateTransform(body->getCenterOfMassTransform(), bulletVector(linear),
                                             bulletVector(angular), btScalar(step), pushed);
@@ -331,16 +357,14 @@ LinkMotion RigidObstacles::motionNow(int obstacle) const
     return {m_obstacles[obstacle].m_linearVelocity, m_obstacles[obstacle].m_angularVelocity};
 }
 
-void RigidObstacles::addToVelocity(btRigidBody& body, const Source& source, const Obstacle& obstacle)
+void RigidObstacles::addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change)
 {
     Remainder& remainder = remainderOf(source.m_objectId);
     remainder.m_used = true;
-    remainder.m_linearGiven = scaled(obstacle.m_inverseMass, source.m_linearImpulse);
-    remainder.m_angularGiven = obstacle.m_inverseInertia * source.m_angularImpulse;
-    body.setLinearVelocity(addedExactly(body.getLinearVelocity(),
-                                        scaled(obstacle.m_inverseMass, source.m_linearImpulse), remainder.m_linear));
-    body.setAngularVelocity(addedExactly(body.getAngularVelocity(), obstacle.m_inverseInertia * source.m_angularImpulse,
-                                         remainder.m_angular));
+    remainder.m_linearGiven = change.m_linear;
+    remainder.m_angularGiven = change.m_angular;
+    body.setLinearVelocity(addedExactly(body.getLinearVelocity(), change.m_linear, remainder.m_linear));
+    body.setAngularVelocity(addedExactly(body.getAngularVelocity(), change.m_angular, remainder.m_angular));
 }
 
 }  // namespace bullet_fem

@@ -65,9 +65,14 @@ public:
 
     /// The same for contacts with a soft body, after its free motion. Where the two move fast relative to each other
     /// (as isFast() has it) in phase `moved`, the rigid one is rewound: its obstacle is where Bullet moved it from,
-    /// with the velocity that it moved with, held by what held it then. It stays so as long as it is asked for in every
-    /// step. One that was asked for before in this step stays as it is.
+    /// with the velocity that it moved with; what Bullet's joints did to it holds it. It stays so as long as it is
+    /// asked for in every step. One that was asked for before in this step stays as it is.
     int indexForContact(const btCollisionObject& object, double step, const Body& soft);
+
+    /// The same for what Bullet's contacts keep apart from an obstacle, and which is rewound if that is.
+    int indexBeside(const btCollisionObject& object, double step, int neighbour);
+
+    RigidPhase phase() const { return m_phase; }
 
     /// True if Bullet has moved the object already, but its obstacle is as the step began.
     bool isRewound(int obstacle) const { return m_sources[obstacle].m_rewound; }
@@ -92,10 +97,10 @@ public:
     btRigidBody* movableBody(int obstacle) const;
     Remainder& remainder(int obstacle) { return remainderOf(m_sources[obstacle].m_objectId); }
 
-    /// Moves the bodies by the position corrections, and rewound ones by what their change of velocity makes (but for
-    /// what goes against Bullet's contacts, which stop it in the next step: a floor stays a floor), and wakes
-    /// those that felt impulses; in phase `moved` also adds these to their velocities, in double and once. `problem` is
-    /// the one solved, with these obstacles.
+    /// Moves the bodies by the position corrections, and rewound ones by what their change of velocity makes (touches
+    /// included, so that a floor stays a floor; but for what goes against Bullet's joints), and wakes those that felt
+    /// impulses; in phase `moved` also adds the changes to their velocities, in double and once. `problem` is the one
+    /// solved, with these obstacles.
     void applyReactions(const ContactProblem& problem, double step);
 
 private:
@@ -105,15 +110,16 @@ private:
         int m_objectId = -1;
         Vec3 m_linearImpulse, m_angularImpulse;  // of all contacts and joints, on the rigid body
         bool m_rewound = false;
-        Vec3 m_held;            // of a rewound body: what Bullet's contacts and joints gave it in this step [m/s]
-        LinkMotion m_now = {};  // of links that can move
+        Vec3 m_held;  // of a rewound body that Bullet's joints hold: what they and contacts gave it in this step [m/s]
+        LinkMotion m_now = {};  // as the solve began; of rigid bodies and links that can move
     };
 
     void addReaction(int obstacle, const Vec3& impulse, const Vec3& point);
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
-    void addToVelocity(btRigidBody& body, const Source& source, const Obstacle& obstacle);
+    void addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change);
     LinkMotion doneByBullet(const btRigidBody& body, double step, const Obstacle& obstacle) const;
     LinkMotion supportOf(const btRigidBody& body, double step, const Obstacle& obstacle, bool rewound);
+    void rewind(int obstacle, double step);
     bool mustRewind(int obstacle, double step, const Body& soft) const;
     Remainder& remainderOf(int objectId);
 

@@ -8,19 +8,15 @@
 
 namespace bullet_fem
 {
-namespace
-{
 
-// A unit vector at a right angle to n, and n x it.
-void makeTangents(const Vec3& n, Vec3& first, Vec3& second)
+// The normal, a unit vector at a right angle to it, and their cross product.
+void ContactRows::setAxes(const Vec3& n, Row& row)
 {
-    const Vec3 axis = std::fabs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    first = cross(axis, n);
-    first *= 1 / norm(first);
-    second = cross(n, first);
+    const Vec3 tangent = cross(std::fabs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n);
+    row.m_axes[0] = n;
+    row.m_axes[1] = (1 / norm(tangent)) * tangent;
+    row.m_axes[2] = cross(n, row.m_axes[1]);
 }
-
-}  // namespace
 
 void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings)
 {
@@ -34,6 +30,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     m_rows.clear();
     for (const ContactPoint& contact : problem.m_contacts) addContactRow(contact);
     for (const Joint& joint : problem.m_joints) addJointRow(joint);
+    for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
     m_inTurn = true;
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
@@ -69,8 +66,7 @@ void ContactRows::addContactRow(const ContactPoint& contact)
     row.m_a = softEnd(contact.m_soft, contact.m_point);
     row.m_b = contact.m_obstacle >= 0 ? rigidEnd(contact.m_obstacle, contact.m_point + contact.m_approach)
                                       : softEnd(contact.m_other, contact.m_point);
-    row.m_axes[0] = contact.m_normal;
-    makeTangents(contact.m_normal, row.m_axes[1], row.m_axes[2]);
+    setAxes(contact.m_normal, row);
     row.m_friction = contact.m_friction;
     row.m_impulse = contact.m_impulse;
     m_rows.push_back(row);
@@ -137,6 +133,12 @@ void ContactRows::divideRows()
     m_parts.clear(bodies + static_cast<int>(obstacles.size()));
     for (std::size_t k = 0; k < m_problem->m_contacts.size(); ++k)
         m_parts.add(mover(m_rows[k].m_a), mover(m_rows[k].m_b), m_problem->m_contacts[k].m_point);
+    std::size_t k = m_problem->m_contacts.size() + m_problem->m_joints.size();  // with joints there is one part
+    for (const RigidTouch& touch : m_problem->m_rigidTouches)
+    {
+        const Row& row = m_rows[k++];
+        m_parts.add(mover(row.m_a), mover(row.m_b), obstacles[touch.m_obstacle].m_center + touch.m_arm);
+    }
     m_parts.divide(m_problem->m_joints.empty() && std::none_of(obstacles.begin(), obstacles.end(), isLink));
 }
 
@@ -176,6 +178,7 @@ void ContactRows::finishRow(Row& row) const
         const double a = row.m_rowCompliance.y, b = row.m_rowCompliance.z, c = dot(row.m_axes[1], w[2]);
         row.m_rowCompliance.y = row.m_rowCompliance.z = 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + c * c);
         if (!(row.m_rowCompliance.y > 0)) row.m_rowCompliance.y = row.m_rowCompliance.z = row.m_rowCompliance.x;
+        if (row.m_touch) limitTouchFriction(row);
     }
     if (!m_inTurn)
     {

@@ -39,7 +39,7 @@ void ContactRows::preparePush()
     {
         Row& row = m_rows[k];
         row.m_impulse = row.m_roundImpulse = row.m_target = {};
-        if (row.m_joint) continue;
+        if (row.m_joint || row.m_touch) continue;
         const ContactPoint& c = m_problem->m_contacts[k];
         const double moving = dot(c.m_normal, velocity(row));
         const double depth = std::max(0.0, -c.m_gap - c.m_slop);
@@ -49,6 +49,7 @@ void ContactRows::preparePush()
         row.m_friction = 0;
         row.m_idle = row.m_idle || row.m_yield.x > 0;
     }
+    prepareTouches();
     m_savedLinear.resize(m_problem->m_obstacles.size());
     m_savedAngular.resize(m_problem->m_obstacles.size());
     for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)

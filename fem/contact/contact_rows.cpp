@@ -212,7 +212,7 @@ bool ContactRows::isTooSoft() const
 
 double ContactRows::violation(const Row& row) const
 {
-    if (row.m_joint || row.m_idle) return 0;
+    if (row.m_joint || row.m_touch || row.m_idle) return 0;
     const double separating = dot(row.m_axes[0], trueVelocity(row));
     const double yields = row.m_yield.x * dot(row.m_axes[0], row.m_impulse);
     return row.m_target.x - separating - yields;

@@ -30,6 +30,9 @@ public:
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
 
+    /// Lets the touches of obstacles answer what the impulses so far do to them.
+    void settleTouches();
+
     /// Brings the ends' velocities up to the bodies' true ones.
     void measure();
 
@@ -99,8 +102,9 @@ private:
     struct Row  // what every look at a row reads comes first, what only some need last
     {
         bool m_joint = false;
-        bool m_idle = false;  // nothing can move: no compliance
-        int m_freeAxes = 0;   // that nothing limits: 1: the normal; 3: all
+        bool m_touch = false;  // of obstacles
+        bool m_idle = false;   // nothing can move: no compliance
+        int m_freeAxes = 0;    // that nothing limits: 1: the normal; 3: all
         RowEnd m_a, m_b;
         Vec3 m_impulse;        // on end a
         Vec3 m_target;         // relative velocity along the axes: at least (normal), exactly (joint) [m/s]
@@ -139,8 +143,11 @@ private:
         double m_total = 0, m_bySoft = 0;  // impulses on it, and those of soft bodies [N s]
     };
 
+    static void setAxes(const Vec3& normal, Row& row);
     void addContactRow(const ContactPoint& contact);
     void addJointRow(const Joint& joint);
+    void addTouchRow(const RigidTouch& touch);
+    void limitTouchFriction(Row& row) const;
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
     RowEnd jointEnd(const JointEnd& end);
     RowEnd rigidEnd(int obstacle, const Vec3& point) const;
@@ -222,6 +229,7 @@ private:
         return *std::max_element(largest.begin(), largest.end());
     }
     void preparePush();
+    void prepareTouches();
     void sumPushImpulses();
     void payBack();
 

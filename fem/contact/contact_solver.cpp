@@ -27,6 +27,7 @@ void ContactProblem::clear()
     m_responses.clear();
     m_contacts.clear();
     m_joints.clear();
+    m_rigidTouches.clear();
     m_handleNodes.clear();
     m_handleBlocks.clear();
 }
@@ -172,6 +173,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     else
         s.m_rows.measure();
     s.m_guessing = false;
+    s.m_rows.settleTouches();
     s.m_rows.setSpeedScale();
     s.m_error = joints ? 1 : s.m_rows.error() / kRoundGuessShare;
 }

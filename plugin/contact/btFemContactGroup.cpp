@@ -77,6 +77,9 @@ void btFemContactGroup::collect(const Scope& scope)
     collectRigid();
     collectSoft();
     m_rigid.connectLinks(m_problem.m_responses);
+    const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
+    if (world && world->m_dispatcher && !m_problem.m_contacts.empty())
+        m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidTouches);
     m_problem.m_obstacles.assign(m_rigid.obstacles().begin(), m_rigid.obstacles().end());
     m_settings.m_step.m_step = m_step;
     const bool joints = !m_problem.m_joints.empty();

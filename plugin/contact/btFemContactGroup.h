@@ -6,6 +6,7 @@
 
 #include "bullet_bridge/contact/rigid_search.h"
 #include "bullet_bridge/joints/soft_joints.h"
+#include "bullet_bridge/rigid_touches.h"
 #include "bullet_bridge/soft_pairs/soft_pair_search.h"
 #include "bullet_bridge/solver_bodies.h"
 #include "plugin/bodies/btFemBodyRegistry.h"
@@ -84,6 +85,7 @@ private:
     std::vector<btFemEntry*> m_entries;
     bullet_fem::ContactSettings m_settings;
     bullet_fem::RigidSearch m_rigidSearch;
+    bullet_fem::RigidTouchFinder m_touchFinder;
     bullet_fem::SoftPairSearch m_softPairs;
     std::vector<bullet_fem::ContactPoint> m_softContacts;  // solved; after the rigid ones in the problem
     bullet_fem::SoftJoints m_joints;

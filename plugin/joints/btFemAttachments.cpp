@@ -65,7 +65,8 @@ void checkTarget(int node, const Vec3& position)
     if (isBelow(kFarthest, position)) return;
     throw std::invalid_argument("setNodeTargets: the position of node " + std::to_string(node) + " is (" +
                                 std::to_string(position.x) + ", " + std::to_string(position.y) + ", " +
-                                std::to_string(position.z) + "), not in [-1e6, 1e6] m; give a place near the body");
+                                std::to_string(position.z) +
+                                "), not finite or not in [-1e6, 1e6] m; give a place near the body");
 }
 
 }  // namespace

@@ -21,10 +21,14 @@ protected:
     btRigidBody m_body{btRigidBody::btRigidBodyConstructionInfo(2, nullptr, &m_sphere, btVector3(1, 1, 1))};
     RigidObstacles m_obstacles;
 
+    // With an impulse on the soft body, and with what the solve has made of the obstacle's velocities by it.
     ContactProblem contact(const Vec3& impulse, const Vec3& point)
     {
         ContactPoint result;
         result.m_obstacle = m_obstacles.indexOf(m_body, kObstacleStep);
+        Obstacle& obstacle = m_obstacles.obstacles()[result.m_obstacle];
+        for (int c = 0; c < 3; ++c) obstacle.m_linearVelocity[c] -= obstacle.m_inverseMass[c] * impulse[c];
+        obstacle.m_angularVelocity -= obstacle.m_inverseInertia * cross(point - obstacle.m_center, impulse);
         result.m_impulse = impulse;
         result.m_point = point;
         ContactProblem problem;

@@ -96,6 +96,23 @@ struct ContactPoint
                   ///< of the last step before, the new one after
 };
 
+/// Where an obstacle touches another, or something immovable: a row that keeps the two apart. Its impulses are part of
+/// the obstacles' new velocities, and told nowhere else.
+struct RigidTouch
+{
+    int m_obstacle = -1;      ///< index into the obstacles of the solve
+    int m_other = -1;         ///< likewise; -1: immovable
+    Vec3 m_arm, m_otherArm;   ///< from their centres to where they touch [m]
+    Vec3 m_normal;            ///< unit [-], from the other to the obstacle
+    double m_gap = 0;         ///< signed distance [m]; negative inside
+    bool m_moves = true;      ///< the velocities of the solve will bring them together or apart from there
+    double m_leastSpeed = 0;  ///< at which they part along the normal, at least; < 0: they may close [m/s]
+    Vec3 m_otherVelocity;     ///< of what is immovable, where they touch; leastSpeed is relative to it, and so is the
+                              ///< sliding that friction acts against [m/s]
+    double m_friction = 0;    ///< Coulomb's coefficient [-], >= 0
+    bool m_pushOnly = false;  ///< it counts for position corrections alone
+};
+
 /// A body with its compliance cache. Neither may be null, and both must live until the solve is over.
 struct ContactBody
 {
@@ -170,6 +187,7 @@ struct ContactProblem
     std::vector<ObstacleResponse> m_responses;  ///< of the obstacles that have some
     std::vector<ContactPoint> m_contacts;       ///< between them; their order decides
     std::vector<Joint> m_joints;                ///< likewise
+    std::vector<RigidTouch> m_rigidTouches;     ///< likewise
     std::vector<int> m_handleNodes;             ///< nodes of the joints' soft ends, one end's after another
     std::vector<Mat3> m_handleBlocks;           ///< one a handle node [-]
 

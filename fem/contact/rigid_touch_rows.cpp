@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
+#include <cmath>
+
+#include "fem/contact/contact_rows.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kAnySpeed = 1e300;  // [m/s]
+constexpr int kSettlingSweeps = 10;
+constexpr double kMostPressing = 0.9;  // share of a normal impulse that its own friction may add to it
+
+}  // namespace
+
+void ContactRows::addTouchRow(const RigidTouch& touch)
+{
+    Row row;
+    row.m_touch = true;
+    row.m_a.m_obstacle = touch.m_obstacle;
+    row.m_a.m_arm = touch.m_arm;
+    row.m_b.m_obstacle = touch.m_other;
+    row.m_b.m_arm = touch.m_otherArm;
+    setAxes(touch.m_normal, row);
+    for (int i = 0; i < 3; ++i) row.m_target[i] = dot(touch.m_otherVelocity, row.m_axes[i]);
+    row.m_target.x += touch.m_pushOnly ? -kAnySpeed : touch.m_leastSpeed;
+    row.m_friction = touch.m_friction;
+    m_rows.push_back(row);
+}
+
+// Friction presses harder by the lever that it has; where it would press more than it is pressed with, there is no end
+// of it [Painleve 1895], and led bodies with friction of 10 stop dead.
+void ContactRows::limitTouchFriction(Row& row) const
+{
+    const Vec3 byNormal = row.m_compliance * row.m_axes[0];
+    const double lever = std::hypot(dot(byNormal, row.m_axes[1]), dot(byNormal, row.m_axes[2]));
+    row.m_friction = std::min(row.m_friction, kMostPressing * dot(byNormal, row.m_axes[0]) / std::max(lever, 1e-300));
+}
+
+// The guesses of all other impulses push obstacles into what holds them. What that takes back is no change that contact
+// has to make.
+void ContactRows::settleTouches()
+{
+    const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
+    for (int sweep = 0; sweep < kSettlingSweeps; ++sweep)
+        for (std::size_t k = first; k < m_rows.size(); ++k)
+            change(m_rows[k], solveRow(m_rows[k], m_rows[k].m_impulse, velocity(m_rows[k]), 1));
+}
+
+// What lies on a floor is not pushed into it: the soft body goes all the way. Whoever moves the obstacles takes back
+// what they penetrate.
+void ContactRows::prepareTouches()
+{
+    std::size_t k = m_problem->m_contacts.size() + m_problem->m_joints.size();
+    for (const RigidTouch& touch : m_problem->m_rigidTouches)
+    {
+        Row& row = m_rows[k++];
+        const double left = touch.m_gap / m_settings.m_step.m_step +
+                            (touch.m_moves ? dot(touch.m_normal, velocity(row) - touch.m_otherVelocity) : 0);
+        row.m_target.x = -std::max(left, 0.0);
+        row.m_friction = 0;
+    }
+}
+
+}  // namespace bullet_fem
