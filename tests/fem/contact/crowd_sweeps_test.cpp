@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -14,11 +15,12 @@ namespace
 {
 
 /// A block of soft cubes of 1 m, side by side and on top of each other, squeezed by their
-/// velocities, without gravity; a ball falls on it, and it falls on a floor.
+/// velocities, without gravity; it falls on a floor, and on every cube of the top layer falls a column of balls that
+/// touch each other.
 class CubeBlock
 {
 public:
-    static constexpr int kSide = 5;
+    static constexpr int kSide = 5, kColumn = 3, kBalls = kColumn * kSide * kSide;
 
     CubeBlock() : m_model(model()), m_cache(makeComplianceCache(m_model))
     {
@@ -30,10 +32,16 @@ public:
             for (Vec3& x : m_bodies.back()->m_state.m_x) x += corner;
             for (Vec3& v : m_bodies.back()->m_state.m_v) v = middle - corner + Vec3{0.1 * (k % 7), 0, -4};
         }
-        m_problem.m_obstacles.resize(2);
-        m_problem.m_obstacles[1].m_center = {2.5, 2.5, kSide + 0.5};
-        m_problem.m_obstacles[1].m_linearVelocity = {0, 0, -3};
-        makeBall(m_problem.m_obstacles[1], 500, 0.5);
+        m_problem.m_obstacles.resize(1 + kBalls);
+        for (int k = 0; k < kBalls; ++k)
+        {
+            const int column = k / kColumn, level = k % kColumn;
+            Obstacle& ball = m_problem.m_obstacles[1 + k];
+            ball.m_center = {column % kSide + 0.5, column / kSide + 0.5, kSide + 0.5 + level};
+            ball.m_linearVelocity = {0, 0, -6};
+            makeBall(ball, kBallMass, 0.5);
+            if (level > 0) addTouch(1 + k, k);
+        }
         addContacts();
     }
 
@@ -53,7 +61,7 @@ public:
 
     Vec3 momentum() const
     {
-        Vec3 sum = (1 / m_problem.m_obstacles[1].m_inverseMass.x) * m_problem.m_obstacles[1].m_linearVelocity;
+        Vec3 sum = momentumOfBalls();
         for (const auto& body : m_bodies)
             for (std::size_t i = 0; i < body->m_state.m_mass.size(); ++i)
                 sum += body->m_state.m_mass[i] * velocity(*body)[i];
@@ -61,7 +69,7 @@ public:
     }
     Vec3 momentumBefore() const
     {
-        Vec3 sum = 500 * m_problem.m_obstacles[1].m_linearVelocity;
+        Vec3 sum = momentumOfBalls();
         for (const auto& body : m_bodies)
             for (std::size_t i = 0; i < body->m_state.m_mass.size(); ++i)
                 sum += body->m_state.m_mass[i] * body->m_state.m_v[i];
@@ -76,13 +84,69 @@ public:
     }
     std::vector<Vec3> velocities() const
     {
-        std::vector<Vec3> all = {m_problem.m_obstacles[1].m_linearVelocity, m_problem.m_obstacles[1].m_angularVelocity};
+        std::vector<Vec3> all;
+        for (const Obstacle& obstacle : m_problem.m_obstacles)
+            all.insert(all.end(), {obstacle.m_linearVelocity, obstacle.m_angularVelocity});
         for (const auto& body : m_bodies) all.insert(all.end(), velocity(*body).begin(), velocity(*body).end());
         return all;
     }
     std::size_t contacts() const { return m_problem.m_contacts.size(); }
 
+    /// The largest speed at which a ball comes nearer to the one below [m/s].
+    double closingOfBalls() const
+    {
+        double largest = 0;
+        for (const RigidTouch& touch : m_problem.m_rigidTouches)
+            largest = std::max(largest, m_problem.m_obstacles[touch.m_other].m_linearVelocity.z -
+                                            m_problem.m_obstacles[touch.m_obstacle].m_linearVelocity.z);
+        return largest;
+    }
+
+    /// The largest difference of a body's velocities from those that its impulses make of its free motion [m/s].
+    double largestLoss()
+    {
+        StepSettings settings;
+        settings.m_tolerance = 1e-9;
+        double largest = 0;
+        for (int b = 0; b < static_cast<int>(m_bodies.size()); ++b)
+        {
+            Body& body = *m_bodies[b];
+            const std::vector<Vec3> found = velocity(body);
+            std::vector<Vec3> impulses(found.size());
+            for (const ContactPoint& contact : m_problem.m_contacts)
+            {
+                if (contact.m_soft.m_body == b) impulses[contact.m_soft.m_nodes[0]] += contact.m_impulse;
+                if (contact.m_other.m_body == b) impulses[contact.m_other.m_nodes[0]] -= contact.m_impulse;
+            }
+            solveFreeMotion(body, settings);
+            applyImpulses(body, impulses, settings);
+            for (std::size_t i = 0; i < found.size(); ++i)
+                largest = std::max(largest, norm(velocity(body)[i] - found[i]));
+        }
+        return largest;
+    }
+
 private:
+    static constexpr double kBallMass = 100;  // [kg]
+
+    Vec3 momentumOfBalls() const
+    {
+        Vec3 sum;
+        for (int k = 1; k <= kBalls; ++k) sum += kBallMass * m_problem.m_obstacles[k].m_linearVelocity;
+        return sum;
+    }
+
+    void addTouch(int above, int below)
+    {
+        RigidTouch touch;
+        touch.m_obstacle = above;
+        touch.m_other = below;
+        touch.m_normal = {0, 0, 1};
+        touch.m_arm = {0, 0, -0.5};
+        touch.m_otherArm = {0, 0, 0.5};
+        m_problem.m_rigidTouches.push_back(touch);
+    }
+
     static std::shared_ptr<const BodyModel> model()
     {
         static const std::shared_ptr<const BodyModel> made =
@@ -100,8 +164,7 @@ private:
                 const bool first = b / step[axis] % kSide == 0, last = b / step[axis] % kSide == kSide - 1;
                 if (!first) addFace(b, b - step[axis], -1, axis, 0);
                 if (axis == 2 && first) addFace(b, -1, 0, axis, 0);
-                if (b == static_cast<int>(m_bodies.size()) / 2 + 2 * step[2] && axis == 2 && last)
-                    addFace(b, -1, 1, axis, 1);
+                if (axis == 2 && last) addFace(b, -1, 1 + kColumn * (b % step[2]), axis, 1);
             }
     }
     void addFace(int body, int other, int obstacle, int axis, double side)
@@ -157,9 +220,18 @@ TEST(CrowdSweeps, ConserveMomentumAndLeaveNothingClosing)
     const Vec3 before = block.momentumBefore();
     const ContactReport report = block.solve(&threads);
     EXPECT_LT(report.m_violation, 2e-2) << "of speeds up to 6 m/s";
+    EXPECT_LT(block.closingOfBalls(), 2e-2);
     const Vec3 change = block.momentum() - before;
     EXPECT_GT(change.z, 1e4);
     EXPECT_LT(norm(change - block.impulseOfFloor()), 1e-6 * norm(change));
+}
+
+// Rounds that are far from the end solve the bodies loosely; what that leaves is solved for in the end.
+TEST(CrowdSweeps, GiveBodiesAllTheirImpulses)
+{
+    CubeBlock block;
+    block.solve(nullptr);
+    EXPECT_LT(block.largestLoss(), 1e-3) << "of changes of some m/s";
 }
 
 }  // namespace
