@@ -21,7 +21,7 @@ constexpr double kScaleMargin = 1.2;     // for directions that the impulses did
 constexpr double kLargestScaling = 100;  // in one round
 constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
 constexpr double kForgetting = 0.99;     // of what was learnt, a step
-constexpr int kSamples = 4;              // ends that the diagonal of W is estimated from
+constexpr int kSamples = 16;             // ends that the diagonal of W is estimated from
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void BodyEnds::assemble(int denseLimit)
     for (std::vector<Vec3>* vectors : {&m_impulse, &m_applied, &m_seen}) vectors->assign(m_ends.size(), Vec3());
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
-    m_formed = m_tooSoft = false;
+    m_formed = m_tooSoft = m_leftMuch = false;
     if (!m_dense)
     {
         m_velocity.assign(m_ends.size(), Vec3());
@@ -143,21 +143,21 @@ void BodyEnds::formGroup(int e)
     }
 }
 
-// The mean of some blocks W_ee, turned to the world axes of none: contact rows are scaled by it alone.
+// The mean of some blocks W_ee, turned to the world axes of none: contact rows are scaled by it alone. All of them feel
+// a unit impulse at once, with signs by which what they do to each other cancels [Hutchinson 1990].
 void BodyEnds::estimateDiagonal()
 {
-    const WarpedCompliance P(*m_body.m_body);
+    const int samples = std::min(size(), kSamples);
+    const auto endOf = [&](int k) -> const End&
+    { return m_ends[static_cast<std::size_t>(k) * m_ends.size() / samples]; };
+    const auto sign = [](int bits) { return bits % 2 == 0 ? 1.0 : -1.0; };
+    const auto signs = [&sign](int k) -> Vec3 { return {sign(k), sign(k >> 1), sign(k ^ (k >> 2))}; };
+    std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
+    for (int k = 0; k < samples; ++k) scatter(endOf(k), signs(k), m_nodeIn);
+    WarpedCompliance(*m_body.m_body).apply(m_nodeIn, m_nodeOut);
     double sum = 0;
-    for (int k = 0; k < kSamples; ++k)
-    {
-        const End& end = m_ends[static_cast<std::size_t>(k) * (m_ends.size() - 1) / (kSamples - 1)];
-        const Vec3 ones = {1, 1, 1};
-        std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
-        scatter(end, ones, m_nodeIn);
-        P.apply(m_nodeIn, m_nodeOut);
-        sum += dot(ones, read(end, m_nodeOut)) / 3;
-    }
-    m_meanDiagonal = Mat3::diagonal(sum / kSamples);
+    for (int k = 0; k < samples; ++k) sum += dot(signs(k), read(endOf(k), m_nodeOut)) / 3;
+    m_meanDiagonal = Mat3::diagonal(sum / samples);
 }
 
 Mat3 BodyEnds::compliance(int e, int f) const
@@ -259,11 +259,12 @@ bool BodyEnds::gatherBeyond(const std::vector<Vec3>& known)
     return any;
 }
 
-ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, double floor)
+ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, const CorrectionGoal& goal)
 {
     m_learnt = false;
     refresh();
-    if (!gatherBeyond(m_applied)) return {};
+    if (!gatherBeyond(m_applied) && !m_leftMuch) return {};
+    m_leftMuch = goal.m_share > 0;
     // Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin.
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
     for (int e = 0; e < size(); ++e)
@@ -272,7 +273,10 @@ ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, double f
                                        cross(m_ends[e].m_offset, m_impulse[e] - m_applied[e]), settings.m_step);
     double all = 0;
     for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
-    return {m_body.m_body, &m_nodeIn, settings, floor * std::sqrt(all), false, {}};
+    StepSettings loosened = settings;
+    loosened.m_tolerance = std::max(settings.m_tolerance, goal.m_share);
+    const double floor = goal.m_floor * settings.m_tolerance / loosened.m_tolerance;
+    return {m_body.m_body, &m_nodeIn, loosened, floor * std::sqrt(all), false, {}};
 }
 
 void BodyEnds::endCorrection()

@@ -13,6 +13,14 @@
 namespace bullet_fem
 {
 
+/// How closely a corrective solve is made: until its residual is below the tolerance of the step, of the right-hand
+/// side or of this floor, or below a share of the right-hand side.
+struct CorrectionGoal
+{
+    double m_floor = 0;  ///< share of all impulses on the body [-], >= 0
+    double m_share = 0;  ///< [-], in [0, 1)
+};
+
 /// The places of one soft body where contacts and joints pull, and how all of them move when one is pushed: velocities
 /// u = u_true + W (lambda - applied), with W_ef = J_e P J_f^T for the warped rest factor P. Up to a limit of ends, P
 /// between the nodes that they are on is a dense matrix, formed from cached columns of A0^-1; beyond it P itself is
@@ -76,10 +84,10 @@ public:
     /// Takes the velocities from the body, which holds the impulses applied so far, and adds W times the rest.
     void measure();
 
-    /// What is to be solved of the body's true system for the impulses that are not applied yet, its residual measured
-    /// against `floor` of all impulses at least; without a body if there are none. After that is solved, endCorrection:
-    /// W learns from it, and where it was too stiff, it is scaled up.
-    ImpulseResponse beginCorrection(const StepSettings& settings, double floor);
+    /// What is to be solved of the body's true system for the impulses that are not applied yet, and what the last
+    /// correction left; without a body if there is nothing. After that is solved, endCorrection: W learns from it, and
+    /// where it was too stiff, it is scaled up.
+    ImpulseResponse beginCorrection(const StepSettings& settings, const CorrectionGoal& goal);
     void endCorrection();
 
     /// Forgets velocities and impulses, to solve for position corrections; applyPush then makes them. Returns the
@@ -132,6 +140,7 @@ private:
     double m_scale = 1;                     // learnt
     bool m_learnt = false;                  // in the last correction
     bool m_tooSoft = false;                 // in any of this problem
+    bool m_leftMuch = false;                // the last correction did, of its right-hand side
     double m_allWork = 0;                   // of the impulses so far, roughly [J]
 };
 

@@ -124,12 +124,12 @@ void ContactRows::restart()
     }
 }
 
-void ContactRows::apply(double floor, bool steady, ContactReport& report)
+void ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& report)
 {
     forEachTouchedBody(m_settings.m_step.m_threads,
                        [&](int b)
                        {
-                           m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step, floor);
+                           m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step, goal);
                            m_corrections[b].m_steady = steady;
                        });
     solveCorrections();

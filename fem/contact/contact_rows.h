@@ -43,8 +43,8 @@ public:
     /// One sweep; the velocities of ends and obstacles follow. Gauss-Seidel over the rows that carry something while
     /// all bodies have a dense compliance, with subspace minimizations between, else an accelerated projected gradient
     /// step on all rows at once. True if an impulse changed, or is to change, by more than the tolerance: the speed
-    /// that it gives a row's own point over the scale; of gradient steps, of which many short ones make up a way, a
-    /// thousand times that.
+    /// that it gives a row's own point over the scale; after a gradient step, of which many short ones make up a way,
+    /// what a whole step of every row alone would still change.
     bool sweep(double tolerance);
 
     /// True if the last sweep changed a velocity by so much that sweeping leads nowhere. The compliance of a body may
@@ -66,9 +66,9 @@ public:
     /// What a sweep would change after measure(), likewise.
     double error() { return share(largestChange()); }
 
-    /// Solves the bodies' true systems for what is new, with a residual that is measured against `floor` of a body's
-    /// impulses at least. `steady`: the impulses are all of a step much like the one before.
-    void apply(double floor, bool steady, ContactReport& report);
+    /// Solves the bodies' true systems for what is new. `steady`: the impulses are all of a step much like the one
+    /// before.
+    void apply(const CorrectionGoal& goal, bool steady, ContactReport& report);
 
     /// True if a body has answered less than its compliance said: rounds go a part of the way only.
     bool isTooSoft() const;

@@ -68,6 +68,8 @@ struct ContactSolver::Scratch
     int m_minRounds = 1;
     double m_sweepTolerance = 0, m_roundTolerance = 0;
     double m_error = 1;       // after the last round
+    double m_goal = 0;        // error at which rounds end
+    bool m_loose = false;     // the last corrective solves were loose
     double m_floor = 0;       // of a body's impulses that residuals are measured against
     bool m_guessing = false;  // the impulses are those of the last step
     SweepProgress m_progress;
@@ -92,6 +94,11 @@ constexpr double kCloser = 0.3;
 
 // Rows of others may be solved in single precision.
 constexpr double kRoundingOfOthers = 1e-6;  // [m/s]
+
+// While the error is far above the tolerance, another round follows anyway, and takes up what the corrective solves of
+// this one leave: a share of their right-hand sides.
+constexpr double kFarFromTolerance = 30;
+constexpr double kLooseShare = 0.1;
 
 // A guess that is good enough as it stands must be better than an answer: its error is that of the step before, and
 // would be carried on from step to step.
@@ -164,7 +171,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_rows.warmStart();
     s.m_error = 1;
     s.m_progress = {};
-    s.m_stalled = false;
+    s.m_stalled = s.m_loose = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
     s.m_guessing = !joints && s.m_rows.hasImpulses();
@@ -175,7 +182,8 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_guessing = false;
     s.m_rows.settleTouches();
     s.m_rows.setSpeedScale();
-    s.m_error = joints ? 1 : s.m_rows.error() / kRoundGuessShare;
+    s.m_error = joints ? 1 : s.m_rows.error();
+    s.m_goal = joints ? s.m_roundTolerance : kRoundGuessShare * s.m_roundTolerance;
 }
 
 bool ContactSolver::wantsRound() const
@@ -184,7 +192,7 @@ bool ContactSolver::wantsRound() const
     if (s.m_empty) return false;
     const int rounds = s.m_report.m_rounds;
     return rounds < s.m_minRounds ||
-           (rounds < s.m_settings.m_maxRounds && s.m_error > s.m_roundTolerance && !s.m_stalled);
+           (rounds < s.m_settings.m_maxRounds && (s.m_loose || (s.m_error > s.m_goal && !s.m_stalled)));
 }
 
 bool ContactSolver::sweep(double others)
@@ -215,10 +223,14 @@ void ContactSolver::correct()
     s.m_progress = {};
     const double change = s.m_rows.changeOfRound();
     if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFloorWithJoints);
-    s.m_rows.apply(s.m_floor, s.m_guessing, s.m_report);
+    const bool joints = !s.m_problem->m_joints.empty();
+    s.m_loose = !joints && !s.m_guessing && s.m_report.m_rounds < s.m_settings.m_maxRounds &&
+                s.m_error > kFarFromTolerance * s.m_roundTolerance;
+    s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report);
     s.m_rows.measure();
     const double before = s.m_error;
-    s.m_error = s.m_problem->m_joints.empty() ? s.m_rows.error() : change;
+    s.m_error = joints ? change : s.m_rows.error();
+    s.m_goal = s.m_roundTolerance;
     const Standstill limit = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
     s.m_stalled = !s.m_settings.m_untilSolved && s.m_report.m_rounds > s.m_minRounds + 1 &&
                   s.m_error > limit.m_share * before && s.m_error < limit.m_smallError;

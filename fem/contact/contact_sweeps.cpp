@@ -197,12 +197,12 @@ double ContactRows::share(double speed) const
     return speed > 0 ? speed / std::max(m_speedScale, 1e-3 * speed) : 0;
 }
 
-// The gradient step: one over the largest eigenvalue of the compliance, scaled by that of every row, by some power
-// iterations from the present impulses.
+// The gradient step: one over the largest eigenvalue of the compliance, scaled by that of every row, by power
+// iterations from the present impulses. These have the shape of its mode, so few are enough.
 void ContactRows::chooseStep()
 {
     constexpr int kIterations = 8;
-    constexpr double kSafety = 1.2;
+    constexpr double kSafety = 1.2, kSettled = 1.05;
     double eigenvalue = 1;
     for (Row& row : m_rows)  // probes: added to the impulses and taken back at the end
     {
@@ -227,7 +227,9 @@ void ContactRows::chooseStep()
             row.m_lastImpulse = (1 / row.m_rowCompliance.x) * (velocity(row) - row.m_lastVelocity);
             sum2 += row.m_rowCompliance.x * dot(row.m_lastImpulse, row.m_lastImpulse);
         }
-        eigenvalue = std::max(eigenvalue, std::sqrt(sum2));
+        const double before = eigenvalue;
+        eigenvalue = std::max(before, std::sqrt(sum2));
+        if (k > 0 && eigenvalue < kSettled * before) break;
     }
     for (Row& row : m_rows) change(row, row.m_roundImpulse);
     flush();
@@ -241,7 +243,6 @@ void ContactRows::chooseStep()
 
 double ContactRows::sweepAtOnce()
 {
-    constexpr double kShortSteps = 1000;
     if (!(m_gradientStep > 0)) chooseStep();
     // Nesterov's extrapolation from the last two points, with restart where it points uphill [O'Donoghue, Candes 2015].
     const double next = 0.5 * (1 + std::sqrt(1 + 4 * m_acceleration * m_acceleration));
@@ -262,7 +263,7 @@ double ContactRows::sweepAtOnce()
     flush();
     m_lastSpeed = largest;
     m_acceleration = uphill > 0 ? 1 : next;
-    return kShortSteps * share(largest);
+    return error();
 }
 
 }  // namespace bullet_fem

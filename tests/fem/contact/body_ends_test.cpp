@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/body_ends.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "bullet_fem/fem/stepping.h"
+#include "fem/scenes/elasticity_scenes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// A corner of a turned and strained cube is pushed: away from rest one iteration is not enough.
+TEST(BodyEnds, SolveForWhatALooseCorrectionLeft)
+{
+    const auto makeCube = []
+    {
+        Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
+        for (Vec3& x : body.m_state.m_x) x = {1.3 * x.y, -x.x, x.z + 0.2 * x.x};
+        return body;
+    };
+    StepSettings settings;
+    settings.m_tolerance = 1e-9;
+    const Vec3 impulse = {0, 30, 50};
+
+    Body expected = makeCube();
+    solveFreeMotion(expected, settings);
+    std::vector<Vec3> impulses(expected.m_state.m_x.size());
+    impulses[0] = impulse;
+    applyImpulses(expected, impulses, settings);
+
+    Body body = makeCube();
+    solveFreeMotion(body, settings);
+    const auto largestDifference = [&]
+    {
+        double largest = 0;
+        for (std::size_t i = 0; i < impulses.size(); ++i)
+            largest = std::max(largest, norm(velocity(body)[i] - velocity(expected)[i]));
+        return largest;
+    };
+    const auto cache = makeComplianceCache(body.m_model);
+    BodyEnds ends;
+    ends.clear({&body, cache.get()});
+    ends.addPoint({0, {0, 0, 0}, {1, 0, 0}}, body.m_state.m_x[0]);
+    ends.assemble(400);
+    ends.form();
+    ends.measure();
+    const double whole = largestDifference();
+    ends.push(0, impulse);
+    const auto correct = [&](const CorrectionGoal& goal)
+    {
+        ImpulseResponse response = ends.beginCorrection(settings, goal);
+        if (!response.m_body) return false;
+        applyImpulses(&response, 1);
+        ends.endCorrection();
+        ends.measure();
+        return true;
+    };
+
+    EXPECT_TRUE(correct({0, 0.3}));
+    EXPECT_GT(largestDifference(), 1e-3 * whole);
+    EXPECT_TRUE(correct({}));
+    EXPECT_LT(largestDifference(), 1e-7 * whole);
+    EXPECT_FALSE(correct({}));
+}
+
+}  // namespace
+}  // namespace bullet_fem
