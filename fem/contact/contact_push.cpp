@@ -70,7 +70,8 @@ int ContactRows::push()
     setSpeedScale();
     int sweeps = 1;
     const double tolerance = pushTolerance(m_settings.m_tolerance);
-    while (sweep(tolerance) && sweeps < kMaxSweepsOfPush) ++sweeps;
+    for (; sweep(tolerance) && sweeps < kMaxSweepsOfPush; ++sweeps)
+        if (runsAway()) letGo();
     sumPushImpulses();
     for (std::size_t k = 0; k < m_problem->m_obstacles.size(); ++k)
     {

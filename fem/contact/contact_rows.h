@@ -49,7 +49,7 @@ public:
 
     /// True if the last sweep changed a velocity by so much that sweeping leads nowhere. The compliance of a body may
     /// be indefinite by its own errors: that of a stiff, light body on the low-memory path.
-    bool runsAway() const;
+    bool runsAway() const { return isRunaway(m_lastSpeed); }
 
     /// Takes back the impulses on all bodies and obstacles that run away, and holds them no more in this step.
     void letGo();
@@ -183,6 +183,7 @@ private:
     double wantedSpeed(const Row& row) const;
     double loadSpeed() const;
     double sweepInTurn();
+    bool isRunaway(double speed) const;
     Swept sweepRows(Range rows);
     Swept sweepOnce(Range rows);
     int endOfPair(int begin, int end) const;

@@ -113,7 +113,8 @@ double ContactRows::sweepInTurn()
 }
 
 // Of the working ones, one pair of ends after another. Where that has much to do it is swept again at once, while what
-// its impulses move is in the cache; the changes that count are those of the first time.
+// its impulses move is in the cache; the changes that count are those of the first time. What runs away ends it where
+// it is: impulses would grow by orders of magnitude a row, and leave their rounding when they are taken back.
 ContactRows::Swept ContactRows::sweepRows(Range rows)
 {
     const double much = std::max(kMuch, m_settings.m_tolerance);
@@ -126,7 +127,11 @@ ContactRows::Swept ContactRows::sweepRows(Range rows)
         swept.m_largest = std::max(swept.m_largest, first.m_largest);
         swept.m_work += first.m_work;
         double change = first.m_largest;
-        for (int k = 1; again && k < kMostTimes && share(change) > much; ++k) change = sweepOnce(pair).m_largest;
+        for (int k = 1; again && k < kMostTimes && share(change) > much && !isRunaway(change); ++k)
+            change = sweepOnce(pair).m_largest;
+        if (!isRunaway(change)) continue;
+        swept.m_largest = change;
+        break;
     }
     return swept;
 }
@@ -154,13 +159,14 @@ ContactRows::Swept ContactRows::sweepOnce(Range rows)
         swept.m_largest = std::max(swept.m_largest, speedOf(row, difference));
         swept.m_work += row.m_rowCompliance.x * dot(difference, difference);
         change(row, wanted);
+        if (isRunaway(swept.m_largest)) break;
     }
     return swept;
 }
 
-bool ContactRows::runsAway() const
+bool ContactRows::isRunaway(double speed) const
 {
-    return m_speedScale > 0 && !(m_lastSpeed <= kRunaway * m_speedScale);
+    return m_speedScale > 0 && !(speed <= kRunaway * m_speedScale);
 }
 
 void ContactRows::letGo()
