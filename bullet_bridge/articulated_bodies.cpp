@@ -134,7 +134,7 @@ void ArticulatedBodies::factor(btMultiBody& body)
     m_acceleration.assign(acceleration, acceleration + kBase + body.getNumDofs());
     for (int k = 0; k < body.getNumLinks(); ++k)
         if (body.isLinkAndAllAncestorsKinematic(k))
-            std::fill_n(&m_acceleration[kBase + body.getLink(k).m_dofOffset], body.getLink(k).m_dofCount, 0.0);
+            std::fill_n(m_acceleration.begin() + kBase + body.getLink(k).m_dofOffset, body.getLink(k).m_dofCount, 0.0);
 }
 
 void ArticulatedBodies::predict(const Tree& tree, double step)

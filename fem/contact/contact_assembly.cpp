@@ -106,8 +106,8 @@ ContactRows::RowEnd ContactRows::jointEnd(const JointEnd& joint)
     }
     RowEnd end;
     end.m_body = joint.m_body;
-    end.m_end = m_bodies[joint.m_body].addGroup(&m_problem->m_handleNodes[joint.m_first],
-                                                &m_problem->m_handleBlocks[joint.m_first], joint.m_count);
+    end.m_end = m_bodies[joint.m_body].addGroup(m_problem->m_handleNodes.data() + joint.m_first,
+                                                m_problem->m_handleBlocks.data() + joint.m_first, joint.m_count);
     return end;
 }
 

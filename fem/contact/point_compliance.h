@@ -66,8 +66,8 @@ public:
 private:
     const float* columns(int point);
     Mat3 readColumns(int point, const float* columns) const;
-    const float* column(std::size_t j) const { return &m_N[j * m_rows]; }
-    float* column(std::size_t j) { return &m_N[j * m_rows]; }
+    const float* column(std::size_t j) const { return m_N.data() + j * m_rows; }
+    float* column(std::size_t j) { return m_N.data() + j * m_rows; }
     void turnNodes(const ContactBody& body);
     void formNodeColumns(const ContactBody& body, double scale);
     void mirrorNodeColumns();
