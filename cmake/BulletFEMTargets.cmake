@@ -18,6 +18,7 @@ function(bulletfem_defaults target)
     if(BULLETFEM_SANITIZE)
         target_compile_options(${target} PRIVATE
             -fsanitize=${BULLETFEM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+        target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS) # indices into what is reserved but not there
         target_link_options(${target} PUBLIC -fsanitize=${BULLETFEM_SANITIZE})
     endif()
 endfunction()
