@@ -86,7 +86,7 @@ void ComplianceCache::makeRoom(std::size_t columns)
     m_nodeOfSlot.resize(room, -1);
     m_lastUse.resize(room, 0);
     if (!m_gradients && m_model->factorReport().m_path == FactorPath::lowMemory)
-        m_gradients = std::make_unique<LaneGradients>(m_model->factor());
+        m_gradients = std::make_unique<LaneGradients>(*m_model);
 }
 
 void ComplianceCache::request(const std::vector<int>& nodes)
@@ -133,7 +133,7 @@ void ComplianceCache::solveColumns(std::size_t first, std::size_t end)
     }
     listMarked(m_marked, m_reach);
     if (m_gradients)
-        m_gradients->solve(m_reach, kColumnTolerance, m_rightSide.get(), m_scratch.get());
+        m_gradients->solve(kColumnTolerance, m_rightSide.get(), m_scratch.get());
     else
         factor.lower().solveLanes(m_reach, m_nodeSupernodes, m_rightSide.get(), m_scratch.get());
     copyColumns(first, end);

@@ -15,9 +15,9 @@ namespace bullet_fem
 /// The 3x3 blocks of A0^-1 between nodes of one model that may be touched [1/kg]. They are constants; a node's column
 /// is solved when it is first asked for and kept while there is room: within the budget, or as many as one request has
 /// needed. Bodies of the same model may share a cache on one thread. On the low-memory path, whose factor is not that
-/// of A0, a column is iterated to some 1e-3 of sqrt((A0^-1)_ii (A0^-1)_jj); such columns cost some ten to thirty times
-/// those of the full factor. request() allocates when it is called first, and when it is given more nodes than there is
-/// room for.
+/// of A0, a column is iterated to some 1e-3 of sqrt((A0^-1)_ii (A0^-1)_jj), both but for rigid motions, which are
+/// known; such columns cost some ten to thirty times those of the full factor. request() allocates when it is called
+/// first, and when it is given more nodes than there is room for.
 class ComplianceCache
 {
 public:

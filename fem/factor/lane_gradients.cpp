@@ -66,27 +66,30 @@ private:
 
 }  // namespace
 
-LaneGradients::LaneGradients(const RestFactor& factor)
-    : m_factor(factor),
-      m_x(allocateFloats(static_cast<std::size_t>(factor.lower().size()) * kPanelLanes)),
-      m_p(allocateFloats(static_cast<std::size_t>(factor.lower().size()) * kPanelLanes)),
-      m_q(allocateFloats(static_cast<std::size_t>(factor.lower().size()) * kPanelLanes))
+LaneGradients::LaneGradients(const BodyModel& model)
+    : m_factor(model.factor()),
+      m_rigid(model),
+      m_x(allocateFloats(static_cast<std::size_t>(m_factor.lower().size()) * kPanelLanes)),
+      m_p(allocateFloats(static_cast<std::size_t>(m_factor.lower().size()) * kPanelLanes)),
+      m_q(allocateFloats(static_cast<std::size_t>(m_factor.lower().size()) * kPanelLanes))
 {
 }
 
-int LaneGradients::solve(const std::vector<int>& reach, double tolerance, float* y, float* scratch)
+int LaneGradients::solve(double tolerance, float* y, float* scratch)
 {
     const PackedFactor& P = m_factor.lower();
     const std::size_t size = static_cast<std::size_t>(P.size()) * kPanelLanes;
     const LaneVectors v = {P.size() / 3, m_x.get(), y, m_p.get(), m_q.get()};
     std::fill(v.m_x, v.m_x + size, 0.f);
     std::fill(v.m_p, v.m_p + size, 0.f);
+    m_rigid.takeOff(v.m_r);
     std::copy(v.m_r, v.m_r + size, v.m_q);
     Lanes lanes(tolerance);
     int iterations = 0;
     for (; iterations < kMostIterations; ++iterations)
     {
-        P.solveLanes(iterations == 0 ? reach : P.allSupernodes(), P.allSupernodes(), v.m_q, scratch);
+        P.solveLanes(P.allSupernodes(), P.allSupernodes(), v.m_q, scratch);
+        m_rigid.takeOut(v.m_q);
         const LaneNumbers beta = lanes.turn(dotLanes(v));
         if (!lanes.busy()) break;
         turnLanes(v, beta);
@@ -97,6 +100,8 @@ int LaneGradients::solve(const std::vector<int>& reach, double tolerance, float*
             break;
         }
     }
+    m_rigid.takeOut(v.m_x);
+    m_rigid.add(v.m_x);
     std::copy(v.m_x, v.m_x + size, y);
     return iterations;
 }

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <numeric>
 
 #include "fem/factor/rest_factor.h"
 #include "fem/scenes/dense_system.h"
@@ -208,6 +210,30 @@ TEST_P(ComplianceCacheTest, OfAFullyFixedBodyIsZero)
     ComplianceCache cache(withChoice(*m_model, input));
     cache.request(m_surface);
     EXPECT_TRUE(sameBits(cache.block(m_surface[0], m_surface[1]), Mat3()));
+}
+
+// A plate of 27 g that yields 1e-7 of its rigid motions: sweeps over a compliance that is not definite run away.
+TEST_P(ComplianceCacheTest, OfAStiffLightBodyIsDefinite)
+{
+    Material material = elasticMaterial(1e8, 0.3);
+    material.m_density = 10;
+    material.m_massDamping = 2;
+    const auto made = makeBody(makeBox({0.3, 0.3, 0.03}, {6, 6, 1}), material, {}, 0.05).m_model;
+    const auto model = withChoice(*made, made->factorInput());
+    const int lower = 49;
+    std::vector<int> nodes(lower);
+    std::iota(nodes.begin(), nodes.end(), 0);
+    ComplianceCache cache(model);
+    cache.request(nodes);
+    Eigen::MatrixXd W(3 * lower, 3 * lower);
+    for (int i = 0; i < 3 * lower; ++i)
+        for (int j = 0; j < 3 * lower; ++j) W(i, j) = cache.block(i / 3, j / 3)(i % 3, j % 3);
+    const Eigen::MatrixXd A0 = denseRestSystem(model->shape(), model->factorInput());
+    const Eigen::MatrixXd expected = A0.inverse().topLeftCorner(3 * lower, 3 * lower);
+    const auto least = [](const Eigen::MatrixXd& m)
+    { return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (m + m.transpose())).eigenvalues()[0]; };
+    EXPECT_GT(least(W), 0.3 * least(expected));
+    EXPECT_LT((W - expected).norm(), 1e-6 * expected.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(Factors, ComplianceCacheTest, testing::Values(FactorChoice::full, FactorChoice::lowMemory),

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// On the low-memory path the compliance of stiff, light bodies is too inexact to be definite: sweeps over it can run
-// away. Such bodies are let go of for the step.
+// The compliance of stiff, light bodies may be too inexact to be definite: sweeps over it can run away. Such bodies are
+// let go of for the step.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "fem/scenes/contact_scene.h"
 
@@ -16,18 +18,37 @@ namespace
 
 constexpr double kLongStep = 0.05, kYoung = 1e8, kDensity = 10;  // [s], [Pa], [kg/m3]
 
+constexpr int kCorner = 49, kOtherCorner = 55;  // of a plate's upper face, on one edge
+using Pins = std::vector<int>;
+
+// A plate with a tetrahedron on its last node: with the three other nodes of that fixed it turns about the last one,
+// though it hangs on more than a point.
+TetMesh plateOnAJoint()
+{
+    const TetMesh box = makeBox({0.3, 0.3, 0.03}, {6, 6, 1});
+    std::vector<Vec3> X = box.restPositions();
+    std::vector<Tet> tets = box.tets();
+    const int last = static_cast<int>(X.size()) - 1;
+    for (const Vec3& edge : {Vec3{0.03, 0, 0}, Vec3{0, 0.03, 0}, Vec3{0, 0, 0.03}}) X.push_back(X[last] + edge);
+    tets.push_back({last, last + 1, last + 2, last + 3});
+    return {X, tets};
+}
+const Pins kJoint = {98, 99, 100};
+
 // A plate of 27 g, its lower face on points whose normals differ.
 class Plate : public ContactScene
 {
 public:
-    explicit Plate(unsigned seed, double gap = 0)
+    explicit Plate(unsigned seed, const Pins& pins = {}, double gap = 0)
     {
         Material material = elasticMaterial(kYoung, 0.3);
         material.m_density = kDensity;
-        const Body onFullPath = makeBody(makeBox({0.3, 0.3, 0.03}, {6, 6, 1}), material, {}, kLongStep);
+        const Body onFullPath = makeBody(plateOnAJoint(), material, {}, kLongStep);
         FactorInput input = onFullPath.m_model->factorInput();
         input.m_choice = FactorChoice::lowMemory;
+        for (int node : pins) input.m_fixed[node] = 1;
         m_body = Body(BodyModel::create(onFullPath.m_model->sharedShape(), input));
+        m_body.m_state.m_fixed = input.m_fixed;
         m_cache = makeComplianceCache(m_body.m_model);
         m_settings.m_step.m_step = kLongStep;
         m_settings.m_step.m_tolerance = 1e-3;
@@ -43,28 +64,50 @@ public:
             contact.m_normal = (1 / norm(n)) * n;
         }
     }
+
+    double fastest() const
+    {
+        double speed = 0;
+        for (const Vec3& v : velocity(m_body)) speed = std::max(speed, norm(v));
+        return speed;
+    }
 };
 
-TEST(Runaway, OfAStiffLightBodyOnTheLowMemoryPathIsLetGo)
+constexpr double kFastEnough = 20;  // [m/s]; they come with at most 3
+
+// The turns that fixed nodes allow are no strain, however stiff the plate is.
+TEST(Runaway, DoesNotHappenWithRigidMotions)
 {
+    for (const Pins& pins : {Pins{}, {kCorner}, {kCorner, kOtherCorner}})
+        for (unsigned seed = 0; seed < 10; ++seed)
+        {
+            Plate plate(seed, pins);
+            EXPECT_LT(plate.solve().m_violation, 0.2) << pins.size() << " " << seed;
+            EXPECT_LT(plate.fastest(), kFastEnough) << pins.size() << " " << seed;
+        }
+}
+
+TEST(Runaway, IsLetGo)
+{
+    int unsolved = 0;
     for (unsigned seed = 0; seed < 70; ++seed)
     {
-        Plate plate(seed);
-        const ContactReport report = plate.solve();
-        EXPECT_FALSE(report.m_converged) << seed;
-        for (const Vec3& v : velocity(plate.m_body)) ASSERT_LT(norm(v), 20) << seed;  // it came with at most 3 m/s
+        Plate plate(seed, kJoint);
+        if (!plate.solve().m_converged) ++unsolved;
+        EXPECT_LT(plate.fastest(), kFastEnough) << seed;
     }
+    EXPECT_GT(unsolved, 35);
 }
 
 // What has sunk in and does not close any more is pushed apart by sweeps of its own, which run away as well.
-TEST(Runaway, OfItsPositionCorrectionsIsLetGo)
+TEST(Runaway, OfPositionCorrectionsIsLetGo)
 {
     for (unsigned seed = 0; seed < 10; ++seed)
     {
-        Plate plate(seed, -0.02);
+        Plate plate(seed, kJoint, -0.02);
         plate.setVelocity({0, 0, 0.03});
         makeBall(plate.m_obstacles[0], 10, 0.5);
-        EXPECT_TRUE(plate.solve().m_converged) << seed;
+        plate.solve();
         EXPECT_LT(norm(plate.m_obstacles[0].m_pushLinear), 1) << seed;
         EXPECT_LT(norm(plate.m_obstacles[0].m_pushAngular), 1) << seed;
         finishStep(plate.m_body, plate.m_settings.m_step);

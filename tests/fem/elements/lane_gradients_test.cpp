@@ -71,8 +71,8 @@ protected:
     {
         const RestFactor& factor = model.factor();
         AlignedFloats y = aligned(rightSide), scratch = allocateFloats(factor.lower().laneScratchSize());
-        LaneGradients gradients(factor);
-        gradients.solve(factor.lower().allSupernodes(), tolerance, y.get(), scratch.get());
+        LaneGradients gradients(model);
+        gradients.solve(tolerance, y.get(), scratch.get());
         return Eigen::Map<const Lanes>(y.get(), rightSide.rows(), int(kPanelLanes));
     }
 

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/factor/rigid_lanes.h"
+
+#include <algorithm>
+
+#include "fem/factor/rest_factor.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kOnLine = 1e-9;  // share of their extent by which fixed nodes may lie beside a line
+
+}  // namespace
+
+RigidLanes::RigidLanes(const BodyModel& model)
+    : m_model(model),
+      m_damped(1 + model.factorInput().m_step * model.shape().m_material.m_massDamping),
+      m_pieces(model.mesh().componentCount()),
+      m_taken(m_pieces.size() * kPanelLanes),
+      m_found(m_taken)
+{
+    findCenters();
+    const std::vector<int>& component = model.mesh().nodeComponent();
+    const std::vector<Vec3>& X = model.mesh().restPositions();
+    for (std::size_t i = 0; i < X.size(); ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        const Vec3 r = X[i] - piece.m_center;
+        piece.m_inverseInertia += model.factorInput().m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+    }
+    for (Piece& piece : m_pieces) piece.m_inverseInertia = inverse(piece.m_inverseInertia);
+    findAxes();
+}
+
+// Of mass, or any fixed node.
+void RigidLanes::findCenters()
+{
+    const std::vector<int>& component = m_model.mesh().nodeComponent();
+    const std::vector<Vec3>& X = m_model.mesh().restPositions();
+    std::vector<double> mass(m_pieces.size());
+    for (std::size_t i = 0; i < X.size(); ++i)
+    {
+        Piece& piece = m_pieces[component[i]];
+        if (m_model.factor().position(static_cast<int>(i)) < 0 && piece.m_fixed++ == 0) piece.m_center = X[i];
+        if (piece.m_fixed > 0) continue;
+        mass[component[i]] += m_model.factorInput().m_mass[i];
+        piece.m_center += m_model.factorInput().m_mass[i] * X[i];
+    }
+    for (std::size_t k = 0; k < m_pieces.size(); ++k)
+    {
+        if (m_pieces[k].m_fixed > 0) continue;
+        m_pieces[k].m_inverseMass = 1 / mass[k];
+        m_pieces[k].m_center *= 1 / mass[k];
+    }
+}
+
+// Takes the turns out of the inverse inertia that several fixed nodes do not allow.
+void RigidLanes::findAxes()
+{
+    const std::vector<int>& component = m_model.mesh().nodeComponent();
+    const std::vector<Vec3>& X = m_model.mesh().restPositions();
+    std::vector<Vec3> axis(m_pieces.size());  // to the farthest fixed node
+    const auto forEachFixed = [&](const auto& visit)
+    {
+        for (std::size_t i = 0; i < X.size(); ++i)
+            if (m_model.factor().position(static_cast<int>(i)) < 0)
+                visit(m_pieces[component[i]], axis[component[i]], X[i] - m_pieces[component[i]].m_center);
+    };
+    forEachFixed(
+        [](const Piece&, Vec3& a, const Vec3& r)
+        {
+            if (dot(r, r) > dot(a, a)) a = r;
+        });
+    for (std::size_t k = 0; k < m_pieces.size(); ++k)
+    {
+        if (!(dot(axis[k], axis[k]) > 0)) continue;
+        const Vec3 a = (1 / norm(axis[k])) * axis[k];
+        m_pieces[k].m_inverseInertia = (1 / dot(a, inverse(m_pieces[k].m_inverseInertia) * a)) * outer(a, a);
+    }
+    forEachFixed(
+        [](Piece& piece, const Vec3& a, const Vec3& r)
+        {
+            if (norm(cross(a, r)) > kOnLine * dot(a, a)) piece.m_inverseInertia = {};
+        });
+}
+
+// visit(piece, r, mass, row) for every free node of a piece that moves: from the centre, and where its first row
+// begins.
+template <class Visit>
+void RigidLanes::forEachRow(const Visit& visit) const
+{
+    for (int i = 0; i < m_model.nodeCount(); ++i)
+    {
+        const int piece = m_model.mesh().nodeComponent()[i];
+        if (m_model.factor().position(i) < 0 || !moves(m_pieces[piece])) continue;
+        visit(piece, m_model.mesh().restPositions()[i] - m_pieces[piece].m_center, m_model.factorInput().m_mass[i],
+              3 * static_cast<std::size_t>(m_model.factor().position(i)) * kPanelLanes);
+    }
+}
+
+// The rigid motions that impulses make of bodies without damping, or that are in velocities.
+void RigidLanes::sum(const float* values, bool ofVelocities, std::vector<Motion>& motions) const
+{
+    std::fill(motions.begin(), motions.end(), Motion());
+    forEachRow(
+        [&](int piece, const Vec3& r, double mass, std::size_t row)
+        {
+            const double weight = ofVelocities ? mass : 1;
+            for (int lane = 0; lane < kPanelLanes; ++lane)
+            {
+                const float* v = values + row + lane;
+                const Vec3 p = weight * Vec3{v[0], v[kPanelLanes], v[2 * kPanelLanes]};
+                Motion& motion = motions[piece * kPanelLanes + lane];
+                motion.m_linear += p;
+                motion.m_angular += cross(r, p);
+            }
+        });
+    for (std::size_t k = 0; k < motions.size(); ++k)
+    {
+        const Piece& piece = m_pieces[k / kPanelLanes];
+        motions[k].m_linear *= piece.m_inverseMass;
+        motions[k].m_angular = piece.m_inverseInertia * motions[k].m_angular;
+    }
+}
+
+void RigidLanes::addMotions(const std::vector<Motion>& motions, double factor, bool asImpulses, float* values) const
+{
+    forEachRow(
+        [&](int piece, const Vec3& r, double mass, std::size_t row)
+        {
+            const double weight = asImpulses ? factor * mass : factor;
+            for (int lane = 0; lane < kPanelLanes; ++lane)
+            {
+                const Motion& motion = motions[piece * kPanelLanes + lane];
+                const Vec3 v = weight * (motion.m_linear + cross(motion.m_angular, r));
+                for (int i = 0; i < 3; ++i) values[row + i * kPanelLanes + lane] += static_cast<float>(v[i]);
+            }
+        });
+}
+
+void RigidLanes::takeOff(float* rightSides)
+{
+    sum(rightSides, false, m_taken);
+    addMotions(m_taken, -1, true, rightSides);
+}
+
+void RigidLanes::takeOut(float* velocities) const
+{
+    sum(velocities, true, m_found);
+    addMotions(m_found, -1, false, velocities);
+}
+
+void RigidLanes::add(float* velocities) const
+{
+    addMotions(m_taken, 1 / m_damped, false, velocities);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/body_model.h"
+
+namespace bullet_fem
+{
+
+/// The rigid motions in A0^-1 in closed form, for kPanelLanes vectors over the factor's rows at a time. K does not see
+/// the rigid motions R of a connected piece that its fixed nodes allow: all, or where these are in one point or on one
+/// line, turns about that. So A0 R = (1 + h alpha) M R, and a right-hand side b makes R (R^T M R)^-1 R^T b / (1 + h
+/// alpha) of them. Beside the little that a stiff, light body yields that is so
+/// much that an iteration in single precision finds neither; and whatever it rounds off, a rigid motion makes much of.
+/// Allocates when it is made, never else.
+class RigidLanes
+{
+public:
+    /// The model must outlive it.
+    explicit RigidLanes(const BodyModel& model);
+
+    /// Takes the impulses that make rigid motions off right-hand sides, and remembers these.
+    void takeOff(float* rightSides);
+
+    /// Takes the rigid motions out of velocities.
+    void takeOut(float* velocities) const;
+
+    /// Adds those that takeOff() has remembered to velocities that have none.
+    void add(float* velocities) const;
+
+private:
+    struct Piece
+    {
+        int m_fixed = 0;           // nodes
+        double m_inverseMass = 0;  // [1/kg]; 0 if it is held
+        Vec3 m_center;             // or what it turns about [m]
+        Mat3 m_inverseInertia;     // about that [1/(kg m2)]; 0 along axes that it cannot turn about
+    };
+    struct Motion  // of a piece: m_linear + m_angular x (X - centre)
+    {
+        Vec3 m_linear, m_angular;
+    };
+
+    bool moves(const Piece& piece) const { return squaredNorm(piece.m_inverseInertia) > 0; }
+    void findCenters();
+    void findAxes();
+    template <class Visit>
+    void forEachRow(const Visit& visit) const;
+    void sum(const float* values, bool ofVelocities, std::vector<Motion>& motions) const;
+    void addMotions(const std::vector<Motion>& motions, double factor, bool asImpulses, float* values) const;
+
+    const BodyModel& m_model;
+    double m_damped;  // 1 + h alpha
+    std::vector<Piece> m_pieces;
+    std::vector<Motion> m_taken;          // a lane of a piece
+    mutable std::vector<Motion> m_found;  // likewise
+};
+
+}  // namespace bullet_fem
