@@ -224,6 +224,7 @@ void ContactSolver::correct()
     const double change = s.m_rows.changeOfRound();
     if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFloorWithJoints);
     const bool joints = !s.m_problem->m_joints.empty();
+    const bool wasLoose = s.m_loose;
     s.m_loose = !joints && !s.m_guessing && s.m_report.m_rounds < s.m_settings.m_maxRounds &&
                 s.m_error > kFarFromTolerance * s.m_roundTolerance;
     s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report);
@@ -232,7 +233,7 @@ void ContactSolver::correct()
     s.m_error = joints ? change : s.m_rows.error();
     s.m_goal = s.m_roundTolerance;
     const Standstill limit = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
-    s.m_stalled = !s.m_settings.m_untilSolved && s.m_report.m_rounds > s.m_minRounds + 1 &&
+    s.m_stalled = !s.m_settings.m_untilSolved && !wasLoose && s.m_report.m_rounds > s.m_minRounds + 1 &&
                   s.m_error > limit.m_share * before && s.m_error < limit.m_smallError;
 }
 
