@@ -19,7 +19,7 @@ RigidLanes::RigidLanes(const BodyModel& model)
     : m_model(model),
       m_damped(1 + model.factorInput().m_step * model.shape().m_material.m_massDamping),
       m_pieces(model.mesh().componentCount()),
-      m_taken(m_pieces.size() * kPanelLanes),
+      m_taken(m_pieces.size()),
       m_found(m_taken)
 {
     findCenters();
@@ -102,41 +102,52 @@ void RigidLanes::forEachRow(const Visit& visit) const
 }
 
 // The rigid motions that impulses make of bodies without damping, or that are in velocities.
-void RigidLanes::sum(const float* values, bool ofVelocities, std::vector<Motion>& motions) const
+void RigidLanes::sum(const float* values, bool ofVelocities, std::vector<Motions>& motions) const
 {
-    std::fill(motions.begin(), motions.end(), Motion());
+    std::fill(motions.begin(), motions.end(), Motions());
     forEachRow(
         [&](int piece, const Vec3& r, double mass, std::size_t row)
         {
             const double weight = ofVelocities ? mass : 1;
-            for (int lane = 0; lane < kPanelLanes; ++lane)
+            const float *x = values + row, *y = x + kPanelLanes, *z = y + kPanelLanes;
+            Motions& m = motions[piece];
+            for (int k = 0; k < kPanelLanes; ++k)
             {
-                const float* v = values + row + lane;
-                const Vec3 p = weight * Vec3{v[0], v[kPanelLanes], v[2 * kPanelLanes]};
-                Motion& motion = motions[piece * kPanelLanes + lane];
-                motion.m_linear += p;
-                motion.m_angular += cross(r, p);
+                const double px = weight * x[k], py = weight * y[k], pz = weight * z[k];
+                m[0][k] += px;
+                m[1][k] += py;
+                m[2][k] += pz;
+                m[3][k] += r.y * pz - r.z * py;
+                m[4][k] += r.z * px - r.x * pz;
+                m[5][k] += r.x * py - r.y * px;
             }
         });
-    for (std::size_t k = 0; k < motions.size(); ++k)
-    {
-        const Piece& piece = m_pieces[k / kPanelLanes];
-        motions[k].m_linear *= piece.m_inverseMass;
-        motions[k].m_angular = piece.m_inverseInertia * motions[k].m_angular;
-    }
+    for (std::size_t p = 0; p < motions.size(); ++p)
+        for (int k = 0; k < kPanelLanes; ++k)
+        {
+            Motions& m = motions[p];
+            const Vec3 angular = m_pieces[p].m_inverseInertia * Vec3{m[3][k], m[4][k], m[5][k]};
+            for (int i = 0; i < 3; ++i)
+            {
+                m[i][k] *= m_pieces[p].m_inverseMass;
+                m[3 + i][k] = angular[i];
+            }
+        }
 }
 
-void RigidLanes::addMotions(const std::vector<Motion>& motions, double factor, bool asImpulses, float* values) const
+void RigidLanes::addMotions(const std::vector<Motions>& motions, double factor, bool asImpulses, float* values) const
 {
     forEachRow(
         [&](int piece, const Vec3& r, double mass, std::size_t row)
         {
             const double weight = asImpulses ? factor * mass : factor;
-            for (int lane = 0; lane < kPanelLanes; ++lane)
+            float *x = values + row, *y = x + kPanelLanes, *z = y + kPanelLanes;
+            const Motions& m = motions[piece];
+            for (int k = 0; k < kPanelLanes; ++k)
             {
-                const Motion& motion = motions[piece * kPanelLanes + lane];
-                const Vec3 v = weight * (motion.m_linear + cross(motion.m_angular, r));
-                for (int i = 0; i < 3; ++i) values[row + i * kPanelLanes + lane] += static_cast<float>(v[i]);
+                x[k] += static_cast<float>(weight * (m[0][k] + m[4][k] * r.z - m[5][k] * r.y));
+                y[k] += static_cast<float>(weight * (m[1][k] + m[5][k] * r.x - m[3][k] * r.z));
+                z[k] += static_cast<float>(weight * (m[2][k] + m[3][k] * r.y - m[4][k] * r.x));
             }
         });
 }

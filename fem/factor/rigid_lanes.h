@@ -2,9 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "bullet_fem/fem/body_model.h"
+#include "fem/factor/panel_kernels.h"
 
 namespace bullet_fem
 {
@@ -38,24 +40,22 @@ private:
         Vec3 m_center;             // or what it turns about [m]
         Mat3 m_inverseInertia;     // about that [1/(kg m2)]; 0 along axes that it cannot turn about
     };
-    struct Motion  // of a piece: m_linear + m_angular x (X - centre)
-    {
-        Vec3 m_linear, m_angular;
-    };
+    // Of a piece, in every lane: linear velocities, then angular ones about the centre.
+    using Motions = std::array<std::array<double, kPanelLanes>, 6>;
 
     bool moves(const Piece& piece) const { return squaredNorm(piece.m_inverseInertia) > 0; }
     void findCenters();
     void findAxes();
     template <class Visit>
     void forEachRow(const Visit& visit) const;
-    void sum(const float* values, bool ofVelocities, std::vector<Motion>& motions) const;
-    void addMotions(const std::vector<Motion>& motions, double factor, bool asImpulses, float* values) const;
+    void sum(const float* values, bool ofVelocities, std::vector<Motions>& motions) const;
+    void addMotions(const std::vector<Motions>& motions, double factor, bool asImpulses, float* values) const;
 
     const BodyModel& m_model;
     double m_damped;  // 1 + h alpha
     std::vector<Piece> m_pieces;
-    std::vector<Motion> m_taken;          // a lane of a piece
-    mutable std::vector<Motion> m_found;  // likewise
+    std::vector<Motions> m_taken;          // of every piece
+    mutable std::vector<Motions> m_found;  // likewise
 };
 
 }  // namespace bullet_fem
