@@ -85,13 +85,15 @@ bool warmPolarRotation(const Mat3& F, Mat3& R)
     return false;
 }
 
-// By singular values; the sign of the smallest makes det = +1. A trace of the guess decides what F leaves open.
+// By singular values; the sign of the smallest makes det = +1. A trace of the guess decides what F leaves open. The
+// guess where that overflows: Eigen leaves the vectors of such matrices unwritten.
 Mat3 coldPolarRotation(const Mat3& F, const Mat3& guess)
 {
     Eigen::Matrix3d A;
     const double tie = 1e-12 * std::sqrt(squaredNorm(F)) + 1e-300;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) A(i, j) = F(i, j) + tie * guess(i, j);
+    if (!A.allFinite()) return guess;
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(A / A.cwiseAbs().maxCoeff(), Eigen::ComputeFullU | Eigen::ComputeFullV);
     Eigen::Matrix3d U = svd.matrixU();
     if (U.determinant() * svd.matrixV().determinant() < 0) U.col(2) *= -1;

@@ -83,13 +83,14 @@ struct NewtonStep
 
 /// One step towards the maximum of tr(R^T F): with S = F R^T, H w = g, H = tr(S) I - sym(S), g = axl(S - S^T), R turns
 /// by w. H w = g is solved by cofactors. After a step by w the error is about |w|^2 |H| |H^-1|. Elements whose H is not
-/// positive definite are left as they are.
+/// positive definite, or so large that it may overflow, are left as they are.
 template <class Real>
 HWY_INLINE NewtonStep<Real> newtonStep(const Matrix<Real>& F, Quaternions<Real>& q)
 {
     using V = Vector<Real>;
     constexpr bool kSingle = std::is_same<Real, float>::value;
     const V tiny = number<Real>(kSingle ? 1e-4 : 1e-10), error = number<Real>(kSingle ? 1e-7 : 1e-17);
+    const V huge = number<Real>(kSingle ? 1e24 : 1e200);  // beyond, products of three entries may overflow
 
     const Matrix<Real> S = timesTranspose(F, toScaledMatrix(q));
     const V g0 = S.m[2][1] - S.m[1][2], g1 = S.m[0][2] - S.m[2][0], g2 = S.m[1][0] - S.m[0][1];
@@ -105,11 +106,12 @@ HWY_INLINE NewtonStep<Real> newtonStep(const Matrix<Real>& F, Quaternions<Real>&
 
     // Sylvester's pivots h00, c22 / h00, det / c22 against the trace.
     const V trace = h00 + h11 + h22, least = hn::Max(tiny * trace, hn::Zero(Lanes<Real>()));
-    const auto definite = hn::And(hn::And(h00 > least, c22 > least * h00), det > least * c22);
+    const auto definite = hn::And(hn::And(h00 > least, c22 > least * h00), hn::And(det > least * c22, det < huge));
 
-    const V s = hn::IfThenElseZero(definite, number<Real>(0.5) / det);
-    const V c[3] = {s * dot3(c00, g0, c01, g1, c02, g2), s * dot3(c01, g0, c11, g1, c12, g2),
-                    s * dot3(c02, g0, c12, g1, c22, g2)};
+    const V s = number<Real>(0.5) / det;
+    const V c[3] = {hn::IfThenElseZero(definite, s * dot3(c00, g0, c01, g1, c02, g2)),
+                    hn::IfThenElseZero(definite, s * dot3(c01, g0, c11, g1, c12, g2)),
+                    hn::IfThenElseZero(definite, s * dot3(c02, g0, c12, g1, c22, g2))};
     q = turned<Real>(q, c);
     const V squaredStep = number<Real>(4) * dot3(c[0], c[0], c[1], c[1], c[2], c[2]);
     const V cofactors = c00 + c11 + c22;  // det times the trace of H^-1

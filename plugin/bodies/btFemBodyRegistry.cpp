@@ -66,12 +66,15 @@ btFemEntry& btFemBodyRegistry::entry(btSoftBody* body)
 {
     if (!body)
         throw std::invalid_argument("the soft body is null; give a body made by btFemHelpers or btSoftBodyHelpers");
-    if (btFemEntry* known = find(body))
+    const std::size_t known = indexOf(body);
+    if (known < m_entries.size() && isAnother(known, *body))
+        forget(body);
+    else if (known < m_entries.size())
     {
-        const bool follows = known->m_fem && hasMark(*body, known->m_fem->m_mark);
-        if (follows) followNodes(*known->m_fem);
-        lookAgain(*known, follows && topologyAsSetUp(*known->m_fem));
-        return *known;
+        btFemEntry& entry = *m_entries[known];
+        if (entry.m_fem) followNodes(*entry.m_fem);
+        lookAgain(entry, entry.m_fem && topologyAsSetUp(*entry.m_fem));
+        return entry;
     }
     m_entries.push_back(std::make_unique<btFemEntry>(body));
     return *m_entries.back();
@@ -89,17 +92,29 @@ bool btFemBodyRegistry::isAsBuilt(const btFemEntry& entry)
     return !entry.m_fem || (hasMark(*entry.m_softBody, entry.m_fem->m_mark) && topologyAsSetUp(*entry.m_fem));
 }
 
-// Something else may live at the address, or nodes or tetrahedra were appended, removed, or joined otherwise: then the
-// body keeps what the user asked for it.
+// True if another body lives now at the address of one that is known.
+bool btFemBodyRegistry::isAnother(std::size_t known, const btSoftBody& body) const
+{
+    const std::unique_ptr<FemSoftBody>& fem = m_entries[known]->m_fem;
+    return fem && !hasMark(body, fem->m_mark);
+}
+
+// Bodies at such addresses are new, and come last, as they would at any others: the order of bodies decides about
+// rounding.
+void btFemBodyRegistry::forgetTheDead(const btAlignedObjectArray<btSoftBody*>& softBodies)
+{
+    for (int i = 0; i < softBodies.size(); ++i)
+    {
+        const std::size_t known = indexOf(softBodies[i]);
+        if (known < m_entries.size() && isAnother(known, *softBodies[i])) forget(softBodies[i]);
+    }
+}
+
+// Nodes or tetrahedra may have been appended, removed, or joined otherwise: then the body keeps what the user asked for
+// it.
 void btFemBodyRegistry::lookAgain(btFemEntry& entry, bool joinedAsBefore)
 {
-    if (!entry.m_fem) return;
-    if (!hasMark(*entry.m_softBody, entry.m_fem->m_mark))
-    {
-        entry = btFemEntry(entry.m_softBody);
-        return;
-    }
-    if (joinedAsBefore) return;
+    if (!entry.m_fem || joinedAsBefore) return;
     btFemEntry changed(entry.m_softBody);
     changed.m_world = entry.m_world;
     changed.m_material = entry.m_material;
@@ -136,7 +151,6 @@ void btFemBodyRegistry::compareTopologies(const btAlignedObjectArray<btSoftBody*
     {
         const std::size_t known = indexOf(softBodies[i]);
         if (known == m_entries.size() || m_joinedAsBefore[known] || !m_entries[known]->m_fem) continue;
-        if (!hasMark(*softBodies[i], m_entries[known]->m_fem->m_mark)) continue;
         followNodes(*m_entries[known]->m_fem);
         m_joinedAsBefore[known] = 1;
         m_compared.push_back(static_cast<int>(known));
@@ -152,6 +166,7 @@ void btFemBodyRegistry::compareTopologies(const btAlignedObjectArray<btSoftBody*
 void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver,
                                     const Threads& threads)
 {
+    forgetTheDead(softBodies);
     compareTopologies(softBodies, threads);
     const void* world = &softBodies;
     m_held.assign(m_entries.size(), 0);

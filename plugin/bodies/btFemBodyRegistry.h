@@ -181,6 +181,8 @@ public:
 
 private:
     std::size_t indexOf(const btSoftBody* body) const;
+    bool isAnother(std::size_t known, const btSoftBody& body) const;
+    void forgetTheDead(const btAlignedObjectArray<btSoftBody*>& softBodies);
     static void lookAgain(btFemEntry& entry, bool joinedAsBefore);
     void compareTopologies(const btAlignedObjectArray<btSoftBody*>& softBodies, const bullet_fem::Threads& threads);
     void registerWithDispatcher(btSoftBody& body) const;

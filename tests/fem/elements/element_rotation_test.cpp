@@ -109,6 +109,22 @@ TEST_P(ElementRotation, OfFlatElementsAndOfOneDirectionOrNone)
     expectPolarInBoth(withStretches({{1, 1, 0}, {2, 0.5, 0}, {1, 0, 0}, {1e-20, 1e-20, 1e-20}, {0, 0, 0}}, 3));
 }
 
+// Written to nodes by mistake: products of three entries overflow in single precision.
+TEST_P(ElementRotation, OfElementsLargerThanTheEarth)
+{
+    const Vec3 size = {1, 0.7, 0.4};
+    expectPolarInBoth(withStretches({1e8 * size, 1e10 * size, 1e13 * size, 1e16 * size}, 6));
+}
+
+// The last rotation of such elements, whatever their kernels' products say.
+TEST_P(ElementRotation, OfEntriesThatOverflowIsTheLastOne)
+{
+    const SingleElements elements(std::vector<Mat3>(20, scaling({1e36, 3e37, 1e38})));
+    ElementCase<float> kernels(elements.m_shape, elements.m_x, elements.atRest());
+    kernels.forces();
+    for (int e = 0; e < 20; ++e) EXPECT_TRUE(isFinite(kernels.rotation(e).column(0))) << e;
+}
+
 // Half turns about the axes, exact but for rounding: the trace that definiteness is measured against is negative there.
 TEST_P(ElementRotation, OfHalfTurnsAboutTheAxes)
 {

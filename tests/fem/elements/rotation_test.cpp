@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <limits>
 #include <tuple>
 
 #include "fem/scenes/dense_system.h"
@@ -149,6 +150,19 @@ TEST(Rotation, KeepsTheGuessWhereFSaysNothing)
     const Vec3 a = {1, 2, 3};
     const Mat3 about = rotationAbout(a, 0.7);
     EXPECT_LE(distance(polarRotation(outer(a, a), about), about), 1e-3);
+}
+
+// Nothing that comes out of memory nobody wrote.
+TEST(Rotation, OfWhatIsNoNumberIsTheGuess)
+{
+    const Mat3 guess = oblique(50);
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200})
+    {
+        Mat3 F = oblique(10);
+        F(1, 2) = bad;
+        F(2, 0) = -bad;
+        EXPECT_EQ(0, distance(polarRotation(F, guess), guess)) << bad;
+    }
 }
 
 // From flat to inverted to flat and back: a rotation all the way, and the first one again at the end.
