@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace bullet_fem
 {
@@ -17,6 +18,9 @@ constexpr double kMuch = 5e-3;
 constexpr int kMostTimes = 8;
 
 constexpr int kSweepsBetween = 5;  // minimizations: they find out what touches, slides and sticks
+
+// What is no number is never applied.
+constexpr double kMost = std::numeric_limits<double>::max();  // of an impulse's square [N2 s2]
 
 // Impacts change velocities by the speed scale, and now and then by some tens of it.
 constexpr double kRunaway = 1e3;
@@ -155,9 +159,10 @@ ContactRows::Swept ContactRows::sweepOnce(Range rows)
         Row& row = m_rows[m_working[k]];
         const Vec3 wanted = solveRow(row, row.m_impulse, velocity(row), 1);
         const Vec3 difference = wanted - row.m_impulse;
-        if (dot(difference, difference) == 0) continue;
+        const double square = dot(difference, difference);
+        if (!(square > 0 && square <= kMost)) continue;
         swept.m_largest = std::max(swept.m_largest, speedOf(row, difference));
-        swept.m_work += row.m_rowCompliance.x * dot(difference, difference);
+        swept.m_work += row.m_rowCompliance.x * square;
         change(row, wanted);
         if (isRunaway(swept.m_largest)) break;
     }

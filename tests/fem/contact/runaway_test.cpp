@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -112,6 +113,25 @@ TEST(Runaway, OfPositionCorrectionsIsLetGo)
         EXPECT_LT(norm(plate.m_obstacles[0].m_pushAngular), 1) << seed;
         finishStep(plate.m_body, plate.m_settings.m_step);
         for (const Vec3& x : plate.m_body.m_state.m_x) ASSERT_LT(norm(x), 1) << seed;
+    }
+}
+
+TEST(Runaway, OfAJointThatAsksForNoNumberHarmsNothing)
+{
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    {
+        ContactScene scene;
+        scene.setVelocity({0, 0, -1});
+        scene.touchLowerFace(0, 0.5);
+        Joint joint;
+        joint.m_a.m_body = 0;
+        joint.m_a.m_count = 1;
+        joint.m_wanted = {0, bad, 0};
+        scene.m_problem.m_joints.push_back(joint);
+        scene.m_problem.m_handleNodes = {13};
+        scene.m_problem.m_handleBlocks = {Mat3::identity()};
+        scene.solve();
+        for (const Vec3& v : velocity(scene.m_body)) ASSERT_LT(norm(v), 2) << bad;
     }
 }
 
