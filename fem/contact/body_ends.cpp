@@ -71,7 +71,7 @@ void BodyEnds::scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& n
             nodeImpulses[end.m_point.m_nodes[a]] += end.m_point.m_weights[a] * impulse;
 }
 
-void BodyEnds::assemble(int denseLimit)
+void BodyEnds::assemble(int denseLimit, const Threads* threads)
 {
     const std::size_t nodes = m_body.m_body->m_state.m_x.size();
     double& learnt = m_body.m_body->m_workspace.scratch().m_complianceScale;
@@ -94,7 +94,7 @@ void BodyEnds::assemble(int denseLimit)
             m_points.addOwn();
         else
             m_points.add(end.m_point);
-    m_points.request(m_body);
+    m_points.request(m_body, threads);
     m_working.reset(size());
     m_responses.reserve(m_ends.size());
     m_own.resize(m_ends.size());

@@ -38,7 +38,7 @@ public:
     int addGroup(const int* nodes, const Mat3* blocks, int count);
 
     /// When all ends are added: makes ready for form(), which is to follow. Not for two bodies of one cache at a time.
-    void assemble(int denseLimit);
+    void assemble(int denseLimit, const Threads* threads = nullptr);
 
     /// Forms the compliance, dense for at most denseLimit ends.
     void form();

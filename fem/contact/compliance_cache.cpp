@@ -6,30 +6,10 @@
 #include <utility>
 
 #include "fem/factor/rest_factor.h"
+#include "fem/pieces.h"
 
 namespace bullet_fem
 {
-namespace
-{
-
-// Of columns on the low-memory path, see LaneGradients. At 1e-2 stiff bodies (1 GPa) bounced higher than they fell.
-constexpr double kColumnTolerance = 1e-3;
-
-// Adds a supernode and its ancestors to a marked set.
-void markToRoot(const SupernodeTree& tree, int supernode, std::vector<unsigned char>& marked)
-{
-    for (int s = supernode; s >= 0 && !marked[s]; s = tree.m_supernodes[s].m_parent) marked[s] = 1;
-}
-
-void listMarked(const std::vector<unsigned char>& marked, std::vector<int>& list)
-{
-    list.clear();
-    for (std::size_t s = 0; s < marked.size(); ++s)
-        if (marked[s]) list.push_back(static_cast<int>(s));
-}
-
-}  // namespace
-
 ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model, std::size_t budget)
     : ComplianceCache(model, model->mesh().surfaceNodes(), budget)
 {
@@ -40,31 +20,12 @@ ComplianceCache::ComplianceCache(std::shared_ptr<const BodyModel> model, std::ve
       m_budget(budget),
       m_nodes(std::move(nodes)),
       m_placeOfNode(m_model->nodeCount(), -1),
-      m_slotOfNode(m_model->nodeCount(), -1),
-      m_supernodeOfPosition(m_model->factor().freeNodeCount()),
-      m_marked(m_model->factor().lower().tree().m_supernodes.size()),
-      m_rightSide(allocateFloats(static_cast<std::size_t>(m_model->factor().lower().size()) * kPanelLanes)),
-      m_scratch(allocateFloats(m_model->factor().lower().laneScratchSize()))
+      m_slotOfNode(m_model->nodeCount(), -1)
 {
-    const SupernodeTree& tree = m_model->factor().lower().tree();
-    for (std::size_t s = 0; s < tree.m_supernodes.size(); ++s)
-        for (int c = 0; c < tree.m_supernodes[s].m_columns; ++c)
-            m_supernodeOfPosition[tree.m_supernodes[s].m_first + c] = static_cast<int>(s);
-
-    for (std::size_t k = 0; k < m_nodes.size(); ++k)
-    {
-        m_placeOfNode[m_nodes[k]] = static_cast<int>(k);
-        markNode(m_nodes[k]);
-    }
-    m_reach.reserve(m_marked.size());
+    for (std::size_t k = 0; k < m_nodes.size(); ++k) m_placeOfNode[m_nodes[k]] = static_cast<int>(k);
     m_newNodes.reserve(m_nodes.size());
-    listMarked(m_marked, m_nodeSupernodes);
-}
-
-void ComplianceCache::markNode(int node)
-{
-    const int position = m_model->factor().position(node);
-    if (position >= 0) markToRoot(m_model->factor().lower().tree(), m_supernodeOfPosition[position], m_marked);
+    m_newColumns.reserve(3 * m_nodes.size());
+    m_solvers.push_back(std::make_unique<ColumnSolver>(*m_model, m_nodes));
 }
 
 // The slot used longest ago. The caller has made sure that one is not in use by the current request.
@@ -85,11 +46,9 @@ void ComplianceCache::makeRoom(std::size_t columns)
     while (m_columns.size() < room) m_columns.push_back(allocateFloats(columnSize));
     m_nodeOfSlot.resize(room, -1);
     m_lastUse.resize(room, 0);
-    if (!m_gradients && m_model->factorReport().m_path == FactorPath::lowMemory)
-        m_gradients = std::make_unique<LaneGradients>(*m_model);
 }
 
-void ComplianceCache::request(const std::vector<int>& nodes)
+void ComplianceCache::request(const std::vector<int>& nodes, const Threads* threads)
 {
     ++m_requestCount;
     if (nodes.size() > m_columns.size()) makeRoom(nodes.size());
@@ -106,62 +65,28 @@ void ComplianceCache::request(const std::vector<int>& nodes)
         m_newNodes.push_back(node);
     }
     m_solvedColumns += static_cast<long>(m_newNodes.size());
-    // Neighbours in the factor share most of their way to the root.
+    if (!m_newNodes.empty()) solveNewColumns(threads);
+}
+
+// Neighbours in the factor together.
+void ComplianceCache::solveNewColumns(const Threads* threads)
+{
     const RestFactor& factor = m_model->factor();
     std::sort(m_newNodes.begin(), m_newNodes.end(),
               [&factor](int a, int b) { return std::pair(factor.position(a), a) < std::pair(factor.position(b), b); });
-    const std::size_t columns = 3 * m_newNodes.size();
-    for (std::size_t first = 0; first < columns; first += kPanelLanes)
-        solveColumns(first, std::min<std::size_t>(first + kPanelLanes, columns));
-}
-
-// Three columns a new node, one a lane. Scaled by the diagonal, so that single precision sees numbers of order one
-// whatever the body weighs.
-void ComplianceCache::solveColumns(std::size_t first, std::size_t end)
-{
-    const RestFactor& factor = m_model->factor();
-    std::fill(m_marked.begin(), m_marked.end(), static_cast<unsigned char>(0));
-    std::fill(m_rightSide.get(), m_rightSide.get() + static_cast<std::size_t>(factor.lower().size()) * kPanelLanes,
-              0.f);
-    for (std::size_t column = first; column < end; ++column)
-    {
-        const int node = m_newNodes[column / 3], position = factor.position(node);
-        if (position < 0) continue;
-        markNode(node);
-        m_rightSide[(3 * static_cast<std::size_t>(position) + column % 3) * kPanelLanes + column - first] =
-            static_cast<float>(factor.diagonal(node));
-    }
-    listMarked(m_marked, m_reach);
-    if (m_gradients)
-        m_gradients->solve(kColumnTolerance, m_rightSide.get(), m_scratch.get());
-    else
-        factor.lower().solveLanes(m_reach, m_nodeSupernodes, m_rightSide.get(), m_scratch.get());
-    copyColumns(first, end);
-}
-
-void ComplianceCache::copyColumns(std::size_t first, std::size_t end)
-{
-    const RestFactor& factor = m_model->factor();
-    float* out[kPanelLanes];
-    float scale[kPanelLanes];
-    const std::size_t count = end - first;
-    for (std::size_t lane = 0; lane < count; ++lane)
-    {
-        const int node = m_newNodes[(first + lane) / 3];
-        out[lane] = m_columns[m_slotOfNode[node]].get() + (first + lane) % 3;
-        scale[lane] = factor.position(node) < 0 ? 0.f : 1 / static_cast<float>(factor.diagonal(node));
-    }
-    for (std::size_t k = 0; k < m_nodes.size(); ++k)
-    {
-        const int position = factor.position(m_nodes[k]);
-        for (std::size_t i = 0; i < 3; ++i)
-        {
-            const float* row =
-                position < 0 ? nullptr : &m_rightSide[(3 * static_cast<std::size_t>(position) + i) * kPanelLanes];
-            for (std::size_t lane = 0; lane < count; ++lane)
-                out[lane][9 * k + 3 * i] = row ? scale[lane] * row[lane] : 0.f;
-        }
-    }
+    m_newColumns.clear();
+    for (int node : m_newNodes)
+        for (int axis = 0; axis < 3; ++axis) m_newColumns.push_back({node, axis, m_columns[m_slotOfNode[node]].get()});
+    const int columns = static_cast<int>(m_newColumns.size()), batches = (columns + kPanelLanes - 1) / kPanelLanes;
+    const int solvers = threads ? std::min(threads->count(), batches) : 1;
+    while (static_cast<int>(m_solvers.size()) < solvers)
+        m_solvers.push_back(std::make_unique<ColumnSolver>(*m_model, m_nodes));
+    runTasks(solvers > 1 ? threads : nullptr, solvers,
+             [&](int s)
+             {
+                 for (int first = s * kPanelLanes; first < columns; first += solvers * kPanelLanes)
+                     m_solvers[s]->solve(&m_newColumns[first], std::min(columns - first, kPanelLanes));
+             });
 }
 
 Mat3 ComplianceCache::block(int i, int j) const

@@ -7,7 +7,7 @@
 
 #include "bullet_fem/fem/body_model.h"
 #include "fem/aligned_floats.h"
-#include "fem/factor/lane_gradients.h"
+#include "fem/contact/column_solver.h"
 
 namespace bullet_fem
 {
@@ -17,7 +17,7 @@ namespace bullet_fem
 /// needed. Bodies of the same model may share a cache on one thread. On the low-memory path, whose factor is not that
 /// of A0, a column is iterated to some 1e-3 of sqrt((A0^-1)_ii (A0^-1)_jj), both but for rigid motions, which are
 /// known; such columns cost some ten to thirty times those of the full factor. request() allocates when it is called
-/// first, and when it is given more nodes than there is room for.
+/// first, when it is given more nodes than there is room for, and when more threads are of use than ever before.
 class ComplianceCache
 {
 public:
@@ -29,11 +29,14 @@ public:
     /// For these nodes, each once.
     ComplianceCache(std::shared_ptr<const BodyModel> model, std::vector<int> nodes, std::size_t budget = kBudget);
 
+    ComplianceCache(const ComplianceCache&) = delete;
+    ComplianceCache& operator=(const ComplianceCache&) = delete;
+
     const BodyModel& model() const { return *m_model; }
 
-    /// Makes the columns of these nodes, which are among those it was made for, available until the next request.
-    /// Repeated nodes are allowed.
-    void request(const std::vector<int>& nodes);
+    /// Makes the columns of these nodes, which are among those it was made for, available until the next request, on
+    /// these threads (if not null). Repeated nodes are allowed.
+    void request(const std::vector<int>& nodes, const Threads* threads = nullptr);
 
     /// (A0^-1)_ij between such nodes i and j; the column of j must have been requested. Zero if either was fixed
     /// when the factor was built; the inverse diagonal where that node is free now is the caller's business.
@@ -51,11 +54,9 @@ public:
     long solvedColumns() const { return m_solvedColumns; }
 
 private:
-    void markNode(int node);
     void makeRoom(std::size_t columns);
     int claimSlot();
-    void solveColumns(std::size_t first, std::size_t end);
-    void copyColumns(std::size_t first, std::size_t end);
+    void solveNewColumns(const Threads* threads);
 
     std::shared_ptr<const BodyModel> m_model;
     std::size_t m_budget;            // [B]
@@ -65,12 +66,9 @@ private:
     std::vector<int> m_nodeOfSlot;
     std::vector<unsigned long> m_lastUse;  // per slot: number of the request that last named it
     std::vector<AlignedFloats> m_columns;
-    std::vector<int> m_supernodeOfPosition;  // by the factor's order of nodes
-    std::vector<int> m_nodeSupernodes;       // those with these nodes and what is above them
-    std::vector<int> m_newNodes, m_reach;
-    std::vector<unsigned char> m_marked;         // per supernode
-    AlignedFloats m_rightSide, m_scratch;        // kPanelLanes interleaved
-    std::unique_ptr<LaneGradients> m_gradients;  // on the low-memory path, from the first request on
+    std::vector<int> m_newNodes;
+    std::vector<ColumnSolver::Column> m_newColumns;
+    std::vector<std::unique_ptr<ColumnSolver>> m_solvers;  // as many as threads have been of use
     unsigned long m_requestCount = 0;
     long m_solvedColumns = 0;
 };

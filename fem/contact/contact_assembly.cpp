@@ -35,7 +35,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
         if (m_bodies[b].size() == 0) continue;
-        m_bodies[b].assemble(settings.m_denseLimit);
+        m_bodies[b].assemble(settings.m_denseLimit, settings.m_step.m_threads);
         m_inTurn = m_inTurn && m_bodies[b].isDense();
     }
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });

@@ -51,7 +51,7 @@ void PointCompliance::addOwn()
     m_first.push_back(static_cast<int>(m_slot.size()));
 }
 
-void PointCompliance::request(const ContactBody& body)
+void PointCompliance::request(const ContactBody& body, const Threads* threads)
 {
     m_nodes.clear();
     for (int node : m_slot)
@@ -61,7 +61,7 @@ void PointCompliance::request(const ContactBody& body)
     for (std::size_t t = 0; t < m_nodes.size(); ++t) m_slotOfNode[m_nodes[t]] = static_cast<int>(t);
     int own = static_cast<int>(m_nodes.size());
     for (int& slot : m_slot) slot = slot >= 0 ? m_slotOfNode[slot] : own++;
-    body.m_compliance->request(m_nodes);
+    body.m_compliance->request(m_nodes, threads);
 }
 
 void PointCompliance::form(const ContactBody& body, double scale)

@@ -30,7 +30,7 @@ public:
 
     /// Asks the body's cache for the columns of all nodes: to be called when all points are added, and form() before
     /// the cache has forgotten them. Bodies of one cache cannot ask at the same time.
-    void request(const ContactBody& body);
+    void request(const ContactBody& body, const Threads* threads = nullptr);
 
     /// Forms N for scale s; zero for slots of points of their own.
     void form(const ContactBody& body, double scale);

@@ -89,6 +89,23 @@ TEST_P(ComplianceCacheTest, ServesTheNodesThatItIsMadeFor)
         }
 }
 
+TEST_P(ComplianceCacheTest, HasTheSameBitsOnAnyThreads)
+{
+    ComplianceCache alone(m_model);
+    alone.request(m_surface);
+    for (const int count : {1, 2, 3, 8})
+    {
+        const Threads threads(count);
+        for (int repeat = 0; repeat < 5; ++repeat)
+        {
+            ComplianceCache cache(m_model);
+            cache.request(m_surface, &threads);
+            for (int j : m_surface)
+                for (int i : m_surface) ASSERT_TRUE(sameBits(cache.block(i, j), alone.block(i, j))) << i << " " << j;
+        }
+    }
+}
+
 TEST_P(ComplianceCacheTest, IsZeroForFixedNodes)
 {
     ComplianceCache cache(m_model);
