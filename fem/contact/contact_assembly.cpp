@@ -10,7 +10,7 @@ namespace bullet_fem
 {
 
 // The normal, a unit vector at a right angle to it, and their cross product.
-void ContactRows::setAxes(const Vec3& n, Row& row)
+void ContactRows::setAxes(const Vec3& n, ContactRow& row)
 {
     const Vec3 tangent = cross(std::fabs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n);
     row.m_axes[0] = n;
@@ -22,8 +22,6 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
 {
     m_problem = &problem;
     m_settings = settings;
-    m_probeLinear.assign(problem.m_obstacles.size(), Vec3());
-    m_probeAngular.assign(problem.m_obstacles.size(), Vec3());
     if (m_bodies.size() < problem.m_bodies.size()) m_bodies.resize(problem.m_bodies.size());
     m_corrections.assign(problem.m_bodies.size(), ImpulseResponse());
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b]);
@@ -31,38 +29,33 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     for (const ContactPoint& contact : problem.m_contacts) addContactRow(contact);
     for (const Joint& joint : problem.m_joints) addJointRow(joint);
     for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
-    m_inTurn = true;
+    m_dense = true;
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
         if (m_bodies[b].size() == 0) continue;
         m_bodies[b].assemble(settings.m_denseLimit, settings.m_step.m_threads);
-        m_inTurn = m_inTurn && m_bodies[b].isDense();
+        m_dense = m_dense && m_bodies[b].isDense();
     }
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
     finishRows();
     measure();
-    forEachPieceOfRows(
+    forEachPiece(
         [&](int, Range rows)
         {
             const int end = std::min(rows.m_end, static_cast<int>(problem.m_contacts.size()));
             for (int k = rows.m_begin; k < end; ++k) setContactTarget(m_rows[k], problem.m_contacts[k]);
         });
-    for (Row& row : m_rows)
+    for (ContactRow& row : m_rows)
     {
         if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a guess that nothing would ever change
         if (row.m_a.m_body >= 0) m_bodies[row.m_a.m_body].push(row.m_a.m_end, row.m_impulse);
         if (row.m_b.m_body >= 0) m_bodies[row.m_b.m_body].push(row.m_b.m_end, -row.m_impulse);
     }
-    m_gradientStep = 0;
-    forgetWorkingSet();
-    reserve();
-    divideRows();
-    m_subspace = {};
 }
 
 void ContactRows::addContactRow(const ContactPoint& contact)
 {
-    Row row;
+    ContactRow row;
     row.m_a = softEnd(contact.m_soft, contact.m_point);
     row.m_b = contact.m_obstacle >= 0 ? rigidEnd(contact.m_obstacle, contact.m_point + contact.m_approach)
                                       : softEnd(contact.m_other, contact.m_point);
@@ -74,7 +67,7 @@ void ContactRows::addContactRow(const ContactPoint& contact)
 
 void ContactRows::addJointRow(const Joint& joint)
 {
-    Row row;
+    ContactRow row;
     row.m_joint = true;
     row.m_a = jointEnd(joint.m_a);
     row.m_b = jointEnd(joint.m_b);
@@ -88,7 +81,7 @@ void ContactRows::addJointRow(const Joint& joint)
     m_rows.push_back(row);
 }
 
-ContactRows::RowEnd ContactRows::softEnd(const SurfacePoint& point, const Vec3& at)
+RowEnd ContactRows::softEnd(const SurfacePoint& point, const Vec3& at)
 {
     RowEnd end;
     end.m_body = point.m_body;
@@ -96,7 +89,7 @@ ContactRows::RowEnd ContactRows::softEnd(const SurfacePoint& point, const Vec3& 
     return end;
 }
 
-ContactRows::RowEnd ContactRows::jointEnd(const JointEnd& joint)
+RowEnd ContactRows::jointEnd(const JointEnd& joint)
 {
     if (joint.m_body < 0)
     {
@@ -111,35 +104,12 @@ ContactRows::RowEnd ContactRows::jointEnd(const JointEnd& joint)
     return end;
 }
 
-ContactRows::RowEnd ContactRows::rigidEnd(int obstacle, const Vec3& point) const
+RowEnd ContactRows::rigidEnd(int obstacle, const Vec3& point) const
 {
     RowEnd end;
     end.m_obstacle = obstacle;
     if (obstacle >= 0) end.m_arm = point - m_problem->m_obstacles[obstacle].m_center;
     return end;
-}
-
-// Joints are swept in their order, and links of one multibody move each other.
-void ContactRows::divideRows()
-{
-    const std::vector<Obstacle>& obstacles = m_problem->m_obstacles;
-    const int bodies = static_cast<int>(m_problem->m_bodies.size());
-    const auto mover = [&](const RowEnd& end)
-    {
-        if (end.m_body >= 0) return end.m_body;
-        return end.m_obstacle >= 0 && obstacles[end.m_obstacle].canMove() ? bodies + end.m_obstacle : -1;
-    };
-    const auto isLink = [](const Obstacle& obstacle) { return obstacle.m_responseCount > 0; };
-    m_parts.clear(bodies + static_cast<int>(obstacles.size()));
-    for (std::size_t k = 0; k < m_problem->m_contacts.size(); ++k)
-        m_parts.add(mover(m_rows[k].m_a), mover(m_rows[k].m_b), m_problem->m_contacts[k].m_point);
-    std::size_t k = m_problem->m_contacts.size() + m_problem->m_joints.size();  // with joints there is one part
-    for (const RigidTouch& touch : m_problem->m_rigidTouches)
-    {
-        const Row& row = m_rows[k++];
-        m_parts.add(mover(row.m_a), mover(row.m_b), obstacles[touch.m_obstacle].m_center + touch.m_arm);
-    }
-    m_parts.divide(m_problem->m_joints.empty() && std::none_of(obstacles.begin(), obstacles.end(), isLink));
 }
 
 Mat3 ContactRows::compliance(const RowEnd& end) const
@@ -151,14 +121,14 @@ Mat3 ContactRows::compliance(const RowEnd& end) const
 
 void ContactRows::finishRows()
 {
-    forEachPieceOfRows(
+    forEachPiece(
         [this](int, Range rows)
         {
             for (int k = rows.m_begin; k < rows.m_end; ++k) finishRow(m_rows[k]);
         });
 }
 
-void ContactRows::finishRow(Row& row) const
+void ContactRows::finishRow(ContactRow& row) const
 {
     row.m_compliance = compliance(row.m_a) + compliance(row.m_b);
     if (row.m_a.m_body >= 0 && row.m_a.m_body == row.m_b.m_body)
@@ -180,7 +150,7 @@ void ContactRows::finishRow(Row& row) const
         if (!(row.m_rowCompliance.y > 0)) row.m_rowCompliance.y = row.m_rowCompliance.z = row.m_rowCompliance.x;
         if (row.m_touch) limitTouchFriction(row);
     }
-    if (!m_inTurn)
+    if (!m_dense)
     {
         const double largest = std::max({row.m_rowCompliance.x, row.m_rowCompliance.y, row.m_rowCompliance.z});
         row.m_rowCompliance = {largest, largest, largest};
@@ -190,13 +160,13 @@ void ContactRows::finishRow(Row& row) const
 }
 
 // Relative velocity of a contact as the step began.
-Vec3 ContactRows::priorVelocity(const Row& row, const ContactPoint& contact) const
+Vec3 ContactRows::priorVelocity(const ContactRow& row, const ContactPoint& contact) const
 {
     const auto soft = [this](const SurfacePoint& p) { return p.of(m_problem->m_bodies[p.m_body].m_body->m_state.m_v); };
     return soft(contact.m_soft) - (row.m_b.m_body >= 0 ? soft(contact.m_other) : velocity(row.m_b));
 }
 
-void ContactRows::setContactTarget(Row& row, const ContactPoint& contact) const
+void ContactRows::setContactTarget(ContactRow& row, const ContactPoint& contact) const
 {
     const double h = m_settings.m_step.m_step;
     const Vec3 n = contact.m_normal;

@@ -14,6 +14,9 @@ namespace
 
 constexpr std::size_t kManyBodies = 16;  // of dense compliance, worth waking threads for
 
+// Impacts change velocities by the speed scale, and now and then by some tens of it.
+constexpr double kRunaway = 1e3;
+
 }  // namespace
 
 Vec3 ContactRows::velocity(const RowEnd& end) const
@@ -42,7 +45,7 @@ void ContactRows::react(const RowEnd& end, const Vec3& impulse)
         respond(*m_problem, end.m_obstacle, impulse, cross(end.m_arm, impulse), add);
 }
 
-void ContactRows::change(Row& row, const Vec3& impulse)
+void ContactRows::change(ContactRow& row, const Vec3& impulse)
 {
     const Vec3 difference = impulse - row.m_impulse;
     row.m_impulse = impulse;
@@ -53,7 +56,7 @@ void ContactRows::change(Row& row, const Vec3& impulse)
 // A dense compliance is over before other threads have woken up.
 const Threads* ContactRows::threadsForCompliance() const
 {
-    return m_inTurn && m_problem->m_bodies.size() < kManyBodies ? nullptr : m_settings.m_step.m_threads;
+    return m_dense && m_problem->m_bodies.size() < kManyBodies ? nullptr : m_settings.m_step.m_threads;
 }
 
 void ContactRows::flush()
@@ -63,7 +66,7 @@ void ContactRows::flush()
 
 void ContactRows::warmStart()
 {
-    for (Row& row : m_rows)
+    for (ContactRow& row : m_rows)
     {
         if (row.m_a.m_obstacle >= 0) react(row.m_a, row.m_impulse);
         if (row.m_b.m_obstacle >= 0) react(row.m_b, -row.m_impulse);
@@ -73,15 +76,12 @@ void ContactRows::warmStart()
 bool ContactRows::hasImpulses() const
 {
     return std::any_of(m_rows.begin(), m_rows.end(),
-                       [](const Row& row) { return dot(row.m_impulse, row.m_impulse) > 0; });
+                       [](const ContactRow& row) { return dot(row.m_impulse, row.m_impulse) > 0; });
 }
 
 void ContactRows::measure()
 {
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
-    m_subspace.m_tried = false;  // the work of sweeps before is that of another problem
-    forgetWorkingSet();
-    restart();
 }
 
 void ContactRows::setSpeedScale()
@@ -89,7 +89,7 @@ void ContactRows::setSpeedScale()
     const double loads = loadSpeed();
     m_speedScale = std::max(loads, largestChange());
     if (loads > 0) return;
-    for (const Row& row : m_rows) m_speedScale = std::max(m_speedScale, speedOf(row, row.m_impulse));
+    for (const ContactRow& row : m_rows) m_speedScale = std::max(m_speedScale, speedOf(row, row.m_impulse));
 }
 
 // The largest speed that its loads alone would give one of the bodies in a step [m/s].
@@ -112,16 +112,30 @@ double ContactRows::loadSpeed() const
     return largest;
 }
 
-// Forgets the directions of the last sweeps.
-void ContactRows::restart()
+double ContactRows::share(double speed) const
 {
-    m_acceleration = 1;
-    if (m_inTurn) return;
-    for (Row& row : m_rows)
-    {
-        row.m_lastImpulse = row.m_impulse;
-        row.m_lastVelocity = velocity(row);
-    }
+    return speed > 0 ? speed / std::max(m_speedScale, 1e-3 * speed) : 0;
+}
+
+bool ContactRows::isRunaway(double speed) const
+{
+    return m_speedScale > 0 && !(speed <= kRunaway * m_speedScale);
+}
+
+bool ContactRows::rests(const ContactRow& row) const
+{
+    if (row.m_joint || dot(row.m_impulse, row.m_impulse) > 0) return false;
+    return row.m_idle || !(row.m_target.x > dot(row.m_axes[0], velocity(row)));
+}
+
+double ContactRows::wantedSpeed(const ContactRow& row) const
+{
+    return rests(row) ? 0 : speedOf(row, wantedImpulse(row, row.m_impulse, velocity(row), 1) - row.m_impulse);
+}
+
+double ContactRows::largestChange()
+{
+    return largestOfRows([this](const ContactRow& row) { return wantedSpeed(row); });
 }
 
 void ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& report)
@@ -175,7 +189,7 @@ void ContactRows::solveCorrections()
 double ContactRows::changeOfRound()
 {
     double change = 0, largest = 0;
-    for (Row& row : m_rows)
+    for (ContactRow& row : m_rows)
     {
         const Vec3 difference = row.m_impulse - row.m_roundImpulse;
         change = std::max(change, dot(difference, difference));
@@ -185,7 +199,7 @@ double ContactRows::changeOfRound()
     return largest > 0 ? std::sqrt(change / largest) : 0;
 }
 
-Vec3 ContactRows::trueVelocity(const Row& row) const
+Vec3 ContactRows::trueVelocity(const ContactRow& row) const
 {
     const auto ofEnd = [this](const RowEnd& end)
     { return end.m_body >= 0 ? m_bodies[end.m_body].trueVelocity(end.m_end) : velocity(end); };
@@ -193,7 +207,7 @@ Vec3 ContactRows::trueVelocity(const Row& row) const
 }
 
 // A point that sticks remembers how far it crept; one that slides or hangs free starts anew.
-Vec3 ContactRows::newSlip(const Row& row, const ContactPoint& contact) const
+Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact) const
 {
     constexpr double kSticks = 0.999;  // share of the friction that it could have
     const double normal = dot(row.m_impulse, contact.m_normal);
@@ -210,7 +224,7 @@ bool ContactRows::isTooSoft() const
                        isSoft);
 }
 
-double ContactRows::violation(const Row& row) const
+double ContactRows::violation(const ContactRow& row) const
 {
     if (row.m_joint || row.m_touch || row.m_idle) return 0;
     const double separating = dot(row.m_axes[0], trueVelocity(row));
@@ -220,13 +234,13 @@ double ContactRows::violation(const Row& row) const
 
 double ContactRows::worstViolation()
 {
-    return largestOfRows([this](const Row& row) { return violation(row); });
+    return largestOfRows([this](const ContactRow& row) { return violation(row); });
 }
 
 void ContactRows::store()
 {
     std::vector<ContactPoint>& contacts = m_problem->m_contacts;
-    forEachPieceOfRows(
+    forEachPiece(
         [&](int, Range rows)
         {
             const int end = std::min(rows.m_end, static_cast<int>(contacts.size()));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fem/contact/contact_rows.h"
+#include "fem/contact/position_push.h"
 
 namespace bullet_fem
 {
@@ -62,6 +62,8 @@ struct SweepProgress
 struct ContactSolver::Scratch
 {
     ContactRows m_rows;
+    ContactSweeps m_sweeps{m_rows};
+    PositionPush m_push{m_rows, m_sweeps};
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     ContactReport m_report;
@@ -168,6 +170,8 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
         joints ? kFloorWithJoints
                : std::clamp(kResidualShare * settings.m_tolerance / settings.m_step.m_tolerance, kFloorWithJoints, 1.0);
     s.m_rows.assemble(problem, settings);
+    s.m_sweeps.begin();
+    s.m_push.begin();
     s.m_rows.warmStart();
     s.m_error = 1;
     s.m_progress = {};
@@ -178,7 +182,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     if (s.m_guessing)
         correct();
     else
-        s.m_rows.measure();
+        s.m_sweeps.measure();
     s.m_guessing = false;
     s.m_rows.settleTouches();
     s.m_rows.setSpeedScale();
@@ -202,17 +206,17 @@ bool ContactSolver::sweep(double others)
     ++s.m_report.m_sweeps;
     const double othersChange = s.m_rows.share(others);
     const bool othersMove = others > kRoundingOfOthers && othersChange > s.m_sweepTolerance;
-    if (othersMove) s.m_rows.othersMoved();
-    const bool moves = s.m_rows.sweep(s.m_sweepTolerance);
-    if (s.m_rows.runsAway())
+    if (othersMove) s.m_sweeps.othersMoved();
+    const bool moves = s.m_sweeps.sweep(s.m_sweepTolerance);
+    if (s.m_sweeps.runsAway())
     {
-        s.m_rows.letGo();
+        s.m_sweeps.letGo();
         s.m_report.m_converged = false;
         return true;
     }
     if (!moves && !othersMove) return false;
     const bool joints = !s.m_problem->m_joints.empty();  // with them, all are swept to the end
-    return joints || !s.m_progress.stalls(std::max(s.m_rows.lastChange(), othersChange));
+    return joints || !s.m_progress.stalls(std::max(s.m_sweeps.lastChange(), othersChange));
 }
 
 void ContactSolver::correct()
@@ -228,7 +232,7 @@ void ContactSolver::correct()
     s.m_loose = !joints && !s.m_guessing && s.m_report.m_rounds < s.m_settings.m_maxRounds &&
                 s.m_error > kFarFromTolerance * s.m_roundTolerance;
     s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report);
-    s.m_rows.measure();
+    s.m_sweeps.measure();
     const double before = s.m_error;
     s.m_error = joints ? change : s.m_rows.error();
     s.m_goal = s.m_roundTolerance;
@@ -243,8 +247,8 @@ ContactReport ContactSolver::finish()
     if (s.m_empty) return s.m_report;
     s.m_report.m_violation = s.m_rows.worstViolation();
     s.m_rows.store();
-    if (!s.m_rows.needPush()) return s.m_report;
-    s.m_report.m_sweeps += s.m_rows.push();
+    if (!s.m_push.isNeeded()) return s.m_report;
+    s.m_report.m_sweeps += s.m_push.push();
     for (Obstacle& obstacle : s.m_problem->m_obstacles) payBackOwn(obstacle, s.m_settings.m_step.m_step);
     return s.m_report;
 }

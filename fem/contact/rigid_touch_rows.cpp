@@ -18,7 +18,7 @@ constexpr double kMostPressing = 0.9;  // share of a normal impulse that its own
 
 void ContactRows::addTouchRow(const RigidTouch& touch)
 {
-    Row row;
+    ContactRow row;
     row.m_touch = true;
     row.m_a.m_obstacle = touch.m_obstacle;
     row.m_a.m_arm = touch.m_arm;
@@ -33,7 +33,7 @@ void ContactRows::addTouchRow(const RigidTouch& touch)
 
 // Friction presses harder by the lever that it has; where it would press more than it is pressed with, there is no end
 // of it [Painleve 1895], and led bodies with friction of 10 stop dead.
-void ContactRows::limitTouchFriction(Row& row) const
+void ContactRows::limitTouchFriction(ContactRow& row)
 {
     const Vec3 byNormal = row.m_compliance * row.m_axes[0];
     const double lever = std::hypot(dot(byNormal, row.m_axes[1]), dot(byNormal, row.m_axes[2]));
@@ -47,22 +47,7 @@ void ContactRows::settleTouches()
     const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
     for (int sweep = 0; sweep < kSettlingSweeps; ++sweep)
         for (std::size_t k = first; k < m_rows.size(); ++k)
-            change(m_rows[k], solveRow(m_rows[k], m_rows[k].m_impulse, velocity(m_rows[k]), 1));
-}
-
-// What lies on a floor is not pushed into it: the soft body goes all the way. Whoever moves the obstacles takes back
-// what they penetrate.
-void ContactRows::prepareTouches()
-{
-    std::size_t k = m_problem->m_contacts.size() + m_problem->m_joints.size();
-    for (const RigidTouch& touch : m_problem->m_rigidTouches)
-    {
-        Row& row = m_rows[k++];
-        const double left = touch.m_gap / m_settings.m_step.m_step +
-                            (touch.m_moves ? dot(touch.m_normal, velocity(row) - touch.m_otherVelocity) : 0);
-        row.m_target.x = -std::max(left, 0.0);
-        row.m_friction = 0;
-    }
+            change(m_rows[k], wantedImpulse(m_rows[k], m_rows[k].m_impulse, velocity(m_rows[k]), 1));
 }
 
 }  // namespace bullet_fem

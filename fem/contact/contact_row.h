@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/fem/vec3.h"
+
+namespace bullet_fem
+{
+
+/// What one side of a row pulls at: a soft body's end, a point of an obstacle, or, with neither, the world.
+struct RowEnd
+{
+    int m_body = -1, m_end = -1;  ///< soft: indices into the problem's bodies, and into the body's ends
+    int m_obstacle = -1;          ///< rigid: index into the problem's obstacles
+    bool m_angular = false;       ///< rigid: its velocity is the angular one, and impulses are angular
+    Vec3 m_arm;                   ///< rigid: from the obstacle's centre [m]
+
+    bool sharesOwner(const RowEnd& other) const { return m_body == other.m_body && m_obstacle == other.m_obstacle; }
+};
+
+/// A contact or a joint: three impulses between two ends. What every look at it reads comes first.
+struct ContactRow
+{
+    bool m_joint = false;
+    bool m_touch = false;  ///< of obstacles
+    bool m_idle = false;   ///< nothing can move: no compliance
+    RowEnd m_a, m_b;
+    Vec3 m_impulse;         ///< on end a [N s] or [N m s]
+    Vec3 m_target;          ///< relative velocity along the axes: at least (normal), exactly (joint) [m/s]
+    Vec3 m_axes[3];         ///< normal and tangents; a joint's axes [-]
+    Vec3 m_rowCompliance;   ///< of every axis; a contact's tangents share the largest of their plane [1/kg]
+    Vec3 m_yield;           ///< compliance added along the axes [1/kg]
+    double m_friction = 0;  ///< [-]
+    Mat3 m_compliance;      ///< of the relative velocity to the impulse [1/kg]
+    Vec3 m_roundImpulse;    ///< at the end of the last round
+    Vec3 m_limit;           ///< of a joint's impulses
+    double m_most = 0;      ///< and of their sum
+    double m_softness = 0;  ///< of a joint: compliance added, as a share of its own [-]
+    double m_spring = 0;    ///< of a joint: compliance added [1/kg]
+};
+
+/// The impulse that a row wants for a relative velocity [m/s] that it has at another impulse. `step`: share of the way;
+/// only at 1 are axes solved one after another, as in Gauss-Seidel.
+Vec3 wantedImpulse(const ContactRow& row, const Vec3& impulse, const Vec3& velocity, double step);
+
+/// A change of a row's impulse as a velocity: what it does to the row's own point [m/s].
+double speedOf(const ContactRow& row, const Vec3& difference);
+
+}  // namespace bullet_fem

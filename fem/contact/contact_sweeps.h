@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "fem/contact/sweeps_at_once.h"
+#include "fem/contact/sweeps_in_turn.h"
+
+namespace bullet_fem
+{
+
+/// Sweeps over rows, of the kind that their bodies allow. Grows with the problem, never shrinks.
+class ContactSweeps
+{
+public:
+    /// The rows must outlive it.
+    explicit ContactSweeps(ContactRows& rows) : m_rows(rows), m_inTurn(rows), m_atOnce(rows) {}
+
+    /// When the rows are assembled anew.
+    void begin();
+
+    /// Brings the velocities of the rows' ends up to the bodies' true ones.
+    void measure();
+
+    /// Forgets all that sweeps have found out.
+    void reset();
+
+    /// Rows of others have changed the obstacles' velocities since the last sweep.
+    void othersMoved() { m_inTurn.othersMoved(); }
+
+    /// One sweep; the velocities of ends and obstacles follow. True if an impulse changed, or is to change, by more
+    /// than the tolerance: the speed that it gives a row's own point over the scale; after a gradient step, of which
+    /// many short ones make up a way, what a whole step of every row alone would still change.
+    bool sweep(double tolerance);
+
+    /// True if the last sweep changed a velocity by so much that sweeping leads nowhere.
+    bool runsAway() const;
+
+    /// Takes back the impulses on all bodies and obstacles that run away, and holds them no more in this step.
+    void letGo();
+
+    /// What the last sweep in turn changed, as a share of the scale; 0 of one at once, whose short steps need not
+    /// shrink.
+    double lastChange() const { return m_rows.isDense() ? m_inTurn.lastChange() : 0; }
+
+private:
+    ContactRows& m_rows;
+    SweepsInTurn m_inTurn;
+    SweepsAtOnce m_atOnce;
+    std::vector<unsigned char> m_runaways;  // per body, then per obstacle: is being let go
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/position_push.h"
+
+#include <algorithm>
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kMaxSweepsOfPush = 200;
+constexpr double kPushTolerance = 1e-4;       // share of the speed scale, as of contact
+constexpr double kLoosePushTolerance = 1e-3;  // at most: 1e-3 g h^2 of displacement, at 60 Hz 3e-6 m
+
+// A tenth of what contact is solved to, within bounds.
+double pushTolerance(double contactTolerance)
+{
+    return std::clamp(0.1 * contactTolerance, kPushTolerance, kLoosePushTolerance);
+}
+
+}  // namespace
+
+void PositionPush::begin()
+{
+    const ContactProblem& problem = m_rows.problem();
+    for (std::vector<Vec3>* own : {&m_linear, &m_angular}) own->reserve(problem.m_obstacles.size());
+    m_pushed.reserve(problem.m_bodies.size());
+}
+
+bool PositionPush::isNeeded() const
+{
+    const std::vector<ContactPoint>& contacts = m_rows.problem().m_contacts;
+    return std::any_of(contacts.begin(), contacts.end(),
+                       [](const ContactPoint& c)
+                       { return c.m_gap < -c.m_slop && !(c.m_stiffness > 0 || c.m_damping > 0); });
+}
+
+// From here on all velocities are those of the push.
+void PositionPush::prepare()
+{
+    for (ContactRow& row : m_rows.rows()) row.m_impulse = row.m_roundImpulse = row.m_target = {};
+    prepareContacts();
+    prepareTouches();
+    std::vector<Obstacle>& obstacles = m_rows.problem().m_obstacles;
+    m_linear.clear();
+    m_angular.clear();
+    for (Obstacle& obstacle : obstacles)
+    {
+        m_linear.push_back(obstacle.m_linearVelocity);
+        m_angular.push_back(obstacle.m_angularVelocity);
+        obstacle.m_linearVelocity = obstacle.m_angularVelocity = {};
+    }
+    for (std::size_t b = 0; b < m_rows.problem().m_bodies.size(); ++b) m_rows.body(static_cast<int>(b)).beginPush();
+    m_sweeps.reset();
+}
+
+// Penetrating points shall separate at a share of their depth a step, unless they do so already; the others shall not
+// close their gap, and joints hold.
+void PositionPush::prepareContacts()
+{
+    const ContactSettings& settings = m_rows.settings();
+    const std::vector<ContactPoint>& contacts = m_rows.problem().m_contacts;
+    const double h = settings.m_step.m_step;
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+    {
+        ContactRow& row = m_rows.rows()[k];
+        const ContactPoint& c = contacts[k];
+        const double moving = dot(c.m_normal, m_rows.velocity(row));
+        const double depth = std::max(0.0, -c.m_gap - c.m_slop);
+        const double share = std::min(settings.m_pushFraction * c.m_hardness, 1.0);
+        const double wanted = std::min(share * depth / h, settings.m_maxPushVelocity);
+        row.m_target.x = c.m_gap < 0 ? wanted - std::max(moving, 0.0) : -(moving + c.m_gap / h);
+        row.m_friction = 0;
+        row.m_idle = row.m_idle || row.m_yield.x > 0;
+    }
+}
+
+// What lies on a floor is not pushed into it: the soft body goes all the way. Whoever moves the obstacles takes back
+// what they penetrate.
+void PositionPush::prepareTouches()
+{
+    const ContactProblem& problem = m_rows.problem();
+    std::size_t k = problem.m_contacts.size() + problem.m_joints.size();
+    for (const RigidTouch& touch : problem.m_rigidTouches)
+    {
+        ContactRow& row = m_rows.rows()[k++];
+        const double left = touch.m_gap / m_rows.settings().m_step.m_step +
+                            (touch.m_moves ? dot(touch.m_normal, m_rows.velocity(row) - touch.m_otherVelocity) : 0);
+        row.m_target.x = -std::max(left, 0.0);
+        row.m_friction = 0;
+    }
+}
+
+int PositionPush::push()
+{
+    m_sweeps.measure();
+    prepare();
+    m_rows.setSpeedScale();
+    int sweeps = 1;
+    const double tolerance = pushTolerance(m_rows.settings().m_tolerance);
+    for (; m_sweeps.sweep(tolerance) && sweeps < kMaxSweepsOfPush; ++sweeps)
+        if (m_sweeps.runsAway()) m_sweeps.letGo();
+    sumImpulses();
+    std::vector<Obstacle>& obstacles = m_rows.problem().m_obstacles;
+    for (std::size_t k = 0; k < obstacles.size(); ++k)
+    {
+        obstacles[k].m_pushLinear = obstacles[k].m_linearVelocity;
+        obstacles[k].m_pushAngular = obstacles[k].m_angularVelocity;
+        obstacles[k].m_linearVelocity = m_linear[k];
+        obstacles[k].m_angularVelocity = m_angular[k];
+    }
+    const StepSettings& step = m_rows.settings().m_step;
+    m_pushed.assign(m_rows.problem().m_bodies.size(), {});
+    m_rows.forEachTouchedBody(step.m_threads, [&](int b) { m_pushed[b].m_gained = m_rows.body(b).applyPush(step); });
+    payBack();
+    return sweeps;
+}
+
+// Whose joints share out the push is told its impulses.
+void PositionPush::sumImpulses()
+{
+    const auto add = [this](const RowEnd& end, const Vec3& impulse)
+    {
+        if (end.m_obstacle < 0) return;
+        Obstacle& obstacle = m_rows.problem().m_obstacles[end.m_obstacle];
+        if (obstacle.m_responseCount == 0) return;
+        if (!end.m_angular) obstacle.m_pushImpulse += impulse;
+        obstacle.m_pushAngularImpulse += end.m_angular ? impulse : cross(end.m_arm, impulse);
+    };
+    for (const ContactRow& row : m_rows.rows())
+    {
+        add(row.m_a, row.m_impulse);
+        add(row.m_b, -row.m_impulse);
+    }
+}
+
+// Displacing a moving body changes its angular momentum about the origin. The movable obstacles that it was pushed off
+// take the opposite, in proportion to the push; where it was pushed off soft ones it spins itself.
+void PositionPush::payBack()
+{
+    const auto visitBodies = [this](const ContactRow& row, auto visit)
+    {
+        const int a = row.m_a.m_body, b = row.m_b.m_body;
+        if (a >= 0) visit(m_pushed[a], row.m_b);
+        if (b >= 0 && b != a) visit(m_pushed[b], row.m_a);
+    };
+    for (const ContactRow& row : m_rows.rows())
+        visitBodies(row,
+                    [&row](Pushed& pushed, const RowEnd& other)
+                    {
+                        pushed.m_total += norm(row.m_impulse);
+                        if (other.m_body >= 0) pushed.m_bySoft += norm(row.m_impulse);
+                    });
+    for (const ContactRow& row : m_rows.rows())
+        visitBodies(row,
+                    [&](const Pushed& pushed, const RowEnd& other)
+                    {
+                        if (other.m_obstacle < 0 || !(pushed.m_total > 0)) return;
+                        Obstacle& obstacle = m_rows.problem().m_obstacles[other.m_obstacle];
+                        if (obstacle.canMove())
+                            obstacle.m_angularImpulse -= (norm(row.m_impulse) / pushed.m_total) * pushed.m_gained;
+                    });
+    for (std::size_t b = 0; b < m_pushed.size(); ++b)
+        if (m_pushed[b].m_total > 0)
+            m_rows.body(static_cast<int>(b))
+                .spin(-(m_pushed[b].m_bySoft / m_pushed[b].m_total) * m_pushed[b].m_gained, m_rows.settings().m_step);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "fem/contact/contact_sweeps.h"
+
+namespace bullet_fem
+{
+
+/// Takes penetration back: the same rows once more, for the velocities of position correction. Grows with the problem,
+/// never shrinks.
+class PositionPush
+{
+public:
+    /// Rows and sweeps must outlive it.
+    PositionPush(ContactRows& rows, ContactSweeps& sweeps) : m_rows(rows), m_sweeps(sweeps) {}
+
+    /// When the rows are assembled anew.
+    void begin();
+
+    /// True if a penetration exceeds its slop.
+    bool isNeeded() const;
+
+    /// When the impulses are stored, which it forgets. Returns the sweeps made.
+    int push();
+
+private:
+    struct Pushed  // a body, by its position corrections
+    {
+        Vec3 m_gained;                     // angular momentum [kg m2/s]
+        double m_total = 0, m_bySoft = 0;  // impulses on it, and those of soft bodies [N s]
+    };
+
+    void prepare();
+    void prepareContacts();
+    void prepareTouches();
+    void sumImpulses();
+    void payBack();
+
+    ContactRows& m_rows;
+    ContactSweeps& m_sweeps;
+    std::vector<Vec3> m_linear, m_angular;  // the obstacles' own velocities
+    std::vector<Pushed> m_pushed;           // one a body
+};
+
+}  // namespace bullet_fem

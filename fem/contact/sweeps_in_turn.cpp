@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/sweeps_in_turn.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace bullet_fem
+{
+namespace
+{
+
+// A pair of ends is swept again where it has just changed by more than this share of the speed scale, and by more than
+// the tolerance: finer errors are between the pairs, not within them.
+constexpr double kMuch = 5e-3;
+constexpr int kMostTimes = 8;
+
+// What is no number is never applied.
+constexpr double kMost = std::numeric_limits<double>::max();  // of an impulse's square [N2 s2]
+
+constexpr int kLongLife = 10;   // sweeps of a working set
+constexpr int kShortLife = 2;   // where a share of its rows has just joined it
+constexpr double kNews = 0.02;  // that share
+
+}  // namespace
+
+void SweepsInTurn::begin()
+{
+    if (!m_rows.isDense()) return;
+    const std::size_t rows = m_rows.rows().size();
+    m_working.reserve(rows);
+    for (std::vector<unsigned char>* flags : {&m_works, &m_wants}) flags->assign(rows, 0);
+    m_subspace.begin();
+    forgetWorkingSet();
+    divideRows();
+}
+
+void SweepsInTurn::restart()
+{
+    m_subspace.expectMore();
+    forgetWorkingSet();
+}
+
+void SweepsInTurn::reset()
+{
+    m_subspace.reset();
+    forgetWorkingSet();
+}
+
+// Joints are swept in their order, and links of one multibody move each other.
+void SweepsInTurn::divideRows()
+{
+    const ContactProblem& problem = m_rows.problem();
+    const std::vector<ContactRow>& rows = m_rows.rows();
+    const std::vector<Obstacle>& obstacles = problem.m_obstacles;
+    const int bodies = static_cast<int>(problem.m_bodies.size());
+    const auto mover = [&](const RowEnd& end)
+    {
+        if (end.m_body >= 0) return end.m_body;
+        return end.m_obstacle >= 0 && obstacles[end.m_obstacle].canMove() ? bodies + end.m_obstacle : -1;
+    };
+    const auto isLink = [](const Obstacle& obstacle) { return obstacle.m_responseCount > 0; };
+    m_parts.clear(bodies + static_cast<int>(obstacles.size()));
+    for (std::size_t k = 0; k < problem.m_contacts.size(); ++k)
+        m_parts.add(mover(rows[k].m_a), mover(rows[k].m_b), problem.m_contacts[k].m_point);
+    std::size_t k = problem.m_contacts.size() + problem.m_joints.size();  // with joints there is one part
+    for (const RigidTouch& touch : problem.m_rigidTouches)
+    {
+        const ContactRow& row = rows[k++];
+        m_parts.add(mover(row.m_a), mover(row.m_b), obstacles[touch.m_obstacle].m_center + touch.m_arm);
+    }
+    m_parts.divide(problem.m_joints.empty() && std::none_of(obstacles.begin(), obstacles.end(), isLink));
+}
+
+void SweepsInTurn::forgetWorkingSet()
+{
+    m_lifeOfSet = -1;
+    m_looked = false;
+}
+
+// Most points that were found near a surface carry nothing, and most of them never will: some sweeps go by without
+// looking at them. What carries an impulse, wants one or is a joint works. Where that changes, it is looked at again
+// soon.
+void SweepsInTurn::chooseWorkingSet()
+{
+    if (!m_looked) lookForWork();
+    m_looked = false;
+    m_working.clear();
+    const std::vector<ContactRow>& rows = m_rows.rows();
+    int joined = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+    {
+        if (m_wants[k]) m_working.push_back(static_cast<int>(k));
+        if (m_wants[k] && !m_works[k]) ++joined;
+    }
+    m_works.swap(m_wants);
+    m_parts.sort(m_working);
+    m_rows.forEachTouchedBody(nullptr, [this](int b) { m_rows.body(b).choose(); });
+    for (int k : m_working)
+        for (const RowEnd* end : {&rows[k].m_a, &rows[k].m_b})
+            if (end->m_body >= 0) m_rows.body(end->m_body).work(end->m_end);
+    m_rows.forEachTouchedBody(m_rows.threadsForCompliance(), [this](int b) { m_rows.body(b).startWork(); });
+    if (joined > 0) m_subspace.expectMore();
+    m_lifeOfSet = joined > kNews * static_cast<double>(m_working.size()) ? kShortLife : kLongLife;
+}
+
+void SweepsInTurn::lookForWork()
+{
+    m_rows.flush();
+    m_rows.forEachPiece(
+        [this](int, Range piece)
+        {
+            for (int k = piece.m_begin; k < piece.m_end; ++k) m_wants[k] = !m_rows.rests(m_rows.rows()[k]);
+        });
+    m_looked = true;
+}
+
+// If rows that rest are to change by more than the tolerance, the next sweep chooses another working set.
+bool SweepsInTurn::restIsDone(double tolerance)
+{
+    const std::vector<ContactRow>& rows = m_rows.rows();
+    if (m_working.size() == rows.size()) return true;
+    lookForWork();
+    m_lifeOfSet = -1;
+    m_subspace.expectMore();
+    double largest = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        if (m_wants[k] && !m_works[k]) largest = std::max(largest, m_rows.wantedSpeed(rows[k]));
+    return m_rows.share(largest) <= tolerance;
+}
+
+bool SweepsInTurn::sweep(double tolerance)
+{
+    if (m_lifeOfSet < 0) chooseWorkingSet();
+    if (m_rows.problem().m_joints.empty() && m_subspace.isDue()) m_subspace.search(m_working);
+    if (m_lifeOfSet == 0) chooseWorkingSet();
+    --m_lifeOfSet;
+    sweepAll();
+    return m_lastChange > tolerance || !restIsDone(tolerance);
+}
+
+void SweepsInTurn::sweepAll()
+{
+    std::array<Swept, SweepParts::kMost> swept;
+    m_parts.inTurn(m_rows.settings().m_step.m_threads, [&](int part, Range rows) { swept[part] = sweepRows(rows); });
+    double largest = 0, work = 0;
+    for (int part = 1; part < m_parts.parts(); ++part)
+    {
+        largest = std::max(largest, swept[part].m_largest);
+        work += swept[part].m_work;
+    }
+    m_subspace.noteSweep(work);
+    m_lastSpeed = largest;
+    m_lastChange = m_rows.share(largest);
+}
+
+// Of the working ones, one pair of ends after another. Where that has much to do it is swept again at once, while what
+// its impulses move is in the cache; the changes that count are those of the first time. What runs away ends it where
+// it is: impulses would grow by orders of magnitude a row, and leave their rounding when they are taken back.
+SweepsInTurn::Swept SweepsInTurn::sweepRows(Range rows)
+{
+    const double much = std::max(kMuch, m_rows.settings().m_tolerance);
+    const bool again = m_rows.problem().m_joints.empty();
+    Swept swept;
+    for (Range pair = {rows.m_begin, rows.m_begin}; pair.m_begin < rows.m_end; pair.m_begin = pair.m_end)
+    {
+        pair.m_end = endOfPair(pair.m_begin, rows.m_end);
+        const Swept first = sweepOnce(pair);
+        swept.m_largest = std::max(swept.m_largest, first.m_largest);
+        swept.m_work += first.m_work;
+        double change = first.m_largest;
+        for (int k = 1; again && k < kMostTimes && m_rows.share(change) > much && !m_rows.isRunaway(change); ++k)
+            change = sweepOnce(pair).m_largest;
+        if (!m_rows.isRunaway(change)) continue;
+        swept.m_largest = change;
+        break;
+    }
+    return swept;
+}
+
+// The rows from one on that have the same two ends' owners.
+int SweepsInTurn::endOfPair(int begin, int end) const
+{
+    const std::vector<ContactRow>& rows = m_rows.rows();
+    const ContactRow& first = rows[m_working[begin]];
+    int k = begin + 1;
+    while (k < end && rows[m_working[k]].m_a.sharesOwner(first.m_a) && rows[m_working[k]].m_b.sharesOwner(first.m_b))
+        ++k;
+    return k;
+}
+
+SweepsInTurn::Swept SweepsInTurn::sweepOnce(Range rows)
+{
+    Swept swept;
+    for (int k = rows.m_begin; k < rows.m_end; ++k)
+    {
+        ContactRow& row = m_rows.rows()[m_working[k]];
+        const Vec3 wanted = wantedImpulse(row, row.m_impulse, m_rows.velocity(row), 1);
+        const Vec3 difference = wanted - row.m_impulse;
+        const double square = dot(difference, difference);
+        if (!(square > 0 && square <= kMost)) continue;
+        swept.m_largest = std::max(swept.m_largest, speedOf(row, difference));
+        swept.m_work += row.m_rowCompliance.x * square;
+        m_rows.change(row, wanted);
+        if (m_rows.isRunaway(swept.m_largest)) break;
+    }
+    return swept;
+}
+
+}  // namespace bullet_fem
