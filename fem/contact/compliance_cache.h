@@ -35,7 +35,7 @@ public:
     const BodyModel& model() const { return *m_model; }
 
     /// Makes the columns of these nodes, which are among those it was made for, available until the next request, on
-    /// these threads (if not null). Repeated nodes are allowed.
+    /// these threads (if not null), of which it uses four at most. Repeated nodes are allowed.
     void request(const std::vector<int>& nodes, const Threads* threads = nullptr);
 
     /// (A0^-1)_ij between such nodes i and j; the column of j must have been requested. Zero if either was fixed
