@@ -74,7 +74,6 @@ struct btFemDeformableBodySolver::Impl
     Bodies m_femBefore, m_plainBefore;
     std::vector<Known> m_known;
     std::vector<Aside> m_aside;
-    std::vector<btScalar> m_quiet;  // scratch: how long each FEM body has been slow [s]
     bool m_plainChanged = false;
 };
 
@@ -200,15 +199,18 @@ void btFemDeformableBodySolver::Impl::drawNodes()
 }
 
 // The world will add the step to the time for which a body has been slow, as m_fem has just done; and judges by that
-// time alone, where m_fem has reasons to keep a body awake.
+// time alone, where m_fem has reasons to keep a body awake. It knows no twitches, and must not see their speed.
 void btFemDeformableBodySolver::Impl::settleSleep(btScalar step)
 {
     for (int i = 0; i < m_femBodies.size(); ++i)
     {
         btSoftBody& body = *m_femBodies[i];
-        if (!body.isActive() || !(body.getDeactivationTime() > m_quiet[i])) continue;
-        const bool stays = body.getActivationState() == ACTIVE_TAG;
-        body.setDeactivationTime(stays ? std::min(m_quiet[i], gDeactivationTime - step) : m_quiet[i]);
+        const btScalar time = body.getDeactivationTime();
+        const int state = body.getActivationState();
+        if ((state != ACTIVE_TAG && state != WANTS_DEACTIVATION) || time == 0) continue;
+        const bool stays = state == ACTIVE_TAG;
+        body.setDeactivationTime((stays ? std::min(time, gDeactivationTime) : time) - step);
+        if (body.m_maxSpeedSquared >= body.m_sleepingThreshold * body.m_sleepingThreshold) body.m_maxSpeedSquared = 0;
     }
 }
 
@@ -296,9 +298,6 @@ void btFemDeformableBodySolver::applyTransforms(btScalar timeStep)
     impl.m_forces.show(*impl.m_world);
     btDeformableBodySolver::applyTransforms(timeStep);
     impl.m_fem.solveConstraints(timeStep);
-    impl.m_quiet.clear();
-    for (int i = 0; i < impl.m_femBodies.size(); ++i)
-        impl.m_quiet.push_back(impl.m_femBodies[i]->getDeactivationTime());
     impl.m_fem.updateSoftBodies();
     impl.settleSleep(timeStep);
 }

@@ -103,9 +103,10 @@ struct btFemSolverInfo
 /// matrix, as appendTetra makes them, make the shape of then the rest shape: initializeDmInverse says so beforehand.
 ///
 /// Bodies sleep like Bullet's rigid ones: after 2 s (gDeactivationTime) in which no node was faster than
-/// m_sleepingThreshold (.04 m/s), with their island. Asleep they keep velocity 0, contacts and reports, those of cost
-/// zeroed; what the user writes, or a change around them, wakes them. setActivationState(DISABLE_DEACTIVATION) keeps
-/// a body awake.
+/// m_sleepingThreshold (.04 m/s), with their island. A step with a node up to four times as fast costs four steps of
+/// that time, not all of it, or piles would never sleep. Asleep they keep velocity 0, contacts and reports, those of
+/// cost zeroed; what the user writes, or a change around them, wakes them. setActivationState(DISABLE_DEACTIVATION)
+/// keeps a body awake.
 ///
 /// Bullet's m_rcontacts and m_faceRigidContacts tell what a body touches: contacts() with rigid objects that carry an
 /// impulse or have no gap, with the nearest node, and with the face that has the point. Valid until the next step;

@@ -18,6 +18,13 @@ using namespace bullet_fem;
 namespace
 {
 
+// In a pile a node slips off another body's edge now and then, and for a step is faster than the threshold. Such a
+// twitch costs some steps of the time at rest, motion all of it. Some time is put by, so that of many bodies all can
+// want to sleep at once.
+constexpr btScalar kTwitch = 4;                 // times the threshold; what is faster is motion
+constexpr btScalar kTwitchCost = 4;             // steps
+constexpr btScalar kPutBy = btScalar(1.0 / 4);  // of gDeactivationTime
+
 // Sleeps, or waits for its island to do so.
 bool isQuiet(const btFemEntry& entry)
 {
@@ -169,6 +176,23 @@ void fallAsleep(btFemEntry& entry)
     entry.m_sleep.m_asleep = true;
 }
 
+// What btSoftBody::updateDeactivation does, but for twitches.
+void updateTimeAtRest(btSoftBody& soft, btScalar step)
+{
+    if (soft.getActivationState() == DISABLE_DEACTIVATION) return;
+    const btScalar threshold = soft.m_sleepingThreshold * soft.m_sleepingThreshold;
+    const btScalar time = soft.getDeactivationTime();
+    if (soft.m_maxSpeedSquared < threshold)
+    {
+        soft.setDeactivationTime(time + step);
+        return;
+    }
+    const bool twitches = soft.m_maxSpeedSquared < kTwitch * kTwitch * threshold;
+    const btScalar left = std::min(time, (1 + kPutBy) * gDeactivationTime) - kTwitchCost * step;
+    soft.setDeactivationTime(twitches ? std::max(left, btScalar(0)) : 0);
+    if (!(soft.getDeactivationTime() > gDeactivationTime)) soft.setActivationState(ACTIVE_TAG);
+}
+
 // What btDiscreteDynamicsWorld::updateActivationState does for rigid bodies.
 void updateActivation(btFemBodyRegistry& registry, btFemEntry& entry)
 {
@@ -178,7 +202,7 @@ void updateActivation(btFemBodyRegistry& registry, btFemEntry& entry)
     {
         const double threshold = isDriven(*entry.m_fem) ? double(soft.m_sleepingThreshold) : 0;
         soft.m_maxSpeedSquared = static_cast<btScalar>(std::max(fastestSquared(entry), threshold * threshold));
-        soft.updateDeactivation(static_cast<btScalar>(entry.m_lastStep));
+        updateTimeAtRest(soft, static_cast<btScalar>(entry.m_lastStep));
     }
     if (!soft.wantsSleeping())
         soft.setActivationState(ACTIVE_TAG);

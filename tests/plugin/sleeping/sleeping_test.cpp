@@ -278,6 +278,57 @@ TEST_P(Sleeping, TheThresholdIsTheBodys)
     EXPECT_TRUE(cube.isActive());
 }
 
+// A node that is faster than the threshold for a step, as one is that slips off an edge. The step damps most of it.
+void twitch(btSoftBody& body)
+{
+    btSoftBody::Node* highest = &body.m_nodes[0];
+    for (int i = 0; i < body.m_nodes.size(); ++i)
+        if (body.m_nodes[i].m_x.z() > highest->m_x.z()) highest = &body.m_nodes[i];
+    highest->m_v = btVector3(0, 0, 3);
+}
+
+TEST_P(Sleeping, ATwitchCostsLittleOfTheTimeAtRest)
+{
+    addGround();
+    btSoftBody& cube = addCube();
+    m_world.step(100);
+    const btScalar before = cube.getDeactivationTime();
+    ASSERT_GT(before, 1);
+    twitch(cube);
+    m_world.step(1);
+    ASSERT_GT(fastestNode(cube), cube.m_sleepingThreshold);
+    EXPECT_GT(cube.getDeactivationTime(), before - btScalar(0.1));
+    EXPECT_LT(cube.getDeactivationTime(), before);
+    m_world.step(75);
+    EXPECT_FALSE(cube.isActive());
+}
+
+TEST_P(Sleeping, MotionCostsAllOfTheTimeAtRest)
+{
+    addGround();
+    btSoftBody& cube = addCube();
+    m_world.step(100);
+    ASSERT_GT(cube.getDeactivationTime(), 1);
+    cube.setVelocity(btVector3(0, 0, btScalar(0.4)));
+    m_world.step(1);
+    EXPECT_EQ(cube.getDeactivationTime(), 0);
+    m_world.step(75);
+    EXPECT_TRUE(cube.isActive());
+}
+
+TEST_P(Sleeping, ABodyThatTwitchesAgainAndAgainStaysAwake)
+{
+    addGround();
+    btSoftBody& cube = addCube();
+    m_world.step(30);
+    for (int k = 0; k < kFiveSeconds; ++k)
+    {
+        if (k % 4 == 0) twitch(cube);
+        m_world.step(1);
+    }
+    EXPECT_TRUE(cube.isActive());
+}
+
 TEST_P(Sleeping, IsRepeatableToTheBit)
 {
     const auto run = [](std::vector<btScalar>& bits)
