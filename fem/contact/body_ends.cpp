@@ -20,6 +20,7 @@ constexpr double kTooSoft = 0.7;         // and may promise so much more than co
 constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
 constexpr double kLargestScaling = 100;  // in one round
 constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
+constexpr double kRounding = 1e-9;       // share of the body's speed below which changes of velocity teach nothing
 constexpr double kForgetting = 0.99;     // of what was learnt, a step
 constexpr int kSamples = 16;             // ends that the diagonal of W is estimated from
 
@@ -279,9 +280,10 @@ ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, const Co
     return {m_body.m_body, &m_nodeIn, loosened, floor * std::sqrt(all), false, {}};
 }
 
-void BodyEnds::endCorrection()
+void BodyEnds::endCorrection(double step)
 {
     double trueWork = 0, predictedWork = 0;  // of the new impulses on the velocities that they made
+    double impulses = 0;                     // the sum of the new ones [N s]
     m_allWork = 0;                           // of all impulses, roughly
     for (int e = 0; e < size(); ++e)
     {
@@ -289,18 +291,43 @@ void BodyEnds::endCorrection()
         m_applied[e] = m_impulse[e];
         if (dot(m_impulse[e], m_impulse[e]) > 0) m_allWork += dot(m_impulse[e], compliance(e, e) * m_impulse[e]);
         if (!(dot(impulse, impulse) > 0)) continue;
+        impulses += norm(impulse);
         trueWork += dot(impulse, trueVelocity(e) - before(e));
         predictedWork += dot(impulse, known(e) - before(e));
     }
-    learn(trueWork, predictedWork);
+    if (predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses}, step);
 }
 
-void BodyEnds::learn(double trueWork, double predictedWork)
+double BodyEnds::loadSpeed(double step) const
 {
-    if (!(predictedWork > kNoise * m_allWork)) return;
-    m_tooSoft = m_tooSoft || trueWork < kTooSoft * predictedWork;
-    if (!(trueWork > kTooStiff * predictedWork)) return;
-    const double factor = std::min(kScaleMargin * trueWork / predictedWork, kLargestScaling);
+    const Body& body = *m_body.m_body;
+    Vec3 force;
+    double mass = 0;
+    for (std::size_t i = 0; i < body.m_loads.m_force.size(); ++i)
+    {
+        force += body.m_loads.m_force[i];
+        mass += body.m_state.m_mass[i];
+    }
+    return mass > 0 ? step * norm(force) / mass : 0;
+}
+
+// Whether the new impulses make velocities that the rounding of the body's own leaves intact. At rest these are small:
+// then what counts is what has just been stopped.
+bool BodyEnds::isAboveRounding(const Lesson& lesson, double step) const
+{
+    double fastest = loadSpeed(step);
+    for (const Vec3& v : bullet_fem::velocity(*m_body.m_body)) fastest = std::max(fastest, norm(v));
+    return lesson.m_predictedWork > kRounding * fastest * lesson.m_impulses;
+}
+
+void BodyEnds::learn(const Lesson& lesson, double step)
+{
+    const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
+    const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
+    if (!(softer || stiffer) || !isAboveRounding(lesson, step)) return;
+    m_tooSoft = m_tooSoft || softer;
+    if (!stiffer) return;
+    const double factor = std::min(kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork, kLargestScaling);
     m_learnt = factor != 1;
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;

@@ -51,6 +51,9 @@ public:
     /// True if the body has answered much less than W said, in any correction of this problem.
     bool isTooSoft() const { return m_tooSoft; }
 
+    /// What its loads alone would give the body in a step [m/s].
+    double loadSpeed(double step) const;
+
     bool isDense() const { return m_dense; }
     const Body& body() const { return *m_body.m_body; }
 
@@ -86,9 +89,9 @@ public:
 
     /// What is to be solved of the body's true system for the impulses that are not applied yet, and what the last
     /// correction left; without a body if there is nothing. After that is solved, endCorrection: W learns from it, and
-    /// where it was too stiff, it is scaled up.
+    /// where it was too stiff, it is scaled up; not from velocities that are lost in the rounding of the body's own.
     ImpulseResponse beginCorrection(const StepSettings& settings, const CorrectionGoal& goal);
-    void endCorrection();
+    void endCorrection(double step);
 
     /// Forgets velocities and impulses, to solve for position corrections; applyPush then makes them. Returns the
     /// angular momentum that the body gained by being elsewhere [kg m2/s].
@@ -108,6 +111,12 @@ private:
         Vec3 m_offset;  // from where the nodes feel the impulse to where it acts [m]
     };
 
+    // What a correction showed of W: the work of its impulses on the velocities that they made, and their sum [N s].
+    struct Lesson
+    {
+        double m_trueWork, m_predictedWork, m_impulses;
+    };
+
     bool isGroup(const End& end) const { return end.m_nodes != nullptr; }
     Vec3 read(const End& end, const std::vector<Vec3>& nodeValues) const;
     void scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& nodeImpulses) const;
@@ -119,7 +128,8 @@ private:
     bool gatherBeyond(const std::vector<Vec3>& known);
     void formOwn();
     void see(int e);
-    void learn(double trueWork, double predictedWork);
+    bool isAboveRounding(const Lesson& lesson, double step) const;
+    void learn(const Lesson& lesson, double step);
 
     ContactBody m_body;
     bool m_dense = true;

@@ -97,18 +97,7 @@ double ContactRows::loadSpeed() const
 {
     double largest = 0;
     for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
-    {
-        if (m_bodies[b].size() == 0) continue;
-        const Body& body = m_bodies[b].body();
-        Vec3 force;
-        double mass = 0;
-        for (std::size_t i = 0; i < body.m_loads.m_force.size(); ++i)
-        {
-            force += body.m_loads.m_force[i];
-            mass += body.m_state.m_mass[i];
-        }
-        if (mass > 0) largest = std::max(largest, m_settings.m_step.m_step * norm(force) / mass);
-    }
+        if (m_bodies[b].size() > 0) largest = std::max(largest, m_bodies[b].loadSpeed(m_settings.m_step.m_step));
     return largest;
 }
 
@@ -150,7 +139,7 @@ void ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& 
     forEachTouchedBody(m_settings.m_step.m_threads,
                        [this](int b)
                        {
-                           if (m_corrections[b].m_body) m_bodies[b].endCorrection();
+                           if (m_corrections[b].m_body) m_bodies[b].endCorrection(m_settings.m_step.m_step);
                        });
     bool learnt = false;
     for (int b : m_corrected)

@@ -57,7 +57,7 @@ TEST(BodyEnds, SolveForWhatALooseCorrectionLeft)
         ImpulseResponse response = ends.beginCorrection(settings, goal);
         if (!response.m_body) return false;
         applyImpulses(&response, 1);
-        ends.endCorrection();
+        ends.endCorrection(settings.m_step);
         ends.measure();
         return true;
     };
@@ -67,6 +67,34 @@ TEST(BodyEnds, SolveForWhatALooseCorrectionLeft)
     EXPECT_TRUE(correct({}));
     EXPECT_LT(largestDifference(), 1e-7 * whole);
     EXPECT_FALSE(correct({}));
+}
+
+// Impulses that rounding makes where nothing closes change velocities of 1 m/s by nothing, or by rounding.
+TEST(BodyEnds, LearnNothingFromTheRoundingOfVelocities)
+{
+    Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
+    std::fill(body.m_state.m_v.begin(), body.m_state.m_v.end(), Vec3{0.3, -0.2, 1});
+    const StepSettings settings;
+    solveFreeMotion(body, settings);
+    const auto cache = makeComplianceCache(body.m_model);
+    BodyEnds ends;
+    ends.clear({&body, cache.get()});
+    for (int node : {0, 1, 2}) ends.addPoint({0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
+    ends.assemble(400);
+    ends.form();
+    ends.measure();
+    const Mat3 before = ends.compliance(1, 1);
+    for (double impulse = 1e-30; impulse < 1e-8; impulse *= 3)
+    {
+        ends.push(1, {impulse, 0.1 * impulse, -impulse});
+        ImpulseResponse response = ends.beginCorrection(settings, {});
+        applyImpulses(&response, 1);
+        ends.endCorrection(settings.m_step);
+        ends.measure();
+        ASSERT_FALSE(ends.hasLearnt()) << impulse << " N s";
+        ASSERT_FALSE(ends.isTooSoft()) << impulse << " N s";
+    }
+    for (int k = 0; k < 9; ++k) EXPECT_EQ(ends.compliance(1, 1)(k / 3, k % 3), before(k / 3, k % 3));
 }
 
 }  // namespace
