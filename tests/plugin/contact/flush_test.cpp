@@ -2,12 +2,17 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
+#include <array>
+#include <ostream>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/generators.h"
 #include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/soft_boxes.h"
 #include "plugin/scenes/soft_world.h"
 
 namespace bullet_fem
@@ -43,6 +48,81 @@ TEST(Flush, BallsThatGrazeAWallAndEachOtherLandOnTheFloor)
         for (const btSoftBody* ball : balls) ASSERT_GT(lowestHeight(*ball), -0.03) << "step " << k;
     }
 }
+
+// Cubes without gaps between them.
+struct Lattice
+{
+    std::array<int, 3> m_counts;  // of cubes along x, y, z
+    double m_youngModulus;        // [Pa]
+    bool m_walled;                // walls touch it on all sides
+};
+
+void PrintTo(const Lattice& lattice, std::ostream* stream)
+{
+    *stream << lattice.m_counts[0] << "_" << lattice.m_counts[1] << "_" << lattice.m_counts[2] << "_"
+            << (lattice.m_walled ? "walled" : "free");
+}
+
+constexpr double kEdge = 0.2;  // of a cube [m]
+
+void addWalls(FemWorld& world, double halfX, double halfY)
+{
+    for (int side : {-1, 1})
+    {
+        world.addRigid(new btBoxShape(btVector3(0.5, 4, 4)), {0, at(btScalar(side * (halfX + 0.5)), 0, 4)});
+        world.addRigid(new btBoxShape(btVector3(4, 0.5, 4)), {0, at(0, btScalar(side * (halfY + 0.5)), 4)});
+    }
+}
+
+std::vector<btSoftBody*> addCubes(FemWorld& world, const Lattice& lattice, double height)
+{
+    std::vector<btSoftBody*> cubes;
+    const auto [nx, ny, nz] = lattice.m_counts;
+    for (int k = 0; k < nx * ny * nz; ++k)
+    {
+        const double x = kEdge * (k % nx - 0.5 * (nx - 1)), y = kEdge * (k / nx % ny - 0.5 * (ny - 1));
+        SoftBox box;
+        box.m_size = {kEdge, kEdge, kEdge};
+        box.m_cells = {4, 4, 4};
+        box.m_center = {x, y, height + kEdge * (k / nx / ny + 0.5)};
+        box.m_youngModulus = lattice.m_youngModulus;
+        box.m_density = 100;
+        cubes.push_back(&addSoftBox(world, world.fem(), box));
+    }
+    return cubes;
+}
+
+class LatticeOfCubes : public testing::TestWithParam<std::tuple<Coupling, Lattice>>
+{
+};
+
+// As they fall together they close by nothing but rounding.
+TEST_P(LatticeOfCubes, LandsOnTheFloor)
+{
+    const auto& [coupling, lattice] = GetParam();
+    FemWorld world(WorldClass::softRigid, coupling);
+    world.addFloorBox();
+    if (lattice.m_walled) addWalls(world, 0.5 * kEdge * lattice.m_counts[0], 0.5 * kEdge * lattice.m_counts[1]);
+    const std::vector<btSoftBody*> cubes = addCubes(world, lattice, 0.5);
+    for (int k = 0; k < 50; ++k)
+    {
+        world.step(1);
+        for (const btSoftBody* cube : cubes)
+        {
+            ASSERT_GT(lowestHeight(*cube), -0.03) << "step " << k;
+            ASSERT_LT(fastestNode(*cube), 10) << "step " << k;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Flush, LatticeOfCubes,
+    testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                     testing::Values(Lattice{{2, 1, 1}, 2e5, true}, Lattice{{1, 2, 2}, 2e4, true},
+                                     Lattice{{1, 2, 4}, 2e4, false}, Lattice{{1, 3, 4}, 2e5, false},
+                                     Lattice{{2, 2, 2}, 1e7, true})),
+    [](const auto& scene)
+    { return couplingName(std::get<0>(scene.param)) + ("_" + testing::PrintToString(std::get<1>(scene.param))); });
 
 }  // namespace
 }  // namespace bullet_fem
