@@ -29,7 +29,7 @@ corr.it    conjugate gradient iterations of the corrective solves, mean
 closing    largest speed at which a contact point still closes; deepest: largest penetration as a step begins
 )";
 
-constexpr int kDrowsySteps = 30;  // that a crowd gets beyond its settling time to fall asleep
+constexpr int kDrowsySteps = 90;  // that a crowd gets beyond its settling time to fall asleep
 
 struct Options
 {
