@@ -73,6 +73,12 @@ void ContactRows::warmStart()
     }
 }
 
+void ContactRows::takeBack()
+{
+    for (ContactRow& row : m_rows) change(row, {});
+    flush();
+}
+
 bool ContactRows::hasImpulses() const
 {
     return std::any_of(m_rows.begin(), m_rows.end(),
@@ -92,7 +98,6 @@ void ContactRows::setSpeedScale()
     for (const ContactRow& row : m_rows) m_speedScale = std::max(m_speedScale, speedOf(row, row.m_impulse));
 }
 
-// The largest speed that its loads alone would give one of the bodies in a step [m/s].
 double ContactRows::loadSpeed() const
 {
     double largest = 0;

@@ -38,6 +38,9 @@ public:
     /// Gives the obstacles the reactions of the impulses that the rows start with.
     void warmStart();
 
+    /// Takes all impulses back.
+    void takeBack();
+
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
 
@@ -57,6 +60,9 @@ public:
     /// What changes are measured against from here on: the speed that the loads give a body in a step, or the largest
     /// that rows have to change now [m/s]; where there are no loads, or that the guesses have changed.
     void setSpeedScale();
+
+    /// The largest speed that its loads alone would give one of the bodies in a step [m/s].
+    double loadSpeed() const;
 
     /// A speed as a share of that scale; 1000 if there is none.
     double share(double speed) const;
@@ -139,7 +145,6 @@ private:
     void react(const RowEnd& end, const Vec3& impulse);
     void solveCorrections();
     double largestChange();
-    double loadSpeed() const;
     /// The largest value(row) of all rows, or 0 if none is more.
     template <class Value>
     double largestOfRows(const Value& value)

@@ -106,6 +106,9 @@ constexpr double kLooseShare = 0.1;
 // would be carried on from step to step.
 constexpr double kRoundGuessShare = 0.1;
 
+// A guess that makes points close this many times faster than they do without it, or than loads make them, is none.
+constexpr double kBadGuess = 5;
+
 // A round that leaves more than this share of a small error has met the error of the corrective solves, or points that
 // slide and hand their load on to each other bit by bit, which the next step takes up. Where W is too soft, every round
 // goes a part of the way. Impacts may take rounds that seem to lead nowhere.
@@ -172,22 +175,39 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_rows.assemble(problem, settings);
     s.m_sweeps.begin();
     s.m_push.begin();
-    s.m_rows.warmStart();
     s.m_error = 1;
     s.m_progress = {};
     s.m_stalled = s.m_loose = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
-    s.m_guessing = !joints && s.m_rows.hasImpulses();
-    if (s.m_guessing)
-        correct();
+    if (!joints && s.m_rows.hasImpulses())
+        guess();
     else
+    {
+        s.m_rows.warmStart();
         s.m_sweeps.measure();
-    s.m_guessing = false;
+    }
     s.m_rows.settleTouches();
     s.m_rows.setSpeedScale();
     s.m_error = joints ? 1 : s.m_rows.error();
     s.m_goal = joints ? s.m_roundTolerance : kRoundGuessShare * s.m_roundTolerance;
+}
+
+// Where bodies are jammed or deep in each other the impulses of the last step may be those of another world: what they
+// do would be the scale of this step's errors, and its impulses the next guess.
+void ContactSolver::guess()
+{
+    Scratch& s = *m_scratch;
+    const double without = std::max(s.m_rows.worstViolation(), s.m_rows.loadSpeed());
+    s.m_rows.warmStart();
+    s.m_guessing = true;
+    correct();
+    s.m_guessing = false;
+    if (!(s.m_rows.worstViolation() > kBadGuess * without)) return;
+    s.m_rows.takeBack();
+    s.m_error = 0;  // no loose solve
+    correct();
+    s.m_stalled = false;
 }
 
 bool ContactSolver::wantsRound() const

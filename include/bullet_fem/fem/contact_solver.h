@@ -237,6 +237,8 @@ public:
     ContactReport finish();
 
 private:
+    void guess();
+
     struct Scratch;
     std::unique_ptr<Scratch> m_scratch;
 };

@@ -74,7 +74,7 @@ void addWalls(FemWorld& world, double halfX, double halfY)
     }
 }
 
-std::vector<btSoftBody*> addCubes(FemWorld& world, const Lattice& lattice, double height)
+std::vector<btSoftBody*> addCubes(FemWorld& world, const Lattice& lattice, double height, int cells = 4)
 {
     std::vector<btSoftBody*> cubes;
     const auto [nx, ny, nz] = lattice.m_counts;
@@ -83,7 +83,7 @@ std::vector<btSoftBody*> addCubes(FemWorld& world, const Lattice& lattice, doubl
         const double x = kEdge * (k % nx - 0.5 * (nx - 1)), y = kEdge * (k / nx % ny - 0.5 * (ny - 1));
         SoftBox box;
         box.m_size = {kEdge, kEdge, kEdge};
-        box.m_cells = {4, 4, 4};
+        box.m_cells = {cells, cells, cells};
         box.m_center = {x, y, height + kEdge * (k / nx / ny + 0.5)};
         box.m_youngModulus = lattice.m_youngModulus;
         box.m_density = 100;
@@ -123,6 +123,25 @@ INSTANTIATE_TEST_SUITE_P(
                                      Lattice{{2, 2, 2}, 1e7, true})),
     [](const auto& scene)
     { return couplingName(std::get<0>(scene.param)) + ("_" + testing::PrintToString(std::get<1>(scene.param))); });
+
+// No program means this: cubes 4 cm deep in walls and in each other, and no room to part.
+TEST(Jam, OfStiffCubesIsNotThrownApart)
+{
+    for (const int cells : {2, 4})
+    {
+        FemWorld world(WorldClass::softRigid, Coupling::coupled);
+        world.addFloorBox();
+        const Lattice lattice = {{2, 2, 2}, 1e7, true};
+        addWalls(world, kEdge, kEdge);
+        const std::vector<btSoftBody*> cubes = addCubes(world, lattice, 0, cells);
+        for (btSoftBody* cube : cubes) cube->rotate(btQuaternion(btVector3(0, 0, 1), SIMD_PI / 4));
+        for (int k = 0; k < 60; ++k)
+        {
+            world.step(1);
+            for (const btSoftBody* cube : cubes) ASSERT_LT(fastestNode(*cube), 10) << "step " << k;
+        }
+    }
+}
 
 }  // namespace
 }  // namespace bullet_fem
