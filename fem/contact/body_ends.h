@@ -51,7 +51,7 @@ public:
     /// True if the body has answered much less than W said, in any correction of this problem.
     bool isTooSoft() const { return m_tooSoft; }
 
-    /// What its loads alone would give the body in a step [m/s].
+    /// The speed [m/s] that its loads alone would give the body in a step [s].
     double loadSpeed(double step) const;
 
     bool isDense() const { return m_dense; }
@@ -90,6 +90,7 @@ public:
     /// What is to be solved of the body's true system for the impulses that are not applied yet, and what the last
     /// correction left; without a body if there is nothing. After that is solved, endCorrection: W learns from it, and
     /// where it was too stiff, it is scaled up; not from velocities that are lost in the rounding of the body's own.
+    /// `step` is that of the settings [s].
     ImpulseResponse beginCorrection(const StepSettings& settings, const CorrectionGoal& goal);
     void endCorrection(double step);
 

@@ -92,18 +92,9 @@ void ContactRows::measure()
 
 void ContactRows::setSpeedScale()
 {
-    const double loads = loadSpeed();
-    m_speedScale = std::max(loads, largestChange());
-    if (loads > 0) return;
+    m_speedScale = std::max(m_loadSpeed, largestChange());
+    if (m_loadSpeed > 0) return;
     for (const ContactRow& row : m_rows) m_speedScale = std::max(m_speedScale, speedOf(row, row.m_impulse));
-}
-
-double ContactRows::loadSpeed() const
-{
-    double largest = 0;
-    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b)
-        if (m_bodies[b].size() > 0) largest = std::max(largest, m_bodies[b].loadSpeed(m_settings.m_step.m_step));
-    return largest;
 }
 
 double ContactRows::share(double speed) const

@@ -62,7 +62,7 @@ public:
     void setSpeedScale();
 
     /// The largest speed that its loads alone would give one of the bodies in a step [m/s].
-    double loadSpeed() const;
+    double loadSpeed() const { return m_loadSpeed; }
 
     /// A speed as a share of that scale; 1000 if there is none.
     double share(double speed) const;
@@ -168,6 +168,7 @@ private:
     BodyBatches m_batches;                       // of these
     std::vector<ContactRow> m_rows;
     bool m_dense = true;
+    double m_loadSpeed = 0;   // [m/s]
     double m_speedScale = 0;  // that errors are measured against [m/s]
 };
 
