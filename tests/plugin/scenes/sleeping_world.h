@@ -61,6 +61,14 @@ protected:
         ASSERT_EQ(body.getActivationState(), ISLAND_SLEEPING);
     }
 
+    /// Returns the time for which a body has been slow then [s].
+    btScalar restForMoreThanASecond(const btSoftBody& body)
+    {
+        m_world.step(100);
+        EXPECT_GT(body.getDeactivationTime(), 1);
+        return body.getDeactivationTime();
+    }
+
     FemWorld m_world;
     btFemSoftBodySolver& m_fem = m_world.fem();
 };
