@@ -65,15 +65,6 @@ void PrintTo(const Lattice& lattice, std::ostream* stream)
 
 constexpr double kEdge = 0.2;  // of a cube [m]
 
-void addWalls(FemWorld& world, double halfX, double halfY)
-{
-    for (int side : {-1, 1})
-    {
-        world.addRigid(new btBoxShape(btVector3(0.5, 4, 4)), {0, at(btScalar(side * (halfX + 0.5)), 0, 4)});
-        world.addRigid(new btBoxShape(btVector3(4, 0.5, 4)), {0, at(0, btScalar(side * (halfY + 0.5)), 4)});
-    }
-}
-
 std::vector<btSoftBody*> addCubes(FemWorld& world, const Lattice& lattice, double height, int cells = 4)
 {
     std::vector<btSoftBody*> cubes;

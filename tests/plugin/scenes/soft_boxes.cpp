@@ -55,6 +55,15 @@ void clampBelow(btSoftBody& body, double height)
         if (body.m_nodes[i].m_x.z() < height) body.setMass(i, 0);
 }
 
+void addWalls(SoftWorld& world, double halfX, double halfY)
+{
+    for (int side : {-1, 1})
+    {
+        world.addRigid(new btBoxShape(btVector3(0.5, 4, 4)), {0, at(btScalar(side * (halfX + 0.5)), 0, 4)});
+        world.addRigid(new btBoxShape(btVector3(4, 0.5, 4)), {0, at(0, btScalar(side * (halfY + 0.5)), 4)});
+    }
+}
+
 btRigidBody& addRigidBox(SoftWorld& world, const Vec3& size, const RigidSettings& settings)
 {
     return world.addRigid(new btBoxShape(bulletVector(0.5 * size)), settings);

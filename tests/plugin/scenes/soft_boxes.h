@@ -39,6 +39,9 @@ btSoftBody& addSmallCube(SoftWorld& world, btScalar lowest, btScalar x = 0);
 /// Pins the nodes that are below a height [m].
 void clampBelow(btSoftBody& body, double height);
 
+/// Four static walls around the origin, 8 m high, whose inner sides are at these distances [m].
+void addWalls(SoftWorld& world, double halfX, double halfY);
+
 /// A rigid box with these edges [m].
 btRigidBody& addRigidBox(SoftWorld& world, const Vec3& size, const RigidSettings& settings);
 

@@ -7,6 +7,7 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/generators.h"
+#include "plugin/scenes/soft_boxes.h"
 #include "plugin/scenes/soft_world.h"
 
 namespace bullet_fem
@@ -24,18 +25,9 @@ protected:
     SleepingPile()
     {
         m_world.addFloorBox();
-        const btScalar half = btScalar(0.5) * kColumns * kSpacing + btScalar(0.5);
-        for (int side : {-1, 1})
-        {
-            addWall(btVector3(side * half, 0, 2), btVector3(0.5, 2, 2));
-            addWall(btVector3(0, side * half, 2), btVector3(2, 0.5, 2));
-        }
+        const double half = 0.5 * kColumns * kSpacing;
+        addWalls(m_world, half, half);
         for (int k = 0; k < kColumns * kColumns * kLayers; ++k) addBall(k);
-    }
-
-    void addWall(const btVector3& center, const btVector3& halfExtents)
-    {
-        m_world.addRigid(new btBoxShape(halfExtents), {0, btTransform(btQuaternion::getIdentity(), center)});
     }
 
     void addBall(int k)
