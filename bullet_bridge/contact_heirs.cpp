@@ -2,12 +2,15 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/contact_heirs.h"
 
+#include <algorithm>
+
 namespace bullet_fem
 {
 namespace
 {
 
 constexpr double kAlikeNormals = 0.7;  // cosine between the normals
+constexpr double kFarPerGap = 30;      // a gap counts as so many times its width: who has one carries nothing yet
 
 bool isZero(const Vec3& v)
 {
@@ -40,7 +43,8 @@ ContactHeirs::Heir* ContactHeirs::nearestHeir(const Lost& lost, double reach)
     for (Heir& heir : m_heirs)
     {
         const double distance = norm(heir.m_contact->m_point - lost.m_point);
-        const double cost = distance + (heir.m_hasImpulse ? reach : 0);
+        const double cost =
+            distance + kFarPerGap * std::max(heir.m_contact->m_gap, 0.0) + (heir.m_hasImpulse ? reach : 0);
         if (!(distance < reach) || !(cost < best)) continue;
         if (heir.m_sign * dot(heir.m_contact->m_normal, lost.m_normal) < kAlikeNormals) continue;
         best = cost;

@@ -27,7 +27,7 @@ public:
     void addHeir(ContactPoint& contact, double sign);
 
     /// Gives every lost impulse to the nearest heir of a similar normal within reach [m], first to those that have
-    /// inherited none; without one it is lost. In the order in which both were added.
+    /// inherited none and have no gap to close; without one it is lost. In the order in which both were added.
     void settle(double reach);
 
 private:

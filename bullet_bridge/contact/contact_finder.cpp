@@ -18,6 +18,7 @@ namespace
 
 constexpr double kBand = 0.05;            // share of a mean edge that the contact band is wide
 constexpr double kAdvantage = 0.003;      // share of a mean edge by which a nearest point must beat the fixed ones
+constexpr double kHeldAdvantage = 0.1;    // of that, if it pushed in the last step
 constexpr double kSlop = 5e-5;            // share of the body's size by which it may sink in
 constexpr double kMovableSlop = 1e-4;     // the same for movable objects: position corrections spend angular momentum
 constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
@@ -118,6 +119,7 @@ void ContactFinder::begin(const FemSoftBody& fem, int bodyIndex)
     m_edge = fem.m_surface.meanEdge();
     m_band = kBand * m_edge;
     m_advantage = kAdvantage * m_edge;
+    m_heldAdvantage = kHeldAdvantage * m_advantage;
     m_size = fem.m_surface.size();
 }
 
@@ -170,9 +172,22 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     contact.m_damping = target.m_leaf.m_surface.m_damping;
     contact.m_hardness = target.m_leaf.m_surface.m_hardness;
     m_contacts.push_back(contact);
-    const btCollisionObject* object = target.m_leaf.m_object;
-    m_origins.push_back({object, broadphaseId(*object), target.m_leaf.m_index, feature});
+    m_origins.push_back(originOf(target, feature));
     return &m_contacts.back();
+}
+
+ContactOrigin ContactFinder::originOf(const Target& target, int feature)
+{
+    const btCollisionObject* object = target.m_leaf.m_object;
+    return {object, broadphaseId(*object), target.m_leaf.m_index, feature};
+}
+
+// True if one of the body's contacts from there pushed in the last step.
+bool ContactFinder::pushed(const FemSoftBody& fem, const ContactOrigin& origin)
+{
+    const auto [first, last] = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), origin);
+    return std::any_of(
+        first, last, [&](const ContactOrigin& old) { return isPushing(fem.m_contacts[&old - fem.m_origins.data()]); });
 }
 
 // By the motion of the last step: the free one is not slowed down by what the body lies on.
@@ -187,12 +202,8 @@ void ContactFinder::thin(const FemSoftBody& fem, const RigidSurroundings& around
         const ContactPoint& contact = m_contacts[k];
         const Vec3 relative = contact.m_soft.of(fem.m_body.m_state.m_v) -
                               around.m_obstacles[contact.m_obstacle].velocityAt(contact.m_point);
-        const auto [first, last] = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), m_origins[k]);
-        const auto isHeld = [&](const ContactOrigin& old)
-        { return isPushing(fem.m_contacts[&old - fem.m_origins.data()]); };
         m_thinning.add({m_origins[k].m_objectId, contact, contact.m_soft.of(X),
-                        contact.m_gap + around.m_step * dot(contact.m_normal, relative),
-                        std::any_of(first, last, isHeld)});
+                        contact.m_gap + around.m_step * dot(contact.m_normal, relative), pushed(fem, m_origins[k])});
     }
     m_thinning.thin(m_contacts, m_origins);
 }

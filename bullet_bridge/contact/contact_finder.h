@@ -132,6 +132,8 @@ private:
     double gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
                  SurfaceDistance& d) const;
     double gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point, SurfaceDistance& d) const;
+    static ContactOrigin originOf(const Target& target, int feature);
+    static bool pushed(const FemSoftBody& fem, const ContactOrigin& origin);
     double considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, double nearest);
     void consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, const SurfaceDistance& d);
     ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
@@ -157,6 +159,7 @@ private:
     double m_edge = 0;                // mean length [m]
     double m_size = 0;                // cube root of the body's volume [m]
     double m_advantage = 0;           // by which a nearest point must beat the fixed ones [m]
+    double m_heldAdvantage = 0;       // and one that pushed in the last step
     double m_fastest = 0;             // node of the body [m/s]
     double m_band = 0;                // gaps below this are contacts though nothing closes them [m]
     int m_bodyIndex = 0;

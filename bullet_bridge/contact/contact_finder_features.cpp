@@ -112,8 +112,8 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
 }
 
 // The point of an edge (first and last node equal) or triangle that is nearest to the shape, if it is nearer than the
-// fixed points known, `nearest`; near contact by a margin, because there it wanders. Returns the smaller of the two
-// gaps.
+// fixed points known, `nearest`; near contact by a margin, because there it wanders: a smaller one if it pushed in the
+// last step, or what rests on it would sink by the margin and be pushed out again. Returns the smaller of the two gaps.
 double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                                       double nearest)
 {
@@ -124,7 +124,10 @@ double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, in
     if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
         return nearest;
     const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
-    if (gap < nearest - (gap < m_band ? m_advantage : kRounding * m_edge)) consider(fem, target, feature, nodes, d);
+    const double advantage = nearest - gap;
+    if (advantage > (gap < m_band ? m_heldAdvantage : kRounding * m_edge) &&
+        (gap >= m_band || advantage > m_advantage || pushed(fem, originOf(target, feature))))
+        consider(fem, target, feature, nodes, d);
     return std::min(gap, nearest);
 }
 

@@ -14,6 +14,7 @@ namespace
 
 constexpr double kBetween = 0.03;       // sine by which a normal may leave the arc between two faces' normals
 constexpr double kBetweenImpact = 0.2;  // the same at an impact: the faces have turned since the start
+constexpr double kHeldBend = 0.03;      // sine of the angle at which what was a ridge is a groove
 constexpr double kParallel = 0.05;      // sine of the angle below which the nearest points wander
 constexpr double kEnd = 1e-3;           // share of an edge that belongs to its ends
 constexpr double kShallow = 1e-3;       // edges up to which a depth needs no proof
@@ -65,7 +66,8 @@ bool isCrossed(const SoftSurface& surface, const Vec3& from, const Vec3& way)
 }  // namespace
 
 void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, const TouchReach& reach,
-                          const NodesFound& nodes, std::vector<SurfaceTouch>& touches)
+                          const NodesFound& nodes, const std::vector<EdgePair>& held,
+                          std::vector<SurfaceTouch>& touches)
 {
     m_first = &first;
     m_second = &second;
@@ -76,6 +78,7 @@ void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, c
     for (const NearRidges::Run& runA : m_ridgesA.runs())
         for (const NearRidges::Run& runB : m_ridgesB.runs())
             if (mayTouch(runA.m_box, runB.m_box)) tryRuns(runA, runB, nodes);
+    for (const EdgePair& pair : held) tryHeld(pair, nodes);
     const auto key = [](const SurfaceTouch& touch) { return std::pair(touch.m_feature, touch.m_otherFeature); };
     std::sort(touches.begin() + begin, touches.end(),
               [&](const SurfaceTouch& a, const SurfaceTouch& b) { return key(a) < key(b); });
@@ -135,18 +138,44 @@ void EdgePairSearch::tryRuns(const NearRidges::Run& runA, const NearRidges::Run&
 void EdgePairSearch::tryPair(const NearRidges::Item& a, const NearRidges::Item& b, bool mayCross, bool mayMeet,
                              const NodesFound& nodes)
 {
-    const auto [edgeA, a0, a1] = a.m_ridge;
-    const auto [edgeB, b0, b1] = b.m_ridge;
-    if (m_first == m_second && edgeB <= edgeA) return;
-    const std::vector<Vec3>&xA = m_first->position(), &xB = m_second->position();
-    const std::vector<Vec3>&dA = m_first->change(), &dB = m_second->change();
-    const Pair pair = {
-        edgeA, edgeB, {a0, a1, b0, b1}, {xA[a0], xA[a1], xB[b0], xB[b1]}, {dA[a0], dA[a1], dB[b0], dB[b1]}};
+    if (m_first == m_second && b.m_ridge.m_edge <= a.m_ridge.m_edge) return;
+    const Pair pair = pairOf(a.m_ridge, b.m_ridge);
     if (areClose(pair)) return;
     Crossing crossing;
     if (!(mayCross && tryNear(pair, nodes, crossing)) && !(mayMeet && tryImpact(pair, crossing))) return;
     // Of impacts after the step, only those between what is near within it.
     if (m_first->tree().box(a.m_leaf).meets(m_second->tree().box(b.m_leaf), m_ridgeReach.m_near)) emit(pair, crossing);
+}
+
+EdgePairSearch::Pair EdgePairSearch::pairOf(const SurfaceRidges::Ridge& a, const SurfaceRidges::Ridge& b) const
+{
+    const std::vector<Vec3>&xA = m_first->position(), &xB = m_second->position();
+    const std::vector<Vec3>&dA = m_first->change(), &dB = m_second->change();
+    return {a.m_edge,
+            b.m_edge,
+            {a.m_a, a.m_b, b.m_a, b.m_b},
+            {xA[a.m_a], xA[a.m_b], xB[b.m_a], xB[b.m_b]},
+            {dA[a.m_a], dA[a.m_b], dB[b.m_a], dB[b.m_b]}};
+}
+
+// Edges that push each other flatten each other. Were they no pair any more as soon as one is no ridge, they would bend
+// back, and push again: a pile of soft balls would never come to rest. A surface may be another one since.
+void EdgePairSearch::tryHeld(const EdgePair& held, const NodesFound& nodes)
+{
+    const auto hasEdge = [](const SoftSurface& surface, int edge)
+    { return edge >= 0 && edge < static_cast<int>(surface.features().m_edges.size()); };
+    if (!hasEdge(*m_first, held.m_first) || !hasEdge(*m_second, held.m_second)) return;
+    const double bendA = m_first->bend(held.m_first), bendB = m_second->bend(held.m_second);
+    const bool areRidges = SurfaceRidges::isRidge(bendA) && SurfaceRidges::isRidge(bendB);
+    if (areRidges || bendA > kHeldBend || bendB > kHeldBend) return;
+    const auto edgeOf = [](const SoftSurface& surface, int edge)
+    {
+        const std::array<int, 2>& ends = surface.features().m_edges[edge];
+        return SurfaceRidges::Ridge{edge, ends[0], ends[1]};
+    };
+    const Pair pair = pairOf(edgeOf(*m_first, held.m_first), edgeOf(*m_second, held.m_second));
+    Crossing crossing;
+    if (tryNear(pair, nodes, crossing)) emit(pair, crossing);
 }
 
 // True if the normal, from B to A, lies between those of either edge's faces.
@@ -174,10 +203,10 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
         const Vec3 travel = between(pair.m_change, crossing.m_at);
         return crossing.m_gap + dot(crossing.m_normal, travel) < m_reach.m_band && norm(travel) < m_reach.depth();
     }
-    // Ends that have a much shorter way out lead the edges out another way.
-    const double shortest =
-        std::min({nodes.m_ofFirst.depth(pair.m_nodes[0]), nodes.m_ofFirst.depth(pair.m_nodes[1]),
-                  nodes.m_ofSecond.depth(pair.m_nodes[2]), nodes.m_ofSecond.depth(pair.m_nodes[3])});
+    // Ends that have a much shorter way out in another direction lead the edges out there.
+    const auto ofFirst = [&](int k) { return nodes.m_ofFirst.depthAside(pair.m_nodes[k], crossing.m_normal); };
+    const auto ofSecond = [&](int k) { return nodes.m_ofSecond.depthAside(pair.m_nodes[k], -crossing.m_normal); };
+    const double shortest = std::min({ofFirst(0), ofFirst(1), ofSecond(2), ofSecond(3)});
     if (!(crossing.m_gap >= -std::min(m_reach.depth(), 2 * shortest))) return false;
     return crossing.m_gap >= -kShallow * m_reach.m_edge || isFreeWayOut(pair, crossing);
 }

@@ -15,17 +15,25 @@ struct NodesFound
     const NodeSurfaceSearch& m_ofSecond;
 };
 
+/// An edge of either surface.
+struct EdgePair
+{
+    int m_first, m_second;
+};
+
 /// Finds where ridges of two surfaces, or of one with itself, cross each other. A pair touches if the nearest points
 /// lie between the ends of both edges, and the direction between them separates the surfaces: it lies between the
 /// normals of the faces at either edge (their arcs cross on the sphere of directions). Edges that are not bent need no
-/// contacts of their own: the nodes at the ends of flat regions, and crossings of rims, carry all that these can. What
-/// comes from farther than the band is tested at the time when the edges meet. Scratch grows, never shrinks.
+/// contacts of their own: the nodes at the ends of flat regions, and crossings of rims, carry all that these can; but
+/// edges that pushed each other remain a pair until one is a groove, however flat they have become. What comes from
+/// farther than the band is tested at the time when the edges meet. Scratch grows, never shrinks.
 class EdgePairSearch
 {
 public:
-    /// Appends touches by ascending edges of `first`, then of `second` (the same: self contact).
+    /// Appends touches by ascending edges of `first`, then of `second` (the same: self contact). `held`: those that
+    /// pushed each other in the last step.
     void find(const SoftSurface& first, const SoftSurface& second, const TouchReach& reach, const NodesFound& nodes,
-              std::vector<SurfaceTouch>& touches);
+              const std::vector<EdgePair>& held, std::vector<SurfaceTouch>& touches);
 
 private:
     struct Pair
@@ -41,6 +49,8 @@ private:
         double m_gap;
     };
 
+    Pair pairOf(const SurfaceRidges::Ridge& a, const SurfaceRidges::Ridge& b) const;
+    void tryHeld(const EdgePair& held, const NodesFound& nodes);
     bool areClose(const Pair& pair) const;
     void listNear();
     bool mayTouch(const CoarseBox& a, const CoarseBox& b) const;

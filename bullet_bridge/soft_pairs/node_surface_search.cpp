@@ -19,6 +19,7 @@ constexpr double kFacing = -0.1;         // cosine up to which a node's normal a
 constexpr double kFacingImpact = -0.25;  // the same at an impact: grazing ones follow others that come first
 constexpr double kSeparates = -0.05;     // sine up to which the body may lie beyond a separating plane
 constexpr double kSame = 0.99;           // cosine of the angle between normals that count as one
+constexpr double kSameWay = 0.9;         // cosine of the angle between ways out that count as one
 constexpr double kCorner = 2e-3;         // weight that lies on a corner or an edge
 constexpr std::size_t kWorthProof = 8;   // nodes near the other body from which a proof costs less than it saves
 constexpr double kDeepest = 3;           // times its distance from the surface that a node may be led out
@@ -46,6 +47,11 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
     for (int i : m_near) findNode(i);
 }
 
+double NodeSurfaceSearch::depthAside(int node, const Vec3& direction) const
+{
+    return m_depth[node] < kInfinity && dot(m_wayOut[node], direction) < kSameWay ? m_depth[node] : kInfinity;
+}
+
 void NodeSurfaceSearch::forget()
 {
     for (int i : m_near)
@@ -58,6 +64,7 @@ void NodeSurfaceSearch::forget()
     const std::size_t count = m_nodes->position().size();
     if (m_depth.size() >= count) return;
     m_depth.resize(count, kInfinity);
+    m_wayOut.resize(count);
     m_partner.resize(count, -1);
 }
 
@@ -347,7 +354,11 @@ void NodeSurfaceSearch::emit(const Visit& visit, const Hit& hit)
         if (m_faces->isFlatEdge(edge)) useNormal(m_faces->edgeNormal(edge));
     }
     if (!std::isfinite(touch.m_gap) || !isFinite(touch.m_normal)) return;
-    if (touch.m_gap < 0) m_depth[node] = std::min(m_depth[node], -touch.m_gap);
+    if (touch.m_gap < 0 && -touch.m_gap < m_depth[node])
+    {
+        m_depth[node] = -touch.m_gap;
+        m_wayOut[node] = touch.m_normal;
+    }
     m_touches->push_back(touch);
 }
 

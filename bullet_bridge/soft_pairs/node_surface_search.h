@@ -25,8 +25,9 @@ public:
     void find(const SoftSurface& nodes, const SoftSurface& faces, const TouchReach& reach,
               const NodeSurfaceSearch* done, std::vector<SurfaceTouch>& touches);
 
-    /// How deep a node was found inside [m]; infinite if it was not.
-    double depth(int node) const { return m_depth[node]; }
+    /// How deep a node was found inside, where it has another way out than along a direction (unit) [m]; infinite if it
+    /// was not, or has not.
+    double depthAside(int node, const Vec3& direction) const;
 
 private:
     enum class Place
@@ -86,6 +87,7 @@ private:
     std::vector<Hit> m_hits;
     std::vector<int> m_near;      // nodes that were asked, ascending
     std::vector<double> m_depth;  // infinite for all others
+    std::vector<Vec3> m_wayOut;   // unit; of those with a depth
     std::vector<int> m_partner;   // the corner that a node lies on; -1: none, and for all others
 };
 

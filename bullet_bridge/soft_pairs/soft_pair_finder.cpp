@@ -46,12 +46,13 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
                offset);
     }
     m_touches.clear();
-    m_edges.find(a, b, reach, {m_nodesOfFirst, self ? m_nodesOfFirst : m_nodesOfSecond}, m_touches);
+    m_last = m_memory->lastOf(roles.m_origin.m_firstId, roles.m_origin.m_secondId);
+    listHeldEdges();
+    m_edges.find(a, b, reach, {m_nodesOfFirst, self ? m_nodesOfFirst : m_nodesOfSecond}, m_heldEdges, m_touches);
     roles.m_origin.m_kind = SoftPairKind::edges;
     append(roles, offset);
 
     SoftPairReport report;
-    m_last = m_memory->lastOf(roles.m_origin.m_firstId, roles.m_origin.m_secondId);
     thin(first, second);
     report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
     m_continued.assign(m_last.m_count, 0);
@@ -61,6 +62,17 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     contacts.insert(contacts.end(), m_found.begin(), m_found.end());
     origins.insert(origins.end(), m_foundOrigins.begin(), m_foundOrigins.end());
     return report;
+}
+
+void SoftPairFinder::listHeldEdges()
+{
+    m_heldEdges.clear();
+    for (std::size_t k = 0; k < m_last.m_count; ++k)
+    {
+        const SoftPairOrigin& origin = m_last.m_origins[k];
+        if (origin.m_kind == SoftPairKind::edges && isPushing(m_last.m_contacts[k]))
+            m_heldEdges.push_back({origin.m_feature, origin.m_otherFeature});
+    }
 }
 
 void SoftPairFinder::append(const Roles& roles, double offset)

@@ -51,6 +51,7 @@ private:
         SoftPairOrigin m_origin;
     };
 
+    void listHeldEdges();
     void append(const Roles& roles, double offset);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
     void thin(const SoftPairSide& first, const SoftPairSide& second);
@@ -65,6 +66,7 @@ private:
     std::vector<int> m_order;
     const SoftPairMemory* m_memory;
     SoftPairMemory::Last m_last;             // of the pair
+    std::vector<EdgePair> m_heldEdges;       // of these, that pushed
     std::vector<unsigned char> m_continued;  // of these
     ContactHeirs m_heirs;
     ContactThinning m_thinning;

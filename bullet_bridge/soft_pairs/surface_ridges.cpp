@@ -4,12 +4,6 @@
 
 namespace bullet_fem
 {
-namespace
-{
-
-constexpr double kRidge = -0.03;  // sine of the angle from which an edge is a ridge
-
-}  // namespace
 
 SurfaceRidges::SurfaceRidges(const SurfaceFeatures& features, const SurfaceTree& tree)
 {
@@ -42,7 +36,7 @@ void SurfaceRidges::update(const SurfaceTree& tree, const std::vector<double>& b
     {
         m_first[place] = static_cast<int>(m_ridges.size());
         for (int k = m_firstEdge[place]; k < m_firstEdge[place + 1]; ++k)
-            if (bend[m_edges[k].m_edge] < kRidge) m_ridges.push_back(m_edges[k]);
+            if (isRidge(bend[m_edges[k].m_edge])) m_ridges.push_back(m_edges[k]);
     }
     m_first.back() = static_cast<int>(m_ridges.size());
     for (int node = tree.nodeCount() - 1; node >= 0; --node)

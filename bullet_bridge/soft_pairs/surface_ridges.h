@@ -19,6 +19,9 @@ public:
     };
     static constexpr int kSteps = 2;  ///< a ridge's box holds for longer than a step: impacts may be that late
 
+    /// True of an edge that is bent outward by more than 1.7 degrees; `bend` as in SoftSurface.
+    static bool isRidge(double bend) { return bend < kRidge; }
+
     /// Every edge belongs to that leaf that has the first of its triangles.
     SurfaceRidges(const SurfaceFeatures& features, const SurfaceTree& tree);
 
@@ -42,6 +45,8 @@ public:
     }
 
 private:
+    static constexpr double kRidge = -0.03;  // sine of the angle from which an edge is a ridge
+
     std::vector<Ridge> m_edges;    // as their triangles lie in the tree
     std::vector<int> m_firstEdge;  // per place in the tree; one more
     std::vector<int> m_first;      // likewise, of the ridges

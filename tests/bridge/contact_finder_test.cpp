@@ -89,6 +89,27 @@ TEST_F(ContactFinderTest, aBallBetweenTheFixedPointsTouchesTheNearestPointOfATri
     EXPECT_NEAR(c.m_point.y, 0.26, 1e-6);
 }
 
+TEST_F(ContactFinderTest, aNearestPointThatPushesStaysUntilAFixedPointIsHardlyFarther)
+{
+    // Over an edge that leaves the node in the middle of the top face.
+    const auto find = [this](double aside) -> const std::vector<ContactPoint>&
+    {
+        m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.5 + aside), btScalar(0.5), btScalar(1.09)));
+        return ContactFinderScene::find(m_ball);
+    };
+    const auto isNearest = [](const ContactPoint& c) { return std::fabs(c.m_gap + 0.01) < 1e-6; };
+    const auto hasNearest = [&](const std::vector<ContactPoint>& contacts)
+    { return std::any_of(contacts.begin(), contacts.end(), isNearest); };
+    constexpr double kFar = 0.03, kNear = 0.014, kNext = 0.004;  // the node is 4.9, 1.1 and .09 mm farther
+    EXPECT_FALSE(hasNearest(find(kNear))) << "it would wander over the surface";
+    ASSERT_TRUE(hasNearest(find(kFar)));
+    EXPECT_FALSE(hasNearest(find(kNear))) << "it did not push";
+    ASSERT_TRUE(hasNearest(find(kFar)));
+    for (ContactPoint& c : m_fem.m_contacts) c.m_impulse = isNearest(c) ? c.m_normal : Vec3();
+    EXPECT_TRUE(hasNearest(find(kNear)));
+    EXPECT_FALSE(hasNearest(find(kNext)));
+}
+
 TEST_F(ContactFinderTest, aCurvedShapeIsTouchedByPointsThatAreFixedInTheSurface)
 {
     btSphereShape large(30);

@@ -45,6 +45,20 @@ TEST(ContactHeirs, WhereAllHaveImpulsesTheNearestGetsItOnTop)
     EXPECT_EQ(far.m_impulse.z, 3);
 }
 
+TEST(ContactHeirs, OneThatTouchesComesBeforeANearerOneThatDoesNotYet)
+{
+    ContactPoint apart = contactAt(0.1, 0), touching = contactAt(0.4, 0), sunk = contactAt(0.5, 0);
+    apart.m_gap = 0.02;
+    sunk.m_gap = -0.02;
+    ContactHeirs heirs;
+    heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
+    for (ContactPoint* contact : {&apart, &touching, &sunk}) heirs.addHeir(*contact, 1);
+    heirs.settle(1);
+    EXPECT_EQ(touching.m_impulse.z, 2);
+    EXPECT_EQ(apart.m_impulse.z, 0);
+    EXPECT_EQ(sunk.m_impulse.z, 0);
+}
+
 TEST(ContactHeirs, TwoLostOnesGoToTwoHeirs)
 {
     ContactPoint near = contactAt(0.1, 0), far = contactAt(0.2, 0);

@@ -86,6 +86,67 @@ TEST(SoftPairFinder, EdgesOnEdgesTouchAlongTheirCommonNormal)
     expectAlongZ(found, 0.004);
 }
 
+// Two plates that are bent along their middles, and touch there: the lower one along y, the upper one, of short edges
+// whose ends are as far from the crossing, along x.
+class BentPlates : public testing::Test
+{
+protected:
+    void bend(double slope, double gap)
+    {
+        m_upper.m_x = m_restOfUpper;
+        m_lower.m_x = m_restOfLower;
+        m_upper.bend([=](const Vec3& x) { return Vec3{x.x, x.y, x.z + gap + slope * std::fabs(x.y)}; });
+        m_lower.bend([=](const Vec3& x) { return Vec3{x.x, x.y, x.z - slope * std::fabs(x.x)}; });
+    }
+
+    // Of edges where the plates are bent, not of their rims.
+    static int countCrossings(const PairContacts& found, double gap)
+    {
+        int count = 0;
+        for (std::size_t k = 0; k < found.m_contacts.size(); ++k)
+            count += found.m_origins[k].m_kind == SoftPairKind::edges &&
+                     std::fabs(found.m_contacts[k].m_gap - gap) < kExact &&
+                     norm(found.m_contacts[k].m_normal - Vec3{0, 0, 1}) < kExact;
+        return count;
+    }
+
+    PairBody m_upper{makeBox({2, 2, 0.5}, {10, 2, 1}, {-0.9, -1, 0})},
+        m_lower{makeBox({2, 2, 0.5}, {2, 1, 1}, {-1, -1, -0.5})};
+    const std::vector<Vec3> m_restOfUpper = m_upper.m_x, m_restOfLower = m_lower.m_x;
+};
+
+TEST_F(BentPlates, CrossingEdgesTouchWhoseEndsHaveJustComeInside)
+{
+    bend(0.1, -0.0101);  // the ends, .1 m away, are 0.1 mm deep
+    const PairContacts found(m_upper, m_lower);
+    EXPECT_EQ(countCrossings(found, -0.0101), 1);
+    EXPECT_GT(found.count(SoftPairKind::nodeOfFirst), 0);
+}
+
+TEST_F(BentPlates, EdgesThatPushEachOtherFlatRemainAPairUntilOneIsAGroove)
+{
+    constexpr double kGap = 1e-4;
+    constexpr double kRidge = 0.02, kFlat = 0.005, kGroove = -0.02;  // slopes: 2.3, 0.6 and -2.3 degrees in all
+    const auto countAfterRidge = [&](double slope, double impulse)
+    {
+        bend(kRidge, kGap);
+        PairContacts found(m_upper, m_lower);
+        EXPECT_EQ(countCrossings(found, kGap), 1);
+        for (ContactPoint& c : found.m_contacts) c.m_impulse = impulse * c.m_normal;
+        found.m_memory.remember(found.m_contacts, found.m_origins);
+        found.m_memory.beginStep();
+        bend(slope, kGap);
+        found.m_contacts.clear();
+        found.m_origins.clear();
+        found.m_finder.find({m_upper.ready(), 0}, {m_lower.ready(), 1}, 1000, found.m_contacts, found.m_origins);
+        return countCrossings(found, kGap);
+    };
+    EXPECT_EQ(countAfterRidge(kRidge, 1), 1) << "once";
+    EXPECT_EQ(countAfterRidge(kFlat, 0), 0) << "nodes carry all that flat edges can";
+    EXPECT_EQ(countAfterRidge(kFlat, 1), 1);
+    EXPECT_EQ(countAfterRidge(kGroove, 1), 0);
+}
+
 TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
 {
     for (double gap : {0.01, 1e-6, -1e-6, -0.01, -0.2})

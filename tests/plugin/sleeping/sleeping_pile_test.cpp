@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "bullet_fem/btFemHelpers.h"
@@ -55,6 +56,15 @@ protected:
         return count;
     }
 
+    double fastestNode() const  // [m/s]
+    {
+        double fastest = 0;
+        for (const btSoftBody* ball : m_balls)
+            for (int i = 0; i < ball->m_nodes.size(); ++i)
+                fastest = std::max(fastest, double(ball->m_nodes[i].m_v.length()));
+        return fastest;
+    }
+
     static btFemSolverInfo solverInfo()
     {
         btFemSolverInfo info;
@@ -71,6 +81,22 @@ TEST_F(SleepingPile, SleepsWithinTenSeconds)
 {
     for (int k = 0; k < 600 && asleep() == 0; ++k) m_world.step(1);
     EXPECT_EQ(asleep(), static_cast<int>(m_balls.size()));
+}
+
+// What carries something stays a contact: were it lost and found again from step to step, a node somewhere would move
+// at .02 m/s.
+TEST_F(SleepingPile, IsStillThoughItMayNotSleep)
+{
+    for (btSoftBody* ball : m_balls) ball->forceActivationState(DISABLE_DEACTIVATION);
+    m_world.step(300);
+    constexpr int kSteps = 60;
+    double sum = 0;
+    for (int k = 0; k < kSteps; ++k)
+    {
+        m_world.step(1);
+        sum += fastestNode();
+    }
+    EXPECT_LT(sum / kSteps, 0.003);
 }
 
 }  // namespace
