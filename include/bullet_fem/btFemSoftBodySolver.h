@@ -148,7 +148,8 @@ public:
     void setInterest(btFemInterest* interest, const btFemDetailPolicy& policy = btFemDetailPolicy());
 
     /// Makes the body FEM, unless it is, with the rest shape of now, and factors now for a step of fixedTimeStep
-    /// [s], in [1e-6, 1], so that the first step does not hitch. Throws std::invalid_argument on a bad step or mesh.
+    /// [s], in [1e-6, 1], so that the first step does not hitch. Throws std::invalid_argument on a bad step or mesh,
+    /// and std::runtime_error if masses and moduli are so far apart that rounding makes the factor none.
     void prepare(btSoftBody* body, btScalar fixedTimeStep);
 
     /// Gives a body that btFemHelpers::createFromBaked made of it, or one with the same nodes and tetrahedra, its rest
@@ -160,7 +161,7 @@ public:
     void useBaked(btSoftBody* body, const bullet_fem::BakedBody& baked);
 
     /// Factors anew for the present masses and pins and the last step size. Throws std::invalid_argument if the body is
-    /// not FEM.
+    /// not FEM, and std::runtime_error as prepare() does: then it keeps the factor that it has.
     void refactor(btSoftBody* body);
 
     /// Makes a node go to a world position [m] within the next step, and stay there; its mass is kept for when it is

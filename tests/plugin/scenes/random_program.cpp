@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
@@ -108,6 +109,11 @@ void RandomProgram::act()
     }
     catch (const std::invalid_argument&)
     {
+        ++m_refusals;
+    }
+    catch (const std::runtime_error&)  // a factor that rounding makes none
+    {
+        if (m_last != std::string("refactor") && m_last != std::string("prepare")) throw;
         ++m_refusals;
     }
 }
