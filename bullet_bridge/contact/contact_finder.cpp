@@ -18,7 +18,6 @@ namespace
 
 constexpr double kBand = 0.05;            // share of a mean edge that the contact band is wide
 constexpr double kAdvantage = 0.003;      // share of a mean edge by which a nearest point must beat the fixed ones
-constexpr double kHeldAdvantage = 0.1;    // of that, if it pushed in the last step
 constexpr double kSlop = 5e-5;            // share of the body's size by which it may sink in
 constexpr double kMovableSlop = 1e-4;     // the same for movable objects: position corrections spend angular momentum
 constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
@@ -119,7 +118,6 @@ void ContactFinder::begin(const FemSoftBody& fem, int bodyIndex)
     m_edge = fem.m_surface.meanEdge();
     m_band = kBand * m_edge;
     m_advantage = kAdvantage * m_edge;
-    m_heldAdvantage = kHeldAdvantage * m_advantage;
     m_size = fem.m_surface.size();
 }
 

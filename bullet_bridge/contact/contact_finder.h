@@ -159,7 +159,6 @@ private:
     double m_edge = 0;                // mean length [m]
     double m_size = 0;                // cube root of the body's volume [m]
     double m_advantage = 0;           // by which a nearest point must beat the fixed ones [m]
-    double m_heldAdvantage = 0;       // and one that pushed in the last step
     double m_fastest = 0;             // node of the body [m/s]
     double m_band = 0;                // gaps below this are contacts though nothing closes them [m]
     int m_bodyIndex = 0;

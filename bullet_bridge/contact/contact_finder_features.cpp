@@ -13,8 +13,9 @@ namespace
 {
 
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
-constexpr double kSlack = 1e-3;     // of a mean edge: gaps that are bounded by gradients; those may be off as much
-constexpr double kRounding = 1e-9;  // of a mean edge, of gaps
+constexpr double kSlack = 1e-3;         // of a mean edge: gaps that are bounded by gradients; those may be off as much
+constexpr double kHeldAdvantage = 0.1;  // of what a nearest point must be nearer by, if it pushed in the last step
+constexpr double kRounding = 1e-9;      // of a mean edge, of gaps
 
 bool overlaps(const Vec3& point, const ShapeLeaf& shape, double reach)
 {
@@ -124,10 +125,12 @@ double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, in
     if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
         return nearest;
     const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
-    const double advantage = nearest - gap;
-    if (advantage > (gap < m_band ? m_heldAdvantage : kRounding * m_edge) &&
-        (gap >= m_band || advantage > m_advantage || pushed(fem, originOf(target, feature))))
-        consider(fem, target, feature, nodes, d);
+    const auto leastAdvantage = [&]
+    {
+        if (gap >= m_band) return kRounding * m_edge;
+        return pushed(fem, originOf(target, feature)) ? kHeldAdvantage * m_advantage : m_advantage;
+    };
+    if (gap < nearest - leastAdvantage()) consider(fem, target, feature, nodes, d);
     return std::min(gap, nearest);
 }
 

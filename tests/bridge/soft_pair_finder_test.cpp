@@ -147,6 +147,21 @@ TEST_F(BentPlates, EdgesThatPushEachOtherFlatRemainAPairUntilOneIsAGroove)
     EXPECT_EQ(countAfterRidge(kGroove, 1), 0);
 }
 
+TEST_F(BentPlates, EdgesOfASurfaceThatIsAnotherNowAreNoPair)
+{
+    bend(0.02, 1e-4);
+    PairContacts found(m_upper, m_lower);
+    const std::size_t count = found.m_contacts.size();
+    for (ContactPoint& c : found.m_contacts) c.m_impulse = c.m_normal;
+    for (SoftPairOrigin& origin : found.m_origins) origin.m_feature += 10000000;
+    found.m_memory.remember(found.m_contacts, found.m_origins);
+    found.m_memory.beginStep();
+    found.m_contacts.clear();
+    found.m_origins.clear();
+    found.m_finder.find({m_upper.ready(), 0}, {m_lower.ready(), 1}, 1000, found.m_contacts, found.m_origins);
+    EXPECT_EQ(found.m_contacts.size(), count);
+}
+
 TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
 {
     for (double gap : {0.01, 1e-6, -1e-6, -0.01, -0.2})
