@@ -180,12 +180,13 @@ ContactOrigin ContactFinder::originOf(const Target& target, int feature)
     return {object, broadphaseId(*object), target.m_leaf.m_index, feature};
 }
 
-// True if one of the body's contacts from there pushed in the last step.
-bool ContactFinder::pushed(const FemSoftBody& fem, const ContactOrigin& origin)
+// The body's contact from there that pushed in the last step, or null.
+const ContactPoint* ContactFinder::pushing(const FemSoftBody& fem, const ContactOrigin& origin)
 {
     const auto [first, last] = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), origin);
-    return std::any_of(
-        first, last, [&](const ContactOrigin& old) { return isPushing(fem.m_contacts[&old - fem.m_origins.data()]); });
+    const auto contactOf = [&](const ContactOrigin& old) { return &fem.m_contacts[&old - fem.m_origins.data()]; };
+    const auto found = std::find_if(first, last, [&](const ContactOrigin& old) { return isPushing(*contactOf(old)); });
+    return found == last ? nullptr : contactOf(*found);
 }
 
 // By the motion of the last step: the free one is not slowed down by what the body lies on.
@@ -201,7 +202,8 @@ void ContactFinder::thin(const FemSoftBody& fem, const RigidSurroundings& around
         const Vec3 relative = contact.m_soft.of(fem.m_body.m_state.m_v) -
                               around.m_obstacles[contact.m_obstacle].velocityAt(contact.m_point);
         m_thinning.add({m_origins[k].m_objectId, contact, contact.m_soft.of(X),
-                        contact.m_gap + around.m_step * dot(contact.m_normal, relative), pushed(fem, m_origins[k])});
+                        contact.m_gap + around.m_step * dot(contact.m_normal, relative),
+                        pushing(fem, m_origins[k]) != nullptr});
     }
     m_thinning.thin(m_contacts, m_origins);
 }

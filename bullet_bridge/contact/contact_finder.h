@@ -133,7 +133,9 @@ private:
                  SurfaceDistance& d) const;
     double gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point, SurfaceDistance& d) const;
     static ContactOrigin originOf(const Target& target, int feature);
-    static bool pushed(const FemSoftBody& fem, const ContactOrigin& origin);
+    static const ContactPoint* pushing(const FemSoftBody& fem, const ContactOrigin& origin);
+    void holdBack(const FemSoftBody& fem, const Triangle& nodes, const ContactPoint& last, const Weights& nearest,
+                  double step);
     double considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, double nearest);
     void consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, const SurfaceDistance& d);
     ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,

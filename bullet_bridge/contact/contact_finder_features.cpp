@@ -13,14 +13,29 @@ namespace
 {
 
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
-constexpr double kSlack = 1e-3;         // of a mean edge: gaps that are bounded by gradients; those may be off as much
-constexpr double kHeldAdvantage = 0.1;  // of what a nearest point must be nearer by, if it pushed in the last step
-constexpr double kRounding = 1e-9;      // of a mean edge, of gaps
+constexpr double kSlack = 1e-3;          // of a mean edge: gaps that are bounded by gradients; those may be off as much
+constexpr double kHeldAdvantage = 0.1;   // of what a nearest point must be nearer by, if it pushed in the last step
+constexpr double kSlow = 0.02;           // mean edges that a nearest point that pushed moves in a step, at most,
+constexpr double kFollow = 0.1;          // where the nodes' shares go but this share of their way
+constexpr double kFarthestBehind = 0.1;  // mean edges that it may stay behind
+constexpr double kRounding = 1e-9;       // of a mean edge, of gaps
 
 bool overlaps(const Vec3& point, const ShapeLeaf& shape, double reach)
 {
     for (int c = 0; c < 3; ++c)
         if (point[c] < shape.m_boundsMin[c] - reach || point[c] > shape.m_boundsMax[c] + reach) return false;
+    return true;
+}
+
+// Barycentric coordinates of a point near a triangle, or near an edge: one whose first and last corners are the same.
+bool weightsOf(const Corners& t, const Vec3& p, std::array<double, 3>& weights)
+{
+    const Vec3 edge = t[1] - t[0];
+    const double square = dot(edge, edge);
+    if (norm(t[2] - t[0]) > 0) return projectOnPlane(t, p, weights);
+    if (!(square > 0)) return false;
+    const double along = dot(p - t[0], edge) / square;
+    weights = {1 - along, along, 0};
     return true;
 }
 
@@ -125,13 +140,29 @@ double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, in
     if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
         return nearest;
     const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
-    const auto leastAdvantage = [&]
-    {
-        if (gap >= m_band) return kRounding * m_edge;
-        return pushed(fem, originOf(target, feature)) ? kHeldAdvantage * m_advantage : m_advantage;
-    };
-    if (gap < nearest - leastAdvantage()) consider(fem, target, feature, nodes, d);
-    return std::min(gap, nearest);
+    const ContactPoint* const last = gap < m_band ? pushing(fem, originOf(target, feature)) : nullptr;
+    const double advantage = gap >= m_band ? kRounding * m_edge : last ? kHeldAdvantage * m_advantage : m_advantage;
+    if (!(gap < nearest - advantage)) return std::min(gap, nearest);
+    const std::size_t count = m_contacts.size();
+    consider(fem, target, feature, nodes, d);
+    if (last && m_contacts.size() > count) holdBack(fem, nodes, *last, d.m_barycentric, target.m_step);
+    return gap;
+}
+
+// The nearest point to a round shape moves far while its triangle turns little; which nodes bear the load moves with
+// it, and turns the triangle back: from step to step both would go to and fro. So the share of the nodes follows
+// slowly. The impulse itself acts where the two are nearest: a ball would be driven on by one that stayed behind.
+void ContactFinder::holdBack(const FemSoftBody& fem, const Triangle& nodes, const ContactPoint& last,
+                             const Weights& nearest, double step)
+{
+    const std::vector<Vec3>& x = fem.surfacePosition();
+    if (step * norm(last.m_soft.of(fem.m_body.m_state.m_v)) > kSlow * m_edge) return;  // as in an impact
+    Weights weights;
+    if (!weightsOf({x[nodes[0]], x[nodes[1]], x[nodes[2]]}, last.m_soft.of(fem.m_body.m_state.m_x), weights)) return;
+    for (int k = 0; k < 3; ++k) weights[k] += kFollow * (nearest[k] - weights[k]);
+    if (!(std::min({weights[0], weights[1], weights[2]}) >= 0)) return;  // on a skin, the point may have left it
+    if (norm(interpolated(x, nodes, weights) - interpolated(x, nodes, nearest)) > kFarthestBehind * m_edge) return;
+    m_contacts.back().m_soft = fem.pointOn(m_bodyIndex, nodes, weights);
 }
 
 // Takes the contact offset off the gap, and a kinematic object, which has moved already, back to where it was as the

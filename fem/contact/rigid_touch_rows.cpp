@@ -11,7 +11,8 @@ namespace
 {
 
 constexpr double kAnySpeed = 1e300;  // [m/s]
-constexpr int kSettlingSweeps = 10;
+constexpr int kSettlingSweeps = 200;
+constexpr double kSettled = 1e-3;      // share of the largest change so far: a sweep that changes less is the last one
 constexpr double kMostPressing = 0.9;  // share of a normal impulse that its own friction may add to it
 
 }  // namespace
@@ -45,9 +46,19 @@ void ContactRows::limitTouchFriction(ContactRow& row)
 void ContactRows::settleTouches()
 {
     const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
-    for (int sweep = 0; sweep < kSettlingSweeps; ++sweep)
+    double most = 0, largest = 1;  // changes, of all sweeps and the last [m/s]
+    for (int sweep = 0; sweep < kSettlingSweeps && largest > kSettled * most; ++sweep)
+    {
+        largest = 0;
         for (std::size_t k = first; k < m_rows.size(); ++k)
-            change(m_rows[k], wantedImpulse(m_rows[k], m_rows[k].m_impulse, velocity(m_rows[k]), 1));
+        {
+            ContactRow& row = m_rows[k];
+            const Vec3 wanted = wantedImpulse(row, row.m_impulse, velocity(row), 1);
+            largest = std::max(largest, speedOf(row, wanted - row.m_impulse));
+            change(row, wanted);
+        }
+        most = std::max(most, largest);
+    }
 }
 
 }  // namespace bullet_fem

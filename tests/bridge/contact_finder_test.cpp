@@ -110,6 +110,35 @@ TEST_F(ContactFinderTest, aNearestPointThatPushesStaysUntilAFixedPointIsHardlyFa
     EXPECT_FALSE(hasNearest(find(kNext)));
 }
 
+TEST_F(ContactFinderTest, theLoadOfANearestPointThatPushesFollowsSlowly)
+{
+    const auto findNearest = [this](double aside)
+    {
+        m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.3 + aside), btScalar(0.26), btScalar(1.09)));
+        find(m_ball);
+        EXPECT_NEAR(deepest()->m_point.x, 0.3 + aside, 1e-6) << "where the impulse acts";
+        EXPECT_NEAR(deepest()->m_gap, -0.01, 1e-6);
+        return deepest()->m_soft.of(m_fem.m_body.m_state.m_x).x - 0.3;
+    };
+    const auto pushDeepest = [this]
+    {
+        const ContactPoint* const pushed = &*deepest();
+        for (ContactPoint& c : m_fem.m_contacts) c.m_impulse = &c == pushed ? c.m_normal : Vec3();
+    };
+    constexpr double kAside = 0.01, kFar = 0.11;  // mean edges are .6 m
+    EXPECT_NEAR(findNearest(0), 0, 1e-6);
+    EXPECT_NEAR(findNearest(kAside), kAside, 1e-6) << "it did not push";
+    pushDeepest();
+    EXPECT_NEAR(findNearest(0), 0.9 * kAside, 1e-6);
+    pushDeepest();
+    EXPECT_NEAR(findNearest(0), 0.9 * 0.9 * kAside, 1e-6);
+    pushDeepest();
+    EXPECT_NEAR(findNearest(kFar), kFar, 1e-6) << "it would stay far behind";
+    pushDeepest();
+    for (Vec3& v : m_fem.m_body.m_state.m_v) v.x = 1;
+    EXPECT_NEAR(findNearest(0.1), 0.1, 1e-6) << "it is fast";
+}
+
 TEST_F(ContactFinderTest, aCurvedShapeIsTouchedByPointsThatAreFixedInTheSurface)
 {
     btSphereShape large(30);
