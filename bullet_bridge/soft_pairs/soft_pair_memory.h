@@ -65,7 +65,8 @@ public:
     /// Remembers this and nothing else.
     void restore(const Kept& kept);
 
-    /// The last step's contacts of a pair of broadphase ids.
+    /// All contacts of the last step, or those of a pair of broadphase ids.
+    Last last() const { return {m_last.data(), m_lastOrigins.data(), m_last.size()}; }
     Last lastOf(int firstId, int secondId) const;
 
 private:

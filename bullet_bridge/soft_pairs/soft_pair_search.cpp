@@ -26,12 +26,16 @@ SoftPairSearch::SoftPairSearch(const Threads& threads) : m_threads(threads), m_p
 void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts)
 {
     listPairs(bodies);
+    m_steady.sumImpulses(bodies, m_memory);
     m_threads.run(static_cast<int>(m_paired.size()),
                   [&](int k)
                   {
-                      FemSoftBody& fem = *bodies[m_paired[k]];
+                      const int b = m_paired[k];
+                      FemSoftBody& fem = *bodies[b];
                       fem.updateSkin();
-                      fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
+                      const bool steady = !fem.m_skin && m_steady.isSteady(fem, b, step);
+                      const std::vector<Vec3>& velocity = steady ? fem.m_body.m_state.m_v : fem.surfaceVelocity();
+                      fem.m_surface.update(fem.surfacePosition(), velocity, step);
                   });
     m_threads.run(kParts, [&](int part) { findPairs(bodies, maxContacts, part); });
     m_contacts.clear();

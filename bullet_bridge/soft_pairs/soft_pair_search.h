@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bullet_bridge/soft_pairs/soft_pair_finder.h"
+#include "bullet_bridge/soft_pairs/steady_bodies.h"
 
 namespace bullet_fem
 {
@@ -59,6 +60,7 @@ private:
 
     const Threads& m_threads;
     SoftPairMemory m_memory;
+    SteadyBodies m_steady;
     std::vector<Part> m_parts;
     std::vector<Pair> m_pairs;
     std::vector<int> m_paired;              // bodies that are in a pair
