@@ -28,9 +28,9 @@ struct SoftPairReport
 /// Finds where the surfaces of two FEM bodies, or of one with itself, touch or may do so within the step: nodes against
 /// faces both ways (NodeSurfaceSearch) and ridges against ridges (EdgePairSearch). Gaps are those at the start of the
 /// step, less both contact offsets (not for self contact); what closes to less than 5 % of the smaller mean edge
-/// within the step, moving as it would freely, is a contact. Between two bodies, what is inside is led out the short
-/// way at any depth up to half a body; self contact believes depths up to half an edge. Friction is the larger kDF,
-/// restitution the product of both. Scratch grows, never shrinks; one finder a thread.
+/// within the step, as the surfaces are expected to move, is a contact. Between two bodies, what is inside is led out
+/// the short way at any depth up to half a body; self contact believes depths up to half an edge. Friction is the
+/// larger kDF, restitution the product of both. Scratch grows, never shrinks; one finder a thread.
 class SoftPairFinder
 {
 public:

@@ -72,7 +72,8 @@ public:
     bool isClosed() const { return m_closed; }
     bool hasRestNeighbours() const { return m_restNeighbours != nullptr; }
 
-    /// Takes the positions at the start of a step of h [s] and the free velocities: once a step.
+    /// Takes the positions at the start of a step of h [s] and the velocities that are expected in it, free ones or those
+    /// of SteadyBodies: once a step.
     void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
 
     const std::vector<Triangle>& triangles() const { return m_triangles; }
