@@ -130,8 +130,8 @@ TEST_F(SleepingPile, SleepsWithinTenSeconds)
 }
 
 // What carries something stays a contact: were it lost and found again from step to step, a node somewhere would move
-// at .02 m/s.
-// Nor is it searched as if it sprang apart in free motion.
+// at .02 m/s. Nor is the pile searched as if it sprang apart in free motion: as many points would be found again that
+// carry nothing.
 TEST_F(SleepingPile, IsStillThoughItMayNotSleep)
 {
     fill(false);
