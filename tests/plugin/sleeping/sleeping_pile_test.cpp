@@ -130,8 +130,8 @@ TEST_F(SleepingPile, SleepsWithinTenSeconds)
 }
 
 // What carries something stays a contact: were it lost and found again from step to step, a node somewhere would move
-// at .02 m/s. Nor is the pile searched as if it sprang apart in free motion: as many points would be found again that
-// carry nothing.
+// at .02 m/s. Nor is the pile searched as if it sprang apart in free motion: for each point that carries something, 1.6
+// would be found that do not.
 TEST_F(SleepingPile, IsStillThoughItMayNotSleep)
 {
     fill(false);
