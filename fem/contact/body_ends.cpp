@@ -203,12 +203,6 @@ void BodyEnds::see(int e)
     m_seen[e] = m_impulse[e];
 }
 
-void BodyEnds::followProbe(double step)
-{
-    m_working.followProbe(step);
-    for (int e : m_working.ends()) m_impulse[e] += step * m_working.probeImpulse(e);
-}
-
 void BodyEnds::flush()
 {
     if (m_dense) return refresh();

@@ -80,9 +80,9 @@ public:
     void work(int e) { m_working.add(e); }
     void startWork() { m_working.pack(m_points, m_slotVelocity); }
 
-    /// The working set, for probes of directions.
+    /// The working set, for mixes; pushAlong adds an impulse to an end whose velocities a mix adds.
     WorkingSet& working() { return m_working; }
-    void followProbe(double step);
+    void pushAlong(int e, const Vec3& impulse) { m_impulse[e] += impulse; }
 
     /// Takes the velocities from the body, which holds the impulses applied so far, and adds W times the rest.
     void measure();

@@ -53,6 +53,20 @@ void ContactRows::change(ContactRow& row, const Vec3& impulse)
     react(row.m_b, -difference);
 }
 
+void ContactRows::pushAlong(ContactRow& row, const Vec3& impulse)
+{
+    row.m_impulse += impulse;
+    const auto push = [this](const RowEnd& end, const Vec3& on)
+    {
+        if (end.m_body >= 0)
+            m_bodies[end.m_body].pushAlong(end.m_end, on);
+        else
+            react(end, on);
+    };
+    push(row.m_a, impulse);
+    push(row.m_b, -impulse);
+}
+
 // A dense compliance is over before other threads have woken up.
 const Threads* ContactRows::threadsForCompliance() const
 {

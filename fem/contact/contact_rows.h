@@ -54,6 +54,9 @@ public:
     void change(ContactRow& row, const Vec3& impulse);
     void flush();
 
+    /// Adds to a row's impulse; the velocities of obstacles follow, those of bodies are left to whoever mixes them.
+    void pushAlong(ContactRow& row, const Vec3& impulse);
+
     /// Brings the ends' velocities up to the bodies' true ones.
     void measure();
 
@@ -63,6 +66,7 @@ public:
 
     /// The largest speed that its loads alone would give one of the bodies in a step [m/s].
     double loadSpeed() const { return m_loadSpeed; }
+    double speedScale() const { return m_speedScale; }
 
     /// A speed as a share of that scale; 1000 if there is none.
     double share(double speed) const;

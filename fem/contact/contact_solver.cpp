@@ -36,8 +36,7 @@ namespace
 {
 
 // Where points contradict each other, as some that slide do, an impulse grows by the same amount in every sweep and no
-// velocity changes. Two minimizations make up a window; a round ends if the best sweep of one is hardly better than
-// that of the one before.
+// velocity changes. A round ends if the best sweep of a window is hardly better than that of the one before.
 constexpr int kWindow = 10;
 constexpr double kHardlyBetter = 0.8;
 
@@ -93,6 +92,10 @@ constexpr double kFloorWithJoints = 1e-3;
 constexpr double kResidualShare = 0.3;
 constexpr int kUsualRounds = 3;
 constexpr double kCloser = 0.3;
+
+// What further sweeps would add up to is some times what one changes: at a tolerance above this, piles would take
+// seconds longer to rest.
+constexpr double kCoarsestChange = 3e-3;  // at which sweeps end
 
 // Rows of others may be solved in single precision.
 constexpr double kRoundingOfOthers = 1e-6;  // [m/s]
@@ -227,7 +230,9 @@ bool ContactSolver::sweep(double others)
     const double othersChange = s.m_rows.share(others);
     const bool othersMove = others > kRoundingOfOthers && othersChange > s.m_sweepTolerance;
     if (othersMove) s.m_sweeps.othersMoved();
-    const bool moves = s.m_sweeps.sweep(s.m_sweepTolerance);
+    const bool joints = !s.m_problem->m_joints.empty();  // with them, all are swept to the end
+    const bool moves =
+        s.m_sweeps.sweep(s.m_rows.isDense() ? std::min(s.m_sweepTolerance, kCoarsestChange) : s.m_sweepTolerance);
     if (s.m_sweeps.runsAway())
     {
         s.m_sweeps.letGo();
@@ -235,7 +240,6 @@ bool ContactSolver::sweep(double others)
         return true;
     }
     if (!moves && !othersMove) return false;
-    const bool joints = !s.m_problem->m_joints.empty();  // with them, all are swept to the end
     return joints || !s.m_progress.stalls(std::max(s.m_sweeps.lastChange(), othersChange));
 }
 

@@ -15,13 +15,12 @@ void ContactSweeps::begin()
 void ContactSweeps::measure()
 {
     m_rows.measure();
-    m_inTurn.restart();
-    m_atOnce.restart();
+    reset();
 }
 
 void ContactSweeps::reset()
 {
-    m_inTurn.reset();
+    m_inTurn.restart();
     m_atOnce.restart();
 }
 

@@ -16,12 +16,23 @@ namespace
 constexpr double kMuch = 5e-3;
 constexpr int kMostTimes = 8;
 
+// A row that wants less than this share of the tolerance waits until it wants more, or until sweeps are to end: most of
+// what late ones would do.
+constexpr double kNegligible = 0.1;
+
 // What is no number is never applied.
 constexpr double kMost = std::numeric_limits<double>::max();  // of an impulse's square [N2 s2]
 
 constexpr int kLongLife = 10;   // sweeps of a working set
 constexpr int kShortLife = 2;   // where a share of its rows has just joined it
 constexpr double kNews = 0.02;  // that share
+
+// A mix may leave it.
+bool isInCone(const ContactRow& row)
+{
+    const Vec3& p = row.m_impulse;
+    return p.x >= 0 && p.y * p.y + p.z * p.z <= row.m_friction * row.m_friction * p.x * p.x;
+}
 
 }  // namespace
 
@@ -31,21 +42,9 @@ void SweepsInTurn::begin()
     const std::size_t rows = m_rows.rows().size();
     m_working.reserve(rows);
     for (std::vector<unsigned char>* flags : {&m_works, &m_wants}) flags->assign(rows, 0);
-    m_subspace.begin();
-    forgetWorkingSet();
+    m_mixing.begin();
+    restart();
     divideRows();
-}
-
-void SweepsInTurn::restart()
-{
-    m_subspace.expectMore();
-    forgetWorkingSet();
-}
-
-void SweepsInTurn::reset()
-{
-    m_subspace.reset();
-    forgetWorkingSet();
 }
 
 // Joints are swept in their order, and links of one multibody move each other.
@@ -73,7 +72,7 @@ void SweepsInTurn::divideRows()
     m_parts.divide(problem.m_joints.empty() && std::none_of(obstacles.begin(), obstacles.end(), isLink));
 }
 
-void SweepsInTurn::forgetWorkingSet()
+void SweepsInTurn::restart()
 {
     m_lifeOfSet = -1;
     m_looked = false;
@@ -101,7 +100,7 @@ void SweepsInTurn::chooseWorkingSet()
         for (const RowEnd* end : {&rows[k].m_a, &rows[k].m_b})
             if (end->m_body >= 0) m_rows.body(end->m_body).work(end->m_end);
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(), [this](int b) { m_rows.body(b).startWork(); });
-    if (joined > 0) m_subspace.expectMore();
+    m_mixing.start(m_working);
     m_lifeOfSet = joined > kNews * static_cast<double>(m_working.size()) ? kShortLife : kLongLife;
 }
 
@@ -123,7 +122,6 @@ bool SweepsInTurn::restIsDone(double tolerance)
     if (m_working.size() == rows.size()) return true;
     lookForWork();
     m_lifeOfSet = -1;
-    m_subspace.expectMore();
     double largest = 0;
     for (std::size_t k = 0; k < rows.size(); ++k)
         if (m_wants[k] && !m_works[k]) largest = std::max(largest, m_rows.wantedSpeed(rows[k]));
@@ -132,51 +130,48 @@ bool SweepsInTurn::restIsDone(double tolerance)
 
 bool SweepsInTurn::sweep(double tolerance)
 {
-    if (m_lifeOfSet < 0) chooseWorkingSet();
-    if (m_rows.problem().m_joints.empty() && m_subspace.isDue()) m_subspace.search(m_working);
-    if (m_lifeOfSet == 0) chooseWorkingSet();
+    if (m_lifeOfSet <= 0) chooseWorkingSet();
     --m_lifeOfSet;
+    const bool mixes = m_rows.problem().m_joints.empty();
+    m_negligible = mixes ? kNegligible * tolerance * m_rows.speedScale() : 0;
+    if (mixes) m_mixing.mix(m_working);
     sweepAll();
+    if (m_lastChange <= tolerance && m_negligible > 0)
+    {
+        m_negligible = 0;
+        sweepAll();
+    }
+    if (mixes) m_mixing.note(m_working);
     return m_lastChange > tolerance || !restIsDone(tolerance);
 }
 
 void SweepsInTurn::sweepAll()
 {
-    std::array<Swept, SweepParts::kMost> swept;
-    m_parts.inTurn(m_rows.settings().m_step.m_threads, [&](int part, Range rows) { swept[part] = sweepRows(rows); });
-    double largest = 0, work = 0;
-    for (int part = 1; part < m_parts.parts(); ++part)
-    {
-        largest = std::max(largest, swept[part].m_largest);
-        work += swept[part].m_work;
-    }
-    m_subspace.noteSweep(work);
-    m_lastSpeed = largest;
-    m_lastChange = m_rows.share(largest);
+    std::array<double, SweepParts::kMost> changes;
+    m_parts.inTurn(m_rows.settings().m_step.m_threads, [&](int part, Range rows) { changes[part] = sweepRows(rows); });
+    m_lastSpeed = *std::max_element(changes.begin() + 1, changes.begin() + m_parts.parts());
+    m_lastChange = m_rows.share(m_lastSpeed);
 }
 
 // Of the working ones, one pair of ends after another. Where that has much to do it is swept again at once, while what
 // its impulses move is in the cache; the changes that count are those of the first time. What runs away ends it where
-// it is: impulses would grow by orders of magnitude a row, and leave their rounding when they are taken back.
-SweepsInTurn::Swept SweepsInTurn::sweepRows(Range rows)
+// it is: impulses would grow by orders of magnitude a row, and leave their rounding when they are taken back. Returns
+// the largest change [m/s], as sweepOnce does.
+double SweepsInTurn::sweepRows(Range rows)
 {
     const double much = std::max(kMuch, m_rows.settings().m_tolerance);
     const bool again = m_rows.problem().m_joints.empty();
-    Swept swept;
+    double largest = 0;
     for (Range pair = {rows.m_begin, rows.m_begin}; pair.m_begin < rows.m_end; pair.m_begin = pair.m_end)
     {
         pair.m_end = endOfPair(pair.m_begin, rows.m_end);
-        const Swept first = sweepOnce(pair);
-        swept.m_largest = std::max(swept.m_largest, first.m_largest);
-        swept.m_work += first.m_work;
-        double change = first.m_largest;
+        double change = sweepOnce(pair);
+        largest = std::max(largest, change);
         for (int k = 1; again && k < kMostTimes && m_rows.share(change) > much && !m_rows.isRunaway(change); ++k)
-            change = sweepOnce(pair).m_largest;
-        if (!m_rows.isRunaway(change)) continue;
-        swept.m_largest = change;
-        break;
+            change = sweepOnce(pair);
+        if (m_rows.isRunaway(change)) return change;
     }
-    return swept;
+    return largest;
 }
 
 // The rows from one on that have the same two ends' owners.
@@ -190,9 +185,9 @@ int SweepsInTurn::endOfPair(int begin, int end) const
     return k;
 }
 
-SweepsInTurn::Swept SweepsInTurn::sweepOnce(Range rows)
+double SweepsInTurn::sweepOnce(Range rows)
 {
-    Swept swept;
+    double largest = 0;
     for (int k = rows.m_begin; k < rows.m_end; ++k)
     {
         ContactRow& row = m_rows.rows()[m_working[k]];
@@ -200,12 +195,13 @@ SweepsInTurn::Swept SweepsInTurn::sweepOnce(Range rows)
         const Vec3 difference = wanted - row.m_impulse;
         const double square = dot(difference, difference);
         if (!(square > 0 && square <= kMost)) continue;
-        swept.m_largest = std::max(swept.m_largest, speedOf(row, difference));
-        swept.m_work += row.m_rowCompliance.x * square;
+        const double speed = speedOf(row, difference);
+        largest = std::max(largest, speed);
+        if (speed <= m_negligible && isInCone(row)) continue;
         m_rows.change(row, wanted);
-        if (m_rows.isRunaway(swept.m_largest)) break;
+        if (m_rows.isRunaway(largest)) break;
     }
-    return swept;
+    return largest;
 }
 
 }  // namespace bullet_fem

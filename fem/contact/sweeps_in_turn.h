@@ -5,28 +5,25 @@
 #include <vector>
 
 #include "fem/contact/contact_rows.h"
-#include "fem/contact/subspace_search.h"
+#include "fem/contact/sweep_mixing.h"
 #include "fem/contact/sweep_parts.h"
 
 namespace bullet_fem
 {
 
 /// Gauss-Seidel over rows whose bodies all have a dense compliance: over those that carry something, the working set,
-/// with subspace minimizations between. Grows with the problem, never shrinks.
+/// mixed by Anderson's acceleration. Grows with the problem, never shrinks.
 class SweepsInTurn
 {
 public:
     /// The rows must outlive it.
-    explicit SweepsInTurn(ContactRows& rows) : m_rows(rows), m_subspace(rows) {}
+    explicit SweepsInTurn(ContactRows& rows) : m_rows(rows), m_mixing(rows) {}
 
     /// When the rows are assembled anew.
     void begin();
 
-    /// When the rows' velocities are measured anew.
+    /// When the rows' velocities are measured anew: forgets the working set.
     void restart();
-
-    /// When all that sweeps have found out is to be forgotten.
-    void reset();
 
     /// Rows of others have changed the obstacles' velocities since the last sweep.
     void othersMoved() { m_looked = false; }
@@ -39,30 +36,24 @@ public:
     double lastSpeed() const { return m_lastSpeed; }
 
 private:
-    struct Swept  // what a sweep over some rows has changed
-    {
-        double m_largest = 0;  // [m/s]
-        double m_work = 0;     // roughly [J]
-    };
-
     void divideRows();
-    void forgetWorkingSet();
     void chooseWorkingSet();
     void lookForWork();
     bool restIsDone(double tolerance);
     void sweepAll();
-    Swept sweepRows(Range rows);
-    Swept sweepOnce(Range rows);
+    double sweepRows(Range rows);
+    double sweepOnce(Range rows);
     int endOfPair(int begin, int end) const;
 
     ContactRows& m_rows;
-    SubspaceSearch m_subspace;
+    SweepMixing m_mixing;
     SweepParts m_parts;                  // of the rows
     std::vector<int> m_working;          // rows that the sweeps are over, part by part
     std::vector<unsigned char> m_works;  // per row: belongs to them
     std::vector<unsigned char> m_wants;  // per row: is to belong to the next, if it has been looked for
     bool m_looked = false;               // and nothing has changed since
     int m_lifeOfSet = -1;                // sweeps until another is chosen; -1: there is none
+    double m_negligible = 0;             // change of a row that waits [m/s]
     double m_lastChange = 0, m_lastSpeed = 0;
 };
 

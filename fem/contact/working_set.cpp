@@ -23,11 +23,10 @@ void WorkingSet::reset(int ends)
     const std::size_t most = padded(3 * static_cast<std::size_t>(ends), kResponsePadding);
     if (m_W.size() < most * most) m_W.resize(most * most);
     m_velocity.assign(most, 0);
-    m_probeVelocity.assign(most, 0);
     m_ends.reserve(ends);
     m_wanted.reserve(ends);
-    m_probeImpulse.reserve(ends);
-    m_probeResponse.reserve(ends);
+    m_swept.reserve(most);
+    for (std::vector<double>& delta : m_sweptDelta) delta.reserve(most);
 }
 
 void WorkingSet::choose()
@@ -126,23 +125,25 @@ void WorkingSet::load(const PointCompliance& points, const std::vector<double>& 
     for (std::size_t k = 0; k < m_ends.size(); ++k) put(points.read(m_ends[k], slotVelocity), m_velocity, k);
 }
 
-void WorkingSet::beginProbe()
+void WorkingSet::forgetSweeps()
 {
-    m_probeImpulse.assign(m_ends.size(), Vec3());
-    std::fill(m_probeVelocity.begin(), m_probeVelocity.begin() + static_cast<std::ptrdiff_t>(order()), 0.0);
+    m_swept.assign(3 * m_ends.size(), 0.0);
+    for (std::vector<double>& delta : m_sweptDelta) delta.assign(3 * m_ends.size(), 0.0);
 }
 
-void WorkingSet::respondToProbe()
+void WorkingSet::noteSweep(int slot, bool first)
 {
-    m_probeResponse.clear();
-    for (std::size_t k = 0; k < m_ends.size(); ++k)
-        if (dot(m_probeImpulse[k], m_probeImpulse[k]) > 0) m_probeResponse.push_back(respond(k, m_probeImpulse[k]));
-    addResponses(m_probeResponse.data(), m_probeResponse.size(), order(), m_probeVelocity.data());
+    for (std::size_t i = 0; i < m_swept.size(); ++i)
+    {
+        if (!first) m_sweptDelta[slot][i] = m_velocity[i] - m_swept[i];
+        m_swept[i] = m_velocity[i];
+    }
 }
 
-void WorkingSet::followProbe(double step)
+void WorkingSet::mixSweeps(const std::array<double, kMixed>& shares)
 {
-    for (std::size_t i = 0; i < 3 * m_ends.size(); ++i) m_velocity[i] += step * m_probeVelocity[i];
+    for (int j = 0; j < kMixed; ++j)
+        for (std::size_t i = 0; i < m_swept.size(); ++i) m_velocity[i] -= shares[j] * m_sweptDelta[j][i];
 }
 
 }  // namespace bullet_fem

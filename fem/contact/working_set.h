@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fem/contact/point_compliance.h"
@@ -42,14 +43,12 @@ public:
         addResponses(&response, 1, order(), m_velocity.data());
     }
 
-    /// A direction of impulses, and the velocities that it makes, beside the present ones: beginProbe forgets the last,
-    /// addToProbe adds an impulse to an end, and followProbe goes `step` times its way.
-    void beginProbe();
-    void addToProbe(int e, const Vec3& impulse) { m_probeImpulse[m_place[e]] += impulse; }
-    void respondToProbe();
-    const Vec3& probeImpulse(int e) const { return m_probeImpulse[m_place[e]]; }
-    Vec3 probeVelocity(int e) const { return at(m_probeVelocity, m_place[e]); }
-    void followProbe(double step);
+    /// For SweepMixing: the velocities after the last sweep, and their differences from those of the sweeps before, of
+    /// which noteSweep keeps that of this one in a slot, unless it is the first. mixSweeps takes shares of them off.
+    static constexpr int kMixed = 2;
+    void forgetSweeps();
+    void noteSweep(int slot, bool first);
+    void mixSweeps(const std::array<double, kMixed>& shares);
 
 private:
     static Vec3 at(const std::vector<double>& values, int place)
@@ -68,16 +67,15 @@ private:
     void widen();
     void dropThoseThatLeft();
 
-    std::vector<int> m_ends;                // of the body
-    std::vector<int> m_place;               // of the body's ends in the set, or -1
-    std::vector<unsigned char> m_wanted;    // per end of the set: belongs to the last choice
-    std::size_t m_packed = 0;               // ends that m_W has
-    std::size_t m_stride = 0;               // of its columns
-    std::vector<float> m_W;                 // three columns an end, with room for all ends of the body
-    std::vector<double> m_velocity;         // three an end of the set, padded
-    std::vector<double> m_probeVelocity;    // likewise
-    std::vector<Vec3> m_probeImpulse;       // per end of the set
-    std::vector<Response> m_probeResponse;  // of those that have one
+    std::vector<int> m_ends;              // of the body
+    std::vector<int> m_place;             // of the body's ends in the set, or -1
+    std::vector<unsigned char> m_wanted;  // per end of the set: belongs to the last choice
+    std::size_t m_packed = 0;             // ends that m_W has
+    std::size_t m_stride = 0;             // of its columns
+    std::vector<float> m_W;               // three columns an end, with room for all ends of the body
+    std::vector<double> m_velocity;       // three an end of the set, padded
+    std::vector<double> m_swept;          // likewise, after the last sweep
+    std::array<std::vector<double>, kMixed> m_sweptDelta;
 };
 
 }  // namespace bullet_fem

@@ -109,18 +109,34 @@ TEST(WorkingSet, MovesAsTheWholeWouldUnderImpulsesOnIt)
         for (int e : chosen) EXPECT_TRUE(set.has(e)) << e;
         EXPECT_EQ(std::count_if(velocity.begin(), velocity.end(), [](double v) { return !std::isfinite(v); }), 0);
         largest = std::max(largest, set.ends().size() - std::set<int>(chosen.begin(), chosen.end()).size());
-        set.beginProbe();
-        for (int e : set.ends())
+        // Mixes of sweeps have the velocities of the same mixes of their impulses.
+        set.forgetSweeps();
+        std::vector<Vec3> now(kEnds), last(kEnds);
+        std::array<std::vector<Vec3>, 2> delta;
+        delta.fill(std::vector<Vec3>(kEnds));
+        for (int sweep = 0; sweep < 4; ++sweep)
         {
-            const Vec3 impulse = random.vector(), direction = random.vector();
-            set.push(e, impulse);
-            respond(e, impulse);
-            set.addToProbe(e, direction);
-            respond(e, 0.5 * direction);
+            const int slot = sweep % 2;
+            for (int e : set.ends())
+            {
+                const Vec3 impulse = random.vector();
+                set.push(e, impulse);
+                respond(e, impulse);
+                now[e] += impulse;
+                if (sweep > 0) delta[slot][e] = now[e] - last[e];
+                last[e] = now[e];
+            }
+            set.noteSweep(slot, sweep == 0);
+            const std::array<double, 2> shares = {random(), random()};
+            set.mixSweeps(shares);
+            for (int e : set.ends())
+                for (int j = 0; j < 2; ++j)
+                {
+                    now[e] -= shares[j] * delta[j][e];
+                    respond(e, -shares[j] * delta[j][e]);
+                }
         }
-        set.respondToProbe();
-        set.followProbe(0.5);
-        for (int e : set.ends()) EXPECT_LE(norm(set.velocity(e) - W.read(e, velocity)), 1e-13) << e;
+        for (int e : set.ends()) EXPECT_LE(norm(set.velocity(e) - W.read(e, velocity)), 1e-12) << e;
     }
     EXPECT_EQ(largest, 1u);  // one that left stayed, five did not
 }

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/sweep_mixing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kMixed = WorkingSet::kMixed;
+
+// Shares of differences that are all but parallel are large and opposite, and follow rounding.
+constexpr double kParallel = 1e-4;  // determinant, as a share of the product of squares
+constexpr double kFar = 300;        // share that is no longer believed
+
+void noteDelta(const Vec3& value, int slot, bool first, Vec3& last, Vec3* deltas)
+{
+    if (!first) deltas[slot] = value - last;
+    last = value;
+}
+
+Vec3 mixed(const std::array<double, kMixed>& shares, const Vec3* deltas)
+{
+    Vec3 sum;
+    for (int j = 0; j < kMixed; ++j) sum -= shares[j] * deltas[j];
+    return sum;
+}
+
+}  // namespace
+
+void SweepMixing::begin()
+{
+    m_before.reserve(m_rows.rows().size());
+    m_swept.reserve(m_rows.rows().size());
+}
+
+void SweepMixing::start(const std::vector<int>& working)
+{
+    m_before.resize(working.size());
+    m_swept.resize(working.size());
+    m_square = 0;
+    m_slot = 0;
+    forget();
+}
+
+void SweepMixing::forget()
+{
+    m_shares = {};
+    m_swept.assign(m_swept.size(), {});
+    m_rows.forEachTouchedBody(nullptr, [this](int b) { m_rows.body(b).working().forgetSweeps(); });
+}
+
+void SweepMixing::mix(const std::vector<int>& working)
+{
+    for (std::size_t k = 0; k < working.size(); ++k)
+    {
+        ContactRow& row = m_rows.rows()[working[k]];
+        m_rows.pushAlong(row, mixed(m_shares, m_swept[k].m_afterDelta));
+        m_before[k] = row.m_impulse;
+    }
+    m_rows.forEachTouchedBody(m_rows.threadsForCompliance(),
+                              [this](int b) { m_rows.body(b).working().mixSweeps(m_shares); });
+}
+
+// What a mix has led to a larger change is begun anew.
+void SweepMixing::note(const std::vector<int>& working)
+{
+    const double square = squareOfChanges(working);
+    const bool first = !(m_square > 0 && square <= m_square);
+    m_square = square;
+    if (first) forget();
+    m_slot = (m_slot + 1) % kMixed;
+    noteRows(working, first);
+    m_rows.forEachTouchedBody(m_rows.threadsForCompliance(),
+                              [&](int b) { m_rows.body(b).working().noteSweep(m_slot, first); });
+    chooseShares(working);
+}
+
+double SweepMixing::squareOfChanges(const std::vector<int>& working) const
+{
+    double sum = 0;
+    for (std::size_t k = 0; k < working.size(); ++k)
+    {
+        const ContactRow& row = m_rows.rows()[working[k]];
+        const Vec3 change = row.m_impulse - m_before[k];
+        sum += row.m_rowCompliance.x * dot(change, change);
+    }
+    return sum;
+}
+
+void SweepMixing::noteRows(const std::vector<int>& working, bool first)
+{
+    for (std::size_t k = 0; k < working.size(); ++k)
+    {
+        const Vec3 now = m_rows.rows()[working[k]].m_impulse;
+        Swept& swept = m_swept[k];
+        noteDelta(now, m_slot, first, swept.m_after, swept.m_afterDelta);
+        noteDelta(now - m_before[k], m_slot, first, swept.m_change, swept.m_changeDelta);
+    }
+}
+
+// Least squares: the last change less shares of its differences from those before, each row by its compliance. Where
+// the two are parallel, the newest alone.
+void SweepMixing::chooseShares(const std::vector<int>& working)
+{
+    static_assert(kMixed == 2, "two equations are solved here");
+    double own[2] = {0, 0}, both = 0, change[2] = {0, 0};
+    for (std::size_t k = 0; k < working.size(); ++k)
+    {
+        const double w = m_rows.rows()[working[k]].m_rowCompliance.x;
+        const Swept& swept = m_swept[k];
+        const Vec3* deltas = swept.m_changeDelta;
+        both += w * dot(deltas[0], deltas[1]);
+        for (int j = 0; j < 2; ++j)
+        {
+            own[j] += w * dot(deltas[j], deltas[j]);
+            change[j] += w * dot(deltas[j], swept.m_change);
+        }
+    }
+    m_shares = {};
+    const double determinant = own[0] * own[1] - both * both;
+    if (determinant > kParallel * own[0] * own[1])
+        m_shares = {(change[0] * own[1] - change[1] * both) / determinant,
+                    (change[1] * own[0] - change[0] * both) / determinant};
+    else if (own[m_slot] > 0)
+        m_shares[m_slot] = change[m_slot] / own[m_slot];
+    const auto isNear = [](double share) { return std::abs(share) <= kFar; };
+    if (!std::all_of(m_shares.begin(), m_shares.end(), isNear)) m_shares = {};
+}
+
+}  // namespace bullet_fem
