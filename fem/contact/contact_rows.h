@@ -63,10 +63,10 @@ public:
     /// What changes are measured against from here on: the speed that the loads give a body in a step, or the largest
     /// that rows have to change now [m/s]; where there are no loads, or that the guesses have changed.
     void setSpeedScale();
+    double speedScale() const { return m_speedScale; }
 
     /// The largest speed that its loads alone would give one of the bodies in a step [m/s].
     double loadSpeed() const { return m_loadSpeed; }
-    double speedScale() const { return m_speedScale; }
 
     /// A speed as a share of that scale; 1000 if there is none.
     double share(double speed) const;
