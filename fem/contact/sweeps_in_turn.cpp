@@ -17,7 +17,7 @@ constexpr double kMuch = 5e-3;
 constexpr int kMostTimes = 8;
 
 // A row that wants less than this share of the tolerance waits until it wants more, or until sweeps are to end: most of
-// what late ones would do.
+// what late ones would do. If it waited longer, piles would creep.
 constexpr double kNegligible = 0.1;
 
 // What is no number is never applied.
