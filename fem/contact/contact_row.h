@@ -33,6 +33,7 @@ struct ContactRow
     double m_friction = 0;  ///< [-]
     Mat3 m_compliance;      ///< of the relative velocity to the impulse [1/kg]
     Vec3 m_roundImpulse;    ///< at the end of the last round
+    Vec3 m_bestImpulse;     ///< at the end of the best
     Vec3 m_limit;           ///< of a joint's impulses
     double m_most = 0;      ///< and of their sum
     double m_softness = 0;  ///< of a joint: compliance added, as a share of its own [-]

@@ -93,6 +93,17 @@ void ContactRows::takeBack()
     flush();
 }
 
+void ContactRows::keep()
+{
+    for (ContactRow& row : m_rows) row.m_bestImpulse = row.m_impulse;
+}
+
+void ContactRows::goBack()
+{
+    for (ContactRow& row : m_rows) change(row, row.m_bestImpulse);
+    flush();
+}
+
 bool ContactRows::hasImpulses() const
 {
     return std::any_of(m_rows.begin(), m_rows.end(),

@@ -41,6 +41,10 @@ public:
     /// Takes all impulses back.
     void takeBack();
 
+    /// Notes all impulses; gives the rows those noted last.
+    void keep();
+    void goBack();
+
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
 

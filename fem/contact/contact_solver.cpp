@@ -68,11 +68,13 @@ struct ContactSolver::Scratch
     ContactReport m_report;
     int m_minRounds = 1;
     double m_sweepTolerance = 0, m_roundTolerance = 0;
-    double m_error = 1;       // after the last round
-    double m_goal = 0;        // error at which rounds end
-    bool m_loose = false;     // the last corrective solves were loose
-    double m_floor = 0;       // of a body's impulses that residuals are measured against
-    bool m_guessing = false;  // the impulses are those of the last step
+    double m_error = 1;        // after the last round
+    double m_best = 0;         // the smallest so far, if it may go back
+    bool m_mayGoBack = false;  // to the impulses that left it
+    double m_goal = 0;         // error at which rounds end
+    bool m_loose = false;      // the last corrective solves were loose
+    double m_floor = 0;        // of a body's impulses that residuals are measured against
+    bool m_guessing = false;   // the impulses are those of the last step
     SweepProgress m_progress;
     bool m_stalled = false;
     bool m_empty = true;
@@ -112,6 +114,9 @@ constexpr double kRoundGuessShare = 0.1;
 // A guess that makes points close this many times faster than they do without it, or than loads make them, is none.
 constexpr double kBadGuess = 5;
 
+// Impulses that leave an error this many times that of the best round's are not those that a step ends with.
+constexpr double kMuchWorse = 2;
+
 // A round that leaves more than this share of a small error has met the error of the corrective solves, or points that
 // slide and hand their load on to each other bit by bit, which the next step takes up. Where W is too soft, every round
 // goes a part of the way. Impacts may take rounds that seem to lead nowhere.
@@ -120,6 +125,11 @@ struct Standstill
     double m_share, m_smallError;
 };
 constexpr Standstill kStandstill = {0.8, 5e-3}, kStandstillWhereSoft = {0.97, 1e-3};
+
+bool isMoved(const Obstacle& obstacle)
+{
+    return obstacle.canMove() || obstacle.m_responseCount > 0;
+}
 
 // An obstacle's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
 // all. Of an articulated one, whoever knows its joints makes the sum.
@@ -180,7 +190,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_push.begin();
     s.m_error = 1;
     s.m_progress = {};
-    s.m_stalled = s.m_loose = false;
+    s.m_stalled = s.m_loose = s.m_mayGoBack = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
     if (!joints && s.m_rows.hasImpulses())
@@ -194,6 +204,9 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_rows.setSpeedScale();
     s.m_error = joints ? 1 : s.m_rows.error();
     s.m_goal = joints ? s.m_roundTolerance : kRoundGuessShare * s.m_roundTolerance;
+    s.m_mayGoBack = !joints && std::none_of(problem.m_obstacles.begin(), problem.m_obstacles.end(), isMoved);
+    s.m_best = s.m_error;
+    if (s.m_mayGoBack) s.m_rows.keep();
 }
 
 // Where bodies are jammed or deep in each other the impulses of the last step may be those of another world: what they
@@ -211,6 +224,25 @@ void ContactSolver::guess()
     s.m_error = 0;  // no loose solve
     correct();
     s.m_stalled = false;
+}
+
+// Where W is far from what bodies answer, as of strained ones in a jam, a round may leave much more than it found.
+// Where obstacles move, others answer the impulses, too, and would not go back.
+void ContactSolver::noteBest()
+{
+    Scratch& s = *m_scratch;
+    if (!s.m_mayGoBack || s.m_error > s.m_best) return;
+    s.m_best = s.m_error;
+    s.m_rows.keep();
+}
+
+void ContactSolver::goBackToBest()
+{
+    Scratch& s = *m_scratch;
+    if (!s.m_mayGoBack || !(s.m_error > kMuchWorse * s.m_best)) return;
+    s.m_rows.goBack();
+    s.m_error = 0;  // no loose solve
+    correct();
 }
 
 bool ContactSolver::wantsRound() const
@@ -263,12 +295,14 @@ void ContactSolver::correct()
     const Standstill limit = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
     s.m_stalled = !s.m_settings.m_untilSolved && !wasLoose && s.m_report.m_rounds > s.m_minRounds + 1 &&
                   s.m_error > limit.m_share * before && s.m_error < limit.m_smallError;
+    noteBest();
 }
 
 ContactReport ContactSolver::finish()
 {
     Scratch& s = *m_scratch;
     if (s.m_empty) return s.m_report;
+    goBackToBest();
     s.m_report.m_violation = s.m_rows.worstViolation();
     s.m_rows.store();
     if (!s.m_push.isNeeded()) return s.m_report;

@@ -238,6 +238,8 @@ public:
 
 private:
     void guess();
+    void noteBest();
+    void goBackToBest();
 
     struct Scratch;
     std::unique_ptr<Scratch> m_scratch;

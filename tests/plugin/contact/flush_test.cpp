@@ -115,24 +115,32 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& scene)
     { return couplingName(std::get<0>(scene.param)) + ("_" + testing::PrintToString(std::get<1>(scene.param))); });
 
-// No program means this: cubes 4 cm deep in walls and in each other, and no room to part.
-TEST(Jam, OfStiffCubesIsNotThrownApart)
+// Coarse cubes, and, as they take longer, once finer ones. [cells an edge, angle beyond 45 degrees]
+class JamOfCubes : public testing::TestWithParam<std::tuple<int, double>>
 {
-    for (const int cells : {2, 4})
+};
+
+// No program means this: cubes 4 cm deep in walls and in each other, and no room to part. W is wrong for what is
+// strained so much, and rounds lead now nearer, now away.
+TEST_P(JamOfCubes, IsNotThrownApart)
+{
+    const auto [cells, turn] = GetParam();
+    FemWorld world(WorldClass::softRigid, Coupling::coupled);
+    world.addFloorBox();
+    const Lattice lattice = {{2, 2, 2}, 1e7, true};
+    addWalls(world, kEdge, kEdge);
+    const std::vector<btSoftBody*> cubes = addCubes(world, lattice, 0, cells);
+    for (btSoftBody* cube : cubes) cube->rotate(btQuaternion(btVector3(0, 0, 1), SIMD_PI / 4 + btScalar(turn)));
+    for (int k = 0; k < 60; ++k)
     {
-        FemWorld world(WorldClass::softRigid, Coupling::coupled);
-        world.addFloorBox();
-        const Lattice lattice = {{2, 2, 2}, 1e7, true};
-        addWalls(world, kEdge, kEdge);
-        const std::vector<btSoftBody*> cubes = addCubes(world, lattice, 0, cells);
-        for (btSoftBody* cube : cubes) cube->rotate(btQuaternion(btVector3(0, 0, 1), SIMD_PI / 4));
-        for (int k = 0; k < 60; ++k)
-        {
-            world.step(1);
-            for (const btSoftBody* cube : cubes) ASSERT_LT(fastestNode(*cube), 10) << "step " << k;
-        }
+        world.step(1);
+        for (const btSoftBody* cube : cubes) ASSERT_LT(fastestNode(*cube), 5) << "step " << k;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Flush, JamOfCubes,
+                         testing::Values(std::tuple(2, 0.0), std::tuple(2, 2e-3), std::tuple(2, 4e-3),
+                                         std::tuple(2, 6e-3), std::tuple(4, 0.0)));
 
 }  // namespace
 }  // namespace bullet_fem
