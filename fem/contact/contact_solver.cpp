@@ -239,7 +239,7 @@ void ContactSolver::noteBest()
 void ContactSolver::goBackToBest()
 {
     Scratch& s = *m_scratch;
-    if (!s.m_mayGoBack || !(s.m_error > kMuchWorse * s.m_best)) return;
+    if (!s.m_mayGoBack || !(s.m_error > std::max(kMuchWorse * s.m_best, s.m_roundTolerance))) return;
     s.m_rows.goBack();
     s.m_error = 0;  // no loose solve
     correct();
