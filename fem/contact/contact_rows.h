@@ -41,7 +41,7 @@ public:
     /// Takes all impulses back.
     void takeBack();
 
-    /// Notes all impulses; gives the rows those noted last.
+    /// Notes all impulses; goBack() gives those noted last to the rows again, and the velocities follow.
     void keep();
     void goBack();
 

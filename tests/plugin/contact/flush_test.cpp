@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& scene)
     { return couplingName(std::get<0>(scene.param)) + ("_" + testing::PrintToString(std::get<1>(scene.param))); });
 
-// Coarse cubes, and, as they take longer, once finer ones. [cells an edge, angle beyond 45 degrees]
+// Coarse cubes, and, as they take longer, once finer ones. [cells an edge, angle beyond 45 degrees in rad]
 class JamOfCubes : public testing::TestWithParam<std::tuple<int, double>>
 {
 };
