@@ -44,15 +44,24 @@ Vec3 unitNormal(const std::array<Vec3, 4>& ends)
     return (1 / norm(n)) * n;
 }
 
-// True if a triangle lies across the way between its ends.
-bool isCrossed(const SoftSurface& surface, const Vec3& from, const Vec3& way)
+bool hasNode(const Triangle& triangle, int node)
 {
+    return std::find(triangle.begin(), triangle.end(), node) != triangle.end();
+}
+
+// True if a triangle lies across the way between its ends, besides those at the edge near which it begins or ends: they
+// may slope away there.
+bool isCrossed(const SoftSurface& surface, int edge, const Vec3& from, const Vec3& way)
+{
+    const std::array<int, 2>& ends = surface.features().m_edges[edge];
     CoarseBox box = CoarseBox::of(from, {});
     box.add(CoarseBox::of(from + way, {}));
     bool crossed = false;
     surface.tree().visitNear(box, 0,
                              [&](int t)
                              {
+                                 const Triangle& nodes = surface.triangles()[t];
+                                 if (hasNode(nodes, ends[0]) && hasNode(nodes, ends[1])) return;
                                  const Corners c = surface.tree().corners(t);
                                  const Vec3& n = surface.faceNormal(t);
                                  const double s = dot(n, c[0] - from) / dot(n, way);
@@ -212,20 +221,24 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
 }
 
 // True if nothing lies between edges that have passed each other: those on the far sides of two bars have both bars
-// between them, and these may not overlap at all. The way begins on the surfaces and runs just inside of the edges.
+// between them, and these may not overlap at all. The way begins near the surfaces and runs inside of the edges, and of
+// faces that lean over it.
 bool EdgePairSearch::isFreeWayOut(const Pair& pair, const Crossing& crossing) const
 {
     const Vec3& n = crossing.m_normal;
     const auto inward = [&](const std::array<Vec3, 2>& into)
     {
-        const Vec3& flatter = std::fabs(dot(into[0], n)) < std::fabs(dot(into[1], n)) ? into[0] : into[1];
-        return flatter - dot(flatter, n) * n;
+        const bool firstIsFlatter = std::fabs(dot(into[0], n)) < std::fabs(dot(into[1], n));
+        const Vec3 &flatter = into[firstIsFlatter ? 0 : 1], &steeper = into[firstIsFlatter ? 1 : 0];
+        const Vec3 inside = flatter - dot(flatter, n) * n;
+        const double over = dot(steeper, inside);
+        return (kAside + (over > 0 ? std::min(over / std::fabs(dot(steeper, n)), 1.0) : 0)) * inside;
     };
     const Vec3 way = -crossing.m_gap * n;  // from A's edge to B's
-    const Vec3 aside = -kAside * crossing.m_gap *
-                       (inward(m_first->intoFaces(pair.m_edgeA)) + inward(m_second->intoFaces(pair.m_edgeB)));
+    const Vec3 aside =
+        -crossing.m_gap * (inward(m_first->intoFaces(pair.m_edgeA)) + inward(m_second->intoFaces(pair.m_edgeB)));
     const Vec3 from = along(pair.m_x, 0, crossing.m_at.m_a) + aside;
-    return !isCrossed(*m_first, from, way) && !isCrossed(*m_second, from, way);
+    return !isCrossed(*m_first, pair.m_edgeA, from, way) && !isCrossed(*m_second, pair.m_edgeB, from, way);
 }
 
 // True if all of the first edge is on one side of the second along a direction, from the start to kSteps later: their
