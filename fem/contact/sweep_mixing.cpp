@@ -43,6 +43,7 @@ void SweepMixing::start(const std::vector<int>& working)
     m_swept.resize(working.size());
     m_square = 0;
     m_slot = 0;
+    m_trusted = true;
     forget();
 }
 
@@ -55,14 +56,30 @@ void SweepMixing::forget()
 
 void SweepMixing::mix(const std::vector<int>& working)
 {
+    addShares(working);
+    for (std::size_t k = 0; k < working.size(); ++k) m_before[k] = m_rows.rows()[working[k]].m_impulse;
+}
+
+void SweepMixing::addShares(const std::vector<int>& working)
+{
     for (std::size_t k = 0; k < working.size(); ++k)
-    {
-        ContactRow& row = m_rows.rows()[working[k]];
-        m_rows.pushAlong(row, mixed(m_shares, m_swept[k].m_afterDelta));
-        m_before[k] = row.m_impulse;
-    }
+        m_rows.pushAlong(m_rows.rows()[working[k]], mixed(m_shares, m_swept[k].m_afterDelta));
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(),
                               [this](int b) { m_rows.body(b).working().mixSweeps(m_shares); });
+}
+
+// Impulses of points that contradict each other grow by the same amount in every sweep, and the differences of these
+// amounts are rounding: a mix that follows them may lead anywhere.
+bool SweepMixing::takeBack(const std::vector<int>& working)
+{
+    if (m_shares == std::array<double, kMixed>{}) return false;
+    for (std::size_t k = 0; k < working.size(); ++k) m_rows.change(m_rows.rows()[working[k]], m_before[k]);
+    for (double& share : m_shares) share = -share;
+    addShares(working);
+    m_shares = {};
+    m_square = 0;
+    m_trusted = false;
+    return true;
 }
 
 // What a mix has led to a larger change is begun anew.
@@ -121,6 +138,7 @@ void SweepMixing::chooseShares(const std::vector<int>& working)
         }
     }
     m_shares = {};
+    if (!m_trusted) return;
     const double determinant = own[0] * own[1] - both * both;
     if (determinant > kParallel * own[0] * own[1])
         m_shares = {(change[0] * own[1] - change[1] * both) / determinant,

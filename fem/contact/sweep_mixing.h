@@ -32,6 +32,10 @@ public:
     /// After it.
     void note(const std::vector<int>& working);
 
+    /// Instead, of a sweep that runs away: all is again as it was before the mix, and nothing is mixed until another
+    /// start. False if nothing was mixed.
+    bool takeBack(const std::vector<int>& working);
+
 private:
     struct Swept  // of a row, by the last sweep, and its differences from those before
     {
@@ -39,6 +43,7 @@ private:
         Vec3 m_afterDelta[WorkingSet::kMixed], m_changeDelta[WorkingSet::kMixed];
     };
     void forget();
+    void addShares(const std::vector<int>& working);
     double squareOfChanges(const std::vector<int>& working) const;
     void noteRows(const std::vector<int>& working, bool first);
     void chooseShares(const std::vector<int>& working);
@@ -49,6 +54,7 @@ private:
     std::array<double, WorkingSet::kMixed> m_shares{};
     int m_slot = 0;       // of the newest differences
     double m_square = 0;  // of the last sweep's changes, roughly [J]; 0: there is none
+    bool m_trusted = true;
 };
 
 }  // namespace bullet_fem

@@ -136,6 +136,7 @@ bool SweepsInTurn::sweep(double tolerance)
     m_negligible = mixes ? kNegligible * tolerance * m_rows.speedScale() : 0;
     if (mixes) m_mixing.mix(m_working);
     sweepAll();
+    if (mixes && m_rows.isRunaway(m_lastSpeed) && m_mixing.takeBack(m_working)) sweepAll();
     if (m_lastChange <= tolerance && m_negligible > 0)
     {
         m_negligible = 0;

@@ -116,6 +116,30 @@ TEST(Runaway, OfPositionCorrectionsIsLetGo)
     }
 }
 
+// Points of the lower face of a cube, held by the floor, are driven into it: no impulse is enough.
+TEST(Runaway, OfAMixOfSweepsIsTakenBack)
+{
+    std::mt19937 generator(1);
+    const auto number = [&generator] { return generator() / 2147483648.0 - 1; };
+    for (int k = 0; k < 300; ++k)
+    {
+        ContactScene scene(1e6);
+        scene.m_settings.m_rounds = 1;
+        scene.setVelocity({number(), 0, -1});
+        scene.touchLowerFace(0, 0.5);
+        scene.m_obstacles.resize(2);
+        scene.m_obstacles[1].m_linearVelocity = {0, 0, -0.5};
+        scene.touchNode(k % 9, 0, 0.5);
+        ContactPoint& driven = scene.m_contacts.back();
+        const Vec3 n = {0.2 * number(), 0.2 * number(), -1};
+        driven.m_normal = (1 / norm(n)) * n;
+        driven.m_obstacle = 1;
+        for (ContactPoint& contact : scene.m_contacts) contact.m_impulse = 20 * contact.m_normal;
+        EXPECT_TRUE(scene.solve().m_converged) << k;
+        EXPECT_GT(norm(driven.m_impulse), 1) << k;  // [N s]
+    }
+}
+
 TEST(Runaway, OfAJointThatAsksForNoNumberHarmsNothing)
 {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
