@@ -155,7 +155,7 @@ ContactSolver::~ContactSolver() = default;
 
 ContactReport ContactSolver::solve(ContactProblem& problem, const ContactSettings& settings)
 {
-    begin(problem, settings);
+    beginRounds(problem, settings, false);
     while (wantsRound())
     {
         for (int s = 0; s < settings.m_sweeps && sweep(); ++s)
@@ -167,6 +167,12 @@ ContactReport ContactSolver::solve(ContactProblem& problem, const ContactSetting
 }
 
 void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settings)
+{
+    beginRounds(problem, settings, true);
+}
+
+// `othersAnswer`: in every round, what the impulses do to obstacles.
+void ContactSolver::beginRounds(ContactProblem& problem, const ContactSettings& settings, bool othersAnswer)
 {
     Scratch& s = *m_scratch;
     s.m_problem = &problem;
@@ -204,7 +210,8 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_rows.setSpeedScale();
     s.m_error = joints ? 1 : s.m_rows.error();
     s.m_goal = joints ? s.m_roundTolerance : kRoundGuessShare * s.m_roundTolerance;
-    s.m_mayGoBack = !joints && std::none_of(problem.m_obstacles.begin(), problem.m_obstacles.end(), isMoved);
+    const bool answered = othersAnswer && std::any_of(problem.m_obstacles.begin(), problem.m_obstacles.end(), isMoved);
+    s.m_mayGoBack = !joints && !answered;
     s.m_best = s.m_error;
     if (s.m_mayGoBack) s.m_rows.keep();
 }
@@ -227,7 +234,7 @@ void ContactSolver::guess()
 }
 
 // Where W is far from what bodies answer, as of strained ones in a jam, a round may leave much more than it found.
-// Where obstacles move, others answer the impulses, too, and would not go back.
+// Others that have answered the impulses would not go back.
 void ContactSolver::noteBest()
 {
     Scratch& s = *m_scratch;

@@ -237,6 +237,7 @@ public:
     ContactReport finish();
 
 private:
+    void beginRounds(ContactProblem& problem, const ContactSettings& settings, bool othersAnswer);
     void guess();
     void noteBest();
     void goBackToBest();
