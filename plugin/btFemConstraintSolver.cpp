@@ -104,6 +104,7 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
     const int sweeps = std::max(settings.m_sweeps, info.m_numIterations);
     const int last = std::max(0, info.m_numIterations - 1);  // Bullet does not solve contacts in later iterations
     m_group->begin(m_tmpSolverBodyPool);
+    noteImpulses();
     do
     {
         for (int sweep = 0; sweep < sweeps; ++sweep)
@@ -117,7 +118,43 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
             if (sweep >= last && !moves) break;
         }
         m_group->correct();
+        if (m_group->isBest()) noteImpulses();
     } while (m_group->wantsRound());
+    if (m_group->wantsBack())
+    {
+        goBackToNoted();
+        m_group->goBack();
+    }
     m_group->finish();
     return 0;
+}
+
+template <class Visit>
+void btFemConstraintSolver::forEachRigidRow(Visit visit)
+{
+    for (btConstraintArray* rows :
+         {&m_tmpSolverNonContactConstraintPool, &m_tmpSolverContactConstraintPool,
+          &m_tmpSolverContactFrictionConstraintPool, &m_tmpSolverContactRollingFrictionConstraintPool})
+        for (int k = 0; k < rows->size(); ++k) visit((*rows)[k]);
+}
+
+void btFemConstraintSolver::noteImpulses()
+{
+    m_noted.clear();
+    forEachRigidRow([this](const btSolverConstraint& row) { m_noted.push_back(row.m_appliedImpulse); });
+}
+
+// The velocities of the solver bodies follow, as in Bullet's own rows.
+void btFemConstraintSolver::goBackToNoted()
+{
+    auto noted = m_noted.begin();
+    forEachRigidRow(
+        [&](btSolverConstraint& row)
+        {
+            const btScalar change = *noted - btScalar(row.m_appliedImpulse);
+            row.m_appliedImpulse = *noted++;
+            btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA], &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+            a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA, change);
+            b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB, change);
+        });
 }

@@ -3,6 +3,7 @@
 #include "bullet_fem/fem/contact_solver.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "fem/contact/position_push.h"
@@ -68,13 +69,13 @@ struct ContactSolver::Scratch
     ContactReport m_report;
     int m_minRounds = 1;
     double m_sweepTolerance = 0, m_roundTolerance = 0;
-    double m_error = 1;        // after the last round
-    double m_best = 0;         // the smallest so far, if it may go back
-    bool m_mayGoBack = false;  // to the impulses that left it
-    double m_goal = 0;         // error at which rounds end
-    bool m_loose = false;      // the last corrective solves were loose
-    double m_floor = 0;        // of a body's impulses that residuals are measured against
-    bool m_guessing = false;   // the impulses are those of the last step
+    double m_error = 1;       // after the last round
+    double m_best = 0;        // the smallest so far
+    bool m_isBest = false;    // it is the last
+    double m_goal = 0;        // error at which rounds end
+    bool m_loose = false;     // the last corrective solves were loose
+    double m_floor = 0;       // of a body's impulses that residuals are measured against
+    bool m_guessing = false;  // the impulses are those of the last step
     SweepProgress m_progress;
     bool m_stalled = false;
     bool m_empty = true;
@@ -114,8 +115,9 @@ constexpr double kRoundGuessShare = 0.1;
 // A guess that makes points close this many times faster than they do without it, or than loads make them, is none.
 constexpr double kBadGuess = 5;
 
-// Impulses that leave an error this many times that of the best round's are not those that a step ends with.
-constexpr double kMuchWorse = 2;
+// A step does not end with impulses that leave a larger error than there was to begin with, some 1, and this many times
+// that of its best round. A smaller one may be that of rounds in which the rows of others have come nearer.
+constexpr double kWorse = 1, kMuchWorse = 2;
 
 // A round that leaves more than this share of a small error has met the error of the corrective solves, or points that
 // slide and hand their load on to each other bit by bit, which the next step takes up. Where W is too soft, every round
@@ -125,11 +127,6 @@ struct Standstill
     double m_share, m_smallError;
 };
 constexpr Standstill kStandstill = {0.8, 5e-3}, kStandstillWhereSoft = {0.97, 1e-3};
-
-bool isMoved(const Obstacle& obstacle)
-{
-    return obstacle.canMove() || obstacle.m_responseCount > 0;
-}
 
 // An obstacle's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
 // all. Of an articulated one, whoever knows its joints makes the sum.
@@ -155,7 +152,7 @@ ContactSolver::~ContactSolver() = default;
 
 ContactReport ContactSolver::solve(ContactProblem& problem, const ContactSettings& settings)
 {
-    beginRounds(problem, settings, false);
+    begin(problem, settings);
     while (wantsRound())
     {
         for (int s = 0; s < settings.m_sweeps && sweep(); ++s)
@@ -163,21 +160,17 @@ ContactReport ContactSolver::solve(ContactProblem& problem, const ContactSetting
         }
         correct();
     }
+    if (wantsBack()) goBack();
     return finish();
 }
 
 void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settings)
 {
-    beginRounds(problem, settings, true);
-}
-
-// `othersAnswer`: in every round, what the impulses do to obstacles.
-void ContactSolver::beginRounds(ContactProblem& problem, const ContactSettings& settings, bool othersAnswer)
-{
     Scratch& s = *m_scratch;
     s.m_problem = &problem;
     s.m_settings = settings;
     s.m_report = {};
+    s.m_isBest = false;
     s.m_report.m_contacts = static_cast<int>(problem.m_contacts.size());
     s.m_empty = problem.m_contacts.empty() && problem.m_joints.empty();
     for (Obstacle& obstacle : problem.m_obstacles)
@@ -196,7 +189,7 @@ void ContactSolver::beginRounds(ContactProblem& problem, const ContactSettings& 
     s.m_push.begin();
     s.m_error = 1;
     s.m_progress = {};
-    s.m_stalled = s.m_loose = s.m_mayGoBack = false;
+    s.m_stalled = s.m_loose = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
     if (!joints && s.m_rows.hasImpulses())
@@ -210,10 +203,8 @@ void ContactSolver::beginRounds(ContactProblem& problem, const ContactSettings& 
     s.m_rows.setSpeedScale();
     s.m_error = joints ? 1 : s.m_rows.error();
     s.m_goal = joints ? s.m_roundTolerance : kRoundGuessShare * s.m_roundTolerance;
-    const bool answered = othersAnswer && std::any_of(problem.m_obstacles.begin(), problem.m_obstacles.end(), isMoved);
-    s.m_mayGoBack = !joints && !answered;
-    s.m_best = s.m_error;
-    if (s.m_mayGoBack) s.m_rows.keep();
+    s.m_best = std::numeric_limits<double>::infinity();
+    noteBest();
 }
 
 // Where bodies are jammed or deep in each other the impulses of the last step may be those of another world: what they
@@ -234,19 +225,30 @@ void ContactSolver::guess()
 }
 
 // Where W is far from what bodies answer, as of strained ones in a jam, a round may leave much more than it found.
-// Others that have answered the impulses would not go back.
 void ContactSolver::noteBest()
 {
     Scratch& s = *m_scratch;
-    if (!s.m_mayGoBack || s.m_error > s.m_best) return;
+    s.m_isBest = s.m_problem->m_joints.empty() && s.m_error <= s.m_best;
+    if (!s.m_isBest) return;
     s.m_best = s.m_error;
     s.m_rows.keep();
 }
 
-void ContactSolver::goBackToBest()
+bool ContactSolver::isBest() const
+{
+    return m_scratch->m_isBest;
+}
+
+bool ContactSolver::wantsBack() const
+{
+    const Scratch& s = *m_scratch;
+    return !s.m_empty && s.m_problem->m_joints.empty() && s.m_error > std::max(kMuchWorse * s.m_best, kWorse);
+}
+
+void ContactSolver::goBack()
 {
     Scratch& s = *m_scratch;
-    if (!s.m_mayGoBack || !(s.m_error > std::max(kMuchWorse * s.m_best, s.m_roundTolerance))) return;
+    if (!wantsBack()) return;
     s.m_rows.goBack();
     s.m_error = 0;  // no loose solve
     correct();
@@ -309,7 +311,6 @@ ContactReport ContactSolver::finish()
 {
     Scratch& s = *m_scratch;
     if (s.m_empty) return s.m_report;
-    goBackToBest();
     s.m_report.m_violation = s.m_rows.worstViolation();
     s.m_rows.store();
     if (!s.m_push.isNeeded()) return s.m_report;

@@ -51,6 +51,10 @@ private:
         int m_constraintCount;
     };
     void select(const Islands& all, bool withFem);
+    void noteImpulses();
+    void goBackToNoted();
+    template <class Visit>
+    void forEachRigidRow(Visit visit);
 
     btFemSoftBodySolver* m_fem;
     btFemContactGroup* m_group = nullptr;      // FEM bodies of the islands being solved; null if there are none
@@ -58,4 +62,5 @@ private:
     std::vector<btCollisionObject*> m_bodies;  // what select() picked
     std::vector<btPersistentManifold*> m_manifolds;
     std::vector<btTypedConstraint*> m_constraints;
+    std::vector<btScalar> m_noted;  // impulses of the rigid rows in the best round so far [N s]
 };

@@ -192,6 +192,11 @@ void btFemContactGroup::correct()
     m_milliseconds += watch.milliseconds();
 }
 
+void btFemContactGroup::goBack()
+{
+    onSolverBodies([this] { m_solver.goBack(); });
+}
+
 void btFemContactGroup::finish()
 {
     ContactReport solved;

@@ -53,12 +53,15 @@ public:
     /// After Bullet's rigid solver: solves and hands the reactions to the rigid bodies.
     void solve();
 
-    /// Within Bullet's rigid solver, on its solver bodies: begin, then while wantsRound sweep ... sweep, correct, and
-    /// at the end finish; after the rigid solver has written its bodies back, moveRigid.
+    /// Within Bullet's rigid solver, on its solver bodies: begin, then while wantsRound sweep ... sweep, correct, then
+    /// if wantsBack goBack, and at the end finish; after the rigid solver has written its bodies back, moveRigid.
     void begin(btAlignedObjectArray<btSolverBody>& pool);
     bool sweep(double others);
     bool wantsRound() const { return m_solver.wantsRound(); }
     void correct();
+    bool isBest() const { return m_solver.isBest(); }
+    bool wantsBack() const { return m_solver.wantsBack(); }
+    void goBack();
     void finish();
     void moveRigid();
 

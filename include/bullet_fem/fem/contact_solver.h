@@ -205,9 +205,9 @@ struct ContactProblem
 /// conserved however good W is. Penetration is taken back as a displacement.
 ///
 /// solve() does it all. Who sweeps rows of its own in between, such as those between rigid bodies, calls its parts:
-/// begin, then while wantsRound sweep ... sweep, correct, and at the end finish; it may read and write the obstacles'
-/// velocities between any two of them. The scratch grows with the number of contacts and never shrinks. Deterministic:
-/// the order of contacts decides.
+/// begin, then while wantsRound sweep ... sweep, correct, then if wantsBack goBack, and at the end finish; it may read
+/// and write the obstacles' velocities between any two of them. The scratch grows with the number of contacts and never
+/// shrinks. Deterministic: the order of contacts decides.
 class ContactSolver
 {
 public:
@@ -233,14 +233,23 @@ public:
     /// m_tolerance (with joints: the last round has changed impulses).
     bool wantsRound() const;
 
+    /// True if no impulses before have left a smaller error than those of the last begin or correct: others note those
+    /// of their rows. Never with joints.
+    bool isBest() const;
+
+    /// True if the last round has left much more than the best. Others give their rows the impulses noted last, and
+    /// call goBack, or leave everything as it is.
+    bool wantsBack() const;
+
+    /// Ends the rounds with the impulses of the best.
+    void goBack();
+
     /// Takes penetration back, and reports. The problem has the impulses from here on.
     ContactReport finish();
 
 private:
-    void beginRounds(ContactProblem& problem, const ContactSettings& settings, bool othersAnswer);
     void guess();
     void noteBest();
-    void goBackToBest();
 
     struct Scratch;
     std::unique_ptr<Scratch> m_scratch;
