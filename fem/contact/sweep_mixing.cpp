@@ -68,8 +68,8 @@ void SweepMixing::addShares(const std::vector<int>& working)
                               [this](int b) { m_rows.body(b).working().mixSweeps(m_shares); });
 }
 
-// Impulses of points that contradict each other grow by the same amount in every sweep, and the differences of these
-// amounts are rounding: a mix that follows them may lead anywhere.
+// Impulses of points that contradict each other grow by nearly the same amount in every sweep: shares of what little
+// these amounts differ by are large, and a mix of them may lead anywhere.
 bool SweepMixing::takeBack(const std::vector<int>& working)
 {
     if (m_shares == std::array<double, kMixed>{}) return false;
