@@ -177,7 +177,9 @@ void btFemSoftBodySolver::setContactOffset(btSoftBody* body, btScalar metres)
         throw std::invalid_argument("contact offset " + std::to_string(metres) + " m is not in [0, 1000]");
     btFemEntry& entry = m_impl->m_registry.entry(body);
     entry.m_contactOffset = metres;
-    if (entry.m_fem) entry.m_fem->m_contactOffset = metres;
+    if (!entry.m_fem) return;
+    entry.m_fem->m_contactOffset = metres;
+    entry.m_fem->m_surface.forgetPlace();  // what it touches is searched for again
 }
 
 void btFemSoftBodySolver::forget(btSoftBody* body)

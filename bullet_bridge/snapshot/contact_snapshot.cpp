@@ -52,6 +52,25 @@ void checkSurfacePoint(const SurfacePoint& point, const FemSoftBody& fem, const 
     }
 }
 
+double sumOfWeights(const SurfacePoint& point)
+{
+    double sum = 0;
+    for (int a = 0; a < point.m_count; ++a) sum += point.m_weights[a];
+    return sum;
+}
+
+// Contacts between bodies may be used again as they are.
+void checkKept(const ContactPoint& c)
+{
+    constexpr double kAlmost = 1e-9;
+    const auto isOne = [](double value) { return std::fabs(value - 1) <= kAlmost; };
+    if (!isOne(norm(c.m_normal)))
+        reject("the normal of a contact between bodies has length ", norm(c.m_normal), ", not 1");
+    for (const SurfacePoint* point : {&c.m_soft, &c.m_other})
+        if (!isOne(sumOfWeights(*point)))
+            reject("the weights of a contact between bodies sum up to ", sumOfWeights(*point), ", not 1");
+}
+
 // `soft` feels the impulse; null for what has left the world.
 void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBody* other)
 {
@@ -161,6 +180,7 @@ ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
         s.m_attachments.push_back({attachment, here ? world.idOf(attachment.m_other) : WorldIds::kGone});
     }
     s.m_lastAttachment = fem.m_joints.m_lastId;
+    s.m_place = fem.m_surface.notedPlace();
     return s;
 }
 
@@ -173,6 +193,10 @@ void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& wor
     for (const HeldSnapshot& held : s.m_held) checkHeld(held.m_joint, fem);
     for (const AttachmentSnapshot& a : s.m_attachments) checkAttachment(a, fem, world);
     if (s.m_lastAttachment < 0) reject("the last attachment's handle is ", s.m_lastAttachment, ", below 0");
+    const std::size_t vertices = fem.m_surface.nodes().size();
+    if (!s.m_place.empty() && s.m_place.size() != vertices)
+        reject("places of ", s.m_place.size(), " vertices are noted, not of 0 or of ", vertices);
+    for (const Vec3& place : s.m_place) checkSane("a noted place", place);
 }
 
 void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
@@ -191,6 +215,7 @@ void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
     fem.m_touching.clear();
     fem.m_touchingSoft.clear();
     restoreJoints(s, world, fem.m_joints);
+    fem.m_surface.restorePlace(s.m_place);
 }
 
 void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
@@ -207,6 +232,7 @@ void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
         if (!first || !second) continue;
         if (origin.m_kind == SoftPairKind::nodeOfSecond) std::swap(first, second);
         checkPoint(kept.m_contacts[k], *first, second);
+        checkKept(kept.m_contacts[k]);
         kept.m_contacts[left] = kept.m_contacts[k];
         kept.m_origins[left++] = kept.m_origins[k];
     }

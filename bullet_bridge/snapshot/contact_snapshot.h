@@ -36,6 +36,7 @@ struct ContactSnapshot
     std::vector<HeldSnapshot> m_held;
     std::vector<AttachmentSnapshot> m_attachments;
     int m_lastAttachment = 0;
+    std::vector<Vec3> m_place;  ///< see SoftSurface::notedPlace
 };
 
 ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world);
@@ -100,7 +101,7 @@ void transfer(Bytes& bytes, AttachmentSnapshot& a)
 template <class Bytes>
 void transfer(Bytes& bytes, ContactSnapshot& s)
 {
-    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_held, s.m_attachments, s.m_lastAttachment);
+    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_held, s.m_attachments, s.m_lastAttachment, s.m_place);
 }
 
 template <class Bytes>
@@ -110,9 +111,15 @@ void transfer(Bytes& bytes, SoftPairOrigin& o)
 }
 
 template <class Bytes>
+void transfer(Bytes& bytes, SoftPairIds& p)
+{
+    bytes(p.m_firstId, p.m_secondId);
+}
+
+template <class Bytes>
 void transfer(Bytes& bytes, SoftPairMemory::Kept& k)
 {
-    bytes(k.m_contacts, k.m_origins);
+    bytes(k.m_contacts, k.m_origins, k.m_completePairs);
 }
 
 template <class Bytes>

@@ -19,6 +19,12 @@ constexpr double kPairBand = 0.05;    // share of the smaller mean edge that the
 constexpr double kPairSlop = 5e-4;    // share of the smaller body's size by which surfaces may sink in
 constexpr double kSameContact = 0.9;  // cosine between the normals of a node's contact in two steps
 
+// What the contact offsets widen both surfaces by [m].
+double offsetBetween(const FemSoftBody& first, const FemSoftBody& second)
+{
+    return &first == &second ? 0 : first.m_contactOffset + second.m_contactOffset;
+}
+
 }  // namespace
 
 SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
@@ -28,7 +34,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     m_foundOrigins.clear();
     const bool self = &first.m_fem == &second.m_fem;
     const SoftSurface &a = first.m_fem.m_surface, &b = second.m_fem.m_surface;
-    const double offset = self ? 0 : first.m_fem.m_contactOffset + second.m_fem.m_contactOffset;
+    const double offset = offsetBetween(first.m_fem, second.m_fem);
     const double edge = std::min(a.meanEdge(), b.meanEdge());
     const TouchReach reach = {kPairBand * edge + offset, edge};
     Roles roles = {first, second, {}};
@@ -53,15 +59,52 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     append(roles, offset);
 
     SoftPairReport report;
-    thin(first, second);
+    report.m_thinned = thin(first, second);
     report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
     m_continued.assign(m_last.m_count, 0);
     takeOverImpulses();
     inheritImpulses(first, second);
+    tell(report, contacts, origins);
+    return report;
+}
+
+SoftPairReport SoftPairFinder::keep(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
+                                    std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins)
+{
+    m_last = m_memory->lastOf(broadphaseId(*first.m_fem.m_softBody), broadphaseId(*second.m_fem.m_softBody));
+    m_found.assign(m_last.m_count, commonOf(first.m_fem, second.m_fem));
+    m_foundOrigins.assign(m_last.m_origins, m_last.m_origins + m_last.m_count);
+    const double offset = offsetBetween(first.m_fem, second.m_fem);
+    for (std::size_t k = 0; k < m_last.m_count; ++k)
+    {
+        const bool ofSecond = m_foundOrigins[k].m_kind == SoftPairKind::nodeOfSecond;
+        const SoftPairSide &soft = ofSecond ? second : first, &other = ofSecond ? first : second;
+        const ContactPoint& last = m_last.m_contacts[k];
+        const Vec3 on = last.m_soft.of(soft.m_fem.m_body.m_state.m_x);
+        const Vec3 onOther = last.m_other.of(other.m_fem.m_body.m_state.m_x);
+        ContactPoint& contact = m_found[k];
+        contact.m_soft = last.m_soft;
+        contact.m_other = last.m_other;
+        contact.m_soft.m_body = soft.m_index;
+        contact.m_other.m_body = other.m_index;
+        contact.m_point = 0.5 * (on + onOther);
+        contact.m_normal = last.m_normal;
+        contact.m_gap = dot(last.m_normal, on - onOther) - offset;
+        contact.m_impulse = last.m_impulse;
+        contact.m_slip = last.m_slip;
+    }
+    SoftPairReport report;
+    report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
+    tell(report, contacts, origins);
+    return report;
+}
+
+void SoftPairFinder::tell(SoftPairReport& report, std::vector<ContactPoint>& contacts,
+                          std::vector<SoftPairOrigin>& origins) const
+{
     report.m_contacts = static_cast<int>(m_found.size());
     contacts.insert(contacts.end(), m_found.begin(), m_found.end());
     origins.insert(origins.end(), m_foundOrigins.begin(), m_foundOrigins.end());
-    return report;
 }
 
 void SoftPairFinder::listHeldEdges()
@@ -75,15 +118,22 @@ void SoftPairFinder::listHeldEdges()
     }
 }
 
+// What all contacts of two bodies have.
+ContactPoint SoftPairFinder::commonOf(const FemSoftBody& first, const FemSoftBody& second)
+{
+    const btSoftBody &a = *first.m_softBody, &b = *second.m_softBody;
+    ContactPoint common;
+    common.m_slop = kPairSlop * std::min(first.m_surface.size(), second.m_surface.size());
+    common.m_hardness = std::max(0.0, double(std::min(a.m_cfg.kSHR, b.m_cfg.kSHR)));
+    common.m_friction = frictionBetween(a, b);
+    common.m_restitution = std::max(0.0, std::min(1.0, double(a.getRestitution()) * b.getRestitution()));
+    return common;
+}
+
 void SoftPairFinder::append(const Roles& roles, double offset)
 {
     const SoftSurface &soft = roles.m_soft.m_fem.m_surface, &other = roles.m_other.m_fem.m_surface;
-    const btSoftBody &softBody = *roles.m_soft.m_fem.m_softBody, &otherBody = *roles.m_other.m_fem.m_softBody;
-    ContactPoint common;
-    common.m_slop = kPairSlop * std::min(soft.size(), other.size());
-    common.m_hardness = std::max(0.0, double(std::min(softBody.m_cfg.kSHR, otherBody.m_cfg.kSHR)));
-    common.m_friction = frictionBetween(softBody, otherBody);
-    common.m_restitution = std::max(0.0, std::min(1.0, double(softBody.getRestitution()) * otherBody.getRestitution()));
+    const ContactPoint common = commonOf(roles.m_soft.m_fem, roles.m_other.m_fem);
     for (const SurfaceTouch& touch : m_touches)
     {
         ContactPoint contact = common;
@@ -104,10 +154,11 @@ void SoftPairFinder::append(const Roles& roles, double offset)
     }
 }
 
-void SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
+// False if there is nothing to thin.
+bool SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
 {
     const double cells[2] = {ContactThinning::cellOf(first.m_fem), ContactThinning::cellOf(second.m_fem)};
-    if (!(cells[0] > 0 || cells[1] > 0)) return;
+    if (!(cells[0] > 0 || cells[1] > 0)) return false;
     const bool byFirst = cells[0] > 0 && !(cells[1] > 0 && cells[1] < cells[0]);
     const FemSoftBody& fem = (byFirst ? first : second).m_fem;
     m_thinning.clear(byFirst ? cells[0] : cells[1]);
@@ -124,6 +175,7 @@ void SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
             {0, contact, point.of(X), contact.m_gap, known && isPushing(m_last.m_contacts[old - m_last.m_origins])});
     }
     m_thinning.thin(m_found, m_foundOrigins);
+    return true;
 }
 
 void SoftPairFinder::takeOverImpulses()

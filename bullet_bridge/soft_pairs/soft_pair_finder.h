@@ -23,6 +23,7 @@ struct SoftPairReport
 {
     int m_contacts = 0;      ///< appended
     bool m_limited = false;  ///< more points than allowed were found; those with the smallest gaps were kept
+    bool m_thinned = false;  ///< a skin is too fine for all its points to be kept: see ContactThinning
 };
 
 /// Finds where the surfaces of two FEM bodies, or of one with itself, touch or may do so within the step: nodes against
@@ -43,6 +44,11 @@ public:
     SoftPairReport find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
                         std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins);
 
+    /// In place of find() where both have hardly moved since the search that found the last step's contacts: appends
+    /// these, with the gaps that they have now between the points and along the normals of then.
+    SoftPairReport keep(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
+                        std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins);
+
 private:
     struct Roles  // of touches
     {
@@ -51,10 +57,12 @@ private:
         SoftPairOrigin m_origin;
     };
 
+    void tell(SoftPairReport& report, std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins) const;
     void listHeldEdges();
+    static ContactPoint commonOf(const FemSoftBody& first, const FemSoftBody& second);
     void append(const Roles& roles, double offset);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
-    void thin(const SoftPairSide& first, const SoftPairSide& second);
+    bool thin(const SoftPairSide& first, const SoftPairSide& second);
     void takeOverImpulses();
     void inheritImpulses(const SoftPairSide& first, const SoftPairSide& second);
 

@@ -24,10 +24,15 @@ void SoftPairMemory::beginStep()
     }
     m_next.clear();
     m_nextOrigins.clear();
+    m_lastComplete.swap(m_nextComplete);
+    std::sort(m_lastComplete.begin(), m_lastComplete.end());
+    m_nextComplete.clear();
 }
 
-void SoftPairMemory::remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins)
+void SoftPairMemory::remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins,
+                              const std::vector<SoftPairIds>& completePairs)
 {
+    m_nextComplete.insert(m_nextComplete.end(), completePairs.begin(), completePairs.end());
     m_next.insert(m_next.end(), contacts.begin(), contacts.end());
     m_nextOrigins.insert(m_nextOrigins.end(), origins.begin(), origins.end());
 }
@@ -36,6 +41,12 @@ void SoftPairMemory::restore(const Kept& kept)
 {
     m_next.assign(kept.m_contacts.begin(), kept.m_contacts.end());
     m_nextOrigins.assign(kept.m_origins.begin(), kept.m_origins.end());
+    m_nextComplete.assign(kept.m_completePairs.begin(), kept.m_completePairs.end());
+}
+
+bool SoftPairMemory::isComplete(const SoftPairIds& pair) const
+{
+    return std::binary_search(m_lastComplete.begin(), m_lastComplete.end(), pair);
 }
 
 SoftPairMemory::Last SoftPairMemory::lastOf(int firstId, int secondId) const

@@ -35,6 +35,17 @@ struct SoftPairOrigin
     bool isOfPair(int firstId, int secondId) const { return m_firstId == firstId && m_secondId == secondId; }
 };
 
+/// Two bodies by their broadphase ids, the first as in SoftPairOrigin.
+struct SoftPairIds
+{
+    int m_firstId = 0, m_secondId = 0;
+
+    bool operator<(const SoftPairIds& b) const
+    {
+        return std::tie(m_firstId, m_secondId) < std::tie(b.m_firstId, b.m_secondId);
+    }
+};
+
 /// The contacts between soft bodies of the last step, for those of this one to continue; and those of this one, for the
 /// next. Grows, never shrinks. May be read by several threads at once.
 class SoftPairMemory
@@ -51,16 +62,18 @@ public:
     /// What was remembered becomes the last step: at the start of a step.
     void beginStep();
 
-    /// Keeps solved contacts for the next step: one origin a contact, each once.
-    void remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins);
+    /// Keeps solved contacts for the next step: one origin a contact, each once; and the pairs of which these are all.
+    void remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins,
+                  const std::vector<SoftPairIds>& completePairs = {});
 
     /// What was remembered since the step began: what the next one depends on.
     struct Kept
     {
         std::vector<ContactPoint> m_contacts;
         std::vector<SoftPairOrigin> m_origins;  ///< one a contact
+        std::vector<SoftPairIds> m_completePairs;
     };
-    Kept kept() const { return {m_next, m_nextOrigins}; }
+    Kept kept() const { return {m_next, m_nextOrigins, m_nextComplete}; }
 
     /// Remembers this and nothing else.
     void restore(const Kept& kept);
@@ -68,10 +81,13 @@ public:
     /// All contacts of the last step, or those of a pair of broadphase ids.
     Last last() const { return {m_last.data(), m_lastOrigins.data(), m_last.size()}; }
     Last lastOf(int firstId, int secondId) const;
+    /// True if these are all contacts that the pair had in the last step, be they none.
+    bool isComplete(const SoftPairIds& pair) const;
 
 private:
     std::vector<ContactPoint> m_last, m_next;
     std::vector<SoftPairOrigin> m_lastOrigins, m_nextOrigins;
+    std::vector<SoftPairIds> m_lastComplete, m_nextComplete;  // the last ascending
     std::vector<int> m_order;
 };
 

@@ -13,6 +13,10 @@ namespace bullet_fem
 namespace
 {
 
+// Mean edges by which the nodes of a body may be away from where they were noted: two bodies come closer by four times
+// as much since they were searched, half the contact band.
+constexpr double kStill = 0.00625;
+
 bool touches(const FemSoftBody& fem, const FemSoftBody& other)
 {
     const auto& list = fem.m_touchingSoft;
@@ -28,15 +32,10 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
     listPairs(bodies);
     m_steady.sumImpulses(bodies, m_memory);
     m_threads.run(static_cast<int>(m_paired.size()),
-                  [&](int k)
-                  {
-                      const int b = m_paired[k];
-                      FemSoftBody& fem = *bodies[b];
-                      fem.updateSkin();
-                      const bool steady = !fem.m_skin && m_steady.isSteady(fem, b, step);
-                      const std::vector<Vec3>& velocity = steady ? fem.m_body.m_state.m_v : fem.surfaceVelocity();
-                      fem.m_surface.update(fem.surfacePosition(), velocity, step);
-                  });
+                  [&](int k) { updateSurface(*bodies[m_paired[k]], m_paired[k], step); });
+    m_moved.clear();
+    for (int b : m_paired)
+        if (!m_isStill[b]) m_moved.push_back(bodies[b]);
     m_threads.run(kParts, [&](int part) { findPairs(bodies, maxContacts, part); });
     m_contacts.clear();
     m_origins.clear();
@@ -50,23 +49,40 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
         if (pair.m_limited) m_limited[pair.m_first] = 1;
 }
 
+void SoftPairSearch::updateSurface(FemSoftBody& fem, int body, double step)
+{
+    fem.updateSkin();
+    const bool steady = !fem.m_skin && m_steady.isSteady(fem, body, step);
+    const std::vector<Vec3>& velocity = steady ? fem.m_body.m_state.m_v : fem.surfaceVelocity();
+    fem.m_surface.update(fem.surfacePosition(), velocity, step);
+    m_isStill[body] = fem.m_surface.isStill(kStill * m_smallestEdge[body]);
+}
+
 // The first of a pair is the one that came into the world first.
 void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
 {
     const int count = static_cast<int>(bodies.size());
     m_pairs.clear();
     m_paired.clear();
-    m_isPaired.assign(bodies.size(), 0);
+    m_isStill.assign(bodies.size(), 0);
+    m_smallestEdge.assign(bodies.size(), 0);
+    const auto pairWith = [&](int b, double edge)
+    { m_smallestEdge[b] = m_smallestEdge[b] > 0 ? std::min(m_smallestEdge[b], edge) : edge; };
     for (int a = 0; a < count; ++a)
         for (int b = a; b < count; ++b)
         {
             if (!touches(*bodies[a], *bodies[b]) && !touches(*bodies[b], *bodies[a])) continue;
-            m_isPaired[a] = m_isPaired[b] = 1;
-            const bool inOrder = broadphaseId(*bodies[a]->m_softBody) <= broadphaseId(*bodies[b]->m_softBody);
-            m_pairs.push_back({inOrder ? a : b, inOrder ? b : a, false});
+            const double edge = std::min(bodies[a]->m_surface.meanEdge(), bodies[b]->m_surface.meanEdge());
+            pairWith(a, edge);
+            pairWith(b, edge);
+            const int idA = broadphaseId(*bodies[a]->m_softBody), idB = broadphaseId(*bodies[b]->m_softBody);
+            if (idA <= idB)
+                m_pairs.push_back({a, b, {idA, idB}, false, false, false});
+            else
+                m_pairs.push_back({b, a, {idB, idA}, false, false, false});
         }
     for (int b = 0; b < count; ++b)
-        if (m_isPaired[b]) m_paired.push_back(b);
+        if (m_smallestEdge[b] > 0) m_paired.push_back(b);
 }
 
 void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part)
@@ -78,11 +94,31 @@ void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxC
     for (std::size_t k = begin; k < end; ++k)
     {
         Pair& pair = m_pairs[k];
-        const SoftPairReport found =
-            p.m_finder.find({*bodies[pair.m_first], pair.m_first}, {*bodies[pair.m_second], pair.m_second}, maxContacts,
-                            p.m_contacts, p.m_origins);
+        const SoftPairSide first = {*bodies[pair.m_first], pair.m_first},
+                           second = {*bodies[pair.m_second], pair.m_second};
+        pair.m_searched = !(m_isStill[pair.m_first] && m_isStill[pair.m_second] && m_memory.isComplete(pair.m_ids));
+        const SoftPairReport found = pair.m_searched
+                                         ? p.m_finder.find(first, second, maxContacts, p.m_contacts, p.m_origins)
+                                         : p.m_finder.keep(first, second, maxContacts, p.m_contacts, p.m_origins);
         pair.m_limited = found.m_limited;
+        pair.m_complete = !found.m_limited && !found.m_thinned;
     }
+}
+
+// Places are noted with what was found there: a step may search twice, and use the second search alone.
+void SoftPairSearch::remember(const std::vector<ContactPoint>& solved)
+{
+    m_complete.clear();
+    for (const Pair& pair : m_pairs)
+        if (pair.m_complete) m_complete.push_back(pair.m_ids);
+    m_memory.remember(solved, m_origins, m_complete);
+    for (FemSoftBody* fem : m_moved) fem->m_surface.notePlace();
+}
+
+int SoftPairSearch::searchedPairs() const
+{
+    return static_cast<int>(
+        std::count_if(m_pairs.begin(), m_pairs.end(), [](const Pair& pair) { return pair.m_searched; }));
 }
 
 }  // namespace bullet_fem

@@ -33,7 +33,10 @@ public:
     bool isLimited(std::size_t b) const { return m_limited[b] != 0; }
 
     /// Keeps what find() found, solved: one contact for each of contacts().
-    void remember(const std::vector<ContactPoint>& solved) { m_memory.remember(solved, m_origins); }
+    void remember(const std::vector<ContactPoint>& solved);
+
+    /// Pairs in which find() searched; of the others it kept the contacts of the last step.
+    int searchedPairs() const;
 
     /// What is known of earlier steps.
     SoftPairMemory& memory() { return m_memory; }
@@ -45,7 +48,8 @@ private:
     struct Pair
     {
         int m_first, m_second;  // bodies
-        bool m_limited;
+        SoftPairIds m_ids;
+        bool m_searched, m_limited, m_complete;
     };
     struct Part
     {
@@ -56,6 +60,7 @@ private:
     };
 
     void listPairs(const std::vector<FemSoftBody*>& bodies);
+    void updateSurface(FemSoftBody& fem, int body, double step);
     void findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part);
 
     const Threads& m_threads;
@@ -63,9 +68,12 @@ private:
     SteadyBodies m_steady;
     std::vector<Part> m_parts;
     std::vector<Pair> m_pairs;
-    std::vector<int> m_paired;              // bodies that are in a pair
-    std::vector<unsigned char> m_isPaired;  // per body
-    std::vector<unsigned char> m_limited;   // per body
+    std::vector<SoftPairIds> m_complete;   // pairs, scratch
+    std::vector<int> m_paired;             // bodies that are in a pair
+    std::vector<double> m_smallestEdge;    // per body: of those that it is paired with, and its own [m]; 0: with none
+    std::vector<unsigned char> m_isStill;  // per body
+    std::vector<FemSoftBody*> m_moved;     // of those in a pair, the ones that are not still
+    std::vector<unsigned char> m_limited;  // per body
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;
 };

@@ -42,6 +42,7 @@ SoftSurface::SoftSurface(const RestSurface& rest)
       m_firstAround(rest.m_positions.size() + 1),
       m_change(rest.m_positions.size()),
       m_faceNormal(rest.m_triangles.size()),
+      m_place(rest.m_vertices.size()),
       m_bend(m_features.m_edges.size())
 {
     listEdgeTriangles();
@@ -88,6 +89,29 @@ void SoftSurface::update(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
     updateFaces();
     updateEdges();
     m_ridges.update(m_tree, m_bend);
+}
+
+void SoftSurface::notePlace()
+{
+    for (std::size_t k = 0; k < m_nodes.size(); ++k) m_place[k] = position()[m_nodes[k]];
+    m_placeNoted = true;
+}
+
+bool SoftSurface::isStill(double reach) const
+{
+    if (!m_placeNoted) return false;
+    for (std::size_t k = 0; k < m_nodes.size(); ++k)
+    {
+        const int i = m_nodes[k];
+        if (!(norm(position()[i] - m_place[k]) + norm(m_change[i]) <= reach)) return false;
+    }
+    return true;
+}
+
+void SoftSurface::restorePlace(const std::vector<Vec3>& place)
+{
+    m_placeNoted = place.size() == m_place.size();
+    if (m_placeNoted) m_place.assign(place.begin(), place.end());
 }
 
 void SoftSurface::updateFaces()

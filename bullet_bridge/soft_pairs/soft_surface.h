@@ -72,9 +72,21 @@ public:
     bool isClosed() const { return m_closed; }
     bool hasRestNeighbours() const { return m_restNeighbours != nullptr; }
 
-    /// Takes the positions at the start of a step of h [s] and the velocities that are expected in it, free ones or those
-    /// of SteadyBodies: once a step.
+    /// Takes the positions at the start of a step of h [s] and the velocities that are expected in it, free ones or
+    /// those of SteadyBodies: once a step.
     void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
+
+    /// Notes where the vertices of the surface are, after update(); isStill() looks from there. Never allocates.
+    void notePlace();
+    void forgetPlace() { m_placeNoted = false; }
+    /// True if every vertex of the surface is, and is expected to stay through the step, within `reach` [m] of its
+    /// noted place.
+    bool isStill(double reach) const;
+
+    /// What notePlace() noted, one place a vertex of nodes() [m], for it to last; empty: nothing.
+    std::vector<Vec3> notedPlace() const { return m_placeNoted ? m_place : std::vector<Vec3>(); }
+    /// Gives it back: none, or one a vertex.
+    void restorePlace(const std::vector<Vec3>& place);
 
     const std::vector<Triangle>& triangles() const { return m_triangles; }
     const std::vector<int>& nodes() const { return m_nodes; }  ///< vertices of the surface, ascending
@@ -135,6 +147,8 @@ private:
     bool m_closed = false;
     std::vector<int> m_firstAround, m_around;  // surface edges' other ends around every vertex
     std::vector<Vec3> m_change, m_faceNormal;
+    std::vector<Vec3> m_place;  // noted, one a vertex of m_nodes
+    bool m_placeNoted = false;
     std::vector<double> m_bend;
 };
 

@@ -93,6 +93,7 @@ int attachNode(FemSoftBody& body, int node, const FemSoftBody& other, const std:
     attachment.m_otherNodes = otherNodes;
     attachment.m_weights = weights;
     body.m_joints.m_attachments.push_back(attachment);
+    body.m_surface.forgetPlace();  // what is attached touches no more
     return attachment.m_id;
 }
 
@@ -101,6 +102,7 @@ void detachNode(FemSoftBody& body, int attachment)
     std::vector<NodeAttachment>& all = body.m_joints.m_attachments;
     all.erase(std::remove_if(all.begin(), all.end(), [&](const NodeAttachment& a) { return a.m_id == attachment; }),
               all.end());
+    body.m_surface.forgetPlace();  // what was attached touches again
 }
 
 void setTargets(FemSoftBody& body, const btFemNodeGroup& group, const btVector3* positions)

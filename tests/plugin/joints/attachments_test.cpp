@@ -72,6 +72,40 @@ TEST_F(AttachmentsTest, detachedBodiesPart)
     EXPECT_EQ(m_fem.anchors(&lower).size(), 0);
 }
 
+// Though bodies that stay where they are keep their contacts.
+TEST_F(AttachmentsTest, attachedNodesTouchNoMoreWhereBodiesRestEither)
+{
+    m_world.addPlane(btScalar(-kHalf));
+    btSoftBody &lower = addCube({0, 0, 0}), &upper = addCube({0, 0, btScalar(2 * kHalf)});
+    const int node = nodesAt(upper, kHalf).front();
+    m_world.step(200);
+    const auto contactsAtNode = [&]
+    {
+        int count = 0;
+        for (int k = 0; k < m_fem.contacts(&upper).size(); ++k)
+        {
+            const btFemContact& contact = m_fem.contacts(&upper)[k];
+            for (int a = 0; a < contact.m_nodeCount; ++a)
+                count += contact.m_nodes[a] == node && contact.m_weights[a] > 0;
+        }
+        return count;
+    };
+    int opposite = 0;
+    for (int j = 0; j < lower.m_nodes.size(); ++j)
+        if (upper.m_nodes[node].m_x.distance(lower.m_nodes[j].m_x) <
+            upper.m_nodes[node].m_x.distance(lower.m_nodes[opposite].m_x))
+            opposite = j;
+    EXPECT_GT(contactsAtNode(), 0);
+    const int attachment = m_fem.attachNodes(&upper, node, &lower, opposite);
+    m_world.step();
+    EXPECT_EQ(contactsAtNode(), 0);
+    m_world.step(60);
+    EXPECT_EQ(contactsAtNode(), 0);
+    m_fem.detach(&upper, attachment);
+    m_world.step();
+    EXPECT_GT(contactsAtNode(), 0);
+}
+
 TEST_F(AttachmentsTest, anAttachmentEndsWithTheOtherBody)
 {
     btSoftBody &a = addCube({0, 0, 0}), &b = addCube({2, 0, 0});
