@@ -31,8 +31,25 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
 {
     listPairs(bodies);
     m_steady.sumImpulses(bodies, m_memory);
-    m_threads.run(static_cast<int>(m_paired.size()),
-                  [&](int k) { updateSurface(*bodies[m_paired[k]], m_paired[k], step); });
+    const int paired = static_cast<int>(m_paired.size());
+    m_threads.run(paired,
+                  [&](int k)
+                  {
+                      const int b = m_paired[k];
+                      FemSoftBody& fem = *bodies[b];
+                      fem.updateSkin();
+                      m_isSteady[b] = !fem.m_skin && m_steady.isSteady(fem, b, step);
+                      m_isStill[b] = fem.m_surface.isStill(fem.surfacePosition(), expectedVelocity(fem, b), step,
+                                                           kStill * m_smallestEdge[b]);
+                  });
+    choosePairs();
+    m_threads.run(paired,
+                  [&](int k)
+                  {
+                      const int b = m_paired[k];
+                      FemSoftBody& fem = *bodies[b];
+                      if (m_isSearched[b]) fem.m_surface.update(fem.surfacePosition(), expectedVelocity(fem, b), step);
+                  });
     m_moved.clear();
     for (int b : m_paired)
         if (!m_isStill[b]) m_moved.push_back(bodies[b]);
@@ -49,13 +66,19 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
         if (pair.m_limited) m_limited[pair.m_first] = 1;
 }
 
-void SoftPairSearch::updateSurface(FemSoftBody& fem, int body, double step)
+const std::vector<Vec3>& SoftPairSearch::expectedVelocity(const FemSoftBody& fem, int body) const
 {
-    fem.updateSkin();
-    const bool steady = !fem.m_skin && m_steady.isSteady(fem, body, step);
-    const std::vector<Vec3>& velocity = steady ? fem.m_body.m_state.m_v : fem.surfaceVelocity();
-    fem.m_surface.update(fem.surfacePosition(), velocity, step);
-    m_isStill[body] = fem.m_surface.isStill(kStill * m_smallestEdge[body]);
+    return m_isSteady[body] ? fem.m_body.m_state.m_v : fem.surfaceVelocity();
+}
+
+// The surfaces of the others need no update.
+void SoftPairSearch::choosePairs()
+{
+    for (Pair& pair : m_pairs)
+    {
+        pair.m_searched = !(m_isStill[pair.m_first] && m_isStill[pair.m_second] && m_memory.isComplete(pair.m_ids));
+        if (pair.m_searched) m_isSearched[pair.m_first] = m_isSearched[pair.m_second] = 1;
+    }
 }
 
 // The first of a pair is the one that came into the world first.
@@ -64,7 +87,7 @@ void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
     const int count = static_cast<int>(bodies.size());
     m_pairs.clear();
     m_paired.clear();
-    m_isStill.assign(bodies.size(), 0);
+    for (std::vector<unsigned char>* flags : {&m_isSteady, &m_isStill, &m_isSearched}) flags->assign(bodies.size(), 0);
     m_smallestEdge.assign(bodies.size(), 0);
     const auto pairWith = [&](int b, double edge)
     { m_smallestEdge[b] = m_smallestEdge[b] > 0 ? std::min(m_smallestEdge[b], edge) : edge; };
@@ -96,7 +119,6 @@ void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxC
         Pair& pair = m_pairs[k];
         const SoftPairSide first = {*bodies[pair.m_first], pair.m_first},
                            second = {*bodies[pair.m_second], pair.m_second};
-        pair.m_searched = !(m_isStill[pair.m_first] && m_isStill[pair.m_second] && m_memory.isComplete(pair.m_ids));
         const SoftPairReport found = pair.m_searched
                                          ? p.m_finder.find(first, second, maxContacts, p.m_contacts, p.m_origins)
                                          : p.m_finder.keep(first, second, maxContacts, p.m_contacts, p.m_origins);

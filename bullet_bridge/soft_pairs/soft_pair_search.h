@@ -60,7 +60,8 @@ private:
     };
 
     void listPairs(const std::vector<FemSoftBody*>& bodies);
-    void updateSurface(FemSoftBody& fem, int body, double step);
+    const std::vector<Vec3>& expectedVelocity(const FemSoftBody& fem, int body) const;
+    void choosePairs();
     void findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part);
 
     const Threads& m_threads;
@@ -68,12 +69,12 @@ private:
     SteadyBodies m_steady;
     std::vector<Part> m_parts;
     std::vector<Pair> m_pairs;
-    std::vector<SoftPairIds> m_complete;   // pairs, scratch
-    std::vector<int> m_paired;             // bodies that are in a pair
-    std::vector<double> m_smallestEdge;    // per body: of those that it is paired with, and its own [m]; 0: with none
-    std::vector<unsigned char> m_isStill;  // per body
-    std::vector<FemSoftBody*> m_moved;     // of those in a pair, the ones that are not still
-    std::vector<unsigned char> m_limited;  // per body
+    std::vector<SoftPairIds> m_complete;  // pairs, scratch
+    std::vector<int> m_paired;            // bodies that are in a pair
+    std::vector<double> m_smallestEdge;   // per body: of those that it is paired with, and its own [m]; 0: with none
+    std::vector<unsigned char> m_isSteady, m_isStill, m_isSearched;  // per body; searched: in a pair that is
+    std::vector<FemSoftBody*> m_moved;                               // of those in a pair, the ones that are not still
+    std::vector<unsigned char> m_limited;                            // per body
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;
 };

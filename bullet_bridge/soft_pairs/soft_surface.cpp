@@ -97,13 +97,13 @@ void SoftSurface::notePlace()
     m_placeNoted = true;
 }
 
-bool SoftSurface::isStill(double reach) const
+bool SoftSurface::isStill(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h, double reach) const
 {
     if (!m_placeNoted) return false;
     for (std::size_t k = 0; k < m_nodes.size(); ++k)
     {
         const int i = m_nodes[k];
-        if (!(norm(position()[i] - m_place[k]) + norm(m_change[i]) <= reach)) return false;
+        if (!(norm(x[i] - m_place[k]) + h * norm(v[i]) <= reach)) return false;
     }
     return true;
 }

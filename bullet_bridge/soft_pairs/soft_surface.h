@@ -76,12 +76,12 @@ public:
     /// those of SteadyBodies: once a step.
     void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
 
-    /// Notes where the vertices of the surface are, after update(); isStill() looks from there. Never allocates.
+    /// Notes where the vertices of the surface were at the last update(). Never allocates.
     void notePlace();
     void forgetPlace() { m_placeNoted = false; }
-    /// True if every vertex of the surface is, and is expected to stay through the step, within `reach` [m] of its
-    /// noted place.
-    bool isStill(double reach) const;
+    /// True if every vertex of the surface is within `reach` [m] of its noted place, and is expected to stay there
+    /// through the step: arguments as those of update(), which need not have been called.
+    bool isStill(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h, double reach) const;
 
     /// What notePlace() noted, one place a vertex of nodes() [m], for it to last; empty: nothing.
     std::vector<Vec3> notedPlace() const { return m_placeNoted ? m_place : std::vector<Vec3>(); }
