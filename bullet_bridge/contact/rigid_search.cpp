@@ -15,24 +15,12 @@ namespace bullet_fem
 namespace
 {
 
-// Removes what Bullet's broad phase knows no more: it left the world since it was recorded, and may be deleted.
-// `overlapping` is scratch.
-void removeGone(FemSoftBody& fem, std::vector<const void*>& overlapping)
+// Null if that cannot be known.
+btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
 {
     const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
     btBroadphaseInterface* broadphase = world ? world->m_broadphase : nullptr;
-    if (!broadphase || !broadphase->getOverlappingPairCache() || fem.m_touching.empty()) return;
-    const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
-    overlapping.clear();
-    for (int i = 0; i < pairs.size(); ++i)
-    {
-        const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
-        if (a == fem.m_softBody) overlapping.push_back(b);
-        if (b == fem.m_softBody) overlapping.push_back(a);
-    }
-    const auto isGone = [&](const void* object)
-    { return std::find(overlapping.begin(), overlapping.end(), object) == overlapping.end(); };
-    fem.m_touching.erase(std::remove_if(fem.m_touching.begin(), fem.m_touching.end(), isGone), fem.m_touching.end());
+    return broadphase && broadphase->getOverlappingPairCache() ? broadphase : nullptr;
 }
 
 // To where the object was before Bullet moved it.
@@ -72,7 +60,12 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
     m_touched.clear();
     m_shapes.clear();
     m_leaves.resizeNoInitialize(0);
-    for (FemSoftBody* fem : bodies) listTouched(*fem, step, obstacles);
+    listOverlapping(bodies);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+    {
+        removeGone(*bodies[b], static_cast<int>(b));
+        listTouched(*bodies[b], step, obstacles);
+    }
     m_reports.assign(bodies.size(), {});
 
     const auto findOf = [&](ContactFinder& finder, std::size_t b)
@@ -93,9 +86,48 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
         if (m_touching[b].m_alone) findOf(m_finders.front(), b);
 }
 
+// What the bodies overlap in Bullet's broad phase. Pairs are compared by address: what left the world since it was
+// recorded may be deleted.
+void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
+{
+    m_byAddress.clear();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
+    std::sort(m_byAddress.begin(), m_byAddress.end());
+    const auto add = [this](const void* body, const void* other)
+    {
+        const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(body, 0));
+        if (at != m_byAddress.end() && at->first == body) m_overlapping.emplace_back(at->second, other);
+    };
+    m_overlapping.clear();
+    m_broadphases.clear();
+    for (const FemSoftBody* fem : bodies)
+    {
+        btBroadphaseInterface* broadphase = fem->m_touching.empty() ? nullptr : broadphaseOf(*fem);
+        if (!broadphase || std::find(m_broadphases.begin(), m_broadphases.end(), broadphase) != m_broadphases.end())
+            continue;
+        m_broadphases.push_back(broadphase);
+        const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
+        for (int i = 0; i < pairs.size(); ++i)
+        {
+            const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
+            add(a, b);
+            add(b, a);
+        }
+    }
+    std::sort(m_overlapping.begin(), m_overlapping.end());
+}
+
+void RigidSearch::removeGone(FemSoftBody& fem, int body) const
+{
+    if (!broadphaseOf(fem)) return;
+    const auto isGone = [&](const void* object)
+    { return !std::binary_search(m_overlapping.begin(), m_overlapping.end(), std::make_pair(body, object)); };
+    fem.m_touching.erase(std::remove_if(fem.m_touching.begin(), fem.m_touching.end(), isGone), fem.m_touching.end());
+}
+
 void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidObstacles& obstacles)
 {
-    removeGone(fem, m_overlapping);
     std::sort(fem.m_touching.begin(), fem.m_touching.end(),
               [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
     Touching touching = {static_cast<int>(m_touched.size()), static_cast<int>(fem.m_touching.size()), false};

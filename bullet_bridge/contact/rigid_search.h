@@ -2,7 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <utility>
+
 #include "bullet_bridge/contact/contact_finder.h"
+
+class btBroadphaseInterface;
 
 namespace bullet_fem
 {
@@ -41,6 +45,8 @@ private:
         bool m_unknown = false, m_alone = false;
     };
 
+    void listOverlapping(const std::vector<FemSoftBody*>& bodies);
+    void removeGone(FemSoftBody& fem, int body) const;
     void listTouched(FemSoftBody& fem, double step, RigidObstacles& obstacles);
     const ShapeRange& shapeOf(const btCollisionObject& object, int obstacle, double step,
                               const RigidObstacles& obstacles);
@@ -52,7 +58,9 @@ private:
     std::vector<ShapeRange> m_shapes;      // one an obstacle
     btAlignedObjectArray<ShapeLeaf> m_leaves;
     std::vector<ContactSearchReport> m_reports;
-    std::vector<const void*> m_overlapping;  // scratch: a body, in the broad phase
+    std::vector<std::pair<const void*, int>> m_byAddress;     // bodies, ascending
+    std::vector<const btBroadphaseInterface*> m_broadphases;  // of theirs, each once
+    std::vector<std::pair<int, const void*>> m_overlapping;   // bodies and what they overlap there, ascending
 };
 
 }  // namespace bullet_fem

@@ -3,6 +3,7 @@
 #include "bullet_bridge/soft_pairs/soft_pair_search.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rigid_obstacles.h"
@@ -16,12 +17,6 @@ namespace
 // Mean edges by which the nodes of a body may be away from where they were noted: two bodies come closer by four times
 // as much since they were searched, half the contact band.
 constexpr double kStill = 0.00625;
-
-bool touches(const FemSoftBody& fem, const FemSoftBody& other)
-{
-    const auto& list = fem.m_touchingSoft;
-    return std::find(list.begin(), list.end(), other.m_softBody) != list.end();
-}
 
 }  // namespace
 
@@ -84,28 +79,45 @@ void SoftPairSearch::choosePairs()
 // The first of a pair is the one that came into the world first.
 void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
 {
-    const int count = static_cast<int>(bodies.size());
-    m_pairs.clear();
-    m_paired.clear();
     for (std::vector<unsigned char>* flags : {&m_isSteady, &m_isStill, &m_isSearched}) flags->assign(bodies.size(), 0);
     m_smallestEdge.assign(bodies.size(), 0);
     const auto pairWith = [&](int b, double edge)
     { m_smallestEdge[b] = m_smallestEdge[b] > 0 ? std::min(m_smallestEdge[b], edge) : edge; };
-    for (int a = 0; a < count; ++a)
-        for (int b = a; b < count; ++b)
+    listTouching(bodies);
+    m_pairs.clear();
+    for (const auto& [a, b] : m_touching)
+    {
+        const double edge = std::min(bodies[a]->m_surface.meanEdge(), bodies[b]->m_surface.meanEdge());
+        pairWith(a, edge);
+        pairWith(b, edge);
+        const int idA = broadphaseId(*bodies[a]->m_softBody), idB = broadphaseId(*bodies[b]->m_softBody);
+        if (idA <= idB)
+            m_pairs.push_back({a, b, {idA, idB}, false, false, false});
+        else
+            m_pairs.push_back({b, a, {idB, idA}, false, false, false});
+    }
+    m_paired.clear();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (m_smallestEdge[b] > 0) m_paired.push_back(static_cast<int>(b));
+}
+
+// Either body of a pair may have recorded it, or both.
+void SoftPairSearch::listTouching(const std::vector<FemSoftBody*>& bodies)
+{
+    m_byAddress.clear();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
+    std::sort(m_byAddress.begin(), m_byAddress.end());
+    m_touching.clear();
+    for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
+        for (const btSoftBody* other : bodies[a]->m_touchingSoft)
         {
-            if (!touches(*bodies[a], *bodies[b]) && !touches(*bodies[b], *bodies[a])) continue;
-            const double edge = std::min(bodies[a]->m_surface.meanEdge(), bodies[b]->m_surface.meanEdge());
-            pairWith(a, edge);
-            pairWith(b, edge);
-            const int idA = broadphaseId(*bodies[a]->m_softBody), idB = broadphaseId(*bodies[b]->m_softBody);
-            if (idA <= idB)
-                m_pairs.push_back({a, b, {idA, idB}, false, false, false});
-            else
-                m_pairs.push_back({b, a, {idB, idA}, false, false, false});
+            const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(other, 0));
+            if (at != m_byAddress.end() && at->first == other)
+                m_touching.emplace_back(std::min(a, at->second), std::max(a, at->second));
         }
-    for (int b = 0; b < count; ++b)
-        if (m_smallestEdge[b] > 0) m_paired.push_back(b);
+    std::sort(m_touching.begin(), m_touching.end());
+    m_touching.erase(std::unique(m_touching.begin(), m_touching.end()), m_touching.end());
 }
 
 void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part)

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <utility>
+
 #include "bullet_bridge/soft_pairs/soft_pair_finder.h"
 #include "bullet_bridge/soft_pairs/steady_bodies.h"
 
@@ -60,6 +62,7 @@ private:
     };
 
     void listPairs(const std::vector<FemSoftBody*>& bodies);
+    void listTouching(const std::vector<FemSoftBody*>& bodies);
     const std::vector<Vec3>& expectedVelocity(const FemSoftBody& fem, int body) const;
     void choosePairs();
     void findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part);
@@ -68,6 +71,8 @@ private:
     SoftPairMemory m_memory;
     SteadyBodies m_steady;
     std::vector<Part> m_parts;
+    std::vector<std::pair<const btSoftBody*, int>> m_byAddress;  // bodies, ascending
+    std::vector<std::pair<int, int>> m_touching;                 // bodies, the first not after the second; ascending
     std::vector<Pair> m_pairs;
     std::vector<SoftPairIds> m_complete;  // pairs, scratch
     std::vector<int> m_paired;            // bodies that are in a pair

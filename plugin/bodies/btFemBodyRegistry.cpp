@@ -46,8 +46,15 @@ std::vector<double> massesAtRest(const btFemEntry& entry, double density)
 
 std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
 {
-    const auto isIt = [body](const auto& entry) { return entry->m_softBody == body; };
-    return std::find_if(m_entries.begin(), m_entries.end(), isIt) - m_entries.begin();
+    const auto at = m_number.find(body);
+    return at == m_number.end() ? m_entries.size() : at->second;
+}
+
+// After every change of their order.
+void btFemBodyRegistry::numberEntries()
+{
+    m_number.clear();
+    for (std::size_t k = 0; k < m_entries.size(); ++k) m_number[m_entries[k]->m_softBody] = k;
 }
 
 btFemBodyRegistry::btFemBodyRegistry(const btFemSolverInfo& info)
@@ -77,6 +84,7 @@ btFemEntry& btFemBodyRegistry::entry(btSoftBody* body)
         return entry;
     }
     m_entries.push_back(std::make_unique<btFemEntry>(body));
+    m_number[body] = m_entries.size() - 1;
     return *m_entries.back();
 }
 
@@ -85,6 +93,7 @@ void btFemBodyRegistry::forget(const btSoftBody* body)
     m_entries.erase(std::remove_if(m_entries.begin(), m_entries.end(),
                                    [body](const auto& entry) { return entry->m_softBody == body; }),
                     m_entries.end());
+    numberEntries();
 }
 
 bool btFemBodyRegistry::isAsBuilt(const btFemEntry& entry)
@@ -201,7 +210,9 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
         const bool gone = !m_held[k] && (m_entries[k]->m_world == world || !m_entries[k]->m_world);
         if (!gone) std::swap(m_entries[kept++], m_entries[k]);
     }
+    if (kept == m_entries.size()) return;
     m_entries.resize(kept);
+    numberEntries();
 }
 
 bool btFemBodyRegistry::worldHolds(const btSoftBody& body, const btCollisionObject* object)
@@ -283,6 +294,7 @@ void btFemBodyRegistry::putFirst(const std::vector<btFemEntry*>& entries)
     { return std::find(entries.begin(), entries.end(), entry.get()); };
     std::stable_sort(m_entries.begin(), m_entries.end(),
                      [&place](const auto& a, const auto& b) { return place(a) < place(b); });
+    numberEntries();
 }
 
 void btFemBodyRegistry::exchangeModel(btFemEntry& entry, const std::shared_ptr<const BodyModel>& model)

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "LinearMath/btAlignedObjectArray.h"
@@ -181,6 +182,7 @@ public:
 
 private:
     std::size_t indexOf(const btSoftBody* body) const;
+    void numberEntries();
     bool isAnother(std::size_t known, const btSoftBody& body) const;
     void forgetTheDead(const btAlignedObjectArray<btSoftBody*>& softBodies);
     static void lookAgain(btFemEntry& entry, bool joinedAsBefore);
@@ -194,10 +196,11 @@ private:
     void claim(btFemEntry& entry, const void* world, const btSoftBodySolver* solver);
 
     bool m_showsManifolds;
-    std::vector<std::unique_ptr<btFemEntry>> m_entries;  // in the order in which they became known
-    std::vector<unsigned char> m_held;                   // per entry: the world being stepped holds it
-    std::vector<unsigned char> m_joinedAsBefore;         // likewise: its tetrahedra join the nodes that they did
-    std::vector<int> m_compared;                         // entries
+    std::vector<std::unique_ptr<btFemEntry>> m_entries;           // in the order in which they became known
+    std::unordered_map<const btSoftBody*, std::size_t> m_number;  // of every entry
+    std::vector<unsigned char> m_held;                            // per entry: the world being stepped holds it
+    std::vector<unsigned char> m_joinedAsBefore;  // likewise: its tetrahedra join the nodes that they did
+    std::vector<int> m_compared;                  // entries
     bullet_fem::ModelLibrary m_library;
     bullet_fem::WorldObjects m_worldObjects;
 };
