@@ -86,7 +86,7 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
         if (m_touching[b].m_alone) findOf(m_finders.front(), b);
 }
 
-// What the bodies overlap in Bullet's broad phase. Pairs are compared by address: what left the world since it was
+// What else the bodies overlap in Bullet's broad phase. Pairs are compared by address: what left the world since it was
 // recorded may be deleted.
 void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
 {
@@ -94,10 +94,10 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
     for (std::size_t b = 0; b < bodies.size(); ++b)
         m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
     std::sort(m_byAddress.begin(), m_byAddress.end());
-    const auto add = [this](const void* body, const void* other)
+    const auto indexOf = [this](const void* object)
     {
-        const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(body, 0));
-        if (at != m_byAddress.end() && at->first == body) m_overlapping.emplace_back(at->second, other);
+        const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(object, 0));
+        return at != m_byAddress.end() && at->first == object ? at->second : -1;
     };
     m_overlapping.clear();
     m_broadphases.clear();
@@ -111,8 +111,9 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
         for (int i = 0; i < pairs.size(); ++i)
         {
             const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
-            add(a, b);
-            add(b, a);
+            const int first = indexOf(a), second = indexOf(b);
+            if (first >= 0 && second < 0) m_overlapping.emplace_back(first, b);
+            if (second >= 0 && first < 0) m_overlapping.emplace_back(second, a);
         }
     }
     std::sort(m_overlapping.begin(), m_overlapping.end());

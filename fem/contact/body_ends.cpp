@@ -24,6 +24,18 @@ constexpr double kRounding = 1e-9;       // share of the body's speed below whic
 constexpr double kForgetting = 0.99;     // of what was learnt, a step
 constexpr int kSamples = 16;             // ends that the diagonal of W is estimated from
 
+double speedByLoads(const Body& body, double step)
+{
+    Vec3 force;
+    double mass = 0;
+    for (std::size_t i = 0; i < body.m_loads.m_force.size(); ++i)
+    {
+        force += body.m_loads.m_force[i];
+        mass += body.m_state.m_mass[i];
+    }
+    return mass > 0 ? step * norm(force) / mass : 0;
+}
+
 }  // namespace
 
 void BodyEnds::clear(const ContactBody& body)
@@ -72,7 +84,7 @@ void BodyEnds::scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& n
             nodeImpulses[end.m_point.m_nodes[a]] += end.m_point.m_weights[a] * impulse;
 }
 
-void BodyEnds::assemble(int denseLimit, const Threads* threads)
+void BodyEnds::assemble(int denseLimit, double step)
 {
     const std::size_t nodes = m_body.m_body->m_state.m_x.size();
     double& learnt = m_body.m_body->m_workspace.scratch().m_complianceScale;
@@ -82,6 +94,7 @@ void BodyEnds::assemble(int denseLimit, const Threads* threads)
     for (std::vector<Vec3>* vectors : {&m_impulse, &m_applied, &m_seen}) vectors->assign(m_ends.size(), Vec3());
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
+    m_loadSpeed = speedByLoads(*m_body.m_body, step);
     m_formed = m_tooSoft = m_leftMuch = false;
     if (!m_dense)
     {
@@ -95,12 +108,18 @@ void BodyEnds::assemble(int denseLimit, const Threads* threads)
             m_points.addOwn();
         else
             m_points.add(end.m_point);
-    m_points.request(m_body, threads);
+    m_points.numberSlots();
     m_working.reset(size());
     m_responses.reserve(m_ends.size());
     m_own.resize(m_ends.size());
     m_slotVelocity.assign(m_points.order(), 0);
     m_slotBefore.assign(m_points.order(), 0);
+}
+
+void BodyEnds::request(const Threads* threads)
+{
+    if (!m_dense) return;
+    m_points.request(m_body, threads);
     if (m_body.m_compliance->forgets()) form();  // before the next body asks
 }
 
@@ -274,7 +293,7 @@ ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, const Co
     return {m_body.m_body, &m_nodeIn, loosened, floor * std::sqrt(all), false, {}};
 }
 
-void BodyEnds::endCorrection(double step)
+void BodyEnds::endCorrection()
 {
     double trueWork = 0, predictedWork = 0;  // of the new impulses on the velocities that they made
     double impulses = 0;                     // the sum of the new ones [N s]
@@ -289,36 +308,23 @@ void BodyEnds::endCorrection(double step)
         trueWork += dot(impulse, trueVelocity(e) - before(e));
         predictedWork += dot(impulse, known(e) - before(e));
     }
-    if (predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses}, step);
-}
-
-double BodyEnds::loadSpeed(double step) const
-{
-    const Body& body = *m_body.m_body;
-    Vec3 force;
-    double mass = 0;
-    for (std::size_t i = 0; i < body.m_loads.m_force.size(); ++i)
-    {
-        force += body.m_loads.m_force[i];
-        mass += body.m_state.m_mass[i];
-    }
-    return mass > 0 ? step * norm(force) / mass : 0;
+    if (predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
 }
 
 // Whether the new impulses make velocities that the rounding of the body's own leaves intact. At rest these are small:
 // then what counts is what has just been stopped.
-bool BodyEnds::isAboveRounding(const Lesson& lesson, double step) const
+bool BodyEnds::isAboveRounding(const Lesson& lesson) const
 {
-    double fastest = loadSpeed(step);
+    double fastest = m_loadSpeed;
     for (const Vec3& v : bullet_fem::velocity(*m_body.m_body)) fastest = std::max(fastest, norm(v));
     return lesson.m_predictedWork > kRounding * fastest * lesson.m_impulses;
 }
 
-void BodyEnds::learn(const Lesson& lesson, double step)
+void BodyEnds::learn(const Lesson& lesson)
 {
     const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
     const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
-    if (!(softer || stiffer) || !isAboveRounding(lesson, step)) return;
+    if (!(softer || stiffer) || !isAboveRounding(lesson)) return;
     m_tooSoft = m_tooSoft || softer;
     if (!stiffer) return;
     const double factor = std::min(kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork, kLargestScaling);

@@ -37,10 +37,14 @@ public:
     /// Adds a group of nodes; returns its index. Its nodes and blocks must live until the step is over.
     int addGroup(const int* nodes, const Mat3* blocks, int count);
 
-    /// When all ends are added: makes ready for form(), which is to follow. Not for two bodies of one cache at a time.
-    void assemble(int denseLimit, const Threads* threads = nullptr);
+    /// When all ends are added: makes ready for request() and form(), which are to follow, for a step [s]. The
+    /// compliance is dense for at most denseLimit ends.
+    void assemble(int denseLimit, double step);
 
-    /// Forms the compliance, dense for at most denseLimit ends.
+    /// Asks for what form() needs of the model's compliance. Not for two bodies of one cache at a time.
+    void request(const Threads* threads = nullptr);
+
+    /// Forms the compliance.
     void form();
 
     int size() const { return static_cast<int>(m_ends.size()); }
@@ -51,8 +55,8 @@ public:
     /// True if the body has answered much less than W said, in any correction of this problem.
     bool isTooSoft() const { return m_tooSoft; }
 
-    /// The speed [m/s] that its loads alone would give the body in a step [s].
-    double loadSpeed(double step) const;
+    /// The speed [m/s] that its loads alone would give the body in the step.
+    double loadSpeed() const { return m_loadSpeed; }
 
     bool isDense() const { return m_dense; }
     const Body& body() const { return *m_body.m_body; }
@@ -92,7 +96,7 @@ public:
     /// where it was too stiff, it is scaled up; not from velocities that are lost in the rounding of the body's own.
     /// `step` is that of the settings [s].
     ImpulseResponse beginCorrection(const StepSettings& settings, const CorrectionGoal& goal);
-    void endCorrection(double step);
+    void endCorrection();
 
     /// Forgets velocities and impulses, to solve for position corrections; applyPush then makes them. Returns the
     /// angular momentum that the body gained by being elsewhere [kg m2/s].
@@ -129,11 +133,12 @@ private:
     bool gatherBeyond(const std::vector<Vec3>& known);
     void formOwn();
     void see(int e);
-    bool isAboveRounding(const Lesson& lesson, double step) const;
-    void learn(const Lesson& lesson, double step);
+    bool isAboveRounding(const Lesson& lesson) const;
+    void learn(const Lesson& lesson);
 
     ContactBody m_body;
     bool m_dense = true;
+    double m_loadSpeed = 0;
     bool m_formed = false;
     std::vector<End> m_ends;
     std::vector<Vec3> m_impulse;                       // per end, all

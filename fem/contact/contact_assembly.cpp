@@ -30,13 +30,15 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     for (const Joint& joint : problem.m_joints) addJointRow(joint);
     for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
     m_dense = true;
+    forEachTouchedBody(threadsForCompliance(),
+                       [&](int b) { m_bodies[b].assemble(settings.m_denseLimit, settings.m_step.m_step); });
     m_loadSpeed = 0;
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
         if (m_bodies[b].size() == 0) continue;
-        m_bodies[b].assemble(settings.m_denseLimit, settings.m_step.m_threads);
+        m_bodies[b].request(settings.m_step.m_threads);
         m_dense = m_dense && m_bodies[b].isDense();
-        m_loadSpeed = std::max(m_loadSpeed, m_bodies[b].loadSpeed(settings.m_step.m_step));
+        m_loadSpeed = std::max(m_loadSpeed, m_bodies[b].loadSpeed());
     }
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
     finishRows();

@@ -160,7 +160,7 @@ void ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& 
     forEachTouchedBody(m_settings.m_step.m_threads,
                        [this](int b)
                        {
-                           if (m_corrections[b].m_body) m_bodies[b].endCorrection(m_settings.m_step.m_step);
+                           if (m_corrections[b].m_body) m_bodies[b].endCorrection();
                        });
     bool learnt = false;
     for (int b : m_corrected)

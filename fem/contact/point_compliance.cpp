@@ -51,7 +51,7 @@ void PointCompliance::addOwn()
     m_first.push_back(static_cast<int>(m_slot.size()));
 }
 
-void PointCompliance::request(const ContactBody& body, const Threads* threads)
+void PointCompliance::numberSlots()
 {
     m_nodes.clear();
     for (int node : m_slot)
@@ -61,6 +61,10 @@ void PointCompliance::request(const ContactBody& body, const Threads* threads)
     for (std::size_t t = 0; t < m_nodes.size(); ++t) m_slotOfNode[m_nodes[t]] = static_cast<int>(t);
     int own = static_cast<int>(m_nodes.size());
     for (int& slot : m_slot) slot = slot >= 0 ? m_slotOfNode[slot] : own++;
+}
+
+void PointCompliance::request(const ContactBody& body, const Threads* threads)
+{
     body.m_compliance->request(m_nodes, threads);
 }
 

@@ -28,8 +28,11 @@ public:
     /// The next one is a slot of its own.
     void addOwn();
 
-    /// Asks the body's cache for the columns of all nodes: to be called when all points are added, and form() before
-    /// the cache has forgotten them. Bodies of one cache cannot ask at the same time.
+    /// When all points are added: gives their nodes slots.
+    void numberSlots();
+
+    /// Asks the body's cache for the columns of all nodes that have slots: form() is to be called before the cache has
+    /// forgotten them. Bodies of one cache cannot ask at the same time.
     void request(const ContactBody& body, const Threads* threads = nullptr);
 
     /// Forms N for scale s; zero for slots of points of their own.
@@ -75,7 +78,7 @@ private:
     std::vector<int> m_first;  // weight of every point, and the end
     std::vector<double> m_weight;
     std::vector<float> m_floatWeight;  // the same
-    std::vector<int> m_slot;           // per weight; until request() the node, or -1 of a point of its own
+    std::vector<int> m_slot;           // per weight; until numberSlots() the node, or -1 of a point of its own
     int m_own = 0;                     // points that are slots
     std::vector<int> m_nodes;
     std::vector<int> m_slotOfNode;   // of the body

@@ -142,6 +142,7 @@ void PositionPush::payBack()
     const auto visitBodies = [this](const ContactRow& row, auto visit)
     {
         const int a = row.m_a.m_body, b = row.m_b.m_body;
+        if (dot(row.m_impulse, row.m_impulse) == 0) return;
         if (a >= 0) visit(m_pushed[a], row.m_b);
         if (b >= 0 && b != a) visit(m_pushed[b], row.m_a);
     };

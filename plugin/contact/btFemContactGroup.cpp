@@ -8,7 +8,6 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "plugin/btFemStopwatch.h"
-#include "plugin/contact/btFemTouches.h"
 #include "plugin/joints/btFemAttachments.h"
 
 using namespace bullet_fem;
@@ -227,10 +226,13 @@ void btFemContactGroup::report(const ContactReport& report)
     m_softContacts.assign(next, m_problem.m_contacts.end());
     for (std::size_t k = 0; k < m_softContacts.size(); ++k) reportSoftContact(k);
     m_softPairs.remember(m_softContacts);
+    m_together.clear();
+    for (const btFemEntry* entry : m_entries) m_together.emplace_back(entry->m_softBody, entry);
+    std::sort(m_together.begin(), m_together.end());
     for (btFemEntry* entry : m_entries)
     {
         entry->m_report.m_contacts = entry->m_contacts.size();
-        updateTouches(*entry, m_entries);
+        updateTouches(*entry, m_together);
         SoftJoints::takeBack(*entry->m_fem, m_problem);
         writeReports(*entry->m_fem, entry->m_anchors);
     }

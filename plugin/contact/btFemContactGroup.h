@@ -10,6 +10,7 @@
 #include "bullet_bridge/soft_pairs/soft_pair_search.h"
 #include "bullet_bridge/solver_bodies.h"
 #include "plugin/bodies/btFemBodyRegistry.h"
+#include "plugin/contact/btFemTouches.h"
 
 /// FEM bodies that are solved together: what they touch, what holds them, and their reports. Scratch only.
 class btFemContactGroup
@@ -99,5 +100,6 @@ private:
     bullet_fem::SolverBodies m_solverBodies;
     bullet_fem::ContactProblem m_problem;
     bullet_fem::ContactSolver m_solver;
+    btFemTogether m_together;
     double m_milliseconds = 0;  // spent so far on the group
 };

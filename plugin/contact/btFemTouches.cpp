@@ -23,12 +23,13 @@ struct Other
 };
 
 // Both of two FEM bodies must come to the same judgement.
-Other otherOf(const btFemEntry& entry, const btCollisionObject* object, const std::vector<btFemEntry*>& together)
+Other otherOf(const btFemEntry& entry, const btCollisionObject* object, const btFemTogether& together)
 {
     Other other = {object, broadphaseId(*object), touchSlack(entry)};
-    const auto isIt = [object](const btFemEntry* candidate) { return candidate->m_softBody == object; };
-    const auto found = std::find_if(together.begin(), together.end(), isIt);
-    if (found != together.end()) other.m_slack = std::min(other.m_slack, touchSlack(**found));
+    const btFemTogether::value_type from(object, nullptr);
+    const auto found = std::lower_bound(together.begin(), together.end(), from);
+    if (found != together.end() && found->first == object)
+        other.m_slack = std::min(other.m_slack, touchSlack(*found->second));
     return other;
 }
 
@@ -40,7 +41,7 @@ btFemTouch* find(btAlignedObjectArray<btFemTouch>& touches, const Other& other)
 }
 
 template <class Visitor>
-void visitContacts(const btFemEntry& entry, const std::vector<btFemEntry*>& together, const Visitor& visit)
+void visitContacts(const btFemEntry& entry, const btFemTogether& together, const Visitor& visit)
 {
     Other other;
     for (int k = 0; k < entry.m_contacts.size(); ++k)
@@ -66,7 +67,7 @@ void ageTouches(btFemEntry& entry)
     touches.resize(kept);
 }
 
-void updateTouches(btFemEntry& entry, const std::vector<btFemEntry*>& together)
+void updateTouches(btFemEntry& entry, const btFemTogether& together)
 {
     btAlignedObjectArray<btFemTouch>& touches = entry.m_touches;
     for (int k = 0; k < touches.size(); ++k)

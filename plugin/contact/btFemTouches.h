@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "bullet_fem/btFemReports.h"
@@ -11,10 +12,12 @@ struct btFemEntry;
 /// As a step begins: what began goes on, and what ended is forgotten.
 void ageTouches(btFemEntry& entry);
 
-/// After contact is solved and the body's contact points are listed: what it touches now. `together` are the bodies
-/// that it was solved with. The objects of contact points must be alive; those of touches need not be. Allocates when
-/// the body touches more than ever.
-void updateTouches(btFemEntry& entry, const std::vector<btFemEntry*>& together);
+/// FEM bodies that are solved together, ascending by their objects.
+using btFemTogether = std::vector<std::pair<const btCollisionObject*, const btFemEntry*>>;
+
+/// After contact is solved and the body's contact points are listed: what it touches now. The objects of contact points
+/// must be alive; those of touches need not be. Allocates when the body touches more than ever.
+void updateTouches(btFemEntry& entry, const btFemTogether& together);
 
 /// Gap up to which a touch that began lasts without an impulse [m]: so wide that a body at rest, which may lift off by
 /// rounding for a step, goes on touching.

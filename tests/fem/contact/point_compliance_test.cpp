@@ -99,6 +99,7 @@ protected:
         W.clear(m_body.m_state.m_x.size());
         for (const SurfacePoint& p : points) W.add(p);
         W.addOwn();
+        W.numberSlots();
         W.request({&m_body, m_cache.get()});
         W.form({&m_body, m_cache.get()}, scale);
     }
