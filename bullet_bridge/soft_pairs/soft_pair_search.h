@@ -10,8 +10,9 @@
 namespace bullet_fem
 {
 
-/// Finds the contacts of all pairs of FEM bodies that the broad phase recorded, on the given threads. The same contacts
-/// in the same order for any number of them. Grows, never shrinks.
+/// Finds the contacts of all pairs of FEM bodies that the broad phase recorded, on the given threads; pairs that have
+/// hardly moved since they were searched keep those of the last step. The same contacts in the same order for any
+/// number of threads. Grows, never shrinks.
 class SoftPairSearch
 {
 public:
