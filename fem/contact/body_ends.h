@@ -94,7 +94,6 @@ public:
     /// What is to be solved of the body's true system for the impulses that are not applied yet, and what the last
     /// correction left; without a body if there is nothing. After that is solved, endCorrection: W learns from it, and
     /// where it was too stiff, it is scaled up; not from velocities that are lost in the rounding of the body's own.
-    /// `step` is that of the settings [s].
     ImpulseResponse beginCorrection(const StepSettings& settings, const CorrectionGoal& goal);
     void endCorrection();
 
@@ -138,7 +137,7 @@ private:
 
     ContactBody m_body;
     bool m_dense = true;
-    double m_loadSpeed = 0;
+    double m_loadSpeed = 0;  // [m/s]
     bool m_formed = false;
     std::vector<End> m_ends;
     std::vector<Vec3> m_impulse;                       // per end, all

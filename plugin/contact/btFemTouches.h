@@ -15,8 +15,9 @@ void ageTouches(btFemEntry& entry);
 /// FEM bodies that are solved together, ascending by their objects.
 using btFemTogether = std::vector<std::pair<const btCollisionObject*, const btFemEntry*>>;
 
-/// After contact is solved and the body's contact points are listed: what it touches now. The objects of contact points
-/// must be alive; those of touches need not be. Allocates when the body touches more than ever.
+/// After contact is solved and the body's contact points are listed: what it touches now. `together` are the bodies
+/// that it was solved with. The objects of contact points must be alive; those of touches need not be. Allocates when
+/// the body touches more than ever.
 void updateTouches(btFemEntry& entry, const btFemTogether& together);
 
 /// Gap up to which a touch that began lasts without an impulse [m]: so wide that a body at rest, which may lift off by
