@@ -141,8 +141,9 @@ void ConjugateGradients::start()
     m_rNorm = m_bNorm = vectors.norm(b);
     m_goal = std::max(m_stop.m_tolerance * std::max(m_bNorm, m_stop.m_floor), kNothing);
     m_scratch.m_r = b;
-    m_guessed = vectors.dot(x, x) > 0;
-    if (!m_guessed) return;
+    const bool zero = !(vectors.dot(x, x) > 0);
+    m_guessed = !zero || m_stop.m_steady;
+    if (zero) return;
     m_rNorm = measureTruly();
     if (m_rNorm <= kGuessShare * m_goal) return;
     vectors.scaleGuess(m_scratch.m_Ap, b, x, m_scratch.m_r);
@@ -197,7 +198,8 @@ void ConjugateGradients::end(SolveStop stop)
 {
     if (!m_residualIsTrue) m_rNorm = measureTruly();
     m_report.m_stop = stop;
-    m_report.m_residual = m_bNorm > 0 ? m_rNorm / m_bNorm : 0;
+    const double scale = m_stop.m_steady ? std::max(m_bNorm, m_stop.m_floor) : m_bNorm;
+    m_report.m_residual = scale > 0 ? m_rNorm / scale : 0;
     m_over = true;
 }
 

@@ -31,6 +31,8 @@ struct ConjugateGradientStop
     double m_tolerance = 1e-3;           ///< stop at |r| <= tolerance max(|b|, floor)
     double m_floor = 0;                  ///< in the units of b, >= 0
     int m_maxIterations = 100;           ///< >= 1
+    bool m_steady = false;               ///< x is the answer of a step like this one, be it 0, and b may cancel: as it
+                                         ///< stands it must be better, and residuals are of max(|b|, floor)
     const Threads* m_threads = nullptr;  ///< who shares the work on long vectors; null: the caller's thread alone
 };
 

@@ -9,11 +9,12 @@ namespace bullet_fem
 namespace
 {
 
-ConjugateGradientStop stopOf(const StepSettings& settings, double floor)
+ConjugateGradientStop stopOf(const StepSettings& settings, const IncrementGoal& goal)
 {
     ConjugateGradientStop stop;
     stop.m_tolerance = settings.m_tolerance;
-    stop.m_floor = floor;
+    stop.m_floor = goal.m_floor;
+    stop.m_steady = goal.m_steady;
     stop.m_maxIterations = settings.m_direct ? 1 : settings.m_maxIterations;
     stop.m_threads = settings.m_threads;
     return stop;
@@ -36,12 +37,12 @@ void completeIncrement(Body& body)
     for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= scratch.m_velocity[i];
 }
 
-IncrementSolve::IncrementSolve(Body& body, const StepSettings& settings, double floor)
+IncrementSolve::IncrementSolve(Body& body, const StepSettings& settings, const IncrementGoal& goal)
     : m_body(body),
       m_scratch(body.m_workspace.scratch()),
       m_settings(settings),
       m_A(body, settings.m_threads),
-      m_solve({&m_A, &m_scratch.m_rightSide, &m_scratch.m_increment}, stopOf(settings, floor), m_scratch.m_solver)
+      m_solve({&m_A, &m_scratch.m_rightSide, &m_scratch.m_increment}, stopOf(settings, goal), m_scratch.m_solver)
 {
 }
 

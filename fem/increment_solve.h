@@ -23,12 +23,19 @@ StepSettings sharedSettings(const BodyModel& model, StepSettings settings);
 /// momentum prescribed.
 void completeIncrement(Body& body);
 
+/// What an increment is solved to.
+struct IncrementGoal
+{
+    double m_floor = 0;     ///< of |b| for the tolerance [kg m/s], >= 0
+    bool m_steady = false;  ///< see ConjugateGradientStop
+};
+
 /// Solves A dv = b of one body, as its scratch holds b and a guess of dv, and adds dv to the velocities of its free
-/// nodes. `floor`: of |b| for the tolerance [kg m/s], >= 0.
+/// nodes.
 class IncrementSolve
 {
 public:
-    IncrementSolve(Body& body, const StepSettings& settings, double floor);
+    IncrementSolve(Body& body, const StepSettings& settings, const IncrementGoal& goal);
     IncrementSolve(const IncrementSolve&) = delete;
     IncrementSolve& operator=(const IncrementSolve&) = delete;
 

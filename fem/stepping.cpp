@@ -109,8 +109,27 @@ void continueIncrements(const BodyState& state, std::vector<Vec3>& dv)
     for (std::size_t i = 0; i < dv.size(); ++i) dv[i] = state.m_fixed[i] ? Vec3() : 2.0 * last[i] - before[i];
 }
 
-void beginFreeMotion(Body& body, const StepSettings& settings, std::optional<IncrementSolve>& solve)
+// What contact is expected to push, with the loads: nothing changes but the way that the body moves as one. Returns the
+// norm of the impulses [N s].
+double expectImpulses(Body& body, const std::vector<Vec3>& impulses, double step)
 {
+    StepScratch& scratch = body.m_workspace.scratch();
+    const BodyState& s = body.m_state;
+    double sum = 0;
+    for (std::size_t i = 0; i < impulses.size(); ++i)
+    {
+        if (s.m_fixed[i]) continue;
+        scratch.m_rightSide[i] += impulses[i];
+        sum += dot(impulses[i], impulses[i]);
+    }
+    scratch.m_momentum.addImpulses(body, impulses, step);
+    std::fill(scratch.m_increment.begin(), scratch.m_increment.end(), Vec3());
+    return std::sqrt(sum);
+}
+
+void beginFreeMotion(const FreeMotion& motion, const StepSettings& settings, std::optional<IncrementSolve>& solve)
+{
+    Body& body = *motion.m_body;
     StepScratch& scratch = body.m_workspace.scratch();
     const WarpedSystem A(body, settings.m_threads);
 
@@ -119,20 +138,37 @@ void beginFreeMotion(Body& body, const StepSettings& settings, std::optional<Inc
     scratch.m_momentum.prescribe(body, settings.m_step);
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
         scratch.m_velocity[i] = body.m_state.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : body.m_state.m_v[i];
-    continueIncrements(body.m_state, scratch.m_increment);
+    IncrementGoal goal = {1e-3 * loadImpulseNorm(body, settings.m_step), motion.m_expected != nullptr};
+    if (motion.m_expected)
+        goal.m_floor =
+            std::max(goal.m_floor, motion.m_expectedFloor * expectImpulses(body, *motion.m_expected, settings.m_step));
+    else
+        continueIncrements(body.m_state, scratch.m_increment);
     completeIncrement(body);
-    solve.emplace(body, settings, 1e-3 * loadImpulseNorm(body, settings.m_step));
+    solve.emplace(body, settings, goal);
 }
 
-SolveReport endFreeMotion(Body& body, IncrementSolve& solve)
+// What impulses have left undone. After a breakdown that may not be finite.
+void keepResidual(Body& body, const IncrementSolve& solve, const SolveReport& report)
 {
-    const SolveReport report = solve.addToVelocity();
+    std::vector<Vec3>& residual = body.m_workspace.scratch().m_residual;
+    if (report.m_stop == SolveStop::breakdown)
+        std::fill(residual.begin(), residual.end(), Vec3());
+    else
+        residual = solve.residual();
+}
+
+// Increments with impulses in them say nothing about those without.
+void endFreeMotion(FreeMotion& motion, IncrementSolve& solve)
+{
+    Body& body = *motion.m_body;
     StepScratch& scratch = body.m_workspace.scratch();
+    motion.m_report = solve.addToVelocity();
     scratch.m_momentum.keepHung(body, scratch.m_velocity);
+    if (motion.m_expected) return keepResidual(body, solve, motion.m_report);
     std::swap(body.m_state.m_lastIncrement[0], body.m_state.m_lastIncrement[1]);
     body.m_state.m_lastIncrement[0] = scratch.m_increment;
     std::fill(scratch.m_residual.begin(), scratch.m_residual.end(), Vec3());
-    return report;
 }
 
 void beginResponse(const ImpulseResponse& response, std::optional<IncrementSolve>& solve)
@@ -152,17 +188,14 @@ void beginResponse(const ImpulseResponse& response, std::optional<IncrementSolve
     }
     else
         std::fill(dv.begin(), dv.end(), Vec3());
-    solve.emplace(body, sharedSettings(*body.m_model, response.m_settings), response.m_floor);
+    solve.emplace(body, sharedSettings(*body.m_model, response.m_settings),
+                  IncrementGoal{response.m_floor, response.m_steady});
 }
 
 void endResponse(ImpulseResponse& response, IncrementSolve& solve)
 {
     response.m_report = solve.addToVelocity();
-    std::vector<Vec3>& residual = response.m_body->m_workspace.scratch().m_residual;
-    if (response.m_report.m_stop == SolveStop::breakdown)  // it may not be finite
-        std::fill(residual.begin(), residual.end(), Vec3());
-    else
-        residual = solve.residual();
+    keepResidual(*response.m_body, solve, response.m_report);
 }
 
 Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
@@ -191,10 +224,9 @@ void solveFreeMotions(FreeMotion* motions, int count)
                          [](const FreeMotion& motion, std::optional<IncrementSolve>& solve)
                          {
                              const BodyModel& model = *motion.m_body->m_model;
-                             beginFreeMotion(*motion.m_body, sharedSettings(model, motion.m_settings), solve);
+                             beginFreeMotion(motion, sharedSettings(model, motion.m_settings), solve);
                          },
-                         [](FreeMotion& motion, IncrementSolve& solve)
-                         { motion.m_report = endFreeMotion(*motion.m_body, solve); });
+                         endFreeMotion);
                  });
 }
 
@@ -207,7 +239,9 @@ void applyImpulses(ImpulseResponse* responses, int count)
 
 SolveReport solveFreeMotion(Body& body, const StepSettings& settings)
 {
-    FreeMotion motion{&body, settings, {}};
+    FreeMotion motion;
+    motion.m_body = &body;
+    motion.m_settings = settings;
     solveFreeMotions(&motion, 1);
     return motion.m_report;
 }

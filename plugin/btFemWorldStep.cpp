@@ -200,6 +200,8 @@ bool btFemWorldStep::isDue(btFemEntry& entry, double worldStep) const
 // Bodies know nothing of each other here: on any thread, in any order.
 void btFemWorldStep::solveFree()
 {
+    m_threads.run(static_cast<int>(m_due.size()), [this](int k) { prepareFree(*m_due[k]); });
+    expectContact();
     m_dueBodies.clear();
     for (const btFemEntry* entry : m_due) m_dueBodies.push_back(&entry->m_fem->m_body);
     m_batches.divide(m_dueBodies, m_threads.count(), m_info.m_batchBodies);
@@ -273,21 +275,42 @@ void btFemWorldStep::solveFree(const Range& batch)
 {
     const btFemStopwatch watch;
     const int count = batch.m_end - batch.m_begin;
-    for (int k = batch.m_begin; k < batch.m_end; ++k) m_motions[k] = prepareFree(inBatches(k));
+    for (int k = batch.m_begin; k < batch.m_end; ++k) m_motions[k] = freeMotionOf(inBatches(k));
     solveFreeMotions(m_motions.data() + batch.m_begin, count);
     for (int k = batch.m_begin; k < batch.m_end; ++k) noteFree(inBatches(k), m_motions[k]);
     const auto share = static_cast<btScalar>(watch.milliseconds() / count);
     for (int k = batch.m_begin; k < batch.m_end; ++k) inBatches(k).m_report.m_freeMotionMs = share;
 }
 
-FreeMotion btFemWorldStep::prepareFree(btFemEntry& entry) const
+void btFemWorldStep::prepareFree(btFemEntry& entry) const
 {
     readBody(entry);  // once more: callbacks may have written since predict
     FemSoftBody& fem = *entry.m_fem;
     if (!readLoads(fem, entry.m_lastStep)) entry.m_report.m_flags |= BT_FEM_RESTORED;
     if (staleness(entry, entry.m_lastStep) > 1) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
     entry.m_report.m_detail = detailInUse(entry);
-    return {&fem.m_body, settingsOf(entry), {}};
+}
+
+// The impulses of the last step, on bodies that these hold where they are.
+void btFemWorldStep::expectContact()
+{
+    m_dueFems.clear();
+    for (const btFemEntry* entry : m_due) m_dueFems.push_back(&*entry->m_fem);
+    m_steady.sumImpulses(m_dueFems, m_group.softPairs());
+    m_threads.run(static_cast<int>(m_due.size()),
+                  [this](int k) { SteadyBodies::judge(*m_dueFems[k], m_due[k]->m_lastStep); });
+}
+
+FreeMotion btFemWorldStep::freeMotionOf(btFemEntry& entry) const
+{
+    const FemSoftBody& fem = *entry.m_fem;
+    FreeMotion motion;
+    motion.m_body = &entry.m_fem->m_body;
+    motion.m_settings = settingsOf(entry);
+    if (fem.m_expected.empty()) return motion;
+    motion.m_expected = &fem.m_expected;
+    motion.m_expectedFloor = residualFloor(m_info.m_contactTolerance, m_info.m_tolerance);
+    return motion;
 }
 
 void btFemWorldStep::noteFree(btFemEntry& entry, const FreeMotion& motion) const

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "bullet_bridge/steady_bodies.h"
 #include "bullet_fem/fem/stepping.h"
 #include "bullet_fem/fem/threads.h"
 #include "fem/body_batches.h"
@@ -65,7 +66,9 @@ private:
     void solveFree();
     void solveFree(const bullet_fem::Range& batch);
     btFemEntry& inBatches(int k) const { return *m_due[m_batches.order()[k]]; }
-    bullet_fem::FreeMotion prepareFree(btFemEntry& entry) const;
+    void prepareFree(btFemEntry& entry) const;
+    void expectContact();
+    bullet_fem::FreeMotion freeMotionOf(btFemEntry& entry) const;
     void noteFree(btFemEntry& entry, const bullet_fem::FreeMotion& motion) const;
     void finish(btFemEntry& entry) const;
     bullet_fem::StepSettings settingsOf(const btFemEntry& entry) const;
@@ -75,7 +78,9 @@ private:
     std::vector<btFemEntry*> m_due;     // they are to be predicted, or their free motion is to be solved
     std::vector<btFemEntry*> m_active;  // it is solved
     std::vector<const bullet_fem::Body*> m_dueBodies;
-    bullet_fem::BodyBatches m_batches;              // of these
+    bullet_fem::BodyBatches m_batches;  // of these
+    bullet_fem::SteadyBodies m_steady;
+    std::vector<bullet_fem::FemSoftBody*> m_dueFems;
     std::vector<bullet_fem::FreeMotion> m_motions;  // in the order of the batches
     std::vector<bullet_fem::Vec3> m_change;         // scratch [m/s]
     btFemDetailChooser m_detailChooser;

@@ -25,7 +25,6 @@ SoftPairSearch::SoftPairSearch(const Threads& threads) : m_threads(threads), m_p
 void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts)
 {
     listPairs(bodies);
-    m_steady.sumImpulses(bodies, m_memory);
     const int paired = static_cast<int>(m_paired.size());
     m_threads.run(paired,
                   [&](int k)
@@ -33,8 +32,7 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       const int b = m_paired[k];
                       FemSoftBody& fem = *bodies[b];
                       fem.updateSkin();
-                      m_isSteady[b] = !fem.m_skin && m_steady.isSteady(fem, b, step);
-                      m_isStill[b] = fem.m_surface.isStill(fem.surfacePosition(), expectedVelocity(fem, b), step,
+                      m_isStill[b] = fem.m_surface.isStill(fem.surfacePosition(), fem.surfaceVelocity(), step,
                                                            kStill * m_smallestEdge[b]);
                   });
     choosePairs();
@@ -43,7 +41,7 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                   {
                       const int b = m_paired[k];
                       FemSoftBody& fem = *bodies[b];
-                      if (m_isSearched[b]) fem.m_surface.update(fem.surfacePosition(), expectedVelocity(fem, b), step);
+                      if (m_isSearched[b]) fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
                   });
     m_moved.clear();
     for (int b : m_paired)
@@ -61,11 +59,6 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
         if (pair.m_limited) m_limited[pair.m_first] = 1;
 }
 
-const std::vector<Vec3>& SoftPairSearch::expectedVelocity(const FemSoftBody& fem, int body) const
-{
-    return m_isSteady[body] ? fem.m_body.m_state.m_v : fem.surfaceVelocity();
-}
-
 // The surfaces of the others need no update.
 void SoftPairSearch::choosePairs()
 {
@@ -79,7 +72,7 @@ void SoftPairSearch::choosePairs()
 // The first of a pair is the one that came into the world first.
 void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
 {
-    for (std::vector<unsigned char>* flags : {&m_isSteady, &m_isStill, &m_isSearched}) flags->assign(bodies.size(), 0);
+    for (std::vector<unsigned char>* flags : {&m_isStill, &m_isSearched}) flags->assign(bodies.size(), 0);
     m_smallestEdge.assign(bodies.size(), 0);
     const auto pairWith = [&](int b, double edge)
     { m_smallestEdge[b] = m_smallestEdge[b] > 0 ? std::min(m_smallestEdge[b], edge) : edge; };

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "bullet_bridge/soft_pairs/soft_pair_finder.h"
-#include "bullet_bridge/soft_pairs/steady_bodies.h"
 
 namespace bullet_fem
 {
@@ -64,13 +63,11 @@ private:
 
     void listPairs(const std::vector<FemSoftBody*>& bodies);
     void listTouching(const std::vector<FemSoftBody*>& bodies);
-    const std::vector<Vec3>& expectedVelocity(const FemSoftBody& fem, int body) const;
     void choosePairs();
     void findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part);
 
     const Threads& m_threads;
     SoftPairMemory m_memory;
-    SteadyBodies m_steady;
     std::vector<Part> m_parts;
     std::vector<std::pair<const btSoftBody*, int>> m_byAddress;  // bodies, ascending
     std::vector<std::pair<int, int>> m_touching;                 // bodies, the first not after the second; ascending
@@ -78,9 +75,9 @@ private:
     std::vector<SoftPairIds> m_complete;  // pairs, scratch
     std::vector<int> m_paired;            // bodies that are in a pair
     std::vector<double> m_smallestEdge;   // per body: of those that it is paired with, and its own [m]; 0: with none
-    std::vector<unsigned char> m_isSteady, m_isStill, m_isSearched;  // per body; searched: in a pair that is
-    std::vector<FemSoftBody*> m_moved;                               // of those in a pair, the ones that are not still
-    std::vector<unsigned char> m_limited;                            // per body
+    std::vector<unsigned char> m_isStill, m_isSearched;  // per body; searched: in a pair that is
+    std::vector<FemSoftBody*> m_moved;                   // of those in a pair, the ones that are not still
+    std::vector<unsigned char> m_limited;                // per body
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;
 };

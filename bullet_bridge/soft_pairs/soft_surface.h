@@ -72,13 +72,13 @@ public:
     bool isClosed() const { return m_closed; }
     bool hasRestNeighbours() const { return m_restNeighbours != nullptr; }
 
-    /// Takes the positions at the start of a step of h [s] and the velocities that are expected in it, free ones or
-    /// those of SteadyBodies: once a step.
+    /// Takes the positions at the start of a step of h [s] and the velocities that are expected in it: once a step.
     void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
 
     /// Notes where the vertices of the surface were at the last update(). Never allocates.
     void notePlace();
     void forgetPlace() { m_placeNoted = false; }
+    bool isPlaceNoted() const { return m_placeNoted; }
     /// True if every vertex of the surface is within `reach` [m] of its noted place, and is expected to stay there
     /// through the step: arguments as those of update(), which need not have been called.
     bool isStill(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h, double reach) const;

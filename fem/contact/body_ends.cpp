@@ -15,14 +15,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTooStiff = 1.1;        // W may be too stiff by this factor before it is scaled
-constexpr double kTooSoft = 0.7;         // and may promise so much more than comes
-constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
-constexpr double kLargestScaling = 100;  // in one round
-constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
-constexpr double kRounding = 1e-9;       // share of the body's speed below which changes of velocity teach nothing
-constexpr double kForgetting = 0.99;     // of what was learnt, a step
-constexpr int kSamples = 16;             // ends that the diagonal of W is estimated from
+constexpr double kForgetting = 0.99;  // of what was learnt, a step
+constexpr int kSamples = 16;          // ends that the diagonal of W is estimated from
 
 double speedByLoads(const Body& body, double step)
 {
@@ -271,70 +265,6 @@ bool BodyEnds::gatherBeyond(const std::vector<Vec3>& known)
         scatter(m_ends[e], impulse, m_nodeIn);
     }
     return any;
-}
-
-ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, const CorrectionGoal& goal)
-{
-    m_learnt = false;
-    refresh();
-    if (!gatherBeyond(m_applied) && !m_leftMuch) return {};
-    m_leftMuch = goal.m_share > 0;
-    // Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin.
-    RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
-    for (int e = 0; e < size(); ++e)
-        if (!isGroup(m_ends[e]))
-            momentum.addAngularImpulse(*m_body.m_body, m_ends[e].m_point.m_nodes[0],
-                                       cross(m_ends[e].m_offset, m_impulse[e] - m_applied[e]), settings.m_step);
-    double all = 0;
-    for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
-    StepSettings loosened = settings;
-    loosened.m_tolerance = std::max(settings.m_tolerance, goal.m_share);
-    const double floor = goal.m_floor * settings.m_tolerance / loosened.m_tolerance;
-    return {m_body.m_body, &m_nodeIn, loosened, floor * std::sqrt(all), false, {}};
-}
-
-void BodyEnds::endCorrection()
-{
-    double trueWork = 0, predictedWork = 0;  // of the new impulses on the velocities that they made
-    double impulses = 0;                     // the sum of the new ones [N s]
-    m_allWork = 0;                           // of all impulses, roughly
-    for (int e = 0; e < size(); ++e)
-    {
-        const Vec3 impulse = m_impulse[e] - m_applied[e];
-        m_applied[e] = m_impulse[e];
-        if (dot(m_impulse[e], m_impulse[e]) > 0) m_allWork += dot(m_impulse[e], compliance(e, e) * m_impulse[e]);
-        if (!(dot(impulse, impulse) > 0)) continue;
-        impulses += norm(impulse);
-        trueWork += dot(impulse, trueVelocity(e) - before(e));
-        predictedWork += dot(impulse, known(e) - before(e));
-    }
-    if (predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
-}
-
-// Whether the new impulses make velocities that the rounding of the body's own leaves intact. At rest these are small:
-// then what counts is what has just been stopped.
-bool BodyEnds::isAboveRounding(const Lesson& lesson) const
-{
-    double fastest = m_loadSpeed;
-    for (const Vec3& v : bullet_fem::velocity(*m_body.m_body)) fastest = std::max(fastest, norm(v));
-    return lesson.m_predictedWork > kRounding * fastest * lesson.m_impulses;
-}
-
-void BodyEnds::learn(const Lesson& lesson)
-{
-    const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
-    const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
-    if (!(softer || stiffer) || !isAboveRounding(lesson)) return;
-    m_tooSoft = m_tooSoft || softer;
-    if (!stiffer) return;
-    const double factor = std::min(kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork, kLargestScaling);
-    m_learnt = factor != 1;
-    m_scale *= factor;
-    m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
-    if (!m_dense) return;
-    m_points.scale(factor);
-    formOwn();
-    m_working.reset(size());
 }
 
 void BodyEnds::beginPush()

@@ -88,6 +88,15 @@ public:
     WorkingSet& working() { return m_working; }
     void pushAlong(int e, const Vec3& impulse) { m_impulse[e] += impulse; }
 
+    /// True of an end whose impulse the body's free motion may have been solved with: takeExpected() is to be called
+    /// once these have been pushed.
+    bool isExpected(int e) const { return m_body.m_expected && !isGroup(m_ends[e]); }
+    bool expects() const { return m_body.m_expected != nullptr; }
+
+    /// The impulses so far of such ends count as applied; what they are other than expected is left to the next
+    /// correction, at once if it is much, but for the momentum. Without ends all is taken back.
+    void takeExpected(const StepSettings& settings, const CorrectionGoal& goal);
+
     /// Takes the velocities from the body, which holds the impulses applied so far, and adds W times the rest.
     void measure();
 
@@ -130,6 +139,9 @@ private:
     void measureSlots();
     void estimateDiagonal();
     bool gatherBeyond(const std::vector<Vec3>& known);
+    double floorOf(const CorrectionGoal& goal) const;
+    void addLevers(const StepSettings& settings);
+    void giveUpExpected(const StepSettings& settings);
     void formOwn();
     void see(int e);
     bool isAboveRounding(const Lesson& lesson) const;

@@ -18,7 +18,7 @@ void ContactRows::setAxes(const Vec3& n, ContactRow& row)
     row.m_axes[2] = cross(n, row.m_axes[1]);
 }
 
-void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings)
+void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal)
 {
     m_problem = &problem;
     m_settings = settings;
@@ -42,6 +42,14 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     }
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
     finishRows();
+    for (ContactRow& row : m_rows)
+        if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a guess that nothing would ever change
+    pushStarts(true);
+    runTasks(settings.m_step.m_threads, static_cast<int>(problem.m_bodies.size()),
+             [&](int b)
+             {
+                 if (m_bodies[b].expects()) m_bodies[b].takeExpected(settings.m_step, goal);
+             });
     measure();
     forEachPiece(
         [&](int, Range rows)
@@ -49,11 +57,22 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
             const int end = std::min(rows.m_end, static_cast<int>(problem.m_contacts.size()));
             for (int k = rows.m_begin; k < end; ++k) setContactTarget(m_rows[k], problem.m_contacts[k]);
         });
-    for (ContactRow& row : m_rows)
+    pushStarts(false);
+}
+
+// The impulses that rows start with, on the ends that are expected to have them, or the others.
+void ContactRows::pushStarts(bool expected)
+{
+    const auto push = [&](const RowEnd& end, const Vec3& impulse)
     {
-        if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a guess that nothing would ever change
-        if (row.m_a.m_body >= 0) m_bodies[row.m_a.m_body].push(row.m_a.m_end, row.m_impulse);
-        if (row.m_b.m_body >= 0) m_bodies[row.m_b.m_body].push(row.m_b.m_end, -row.m_impulse);
+        if (end.m_body < 0) return;
+        BodyEnds& body = m_bodies[end.m_body];
+        if (body.isExpected(end.m_end) == expected) body.push(end.m_end, impulse);
+    };
+    for (const ContactRow& row : m_rows)
+    {
+        push(row.m_a, row.m_impulse);
+        push(row.m_b, -row.m_impulse);
     }
 }
 

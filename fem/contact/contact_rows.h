@@ -20,9 +20,10 @@ namespace bullet_fem
 class ContactRows
 {
 public:
-    /// Ends, frames and compliance of all rows, from free velocities of bodies and present ones of obstacles. The
-    /// problem must live until the step is over.
-    void assemble(ContactProblem& problem, const ContactSettings& settings);
+    /// Ends, frames and compliance of all rows, from free velocities of bodies and present ones of obstacles. `goal`:
+    /// how closely bodies are to have solved for the impulses that rows start with. The problem must live until the
+    /// step is over.
+    void assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal);
 
     ContactProblem& problem() const { return *m_problem; }
     const ContactSettings& settings() const { return m_settings; }
@@ -140,6 +141,7 @@ private:
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
     RowEnd jointEnd(const JointEnd& end);
     RowEnd rigidEnd(int obstacle, const Vec3& point) const;
+    void pushStarts(bool expected);
     void finishRows();
     void finishRow(ContactRow& row) const;
     void setContactTarget(ContactRow& row, const ContactPoint& contact) const;

@@ -147,6 +147,11 @@ void payBackOwn(Obstacle& obstacle, double h)
 
 }  // namespace
 
+double residualFloor(double contactTolerance, double solveTolerance)
+{
+    return std::clamp(kResidualShare * contactTolerance / solveTolerance, kFloorWithJoints, 1.0);
+}
+
 ContactSolver::ContactSolver() : m_scratch(std::make_unique<Scratch>()) {}
 ContactSolver::~ContactSolver() = default;
 
@@ -172,7 +177,9 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_report = {};
     s.m_isBest = false;
     s.m_report.m_contacts = static_cast<int>(problem.m_contacts.size());
-    s.m_empty = problem.m_contacts.empty() && problem.m_joints.empty();
+    const auto expects = [](const ContactBody& body) { return body.m_expected != nullptr; };
+    const bool anyExpects = std::any_of(problem.m_bodies.begin(), problem.m_bodies.end(), expects);
+    s.m_empty = problem.m_contacts.empty() && problem.m_joints.empty() && !anyExpects;
     for (Obstacle& obstacle : problem.m_obstacles)
         obstacle.m_pushLinear = obstacle.m_pushAngular = obstacle.m_angularImpulse = obstacle.m_pushImpulse =
             obstacle.m_pushAngularImpulse = {};
@@ -181,10 +188,8 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_minRounds = joints ? std::max(settings.m_rounds, kRoundsWithJoints) : settings.m_rounds;
     s.m_sweepTolerance = joints ? kSweepToleranceWithJoints : settings.m_tolerance;
     s.m_roundTolerance = joints ? kRoundToleranceWithJoints : settings.m_tolerance;
-    s.m_floor =
-        joints ? kFloorWithJoints
-               : std::clamp(kResidualShare * settings.m_tolerance / settings.m_step.m_tolerance, kFloorWithJoints, 1.0);
-    s.m_rows.assemble(problem, settings);
+    s.m_floor = joints ? kFloorWithJoints : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
+    s.m_rows.assemble(problem, settings, {s.m_floor, 0});
     s.m_sweeps.begin();
     s.m_push.begin();
     s.m_error = 1;
@@ -192,7 +197,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_stalled = s.m_loose = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
-    if (!joints && s.m_rows.hasImpulses())
+    if (!joints && (anyExpects || s.m_rows.hasImpulses()))
         guess();
     else
     {

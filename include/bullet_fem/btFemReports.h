@@ -62,7 +62,7 @@ struct btFemStepReport
     btFemDetail m_detail = btFemDetail::nodalWarp;  ///< what its free motion was solved with; never automatic
     int m_nodes = 0, m_tets = 0;                    ///< of its mesh
     int m_iterations = 0;                           ///< conjugate gradient iterations of the free motion, >= 0
-    btScalar m_residual = 0;                        ///< its true |b - A dv| / |b| [-], >= 0
+    btScalar m_residual = 0;                        ///< its true |b - A dv| / |b| [-], >= 0: see SolveReport
     int m_contactIterations = 0;  ///< of the corrective solves after contact, of all bodies of its contact group
     int m_contactSweeps = 0;      ///< sweeps over that group's contacts and joints, in all rounds and
                                   ///< for position correction

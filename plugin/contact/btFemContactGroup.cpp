@@ -70,7 +70,8 @@ void btFemContactGroup::collect(const Scope& scope)
     {
         FemSoftBody& fem = *entry->m_fem;
         m_bodies.push_back(&fem);
-        m_problem.m_bodies.push_back({&fem.m_body, fem.m_compliance.get()});
+        m_problem.m_bodies.push_back(
+            {&fem.m_body, fem.m_compliance.get(), fem.m_expected.empty() ? nullptr : &fem.m_expected});
     }
     collectJoints(scope);  // first: the rigid bodies that they hold are not rewound
     collectRigid();

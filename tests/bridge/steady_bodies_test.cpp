@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_pairs/steady_bodies.h"
+#include "bullet_bridge/steady_bodies.h"
 
 #include <gtest/gtest.h>
 
@@ -43,13 +43,15 @@ protected:
         origin.m_kind = kind;
         m_memory.remember({contact}, {origin});
         m_memory.beginStep();
+        m_fem.m_surface.notePlace();
     }
 
     bool isSteady()
     {
         SteadyBodies steady;
         steady.sumImpulses({&m_fem}, m_memory);
-        return steady.isSteady(m_fem, 0, kStep);
+        SteadyBodies::judge(m_fem, kStep);
+        return !m_fem.m_expected.empty();
     }
 
     TestBox m_box;
@@ -98,6 +100,45 @@ TEST_F(SteadyBodiesTest, OneThatMovesAsOneIs)
     for (Vec3& v : m_fem.m_body.m_state.m_v) v = {20, -10, 3};
     EXPECT_TRUE(isSteady());
     m_fem.m_body.m_state.m_v[5].x += 1;
+    EXPECT_FALSE(isSteady());
+}
+
+// A jammed one, say: what it does would hang on small differences of large impulses.
+TEST_F(SteadyBodiesTest, OneThatCarriesManyTimesItsLoadsIsNot)
+{
+    m_fem.m_contacts.assign(3, ContactPoint());
+    m_fem.m_contacts[0].m_impulse = {0, 0, m_weight};
+    m_fem.m_contacts[1].m_soft.m_nodes = {1, 1, 1};
+    m_fem.m_contacts[1].m_impulse = {14 * m_weight, 0, 0};
+    m_fem.m_contacts[2].m_soft.m_nodes = {2, 2, 2};
+    m_fem.m_contacts[2].m_impulse = {-14 * m_weight, 0, 0};
+    EXPECT_TRUE(isSteady());
+    m_fem.m_contacts[1].m_impulse.x = 15 * m_weight;
+    m_fem.m_contacts[2].m_impulse.x = -15 * m_weight;
+    EXPECT_FALSE(isSteady());
+}
+
+TEST_F(SteadyBodiesTest, IsExpectedToGetWhatItsNodesGotInTheLastStep)
+{
+    rest(0.5);
+    m_fem.m_contacts[0].m_soft.m_nodes = {3, 4, 3};
+    m_fem.m_contacts[0].m_soft.m_weights = {0.5, 0.3, 0.2};
+    restOnSoft(SoftPairKind::nodeOfSecond, -0.5 * m_weight);
+    ASSERT_TRUE(isSteady());
+    Vec3 sum;
+    for (const Vec3& impulse : m_fem.m_expected) sum += impulse;
+    EXPECT_NEAR(sum.z, m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_expected[3].z, 0.35 * m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_expected[4].z, 0.15 * m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_expected[0].z, 0.5 * m_weight, 1e-12);
+}
+
+// As after it was attached to something, or set up anew: its contacts may be told by other nodes.
+TEST_F(SteadyBodiesTest, OneWhosePlaceIsForgottenIsNotCarriedBySoftBodies)
+{
+    restOnSoft(SoftPairKind::edges, m_weight);
+    ASSERT_TRUE(isSteady());
+    m_fem.m_surface.forgetPlace();
     EXPECT_FALSE(isSteady());
 }
 

@@ -65,16 +65,17 @@ protected:
         EXPECT_LT(book.made(), 1e-3 * start);
     }
 
-    // Everything that touches the cube, on average of some steps, carries its weight.
+    // Everything that touches the cube, on average of some steps, carries its weight; once the last box has fallen off.
     void expectBalance()
     {
+        m_world.step(300, btScalar(kShort));
         double sum = 0;
         for (int k = 0; k < 60; ++k)
         {
             m_world.step(1, btScalar(kShort));
             sum += impulseOn(fem(), *m_cube).y / kShort / 60;
         }
-        EXPECT_NEAR(sum, 100 * kMass, 0.02 * 100 * kMass);
+        EXPECT_NEAR(sum, 100 * kMass, 0.01 * 100 * kMass);
     }
 
     btRigidBody* m_ground;

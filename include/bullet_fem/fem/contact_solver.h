@@ -118,6 +118,9 @@ struct ContactBody
 {
     Body* m_body = nullptr;                   ///< has had solveFreeMotion
     ComplianceCache* m_compliance = nullptr;  ///< of the body's model
+    /// FreeMotion::m_expected, [N s], one a node: what it has in its velocities of the impulses that its contacts start
+    /// with. Null: nothing.
+    const std::vector<Vec3>* m_expected = nullptr;
 };
 
 /// How a ContactProblem is solved.
@@ -194,6 +197,10 @@ struct ContactProblem
     /// Empties all; nothing is freed.
     void clear();
 };
+
+/// For solves to a tolerance: the share of the impulses on a body that residuals are measured against at least, so that
+/// what they leave of these is a share of what contact is solved to. Both > 0; [-], in [1e-3, 1].
+double residualFloor(double contactTolerance, double solveTolerance);
 
 /// Frictional contact and joints in compliance space. After solveFreeMotion of every body, finds impulses with
 ///     normal: lambda_n >= 0, n . v + max(gap, 0) / h >= 0, complementary

@@ -41,7 +41,8 @@ enum class SolveStop
 struct SolveReport
 {
     int m_iterations = 0;   ///< applications of the preconditioner that improved the answer
-    double m_residual = 0;  ///< true |b - A dv| / |b| at the end [-]; 0 where b = 0
+    double m_residual = 0;  ///< true |b - A dv| / |b| at the end [-]; 0 where b = 0. With expected impulses in b, which
+                            ///< may cancel the loads, |b| is no less than the norm of these
     SolveStop m_stop = SolveStop::converged;
 };
 
