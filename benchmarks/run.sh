@@ -52,11 +52,14 @@ run_benchmark()
             ;;
         crowd)
             local small="--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only"
-            local games="--contact-tolerance 1e-2 --threads 2"
-            run crowd crowd_swap "$small" "--settle 1.5 --steps 30 --awake-only"
-            run crowd crowd_games "$small $games" "--settle 1.5 --steps 30 --awake-only $games"
-            run crowd crowd_coupled "$small --coupled" "--bodies 30 --balls 6 --settle 1.5 --steps 30 --awake-only --coupled"
-            run crowd crowd_cubes "$small --cubes" "--bodies 10 --balls 2 --settle 1.5 --steps 30 --awake-only --cubes"
+            local games="--contact-tolerance 1e-2"
+            local rest="--settle 6 --steps 60 --awake-only --threads 2"
+            run crowd crowd_games "$small $games" "$rest $games"
+            run crowd crowd_swap "$small" "$rest"
+            run crowd crowd_400 "--bodies 20 ${small#--bodies 10} $games" "--bodies 400 --balls 80 $rest $games"
+            run crowd crowd_different "$small $games --different" "$rest $games --different"
+            run crowd crowd_cubes "$small $games --cubes" "$rest $games --cubes"
+            run crowd crowd_coupled "$small --coupled" "--bodies 30 --balls 6 $rest --coupled"
             ;;
     esac
 }

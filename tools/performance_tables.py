@@ -21,6 +21,7 @@ METHODS = {
     "mass-spring": "Bullet mass-spring, 20 iterations",
     "bullet": "Bullet deformable",
 }
+CROWDS = ["crowd_games", "crowd_swap", "crowd_400", "crowd_different", "crowd_cubes", "crowd_coupled"]
 
 
 def number(value, digits=3):
@@ -150,7 +151,7 @@ def machine(*documents):
 
 # Table, its function, the files it is made of; of several files those that are there.
 TABLES = [
-    ("machine", machine, ["beam", "curve", "kernels", "scaling", "contact", "crowd_swap", "crowd_games", "crowd_coupled", "crowd_cubes"]),
+    ("machine", machine, ["beam", "curve", "kernels", "scaling", "contact", *CROWDS]),
     ("beam", beam, ["beam"]),
     ("curve", curve, ["curve"]),
     ("kernels", kernels, ["kernels"]),
@@ -158,7 +159,7 @@ TABLES = [
     ("compliance", compliance, ["kernels"]),
     ("scaling", scaling, ["scaling"]),
     ("contact", contact, ["contact"]),
-    ("crowd", crowd, ["crowd_swap", "crowd_games", "crowd_coupled", "crowd_cubes"]),
+    ("crowd", crowd, CROWDS),
 ]
 
 
