@@ -69,7 +69,7 @@ void BodyEnds::takeExpected(const StepSettings& settings, const CorrectionGoal& 
     }
     scratch.m_momentum.addImpulses(body, m_nodeIn, settings.m_step);
     if (settings.m_momentumCorrection) scratch.m_momentum.restore(body, scratch.m_velocity);
-    m_leftMuch = std::sqrt(left) > settings.m_tolerance * floorOf(goal);
+    m_leftMuch = m_mixed = std::sqrt(left) > settings.m_tolerance * floorOf(goal);
     m_applied.assign(m_impulse.begin(), m_impulse.end());
 }
 
@@ -96,7 +96,8 @@ void BodyEnds::endCorrection()
         trueWork += dot(impulse, trueVelocity(e) - before(e));
         predictedWork += dot(impulse, known(e) - before(e));
     }
-    if (predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
+    if (!m_mixed && predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
+    m_mixed = false;
 }
 
 // Whether the new impulses make velocities that the rounding of the body's own leaves intact. At rest these are small:

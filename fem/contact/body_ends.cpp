@@ -89,7 +89,7 @@ void BodyEnds::assemble(int denseLimit, double step)
     m_nodeIn.assign(nodes, Vec3());
     m_nodeOut.assign(nodes, Vec3());
     m_loadSpeed = speedByLoads(*m_body.m_body, step);
-    m_formed = m_tooSoft = m_leftMuch = false;
+    m_formed = m_tooSoft = m_leftMuch = m_mixed = false;
     if (!m_dense)
     {
         m_velocity.assign(m_ends.size(), Vec3());

@@ -168,6 +168,7 @@ private:
     bool m_learnt = false;                  // in the last correction
     bool m_tooSoft = false;                 // in any of this problem
     bool m_leftMuch = false;                // the last correction did, of its right-hand side
+    bool m_mixed = false;                   // the next one also solves for what was expected in vain: W learns nothing
     double m_allWork = 0;                   // of the impulses so far, roughly [J]
 };
 

@@ -99,5 +99,40 @@ TEST(BodyEnds, LearnNothingFromTheRoundingOfVelocities)
     for (int k = 0; k < 9; ++k) EXPECT_EQ(ends.compliance(1, 1)(k / 3, k % 3), before(k / 3, k % 3));
 }
 
+// The correction that takes back what was expected in vain changes velocities by more than its own impulses do.
+TEST(BodyEnds, LearnNothingFromImpulsesThatWereExpectedInVain)
+{
+    Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
+    std::vector<Vec3> expected(body.m_state.m_x.size());
+    expected[0] = {0, 0, -100};
+    FreeMotion motion;
+    motion.m_body = &body;
+    motion.m_expected = &expected;
+    solveFreeMotions(&motion, 1);
+    const auto cache = makeComplianceCache(body.m_model);
+    BodyEnds ends;
+    ends.clear({&body, cache.get(), &expected});
+    for (int node : {0, 1, 2}) ends.addPoint({0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
+    ends.assemble(400, motion.m_settings.m_step);
+    ends.request();
+    ends.form();
+    ends.takeExpected(motion.m_settings, {});
+    ends.measure();
+    const auto correct = [&](const Vec3& impulse)
+    {
+        ends.push(0, impulse);
+        ImpulseResponse response = ends.beginCorrection(motion.m_settings, {});
+        applyImpulses(&response, 1);
+        ends.endCorrection();
+        ends.measure();
+    };
+    correct({0, 0, 10});
+    EXPECT_FALSE(ends.hasLearnt());
+    EXPECT_FALSE(ends.isTooSoft());
+    correct({0, 0, 10});
+    EXPECT_FALSE(ends.hasLearnt());  // W is right
+    EXPECT_FALSE(ends.isTooSoft());
+}
+
 }  // namespace
 }  // namespace bullet_fem
