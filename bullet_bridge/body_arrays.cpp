@@ -69,18 +69,8 @@ bool topologyAsSetUp(const FemSoftBody& fem)
 {
     const btSoftBody& soft = *fem.m_softBody;
     const TetMesh& mesh = fem.m_body.m_model->mesh();
-    if (soft.m_nodes.size() != mesh.nodeCount() || soft.m_tetras.size() != mesh.tetCount()) return false;
-    for (int e = 0; e < soft.m_tetras.size(); ++e)
-    {
-        const Tet& tet = mesh.tets()[e];
-        // Turned elements have their last two nodes swapped.
-        for (int a = 0; a < 4; ++a)
-        {
-            const btSoftBody::Node* node = soft.m_tetras[e].m_n[a];
-            if (node != &soft.m_nodes[tet[a]] && !(a >= 2 && node == &soft.m_nodes[tet[5 - a]])) return false;
-        }
-    }
-    return true;
+    return soft.m_nodes.size() == mesh.nodeCount() && soft.m_tetras.size() == mesh.tetCount() &&
+           topologyMark(soft) == fem.m_topology;
 }
 
 bool hasUsableNodes(const btSoftBody& body)

@@ -16,7 +16,7 @@ void followNodes(FemSoftBody& fem);
 /// set up: its nodes must not be gone through then.
 bool arraysAsSetUp(const FemSoftBody& fem);
 
-/// True if the tetrahedra also still join the nodes that they did.
+/// True if the tetrahedra also still join the nodes that they did, by their topologyMark.
 bool topologyAsSetUp(const FemSoftBody& fem);
 
 /// True if all nodes are within 1e6 m of the origin: Bullet's own collision reads beyond its arrays for others.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "BulletSoftBody/btSoftBody.h"
@@ -36,11 +37,17 @@ struct MassChanges
     int m_massless = 0;  // see shareOutMass
 };
 
+// True of a pinned node, one with a target, and one without elements.
+bool isPrescribed(const FemSoftBody& fem, std::size_t i, btScalar inverseMass)
+{
+    return inverseMass == 0 || fem.m_pins.m_hasTarget[i] || fem.m_body.m_model->mesh().isLoose(static_cast<int>(i));
+}
+
 void readMass(FemSoftBody& fem, int i, MassChanges& changes, NodeReadReport& report)
 {
     const btScalar inverse = fem.m_softBody->m_nodes[i].m_im;
     BodyState& state = fem.m_body.m_state;
-    state.m_fixed[i] = inverse == 0 || fem.m_pins.m_hasTarget[i] || fem.m_body.m_model->mesh().isLoose(i);
+    state.m_fixed[i] = isPrescribed(fem, i, inverse);
     if (inverse == fem.m_written.m_inverseMass[i]) return;
     if (isMassless(inverse))
     {
@@ -139,11 +146,45 @@ void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report
     writtenV = node.m_v;
 }
 
+// True if the user wrote nothing, as in most steps: nodes are looked at once then.
+bool isAsWritten(const FemSoftBody& fem)
+{
+    const WrittenNodes& written = fem.m_written;
+    const auto same = [](const btVector3& a, const btVector3& b) {
+        return std::memcmp(static_cast<const btScalar*>(a), static_cast<const btScalar*>(b), 3 * sizeof(btScalar)) == 0;
+    };
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        const btSoftBody::Node& node = fem.m_softBody->m_nodes[i];
+        if (!same(node.m_x, written.m_x[i]) || !same(node.m_v, written.m_v[i])) return false;
+        if (node.m_im != written.m_inverseMass[i]) return false;
+    }
+    return true;
+}
+
+// Targets may have come or gone all the same.
+void readPins(FemSoftBody& fem)
+{
+    std::vector<unsigned char>& fixed = fem.m_body.m_state.m_fixed;
+    for (std::size_t i = 0; i < fixed.size(); ++i)
+    {
+        const bool isFixed = isPrescribed(fem, i, fem.m_written.m_inverseMass[i]);
+        if (isFixed && !fixed[i]) fem.m_pins.m_velocity[i] = {};
+        fixed[i] = isFixed;
+    }
+}
+
 }  // namespace
 
 NodeReadReport readNodes(FemSoftBody& fem)
 {
     NodeReadReport report;
+    if (isAsWritten(fem))
+    {
+        readPins(fem);
+        report.m_stalePins = fem.m_body.m_model->factorInput().m_fixed != fem.m_body.m_state.m_fixed;
+        return report;
+    }
     const bool teleported = wasTeleported(fem);
     MassChanges masses;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
@@ -165,14 +206,14 @@ NodeReadReport readNodes(FemSoftBody& fem)
 double factorMismatch(const FemSoftBody& fem, double step)
 {
     const FactorInput& input = fem.m_body.m_model->factorInput();
-    double mismatch = std::max(step / input.m_step, input.m_step / step);
-    const double material = fem.m_body.m_model->materialMismatch();
+    double least = std::min(step / input.m_step, 1.0), most = std::max(step / input.m_step, 1.0);
     for (std::size_t i = 0; i < input.m_mass.size(); ++i)
     {
         const double ratio = fem.m_body.m_state.m_mass[i] / input.m_mass[i];
-        mismatch = std::max({mismatch, ratio, 1 / ratio});
+        least = std::min(least, ratio);
+        most = std::max(most, ratio);
     }
-    return material * mismatch;
+    return fem.m_body.m_model->materialMismatch() * std::max(most, 1 / least);
 }
 
 bool readLoads(FemSoftBody& fem, double step)

@@ -6,6 +6,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_fem/fem/threads.h"
 
 namespace bullet_fem
 {
@@ -48,15 +49,20 @@ bool isSteady(const FemSoftBody& fem, double step)
 }  // namespace
 
 // Contacts of a body that has become another one since, or is attached in another way, are not told by its nodes.
-void SteadyBodies::sumImpulses(const std::vector<FemSoftBody*>& bodies, const SoftPairMemory& memory)
+void SteadyBodies::sumImpulses(const std::vector<FemSoftBody*>& bodies, const SoftPairMemory& memory,
+                               const Threads& threads)
 {
+    threads.run(static_cast<int>(bodies.size()),
+                [&](int b)
+                {
+                    FemSoftBody& fem = *bodies[b];
+                    fem.m_expected.assign(fem.m_body.m_state.m_x.size(), Vec3());
+                    for (const ContactPoint& contact : fem.m_contacts)
+                        spread(contact.m_soft, contact.m_impulse, fem.m_expected);
+                });
     m_byId.clear();
     for (FemSoftBody* fem : bodies)
-    {
-        fem->m_expected.assign(fem->m_body.m_state.m_x.size(), Vec3());
-        for (const ContactPoint& contact : fem->m_contacts) spread(contact.m_soft, contact.m_impulse, fem->m_expected);
         if (fem->m_surface.isPlaceNoted()) m_byId.push_back({broadphaseId(*fem->m_softBody), fem});
-    }
     const auto before = [](const Numbered& a, const Numbered& b) { return a.m_id < b.m_id; };
     std::sort(m_byId.begin(), m_byId.end(), before);
     const auto add = [&](int id, const SurfacePoint& point, const Vec3& impulse)

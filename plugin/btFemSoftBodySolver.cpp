@@ -376,9 +376,6 @@ void btFemSoftBodySolver::updateSoftBodies()
         if (!(entry && entry->isStepped()) && m_softBodySet[i]->isActive()) m_softBodySet[i]->integrateMotion();
     }
     m_impl->m_step.updateSurfaces(m_impl->m_registry);
-    m_impl->m_registry.forgetWorld();
-    for (const auto& entry : m_impl->m_registry.entries())
-        if (entry->isStepped() && entry->m_softBody->isActive()) writeBulletContacts(*entry, m_impl->m_registry);
     updateSleep(m_impl->m_registry);
     if (m_impl->m_manifolds) m_impl->m_manifolds->update();
 }

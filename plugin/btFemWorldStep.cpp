@@ -42,6 +42,20 @@ void refreshBulletConstants(btSoftBody& soft, double step)
     soft.m_sst.updmrg = soft.m_sst.radmrg * btScalar(0.25);
 }
 
+// Wind, pressure and volume conservation. Bullet's wind meets nodes to whose velocities gravity's has just been added.
+void applyBulletForces(const FemSoftBody& fem, double step)
+{
+    btSoftBody& soft = *fem.m_softBody;
+    const btSoftBody::Config& cfg = soft.m_cfg;
+    const bool inWind = cfg.kLF > 0 || cfg.kDG > 0;
+    if (!inWind && cfg.kPR == 0 && !(cfg.kVC > 0)) return;  // Bullet would look at every face all the same
+    const btVector3 fall = bulletVector(step * fem.gravity());
+    if (!inWind || !isFinite(vec3(fall))) return soft.applyForces();
+    soft.addVelocity(fall);  // of nodes that are not pinned
+    soft.applyForces();
+    for (int i = 0; i < soft.m_nodes.size(); ++i) soft.m_nodes[i].m_v = fem.m_written.m_v[i];  // as has just been read
+}
+
 // A body's own step: Bullet scales time by m_cfg.timescale.
 double bodyStep(const btFemEntry& entry, double worldStep)
 {
@@ -91,23 +105,12 @@ void btFemWorldStep::predict(btFemBodyRegistry& registry, double step)
     m_due.clear();
     for (const auto& pointer : registry.entries())
         if (isToBePredicted(registry, *pointer, step)) m_due.push_back(pointer.get());
-    m_threads.run(static_cast<int>(m_due.size()),
-                  [&](int k)
-                  {
-                      btFemEntry& entry = *m_due[k];
-                      readBody(entry);
-                      const double reach = kReach * entry.m_fem->m_body.m_model->mesh().meanEdgeLength();
-                      setSweptBounds(*entry.m_fem, bodyStep(entry, step), reach);
-                  });
+    m_threads.run(static_cast<int>(m_due.size()), [&](int k) { predictBody(*m_due[k], bodyStep(*m_due[k], step)); });
     for (btFemEntry* entry : m_due)
     {
-        btSoftBody& soft = *entry->m_softBody;
         const double h = bodyStep(*entry, step);
         renewFactor(registry, *entry, h);
-        refreshBulletConstants(soft, h);
-        applyBulletForces(*entry->m_fem, h);
-        markForces(*entry);
-        if (registry.readyForSelfContact(*entry)) entry->m_fem->m_touchingSoft.push_back(&soft);
+        if (registry.readyForSelfContact(*entry)) entry->m_fem->m_touchingSoft.push_back(entry->m_softBody);
         m_detailChooser.choose(*entry, h);
     }
     for (const auto& entry : registry.entries())  // also of bodies that sleep, or have just become FEM
@@ -137,38 +140,41 @@ bool btFemWorldStep::isToBePredicted(btFemBodyRegistry& registry, btFemEntry& en
     return entry.m_fem != nullptr;
 }
 
-void btFemWorldStep::updateSurfaces(const btFemBodyRegistry& registry)
+void btFemWorldStep::updateSurfaces(btFemBodyRegistry& registry)
 {
     m_active.clear();
     for (const auto& entry : registry.entries())
         if (entry->isStepped() && entry->m_softBody->isActive()) m_active.push_back(entry.get());
-    m_threads.run(static_cast<int>(m_active.size()),
-                  [this](int k)
-                  {
-                      btSoftBody* soft = m_active[k]->m_softBody;
-                      soft->integrateMotion();
-                      btFemHelpers::updateEmbeddedSurface(soft);
-                  });
+    for (const btFemEntry* entry : m_active) makeRoomForBulletContacts(*entry);
+    registry.forgetWorld();
+    const bool onThreads = registry.readWorld(m_active);
+    runTasks(onThreads ? &m_threads : nullptr, static_cast<int>(m_active.size()),
+             [&](int k)
+             {
+                 btSoftBody* soft = m_active[k]->m_softBody;
+                 soft->integrateMotion();
+                 btFemHelpers::updateEmbeddedSurface(soft);
+                 writeBulletContacts(*m_active[k], registry);
+                 noteSpeed(*m_active[k]);
+             });
 }
 
-// Wind, pressure and volume conservation. Bullet's wind meets nodes to whose velocities gravity's has just been added.
-void btFemWorldStep::applyBulletForces(const FemSoftBody& fem, double step)
+// What needs the body alone, on any thread.
+void btFemWorldStep::predictBody(btFemEntry& entry, double step)
 {
-    btSoftBody& soft = *fem.m_softBody;
-    const btVector3 fall = bulletVector(step * fem.gravity());
-    const bool inWind = soft.m_cfg.kLF > 0 || soft.m_cfg.kDG > 0;
-    if (!inWind || !isFinite(vec3(fall))) return soft.applyForces();
-    m_change.clear();
-    for (int i = 0; i < soft.m_nodes.size(); ++i) m_change.push_back(vec3(soft.m_nodes[i].m_v));
-    soft.addVelocity(fall);  // of nodes that are not pinned
-    soft.applyForces();
-    for (int i = 0; i < soft.m_nodes.size(); ++i) soft.m_nodes[i].m_v = bulletVector(m_change[i]);
+    FemSoftBody& fem = *entry.m_fem;
+    readBody(entry);
+    entry.m_factorMismatch = factorMismatch(fem, step);
+    setSweptBounds(fem, step, kReach * fem.m_body.m_model->mesh().meanEdgeLength());
+    refreshBulletConstants(*entry.m_softBody, step);
+    applyBulletForces(fem, step);
+    markForces(entry);
 }
 
 // Without contact a stale factor costs iterations only; contact would rest on a wrong picture of the compliance.
 void btFemWorldStep::renewFactor(btFemBodyRegistry& registry, btFemEntry& entry, double step)
 {
-    if (entry.m_contacts.size() == 0 || factorMismatch(*entry.m_fem, step) <= kRefactorInContact)
+    if (entry.m_contacts.size() == 0 || entry.m_factorMismatch <= kRefactorInContact)
         return m_refactorPolicy.refresh(registry, entry, step);
     registry.tryRefactor(entry, step);
     entry.m_factorAccount.clear();
@@ -200,10 +206,14 @@ bool btFemWorldStep::isDue(btFemEntry& entry, double worldStep) const
 // Bodies know nothing of each other here: on any thread, in any order.
 void btFemWorldStep::solveFree()
 {
-    m_threads.run(static_cast<int>(m_due.size()), [this](int k) { prepareFree(*m_due[k]); });
-    expectContact();
+    m_dueFems.clear();
     m_dueBodies.clear();
-    for (const btFemEntry* entry : m_due) m_dueBodies.push_back(&entry->m_fem->m_body);
+    for (const btFemEntry* entry : m_due)
+    {
+        m_dueFems.push_back(entry->m_fem.get());
+        m_dueBodies.push_back(&entry->m_fem->m_body);
+    }
+    m_steady.sumImpulses(m_dueFems, m_group.softPairs(), m_threads);
     m_batches.divide(m_dueBodies, m_threads.count(), m_info.m_batchBodies);
     m_motions.resize(m_due.size());
     const std::vector<Range>& batches = m_batches.batches();
@@ -273,6 +283,7 @@ void btFemWorldStep::readChanges(btFemEntry& entry)
 // Every body of the batch is charged the same time.
 void btFemWorldStep::solveFree(const Range& batch)
 {
+    for (int k = batch.m_begin; k < batch.m_end; ++k) prepareFree(inBatches(k));
     const btFemStopwatch watch;
     const int count = batch.m_end - batch.m_begin;
     for (int k = batch.m_begin; k < batch.m_end; ++k) m_motions[k] = freeMotionOf(inBatches(k));
@@ -287,18 +298,10 @@ void btFemWorldStep::prepareFree(btFemEntry& entry) const
     readBody(entry);  // once more: callbacks may have written since predict
     FemSoftBody& fem = *entry.m_fem;
     if (!readLoads(fem, entry.m_lastStep)) entry.m_report.m_flags |= BT_FEM_RESTORED;
-    if (staleness(entry, entry.m_lastStep) > 1) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
+    entry.m_staleness = staleness(entry, entry.m_lastStep);
+    if (entry.m_staleness > 1) entry.m_report.m_flags |= BT_FEM_STALE_FACTOR;
     entry.m_report.m_detail = detailInUse(entry);
-}
-
-// The impulses of the last step, on bodies that these hold where they are.
-void btFemWorldStep::expectContact()
-{
-    m_dueFems.clear();
-    for (const btFemEntry* entry : m_due) m_dueFems.push_back(&*entry->m_fem);
-    m_steady.sumImpulses(m_dueFems, m_group.softPairs());
-    m_threads.run(static_cast<int>(m_due.size()),
-                  [this](int k) { SteadyBodies::judge(*m_dueFems[k], m_due[k]->m_lastStep); });
+    SteadyBodies::judge(fem, entry.m_lastStep);
 }
 
 FreeMotion btFemWorldStep::freeMotionOf(btFemEntry& entry) const
@@ -320,7 +323,7 @@ void btFemWorldStep::noteFree(btFemEntry& entry, const FreeMotion& motion) const
     if (!motion.m_settings.m_direct)
     {
         note(entry, solved);
-        m_refactorPolicy.note(entry, solved.m_iterations, staleness(entry, entry.m_lastStep));
+        m_refactorPolicy.note(entry, solved.m_iterations, entry.m_staleness);
     }
     entry.m_report.m_iterations = solved.m_iterations;
     entry.m_report.m_residual = static_cast<btScalar>(solved.m_residual);

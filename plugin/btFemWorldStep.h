@@ -49,8 +49,8 @@ public:
     /// the new positions of all. `step` [s].
     void solve(btFemBodyRegistry& registry, double step);
 
-    /// As the step ends: normals and embedded surfaces of the bodies that are awake.
-    void updateSurfaces(const btFemBodyRegistry& registry);
+    /// As the step ends, what Bullet programs read of the bodies that are awake: normals, embedded surfaces, contacts.
+    void updateSurfaces(btFemBodyRegistry& registry);
 
     const bullet_fem::Threads& threads() const { return m_threads; }
     btFemContactGroup& group() { return m_group; }
@@ -60,14 +60,13 @@ private:
     static bool isToBePredicted(btFemBodyRegistry& registry, btFemEntry& entry, double step);
     bool isDue(btFemEntry& entry, double worldStep) const;
     static void readBody(btFemEntry& entry);
-    void applyBulletForces(const bullet_fem::FemSoftBody& fem, double step);
+    static void predictBody(btFemEntry& entry, double step);
     void renewFactor(btFemBodyRegistry& registry, btFemEntry& entry, double step);
     void readChanges(btFemEntry& entry);
     void solveFree();
     void solveFree(const bullet_fem::Range& batch);
     btFemEntry& inBatches(int k) const { return *m_due[m_batches.order()[k]]; }
     void prepareFree(btFemEntry& entry) const;
-    void expectContact();
     bullet_fem::FreeMotion freeMotionOf(btFemEntry& entry) const;
     void noteFree(btFemEntry& entry, const bullet_fem::FreeMotion& motion) const;
     void finish(btFemEntry& entry) const;

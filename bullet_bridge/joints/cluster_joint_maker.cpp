@@ -62,11 +62,12 @@ ClusterJointMaker::End ClusterJointMaker::resolve(const btSoftBody::Body& body) 
     if (!body.m_soft)
     {
         end.m_object = body.m_collisionObject ? body.m_collisionObject : body.m_rigid;
-        end.m_kind = !end.m_object || m_scene.m_world.holds(end.m_object) ? End::Kind::rigid : End::Kind::lost;
+        end.m_kind = !end.m_object || m_scene.m_world.holds(*m_fem.m_softBody, end.m_object) ? End::Kind::rigid
+                                                                                             : End::Kind::lost;
         return end;
     }
     end.m_cluster = body.m_soft;
-    end.m_kind = m_scene.m_world.holdsCluster(body.m_soft) ? End::Kind::bad : End::Kind::lost;
+    end.m_kind = m_scene.m_world.holdsCluster(*m_fem.m_softBody, body.m_soft) ? End::Kind::bad : End::Kind::lost;
     for (std::size_t b = 0; b < m_scene.m_bodies.size() && !end.m_fem; ++b)
         if (holdsCluster(*m_scene.m_bodies[b]->m_softBody, body.m_soft))
             end.m_fem = m_scene.m_bodies[b], end.m_body = static_cast<int>(b), end.m_kind = End::Kind::cluster;

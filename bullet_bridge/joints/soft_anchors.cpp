@@ -81,7 +81,7 @@ bool AnchorHolder::hold(const AnchorView& anchor)
         m_flags.m_bad = true;
         return true;
     }
-    if (!m_scene.m_world.holds(anchor.m_object)) return false;
+    if (!m_scene.m_world.holds(*m_fem.m_softBody, anchor.m_object)) return false;
 
     HeldJoint held;
     held.m_kind = anchor.m_kind;

@@ -31,26 +31,33 @@ private:
 
 void WorldObjects::read(const btSoftBody& body)
 {
+    if (hasRead(body)) return;
     btBroadphaseInterface* broadphase = body.m_worldInfo ? body.m_worldInfo->m_broadphase : nullptr;
-    if (!broadphase || broadphase != m_broadphase)
-    {
-        m_objects.clear();
-        const btVector3 all(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
-        ObjectCollector collector(m_objects);
-        if (broadphase) broadphase->aabbTest(-all, all, collector);
-        std::sort(m_objects.begin(), m_objects.end(), std::less<const void*>());
-        m_broadphase = broadphase;
-    }
-    // What knows the body itself is the broadphase of its world.
-    m_known = std::binary_search(m_objects.begin(), m_objects.end(), &body, std::less<const void*>());
+    m_objects.clear();
+    const btVector3 all(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
+    ObjectCollector collector(m_objects);
+    if (broadphase) broadphase->aabbTest(-all, all, collector);
+    std::sort(m_objects.begin(), m_objects.end(), std::less<const void*>());
+    m_broadphase = broadphase;
 }
 
-bool WorldObjects::holds(const btCollisionObject* object) const
+bool WorldObjects::hasRead(const btSoftBody& body) const
 {
-    return !m_known || std::binary_search(m_objects.begin(), m_objects.end(), object, std::less<const void*>());
+    return m_broadphase && body.m_worldInfo && body.m_worldInfo->m_broadphase == m_broadphase;
 }
 
-bool WorldObjects::holdsCluster(const void* cluster) const
+bool WorldObjects::contains(const void* object) const
+{
+    return std::binary_search(m_objects.begin(), m_objects.end(), object, std::less<const void*>());
+}
+
+// What knows the body itself is the broadphase of its world.
+bool WorldObjects::holds(const btSoftBody& body, const btCollisionObject* object) const
+{
+    return !contains(&body) || contains(object);
+}
+
+bool WorldObjects::holdsCluster(const btSoftBody& body, const void* cluster) const
 {
     const auto isOf = [cluster](const void* object)
     {
@@ -59,7 +66,7 @@ bool WorldObjects::holdsCluster(const void* cluster) const
             if (soft->m_clusters[c] == cluster) return true;
         return false;
     };
-    return !m_known || std::any_of(m_objects.begin(), m_objects.end(), isOf);
+    return !contains(&body) || std::any_of(m_objects.begin(), m_objects.end(), isOf);
 }
 
 }  // namespace bullet_fem

@@ -20,17 +20,21 @@ public:
     void read(const btSoftBody& body);
     void forget() { m_broadphase = nullptr; }
 
-    /// True if the world holds the object; also where that cannot be known, because the body's world info has no
-    /// broadphase or not that of its world.
-    bool holds(const btCollisionObject* object) const;
+    /// True if it is that broadphase that was read last.
+    bool hasRead(const btSoftBody& body) const;
+
+    /// True if the world that was read last holds the object; also where that cannot be known, because it does not hold
+    /// the body: its world info has no broadphase or not that of its world.
+    bool holds(const btSoftBody& body, const btCollisionObject* object) const;
 
     /// True if `cluster` is one of a soft body that the world holds, or that cannot be known.
-    bool holdsCluster(const void* cluster) const;
+    bool holdsCluster(const btSoftBody& body, const void* cluster) const;
 
 private:
+    bool contains(const void* object) const;
+
     const btBroadphaseInterface* m_broadphase = nullptr;
     std::vector<const void*> m_objects;  // sorted by address, which decides nothing but membership
-    bool m_known = false;
 };
 
 }  // namespace bullet_fem

@@ -29,12 +29,11 @@ void SoftPairMemory::beginStep()
     m_nextComplete.clear();
 }
 
-void SoftPairMemory::remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins,
-                              const std::vector<SoftPairIds>& completePairs)
+void SoftPairMemory::remember(const Contacts& contacts, const std::vector<SoftPairIds>& completePairs)
 {
     m_nextComplete.insert(m_nextComplete.end(), completePairs.begin(), completePairs.end());
-    m_next.insert(m_next.end(), contacts.begin(), contacts.end());
-    m_nextOrigins.insert(m_nextOrigins.end(), origins.begin(), origins.end());
+    m_next.insert(m_next.end(), contacts.m_contacts, contacts.m_contacts + contacts.m_count);
+    m_nextOrigins.insert(m_nextOrigins.end(), contacts.m_origins, contacts.m_origins + contacts.m_count);
 }
 
 void SoftPairMemory::restore(const Kept& kept)

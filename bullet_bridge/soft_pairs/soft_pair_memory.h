@@ -51,20 +51,20 @@ struct SoftPairIds
 class SoftPairMemory
 {
 public:
-    /// A range of the last step's contacts.
-    struct Last
+    /// Contacts, and where they come from.
+    struct Contacts
     {
         const ContactPoint* m_contacts = nullptr;
-        const SoftPairOrigin* m_origins = nullptr;  ///< ascending
+        const SoftPairOrigin* m_origins = nullptr;
         std::size_t m_count = 0;
     };
+    using Last = Contacts;  ///< some of the last step, the origins ascending
 
     /// What was remembered becomes the last step: at the start of a step.
     void beginStep();
 
     /// Keeps solved contacts for the next step: one origin a contact, each once; and the pairs of which these are all.
-    void remember(const std::vector<ContactPoint>& contacts, const std::vector<SoftPairOrigin>& origins,
-                  const std::vector<SoftPairIds>& completePairs = {});
+    void remember(const Contacts& contacts, const std::vector<SoftPairIds>& completePairs = {});
 
     /// What was remembered since the step began: what the next one depends on.
     struct Kept

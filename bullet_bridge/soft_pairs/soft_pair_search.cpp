@@ -133,12 +133,12 @@ void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxC
 }
 
 // Places are noted with what was found there: a step may search twice, and use the second search alone.
-void SoftPairSearch::remember(const std::vector<ContactPoint>& solved)
+void SoftPairSearch::remember(const ContactPoint* solved)
 {
     m_complete.clear();
     for (const Pair& pair : m_pairs)
         if (pair.m_complete) m_complete.push_back(pair.m_ids);
-    m_memory.remember(solved, m_origins, m_complete);
+    m_memory.remember({solved, m_origins.data(), m_origins.size()}, m_complete);
     for (FemSoftBody* fem : m_moved) fem->m_surface.notePlace();
 }
 

@@ -35,7 +35,7 @@ public:
     bool isLimited(std::size_t b) const { return m_limited[b] != 0; }
 
     /// Keeps what find() found, solved: one contact for each of contacts().
-    void remember(const std::vector<ContactPoint>& solved);
+    void remember(const ContactPoint* solved);
 
     /// Pairs in which find() searched; of the others it kept the contacts of the last step.
     int searchedPairs() const;

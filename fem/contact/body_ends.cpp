@@ -39,13 +39,16 @@ void BodyEnds::clear(const ContactBody& body)
     m_working.reset(0);
 }
 
-int BodyEnds::addPoint(const SurfacePoint& point, const Vec3& at)
+int BodyEnds::addPoint()
 {
-    End end;
-    end.m_point = point;
-    m_ends.push_back(end);
-    m_ends.back().m_offset = at - read(end, m_body.m_body->m_state.m_x);
+    m_ends.emplace_back();
     return size() - 1;
+}
+
+void BodyEnds::setPoint(int e, const SurfacePoint& point, const Vec3& at)
+{
+    m_ends[e].m_point = point;
+    m_ends[e].m_offset = at - read(m_ends[e], m_body.m_body->m_state.m_x);
 }
 
 int BodyEnds::addGroup(const int* nodes, const Mat3* blocks, int count)

@@ -31,8 +31,11 @@ public:
     /// Forgets all ends.
     void clear(const ContactBody& body);
 
-    /// Adds a point of the surface, whose impulse counts as acting at `at` [m]; returns its index.
-    int addPoint(const SurfacePoint& point, const Vec3& at);
+    /// Adds a point of the surface, which is to be set; returns its index.
+    int addPoint();
+
+    /// Sets it: its impulse counts as acting at `at` [m]. May be called by several threads at once, for different ones.
+    void setPoint(int e, const SurfacePoint& point, const Vec3& at);
 
     /// Adds a group of nodes; returns its index. Its nodes and blocks must live until the step is over.
     int addGroup(const int* nodes, const Mat3* blocks, int count);

@@ -25,8 +25,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     if (m_bodies.size() < problem.m_bodies.size()) m_bodies.resize(problem.m_bodies.size());
     m_corrections.assign(problem.m_bodies.size(), ImpulseResponse());
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b]);
-    m_rows.clear();
-    for (const ContactPoint& contact : problem.m_contacts) addContactRow(contact);
+    addContactRows();
     for (const Joint& joint : problem.m_joints) addJointRow(joint);
     for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
     m_dense = true;
@@ -76,16 +75,36 @@ void ContactRows::pushStarts(bool expected)
     }
 }
 
-void ContactRows::addContactRow(const ContactPoint& contact)
+// The ends are numbered in the order of the contacts; all else of a row needs nothing of the others.
+void ContactRows::addContactRows()
 {
-    ContactRow row;
-    row.m_a = softEnd(contact.m_soft, contact.m_point);
-    row.m_b = contact.m_obstacle >= 0 ? rigidEnd(contact.m_obstacle, contact.m_point + contact.m_approach)
-                                      : softEnd(contact.m_other, contact.m_point);
+    const std::vector<ContactPoint>& contacts = m_problem->m_contacts;
+    const auto number = [this](const SurfacePoint& point)
+    { return point.m_body >= 0 ? m_bodies[point.m_body].addPoint() : -1; };
+    m_rows.resize(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+    {
+        m_rows[k].m_a.m_end = number(contacts[k].m_soft);
+        m_rows[k].m_b.m_end = contacts[k].m_obstacle >= 0 ? -1 : number(contacts[k].m_other);
+    }
+    forEachPiece(
+        [&](int, Range rows)
+        {
+            for (int k = rows.m_begin; k < rows.m_end; ++k) setContactRow(m_rows[k], contacts[k]);
+        });
+}
+
+void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
+{
+    const RowEnd a = softEnd(contact.m_soft, contact.m_point, row.m_a.m_end);
+    const RowEnd b = contact.m_obstacle >= 0 ? rigidEnd(contact.m_obstacle, contact.m_point + contact.m_approach)
+                                             : softEnd(contact.m_other, contact.m_point, row.m_b.m_end);
+    row = ContactRow();
+    row.m_a = a;
+    row.m_b = b;
     setAxes(contact.m_normal, row);
     row.m_friction = contact.m_friction;
     row.m_impulse = contact.m_impulse;
-    m_rows.push_back(row);
 }
 
 void ContactRows::addJointRow(const Joint& joint)
@@ -104,12 +123,13 @@ void ContactRows::addJointRow(const Joint& joint)
     m_rows.push_back(row);
 }
 
-RowEnd ContactRows::softEnd(const SurfacePoint& point, const Vec3& at)
+RowEnd ContactRows::softEnd(const SurfacePoint& point, const Vec3& at, int end)
 {
-    RowEnd end;
-    end.m_body = point.m_body;
-    if (point.m_body >= 0) end.m_end = m_bodies[point.m_body].addPoint(point, at);
-    return end;
+    RowEnd row;
+    row.m_body = point.m_body;
+    row.m_end = end;
+    if (point.m_body >= 0) m_bodies[point.m_body].setPoint(end, point, at);
+    return row;
 }
 
 RowEnd ContactRows::jointEnd(const JointEnd& joint)

@@ -134,11 +134,12 @@ private:
     static constexpr int kRowsOfPiece = 512;  // shorter pieces would not be worth handing out
 
     static void setAxes(const Vec3& normal, ContactRow& row);
-    void addContactRow(const ContactPoint& contact);
+    void addContactRows();
+    void setContactRow(ContactRow& row, const ContactPoint& contact);
     void addJointRow(const Joint& joint);
     void addTouchRow(const RigidTouch& touch);
     static void limitTouchFriction(ContactRow& row);
-    RowEnd softEnd(const SurfacePoint& point, const Vec3& at);
+    RowEnd softEnd(const SurfacePoint& point, const Vec3& at, int end);
     RowEnd jointEnd(const JointEnd& end);
     RowEnd rigidEnd(int obstacle, const Vec3& point) const;
     void pushStarts(bool expected);

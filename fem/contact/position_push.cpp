@@ -39,8 +39,16 @@ bool PositionPush::isNeeded() const
 // From here on all velocities are those of the push.
 void PositionPush::prepare()
 {
-    for (ContactRow& row : m_rows.rows()) row.m_impulse = row.m_roundImpulse = row.m_target = {};
-    prepareContacts();
+    m_rows.forEachPiece(
+        [this](int, Range rows)
+        {
+            for (int k = rows.m_begin; k < rows.m_end; ++k)
+            {
+                ContactRow& row = m_rows.rows()[k];
+                row.m_impulse = row.m_roundImpulse = row.m_target = {};
+            }
+            prepareContacts(rows);
+        });
     prepareTouches();
     std::vector<Obstacle>& obstacles = m_rows.problem().m_obstacles;
     m_linear.clear();
@@ -51,18 +59,19 @@ void PositionPush::prepare()
         m_angular.push_back(obstacle.m_angularVelocity);
         obstacle.m_linearVelocity = obstacle.m_angularVelocity = {};
     }
-    for (std::size_t b = 0; b < m_rows.problem().m_bodies.size(); ++b) m_rows.body(static_cast<int>(b)).beginPush();
+    m_rows.forEachTouchedBody(m_rows.threadsForCompliance(), [this](int b) { m_rows.body(b).beginPush(); });
     m_sweeps.reset();
 }
 
 // Penetrating points shall separate at a share of their depth a step, unless they do so already; the others shall not
 // close their gap, and joints hold.
-void PositionPush::prepareContacts()
+void PositionPush::prepareContacts(Range rows)
 {
     const ContactSettings& settings = m_rows.settings();
     const std::vector<ContactPoint>& contacts = m_rows.problem().m_contacts;
     const double h = settings.m_step.m_step;
-    for (std::size_t k = 0; k < contacts.size(); ++k)
+    const int end = std::min(rows.m_end, static_cast<int>(contacts.size()));
+    for (int k = rows.m_begin; k < end; ++k)
     {
         ContactRow& row = m_rows.rows()[k];
         const ContactPoint& c = contacts[k];
@@ -162,10 +171,14 @@ void PositionPush::payBack()
                         if (obstacle.canMove())
                             obstacle.m_angularImpulse -= (norm(row.m_impulse) / pushed.m_total) * pushed.m_gained;
                     });
-    for (std::size_t b = 0; b < m_pushed.size(); ++b)
-        if (m_pushed[b].m_total > 0)
-            m_rows.body(static_cast<int>(b))
-                .spin(-(m_pushed[b].m_bySoft / m_pushed[b].m_total) * m_pushed[b].m_gained, m_rows.settings().m_step);
+    m_rows.forEachTouchedBody(m_rows.threadsForCompliance(),
+                              [this](int b)
+                              {
+                                  const Pushed& p = m_pushed[b];
+                                  if (p.m_total > 0)
+                                      m_rows.body(b).spin(-(p.m_bySoft / p.m_total) * p.m_gained,
+                                                          m_rows.settings().m_step);
+                              });
 }
 
 }  // namespace bullet_fem

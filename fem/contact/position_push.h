@@ -34,7 +34,7 @@ private:
     };
 
     void prepare();
-    void prepareContacts();
+    void prepareContacts(Range rows);
     void prepareTouches();
     void sumImpulses();
     void payBack();

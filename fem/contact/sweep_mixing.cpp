@@ -62,6 +62,7 @@ void SweepMixing::mix(const std::vector<int>& working)
 
 void SweepMixing::addShares(const std::vector<int>& working)
 {
+    if (m_shares == std::array<double, kMixed>{}) return;
     for (std::size_t k = 0; k < working.size(); ++k)
         m_rows.pushAlong(m_rows.rows()[working[k]], mixed(m_shares, m_swept[k].m_afterDelta));
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(),

@@ -218,7 +218,14 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
 bool btFemBodyRegistry::worldHolds(const btSoftBody& body, const btCollisionObject* object)
 {
     m_worldObjects.read(body);
-    return m_worldObjects.holds(object);
+    return m_worldObjects.holds(body, object);
+}
+
+bool btFemBodyRegistry::readWorld(const std::vector<btFemEntry*>& entries)
+{
+    if (!entries.empty()) m_worldObjects.read(*entries.front()->m_softBody);
+    return std::all_of(entries.begin(), entries.end(),
+                       [this](const btFemEntry* entry) { return m_worldObjects.hasRead(*entry->m_softBody); });
 }
 
 FactorInput btFemBodyRegistry::factorInput(const btFemEntry& entry, double step) const

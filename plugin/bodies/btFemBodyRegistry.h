@@ -71,7 +71,9 @@ struct btFemEntry
     btAlignedObjectArray<btFemContact> m_contacts;
     btAlignedObjectArray<btFemTouch> m_touches;
     btAlignedObjectArray<btFemAnchorReport> m_anchors;
-    double m_lastStep = 0;  // [s]
+    double m_lastStep = 0;        // [s]
+    double m_factorMismatch = 1;  // factorMismatch() as the step began
+    double m_staleness = 1;       // staleness() in the free motion
     btFemSleep m_sleep;
     btFemDetailLevel m_detailLevel;
     btFemFactorAccount m_factorAccount;
@@ -179,6 +181,10 @@ public:
     /// once after every forgetWorld.
     bool worldHolds(const btSoftBody& body, const btCollisionObject* object);
     void forgetWorld() { m_worldObjects.forget(); }
+
+    /// Looks at the world of the bodies. True if their world infos agree about it: then worldHolds may be called for
+    /// any of them by several threads at once.
+    bool readWorld(const std::vector<btFemEntry*>& entries);
 
 private:
     std::size_t indexOf(const btSoftBody* body) const;

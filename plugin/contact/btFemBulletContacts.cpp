@@ -111,14 +111,19 @@ void clearBulletContacts(btSoftBody& body)
     body.m_faceRigidContacts.resize(0);
 }
 
+void makeRoomForBulletContacts(const btFemEntry& entry)
+{
+    if (entry.m_fem->m_contacts.empty()) return;
+    entry.m_softBody->m_rcontacts.reserve(entry.m_contacts.capacity());
+    entry.m_softBody->m_faceRigidContacts.reserve(entry.m_contacts.capacity());
+}
+
 void writeBulletContacts(btFemEntry& entry, btFemBodyRegistry& registry)
 {
     btSoftBody& soft = *entry.m_softBody;
     clearBulletContacts(soft);
     const int rigid = std::min(static_cast<int>(entry.m_fem->m_contacts.size()), entry.m_contacts.size());
     if (rigid == 0) return;
-    soft.m_rcontacts.reserve(entry.m_contacts.capacity());
-    soft.m_faceRigidContacts.reserve(entry.m_contacts.capacity());
     refresh(entry.m_faceIndex, soft, entry.m_fem->m_body.m_model->mesh());
     for (int k = 0; k < rigid; ++k)  // those with soft bodies come after them
     {

@@ -22,6 +22,9 @@ struct btFemFaceIndex
 /// Empties them: they have pointers to objects that may be gone by the next step.
 void clearBulletContacts(btSoftBody& body);
 
-/// Fills them with what touches rigid objects that the world holds: as the step began, like btFemContact. Allocates
-/// when there are more contacts than ever.
+/// Before writeBulletContacts: allocates where there are more contacts than ever.
+void makeRoomForBulletContacts(const btFemEntry& entry);
+
+/// Fills them with what touches rigid objects that the world holds: as the step began, like btFemContact. May be called
+/// by several threads for different bodies once btFemBodyRegistry::readWorld has said so.
 void writeBulletContacts(btFemEntry& entry, btFemBodyRegistry& registry);

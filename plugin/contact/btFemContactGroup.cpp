@@ -7,6 +7,7 @@
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/fem/threads.h"
 #include "plugin/btFemStopwatch.h"
 #include "plugin/joints/btFemAttachments.h"
 
@@ -214,34 +215,59 @@ void btFemContactGroup::moveRigid()
 // Gives every body its share of contacts, joints and report.
 void btFemContactGroup::report(const ContactReport& report)
 {
-    auto next = m_problem.m_contacts.begin();
-    for (btFemEntry* entry : m_entries)
-    {
-        FemSoftBody& fem = *entry->m_fem;
-        std::copy(next, next + fem.m_contacts.size(), fem.m_contacts.begin());
-        next += fem.m_contacts.size();
-        entry->m_report.m_contactMs = static_cast<btScalar>(m_milliseconds);
-        entry->m_contacts.resize(0);
-        reportBody(*entry, report);
-    }
-    m_softContacts.assign(next, m_problem.m_contacts.end());
-    for (std::size_t k = 0; k < m_softContacts.size(); ++k) reportSoftContact(k);
-    m_softPairs.remember(m_softContacts);
+    makeRoomForReports();
+    m_settings.m_step.m_threads->run(static_cast<int>(m_entries.size()), [&](int b) { reportBody(b, report); });
+    m_softPairs.remember(m_problem.m_contacts.data() + m_firstRigid.back());
     m_together.clear();
     for (const btFemEntry* entry : m_entries) m_together.emplace_back(entry->m_softBody, entry);
     std::sort(m_together.begin(), m_together.end());
     for (btFemEntry* entry : m_entries)
     {
-        entry->m_report.m_contacts = entry->m_contacts.size();
         updateTouches(*entry, m_together);
         SoftJoints::takeBack(*entry->m_fem, m_problem);
         writeReports(*entry->m_fem, entry->m_anchors);
     }
 }
 
-void btFemContactGroup::reportBody(btFemEntry& entry, const ContactReport& report) const
+// On one thread: Bullet's memory may not bear several.
+void btFemContactGroup::makeRoomForReports()
 {
-    const FemSoftBody& fem = *entry.m_fem;
+    m_firstRigid.assign(1, 0);
+    for (const btFemEntry* entry : m_entries)
+        m_firstRigid.push_back(m_firstRigid.back() + entry->m_fem->m_contacts.size());
+    const std::size_t contacts = m_problem.m_contacts.size();
+    const auto visitSides = [this, contacts](const auto& visit)
+    {
+        for (std::size_t k = m_firstRigid.back(); k < contacts; ++k)
+        {
+            const int a = m_problem.m_contacts[k].m_soft.m_body, b = m_problem.m_contacts[k].m_other.m_body;
+            visit(a, k);
+            if (b != a) visit(b, k);
+        }
+    };
+    std::vector<std::size_t>& first = m_firstSoft;
+    first.assign(m_entries.size() + 2, 0);  // shifted by one until they are all there
+    visitSides([&first](int b, std::size_t) { ++first[b + 2]; });
+    for (std::size_t b = 2; b < first.size(); ++b) first[b] += first[b - 1];
+    m_softContacts.resize(first.back());
+    visitSides([&](int b, std::size_t k) { m_softContacts[first[b + 1]++] = k; });
+    first.pop_back();
+    for (std::size_t b = 0; b < m_entries.size(); ++b)
+    {
+        btAlignedObjectArray<btFemContact>& reported = m_entries[b]->m_contacts;
+        const int count = static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b]);
+        if (count > reported.capacity()) reported.reserve(std::max(count, 2 * reported.capacity()));
+    }
+}
+
+void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
+{
+    btFemEntry& entry = *m_entries[b];
+    FemSoftBody& fem = *entry.m_fem;
+    std::copy_n(m_problem.m_contacts.begin() + static_cast<std::ptrdiff_t>(m_firstRigid[b]), fem.m_contacts.size(),
+                fem.m_contacts.begin());
+    entry.m_contacts.resize(0);
+    entry.m_report.m_contactMs = static_cast<btScalar>(m_milliseconds);
     entry.m_report.m_contactSweeps = report.m_sweeps;
     entry.m_report.m_contactIterations = report.m_iterations;
     entry.m_report.m_contactViolation = static_cast<btScalar>(report.m_violation);
@@ -257,21 +283,16 @@ void btFemContactGroup::reportBody(btFemEntry& entry, const ContactReport& repor
         entry.m_contacts.push_back(contact);
         deepen(entry.m_report, fem.m_contacts[k]);
     }
-}
-
-// Both bodies see a contact between them, each from its side; self contact is one contact.
-void btFemContactGroup::reportSoftContact(std::size_t k)
-{
-    const ContactPoint& point = m_softContacts[k];
-    btFemEntry &entry = *m_entries[point.m_soft.m_body], &other = *m_entries[point.m_other.m_body];
-    btFemContact contact;
-    fill(contact, point, false);
-    contact.m_other = other.m_softBody;
-    entry.m_contacts.push_back(contact);
-    deepen(entry.m_report, point);
-    if (&entry == &other) return;
-    fill(contact, point, true);
-    contact.m_other = entry.m_softBody;
-    other.m_contacts.push_back(contact);
-    deepen(other.m_report, point);
+    // Both bodies see a contact between them, each from its side; self contact is one contact.
+    for (std::size_t k = m_firstSoft[b]; k < m_firstSoft[b + 1]; ++k)
+    {
+        const ContactPoint& point = m_problem.m_contacts[m_softContacts[k]];
+        const bool otherSide = point.m_soft.m_body != static_cast<int>(b);
+        btFemContact contact;
+        fill(contact, point, otherSide);
+        contact.m_other = m_entries[otherSide ? point.m_soft.m_body : point.m_other.m_body]->m_softBody;
+        entry.m_contacts.push_back(contact);
+        deepen(entry.m_report, point);
+    }
+    entry.m_report.m_contacts = entry.m_contacts.size();
 }

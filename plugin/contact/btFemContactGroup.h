@@ -81,8 +81,8 @@ private:
     template <class Part>
     void onSolverBodies(const Part& part);
     void report(const bullet_fem::ContactReport& report);
-    void reportBody(btFemEntry& entry, const bullet_fem::ContactReport& report) const;
-    void reportSoftContact(std::size_t k);
+    void makeRoomForReports();
+    void reportBody(std::size_t b, const bullet_fem::ContactReport& report);
 
     btFemSolverInfo m_info;
     double m_step = 0;  // [s]
@@ -91,7 +91,9 @@ private:
     bullet_fem::RigidSearch m_rigidSearch;
     bullet_fem::RigidTouchFinder m_touchFinder;
     bullet_fem::SoftPairSearch m_softPairs;
-    std::vector<bullet_fem::ContactPoint> m_softContacts;  // solved; after the rigid ones in the problem
+    std::vector<std::size_t> m_firstRigid;  // per body and the end, in the problem; then come those between soft bodies
+    std::vector<std::size_t> m_firstSoft;   // per body and the end, in m_softContacts
+    std::vector<std::size_t> m_softContacts;  // in the problem, body by body
     bullet_fem::SoftJoints m_joints;
     std::vector<bullet_fem::FemSoftBody*> m_bodies, m_outside;
     bool m_reachesOut = false;  // joined to soft bodies that should be in the group

@@ -201,7 +201,7 @@ void updateActivation(btFemBodyRegistry& registry, btFemEntry& entry)
     if (soft.isActive() && entry.m_lastStep > 0 && (entry.m_report.m_flags & BT_FEM_BAD_STEP) == 0)
     {
         const double threshold = isDriven(*entry.m_fem) ? double(soft.m_sleepingThreshold) : 0;
-        soft.m_maxSpeedSquared = static_cast<btScalar>(std::max(fastestSquared(entry), threshold * threshold));
+        soft.m_maxSpeedSquared = static_cast<btScalar>(std::max(entry.m_sleep.m_fastestSquared, threshold * threshold));
         updateTimeAtRest(soft, static_cast<btScalar>(entry.m_lastStep));
     }
     if (!soft.wantsSleeping())
@@ -271,6 +271,11 @@ void completeWokenBodies(btFemBodyRegistry& registry)
         entry->m_softBody->applyForces();
         entry->m_sleep.m_asleep = false;
     }
+}
+
+void noteSpeed(btFemEntry& entry)
+{
+    entry.m_sleep.m_fastestSquared = entry.m_lastStep > 0 ? fastestSquared(entry) : 0;
 }
 
 void updateSleep(btFemBodyRegistry& registry)

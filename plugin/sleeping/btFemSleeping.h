@@ -24,7 +24,8 @@ struct btFemSleep
     btFemInfluences m_influences = {};
     std::uint64_t m_targets = 0;  ///< mark of the targets of nodes and springs
     std::vector<btFemNeighbour> m_neighbours;
-    std::uint64_t m_forces = 0;  ///< mark of m_f as the step began
+    std::uint64_t m_forces = 0;   ///< mark of m_f as the step began
+    double m_fastestSquared = 0;  ///< square of the speed of the fastest node in the last step [m2/s2]
 };
 
 // Bodies sleep as Bullet's rigid bodies do: after gDeactivationTime below m_sleepingThreshold they want to, and
@@ -45,6 +46,9 @@ void wakeIfPushed(const btFemEntry& entry, const btCollisionObject& other);
 /// Before contacts are searched: bodies that Bullet's islands woke within the step get their forces, and those pairs
 /// that Bullet left out because both slept.
 void completeWokenBodies(btFemBodyRegistry& registry);
+
+/// After the step, before updateSleep: notes how fast a body that is awake was. May be called by several threads.
+void noteSpeed(btFemEntry& entry);
 
 /// After the step: lets bodies at rest ask for sleep, and stills those that islands have put to sleep.
 void updateSleep(btFemBodyRegistry& registry);

@@ -116,7 +116,7 @@ TEST_F(BentPlates, EdgesThatPushEachOtherFlatRemainAPairUntilOneIsAGroove)
         PairContacts found(m_upper, m_lower);
         EXPECT_EQ(countCrossings(found, kGap), 1);
         for (ContactPoint& c : found.m_contacts) c.m_impulse = impulse * c.m_normal;
-        found.m_memory.remember(found.m_contacts, found.m_origins);
+        found.m_memory.remember(found.solved());
         found.m_memory.beginStep();
         bend(slope, kGap);
         found.m_contacts.clear();
@@ -137,7 +137,7 @@ TEST_F(BentPlates, EdgesOfASurfaceThatIsAnotherNowAreNoPair)
     const std::size_t count = found.m_contacts.size();
     for (ContactPoint& c : found.m_contacts) c.m_impulse = c.m_normal;
     for (SoftPairOrigin& origin : found.m_origins) origin.m_feature += 10000000;
-    found.m_memory.remember(found.m_contacts, found.m_origins);
+    found.m_memory.remember(found.solved());
     found.m_memory.beginStep();
     found.m_contacts.clear();
     found.m_origins.clear();

@@ -17,7 +17,7 @@ TEST(SoftPairAllocation, NothingIsAllocatedOnceTheListsHaveGrown)
     upper.turn(testRotation(0.3, 0.2, 0.1)).move({-0.5, -0.5, 0.6}).throwAt({0, 0, -1});
     PairContacts found(upper, lower);
     ASSERT_GT(found.m_contacts.size(), 10u);
-    found.m_memory.remember(found.m_contacts, found.m_origins);
+    found.m_memory.remember(found.solved());
     found.m_memory.beginStep();
     upper.move({0, 0, 0.3});
     found.m_contacts.clear();
@@ -29,7 +29,7 @@ TEST(SoftPairAllocation, NothingIsAllocatedOnceTheListsHaveGrown)
     lower.ready();
     found.m_finder.find(first, second, 1000, found.m_contacts, found.m_origins);
     found.m_finder.find(second, second, 1000, found.m_contacts, found.m_origins);
-    found.m_memory.remember(found.m_contacts, found.m_origins);
+    found.m_memory.remember(found.solved());
     found.m_memory.beginStep();
     EXPECT_EQ(allocations.count(), 0);
     EXPECT_FALSE(found.m_contacts.empty());

@@ -128,6 +128,9 @@ struct PairContacts
                                               [&](const SoftPairOrigin& o) { return o.m_kind == kind; }));
     }
 
+    /// As if they had been solved.
+    SoftPairMemory::Contacts solved() const { return {m_contacts.data(), m_origins.data(), m_contacts.size()}; }
+
     SoftPairMemory m_memory;
     SoftPairFinder m_finder{m_memory};
     SoftPairReport m_report;

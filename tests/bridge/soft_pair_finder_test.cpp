@@ -260,7 +260,7 @@ TEST(SoftPairFinder, TakesOverTheImpulsesOfTheLastStepToTheNextFace)
     const std::vector<ContactPoint> before = found.m_contacts;
     const std::vector<SoftPairOrigin> origins = found.m_origins;
     EXPECT_TRUE(std::is_sorted(origins.begin(), origins.end()));
-    found.m_memory.remember(before, origins);
+    found.m_memory.remember({before.data(), origins.data(), before.size()});
     found.m_memory.beginStep();
     upper.move({0.21, 0, 0}).ready();  // nodes lie over other triangles now
     found.m_contacts.clear();

@@ -50,7 +50,7 @@ protected:
         settings.m_step = kSearchStep;
         for (FemSoftBody* fem : m_bodies) solveFreeMotion(fem->m_body, settings);
         m_search.find(m_bodies, kSearchStep, maxContacts);
-        if (isSolved) m_search.remember(m_search.contacts());
+        if (isSolved) m_search.remember(m_search.contacts().data());
         return m_search.searchedPairs();
     }
 
@@ -85,7 +85,7 @@ TEST_F(SoftPairSearchTest, PairsThatStayKeepTheirContacts)
         found[k].m_impulse = double(k) * found[k].m_normal;
         found[k].m_slip = {1e-3 * double(k), 0, 0};
     }
-    m_search.remember(found);
+    m_search.remember(found.data());
     m_upper.m_soft->m_cfg.kDF = btScalar(0.75);
     EXPECT_EQ(searched(), 0);
     ASSERT_EQ(m_search.contacts().size(), found.size());

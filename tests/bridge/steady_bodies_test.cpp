@@ -41,7 +41,7 @@ protected:
         origin.m_firstId = broadphaseId(*m_box.m_body);
         origin.m_secondId = origin.m_firstId + 1;
         origin.m_kind = kind;
-        m_memory.remember({contact}, {origin});
+        m_memory.remember({&contact, &origin, 1});
         m_memory.beginStep();
         m_fem.m_surface.notePlace();
     }
@@ -49,7 +49,7 @@ protected:
     bool isSteady()
     {
         SteadyBodies steady;
-        steady.sumImpulses({&m_fem}, m_memory);
+        steady.sumImpulses({&m_fem}, m_memory, Threads());
         SteadyBodies::judge(m_fem, kStep);
         return !m_fem.m_expected.empty();
     }

@@ -46,7 +46,7 @@ TEST(BodyEnds, SolveForWhatALooseCorrectionLeft)
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
     ends.clear({&body, cache.get()});
-    ends.addPoint({0, {0, 0, 0}, {1, 0, 0}}, body.m_state.m_x[0]);
+    ends.setPoint(ends.addPoint(), {0, {0, 0, 0}, {1, 0, 0}}, body.m_state.m_x[0]);
     ends.assemble(400, settings.m_step);
     ends.request();
     ends.form();
@@ -80,7 +80,8 @@ TEST(BodyEnds, LearnNothingFromTheRoundingOfVelocities)
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
     ends.clear({&body, cache.get()});
-    for (int node : {0, 1, 2}) ends.addPoint({0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
+    for (int node : {0, 1, 2})
+        ends.setPoint(ends.addPoint(), {0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
     ends.assemble(400, settings.m_step);
     ends.request();
     ends.form();
@@ -112,7 +113,8 @@ TEST(BodyEnds, LearnNothingFromImpulsesThatWereExpectedInVain)
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
     ends.clear({&body, cache.get(), &expected});
-    for (int node : {0, 1, 2}) ends.addPoint({0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
+    for (int node : {0, 1, 2})
+        ends.setPoint(ends.addPoint(), {0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
     ends.assemble(400, motion.m_settings.m_step);
     ends.request();
     ends.form();
