@@ -4,18 +4,30 @@
 
 #include <algorithm>
 
+#include "fem/lanes/body_lanes.h"
+
 namespace bullet_fem
 {
 namespace
 {
 
-// Several batches a thread, so that none has to wait long for the last one; beyond some bodies a batch gains nothing.
-constexpr int kBatchesOfThread = 3, kMostBodies = 16;
+// What a batch of kBodyLanes bodies takes, in times of a body alone.
+constexpr int kBatchTime = 9;
 
-int bodiesOfBatch(int bodies, int threads, bool together)
+// Of bodies that share a model, how many batches of kBodyLanes to make, so that no thread has to wait long: the others
+// go one by one.
+int batchesSideBySide(int bodies, int threads)
 {
-    if (!together) return 1;
-    return threads == 1 ? std::max(bodies, 1) : std::clamp(bodies / (kBatchesOfThread * threads), 1, kMostBodies);
+    const auto time = [&](int batches)
+    {
+        const int longest = (batches + threads - 1) / threads * kBatchTime;
+        const int work = batches * kBatchTime + bodies - batches * kBodyLanes;
+        return std::max(longest, (work + threads - 1) / threads);
+    };
+    int best = 0;
+    for (int batches = 1; batches <= bodies / kBodyLanes; ++batches)
+        if (time(batches) < time(best)) best = batches;
+    return best;
 }
 
 }  // namespace
@@ -26,32 +38,54 @@ int BodyBatches::numberOf(const BodyModel* model)
     const auto number = static_cast<int>(found - m_models.begin());
     if (found != m_models.end()) return number;
     m_models.push_back(model);
-    m_end.push_back(0);
+    m_count.push_back(0);
     return number;
 }
 
 void BodyBatches::divide(const std::vector<const Body*>& bodies, int threads, bool together)
 {
     m_models.clear();
-    m_end.clear();
-    m_batches.clear();
+    m_count.clear();
     m_modelOf.clear();
     for (const Body* body : bodies)
     {
         m_modelOf.push_back(numberOf(body->m_model.get()));
-        ++m_end[m_modelOf.back()];
+        ++m_count[m_modelOf.back()];
     }
-    const int most = bodiesOfBatch(static_cast<int>(bodies.size()), threads, together);
-    int begin = 0;
-    for (int& end : m_end)  // how many bodies have the model; then where they begin
+    putInOrder();
+    m_batches.clear();
+    m_alone.clear();
+    for (std::size_t m = 0; m < m_models.size(); ++m)
     {
-        const int count = end;
-        for (int k = 0; k < count; k += most) m_batches.push_back({begin + k, begin + std::min(k + most, count)});
-        end = begin;
+        const Range all = {m_end[m] - m_count[m], m_end[m]};
+        const bool lanes = together && canBeSideBySide(*m_models[m]);
+        if (lanes && threads == 1)
+            m_batches.push_back(all);
+        else
+            divideModel(all, lanes ? batchesSideBySide(m_count[m], threads) : 0);
+    }
+    m_batches.insert(m_batches.end(), m_alone.begin(), m_alone.end());
+}
+
+// Counting sort: bodies of a model stand together, in the order in which they came.
+void BodyBatches::putInOrder()
+{
+    m_end.clear();  // for now where a model begins
+    int begin = 0;
+    for (const int count : m_count)
+    {
+        m_end.push_back(begin);
         begin += count;
     }
-    m_order.resize(bodies.size());
-    for (std::size_t k = 0; k < bodies.size(); ++k) m_order[m_end[m_modelOf[k]]++] = static_cast<int>(k);
+    m_order.resize(m_modelOf.size());
+    for (std::size_t k = 0; k < m_order.size(); ++k) m_order[m_end[m_modelOf[k]]++] = static_cast<int>(k);
+}
+
+void BodyBatches::divideModel(const Range& all, int sideBySide)
+{
+    int k = all.m_begin;
+    for (int batch = 0; batch < sideBySide; ++batch, k += kBodyLanes) m_batches.push_back({k, k + kBodyLanes});
+    for (; k < all.m_end; ++k) m_alone.push_back({k, k + 1});
 }
 
 }  // namespace bullet_fem

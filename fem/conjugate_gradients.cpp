@@ -96,12 +96,10 @@ public:
                     });
     }
 
-    /// Scales a guess x by its optimal step length, so that it is never worse than none; r becomes b - A x.
-    void scaleGuess(const std::vector<Vec3>& Ax, const std::vector<Vec3>& b, std::vector<Vec3>& x,
+    /// x *= scale; r becomes b - A x, or b where nothing is left of x.
+    void scaleGuess(double scale, const std::vector<Vec3>& Ax, const std::vector<Vec3>& b, std::vector<Vec3>& x,
                     std::vector<Vec3>& r) const
     {
-        const double best = dot(b, x) / dot(x, Ax);
-        const double scale = best > 0 && std::isfinite(best) ? best : 0;
         forEachNode(m_threads, x.size(),
                     [&](int i)
                     {
@@ -116,104 +114,125 @@ private:
 
 }  // namespace
 
-ConjugateGradients::ConjugateGradients(const LinearProblem& problem, const ConjugateGradientStop& stop,
-                                       ConjugateGradientScratch& scratch)
-    : m_problem(problem), m_stop(stop), m_scratch(scratch)
+double optimalScale(double bx, double xAx)
 {
-    start();
-    checkForEnd();
+    const double best = bx / xAx;
+    return best > 0 && std::isfinite(best) ? best : 0;
 }
 
-// r = b - A x, by an application of A.
-double ConjugateGradients::measureTruly()
+ConjugateGradientCourse::ConjugateGradientCourse(const ConjugateGradientStop& stop, double bNorm, bool zero)
+    : m_stop(stop),
+      m_bNorm(bNorm),
+      m_goal(std::max(stop.m_tolerance * std::max(bNorm, stop.m_floor), kNothing)),
+      m_rNorm(bNorm),
+      m_guessed(!zero || stop.m_steady),
+      m_over(false)
 {
-    const NodeVectors vectors(m_stop.m_threads);
-    m_problem.m_A->apply(*m_problem.m_x, m_scratch.m_Ap);
-    vectors.residual(*m_problem.m_b, m_scratch.m_Ap, m_scratch.m_r);
-    return vectors.norm(m_scratch.m_r);
 }
 
-void ConjugateGradients::start()
+bool ConjugateGradientCourse::noteGuess(double rNorm)
 {
-    const NodeVectors vectors(m_stop.m_threads);
-    const std::vector<Vec3>& b = *m_problem.m_b;
-    std::vector<Vec3>& x = *m_problem.m_x;
-    m_rNorm = m_bNorm = vectors.norm(b);
-    m_goal = std::max(m_stop.m_tolerance * std::max(m_bNorm, m_stop.m_floor), kNothing);
-    m_scratch.m_r = b;
-    const bool zero = !(vectors.dot(x, x) > 0);
-    m_guessed = !zero || m_stop.m_steady;
-    if (zero) return;
-    m_rNorm = measureTruly();
-    if (m_rNorm <= kGuessShare * m_goal) return;
-    vectors.scaleGuess(m_scratch.m_Ap, b, x, m_scratch.m_r);
-    m_rNorm = vectors.norm(m_scratch.m_r);
+    m_rNorm = rNorm;
+    return m_rNorm <= kGuessShare * m_goal;
 }
 
-bool ConjugateGradients::isSolved() const
+bool ConjugateGradientCourse::wantsTrueResidual() const
+{
+    return m_rNorm <= m_goal && !m_residualIsTrue;
+}
+
+void ConjugateGradientCourse::noteTrueResidual(double rNorm)
+{
+    m_rNorm = rNorm;
+    m_residualIsTrue = true;
+    m_rz = 0;  // restart from here if the recurrence had drifted
+}
+
+bool ConjugateGradientCourse::isSolved() const
 {
     const double share = m_report.m_iterations == 0 && m_guessed ? kGuessShare : 1;
     return m_rNorm <= share * m_goal && std::isfinite(m_goal);
 }
 
-void ConjugateGradients::checkForEnd()
+bool ConjugateGradientCourse::decide()
 {
-    if (m_rNorm <= m_goal && !m_residualIsTrue)
+    if (!m_over && isSolved())
+        m_over = true;
+    else if (!m_over && m_report.m_iterations == m_stop.m_maxIterations)
     {
-        m_rNorm = measureTruly();
-        m_residualIsTrue = true;
-        m_rz = 0;  // restart from here if the recurrence had drifted
+        m_report.m_stop = SolveStop::budget;
+        m_over = true;
     }
-    if (isSolved())
-        end(SolveStop::converged);
-    else if (m_report.m_iterations == m_stop.m_maxIterations)
-        end(SolveStop::budget);
+    return m_over && !m_residualIsTrue;
 }
 
-// False if the system turned out not to be positive definite, or not finite; x is then as before.
-bool ConjugateGradients::advance()
+void ConjugateGradientCourse::noteLastResidual(double rNorm)
 {
-    const NodeVectors vectors(m_stop.m_threads);
-    ConjugateGradientScratch& s = m_scratch;
-    const double rz = vectors.dot(s.m_r, s.m_z);
-    vectors.turn(m_rz > 0 ? rz / m_rz : 0, s.m_z, s.m_p);
-    m_problem.m_A->apply(s.m_p, s.m_Ap);
-    const double pAp = vectors.dot(s.m_p, s.m_Ap), step = rz / pAp;
-    if (!(rz > 0) || !(pAp > 0) || !std::isfinite(step)) return false;
-    vectors.advance(step, s, *m_problem.m_x, s.m_r);
+    m_rNorm = rNorm;
+    m_residualIsTrue = true;
+}
+
+bool ConjugateGradientCourse::step(double rz, double pAp, double& step)
+{
+    step = rz / pAp;
+    if (rz > 0 && pAp > 0 && std::isfinite(step)) return true;
+    m_report.m_stop = SolveStop::breakdown;
+    m_over = true;
+    return false;
+}
+
+void ConjugateGradientCourse::noteStep(double rz, double rNorm)
+{
     m_rz = rz;
-    m_rNorm = vectors.norm(s.m_r);
-    return true;
-}
-
-void ConjugateGradients::resume()
-{
-    if (!advance()) return end(SolveStop::breakdown);
+    m_rNorm = rNorm;
     ++m_report.m_iterations;
     m_residualIsTrue = m_stop.m_tolerance >= kTrustedTolerance && m_report.m_iterations <= kTrustedIterations;
-    checkForEnd();
 }
 
-void ConjugateGradients::end(SolveStop stop)
+SolveReport ConjugateGradientCourse::report() const
 {
-    if (!m_residualIsTrue) m_rNorm = measureTruly();
-    m_report.m_stop = stop;
+    SolveReport report = m_report;
     const double scale = m_stop.m_steady ? std::max(m_bNorm, m_stop.m_floor) : m_bNorm;
-    m_report.m_residual = scale > 0 ? m_rNorm / scale : 0;
-    m_over = true;
+    report.m_residual = scale > 0 ? m_rNorm / scale : 0;
+    return report;
 }
 
 SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperator& P, const std::vector<Vec3>& b,
                                     const ConjugateGradientStop& stop, ConjugateGradientScratch& scratch,
                                     std::vector<Vec3>& x)
 {
-    ConjugateGradients solve({&A, &b, &x}, stop, scratch);
-    while (solve.needsPreconditioner())
+    const NodeVectors vectors(stop.m_threads);
+    std::vector<Vec3>&r = scratch.m_r, &z = scratch.m_z, &p = scratch.m_p, &Ap = scratch.m_Ap;
+    const auto measureTruly = [&]
     {
-        P.apply(scratch.m_r, scratch.m_z);
-        solve.resume();
+        A.apply(x, Ap);
+        vectors.residual(b, Ap, r);
+        return vectors.norm(r);
+    };
+
+    r = b;
+    const double bNorm = vectors.norm(b);
+    const bool zero = !(vectors.dot(x, x) > 0);
+    ConjugateGradientCourse course(stop, bNorm, zero);
+    if (!zero && !course.noteGuess(measureTruly()))
+    {
+        vectors.scaleGuess(optimalScale(vectors.dot(b, x), vectors.dot(x, Ap)), Ap, b, x, r);
+        course.noteScaledGuess(vectors.norm(r));
     }
-    return solve.report();
+    while (true)
+    {
+        if (course.wantsTrueResidual()) course.noteTrueResidual(measureTruly());
+        if (course.decide()) course.noteLastResidual(measureTruly());
+        if (course.isOver()) return course.report();
+        P.apply(r, z);
+        const double rz = vectors.dot(r, z);
+        vectors.turn(course.beta(rz), z, p);
+        A.apply(p, Ap);
+        double step;
+        if (!course.step(rz, vectors.dot(p, Ap), step)) continue;
+        vectors.advance(step, scratch, x, r);
+        course.noteStep(rz, vectors.norm(r));
+    }
 }
 
 }  // namespace bullet_fem

@@ -36,59 +36,61 @@ struct ConjugateGradientStop
     const Threads* m_threads = nullptr;  ///< who shares the work on long vectors; null: the caller's thread alone
 };
 
-/// A x = b; x is the guess, then the answer. What is pointed at must live as long as it is solved.
-struct LinearProblem
-{
-    const LinearOperator* m_A;
-    const std::vector<Vec3>* m_b;
-    std::vector<Vec3>* m_x;
-};
-
-/// Solves A x = b by preconditioned conjugate gradients [Hestenes & Stiefel 1952], starting from x, which is first
-/// scaled to be at least as good as zero. Beyond a few iterations, and for tolerances below 1e-4, the recurrence's
-/// residual is checked against the true one before an answer is called converged. Never allocates; x stays finite if A,
-/// P, b and x are.
-///
-/// The recurrence stops where it needs the preconditioner, so that several solves can share its application:
-///
-///     ConjugateGradients solve(problem, stop, scratch);
-///     while (solve.needsPreconditioner())
-///     {
-///         P.apply(scratch.m_r, scratch.m_z);
-///         solve.resume();
-///     }
-class ConjugateGradients
+/// What one solve has come to, and what it does next, by the norms and products of its vectors; who owns these asks it
+/// again and again, as solveConjugateGradients does.
+class ConjugateGradientCourse
 {
 public:
-    ConjugateGradients(const LinearProblem& problem, const ConjugateGradientStop& stop,
-                       ConjugateGradientScratch& scratch);
+    ConjugateGradientCourse() = default;
 
-    /// False once the solve is over, and its report complete; before, m_z <- P m_r of the scratch is to be made.
-    bool needsPreconditioner() const { return !m_over; }
+    /// Starts with |b|; `zero`: so is the guess, which then needs no residual.
+    ConjugateGradientCourse(const ConjugateGradientStop& stop, double bNorm, bool zero);
 
-    /// One iteration, with the m_z that was made.
-    void resume();
+    /// |b - A x| of the guess. True if it is good enough as it is; else its best multiple is to be taken:
+    /// optimalScale().
+    bool noteGuess(double rNorm);
+    void noteScaledGuess(double rNorm) { m_rNorm = rNorm; }
 
-    const SolveReport& report() const { return m_report; }
+    /// True if the recurrence's residual may be small only by its errors: then the true one is to be told.
+    bool wantsTrueResidual() const;
+    void noteTrueResidual(double rNorm);
+
+    /// To be called when that is done: the solve may be over. True if it is, and the true residual is not known yet.
+    bool decide();
+    void noteLastResidual(double rNorm);
+
+    bool isOver() const { return m_over; }
+
+    /// For the next direction, z + beta p, by r . z.
+    double beta(double rz) const { return m_rz > 0 ? rz / m_rz : 0; }
+
+    /// How far along it, by r . z and p . A p: false if the system turned out not to be positive definite, or not
+    /// finite: then the solve is broken off.
+    bool step(double rz, double pAp, double& step);
+
+    /// After the step.
+    void noteStep(double rz, double rNorm);
+
+    /// Of a solve that is over.
+    SolveReport report() const;
 
 private:
-    double measureTruly();
-    void start();
     bool isSolved() const;
-    bool advance();
-    void checkForEnd();
-    void end(SolveStop stop);
 
-    LinearProblem m_problem;
     ConjugateGradientStop m_stop;
-    ConjugateGradientScratch& m_scratch;
     SolveReport m_report;
     double m_bNorm = 0, m_goal = 0, m_rNorm = 0;
     double m_rz = 0;  // r . z of the iteration before; 0: the next one starts anew
-    bool m_guessed = false, m_residualIsTrue = true, m_over = false;
+    bool m_guessed = false, m_residualIsTrue = true, m_over = true;
 };
 
-/// All of a ConjugateGradients, with a preconditioner of its own.
+/// The factor by which a guess x leaves the smallest error, or 0 if that is no good: (b . x) / (x . A x).
+double optimalScale(double bx, double xAx);
+
+/// Solves A x = b by preconditioned conjugate gradients [Hestenes & Stiefel 1952], starting from x, which is first
+/// scaled to be at least as good as zero. Beyond a few iterations, and for tolerances below 1e-4, the recurrence's
+/// residual is checked against the true one before an answer is called converged. At the end m_r of the scratch is
+/// b - A x, as the recurrence has it. Never allocates; x stays finite if A, P, b and x are.
 SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperator& P, const std::vector<Vec3>& b,
                                     const ConjugateGradientStop& stop, ConjugateGradientScratch& scratch,
                                     std::vector<Vec3>& x);

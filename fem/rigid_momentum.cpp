@@ -23,11 +23,6 @@ Mat3 boundedInverse(const Mat3& inertia, double rounding)
 // Share of a piece's size by which fixed nodes may lie beside a point or a line.
 constexpr double kOnLine = 1e-4;
 
-double damping(const Body& body)
-{
-    return body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
-}
-
 // Calls add(piece, i) for every node, in order. Nodes of a piece mostly follow each other: what is summed up for such a
 // run stays in registers, for additions to memory would wait for one another.
 template <class Piece, class Add>
@@ -77,8 +72,35 @@ void RigidMomentum::prescribe(const Body& body, double step)
                     piece.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
                 });
     for (Piece& piece : m_pieces)
-        piece.m_inverseInertia =
-            boundedInverse(piece.m_inverseInertia, 1e-24 * piece.m_mass * dot(piece.m_center, piece.m_center));
+        piece.m_inverseInertia = inverseInertia(piece.m_inverseInertia, piece.m_mass, piece.m_center);
+}
+
+double RigidMomentum::damping(const Body& body)
+{
+    return body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
+}
+
+Mat3 RigidMomentum::inverseInertia(const Mat3& inertia, double mass, const Vec3& center)
+{
+    return boundedInverse(inertia, 1e-24 * mass * dot(center, center));
+}
+
+RigidMomentum::FreePiece RigidMomentum::onlyPiece() const
+{
+    const Piece& piece = m_pieces.front();
+    return {piece.m_mass, piece.m_center, piece.m_linear, piece.m_angular, piece.m_inverseInertia};
+}
+
+void RigidMomentum::setOnlyPiece(const FreePiece& free)
+{
+    m_anyFree = true;
+    Piece& piece = m_pieces.front();
+    piece = Piece();
+    piece.m_mass = free.m_mass;
+    piece.m_center = free.m_center;
+    piece.m_linear = free.m_linear;
+    piece.m_angular = free.m_angular;
+    piece.m_inverseInertia = free.m_inverseInertia;
 }
 
 // Centre, mass, inertia and axis of the pieces with fixed nodes, by any of those and the one farthest from it; false if

@@ -36,6 +36,26 @@ public:
     /// Adds to `velocity` the rigid motion that gives every free piece its prescribed momentum.
     void restore(const Body& body, std::vector<Vec3>& velocity);
 
+    /// A free piece, as the prescription has it.
+    struct FreePiece
+    {
+        double m_mass = 0;         ///< [kg]
+        Vec3 m_center;             ///< [m]
+        Vec3 m_linear, m_angular;  ///< prescribed [kg m/s], about the centre [kg m2/s]
+        Mat3 m_inverseInertia;     ///< [1/(kg m2)]
+    };
+
+    /// Of a body of one piece that hangs on nothing: what it has been prescribed; for who sums up for several bodies at
+    /// once.
+    FreePiece onlyPiece() const;
+    void setOnlyPiece(const FreePiece& piece);
+
+    /// The inverse of a piece's inertia about its centre [kg m2].
+    static Mat3 inverseInertia(const Mat3& inertia, double mass, const Vec3& center);
+
+    /// alpha of a body's own and of its loads [1/s].
+    static double damping(const Body& body);
+
 private:
     struct Piece
     {

@@ -37,8 +37,4 @@ struct StepScratch
     mutable FactorWork m_factor;
 };
 
-/// Exchanges what a solve writes and nobody reads after it, as far as every body has it: the vectors of double
-/// precision grow when they are first used, and stay. The scratch is that of bodies of one model.
-void swapPassing(StepScratch& a, StepScratch& b);
-
 }  // namespace bullet_fem

@@ -3,13 +3,12 @@
 #include "bullet_fem/fem/stepping.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "bullet_fem/fem/threads.h"
 #include "fem/increment_solve.h"
+#include "fem/lanes/side_by_side.h"
 #include "fem/step_scratch.h"
 #include "fem/warped_compliance.h"
 #include "fem/warped_system.h"
@@ -18,29 +17,6 @@ namespace bullet_fem
 {
 namespace
 {
-
-// Calls solve(first, count, threads) for every run of jobs on bodies that share their model, with the threads at hand,
-// or without them (null) where the bodies are too small.
-template <class Job, class Solve>
-void forEachModel(const Job* jobs, int count, const Solve& solve)
-{
-    for (int first = 0, end = 1; first < count; first = end++)
-    {
-        const BodyModel& model = *jobs[first].m_body->m_model;
-        for (; end < count && jobs[end].m_body->m_model.get() == &model; ++end)
-            assert(jobs[end].m_settings.m_threads == jobs[first].m_settings.m_threads);
-        const Threads* threads = sharedSettings(model, jobs[first].m_settings).m_threads;
-        if (threads)
-            threads->gather([&] { solve(first, end - first, threads); });
-        else
-            solve(first, end - first, threads);
-    }
-}
-
-double massDamping(const Body& body)
-{
-    return body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
-}
 
 // h |f_ext| over the free nodes: what b is measured against where it tends to zero.
 double loadImpulseNorm(const Body& body, double h)
@@ -55,7 +31,7 @@ double loadImpulseNorm(const Body& body, double h)
 void assembleForVelocity(Body& body, const StepSettings& settings, StepScratch& scratch)
 {
     const BodyState& s = body.m_state;
-    const double alpha = massDamping(body);
+    const double alpha = RigidMomentum::damping(body);
     std::vector<Vec3>& b = scratch.m_rightSide;
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = body.m_loads.m_force[i] - alpha * s.m_mass[i] * s.m_v[i];
     const double frameDamping = body.m_loads.m_frameDamping;
@@ -127,7 +103,28 @@ double expectImpulses(Body& body, const std::vector<Vec3>& impulses, double step
     return std::sqrt(sum);
 }
 
-void beginFreeMotion(const FreeMotion& motion, const StepSettings& settings, std::optional<IncrementSolve>& solve)
+// What impulses have left undone. After a breakdown that may not be finite.
+void keepResidual(Body& body, const SolveReport& report)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    if (report.m_stop == SolveStop::breakdown)
+        std::fill(scratch.m_residual.begin(), scratch.m_residual.end(), Vec3());
+    else
+        scratch.m_residual = scratch.m_solver.m_r;
+}
+
+// Increments with impulses in them say nothing about those without.
+void keepFreeMotion(const FreeMotion& motion)
+{
+    Body& body = *motion.m_body;
+    StepScratch& scratch = body.m_workspace.scratch();
+    if (motion.m_expected) return keepResidual(body, motion.m_report);
+    std::swap(body.m_state.m_lastIncrement[0], body.m_state.m_lastIncrement[1]);
+    body.m_state.m_lastIncrement[0] = scratch.m_increment;
+    std::fill(scratch.m_residual.begin(), scratch.m_residual.end(), Vec3());
+}
+
+void solveAlone(FreeMotion& motion, const StepSettings& settings)
 {
     Body& body = *motion.m_body;
     StepScratch& scratch = body.m_workspace.scratch();
@@ -145,33 +142,12 @@ void beginFreeMotion(const FreeMotion& motion, const StepSettings& settings, std
     else
         continueIncrements(body.m_state, scratch.m_increment);
     completeIncrement(body);
-    solve.emplace(body, settings, goal);
-}
-
-// What impulses have left undone. After a breakdown that may not be finite.
-void keepResidual(Body& body, const IncrementSolve& solve, const SolveReport& report)
-{
-    std::vector<Vec3>& residual = body.m_workspace.scratch().m_residual;
-    if (report.m_stop == SolveStop::breakdown)
-        std::fill(residual.begin(), residual.end(), Vec3());
-    else
-        residual = solve.residual();
-}
-
-// Increments with impulses in them say nothing about those without.
-void endFreeMotion(FreeMotion& motion, IncrementSolve& solve)
-{
-    Body& body = *motion.m_body;
-    StepScratch& scratch = body.m_workspace.scratch();
-    motion.m_report = solve.addToVelocity();
+    motion.m_report = solveIncrement(body, settings, goal);
     scratch.m_momentum.keepHung(body, scratch.m_velocity);
-    if (motion.m_expected) return keepResidual(body, solve, motion.m_report);
-    std::swap(body.m_state.m_lastIncrement[0], body.m_state.m_lastIncrement[1]);
-    body.m_state.m_lastIncrement[0] = scratch.m_increment;
-    std::fill(scratch.m_residual.begin(), scratch.m_residual.end(), Vec3());
+    keepFreeMotion(motion);
 }
 
-void beginResponse(const ImpulseResponse& response, std::optional<IncrementSolve>& solve)
+void solveAlone(ImpulseResponse& response, const StepSettings& settings)
 {
     Body& body = *response.m_body;
     StepScratch& scratch = body.m_workspace.scratch();
@@ -179,7 +155,7 @@ void beginResponse(const ImpulseResponse& response, std::optional<IncrementSolve
     const std::vector<Vec3>& impulses = *response.m_impulses;
     std::vector<Vec3>&b = scratch.m_rightSide, &dv = scratch.m_increment;
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = s.m_fixed[i] ? Vec3() : impulses[i];
-    scratch.m_momentum.addImpulses(body, b, response.m_settings.m_step);
+    scratch.m_momentum.addImpulses(body, b, settings.m_step);
     for (std::size_t i = 0; i < b.size(); ++i) b[i] += scratch.m_residual[i];
     if (response.m_steady)
     {
@@ -188,14 +164,49 @@ void beginResponse(const ImpulseResponse& response, std::optional<IncrementSolve
     }
     else
         std::fill(dv.begin(), dv.end(), Vec3());
-    solve.emplace(body, sharedSettings(*body.m_model, response.m_settings),
-                  IncrementGoal{response.m_floor, response.m_steady});
+    response.m_report = solveIncrement(body, settings, {response.m_floor, response.m_steady});
+    keepResidual(body, response.m_report);
 }
 
-void endResponse(ImpulseResponse& response, IncrementSolve& solve)
+// On the threads at hand, or without them where the body is too small.
+template <class Job>
+void solveAlone(Job& job)
 {
-    response.m_report = solve.addToVelocity();
-    keepResidual(*response.m_body, solve, response.m_report);
+    const StepSettings settings = sharedSettings(*job.m_body->m_model, job.m_settings);
+    if (settings.m_threads)
+        settings.m_threads->gather([&] { solveAlone(job, settings); });
+    else
+        solveAlone(job, settings);
+}
+
+// Runs of jobs on bodies that share their model go side by side as far as they can, the others one by one.
+template <class Job>
+void solveAll(Job* jobs, int count)
+{
+    Job* together[kBodyLanes];  // the first `collected`
+    for (int first = 0, end = 0; first < count; first = end)
+    {
+        int collected = 0;
+        const auto solveCollected = [&]
+        {
+            if (!solveSideBySide(together, collected))
+                for (int k = 0; k < collected; ++k) solveAlone(*together[k]);
+            collected = 0;
+        };
+        const BodyModel* model = jobs[first].m_body->m_model.get();
+        for (; end < count && jobs[end].m_body->m_model.get() == model; ++end)
+        {
+            if (!canBeSideBySide(jobs[end]))
+            {
+                solveAlone(jobs[end]);
+                continue;
+            }
+            if (collected == kBodyLanes || (collected > 0 && !areAlike(together[0]->m_settings, jobs[end].m_settings)))
+                solveCollected();
+            together[collected++] = &jobs[end];
+        }
+        solveCollected();
+    }
 }
 
 Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
@@ -216,25 +227,12 @@ Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings&
 
 void solveFreeMotions(FreeMotion* motions, int count)
 {
-    forEachModel(motions, count,
-                 [motions](int first, int bodies, const Threads* threads)
-                 {
-                     IncrementSolves(threads).run(
-                         motions + first, bodies,
-                         [](const FreeMotion& motion, std::optional<IncrementSolve>& solve)
-                         {
-                             const BodyModel& model = *motion.m_body->m_model;
-                             beginFreeMotion(motion, sharedSettings(model, motion.m_settings), solve);
-                         },
-                         endFreeMotion);
-                 });
+    solveAll(motions, count);
 }
 
 void applyImpulses(ImpulseResponse* responses, int count)
 {
-    forEachModel(responses, count,
-                 [responses](int first, int bodies, const Threads* threads)
-                 { IncrementSolves(threads).run(responses + first, bodies, beginResponse, endResponse); });
+    solveAll(responses, count);
 }
 
 SolveReport solveFreeMotion(Body& body, const StepSettings& settings)

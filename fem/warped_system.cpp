@@ -50,7 +50,7 @@ void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3
     pass.m_x = work.m_x.data();
     pass.m_v = work.m_v.data();
     pass.m_damping = h + beta;
-    pass.m_stiffnessFactor = h * h + h * beta;
+    work.m_stiffnessFactor = h * h + h * beta;
     pass.m_tensionFactor = settings.m_tension ? h * h : 0;
     pass.m_rotation = body.m_state.m_elementRotation.data();
     pass.m_force = scratch.m_corners.data();
@@ -86,8 +86,8 @@ void product(const Body& body, const Threads* threads, const std::vector<Vec3>& 
     ElementWork& work = body.m_workspace.scratch().m_elements;
     ElementScratch<Real>& scratch = work.scratch<Real>();
     pad(threads, in, work.m_x);
-    const ElementProduct<Real> forces = {&elements.blocks<Real>(), scratch.m_warped.data(), work.m_x.data(),
-                                         scratch.m_corners.data()};
+    const ElementProduct<Real> forces = {&elements.blocks<Real>(), scratch.m_warped.data(), work.m_stiffnessFactor,
+                                         work.m_x.data(), scratch.m_corners.data()};
     runRanges(threads, {elements.blockCount(), kBlocksOfPiece},
               [&](Range blocks) { runElementProduct(forces, blocks); });
     sumOverNodes(threads, NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(), work.m_scaledMass.data(),
@@ -96,6 +96,11 @@ void product(const Body& body, const Threads* threads, const std::vector<Vec3>& 
 
 }  // namespace
 
+bool isSinglePrecision(const StepSettings& settings)
+{
+    return settings.m_tolerance >= kFinestSingle;
+}
+
 void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
 {
     ElementWork& work = body.m_workspace.scratch().m_elements;
@@ -103,7 +108,7 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
     const double h = settings.m_step;
     const double alpha =
         body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping + body.m_loads.m_frameDamping;
-    work.m_isDouble = settings.m_tolerance < kFinestSingle;
+    work.m_isDouble = !isSinglePrecision(settings);
     for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i) work.m_scaledMass[i] = (1 + h * alpha) * state.m_mass[i];
     pad(settings.m_threads, state.m_x, work.m_x);
     pad(settings.m_threads, state.m_v, work.m_v);
@@ -136,22 +141,19 @@ Mat3 WarpedPreconditioner::rotation(int node) const
     return {{{R[0], R[1], R[2]}, {R[3], R[4], R[5]}, {R[6], R[7], R[8]}}};
 }
 
-namespace
-{
-
 // The factor's vector <- R^T in, scaled to order one, so that the range of single precision does not matter. Returns
 // what it was divided by.
-double rotateIn(const Body& body, const Threads* threads, const std::vector<Vec3>& in)
+double WarpedPreconditioner::rotateIn(const std::vector<Vec3>& in) const
 {
-    const RestFactor& factor = body.m_model->factor();
-    const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
-    const std::vector<NodeRotation>& R = body.m_workspace.scratch().m_elements.m_nodeRotation;
-    float* y = body.m_workspace.scratch().m_factor.m_vector.get();
+    const RestFactor& factor = m_body.m_model->factor();
+    const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
+    const std::vector<NodeRotation>& R = m_body.m_workspace.scratch().m_elements.m_nodeRotation;
+    float* y = m_body.m_workspace.scratch().m_factor.m_vector.get();
 
     double largest = 0;
     for (const Vec3& r : in) largest = std::max({largest, std::fabs(r.x), std::fabs(r.y), std::fabs(r.z)});
     const double down = largest > 0 ? 1 / largest : 0;
-    runRanges(threads, {static_cast<int>(in.size()), kNodesOfPiece},
+    runRanges(m_threads, {static_cast<int>(in.size()), kNodesOfPiece},
               [&](Range nodes)
               {
                   for (int i = nodes.m_begin; i < nodes.m_end; ++i)
@@ -169,16 +171,13 @@ double rotateIn(const Body& body, const Threads* threads, const std::vector<Vec3
 }
 
 // out <- scale R (the factor's vector).
-void rotateOut(const PreconditionedVector& vector, const Threads* threads, double scale)
+void WarpedPreconditioner::rotateOut(const std::vector<Vec3>& in, double scale, std::vector<Vec3>& out) const
 {
-    const Body& body = *vector.m_body;
-    const std::vector<Vec3>& in = *vector.m_in;
-    std::vector<Vec3>& out = *vector.m_out;
-    const RestFactor& factor = body.m_model->factor();
-    const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
-    const std::vector<NodeRotation>& R = body.m_workspace.scratch().m_elements.m_nodeRotation;
-    const float* y = body.m_workspace.scratch().m_factor.m_vector.get();
-    runRanges(threads, {static_cast<int>(in.size()), kNodesOfPiece},
+    const RestFactor& factor = m_body.m_model->factor();
+    const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
+    const std::vector<NodeRotation>& R = m_body.m_workspace.scratch().m_elements.m_nodeRotation;
+    const float* y = m_body.m_workspace.scratch().m_factor.m_vector.get();
+    runRanges(m_threads, {static_cast<int>(in.size()), kNodesOfPiece},
               [&](Range nodes)
               {
                   for (int i = nodes.m_begin; i < nodes.m_end; ++i)
@@ -199,28 +198,12 @@ void rotateOut(const PreconditionedVector& vector, const Threads* threads, doubl
               });
 }
 
-}  // namespace
-
-void applyWarpedPreconditioner(const PreconditionedVector* vectors, int count, const Threads* threads)
-{
-    PanelGroup group;
-    double scale[kPanelGroup];
-    group.m_count = count;
-    for (int k = 0; k < count; ++k)
-    {
-        const FactorWork& work = vectors[k].m_body->m_workspace.scratch().m_factor;
-        group.m_y[k] = work.m_vector.get();
-        group.m_scratch[k] = work.m_scratch.get();
-        scale[k] = rotateIn(*vectors[k].m_body, threads, *vectors[k].m_in);
-    }
-    vectors[0].m_body->m_model->factor().lower().solve(group, threads);
-    for (int k = 0; k < count; ++k) rotateOut(vectors[k], threads, scale[k]);
-}
-
 void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
-    const PreconditionedVector vector = {&m_body, &in, &out};
-    applyWarpedPreconditioner(&vector, 1, m_threads);
+    const double scale = rotateIn(in);
+    const FactorWork& work = m_body.m_workspace.scratch().m_factor;
+    m_body.m_model->factor().lower().solve(work.m_vector.get(), work.m_scratch.get(), m_threads);
+    rotateOut(in, scale, out);
 }
 
 }  // namespace bullet_fem

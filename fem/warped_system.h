@@ -8,6 +8,9 @@
 namespace bullet_fem
 {
 
+/// True if a step with these settings works in single precision.
+bool isSinglePrecision(const StepSettings& settings);
+
 /// Rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4 and above and in double
 /// below. Turns the state's rotations to its positions, adds f_el(x) - (h + beta) K' v to `force` [N], and
 /// leaves in the body's scratch what WarpedSystem and WarpedPreconditioner work with. Allocates in the first step of
@@ -45,20 +48,11 @@ public:
     Mat3 rotation(int node) const;
 
 private:
+    double rotateIn(const std::vector<Vec3>& in) const;
+    void rotateOut(const std::vector<Vec3>& in, double scale, std::vector<Vec3>& out) const;
+
     const Body& m_body;
     const Threads* m_threads;
 };
-
-/// out = P in for one body of several.
-struct PreconditionedVector
-{
-    const Body* m_body;
-    const std::vector<Vec3>* m_in;
-    std::vector<Vec3>* m_out;
-};
-
-/// WarpedPreconditioner::apply for up to kPanelGroup bodies that share their model, in one pass over its factor. Each
-/// gets the bits that it gets alone.
-void applyWarpedPreconditioner(const PreconditionedVector* vectors, int count, const Threads* threads);
 
 }  // namespace bullet_fem

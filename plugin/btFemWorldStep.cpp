@@ -95,6 +95,7 @@ StepSettings btFemWorldStep::settingsOf(const btFemEntry& entry) const
     settings.m_warp =
         detail == btFemDetail::nodalWarp || detail == btFemDetail::oneIteration ? Warp::nodal : Warp::global;
     settings.m_threads = &m_threads;
+    settings.m_batchMemory = m_batchMemory.get();
     return settings;
 }
 

@@ -2,9 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "bullet_bridge/steady_bodies.h"
+#include "bullet_fem/fem/batch_memory.h"
 #include "bullet_fem/fem/stepping.h"
 #include "bullet_fem/fem/threads.h"
 #include "fem/body_batches.h"
@@ -20,7 +22,11 @@ class btFemWorldStep
 {
 public:
     explicit btFemWorldStep(const btFemSolverInfo& info)
-        : m_info(info), m_threads(info.m_threads), m_refactorPolicy(info), m_group(info, m_threads)
+        : m_info(info),
+          m_threads(info.m_threads),
+          m_batchMemory(info.m_batchBodies ? std::make_unique<bullet_fem::BatchMemory>() : nullptr),
+          m_refactorPolicy(info),
+          m_group(info, m_threads, m_batchMemory.get())
     {
     }
 
@@ -74,6 +80,7 @@ private:
 
     btFemSolverInfo m_info;
     bullet_fem::Threads m_threads;
+    std::unique_ptr<bullet_fem::BatchMemory> m_batchMemory;  // null: bodies one after another
     std::vector<btFemEntry*> m_due;     // they are to be predicted, or their free motion is to be solved
     std::vector<btFemEntry*> m_active;  // it is solved
     std::vector<const bullet_fem::Body*> m_dueBodies;

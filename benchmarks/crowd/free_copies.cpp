@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/figures.h"
+#include "bullet_fem/fem/batch_memory.h"
 #include "bullet_fem/fem/generators.h"
 #include "bullet_fem/fem/stepping.h"
 
@@ -40,6 +41,7 @@ public:
     Copies(const std::shared_ptr<const BodyModel>& model, const FreeCopiesSettings& settings)
     {
         m_step.m_tolerance = settings.m_tolerance;
+        m_step.m_batchMemory = &m_memory;
         for (int k = 0; k < settings.m_bodies; ++k)
         {
             m_bodies.emplace_back(model);
@@ -101,6 +103,7 @@ private:
     }
 
     StepSettings m_step;
+    BatchMemory m_memory;
     std::vector<Body> m_bodies;
     std::vector<FreeMotion> m_motions;
 };

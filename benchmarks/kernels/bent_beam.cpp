@@ -54,7 +54,6 @@ void BentBeam::passOverElements()
     pass.m_x = work.m_x.data();
     pass.m_v = work.m_v.data();
     pass.m_damping = h + beta;
-    pass.m_stiffnessFactor = h * h + h * beta;
     pass.m_tensionFactor = h * h;
     pass.m_rotation = m_body.m_state.m_elementRotation.data();
     pass.m_force = work.m_single.m_corners.data();

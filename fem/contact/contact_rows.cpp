@@ -186,7 +186,7 @@ void ContactRows::solveCorrections()
         m_corrected.push_back(static_cast<int>(b));
         m_correctedBodies.push_back(m_corrections[b].m_body);
     }
-    m_batches.divide(m_correctedBodies, threads ? threads->count() : 1, m_settings.m_batchBodies);
+    m_batches.divide(m_correctedBodies, threads ? threads->count() : 1, m_settings.m_step.m_batchMemory != nullptr);
     m_ordered.clear();
     for (int k : m_batches.order()) m_ordered.push_back(m_corrections[m_corrected[k]]);
     const std::vector<Range>& batches = m_batches.batches();

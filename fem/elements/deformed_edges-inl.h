@@ -47,74 +47,70 @@ HWY_INLINE Vector<double> promoted(Vector<double> v, int)
     return v;
 }
 
-/// D_s, and what is left of it when R D_m is taken away, of as many elements as a vector of Real has lanes. Both are
-/// computed in double, where the difference has no error that a strain of 1e-7 would notice, and then rounded.
 template <class Real>
-struct DeformedEdges
+HWY_INLINE Matrix<Real> roundedMatrix(const Matrix<double> (&D)[parts<Real>()])
 {
-    static constexpr int kParts = parts<Real>();
-    const StagedEdges<double, width<Real>()>& m_edges;
-
-    HWY_INLINE Matrix<Real> edges() const
+    Matrix<Real> A;
+    HWY_UNROLL(9)
+    for (int k = 0; k < 9; ++k)
     {
-        Matrix<double> D[kParts];
+        Vector<double> entry[parts<Real>()];
         HWY_UNROLL(2)
-        for (int part = 0; part < kParts; ++part) D[part] = m_edges.load(part * width<double>());
-        return roundedMatrix(D);
+        for (int part = 0; part < parts<Real>(); ++part) entry[part] = D[part].m[k / 3][k % 3];
+        A.m[k / 3][k % 3] = rounded(entry);
     }
+    return A;
+}
 
-    /// D_s - R D_m.
-    HWY_INLINE Matrix<Real> minusRotated(const Quaternions<Real>& q, const double (*Dm)[kLanes], int lane) const
-    {
-        Matrix<double> D[kParts];
-        HWY_UNROLL(2)
-        for (int part = 0; part < kParts; ++part)
-        {
-            const Matrix<double> R =
-                unitMatrix({promoted(q.x, part), promoted(q.y, part), promoted(q.z, part), promoted(q.w, part)});
-            const Matrix<double> X = loadMatrix(Dm, lane + part * width<double>());
-            D[part] = minusProduct(m_edges.load(part * width<double>()), R, X);
-        }
-        return roundedMatrix(D);
-    }
+/// R of quaternions of length 1 but for the rounding of Real: 2 / |q|^2 = 4 - 2 |q|^2 then.
+HWY_INLINE Matrix<double> unitMatrix(const Quaternions<double>& q)
+{
+    const Vector<double> squares = hn::MulAdd(q.w, q.w, dot3(q.x, q.x, q.y, q.y, q.z, q.z));
+    return toMatrix<double>(q, hn::NegMulAdd(number<double>(2), squares, number<double>(4)));
+}
 
-private:
-    /// R of quaternions of length 1 but for the rounding of Real: 2 / |q|^2 = 4 - 2 |q|^2 then.
-    HWY_INLINE static Matrix<double> unitMatrix(const Quaternions<double>& q)
+/// C - A B.
+HWY_INLINE Matrix<double> minusProduct(Matrix<double> C, const Matrix<double>& A, const Matrix<double>& B)
+{
+    HWY_UNROLL(9)
+    for (int k = 0; k < 9; ++k)
     {
-        const Vector<double> squares = hn::MulAdd(q.w, q.w, dot3(q.x, q.x, q.y, q.y, q.z, q.z));
-        return toMatrix<double>(q, hn::NegMulAdd(number<double>(2), squares, number<double>(4)));
+        const int i = k / 3, j = k % 3;
+        Vector<double>& c = C.m[i][j];
+        c = hn::NegMulAdd(A.m[i][0], B.m[0][j], c);
+        c = hn::NegMulAdd(A.m[i][1], B.m[1][j], c);
+        c = hn::NegMulAdd(A.m[i][2], B.m[2][j], c);
     }
+    return C;
+}
 
-    /// C - A B.
-    HWY_INLINE static Matrix<double> minusProduct(Matrix<double> C, const Matrix<double>& A, const Matrix<double>& B)
-    {
-        HWY_UNROLL(9)
-        for (int k = 0; k < 9; ++k)
-        {
-            const int i = k / 3, j = k % 3;
-            Vector<double>& c = C.m[i][j];
-            c = hn::NegMulAdd(A.m[i][0], B.m[0][j], c);
-            c = hn::NegMulAdd(A.m[i][1], B.m[1][j], c);
-            c = hn::NegMulAdd(A.m[i][2], B.m[2][j], c);
-        }
-        return C;
-    }
+/// D_s of as many elements as a vector of Real has lanes. Elements have edges(part), those of as many as one of double
+/// has.
+template <class Real, class Elements>
+HWY_INLINE Matrix<Real> roundedEdges(const Elements& elements)
+{
+    Matrix<double> D[parts<Real>()];
+    HWY_UNROLL(2)
+    for (int part = 0; part < parts<Real>(); ++part) D[part] = elements.edges(part);
+    return roundedMatrix<Real>(D);
+}
 
-    HWY_INLINE static Matrix<Real> roundedMatrix(const Matrix<double> (&D)[kParts])
+/// D_s - R D_m, where elements have restEdges(part), too: computed in double, where the difference has no error that a
+/// strain of 1e-7 would notice, and then rounded.
+template <class Real, class Elements>
+HWY_INLINE Matrix<Real> edgesMinusRotated(const Elements& elements, const Quaternions<Real>& q)
+{
+    Matrix<double> D[parts<Real>()];
+    HWY_UNROLL(2)
+    for (int part = 0; part < parts<Real>(); ++part)
     {
-        Matrix<Real> A;
-        HWY_UNROLL(9)
-        for (int k = 0; k < 9; ++k)
-        {
-            Vector<double> entry[kParts];
-            HWY_UNROLL(2)
-            for (int part = 0; part < kParts; ++part) entry[part] = D[part].m[k / 3][k % 3];
-            A.m[k / 3][k % 3] = rounded(entry);
-        }
-        return A;
+        const Matrix<double> R =
+            unitMatrix({promoted(q.x, part), promoted(q.y, part), promoted(q.z, part), promoted(q.w, part)});
+        const Matrix<double> Dm = elements.restEdges(part);
+        D[part] = minusProduct(elements.edges(part), R, Dm);
     }
-};
+    return roundedMatrix<Real>(D);
+}
 
 HWY_INLINE Quaternions<float> loadQuaternions(const Quaternion* q, float)
 {

@@ -36,7 +36,8 @@ template struct ElementBlocks<double>;
 NodeCorners::NodeCorners(const RestShape& shape)
     : m_start(shape.m_mesh.nodeCount() + 1, 0),
       m_corner(4 * shape.m_elements.size()),
-      m_volume(kLanes * blockCount(shape.m_mesh.tetCount()), 0.0f)
+      m_volume(kLanes * blockCount(shape.m_mesh.tetCount()), 0.0f),
+      m_parity(shape.m_elements.size())
 {
     const std::vector<Tet>& tets = shape.m_mesh.tets();
     for (const Tet& tet : tets)
@@ -46,7 +47,19 @@ NodeCorners::NodeCorners(const RestShape& shape)
     for (std::size_t e = 0; e < tets.size(); ++e)
     {
         m_volume[e] = static_cast<float>(shape.m_elements[e].m_volume);
-        for (int a = 0; a < 4; ++a) m_corner[next[tets[e][a]]++] = corner(static_cast<int>(e), a);
+        for (int a = 0; a < 4; ++a)
+        {
+            const int node = tets[e][a];
+            m_parity[e][a] = (next[node] - m_start[node]) % 2;
+            m_corner[next[node]++] = corner(static_cast<int>(e), a);
+        }
+    }
+    for (int i = 0; i < nodeCount(); ++i)
+    {
+        float volumes[2] = {0, 0};
+        for (int k = m_start[i]; k < m_start[i + 1]; ++k)
+            volumes[(k - m_start[i]) % 2] += m_volume[element(m_corner[k])];
+        m_volumeAround.push_back(volumes[0] + volumes[1]);
     }
 }
 

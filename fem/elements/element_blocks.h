@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -55,9 +56,12 @@ struct NodeCorners
     explicit NodeCorners(const RestShape& shape);
     int nodeCount() const { return static_cast<int>(m_start.size()) - 1; }
 
-    std::vector<int> m_start;     ///< of every node and of the end, into m_corner
-    std::vector<int> m_corner;    ///< places in an array of CornerBlock taken as vectors; elements ascending
-    std::vector<float> m_volume;  ///< V_e of every element, 0 in what fills the last block [m3]
+    std::vector<int> m_start;           ///< of every node and of the end, into m_corner
+    std::vector<int> m_corner;          ///< places in an array of CornerBlock taken as vectors; elements ascending
+    std::vector<float> m_volume;        ///< V_e of every element, 0 in what fills the last block [m3]
+    std::vector<float> m_volumeAround;  ///< of every node's elements together [m3]
+    std::vector<std::array<int, 4>> m_parity;  ///< of every element's corners: 1 where it is the second, fourth ... of
+                                               ///< its node, 0 else
 
     /// The element and the place of a corner (of element e, its local node a).
     static int element(int corner)

@@ -12,8 +12,7 @@
 // after foreach_target.h
 #include <hwy/highway.h>
 
-#include "fem/elements/deformed_edges-inl.h"
-#include "fem/elements/positive_part-inl.h"
+#include "fem/elements/element_math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -30,33 +29,6 @@ void passBlocks(const ElementPass<Real>& pass, Range blocks)
 }
 
 #else
-
-/// The strain sym(A B^T), shears doubled.
-template <class Real>
-HWY_INLINE Symmetric<Real> strainOf(const Matrix<Real>& A, const Matrix<Real>& B)
-{
-    const auto entry = [&](int i, int j)
-    { return dot3(A.m[i][0], B.m[j][0], A.m[i][1], B.m[j][1], A.m[i][2], B.m[j][2]); };
-    return {entry(0, 0),
-            entry(1, 1),
-            entry(2, 2),
-            entry(1, 2) + entry(2, 1),
-            entry(0, 2) + entry(2, 0),
-            entry(0, 1) + entry(1, 0)};
-}
-
-/// 2 mu E + lambda tr(E) I of a strain with doubled shears; the Lame constants times the volume.
-template <class Real>
-HWY_INLINE Symmetric<Real> hooke(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& E)
-{
-    const Vector<Real> twoMu = mu + mu, pressure = lambda * trace(E);
-    return {hn::MulAdd(twoMu, E.xx, pressure),
-            hn::MulAdd(twoMu, E.yy, pressure),
-            hn::MulAdd(twoMu, E.zz, pressure),
-            mu * E.yz,
-            mu * E.xz,
-            mu * E.xy};
-}
 
 /// What a vector of elements needs of its nodes.
 template <class Real>
@@ -77,8 +49,7 @@ struct StagedNodes
     }
 };
 
-/// The elements of a block from `lane` on, as many as a vector has lanes. Strains and stresses are those of the world's
-/// frame, R E R^T = sym(F R^T) - I: with F R^T = D_s g'^T, g' = R D_m^-T, forces and tension need R by g' alone.
+/// The elements of a block from `lane` on, as many as a vector has lanes.
 template <class Real>
 struct PassLanes
 {
@@ -87,58 +58,35 @@ struct PassLanes
     int m_block, m_lane;
 
     HWY_INLINE const ElementBlock<Real>& block() const { return m_pass.m_elements->m_blocks[m_block]; }
-    HWY_INLINE DeformedEdges<Real> x() const { return {m_nodes.m_x}; }
     HWY_INLINE Quaternion* rotations() const { return m_pass.m_rotation + m_block * kLanes + m_lane; }
 
-    HWY_INLINE Matrix<Real> deformationGradient() const
+    HWY_INLINE Vector<Real> lambda() const { return hn::Load(Lanes<Real>(), block().m_lambdaVolume + m_lane); }
+    HWY_INLINE Vector<Real> mu() const { return hn::Load(Lanes<Real>(), block().m_muVolume + m_lane); }
+    HWY_INLINE Vector<Real> damping() const { return number<Real>(m_pass.m_damping); }
+    HWY_INLINE Matrix<Real> DmInverse() const { return loadMatrix(block().m_DmInverse, m_lane); }
+    HWY_INLINE Matrix<double> edges(int part) const { return m_nodes.m_x.load(part * width<double>()); }
+    HWY_INLINE Matrix<double> restEdges(int part) const
     {
-        return times(x().edges(), loadMatrix(block().m_DmInverse, m_lane));
+        return loadMatrix(block().m_Dm, m_lane + part * width<double>());
     }
+    HWY_INLINE Matrix<Real> velocityEdges() const { return m_nodes.m_v.load(); }
 
-    /// All that follows from the rotations; between its parts, other(part) for part in [0, 3].
-    template <class Other>
-    HWY_INLINE void run(const Quaternions<Real>& q, const Other& other) const
-    {
-        const Lanes<Real> d;
-        const Vector<Real> lambda = hn::Load(d, block().m_lambdaVolume + m_lane);
-        const Vector<Real> mu = hn::Load(d, block().m_muVolume + m_lane);
-        other(0);
-        const Matrix<Real> R = toMatrix(q, number<Real>(2));
-        const Matrix<Real> g = timesTranspose(R, loadMatrix(block().m_DmInverse, m_lane));  // R D_m^-T
-        // D_s - R D_m instead of D_s: sym(F R^T) - I would lose strains to rounding.
-        const Matrix<Real> stretch = x().minusRotated(q, block().m_Dm, m_lane);
-        const Symmetric<Real> strain = strainOf(stretch, g);
-        other(1);
-        const Symmetric<Real> rate = strainOf(m_nodes.m_v.load(), g);
-        const Symmetric<Real> damped = combined<Real>(number<Real>(m_pass.m_damping), rate, number<Real>(1), strain);
-        const Symmetric<Real> minusStress = hooke<Real>(hn::Neg(lambda), hn::Neg(mu), damped);
-        other(2);
-        storeCorners(times(full(minusStress), g), m_pass.m_force[m_block], m_lane);
-        storeWarped(g, lambda, mu);
-        other(3);
-        storeTension(hooke<Real>(lambda, mu, strain));
-    }
+    HWY_INLINE void storeForces(const Matrix<Real>& f) const { storeCorners(f, m_pass.m_force[m_block], m_lane); }
 
-    HWY_INLINE void storeWarped(const Matrix<Real>& g, Vector<Real> lambda, Vector<Real> mu) const
+    HWY_INLINE void storeGradients(const Matrix<Real>& g) const
     {
         const Lanes<Real> d;
         WarpedBlock<Real>& out = m_pass.m_warped[m_block];
-        const Vector<Real> factor = number<Real>(m_pass.m_stiffnessFactor);
         HWY_UNROLL(9)
         for (int k = 0; k < 9; ++k) hn::Store(g.m[k % 3][k / 3], d, out.m_gradient[k] + m_lane);
-        hn::Store(factor * lambda, d, out.m_lambda + m_lane);
-        hn::Store(factor * mu, d, out.m_mu + m_lane);
     }
 
-    HWY_INLINE void storeTension(const Symmetric<Real>& elastic) const
+    HWY_INLINE void storeTension(const Symmetric<Real>& T) const
     {
-        const Lanes<Real> d;
-        const Vector<Real> zero = number<Real>(0);
-        Symmetric<Real> T = {zero, zero, zero, zero, zero, zero};
-        if (m_pass.m_tensionFactor != 0) T = positivePart(number<Real>(m_pass.m_tensionFactor), elastic);
         const Vector<Real> entries[6] = {T.xx, T.yy, T.zz, T.yz, T.xz, T.xy};
         HWY_UNROLL(6)
-        for (int k = 0; k < 6; ++k) hn::Store(entries[k], d, m_pass.m_warped[m_block].m_tension[k] + m_lane);
+        for (int k = 0; k < 6; ++k)
+            hn::Store(entries[k], Lanes<Real>(), m_pass.m_warped[m_block].m_tension[k] + m_lane);
     }
 };
 
@@ -161,7 +109,7 @@ HWY_INLINE void passBlocks(const ElementPass<Real>& pass, Range blocks)
         };
         for (int i = 0; i < count; ++i)
         {
-            F[i] = lanes(i).deformationGradient();
+            F[i] = times(roundedEdges<Real>(lanes(i)), lanes(i).DmInverse());
             q[i] = loadQuaternions(lanes(i).rotations(), Real());
         }
         polarRotations(F, count, q);
@@ -173,7 +121,7 @@ HWY_INLINE void passBlocks(const ElementPass<Real>& pass, Range blocks)
             const auto stageNext = [&](int part) {
                 staged[1 - turn][i].stage(pass, next, {part * kN / 4, (part + 1) * kN / 4});
             };
-            lanes(i).run(q[i], stageNext);
+            lanes(i).storeTension(tensionOf(pass.m_tensionFactor, passElements(lanes(i), q[i], stageNext)));
         }
     }
 }

@@ -7,15 +7,19 @@
 namespace bullet_fem
 {
 
+constexpr int kWarpedRows = 15;  ///< of a WarpedBlock
+
 /// What the product needs of kLanes elements during a step: no rotation any more, it is in the gradients.
 template <class Real>
 struct alignas(64) WarpedBlock
 {
     Real m_gradient[9][kLanes];  ///< g'_a = R g_a, a = 1, 2, 3 [1/m]
-    Real m_lambda[kLanes];       ///< stiffness factor times lambda V [J times the factor's unit]
-    Real m_mu[kLanes];           ///< stiffness factor times mu V
     Real m_tension[6][kLanes];   ///< tension factor times R V sigma+ R^T: xx, yy, zz, yz, xz, xy
+
+    /// Both, as kWarpedRows rows of kLanes numbers.
+    Real* rows() { return &m_gradient[0][0]; }
 };
+static_assert(sizeof(WarpedBlock<float>) == sizeof(float) * kWarpedRows * kLanes);
 
 /// F = D_s D_m^-1 of every element, its polar rotation R, its force and its part of A, once a step. With
 /// E = sym(R^T F) - I,
@@ -31,7 +35,6 @@ struct ElementPass
     const PaddedVec3* m_x;        ///< of every node [m]
     const PaddedVec3* m_v;        ///< of every node [m/s]
     double m_damping;             ///< of the viscous force [s]
-    double m_stiffnessFactor;     ///< of K' in A, h^2 + h beta [s2]
     double m_tensionFactor;       ///< of T in A, h^2 [s2]; 0 spares the spectral part
     Quaternion* m_rotation;       ///< in: of the last step, out: of this one; kLanes a block
     CornerBlock<Real>* m_force;   ///< out

@@ -14,6 +14,7 @@ struct ElementProduct
 {
     const ElementBlocks<Real>* m_elements;
     const WarpedBlock<Real>* m_warped;
+    double m_stiffnessFactor;  ///< of K' in A, h^2 + h beta [s2]
     const PaddedVec3* m_p;     ///< of every node; differences are taken in double, then rounded to Real
     CornerBlock<Real>* m_out;  ///< out: f_a, to be summed by sumCorners()
 };

@@ -41,7 +41,8 @@ struct ElementWork
             return m_double;
     }
 
-    bool m_isDouble = false;  ///< precision of this step
+    bool m_isDouble = false;       ///< precision of this step
+    double m_stiffnessFactor = 0;  ///< of K' in this step's A, h^2 + h beta [s2]
     ElementScratch<float> m_single;
     ElementScratch<double> m_double;
     std::vector<PaddedVec3> m_x, m_v;          ///< positions and velocities; then m_x is what A is applied to

@@ -51,19 +51,16 @@ HWY_INLINE NodeRotation rotationOf(const float* q, float n)
 /// and makes the sum shorter but hardly turns it.
 HWY_INLINE NodeRotation averageAt(const NodeRotations& rotations, int node)
 {
-    constexpr float kNearlyOne = 0.98f;
     const D4 d;
     const int* corner = rotations.m_nodes->m_corner.data() + rotations.m_nodes->m_start[node];
     const int* end = rotations.m_nodes->m_corner.data() + rotations.m_nodes->m_start[node + 1];
     if (corner == end) return {};  // a loose node
     // Two sums, so that additions need not wait for each other.
     hn::Vec<D4> sums[2] = {hn::Zero(d), hn::Zero(d)};
-    float volumes[2] = {0, 0};
     const auto add = [&](int k, int e)
     {
         const float V = rotations.m_nodes->m_volume[e];
         sums[k] = hn::MulAdd(hn::Set(d, V), hn::Load(d, &rotations.m_rotation[e].x), sums[k]);
-        volumes[k] += V;
     };
     for (; corner + 1 < end; corner += 2)
     {
@@ -72,12 +69,10 @@ HWY_INLINE NodeRotation averageAt(const NodeRotations& rotations, int node)
     }
     if (corner < end) add(0, NodeCorners::element(corner[0]));
 
-    const auto sum = hn::Add(sums[0], sums[1]);
-    const float squaredLength = hn::GetLane(hn::SumOfLanes(d, hn::Mul(sum, sum)));
-    const float least = kNearlyOne * (volumes[0] + volumes[1]);
-    if (!(squaredLength >= least * least)) return carefulAverage(rotations, node);
     HWY_ALIGN float q[4];
-    hn::Store(sum, d, q);
+    hn::Store(hn::Add(sums[0], sums[1]), d, q);
+    const float squaredLength = (q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]);
+    if (!(squaredLength >= leastSquaredLength(*rotations.m_nodes, node))) return carefulAverage(rotations, node);
     return rotationOf(q, squaredLength);
 }
 

@@ -83,9 +83,9 @@ struct NewtonStep
 
 /// One step towards the maximum of tr(R^T F): with S = F R^T, H w = g, H = tr(S) I - sym(S), g = axl(S - S^T), R turns
 /// by w. H w = g is solved by cofactors. After a step by w the error is about |w|^2 |H| |H^-1|. Elements whose H is not
-/// positive definite, or so large that it may overflow, are left as they are.
+/// positive definite, or so large that it may overflow, are left as they are, and those of `done`.
 template <class Real>
-HWY_INLINE NewtonStep<Real> newtonStep(const Matrix<Real>& F, Quaternions<Real>& q)
+HWY_INLINE NewtonStep<Real> newtonStep(const Matrix<Real>& F, hn::Mask<Lanes<Real>> done, Quaternions<Real>& q)
 {
     using V = Vector<Real>;
     constexpr bool kSingle = std::is_same<Real, float>::value;
@@ -109,9 +109,10 @@ HWY_INLINE NewtonStep<Real> newtonStep(const Matrix<Real>& F, Quaternions<Real>&
     const auto definite = hn::And(hn::And(h00 > least, c22 > least * h00), hn::And(det > least * c22, det < huge));
 
     const V s = number<Real>(0.5) / det;
-    const V c[3] = {hn::IfThenElseZero(definite, s * dot3(c00, g0, c01, g1, c02, g2)),
-                    hn::IfThenElseZero(definite, s * dot3(c01, g0, c11, g1, c12, g2)),
-                    hn::IfThenElseZero(definite, s * dot3(c02, g0, c12, g1, c22, g2))};
+    const auto moves = hn::AndNot(done, definite);
+    const V c[3] = {hn::IfThenElseZero(moves, s * dot3(c00, g0, c01, g1, c02, g2)),
+                    hn::IfThenElseZero(moves, s * dot3(c01, g0, c11, g1, c12, g2)),
+                    hn::IfThenElseZero(moves, s * dot3(c02, g0, c12, g1, c22, g2))};
     q = turned<Real>(q, c);
     const V squaredStep = number<Real>(4) * dot3(c[0], c[0], c[1], c[1], c[2], c[2]);
     const V cofactors = c00 + c11 + c22;  // det times the trace of H^-1
@@ -137,22 +138,23 @@ HWY_INLINE void singleRotations(const Matrix<Real>& F, hn::Mask<Lanes<Real>> kno
 constexpr int kBatch = 2;  // vectors of elements; what one waits for, another has time to compute
 
 /// q <- the polar rotations of `count` F, started from q. Those that Newton's iteration cannot answer for go one by
-/// one.
+/// one. An element's rotation does not depend on the others': it is done with once it has converged.
 template <class Real>
 HWY_INLINE void polarRotations(const Matrix<Real>* F, int count, Quaternions<Real>* q)
 {
     constexpr int kMaxSteps = 6;
     const Lanes<Real> d;
     hn::Mask<Lanes<Real>> converged[kBatch];
+    for (auto& mask : converged) mask = hn::MaskFromVec(hn::Zero(d));
     bool over[kBatch] = {};
     int left = count;
     for (int k = 0; k < kMaxSteps && left > 0; ++k)
         for (int i = 0; i < count; ++i)
         {
             if (over[i]) continue;
-            const NewtonStep<Real> step = newtonStep(F[i], q[i]);
-            converged[i] = step.m_converged;
-            over[i] = hn::AllTrue(d, hn::Or(step.m_converged, hn::Not(step.m_definite)));
+            const NewtonStep<Real> step = newtonStep(F[i], converged[i], q[i]);
+            converged[i] = hn::Or(converged[i], step.m_converged);
+            over[i] = hn::AllTrue(d, hn::Or(converged[i], hn::Not(step.m_definite)));
             left -= over[i];
         }
     for (int i = 0; i < count; ++i)

@@ -90,8 +90,6 @@ void passElement(const ElementPass<Real>& pass, int b, int lane)
     WarpedBlock<Real>& warped = pass.m_warped[b];
     const Mat3 g = timesTranspose(DmInverse, R);
     for (int k = 0; k < 9; ++k) warped.m_gradient[k][lane] = static_cast<Real>(g(k / 3, k % 3));
-    warped.m_lambda[lane] = static_cast<Real>(pass.m_stiffnessFactor * element.m_block.m_lambdaVolume[lane]);
-    warped.m_mu[lane] = static_cast<Real>(pass.m_stiffnessFactor * element.m_block.m_muVolume[lane]);
     storeTension(pass.m_tensionFactor * (R * timesTranspose(positivePart(elastic), R)), lane, warped);
 }
 
@@ -105,8 +103,9 @@ void multiplyElement(const ElementProduct<Real>& product, int b, int lane)
     const Mat3 T = {{{t[0][lane], t[5][lane], t[4][lane]},
                      {t[5][lane], t[1][lane], t[3][lane]},
                      {t[4][lane], t[3][lane], t[2][lane]}}};
-    const Mat3 H = Element<Real>{product.m_elements->m_blocks[b], lane}.edges(product.m_p) * g;
-    const Mat3 P = Mat3::diagonal(warped.m_lambda[lane] * trace(H)) + warped.m_mu[lane] * (H + transpose(H)) + H * T;
+    const Element<Real> element = {product.m_elements->m_blocks[b], lane};
+    const Mat3 H = element.edges(product.m_p) * g;
+    const Mat3 P = product.m_stiffnessFactor * element.hooke(H) + H * T;
     storeCorners(timesTranspose(P, g), lane, product.m_out[b]);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fem/factor/isotropic_panel_kernels.h"
+#include "fem/factor/side_panel_kernels.h"
 #include "fem/pieces.h"
 
 namespace bullet_fem
@@ -105,20 +106,6 @@ void PackedFactor::layOutScratch()
     m_scratchStart.push_back(m_scratchStart.back() + scratchOf(m_scratchRows));
 }
 
-void PackedFactor::forward(const Panel& panel, const PanelGroup& group) const
-{
-    if (m_entry == NodeEntry::block && group.m_count > 1) return forwardPanelGroup(panel, group);
-    const auto alone = m_entry == NodeEntry::block ? forwardPanel : forwardIsotropic;
-    for (int k = 0; k < group.m_count; ++k) alone(panel, group.m_y[k], group.m_scratch[k]);
-}
-
-void PackedFactor::backward(const Panel& panel, const PanelGroup& group) const
-{
-    if (m_entry == NodeEntry::block && group.m_count > 1) return backwardPanelGroup(panel, group);
-    const auto alone = m_entry == NodeEntry::block ? backwardPanel : backwardIsotropic;
-    for (int k = 0; k < group.m_count; ++k) alone(panel, group.m_y[k], group.m_scratch[k]);
-}
-
 // The panel with a subtree's own rows in place of those above it.
 Panel PackedFactor::forwardPanelOf(int supernode) const
 {
@@ -127,56 +114,76 @@ Panel PackedFactor::forwardPanelOf(int supernode) const
     return p;
 }
 
-void PackedFactor::forwardSubtree(int t, const PanelGroup& group) const
+/// How one vector, or some interleaved ones, go through a panel.
+struct PackedFactor::Kernels
 {
-    const Subtree& subtree = m_division.m_subtrees[t];
-    const PanelGroup own = group.withScratchAt(m_scratchStart[t]);
-    for (int k = 0; k < group.m_count; ++k)
-        std::fill_n(group.m_y[k] + 3 * static_cast<std::size_t>(subtree.m_firstAbove),
-                    3 * static_cast<std::size_t>(m_tree.m_supernodes[subtree.m_end - 1].m_rows), 0.f);
-    for (int s = subtree.m_begin; s < subtree.m_end; ++s) forward(forwardPanelOf(s), own);
+    void (*m_forward)(const Panel& panel, float* y, float* scratch);
+    void (*m_backward)(const Panel& panel, float* y, float* scratch);
+    std::size_t m_node;  // floats that a node has in y
+    bool m_ownScratch;   // every subtree has its own
+};
+
+PackedFactor::Kernels PackedFactor::kernels() const
+{
+    const bool blocks = m_entry == NodeEntry::block;
+    return {blocks ? forwardPanel : forwardIsotropic, blocks ? backwardPanel : backwardIsotropic, 3, true};
 }
 
-void PackedFactor::backwardSubtree(int t, const PanelGroup& group) const
-{
-    const Subtree& subtree = m_division.m_subtrees[t];
-    const PanelGroup own = group.withScratchAt(m_scratchStart[t]);
-    for (int s = subtree.m_end - 1; s >= subtree.m_begin; --s) backward(panel(s), own);
-}
-
-void PackedFactor::addRowsAbove(float* y) const
+void PackedFactor::addRowsAbove(const Kernels& kernels, float* y) const
 {
     for (const Subtree& subtree : m_division.m_subtrees)
     {
         const Supernode& root = m_tree.m_supernodes[subtree.m_end - 1];
-        const float* own = y + 3 * static_cast<std::size_t>(subtree.m_firstAbove);
-        for (int k = 0; k < root.m_rows; ++k, own += 3)
+        const float* own = y + kernels.m_node * subtree.m_firstAbove;
+        for (int k = 0; k < root.m_rows; ++k, own += kernels.m_node)
         {
-            float* row = y + 3 * static_cast<std::size_t>(m_tree.m_row[root.m_rowStart + k]);
-            for (int c = 0; c < 3; ++c) row[c] += own[c];
+            float* row = y + kernels.m_node * m_tree.m_row[root.m_rowStart + k];
+            for (std::size_t c = 0; c < kernels.m_node; ++c) row[c] += own[c];
         }
     }
 }
 
-void PackedFactor::solve(float* y, float* scratch, const Threads* threads) const
-{
-    PanelGroup alone;
-    alone.m_count = 1;
-    alone.m_y[0] = y;
-    alone.m_scratch[0] = scratch;
-    solve(alone, threads);
-}
-
-void PackedFactor::solve(const PanelGroup& group, const Threads* threads) const
+void PackedFactor::solve(const Kernels& kernels, float* y, float* scratch, const Threads* threads) const
 {
     const int count = static_cast<int>(m_division.m_subtrees.size());
-    const PanelGroup top = group.withScratchAt(m_scratchStart[count]);
-    runTasks(threads, count, [&](int t) { forwardSubtree(t, group); });
-    for (int k = 0; k < group.m_count; ++k) addRowsAbove(group.m_y[k]);
-    for (int s : m_division.m_top) forward(panel(s), top);
-    for (auto s = m_division.m_top.rbegin(); s != m_division.m_top.rend(); ++s) backward(panel(*s), top);
+    const auto scratchOfSubtree = [&](int t) { return kernels.m_ownScratch ? scratch + m_scratchStart[t] : scratch; };
+    const auto forward = [&](int t)
+    {
+        const Subtree& subtree = m_division.m_subtrees[t];
+        std::fill_n(y + kernels.m_node * subtree.m_firstAbove,
+                    kernels.m_node * m_tree.m_supernodes[subtree.m_end - 1].m_rows, 0.f);
+        for (int s = subtree.m_begin; s < subtree.m_end; ++s)
+            kernels.m_forward(forwardPanelOf(s), y, scratchOfSubtree(t));
+    };
+    const auto backward = [&](int t)
+    {
+        const Subtree& subtree = m_division.m_subtrees[t];
+        for (int s = subtree.m_end - 1; s >= subtree.m_begin; --s) kernels.m_backward(panel(s), y, scratchOfSubtree(t));
+    };
+    runTasks(threads, count, forward);
+    addRowsAbove(kernels, y);
+    float* const top = scratchOfSubtree(count);
+    for (int s : m_division.m_top) kernels.m_forward(panel(s), y, top);
+    for (auto s = m_division.m_top.rbegin(); s != m_division.m_top.rend(); ++s) kernels.m_backward(panel(*s), y, top);
     // The last subtree first: on one thread it is the one still in the caches.
-    runTasks(threads, count, [&](int t) { backwardSubtree(count - 1 - t, group); });
+    runTasks(threads, count, [&](int t) { backward(count - 1 - t); });
+}
+
+void PackedFactor::solve(float* y, float* scratch, const Threads* threads) const
+{
+    solve(kernels(), y, scratch, threads);
+}
+
+void PackedFactor::solveSide(float* y, float* scratch) const
+{
+    solve({forwardPanelSide, backwardPanelSide, 3 * kPanelLanes, false}, y, scratch, nullptr);
+}
+
+std::size_t PackedFactor::sideScratchSize() const
+{
+    std::size_t most = 0;
+    for (int s : m_all) most = std::max(most, sideScratchOf(panel(s)));
+    return most;
 }
 
 void PackedFactor::solveLanes(const std::vector<int>& forward, const std::vector<int>& backward, float* y,

@@ -8,7 +8,6 @@
 #include "bullet_fem/fem/threads.h"
 #include "fem/aligned_floats.h"
 #include "fem/factor/node_entry.h"
-#include "fem/factor/panel_group_kernels.h"
 #include "fem/factor/panel_kernels.h"
 #include "fem/factor/subtrees.h"
 #include "fem/factor/supernode_tree.h"
@@ -57,9 +56,10 @@ public:
     /// bytes. The same bits for any number of threads; null: the caller's alone.
     void solve(float* y, float* scratch, const Threads* threads = nullptr) const;
 
-    /// The same for a group of vectors, each with scratch of its own, in one pass over the panels; every vector gets
-    /// the bits that it gets alone.
-    void solve(const PanelGroup& group, const Threads* threads = nullptr) const;
+    /// The same for kPanelLanes interleaved vectors of a factor of blocks, each of which gets the bits that it gets
+    /// alone: y has vectorSize() * kPanelLanes entries, scratch sideScratchSize(), both aligned to 64 bytes.
+    void solveSide(float* y, float* scratch) const;
+    std::size_t sideScratchSize() const;
 
     /// Floats of scratch that solveLanes() needs.
     std::size_t laneScratchSize() const { return kPanelLanes * scratchOf(m_scratchRows); }
@@ -74,15 +74,14 @@ public:
 
 private:
     std::size_t scratchOf(std::size_t rows) const { return m_entry == NodeEntry::block ? rows : 3 * rows; }
-    void forward(const Panel& panel, const PanelGroup& group) const;
-    void backward(const Panel& panel, const PanelGroup& group) const;
+    struct Kernels;
+    Kernels kernels() const;
+    void solve(const Kernels& kernels, float* y, float* scratch, const Threads* threads) const;
     Panel panel(int supernode) const;
     Panel forwardPanelOf(int supernode) const;
     void layOutPanels();
     void layOutScratch();
-    void forwardSubtree(int t, const PanelGroup& group) const;
-    void backwardSubtree(int t, const PanelGroup& group) const;
-    void addRowsAbove(float* y) const;
+    void addRowsAbove(const Kernels& kernels, float* y) const;
 
     NodeEntry m_entry = NodeEntry::block;
     SupernodeTree m_tree;

@@ -72,8 +72,8 @@ struct btFemSolverInfo
     /// Threads that share the bodies of a step, and the work on a body of some thousand tetrahedra; the stepping one is
     /// among them [-], in [0, 256]; 0: as many as the machine has. The bits of the result are the same for all.
     int m_threads = 1;
-    /// Whether bodies that share their factor, copies of each other, are solved several at a time. The bits of the
-    /// result are the same; off only to compare times.
+    /// Whether bodies that share their factor, copies of each other, are solved side by side, in some 3 KB an
+    /// element and thread. The bits of the result are the same; off to save memory, or to compare times.
     bool m_batchBodies = true;
     /// Who renews stale factors. Bodies that touch something get a new one in any case if the old one is 1.5 times off.
     btFemRefactoring m_refactoring = btFemRefactoring::onRequest;

@@ -91,7 +91,6 @@ void btFemContactGroup::collect(const Scope& scope)
     m_settings.m_sweeps = joints ? std::min(m_info.m_contactSweeps, kSweepsWithJoints) : m_info.m_contactSweeps;
     m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the rounds, too
     m_settings.m_tolerance = m_info.m_contactTolerance;
-    m_settings.m_batchBodies = m_info.m_batchBodies;
     m_settings.m_pushFraction = m_info.m_erp;
     m_settings.m_maxPushVelocity = m_info.m_maxPushVelocity;
     m_milliseconds = watch.milliseconds();

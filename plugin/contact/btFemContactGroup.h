@@ -16,11 +16,13 @@
 class btFemContactGroup
 {
 public:
-    /// `threads` share the searches and the corrective solves; they must live as long as the group.
-    btFemContactGroup(const btFemSolverInfo& info, const bullet_fem::Threads& threads)
+    /// `threads` share the searches and the corrective solves, these in `memory`, if given; both must live as long as
+    /// the group.
+    btFemContactGroup(const btFemSolverInfo& info, const bullet_fem::Threads& threads, bullet_fem::BatchMemory* memory)
         : m_info(info), m_rigidSearch(threads), m_softPairs(threads)
     {
         m_settings.m_step.m_threads = &threads;
+        m_settings.m_step.m_batchMemory = memory;
     }
 
     /// What is solved together, when, and all bodies that are known.

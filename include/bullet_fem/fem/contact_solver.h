@@ -134,7 +134,6 @@ struct ContactSettings
     /// what contact changes at first if that is more [-], > 0. 3e-5 keeps tall stacks still; from 1e-3 on they may
     /// fall. Joints are solved more closely.
     double m_tolerance = 3e-5;
-    bool m_batchBodies = true;     ///< bodies that share their model are corrected several at a time, to the same bits
     bool m_untilSolved = false;    ///< rounds go on to m_maxRounds even where one hardly lowers the error
     int m_denseLimit = 400;        ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
     double m_pushFraction = 0.2;   ///< share of a penetration that is taken back a step [-], in [0, 1]

@@ -5,6 +5,7 @@
 namespace bullet_fem
 {
 
+class BatchMemory;
 class Threads;
 
 /// How the rest factor is turned along with the body.
@@ -27,6 +28,9 @@ struct StepSettings
     /// Who shares the work on a body of some thousand elements; null: the caller's thread alone. The bits of the result
     /// are the same. Must live as long as the settings are used.
     const Threads* m_threads = nullptr;
+    /// Where bodies that share their model are solved side by side, if there are enough of them; null: one after
+    /// another. The bits of the result are the same. Must live as long as the settings are used.
+    BatchMemory* m_batchMemory = nullptr;
 };
 
 /// Why the conjugate gradients stopped.

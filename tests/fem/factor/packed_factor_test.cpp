@@ -128,35 +128,18 @@ TEST_P(PackedSolve, GivesTheSameBitsEveryTime)
     EXPECT_EQ(first, std::vector<float>(m_y.get(), m_y.get() + m_packed.size()));
 }
 
-// Alone, two, three and four at a time.
-TEST_P(PackedSolve, GivesEveryVectorOfAGroupItsOwnBits)
+TEST_P(PackedSolve, GivesVectorsSideBySideTheirOwnBits)
 {
-    std::vector<AlignedFloats> memory;
-    PanelGroup group;
-    for (int k = 0; k < kPanelGroup; ++k)
+    const AlignedFloats y = allocateFloats(m_packed.vectorSize() * kPanelLanes);
+    const AlignedFloats scratch = allocateFloats(m_packed.sideScratchSize());
+    const std::vector<float> b = randomVector(m_packed.size() * kPanelLanes, 5);
+    std::copy(b.begin(), b.end(), y.get());
+    m_packed.solveSide(y.get(), scratch.get());
+    for (int lane = 0; lane < kPanelLanes; ++lane)
     {
-        memory.push_back(allocateFloats(m_packed.vectorSize()));
-        memory.push_back(allocateFloats(m_packed.scratchSize()));
-        group.m_y[k] = memory[2 * k].get();
-        group.m_scratch[k] = memory[2 * k + 1].get();
-    }
-    for (group.m_count = 1; group.m_count <= kPanelGroup; ++group.m_count)
-    {
-        const auto right = [&](int k) { return randomVector(m_packed.size(), 10 * group.m_count + k); };
-        for (int k = 0; k < group.m_count; ++k)
-        {
-            const std::vector<float> b = right(k);
-            std::copy(b.begin(), b.end(), group.m_y[k]);
-        }
-        m_packed.solve(group);
-        for (int k = 0; k < group.m_count; ++k)
-        {
-            const std::vector<float> b = right(k);
-            std::copy(b.begin(), b.end(), m_y.get());
-            m_packed.solve(m_y.get(), m_scratch.get());
-            EXPECT_TRUE(std::equal(m_y.get(), m_y.get() + m_packed.size(), group.m_y[k]))
-                << k << " of " << group.m_count;
-        }
+        for (int i = 0; i < m_packed.size(); ++i) m_y[i] = b[i * kPanelLanes + lane];
+        m_packed.solve(m_y.get(), m_scratch.get());
+        for (int i = 0; i < m_packed.size(); ++i) ASSERT_EQ(y[i * kPanelLanes + lane], m_y[i]) << i << ", " << lane;
     }
 }
 

@@ -103,13 +103,13 @@ struct ElementCase
 
     ElementPass<Real> pass()
     {
-        return {&m_elements,    m_x.data(),        m_v.data(),       0.05,           kStiffnessFactor,
+        return {&m_elements,    m_x.data(),        m_v.data(),       0.05,
                 kTensionFactor, m_rotation.data(), m_corners.data(), m_warped.data()};
     }
 
     ElementProduct<Real> product(const std::vector<PaddedVec3>& p)
     {
-        return {&m_elements, m_warped.data(), p.data(), m_corners.data()};
+        return {&m_elements, m_warped.data(), kStiffnessFactor, p.data(), m_corners.data()};
     }
 
     Range blocks() const { return {0, m_elements.blockCount()}; }

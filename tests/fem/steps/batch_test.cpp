@@ -9,7 +9,10 @@
 #include <limits>
 #include <set>
 
+#include "bullet_fem/fem/batch_memory.h"
 #include "bullet_fem/fem/threads.h"
+#include "fem/lanes/side_by_side.h"
+#include "fem/scenes/element_case.h"
 #include "fem/scenes/stepping_scenes.h"
 
 namespace bullet_fem
@@ -64,6 +67,7 @@ public:
 
     void stepTogether(const Threads* threads = nullptr)
     {
+        for (StepSettings& settings : m_settings) settings.m_batchMemory = &m_memory;
         std::vector<FreeMotion> motions;
         std::vector<ImpulseResponse> responses;
         for (int k = 0; k < count(); ++k)
@@ -96,6 +100,14 @@ public:
         }
     }
 
+    // How many bodies do not have to go alone.
+    int sideBySide()
+    {
+        int result = 0;
+        for (int k = 0; k < count(); ++k) result += canBeSideBySide(FreeMotion{&m_bodies[k], m_settings[k], {}});
+        return result;
+    }
+
     void expectSameBits(const Copies& other, int step) const
     {
         for (int k = 0; k < count(); ++k)
@@ -107,6 +119,7 @@ public:
         }
     }
 
+    BatchMemory m_memory;
     std::vector<Body> m_bodies;
     std::vector<StepSettings> m_settings;
     std::vector<std::vector<Vec3>> m_impulses;
@@ -129,7 +142,25 @@ TEST_P(Batch, GivesEveryBodyItsOwnBits)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, Batch, testing::Values(1, 2, 3, 4, 5, 17));
+INSTANTIATE_TEST_SUITE_P(Sizes, Batch, testing::Values(1, 5, 17, 40));
+
+class BatchOnTarget : public OnTarget
+{
+};
+
+TEST_P(BatchOnTarget, GivesEveryBodyItsOwnBits)
+{
+    const auto model = makeBody(makeBox({1, 0.8, 0.7}, {3, 3, 2}), dampedMaterial()).m_model;
+    Copies together(model, 40), alone(model, 40);
+    for (int k = 0; k < 5; ++k)
+    {
+        together.stepTogether();
+        alone.stepAlone();
+        together.expectSameBits(alone, k);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, BatchOnTarget, testing::ValuesIn(availableTargets()), targetName);
 
 // What the comparison above is worth: the bodies need different numbers of iterations, and stop for different reasons.
 TEST(BatchOfCopies, ConvergesBodyByBody)
@@ -144,6 +175,7 @@ TEST(BatchOfCopies, ConvergesBodyByBody)
         stops.insert(report.m_stop);
     }
     EXPECT_GE(iterations.size(), 5u);
+    EXPECT_GE(bodies.sideBySide(), kLeastSideBySide);
     EXPECT_EQ(stops, (std::set<SolveStop>{SolveStop::converged, SolveStop::budget}));
 }
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// What follows from the edges and the rotations of elements, several at a time, wherever they lie: side by side in a
+// body's blocks, or one element of several bodies. Included once for every instruction set.
+#if defined(BULLETFEM_ELEMENT_MATH_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BULLETFEM_ELEMENT_MATH_INL_H
+#undef BULLETFEM_ELEMENT_MATH_INL_H
+#else
+#define BULLETFEM_ELEMENT_MATH_INL_H
+#endif
+
+#include "fem/elements/deformed_edges-inl.h"
+#include "fem/elements/positive_part-inl.h"
+
+#if HWY_TARGET != HWY_SCALAR
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+
+/// The strain sym(A B^T), shears doubled.
+template <class Real>
+HWY_INLINE Symmetric<Real> strainOf(const Matrix<Real>& A, const Matrix<Real>& B)
+{
+    const auto entry = [&](int i, int j)
+    { return dot3(A.m[i][0], B.m[j][0], A.m[i][1], B.m[j][1], A.m[i][2], B.m[j][2]); };
+    return {entry(0, 0),
+            entry(1, 1),
+            entry(2, 2),
+            entry(1, 2) + entry(2, 1),
+            entry(0, 2) + entry(2, 0),
+            entry(0, 1) + entry(1, 0)};
+}
+
+/// 2 mu E + lambda tr(E) I of a strain with doubled shears; the Lame constants times the volume.
+template <class Real>
+HWY_INLINE Symmetric<Real> hooke(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& E)
+{
+    const Vector<Real> twoMu = mu + mu, pressure = lambda * trace(E);
+    return {hn::MulAdd(twoMu, E.xx, pressure),
+            hn::MulAdd(twoMu, E.yy, pressure),
+            hn::MulAdd(twoMu, E.zz, pressure),
+            mu * E.yz,
+            mu * E.xz,
+            mu * E.xy};
+}
+
+/// What an ElementPass makes of elements once they are rotated, but for their tension, which is the positive part of
+/// the stress that is returned. Strains and stresses are those of the world's frame, R E R^T = sym(F R^T) - I: with F
+/// R^T = D_s g'^T, g' = R D_m^-T, forces and tension need R by g' alone. Elements have edges(part), restEdges(part),
+/// velocityEdges(), DmInverse(), lambda(), mu() and damping(), and take forces, the columns f_1, f_2, f_3, and
+/// gradients, the columns g'_1, g'_2, g'_3. Between the parts of the work, other(part) is called for part in [0, 3].
+template <class Real, class Elements, class Other>
+HWY_INLINE Symmetric<Real> passElements(const Elements& elements, const Quaternions<Real>& q, const Other& other)
+{
+    const Vector<Real> lambda = elements.lambda(), mu = elements.mu();
+    other(0);
+    const Matrix<Real> R = toMatrix(q, number<Real>(2));
+    const Matrix<Real> g = timesTranspose(R, elements.DmInverse());  // R D_m^-T
+    // D_s - R D_m instead of D_s: sym(F R^T) - I would lose strains to rounding.
+    const Matrix<Real> stretch = edgesMinusRotated(elements, q);
+    const Symmetric<Real> strain = strainOf(stretch, g);
+    other(1);
+    const Symmetric<Real> rate = strainOf(elements.velocityEdges(), g);
+    const Symmetric<Real> damped = combined<Real>(elements.damping(), rate, number<Real>(1), strain);
+    const Symmetric<Real> minusStress = hooke<Real>(hn::Neg(lambda), hn::Neg(mu), damped);
+    other(2);
+    elements.storeForces(times(full(minusStress), g));
+    elements.storeGradients(g);
+    other(3);
+    return hooke<Real>(lambda, mu, strain);
+}
+
+/// The tension that an ElementPass makes of a stress.
+template <class Real>
+HWY_INLINE Symmetric<Real> tensionOf(double factor, const Symmetric<Real>& elastic)
+{
+    const Vector<Real> zero = number<Real>(0);
+    if (factor == 0) return {zero, zero, zero, zero, zero, zero};
+    return positivePart(number<Real>(factor), elastic);
+}
+
+/// lambda tr(H) I + mu (H + H^T) + H T.
+template <class Real>
+HWY_INLINE Matrix<Real> warpedStress(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& T,
+                                     const Matrix<Real>& H)
+{
+    using V = Vector<Real>;
+    const V pressure = lambda * (H.m[0][0] + H.m[1][1] + H.m[2][2]);
+    Matrix<Real> P;
+    HWY_UNROLL(3)
+    for (int i = 0; i < 3; ++i)
+    {
+        const V a = H.m[i][0], b = H.m[i][1], c = H.m[i][2];
+        P.m[i][0] = hn::MulAdd(mu, a + H.m[0][i], dot3(a, T.xx, b, T.xy, c, T.xz));
+        P.m[i][1] = hn::MulAdd(mu, b + H.m[1][i], dot3(a, T.xy, b, T.yy, c, T.yz));
+        P.m[i][2] = hn::MulAdd(mu, c + H.m[2][i], dot3(a, T.xz, b, T.yz, c, T.zz));
+        P.m[i][i] = P.m[i][i] + pressure;
+    }
+    return P;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+#endif  // HWY_TARGET != HWY_SCALAR
+
+#endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <cstddef>
+
+#include "fem/factor/panel_kernels.h"
+
+namespace bullet_fem
+{
+
+/// forwardPanel() and backwardPanel() for kPanelLanes right-hand sides, interleaved as forwardPanelLanes() has them,
+/// each with the bits that it gets alone: sums are taken in another order than there, which costs a little. `scratch`
+/// has sideScratchOf(panel) entries. Run on the widest vectors that the processor has.
+void forwardPanelSide(const Panel& panel, float* y, float* scratch);
+void backwardPanelSide(const Panel& panel, float* y, float* scratch);
+
+/// Rows, and parts of sums of the columns of a chunk, of all right-hand sides.
+inline std::size_t sideScratchOf(const Panel& panel)
+{
+    const std::size_t rows = panel.m_rowsBelow + panel.m_columns, parts = kPanelColumns * kPanelLanes / 2;
+    return kPanelLanes * (rows + parts);
+}
+
+}  // namespace bullet_fem

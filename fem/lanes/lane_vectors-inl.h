@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Vectors of three of some bodies side by side, as the operators of Vec3 have them, bit for bit. Included once for
+// every instruction set.
+#if defined(BULLETFEM_LANE_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BULLETFEM_LANE_VECTORS_INL_H
+#undef BULLETFEM_LANE_VECTORS_INL_H
+#else
+#define BULLETFEM_LANE_VECTORS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+
+#include "fem/lanes/body_lane.h"
+#include "fem/pieces.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, kBodyLanes>;
+using V = hn::Vec<D>;
+constexpr int kN = static_cast<int>(hn::MaxLanes(D()));  // bodies of a vector
+
+struct V3
+{
+    V x, y, z;
+};
+
+HWY_INLINE V3 operator+(const V3& a, const V3& b)
+{
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HWY_INLINE V3 operator-(const V3& a, const V3& b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HWY_INLINE V3 operator*(const V3& a, V s)
+{
+    return {a.x * s, a.y * s, a.z * s};
+}
+HWY_INLINE V dot(const V3& a, const V3& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+HWY_INLINE V3 cross(const V3& a, const V3& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Where a node's vectors are in [node][3][body], from body `lane` on; its masses in [node][body].
+HWY_INLINE std::size_t place(int node, int lane)
+{
+    return static_cast<std::size_t>(node) * 3 * kBodyLanes + lane;
+}
+HWY_INLINE std::size_t massPlace(int node, int lane)
+{
+    return static_cast<std::size_t>(node) * kBodyLanes + lane;
+}
+
+HWY_INLINE V loadOne(const double* from)
+{
+    return hn::Load(D(), from);
+}
+HWY_INLINE V3 load3(const double* from)
+{
+    return {loadOne(from), loadOne(from + kBodyLanes), loadOne(from + 2 * kBodyLanes)};
+}
+HWY_INLINE void store3(const V3& v, double* to)
+{
+    hn::Store(v.x, D(), to);
+    hn::Store(v.y, D(), to + kBodyLanes);
+    hn::Store(v.z, D(), to + 2 * kBodyLanes);
+}
+
+/// What the corners at a node hold: the two sums of it.
+HWY_INLINE V3 sumOfCorners(const double* sums, int node, int lane)
+{
+    return load3(sums + place(2 * node, lane)) + load3(sums + place(2 * node + 1, lane));
+}
+
+/// Calls visit(node, lane) for every node and vector of bodies.
+template <class Visit>
+HWY_INLINE void forEachNode(int nodes, const Visit& visit)
+{
+    for (int node = 0; node < nodes; ++node)
+        for (int lane = 0; lane < kBodyLanes; lane += kN) visit(node, lane);
+}
+
+/// Calls visit(at, lane) for every vector of numbers of [node][3][body].
+template <class Visit>
+HWY_INLINE void forEachNumber(int nodes, const Visit& visit)
+{
+    const std::size_t size = place(nodes, 0);
+    for (std::size_t at = 0; at < size; at += kBodyLanes)
+        for (int lane = 0; lane < kBodyLanes; lane += kN) visit(at + lane, lane);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+
+#endif

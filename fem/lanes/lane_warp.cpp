@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Compiled once for every instruction set; the processor chooses when the program runs.
+#include "fem/lanes/lane_warp.h"
+
+#include "fem/vector_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fem/lanes/lane_warp.cpp"
+#include <hwy/foreach_target.h>
+// after foreach_target.h
+#include "fem/elements/careful_average.h"
+#include "fem/lanes/lane_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+
+using DF = hn::Rebind<float, D>;  // as many bodies as a vector of doubles has
+using F = hn::Vec<DF>;
+
+/// [item][Count][body], from body `lane` on.
+template <int Count>
+HWY_INLINE void loadFloats(const float* from, int item, int lane, F (&v)[Count])
+{
+    const float* at = from + static_cast<std::size_t>(item) * Count * kBodyLanes + lane;
+    HWY_UNROLL(9)
+    for (int k = 0; k < Count; ++k) v[k] = hn::Load(DF(), at + k * kBodyLanes);
+}
+
+template <int Count>
+HWY_INLINE void storeFloats(const F (&v)[Count], int item, int lane, float* to)
+{
+    float* at = to + static_cast<std::size_t>(item) * Count * kBodyLanes + lane;
+    HWY_UNROLL(9)
+    for (int k = 0; k < Count; ++k) hn::Store(v[k], DF(), at + k * kBodyLanes);
+}
+
+/// R, row-major, of quaternions of squared length n > 0.
+HWY_INLINE void rotationOf(const F (&q)[4], F n, F (&R)[9])
+{
+    const F one = hn::Set(DF(), 1.f), s = hn::Set(DF(), 2.f) / n;
+    const F sx = s * q[0], sy = s * q[1], sz = s * q[2];
+    const F xx = sx * q[0], yy = sy * q[1], zz = sz * q[2], xy = sx * q[1], xz = sx * q[2], yz = sy * q[2];
+    const F wx = sx * q[3], wy = sy * q[3], wz = sz * q[3];
+    const F entries[9] = {one - (yy + zz), xy - wz, xz + wy, xy + wz,        one - (xx + zz),
+                          yz - wx,         xz - wy, yz + wx, one - (xx + yy)};
+    for (int k = 0; k < 9; ++k) R[k] = entries[k];
+}
+
+/// Bit b of every body b that is not marked.
+HWY_INLINE unsigned unmarked(hn::Mask<DF> mask, int lane)
+{
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(DF(), mask, bits);
+    const unsigned all = (1u << kN) - 1;
+    return (~static_cast<unsigned>(bits[0]) & all) << lane;
+}
+
+void AverageLanes(const LaneNodeRotations& rotations)
+{
+    const NodeCorners& nodes = *rotations.m_nodes;
+    for (int i = 0; i < nodes.nodeCount(); ++i)
+    {
+        rotations.m_doubtful[i] = 0;
+        const F least = hn::Set(DF(), leastSquaredLength(nodes, i));
+        for (int lane = 0; lane < kBodyLanes; lane += kN)
+        {
+            F sums[2][4];
+            for (auto& sum : sums)
+                for (F& component : sum) component = hn::Zero(DF());
+            for (int k = nodes.m_start[i], turn = 0; k < nodes.m_start[i + 1]; ++k, turn = 1 - turn)
+            {
+                const int e = NodeCorners::element(nodes.m_corner[k]);
+                const F volume = hn::Set(DF(), nodes.m_volume[e]);
+                F q[4];
+                loadFloats(rotations.m_elements, e, lane, q);
+                HWY_UNROLL(4)
+                for (int c = 0; c < 4; ++c) sums[turn][c] = hn::MulAdd(volume, q[c], sums[turn][c]);
+            }
+            F q[4], R[9];
+            HWY_UNROLL(4)
+            for (int c = 0; c < 4; ++c) q[c] = sums[0][c] + sums[1][c];
+            const F squaredLength = (q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]);
+            rotations.m_doubtful[i] |= unmarked(squaredLength >= least, lane);
+            rotationOf(q, squaredLength, R);
+            storeFloats(R, i, lane, rotations.m_out);
+        }
+    }
+}
+
+void RotateIn(const LaneWarp& warp, ConstBodyVectors in, PerLane& largest)
+{
+    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    {
+        const V zero = hn::Zero(D()), one = hn::Set(D(), 1.0);
+        V most = zero;
+        for (int i = 0; i < warp.m_nodes; ++i)
+        {
+            const V3 r = load3(in + place(i, lane));
+            most = hn::Max(hn::Max(most, hn::Abs(r.x)), hn::Max(hn::Abs(r.y), hn::Abs(r.z)));
+        }
+        hn::Store(most, D(), largest.m + lane);
+        const V down = hn::IfThenElseZero(most > zero, one / most);
+        for (int i = 0; i < warp.m_nodes; ++i)
+        {
+            const V3 r = load3(in + place(i, lane)) * down;
+            const F x = hn::DemoteTo(DF(), r.x), y = hn::DemoteTo(DF(), r.y), z = hn::DemoteTo(DF(), r.z);
+            F R[9], turned[3];
+            loadFloats(warp.m_rotation, i, lane, R);
+            HWY_UNROLL(3)
+            for (int c = 0; c < 3; ++c) turned[c] = R[c] * x + R[3 + c] * y + R[6 + c] * z;
+            storeFloats(turned, warp.m_position[i], lane, warp.m_factorVector);
+        }
+    }
+}
+
+void RotateOut(const LaneWarp& warp, const PerLane& scale, BodyVectors out)
+{
+    forEachNode(warp.m_nodes,
+                [&](int node, int lane)
+                {
+                    F R[9], q[3];
+                    loadFloats(warp.m_rotation, node, lane, R);
+                    loadFloats(warp.m_factorVector, warp.m_position[node], lane, q);
+                    const auto row = [&](int c)
+                    { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
+                    store3(V3{row(0), row(1), row(2)} * loadOne(scale.m + lane), out + place(node, lane));
+                });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bullet_fem
+{
+
+HWY_EXPORT(AverageLanes);
+HWY_EXPORT(RotateIn);
+HWY_EXPORT(RotateOut);
+
+void averageLanes(const LaneNodeRotations& rotations)
+{
+    HWY_DYNAMIC_DISPATCH(AverageLanes)(rotations);
+}
+
+PerLane rotateIn(const LaneWarp& warp, ConstBodyVectors in)
+{
+    PerLane largest;
+    HWY_DYNAMIC_DISPATCH(RotateIn)(warp, in, largest);
+    return largest;
+}
+
+void rotateOut(const LaneWarp& warp, const PerLane& scale, BodyVectors out)
+{
+    HWY_DYNAMIC_DISPATCH(RotateOut)(warp, scale, out);
+}
+
+}  // namespace bullet_fem
+#endif

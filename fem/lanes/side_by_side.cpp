@@ -1,0 +1,605 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/lanes/side_by_side.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+
+#include "fem/elements/careful_average.h"
+#include "fem/elements/model_elements.h"
+#include "fem/factor/rest_factor.h"
+#include "fem/increment_solve.h"
+#include "fem/lanes/batch_loan.h"
+#include "fem/lanes/lane_exchange.h"
+#include "fem/step_scratch.h"
+#include "fem/warped_system.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+bool isPlain(const Body& body, const StepSettings& settings)
+{
+    const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
+    return settings.m_batchMemory && settings.m_warp == Warp::nodal && isSinglePrecision(settings) &&
+           !(body.m_loads.m_frameDamping > 0) && std::find(fixed.begin(), fixed.end(), 1) == fixed.end() &&
+           canBeSideBySide(*body.m_model);
+}
+
+/// Bodies in their lanes; the lanes behind the last one have its values, too, and nothing comes of them.
+class SideBySide
+{
+public:
+    SideBySide(BodyLanes& lanes, Body* const* bodies, int count, const StepSettings& settings)
+        : m_lanes(lanes), m_count(count), m_settings(settings)
+    {
+        for (int b = 0; b < kBodyLanes; ++b) m_bodies[b] = bodies[std::min(b, count - 1)];
+    }
+
+protected:
+    Body& body(int b) const { return *m_bodies[b]; }
+    StepScratch& scratch(int b) const { return m_bodies[b]->m_workspace.scratch(); }
+    int nodes() const { return m_lanes.nodeCount(); }
+
+    /// Calls of(b), which tells an array of Real, for all lanes, and takes them to [value][body].
+    template <class Real, class Of>
+    void gather(const Of& of, Real* to, const LaneLayout& layout) const
+    {
+        Real* arrays[kBodyLanes];
+        for (int b = 0; b < kBodyLanes; ++b) arrays[b] = const_cast<Real*>(of(b));
+        gatherLanes(arrays, to, layout);
+    }
+
+    /// The way back; where of(b) is null, nothing goes.
+    template <class Real, class Of>
+    void scatter(const Of& of, const Real* from, const LaneLayout& layout) const
+    {
+        Real* arrays[kBodyLanes] = {};
+        for (int b = 0; b < m_count; ++b) arrays[b] = of(b);
+        scatterLanes(arrays, from, layout);
+    }
+
+    LaneLayout warped() const { return {m_lanes.elementCount(), kWarpedRows}; }
+
+    /// The same for vectors of all nodes: of(b) tells a std::vector<Vec3>.
+    template <class Of>
+    void gatherVectors(const Of& of, BodyVectors to) const
+    {
+        gather([&](int b) { return &of(b).front().x; }, to, {3 * nodes()});
+    }
+    template <class Of>
+    void scatterVectors(const Of& of, BodyVectors from) const
+    {
+        scatter(
+            [&](int b)
+            {
+                std::vector<Vec3>* vectors = of(b);
+                return vectors ? &vectors->front().x : nullptr;
+            },
+            from, {3 * nodes()});
+    }
+
+    void gatherNodes();
+    void gatherMomenta();
+    void keepMomenta() const;
+    void scatterWarped();
+    void gatherWarped();
+    void completeIncrement();
+    void solve(const std::array<IncrementGoal, kBodyLanes>& goals,
+               const std::array<StepSettings, kBodyLanes>& settings);
+    void addIncrement();
+    void keepResiduals(const std::array<bool, kBodyLanes>& wanted) const;
+
+    BodyLanes& m_lanes;
+    Body* m_bodies[kBodyLanes];
+    int m_count;
+    StepSettings m_settings;
+    LanePieces m_pieces;
+    PerLane m_inertiaFactor;  // 1 + h alpha
+    std::array<SolveReport, kBodyLanes> m_reports;
+
+private:
+    void applyA(ConstBodyVectors in, BodyVectors out);
+    PerLane residualNorms(const PerLane& active);
+    void measureTruly(ConjugateGradientCourse* courses);
+    void advance(ConjugateGradientCourse* courses);
+    LaneRecurrence recurrence(const PerLane& active) const;
+};
+
+void SideBySide::gatherNodes()
+{
+    gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_state.m_x; }, m_lanes.m_x.get());
+    gather([this](int b) { return body(b).m_state.m_mass.data(); }, m_lanes.m_mass.get(), {nodes()});
+}
+
+void SideBySide::gatherMomenta()
+{
+    for (int b = 0; b < kBodyLanes; ++b)
+    {
+        const RigidMomentum::FreePiece piece = scratch(b).m_momentum.onlyPiece();
+        m_pieces.m_mass[b] = piece.m_mass;
+        for (int c = 0; c < 3; ++c)
+        {
+            m_pieces.m_center[c][b] = piece.m_center[c];
+            m_pieces.m_linear[c][b] = piece.m_linear[c];
+            m_pieces.m_angular[c][b] = piece.m_angular[c];
+        }
+        for (int k = 0; k < 9; ++k) m_pieces.m_inertia[k][b] = piece.m_inverseInertia(k / 3, k % 3);
+    }
+}
+
+void SideBySide::keepMomenta() const
+{
+    for (int b = 0; b < m_count; ++b)
+    {
+        RigidMomentum::FreePiece piece;
+        piece.m_mass = m_pieces.m_mass[b];
+        for (int c = 0; c < 3; ++c)
+        {
+            piece.m_center[c] = m_pieces.m_center[c][b];
+            piece.m_linear[c] = m_pieces.m_linear[c][b];
+            piece.m_angular[c] = m_pieces.m_angular[c][b];
+        }
+        for (int k = 0; k < 9; ++k) piece.m_inverseInertia(k / 3, k % 3) = m_pieces.m_inertia[k][b];
+        scratch(b).m_momentum.setOnlyPiece(piece);
+    }
+}
+
+// What A and P need of every body alone.
+void SideBySide::scatterWarped()
+{
+    const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
+    for (int b = 0; b < m_count; ++b)
+    {
+        ElementWork& work = scratch(b).m_elements;
+        work.m_isDouble = false;
+        work.m_stiffnessFactor = h * h + h * beta;
+        for (int i = 0; i < nodes(); ++i) work.m_scaledMass[i] = m_inertiaFactor[b] * body(b).m_state.m_mass[i];
+    }
+    scatter([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_lanes.m_nodeRotation.get(),
+            {9 * nodes()});
+}
+
+void SideBySide::gatherWarped()
+{
+    gather([this](int b) { return scratch(b).m_elements.m_single.m_warped.front().rows(); }, m_lanes.m_warped.get(),
+           warped());
+    gather([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_lanes.m_nodeRotation.get(),
+           {9 * nodes()});
+}
+
+// See completeIncrement() of a body.
+void SideBySide::completeIncrement()
+{
+    addLanes(m_lanes.m_v.get(), m_lanes.m_increment.get(), nodes());
+    restoreMomentum(m_lanes.masses(), m_pieces, m_lanes.m_increment.get());
+    subtractLanes(m_lanes.m_increment.get(), m_lanes.m_v.get(), m_lanes.m_increment.get(), nodes());
+}
+
+void SideBySide::applyA(ConstBodyVectors in, BodyVectors out)
+{
+    const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
+    m_lanes.clearSums();
+    multiplyLanes(m_lanes.elements(), h * h + h * beta, in);
+    addInertia(m_lanes.m_sums.get(), m_lanes.m_mass.get(), m_inertiaFactor, in, out, nodes());
+}
+
+LaneRecurrence SideBySide::recurrence(const PerLane& active) const
+{
+    return {nodes(),
+            m_lanes.m_increment.get(),
+            m_lanes.m_residual.get(),
+            m_lanes.m_direction.get(),
+            m_lanes.m_rightSide.get(),
+            m_lanes.m_product.get(),
+            active};
+}
+
+// |a| of every body.
+PerLane normsOf(ConstBodyVectors a, int nodes)
+{
+    PerLane norms = dotLanes(a, a, nodes);
+    for (double& norm : norms.m) norm = std::sqrt(norm);
+    return norms;
+}
+
+// r = b - A x of some bodies, and its norm.
+PerLane SideBySide::residualNorms(const PerLane& active)
+{
+    applyA(m_lanes.m_increment.get(), m_lanes.m_product.get());
+    subtractProduct(recurrence(active));
+    return normsOf(m_lanes.m_residual.get(), nodes());
+}
+
+void SideBySide::measureTruly(ConjugateGradientCourse* courses)
+{
+    PerLane active;
+    const auto any = [&active] { return std::any_of(active.m, active.m + kBodyLanes, [](double a) { return a > 0; }); };
+    for (int b = 0; b < m_count; ++b) active[b] = courses[b].wantsTrueResidual();
+    if (any())
+    {
+        const PerLane norms = residualNorms(active);
+        for (int b = 0; b < m_count; ++b)
+            if (active[b] > 0) courses[b].noteTrueResidual(norms[b]);
+    }
+    for (int b = 0; b < m_count; ++b) active[b] = courses[b].decide();
+    if (!any()) return;
+    const PerLane norms = residualNorms(active);
+    for (int b = 0; b < m_count; ++b)
+        if (active[b] > 0) courses[b].noteLastResidual(norms[b]);
+}
+
+// An iteration of those that are not over yet.
+void SideBySide::advance(ConjugateGradientCourse* courses)
+{
+    double *r = m_lanes.m_residual.get(), *p = m_lanes.m_direction.get(), *Ap = m_lanes.m_product.get();
+    PerLane active, beta, step;
+    for (int b = 0; b < m_count; ++b) active[b] = !courses[b].isOver();
+
+    const PerLane scale = rotateIn(m_lanes.warp(), r);
+    m_lanes.model().factor().lower().solveSide(m_lanes.m_factorVector.get(), m_lanes.m_factorScratch.get());
+    double* const z = Ap;  // until A p takes its place
+    rotateOut(m_lanes.warp(), scale, z);
+    const PerLane rz = dotLanes(r, z, nodes());
+    for (int b = 0; b < m_count; ++b) beta[b] = courses[b].beta(rz[b]);
+    turnDirection(recurrence(active), z, beta);
+    applyA(p, Ap);
+    const PerLane pAp = dotLanes(p, Ap, nodes());
+    for (int b = 0; b < m_count; ++b) active[b] = active[b] > 0 && courses[b].step(rz[b], pAp[b], step[b]);
+    advanceAlong(recurrence(active), step);
+    const PerLane norms = normsOf(r, nodes());
+    for (int b = 0; b < m_count; ++b)
+        if (active[b] > 0) courses[b].noteStep(rz[b], norms[b]);
+}
+
+// solveConjugateGradients() of the increments.
+void SideBySide::solve(const std::array<IncrementGoal, kBodyLanes>& goals,
+                       const std::array<StepSettings, kBodyLanes>& settings)
+{
+    double *x = m_lanes.m_increment.get(), *b = m_lanes.m_rightSide.get();
+    const PerLane bb = normsOf(b, nodes()), xx = dotLanes(x, x, nodes());
+    ConjugateGradientCourse courses[kBodyLanes];
+    PerLane guessed, scaled, all;
+    bool anyGuess = false;
+    for (int k = 0; k < m_count; ++k)
+    {
+        all[k] = 1;
+        guessed[k] = xx[k] > 0;
+        anyGuess = anyGuess || xx[k] > 0;
+        courses[k] = ConjugateGradientCourse(stopOf(settings[k], goals[k]), bb[k], !(xx[k] > 0));
+    }
+    if (anyGuess)
+    {
+        const PerLane norms = residualNorms(all);  // where x is zero, r = b
+        for (int k = 0; k < m_count; ++k) scaled[k] = guessed[k] > 0 && !courses[k].noteGuess(norms[k]);
+        const PerLane bx = dotLanes(b, x, nodes()), xAx = dotLanes(x, m_lanes.m_product.get(), nodes());
+        PerLane scale;
+        for (int k = 0; k < m_count; ++k) scale[k] = optimalScale(bx[k], xAx[k]);
+        scaleGuess(recurrence(scaled), scale);
+        const PerLane scaledNorms = normsOf(m_lanes.m_residual.get(), nodes());
+        for (int k = 0; k < m_count; ++k)
+            if (scaled[k] > 0) courses[k].noteScaledGuess(scaledNorms[k]);
+    }
+    else
+        std::copy_n(b, static_cast<std::size_t>(3 * kBodyLanes) * nodes(), m_lanes.m_residual.get());
+    measureTruly(courses);
+    while (!std::all_of(courses, courses + m_count, [](const auto& course) { return course.isOver(); }))
+    {
+        advance(courses);
+        measureTruly(courses);
+    }
+    for (int k = 0; k < m_count; ++k) m_reports[k] = courses[k].report();
+}
+
+void SideBySide::addIncrement()
+{
+    addLanes(m_lanes.m_increment.get(), m_lanes.m_v.get(), nodes());
+    if (m_settings.m_momentumCorrection) restoreMomentum(m_lanes.masses(), m_pieces, m_lanes.m_v.get());
+    scatterVectors([this](int b) { return &scratch(b).m_velocity; }, m_lanes.m_v.get());
+}
+
+// What impulses have left undone; nothing after a breakdown.
+void SideBySide::keepResiduals(const std::array<bool, kBodyLanes>& wanted) const
+{
+    const auto keeps = [&](int b) { return wanted[b] && m_reports[b].m_stop != SolveStop::breakdown; };
+    scatterVectors([&](int b) { return keeps(b) ? &scratch(b).m_residual : nullptr; }, m_lanes.m_residual.get());
+    for (int b = 0; b < m_count; ++b)
+        if (!keeps(b)) std::fill(scratch(b).m_residual.begin(), scratch(b).m_residual.end(), Vec3());
+}
+
+class SideBySideMotions : public SideBySide
+{
+public:
+    SideBySideMotions(BodyLanes& lanes, Body* const* bodies, int count, FreeMotion* const* motions)
+        : SideBySide(lanes, bodies, count, motions[0]->m_settings), m_motions(motions)
+    {
+    }
+
+    void run()
+    {
+        gatherState();
+        prescribe();
+        assemble();
+        rotateNodes();
+        guess();
+        solve(m_goals, m_allSettings);
+        addIncrement();
+        keep();
+    }
+
+private:
+    const FreeMotion& motion(int b) const { return *m_motions[std::min(b, m_count - 1)]; }
+
+    void gatherState()
+    {
+        gatherNodes();
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_state.m_v; }, m_lanes.m_v.get());
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_loads.m_force; },
+                      m_lanes.m_rightSide.get());
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            m_alpha[b] = RigidMomentum::damping(body(b));
+            m_inertiaFactor[b] = 1 + m_settings.m_step * m_alpha[b];
+            m_allSettings[b] = motion(b).m_settings;
+        }
+        const PerLane squares = squareInOrder(m_lanes.m_rightSide.get(), nodes());
+        for (int b = 0; b < kBodyLanes; ++b)
+            m_goals[b] = {1e-3 * (m_settings.m_step * std::sqrt(squares[b])), motion(b).m_expected != nullptr};
+    }
+
+    // See RigidMomentum::prescribe().
+    void prescribe()
+    {
+        LaneLoads loads = {m_lanes.m_v.get(), m_lanes.m_rightSide.get(), m_alpha, {}};
+        sumMasses(m_lanes.masses(), m_pieces);
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            const double perMass = 1 / m_pieces.m_mass[b];
+            for (PerLane& component : m_pieces.m_center) component[b] *= perMass;
+            loads.m_share[b] = m_settings.m_step / (1 + m_settings.m_step * m_alpha[b]);
+        }
+        sumPrescribed(m_lanes.masses(), loads, m_pieces);
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            Mat3 inertia;
+            for (int k = 0; k < 9; ++k) inertia(k / 3, k % 3) = m_pieces.m_inertia[k][b];
+            const Vec3 center = {m_pieces.m_center[0][b], m_pieces.m_center[1][b], m_pieces.m_center[2][b]};
+            inertia = RigidMomentum::inverseInertia(inertia, m_pieces.m_mass[b], center);
+            for (int k = 0; k < 9; ++k) m_pieces.m_inertia[k][b] = inertia(k / 3, k % 3);
+        }
+    }
+
+    // b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v), and A of this step.
+    void assemble()
+    {
+        const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
+        subtractDamping(m_lanes.m_mass.get(), m_lanes.m_v.get(), m_alpha, m_lanes.m_rightSide.get(), nodes());
+        m_lanes.clearSums();
+        LanePass pass = {m_lanes.m_x.get(), m_lanes.m_v.get(), h + beta, m_settings.m_tension ? h * h : 0, {}, {}, {}};
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            Quaternion* rotation = body(b).m_state.m_elementRotation.data();
+            pass.m_rotationBefore[b] = rotation;
+            if (b >= m_count) continue;
+            pass.m_rotation[b] = rotation;
+            pass.m_warped[b] = scratch(b).m_elements.m_single.m_warped.data();
+        }
+        passOverLanes(m_lanes.elements(), pass);
+        addForces(m_lanes.m_sums.get(), h, m_lanes.m_rightSide.get(), nodes());
+        for (int b = 0; b < m_count; ++b)  // what fills the last block is the last element again
+        {
+            std::vector<Quaternion>& rotation = body(b).m_state.m_elementRotation;
+            const auto end = rotation.begin() + m_lanes.elementCount();
+            std::fill(end, rotation.end(), *(end - 1));
+        }
+    }
+
+    void rotateNodes()
+    {
+        averageLanes(m_lanes.nodeRotations());
+        for (int i = 0; i < nodes(); ++i)
+            for (int b = 0; m_lanes.m_doubtful[i] >> b != 0; ++b)
+                if (b < m_count && (m_lanes.m_doubtful[i] >> b & 1) != 0) rotateCarefully(i, b);
+        scatterWarped();
+    }
+
+    void rotateCarefully(int node, int b)
+    {
+        const NodeRotations rotations = {&m_lanes.model().elements().m_nodes, body(b).m_state.m_elementRotation.data(),
+                                         nullptr};
+        const NodeRotation R = carefulAverage(rotations, node);
+        for (int k = 0; k < 9; ++k)
+            m_lanes.m_nodeRotation[(static_cast<std::size_t>(node) * 9 + k) * kBodyLanes + b] = R.m[k];
+    }
+
+    // What contact is expected to push goes with the loads, and the guess is that the body moves on; that of the others
+    // is the increments of the last two steps, continued along a straight line.
+    void guess()
+    {
+        addExpected();
+        double *last = m_lanes.m_direction.get(), *before = m_lanes.m_product.get();
+        const auto lastIncrement = [this](int b, int k) -> const std::vector<Vec3>&
+        { return motion(b).m_expected ? m_lanes.m_zeros : body(b).m_state.m_lastIncrement[k]; };
+        gatherVectors([&](int b) -> const std::vector<Vec3>& { return lastIncrement(b, 0); }, last);
+        gatherVectors([&](int b) -> const std::vector<Vec3>& { return lastIncrement(b, 1); }, before);
+        continueLanes(last, before, m_lanes.m_increment.get(), nodes());
+        completeIncrement();
+    }
+
+    bool anyExpected() const
+    {
+        return std::any_of(m_motions, m_motions + m_count,
+                           [](const FreeMotion* m) { return m->m_expected != nullptr; });
+    }
+
+    void addExpected()
+    {
+        if (!anyExpected()) return;
+        double* impulses = m_lanes.m_direction.get();
+        gatherVectors([this](int b) -> const std::vector<Vec3>&
+                      { return motion(b).m_expected ? *motion(b).m_expected : m_lanes.m_zeros; },
+                      impulses);
+        addLanes(impulses, m_lanes.m_rightSide.get(), nodes());
+        const PerLane squares = squareInOrder(impulses, nodes());
+        PerLane share;
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            share[b] = 1 / (1 + m_settings.m_step * m_alpha[b]);
+            if (motion(b).m_expected)
+                m_goals[b].m_floor = std::max(m_goals[b].m_floor, motion(b).m_expectedFloor * std::sqrt(squares[b]));
+        }
+        addImpulses(m_lanes.masses(), impulses, share, m_pieces);
+    }
+
+    // Increments with impulses in them say nothing about those without.
+    void keep()
+    {
+        keepMomenta();
+        std::array<bool, kBodyLanes> expected{};
+        for (int b = 0; b < m_count; ++b)
+        {
+            expected[b] = m_motions[b]->m_expected != nullptr;
+            m_motions[b]->m_report = m_reports[b];
+            std::array<std::vector<Vec3>, 2>& last = body(b).m_state.m_lastIncrement;
+            if (!expected[b]) last[0].swap(last[1]);
+        }
+        scatterVectors([&](int b) { return expected[b] ? nullptr : &body(b).m_state.m_lastIncrement[0]; },
+                       m_lanes.m_increment.get());
+        keepResiduals(expected);
+    }
+
+    FreeMotion* const* m_motions;
+    std::array<IncrementGoal, kBodyLanes> m_goals;
+    std::array<StepSettings, kBodyLanes> m_allSettings;
+    PerLane m_alpha;
+};
+
+class SideBySideResponses : public SideBySide
+{
+public:
+    SideBySideResponses(BodyLanes& lanes, Body* const* bodies, int count, ImpulseResponse* const* responses)
+        : SideBySide(lanes, bodies, count, responses[0]->m_settings), m_responses(responses)
+    {
+    }
+
+    void run()
+    {
+        gatherState();
+        double *b = m_lanes.m_rightSide.get(), *left = m_lanes.m_residual.get();
+        addImpulses(m_lanes.masses(), b, m_share, m_pieces);
+        addLanes(left, b, nodes());
+        guess();
+        std::array<IncrementGoal, kBodyLanes> goals;
+        std::array<StepSettings, kBodyLanes> settings;
+        for (int k = 0; k < kBodyLanes; ++k)
+        {
+            goals[k] = {response(k).m_floor, response(k).m_steady};
+            settings[k] = response(k).m_settings;
+        }
+        solve(goals, settings);
+        addIncrement();
+        keepMomenta();
+        std::array<bool, kBodyLanes> all;
+        all.fill(true);
+        keepResiduals(all);
+        for (int k = 0; k < m_count; ++k) m_responses[k]->m_report = m_reports[k];
+    }
+
+private:
+    const ImpulseResponse& response(int b) const { return *m_responses[std::min(b, m_count - 1)]; }
+
+    void gatherState()
+    {
+        gatherNodes();
+        gatherMomenta();
+        gatherWarped();
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            const double hAlpha = m_settings.m_step * RigidMomentum::damping(body(b));
+            m_inertiaFactor[b] = 1 + hAlpha;
+            m_share[b] = 1 / (1 + hAlpha);
+        }
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_velocity; }, m_lanes.m_v.get());
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return *response(b).m_impulses; },
+                      m_lanes.m_rightSide.get());
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_residual; },
+                      m_lanes.m_residual.get());
+    }
+
+    // That the body ends with the velocities that it began the step with, or that nothing comes of the impulses.
+    void guess()
+    {
+        double* dv = m_lanes.m_increment.get();
+        const bool anySteady =
+            std::any_of(m_responses, m_responses + m_count, [](const ImpulseResponse* r) { return r->m_steady; });
+        if (!anySteady)
+        {
+            std::fill_n(dv, static_cast<std::size_t>(3 * kBodyLanes) * nodes(), 0.0);
+            return;
+        }
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_state.m_v; }, dv);
+        subtractLanes(dv, m_lanes.m_v.get(), dv, nodes());
+        completeIncrement();
+        PerLane keeps;
+        for (int b = 0; b < kBodyLanes; ++b) keeps[b] = response(b).m_steady;
+        clearOthers(keeps, dv, nodes());
+    }
+
+    ImpulseResponse* const* m_responses;
+    PerLane m_share;
+};
+
+// Lends lanes and solves in them.
+template <class Solve, class Job>
+bool solveInLanes(Job* const* jobs, int count)
+{
+    if (count < kLeastSideBySide) return false;
+    const Body& first = *jobs[0]->m_body;
+    std::optional<BatchLoan> loan;
+    try
+    {
+        loan.emplace(*jobs[0]->m_settings.m_batchMemory, first.m_model);
+    }
+    catch (const std::bad_alloc&)
+    {
+        return false;
+    }
+    Body* bodies[kBodyLanes];
+    for (int k = 0; k < count; ++k) bodies[k] = jobs[k]->m_body;
+    Solve(loan->lanes(), bodies, count, jobs).run();
+    return true;
+}
+
+}  // namespace
+
+bool canBeSideBySide(const FreeMotion& motion)
+{
+    return isPlain(*motion.m_body, motion.m_settings) && motion.m_body->m_loads.m_priorVelocity.empty();
+}
+
+bool canBeSideBySide(const ImpulseResponse& response)
+{
+    return isPlain(*response.m_body, response.m_settings) &&
+           !response.m_body->m_workspace.scratch().m_elements.m_isDouble;
+}
+
+bool areAlike(const StepSettings& a, const StepSettings& b)
+{
+    return a.m_step == b.m_step && a.m_tension == b.m_tension && a.m_momentumCorrection == b.m_momentumCorrection &&
+           a.m_batchMemory == b.m_batchMemory;
+}
+
+bool solveSideBySide(FreeMotion* const* motions, int count)
+{
+    return solveInLanes<SideBySideMotions>(motions, count);
+}
+
+bool solveSideBySide(ImpulseResponse* const* responses, int count)
+{
+    return solveInLanes<SideBySideResponses>(responses, count);
+}
+
+}  // namespace bullet_fem
