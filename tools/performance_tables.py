@@ -80,10 +80,11 @@ def kernels(document):
 
 
 def solves(document):
-    heads = ["tets", "packed factor MB", "read bandwidth GB/s", "one solve pair / two reads",
-             "16 right-hand sides / one"]
+    heads = ["tets", "packed factor MB", "read bandwidth GB/s", "one solve pair / two reads, alternately",
+             "of the best, each for itself", "16 right-hand sides / one"]
     rows = [[f"{row['tets']:,}", number(row["factor_mb"]), number(row["read_gb_per_s"]),
-             f"{row['pair_over_two_reads']:.2f}", f"{row['sixteen_over_one']:.2f}"] for row in document["solves"]]
+             f"{row['pair_over_two_reads']:.2f}", f"{row['pair_over_best_reads']:.2f}",
+             f"{row['sixteen_over_one']:.2f}"] for row in document["solves"]]
     return table(heads, rows)
 
 

@@ -28,10 +28,11 @@ struct KernelFigures
 struct SolveFigures
 {
     int m_tets = 0;
-    double m_factorMegabytes = 0;    ///< packed [MB]
-    double m_readGigabytes = 0;      ///< read bandwidth of a buffer of that size, in the same turns [GB/s]
-    double m_solveOverTwoReads = 0;  ///< one solve pair over the time of reading the factor twice [-]
-    double m_lanesOverOne = 0;       ///< 16 right-hand sides over one [-]
+    double m_factorMegabytes = 0;     ///< packed [MB]
+    double m_readGigabytes = 0;       ///< read bandwidth of a buffer of that size that is read again and again [GB/s]
+    double m_solveOverTwoReads = 0;   ///< one solve pair over the time of reading such a buffer twice, alternately [-]
+    double m_solveOverBestReads = 0;  ///< the same of the best repetitions when each is repeated for itself [-]
+    double m_lanesOverOne = 0;        ///< 16 right-hand sides over one [-]
 };
 
 /// All kernels of one size.

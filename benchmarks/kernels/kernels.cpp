@@ -26,7 +26,10 @@ solve pair      forward and backward with the packed factor; GB/s counts the fac
 GB/s            bytes that must be read and written once, caches or not
 GFLOP/s         product: 180 a tet; solves: those with the factor's entries; factorization: Cholesky's, in double
                 precision
-pair / 2 reads  one solve pair over reading a buffer as large as the packed factor twice, in the same turns
+pair / 2 reads  one solve pair over reading a buffer as large as the packed factor twice, one after the other again and
+                again, median: in a step nobody finds what it has just read itself
+of the best     the same of the best repetitions when each is repeated for itself; a buffer larger than the caches that
+                is read again and again may stay in them in part
 16 / 1          16 right-hand sides together over one
 compliance      columns of A0^-1 of 64 neighbouring surface nodes and the 64 x 64 blocks between them, turned
 )";

@@ -14,17 +14,21 @@ namespace
 constexpr int kRounds = 5;
 constexpr std::size_t kMostSamples = 1000000;  // a work's, in all rounds
 
+/// The time of one repetition [s].
+double timeOf(const TimedWork& work)
+{
+    if (work.m_prepare) work.m_prepare();
+    const Stopwatch watch;
+    work.m_run();
+    return watch.seconds();
+}
+
 /// Appends the times of repetitions [s].
 void repeat(const TimedWork& work, double seconds, std::vector<double>& samples)
 {
     const Stopwatch whole;
-    do
-    {
-        if (work.m_prepare) work.m_prepare();
-        const Stopwatch watch;
-        work.m_run();
-        samples.push_back(watch.seconds());
-    } while (whole.seconds() < seconds && samples.size() < kMostSamples);
+    do samples.push_back(timeOf(work));
+    while (whole.seconds() < seconds && samples.size() < kMostSamples);
 }
 
 }  // namespace
@@ -39,6 +43,18 @@ std::vector<Timing> timeInTurns(const std::vector<TimedWork>& work, double secon
         timings.push_back(
             {*std::min_element(times.begin(), times.end()), median(times), static_cast<int>(times.size())});
     return timings;
+}
+
+double medianRatio(const TimedWork& work, const TimedWork& other, double seconds)
+{
+    std::vector<double> ratios;
+    const Stopwatch whole;
+    do
+    {
+        const double time = timeOf(work);
+        ratios.push_back(time / timeOf(other));
+    } while (whole.seconds() < seconds && ratios.size() < kMostSamples);
+    return median(ratios);
 }
 
 }  // namespace bullet_fem

@@ -29,4 +29,8 @@ struct Timing
 /// of the machine meets all alike. One result for each, in its order.
 std::vector<Timing> timeInTurns(const std::vector<TimedWork>& work, double seconds);
 
+/// The median of how many times as long as `other` a piece of work takes, when they alternate, one repetition each, for
+/// `seconds`: neither finds in the caches what it has just left there itself.
+double medianRatio(const TimedWork& work, const TimedWork& other, double seconds);
+
 }  // namespace bullet_fem
