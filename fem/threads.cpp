@@ -8,9 +8,9 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <exception>
 #include <mutex>
 
@@ -51,21 +51,6 @@ private:
     std::mutex m_mutex;
     int m_task = 0;
     std::exception_ptr m_thrown;
-};
-
-/// Rounds, and treats subnormal numbers, as another thread does, for a while.
-class FloatingPointAs
-{
-public:
-    explicit FloatingPointAs(const std::fenv_t& settings)
-    {
-        std::fegetenv(&m_before);
-        std::fesetenv(&settings);
-    }
-    ~FloatingPointAs() { std::fesetenv(&m_before); }
-
-private:
-    std::fenv_t m_before;
 };
 
 }  // namespace
@@ -117,14 +102,9 @@ void Threads::runCalls(int tasks, const Call& call) const
         for (int k = 0; k < tasks; ++k) attempt(k);
     else
     {
-        std::fenv_t settings;
-        std::fegetenv(&settings);
-        const auto asCaller = [&](int k)
-        {
-            const FloatingPointAs caller(settings);
-            attempt(k);
-        };
-        m_team->execute([&] { tbb::parallel_for(0, tasks, asCaller, tbb::simple_partitioner()); });
+        // Has the caller's floating-point settings, which are made here: another thread may enter the team for it.
+        tbb::task_group_context asCaller(tbb::task_group_context::isolated, tbb::task_group_context::fp_settings);
+        m_team->execute([&] { tbb::parallel_for(0, tasks, attempt, tbb::auto_partitioner(), asCaller); });
     }
     failure.rethrow();
 }
