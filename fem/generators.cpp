@@ -27,10 +27,10 @@ void checkLength(const char* what, double value)
         reject(what, " is ", value, " m, not in (0, inf); give a positive finite length");
 }
 
-void checkCells(const char* what, int cells)
+void checkCells(const char* what, int cells, int least = 1)
 {
-    if (cells < 1 || cells > kMostCells)
-        reject(what, " is ", cells, ", outside [1, ", kMostCells, "]; choose another cell size");
+    if (cells < least || cells > kMostCells)
+        reject(what, " is ", cells, ", outside [", least, ", ", kMostCells, "]; choose another cell size");
 }
 
 void checkEvenCells(const char* what, int cells)
@@ -96,7 +96,7 @@ Vec3 ballFromCube(const Vec3& q)
     return rho * ((1 - rho) * kCoreScale + rho / norm(t)) * t;
 }
 
-/// The centred coordinate of grid line i of n (even), in [-1, 1], exactly odd about the middle.
+/// The centred coordinate of grid line i of n, in [-1, 1], exactly odd about the middle.
 double centred(int i, int n)
 {
     return (2.0 * i - n) / n;
@@ -155,21 +155,28 @@ TetMesh makeBeam(double length, double width, double height, double cellSize, Ce
 
 TetMesh makeSphere(double radius, int cells)
 {
+    return makeSphere(radius, std::array<int, 3>{cells, cells, cells});
+}
+
+// The diagonal of a cell in the middle of an odd number points to one side, from a node that is not on the surface.
+TetMesh makeSphere(double radius, const std::array<int, 3>& cells)
+{
     checkLength("sphere radius", radius);
-    checkEvenCells("cell count of the sphere", cells);
-    const Grid grid{{cells, cells, cells}};
+    for (int count : cells) checkCells("cell count of the sphere", count, 2);
+    const Grid grid{cells};
     grid.checkCount(6);
 
     std::vector<Vec3> X;
-    grid.forEach(1,
-                 [&](int i, int j, int k) {
-                     X.push_back(radius * ballFromCube({centred(i, cells), centred(j, cells), centred(k, cells)}));
-                 });
+    grid.forEach(
+        1,
+        [&](int i, int j, int k) {
+            X.push_back(radius * ballFromCube({centred(i, cells[0]), centred(j, cells[1]), centred(k, cells[2])}));
+        });
     std::vector<Tet> tets;
     grid.forEach(0,
                  [&](int i, int j, int k)
                  {
-                     const int mirror = (2 * i < cells) | (2 * j < cells) << 1 | (2 * k < cells) << 2;
+                     const int mirror = (2 * i < cells[0]) | (2 * j < cells[1]) << 1 | (2 * k < cells[2]) << 2;
                      grid.appendCell({i, j, k}, kKuhnTets, mirror, tets);
                  });
     return TetMesh(std::move(X), std::move(tets));

@@ -51,11 +51,11 @@ TetMesh cubeOf(int index, double size, bool different)
     return makeBox({size, size, size}, cells[different ? index % cells.size() : 0]);
 }
 
-/// A ball has 1,296 tets, or 864 to 1,296 as a cylinder, every other one of balls that differ.
+/// A ball has 1,080 tets, or 864 to 1,296 as a cylinder, every other one of balls that differ.
 TetMesh ballOf(int index, double size, bool different)
 {
     if (different && index % 2 == 1) return makeCylinder(0.5 * size, size, 6, 4 + index / 2 % 3);
-    return makeSphere(0.5 * size, 6);
+    return makeSphere(0.5 * size, {6, 6, 5});
 }
 
 TetMesh meshOf(int index, const CrowdSettings& settings)

@@ -120,7 +120,6 @@ class RoundMesh : public testing::TestWithParam<int>
 };
 
 // The faceted volume of a ball is short of the exact one by O(1/n^2): measured 0.88 / n^2 at n = 2, 1.0 / n^2 at 40.
-// at 40.
 TEST_P(RoundMesh, SphereConvergesFromBelow)
 {
     const int n = GetParam();
@@ -134,6 +133,27 @@ TEST_P(RoundMesh, SphereConvergesFromBelow)
     EXPECT_EQ(mesh.surface().size(), 12u * n * n);
     for (const int i : mesh.surfaceNodes()) EXPECT_NEAR(norm(mesh.restPositions()[i]), 0.5, 1e-15);
     EXPECT_LT(norm(centreOfVolume(mesh)), 1e-15);
+}
+
+// Where a number of cells is odd, the diagonals in the middle point to one side.
+TEST(MakeSphere, HasAnyNumbersOfCells)
+{
+    const double exact = 4.0 / 3 * kPi * 0.125;
+    for (const std::array<int, 3>& cells :
+         {std::array<int, 3>{3, 3, 3}, {2, 3, 4}, {6, 6, 5}, {5, 7, 6}, {9, 9, 9}, {2, 2, 3}})
+    {
+        const auto& [nx, ny, nz] = cells;
+        const TetMesh mesh = makeSphere(0.5, cells);
+        const int fewest = std::min({nx, ny, nz});
+        EXPECT_EQ(mesh.tetCount(), 6 * nx * ny * nz);
+        EXPECT_LT(mesh.volume(), exact);
+        EXPECT_GT(mesh.volume(), exact * (1 - 1.1 / fewest / fewest));
+        EXPECT_GT(leastQuality(mesh), 0.02);
+        EXPECT_EQ(mesh.turnedCount(), 0);
+        EXPECT_EQ(mesh.surface().size(), 4u * (nx * ny + ny * nz + nz * nx));
+        for (const int i : mesh.surfaceNodes()) EXPECT_NEAR(norm(mesh.restPositions()[i]), 0.5, 1e-15);
+        EXPECT_LT(norm(centreOfVolume(mesh)), 0.03 * 0.5);
+    }
 }
 
 TEST_P(RoundMesh, CylinderConvergesFromBelow)
@@ -185,8 +205,8 @@ TEST(GeneratorRejects, Sphere)
 {
     expectRejected([] { makeSphere(0, 2); }, {"radius is 0 m"});
     expectRejected([] { makeSphere(std::numeric_limits<double>::infinity(), 2); }, {"radius is inf m"});
-    expectRejected([] { makeSphere(1, 0); }, {"sphere is 0", "even", "[2, 1000]"});
-    expectRejected([] { makeSphere(1, 7); }, {"sphere is 7", "even", "[2, 1000]"});
+    expectRejected([] { makeSphere(1, 0); }, {"sphere is 0", "[2, 1000]"});
+    expectRejected([] { makeSphere(1, {2, 3, 1}); }, {"sphere is 1", "[2, 1000]"});
     expectRejected([] { makeSphere(1, 1002); }, {"sphere is 1002", "[2, 1000]"});
     expectRejected([] { makeSphere(1, 1000); }, {"6000000000 elements", "[1, 5000000]"});
 }

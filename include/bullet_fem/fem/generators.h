@@ -28,8 +28,11 @@ TetMesh makeBox(const Vec3& size, const std::array<int, 3>& cells, const Vec3& o
 TetMesh makeBeam(double length, double width, double height, double cellSize,
                  CellSplit split = CellSplit::alternatingFive);
 
-/// A ball of radius [m] around the origin: a cube grid of `cells` (even, in [2, 1000]) cells a side, mapped to the
-/// ball. Six tets a cell around diagonals that point away from the centre: no element is flat on the surface.
+/// A ball of radius [m] around the origin: a cube grid of `cells` in [2, 1000] along x, y and z, mapped to the ball.
+/// Six tets a cell around diagonals that point away from the centre: no element is flat on the surface.
+TetMesh makeSphere(double radius, const std::array<int, 3>& cells);
+
+/// The same with as many cells along all three.
 TetMesh makeSphere(double radius, int cells);
 
 /// A cylinder around the z axis, z in [-height/2, height/2] [m]: square cross sections of `cells` (even, in [2, 1000])
