@@ -4,6 +4,8 @@
 // Compiled once for every instruction set; the processor chooses when the program runs.
 #include "fem/contact/compliance_kernel.h"
 
+#include <algorithm>
+
 #include "fem/vector_targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -19,38 +21,50 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Lanes = hn::CappedTag<float, kNodePadding>;
+using Lanes = hn::CappedTag<float, kColumnOfRotation>;
 using Vector = hn::Vec<Lanes>;
 
-// Of rows of three.
-HWY_INLINE Vector dot3(const Vector* a, const Vector* b)
+#if HWY_TARGET == HWY_SCALAR  // which has no vectors of four
+void TurnColumn(const RestColumn& in, float* columns)
 {
-    return hn::MulAdd(a[2], b[2], hn::MulAdd(a[1], b[1], hn::Mul(a[0], b[0])));
+    scalar::turnColumn(in, columns);
 }
-
+#else
+// Columns of three values are read and written as four: what comes after a column of the result is written next, or,
+// at its end, left alone.
 void TurnColumn(const RestColumn& in, float* columns)
 {
     const Lanes d;
-    const hn::RebindToSigned<Lanes> di;
     Vector source[9];
     for (int k = 0; k < 9; ++k) source[k] = hn::Set(d, in.m_source[k]);
-    for (std::size_t i = in.m_first; i < in.m_padded; i += hn::Lanes(d))
+    for (std::size_t i = in.m_first; i < in.m_end; ++i)
     {
-        const auto offset = hn::LoadU(di, in.m_offsets + i);
-        Vector half[3][3];  // half[c][m] = ((A0^-1) R_j^T)_mc
-        for (int m = 0; m < 3; ++m)
-        {
-            Vector row[3];
-            for (int n = 0; n < 3; ++n) row[n] = hn::GatherIndex(d, in.m_blocks + 3 * m + n, offset);
-            for (int c = 0; c < 3; ++c) half[c][m] = dot3(row, &source[3 * c]);
-        }
-        Vector rotation[9];
-        for (int k = 0; k < 9; ++k) rotation[k] = hn::LoadU(d, in.m_rotations + k * in.m_padded + i);
+        const float* block = in.m_blocks + in.m_offsets[i];
+        const float* rotation = in.m_rotations + 3 * kColumnOfRotation * i;
+        Vector turned[3];  // columns of R_i (A0^-1)_ij
+        for (int n = 0; n < 3; ++n) turned[n] = hn::Mul(hn::LoadU(d, rotation), hn::Set(d, block[n]));
+        for (int m = 1; m < 3; ++m)
+            for (int n = 0; n < 3; ++n)
+                turned[n] =
+                    hn::MulAdd(hn::LoadU(d, rotation + kColumnOfRotation * m), hn::Set(d, block[3 * m + n]), turned[n]);
         for (int c = 0; c < 3; ++c)
-            hn::StoreInterleaved3(dot3(&rotation[0], half[c]), dot3(&rotation[3], half[c]), dot3(&rotation[6], half[c]),
-                                  d, columns + 3 * (c * in.m_padded + i));
+        {
+            const Vector column =
+                hn::MulAdd(turned[2], source[3 * c + 2],
+                           hn::MulAdd(turned[1], source[3 * c + 1], hn::Mul(turned[0], source[3 * c])));
+            float* out = columns + c * in.m_stride + 3 * i;
+            if (i + 1 < in.m_end)
+                hn::StoreU(column, d, out);
+            else
+            {
+                HWY_ALIGN float last[kColumnOfRotation];
+                hn::Store(column, d, last);
+                std::copy_n(last, 3, out);
+            }
+        }
     }
 }
+#endif
 
 void AddWeighted(const WeightedArrays& in, std::size_t size, float* sum)
 {
@@ -93,18 +107,18 @@ void addWeighted(const WeightedArrays& arrays, std::size_t size, float* sum)
 
 void scalar::turnColumn(const RestColumn& in, float* columns)
 {
-    for (std::size_t i = in.m_first; i < in.m_padded; ++i)
+    for (std::size_t i = in.m_first; i < in.m_end; ++i)
     {
         const float* block = in.m_blocks + in.m_offsets[i];
+        const float* rotation = in.m_rotations + 3 * kColumnOfRotation * i;
         for (int c = 0; c < 3; ++c)
             for (int k = 0; k < 3; ++k)
             {
                 float sum = 0;
                 for (int m = 0; m < 3; ++m)
                     for (int n = 0; n < 3; ++n)
-                        sum +=
-                            in.m_rotations[(3 * k + m) * in.m_padded + i] * block[3 * m + n] * in.m_source[3 * c + n];
-                columns[3 * (c * in.m_padded + i) + k] = sum;
+                        sum += rotation[kColumnOfRotation * m + k] * block[3 * m + n] * in.m_source[3 * c + n];
+                columns[c * in.m_stride + 3 * i + k] = sum;
             }
     }
 }

@@ -53,12 +53,17 @@ void PointCompliance::addOwn()
 
 void PointCompliance::numberSlots()
 {
-    m_nodes.clear();
+    constexpr int kUnused = -1, kUsed = 0;
+    std::fill(m_slotOfNode.begin(), m_slotOfNode.end(), kUnused);
     for (int node : m_slot)
-        if (node >= 0) m_nodes.push_back(node);
-    std::sort(m_nodes.begin(), m_nodes.end());
-    m_nodes.erase(std::unique(m_nodes.begin(), m_nodes.end()), m_nodes.end());
-    for (std::size_t t = 0; t < m_nodes.size(); ++t) m_slotOfNode[m_nodes[t]] = static_cast<int>(t);
+        if (node >= 0) m_slotOfNode[node] = kUsed;
+    m_nodes.clear();
+    for (std::size_t node = 0; node < m_slotOfNode.size(); ++node)
+    {
+        if (m_slotOfNode[node] == kUnused) continue;
+        m_slotOfNode[node] = static_cast<int>(m_nodes.size());
+        m_nodes.push_back(static_cast<int>(node));
+    }
     int own = static_cast<int>(m_nodes.size());
     for (int& slot : m_slot) slot = slot >= 0 ? m_slotOfNode[slot] : own++;
 }
@@ -70,8 +75,7 @@ void PointCompliance::request(const ContactBody& body, const Threads* threads)
 
 void PointCompliance::form(const ContactBody& body, double scale)
 {
-    const std::size_t room = padded(slots(), kNodePadding);
-    m_rows = 3 * room;
+    m_rows = order();
     growTo(m_N, m_rows * 3 * slots());
     turnNodes(body);
     formNodeColumns(body, scale);
@@ -150,33 +154,35 @@ void PointCompliance::turnNodes(const ContactBody& body)
 {
     const WarpedPreconditioner P(*body.m_body);
     const std::vector<unsigned char>& fixed = body.m_body->m_state.m_fixed;
-    const std::size_t room = m_rows / 3;
-    m_offsets.assign(room, 0);
-    m_rotations.assign(9 * room, 0.f);
+    m_offsets.assign(m_nodes.size(), 0);
+    m_rotations.assign(3 * kColumnOfRotation * m_nodes.size(), 0.f);
     for (std::size_t t = 0; t < m_nodes.size(); ++t)
     {
         m_offsets[t] = body.m_compliance->offset(m_nodes[t]);
         if (fixed[m_nodes[t]]) continue;
         const Mat3 R = P.rotation(m_nodes[t]);
-        for (int k = 0; k < 9; ++k) m_rotations[k * room + t] = static_cast<float>(R(k / 3, k % 3));
+        float* columns = &m_rotations[3 * kColumnOfRotation * t];
+        for (int k = 0; k < 9; ++k) columns[kColumnOfRotation * (k % 3) + k / 3] = static_cast<float>(R(k / 3, k % 3));
     }
 }
 
-// The lower triangle of N, and more of it.
+// The lower triangle of N, and all of the blocks on its diagonal.
 void PointCompliance::formNodeColumns(const ContactBody& body, double scale)
 {
     const RestFactor& factor = body.m_body->m_model->factor();
-    const std::size_t room = m_offsets.size();
     RestColumn source;
     source.m_offsets = m_offsets.data();
     source.m_rotations = m_rotations.data();
-    source.m_padded = room;
+    source.m_end = m_nodes.size();
+    source.m_stride = m_rows;
     for (std::size_t t = 0; t < m_nodes.size(); ++t)
     {
         const int node = m_nodes[t];
         source.m_blocks = body.m_compliance->column(node);
-        source.m_first = t / kNodePadding * kNodePadding;
-        for (int k = 0; k < 9; ++k) source.m_source[k] = static_cast<float>(scale) * m_rotations[k * room + t];
+        source.m_first = t;
+        const float* columns = &m_rotations[3 * kColumnOfRotation * t];
+        for (int k = 0; k < 9; ++k)
+            source.m_source[k] = static_cast<float>(scale) * columns[kColumnOfRotation * (k % 3) + k / 3];
         turnColumn(source, column(3 * t));
         if (factor.position(node) >= 0 || body.m_body->m_state.m_fixed[node]) continue;
         for (int c = 0; c < 3; ++c) column(3 * t + c)[3 * t + c] = static_cast<float>(scale / factor.diagonal(node));

@@ -82,8 +82,8 @@ private:
     int m_own = 0;                     // points that are slots
     std::vector<int> m_nodes;
     std::vector<int> m_slotOfNode;   // of the body
-    std::vector<int> m_offsets;      // of m_nodes in the cache's columns, padded
-    std::vector<float> m_rotations;  // nine arrays, padded
+    std::vector<int> m_offsets;      // of m_nodes in the cache's columns
+    std::vector<float> m_rotations;  // of m_nodes, as RestColumn wants them
     std::size_t m_rows = 0;          // of N, padded
     std::vector<float> m_N;          // column by column
     std::vector<int> m_columnsOf;    // per point: which of m_columns, or -1

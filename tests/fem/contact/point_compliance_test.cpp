@@ -28,22 +28,26 @@ class ComplianceKernel : public OnTarget
 {
 };
 
-// All nodes, and those from the second vector on: what lies before them is not written.
+// All nodes, and some of them: what lies before and behind them is not written.
 TEST_P(ComplianceKernel, TurnsColumnsAsItsTwinDoes)
 {
-    constexpr std::size_t kNodes = 3 * kNodePadding;
-    const std::vector<float> blocks = randomFloats(9 * kNodes, 1), rotations = randomFloats(9 * kNodes, 2);
+    constexpr std::size_t kNodes = 21, kStride = 3 * kNodes + 2;
+    const std::vector<float> blocks = randomFloats(9 * kNodes, 1),
+                             rotations = randomFloats(3 * kColumnOfRotation * kNodes, 2);
     std::vector<int> offsets;
     for (std::size_t i = 0; i < kNodes; ++i) offsets.push_back(static_cast<int>(9 * ((7 * i) % kNodes)));
-    RestColumn column{blocks.data(), offsets.data(), rotations.data(), kNodes, 0, {1, -2, 3, 4, 5, -6, 7, 8, 9}};
-    for (const std::size_t first : {std::size_t(0), kNodePadding})
+    for (const auto& [first, end] :
+         {std::pair<std::size_t, std::size_t>(0, kNodes), {7, kNodes}, {3, 4}, {5, 5}, {0, 11}})
     {
-        column.m_first = first;
-        std::vector<float> out(9 * kNodes, 99.f), expected = out;
+        const RestColumn column{
+            blocks.data(), offsets.data(), rotations.data(), first, end, kStride, {1, -2, 3, 4, 5, -6, 7, 8, 9}};
+        std::vector<float> out(3 * kStride, 99.f), expected = out;
         turnColumn(column, out.data());
         scalar::turnColumn(column, expected.data());
         for (std::size_t i = 0; i < out.size(); ++i) EXPECT_NEAR(out[i], expected[i], 1e-5 * 9) << first << " " << i;
-        EXPECT_EQ(out[0] == 99.f, first > 0);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t k = 0; k < kStride; ++k)
+                EXPECT_EQ(out[c * kStride + k] == 99.f, k < 3 * first || k >= 3 * end) << c << " " << k;
     }
 }
 
@@ -168,7 +172,7 @@ TEST_F(PointComplianceTest, IsSymmetricHoweverManyPoints)
 {
     PointCompliance W;
     const int count = static_cast<int>(m_free.size());
-    ASSERT_GT(count, static_cast<int>(kNodePadding));
+    ASSERT_GT(count, 16);
     std::vector<SurfacePoint> points;
     for (int k = 0; k < count; ++k) points.push_back(point({m_free[k], m_free[(k + 7) % count]}, {.625, .375}));
     form(W, points, 1);
