@@ -35,19 +35,14 @@ double speedByLoads(const Body& body, double step)
 void BodyEnds::clear(const ContactBody& body)
 {
     m_body = body;
-    m_ends.clear();
+    m_added = 0;
     m_working.reset(0);
-}
-
-int BodyEnds::addPoint()
-{
-    m_ends.emplace_back();
-    return size() - 1;
 }
 
 void BodyEnds::setPoint(int e, const SurfacePoint& point, const Vec3& at)
 {
     m_ends[e].m_point = point;
+    m_ends[e].m_nodes = nullptr;
     m_ends[e].m_offset = at - read(m_ends[e], m_body.m_body->m_state.m_x);
 }
 

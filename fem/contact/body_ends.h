@@ -28,16 +28,18 @@ struct CorrectionGoal
 class BodyEnds
 {
 public:
-    /// Forgets all ends.
+    /// Another problem: points, then makeRoom(), then groups are to be added. Until then the ends are those of before.
     void clear(const ContactBody& body);
 
-    /// Adds a point of the surface, which is to be set; returns its index.
-    int addPoint();
+    /// Adds a point of the surface, for which room is to be made, and which is to be set; returns its index.
+    int addPoint() { return m_added++; }
+    void makeRoom() { m_ends.resize(m_added); }
 
     /// Sets it: its impulse counts as acting at `at` [m]. May be called by several threads at once, for different ones.
     void setPoint(int e, const SurfacePoint& point, const Vec3& at);
 
-    /// Adds a group of nodes; returns its index. Its nodes and blocks must live until the step is over.
+    /// Adds a group of nodes, behind all points; returns its index. Its nodes and blocks must live until the step is
+    /// over.
     int addGroup(const int* nodes, const Mat3* blocks, int count);
 
     /// When all ends are added: makes ready for request() and form(), which are to follow, for a step [s]. The
@@ -154,6 +156,7 @@ private:
     bool m_dense = true;
     double m_loadSpeed = 0;  // [m/s]
     bool m_formed = false;
+    int m_added = 0;  // points
     std::vector<End> m_ends;
     std::vector<Vec3> m_impulse;                       // per end, all
     std::vector<Vec3> m_applied;                       // per end, in the body's true velocities

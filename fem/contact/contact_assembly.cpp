@@ -22,13 +22,14 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
 {
     m_problem = &problem;
     m_settings = settings;
+    m_dense = true;
     if (m_bodies.size() < problem.m_bodies.size()) m_bodies.resize(problem.m_bodies.size());
     m_corrections.assign(problem.m_bodies.size(), ImpulseResponse());
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b]);
     addContactRows();
     for (const Joint& joint : problem.m_joints) addJointRow(joint);
     for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
-    m_dense = true;
+    m_wants.assign(m_rows.size(), 0);
     forEachTouchedBody(threadsForCompliance(),
                        [&](int b) { m_bodies[b].assemble(settings.m_denseLimit, settings.m_step.m_step); });
     m_loadSpeed = 0;
@@ -87,6 +88,8 @@ void ContactRows::addContactRows()
         m_rows[k].m_a.m_end = number(contacts[k].m_soft);
         m_rows[k].m_b.m_end = contacts[k].m_obstacle >= 0 ? -1 : number(contacts[k].m_other);
     }
+    runTasks(threadsForCompliance(), static_cast<int>(m_problem->m_bodies.size()),
+             [this](int b) { m_bodies[b].makeRoom(); });
     forEachPiece(
         [&](int, Range rows)
         {

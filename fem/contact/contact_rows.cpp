@@ -115,9 +115,9 @@ void ContactRows::measure()
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
 }
 
-void ContactRows::setSpeedScale()
+void ContactRows::setSpeedScale(double wanted)
 {
-    m_speedScale = std::max(m_loadSpeed, largestChange());
+    m_speedScale = std::max(m_loadSpeed, wanted);
     if (m_loadSpeed > 0) return;
     for (const ContactRow& row : m_rows) m_speedScale = std::max(m_speedScale, speedOf(row, row.m_impulse));
 }
@@ -140,12 +140,45 @@ bool ContactRows::rests(const ContactRow& row) const
 
 double ContactRows::wantedSpeed(const ContactRow& row) const
 {
-    return rests(row) ? 0 : speedOf(row, wantedImpulse(row, row.m_impulse, velocity(row), 1) - row.m_impulse);
+    return speedOf(row, wantedImpulse(row, row.m_impulse, velocity(row), 1) - row.m_impulse);
 }
 
-double ContactRows::largestChange()
+void ContactRows::noteWants()
 {
-    return largestOfRows([this](const ContactRow& row) { return wantedSpeed(row); });
+    forEachPiece(
+        [this](int, Range rows)
+        {
+            for (int k = rows.m_begin; k < rows.m_end; ++k) m_wants[k] = !rests(m_rows[k]);
+        });
+}
+
+double ContactRows::error()
+{
+    return share(largestOfRows([this](int k) { return rests(m_rows[k]) ? 0 : wantedSpeed(m_rows[k]); }));
+}
+
+// What rests closes no faster than allowed: its velocity has just been measured.
+RowSurvey ContactRows::survey()
+{
+    std::array<RowSurvey, Pieces::kMost> found{};
+    forEachPiece(
+        [&](int p, Range rows)
+        {
+            RowSurvey ofPiece;
+            for (int k = rows.m_begin; k < rows.m_end; ++k)
+            {
+                const ContactRow& row = m_rows[k];
+                m_wants[k] = !rests(row);
+                if (!m_wants[k]) continue;
+                ofPiece.m_wanted = std::max(ofPiece.m_wanted, wantedSpeed(row));
+                ofPiece.m_closing = std::max(ofPiece.m_closing, violation(row, trueVelocity(row)));
+            }
+            found[p] = ofPiece;
+        });
+    RowSurvey all;
+    for (const RowSurvey& piece : found)
+        all = {std::max(all.m_wanted, piece.m_wanted), std::max(all.m_closing, piece.m_closing)};
+    return all;
 }
 
 void ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& report)
@@ -217,13 +250,13 @@ Vec3 ContactRows::trueVelocity(const ContactRow& row) const
 }
 
 // A point that sticks remembers how far it crept; one that slides or hangs free starts anew.
-Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact) const
+Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact, const Vec3& trueVelocity) const
 {
     constexpr double kSticks = 0.999;  // share of the friction that it could have
     const double normal = dot(row.m_impulse, contact.m_normal);
     const Vec3 friction = row.m_impulse - normal * contact.m_normal;
     if (!(norm(friction) < kSticks * row.m_friction * normal)) return {};
-    const Vec3 slip = contact.m_slip + m_settings.m_step.m_step * trueVelocity(row);
+    const Vec3 slip = contact.m_slip + m_settings.m_step.m_step * trueVelocity;
     return slip - dot(slip, contact.m_normal) * contact.m_normal;
 }
 
@@ -234,34 +267,35 @@ bool ContactRows::isTooSoft() const
                        isSoft);
 }
 
-double ContactRows::violation(const ContactRow& row) const
+double ContactRows::violation(const ContactRow& row, const Vec3& trueVelocity) const
 {
     if (row.m_joint || row.m_touch || row.m_idle) return 0;
-    const double separating = dot(row.m_axes[0], trueVelocity(row));
+    const double separating = dot(row.m_axes[0], trueVelocity);
     const double yields = row.m_yield.x * dot(row.m_axes[0], row.m_impulse);
     return row.m_target.x - separating - yields;
 }
 
 double ContactRows::worstViolation()
 {
-    return largestOfRows([this](const ContactRow& row) { return violation(row); });
+    return largestOfRows([this](int k) { return violation(m_rows[k], trueVelocity(m_rows[k])); });
 }
 
-void ContactRows::store()
+double ContactRows::store()
 {
     std::vector<ContactPoint>& contacts = m_problem->m_contacts;
-    forEachPiece(
-        [&](int, Range rows)
+    const double worst = largestOfRows(
+        [&](int k)
         {
-            const int end = std::min(rows.m_end, static_cast<int>(contacts.size()));
-            for (int k = rows.m_begin; k < end; ++k)
-            {
-                contacts[k].m_impulse = m_rows[k].m_impulse;
-                contacts[k].m_slip = newSlip(m_rows[k], contacts[k]);
-            }
+            if (k >= static_cast<int>(contacts.size())) return 0.0;
+            const ContactRow& row = m_rows[k];
+            const Vec3 v = trueVelocity(row);
+            contacts[k].m_impulse = row.m_impulse;
+            contacts[k].m_slip = newSlip(row, contacts[k], v);
+            return violation(row, v);
         });
     std::size_t k = contacts.size();
     for (Joint& joint : m_problem->m_joints) joint.m_impulse = m_rows[k++].m_impulse;
+    return worst;
 }
 
 }  // namespace bullet_fem

@@ -15,6 +15,13 @@
 namespace bullet_fem
 {
 
+/// What a look at all rows finds [m/s].
+struct RowSurvey
+{
+    double m_wanted = 0;   ///< by how much a row alone wants to change the velocity of its point, at most
+    double m_closing = 0;  ///< how much faster than allowed a contact closes, at most
+};
+
 /// The rows of all contacts and joints of a problem, and what their impulses do to bodies and obstacles. Who sweeps
 /// over them is ContactSweeps. Grows with the problem, never shrinks.
 class ContactRows
@@ -49,8 +56,8 @@ public:
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
 
-    /// Lets the touches of obstacles answer what the impulses so far do to them.
-    void settleTouches();
+    /// Lets the touches of obstacles answer what the impulses so far do to them. Returns whether there are any.
+    bool settleTouches();
 
     /// Relative velocity of a row's ends, as predicted [m/s].
     Vec3 velocity(const ContactRow& row) const { return velocity(row.m_a) - velocity(row.m_b); }
@@ -65,9 +72,9 @@ public:
     /// Brings the ends' velocities up to the bodies' true ones.
     void measure();
 
-    /// What changes are measured against from here on: the speed that the loads give a body in a step, or the largest
-    /// that rows have to change now [m/s]; where there are no loads, or that the guesses have changed.
-    void setSpeedScale();
+    /// What changes are measured against from here on: the speed that the loads give a body in a step, or what a row
+    /// has to change now at most, `wanted` [m/s]; where there are no loads, or what a guess has changed.
+    void setSpeedScale(double wanted);
     double speedScale() const { return m_speedScale; }
 
     /// The largest speed that its loads alone would give one of the bodies in a step [m/s].
@@ -80,14 +87,20 @@ public:
     /// by its own errors: that of a stiff, light body on the low-memory path.
     bool isRunaway(double speed) const;
 
-    /// True of a contact that carries nothing and wants nothing, as most do.
-    bool rests(const ContactRow& row) const;
+    /// Looks at all rows when they have just been measured, and notes which of them want something.
+    RowSurvey survey();
 
-    /// By how much a row alone wants to change the velocity of its point [m/s].
+    /// Only notes it.
+    void noteWants();
+
+    /// When it was noted last: the row was more than a contact that carries nothing and wants nothing, as most are.
+    bool wants(std::size_t k) const { return m_wants[k] != 0; }
+
+    /// By how much a row that is more than that alone wants to change the velocity of its point [m/s].
     double wantedSpeed(const ContactRow& row) const;
 
     /// The largest of these, as a share of the scale.
-    double error() { return share(largestChange()); }
+    double error();
 
     /// Solves the bodies' true systems for what is new. `steady`: the impulses are all of a step much like the one
     /// before.
@@ -102,8 +115,8 @@ public:
     /// The largest speed [m/s] at which a contact closes faster than allowed, from the bodies' true velocities.
     double worstViolation();
 
-    /// Hands the impulses to the contacts and joints, and the slip of what sticks.
-    void store();
+    /// Hands the impulses to the contacts and joints, and the slip of what sticks. Returns the worst violation.
+    double store();
 
     /// Those that are worth waking for what W takes; null: none but the caller's.
     const Threads* threadsForCompliance() const;
@@ -150,13 +163,14 @@ private:
 
     Vec3 velocity(const RowEnd& end) const;
     Vec3 trueVelocity(const ContactRow& row) const;
-    double violation(const ContactRow& row) const;
-    Vec3 newSlip(const ContactRow& row, const ContactPoint& contact) const;
+    double violation(const ContactRow& row, const Vec3& trueVelocity) const;
+    Vec3 newSlip(const ContactRow& row, const ContactPoint& contact, const Vec3& trueVelocity) const;
+    bool rests(const ContactRow& row) const;
     Mat3 compliance(const RowEnd& end) const;
     void react(const RowEnd& end, const Vec3& impulse);
     void solveCorrections();
-    double largestChange();
-    /// The largest value(row) of all rows, or 0 if none is more.
+
+    /// The largest value(k) of all rows, or 0 if none is more.
     template <class Value>
     double largestOfRows(const Value& value)
     {
@@ -164,7 +178,9 @@ private:
         forEachPiece(
             [&](int p, Range rows)
             {
-                for (int k = rows.m_begin; k < rows.m_end; ++k) largest[p] = std::max(largest[p], value(m_rows[k]));
+                double ofPiece = 0;
+                for (int k = rows.m_begin; k < rows.m_end; ++k) ofPiece = std::max(ofPiece, value(k));
+                largest[p] = ofPiece;
             });
         return *std::max_element(largest.begin(), largest.end());
     }
@@ -178,6 +194,7 @@ private:
     std::vector<const Body*> m_correctedBodies;  // likewise
     BodyBatches m_batches;                       // of these
     std::vector<ContactRow> m_rows;
+    std::vector<unsigned char> m_wants;  // per row
     bool m_dense = true;
     double m_loadSpeed = 0;   // [m/s]
     double m_speedScale = 0;  // that errors are measured against [m/s]

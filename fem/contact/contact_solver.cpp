@@ -69,7 +69,8 @@ struct ContactSolver::Scratch
     ContactReport m_report;
     int m_minRounds = 1;
     double m_sweepTolerance = 0, m_roundTolerance = 0;
-    double m_error = 1;       // after the last round
+    RowSurvey m_found;        // after the last round
+    double m_error = 1;       // likewise
     double m_best = 0;        // the smallest so far
     bool m_isBest = false;    // it is the last
     double m_goal = 0;        // error at which rounds end
@@ -197,16 +198,17 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_stalled = s.m_loose = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
     // hold both ways, and would answer the errors of W in it too eagerly.
-    if (!joints && (anyExpects || s.m_rows.hasImpulses()))
+    const bool guesses = !joints && (anyExpects || s.m_rows.hasImpulses());
+    if (guesses)
         guess();
     else
     {
         s.m_rows.warmStart();
         s.m_sweeps.measure();
     }
-    s.m_rows.settleTouches();
-    s.m_rows.setSpeedScale();
-    s.m_error = joints ? 1 : s.m_rows.error();
+    if (s.m_rows.settleTouches() || !guesses) s.m_found = s.m_sweeps.look();
+    s.m_rows.setSpeedScale(s.m_found.m_wanted);
+    s.m_error = joints ? 1 : s.m_rows.share(s.m_found.m_wanted);
     s.m_goal = joints ? s.m_roundTolerance : kRoundGuessShare * s.m_roundTolerance;
     s.m_best = std::numeric_limits<double>::infinity();
     noteBest();
@@ -222,7 +224,7 @@ void ContactSolver::guess()
     s.m_guessing = true;
     correct();
     s.m_guessing = false;
-    if (!(s.m_rows.worstViolation() > kBadGuess * without)) return;
+    if (!(s.m_found.m_closing > kBadGuess * without)) return;
     s.m_rows.takeBack();
     s.m_error = 0;  // no loose solve
     correct();
@@ -304,7 +306,8 @@ void ContactSolver::correct()
     s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report);
     s.m_sweeps.measure();
     const double before = s.m_error;
-    s.m_error = joints ? change : s.m_rows.error();
+    if (!joints) s.m_found = s.m_sweeps.look();
+    s.m_error = joints ? change : s.m_rows.share(s.m_found.m_wanted);
     s.m_goal = s.m_roundTolerance;
     const Standstill limit = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
     s.m_stalled = !s.m_settings.m_untilSolved && !wasLoose && s.m_report.m_rounds > s.m_minRounds + 1 &&
@@ -316,8 +319,7 @@ ContactReport ContactSolver::finish()
 {
     Scratch& s = *m_scratch;
     if (s.m_empty) return s.m_report;
-    s.m_report.m_violation = s.m_rows.worstViolation();
-    s.m_rows.store();
+    s.m_report.m_violation = s.m_rows.store();
     if (!s.m_push.isNeeded()) return s.m_report;
     s.m_report.m_sweeps += s.m_push.push();
     for (Obstacle& obstacle : s.m_problem->m_obstacles) payBackOwn(obstacle, s.m_settings.m_step.m_step);

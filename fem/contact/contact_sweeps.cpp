@@ -18,6 +18,12 @@ void ContactSweeps::measure()
     reset();
 }
 
+RowSurvey ContactSweeps::look()
+{
+    m_inTurn.noteLooked();
+    return m_rows.survey();
+}
+
 void ContactSweeps::reset()
 {
     m_inTurn.restart();

@@ -23,6 +23,9 @@ public:
     /// Brings the velocities of the rows' ends up to the bodies' true ones.
     void measure();
 
+    /// Looks at all rows, which have just been measured: the next sweep need not look for those that want something.
+    RowSurvey look();
+
     /// Forgets all that sweeps have found out.
     void reset();
 

@@ -105,7 +105,7 @@ int PositionPush::push()
 {
     m_sweeps.measure();
     prepare();
-    m_rows.setSpeedScale();
+    m_rows.setSpeedScale(m_sweeps.look().m_wanted);
     int sweeps = 1;
     const double tolerance = pushTolerance(m_rows.settings().m_tolerance);
     for (; m_sweeps.sweep(tolerance) && sweeps < kMaxSweepsOfPush; ++sweeps)

@@ -43,7 +43,7 @@ void ContactRows::limitTouchFriction(ContactRow& row)
 
 // The guesses of all other impulses push obstacles into what holds them. What that takes back is no change that contact
 // has to make.
-void ContactRows::settleTouches()
+bool ContactRows::settleTouches()
 {
     const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
     double most = 0, largest = 1;  // changes, of all sweeps and the last [m/s]
@@ -59,6 +59,7 @@ void ContactRows::settleTouches()
         }
         most = std::max(most, largest);
     }
+    return first < m_rows.size();
 }
 
 }  // namespace bullet_fem

@@ -16,9 +16,13 @@ constexpr int kMixed = WorkingSet::kMixed;
 constexpr double kParallel = 1e-4;  // determinant, as a share of the product of squares
 constexpr double kFar = 300;        // share that is no longer believed
 
+// The first forgets all differences.
 void noteDelta(const Vec3& value, int slot, bool first, Vec3& last, Vec3* deltas)
 {
-    if (!first) deltas[slot] = value - last;
+    if (first)
+        std::fill_n(deltas, kMixed, Vec3());
+    else
+        deltas[slot] = value - last;
     last = value;
 }
 
@@ -42,16 +46,9 @@ void SweepMixing::start(const std::vector<int>& working)
     m_before.resize(working.size());
     m_swept.resize(working.size());
     m_square = 0;
+    m_shares = {};
     m_slot = 0;
     m_trusted = true;
-    forget();
-}
-
-void SweepMixing::forget()
-{
-    m_shares = {};
-    m_swept.assign(m_swept.size(), {});
-    m_rows.forEachTouchedBody(nullptr, [this](int b) { m_rows.body(b).working().forgetSweeps(); });
 }
 
 void SweepMixing::mix(const std::vector<int>& working)
@@ -89,7 +86,6 @@ void SweepMixing::note(const std::vector<int>& working)
     const double square = squareOfChanges(working);
     const bool first = !(m_square > 0 && square <= m_square);
     m_square = square;
-    if (first) forget();
     m_slot = (m_slot + 1) % kMixed;
     noteRows(working, first);
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(),

@@ -42,7 +42,6 @@ private:
         Vec3 m_after, m_change;
         Vec3 m_afterDelta[WorkingSet::kMixed], m_changeDelta[WorkingSet::kMixed];
     };
-    void forget();
     void addShares(const std::vector<int>& working);
     double squareOfChanges(const std::vector<int>& working) const;
     void noteRows(const std::vector<int>& working, bool first);

@@ -41,7 +41,7 @@ void SweepsInTurn::begin()
     if (!m_rows.isDense()) return;
     const std::size_t rows = m_rows.rows().size();
     m_working.reserve(rows);
-    for (std::vector<unsigned char>* flags : {&m_works, &m_wants}) flags->assign(rows, 0);
+    m_works.assign(rows, 0);
     m_mixing.begin();
     restart();
     divideRows();
@@ -90,10 +90,10 @@ void SweepsInTurn::chooseWorkingSet()
     int joined = 0;
     for (std::size_t k = 0; k < rows.size(); ++k)
     {
-        if (m_wants[k]) m_working.push_back(static_cast<int>(k));
-        if (m_wants[k] && !m_works[k]) ++joined;
+        if (m_rows.wants(k)) m_working.push_back(static_cast<int>(k));
+        if (m_rows.wants(k) && !m_works[k]) ++joined;
+        m_works[k] = m_rows.wants(k) ? 1 : 0;
     }
-    m_works.swap(m_wants);
     m_parts.sort(m_working);
     m_rows.forEachTouchedBody(nullptr, [this](int b) { m_rows.body(b).choose(); });
     for (int k : m_working)
@@ -107,11 +107,7 @@ void SweepsInTurn::chooseWorkingSet()
 void SweepsInTurn::lookForWork()
 {
     m_rows.flush();
-    m_rows.forEachPiece(
-        [this](int, Range piece)
-        {
-            for (int k = piece.m_begin; k < piece.m_end; ++k) m_wants[k] = !m_rows.rests(m_rows.rows()[k]);
-        });
+    m_rows.noteWants();
     m_looked = true;
 }
 
@@ -124,7 +120,7 @@ bool SweepsInTurn::restIsDone(double tolerance)
     m_lifeOfSet = -1;
     double largest = 0;
     for (std::size_t k = 0; k < rows.size(); ++k)
-        if (m_wants[k] && !m_works[k]) largest = std::max(largest, m_rows.wantedSpeed(rows[k]));
+        if (m_rows.wants(k) && !m_works[k]) largest = std::max(largest, m_rows.wantedSpeed(rows[k]));
     return m_rows.share(largest) <= tolerance;
 }
 

@@ -25,6 +25,9 @@ public:
     /// When the rows' velocities are measured anew: forgets the working set.
     void restart();
 
+    /// The rows have noted what they want.
+    void noteLooked() { m_looked = true; }
+
     /// Rows of others have changed the obstacles' velocities since the last sweep.
     void othersMoved() { m_looked = false; }
 
@@ -50,8 +53,7 @@ private:
     SweepParts m_parts;                  // of the rows
     std::vector<int> m_working;          // rows that the sweeps are over, part by part
     std::vector<unsigned char> m_works;  // per row: belongs to them
-    std::vector<unsigned char> m_wants;  // per row: is to belong to the next, if it has been looked for
-    bool m_looked = false;               // and nothing has changed since
+    bool m_looked = false;               // the rows have noted what they want, and nothing has changed since
     int m_lifeOfSet = -1;                // sweeps until another is chosen; -1: there is none
     double m_negligible = 0;             // change of a row that waits [m/s]
     double m_lastChange = 0, m_lastSpeed = 0;

@@ -125,19 +125,14 @@ void WorkingSet::load(const PointCompliance& points, const std::vector<double>& 
     for (std::size_t k = 0; k < m_ends.size(); ++k) put(points.read(m_ends[k], slotVelocity), m_velocity, k);
 }
 
-void WorkingSet::forgetSweeps()
-{
-    m_swept.assign(3 * m_ends.size(), 0.0);
-    for (std::vector<double>& delta : m_sweptDelta) delta.assign(3 * m_ends.size(), 0.0);
-}
-
 void WorkingSet::noteSweep(int slot, bool first)
 {
-    for (std::size_t i = 0; i < m_swept.size(); ++i)
-    {
-        if (!first) m_sweptDelta[slot][i] = m_velocity[i] - m_swept[i];
-        m_swept[i] = m_velocity[i];
-    }
+    const std::size_t size = 3 * m_ends.size();
+    if (first)
+        for (std::vector<double>& delta : m_sweptDelta) delta.assign(size, 0.0);
+    else
+        for (std::size_t i = 0; i < size; ++i) m_sweptDelta[slot][i] = m_velocity[i] - m_swept[i];
+    m_swept.assign(m_velocity.begin(), m_velocity.begin() + static_cast<std::ptrdiff_t>(size));
 }
 
 void WorkingSet::mixSweeps(const std::array<double, kMixed>& shares)

@@ -44,9 +44,8 @@ public:
     }
 
     /// For SweepMixing: the velocities after the last sweep, and their differences from those of the sweeps before, of
-    /// which noteSweep keeps that of this one in a slot, unless it is the first. mixSweeps takes shares of them off.
+    /// which noteSweep keeps that of this one in a slot; the first has none. mixSweeps takes shares of them off.
     static constexpr int kMixed = 2;
-    void forgetSweeps();
     void noteSweep(int slot, bool first);
     void mixSweeps(const std::array<double, kMixed>& shares);
 

@@ -15,6 +15,13 @@ namespace bullet_fem
 namespace
 {
 
+void addNode(BodyEnds& ends, const Body& body, int node)
+{
+    const int point = ends.addPoint();
+    ends.makeRoom();
+    ends.setPoint(point, {0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
+}
+
 // A corner of a turned and strained cube is pushed: away from rest one iteration is not enough.
 TEST(BodyEnds, SolveForWhatALooseCorrectionLeft)
 {
@@ -46,7 +53,7 @@ TEST(BodyEnds, SolveForWhatALooseCorrectionLeft)
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
     ends.clear({&body, cache.get()});
-    ends.setPoint(ends.addPoint(), {0, {0, 0, 0}, {1, 0, 0}}, body.m_state.m_x[0]);
+    addNode(ends, body, 0);
     ends.assemble(400, settings.m_step);
     ends.request();
     ends.form();
@@ -80,8 +87,7 @@ TEST(BodyEnds, LearnNothingFromTheRoundingOfVelocities)
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
     ends.clear({&body, cache.get()});
-    for (int node : {0, 1, 2})
-        ends.setPoint(ends.addPoint(), {0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
+    for (int node : {0, 1, 2}) addNode(ends, body, node);
     ends.assemble(400, settings.m_step);
     ends.request();
     ends.form();
@@ -113,8 +119,7 @@ TEST(BodyEnds, LearnNothingFromImpulsesThatWereExpectedInVain)
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
     ends.clear({&body, cache.get(), &expected});
-    for (int node : {0, 1, 2})
-        ends.setPoint(ends.addPoint(), {0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
+    for (int node : {0, 1, 2}) addNode(ends, body, node);
     ends.assemble(400, motion.m_settings.m_step);
     ends.request();
     ends.form();

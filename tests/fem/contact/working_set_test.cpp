@@ -110,7 +110,6 @@ TEST(WorkingSet, MovesAsTheWholeWouldUnderImpulsesOnIt)
         EXPECT_EQ(std::count_if(velocity.begin(), velocity.end(), [](double v) { return !std::isfinite(v); }), 0);
         largest = std::max(largest, set.ends().size() - std::set<int>(chosen.begin(), chosen.end()).size());
         // Mixes of sweeps have the velocities of the same mixes of their impulses.
-        set.forgetSweeps();
         std::vector<Vec3> now(kEnds), last(kEnds);
         std::array<std::vector<Vec3>, 2> delta;
         delta.fill(std::vector<Vec3>(kEnds));
