@@ -101,14 +101,16 @@ const std::vector<Vec3>& FemSoftBody::surfaceVelocity() const
 // in some five lines of the cache, of which this needs one.
 std::uint64_t topologyMark(const btSoftBody& body)
 {
-    constexpr int kAhead = 16;
+    constexpr int kAhead = 48;
     constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15;  // odd, so that no node is lost
     const auto first = reinterpret_cast<std::uintptr_t>(&body.m_nodes[0]);
     const int count = body.m_tetras.size();
     std::uint64_t sums[4] = {};
     for (int e = 0; e < count; ++e)
     {
-        hwy::Prefetch(&body.m_tetras[std::min(e + kAhead, count - 1)].m_n);
+        const auto& ahead = body.m_tetras[std::min(e + kAhead, count - 1)].m_n;
+        hwy::Prefetch(&ahead[0]);
+        hwy::Prefetch(&ahead[3]);
         for (int a = 0; a < 4; ++a)
             sums[a] = kFactor * sums[a] + (reinterpret_cast<std::uintptr_t>(body.m_tetras[e].m_n[a]) - first);
     }
@@ -157,9 +159,10 @@ void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
 double fastestNode(const Body& body, const Vec3& relativeTo)
 {
     const std::vector<Vec3>& v = velocity(body);
-    double fastest = 0;
-    for (int i : body.m_model->mesh().surfaceNodes()) fastest = std::max(fastest, norm(v[i] - relativeTo));
-    return fastest;
+    double fastest = 0;  // squares
+    for (int i : body.m_model->mesh().surfaceNodes())
+        fastest = std::max(fastest, dot(v[i] - relativeTo, v[i] - relativeTo));
+    return std::sqrt(fastest);
 }
 
 double fastestVertex(const FemSoftBody& fem, const Vec3& relativeTo)

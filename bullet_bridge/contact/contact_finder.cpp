@@ -74,13 +74,14 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     ContactSearchReport report;
     const double step = around.m_step;
     begin(fem, bodyIndex);
+    double softReach = 0;
     if (around.m_count > 0)
     {
         fem.updateSkin();
         m_culling.begin(fem.m_surface, fem.surfacePosition());
         m_fastest = fastestNode(fem.m_body, Vec3());
+        softReach = m_band + fem.m_contactOffset + step * (fem.m_skin ? fastestVertex(fem, Vec3()) : m_fastest);
     }
-    const double softReach = m_band + fem.m_contactOffset + step * fastestVertex(fem, Vec3());
     for (int k = 0; k < around.m_count; ++k)
     {
         const TouchedObject& touched = around.m_touched[k];

@@ -55,13 +55,15 @@ bool SurfaceCulling::noteVertex(int vertex, const Vec3& start, const Vec3& end)
 double SurfaceCulling::leastGap(int vertex, const Triangle& t) const
 {
     double least = 0;
-    for (int i : t) least = std::min(least, dot(m_gaps[vertex].m_normal, (*m_x)[i] - (*m_x)[vertex]));
+    for (int i : t)
+        if (i != vertex) least = std::min(least, dot(m_gaps[vertex].m_normal, (*m_x)[i] - (*m_x)[vertex]));
     return m_gaps[vertex].m_gap + least;
 }
 
 double SurfaceCulling::leastGap(const Triangle& t) const
 {
-    return std::max({leastGap(t[0], t), leastGap(t[1], t), leastGap(t[2], t)});
+    const double least = std::max(leastGap(t[0], t), leastGap(t[1], t));
+    return t[2] == t[0] ? least : std::max(least, leastGap(t[2], t));
 }
 
 }  // namespace bullet_fem

@@ -77,6 +77,7 @@ bool ignoresCollision(const btSoftBody& body, const btCollisionObject& object)
 bool isAnchoredTo(const FemSoftBody& fem, int node, const btCollisionObject& object)
 {
     const btSoftBody& soft = *fem.m_softBody;
+    if (soft.m_anchors.size() + soft.m_deformableAnchors.size() == 0) return false;
     const btSoftBody::Node* at = &soft.m_nodes[node];
     if (at->m_battach == 0) return false;
     for (int k = 0; k < soft.m_anchors.size(); ++k)

@@ -10,6 +10,25 @@ namespace bullet_fem
 
 void SoftPairMemory::beginStep()
 {
+    m_lastComplete.swap(m_nextComplete);
+    std::sort(m_lastComplete.begin(), m_lastComplete.end());
+    m_nextComplete.clear();
+    takeOverContacts();
+    m_next.clear();
+    m_nextOrigins.clear();
+}
+
+// They come in order but for those of pairs that were thinned out.
+void SoftPairMemory::takeOverContacts()
+{
+    if (std::is_sorted(m_nextOrigins.begin(), m_nextOrigins.end()))
+    {
+        m_last.swap(m_next);
+        m_lastOrigins.swap(m_nextOrigins);
+        m_next.reserve(m_last.capacity());  // as if they had been copied
+        m_nextOrigins.reserve(m_lastOrigins.capacity());
+        return;
+    }
     m_order.resize(m_next.size());
     std::iota(m_order.begin(), m_order.end(), 0);
     std::sort(m_order.begin(), m_order.end(),
@@ -22,11 +41,6 @@ void SoftPairMemory::beginStep()
         m_last.push_back(m_next[k]);
         m_lastOrigins.push_back(m_nextOrigins[k]);
     }
-    m_next.clear();
-    m_nextOrigins.clear();
-    m_lastComplete.swap(m_nextComplete);
-    std::sort(m_lastComplete.begin(), m_lastComplete.end());
-    m_nextComplete.clear();
 }
 
 void SoftPairMemory::remember(const Contacts& contacts, const std::vector<SoftPairIds>& completePairs)

@@ -85,6 +85,8 @@ public:
     bool isComplete(const SoftPairIds& pair) const;
 
 private:
+    void takeOverContacts();
+
     std::vector<ContactPoint> m_last, m_next;
     std::vector<SoftPairOrigin> m_lastOrigins, m_nextOrigins;
     std::vector<SoftPairIds> m_lastComplete, m_nextComplete;  // the last ascending

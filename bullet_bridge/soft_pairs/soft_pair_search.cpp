@@ -47,16 +47,26 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
     for (int b : m_paired)
         if (!m_isStill[b]) m_moved.push_back(bodies[b]);
     m_threads.run(kParts, [&](int part) { findPairs(bodies, maxContacts, part); });
-    m_contacts.clear();
-    m_origins.clear();
-    for (const Part& part : m_parts)
-    {
-        m_contacts.insert(m_contacts.end(), part.m_contacts.begin(), part.m_contacts.end());
-        m_origins.insert(m_origins.end(), part.m_origins.begin(), part.m_origins.end());
-    }
+    collectParts();
     m_limited.assign(bodies.size(), 0);
     for (const Pair& pair : m_pairs)
         if (pair.m_limited) m_limited[pair.m_first] = 1;
+}
+
+void SoftPairSearch::collectParts()
+{
+    m_firstOfPart.assign(1, 0);
+    for (const Part& part : m_parts) m_firstOfPart.push_back(m_firstOfPart.back() + part.m_contacts.size());
+    m_contacts.resize(m_firstOfPart.back());
+    m_origins.resize(m_firstOfPart.back());
+    m_threads.run(kParts,
+                  [this](int k)
+                  {
+                      const auto first = static_cast<std::ptrdiff_t>(m_firstOfPart[k]);
+                      const Part& part = m_parts[k];
+                      std::copy(part.m_contacts.begin(), part.m_contacts.end(), m_contacts.begin() + first);
+                      std::copy(part.m_origins.begin(), part.m_origins.end(), m_origins.begin() + first);
+                  });
 }
 
 // The surfaces of the others need no update.

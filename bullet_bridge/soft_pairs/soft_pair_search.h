@@ -64,6 +64,7 @@ private:
     void listPairs(const std::vector<FemSoftBody*>& bodies);
     void listTouching(const std::vector<FemSoftBody*>& bodies);
     void choosePairs();
+    void collectParts();
     void findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part);
 
     const Threads& m_threads;
@@ -78,6 +79,7 @@ private:
     std::vector<unsigned char> m_isStill, m_isSearched;  // per body; searched: in a pair that is
     std::vector<FemSoftBody*> m_moved;                   // of those in a pair, the ones that are not still
     std::vector<unsigned char> m_limited;                // per body
+    std::vector<std::size_t> m_firstOfPart;              // and the end, in these:
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;
 };

@@ -8,6 +8,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/fem/threads.h"
+#include "fem/pieces.h"
 #include "plugin/btFemStopwatch.h"
 #include "plugin/joints/btFemAttachments.h"
 
@@ -18,6 +19,8 @@ namespace
 
 // Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
 constexpr int kSweepsWithJoints = 50;
+
+constexpr int kContactsOfPiece = 256;  // copied at once
 
 // The user's defaults are the solver's own.
 static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
@@ -59,13 +62,22 @@ void btFemContactGroup::beginStep()
     m_joints.forgetWorld();
 }
 
+// But for the room of the contacts, which are as many and as large as all else that is written anew in a step.
+void btFemContactGroup::clearProblem()
+{
+    std::vector<ContactPoint> contacts;
+    contacts.swap(m_problem.m_contacts);
+    m_problem.clear();
+    contacts.swap(m_problem.m_contacts);
+}
+
 void btFemContactGroup::collect(const Scope& scope)
 {
     const btFemStopwatch watch;
     m_step = scope.m_step;
     m_entries = scope.m_entries;
     m_rigid.clear(scope.m_phase);
-    m_problem.clear();
+    clearProblem();
     m_bodies.clear();
     for (btFemEntry* entry : m_entries)
     {
@@ -75,8 +87,9 @@ void btFemContactGroup::collect(const Scope& scope)
             {&fem.m_body, fem.m_compliance.get(), fem.m_expected.empty() ? nullptr : &fem.m_expected});
     }
     collectJoints(scope);  // first: the rigid bodies that they hold are not rewound
-    collectRigid();
-    collectSoft();
+    findRigid();
+    findSoft();
+    collectContacts();
     m_rigid.connectLinks(m_problem.m_responses);
     const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
     if (world && world->m_dispatcher && !m_problem.m_contacts.empty())
@@ -96,30 +109,57 @@ void btFemContactGroup::collect(const Scope& scope)
     m_milliseconds = watch.milliseconds();
 }
 
-void btFemContactGroup::collectRigid()
+void btFemContactGroup::findRigid()
 {
     m_rigidSearch.find(m_bodies, m_step, m_info.m_maxContacts, m_rigid);
     for (std::size_t b = 0; b < m_bodies.size(); ++b)
     {
-        FemSoftBody& fem = *m_bodies[b];
         const ContactSearchReport& found = m_rigidSearch.reports()[b];
         if (found.m_unknownShape) m_entries[b]->m_report.m_flags |= BT_FEM_UNKNOWN_SHAPE;
         if (found.m_limited) m_entries[b]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
-        for (ContactPoint& contact :
-             fem.m_contacts)  // links go on arcs: only one point in space for both keeps momenta
-            if (m_rigid.isMovableLink(contact.m_obstacle)) contact.m_approach = {};
-        m_problem.m_contacts.insert(m_problem.m_contacts.end(), fem.m_contacts.begin(), fem.m_contacts.end());
     }
 }
 
 // Bodies in the order of the problem, which does not depend on addresses.
-void btFemContactGroup::collectSoft()
+void btFemContactGroup::findSoft()
 {
     m_softPairs.find(m_bodies, m_step, m_info.m_maxContacts);
     for (std::size_t b = 0; b < m_bodies.size(); ++b)
         if (m_softPairs.isLimited(b)) m_entries[b]->m_report.m_flags |= BT_FEM_CONTACT_LIMIT;
-    m_problem.m_contacts.insert(m_problem.m_contacts.end(), m_softPairs.contacts().begin(),
-                                m_softPairs.contacts().end());
+}
+
+// Those of every body with rigid ones, then those between soft bodies.
+void btFemContactGroup::collectContacts()
+{
+    m_firstRigid.assign(1, 0);
+    for (const FemSoftBody* fem : m_bodies) m_firstRigid.push_back(m_firstRigid.back() + fem->m_contacts.size());
+    const std::vector<ContactPoint>& soft = m_softPairs.contacts();
+    std::vector<ContactPoint>& contacts = m_problem.m_contacts;
+    contacts.resize(m_firstRigid.back() + soft.size());
+    const auto place = [&contacts](std::size_t k) { return contacts.begin() + static_cast<std::ptrdiff_t>(k); };
+    const int bodies = static_cast<int>(m_bodies.size());
+    const Pieces pieces(static_cast<int>(soft.size()), kContactsOfPiece);
+    m_settings.m_step.m_threads->run(bodies + pieces.count(),
+                                     [&](int k)
+                                     {
+                                         if (k < bodies)
+                                         {
+                                             alignLinks(m_bodies[k]->m_contacts);
+                                             std::copy(m_bodies[k]->m_contacts.begin(), m_bodies[k]->m_contacts.end(),
+                                                       place(m_firstRigid[k]));
+                                             return;
+                                         }
+                                         const Range piece = pieces[k - bodies];
+                                         std::copy(soft.begin() + piece.m_begin, soft.begin() + piece.m_end,
+                                                   place(m_firstRigid.back() + piece.m_begin));
+                                     });
+}
+
+// Links go on arcs: only one point in space for both keeps momenta.
+void btFemContactGroup::alignLinks(std::vector<ContactPoint>& contacts) const
+{
+    for (ContactPoint& contact : contacts)
+        if (m_rigid.isMovableLink(contact.m_obstacle)) contact.m_approach = {};
 }
 
 void btFemContactGroup::collectJoints(const Scope& scope)
@@ -215,25 +255,29 @@ void btFemContactGroup::moveRigid()
 void btFemContactGroup::report(const ContactReport& report)
 {
     makeRoomForReports();
-    m_settings.m_step.m_threads->run(static_cast<int>(m_entries.size()), [&](int b) { reportBody(b, report); });
-    m_softPairs.remember(m_problem.m_contacts.data() + m_firstRigid.back());
     m_together.clear();
     for (const btFemEntry* entry : m_entries) m_together.emplace_back(entry->m_softBody, entry);
     std::sort(m_together.begin(), m_together.end());
-    for (btFemEntry* entry : m_entries)
+    m_touchesBegin.assign(m_entries.size(), 0);
+    m_settings.m_step.m_threads->run(static_cast<int>(m_entries.size()),
+                                     [&](int b)
+                                     {
+                                         reportBody(b, report);
+                                         m_touchesBegin[b] = !updateKnownTouches(*m_entries[b], m_together);
+                                     });
+    m_softPairs.remember(m_problem.m_contacts.data() + m_firstRigid.back());
+    for (std::size_t b = 0; b < m_entries.size(); ++b)
     {
-        updateTouches(*entry, m_together);
-        SoftJoints::takeBack(*entry->m_fem, m_problem);
-        writeReports(*entry->m_fem, entry->m_anchors);
+        btFemEntry& entry = *m_entries[b];
+        if (m_touchesBegin[b]) updateTouches(entry, m_together);
+        SoftJoints::takeBack(*entry.m_fem, m_problem);
+        writeReports(*entry.m_fem, entry.m_anchors);
     }
 }
 
 // On one thread: Bullet's memory may not bear several.
 void btFemContactGroup::makeRoomForReports()
 {
-    m_firstRigid.assign(1, 0);
-    for (const btFemEntry* entry : m_entries)
-        m_firstRigid.push_back(m_firstRigid.back() + entry->m_fem->m_contacts.size());
     const std::size_t contacts = m_problem.m_contacts.size();
     const auto visitSides = [this, contacts](const auto& visit)
     {

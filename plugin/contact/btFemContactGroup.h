@@ -77,8 +77,11 @@ public:
     const bullet_fem::SoftPairMemory& softPairs() const { return m_softPairs.memory(); }
 
 private:
-    void collectRigid();
-    void collectSoft();
+    void clearProblem();
+    void findRigid();
+    void findSoft();
+    void collectContacts();
+    void alignLinks(std::vector<bullet_fem::ContactPoint>& contacts) const;
     void collectJoints(const Scope& scope);
     template <class Part>
     void onSolverBodies(const Part& part);
@@ -105,5 +108,6 @@ private:
     bullet_fem::ContactProblem m_problem;
     bullet_fem::ContactSolver m_solver;
     btFemTogether m_together;
-    double m_milliseconds = 0;  // spent so far on the group
+    std::vector<unsigned char> m_touchesBegin;  // per body: it touches what it did not
+    double m_milliseconds = 0;                  // spent so far on the group
 };

@@ -70,33 +70,47 @@ void ageTouches(btFemEntry& entry)
 void updateTouches(btFemEntry& entry, const btFemTogether& together)
 {
     btAlignedObjectArray<btFemTouch>& touches = entry.m_touches;
+    visitContacts(entry, together,
+                  [&touches](const btFemContact& contact, const Other& other)
+                  {
+                      if (!isTouch(contact, 0) || find(touches, other)) return;
+                      btFemTouch touch;
+                      touch.m_other = other.m_object;
+                      touch.m_otherId = other.m_id;
+                      touch.m_state = btFemTouchState::began;
+                      touches.push_back(touch);
+                  });
+    updateKnownTouches(entry, together);
+}
+
+bool updateKnownTouches(btFemEntry& entry, const btFemTogether& together)
+{
+    btAlignedObjectArray<btFemTouch>& touches = entry.m_touches;
     for (int k = 0; k < touches.size(); ++k)
     {
         touches[k].m_points = 0;
         touches[k].m_impulse.setZero();
         touches[k].m_normalImpulse = 0;
     }
-    const auto begin = [&touches](const btFemContact& contact, const Other& other)
-    {
-        if (!isTouch(contact, 0) || find(touches, other)) return;
-        btFemTouch touch;
-        touch.m_other = other.m_object;
-        touch.m_otherId = other.m_id;
-        touch.m_state = btFemTouchState::began;
-        touches.push_back(touch);
-    };
-    const auto sum = [&touches](const btFemContact& contact, const Other& other)
-    {
-        btFemTouch* touch = isTouch(contact, other.m_slack) ? find(touches, other) : nullptr;
-        if (!touch) return;
-        ++touch->m_points;
-        touch->m_impulse += contact.m_impulse;
-        touch->m_normalImpulse += contact.m_normalImpulse;
-    };
-    visitContacts(entry, together, begin);
-    visitContacts(entry, together, sum);
+    bool areKnown = true;
+    visitContacts(entry, together,
+                  [&](const btFemContact& contact, const Other& other)
+                  {
+                      if (!isTouch(contact, other.m_slack)) return;
+                      btFemTouch* touch = find(touches, other);
+                      if (touch)
+                      {
+                          ++touch->m_points;
+                          touch->m_impulse += contact.m_impulse;
+                          touch->m_normalImpulse += contact.m_normalImpulse;
+                      }
+                      else if (isTouch(contact, 0))
+                          areKnown = false;
+                  });
+    if (!areKnown) return false;
     for (int k = 0; k < touches.size(); ++k)
         if (touches[k].m_points == 0) touches[k].m_state = btFemTouchState::ended;
+    return true;
 }
 
 btScalar touchSlack(const btFemEntry& entry)

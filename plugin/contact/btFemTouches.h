@@ -20,6 +20,10 @@ using btFemTogether = std::vector<std::pair<const btCollisionObject*, const btFe
 /// the body touches more than ever.
 void updateTouches(btFemEntry& entry, const btFemTogether& together);
 
+/// The same on any thread, where nothing is touched that was not before; else false, and the touches wait for
+/// updateTouches. Never allocates.
+bool updateKnownTouches(btFemEntry& entry, const btFemTogether& together);
+
 /// Gap up to which a touch that began lasts without an impulse [m]: so wide that a body at rest, which may lift off by
 /// rounding for a step, goes on touching.
 btScalar touchSlack(const btFemEntry& entry);
