@@ -20,11 +20,11 @@ namespace
 constexpr btScalar kSpacing = btScalar(0.22);  // of balls of .2 m [m]
 constexpr int kColumns = 3, kLayers = 4;
 
-// Soft balls that fall into a pit of a width of three of them.
-class SleepingPile : public testing::Test
+// Soft balls that fall into a pit of a width of three of them, from places a little aside of each other's middle [m].
+class Pile
 {
-protected:
-    SleepingPile()
+public:
+    explicit Pile(double aside = 0.01) : m_aside(static_cast<btScalar>(aside))
     {
         m_world.addFloorBox();
         const double half = 0.5 * kColumns * kSpacing;
@@ -44,27 +44,9 @@ protected:
                 addBall(k);
     }
 
-    static btVector3 placeOf(int k)
-    {
-        const int layer = k / (kColumns * kColumns);
-        const btScalar aside = btScalar(0.01) * btScalar(k * 7 % 5 - 2);
-        return {kSpacing * btScalar(k % kColumns - 1) + aside, kSpacing * btScalar(k / kColumns % kColumns - 1) - aside,
-                kSpacing * (btScalar(layer) + btScalar(0.7))};
-    }
+    int size() const { return static_cast<int>(m_balls.size()); }
 
-    void addBall(int k)
-    {
-        btSoftBody* ball = btFemHelpers::createFromTetMesh(m_world.info(), makeSphere(0.1, 4));
-        ball->translate(placeOf(k));
-        btFemMaterial material;
-        material.m_youngModulus = btScalar(2e5);
-        material.m_density = 1000;
-        material.m_stiffnessDamping = btScalar(0.01);
-        m_world.fem().setMaterial(ball, material);
-        m_world.addSoft(ball);
-        ball->forceActivationState(ACTIVE_TAG);
-        m_balls.push_back(ball);
-    }
+    void step() { m_world.step(1); }
 
     int asleep() const
     {
@@ -79,17 +61,6 @@ protected:
         double m_sweeps = 0;
         double m_idle = 0;  // contacts that carry nothing, for each that does
     };
-
-    double idleContacts() const
-    {
-        double idle = 0, pushing = 0;
-        for (const btSoftBody* ball : m_balls)
-        {
-            const btAlignedObjectArray<btFemContact>& contacts = m_world.fem().contacts(ball);
-            for (int k = 0; k < contacts.size(); ++k) (contacts[k].m_normalImpulse > 0 ? pushing : idle) += 1;
-        }
-        return idle / pushing;
-    }
 
     // Of a pile that may not sleep.
     Rest atRest()
@@ -110,6 +81,40 @@ protected:
         return rest;
     }
 
+private:
+    btVector3 placeOf(int k) const
+    {
+        const int layer = k / (kColumns * kColumns);
+        const btScalar aside = m_aside * btScalar(k * 7 % 5 - 2);
+        return {kSpacing * btScalar(k % kColumns - 1) + aside, kSpacing * btScalar(k / kColumns % kColumns - 1) - aside,
+                kSpacing * (btScalar(layer) + btScalar(0.7))};
+    }
+
+    void addBall(int k)
+    {
+        btSoftBody* ball = btFemHelpers::createFromTetMesh(m_world.info(), makeSphere(0.1, 4));
+        ball->translate(placeOf(k));
+        btFemMaterial material;
+        material.m_youngModulus = btScalar(2e5);
+        material.m_density = 1000;
+        material.m_stiffnessDamping = btScalar(0.01);
+        m_world.fem().setMaterial(ball, material);
+        m_world.addSoft(ball);
+        ball->forceActivationState(ACTIVE_TAG);
+        m_balls.push_back(ball);
+    }
+
+    double idleContacts() const
+    {
+        double idle = 0, pushing = 0;
+        for (const btSoftBody* ball : m_balls)
+        {
+            const btAlignedObjectArray<btFemContact>& contacts = m_world.fem().contacts(ball);
+            for (int k = 0; k < contacts.size(); ++k) (contacts[k].m_normalImpulse > 0 ? pushing : idle) += 1;
+        }
+        return idle / pushing;
+    }
+
     static btFemSolverInfo solverInfo()
     {
         btFemSolverInfo info;
@@ -117,25 +122,47 @@ protected:
         return info;
     }
 
+    btScalar m_aside;
     FemWorld m_world{WorldClass::softRigid, solverInfo()};
     std::vector<btSoftBody*> m_balls;
 };
 
-// Though now and then a node slips off another ball, and is faster than the threshold for a step.
-TEST_F(SleepingPile, SleepsWithinTenSeconds)
+// Of some piles, because their course follows rounding, and one of many stays restless for long.
+Pile::Rest medianRest(bool rigid)
 {
-    fill(false);
-    for (int k = 0; k < 600 && asleep() == 0; ++k) m_world.step(1);
-    EXPECT_EQ(asleep(), static_cast<int>(m_balls.size()));
+    std::vector<double> fastest, sweeps, idle;
+    for (const double aside : {0.009, 0.01, 0.011})
+    {
+        Pile pile(aside);
+        pile.fill(rigid);
+        const Pile::Rest rest = pile.atRest();
+        fastest.push_back(rest.m_fastest);
+        sweeps.push_back(rest.m_sweeps);
+        idle.push_back(rest.m_idle);
+    }
+    const auto median = [](std::vector<double>& values)
+    {
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    };
+    return {median(fastest), median(sweeps), median(idle)};
+}
+
+// Though now and then a node slips off another ball, and is faster than the threshold for a step.
+TEST(SleepingPile, SleepsWithinTenSeconds)
+{
+    Pile pile;
+    pile.fill(false);
+    for (int k = 0; k < 600 && pile.asleep() == 0; ++k) pile.step();
+    EXPECT_EQ(pile.asleep(), pile.size());
 }
 
 // What carries something stays a contact: were it lost and found again from step to step, a node somewhere would move
 // at .02 m/s. Nor is the pile searched as if it sprang apart in free motion: for each point that carries something, 1.8
 // would be found that do not.
-TEST_F(SleepingPile, IsStillThoughItMayNotSleep)
+TEST(SleepingPile, IsStillThoughItMayNotSleep)
 {
-    fill(false);
-    const Rest rest = atRest();
+    const Pile::Rest rest = medianRest(false);
     EXPECT_LT(rest.m_fastest, 0.0015);
     EXPECT_LT(rest.m_idle, 1.4);
 }
@@ -143,10 +170,9 @@ TEST_F(SleepingPile, IsStillThoughItMayNotSleep)
 // Nor does the point where a triangle touches a rigid ball jump to and fro while the triangle tilts: a node somewhere
 // would move at .02 m/s. What holds rigid balls is known before the first sweep; else there would be several times as
 // many.
-TEST_F(SleepingPile, IsStillWithRigidBallsInIt)
+TEST(SleepingPile, IsStillWithRigidBallsInIt)
 {
-    fill(true);
-    const Rest rest = atRest();
+    const Pile::Rest rest = medianRest(true);
     EXPECT_LT(rest.m_fastest, 0.0015);
     EXPECT_LT(rest.m_sweeps, 3);
 }
