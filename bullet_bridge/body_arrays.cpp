@@ -41,6 +41,12 @@ int nodeCountOf(const FemSoftBody& fem)
     return static_cast<int>(fem.m_written.m_x.size());
 }
 
+bool hasAsManyAsSetUp(const FemSoftBody& fem)
+{
+    const btSoftBody& soft = *fem.m_softBody;
+    return soft.m_nodes.size() == nodeCountOf(fem) && soft.m_tetras.size() == fem.m_body.m_model->mesh().tetCount();
+}
+
 }  // namespace
 
 void followNodes(FemSoftBody& fem)
@@ -60,17 +66,17 @@ void followNodes(FemSoftBody& fem)
 
 bool arraysAsSetUp(const FemSoftBody& fem)
 {
-    const btSoftBody& soft = *fem.m_softBody;
-    return soft.m_nodes.size() == nodeCountOf(fem) && soft.m_tetras.size() == fem.m_body.m_model->mesh().tetCount() &&
-           &soft.m_nodes[0] == fem.m_firstNode;
+    return hasAsManyAsSetUp(fem) && &fem.m_softBody->m_nodes[0] == fem.m_firstNode;
 }
 
 bool topologyAsSetUp(const FemSoftBody& fem)
 {
-    const btSoftBody& soft = *fem.m_softBody;
-    const TetMesh& mesh = fem.m_body.m_model->mesh();
-    return soft.m_nodes.size() == mesh.nodeCount() && soft.m_tetras.size() == mesh.tetCount() &&
-           topologyMark(soft) == fem.m_topology;
+    return hasAsManyAsSetUp(fem) && fem.m_topology.match(*fem.m_softBody);
+}
+
+bool topologyInTurnAsSetUp(FemSoftBody& fem)
+{
+    return hasAsManyAsSetUp(fem) && fem.m_topology.matchInTurn(*fem.m_softBody);
 }
 
 bool hasUsableNodes(const btSoftBody& body)

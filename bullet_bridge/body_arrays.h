@@ -16,8 +16,11 @@ void followNodes(FemSoftBody& fem);
 /// set up: its nodes must not be gone through then.
 bool arraysAsSetUp(const FemSoftBody& fem);
 
-/// True if the tetrahedra also still join the nodes that they did, by their topologyMark.
+/// True if there are as many nodes and tetrahedra, and these still join the nodes that they did.
 bool topologyAsSetUp(const FemSoftBody& fem);
+
+/// The same for every step, which looks at a part of the tetrahedra, in turn: see TopologyMarks.
+bool topologyInTurnAsSetUp(FemSoftBody& fem);
 
 /// True if all nodes are within 1e6 m of the origin: Bullet's own collision reads beyond its arrays for others.
 bool hasUsableNodes(const btSoftBody& body);

@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/fem_soft_body.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -35,7 +33,7 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
     : m_softBody(&softBody),
       m_firstNode(&softBody.m_nodes[0]),
       m_mark(markBody(softBody)),
-      m_topology(topologyMark(softBody)),
+      m_topology(softBody),
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
       m_surface(m_body.m_model->mesh())
@@ -95,28 +93,6 @@ void FemSoftBody::updateSkin()
 const std::vector<Vec3>& FemSoftBody::surfaceVelocity() const
 {
     return m_skin ? m_skinVelocity : velocity(m_body);
-}
-
-// Four sums, so that a product need not wait for the one before it; and tetrahedra are asked for ahead, because each is
-// in some five lines of the cache, of which this needs one.
-std::uint64_t topologyMark(const btSoftBody& body)
-{
-    constexpr int kAhead = 48;
-    constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15;  // odd, so that no node is lost
-    const auto first = reinterpret_cast<std::uintptr_t>(&body.m_nodes[0]);
-    const int count = body.m_tetras.size();
-    std::uint64_t sums[4] = {};
-    for (int e = 0; e < count; ++e)
-    {
-        const auto& ahead = body.m_tetras[std::min(e + kAhead, count - 1)].m_n;
-        hwy::Prefetch(&ahead[0]);
-        hwy::Prefetch(&ahead[3]);
-        for (int a = 0; a < 4; ++a)
-            sums[a] = kFactor * sums[a] + (reinterpret_cast<std::uintptr_t>(body.m_tetras[e].m_n[a]) - first);
-    }
-    std::uint64_t mark = 0;
-    for (const std::uint64_t sum : sums) mark = kFactor * mark + sum;
-    return mark;
 }
 
 bool restMatricesChanged(const FemSoftBody& fem)

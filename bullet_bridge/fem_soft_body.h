@@ -13,6 +13,7 @@
 #include "bullet_bridge/joints/held_joint.h"
 #include "bullet_bridge/model_library.h"
 #include "bullet_bridge/soft_pairs/soft_surface.h"
+#include "bullet_bridge/topology_marks.h"
 #include "bullet_fem/fem/contact_solver.h"
 
 class btCollisionObject;
@@ -94,7 +95,7 @@ struct FemSoftBody
     btSoftBody* m_softBody;
     const btSoftBody::Node* m_firstNode;  ///< where the array of its nodes begins, as seen last
     std::uint64_t m_mark;                 ///< on the btSoftBody: see body_mark.h
-    std::uint64_t m_topology;             ///< topologyMark(), as it became FEM
+    TopologyMarks m_topology;             ///< as it became FEM
     Body m_body;
     Vec3 m_restOrigin;  ///< node 0 of the rest shape, laid over the body as it became FEM (RestMesh) [m]
     std::vector<btMatrix3x3> m_restMatrices;  ///< m_Dm_inverse of the elements, as seen last
@@ -130,10 +131,6 @@ struct FemSoftBody
 private:
     void sizeScratch();
 };
-
-/// A number that changes with the nodes that any of the tetrahedra joins, but not with the place of their array: every
-/// step looks at all of them.
-std::uint64_t topologyMark(const btSoftBody& body);
 
 /// True if the user called initializeDmInverse, or scaled the body, since noteRestMatrices, and that changed a matrix.
 /// Never allocates.

@@ -168,7 +168,7 @@ void btFemBodyRegistry::compareTopologies(const btAlignedObjectArray<btSoftBody*
                 [this](int k)
                 {
                     const int known = m_compared[k];
-                    m_joinedAsBefore[known] = topologyAsSetUp(*m_entries[known]->m_fem);
+                    m_joinedAsBefore[known] = topologyInTurnAsSetUp(*m_entries[known]->m_fem);
                 });
 }
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/topology_marks.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "bridge/bridge_test_bodies.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kTetras = 40;
+
+/// Two cells each way: 40 tetrahedra, five a part; as after its first step.
+struct MarkedBox : TestBox
+{
+    MarkedBox() : m_marks(*m_body) { m_body->m_bUpdateRtCst = false; }
+
+    // In the other order, which turns it.
+    void rejoin(int tetra) { std::swap(m_body->m_tetras[tetra].m_n[1], m_body->m_tetras[tetra].m_n[2]); }
+
+    // Looks, until something is seen, or all have had their turn; the number of looks that saw nothing.
+    int looksInVain()
+    {
+        int looks = 0;
+        while (looks < TopologyMarks::kTurns && m_marks.matchInTurn(*m_body)) ++looks;
+        return looks;
+    }
+
+    TopologyMarks m_marks;
+};
+
+TEST(TopologyMarks, MatchTheBodyAsItWas)
+{
+    MarkedBox box;
+    ASSERT_EQ(box.m_body->m_tetras.size(), kTetras);
+    EXPECT_TRUE(box.m_marks.match(*box.m_body));
+    EXPECT_EQ(box.looksInVain(), TopologyMarks::kTurns);
+}
+
+// Whichever it is, whatever its turn.
+TEST(TopologyMarks, SeeEveryTetrahedronThatIsJoinedOtherwise)
+{
+    int before = 0;
+    for (int tetra = 0; tetra < kTetras; ++tetra)
+    {
+        MarkedBox box;
+        for (int k = 0; k < tetra % 5; ++k) ASSERT_TRUE(box.m_marks.matchInTurn(*box.m_body));
+        box.rejoin(tetra);
+        EXPECT_FALSE(box.m_marks.match(*box.m_body)) << tetra;
+        const int looks = box.looksInVain();
+        EXPECT_LT(looks, TopologyMarks::kTurns) << tetra;
+        before += looks > 0;
+    }
+    EXPECT_GT(before, 0);  // parts do take turns
+}
+
+TEST(TopologyMarks, SeeAtOnceWhatBulletSaysIsNew)
+{
+    for (int tetra = 0; tetra < kTetras; ++tetra)
+    {
+        MarkedBox box;
+        box.rejoin(tetra);
+        box.m_body->m_bUpdateRtCst = true;
+        EXPECT_FALSE(box.m_marks.matchInTurn(*box.m_body)) << tetra;
+    }
+}
+
+TEST(TopologyMarks, SeeAtOnceWhatIsInAnotherArray)
+{
+    for (int tetra = 0; tetra < kTetras; ++tetra)
+    {
+        MarkedBox box;
+        box.rejoin(tetra);
+        box.m_body->m_tetras.reserve(2 * box.m_body->m_tetras.capacity());
+        EXPECT_FALSE(box.m_marks.matchInTurn(*box.m_body)) << tetra;
+    }
+}
+
+// Node pointers go along with the array, as followNodes makes them.
+TEST(TopologyMarks, DoNotMindWhereTheArraysAre)
+{
+    MarkedBox box;
+    btSoftBody& body = *box.m_body;
+    const btSoftBody::Node* first = &body.m_nodes[0];
+    body.m_nodes.reserve(2 * body.m_nodes.capacity());
+    ASSERT_NE(first, &body.m_nodes[0]);
+    for (int e = 0; e < body.m_tetras.size(); ++e)
+        for (btSoftBody::Node*& node : body.m_tetras[e].m_n) node = &body.m_nodes[static_cast<int>(node - first)];
+    body.m_tetras.reserve(2 * body.m_tetras.capacity());
+    EXPECT_TRUE(box.m_marks.match(body));
+    EXPECT_EQ(box.looksInVain(), TopologyMarks::kTurns);
+}
+
+}  // namespace
+}  // namespace bullet_fem
