@@ -84,8 +84,8 @@ void BodyEnds::assemble(int denseLimit, double step)
     m_scale = learnt;
     m_dense = size() <= denseLimit;
     for (std::vector<Vec3>* vectors : {&m_impulse, &m_applied, &m_seen}) vectors->assign(m_ends.size(), Vec3());
-    m_nodeIn.assign(nodes, Vec3());
-    m_nodeOut.assign(nodes, Vec3());
+    m_nodeIn.resize(nodes);
+    m_nodeOut.resize(nodes);
     m_loadSpeed = speedByLoads(*m_body.m_body, step);
     m_formed = m_tooSoft = m_leftMuch = m_mixed = false;
     if (!m_dense)

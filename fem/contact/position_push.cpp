@@ -19,6 +19,14 @@ double pushTolerance(double contactTolerance)
     return std::clamp(0.1 * contactTolerance, kPushTolerance, kLoosePushTolerance);
 }
 
+// At which a penetration shall be taken back [m/s].
+double pushSpeed(const ContactPoint& contact, const ContactSettings& settings)
+{
+    const double depth = std::max(0.0, -contact.m_gap - contact.m_slop);
+    const double share = std::min(settings.m_pushFraction * contact.m_hardness, 1.0);
+    return std::min(share * depth / settings.m_step.m_step, settings.m_maxPushVelocity);
+}
+
 }  // namespace
 
 void PositionPush::begin()
@@ -31,9 +39,13 @@ void PositionPush::begin()
 bool PositionPush::isNeeded() const
 {
     const std::vector<ContactPoint>& contacts = m_rows.problem().m_contacts;
+    const double negligible = pushTolerance(m_rows.settings().m_tolerance) * m_rows.loadSpeed();
     return std::any_of(contacts.begin(), contacts.end(),
-                       [](const ContactPoint& c)
-                       { return c.m_gap < -c.m_slop && !(c.m_stiffness > 0 || c.m_damping > 0); });
+                       [&](const ContactPoint& c)
+                       {
+                           return c.m_gap < -c.m_slop && pushSpeed(c, m_rows.settings()) > negligible &&
+                                  !(c.m_stiffness > 0 || c.m_damping > 0);
+                       });
 }
 
 // From here on all velocities are those of the push.
@@ -76,10 +88,7 @@ void PositionPush::prepareContacts(Range rows)
         ContactRow& row = m_rows.rows()[k];
         const ContactPoint& c = contacts[k];
         const double moving = dot(c.m_normal, m_rows.velocity(row));
-        const double depth = std::max(0.0, -c.m_gap - c.m_slop);
-        const double share = std::min(settings.m_pushFraction * c.m_hardness, 1.0);
-        const double wanted = std::min(share * depth / h, settings.m_maxPushVelocity);
-        row.m_target.x = c.m_gap < 0 ? wanted - std::max(moving, 0.0) : -(moving + c.m_gap / h);
+        row.m_target.x = c.m_gap < 0 ? pushSpeed(c, settings) - std::max(moving, 0.0) : -(moving + c.m_gap / h);
         row.m_friction = 0;
         row.m_idle = row.m_idle || row.m_yield.x > 0;
     }

@@ -20,7 +20,7 @@ public:
     /// When the rows are assembled anew.
     void begin();
 
-    /// True if a penetration exceeds its slop.
+    /// True if a penetration exceeds its slop, by more than sweeps would leave of it.
     bool isNeeded() const;
 
     /// When the impulses are stored, which it forgets. Returns the sweeps made.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "bullet_fem/fem/stepping.h"
 #include "fem/scenes/contact_scene.h"
@@ -51,6 +52,25 @@ TEST(Penetration, IsLeftAloneWithinTheSlop)
     scene.solve();
     finishStep(scene.m_body, scene.m_settings.m_step);
     EXPECT_NEAR(scene.m_body.m_state.m_x[4].z, 0.2 * 0.004, 1e-5 * 0.004);
+}
+
+// What is less than the tolerance that pushes are solved to, 1e-4 of what loads do in a step, is left as it is.
+TEST(Penetration, IsLeftAloneWhereSweepsWouldLeaveIt)
+{
+    const double step = 1.0 / 60, acceleration = 10;
+    const double negligible = 1e-4 * acceleration * step * step / 0.2;
+    const auto pushed = [&](double depth)
+    {
+        ContactScene scene;
+        const std::vector<double>& mass = scene.m_body.m_state.m_mass;
+        for (std::size_t i = 0; i < mass.size(); ++i) scene.m_body.m_loads.m_force[i] = {mass[i] * acceleration, 0, 0};
+        scene.touchNode(4, -depth, 0);
+        scene.solve();
+        finishStep(scene.m_body, scene.m_settings.m_step);
+        return scene.m_body.m_state.m_x[4].z;
+    };
+    EXPECT_LE(std::abs(pushed(0.95 * negligible)), 1e-15);
+    EXPECT_NEAR(pushed(1.05 * negligible), 0.2 * 1.05 * negligible, 1e-2 * negligible);
 }
 
 // A body that leaves by itself faster than it would be pushed is not pushed.
