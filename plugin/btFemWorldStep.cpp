@@ -153,7 +153,8 @@ void btFemWorldStep::updateSurfaces(btFemBodyRegistry& registry)
              [&](int k)
              {
                  btSoftBody* soft = m_active[k]->m_softBody;
-                 soft->integrateMotion();
+                 if (!m_active[k]->m_hasNormals) soft->integrateMotion();
+                 m_active[k]->m_hasNormals = false;
                  btFemHelpers::updateEmbeddedSurface(soft);
                  writeBulletContacts(*m_active[k], registry);
                  noteSpeed(*m_active[k]);
@@ -330,6 +331,7 @@ void btFemWorldStep::noteFree(btFemEntry& entry, const FreeMotion& motion) const
     entry.m_report.m_residual = static_cast<btScalar>(solved.m_residual);
 }
 
+// Normals are made while the nodes are still in the cache.
 void btFemWorldStep::finish(btFemEntry& entry) const
 {
     FemSoftBody& fem = *entry.m_fem;
@@ -341,6 +343,8 @@ void btFemWorldStep::finish(btFemEntry& entry) const
         abandonStep(fem.m_body);
     }
     writeNodes(fem);
+    entry.m_softBody->integrateMotion();
+    entry.m_hasNormals = true;
     btFemStepReport& report = entry.m_report;
     const double length = 1e3 * entry.m_lastStep / entry.m_softBody->m_cfg.timescale;
     report.m_tooSlow = entry.m_realTime.isTooSlow(report.m_freeMotionMs + report.m_contactMs, length);
