@@ -25,13 +25,8 @@ using Rows = std::set<int>;
 struct NamedGraph
 {
     std::string m_name;
-    SparsePattern m_pattern;
+    SparsePattern (*m_make)();
 };
-
-NamedGraph named(const std::string& name, const Eigen::MatrixXd& A)
-{
-    return {name, sparsePattern(A)};
-}
 
 // `pieces` dense blocks without a connection.
 Eigen::MatrixXd blockDiagonal(int pieces, int size)
@@ -120,13 +115,15 @@ protected:
     template <class Check>
     void forOrders(const Check& check) const
     {
-        for (const std::vector<int>& before : ordersToTry(GetParam().m_pattern))
+        for (const std::vector<int>& before : ordersToTry(m_pattern))
         {
             std::vector<int> after = before;
-            const SupernodeTree tree = buildSupernodeTree(GetParam().m_pattern, after);
+            const SupernodeTree tree = buildSupernodeTree(m_pattern, after);
             check(before, after, tree);
         }
     }
+
+    const SparsePattern m_pattern = GetParam().m_make();
 };
 
 TEST_P(SupernodeTrees, ColumnsAreDividedAmongSupernodesInPostorder)
@@ -180,21 +177,21 @@ TEST_P(SupernodeTrees, RowsAscendAndAreTheParentsOwn)
 TEST_P(SupernodeTrees, TheNewOrderHasTheSameFill)
 {
     forOrders(
-        [](const auto& before, const auto& after, const SupernodeTree&)
+        [this](const auto& before, const auto& after, const SupernodeTree&)
         {
             std::vector<int> sorted = after;
             std::sort(sorted.begin(), sorted.end());
             EXPECT_EQ(sorted, naturalOrder(static_cast<int>(before.size())));
-            EXPECT_EQ(entryCount(fill(GetParam().m_pattern, after)), entryCount(fill(GetParam().m_pattern, before)));
+            EXPECT_EQ(entryCount(fill(m_pattern, after)), entryCount(fill(m_pattern, before)));
         });
 }
 
 TEST_P(SupernodeTrees, MergingOnlyAddsEntries)
 {
     forOrders(
-        [](const auto&, const auto& after, const SupernodeTree& tree)
+        [this](const auto&, const auto& after, const SupernodeTree& tree)
         {
-            const std::vector<Rows> exact = fill(GetParam().m_pattern, after);
+            const std::vector<Rows> exact = fill(m_pattern, after);
             std::size_t stored = 0;
             for (const Supernode& s : tree.m_supernodes)
             {
@@ -214,14 +211,25 @@ TEST_P(SupernodeTrees, MergingOnlyAddsEntries)
         });
 }
 
+// Made by the tests that want them: every test is a process of its own.
 INSTANTIATE_TEST_SUITE_P(Graphs, SupernodeTrees,
-                         testing::Values(named("One", diagonalMatrix(1)), named("Points", diagonalMatrix(9)),
-                                         named("Dense", fullMatrix(30)), named("Chain", tridiagonalMatrix(90)),
-                                         named("Arrow", arrowMatrix(60)), named("TwoPieces", blockDiagonal(2, 25)),
-                                         named("Sparse", randomGraph(120, 0.015, 1)),
-                                         named("LessSparse", randomGraph(120, 0.05, 2)),
-                                         NamedGraph{"Box", meshPattern(makeBox({1, 1, 1}, {4, 5, 6}))},
-                                         NamedGraph{"Bar", meshPattern(makeBox({9, 1, 1}, {27, 3, 3}))}),
+                         testing::Values(NamedGraph{"One", [] { return sparsePattern(diagonalMatrix(1)); }},
+                                         NamedGraph{"Points", [] { return sparsePattern(diagonalMatrix(9)); }},
+                                         NamedGraph{"Dense", [] { return sparsePattern(fullMatrix(30)); }},
+                                         NamedGraph{"Chain", [] { return sparsePattern(tridiagonalMatrix(90)); }},
+                                         NamedGraph{"Arrow", [] { return sparsePattern(arrowMatrix(60)); }},
+                                         NamedGraph{"TwoPieces", [] { return sparsePattern(blockDiagonal(2, 25)); }},
+                                         NamedGraph{"Sparse", [] { return sparsePattern(randomGraph(120, 0.015, 1)); }},
+                                         NamedGraph{"LessSparse",
+                                                    [] { return sparsePattern(randomGraph(120, 0.05, 2)); }},
+                                         NamedGraph{"Box",
+                                                    [] {
+                                                        return meshPattern(makeBox({1, 1, 1}, {4, 5, 6}));
+                                                    }},
+                                         NamedGraph{"Bar",
+                                                    [] {
+                                                        return meshPattern(makeBox({9, 1, 1}, {27, 3, 3}));
+                                                    }}),
                          [](const auto& suite) { return suite.param.m_name; });
 
 SupernodeTree treeOf(const Eigen::MatrixXd& A)
