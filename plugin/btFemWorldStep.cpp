@@ -145,7 +145,10 @@ void btFemWorldStep::updateSurfaces(btFemBodyRegistry& registry)
 {
     m_active.clear();
     for (const auto& entry : registry.entries())
-        if (entry->isStepped() && entry->m_softBody->isActive()) m_active.push_back(entry.get());
+        if (entry->isStepped() && entry->m_softBody->isActive())
+            m_active.push_back(entry.get());
+        else
+            entry->m_hasNormals = false;  // it may have been stopped since finish()
     for (const btFemEntry* entry : m_active) makeRoomForBulletContacts(*entry);
     registry.forgetWorld();
     const bool onThreads = registry.readWorld(m_active);
