@@ -145,6 +145,7 @@ void restore(const BodySnapshot& s, Body& body)
     scratch.m_complianceScale = s.m_complianceScale;
     scratch.m_velocity = s.m_v;
     std::fill(scratch.m_push.begin(), scratch.m_push.end(), Vec3());
+    scratch.m_isPushed = false;
 }
 
 }  // namespace bullet_fem

@@ -26,9 +26,11 @@ struct StepScratch
 
     std::vector<Vec3> m_velocity;   ///< velocities during the step [m/s]
     std::vector<Vec3> m_push;       ///< velocities of position correction: moved by, never kept [m/s]
+    bool m_isPushed = false;        ///< false: m_push is zero
     std::vector<Vec3> m_rightSide;  ///< b [kg m/s]
     std::vector<Vec3> m_increment;  ///< dv [m/s]
     std::vector<Vec3> m_residual;   ///< what the responses of this step have left of the impulses [kg m/s]
+    bool m_hasResidual = false;     ///< false: that is nothing, whatever is in there
     RigidMomentum m_momentum;       ///< what the impulses prescribe for every connected piece
     double m_complianceScale =
         1;  ///< what contact has learnt: A^-1 is about this times the warped A0^-1 at the surface

@@ -107,10 +107,8 @@ double expectImpulses(Body& body, const std::vector<Vec3>& impulses, double step
 void keepResidual(Body& body, const SolveReport& report)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    if (report.m_stop == SolveStop::breakdown)
-        std::fill(scratch.m_residual.begin(), scratch.m_residual.end(), Vec3());
-    else
-        scratch.m_residual = scratch.m_solver.m_r;
+    scratch.m_hasResidual = report.m_stop != SolveStop::breakdown;
+    if (scratch.m_hasResidual) scratch.m_residual = scratch.m_solver.m_r;
 }
 
 // Increments with impulses in them say nothing about those without.
@@ -121,7 +119,7 @@ void keepFreeMotion(const FreeMotion& motion)
     if (motion.m_expected) return keepResidual(body, motion.m_report);
     std::swap(body.m_state.m_lastIncrement[0], body.m_state.m_lastIncrement[1]);
     body.m_state.m_lastIncrement[0] = scratch.m_increment;
-    std::fill(scratch.m_residual.begin(), scratch.m_residual.end(), Vec3());
+    scratch.m_hasResidual = false;
 }
 
 void solveAlone(FreeMotion& motion, const StepSettings& settings)
@@ -153,10 +151,11 @@ void solveAlone(ImpulseResponse& response, const StepSettings& settings)
     StepScratch& scratch = body.m_workspace.scratch();
     const BodyState& s = body.m_state;
     const std::vector<Vec3>& impulses = *response.m_impulses;
+    completeWarpedSystem(body, settings);
     std::vector<Vec3>&b = scratch.m_rightSide, &dv = scratch.m_increment;
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = s.m_fixed[i] ? Vec3() : impulses[i];
     scratch.m_momentum.addImpulses(body, b, settings.m_step);
-    for (std::size_t i = 0; i < b.size(); ++i) b[i] += scratch.m_residual[i];
+    for (std::size_t i = 0; i < b.size() && scratch.m_hasResidual; ++i) b[i] += scratch.m_residual[i];
     if (response.m_steady)
     {
         for (std::size_t i = 0; i < dv.size(); ++i) dv[i] = s.m_fixed[i] ? Vec3() : s.m_v[i] - scratch.m_velocity[i];
@@ -213,6 +212,7 @@ Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings&
 {
     StepScratch& scratch = body.m_workspace.scratch();
     WarpedCompliance(body, settings.m_threads).apply(impulses, scratch.m_increment);
+    scratch.m_isPushed = true;
     Vec3 angularMomentum;
     for (std::size_t i = 0; i < scratch.m_push.size(); ++i)
     {
@@ -221,6 +221,12 @@ Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings&
             cross(settings.m_step * scratch.m_increment[i], body.m_state.m_mass[i] * scratch.m_velocity[i]);
     }
     return angularMomentum;
+}
+
+void stopPushing(StepScratch& scratch)
+{
+    std::fill(scratch.m_push.begin(), scratch.m_push.end(), Vec3());
+    scratch.m_isPushed = false;
 }
 
 }  // namespace
@@ -273,12 +279,12 @@ Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings
 void finishStep(Body& body, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
-    {
-        body.m_state.m_v[i] = scratch.m_velocity[i];
-        body.m_state.m_x[i] += settings.m_step * (scratch.m_velocity[i] + scratch.m_push[i]);
-        scratch.m_push[i] = {};
-    }
+    BodyState& s = body.m_state;
+    s.m_v = scratch.m_velocity;
+    for (std::size_t i = 0; i < s.m_x.size(); ++i) s.m_x[i] += settings.m_step * s.m_v[i];
+    if (!scratch.m_isPushed) return;
+    for (std::size_t i = 0; i < s.m_x.size(); ++i) s.m_x[i] += settings.m_step * scratch.m_push[i];
+    stopPushing(scratch);
 }
 
 bool canFinishStep(const Body& body)
@@ -296,8 +302,8 @@ bool canFinishStep(const Body& body)
 void abandonStep(Body& body)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    for (std::vector<Vec3>* motion : {&body.m_state.m_v, &scratch.m_push})
-        std::fill(motion->begin(), motion->end(), Vec3());
+    std::fill(body.m_state.m_v.begin(), body.m_state.m_v.end(), Vec3());
+    stopPushing(scratch);
 }
 
 SolveReport step(Body& body, const StepSettings& settings)

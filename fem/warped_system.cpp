@@ -35,9 +35,9 @@ void sumOverNodes(const Threads* threads, const NodeSums<Real>& sums)
     runRanges(threads, {sums.m_nodes->nodeCount(), kNodesOfPiece}, [&](Range nodes) { sumCorners(sums, nodes); });
 }
 
-// Forces of all elements, their rotations and their part of A; the forces are added to `force` [N].
+// The forces, rotations and parts of A of all elements.
 template <class Real>
-void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
+ElementPass<Real> passOver(Body& body, const StepSettings& settings)
 {
     const ModelElements& elements = body.m_model->elements();
     ElementWork& work = body.m_workspace.scratch().m_elements;
@@ -55,9 +55,33 @@ void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3
     pass.m_rotation = body.m_state.m_elementRotation.data();
     pass.m_force = scratch.m_corners.data();
     pass.m_warped = scratch.m_warped.data();
-    runRanges(settings.m_threads, {elements.blockCount(), kBlocksOfPiece},
+    return pass;
+}
+
+template <class Real>
+void runPass(const ElementPass<Real>& pass, const Threads* threads)
+{
+    runRanges(threads, {pass.m_elements->blockCount(), kBlocksOfPiece},
               [&](Range blocks) { runElementPass(pass, blocks); });
-    sumOverNodes(settings.m_threads, NodeSums<Real>{&elements.m_nodes, pass.m_force, nullptr, nullptr, force.data()});
+}
+
+// The forces are added to `force` [N].
+template <class Real>
+void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
+{
+    const ElementPass<Real> pass = passOver<Real>(body, settings);
+    runPass(pass, settings.m_threads);
+    sumOverNodes(settings.m_threads,
+                 NodeSums<Real>{&body.m_model->elements().m_nodes, pass.m_force, nullptr, nullptr, force.data()});
+}
+
+void scaleMass(Body& body, double step)
+{
+    ElementWork& work = body.m_workspace.scratch().m_elements;
+    const double alpha =
+        body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping + body.m_loads.m_frameDamping;
+    for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i)
+        work.m_scaledMass[i] = (1 + step * alpha) * body.m_state.m_mass[i];
 }
 
 // One rotation a node, or the body's one for all.
@@ -105,11 +129,10 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
 {
     ElementWork& work = body.m_workspace.scratch().m_elements;
     const BodyState& state = body.m_state;
-    const double h = settings.m_step;
-    const double alpha =
-        body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping + body.m_loads.m_frameDamping;
     work.m_isDouble = !isSinglePrecision(settings);
-    for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i) work.m_scaledMass[i] = (1 + h * alpha) * state.m_mass[i];
+    work.m_isComplete = true;
+    work.m_wasUsed = false;
+    scaleMass(body, settings.m_step);
     pad(settings.m_threads, state.m_x, work.m_x);
     pad(settings.m_threads, state.m_v, work.m_v);
     if (work.m_isDouble)
@@ -117,6 +140,19 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
     else
         passOverElements<float>(body, settings, force);
     rotateNodes(body, settings);
+}
+
+void completeWarpedSystem(Body& body, const StepSettings& settings)
+{
+    ElementWork& work = body.m_workspace.scratch().m_elements;
+    work.m_wasUsed = true;
+    if (work.m_isComplete) return;
+    work.m_isComplete = true;
+    scaleMass(body, settings.m_step);
+    pad(settings.m_threads, body.m_state.m_x, work.m_x);
+    ElementPass<float> pass = passOver<float>(body, settings);
+    pass.m_isRotated = true;
+    runPass(pass, settings.m_threads);
 }
 
 void WarpedSystem::applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const

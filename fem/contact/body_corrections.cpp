@@ -60,6 +60,8 @@ void BodyEnds::takeExpected(const StepSettings& settings, const CorrectionGoal& 
     gatherBeyond(m_applied);
     Body& body = *m_body.m_body;
     StepScratch& scratch = body.m_workspace.scratch();
+    if (!scratch.m_hasResidual) std::fill(scratch.m_residual.begin(), scratch.m_residual.end(), Vec3());
+    scratch.m_hasResidual = true;
     double left = 0;
     for (std::size_t i = 0; i < m_nodeIn.size(); ++i)
     {

@@ -79,7 +79,7 @@ HWY_INLINE Symmetric<Real> tensionOf(double factor, const Symmetric<Real>& elast
 {
     const Vector<Real> zero = number<Real>(0);
     if (factor == 0) return {zero, zero, zero, zero, zero, zero};
-    return positivePart(number<Real>(factor), elastic);
+    return positivePart(number<Real>(factor), elastic, farEigenvalue(elastic));
 }
 
 /// lambda tr(H) I + mu (H + H^T) + H T.

@@ -112,7 +112,7 @@ HWY_INLINE void passBlocks(const ElementPass<Real>& pass, Range blocks)
             F[i] = times(roundedEdges<Real>(lanes(i)), lanes(i).DmInverse());
             q[i] = loadQuaternions(lanes(i).rotations(), Real());
         }
-        polarRotations(F, count, q);
+        if (!pass.m_isRotated) polarRotations(F, count, q);
         for (int i = 0; i < count; ++i)
         {
             storeQuaternions(q[i], lanes(i).rotations());

@@ -39,6 +39,7 @@ struct ElementPass
     Quaternion* m_rotation;       ///< in: of the last step, out: of this one; kLanes a block
     CornerBlock<Real>* m_force;   ///< out
     WarpedBlock<Real>* m_warped;  ///< out
+    bool m_isRotated = false;     ///< m_rotation is that of m_x already, and stays as it is
 };
 
 /// Runs the pass over blocks, on the widest vectors that the processor has. Any division into ranges gives the same

@@ -42,6 +42,8 @@ struct ElementWork
     }
 
     bool m_isDouble = false;       ///< precision of this step
+    bool m_isComplete = true;      ///< false: m_warped and m_scaledMass are still those of a step before
+    bool m_wasUsed = false;        ///< impulses have followed in the last step in which they could
     double m_stiffnessFactor = 0;  ///< of K' in this step's A, h^2 + h beta [s2]
     ElementScratch<float> m_single;
     ElementScratch<double> m_double;

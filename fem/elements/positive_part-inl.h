@@ -49,27 +49,41 @@ HWY_INLINE Symmetric<Real> adjugate(const Symmetric<Real>& A)
             hn::MulSub(A.xy, A.yz, A.yy * A.xz), hn::MulSub(A.yz, A.xz, A.zz * A.xy)};
 }
 
-/// An eigenvalue and the projection v v^T on its eigenvector, m_scale times m_adjugate.
+/// Numbers that the products of squares of need not fear to meet 0.
 template <class Real>
-struct Eigenpair
+HWY_INLINE Vector<Real> tinyNumber()
 {
-    Vector<Real> m_value, m_scale;
-    Symmetric<Real> m_adjugate;
+    return number<Real>(std::is_same<Real, float>::value ? 1e-30 : 1e-100);
+}
+
+/// S = m_size U, no entry of U beyond 1, U = A + m_mean I with no trace in A; m_value is an eigenvalue of A.
+template <class Real>
+struct FarEigenvalue
+{
+    Vector<Real> m_size, m_inverse, m_value;  // 1 / m_size
 };
 
-/// The one of the largest and the smallest eigenvalue that is farther from the middle one. With A = S - tr(S)/3 I,
-/// p^2 = |A|^2 / 6 and r = det A / (2 p^3), it is tr(S)/3 + 2 p c sign(r) where 4 c^3 - 3 c = |r|, c in [cos 30, 1]
-/// (that is c = cos(acos(|r|) / 3)); no other eigenvalue is within 1.7 p, so adj(A - 2 p c sign(r) I) / its trace is v
-/// v^T to rounding. Where S is a multiple of I the projection is 0 or any other.
 template <class Real>
-HWY_INLINE Eigenpair<Real> farthestEigenpair(const Symmetric<Real>& S)
+HWY_INLINE Symmetric<Real> times(const Symmetric<Real>& S, Vector<Real> s)
+{
+    return {S.xx * s, S.yy * s, S.zz * s, S.yz * s, S.xz * s, S.xy * s};
+}
+
+/// The one of the largest and the smallest eigenvalue that is farther from the middle one. With p^2 = |A|^2 / 6 and
+/// r = det A / (2 p^3), it is 2 p c sign(r) where 4 c^3 - 3 c = |r|, c in [cos 30, 1] (that is c = cos(acos(|r|) / 3));
+/// no other eigenvalue is within 1.7 p.
+template <class Real>
+HWY_INLINE FarEigenvalue<Real> farEigenvalue(const Symmetric<Real>& S)
 {
     using V = Vector<Real>;
     constexpr bool kSingle = std::is_same<Real, float>::value;
-    const V tiny = number<Real>(kSingle ? 1e-30 : 1e-100), two = number<Real>(2), three = number<Real>(3);
+    const V tiny = tinyNumber<Real>(), two = number<Real>(2), three = number<Real>(3);
 
-    const V mean = number<Real>(1.0 / 3) * trace(S);
-    const Symmetric<Real> A = shifted<Real>(S, hn::Neg(mean));
+    const V diagonal = hn::Max(hn::Max(hn::Abs(S.xx), hn::Abs(S.yy)), hn::Abs(S.zz));
+    const V others = hn::Max(hn::Max(hn::Abs(S.yz), hn::Abs(S.xz)), hn::Abs(S.xy));
+    const V size = hn::Max(hn::Max(diagonal, others), number<Real>(1e-35)), inverse = number<Real>(1) / size;
+    const Symmetric<Real> U = times<Real>(S, inverse);
+    const Symmetric<Real> A = shifted<Real>(U, hn::Neg(number<Real>(1.0 / 3) * trace(U)));
     const V squares = dot3(A.xx, A.xx, A.yy, A.yy, A.zz, A.zz);
     const V products = dot3(A.yz, A.yz, A.xz, A.xz, A.xy, A.xy);
     const V p2 = number<Real>(1.0 / 6) * hn::MulAdd(two, products, squares), p = hn::Sqrt(p2);
@@ -85,29 +99,25 @@ HWY_INLINE Eigenpair<Real> farthestEigenpair(const Symmetric<Real>& S)
     HWY_UNROLL(2)
     for (int k = 0; k < (kSingle ? 1 : 2); ++k)
         c = hn::MulAdd(number<Real>(8) * c, c * c, r) / hn::MulSub(number<Real>(12) * c, c, three);
-    const V value = hn::CopySign(two * p * c, det);
-    const Symmetric<Real> N = adjugate(shifted<Real>(A, hn::Neg(value)));
-    return {mean + value, number<Real>(1) / hn::Max(trace(N), tiny), N};
+    return {size, inverse, hn::CopySign(two * p * c, det)};
 }
 
-/// factor S with its negative eigenvalues set to zero, by splitting off the eigenvalue e that is farthest from the
-/// others; exact to rounding of the largest entry of S also where eigenvalues are equal. The rest M = S - e N, N = v
-/// v^T, has the eigenvalues e1 >= e2 beside 0, with the sum T = tr(M) and the product D, the sum of the principal
-/// minors. Of different signs (D < 0) they are apart, and M+ = e1 (M - e2 (I - N)) / (e1 - e2); of one sign M+ is M or
-/// 0. So S+ = k S + (max(e, 0) - k (e - e2)) N - k e2 I.
+/// factor S with its negative eigenvalues set to zero, by splitting off the eigenvalue e of S that is farthest from the
+/// others; exact to rounding of the largest entry of S also where eigenvalues are equal. As it is far from them,
+/// adj(A - (e - tr(A) / 3) I) / its trace is N = v v^T to rounding; where S is a multiple of I, N is 0 or any other.
+/// The rest M = S - e N has the eigenvalues e1 >= e2 beside 0, with the sum T = tr(M) and the product D, the sum of the
+/// principal minors. Of different signs (D < 0) they are apart, and M+ = e1 (M - e2 (I - N)) / (e1 - e2); of one sign
+/// M+ is M or 0. So S+ = k S + (max(e, 0) - k (e - e2)) N - k e2 I.
 template <class Real>
-HWY_INLINE Symmetric<Real> positivePart(Vector<Real> factor, const Symmetric<Real>& S)
+HWY_INLINE Symmetric<Real> positivePart(Vector<Real> factor, const Symmetric<Real>& S, const FarEigenvalue<Real>& far)
 {
     using V = Vector<Real>;
     const V zero = number<Real>(0), one = number<Real>(1), half = number<Real>(0.5);
-    const V diagonal = hn::Max(hn::Max(hn::Abs(S.xx), hn::Abs(S.yy)), hn::Abs(S.zz));
-    const V others = hn::Max(hn::Max(hn::Abs(S.yz), hn::Abs(S.xz)), hn::Abs(S.xy));
-    const V size = hn::Max(hn::Max(diagonal, others), number<Real>(1e-35)), inverse = one / size;
-    const Symmetric<Real> unit = {S.xx * inverse, S.yy * inverse, S.zz * inverse,
-                                  S.yz * inverse, S.xz * inverse, S.xy * inverse};
-    const Eigenpair<Real> far = farthestEigenpair(unit);
-    const V e = far.m_value;
-    const Symmetric<Real> M = combined<Real>(one, unit, hn::Neg(e * far.m_scale), far.m_adjugate);
+    const Symmetric<Real> U = times<Real>(S, far.m_inverse);
+    const V mean = number<Real>(1.0 / 3) * trace(U), e = mean + far.m_value;
+    const Symmetric<Real> A = shifted<Real>(U, hn::Neg(mean)), N = adjugate(shifted<Real>(A, hn::Neg(far.m_value)));
+    const V share = one / hn::Max(trace(N), tinyNumber<Real>());  // of v v^T in N
+    const Symmetric<Real> M = combined<Real>(one, U, hn::Neg(e * share), N);
 
     const V T = trace(M), D = trace(adjugate(M));
     const auto mixed = D < zero;
@@ -115,9 +125,9 @@ HWY_INLINE Symmetric<Real> positivePart(Vector<Real> factor, const Symmetric<Rea
     const V e1 = hn::Max(zero, hn::MulAdd(half, T, root)), e2 = hn::IfThenElseZero(mixed, hn::MulSub(half, T, root));
     const V k = hn::IfThenElse(mixed, e1 / (root + root), hn::IfThenElseZero(T > zero, one));
 
-    const V onN = far.m_scale * hn::NegMulAdd(k, e - e2, hn::Max(zero, e)), onI = k * e2;
-    const V scale = factor * size;
-    return shifted<Real>(combined<Real>(factor * k, S, scale * onN, far.m_adjugate), hn::Neg(scale * onI));
+    const V onN = share * hn::NegMulAdd(k, e - e2, hn::Max(zero, e)), onI = k * e2;
+    const V scale = factor * far.m_size;
+    return shifted<Real>(combined<Real>(factor * k, S, scale * onN, N), hn::Neg(scale * onI));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -79,8 +79,8 @@ void passElement(const ElementPass<Real>& pass, int b, int lane)
     const Mat3 DmInverse = element.DmInverse();
     const Mat3 F = element.edges(pass.m_x) * DmInverse, Fdot = element.edges(pass.m_v) * DmInverse;
     Quaternion& q = pass.m_rotation[b * kLanes + lane];
-    const Mat3 R = polarRotation(F, toMatrix(q));
-    q = rounded(toQuaternion(R));
+    const Mat3 R = pass.m_isRotated ? toMatrix(q) : polarRotation(F, toMatrix(q));
+    if (!pass.m_isRotated) q = rounded(toQuaternion(R));
 
     const Mat3 FminusR = (element.template edges<double>(pass.m_x) - R * element.Dm()) * DmInverse;
     const Mat3 elastic = element.hooke(transposeTimes(R, FminusR));

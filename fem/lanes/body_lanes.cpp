@@ -15,6 +15,20 @@ namespace
 // Lanes of larger models would take more than some 50 MB.
 constexpr int kMostElements = 15000;
 
+std::vector<LaneCorners> cornersOf(const BodyModel& model)
+{
+    constexpr int kVector = 3 * kBodyLanes;
+    const std::vector<Tet>& tets = model.mesh().tets();
+    std::vector<LaneCorners> corners(tets.size());
+    for (std::size_t e = 0; e < tets.size(); ++e)
+        for (int a = 0; a < 4; ++a)
+        {
+            corners[e].m_node[a] = tets[e][a] * kVector;
+            corners[e].m_sum[a] = (2 * tets[e][a] + model.elements().m_nodes.m_parity[e][a]) * kVector;
+        }
+    return corners;
+}
+
 /// Zeros: lanes of no body are computed with, too.
 template <class Real>
 AlignedArray<Real> zeros(std::size_t valuesOfBody)
@@ -34,7 +48,7 @@ bool canBeSideBySide(const BodyModel& model)
            mesh.componentCount() == 1 && mesh.looseCount() == 0 && model.factor().freeNodeCount() == model.nodeCount();
 }
 
-BodyLanes::BodyLanes(const BodyModel& model) : m_zeros(model.nodeCount()), m_model(model)
+BodyLanes::BodyLanes(const BodyModel& model) : m_zeros(model.nodeCount()), m_model(model), m_corners(cornersOf(model))
 {
     const std::size_t nodes = nodeCount(), elements = elementCount();
     for (AlignedDoubles* vectors : {&m_x, &m_v, &m_rightSide, &m_increment, &m_residual, &m_direction, &m_product})
@@ -54,8 +68,7 @@ BodyLanes::BodyLanes(const BodyModel& model) : m_zeros(model.nodeCount()), m_mod
 LaneElements BodyLanes::elements() const
 {
     const ModelElements& elements = m_model.elements();
-    return {&elements.m_single, elements.m_nodes.m_parity.data(), elementCount(), m_rotation.get(), m_warped.get(),
-            m_sums.get()};
+    return {&elements.m_single, m_corners.data(), elementCount(), m_rotation.get(), m_warped.get(), m_sums.get()};
 }
 
 LaneNodeRotations BodyLanes::nodeRotations()
@@ -66,11 +79,6 @@ LaneNodeRotations BodyLanes::nodeRotations()
 LaneWarp BodyLanes::warp() const
 {
     return {nodeCount(), m_position.data(), m_nodeRotation.get(), m_factorVector.get()};
-}
-
-void BodyLanes::clearSums()
-{
-    std::fill_n(m_sums.get(), static_cast<std::size_t>(6 * kBodyLanes) * nodeCount(), 0.0);
 }
 
 }  // namespace bullet_fem

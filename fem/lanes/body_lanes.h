@@ -32,13 +32,12 @@ public:
     LaneMasses masses() const { return {nodeCount(), m_mass.get(), m_x.get()}; }
     LaneNodeRotations nodeRotations();
     LaneWarp warp() const;
-    void clearSums();
 
     AlignedDoubles m_x, m_v;                  ///< [node][3][body]: positions; velocities during the step [m], [m/s]
     AlignedDoubles m_rightSide, m_increment;  ///< likewise: b, before that forces [N s], [N]; dv [m/s]
     AlignedDoubles m_residual, m_direction, m_product;  ///< likewise, of conjugate gradients: r, p, A p
     AlignedDoubles m_mass;                              ///< [node][body] [kg]
-    AlignedDoubles m_sums;                              ///< [node][2][3][body]
+    AlignedDoubles m_sums;                              ///< [node][2][3][body]; zero between the kernels that use it
     AlignedFloats m_rotation, m_warped;                 ///< see LaneElements
     AlignedFloats m_nodeRotation;                       ///< [node][9][body]
     AlignedFloats m_factorVector, m_factorScratch;      ///< of PackedFactor::solveSide()
@@ -47,6 +46,7 @@ public:
 
 private:
     const BodyModel& m_model;
+    std::vector<LaneCorners> m_corners;
     std::vector<int> m_position;  // of every node in the factor
 };
 

@@ -148,26 +148,25 @@ void SubtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alph
                 });
 }
 
-void AddForces(const double* sums, double step, BodyVectors b, int nodes)
+void AddForces(double* sums, double step, BodyVectors b, int nodes)
 {
     const V h = hn::Set(D(), step);
     forEachNode(nodes,
                 [&](int node, int lane)
                 {
                     const std::size_t at = place(node, lane);
-                    store3((load3(b + at) + sumOfCorners(sums, node, lane)) * h, b + at);
+                    store3((load3(b + at) + takeSum(sums, node, lane)) * h, b + at);
                 });
 }
 
-void AddInertia(const double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out,
-                int nodes)
+void AddInertia(double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out, int nodes)
 {
     forEachNode(nodes,
                 [&](int node, int lane)
                 {
                     const V scaledMass = loadOne(factor.m + lane) * loadOne(mass + massPlace(node, lane));
                     const std::size_t at = place(node, lane);
-                    const V3 sum = sumOfCorners(sums, node, lane), pi = load3(p + at);
+                    const V3 sum = takeSum(sums, node, lane), pi = load3(p + at);
                     store3({hn::MulAdd(scaledMass, pi.x, sum.x), hn::MulAdd(scaledMass, pi.y, sum.y),
                             hn::MulAdd(scaledMass, pi.z, sum.z)},
                            out + at);
@@ -255,13 +254,12 @@ void subtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alph
     HWY_DYNAMIC_DISPATCH(SubtractDamping)(mass, v, alpha, f, nodes);
 }
 
-void addForces(const double* sums, double step, BodyVectors b, int nodes)
+void addForces(double* sums, double step, BodyVectors b, int nodes)
 {
     HWY_DYNAMIC_DISPATCH(AddForces)(sums, step, b, nodes);
 }
 
-void addInertia(const double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out,
-                int nodes)
+void addInertia(double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out, int nodes)
 {
     HWY_DYNAMIC_DISPATCH(AddInertia)(sums, mass, factor, p, out, nodes);
 }

@@ -49,10 +49,10 @@ void clearOthers(const PerLane& kept, BodyVectors a, int nodes);
 
 /// b = f - alpha m v in place of f; masses: [node][body].
 void subtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alpha, BodyVectors f, int nodes);
-/// b = h (b + sums), with two sums a node: [node][2][3][body].
-void addForces(const double* sums, double step, BodyVectors b, int nodes);
-/// out = factor m p + sums.
-void addInertia(const double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out,
+/// b = h (b + sums), with two sums a node, which are zero then: [node][2][3][body].
+void addForces(double* sums, double step, BodyVectors b, int nodes);
+/// out = factor m p + sums, likewise.
+void addInertia(double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out,
                 int nodes);
 
 }  // namespace bullet_fem

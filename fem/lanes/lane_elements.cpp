@@ -31,8 +31,6 @@ void multiply(const LaneElements&, double, const double*) {}
 
 #else
 
-constexpr int kNode = 3 * kBodyLanes;  // numbers of a node
-constexpr int kChunk = 16;             // vectors that each kind of work is done for at a time
 using F = Vector<float>;
 
 HWY_INLINE Vector<double> difference(const double* to, const double* from)
@@ -50,13 +48,8 @@ struct LaneElement
 
     HWY_INLINE const ElementBlock<float>& block() const { return m_all.m_rest->m_blocks[m_element / kLanes]; }
     HWY_INLINE int place() const { return m_element % kLanes; }
-    HWY_INLINE const std::int32_t (&nodes() const)[4] { return block().m_node[place()]; }
-    /// Of the corner a.
-    HWY_INLINE double* sumOf(int a) const
-    {
-        const std::size_t sum = 2 * static_cast<std::size_t>(nodes()[a]) + m_all.m_parity[m_element][a];
-        return m_all.m_sums + sum * kNode + m_lane;
-    }
+    HWY_INLINE const LaneCorners& corners() const { return m_all.m_corners[m_element]; }
+    HWY_INLINE double* sumOf(int corner) const { return m_all.m_sums + corners().m_sum[corner] + m_lane; }
     HWY_INLINE float* rotations() const
     {
         return m_all.m_rotation + static_cast<std::size_t>(m_element) * 4 * kBodyLanes + m_lane;
@@ -86,14 +79,16 @@ struct LaneElement
     }
     HWY_INLINE Matrix<double> edgesOf(const double* values, int part) const
     {
-        const auto& n = nodes();
         const double* at = values + m_lane + part * width<double>();
+        const double* from = at + corners().m_node[0];
         Matrix<double> D;
         HWY_UNROLL(3)
         for (int a = 0; a < 3; ++a)
-            for (int i = 0; i < 3; ++i)
-                D.m[i][a] = difference(at + static_cast<std::size_t>(n[a + 1]) * kNode + i * kBodyLanes,
-                                       at + static_cast<std::size_t>(n[0]) * kNode + i * kBodyLanes);
+        {
+            const double* to = at + corners().m_node[a + 1];
+            HWY_UNROLL(3)
+            for (int i = 0; i < 3; ++i) D.m[i][a] = difference(to + i * kBodyLanes, from + i * kBodyLanes);
+        }
         return D;
     }
     HWY_INLINE Matrix<double> edges(int part) const { return edgesOf(m_pass->m_x, part); }
@@ -109,16 +104,22 @@ struct LaneElement
     /// Adds f_1, f_2, f_3, the columns given, and f_0 = -(f_1 + f_2 + f_3) to the sums of the corners.
     HWY_INLINE void storeForces(const Matrix<float>& f) const
     {
+        double* const sums[4] = {sumOf(0), sumOf(1), sumOf(2), sumOf(3)};
+        HWY_UNROLL(3)
+        for (int i = 0; i < 3; ++i)
+        {
+            const F others = hn::Add(hn::Add(f.m[i][0], f.m[i][1]), f.m[i][2]);
+            addTo(sums[0] + i * kBodyLanes, hn::Sub(hn::Zero(Lanes<float>()), others));
+            HWY_UNROLL(3)
+            for (int a = 0; a < 3; ++a) addTo(sums[a + 1] + i * kBodyLanes, f.m[i][a]);
+        }
+    }
+    static HWY_INLINE void addTo(double* sum, F value)
+    {
         const Lanes<double> d;
-        for (int a = 0; a < 4; ++a)
-            for (int i = 0; i < 3; ++i)
-            {
-                const F others = hn::Add(hn::Add(f.m[i][0], f.m[i][1]), f.m[i][2]);
-                const F value = a > 0 ? f.m[i][a - 1] : hn::Sub(hn::Zero(Lanes<float>()), others);
-                double* sum = sumOf(a) + i * kBodyLanes;
-                for (int part = 0; part < parts<float>(); ++part, sum += width<double>())
-                    hn::Store(hn::Add(hn::Load(d, sum), promoted(value, part)), d, sum);
-            }
+        HWY_UNROLL(2)
+        for (int part = 0; part < parts<float>(); ++part, sum += width<double>())
+            hn::Store(hn::Add(hn::Load(d, sum), promoted(value, part)), d, sum);
     }
     HWY_INLINE void storeGradients(const Matrix<float>& g) const
     {
@@ -225,29 +226,40 @@ HWY_NOINLINE void addForces(const LaneBlock& block)
     }
 }
 
+// Half of tensionOf() at a time: so much of it waits for roots and quotients that the processor needs several at once.
 HWY_NOINLINE void makeTensions(const LaneBlock& block)
 {
+    FarEigenvalue<float> far[kLanes * kVectors];
+    for (int k = 0; k < block.vectors(); ++k) far[k] = farEigenvalue(block.element(k).loadTension());
+    const F factor = number<float>(block.m_pass.m_tensionFactor);
     for (int k = 0; k < block.vectors(); ++k)
     {
         const LaneElement element = block.element(k);
-        element.storeTension(tensionOf(block.m_pass.m_tensionFactor, element.loadTension()));
+        element.storeTension(positivePart(factor, element.loadTension(), far[k]));
     }
+}
+
+HWY_NOINLINE void clearTensions(const LaneBlock& block)
+{
+    for (int k = 0; k < block.vectors(); ++k) block.element(k).storeTension(tensionOf(0, Symmetric<float>()));
 }
 
 HWY_NOINLINE void tellBodies(const LaneBlock& block)
 {
     float *rotation[kBodyLanes], *warped[kBodyLanes];
+    bool anyWarped = false;
     for (int b = 0; b < kBodyLanes; ++b)
     {
         Quaternion* q = block.m_pass.m_rotation[b];
         WarpedBlock<float>* w = block.m_pass.m_warped[b];
         rotation[b] = q ? &q[block.m_first].x : nullptr;
         warped[b] = w ? w[block.m_first / kLanes].rows() : nullptr;
+        anyWarped = anyWarped || w;
     }
     constexpr int kSome = kBlock<float>, kStride = kWarpedRows * kBodyLanes;
     for (int e = 0; e < block.m_count; ++e)
         scatterBlocks(rotation, 4 * e, block.element(e * kVectors).rotations(), kBodyLanes);
-    for (int row = 0; row < kWarpedRows; ++row)
+    for (int row = 0; row < kWarpedRows && anyWarped; ++row)
         for (int e = 0; e < block.m_count; e += kSome)  // the last ones take what fills the block along
             scatterBlocks(warped, row * kLanes + e, block.element(e * kVectors).gradients() + row * kBodyLanes,
                           kStride);
@@ -261,7 +273,10 @@ HWY_INLINE void passLanes(const LaneElements& all, const LanePass& pass)
         prefetchBodies(block);
         rotate(block);
         addForces(block);
-        makeTensions(block);
+        if (pass.m_tensionFactor == 0)
+            clearTensions(block);
+        else
+            makeTensions(block);
         tellBodies(block);
     }
 }

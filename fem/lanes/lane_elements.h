@@ -8,16 +8,23 @@
 namespace bullet_fem
 {
 
+/// Where the vectors of an element's nodes begin in [node][3][body], and what its corners add to in [node][2][3][body]:
+/// one of two sums, by NodeCorners::m_parity.
+struct LaneCorners
+{
+    std::int32_t m_node[4], m_sum[4];
+};
+
 /// The elements of kBodyLanes bodies, and what their kernels hand on. All arrays are aligned to 64 bytes, and
 /// interleaved: the last index is the body.
 struct LaneElements
 {
     const ElementBlocks<float>* m_rest;
-    const std::array<int, 4>* m_parity;  ///< NodeCorners::m_parity
-    int m_count;                         ///< elements
-    float* m_rotation;                   ///< [element][x, y, z, w][body]
-    float* m_warped;                     ///< [element][kWarpedRows][body], as in WarpedBlock
-    double* m_sums;                      ///< [node][2][3][body]: of what corners hold, by their parity
+    const LaneCorners* m_corners;  ///< one an element
+    int m_count;                   ///< elements
+    float* m_rotation;             ///< [element][x, y, z, w][body]
+    float* m_warped;               ///< [element][kWarpedRows][body], as in WarpedBlock
+    double* m_sums;                ///< [node][2][3][body]: of what corners hold
 };
 
 /// ElementPass over them.

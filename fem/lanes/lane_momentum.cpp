@@ -102,7 +102,9 @@ void AddImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLa
     }
 }
 
-void RestoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVectors velocity)
+/// Adds to before(i, lane) the rigid motion that gives a body its momentum, and hands it to then(i, lane, velocity).
+template <class Before, class Then>
+HWY_INLINE void restore(const LaneMasses& nodes, const LanePieces& pieces, const Before& before, const Then& then)
 {
     for (int lane = 0; lane < kBodyLanes; lane += kN)
     {
@@ -110,7 +112,7 @@ void RestoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVect
         V3 linear = load(pieces.m_linear, lane), angular = load(pieces.m_angular, lane);
         for (int i = 0; i < nodes.m_nodes; ++i)
         {
-            const V3 p = load3(velocity + place(i, lane)) * massAt(nodes, i, lane);
+            const V3 p = before(i, lane) * massAt(nodes, i, lane);
             linear = linear - p;
             angular = angular - cross(positionAt(nodes, i, lane) - center, p);
         }
@@ -124,9 +126,24 @@ void RestoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVect
         for (int i = 0; i < nodes.m_nodes; ++i)
         {
             const V3 rigid = linear + cross(spin, positionAt(nodes, i, lane) - center);
-            store3(load3(velocity + place(i, lane)) + rigid, velocity + place(i, lane));
+            then(i, lane, before(i, lane) + rigid);
         }
     }
+}
+
+void CompleteIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv)
+{
+    const auto before = [=](int i, int lane) { return load3(dv + place(i, lane)) + load3(v + place(i, lane)); };
+    const auto then = [=](int i, int lane, const V3& after)
+    { store3(after - load3(v + place(i, lane)), dv + place(i, lane)); };
+    restore(nodes, pieces, before, then);
+}
+
+void RestoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVectors velocity)
+{
+    const auto before = [=](int i, int lane) { return load3(velocity + place(i, lane)); };
+    const auto then = [=](int i, int lane, const V3& after) { store3(after, velocity + place(i, lane)); };
+    restore(nodes, pieces, before, then);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -140,6 +157,7 @@ namespace bullet_fem
 HWY_EXPORT(SumMasses);
 HWY_EXPORT(SumPrescribed);
 HWY_EXPORT(AddImpulses);
+HWY_EXPORT(CompleteIncrements);
 HWY_EXPORT(RestoreMomentum);
 
 void sumMasses(const LaneMasses& nodes, LanePieces& pieces)
@@ -155,6 +173,11 @@ void sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& 
 void addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces)
 {
     HWY_DYNAMIC_DISPATCH(AddImpulses)(nodes, impulses, share, pieces);
+}
+
+void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv)
+{
+    HWY_DYNAMIC_DISPATCH(CompleteIncrements)(nodes, pieces, v, dv);
 }
 
 void restoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVectors velocity)

@@ -41,6 +41,9 @@ void sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& 
 /// Adds share times impulses [N s] to the prescribed momenta.
 void addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces);
 
+/// Completes increments of velocities v [m/s]: v + dv gets the rigid motion that restoreMomentum() adds.
+void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv);
+
 /// Adds to velocities the rigid motion that gives every body its prescribed momentum; m_inertia is inverse by now.
 void restoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVectors velocity);
 

@@ -79,10 +79,15 @@ HWY_INLINE void store3(const V3& v, double* to)
     hn::Store(v.z, D(), to + 2 * kBodyLanes);
 }
 
-/// What the corners at a node hold: the two sums of it.
-HWY_INLINE V3 sumOfCorners(const double* sums, int node, int lane)
+/// What the corners at a node hold, the two sums of it, which are zero then.
+HWY_INLINE V3 takeSum(double* sums, int node, int lane)
 {
-    return load3(sums + place(2 * node, lane)) + load3(sums + place(2 * node + 1, lane));
+    double *even = sums + place(2 * node, lane), *odd = sums + place(2 * node + 1, lane);
+    const V3 sum = load3(even) + load3(odd);
+    const V zero = hn::Zero(D());
+    store3({zero, zero, zero}, even);
+    store3({zero, zero, zero}, odd);
+    return sum;
 }
 
 /// Calls visit(node, lane) for every node and vector of bodies.

@@ -21,28 +21,31 @@ namespace HWY_NAMESPACE
 
 using DF = hn::Rebind<float, D>;  // as many bodies as a vector of doubles has
 using F = hn::Vec<DF>;
+using DWide = hn::CappedTag<float, kBodyLanes>;  // as many as one of floats has
+using Wide = hn::Vec<DWide>;
 
 /// [item][Count][body], from body `lane` on.
-template <int Count>
-HWY_INLINE void loadFloats(const float* from, int item, int lane, F (&v)[Count])
+template <class Tag, int Count>
+HWY_INLINE void loadFloats(Tag tag, const float* from, int item, int lane, hn::Vec<Tag> (&v)[Count])
 {
     const float* at = from + static_cast<std::size_t>(item) * Count * kBodyLanes + lane;
     HWY_UNROLL(9)
-    for (int k = 0; k < Count; ++k) v[k] = hn::Load(DF(), at + k * kBodyLanes);
+    for (int k = 0; k < Count; ++k) v[k] = hn::Load(tag, at + k * kBodyLanes);
 }
 
-template <int Count>
-HWY_INLINE void storeFloats(const F (&v)[Count], int item, int lane, float* to)
+template <class Tag, int Count>
+HWY_INLINE void storeFloats(Tag tag, const hn::Vec<Tag> (&v)[Count], int item, int lane, float* to)
 {
     float* at = to + static_cast<std::size_t>(item) * Count * kBodyLanes + lane;
     HWY_UNROLL(9)
-    for (int k = 0; k < Count; ++k) hn::Store(v[k], DF(), at + k * kBodyLanes);
+    for (int k = 0; k < Count; ++k) hn::Store(v[k], tag, at + k * kBodyLanes);
 }
 
 /// R, row-major, of quaternions of squared length n > 0.
-HWY_INLINE void rotationOf(const F (&q)[4], F n, F (&R)[9])
+HWY_INLINE void rotationOf(const Wide (&q)[4], Wide n, Wide (&R)[9])
 {
-    const F one = hn::Set(DF(), 1.f), s = hn::Set(DF(), 2.f) / n;
+    using F = Wide;
+    const F one = hn::Set(DWide(), 1.f), s = hn::Set(DWide(), 2.f) / n;
     const F sx = s * q[0], sy = s * q[1], sz = s * q[2];
     const F xx = sx * q[0], yy = sy * q[1], zz = sz * q[2], xy = sx * q[1], xz = sx * q[2], yz = sy * q[2];
     const F wx = sx * q[3], wy = sy * q[3], wz = sz * q[3];
@@ -52,12 +55,12 @@ HWY_INLINE void rotationOf(const F (&q)[4], F n, F (&R)[9])
 }
 
 /// Bit b of every body b that is not marked.
-HWY_INLINE unsigned unmarked(hn::Mask<DF> mask, int lane)
+HWY_INLINE unsigned unmarked(hn::Mask<DWide> mask, int lane)
 {
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(DF(), mask, bits);
-    const unsigned all = (1u << kN) - 1;
-    return (~static_cast<unsigned>(bits[0]) & all) << lane;
+    hn::StoreMaskBits(DWide(), mask, bits);
+    const unsigned marked = bits[0] | static_cast<unsigned>(bits[1]) << 8, all = (1u << hn::MaxLanes(DWide())) - 1;
+    return (~marked & all) << lane;
 }
 
 void AverageLanes(const LaneNodeRotations& rotations)
@@ -66,28 +69,28 @@ void AverageLanes(const LaneNodeRotations& rotations)
     for (int i = 0; i < nodes.nodeCount(); ++i)
     {
         rotations.m_doubtful[i] = 0;
-        const F least = hn::Set(DF(), leastSquaredLength(nodes, i));
-        for (int lane = 0; lane < kBodyLanes; lane += kN)
+        const Wide least = hn::Set(DWide(), leastSquaredLength(nodes, i));
+        for (int lane = 0; lane < kBodyLanes; lane += static_cast<int>(hn::MaxLanes(DWide())))
         {
-            F sums[2][4];
+            Wide sums[2][4];
             for (auto& sum : sums)
-                for (F& component : sum) component = hn::Zero(DF());
+                for (Wide& component : sum) component = hn::Zero(DWide());
             for (int k = nodes.m_start[i], turn = 0; k < nodes.m_start[i + 1]; ++k, turn = 1 - turn)
             {
                 const int e = NodeCorners::element(nodes.m_corner[k]);
-                const F volume = hn::Set(DF(), nodes.m_volume[e]);
-                F q[4];
-                loadFloats(rotations.m_elements, e, lane, q);
+                const Wide volume = hn::Set(DWide(), nodes.m_volume[e]);
+                Wide q[4];
+                loadFloats(DWide(), rotations.m_elements, e, lane, q);
                 HWY_UNROLL(4)
                 for (int c = 0; c < 4; ++c) sums[turn][c] = hn::MulAdd(volume, q[c], sums[turn][c]);
             }
-            F q[4], R[9];
+            Wide q[4], R[9];
             HWY_UNROLL(4)
             for (int c = 0; c < 4; ++c) q[c] = sums[0][c] + sums[1][c];
-            const F squaredLength = (q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]);
+            const Wide squaredLength = (q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]);
             rotations.m_doubtful[i] |= unmarked(squaredLength >= least, lane);
             rotationOf(q, squaredLength, R);
-            storeFloats(R, i, lane, rotations.m_out);
+            storeFloats(DWide(), R, i, lane, rotations.m_out);
         }
     }
 }
@@ -110,10 +113,10 @@ void RotateIn(const LaneWarp& warp, ConstBodyVectors in, PerLane& largest)
             const V3 r = load3(in + place(i, lane)) * down;
             const F x = hn::DemoteTo(DF(), r.x), y = hn::DemoteTo(DF(), r.y), z = hn::DemoteTo(DF(), r.z);
             F R[9], turned[3];
-            loadFloats(warp.m_rotation, i, lane, R);
+            loadFloats(DF(), warp.m_rotation, i, lane, R);
             HWY_UNROLL(3)
             for (int c = 0; c < 3; ++c) turned[c] = R[c] * x + R[3 + c] * y + R[6 + c] * z;
-            storeFloats(turned, warp.m_position[i], lane, warp.m_factorVector);
+            storeFloats(DF(), turned, warp.m_position[i], lane, warp.m_factorVector);
         }
     }
 }
@@ -124,8 +127,8 @@ void RotateOut(const LaneWarp& warp, const PerLane& scale, BodyVectors out)
                 [&](int node, int lane)
                 {
                     F R[9], q[3];
-                    loadFloats(warp.m_rotation, node, lane, R);
-                    loadFloats(warp.m_factorVector, warp.m_position[node], lane, q);
+                    loadFloats(DF(), warp.m_rotation, node, lane, R);
+                    loadFloats(DF(), warp.m_factorVector, warp.m_position[node], lane, q);
                     const auto row = [&](int c)
                     { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
                     store3(V3{row(0), row(1), row(2)} * loadOne(scale.m + lane), out + place(node, lane));

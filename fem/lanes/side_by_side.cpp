@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <new>
 #include <optional>
 
@@ -25,7 +26,7 @@ bool isPlain(const Body& body, const StepSettings& settings)
 {
     const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
     return settings.m_batchMemory && settings.m_warp == Warp::nodal && isSinglePrecision(settings) &&
-           !(body.m_loads.m_frameDamping > 0) && std::find(fixed.begin(), fixed.end(), 1) == fixed.end() &&
+           !(body.m_loads.m_frameDamping > 0) && !std::memchr(fixed.data(), 1, fixed.size()) &&
            canBeSideBySide(*body.m_model);
 }
 
@@ -85,7 +86,6 @@ protected:
     void gatherNodes();
     void gatherMomenta();
     void keepMomenta() const;
-    void scatterWarped();
     void gatherWarped();
     void completeIncrement();
     void solve(const std::array<IncrementGoal, kBodyLanes>& goals,
@@ -148,23 +148,9 @@ void SideBySide::keepMomenta() const
     }
 }
 
-// What A and P need of every body alone.
-void SideBySide::scatterWarped()
-{
-    const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
-    for (int b = 0; b < m_count; ++b)
-    {
-        ElementWork& work = scratch(b).m_elements;
-        work.m_isDouble = false;
-        work.m_stiffnessFactor = h * h + h * beta;
-        for (int i = 0; i < nodes(); ++i) work.m_scaledMass[i] = m_inertiaFactor[b] * body(b).m_state.m_mass[i];
-    }
-    scatter([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_lanes.m_nodeRotation.get(),
-            {9 * nodes()});
-}
-
 void SideBySide::gatherWarped()
 {
+    for (int b = 0; b < m_count; ++b) completeWarpedSystem(body(b), m_settings);
     gather([this](int b) { return scratch(b).m_elements.m_single.m_warped.front().rows(); }, m_lanes.m_warped.get(),
            warped());
     gather([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_lanes.m_nodeRotation.get(),
@@ -174,15 +160,12 @@ void SideBySide::gatherWarped()
 // See completeIncrement() of a body.
 void SideBySide::completeIncrement()
 {
-    addLanes(m_lanes.m_v.get(), m_lanes.m_increment.get(), nodes());
-    restoreMomentum(m_lanes.masses(), m_pieces, m_lanes.m_increment.get());
-    subtractLanes(m_lanes.m_increment.get(), m_lanes.m_v.get(), m_lanes.m_increment.get(), nodes());
+    completeIncrements(m_lanes.masses(), m_pieces, m_lanes.m_v.get(), m_lanes.m_increment.get());
 }
 
 void SideBySide::applyA(ConstBodyVectors in, BodyVectors out)
 {
     const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
-    m_lanes.clearSums();
     multiplyLanes(m_lanes.elements(), h * h + h * beta, in);
     addInertia(m_lanes.m_sums.get(), m_lanes.m_mass.get(), m_inertiaFactor, in, out, nodes());
 }
@@ -306,8 +289,7 @@ void SideBySide::keepResiduals(const std::array<bool, kBodyLanes>& wanted) const
 {
     const auto keeps = [&](int b) { return wanted[b] && m_reports[b].m_stop != SolveStop::breakdown; };
     scatterVectors([&](int b) { return keeps(b) ? &scratch(b).m_residual : nullptr; }, m_lanes.m_residual.get());
-    for (int b = 0; b < m_count; ++b)
-        if (!keeps(b)) std::fill(scratch(b).m_residual.begin(), scratch(b).m_residual.end(), Vec3());
+    for (int b = 0; b < m_count; ++b) scratch(b).m_hasResidual = keeps(b);
 }
 
 class SideBySideMotions : public SideBySide
@@ -377,7 +359,6 @@ private:
     {
         const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
         subtractDamping(m_lanes.m_mass.get(), m_lanes.m_v.get(), m_alpha, m_lanes.m_rightSide.get(), nodes());
-        m_lanes.clearSums();
         LanePass pass = {m_lanes.m_x.get(), m_lanes.m_v.get(), h + beta, m_settings.m_tension ? h * h : 0, {}, {}, {}};
         for (int b = 0; b < kBodyLanes; ++b)
         {
@@ -385,7 +366,8 @@ private:
             pass.m_rotationBefore[b] = rotation;
             if (b >= m_count) continue;
             pass.m_rotation[b] = rotation;
-            pass.m_warped[b] = scratch(b).m_elements.m_single.m_warped.data();
+            ElementWork& work = scratch(b).m_elements;
+            if (work.m_wasUsed) pass.m_warped[b] = work.m_single.m_warped.data();
         }
         passOverLanes(m_lanes.elements(), pass);
         addForces(m_lanes.m_sums.get(), h, m_lanes.m_rightSide.get(), nodes());
@@ -403,7 +385,25 @@ private:
         for (int i = 0; i < nodes(); ++i)
             for (int b = 0; m_lanes.m_doubtful[i] >> b != 0; ++b)
                 if (b < m_count && (m_lanes.m_doubtful[i] >> b & 1) != 0) rotateCarefully(i, b);
-        scatterWarped();
+        tellSystems();
+    }
+
+    // What A and P need of every body alone, but for what assemble() has told.
+    void tellSystems()
+    {
+        const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
+        for (int b = 0; b < m_count; ++b)
+        {
+            ElementWork& work = scratch(b).m_elements;
+            work.m_isDouble = false;
+            work.m_isComplete = work.m_wasUsed;
+            work.m_wasUsed = false;
+            if (!work.m_isComplete) continue;
+            work.m_stiffnessFactor = h * h + h * beta;
+            for (int i = 0; i < nodes(); ++i) work.m_scaledMass[i] = m_inertiaFactor[b] * body(b).m_state.m_mass[i];
+        }
+        scatter([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_lanes.m_nodeRotation.get(),
+                {9 * nodes()});
     }
 
     void rotateCarefully(int node, int b)
@@ -525,7 +525,8 @@ private:
         gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_velocity; }, m_lanes.m_v.get());
         gatherVectors([this](int b) -> const std::vector<Vec3>& { return *response(b).m_impulses; },
                       m_lanes.m_rightSide.get());
-        gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_residual; },
+        gatherVectors([this](int b) -> const std::vector<Vec3>&
+                      { return scratch(b).m_hasResidual ? scratch(b).m_residual : m_lanes.m_zeros; },
                       m_lanes.m_residual.get());
     }
 

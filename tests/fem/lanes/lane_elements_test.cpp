@@ -55,14 +55,14 @@ public:
     void run()
     {
         for (ElementCase<float>& alone : m_alone) runElementPass(alone.pass(), alone.blocks());
-        m_lanes.clearSums();
+        clearSums();
         passOverLanes(m_lanes.elements(), pass());
     }
 
     void multiply()
     {
         for (int b = 0; b < kBodyLanes; ++b) m_product.push_back(m_alone[b].times(velocities(b)));
-        m_lanes.clearSums();
+        clearSums();
         multiplyLanes(m_lanes.elements(), ElementCase<float>::kStiffnessFactor, m_lanes.m_v.get());
     }
 
@@ -132,6 +132,11 @@ private:
     {
         for (std::size_t i = 0; i < from.size(); ++i)
             for (int c = 0; c < 3; ++c) lanes[(3 * i + c) * kBodyLanes + b] = (&from[i].x)[c];
+    }
+
+    void clearSums()
+    {
+        std::fill_n(m_lanes.m_sums.get(), static_cast<std::size_t>(6 * kBodyLanes) * m_lanes.nodeCount(), 0.0);
     }
 
     void expectSums(int b, const std::vector<Vec3>& expected) const
