@@ -34,8 +34,8 @@ struct FreeCopiesFigures
     double ratio() const { return m_aloneMilliseconds / m_togetherMilliseconds; }
 };
 
-/// Steps two sets of copies in turns, one solved together and one body by body, so that a disturbance of the machine
-/// meets both.
+/// Steps two sets of copies in turns, one solved together and one body by body, a third of a second each, so that a
+/// disturbance of the machine meets both and neither finds the caches full of the other's numbers.
 FreeCopiesFigures measureFreeCopies(const FreeCopiesSettings& settings);
 
 /// One table.
