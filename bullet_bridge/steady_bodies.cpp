@@ -43,7 +43,8 @@ bool isSteady(const FemSoftBody& fem, double step)
     if (!(allPushed > 0 && allPushed <= kMostCarried * allLoads)) return false;
     if (!(norm(pushed + loads) <= most * mass)) return false;
     const Vec3 mean = (1 / mass) * momentum;
-    return std::all_of(state.m_v.begin(), state.m_v.end(), [&](const Vec3& v) { return norm(v - mean) <= most; });
+    return std::all_of(state.m_v.begin(), state.m_v.end(),
+                       [&](const Vec3& v) { return dot(v - mean, v - mean) <= most * most; });
 }
 
 }  // namespace

@@ -77,6 +77,14 @@ void note(btFemEntry& entry, const SolveReport& solved)
     if (solved.m_stop == SolveStop::breakdown) entry.m_report.m_flags |= BT_FEM_BREAKDOWN;
 }
 
+// Normals and speeds, while the nodes are still in the cache.
+void finishNodes(btFemEntry& entry)
+{
+    entry.m_softBody->integrateMotion();
+    noteSpeed(entry);
+    entry.m_isFinished = true;
+}
+
 }  // namespace
 
 bool isUsableStep(double step)
@@ -148,7 +156,7 @@ void btFemWorldStep::updateSurfaces(btFemBodyRegistry& registry)
         if (entry->isStepped() && entry->m_softBody->isActive())
             m_active.push_back(entry.get());
         else
-            entry->m_hasNormals = false;  // it may have been stopped since finish()
+            entry->m_isFinished = false;  // it may have been stopped since finish()
     for (const btFemEntry* entry : m_active) makeRoomForBulletContacts(*entry);
     registry.forgetWorld();
     const bool onThreads = registry.readWorld(m_active);
@@ -156,11 +164,10 @@ void btFemWorldStep::updateSurfaces(btFemBodyRegistry& registry)
              [&](int k)
              {
                  btSoftBody* soft = m_active[k]->m_softBody;
-                 if (!m_active[k]->m_hasNormals) soft->integrateMotion();
-                 m_active[k]->m_hasNormals = false;
+                 if (!m_active[k]->m_isFinished) finishNodes(*m_active[k]);
+                 m_active[k]->m_isFinished = false;
                  btFemHelpers::updateEmbeddedSurface(soft);
                  writeBulletContacts(*m_active[k], registry);
-                 noteSpeed(*m_active[k]);
              });
 }
 
@@ -334,7 +341,6 @@ void btFemWorldStep::noteFree(btFemEntry& entry, const FreeMotion& motion) const
     entry.m_report.m_residual = static_cast<btScalar>(solved.m_residual);
 }
 
-// Normals are made while the nodes are still in the cache.
 void btFemWorldStep::finish(btFemEntry& entry) const
 {
     FemSoftBody& fem = *entry.m_fem;
@@ -346,8 +352,7 @@ void btFemWorldStep::finish(btFemEntry& entry) const
         abandonStep(fem.m_body);
     }
     writeNodes(fem);
-    entry.m_softBody->integrateMotion();
-    entry.m_hasNormals = true;
+    finishNodes(entry);
     btFemStepReport& report = entry.m_report;
     const double length = 1e3 * entry.m_lastStep / entry.m_softBody->m_cfg.timescale;
     report.m_tooSlow = entry.m_realTime.isTooSlow(report.m_freeMotionMs + report.m_contactMs, length);

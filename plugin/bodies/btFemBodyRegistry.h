@@ -72,7 +72,7 @@ struct btFemEntry
     btAlignedObjectArray<btFemTouch> m_touches;
     btAlignedObjectArray<btFemAnchorReport> m_anchors;
     double m_lastStep = 0;        // [s]
-    bool m_hasNormals = false;    // of the nodes as they are now: see btFemWorldStep::finish
+    bool m_isFinished = false;    // its nodes have normals and a speed: see btFemWorldStep::finish
     double m_factorMismatch = 1;  // factorMismatch() as the step began
     double m_staleness = 1;       // staleness() in the free motion
     btFemSleep m_sleep;

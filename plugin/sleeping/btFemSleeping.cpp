@@ -131,14 +131,14 @@ bool isChanged(const btFemEntry& entry)
 double fastestSquared(const btFemEntry& entry)
 {
     const FemSoftBody& fem = *entry.m_fem;
-    double fastest = 0;
+    btScalar fastest = 0, longest = 0;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
     {
         const btSoftBody::Node& node = fem.m_softBody->m_nodes[i];
-        fastest = std::max({fastest, double(node.m_v.length2()),
-                            double((node.m_x - node.m_q).length2()) / (entry.m_lastStep * entry.m_lastStep)});
+        fastest = std::max(fastest, node.m_v.length2());
+        longest = std::max(longest, (node.m_x - node.m_q).length2());
     }
-    return fastest;
+    return std::max(double(fastest), longest / (entry.m_lastStep * entry.m_lastStep));
 }
 
 // A pinned node that the user gave a velocity moves on, however slowly.
