@@ -11,21 +11,21 @@ namespace bullet_fem
 namespace
 {
 
-// What a batch of kBodyLanes bodies takes, in times of a body alone.
-constexpr int kBatchTime = 9;
+// What a batch takes, however many bodies it has, in times of a body alone.
+constexpr int kBatchTime = 7;
 
-// Of bodies that share a model, how many batches of kBodyLanes to make, so that no thread has to wait long: the others
-// go one by one.
+// Of bodies that share a model, how many batches of kBodyLanes to make, the last one of as many as are left, so that no
+// thread has to wait long: the others go one by one.
 int batchesSideBySide(int bodies, int threads)
 {
     const auto time = [&](int batches)
     {
         const int longest = (batches + threads - 1) / threads * kBatchTime;
-        const int work = batches * kBatchTime + bodies - batches * kBodyLanes;
+        const int work = batches * kBatchTime + std::max(0, bodies - batches * kBodyLanes);
         return std::max(longest, (work + threads - 1) / threads);
     };
     int best = 0;
-    for (int batches = 1; batches <= bodies / kBodyLanes; ++batches)
+    for (int batches = 1; batches <= (bodies + kBodyLanes - 1) / kBodyLanes; ++batches)
         if (time(batches) < time(best)) best = batches;
     return best;
 }
@@ -84,7 +84,8 @@ void BodyBatches::putInOrder()
 void BodyBatches::divideModel(const Range& all, int sideBySide)
 {
     int k = all.m_begin;
-    for (int batch = 0; batch < sideBySide; ++batch, k += kBodyLanes) m_batches.push_back({k, k + kBodyLanes});
+    for (int batch = 0; batch < sideBySide; ++batch, k = m_batches.back().m_end)
+        m_batches.push_back({k, std::min(k + kBodyLanes, all.m_end)});
     for (; k < all.m_end; ++k) m_alone.push_back({k, k + 1});
 }
 

@@ -87,10 +87,18 @@ TEST_F(BodyBatchesTest, FillTheLanesAndShareOutTheRest)
     EXPECT_EQ(batchesOf(1), 4);
 }
 
+// Many that are left are a batch, too: it takes as long as if it were full.
+TEST_F(BodyBatchesTest, TakeInManyThatAreLeft)
+{
+    divide(94, 0, 2);
+    EXPECT_EQ(batchesOf(kBodyLanes), 5);
+    EXPECT_EQ(batchesOf(14), 1);
+}
+
 TEST_F(BodyBatchesTest, LeaveNoThreadWithoutWork)
 {
-    divide(16, 0, 2);
-    EXPECT_EQ(batchesOf(1), 16);
+    divide(12, 0, 2);
+    EXPECT_EQ(batchesOf(1), 12);
     divide(100, 0, 64);
     EXPECT_EQ(batchesOf(1), 100);
 }
