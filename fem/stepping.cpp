@@ -291,12 +291,14 @@ bool canFinishStep(const Body& body)
 {
     constexpr double kFastest = 1e6;
     const StepScratch& scratch = body.m_workspace.scratch();
-    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i)
+    int good = 0;  // no early return: the loops are for vectors
+    for (const Vec3& v : scratch.m_velocity) good += dot(v, v) < kFastest * kFastest;
+    for (std::size_t i = 0; i < scratch.m_push.size() && scratch.m_isPushed; ++i)
     {
-        const Vec3 v = scratch.m_velocity[i], total = v + scratch.m_push[i];
-        if (!(dot(v, v) < kFastest * kFastest) || !(dot(total, total) < kFastest * kFastest)) return false;
+        const Vec3 total = scratch.m_velocity[i] + scratch.m_push[i];
+        good -= !(dot(total, total) < kFastest * kFastest);
     }
-    return true;
+    return good == static_cast<int>(scratch.m_velocity.size());
 }
 
 void abandonStep(Body& body)

@@ -131,7 +131,7 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
     const BodyState& state = body.m_state;
     work.m_isDouble = !isSinglePrecision(settings);
     work.m_isComplete = true;
-    work.m_wasUsed = false;
+    if (work.m_likelySteps > 0) --work.m_likelySteps;
     scaleMass(body, settings.m_step);
     pad(settings.m_threads, state.m_x, work.m_x);
     pad(settings.m_threads, state.m_v, work.m_v);
@@ -145,7 +145,7 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
 void completeWarpedSystem(Body& body, const StepSettings& settings)
 {
     ElementWork& work = body.m_workspace.scratch().m_elements;
-    work.m_wasUsed = true;
+    work.m_likelySteps = kLikelySteps;
     if (work.m_isComplete) return;
     work.m_isComplete = true;
     scaleMass(body, settings.m_step);

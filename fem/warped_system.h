@@ -18,8 +18,8 @@ bool isSinglePrecision(const StepSettings& settings);
 void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force);
 
 /// To be called before A is used again in the same step, for impulses: makes up for what bodies that are solved side by
-/// side leave out where none followed in their last step, as that takes them longer than all the products with A. The
-/// state's positions are still those that the step began with. Never allocates.
+/// side leave out where none have followed in their last steps, as that takes them longer than all the products with A.
+/// The state's positions are still those that the step began with. Never allocates.
 void completeWarpedSystem(Body& body, const StepSettings& settings);
 
 /// A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T over the free nodes, as last prepared; rows and columns of fixed

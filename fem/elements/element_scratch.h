@@ -24,6 +24,9 @@ struct ElementScratch
     std::vector<WarpedBlock<Real>> m_warped;
 };
 
+/// Bodies in contact get impulses now and then: not to be ready for them costs as much as to be so in some six steps.
+constexpr int kLikelySteps = 16;
+
 /// The vectors of the element kernels. The double-precision half is grown when it is first used.
 struct ElementWork
 {
@@ -43,7 +46,7 @@ struct ElementWork
 
     bool m_isDouble = false;       ///< precision of this step
     bool m_isComplete = true;      ///< false: m_warped and m_scaledMass are still those of a step before
-    bool m_wasUsed = false;        ///< impulses have followed in the last step in which they could
+    int m_likelySteps = 0;         ///< from now on in which impulses are likely to follow
     double m_stiffnessFactor = 0;  ///< of K' in this step's A, h^2 + h beta [s2]
     ElementScratch<float> m_single;
     ElementScratch<double> m_double;

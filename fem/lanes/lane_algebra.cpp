@@ -25,30 +25,9 @@ HWY_INLINE V dotAt(ConstBodyVectors a, ConstBodyVectors b, std::size_t at)
     return dot(load3(a + at), load3(b + at));
 }
 
-// Four sums, so that an addition need not wait for the one before it.
-HWY_INLINE V dotOfRange(ConstBodyVectors a, ConstBodyVectors b, Range nodes, int lane)
-{
-    V sum[4];
-    for (V& s : sum) s = hn::Zero(D());
-    int i = nodes.m_begin;
-    for (; i + 4 <= nodes.m_end; i += 4)
-    {
-        HWY_UNROLL(4)
-        for (int k = 0; k < 4; ++k) sum[k] = sum[k] + dotAt(a, b, place(i + k, lane));
-    }
-    for (; i < nodes.m_end; ++i) sum[0] = sum[0] + dotAt(a, b, place(i, lane));
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
 void DotLanes(ConstBodyVectors a, ConstBodyVectors b, int nodes, PerLane& out)
 {
-    const Pieces pieces(nodes, kEntriesOfPiece);
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
-    {
-        V sum = hn::Zero(D());
-        for (int k = 0; k < pieces.count(); ++k) sum = sum + dotOfRange(a, b, pieces[k], lane);
-        hn::Store(sum, D(), out.m + lane);
-    }
+    sumOverNodes(nodes, out, [=](int node, int lane) { return dotAt(a, b, place(node, lane)); });
 }
 
 void SquareInOrder(ConstBodyVectors a, int nodes, PerLane& out)
@@ -78,17 +57,33 @@ void AddLanes(ConstBodyVectors b, BodyVectors a, int nodes)
     forEachNumber(nodes, [&](std::size_t at, int) { hn::Store(loadOne(a + at) + loadOne(b + at), D(), a + at); });
 }
 
-/// Writes where the body is active.
-HWY_INLINE void storeActive(const LaneRecurrence& v, V value, int lane, double* to)
+HWY_INLINE V3 choose(hn::Mask<D> yes, const V3& a, const V3& b)
 {
-    const auto active = loadOne(v.m_active.m + lane) > hn::Zero(D());
-    hn::Store(hn::IfThenElse(active, value, loadOne(to)), D(), to);
+    return {hn::IfThenElse(yes, a.x, b.x), hn::IfThenElse(yes, a.y, b.y), hn::IfThenElse(yes, a.z, b.z)};
 }
 
-void SubtractProduct(const LaneRecurrence& v)
+/// Writes where the body is active.
+HWY_INLINE void storeActive(const LaneRecurrence& v, const V3& value, int lane, double* to)
 {
-    forEachNumber(v.m_nodes, [&](std::size_t at, int lane)
-                  { storeActive(v, loadOne(v.m_b + at) - loadOne(v.m_Ap + at), lane, v.m_r + at); });
+    const auto active = loadOne(v.m_active.m + lane) > hn::Zero(D());
+    store3(choose(active, value, load3(to)), to);
+}
+
+/// Writes r where the body is active; returns |r|^2.
+HWY_INLINE V storeResidual(const LaneRecurrence& v, const V3& r, int lane, std::size_t at)
+{
+    storeActive(v, r, lane, v.m_r + at);
+    return dot(r, r);
+}
+
+void SubtractProduct(const LaneRecurrence& v, PerLane& squares)
+{
+    sumOverNodes(v.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     return storeResidual(v, load3(v.m_b + at) - load3(v.m_Ap + at), lane, at);
+                 });
 }
 
 void ClearOthers(const PerLane& kept, BodyVectors a, int nodes)
@@ -101,40 +96,41 @@ void ClearOthers(const PerLane& kept, BodyVectors a, int nodes)
                   });
 }
 
-void ScaleGuess(const LaneRecurrence& v, const PerLane& scale)
+void ScaleGuess(const LaneRecurrence& v, const PerLane& scale, PerLane& squares)
 {
-    const V zero = hn::Zero(D());
-    forEachNumber(v.m_nodes,
-                  [&](std::size_t at, int lane)
-                  {
-                      const V s = loadOne(scale.m + lane), b = loadOne(v.m_b + at);
-                      storeActive(v, loadOne(v.m_x + at) * s, lane, v.m_x + at);
-                      const V r = b - loadOne(v.m_Ap + at) * s;
-                      storeActive(v, hn::IfThenElse(s > zero, r, b), lane, v.m_r + at);
-                  });
+    sumOverNodes(v.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     const V s = loadOne(scale.m + lane);
+                     const V3 b = load3(v.m_b + at);
+                     storeActive(v, load3(v.m_x + at) * s, lane, v.m_x + at);
+                     return storeResidual(v, choose(s > hn::Zero(D()), b - load3(v.m_Ap + at) * s, b), lane, at);
+                 });
 }
 
 void TurnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& beta)
 {
-    const V zero = hn::Zero(D());
-    forEachNumber(v.m_nodes,
-                  [&](std::size_t at, int lane)
-                  {
-                      const V b = loadOne(beta.m + lane), zi = loadOne(z + at);
-                      const V turned = zi + loadOne(v.m_p + at) * b;
-                      storeActive(v, hn::IfThenElse(b > zero, turned, zi), lane, v.m_p + at);
-                  });
+    forEachNode(v.m_nodes,
+                [&](int node, int lane)
+                {
+                    const std::size_t at = place(node, lane);
+                    const V b = loadOne(beta.m + lane);
+                    const V3 zi = load3(z + at), turned = zi + load3(v.m_p + at) * b;
+                    storeActive(v, choose(b > hn::Zero(D()), turned, zi), lane, v.m_p + at);
+                });
 }
 
-void AdvanceAlong(const LaneRecurrence& v, const PerLane& step)
+void AdvanceAlong(const LaneRecurrence& v, const PerLane& step, PerLane& squares)
 {
-    forEachNumber(v.m_nodes,
-                  [&](std::size_t at, int lane)
-                  {
-                      const V s = loadOne(step.m + lane);
-                      storeActive(v, loadOne(v.m_x + at) + loadOne(v.m_p + at) * s, lane, v.m_x + at);
-                      storeActive(v, loadOne(v.m_r + at) + loadOne(v.m_Ap + at) * hn::Neg(s), lane, v.m_r + at);
-                  });
+    sumOverNodes(v.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     const V s = loadOne(step.m + lane);
+                     storeActive(v, load3(v.m_x + at) + load3(v.m_p + at) * s, lane, v.m_x + at);
+                     return storeResidual(v, load3(v.m_r + at) + load3(v.m_Ap + at) * hn::Neg(s), lane, at);
+                 });
 }
 
 void SubtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alpha, BodyVectors f, int nodes)
@@ -159,18 +155,19 @@ void AddForces(double* sums, double step, BodyVectors b, int nodes)
                 });
 }
 
-void AddInertia(double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out, int nodes)
+void AddInertia(double* sums, const double* mass, const PerLane& factor, const LaneProduct& v, PerLane& products)
 {
-    forEachNode(nodes,
-                [&](int node, int lane)
-                {
-                    const V scaledMass = loadOne(factor.m + lane) * loadOne(mass + massPlace(node, lane));
-                    const std::size_t at = place(node, lane);
-                    const V3 sum = takeSum(sums, node, lane), pi = load3(p + at);
-                    store3({hn::MulAdd(scaledMass, pi.x, sum.x), hn::MulAdd(scaledMass, pi.y, sum.y),
-                            hn::MulAdd(scaledMass, pi.z, sum.z)},
-                           out + at);
-                });
+    sumOverNodes(v.m_nodes, products,
+                 [&](int node, int lane)
+                 {
+                     const V scaledMass = loadOne(factor.m + lane) * loadOne(mass + massPlace(node, lane));
+                     const std::size_t at = place(node, lane);
+                     const V3 sum = takeSum(sums, node, lane), p = load3(v.m_p + at);
+                     const V3 Ap = {hn::MulAdd(scaledMass, p.x, sum.x), hn::MulAdd(scaledMass, p.y, sum.y),
+                                    hn::MulAdd(scaledMass, p.z, sum.z)};
+                     store3(Ap, v.m_Ap + at);
+                     return dot(p, Ap);
+                 });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -224,9 +221,11 @@ void addLanes(ConstBodyVectors b, BodyVectors a, int nodes)
     HWY_DYNAMIC_DISPATCH(AddLanes)(b, a, nodes);
 }
 
-void subtractProduct(const LaneRecurrence& v)
+PerLane subtractProduct(const LaneRecurrence& v)
 {
-    HWY_DYNAMIC_DISPATCH(SubtractProduct)(v);
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(SubtractProduct)(v, squares);
+    return squares;
 }
 
 void clearOthers(const PerLane& kept, BodyVectors a, int nodes)
@@ -234,9 +233,11 @@ void clearOthers(const PerLane& kept, BodyVectors a, int nodes)
     HWY_DYNAMIC_DISPATCH(ClearOthers)(kept, a, nodes);
 }
 
-void scaleGuess(const LaneRecurrence& v, const PerLane& scale)
+PerLane scaleGuess(const LaneRecurrence& v, const PerLane& scale)
 {
-    HWY_DYNAMIC_DISPATCH(ScaleGuess)(v, scale);
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(ScaleGuess)(v, scale, squares);
+    return squares;
 }
 
 void turnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& beta)
@@ -244,9 +245,11 @@ void turnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& b
     HWY_DYNAMIC_DISPATCH(TurnDirection)(v, z, beta);
 }
 
-void advanceAlong(const LaneRecurrence& v, const PerLane& step)
+PerLane advanceAlong(const LaneRecurrence& v, const PerLane& step)
 {
-    HWY_DYNAMIC_DISPATCH(AdvanceAlong)(v, step);
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(AdvanceAlong)(v, step, squares);
+    return squares;
 }
 
 void subtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alpha, BodyVectors f, int nodes)
@@ -259,9 +262,11 @@ void addForces(double* sums, double step, BodyVectors b, int nodes)
     HWY_DYNAMIC_DISPATCH(AddForces)(sums, step, b, nodes);
 }
 
-void addInertia(double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out, int nodes)
+PerLane addInertia(double* sums, const double* mass, const PerLane& factor, const LaneProduct& v)
 {
-    HWY_DYNAMIC_DISPATCH(AddInertia)(sums, mass, factor, p, out, nodes);
+    PerLane products;
+    HWY_DYNAMIC_DISPATCH(AddInertia)(sums, mass, factor, v, products);
+    return products;
 }
 
 }  // namespace bullet_fem

@@ -35,14 +35,14 @@ struct LaneRecurrence
     PerLane m_active;
 };
 
-/// r = b - Ap.
-void subtractProduct(const LaneRecurrence& v);
+/// r = b - Ap; returns |r|^2, as the next ones do.
+PerLane subtractProduct(const LaneRecurrence& v);
 /// x *= scale; r = b - scale Ap, or b where scale is 0.
-void scaleGuess(const LaneRecurrence& v, const PerLane& scale);
+PerLane scaleGuess(const LaneRecurrence& v, const PerLane& scale);
+/// x += step p, r -= step Ap.
+PerLane advanceAlong(const LaneRecurrence& v, const PerLane& step);
 /// p = z + beta p; z where beta is 0, whatever was in p.
 void turnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& beta);
-/// x += step p, r -= step Ap.
-void advanceAlong(const LaneRecurrence& v, const PerLane& step);
 
 /// a = 0 in the bodies of which `kept` is 0.
 void clearOthers(const PerLane& kept, BodyVectors a, int nodes);
@@ -51,8 +51,13 @@ void clearOthers(const PerLane& kept, BodyVectors a, int nodes);
 void subtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alpha, BodyVectors f, int nodes);
 /// b = h (b + sums), with two sums a node, which are zero then: [node][2][3][body].
 void addForces(double* sums, double step, BodyVectors b, int nodes);
-/// out = factor m p + sums, likewise.
-void addInertia(double* sums, const double* mass, const PerLane& factor, ConstBodyVectors p, BodyVectors out,
-                int nodes);
+/// Ap = factor m p + sums, likewise; returns p . Ap.
+struct LaneProduct
+{
+    int m_nodes;
+    ConstBodyVectors m_p;
+    BodyVectors m_Ap;
+};
+PerLane addInertia(double* sums, const double* mass, const PerLane& factor, const LaneProduct& v);
 
 }  // namespace bullet_fem

@@ -98,6 +98,32 @@ HWY_INLINE void forEachNode(int nodes, const Visit& visit)
         for (int lane = 0; lane < kBodyLanes; lane += kN) visit(node, lane);
 }
 
+/// Sum of term(node, lane), what a node adds to every body's; what else it does to the node is done once. As dot() of
+/// single bodies: in pieces, with four sums in each, so that an addition need not wait for the one before it.
+template <class Term>
+HWY_INLINE void sumOverNodes(int nodes, PerLane& out, const Term& term)
+{
+    const Pieces pieces(nodes, kEntriesOfPiece);
+    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    {
+        V total = hn::Zero(D());
+        for (int p = 0; p < pieces.count(); ++p)
+        {
+            V sum[4];
+            for (V& s : sum) s = hn::Zero(D());
+            int i = pieces[p].m_begin;
+            for (; i + 4 <= pieces[p].m_end; i += 4)
+            {
+                HWY_UNROLL(4)
+                for (int k = 0; k < 4; ++k) sum[k] = sum[k] + term(i + k, lane);
+            }
+            for (; i < pieces[p].m_end; ++i) sum[0] = sum[0] + term(i, lane);
+            total = total + ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+        }
+        hn::Store(total, D(), out.m + lane);
+    }
+}
+
 /// Calls visit(at, lane) for every vector of numbers of [node][3][body].
 template <class Visit>
 HWY_INLINE void forEachNumber(int nodes, const Visit& visit)

@@ -121,18 +121,20 @@ void RotateIn(const LaneWarp& warp, ConstBodyVectors in, PerLane& largest)
     }
 }
 
-void RotateOut(const LaneWarp& warp, const PerLane& scale, BodyVectors out)
+void RotateOut(const LaneWarp& warp, const PerLane& scale, ConstBodyVectors in, BodyVectors out, PerLane& products)
 {
-    forEachNode(warp.m_nodes,
-                [&](int node, int lane)
-                {
-                    F R[9], q[3];
-                    loadFloats(DF(), warp.m_rotation, node, lane, R);
-                    loadFloats(DF(), warp.m_factorVector, warp.m_position[node], lane, q);
-                    const auto row = [&](int c)
-                    { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
-                    store3(V3{row(0), row(1), row(2)} * loadOne(scale.m + lane), out + place(node, lane));
-                });
+    sumOverNodes(warp.m_nodes, products,
+                 [&](int node, int lane)
+                 {
+                     F R[9], q[3];
+                     loadFloats(DF(), warp.m_rotation, node, lane, R);
+                     loadFloats(DF(), warp.m_factorVector, warp.m_position[node], lane, q);
+                     const auto row = [&](int c)
+                     { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
+                     const V3 turned = V3{row(0), row(1), row(2)} * loadOne(scale.m + lane);
+                     store3(turned, out + place(node, lane));
+                     return dot(load3(in + place(node, lane)), turned);
+                 });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -159,9 +161,11 @@ PerLane rotateIn(const LaneWarp& warp, ConstBodyVectors in)
     return largest;
 }
 
-void rotateOut(const LaneWarp& warp, const PerLane& scale, BodyVectors out)
+PerLane rotateOut(const LaneWarp& warp, const PerLane& scale, ConstBodyVectors in, BodyVectors out)
 {
-    HWY_DYNAMIC_DISPATCH(RotateOut)(warp, scale, out);
+    PerLane products;
+    HWY_DYNAMIC_DISPATCH(RotateOut)(warp, scale, in, out, products);
+    return products;
 }
 
 }  // namespace bullet_fem

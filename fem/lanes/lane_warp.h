@@ -33,7 +33,7 @@ struct LaneWarp
 /// The factor's vector <- R^T in, scaled to order one; returns what it was divided by.
 PerLane rotateIn(const LaneWarp& warp, ConstBodyVectors in);
 
-/// out <- scale R (the factor's vector).
-void rotateOut(const LaneWarp& warp, const PerLane& scale, BodyVectors out);
+/// out <- scale R (the factor's vector); returns in . out.
+PerLane rotateOut(const LaneWarp& warp, const PerLane& scale, ConstBodyVectors in, BodyVectors out);
 
 }  // namespace bullet_fem

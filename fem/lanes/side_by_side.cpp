@@ -60,7 +60,8 @@ protected:
     {
         Real* arrays[kBodyLanes] = {};
         for (int b = 0; b < m_count; ++b) arrays[b] = of(b);
-        scatterLanes(arrays, from, layout);
+        if (std::any_of(arrays, arrays + m_count, [](const Real* array) { return array != nullptr; }))
+            scatterLanes(arrays, from, layout);
     }
 
     LaneLayout warped() const { return {m_lanes.elementCount(), kWarpedRows}; }
@@ -102,7 +103,7 @@ protected:
     std::array<SolveReport, kBodyLanes> m_reports;
 
 private:
-    void applyA(ConstBodyVectors in, BodyVectors out);
+    PerLane applyA(ConstBodyVectors p, BodyVectors Ap);
     PerLane residualNorms(const PerLane& active);
     void measureTruly(ConjugateGradientCourse* courses);
     void advance(ConjugateGradientCourse* courses);
@@ -163,11 +164,12 @@ void SideBySide::completeIncrement()
     completeIncrements(m_lanes.masses(), m_pieces, m_lanes.m_v.get(), m_lanes.m_increment.get());
 }
 
-void SideBySide::applyA(ConstBodyVectors in, BodyVectors out)
+// Returns p . A p.
+PerLane SideBySide::applyA(ConstBodyVectors p, BodyVectors Ap)
 {
     const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
-    multiplyLanes(m_lanes.elements(), h * h + h * beta, in);
-    addInertia(m_lanes.m_sums.get(), m_lanes.m_mass.get(), m_inertiaFactor, in, out, nodes());
+    multiplyLanes(m_lanes.elements(), h * h + h * beta, p);
+    return addInertia(m_lanes.m_sums.get(), m_lanes.m_mass.get(), m_inertiaFactor, {nodes(), p, Ap});
 }
 
 LaneRecurrence SideBySide::recurrence(const PerLane& active) const
@@ -181,20 +183,17 @@ LaneRecurrence SideBySide::recurrence(const PerLane& active) const
             active};
 }
 
-// |a| of every body.
-PerLane normsOf(ConstBodyVectors a, int nodes)
+PerLane rootsOf(PerLane squares)
 {
-    PerLane norms = dotLanes(a, a, nodes);
-    for (double& norm : norms.m) norm = std::sqrt(norm);
-    return norms;
+    for (double& square : squares.m) square = std::sqrt(square);
+    return squares;
 }
 
 // r = b - A x of some bodies, and its norm.
 PerLane SideBySide::residualNorms(const PerLane& active)
 {
     applyA(m_lanes.m_increment.get(), m_lanes.m_product.get());
-    subtractProduct(recurrence(active));
-    return normsOf(m_lanes.m_residual.get(), nodes());
+    return rootsOf(subtractProduct(recurrence(active)));
 }
 
 void SideBySide::measureTruly(ConjugateGradientCourse* courses)
@@ -225,15 +224,12 @@ void SideBySide::advance(ConjugateGradientCourse* courses)
     const PerLane scale = rotateIn(m_lanes.warp(), r);
     m_lanes.model().factor().lower().solveSide(m_lanes.m_factorVector.get(), m_lanes.m_factorScratch.get());
     double* const z = Ap;  // until A p takes its place
-    rotateOut(m_lanes.warp(), scale, z);
-    const PerLane rz = dotLanes(r, z, nodes());
+    const PerLane rz = rotateOut(m_lanes.warp(), scale, r, z);
     for (int b = 0; b < m_count; ++b) beta[b] = courses[b].beta(rz[b]);
     turnDirection(recurrence(active), z, beta);
-    applyA(p, Ap);
-    const PerLane pAp = dotLanes(p, Ap, nodes());
+    const PerLane pAp = applyA(p, Ap);
     for (int b = 0; b < m_count; ++b) active[b] = active[b] > 0 && courses[b].step(rz[b], pAp[b], step[b]);
-    advanceAlong(recurrence(active), step);
-    const PerLane norms = normsOf(r, nodes());
+    const PerLane norms = rootsOf(advanceAlong(recurrence(active), step));
     for (int b = 0; b < m_count; ++b)
         if (active[b] > 0) courses[b].noteStep(rz[b], norms[b]);
 }
@@ -243,7 +239,7 @@ void SideBySide::solve(const std::array<IncrementGoal, kBodyLanes>& goals,
                        const std::array<StepSettings, kBodyLanes>& settings)
 {
     double *x = m_lanes.m_increment.get(), *b = m_lanes.m_rightSide.get();
-    const PerLane bb = normsOf(b, nodes()), xx = dotLanes(x, x, nodes());
+    const PerLane bNorms = rootsOf(dotLanes(b, b, nodes())), xx = dotLanes(x, x, nodes());
     ConjugateGradientCourse courses[kBodyLanes];
     PerLane guessed, scaled, all;
     bool anyGuess = false;
@@ -252,17 +248,17 @@ void SideBySide::solve(const std::array<IncrementGoal, kBodyLanes>& goals,
         all[k] = 1;
         guessed[k] = xx[k] > 0;
         anyGuess = anyGuess || xx[k] > 0;
-        courses[k] = ConjugateGradientCourse(stopOf(settings[k], goals[k]), bb[k], !(xx[k] > 0));
+        courses[k] = ConjugateGradientCourse(stopOf(settings[k], goals[k]), bNorms[k], !(xx[k] > 0));
     }
     if (anyGuess)
     {
-        const PerLane norms = residualNorms(all);  // where x is zero, r = b
+        const PerLane xAx = applyA(x, m_lanes.m_product.get());
+        const PerLane norms = rootsOf(subtractProduct(recurrence(all)));  // where x is zero, r = b
         for (int k = 0; k < m_count; ++k) scaled[k] = guessed[k] > 0 && !courses[k].noteGuess(norms[k]);
-        const PerLane bx = dotLanes(b, x, nodes()), xAx = dotLanes(x, m_lanes.m_product.get(), nodes());
+        const PerLane bx = dotLanes(b, x, nodes());
         PerLane scale;
         for (int k = 0; k < m_count; ++k) scale[k] = optimalScale(bx[k], xAx[k]);
-        scaleGuess(recurrence(scaled), scale);
-        const PerLane scaledNorms = normsOf(m_lanes.m_residual.get(), nodes());
+        const PerLane scaledNorms = rootsOf(scaleGuess(recurrence(scaled), scale));
         for (int k = 0; k < m_count; ++k)
             if (scaled[k] > 0) courses[k].noteScaledGuess(scaledNorms[k]);
     }
@@ -367,7 +363,7 @@ private:
             if (b >= m_count) continue;
             pass.m_rotation[b] = rotation;
             ElementWork& work = scratch(b).m_elements;
-            if (work.m_wasUsed) pass.m_warped[b] = work.m_single.m_warped.data();
+            if (work.m_likelySteps > 0) pass.m_warped[b] = work.m_single.m_warped.data();
         }
         passOverLanes(m_lanes.elements(), pass);
         addForces(m_lanes.m_sums.get(), h, m_lanes.m_rightSide.get(), nodes());
@@ -396,9 +392,9 @@ private:
         {
             ElementWork& work = scratch(b).m_elements;
             work.m_isDouble = false;
-            work.m_isComplete = work.m_wasUsed;
-            work.m_wasUsed = false;
+            work.m_isComplete = work.m_likelySteps > 0;
             if (!work.m_isComplete) continue;
+            --work.m_likelySteps;
             work.m_stiffnessFactor = h * h + h * beta;
             for (int i = 0; i < nodes(); ++i) work.m_scaledMass[i] = m_inertiaFactor[b] * body(b).m_state.m_mass[i];
         }
