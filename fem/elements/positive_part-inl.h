@@ -49,18 +49,18 @@ HWY_INLINE Symmetric<Real> adjugate(const Symmetric<Real>& A)
             hn::MulSub(A.xy, A.yz, A.yy * A.xz), hn::MulSub(A.yz, A.xz, A.zz * A.xy)};
 }
 
-/// Numbers that the products of squares of need not fear to meet 0.
+/// Keeps divisors of order one or less, as they are for a matrix with entries of at most 1, away from zero.
 template <class Real>
 HWY_INLINE Vector<Real> tinyNumber()
 {
     return number<Real>(std::is_same<Real, float>::value ? 1e-30 : 1e-100);
 }
 
-/// S = m_size U, no entry of U beyond 1, U = A + m_mean I with no trace in A; m_value is an eigenvalue of A.
+/// S = m_size U, no entry of U beyond 1; U = A + tr(U) / 3 I; m_value is an eigenvalue of A, m_inverse 1 / m_size.
 template <class Real>
 struct FarEigenvalue
 {
-    Vector<Real> m_size, m_inverse, m_value;  // 1 / m_size
+    Vector<Real> m_size, m_inverse, m_value;
 };
 
 template <class Real>
