@@ -185,6 +185,30 @@ TEST_P(ElementMesh, WhatFillsTheLastBlockHasNoForce)
             for (int c = 0; c < 4; ++c) EXPECT_EQ(0, kernels.m_corners[1].m_vector[a][lane][c]);
 }
 
+// What comes of them is what came of them when they were found.
+TEST_P(ElementMesh, KeepsRotationsThatAreKnown)
+{
+    const TetMesh mesh = meshes()[2];
+    const RestShape shape(mesh, elasticMaterial(1e4, 0.3));
+    deform(mesh);
+    ElementCase<float> found(shape, m_x, m_v), known(shape, m_x, m_v);
+    found.forces();
+    known.m_rotation = found.m_rotation;
+    known.m_rotation[0] = {0.6f, 0, 0, 0.8f};  // not the one that it would find
+    const std::vector<Quaternion> given = known.m_rotation;
+    ElementPass<float> pass = known.pass();
+    pass.m_isRotated = true;
+    runElementPass(pass, known.blocks());
+    EXPECT_EQ(0, std::memcmp(given.data(), known.m_rotation.data(), given.size() * sizeof(Quaternion)));
+    for (int e = 1; e < mesh.tetCount(); ++e)
+        for (int row = 0; row < kWarpedRows; ++row)
+        {
+            const int at = row * kLanes + e % kLanes;
+            const float expected = found.m_warped[e / kLanes].rows()[at];
+            ASSERT_NEAR(expected, known.m_warped[e / kLanes].rows()[at], 1e-5 * (1 + std::fabs(expected))) << e;
+        }
+}
+
 TEST_P(ElementMesh, NoTensionFactorMeansNoTension)
 {
     const TetMesh mesh = meshes()[2];
