@@ -12,7 +12,7 @@ namespace bullet_fem
 constexpr int kBodyLanes = 16;
 
 /// One number a body.
-struct alignas(64) PerLane
+struct PerLane
 {
     double m[kBodyLanes] = {};
 

@@ -30,6 +30,7 @@ public:
 
     LaneElements elements() const;
     LaneMasses masses() const { return {nodeCount(), m_mass.get(), m_x.get()}; }
+    LaneInertia inertia() const { return {nodeCount(), m_mass.get(), m_sums.get()}; }
     LaneNodeRotations nodeRotations();
     LaneWarp warp() const;
 

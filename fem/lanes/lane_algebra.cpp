@@ -20,26 +20,6 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-HWY_INLINE V dotAt(ConstBodyVectors a, ConstBodyVectors b, std::size_t at)
-{
-    return dot(load3(a + at), load3(b + at));
-}
-
-void DotLanes(ConstBodyVectors a, ConstBodyVectors b, int nodes, PerLane& out)
-{
-    sumOverNodes(nodes, out, [=](int node, int lane) { return dotAt(a, b, place(node, lane)); });
-}
-
-void SquareInOrder(ConstBodyVectors a, int nodes, PerLane& out)
-{
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
-    {
-        V sum = hn::Zero(D());
-        for (int i = 0; i < nodes; ++i) sum = sum + dotAt(a, a, place(i, lane));
-        hn::Store(sum, D(), out.m + lane);
-    }
-}
-
 void SubtractLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
 {
     forEachNumber(nodes, [&](std::size_t at, int) { hn::Store(loadOne(a + at) - loadOne(b + at), D(), out + at); });
@@ -52,9 +32,21 @@ void ContinueLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int 
                   [&](std::size_t at, int) { hn::Store(loadOne(a + at) * two - loadOne(b + at), D(), out + at); });
 }
 
-void AddLanes(ConstBodyVectors b, BodyVectors a, int nodes)
+/// Returns |v|^2.
+HWY_INLINE V storeMeasured(const V3& v, double* to)
 {
-    forEachNumber(nodes, [&](std::size_t at, int) { hn::Store(loadOne(a + at) + loadOne(b + at), D(), a + at); });
+    store3(v, to);
+    return dot(v, v);
+}
+
+void AddLanes(ConstBodyVectors b, BodyVectors a, int nodes, PerLane& squares)
+{
+    sumOverNodes(nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     return storeMeasured(load3(a + at) + load3(b + at), a + at);
+                 });
 }
 
 HWY_INLINE V3 choose(hn::Mask<D> yes, const V3& a, const V3& b)
@@ -65,7 +57,7 @@ HWY_INLINE V3 choose(hn::Mask<D> yes, const V3& a, const V3& b)
 /// Writes where the body is active.
 HWY_INLINE void storeActive(const LaneRecurrence& v, const V3& value, int lane, double* to)
 {
-    const auto active = loadOne(v.m_active.m + lane) > hn::Zero(D());
+    const auto active = valuesOf(v.m_active, lane) > hn::Zero(D());
     store3(choose(active, value, load3(to)), to);
 }
 
@@ -91,7 +83,7 @@ void ClearOthers(const PerLane& kept, BodyVectors a, int nodes)
     forEachNumber(nodes,
                   [&](std::size_t at, int lane)
                   {
-                      const auto keeps = loadOne(kept.m + lane) > hn::Zero(D());
+                      const auto keeps = valuesOf(kept, lane) > hn::Zero(D());
                       hn::Store(hn::IfThenElseZero(keeps, loadOne(a + at)), D(), a + at);
                   });
 }
@@ -102,7 +94,7 @@ void ScaleGuess(const LaneRecurrence& v, const PerLane& scale, PerLane& squares)
                  [&](int node, int lane)
                  {
                      const std::size_t at = place(node, lane);
-                     const V s = loadOne(scale.m + lane);
+                     const V s = valuesOf(scale, lane);
                      const V3 b = load3(v.m_b + at);
                      storeActive(v, load3(v.m_x + at) * s, lane, v.m_x + at);
                      return storeResidual(v, choose(s > hn::Zero(D()), b - load3(v.m_Ap + at) * s, b), lane, at);
@@ -115,7 +107,7 @@ void TurnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& b
                 [&](int node, int lane)
                 {
                     const std::size_t at = place(node, lane);
-                    const V b = loadOne(beta.m + lane);
+                    const V b = valuesOf(beta, lane);
                     const V3 zi = load3(z + at), turned = zi + load3(v.m_p + at) * b;
                     storeActive(v, choose(b > hn::Zero(D()), turned, zi), lane, v.m_p + at);
                 });
@@ -127,47 +119,59 @@ void AdvanceAlong(const LaneRecurrence& v, const PerLane& step, PerLane& squares
                  [&](int node, int lane)
                  {
                      const std::size_t at = place(node, lane);
-                     const V s = loadOne(step.m + lane);
+                     const V s = valuesOf(step, lane);
                      storeActive(v, load3(v.m_x + at) + load3(v.m_p + at) * s, lane, v.m_x + at);
                      return storeResidual(v, load3(v.m_r + at) + load3(v.m_Ap + at) * hn::Neg(s), lane, at);
                  });
 }
 
-void SubtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alpha, BodyVectors f, int nodes)
-{
-    forEachNode(nodes,
-                [&](int node, int lane)
-                {
-                    const V alphaMass = loadOne(alpha.m + lane) * loadOne(mass + massPlace(node, lane));
-                    const std::size_t at = place(node, lane);
-                    store3(load3(f + at) - load3(v + at) * alphaMass, f + at);
-                });
-}
-
-void AddForces(double* sums, double step, BodyVectors b, int nodes)
+void AddForces(const LaneInertia& inertia, const PerLane& alpha, double step, ConstBodyVectors v, BodyVectors b,
+               PerLane& squares)
 {
     const V h = hn::Set(D(), step);
-    forEachNode(nodes,
-                [&](int node, int lane)
-                {
-                    const std::size_t at = place(node, lane);
-                    store3((load3(b + at) + takeSum(sums, node, lane)) * h, b + at);
-                });
-}
-
-void AddInertia(double* sums, const double* mass, const PerLane& factor, const LaneProduct& v, PerLane& products)
-{
-    sumOverNodes(v.m_nodes, products,
+    sumOverNodes(inertia.m_nodes, squares,
                  [&](int node, int lane)
                  {
-                     const V scaledMass = loadOne(factor.m + lane) * loadOne(mass + massPlace(node, lane));
+                     const V alphaMass = valuesOf(alpha, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
                      const std::size_t at = place(node, lane);
-                     const V3 sum = takeSum(sums, node, lane), p = load3(v.m_p + at);
-                     const V3 Ap = {hn::MulAdd(scaledMass, p.x, sum.x), hn::MulAdd(scaledMass, p.y, sum.y),
-                                    hn::MulAdd(scaledMass, p.z, sum.z)};
-                     store3(Ap, v.m_Ap + at);
-                     return dot(p, Ap);
+                     const V3 damped = load3(b + at) - load3(v + at) * alphaMass;
+                     return storeMeasured((damped + takeSum(inertia.m_sums, node, lane)) * h, b + at);
                  });
+}
+
+/// A p of a node, which is stored, too.
+HWY_INLINE V3 applyAt(const LaneInertia& inertia, const PerLane& factor, const V3& p, BodyVectors Ap, int node,
+                      int lane)
+{
+    const V scaledMass = valuesOf(factor, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
+    const V3 sum = takeSum(inertia.m_sums, node, lane);
+    const V3 product = {hn::MulAdd(scaledMass, p.x, sum.x), hn::MulAdd(scaledMass, p.y, sum.y),
+                        hn::MulAdd(scaledMass, p.z, sum.z)};
+    store3(product, Ap + place(node, lane));
+    return product;
+}
+
+void AddInertia(const LaneInertia& inertia, const PerLane& factor, ConstBodyVectors p, BodyVectors Ap,
+                PerLane& products)
+{
+    sumOverNodes(inertia.m_nodes, products,
+                 [&](int node, int lane)
+                 {
+                     const V3 pi = load3(p + place(node, lane));
+                     return dot(pi, applyAt(inertia, factor, pi, Ap, node, lane));
+                 });
+}
+
+void MeasureGuess(const LaneInertia& inertia, const PerLane& factor, const LaneGuess& guess, LaneGuessMeasure& out)
+{
+    sumsOverNodes<4>(inertia.m_nodes, {&out.m_xx, &out.m_bx, &out.m_xAx, &out.m_residual},
+                     [&](int node, int lane)
+                     {
+                         const std::size_t at = place(node, lane);
+                         const V3 x = load3(guess.m_x + at), b = load3(guess.m_b + at);
+                         const V3 Ax = applyAt(inertia, factor, x, guess.m_Ax, node, lane), r = b - Ax;
+                         return Terms<4>{{dot(x, x), dot(b, x), dot(x, Ax), dot(r, r)}};
+                     });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -178,8 +182,6 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(DotLanes);
-HWY_EXPORT(SquareInOrder);
 HWY_EXPORT(SubtractLanes);
 HWY_EXPORT(ContinueLanes);
 HWY_EXPORT(AddLanes);
@@ -188,23 +190,9 @@ HWY_EXPORT(ClearOthers);
 HWY_EXPORT(ScaleGuess);
 HWY_EXPORT(TurnDirection);
 HWY_EXPORT(AdvanceAlong);
-HWY_EXPORT(SubtractDamping);
 HWY_EXPORT(AddForces);
 HWY_EXPORT(AddInertia);
-
-PerLane dotLanes(ConstBodyVectors a, ConstBodyVectors b, int nodes)
-{
-    PerLane sum;
-    HWY_DYNAMIC_DISPATCH(DotLanes)(a, b, nodes, sum);
-    return sum;
-}
-
-PerLane squareInOrder(ConstBodyVectors a, int nodes)
-{
-    PerLane sum;
-    HWY_DYNAMIC_DISPATCH(SquareInOrder)(a, nodes, sum);
-    return sum;
-}
+HWY_EXPORT(MeasureGuess);
 
 void subtractLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
 {
@@ -216,9 +204,11 @@ void continueLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int 
     HWY_DYNAMIC_DISPATCH(ContinueLanes)(a, b, out, nodes);
 }
 
-void addLanes(ConstBodyVectors b, BodyVectors a, int nodes)
+PerLane addLanes(ConstBodyVectors b, BodyVectors a, int nodes)
 {
-    HWY_DYNAMIC_DISPATCH(AddLanes)(b, a, nodes);
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(AddLanes)(b, a, nodes, squares);
+    return squares;
 }
 
 PerLane subtractProduct(const LaneRecurrence& v)
@@ -252,21 +242,25 @@ PerLane advanceAlong(const LaneRecurrence& v, const PerLane& step)
     return squares;
 }
 
-void subtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alpha, BodyVectors f, int nodes)
+PerLane addForces(const LaneInertia& inertia, const PerLane& alpha, double step, ConstBodyVectors v, BodyVectors b)
 {
-    HWY_DYNAMIC_DISPATCH(SubtractDamping)(mass, v, alpha, f, nodes);
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(AddForces)(inertia, alpha, step, v, b, squares);
+    return squares;
 }
 
-void addForces(double* sums, double step, BodyVectors b, int nodes)
-{
-    HWY_DYNAMIC_DISPATCH(AddForces)(sums, step, b, nodes);
-}
-
-PerLane addInertia(double* sums, const double* mass, const PerLane& factor, const LaneProduct& v)
+PerLane addInertia(const LaneInertia& inertia, const PerLane& factor, ConstBodyVectors p, BodyVectors Ap)
 {
     PerLane products;
-    HWY_DYNAMIC_DISPATCH(AddInertia)(sums, mass, factor, v, products);
+    HWY_DYNAMIC_DISPATCH(AddInertia)(inertia, factor, p, Ap, products);
     return products;
+}
+
+LaneGuessMeasure measureGuess(const LaneInertia& inertia, const PerLane& factor, const LaneGuess& guess)
+{
+    LaneGuessMeasure measure;
+    HWY_DYNAMIC_DISPATCH(MeasureGuess)(inertia, factor, guess, measure);
+    return measure;
 }
 
 }  // namespace bullet_fem

@@ -15,16 +15,11 @@ namespace bullet_fem
 using BodyVectors = double*;
 using ConstBodyVectors = const double*;
 
-/// Sum over nodes of a . b, as dot() of single bodies.
-PerLane dotLanes(ConstBodyVectors a, ConstBodyVectors b, int nodes);
-
-/// Sum over nodes of a . a, one node after the other.
-PerLane squareInOrder(ConstBodyVectors a, int nodes);
-
-/// out = a - b, out = 2 a - b, and a += b.
+/// out = a - b, and out = 2 a - b.
 void subtractLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes);
 void continueLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes);
-void addLanes(ConstBodyVectors b, BodyVectors a, int nodes);
+/// a += b; returns |a|^2, a sum over nodes as dot() of single bodies.
+PerLane addLanes(ConstBodyVectors b, BodyVectors a, int nodes);
 
 /// What conjugate gradients do to vectors, in the bodies of `active` (1; others: 0), the others stay.
 struct LaneRecurrence
@@ -47,17 +42,29 @@ void turnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& b
 /// a = 0 in the bodies of which `kept` is 0.
 void clearOthers(const PerLane& kept, BodyVectors a, int nodes);
 
-/// b = f - alpha m v in place of f; masses: [node][body].
-void subtractDamping(const double* mass, ConstBodyVectors v, const PerLane& alpha, BodyVectors f, int nodes);
-/// b = h (b + sums), with two sums a node, which are zero then: [node][2][3][body].
-void addForces(double* sums, double step, BodyVectors b, int nodes);
-/// Ap = factor m p + sums, likewise; returns p . Ap.
-struct LaneProduct
+/// Masses, and what elements have added up at the nodes.
+struct LaneInertia
 {
     int m_nodes;
-    ConstBodyVectors m_p;
-    BodyVectors m_Ap;
+    const double* m_mass;  ///< [node][body] [kg]
+    double* m_sums;        ///< [node][2][3][body], two sums a node; zero when they are taken
 };
-PerLane addInertia(double* sums, const double* mass, const PerLane& factor, const LaneProduct& v);
+
+/// b = h (f - alpha m v + sums) in place of f; returns |b|^2.
+PerLane addForces(const LaneInertia& inertia, const PerLane& alpha, double step, ConstBodyVectors v, BodyVectors b);
+/// Ap = factor m p + sums; returns p . Ap.
+PerLane addInertia(const LaneInertia& inertia, const PerLane& factor, ConstBodyVectors p, BodyVectors Ap);
+
+/// The same of a guess, of which conjugate gradients ask more.
+struct LaneGuess
+{
+    ConstBodyVectors m_x, m_b;
+    BodyVectors m_Ax;
+};
+struct LaneGuessMeasure
+{
+    PerLane m_xx, m_bx, m_xAx, m_residual;  ///< x . x, b . x, x . A x, |b - A x|^2
+};
+LaneGuessMeasure measureGuess(const LaneInertia& inertia, const PerLane& factor, const LaneGuess& guess);
 
 }  // namespace bullet_fem

@@ -20,14 +20,14 @@ namespace HWY_NAMESPACE
 
 HWY_INLINE V3 load(const PerLane3& from, int lane)
 {
-    return {loadOne(from[0].m + lane), loadOne(from[1].m + lane), loadOne(from[2].m + lane)};
+    return {valuesOf(from[0], lane), valuesOf(from[1], lane), valuesOf(from[2], lane)};
 }
 
 HWY_INLINE void store(const V3& v, int lane, PerLane3& to)
 {
-    hn::Store(v.x, D(), to[0].m + lane);
-    hn::Store(v.y, D(), to[1].m + lane);
-    hn::Store(v.z, D(), to[2].m + lane);
+    storeValues(v.x, lane, to[0]);
+    storeValues(v.y, lane, to[1]);
+    storeValues(v.z, lane, to[2]);
 }
 
 HWY_INLINE V massAt(const LaneMasses& nodes, int node, int lane)
@@ -53,50 +53,56 @@ void SumMasses(const LaneMasses& nodes, LanePieces& pieces)
             mass = mass + m;
             center = center + positionAt(nodes, i, lane) * m;
         }
-        hn::Store(mass, D(), pieces.m_mass.m + lane);
+        storeValues(mass, lane, pieces.m_mass);
         store(center, lane, pieces.m_center);
     }
 }
 
-void SumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces)
+void SumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces, PerLane& squares)
 {
     for (int lane = 0; lane < kBodyLanes; lane += kN)
     {
-        const V zero = hn::Zero(D()), alpha = loadOne(loads.m_alpha.m + lane), share = loadOne(loads.m_share.m + lane);
+        const V zero = hn::Zero(D()), alpha = valuesOf(loads.m_alpha, lane), share = valuesOf(loads.m_share, lane);
         const V3 center = load(pieces.m_center, lane);
         V3 linear = {zero, zero, zero}, angular = linear, diagonal = linear, others = linear;  // yz, xz, xy
+        V square = zero;
         for (int i = 0; i < nodes.m_nodes; ++i)
         {
             const V m = massAt(nodes, i, lane);
             const V3 r = positionAt(nodes, i, lane) - center, p = load3(loads.m_v + place(i, lane)) * m;
-            const V3 force = load3(loads.m_force + place(i, lane)) - p * alpha;
-            const V3 prescribed = p + force * share;
+            const V3 load = load3(loads.m_force + place(i, lane)), prescribed = p + (load - p * alpha) * share;
+            square = square + dot(load, load);
             linear = linear + prescribed;
             angular = angular + cross(r, prescribed);
             const V rr = dot(r, r);
             diagonal = diagonal + V3{rr - r.x * r.x, rr - r.y * r.y, rr - r.z * r.z} * m;
             others = others + V3{zero - r.y * r.z, zero - r.x * r.z, zero - r.x * r.y} * m;
         }
+        storeValues(square, lane, squares);
         store(linear, lane, pieces.m_linear);
         store(angular, lane, pieces.m_angular);
         const V inertia[9] = {diagonal.x, others.z, others.y, others.z,  diagonal.y,
                               others.x,   others.y, others.x, diagonal.z};
-        for (int k = 0; k < 9; ++k) hn::Store(inertia[k], D(), pieces.m_inertia[k].m + lane);
+        for (int k = 0; k < 9; ++k) storeValues(inertia[k], lane, pieces.m_inertia[k]);
     }
 }
 
-void AddImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces)
+void AddImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces,
+                 PerLane& squares)
 {
     for (int lane = 0; lane < kBodyLanes; lane += kN)
     {
         const V3 center = load(pieces.m_center, lane);
         V3 linear = load(pieces.m_linear, lane), angular = load(pieces.m_angular, lane);
+        V square = hn::Zero(D());
         for (int i = 0; i < nodes.m_nodes; ++i)
         {
-            const V3 impulse = load3(impulses + place(i, lane)) * loadOne(share.m + lane);
+            const V3 given = load3(impulses + place(i, lane)), impulse = given * valuesOf(share, lane);
+            square = square + dot(given, given);
             linear = linear + impulse;
             angular = angular + cross(positionAt(nodes, i, lane) - center, impulse);
         }
+        storeValues(square, lane, squares);
         store(linear, lane, pieces.m_linear);
         store(angular, lane, pieces.m_angular);
     }
@@ -116,11 +122,11 @@ HWY_INLINE void restore(const LaneMasses& nodes, const LanePieces& pieces, const
             linear = linear - p;
             angular = angular - cross(positionAt(nodes, i, lane) - center, p);
         }
-        linear = linear * (hn::Set(D(), 1.0) / loadOne(pieces.m_mass.m + lane));
+        linear = linear * (hn::Set(D(), 1.0) / valuesOf(pieces.m_mass, lane));
         const auto row = [&](int k)
         {
             const PerLane* I = pieces.m_inertia + 3 * k;
-            return dot({loadOne(I[0].m + lane), loadOne(I[1].m + lane), loadOne(I[2].m + lane)}, angular);
+            return dot({valuesOf(I[0], lane), valuesOf(I[1], lane), valuesOf(I[2], lane)}, angular);
         };
         const V3 spin = {row(0), row(1), row(2)};
         for (int i = 0; i < nodes.m_nodes; ++i)
@@ -139,10 +145,10 @@ void CompleteIncrements(const LaneMasses& nodes, const LanePieces& pieces, Const
     restore(nodes, pieces, before, then);
 }
 
-void RestoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVectors velocity)
+void AddWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v)
 {
-    const auto before = [=](int i, int lane) { return load3(velocity + place(i, lane)); };
-    const auto then = [=](int i, int lane, const V3& after) { store3(after, velocity + place(i, lane)); };
+    const auto before = [=](int i, int lane) { return load3(v + place(i, lane)) + load3(dv + place(i, lane)); };
+    const auto then = [=](int i, int lane, const V3& after) { store3(after, v + place(i, lane)); };
     restore(nodes, pieces, before, then);
 }
 
@@ -158,21 +164,25 @@ HWY_EXPORT(SumMasses);
 HWY_EXPORT(SumPrescribed);
 HWY_EXPORT(AddImpulses);
 HWY_EXPORT(CompleteIncrements);
-HWY_EXPORT(RestoreMomentum);
+HWY_EXPORT(AddWithMomentum);
 
 void sumMasses(const LaneMasses& nodes, LanePieces& pieces)
 {
     HWY_DYNAMIC_DISPATCH(SumMasses)(nodes, pieces);
 }
 
-void sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces)
+PerLane sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces)
 {
-    HWY_DYNAMIC_DISPATCH(SumPrescribed)(nodes, loads, pieces);
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(SumPrescribed)(nodes, loads, pieces, squares);
+    return squares;
 }
 
-void addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces)
+PerLane addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces)
 {
-    HWY_DYNAMIC_DISPATCH(AddImpulses)(nodes, impulses, share, pieces);
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(AddImpulses)(nodes, impulses, share, pieces, squares);
+    return squares;
 }
 
 void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv)
@@ -180,9 +190,9 @@ void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, Const
     HWY_DYNAMIC_DISPATCH(CompleteIncrements)(nodes, pieces, v, dv);
 }
 
-void restoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVectors velocity)
+void addWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v)
 {
-    HWY_DYNAMIC_DISPATCH(RestoreMomentum)(nodes, pieces, velocity);
+    HWY_DYNAMIC_DISPATCH(AddWithMomentum)(nodes, pieces, dv, v);
 }
 
 }  // namespace bullet_fem

@@ -30,21 +30,21 @@ struct LaneMasses
 void sumMasses(const LaneMasses& nodes, LanePieces& pieces);
 
 /// Momenta that loads prescribe, and inertia, about the centres that are known by now: p = m v, p + share (f - alpha
-/// p).
+/// p). Returns |f|^2, one node after the other.
 struct LaneLoads
 {
     ConstBodyVectors m_v, m_force;
     PerLane m_alpha, m_share;
 };
-void sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces);
+PerLane sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces);
 
-/// Adds share times impulses [N s] to the prescribed momenta.
-void addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces);
+/// Adds share times impulses [N s] to the prescribed momenta; returns their squares likewise.
+PerLane addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces);
 
-/// Completes increments of velocities v [m/s]: v + dv gets the rigid motion that restoreMomentum() adds.
+/// Completes increments of velocities v [m/s]: v + dv gets the rigid motion that addWithMomentum() adds.
 void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv);
 
-/// Adds to velocities the rigid motion that gives every body its prescribed momentum; m_inertia is inverse by now.
-void restoreMomentum(const LaneMasses& nodes, const LanePieces& pieces, BodyVectors velocity);
+/// v += dv, and the rigid motion that gives every body its prescribed momentum; m_inertia is inverse by now.
+void addWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v);
 
 }  // namespace bullet_fem

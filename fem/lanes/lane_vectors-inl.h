@@ -79,6 +79,16 @@ HWY_INLINE void store3(const V3& v, double* to)
     hn::Store(v.z, D(), to + 2 * kBodyLanes);
 }
 
+/// Numbers of bodies, which the stack need not align.
+HWY_INLINE V valuesOf(const PerLane& values, int lane)
+{
+    return hn::LoadU(D(), values.m + lane);
+}
+HWY_INLINE void storeValues(V v, int lane, PerLane& to)
+{
+    hn::StoreU(v, D(), to.m + lane);
+}
+
 /// What the corners at a node hold, the two sums of it, which are zero then.
 HWY_INLINE V3 takeSum(double* sums, int node, int lane)
 {
@@ -98,30 +108,54 @@ HWY_INLINE void forEachNode(int nodes, const Visit& visit)
         for (int lane = 0; lane < kBodyLanes; lane += kN) visit(node, lane);
 }
 
-/// Sum of term(node, lane), what a node adds to every body's; what else it does to the node is done once. As dot() of
-/// single bodies: in pieces, with four sums in each, so that an addition need not wait for the one before it.
-template <class Term>
-HWY_INLINE void sumOverNodes(int nodes, PerLane& out, const Term& term)
+/// What a node adds to some sums of every body.
+template <int kSums>
+struct Terms
 {
+    V m_term[kSums];
+
+    HWY_INLINE void add(const Terms& other)
+    {
+        HWY_UNROLL(4)
+        for (int s = 0; s < kSums; ++s) m_term[s] = m_term[s] + other.m_term[s];
+    }
+};
+
+/// Sums of terms(node, lane), a Terms; what else it does to the node is done once. As dot() of single bodies: in
+/// pieces, with four sums in each, so that an addition need not wait for the one before it.
+template <int kSums, class TermsOf>
+HWY_INLINE void sumsOverNodes(int nodes, PerLane* const (&out)[kSums], const TermsOf& terms)
+{
+    Terms<kSums> zero;
+    for (V& term : zero.m_term) term = hn::Zero(D());
     const Pieces pieces(nodes, kEntriesOfPiece);
     for (int lane = 0; lane < kBodyLanes; lane += kN)
     {
-        V total = hn::Zero(D());
+        Terms<kSums> total = zero;
         for (int p = 0; p < pieces.count(); ++p)
         {
-            V sum[4];
-            for (V& s : sum) s = hn::Zero(D());
+            Terms<kSums> sum[4] = {zero, zero, zero, zero};
             int i = pieces[p].m_begin;
             for (; i + 4 <= pieces[p].m_end; i += 4)
             {
                 HWY_UNROLL(4)
-                for (int k = 0; k < 4; ++k) sum[k] = sum[k] + term(i + k, lane);
+                for (int k = 0; k < 4; ++k) sum[k].add(terms(i + k, lane));
             }
-            for (; i < pieces[p].m_end; ++i) sum[0] = sum[0] + term(i, lane);
-            total = total + ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+            for (; i < pieces[p].m_end; ++i) sum[0].add(terms(i, lane));
+            sum[0].add(sum[1]);
+            sum[2].add(sum[3]);
+            sum[0].add(sum[2]);
+            total.add(sum[0]);
         }
-        hn::Store(total, D(), out.m + lane);
+        for (int s = 0; s < kSums; ++s) storeValues(total.m_term[s], lane, *out[s]);
     }
+}
+
+/// One sum, likewise.
+template <class Term>
+HWY_INLINE void sumOverNodes(int nodes, PerLane& out, const Term& term)
+{
+    sumsOverNodes<1>(nodes, {&out}, [&](int node, int lane) { return Terms<1>{{term(node, lane)}}; });
 }
 
 /// Calls visit(at, lane) for every vector of numbers of [node][3][body].

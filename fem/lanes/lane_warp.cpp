@@ -44,13 +44,12 @@ HWY_INLINE void storeFloats(Tag tag, const hn::Vec<Tag> (&v)[Count], int item, i
 /// R, row-major, of quaternions of squared length n > 0.
 HWY_INLINE void rotationOf(const Wide (&q)[4], Wide n, Wide (&R)[9])
 {
-    using F = Wide;
-    const F one = hn::Set(DWide(), 1.f), s = hn::Set(DWide(), 2.f) / n;
-    const F sx = s * q[0], sy = s * q[1], sz = s * q[2];
-    const F xx = sx * q[0], yy = sy * q[1], zz = sz * q[2], xy = sx * q[1], xz = sx * q[2], yz = sy * q[2];
-    const F wx = sx * q[3], wy = sy * q[3], wz = sz * q[3];
-    const F entries[9] = {one - (yy + zz), xy - wz, xz + wy, xy + wz,        one - (xx + zz),
-                          yz - wx,         xz - wy, yz + wx, one - (xx + yy)};
+    const Wide one = hn::Set(DWide(), 1.f), s = hn::Set(DWide(), 2.f) / n;
+    const Wide sx = s * q[0], sy = s * q[1], sz = s * q[2];
+    const Wide xx = sx * q[0], yy = sy * q[1], zz = sz * q[2], xy = sx * q[1], xz = sx * q[2], yz = sy * q[2];
+    const Wide wx = sx * q[3], wy = sy * q[3], wz = sz * q[3];
+    const Wide entries[9] = {one - (yy + zz), xy - wz, xz + wy, xy + wz,        one - (xx + zz),
+                             yz - wx,         xz - wy, yz + wx, one - (xx + yy)};
     for (int k = 0; k < 9; ++k) R[k] = entries[k];
 }
 
@@ -106,7 +105,7 @@ void RotateIn(const LaneWarp& warp, ConstBodyVectors in, PerLane& largest)
             const V3 r = load3(in + place(i, lane));
             most = hn::Max(hn::Max(most, hn::Abs(r.x)), hn::Max(hn::Abs(r.y), hn::Abs(r.z)));
         }
-        hn::Store(most, D(), largest.m + lane);
+        storeValues(most, lane, largest);
         const V down = hn::IfThenElseZero(most > zero, one / most);
         for (int i = 0; i < warp.m_nodes; ++i)
         {
@@ -131,7 +130,7 @@ void RotateOut(const LaneWarp& warp, const PerLane& scale, ConstBodyVectors in, 
                      loadFloats(DF(), warp.m_factorVector, warp.m_position[node], lane, q);
                      const auto row = [&](int c)
                      { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
-                     const V3 turned = V3{row(0), row(1), row(2)} * loadOne(scale.m + lane);
+                     const V3 turned = V3{row(0), row(1), row(2)} * valuesOf(scale, lane);
                      store3(turned, out + place(node, lane));
                      return dot(load3(in + place(node, lane)), turned);
                  });

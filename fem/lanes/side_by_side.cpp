@@ -89,8 +89,7 @@ protected:
     void keepMomenta() const;
     void gatherWarped();
     void completeIncrement();
-    void solve(const std::array<IncrementGoal, kBodyLanes>& goals,
-               const std::array<StepSettings, kBodyLanes>& settings);
+    void solve(const PerLane& bSquares, bool isGuessed);
     void addIncrement();
     void keepResiduals(const std::array<bool, kBodyLanes>& wanted) const;
 
@@ -100,13 +99,18 @@ protected:
     StepSettings m_settings;
     LanePieces m_pieces;
     PerLane m_inertiaFactor;  // 1 + h alpha
+    std::array<IncrementGoal, kBodyLanes> m_goals;
+    std::array<StepSettings, kBodyLanes> m_allSettings;
     std::array<SolveReport, kBodyLanes> m_reports;
 
 private:
-    PerLane applyA(ConstBodyVectors p, BodyVectors Ap);
+    void addStiffness(ConstBodyVectors p) const;
+    PerLane applyA(ConstBodyVectors p, BodyVectors Ap) const;
     PerLane residualNorms(const PerLane& active);
     void measureTruly(ConjugateGradientCourse* courses);
-    void advance(ConjugateGradientCourse* courses);
+    void startFromGuess(const PerLane& bNorms, ConjugateGradientCourse* courses);
+    void start(const PerLane& bNorms, ConjugateGradientCourse* courses);
+    void advance(ConjugateGradientCourse* courses, bool isFirst);
     LaneRecurrence recurrence(const PerLane& active) const;
 };
 
@@ -164,12 +168,18 @@ void SideBySide::completeIncrement()
     completeIncrements(m_lanes.masses(), m_pieces, m_lanes.m_v.get(), m_lanes.m_increment.get());
 }
 
-// Returns p . A p.
-PerLane SideBySide::applyA(ConstBodyVectors p, BodyVectors Ap)
+// Of A p what elements add to the sums.
+void SideBySide::addStiffness(ConstBodyVectors p) const
 {
     const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
     multiplyLanes(m_lanes.elements(), h * h + h * beta, p);
-    return addInertia(m_lanes.m_sums.get(), m_lanes.m_mass.get(), m_inertiaFactor, {nodes(), p, Ap});
+}
+
+// Returns p . A p.
+PerLane SideBySide::applyA(ConstBodyVectors p, BodyVectors Ap) const
+{
+    addStiffness(p);
+    return addInertia(m_lanes.inertia(), m_inertiaFactor, p, Ap);
 }
 
 LaneRecurrence SideBySide::recurrence(const PerLane& active) const
@@ -183,10 +193,11 @@ LaneRecurrence SideBySide::recurrence(const PerLane& active) const
             active};
 }
 
-PerLane rootsOf(PerLane squares)
+PerLane rootsOf(const PerLane& squares)
 {
-    for (double& square : squares.m) square = std::sqrt(square);
-    return squares;
+    PerLane roots;
+    std::transform(squares.m, squares.m + kBodyLanes, roots.m, [](double square) { return std::sqrt(square); });
+    return roots;
 }
 
 // r = b - A x of some bodies, and its norm.
@@ -215,7 +226,7 @@ void SideBySide::measureTruly(ConjugateGradientCourse* courses)
 }
 
 // An iteration of those that are not over yet.
-void SideBySide::advance(ConjugateGradientCourse* courses)
+void SideBySide::advance(ConjugateGradientCourse* courses, bool isFirst)
 {
     double *r = m_lanes.m_residual.get(), *p = m_lanes.m_direction.get(), *Ap = m_lanes.m_product.get();
     PerLane active, beta, step;
@@ -223,10 +234,10 @@ void SideBySide::advance(ConjugateGradientCourse* courses)
 
     const PerLane scale = rotateIn(m_lanes.warp(), r);
     m_lanes.model().factor().lower().solveSide(m_lanes.m_factorVector.get(), m_lanes.m_factorScratch.get());
-    double* const z = Ap;  // until A p takes its place
+    double* const z = isFirst ? p : Ap;  // the first direction; later ones are made of it before A p takes its place
     const PerLane rz = rotateOut(m_lanes.warp(), scale, r, z);
     for (int b = 0; b < m_count; ++b) beta[b] = courses[b].beta(rz[b]);
-    turnDirection(recurrence(active), z, beta);
+    if (!isFirst) turnDirection(recurrence(active), z, beta);
     const PerLane pAp = applyA(p, Ap);
     for (int b = 0; b < m_count; ++b) active[b] = active[b] > 0 && courses[b].step(rz[b], pAp[b], step[b]);
     const PerLane norms = rootsOf(advanceAlong(recurrence(active), step));
@@ -234,40 +245,50 @@ void SideBySide::advance(ConjugateGradientCourse* courses)
         if (active[b] > 0) courses[b].noteStep(rz[b], norms[b]);
 }
 
-// solveConjugateGradients() of the increments.
-void SideBySide::solve(const std::array<IncrementGoal, kBodyLanes>& goals,
-                       const std::array<StepSettings, kBodyLanes>& settings)
+void SideBySide::start(const PerLane& bNorms, ConjugateGradientCourse* courses)
 {
-    double *x = m_lanes.m_increment.get(), *b = m_lanes.m_rightSide.get();
-    const PerLane bNorms = rootsOf(dotLanes(b, b, nodes())), xx = dotLanes(x, x, nodes());
-    ConjugateGradientCourse courses[kBodyLanes];
-    PerLane guessed, scaled, all;
-    bool anyGuess = false;
+    for (int k = 0; k < m_count; ++k) courses[k] = {stopOf(m_allSettings[k], m_goals[k]), bNorms[k], true};
+    std::copy_n(m_lanes.m_rightSide.get(), static_cast<std::size_t>(3 * kBodyLanes) * nodes(),
+                m_lanes.m_residual.get());
+}
+
+// Guesses that are zero remain, those that are good enough, too, and of the others the best multiples are taken.
+void SideBySide::startFromGuess(const PerLane& bNorms, ConjugateGradientCourse* courses)
+{
+    const double* x = m_lanes.m_increment.get();
+    addStiffness(x);
+    const LaneGuessMeasure measured =
+        measureGuess(m_lanes.inertia(), m_inertiaFactor, {x, m_lanes.m_rightSide.get(), m_lanes.m_product.get()});
+    const PerLane norms = rootsOf(measured.m_residual);
+    PerLane scale, isScaled, all;
     for (int k = 0; k < m_count; ++k)
     {
+        const bool isZero = !(measured.m_xx[k] > 0);
         all[k] = 1;
-        guessed[k] = xx[k] > 0;
-        anyGuess = anyGuess || xx[k] > 0;
-        courses[k] = ConjugateGradientCourse(stopOf(settings[k], goals[k]), bNorms[k], !(xx[k] > 0));
+        courses[k] = {stopOf(m_allSettings[k], m_goals[k]), bNorms[k], isZero};
+        isScaled[k] = !isZero && !courses[k].noteGuess(norms[k]);
+        scale[k] = isScaled[k] > 0 ? optimalScale(measured.m_bx[k], measured.m_xAx[k]) : !isZero;
     }
-    if (anyGuess)
-    {
-        const PerLane xAx = applyA(x, m_lanes.m_product.get());
-        const PerLane norms = rootsOf(subtractProduct(recurrence(all)));  // where x is zero, r = b
-        for (int k = 0; k < m_count; ++k) scaled[k] = guessed[k] > 0 && !courses[k].noteGuess(norms[k]);
-        const PerLane bx = dotLanes(b, x, nodes());
-        PerLane scale;
-        for (int k = 0; k < m_count; ++k) scale[k] = optimalScale(bx[k], xAx[k]);
-        const PerLane scaledNorms = rootsOf(scaleGuess(recurrence(scaled), scale));
-        for (int k = 0; k < m_count; ++k)
-            if (scaled[k] > 0) courses[k].noteScaledGuess(scaledNorms[k]);
-    }
+    const PerLane scaledNorms = rootsOf(scaleGuess(recurrence(all), scale));
+    for (int k = 0; k < m_count; ++k)
+        if (isScaled[k] > 0) courses[k].noteScaledGuess(scaledNorms[k]);
+}
+
+// solveConjugateGradients() of the increments; unless they are guessed, they are zero.
+void SideBySide::solve(const PerLane& bSquares, bool isGuessed)
+{
+    ConjugateGradientCourse courses[kBodyLanes];
+    const PerLane bNorms = rootsOf(bSquares);
+    if (isGuessed)
+        startFromGuess(bNorms, courses);
     else
-        std::copy_n(b, static_cast<std::size_t>(3 * kBodyLanes) * nodes(), m_lanes.m_residual.get());
+        start(bNorms, courses);
     measureTruly(courses);
-    while (!std::all_of(courses, courses + m_count, [](const auto& course) { return course.isOver(); }))
+    const auto allOver = [&]
+    { return std::all_of(courses, courses + m_count, [](const auto& course) { return course.isOver(); }); };
+    for (bool isFirst = true; !allOver(); isFirst = false)
     {
-        advance(courses);
+        advance(courses, isFirst);
         measureTruly(courses);
     }
     for (int k = 0; k < m_count; ++k) m_reports[k] = courses[k].report();
@@ -275,9 +296,12 @@ void SideBySide::solve(const std::array<IncrementGoal, kBodyLanes>& goals,
 
 void SideBySide::addIncrement()
 {
-    addLanes(m_lanes.m_increment.get(), m_lanes.m_v.get(), nodes());
-    if (m_settings.m_momentumCorrection) restoreMomentum(m_lanes.masses(), m_pieces, m_lanes.m_v.get());
-    scatterVectors([this](int b) { return &scratch(b).m_velocity; }, m_lanes.m_v.get());
+    double *dv = m_lanes.m_increment.get(), *v = m_lanes.m_v.get();
+    if (m_settings.m_momentumCorrection)
+        addWithMomentum(m_lanes.masses(), m_pieces, dv, v);
+    else
+        addLanes(dv, v, nodes());
+    scatterVectors([this](int b) { return &scratch(b).m_velocity; }, v);
 }
 
 // What impulses have left undone; nothing after a breakdown.
@@ -303,7 +327,7 @@ public:
         assemble();
         rotateNodes();
         guess();
-        solve(m_goals, m_allSettings);
+        solve(m_bSquares, true);
         addIncrement();
         keep();
     }
@@ -323,9 +347,6 @@ private:
             m_inertiaFactor[b] = 1 + m_settings.m_step * m_alpha[b];
             m_allSettings[b] = motion(b).m_settings;
         }
-        const PerLane squares = squareInOrder(m_lanes.m_rightSide.get(), nodes());
-        for (int b = 0; b < kBodyLanes; ++b)
-            m_goals[b] = {1e-3 * (m_settings.m_step * std::sqrt(squares[b])), motion(b).m_expected != nullptr};
     }
 
     // See RigidMomentum::prescribe().
@@ -339,9 +360,10 @@ private:
             for (PerLane& component : m_pieces.m_center) component[b] *= perMass;
             loads.m_share[b] = m_settings.m_step / (1 + m_settings.m_step * m_alpha[b]);
         }
-        sumPrescribed(m_lanes.masses(), loads, m_pieces);
+        const PerLane squares = sumPrescribed(m_lanes.masses(), loads, m_pieces);
         for (int b = 0; b < kBodyLanes; ++b)
         {
+            m_goals[b] = {1e-3 * (m_settings.m_step * std::sqrt(squares[b])), motion(b).m_expected != nullptr};
             Mat3 inertia;
             for (int k = 0; k < 9; ++k) inertia(k / 3, k % 3) = m_pieces.m_inertia[k][b];
             const Vec3 center = {m_pieces.m_center[0][b], m_pieces.m_center[1][b], m_pieces.m_center[2][b]};
@@ -354,7 +376,6 @@ private:
     void assemble()
     {
         const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
-        subtractDamping(m_lanes.m_mass.get(), m_lanes.m_v.get(), m_alpha, m_lanes.m_rightSide.get(), nodes());
         LanePass pass = {m_lanes.m_x.get(), m_lanes.m_v.get(), h + beta, m_settings.m_tension ? h * h : 0, {}, {}, {}};
         for (int b = 0; b < kBodyLanes; ++b)
         {
@@ -366,7 +387,7 @@ private:
             if (work.m_likelySteps > 0) pass.m_warped[b] = work.m_single.m_warped.data();
         }
         passOverLanes(m_lanes.elements(), pass);
-        addForces(m_lanes.m_sums.get(), h, m_lanes.m_rightSide.get(), nodes());
+        m_bSquares = addForces(m_lanes.inertia(), m_alpha, h, m_lanes.m_v.get(), m_lanes.m_rightSide.get());
         for (int b = 0; b < m_count; ++b)  // what fills the last block is the last element again
         {
             std::vector<Quaternion>& rotation = body(b).m_state.m_elementRotation;
@@ -438,16 +459,13 @@ private:
         gatherVectors([this](int b) -> const std::vector<Vec3>&
                       { return motion(b).m_expected ? *motion(b).m_expected : m_lanes.m_zeros; },
                       impulses);
-        addLanes(impulses, m_lanes.m_rightSide.get(), nodes());
-        const PerLane squares = squareInOrder(impulses, nodes());
+        m_bSquares = addLanes(impulses, m_lanes.m_rightSide.get(), nodes());
         PerLane share;
+        for (int b = 0; b < kBodyLanes; ++b) share[b] = 1 / (1 + m_settings.m_step * m_alpha[b]);
+        const PerLane squares = addImpulses(m_lanes.masses(), impulses, share, m_pieces);
         for (int b = 0; b < kBodyLanes; ++b)
-        {
-            share[b] = 1 / (1 + m_settings.m_step * m_alpha[b]);
             if (motion(b).m_expected)
                 m_goals[b].m_floor = std::max(m_goals[b].m_floor, motion(b).m_expectedFloor * std::sqrt(squares[b]));
-        }
-        addImpulses(m_lanes.masses(), impulses, share, m_pieces);
     }
 
     // Increments with impulses in them say nothing about those without.
@@ -468,9 +486,7 @@ private:
     }
 
     FreeMotion* const* m_motions;
-    std::array<IncrementGoal, kBodyLanes> m_goals;
-    std::array<StepSettings, kBodyLanes> m_allSettings;
-    PerLane m_alpha;
+    PerLane m_alpha, m_bSquares;
 };
 
 class SideBySideResponses : public SideBySide
@@ -486,16 +502,13 @@ public:
         gatherState();
         double *b = m_lanes.m_rightSide.get(), *left = m_lanes.m_residual.get();
         addImpulses(m_lanes.masses(), b, m_share, m_pieces);
-        addLanes(left, b, nodes());
-        guess();
-        std::array<IncrementGoal, kBodyLanes> goals;
-        std::array<StepSettings, kBodyLanes> settings;
+        const PerLane bSquares = addLanes(left, b, nodes());
         for (int k = 0; k < kBodyLanes; ++k)
         {
-            goals[k] = {response(k).m_floor, response(k).m_steady};
-            settings[k] = response(k).m_settings;
+            m_goals[k] = {response(k).m_floor, response(k).m_steady};
+            m_allSettings[k] = response(k).m_settings;
         }
-        solve(goals, settings);
+        solve(bSquares, guess());
         addIncrement();
         keepMomenta();
         std::array<bool, kBodyLanes> all;
@@ -526,8 +539,9 @@ private:
                       m_lanes.m_residual.get());
     }
 
-    // That the body ends with the velocities that it began the step with, or that nothing comes of the impulses.
-    void guess()
+    // That the body ends with the velocities that it began the step with, or that nothing comes of the impulses: false
+    // if that goes for all.
+    bool guess()
     {
         double* dv = m_lanes.m_increment.get();
         const bool anySteady =
@@ -535,7 +549,7 @@ private:
         if (!anySteady)
         {
             std::fill_n(dv, static_cast<std::size_t>(3 * kBodyLanes) * nodes(), 0.0);
-            return;
+            return false;
         }
         gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_state.m_v; }, dv);
         subtractLanes(dv, m_lanes.m_v.get(), dv, nodes());
@@ -543,6 +557,7 @@ private:
         PerLane keeps;
         for (int b = 0; b < kBodyLanes; ++b) keeps[b] = response(b).m_steady;
         clearOthers(keeps, dv, nodes());
+        return true;
     }
 
     ImpulseResponse* const* m_responses;

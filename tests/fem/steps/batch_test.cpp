@@ -244,6 +244,20 @@ TEST(BatchOfCopies, TakesImpulsesThatComeNowAndThen)
     }
 }
 
+TEST(BatchOfCopies, MayGoWithoutMomentumCorrection)
+{
+    const auto model = freeBlock().m_model;
+    Copies together(model, 17), alone(model, 17);
+    for (Copies* copies : {&together, &alone})
+        for (StepSettings& settings : copies->m_settings) settings.m_momentumCorrection = false;
+    for (int k = 0; k < 5; ++k)
+    {
+        together.stepTogether();
+        alone.stepAlone();
+        together.expectSameBits(alone, k);
+    }
+}
+
 // A body that breaks down leaves the others alone.
 TEST(BatchOfCopies, LosesNoBodyBesideABadOne)
 {
