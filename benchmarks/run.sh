@@ -4,15 +4,15 @@
 # out/benchmarks/, and renews the tables and the picture of docs/performance.md.
 #
 #   benchmarks/run.sh                     all of them, small: about two minutes
-#   benchmarks/run.sh --full              all of them, as in docs/performance.md: half an hour or more
-#   benchmarks/run.sh --full beam curve   some: of beam curve kernels scaling contact crowd
+#   benchmarks/run.sh --full              all of them, as in docs/performance.md: an hour or so
+#   benchmarks/run.sh --full beam curve   some: of beam curve kernels scaling contact copies crowd
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 
 build=$root/build/benchmarks # of its own, so that no script changes the options of another's
 out=$root/out/benchmarks
-known=(beam curve kernels scaling contact crowd)
+known=(beam curve kernels scaling contact copies crowd)
 full=0
 chosen=()
 for argument in "$@"; do
@@ -50,6 +50,7 @@ run_benchmark()
         contact)
             run contact contact "--quick" "--scenes block,ball --contacts 10,100 --tets 1000,5000"
             ;;
+        copies) run crowd copies "--free" "--free" ;;
         crowd)
             local small="--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only"
             local games="--contact-tolerance 1e-2"

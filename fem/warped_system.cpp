@@ -50,7 +50,6 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
     pass.m_x = work.m_x.data();
     pass.m_v = work.m_v.data();
     pass.m_damping = h + beta;
-    work.m_stiffnessFactor = h * h + h * beta;
     pass.m_tensionFactor = settings.m_tension ? h * h : 0;
     pass.m_rotation = body.m_state.m_elementRotation.data();
     pass.m_force = scratch.m_corners.data();
@@ -73,15 +72,6 @@ void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3
     runPass(pass, settings.m_threads);
     sumOverNodes(settings.m_threads,
                  NodeSums<Real>{&body.m_model->elements().m_nodes, pass.m_force, nullptr, nullptr, force.data()});
-}
-
-void scaleMass(Body& body, double step)
-{
-    ElementWork& work = body.m_workspace.scratch().m_elements;
-    const double alpha =
-        body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping + body.m_loads.m_frameDamping;
-    for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i)
-        work.m_scaledMass[i] = (1 + step * alpha) * body.m_state.m_mass[i];
 }
 
 // One rotation a node, or the body's one for all.
@@ -125,6 +115,16 @@ bool isSinglePrecision(const StepSettings& settings)
     return settings.m_tolerance >= kFinestSingle;
 }
 
+void scaleWarpedSystem(Body& body, double step)
+{
+    ElementWork& work = body.m_workspace.scratch().m_elements;
+    const Material& material = body.m_model->shape().m_material;
+    const double alpha = material.m_massDamping + body.m_loads.m_massDamping + body.m_loads.m_frameDamping;
+    work.m_stiffnessFactor = step * step + step * material.m_stiffnessDamping;
+    for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i)
+        work.m_scaledMass[i] = (1 + step * alpha) * body.m_state.m_mass[i];
+}
+
 void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
 {
     ElementWork& work = body.m_workspace.scratch().m_elements;
@@ -132,7 +132,7 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
     work.m_isDouble = !isSinglePrecision(settings);
     work.m_isComplete = true;
     if (work.m_likelySteps > 0) --work.m_likelySteps;
-    scaleMass(body, settings.m_step);
+    scaleWarpedSystem(body, settings.m_step);
     pad(settings.m_threads, state.m_x, work.m_x);
     pad(settings.m_threads, state.m_v, work.m_v);
     if (work.m_isDouble)
@@ -148,7 +148,7 @@ void completeWarpedSystem(Body& body, const StepSettings& settings)
     work.m_likelySteps = kLikelySteps;
     if (work.m_isComplete) return;
     work.m_isComplete = true;
-    scaleMass(body, settings.m_step);
+    scaleWarpedSystem(body, settings.m_step);
     pad(settings.m_threads, body.m_state.m_x, work.m_x);
     ElementPass<float> pass = passOver<float>(body, settings);
     pass.m_isRotated = true;

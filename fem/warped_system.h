@@ -17,6 +17,9 @@ bool isSinglePrecision(const StepSettings& settings);
 /// double precision, never else.
 void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force);
 
+/// What A multiplies masses and K' with in steps of `step` [s], in the body's scratch: part of prepareWarpedSystem().
+void scaleWarpedSystem(Body& body, double step);
+
 /// To be called before A is used again in the same step, for impulses: makes up for what bodies that are solved side by
 /// side leave out where none have followed in their last steps, as that takes them longer than all the products with A.
 /// The state's positions are still those that the step began with. Never allocates.

@@ -120,6 +120,13 @@ def contact(document):
     return table(heads, rows)
 
 
+def copies(document):
+    heads = ["bodies", "tets", "factor MB", "stale", "iterations a step", "together ms", "one by one ms", "ratio", "bits"]
+    return table(heads, [[row["bodies"], f"{row['tets']:,}", number(row["factor_mb"]), f"{row['stale']:.0f}",
+                          f"{row['iterations_mean']:.2f}", number(row["ms_together_median"]), number(row["ms_alone_median"]),
+                          f"{row['ratio']:.2f}", "same" if row["same_bits"] else "DIFFERENT"] for row in document["results"]])
+
+
 def crowd_rows(document):
     kind = ("different " if document["different"] else "identical ") + ("cubes" if document["cubes"] else "balls")
     name = f"{document['bodies']} {kind}, {document['balls']} rigid"
@@ -152,7 +159,7 @@ def machine(*documents):
 
 # Table, its function, the files it is made of; of several files those that are there.
 TABLES = [
-    ("machine", machine, ["beam", "curve", "kernels", "scaling", "contact", *CROWDS]),
+    ("machine", machine, ["beam", "curve", "kernels", "scaling", "contact", "copies", *CROWDS]),
     ("beam", beam, ["beam"]),
     ("curve", curve, ["curve"]),
     ("kernels", kernels, ["kernels"]),
@@ -160,6 +167,7 @@ TABLES = [
     ("compliance", compliance, ["kernels"]),
     ("scaling", scaling, ["scaling"]),
     ("contact", contact, ["contact"]),
+    ("copies", copies, ["copies"]),
     ("crowd", crowd, CROWDS),
 ]
 

@@ -408,7 +408,6 @@ private:
     // What A and P need of every body alone, but for what assemble() has told.
     void tellSystems()
     {
-        const double h = m_settings.m_step, beta = m_lanes.model().shape().m_material.m_stiffnessDamping;
         for (int b = 0; b < m_count; ++b)
         {
             ElementWork& work = scratch(b).m_elements;
@@ -416,8 +415,7 @@ private:
             work.m_isComplete = work.m_likelySteps > 0;
             if (!work.m_isComplete) continue;
             --work.m_likelySteps;
-            work.m_stiffnessFactor = h * h + h * beta;
-            for (int i = 0; i < nodes(); ++i) work.m_scaledMass[i] = m_inertiaFactor[b] * body(b).m_state.m_mass[i];
+            scaleWarpedSystem(body(b), m_settings.m_step);
         }
         scatter([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_lanes.m_nodeRotation.get(),
                 {9 * nodes()});
