@@ -45,7 +45,9 @@ run_benchmark()
     case $1 in
         beam) run beam beam "--steps 20" "" ;;
         curve) run beam curve "--curve --tets 1536 --young 1e6 --steps 20" "--curve --tets 12288 --young 1e6" ;;
-        kernels) run kernels kernels "--tets 1536,12288 --seconds 0.2" "--large --seconds 1" ;;
+        kernels)
+            run kernels kernels "--tets 1536,12288 --seconds 0.2" "--tets 1536,5184,12288,24000,41472,98304 --seconds 1"
+            ;;
         scaling) run scaling scaling "--tets 192,1536,12288 --steps 20" "--large --steps 30" ;;
         contact)
             run contact contact "--quick" "--scenes block,ball --contacts 10,100 --tets 1000,5000"
