@@ -71,21 +71,27 @@ void AverageLanes(const LaneNodeRotations& rotations)
         const Wide least = hn::Set(DWide(), leastSquaredLength(nodes, i));
         for (int lane = 0; lane < kBodyLanes; lane += static_cast<int>(hn::MaxLanes(DWide())))
         {
-            Wide sums[2][4];
-            for (auto& sum : sums)
-                for (Wide& component : sum) component = hn::Zero(DWide());
-            for (int k = nodes.m_start[i], turn = 0; k < nodes.m_start[i + 1]; ++k, turn = 1 - turn)
+            const Wide zero = hn::Zero(DWide());
+            Wide q[4] = {zero, zero, zero, zero}, odd[4] = {zero, zero, zero, zero}, R[9];
+            const auto add = [&](int corner, Wide(&sum)[4])
             {
-                const int e = NodeCorners::element(nodes.m_corner[k]);
+                const int e = NodeCorners::element(corner);
                 const Wide volume = hn::Set(DWide(), nodes.m_volume[e]);
-                Wide q[4];
-                loadFloats(DWide(), rotations.m_elements, e, lane, q);
+                Wide turned[4];
+                loadFloats(DWide(), rotations.m_elements, e, lane, turned);
                 HWY_UNROLL(4)
-                for (int c = 0; c < 4; ++c) sums[turn][c] = hn::MulAdd(volume, q[c], sums[turn][c]);
+                for (int c = 0; c < 4; ++c) sum[c] = hn::MulAdd(volume, turned[c], sum[c]);
+            };
+            const int* corner = nodes.m_corner.data() + nodes.m_start[i];
+            const int* end = nodes.m_corner.data() + nodes.m_start[i + 1];
+            for (; corner + 1 < end; corner += 2)
+            {
+                add(corner[0], q);
+                add(corner[1], odd);
             }
-            Wide q[4], R[9];
+            if (corner < end) add(*corner, q);
             HWY_UNROLL(4)
-            for (int c = 0; c < 4; ++c) q[c] = sums[0][c] + sums[1][c];
+            for (int c = 0; c < 4; ++c) q[c] = q[c] + odd[c];
             const Wide squaredLength = (q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]);
             rotations.m_doubtful[i] |= unmarked(squaredLength >= least, lane);
             rotationOf(q, squaredLength, R);
