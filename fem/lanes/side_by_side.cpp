@@ -267,7 +267,7 @@ void SideBySide::startFromGuess(const PerLane& bNorms, ConjugateGradientCourse* 
         all[k] = 1;
         courses[k] = {stopOf(m_allSettings[k], m_goals[k]), bNorms[k], isZero};
         isScaled[k] = !isZero && !courses[k].noteGuess(norms[k]);
-        scale[k] = isScaled[k] > 0 ? optimalScale(measured.m_bx[k], measured.m_xAx[k]) : !isZero;
+        scale[k] = isScaled[k] > 0 ? optimalScale(measured.m_bx[k], measured.m_xAx[k]) : 1;
     }
     const PerLane scaledNorms = rootsOf(scaleGuess(recurrence(all), scale));
     for (int k = 0; k < m_count; ++k)
