@@ -4,7 +4,7 @@
 # out/benchmarks/, and renews the tables and the picture of docs/performance.md.
 #
 #   benchmarks/run.sh                     all of them, small: about two minutes
-#   benchmarks/run.sh --full              all of them, as in docs/performance.md: an hour or so
+#   benchmarks/run.sh --full              all of them, as in docs/performance.md: ten minutes to an hour
 #   benchmarks/run.sh --full beam curve   some: of beam curve kernels scaling contact copies crowd
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

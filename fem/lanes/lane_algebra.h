@@ -47,7 +47,7 @@ struct LaneInertia
 {
     int m_nodes;
     const double* m_mass;  ///< [node][body] [kg]
-    double* m_sums;        ///< [node][2][3][body], two sums a node; zero when they are taken
+    double* m_sums;        ///< [node][2][3][body], two sums a node; taking them leaves zeros
 };
 
 /// b = h (f - alpha m v + sums) in place of f; returns |b|^2.
