@@ -5,14 +5,14 @@
 #
 #   benchmarks/run.sh                     all of them, small: about two minutes
 #   benchmarks/run.sh --full              all of them, as in docs/performance.md: ten minutes to an hour
-#   benchmarks/run.sh --full beam curve   some: of beam curve kernels scaling contact copies crowd
+#   benchmarks/run.sh --full beam curve   some: of beam curve kernels factors scaling contact copies crowd
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 
 build=$root/build/benchmarks # of its own, so that no script changes the options of another's
 out=$root/out/benchmarks
-known=(beam curve kernels scaling contact copies crowd)
+known=(beam curve kernels factors scaling contact copies crowd)
 full=0
 chosen=()
 for argument in "$@"; do
@@ -48,6 +48,10 @@ run_benchmark()
         kernels)
             run kernels kernels "--tets 1536,12288 --seconds 0.2" "--tets 1536,5184,12288,24000,41472,98304 --seconds 1"
             ;;
+        factors)
+            run kernels factors "--tets 192 --factors 1500 --seconds 0.1" \
+                "--tets 192 --factors 1500,13000,48000 --fill --seconds 1"
+            ;;
         scaling) run scaling scaling "--tets 192,1536,12288 --steps 20" "--large --steps 30" ;;
         contact)
             run contact contact "--quick" "--scenes block,ball --contacts 10,100 --tets 1000,5000"
@@ -67,7 +71,8 @@ run_benchmark()
     esac
 }
 
-install_packages "${build_packages[@]}" nlohmann-json3-dev python3 python3-matplotlib
+# CHOLMOD is slow with the reference BLAS that it brings.
+install_packages "${build_packages[@]}" libopenblas0-serial nlohmann-json3-dev python3 python3-matplotlib
 
 say "building in $build"
 (cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_DEMOS=OFF)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Zlib
 # What every library and program of this project has in common. Nothing of it is exported to users.
 
-# True in a program with the property BULLETFEM_RUNTIME: it links neither METIS nor Assimp, orders with Eigen where it
-# orders at all, and has no createFromSurfaceFile.
+# True in a program with the property BULLETFEM_RUNTIME: it links neither AMD, METIS nor Assimp, orders with Eigen
+# where it orders at all, and has no createFromSurfaceFile.
 set(BULLETFEM_IN_RUNTIME "$<BOOL:$<TARGET_PROPERTY:BULLETFEM_RUNTIME>>")
 
 # bulletfem_defaults(<target>): C++17, warnings, the sanitizers asked for, and the public include folder.

@@ -3,8 +3,8 @@
 # Sourced by demos/run.sh and tests/run.sh: Debian packages, installed only if they are missing.
 
 # What every build of this project needs.
-build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libhwy-dev libtbb-dev libmetis-dev libassimp-dev
-    libxxhash-dev libtinyxml2-dev zlib1g-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev)
+build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libhwy-dev libtbb-dev libsuitesparse-dev libmetis-dev
+    libassimp-dev libxxhash-dev libtinyxml2-dev zlib1g-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev)
 
 # What pictures and the window need; the build leaves them out without these. The last two are the software driver for OpenGL.
 picture_packages=(pkg-config libepoxy-dev libegl-dev libstb-dev fonts-dejavu-core libglfw3-dev libimgui-dev libgl1

@@ -97,16 +97,37 @@ def compliance(document):
 
 
 def scaling(document):
-    heads = ["tets", "set-up ms", "order ms", "numeric ms", "factor MB", "fill", "all MB", "iterations", "median ms",
+    heads = ["tets", "set-up ms", "order", "order ms", "numeric ms", "factor MB", "fill", "all MB", "iterations", "median ms",
              "CPU ms", "worst ms", "residual"]
-    rows = [[f"{row['tets']:,}", number(row["setup_ms"]), number(row["order_ms"]),
+    rows = [[f"{row['tets']:,}", number(row["setup_ms"]), row["ordering"], number(row["order_ms"]),
              number(row["tree_ms"] + row["numeric_ms"]), number(row["factor_mb"]), number(row["fill"]),
              number(row["memory_mb"]), f"{row['iterations_mean']:.1f}", number(row["ms_median"]), number(row["ms_cpu_median"]),
              number(row["ms_worst"]), f"{row['residual_worst']:.1e}"] for row in document["results"]]
     p = document["exponents"]
-    growth = ["grows as n^p, p", number(p["setup"]), number(p["order"]), number(p["numeric"]), number(p["factor_mb"]),
+    growth = ["grows as n^p, p", number(p["setup"]), "", number(p["order"]), number(p["numeric"]), number(p["factor_mb"]),
               "", "", "", "", number(p["step"]), "", ""]
     return table(heads, rows + [growth])
+
+
+def factors(document):
+    heads = ["matrix", "factor", "order by", "order ms", "numeric ms", "one solve ms", "16 solves ms", "fill", "MB", "residual"]
+    return table(heads, [[row["matrix"], row["factor"], row["ordering"] or "-", number(row["order_ms"]),
+                          number(row["numeric_ms"]), number(row["solve_ms"]), number(row["sixteen_ms"]),
+                          number(row["fill"]), number(row["factor_mb"]), f"{row['residual']:.0e}"]
+                         for row in document["factors"]])
+
+
+def first_steps(document):
+    heads = ["body", "tets", "mesh ms", "factor ms", "first step ms", "all ms"]
+    return table(heads, [[row["matrix"], f"{row['tets']:,}", number(row["mesh_ms"]), number(row["model_ms"]), number(row["step_ms"]),
+                          number(row["mesh_ms"] + row["model_ms"] + row["step_ms"])] for row in document["first_steps"]])
+
+
+def fill(document):
+    heads = ["mesh", "tets", "free nodes", "AMD", "METIS", "Eigen", "chosen"]
+    return table(heads, [[row["mesh"], f"{row['tets']:,}", f"{row['free_nodes']:,}", number(row["amd"] or None),
+                          number(row["metis"] or None), number(row["eigen"] or None), row["chosen"]]
+                         for row in document["fill"]])
 
 
 def contact(document):
@@ -146,7 +167,7 @@ def crowd(*documents):
 
 def machine(*documents):
     """What is the same for all, once; the load of each."""
-    names = ["cpu", "logical_cores", "threads", "vectors", "compiler", "build_type", "bulletfem", "commit", "bullet"]
+    names = ["cpu", "logical_cores", "threads", "vectors", "factors", "compiler", "build_type", "bulletfem", "commit", "bullet"]
     rows = []
     for name in names:
         values = sorted({d["machine"][name] for d in documents if name in d["machine"]})
@@ -159,12 +180,15 @@ def machine(*documents):
 
 # Table, its function, the files it is made of; of several files those that are there.
 TABLES = [
-    ("machine", machine, ["beam", "curve", "kernels", "scaling", "contact", "copies", *CROWDS]),
+    ("machine", machine, ["beam", "curve", "kernels", "factors", "scaling", "contact", "copies", *CROWDS]),
     ("beam", beam, ["beam"]),
     ("curve", curve, ["curve"]),
     ("kernels", kernels, ["kernels"]),
     ("solves", solves, ["kernels"]),
     ("compliance", compliance, ["kernels"]),
+    ("factors", factors, ["factors"]),
+    ("first_steps", first_steps, ["factors"]),
+    ("fill", fill, ["factors"]),
     ("scaling", scaling, ["scaling"]),
     ("contact", contact, ["contact"]),
     ("copies", copies, ["copies"]),

@@ -57,8 +57,8 @@ SetupStages measureSetup(const BodyModel& model)
     stages.m_assembly = watch.seconds();
 
     watch = Stopwatch();
-    const char* method = "";
-    std::vector<int> order = fillReducingOrder(pattern, method);
+    auto [method, order] = fillReducingOrder(pattern);
+    stages.m_ordering = method;
     stages.m_order = watch.seconds();
 
     watch = Stopwatch();

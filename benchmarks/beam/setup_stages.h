@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <string>
+
 #include "bullet_fem/fem/body_model.h"
 
 namespace bullet_fem
@@ -10,6 +12,7 @@ namespace bullet_fem
 /// What the rest factor of a model costs, stage by stage [s], and how large it gets.
 struct SetupStages
 {
+    std::string m_ordering;   ///< what found the order: AMD, METIS or Eigen
     double m_assembly = 0;    ///< A0 and its pattern
     double m_order = 0;       ///< fill-reducing order
     double m_tree = 0;        ///< supernodes

@@ -59,6 +59,9 @@ void printTables(std::ostream& out, const KernelReport& report)
         print(out, "%7d tets, %-10s factor %7.2f MB, A0 %6.2f MB: %d newly touched %8.2f ms, known %.3f ms (best)\n",
               t.m_tets, pathName(t), t.m_factorMegabytes, t.m_matrixMegabytes, t.m_touched, 1e3 * t.m_fresh.m_best,
               1e3 * t.m_known.m_best);
+    if (!report.m_factors.empty()) printTable(out << '\n', report.m_factors);
+    if (!report.m_firstSteps.empty()) printTable(out << '\n', report.m_firstSteps);
+    if (!report.m_fill.empty()) printTable(out << '\n', report.m_fill);
 }
 
 nlohmann::json toJson(const KernelReport& report)
@@ -96,6 +99,9 @@ nlohmann::json toJson(const KernelReport& report)
             {"kernels", kernels},
             {"solves", solves},
             {"touch", touch},
+            {"factors", toJson(report.m_factors)},
+            {"first_steps", toJson(report.m_firstSteps)},
+            {"fill", toJson(report.m_fill)},
             {"compliance",
              {{"tets", c.m_tets},
               {"nodes", c.m_nodes},

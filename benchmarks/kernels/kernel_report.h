@@ -6,6 +6,7 @@
 #include <ostream>
 #include <vector>
 
+#include "benchmarks/factor/factor_rows.h"
 #include "benchmarks/kernels/compliance_case.h"
 #include "benchmarks/kernels/kernel_figures.h"
 
@@ -19,9 +20,12 @@ struct KernelReport
     std::vector<KernelRun> m_runs;
     ComplianceFigures m_compliance;
     std::vector<ComplianceFigures> m_touch;  ///< on both paths of other blocks, where asked for
+    std::vector<FactorRow> m_factors;        ///< beside other libraries, where asked for
+    std::vector<FirstStepRow> m_firstSteps;  ///< of the same bodies
+    std::vector<FillRow> m_fill;             ///< of the thirty meshes, where asked for
 };
 
-/// Three tables: kernels, triangular solves beside reads, compliance.
+/// Tables: kernels, triangular solves beside reads, compliance; factors and fill where asked for.
 void printTables(std::ostream& out, const KernelReport& report);
 
 /// The same figures.

@@ -3,6 +3,8 @@
 //
 // The kernels of one step, each on its own, beside what the machine's memory and arithmetic allow.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -31,6 +33,11 @@ pair / 2 reads  one solve pair over reading a buffer as large as the packed fact
 of the best     the same of the best repetitions when each is repeated for itself; a buffer larger than the caches that
                 is read again and again may stay in them in part
 16 / 1          16 right-hand sides together over one
+factors         order and symbolic factorization, numeric factorization (ours in double precision, packed in single),
+                forward and backward solve of one and of 16 right-hand sides (ours in single precision, the others in
+                double, with their copies in and out), entries of L over those of A0, memory, |b - A x| / |b|; medians
+set-up          from positions and elements to the end of the first step: mesh and rest shape, factor, body and step
+fill            entries of L over those of A0's lower half, before supernodes are merged
 compliance      columns of A0^-1 of 64 neighbouring surface nodes and the 64 x 64 blocks between them, turned
 )";
 
@@ -39,6 +46,8 @@ struct Options
     std::vector<int> m_tets = {1536, 12288, 41472};
     bool m_large = false;
     std::vector<int> m_touch;
+    std::vector<int> m_factors;
+    bool m_fill = false;
     double m_seconds = 0.5;
     std::string m_jsonFile;
 };
@@ -51,6 +60,18 @@ double measurePeak(double seconds)
     return sink > 0 ? 1e-9 * multiplyAddOperations(rounds) / time.m_best : 0;
 }
 
+constexpr int kFirstSteps = 5;  // repetitions: set-up allocates, so that the first is slower than the others
+
+/// A beam and a cube of about that many elements each.
+std::vector<FactorCase> factorCases(const std::vector<int>& sizes)
+{
+    std::vector<FactorCase> cases;
+    const auto cellsOf = [](double tets) { return std::max(1, static_cast<int>(std::lround(std::cbrt(tets)))); };
+    for (int tets : sizes) cases.push_back(beamCase(cellsOf(tets / 24.0)));
+    for (int tets : sizes) cases.push_back(cubeCase(cellsOf(tets / 6.0)));
+    return cases;
+}
+
 void addOptions(CLI::App& app, Options& options)
 {
     app.add_option("--tets", options.m_tets, "mesh sizes, each 24 n^3 with n in [1, 32] cells per metre")
@@ -60,6 +81,11 @@ void addOptions(CLI::App& app, Options& options)
     app.add_option("--touch", options.m_touch, "blocks on which 64 nodes are touched on both paths, about so many tets")
         ->delimiter(',')
         ->check(CLI::Range(40, 500000));
+    app.add_option("--factors", options.m_factors,
+                   "beams and free cubes of about so many tets whose factors are timed beside CHOLMOD's and Eigen's")
+        ->delimiter(',')
+        ->check(CLI::Range(6, 200000));
+    app.add_flag("--fill", options.m_fill, "the fill of AMD, METIS and Eigen in thirty meshes");
     app.add_option("--seconds", options.m_seconds, "time for each kernel and size [s]")
         ->check(CLI::Range(1e-3, 60.0))
         ->capture_default_str();
@@ -84,6 +110,7 @@ int main(int argc, char** argv)
         JsonFile json(options.m_jsonFile);
         MachineInfo machine = readMachineInfo(1);
         machine.emplace_back("vectors", vectorTarget());
+        machine.emplace_back("factors", factorLibraries());
         KernelReport report;
         report.m_peakGigaflops = measurePeak(options.m_seconds);
         for (int tets : options.m_tets)
@@ -96,6 +123,15 @@ int main(int argc, char** argv)
         for (int tets : options.m_touch)
             for (const FactorChoice choice : {FactorChoice::full, FactorChoice::lowMemory})
                 report.m_touch.push_back(measureCompliance(tets, choice, options.m_seconds));
+        for (const FactorCase& factorCase : factorCases(options.m_factors))
+        {
+            std::cerr << "factors of " << factorCase.m_name << " ..." << std::endl;
+            const std::vector<FactorRow> rows = measureFactors(factorCase, options.m_seconds);
+            report.m_factors.insert(report.m_factors.end(), rows.begin(), rows.end());
+            report.m_firstSteps.push_back(measureFirstStep(factorCase, kFirstSteps));
+        }
+        if (options.m_fill)
+            for (const FactorCaseMaker& make : thirtyFactorCases()) report.m_fill.push_back(measureFill(make()));
         std::cout << toText(machine) << '\n';
         printTables(std::cout, report);
         std::cout << g_legend;

@@ -20,7 +20,7 @@ using namespace bullet_fem;
 const char* const g_legend = R"(
 Nodal warp, tension term on. With --low-memory a second table has the low-memory path at the same sizes.
 setup     all that happens before the first step: mesh, A0, order, supernodes, numeric factorization, packing
-order     its fill-reducing order; numeric: supernodes, factorization and packing (both measured on their own)
+order     its fill-reducing order, the one with less fill; numeric: supernodes, factorization and packing (both measured on their own)
 factor    the packed factor in single precision, 1e6 bytes; fill: entries of the factor over those of A0's lower half
 all MB    heap held after the last step by model and body
 CPU       median of the processor time that the stepping thread got, which the exponent is fitted to

@@ -6,15 +6,12 @@
 #include <Eigen/SparseCore>
 #include <string>
 
-#include "fem/factor/nested_dissection.h"
+#include "fem/factor/ordering_libraries.h"
 #include "fem/factor/supernode_tree.h"
 
 namespace bullet_fem
 {
-namespace
-{
-
-std::vector<int> minimumDegreeOrder(const SparsePattern& pattern)
+std::vector<int> eigenOrder(const SparsePattern& pattern)
 {
     using EigenSparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
     const std::vector<double> ones(pattern.m_rowIndex.size(), 1.0);
@@ -27,22 +24,22 @@ std::vector<int> minimumDegreeOrder(const SparsePattern& pattern)
     return std::vector<int>(indices, indices + pattern.m_size);
 }
 
-}  // namespace
-
-const char* orderingBackend()
+std::string orderingBackend()
 {
-    static const std::string eigen = "Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." +
-                                     std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION);
-    const char* metis = nestedDissectionLibrary();
-    return metis ? metis : eigen.c_str();
+    std::string names = amdVersion();
+    if (names.empty())
+        names = "Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                std::to_string(EIGEN_MINOR_VERSION);
+    return metisVersion().empty() ? names : names + ", " + metisVersion();
 }
 
-std::vector<int> fillReducingOrder(const SparsePattern& pattern, const char*& methodName)
+FillOrder fillReducingOrder(const SparsePattern& pattern)
 {
-    std::vector<int> amd = minimumDegreeOrder(pattern), metis = nestedDissectionOrder(pattern);
-    const bool useAmd = metis.empty() || blocksOfFactor(pattern, amd) < blocksOfFactor(pattern, metis);
-    methodName = useAmd ? "AMD" : "METIS";
-    return useAmd ? amd : metis;
+    FillOrder minimumDegree = {"AMD", amdOrder(pattern)}, dissection = {"METIS", metisOrder(pattern)};
+    if (minimumDegree.m_rows.empty()) minimumDegree = {"Eigen", eigenOrder(pattern)};
+    const bool dissect = !dissection.m_rows.empty() &&
+                         blocksOfFactor(pattern, dissection.m_rows) <= blocksOfFactor(pattern, minimumDegree.m_rows);
+    return dissect ? dissection : minimumDegree;
 }
 
 }  // namespace bullet_fem

@@ -82,8 +82,7 @@ RestFactor::RestFactor(const RestShape& shape, const FactorInput& input, FactorR
     if (freeNodes.empty()) return;
 
     const SparsePattern pattern = blockPattern(A0, freeNodes, m_position);
-    const char* ordering = "";
-    std::vector<int> order = fillReducingOrder(pattern, ordering);
+    auto [method, order] = fillReducingOrder(pattern);
     const SupernodeTree tree = buildSupernodeTree(pattern, order);
     for (std::size_t k = 0; k < order.size(); ++k)
     {
@@ -98,7 +97,7 @@ RestFactor::RestFactor(const RestShape& shape, const FactorInput& input, FactorR
     factorSupernodes(
         A0, order, tree, [this](int s, const double* S, const double* M) { m_lower.pack(s, S, M); }, entry);
     if (report.m_path == FactorPath::lowMemory) m_rest = RestMatrix(A0, order, m_position);
-    report.m_ordering = ordering;
+    report.m_ordering = method;
     report.m_entries = tree.m_entries;
     report.m_supernodes = static_cast<int>(tree.m_supernodes.size());
     report.m_bytes = m_lower.byteCount();

@@ -56,8 +56,8 @@ TEST_F(BodyModelInput, IsComparedByAllOfIt)
 TEST_F(BodyModelInput, IsReportedOn)
 {
     const FactorReport report = BodyModel::create(m_shape, m_input)->factorReport();
-    EXPECT_THAT(report.m_backend, testing::AnyOf(testing::StartsWith("METIS "), testing::StartsWith("Eigen ")));
-    EXPECT_THAT(report.m_ordering, testing::AnyOf("METIS", "AMD"));
+    EXPECT_THAT(report.m_backend, testing::AnyOf(testing::StartsWith("AMD "), testing::StartsWith("Eigen ")));
+    EXPECT_THAT(report.m_ordering, testing::AnyOf("METIS", "AMD", "Eigen"));
     EXPECT_GE(report.m_entries, 81);           // the diagonal
     EXPECT_LE(report.m_entries, 81 * 82 / 2);  // the full triangle
     EXPECT_GE(report.m_supernodes, 1);

@@ -44,6 +44,7 @@ struct InfoCommand
         m_figures.add("version", info.m_version);
         m_figures.add("bytes", info.m_fileBytes);
         m_figures.add("factorBytes", info.m_factorBytes);
+        m_figures.add("ordering", info.m_factor.m_ordering, "of " + info.m_factor.m_backend);
         m_figures.add("nodes", info.m_nodes);
         m_figures.add("tets", info.m_tets);
         m_figures.add("pinned", info.m_nodes - info.m_freeNodes, "nodes");

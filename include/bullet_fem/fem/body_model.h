@@ -52,8 +52,8 @@ struct FactorInput
 /// Figures of a factorization.
 struct FactorReport
 {
-    std::string m_backend;                 ///< library of orders, with its version
-    std::string m_ordering;                ///< METIS or AMD
+    std::string m_backend;                 ///< libraries of fill-reducing orders, with their versions
+    std::string m_ordering;                ///< what found the order that was taken: AMD, METIS or Eigen
     long m_entries = 0;                    ///< entries of the full factor L, fill included
     int m_supernodes = 0;                  ///< dense panels that L is packed in
     FactorPath m_path = FactorPath::full;  ///< what was built

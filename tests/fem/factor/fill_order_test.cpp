@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include "fem/factor/nested_dissection.h"
+#include "fem/factor/ordering_libraries.h"
 #include "fem/factor/supernode_tree.h"
 #include "fem/scenes/dense_system.h"
 
@@ -22,6 +22,11 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 using testing::StrEq;
+
+const char* minimumDegreeName()
+{
+    return amdVersion().empty() ? "Eigen" : "AMD";
+}
 
 struct NamedPattern
 {
@@ -49,15 +54,14 @@ long entriesOfFactor(Eigen::MatrixXd A, const std::vector<int>& order)
     return entries;
 }
 
-class FillOrder : public testing::TestWithParam<NamedPattern>
+class FillOrderOfPattern : public testing::TestWithParam<NamedPattern>
 {
 };
 
-TEST_P(FillOrder, IsAPermutation)
+TEST_P(FillOrderOfPattern, IsAPermutation)
 {
-    const char* method = nullptr;
-    std::vector<int> order = fillReducingOrder(sparsePattern(GetParam().m_matrix), method);
-    EXPECT_THAT(method, AnyOf(StrEq("METIS"), StrEq("AMD")));
+    auto [method, order] = fillReducingOrder(sparsePattern(GetParam().m_matrix));
+    EXPECT_THAT(method, AnyOf(StrEq("METIS"), StrEq(minimumDegreeName())));
     std::sort(order.begin(), order.end());
     std::vector<int> all(GetParam().m_matrix.rows());
     std::iota(all.begin(), all.end(), 0);
@@ -65,22 +69,21 @@ TEST_P(FillOrder, IsAPermutation)
 }
 
 // In every order of a matrix, not only in good ones.
-TEST_P(FillOrder, BlocksOfTheFactorAreCountedAsEliminationMakesThem)
+TEST_P(FillOrderOfPattern, BlocksOfTheFactorAreCountedAsEliminationMakesThem)
 {
     const Eigen::MatrixXd& A = GetParam().m_matrix;
     const SparsePattern pattern = sparsePattern(A);
-    const char* method = nullptr;
     std::vector<int> order(A.rows());
     std::iota(order.begin(), order.end(), 0);
     EXPECT_EQ(blocksOfFactor(pattern, order), entriesOfFactor(A, order));
     std::mt19937 generator(7);
     std::shuffle(order.begin(), order.end(), generator);
     EXPECT_EQ(blocksOfFactor(pattern, order), entriesOfFactor(A, order));
-    order = fillReducingOrder(pattern, method);
+    order = fillReducingOrder(pattern).m_rows;
     EXPECT_EQ(blocksOfFactor(pattern, order), entriesOfFactor(A, order));
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, FillOrder,
+INSTANTIATE_TEST_SUITE_P(Patterns, FillOrderOfPattern,
                          testing::Values(NamedPattern{"One", diagonalMatrix(1)},
                                          NamedPattern{"Diagonal", diagonalMatrix(7)},
                                          NamedPattern{"Full", fullMatrix(13)},
@@ -94,28 +97,25 @@ TEST(FillOrderOf, AnArrowLeavesItsTipToTheEnd)
     constexpr int n = 40;
     std::vector<int> natural(n);
     std::iota(natural.begin(), natural.end(), 0);
-    const char* method = nullptr;
     EXPECT_EQ(entriesOfFactor(arrowMatrix(n), natural), n * (n + 1) / 2);
-    EXPECT_EQ(entriesOfFactor(arrowMatrix(n), fillReducingOrder(sparsePattern(arrowMatrix(n)), method)), 2 * n - 1);
+    EXPECT_EQ(entriesOfFactor(arrowMatrix(n), fillReducingOrder(sparsePattern(arrowMatrix(n))).m_rows), 2 * n - 1);
 }
 
 // METIS seeds the C library's one random generator and draws from it.
 TEST(FillOrderOf, ConcurrentCallersIsThatOfOne)
 {
     const SparsePattern pattern = sparsePattern(gridMatrix(40));
-    const char* method = nullptr;
-    const std::vector<int> alone = fillReducingOrder(pattern, method);
+    const FillOrder alone = fillReducingOrder(pattern);
     std::vector<int> different(4, 0);
     std::vector<std::thread> callers;
     for (int& differences : different)
         callers.emplace_back(
             [&]
             {
-                const char* ownMethod = nullptr;
-                for (int k = 0; k < 20; ++k) differences += fillReducingOrder(pattern, ownMethod) != alone;
+                for (int k = 0; k < 20; ++k) differences += fillReducingOrder(pattern).m_rows != alone.m_rows;
             });
     for (std::thread& caller : callers) caller.join();
-    EXPECT_EQ(different, std::vector<int>(4, 0)) << method;
+    EXPECT_EQ(different, std::vector<int>(4, 0)) << alone.m_method;
 }
 
 // Nodes of a box of cells: neighbours share a cell.
@@ -141,23 +141,45 @@ SparsePattern boxPattern(int nx, int ny, int nz)
     return pattern;
 }
 
-// Dissection wins in a cube, the minimum degree in a long bar.
-TEST(FillOrderOf, ABoxIsTheOneWithLessFill)
+std::vector<int> minimumDegreeOrder(const SparsePattern& pattern)
 {
-    if (!nestedDissectionLibrary()) GTEST_SKIP() << "no METIS in this build";
-    const SparsePattern cube = boxPattern(10, 10, 10), bar = boxPattern(60, 3, 3);
-    const char *ofCube = nullptr, *ofBar = nullptr;
-    EXPECT_EQ(fillReducingOrder(cube, ofCube), nestedDissectionOrder(cube));
-    EXPECT_STREQ(ofCube, "METIS");
-    const long blocks = blocksOfFactor(bar, fillReducingOrder(bar, ofBar));
-    EXPECT_STREQ(ofBar, "AMD");
-    EXPECT_LT(blocks, blocksOfFactor(bar, nestedDissectionOrder(bar)));
+    return amdVersion().empty() ? eigenOrder(pattern) : amdOrder(pattern);
 }
 
-TEST(OrderingBackend, IsNamedWithItsVersion)
+// SuiteSparse's takes Eigen's place where it is there; a bar is dissected at the price of more fill.
+TEST(FillOrderOf, ABarIsOfMinimumDegree)
 {
-    EXPECT_THAT(orderingBackend(), AnyOf(StartsWith("METIS "), StartsWith("Eigen ")));
+    const SparsePattern bar = boxPattern(60, 3, 3);
+    const FillOrder order = fillReducingOrder(bar);
+    EXPECT_STREQ(order.m_method, minimumDegreeName());
+    EXPECT_EQ(order.m_rows, minimumDegreeOrder(bar));
+    const std::vector<int> dissection = metisOrder(bar);
+    EXPECT_TRUE(dissection.empty() || blocksOfFactor(bar, dissection) > blocksOfFactor(bar, order.m_rows));
+}
+
+// Dissection wins in a cube, where this build has it.
+TEST(FillOrderOf, ACubeIsDissected)
+{
+    const SparsePattern cube = boxPattern(10, 10, 10);
+    const FillOrder order = fillReducingOrder(cube);
+    EXPECT_STREQ(order.m_method, metisVersion().empty() ? minimumDegreeName() : "METIS");
+    EXPECT_EQ(order.m_rows, metisVersion().empty() ? minimumDegreeOrder(cube) : metisOrder(cube));
+    EXPECT_LE(blocksOfFactor(cube, order.m_rows), blocksOfFactor(cube, minimumDegreeOrder(cube)));
+}
+
+TEST(FillOrderOf, NoRowsIsEmpty)
+{
+    SparsePattern nothing;
+    nothing.m_columnStart = {0};
+    EXPECT_TRUE(fillReducingOrder(nothing).m_rows.empty());
+}
+
+TEST(OrderingBackend, NamesTheLibrariesOfThisBuildWithTheirVersions)
+{
+    EXPECT_THAT(orderingBackend(), StartsWith(std::string(minimumDegreeName()) + " "));
     EXPECT_THAT(orderingBackend(), HasSubstr("."));
+    EXPECT_THAT(orderingBackend(), HasSubstr(metisVersion()));
+    EXPECT_LT(orderingBackend().size(), 48u) << "the room that baked files have for it";
 }
 
 }  // namespace

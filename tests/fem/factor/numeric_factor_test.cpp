@@ -117,8 +117,7 @@ struct Factor
     Factor(const BlockMatrix& A, const std::vector<int>& nodes)
     {
         const SparsePattern pattern = patternOf(A, nodes);
-        const char* method = nullptr;
-        std::vector<int> order = fillReducingOrder(pattern, method);
+        std::vector<int> order = fillReducingOrder(pattern).m_rows;
         m_tree = buildSupernodeTree(pattern, order);
         for (int k : order) m_nodes.push_back(nodes[k]);
         run(A);

@@ -96,8 +96,7 @@ std::vector<int> naturalOrder(int n)
 
 std::vector<std::vector<int>> ordersToTry(const SparsePattern& pattern)
 {
-    const char* method = nullptr;
-    std::vector<std::vector<int>> orders = {naturalOrder(pattern.m_size), fillReducingOrder(pattern, method)};
+    std::vector<std::vector<int>> orders = {naturalOrder(pattern.m_size), fillReducingOrder(pattern).m_rows};
     orders.push_back(orders[0]);
     std::shuffle(orders[2].begin(), orders[2].end(), std::mt19937(4));
     return orders;
@@ -297,8 +296,7 @@ TEST(SupernodeTree, WideBranchesStayApart)
 TEST(SupernodeTree, AMeshHasFewSupernodesAndFewZeros)
 {
     const SparsePattern pattern = meshPattern(makeBox({4, 1, 1}, {16, 4, 4}, {}, CellSplit::kuhnSix));
-    const char* method = nullptr;
-    std::vector<int> order = fillReducingOrder(pattern, method);
+    std::vector<int> order = fillReducingOrder(pattern).m_rows;
     const SupernodeTree tree = buildSupernodeTree(pattern, order);
     EXPECT_LE(tree.m_supernodes.size(), pattern.m_size / 5u);
     EXPECT_LE(tree.m_entries, static_cast<long>(1.2 * entryCount(fill(pattern, order))));
