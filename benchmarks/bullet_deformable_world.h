@@ -11,8 +11,8 @@
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <btBulletDynamicsCommon.h>
 
-#include "bullet_fem/fem/material.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
+#include "bullet_fem/fem/mesh/material.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 
 #include "LinearMath/btAlignedObjectArray.h"
 #include "LinearMath/btMatrix3x3.h"
-#include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
 
 class btMultiBody;
 class btMultiBodyLinkCollider;

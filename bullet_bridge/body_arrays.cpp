@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/limits.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -8,10 +8,10 @@
 #include <numeric>
 #include <utility>
 
-#include "fem/cage/surface_repair.h"
-#include "fem/cage/winding_number.h"
-#include "fem/joined_sets.h"
-#include "fem/message.h"
+#include "bullet_fem/fem/cage/surface_repair.h"
+#include "bullet_fem/fem/cage/winding_number.h"
+#include "fem/common/disjoint_sets.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_bridge/soft_pairs/soft_surface.h"
-#include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
 
 class btSoftBody;
 

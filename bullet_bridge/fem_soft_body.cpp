@@ -9,8 +9,8 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"
-#include "bullet_bridge/bullet_vectors.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

@@ -14,7 +14,7 @@
 #include "bullet_bridge/model_library.h"
 #include "bullet_bridge/soft_pairs/soft_surface.h"
 #include "bullet_bridge/topology_marks.h"
-#include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
 
 class btCollisionObject;
 

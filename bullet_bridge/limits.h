@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
 {

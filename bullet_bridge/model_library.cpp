@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bullet_bridge/collision_skin.h"
-#include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
 
 namespace bullet_fem
 {

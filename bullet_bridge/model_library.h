@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_bridge/soft_pairs/rest_neighbours.h"
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 
 namespace bullet_fem
 {

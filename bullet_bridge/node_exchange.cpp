@@ -8,10 +8,10 @@
 #include <numeric>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/limits.h"
 #include "bullet_bridge/pose_matching.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -9,7 +9,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/collision_skin.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

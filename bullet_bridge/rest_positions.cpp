@@ -9,8 +9,8 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
-#include "fem/rotation.h"
+#include "bullet_fem/btFemVectors.h"
+#include "fem/common/rotation.h"
 
 namespace bullet_fem
 {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 
 class btSoftBody;
 

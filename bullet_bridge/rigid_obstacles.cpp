@@ -7,11 +7,11 @@
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "LinearMath/btTransformUtil.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/limits.h"
 #include "bullet_bridge/shapes/swept_distance.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

@@ -7,7 +7,7 @@
 
 #include "LinearMath/btVector3.h"
 #include "bullet_bridge/articulated_bodies.h"
-#include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
 
 class btCollisionObject;
 class btRigidBody;

@@ -9,7 +9,7 @@
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "LinearMath/btScalar.h"
-#include "bullet_fem/fem/material.h"
-#include "bullet_fem/fem/tet_mesh.h"
-#include "fem/lumped_mass.h"
+#include "bullet_fem/fem/mesh/material.h"
+#include "bullet_fem/fem/mesh/rest_shape.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 
 class btSoftBody;
 

@@ -3,8 +3,8 @@
 #include "bullet_bridge/solver_bodies.h"
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/limits.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

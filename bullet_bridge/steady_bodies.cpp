@@ -6,7 +6,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rigid_obstacles.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
 {

@@ -53,13 +53,14 @@ endfunction()
 set(BULLETFEM_FOREIGN_float "(LinearMath|Bullet(Collision|Dynamics|SoftBody))-float64")
 set(BULLETFEM_FOREIGN_float64 "(LinearMath|Bullet(Collision|Dynamics|SoftBody))([.]|$)")
 
-# bulletfem_bullet_library(<name> <source>...  PUBLIC <target>...  PRIVATE <target>...): bulletfem_library for each
-# precision, linked with the targets of the same precision.
+# bulletfem_bullet_library(<name> <source>...  SEES <room>...  PUBLIC <target>...  PRIVATE <target>...): bulletfem_library
+# for each precision, linked with the targets of the same precision.
 function(bulletfem_bullet_library name)
-    cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "SEES;PUBLIC;PRIVATE" ${ARGN})
     foreach(precision IN LISTS BULLETFEM_PRECISIONS)
         set(suffix "${BULLETFEM_SUFFIX_${precision}}")
         bulletfem_library(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS})
+        bulletfem_sees(bulletfem_${name}${suffix} ${ARG_SEES})
         bulletfem_in_precision(public "${suffix}" ${ARG_PUBLIC})
         bulletfem_in_precision(private "${suffix}" ${ARG_PRIVATE})
         target_link_libraries(bulletfem_${name}${suffix} PUBLIC ${public} PRIVATE ${private})

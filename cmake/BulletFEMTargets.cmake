@@ -23,6 +23,26 @@ function(bulletfem_defaults target)
     endif()
 endfunction()
 
+# What a target may include is what it sees: folders of the source tree, each behind a link in the build tree, so that an
+# include of any other does not compile. bulletfem_room(<name> <folder>...): a folder of links, in which these stand at
+# their own paths; those of include/ without it.
+function(bulletfem_room name)
+    foreach(folder IN LISTS ARGN)
+        string(REGEX REPLACE "^include/" "" place "${folder}")
+        set(link "${PROJECT_BINARY_DIR}/rooms/${name}/${place}")
+        get_filename_component(parent "${link}" DIRECTORY)
+        file(MAKE_DIRECTORY "${parent}")
+        file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${link}" SYMBOLIC)
+    endforeach()
+endfunction()
+
+# bulletfem_sees(<target> <room>...)
+function(bulletfem_sees target)
+    foreach(room IN LISTS ARGN)
+        target_include_directories(${target} PRIVATE "${PROJECT_BINARY_DIR}/rooms/${room}")
+    endforeach()
+endfunction()
+
 # bulletfem_library(<name> <source>...): the static library bulletfem_<name>, known to users as BulletFEM::<name>.
 function(bulletfem_library name)
     add_library(bulletfem_${name} STATIC ${ARGN})
@@ -30,8 +50,7 @@ function(bulletfem_library name)
     set_target_properties(bulletfem_${name} PROPERTIES EXPORT_NAME ${name})
     bulletfem_defaults(bulletfem_${name})
     target_include_directories(bulletfem_${name}
-        PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-        PRIVATE ${PROJECT_SOURCE_DIR})
+        PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
 
 # Headers that most tests include, compiled once for all programs of one kind (what sees Bullet, in either precision, and

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 #include "demos/drop_scene.h"
 
 namespace bullet_fem

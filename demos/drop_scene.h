@@ -10,7 +10,7 @@
 #include "btBulletDynamicsCommon.h"
 #include "bullet_fem/btFemConstraintSolver.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/cage_report.h"
+#include "bullet_fem/fem/cage/cage_report.h"
 #include "demos/drop_options.h"
 #include "demos/drop_size.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/message.h"
-#include "fem/output_file.h"
+#include "fem/common/message.h"
+#include "fem/common/output_file.h"
 #include "io/body_frame_check.h"
 #include "io/glb_model.h"
 #include "io/surface_part.h"

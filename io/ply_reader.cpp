@@ -7,7 +7,7 @@
 #include <climits>
 #include <cstdint>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/binary_number.h"
 #include "io/number_text.h"
 #include "io/polygon_mesh.h"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/file_bytes.h"
 #include "io/polygon_mesh.h"
 #include "io/triangulate.h"

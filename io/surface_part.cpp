@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "io/surface_part.h"
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

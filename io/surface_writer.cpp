@@ -8,8 +8,8 @@
 #include <cstring>
 
 #include "bullet_fem/io/colour_map.h"
-#include "fem/message.h"
-#include "fem/output_file.h"
+#include "fem/common/message.h"
+#include "fem/common/output_file.h"
 #include "io/body_frame_check.h"
 #include "io/surface_part.h"
 #include "io/written_number.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/file_bytes.h"
 #include "io/tet/tet_readers.h"
 

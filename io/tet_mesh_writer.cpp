@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "fem/output_file.h"
+#include "fem/common/output_file.h"
 #include "io/file_bytes.h"
 
 namespace bullet_fem

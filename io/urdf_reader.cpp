@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "bullet_fem/io/urdf_deformable.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/number_text.h"
 
 namespace bullet_fem

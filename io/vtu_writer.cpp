@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fem/message.h"
-#include "fem/output_file.h"
+#include "fem/common/message.h"
+#include "fem/common/output_file.h"
 #include "io/body_frame_check.h"
 #include "io/vtu_frame.h"
 #include "io/written_number.h"

@@ -2,6 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "fem/attempt.h"
+#include "fem/common/attempt.h"
 
 using bullet_fem::succeeds;

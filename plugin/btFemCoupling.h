@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "bullet_fem/fem/stress.h"
+#include "bullet_fem/fem/step/stress.h"
 #include "plugin/contact/btFemContactGroup.h"
 #include "plugin/snapshot/btFemSnapshot.h"
 

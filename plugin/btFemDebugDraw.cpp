@@ -7,8 +7,8 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btIDebugDraw.h"
-#include "bullet_bridge/bullet_vectors.h"
-#include "fem/rotation.h"
+#include "bullet_fem/btFemVectors.h"
+#include "fem/common/rotation.h"
 #include "plugin/btFemCoupling.h"
 #include "plugin/btFemRangeCheck.h"
 

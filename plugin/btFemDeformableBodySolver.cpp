@@ -7,8 +7,8 @@
 
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
 #include "bullet_bridge/body_arrays.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/btFemArrays.h"
 #include "plugin/btFemCoupling.h"
 #include "plugin/btFemDeformableForces.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_bridge/bullet_vectors.h"
-#include "bullet_fem/fem/material.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/material.h"
 #include "plugin/btFemArrays.h"
 
 using namespace bullet_fem;

@@ -7,7 +7,7 @@
 #include "BulletSoftBody/btDeformableBodySolver.h"
 #include "bullet_bridge/joints/held_joint.h"
 #include "bullet_fem/btFemMaterial.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 /// What the elastic forces on a body amount to.
 struct btFemForceMaterial

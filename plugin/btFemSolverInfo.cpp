@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
 #include "plugin/btFemRangeCheck.h"
 
 using namespace bullet_fem;

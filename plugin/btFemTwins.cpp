@@ -7,7 +7,7 @@
 #include "bullet_fem/btFemDebugDraw.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 #include "plugin/btFemAttempt.h"
 
 bool btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& material, std::string* why)

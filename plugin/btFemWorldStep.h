@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "bullet_bridge/steady_bodies.h"
-#include "bullet_fem/fem/batch_memory.h"
-#include "bullet_fem/fem/stepping.h"
-#include "bullet_fem/fem/threads.h"
-#include "fem/body_batches.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/step/batch_memory.h"
+#include "bullet_fem/fem/step/body_batches.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "plugin/bodies/btFemBodyRegistry.h"
 #include "plugin/contact/btFemContactGroup.h"
 #include "plugin/policy/btFemDetailChooser.h"

@@ -9,7 +9,7 @@
 
 #include "benchmarks/beam/beam_methods.h"
 #include "benchmarks/json_file.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
 
 namespace
 {

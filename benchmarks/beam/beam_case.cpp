@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

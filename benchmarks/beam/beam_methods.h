@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmarks/beam/beam_report.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
 {

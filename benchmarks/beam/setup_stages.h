@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 
 namespace bullet_fem
 {

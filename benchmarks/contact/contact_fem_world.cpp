@@ -8,9 +8,9 @@
 #include <algorithm>
 
 #include "benchmarks/figures.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemConstraintSolver.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bullet_fem/fem/material.h"
-#include "bullet_fem/fem/tet_mesh.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
+#include "bullet_fem/fem/mesh/material.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
 {

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "benchmarks/contact/contact_world.h"
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -10,8 +10,8 @@
 #include "benchmarks/figures.h"
 #include "bullet_fem/btFemConstraintSolver.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/generators.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <utility>
 
-#include "bullet_fem/fem/cage.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/cage/cage.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "fem/factor/rest_factor.h"
 
 namespace bullet_fem

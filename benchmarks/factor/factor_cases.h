@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 #include "fem/factor/block_matrix.h"
 #include "fem/factor/fill_order.h"
 

@@ -10,8 +10,8 @@
 
 #include "benchmarks/factor/lower_matrix.h"
 #include "benchmarks/figures.h"
-#include "bullet_fem/fem/stepping.h"
-#include "fem/aligned_floats.h"
+#include "bullet_fem/fem/step/stepping.h"
+#include "fem/common/aligned_array.h"
 #include "fem/factor/numeric_factor.h"
 #include "fem/factor/ordering_libraries.h"
 #include "fem/factor/packed_factor.h"

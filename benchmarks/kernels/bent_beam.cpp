@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "benchmarks/beam/fem_beam.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/elements/model_elements.h"
 #include "fem/factor/rest_factor.h"
-#include "fem/step_scratch.h"
-#include "fem/warped_system.h"
+#include "fem/step/step_scratch.h"
+#include "fem/step/warped_system.h"
 
 namespace bullet_fem
 {

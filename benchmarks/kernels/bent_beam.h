@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/body.h"
-#include "bullet_fem/fem/step_types.h"
-#include "fem/aligned_floats.h"
+#include "bullet_fem/fem/step/body.h"
+#include "bullet_fem/fem/step/step_types.h"
+#include "fem/common/aligned_array.h"
 
 namespace bullet_fem
 {

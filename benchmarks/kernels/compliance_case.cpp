@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/factor/rest_factor.h"
 

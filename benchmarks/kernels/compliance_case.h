@@ -3,7 +3,7 @@
 #pragma once
 
 #include "benchmarks/kernels/timed_work.h"
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 
 namespace bullet_fem
 {

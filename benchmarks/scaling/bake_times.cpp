@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/figures.h"
-#include "bullet_fem/fem/baked_body.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

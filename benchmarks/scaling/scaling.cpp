@@ -11,7 +11,7 @@
 #include "benchmarks/json_file.h"
 #include "benchmarks/scaling/bake_times.h"
 #include "benchmarks/scaling/scaling_report.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
 
 namespace
 {

@@ -52,17 +52,18 @@ ScalingExponents fitExponents(const std::vector<ScalingFigures>& rows)
 
 void printTable(std::ostream& out, const std::vector<ScalingFigures>& rows)
 {
-    print(out, "%7s %7s  %8s %6s %8s %10s %9s  %6s %9s %7s  %5s  %9s %9s %9s %9s\n", "tets", "nodes",
-          "setup ms", "order", "ms", "numeric ms", "factor MB", "fill", "all MB", "B/tet", "iter", "median ms", "CPU ms", "worst ms",
-          "residual");
+    print(out, "%7s %7s  %8s %6s %8s %10s %9s  %6s %9s %7s  %5s  %9s %9s %9s %9s\n", "tets", "nodes", "setup ms",
+          "order", "ms", "numeric ms", "factor MB", "fill", "all MB", "B/tet", "iter", "median ms", "CPU ms",
+          "worst ms", "residual");
     for (const ScalingFigures& row : rows)
     {
         const BeamFigures& beam = row.m_beam;
         print(out, "%7d %7d  %8.1f %6s %8.1f %10.1f %9.2f  %6.1f %9.1f %7.0f  %5.1f  %9.3f %9.3f %9.3f %9.1e\n",
-              beam.m_tets, beam.m_nodes, 1e3 * beam.m_setupSeconds, row.m_stages.m_ordering.c_str(), 1e3 * row.m_stages.m_order,
-              1e3 * (row.m_stages.m_tree + row.m_stages.m_numeric), beam.m_factorMegabytes, row.m_stages.m_fill,
-              beam.m_heapMegabytes, 1e6 * beam.m_heapMegabytes / beam.m_tets, beam.m_meanIterations,
-              beam.m_medianMilliseconds, beam.m_cpuMilliseconds, beam.m_worstMilliseconds, beam.m_worstResidual);
+              beam.m_tets, beam.m_nodes, 1e3 * beam.m_setupSeconds, row.m_stages.m_ordering.c_str(),
+              1e3 * row.m_stages.m_order, 1e3 * (row.m_stages.m_tree + row.m_stages.m_numeric), beam.m_factorMegabytes,
+              row.m_stages.m_fill, beam.m_heapMegabytes, 1e6 * beam.m_heapMegabytes / beam.m_tets,
+              beam.m_meanIterations, beam.m_medianMilliseconds, beam.m_cpuMilliseconds, beam.m_worstMilliseconds,
+              beam.m_worstResidual);
     }
     const ScalingExponents p = fitExponents(rows);
     if (p.m_step.m_points < 2) return;

@@ -9,7 +9,7 @@
 #include "bullet_bridge/friction.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/nearest_contacts.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

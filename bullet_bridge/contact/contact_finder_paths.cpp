@@ -5,9 +5,9 @@
 
 #include "BulletCollision/CollisionDispatch/btCollisionObject.h"
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/contact/contact_finder.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

@@ -5,7 +5,7 @@
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "bullet_bridge/contact/contact_finder.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

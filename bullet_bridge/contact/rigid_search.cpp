@@ -8,7 +8,7 @@
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
 {

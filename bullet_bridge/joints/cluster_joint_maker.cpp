@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/joints/cluster_motion.h"
 #include "bullet_bridge/joints/soft_anchors.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "bullet_bridge/bullet_vectors.h"
-#include "fem/rotation.h"
+#include "bullet_fem/btFemVectors.h"
+#include "fem/common/rotation.h"
 
 namespace bullet_fem
 {

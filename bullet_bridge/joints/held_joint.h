@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

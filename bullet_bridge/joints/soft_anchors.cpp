@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/joints/rigid_pivot.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

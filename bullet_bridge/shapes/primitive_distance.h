@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 /// Signed distances of points to sharp solids about the origin, in closed form. Of several equally near points the
 /// first in the order of the axes is taken; a point in a centre or on an axis gets a fixed unit normal.

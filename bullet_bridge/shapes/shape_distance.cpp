@@ -10,9 +10,9 @@
 #include "BulletCollision/CollisionShapes/btCylinderShape.h"
 #include "BulletCollision/CollisionShapes/btSphereShape.h"
 #include "BulletCollision/CollisionShapes/btStaticPlaneShape.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/shapes/convex_distance.h"
 #include "bullet_bridge/shapes/primitive_distance.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

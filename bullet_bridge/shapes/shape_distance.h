@@ -5,7 +5,7 @@
 #include <array>
 
 #include "LinearMath/btAlignedObjectArray.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 class btCollisionObject;
 class btCollisionShape;

@@ -9,8 +9,8 @@
 #include "BulletCollision/CollisionShapes/btMultiSphereShape.h"
 #include "BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h"
 #include "BulletCollision/Gimpact/btGImpactShape.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/shapes/shape_distance.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

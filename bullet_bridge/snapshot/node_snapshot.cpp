@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
-#include "fem/message.h"
+#include "bullet_fem/btFemVectors.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

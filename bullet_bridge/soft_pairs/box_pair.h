@@ -6,7 +6,7 @@
 
 #include "bullet_bridge/soft_pairs/lanes.h"
 #include "bullet_bridge/soft_pairs/swept_box.h"
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
 {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "bullet_bridge/soft_pairs/lanes.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
 {

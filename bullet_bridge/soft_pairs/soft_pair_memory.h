@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
 
 namespace bullet_fem
 {

@@ -11,7 +11,7 @@
 #include "bullet_bridge/soft_pairs/surface_features.h"
 #include "bullet_bridge/soft_pairs/surface_ridges.h"
 #include "bullet_bridge/soft_pairs/surface_tree.h"
-#include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
 
 namespace bullet_fem
 {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
 {

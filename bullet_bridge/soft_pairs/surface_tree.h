@@ -10,7 +10,7 @@
 #include "bullet_bridge/soft_pairs/coarse_box.h"
 #include "bullet_bridge/soft_pairs/swept_box.h"
 #include "bullet_bridge/soft_pairs/triangle_proximity.h"
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
 {

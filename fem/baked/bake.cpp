@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bullet_fem/fem/baked_body.h"
-#include "fem/lumped_mass.h"
-#include "fem/message.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/mesh/rest_shape.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {
@@ -74,8 +74,9 @@ struct Given
 void setMasses(BakedBody& body, const Given& given, const TetMesh& mesh, double density, const Rounding& round)
 {
     const bool own = density > 0;
-    const std::vector<double> mass = own ? massesOf(mesh, body.m_filled, density * body.m_massScale)
-                                         : massesOf(given.m_mesh, given.m_filled, kWaterDensity * given.m_massScale);
+    const std::vector<double> mass =
+        own ? lumpedMasses(mesh, body.m_filled, density * body.m_massScale)
+            : lumpedMasses(given.m_mesh, given.m_filled, kWaterDensity * given.m_massScale);
     for (std::size_t i = 0; i < mass.size(); ++i)
         body.m_inverseMass.push_back(mass[i] > 0 ? round(1 / (own ? mass[i] : round(mass[i]))) : 1);
 }

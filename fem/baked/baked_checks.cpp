@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "fem/common/message.h"
 #include "fem/factor/packed_factor.h"
-#include "fem/message.h"
 
 namespace bullet_fem
 {

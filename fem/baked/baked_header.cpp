@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

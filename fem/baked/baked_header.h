@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bullet_fem/fem/baked_body.h"
+#include "bullet_fem/fem/baked/baked_body.h"
 
 namespace bullet_fem
 {

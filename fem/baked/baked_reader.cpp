@@ -11,8 +11,8 @@
 #include "fem/baked/baked_checks.h"
 #include "fem/baked/baked_header.h"
 #include "fem/baked/file_bytes.h"
+#include "fem/common/message.h"
 #include "fem/factor/rest_factor.h"
-#include "fem/message.h"
 
 namespace bullet_fem
 {

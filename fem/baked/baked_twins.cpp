@@ -4,8 +4,8 @@
 // For engines without exceptions.
 #include <string>
 
-#include "bullet_fem/fem/baked_body.h"
-#include "fem/attempt.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "fem/common/attempt.h"
 
 namespace bullet_fem
 {

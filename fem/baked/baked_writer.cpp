@@ -7,9 +7,9 @@
 
 #include "fem/baked/baked_checks.h"
 #include "fem/baked/baked_header.h"
+#include "fem/common/message.h"
+#include "fem/common/output_file.h"
 #include "fem/factor/rest_factor.h"
-#include "fem/message.h"
-#include "fem/output_file.h"
 
 namespace bullet_fem
 {

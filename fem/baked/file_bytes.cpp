@@ -16,7 +16,7 @@
 #include <unistd.h>
 #endif
 
-#include "fem/aligned_floats.h"
+#include "fem/common/aligned_array.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/cage.h"
+#include "bullet_fem/fem/cage/cage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "fem/cage/cage_size.h"
 #include "fem/cage/cage_snap.h"
 #include "fem/cage/graded_lattice.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "bullet_fem/fem/cage/winding_number.h"
 #include "fem/cage/cage_lattice.h"
 #include "fem/cage/fill_samples.h"
-#include "fem/cage/winding_number.h"
 
 namespace bullet_fem
 {

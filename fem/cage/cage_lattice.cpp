@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "fem/cage/triangle_overlap.h"
-#include "fem/cell_split.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
+#include "fem/mesh/cell_split.h"
 
 namespace bullet_fem
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/cage_report.h"
+#include "bullet_fem/fem/cage/cage_report.h"
 
 #include <cmath>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

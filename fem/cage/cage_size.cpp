@@ -9,7 +9,7 @@
 
 #include "fem/cage/cage_fill.h"
 #include "fem/cage/graded_lattice.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

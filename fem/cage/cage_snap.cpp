@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "bullet_fem/fem/cage_report.h"
+#include "bullet_fem/fem/cage/cage_report.h"
 #include "fem/cage/triangle_tree.h"
 
 namespace bullet_fem

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/fem/cage/winding_number.h"
 #include "fem/cage/surface_inspection.h"
-#include "fem/cage/winding_number.h"
 
 namespace bullet_fem
 {

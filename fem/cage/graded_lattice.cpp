@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fem/cage/cage_embedding.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

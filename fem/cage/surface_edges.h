@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_fem/fem/surface_mesh.h"
+#include "bullet_fem/fem/cage/surface_mesh.h"
 
 namespace bullet_fem
 {

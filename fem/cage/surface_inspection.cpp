@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "fem/cage/surface_edges.h"
-#include "fem/joined_sets.h"
-#include "fem/message.h"
+#include "fem/common/disjoint_sets.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

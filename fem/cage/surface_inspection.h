@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "fem/cage/surface_repair.h"
+#include "bullet_fem/fem/cage/surface_repair.h"
 
 namespace bullet_fem
 {

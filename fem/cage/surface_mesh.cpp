@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/surface_mesh.h"
+#include "bullet_fem/fem/cage/surface_mesh.h"
 
 namespace bullet_fem
 {

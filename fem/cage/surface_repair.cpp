@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/cage/surface_repair.h"
+#include "bullet_fem/fem/cage/surface_repair.h"
 
 #include <algorithm>
 #include <tuple>

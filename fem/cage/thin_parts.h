@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/fem/cage/winding_number.h"
 #include "fem/cage/surface_inspection.h"
 #include "fem/cage/triangle_tree.h"
-#include "fem/cage/winding_number.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "fem/contact/body_ends.h"
-#include "fem/step_scratch.h"
+#include "fem/step/step_scratch.h"
 
 namespace bullet_fem
 {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "fem/factor/rest_factor.h"
-#include "fem/step_scratch.h"
-#include "fem/warped_compliance.h"
-#include "fem/warped_system.h"
+#include "fem/step/step_scratch.h"
+#include "fem/step/warped_compliance.h"
+#include "fem/step/warped_system.h"
 
 namespace bullet_fem
 {

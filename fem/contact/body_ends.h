@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/contact_solver.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/point_compliance.h"
 #include "fem/contact/working_set.h"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_fem/fem/body_model.h"
-#include "fem/aligned_floats.h"
+#include "bullet_fem/fem/factor/body_model.h"
+#include "fem/common/aligned_array.h"
 #include "fem/factor/lane_gradients.h"
 
 namespace bullet_fem

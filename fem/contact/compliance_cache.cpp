@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "fem/common/chunks.h"
 #include "fem/factor/rest_factor.h"
-#include "fem/pieces.h"
 
 namespace bullet_fem
 {

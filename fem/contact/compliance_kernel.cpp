@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/contact/compliance_kernel.cpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/obstacle_response.h"
 
 namespace bullet_fem

@@ -6,11 +6,11 @@
 #include <array>
 #include <vector>
 
-#include "bullet_fem/fem/contact_solver.h"
-#include "fem/body_batches.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
+#include "bullet_fem/fem/step/body_batches.h"
+#include "fem/common/chunks.h"
 #include "fem/contact/body_ends.h"
 #include "fem/contact/contact_row.h"
-#include "fem/pieces.h"
 
 namespace bullet_fem
 {

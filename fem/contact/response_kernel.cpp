@@ -4,7 +4,7 @@
 // Compiled once for every instruction set; the processor chooses when the program runs.
 #include "fem/contact/response_kernel.h"
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/contact/response_kernel.cpp"

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/vec3.h"
-#include "fem/pieces.h"
+#include "bullet_fem/fem/common/vec3.h"
+#include "fem/common/chunks.h"
 
 namespace bullet_fem
 {

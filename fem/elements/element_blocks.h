@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "bullet_fem/fem/quaternion.h"
-#include "bullet_fem/fem/rest_shape.h"
-#include "fem/pieces.h"
+#include "bullet_fem/fem/common/quaternion.h"
+#include "bullet_fem/fem/mesh/rest_shape.h"
+#include "fem/common/chunks.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/elements/node_sums.cpp"

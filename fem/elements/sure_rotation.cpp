@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fem/rotation.h"
+#include "fem/common/rotation.h"
 
 namespace bullet_fem
 {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/rest_shape.h"
+#include "bullet_fem/fem/mesh/rest_shape.h"
 
 namespace bullet_fem
 {

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/factor/dense_kernels.cpp"

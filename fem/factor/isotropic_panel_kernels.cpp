@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/factor/isotropic_panel_kernels.cpp"

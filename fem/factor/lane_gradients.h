@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fem/aligned_floats.h"
+#include "fem/common/aligned_array.h"
 #include "fem/factor/lane_vectors.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/factor/rigid_lanes.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/factor/lane_vectors.cpp"

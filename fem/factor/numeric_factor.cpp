@@ -9,8 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "fem/common/message.h"
 #include "fem/factor/dense_kernels.h"
-#include "fem/message.h"
 
 namespace bullet_fem
 {

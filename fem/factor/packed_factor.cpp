@@ -6,9 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "fem/common/chunks.h"
+#include "fem/factor/batch_panel_kernels.h"
 #include "fem/factor/isotropic_panel_kernels.h"
-#include "fem/factor/side_panel_kernels.h"
-#include "fem/pieces.h"
 
 namespace bullet_fem
 {

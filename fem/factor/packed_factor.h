@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_fem/fem/threads.h"
-#include "fem/aligned_floats.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "fem/common/aligned_array.h"
 #include "fem/factor/node_entry.h"
 #include "fem/factor/panel_kernels.h"
 #include "fem/factor/subtrees.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 #include "fem/factor/block_matrix.h"
 #include "fem/factor/fill_order.h"
 #include "fem/factor/packed_factor.h"

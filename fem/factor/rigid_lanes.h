@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 #include "fem/factor/panel_kernels.h"
 
 namespace bullet_fem

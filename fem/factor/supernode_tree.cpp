@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

@@ -7,7 +7,7 @@
 #include "LinearMath/btVector3.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemPrecision.h"
-#include "bullet_fem/fem/cage.h"
+#include "bullet_fem/fem/cage/cage.h"
 
 class btSoftBody;
 struct btFemMaterial;

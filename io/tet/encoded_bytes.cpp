@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "io/tet/gmsh_cells.h"
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

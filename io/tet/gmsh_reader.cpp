@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/tet/gmsh_sections.h"
 #include "io/tet/tet_readers.h"
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "io/tet/gmsh_sections.h"
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/tet/gmsh_cells.h"
 
 namespace bullet_fem

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <optional>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/tet/cell_kind.h"
 #include "io/tet/tet_readers.h"
 

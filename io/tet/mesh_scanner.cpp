@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

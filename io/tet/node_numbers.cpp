@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/tet/mesh_scanner.h"
 
 namespace bullet_fem

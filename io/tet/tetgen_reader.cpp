@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/tet/node_numbers.h"
 #include "io/tet/tet_readers.h"
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/tet/cell_kind.h"
 
 namespace bullet_fem

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/number_text.h"
 #include "io/tet/encoded_bytes.h"
 

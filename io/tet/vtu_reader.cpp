@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "io/tet/tet_readers.h"
 #include "io/tet/vtk_cells.h"
 #include "io/tet/vtu_array.h"

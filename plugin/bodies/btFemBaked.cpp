@@ -6,8 +6,8 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rest_positions.h"
-#include "bullet_fem/fem/baked_body.h"
-#include "fem/byte_stream.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "fem/common/byte_stream.h"
 #include "plugin/bodies/btFemBodyRegistry.h"
 
 using namespace bullet_fem;

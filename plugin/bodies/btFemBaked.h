@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 
 class btFemBodyRegistry;
 class btSoftBody;

@@ -12,8 +12,8 @@
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
-#include "bullet_fem/fem/threads.h"
-#include "fem/body_snapshot.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/step/body_snapshot.h"
 #include "plugin/bodies/btFemDefinition.h"
 
 using namespace bullet_fem;
@@ -41,7 +41,7 @@ std::vector<double> massesAtRest(const btFemEntry& entry, double density)
     const btSoftBody& body = *entry.m_softBody;
     const bool known = entry.m_fem && !restMatricesChanged(*entry.m_fem);
     const TetMesh mesh = known ? entry.m_fem->m_body.m_model->mesh() : tetMeshOf(body);
-    return massesOf(mesh, filledFractionsOf(body), density * massScaleOf(body));
+    return lumpedMasses(mesh, filledFractionsOf(body), density * massScaleOf(body));
 }
 
 std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const

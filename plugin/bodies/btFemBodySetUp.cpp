@@ -9,13 +9,13 @@
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/collision_skin.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemCollision.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/bodies/btFemBaked.h"
 #include "plugin/bodies/btFemBodyRegistry.h"
 #include "plugin/bodies/btFemDefinition.h"
@@ -114,7 +114,7 @@ void btFemBodyRegistry::setUpNew(btFemEntry& entry, double step)
     const TetMesh& mesh = baked ? shape->m_mesh : rest.m_mesh;
     FactorInput input;
     bool repaired = false;
-    input.m_mass = sanitisedMasses(soft, massesOf(mesh, filled, 1), repaired);
+    input.m_mass = sanitisedMasses(soft, lumpedMasses(mesh, filled, 1), repaired);
     if (repaired) writeMasses(soft, input.m_mass);
     for (int i = 0; i < soft.m_nodes.size(); ++i)
     {

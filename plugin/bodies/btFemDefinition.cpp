@@ -53,7 +53,7 @@ btFemDefinition definitionOf(const btFemBodyRegistry& registry, const btSoftBody
     bool repaired = false;
     d.m_restPositions = rest.m_mesh.restPositions();
     d.m_restOrigin = rest.m_origin;
-    d.m_mass = sanitisedMasses(soft, massesOf(rest.m_mesh, d.m_filled, 1), repaired);
+    d.m_mass = sanitisedMasses(soft, lumpedMasses(rest.m_mesh, d.m_filled, 1), repaired);
     return d;
 }
 

@@ -8,8 +8,8 @@
 
 #include "LinearMath/btScalar.h"
 #include "bullet_fem/btFemReports.h"
-#include "bullet_fem/fem/material.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
+#include "bullet_fem/fem/mesh/material.h"
 
 class btFemBodyRegistry;
 class btSoftBody;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fem/byte_stream.h"
+#include "fem/common/byte_stream.h"
 
 /// What a buffer is said to hold.
 enum class btFemContents : unsigned int

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bullet_fem/btFemMaterial.h"
-#include "bullet_fem/fem/material.h"
+#include "bullet_fem/fem/mesh/material.h"
 
 /// The material as the core takes it; unchecked.
 bullet_fem::Material coreMaterial(const btFemMaterial& material);

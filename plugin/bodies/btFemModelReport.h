@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bullet_fem/btFemReports.h"
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 
 /// Writes into a report what a body's model is: its size, and its factor.
 inline void reportModel(const bullet_fem::BodyModel& model, btFemStepReport& report)

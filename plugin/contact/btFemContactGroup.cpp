@@ -6,9 +6,9 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
-#include "bullet_fem/fem/threads.h"
-#include "fem/pieces.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "fem/common/chunks.h"
 #include "plugin/btFemStopwatch.h"
 #include "plugin/joints/btFemAttachments.h"
 

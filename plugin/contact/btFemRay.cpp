@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 using namespace bullet_fem;
 

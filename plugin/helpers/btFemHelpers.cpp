@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/soft_body_mesh.h"
-#include "bullet_fem/fem/baked_body.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 using namespace bullet_fem;
 
@@ -57,8 +57,8 @@ std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Sol
 std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const TetMesh& mesh,
                                        const std::vector<double>& filled, double massScale)
 {
-    return softBodyOf(
-        worldInfo, {mesh, mesh.restPositions(), massesOf(mesh, filled, kWaterDensity * massScale), filled, massScale});
+    return softBodyOf(worldInfo, {mesh, mesh.restPositions(), lumpedMasses(mesh, filled, kWaterDensity * massScale),
+                                  filled, massScale});
 }
 
 /// A surface that follows tetrahedra.

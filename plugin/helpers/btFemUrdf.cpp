@@ -6,9 +6,9 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodyHelpers.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemMaterial.h"
+#include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "bullet_fem/io/urdf_deformable.h"

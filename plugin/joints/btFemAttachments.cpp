@@ -8,8 +8,8 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/limits.h"
+#include "bullet_fem/btFemVectors.h"
 
 using namespace bullet_fem;
 

@@ -4,7 +4,7 @@
 
 #include "bullet_fem/btFemInterest.h"
 #include "bullet_fem/btFemReports.h"
-#include "bullet_fem/fem/step_types.h"
+#include "bullet_fem/fem/step/step_types.h"
 
 struct btFemEntry;
 

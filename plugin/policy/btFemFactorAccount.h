@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 
 /// What a new factor costs, in iterations with this model's [-]. Counted from its size, not measured, so that decisions
 /// that rest on it are the same on every machine.

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "bullet_fem/fem/body_model.h"
+#include "bullet_fem/fem/factor/body_model.h"
 
 /// A model that is being made; its product may be read once it is done.
 struct btFemFactorJob

@@ -9,7 +9,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodySolvers.h"
 #include "bullet_bridge/node_exchange.h"
-#include "fem/byte_stream.h"
+#include "fem/common/byte_stream.h"
 #include "plugin/bodies/btFemBodyRegistry.h"
 #include "plugin/sleeping/btFemNeighbours.h"
 

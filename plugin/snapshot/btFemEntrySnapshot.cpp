@@ -7,7 +7,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "plugin/bodies/btFemModelReport.h"
 #include "plugin/joints/btFemAttachments.h"
 #include "plugin/policy/btFemFactorThread.h"

@@ -7,7 +7,7 @@
 
 #include "bullet_bridge/snapshot/contact_snapshot.h"
 #include "bullet_bridge/snapshot/node_snapshot.h"
-#include "fem/body_snapshot.h"
+#include "bullet_fem/fem/step/body_snapshot.h"
 #include "plugin/bodies/btFemBodyRegistry.h"
 
 /// Something that points to another object, with that object's id instead: see WorldIds.

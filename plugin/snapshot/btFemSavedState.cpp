@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "plugin/bodies/btFemDefinition.h"
 #include "plugin/btFemAttempt.h"
 #include "plugin/btFemCoupling.h"

@@ -10,7 +10,7 @@
 #include "BulletDynamics/Featherstone/btMultiBodyJointFeedback.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "btBulletDynamicsCommon.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

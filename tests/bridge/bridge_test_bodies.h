@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/soft_body_mesh.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

@@ -9,8 +9,8 @@
 #include "bridge/bridge_test_bodies.h"
 #include "btBulletDynamicsCommon.h"
 #include "bullet_bridge/contact/rigid_search.h"
-#include "bullet_fem/fem/stepping.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

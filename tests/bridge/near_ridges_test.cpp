@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bridge/random_vectors.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

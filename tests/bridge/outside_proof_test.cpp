@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bridge/random_vectors.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "btBulletDynamicsCommon.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -11,7 +11,7 @@
 #include "BulletCollision/CollisionShapes/btUniformScalingShape.h"
 #include "BulletCollision/NarrowPhaseCollision/btGjkEpa2.h"
 #include "bridge/bridge_test_shapes.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -58,14 +58,14 @@ TEST(SoftBodyMesh, massesAddUpToDensityTimesFilledVolume)
     std::vector<double> filled(mesh.tetCount(), 1.0);
     filled[0] = 0.5;
     double total = 0;
-    for (double m : massesOf(mesh, filled, 300)) total += m;
+    for (double m : lumpedMasses(mesh, filled, 300)) total += m;
     EXPECT_NEAR(total, 300 * (1 - 0.5 * mesh.tetVolume(0)), 1e-9);
 }
 
 TEST(SoftBodyMesh, unusableMassesBecomeTheShareOfTheVolume)
 {
     const TestBox box;
-    const std::vector<double> share = massesOf(tetMeshOf(*box.m_body), {}, 1);
+    const std::vector<double> share = lumpedMasses(tetMeshOf(*box.m_body), {}, 1);
     bool repaired = false;
     for (int i = 0; i < box.m_body->m_nodes.size(); ++i) box.m_body->m_nodes[i].m_im = btScalar(1 / (50 * share[i]));
     box.m_body->m_nodes[0].m_im = 0;  // pinned: no repair

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "bridge/soft_pair_bodies.h"
-#include "bullet_fem/fem/stepping.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

@@ -8,7 +8,7 @@
 
 #include "bridge/bridge_test_bodies.h"
 #include "bullet_bridge/rigid_obstacles.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
 {

@@ -9,7 +9,7 @@
 
 #include "bridge/random_vectors.h"
 #include "bullet_bridge/soft_pairs/soft_surface.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "examples/energy_book.h"
 #include "examples/example_bodies.h"
 #include "plugin/scenes/deformable_scene.h"

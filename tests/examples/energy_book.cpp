@@ -6,8 +6,8 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 #include "examples/example_bodies.h"
 #include "plugin/scenes/scene_measures.h"
 

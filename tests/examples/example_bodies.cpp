@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
-#include "bullet_bridge/bullet_vectors.h"
-#include "bullet_fem/fem/generators.h"
-#include "fem/rotation.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
+#include "fem/common/rotation.h"
 #include "plugin/scenes/tetgen_text.h"
 
 namespace bullet_fem

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/surface_mesh.h"
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/cage/surface_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 
 class btSoftBody;
 struct btSoftBodyWorldInfo;

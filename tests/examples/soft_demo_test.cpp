@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 #include "examples/energy_book.h"
 #include "examples/example_bodies.h"
 #include "plugin/scenes/scene_measures.h"

@@ -3,8 +3,8 @@
 //
 // A tool: bakes a body to <argument>.bfem, and tells in <argument>.bits where one that is not baked falls.
 #include <bullet_fem/btFemHelpers.h>
-#include <bullet_fem/fem/baked_body.h>
-#include <bullet_fem/fem/generators.h>
+#include <bullet_fem/fem/baked/baked_body.h>
+#include <bullet_fem/fem/mesh/generators.h>
 
 #include "drop_bits.h"
 

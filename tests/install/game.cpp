@@ -3,7 +3,7 @@
 //
 // A game: what the tool has baked falls as the tool says, to the bit.
 #include <bullet_fem/btFemHelpers.h>
-#include <bullet_fem/fem/baked_body.h>
+#include <bullet_fem/fem/baked/baked_body.h>
 
 #include <iostream>
 

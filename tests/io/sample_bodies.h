@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "bullet_fem/io/body_frame.h"
 
 namespace bullet_fem

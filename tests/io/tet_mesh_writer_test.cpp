@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "io/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "bullet_fem/fem/surface_mesh.h"
+#include "bullet_fem/fem/cage/surface_mesh.h"
 #include "tools/scene/scene_reader.h"
 #include "tools/scene_samples.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 #include "tools/scene/scene_reader.h"
 #include "tools/scene/scene_world.h"
 

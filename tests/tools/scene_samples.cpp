@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/scene_samples.h"
 
-#include "bullet_fem/fem/baked_body.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "bullet_fem/io/tet_mesh_writer.h"
 
 namespace bullet_fem

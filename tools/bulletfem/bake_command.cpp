@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "bullet_fem/fem/baked_body.h"
-#include "fem/output_file.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "fem/common/output_file.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
 #include "tools/bulletfem/material_options.h"

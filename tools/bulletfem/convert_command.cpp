@@ -3,12 +3,12 @@
 #include <memory>
 #include <stdexcept>
 
-#include "bullet_fem/fem/baked_body.h"
+#include "bullet_fem/fem/baked/baked_body.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/surface_writer.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "bullet_fem/io/tet_mesh_writer.h"
-#include "fem/output_file.h"
+#include "fem/common/output_file.h"
 #include "io/file_bytes.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/mesh_input.h"

@@ -3,8 +3,8 @@
 #include <limits>
 #include <memory>
 
-#include "bullet_fem/fem/baked_body.h"
-#include "bullet_fem/fem/cage_report.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/cage/cage_report.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "io/file_bytes.h"

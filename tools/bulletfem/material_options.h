@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "bullet_fem/fem/material.h"
+#include "bullet_fem/fem/mesh/material.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "bullet_fem/fem/cage.h"
+#include "bullet_fem/fem/cage/cage.h"
 
 namespace bullet_fem
 {

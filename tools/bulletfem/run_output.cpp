@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "fem/output_file.h"
+#include "fem/common/output_file.h"
 #ifdef BULLETFEM_HAS_PICTURES
 #include "tools/pictures/film_writer.h"
 #include "tools/pictures/offscreen_renderer.h"

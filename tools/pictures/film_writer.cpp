@@ -17,8 +17,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fem/message.h"
-#include "fem/output_file.h"
+#include "fem/common/message.h"
+#include "fem/common/output_file.h"
 
 extern char** environ;
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <new>
 
-#include "fem/message.h"
-#include "fem/output_file.h"
+#include "fem/common/message.h"
+#include "fem/common/output_file.h"
 
 namespace bullet_fem
 {

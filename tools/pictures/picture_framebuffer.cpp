@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

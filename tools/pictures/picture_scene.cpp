@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 #include "tools/pictures/camera.h"
 
 /// What is to be drawn, as plain values: neither Bullet nor finite elements are known here.

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
 {

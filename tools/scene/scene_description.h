@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bullet_fem/fem/material.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
+#include "bullet_fem/fem/mesh/material.h"
 
 /// A scene as its file tells it (docs/scene.schema.json), in SI units: plain values, before any Bullet object is made.
 namespace bullet_fem

@@ -3,7 +3,7 @@
 #include "tools/scene/scene_frames.h"
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 #include "tools/scene/scene_shapes.h"
 
 namespace bullet_fem

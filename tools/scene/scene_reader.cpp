@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "fem/message.h"
+#include "fem/common/message.h"
 #include "tools/scene/json_cursor.h"
 
 namespace bullet_fem

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "btBulletDynamicsCommon.h"
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "bullet_fem/fem/surface_mesh.h"
+#include "bullet_fem/fem/cage/surface_mesh.h"
 #include "tools/scene/scene_description.h"
 
 class btCollisionShape;

@@ -7,9 +7,9 @@
 #include <cstdio>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemRay.h"
-#include "bullet_fem/fem/baked_body.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/baked/baked_body.h"
 
 namespace bullet_fem
 {

@@ -9,10 +9,10 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btTransformUtil.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/baked_body.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "tools/scene/scene_shapes.h"

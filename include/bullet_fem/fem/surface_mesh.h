@@ -2,21 +2,5 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include <vector>
-
-#include "bullet_fem/fem/tet_mesh.h"
-
-namespace bullet_fem
-{
-
-/// A triangle soup with shared vertices: what a surface file gives. Nothing is checked here.
-struct SurfaceMesh
-{
-    std::vector<Vec3> m_vertices;       ///< [m]
-    std::vector<Triangle> m_triangles;  ///< vertex indices
-};
-
-/// The volume enclosed, by the divergence theorem about the vertices' centroid [m3]; negative if inside out.
-double signedVolume(const SurfaceMesh& surface);
-
-}  // namespace bullet_fem
+// Moved; this name goes with the next version.
+#include "bullet_fem/fem/cage/surface_mesh.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/stress.h"
+#include "bullet_fem/fem/step/stress.h"
 
 namespace bullet_fem
 {

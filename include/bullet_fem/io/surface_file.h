@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bullet_fem/fem/surface_mesh.h"
+#include "bullet_fem/fem/cage/surface_mesh.h"
 
 namespace bullet_fem
 {

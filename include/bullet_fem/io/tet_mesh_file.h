@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
 {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bullet_fem/fem/material.h"
+#include "bullet_fem/fem/mesh/material.h"
 
 namespace bullet_fem
 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/baked_body.h"
+#include "bullet_fem/fem/baked/baked_body.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/scenes/baked_files.h"
 #include "fem/scenes/expect_rejected.h"

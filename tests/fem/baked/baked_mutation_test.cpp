@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "bullet_fem/fem/contact_solver.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/scenes/baked_files.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <map>
 
-#include "bullet_fem/fem/cage_report.h"
+#include "bullet_fem/fem/cage/cage_report.h"
 
 namespace bullet_fem
 {

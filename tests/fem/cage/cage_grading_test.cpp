@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "bullet_fem/fem/cage.h"
+#include "bullet_fem/fem/cage/cage.h"
 #include "fem/cage/triangle_overlap.h"
 #include "fem/scenes/expect_rejected.h"
 #include "fem/scenes/test_surfaces.h"

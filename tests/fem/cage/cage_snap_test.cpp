@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "bullet_fem/fem/cage.h"
+#include "bullet_fem/fem/cage/cage.h"
+#include "bullet_fem/fem/cage/winding_number.h"
 #include "fem/cage/triangle_tree.h"
-#include "fem/cage/winding_number.h"
 #include "fem/scenes/expect_rejected.h"
 #include "fem/scenes/test_surfaces.h"
 

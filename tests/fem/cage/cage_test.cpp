@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/cage.h"
+#include "bullet_fem/fem/cage/cage.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/cage/winding_number.h"
+#include "bullet_fem/fem/cage/winding_number.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/contact_scene.h"
 
 // Bodies with more contacts than ContactSettings::m_denseLimit, whose rows are swept all at once.

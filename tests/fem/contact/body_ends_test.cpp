@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/elasticity_scenes.h"
 
 namespace bullet_fem

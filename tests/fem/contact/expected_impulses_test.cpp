@@ -5,7 +5,7 @@
 // is solved, never what comes out.
 #include <gtest/gtest.h>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/contact_scene.h"
 
 namespace bullet_fem

@@ -4,7 +4,7 @@
 // What a soft body loses its obstacles gain, to rounding, however approximate the compliance is.
 #include <gtest/gtest.h>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/contact_scene.h"
 
 namespace bullet_fem

@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/compliance_kernel.h"
 #include "fem/scenes/element_case.h"
-#include "fem/warped_system.h"
+#include "fem/step/warped_system.h"
 
 namespace bullet_fem
 {

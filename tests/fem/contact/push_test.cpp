@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/contact_scene.h"
 
 namespace bullet_fem

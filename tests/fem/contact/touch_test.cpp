@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/contact_scene.h"
 
 // Obstacles that others hold: a soft cube meets a ball that lies on a floor, or on another ball.

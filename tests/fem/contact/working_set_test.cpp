@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #include <hwy/highway.h>
 #include <random>

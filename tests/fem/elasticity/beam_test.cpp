@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "fem/elements/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
-#include "fem/warped_elements.h"
-#include "fem/warped_system.h"
+#include "fem/step/warped_system.h"
 
 namespace bullet_fem
 {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/elements/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
-#include "fem/warped_elements.h"
 
 namespace bullet_fem
 {

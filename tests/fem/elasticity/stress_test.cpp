@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <string>
 
-#include "bullet_fem/fem/stress.h"
+#include "bullet_fem/fem/step/stress.h"
 #include "fem/scenes/elasticity_scenes.h"
 
 namespace bullet_fem

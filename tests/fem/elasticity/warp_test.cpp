@@ -6,9 +6,9 @@
 
 #include <cmath>
 
+#include "fem/elements/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/test_constants.h"
-#include "fem/warped_elements.h"
 
 namespace bullet_fem
 {

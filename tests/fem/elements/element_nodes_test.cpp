@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "fem/common/rotation.h"
 #include "fem/elements/node_rotations.h"
-#include "fem/rotation.h"
 #include "fem/scenes/element_case.h"
 
 namespace bullet_fem

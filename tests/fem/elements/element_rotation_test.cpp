@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "fem/rotation.h"
+#include "fem/common/rotation.h"
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/element_case.h"
 

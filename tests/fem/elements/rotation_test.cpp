@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/rotation.h"
+#include "fem/common/rotation.h"
 
 #include <gtest/gtest.h>
 

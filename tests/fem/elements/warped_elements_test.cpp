@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/warped_elements.h"
+#include "fem/elements/warped_elements.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "benchmarks/factor/cholmod_factor.h"
 #include "benchmarks/factor/factor_cases.h"
-#include "fem/aligned_floats.h"
+#include "fem/common/aligned_array.h"
 #include "fem/factor/numeric_factor.h"
 #include "fem/factor/packed_factor.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #include <hwy/highway.h>
 

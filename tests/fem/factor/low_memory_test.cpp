@@ -9,8 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bullet_fem/fem/stepping.h"
-#include "bullet_fem/fem/threads.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/scenes/contact_scene.h"
 #include "fem/scenes/dense_system.h"

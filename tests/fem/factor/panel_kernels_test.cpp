@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #include <hwy/targets.h>
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fem/aligned_floats.h"
+#include "fem/common/aligned_array.h"
 #include "fem/factor/isotropic_panel_kernels.h"
 #include "fem/scenes/elasticity_scenes.h"
 

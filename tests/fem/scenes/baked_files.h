@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "bullet_fem/fem/baked_body.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "fem/baked/baked_header.h"
 #include "io/temporary_folder.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_fem/fem/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
 #include "fem/scenes/elasticity_scenes.h"
 
 namespace bullet_fem

@@ -5,8 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "fem/elements/warped_elements.h"
 #include "fem/factor/block_matrix.h"
-#include "fem/warped_elements.h"
 
 namespace bullet_fem
 {

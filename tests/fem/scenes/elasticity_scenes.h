@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "bullet_fem/fem/body.h"
-#include "bullet_fem/fem/generators.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/mesh/generators.h"
+#include "bullet_fem/fem/step/body.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "fem/vector_targets.h"
+#include "fem/common/vector_targets.h"
 
 #include <hwy/highway.h>
 
 #include "fem/elements/element_product.h"
 #include "fem/elements/node_sums.h"
+#include "fem/elements/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
-#include "fem/warped_elements.h"
 
 namespace bullet_fem
 {

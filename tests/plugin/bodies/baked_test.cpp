@@ -4,10 +4,10 @@
 // Bodies that were baked move like those that were not, and their factors are used as they are.
 #include <gtest/gtest.h>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/baked_body.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "io/temporary_folder.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"

@@ -5,9 +5,9 @@
 #include <limits>
 #include <string>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/each_world.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_world.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <type_traits>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"
 #include "plugin/scenes/soft_world.h"

@@ -10,7 +10,7 @@
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 #include "fem/scenes/expect_rejected.h"
 #include "plugin/scenes/soft_world.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/clamped_beam.h"
 #include "plugin/scenes/scene_measures.h"
 

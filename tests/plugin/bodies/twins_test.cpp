@@ -13,9 +13,9 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemInterest.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/cage.h"
-#include "bullet_fem/fem/surface_mesh.h"
-#include "bullet_fem/fem/tet_mesh.h"
+#include "bullet_fem/fem/cage/cage.h"
+#include "bullet_fem/fem/cage/surface_mesh.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 #include "plugin/scenes/soft_world.h"
 
 #ifdef __cpp_exceptions

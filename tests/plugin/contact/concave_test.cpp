@@ -6,10 +6,10 @@
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bridge/concave_test_shapes.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_world.h"
 

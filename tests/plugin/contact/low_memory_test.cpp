@@ -5,10 +5,10 @@
 // tests with either.
 #include <gtest/gtest.h>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_world.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/each_world.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "bridge/concave_test_shapes.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemCollision.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "fem/scenes/test_surfaces.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/skin_bodies.h"

@@ -7,11 +7,11 @@
 
 #include <functional>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/baked_body.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "fem/scenes/test_surfaces.h"
 #include "io/temporary_folder.h"
 #include "plugin/scenes/bullet_state.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
-#include "bullet_bridge/bullet_vectors.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/tunnelling_scene.h"
 

@@ -3,9 +3,9 @@
 // Linear and angular joints of FEM bodies' clusters, with the swap of the solver alone.
 #include <gtest/gtest.h>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/each_world.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_world.h"

@@ -6,8 +6,8 @@
 #include <random>
 #include <thread>
 
-#include "bullet_fem/fem/generators.h"
-#include "bullet_fem/fem/stepping.h"
+#include "bullet_fem/fem/mesh/generators.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "plugin/policy/btFemFactorThread.h"
 #include "plugin/scenes/clamped_beam.h"
 #include "plugin/scenes/scene_measures.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "plugin/policy/btFemFactorAccount.h"
 #include "plugin/policy/btFemRealTime.h"
 #include "plugin/scenes/clamped_beam.h"

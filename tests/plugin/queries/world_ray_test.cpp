@@ -3,8 +3,8 @@
 // Rays through a world with FEM bodies.
 #include <gtest/gtest.h>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemRay.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/each_world.h"
 #include "plugin/scenes/random_rays.h"
 #include "plugin/scenes/soft_boxes.h"

@@ -12,10 +12,10 @@
 #include "BulletSoftBody/btDeformableMultiBodyConstraintSolver.h"
 #include "BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h"
 #include "BulletSoftBody/btSoftBodyHelpers.h"
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemDeformableBodySolver.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "plugin/scenes/link_world.h"
 #include "plugin/scenes/scene_measures.h"
 

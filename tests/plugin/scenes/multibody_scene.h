@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/link_world.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"

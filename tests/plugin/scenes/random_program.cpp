@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

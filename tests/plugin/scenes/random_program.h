@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 #include "plugin/scenes/soft_world.h"
 
 namespace bullet_fem

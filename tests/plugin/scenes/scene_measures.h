@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_fem/btFemReports.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 
 class btCollisionObject;
 class btRigidBody;

@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "plugin/scenes/skin_bodies.h"
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "fem/scenes/test_surfaces.h"
 
 namespace bullet_fem

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/surface_mesh.h"
+#include "bullet_fem/fem/cage/surface_mesh.h"
 #include "plugin/scenes/soft_boxes.h"
 
 namespace bullet_fem

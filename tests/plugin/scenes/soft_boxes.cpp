@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "plugin/scenes/soft_boxes.h"
 
-#include "bullet_bridge/bullet_vectors.h"
 #include "bullet_fem/btFemHelpers.h"
-#include "bullet_fem/fem/generators.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
 {

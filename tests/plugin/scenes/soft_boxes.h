@@ -5,7 +5,7 @@
 #include <array>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/vec3.h"
+#include "bullet_fem/fem/common/vec3.h"
 #include "plugin/scenes/soft_world.h"
 
 namespace bullet_fem

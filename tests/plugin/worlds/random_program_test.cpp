@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "bullet_bridge/bullet_vectors.h"
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/random_program.h"
 #include "plugin/scenes/scene_measures.h"
 

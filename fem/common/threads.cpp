@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// The one file that knows oneTBB.
+#include "bullet_fem/fem/common/threads.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+
+#include "fem/common/message.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr auto kParallelism = tbb::global_control::max_allowed_parallelism;
+
+int validCount(int count)
+{
+    if (count < 0 || count > Threads::kMost)
+        reject("number of threads ", count, " is not in [0, ", Threads::kMost,
+               "]; 1 is the caller's thread alone, 0 all that the machine has");
+    return count == 0 ? std::clamp(tbb::info::default_concurrency(), 1, Threads::kMost) : count;
+}
+
+/// What the first task, by its number, threw.
+class FirstFailure
+{
+public:
+    void note(int task)
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        if (m_thrown && m_task < task) return;
+        m_task = task;
+        m_thrown = std::current_exception();
+    }
+    void rethrow() const
+    {
+        if (m_thrown) std::rethrow_exception(m_thrown);
+    }
+
+private:
+    std::mutex m_mutex;
+    int m_task = 0;
+    std::exception_ptr m_thrown;
+};
+
+}  // namespace
+
+/// The library's threads that work for us.
+class Threads::Team
+{
+public:
+    // The library makes no more threads than the machine has unless it is told to; it never gets less than others need.
+    explicit Team(int count)
+        : m_limit(kParallelism, std::max<std::size_t>(count, tbb::global_control::active_value(kParallelism))),
+          m_arena(count)
+    {
+    }
+
+    template <class Part>
+    void execute(const Part& part)
+    {
+        m_arena.execute(part);
+    }
+
+private:
+    tbb::global_control m_limit;
+    tbb::task_arena m_arena;
+};
+
+Threads::Threads(int count) : m_count(validCount(count))
+{
+    if (m_count > 1) m_team = std::make_unique<Team>(m_count);
+}
+
+Threads::~Threads() = default;
+
+void Threads::runCalls(int tasks, const Call& call) const
+{
+    FirstFailure failure;
+    const auto attempt = [&](int k)
+    {
+        try
+        {
+            call.m_function(call.m_task, k);
+        }
+        catch (...)
+        {
+            failure.note(k);
+        }
+    };
+    if (!m_team || tasks <= 1)
+        for (int k = 0; k < tasks; ++k) attempt(k);
+    else
+    {
+        // Has the caller's floating-point settings, which are made here: another thread may enter the team for it.
+        tbb::task_group_context asCaller(tbb::task_group_context::isolated, tbb::task_group_context::fp_settings);
+        m_team->execute([&] { tbb::parallel_for(0, tasks, attempt, tbb::auto_partitioner(), asCaller); });
+    }
+    failure.rethrow();
+}
+
+void Threads::gatherFor(const Call& call) const
+{
+    if (m_team)
+        m_team->execute([&] { call.m_function(call.m_task, 0); });
+    else
+        call.m_function(call.m_task, 0);
+}
+
+}  // namespace bullet_fem

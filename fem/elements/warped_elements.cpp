@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/elements/warped_elements.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "fem/common/rotation.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// sum over a of (p_a - p_0) g_a^T: the deformation gradient if p are positions.
+Mat3 gradient(const RestElement& element, const Tet& tet, const std::vector<Vec3>& p)
+{
+    const Vec3& p0 = p[tet[0]];
+    return Mat3::fromColumns(p[tet[1]] - p0, p[tet[2]] - p0, p[tet[3]] - p0) * element.m_DmInverse;
+}
+
+// force_a += P g_a for the four nodes, P = stress times volume.
+void scatter(const RestElement& element, const Tet& tet, const Mat3& P, std::vector<Vec3>& force)
+{
+    const Mat3 columns = timesTranspose(P, element.m_DmInverse);
+    const Vec3 f1 = columns.column(0), f2 = columns.column(1), f3 = columns.column(2);
+    force[tet[1]] += f1;
+    force[tet[2]] += f2;
+    force[tet[3]] += f3;
+    force[tet[0]] -= f1 + f2 + f3;
+}
+
+// 2 mu V sym(E) + lambda V tr(E) I.
+Mat3 hooke(const RestElement& element, const Mat3& E)
+{
+    const double mu = element.m_muVolume, pressure = element.m_lambdaVolume * trace(E);
+    const double xy = mu * (E(0, 1) + E(1, 0)), xz = mu * (E(0, 2) + E(2, 0)), yz = mu * (E(1, 2) + E(2, 1));
+    return {{{2 * mu * E(0, 0) + pressure, xy, xz},
+             {xy, 2 * mu * E(1, 1) + pressure, yz},
+             {xz, yz, 2 * mu * E(2, 2) + pressure}}};
+}
+
+// True if the symmetric s I + sign A has positive pivots.
+bool isPositive(const Mat3& A, double sign)
+{
+    const double a = sign * A(0, 0);
+    if (!(a > 0)) return false;
+    const double l1 = sign * A(1, 0) / a, l2 = sign * A(2, 0) / a;
+    const double b = sign * A(1, 1) - l1 * sign * A(1, 0);
+    if (!(b > 0)) return false;
+    const double c = sign * A(2, 1) - l2 * sign * A(1, 0);
+    return sign * A(2, 2) - l2 * sign * A(2, 0) - c * c / b > 0;
+}
+
+std::array<double, 6> packed(const Mat3& s)
+{
+    return {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)};
+}
+
+Mat3 unpacked(const std::array<double, 6>& s)
+{
+    return {{{s[0], s[5], s[4]}, {s[5], s[1], s[3]}, {s[4], s[3], s[2]}}};
+}
+
+}  // namespace
+
+Mat3 positivePart(const Mat3& symmetric)
+{
+    if (isPositive(symmetric, 1)) return symmetric;
+    if (isPositive(symmetric, -1)) return {};
+    Eigen::Matrix3d A;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) A(i, j) = symmetric(i, j);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(A);
+    Mat3 result;
+    for (int k = 0; k < 3; ++k)
+    {
+        const Vec3 q = {eigen.eigenvectors()(0, k), eigen.eigenvectors()(1, k), eigen.eigenvectors()(2, k)};
+        if (eigen.eigenvalues()(k) > 0) result += eigen.eigenvalues()(k) * outer(q, q);
+    }
+    return result;
+}
+
+void updateElementRotations(const RestShape& shape, const std::vector<Vec3>& x, std::vector<Mat3>& R)
+{
+    const std::vector<Tet>& tets = shape.m_mesh.tets();
+    for (std::size_t e = 0; e < tets.size(); ++e) R[e] = polarRotation(gradient(shape.m_elements[e], tets[e], x), R[e]);
+}
+
+void addElasticForces(const RestShape& shape, const std::vector<Vec3>& x, const std::vector<Vec3>& v, double damping,
+                      const std::vector<Mat3>& R, std::vector<Vec3>& force, std::vector<std::array<double, 6>>* tension)
+{
+    const std::vector<Tet>& tets = shape.m_mesh.tets();
+    for (std::size_t e = 0; e < tets.size(); ++e)
+    {
+        const RestElement& element = shape.m_elements[e];
+        const Mat3 strain = transposeTimes(R[e], gradient(element, tets[e], x)) - Mat3::identity();
+        const Mat3 elastic = hooke(element, strain);
+        const Mat3 viscous = hooke(element, transposeTimes(R[e], gradient(element, tets[e], v)));
+        scatter(element, tets[e], -1.0 * (R[e] * (elastic + damping * viscous)), force);
+        if (tension) (*tension)[e] = packed(positivePart(elastic));
+    }
+}
+
+void addStiffnessProduct(const RestShape& shape, const std::vector<Mat3>& R,
+                         const std::vector<std::array<double, 6>>& tension, const std::array<double, 2>& factors,
+                         const std::vector<Vec3>& p, std::vector<Vec3>& out)
+{
+    const std::vector<Tet>& tets = shape.m_mesh.tets();
+    for (std::size_t e = 0; e < tets.size(); ++e)
+    {
+        const RestElement& element = shape.m_elements[e];
+        const Mat3 G = gradient(element, tets[e], p);
+        Mat3 P = factors[0] * (R[e] * hooke(element, transposeTimes(R[e], G)));
+        if (!tension.empty()) P += factors[1] * (G * unpacked(tension[e]));
+        scatter(element, tets[e], P, out);
+    }
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/fem/factor/body_model.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "fem/common/message.h"
+#include "fem/elements/model_elements.h"
+#include "fem/factor/rest_factor.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+void validateInput(const RestShape& shape, const FactorInput& input)
+{
+    const std::size_t n = shape.m_mesh.restPositions().size();
+    if (!(input.m_step >= 1e-6 && input.m_step <= 1))
+        reject("time step ", input.m_step,
+               " s is not in [1e-6, 1]; give the fixed step that the world is simulated with");
+    if (input.m_mass.size() != n || input.m_fixed.size() != n)
+        throw std::invalid_argument("factor input: " + std::to_string(input.m_mass.size()) + " masses and " +
+                                    std::to_string(input.m_fixed.size()) + " fixed flags given for " +
+                                    std::to_string(n) + " nodes");
+    for (std::size_t i = 0; i < n; ++i)
+        if (!(input.m_mass[i] > 0) || !std::isfinite(input.m_mass[i]))
+            reject("mass of node ", i, " is ", input.m_mass[i], " kg, not in (0, inf)");
+    for (std::size_t i = 0; i < n; ++i)
+        if (shape.m_mesh.isLoose(static_cast<int>(i)) && !input.m_fixed[i])
+            reject("node ", i, " belongs to no element and is not fixed; fix it, or remove it from the mesh");
+}
+
+// The eigenvalues of A0 lie between those of its parts: 1 + h alpha times the mass, and h^2 + h beta times K, which is
+// monotonous in the eigenvalues 2 mu and 3 lambda + 2 mu of Hooke's matrix. A step that is off by a ratio changes them
+// by its square.
+double mismatch(const Material& a, const Material& b, double h)
+{
+    const auto parts = [h](const Material& m)
+    {
+        const double stiff = h * h + h * m.m_stiffnessDamping;
+        return std::array<double, 3>{1 + h * m.m_massDamping, stiff * m.lameMu(),
+                                     stiff * (3 * m.lameLambda() + 2 * m.lameMu())};
+    };
+    double most = 1;
+    for (std::size_t k = 0; k < 3; ++k) most = std::max({most, parts(a)[k] / parts(b)[k], parts(b)[k] / parts(a)[k]});
+    return std::sqrt(most);
+}
+
+}  // namespace
+
+std::shared_ptr<const BodyModel> BodyModel::create(std::shared_ptr<const RestShape> shape, FactorInput input)
+{
+    const auto start = std::chrono::steady_clock::now();
+    if (!shape) throw std::invalid_argument("BodyModel: the rest shape is null");
+    validateInput(*shape, input);
+    std::shared_ptr<BodyModel> model(new BodyModel);
+    model->m_shape = std::move(shape);
+    FactorOfModel& factor = model->m_factor;
+    factor.m_input = std::move(input);
+    factor.m_material = model->m_shape->m_material;
+    factor.m_factor = std::make_shared<const RestFactor>(*model->m_shape, factor.m_input, factor.m_report);
+    model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
+    factor.m_report.m_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return model;
+}
+
+std::shared_ptr<const BodyModel> BodyModel::withFactor(std::shared_ptr<const RestShape> shape, FactorOfModel factor)
+{
+    if (!shape || !factor.m_factor) throw std::invalid_argument("BodyModel: the rest shape or the factor is null");
+    if (static_cast<int>(factor.m_input.m_mass.size()) != shape->m_mesh.nodeCount())
+        reject("the factor is one for ", factor.m_input.m_mass.size(), " nodes, and the shape has ",
+               shape->m_mesh.nodeCount());
+    std::shared_ptr<BodyModel> model(new BodyModel);
+    model->m_shape = std::move(shape);
+    model->m_factor = std::move(factor);
+    model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
+    model->m_materialMismatch =
+        mismatch(model->m_shape->m_material, model->m_factor.m_material, model->m_factor.m_input.m_step);
+    return model;
+}
+
+BodyModel::~BodyModel() = default;
+
+}  // namespace bullet_fem

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/fem/mesh/rest_shape.h"
+
+#include <cmath>
+#include <utility>
+
+#include "fem/common/message.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+void validateScales(const TetMesh& mesh, const std::vector<double>& filled, double massScale)
+{
+    if (!(massScale > 0) || !std::isfinite(massScale)) reject("mass scale ", massScale, " is not in (0, inf)");
+    if (!filled.empty() && static_cast<int>(filled.size()) != mesh.tetCount())
+        reject("filled fractions: ", filled.size(), " given for ", mesh.tetCount(), " elements; give one each or none");
+    for (std::size_t e = 0; e < filled.size(); ++e)
+        if (!(filled[e] > 0 && filled[e] <= 1))
+            reject("filled fraction of element ", e, " is ", filled[e],
+                   ", not in (0, 1]; drop empty elements from the mesh");
+}
+
+}  // namespace
+
+std::vector<double> lumpedMasses(const TetMesh& mesh, const std::vector<double>& filled, double density)
+{
+    std::vector<double> mass(mesh.nodeCount(), 0.0);
+    for (int e = 0; e < mesh.tetCount(); ++e)
+        for (int node : mesh.tets()[e])
+            mass[node] += density * mesh.tetVolume(e) * (filled.empty() ? 1.0 : filled[e]) / 4;
+    return mass;
+}
+
+RestShape::RestShape(TetMesh mesh, const Material& material, const std::vector<double>& filled, double massScale)
+    : m_mesh(std::move(mesh)), m_material(material)
+{
+    material.validate();
+    validateScales(m_mesh, filled, massScale);
+    const double density = material.m_density > 0 ? material.m_density : 1;
+    const std::vector<Vec3>& X = m_mesh.restPositions();
+    m_elements.resize(m_mesh.tets().size());
+    m_lumpedMass.assign(X.size(), 0.0);
+    for (int e = 0; e < m_mesh.tetCount(); ++e)
+    {
+        const Tet& tet = m_mesh.tets()[e];
+        const Vec3& X0 = X[tet[0]];
+        RestElement& element = m_elements[e];
+        element.m_DmInverse = inverse(Mat3::fromColumns(X[tet[1]] - X0, X[tet[2]] - X0, X[tet[3]] - X0));
+        element.m_volume = m_mesh.tetVolume(e) * (filled.empty() ? 1.0 : filled[e]);
+        element.m_lambdaVolume = material.lameLambda() * element.m_volume;
+        element.m_muVolume = material.lameMu() * element.m_volume;
+        for (int node : tet) m_lumpedMass[node] += density * massScale * element.m_volume / 4;
+    }
+}
+
+}  // namespace bullet_fem

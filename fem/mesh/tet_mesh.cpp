@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/fem/mesh/tet_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "fem/common/disjoint_sets.h"
+#include "fem/common/message.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kLeastQuality = 1e-9;  // volume over longest edge cubed; below it the shape gradients are noise
+
+/// The face opposite each node of a positive element, counter-clockwise seen from outside.
+constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+constexpr int kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+std::string nodesOf(const Tet& tet)
+{
+    return message("(nodes ", tet[0], ", ", tet[1], ", ", tet[2], ", ", tet[3], ")");
+}
+
+void checkPositions(const std::vector<Vec3>& X)
+{
+    for (std::size_t i = 0; i < X.size(); ++i)
+        if (!isFinite(X[i]))
+            reject("node ", i, " has the rest position (", X[i].x, ", ", X[i].y, ", ", X[i].z,
+                   "), which is not finite; give every node a finite position [m]");
+}
+
+void checkIndices(const std::vector<Tet>& tets, int nodeCount)
+{
+    for (std::size_t e = 0; e < tets.size(); ++e)
+        for (int a = 0; a < 4; ++a)
+        {
+            const int i = tets[e][a];
+            if (i < 0 || i >= nodeCount)
+                reject("element ", e, " uses node ", i, ", outside [0, ", nodeCount - 1,
+                       "]; count nodes from 0 and give a position for each");
+            if (std::find(tets[e].begin(), tets[e].begin() + a, i) != tets[e].begin() + a)
+                reject("element ", e, " ", nodesOf(tets[e]), " has node ", i,
+                       " twice; an element needs four different nodes");
+        }
+}
+
+/// 1 for every node in no element.
+std::vector<unsigned char> looseNodes(const std::vector<Tet>& tets, int nodeCount)
+{
+    std::vector<unsigned char> loose(nodeCount, 1);
+    for (const Tet& tet : tets)
+        for (const int i : tet) loose[i] = 0;
+    return loose;
+}
+
+void refuseLooseNodes(const std::vector<unsigned char>& loose)
+{
+    const auto first = std::find(loose.begin(), loose.end(), 1);
+    if (first != loose.end())
+        reject("node ", first - loose.begin(), " of ", loose.size(),
+               " belongs to no element; remove unused nodes from the mesh");
+}
+
+/// Signed volume of an element over its longest edge cubed [-]; scaled first, so that nothing over- or underflows.
+double signedQuality(const std::vector<Vec3>& X, const Tet& tet)
+{
+    double longest = 0;
+    for (const auto& edge : kEdges)
+    {
+        const Vec3 d = X[tet[edge[0]]] - X[tet[edge[1]]];
+        longest = std::max({longest, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    }
+    Vec3 d[3];
+    for (int a = 0; a < 3; ++a)
+    {
+        d[a] = X[tet[a + 1]] - X[tet[0]];
+        d[a] = {d[a].x / longest, d[a].y / longest, d[a].z / longest};
+    }
+    double longestScaled = std::max({norm(d[0]), norm(d[1]), norm(d[2])});
+    longestScaled = std::max({longestScaled, norm(d[1] - d[0]), norm(d[2] - d[0]), norm(d[2] - d[1])});
+    return dot(cross(d[0], d[1]), d[2]) / 6 / (longestScaled * longestScaled * longestScaled);
+}
+
+/// Swaps the last two nodes of elements of negative orientation; returns how many.
+int turnNegative(const std::vector<Vec3>& X, std::vector<Tet>& tets)
+{
+    int turned = 0;
+    for (std::size_t e = 0; e < tets.size(); ++e)
+    {
+        const double quality = signedQuality(X, tets[e]);
+        if (!(std::abs(quality) >= kLeastQuality))
+            reject("element ", e, " ", nodesOf(tets[e]), " is degenerate: its volume is ", std::abs(quality),
+                   " of its longest edge cubed, the least allowed is ", kLeastQuality,
+                   "; remove it or move its nodes out of one plane");
+        if (quality < 0)
+        {
+            std::swap(tets[e][2], tets[e][3]);
+            ++turned;
+        }
+    }
+    return turned;
+}
+
+/// The face opposite node a of an element.
+Triangle sideOf(const Tet& tet, int a)
+{
+    return {tet[kFaces[a][0]], tet[kFaces[a][1]], tet[kFaces[a][2]]};
+}
+
+struct Face
+{
+    Triangle m_sorted;  // its nodes, ascending
+    int m_tet;
+    int m_opposite;  // place in the element of the node that is not in the face
+};
+
+/// The faces of all elements, equal ones side by side.
+std::vector<Face> sortedFaces(const std::vector<Tet>& tets)
+{
+    std::vector<Face> faces;
+    faces.reserve(4 * tets.size());
+    for (std::size_t e = 0; e < tets.size(); ++e)
+        for (int a = 0; a < 4; ++a)
+        {
+            Triangle nodes = sideOf(tets[e], a);
+            std::sort(nodes.begin(), nodes.end());
+            faces.push_back({nodes, static_cast<int>(e), a});
+        }
+    std::sort(faces.begin(), faces.end(),
+              [](const Face& f, const Face& g)
+              { return f.m_sorted != g.m_sorted ? f.m_sorted < g.m_sorted : f.m_tet < g.m_tet; });
+    return faces;
+}
+
+/// The faces with one element, in the order of their elements, oriented outward.
+std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
+{
+    const std::vector<Face> faces = sortedFaces(tets);
+    std::vector<char> onBoundary(4 * tets.size(), 0);
+    for (std::size_t f = 0, next = 0; f < faces.size(); f = next)
+    {
+        while (next < faces.size() && faces[next].m_sorted == faces[f].m_sorted) ++next;
+        const Triangle& n = faces[f].m_sorted;
+        if (next - f > 2)
+            reject("face (", n[0], ", ", n[1], ", ", n[2], ") is shared by ", next - f, " elements (", faces[f].m_tet,
+                   ", ", faces[f + 1].m_tet, ", ", faces[f + 2].m_tet,
+                   ", ...), at most 2 can be; remove repeated or overlapping elements");
+        if (next - f == 1) onBoundary[4 * static_cast<std::size_t>(faces[f].m_tet) + faces[f].m_opposite] = 1;
+    }
+    std::vector<Triangle> surface;
+    for (std::size_t e = 0; e < tets.size(); ++e)
+        for (int a = 0; a < 4; ++a)
+            if (onBoundary[4 * e + a]) surface.push_back(sideOf(tets[e], a));
+    return surface;
+}
+
+/// Numbers the pieces connected through shared nodes from 0 by their lowest node; returns their count.
+int labelComponents(const std::vector<Tet>& tets, std::vector<int>& label)
+{
+    JoinedSets pieces(label.size());
+    for (const Tet& tet : tets)
+        for (int a = 1; a < 4; ++a) pieces.join(tet[0], tet[a]);
+    int count = 0;
+    for (std::size_t i = 0; i < label.size(); ++i)
+    {
+        const int r = pieces.root(static_cast<int>(i));
+        label[i] = r == static_cast<int>(i) ? count++ : label[r];
+    }
+    return count;
+}
+
+double meanEdge(const std::vector<Vec3>& X, const std::vector<Tet>& tets)
+{
+    double sum = 0;
+    for (const Tet& tet : tets)
+        for (const auto& edge : kEdges) sum += norm(X[tet[edge[0]]] - X[tet[edge[1]]]);
+    return sum / (6.0 * static_cast<double>(tets.size()));
+}
+
+}  // namespace
+
+TetMesh::TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose)
+{
+    takeElements(std::move(restPositions), std::move(tets), loose);
+    m_surface = boundaryFaces(m_tets);
+    measure();
+}
+
+TetMesh TetMesh::withSides(std::vector<Vec3> restPositions, std::vector<Tet> tets,
+                           const std::vector<unsigned char>& sides)
+{
+    TetMesh mesh;
+    mesh.takeElements(std::move(restPositions), std::move(tets), LooseNodes::kept);
+    if (mesh.m_turnedCount > 0) reject(mesh.m_turnedCount, " elements have negative orientation; turn them first");
+    if (sides.size() != mesh.m_tets.size())
+        reject("sides on the boundary are given for ", sides.size(), " of ", mesh.m_tets.size(), " elements");
+    for (std::size_t e = 0; e < sides.size(); ++e)
+    {
+        if (sides[e] > 15) reject("element ", e, " has the sides ", static_cast<int>(sides[e]), ", not in [0, 15]");
+        for (int a = 0; a < 4; ++a)
+            if (sides[e] >> a & 1) mesh.m_surface.push_back(sideOf(mesh.m_tets[e], a));
+    }
+    mesh.measure();
+    return mesh;
+}
+
+// The surface has the sides in the order of the elements.
+std::vector<unsigned char> TetMesh::boundarySides() const
+{
+    std::vector<unsigned char> sides(m_tets.size(), 0);
+    auto next = m_surface.begin();
+    for (std::size_t e = 0; e < m_tets.size(); ++e)
+        for (int a = 0; a < 4 && next != m_surface.end(); ++a)
+            if (*next == sideOf(m_tets[e], a))
+            {
+                sides[e] = static_cast<unsigned char>(sides[e] | 1 << a);
+                ++next;
+            }
+    return sides;
+}
+
+// Checks them, and turns what is to be turned.
+void TetMesh::takeElements(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose)
+{
+    m_restPositions = std::move(restPositions);
+    m_tets = std::move(tets);
+    constexpr std::size_t most = std::numeric_limits<int>::max() / 12;  // three numbers a node, four faces an element
+    if (m_tets.empty()) reject("the mesh has 0 elements; at least 1 tetrahedron is needed");
+    if (m_tets.size() > most || m_restPositions.size() > most)
+        reject("the mesh has ", m_restPositions.size(), " nodes and ", m_tets.size(), " elements, more than ", most,
+               "; use a coarser mesh");
+    checkPositions(m_restPositions);
+    checkIndices(m_tets, nodeCount());
+    m_loose = looseNodes(m_tets, nodeCount());
+    if (loose == LooseNodes::refused) refuseLooseNodes(m_loose);
+    m_looseCount = static_cast<int>(std::count(m_loose.begin(), m_loose.end(), 1));
+    m_turnedCount = turnNegative(m_restPositions, m_tets);
+}
+
+void TetMesh::measure()
+{
+    std::vector<unsigned char> onSurface(m_restPositions.size(), 0);
+    for (const Triangle& triangle : m_surface)
+        for (const int i : triangle) onSurface[i] = 1;
+    for (int i = 0; i < nodeCount(); ++i)
+        if (onSurface[i]) m_surfaceNodes.push_back(i);
+
+    m_nodeComponent.resize(m_restPositions.size());
+    m_componentCount = labelComponents(m_tets, m_nodeComponent);
+    m_meanEdgeLength = meanEdge(m_restPositions, m_tets);
+    for (int e = 0; e < tetCount(); ++e) m_volume += tetVolume(e);
+}
+
+double TetMesh::tetVolume(int e) const
+{
+    const Tet& tet = m_tets[e];
+    const Vec3& X0 = m_restPositions[tet[0]];
+    return dot(cross(m_restPositions[tet[1]] - X0, m_restPositions[tet[2]] - X0), m_restPositions[tet[3]] - X0) / 6;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Compiled once for every instruction set; the processor chooses when the program runs.
+#include "fem/step/batch_momentum.h"
+
+#include "fem/common/vector_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fem/step/batch_momentum.cpp"
+#include <hwy/foreach_target.h>
+// after foreach_target.h
+#include "fem/step/batch_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+
+HWY_INLINE V3 load(const PerLane3& from, int lane)
+{
+    return {valuesOf(from[0], lane), valuesOf(from[1], lane), valuesOf(from[2], lane)};
+}
+
+HWY_INLINE void store(const V3& v, int lane, PerLane3& to)
+{
+    storeValues(v.x, lane, to[0]);
+    storeValues(v.y, lane, to[1]);
+    storeValues(v.z, lane, to[2]);
+}
+
+HWY_INLINE V massAt(const LaneMasses& nodes, int node, int lane)
+{
+    return loadOne(nodes.m_mass + massPlace(node, lane));
+}
+
+HWY_INLINE V3 positionAt(const LaneMasses& nodes, int node, int lane)
+{
+    return load3(nodes.m_x + place(node, lane));
+}
+
+void SumMasses(const LaneMasses& nodes, LanePieces& pieces)
+{
+    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    {
+        const V zero = hn::Zero(D());
+        V mass = zero;
+        V3 center = {zero, zero, zero};
+        for (int i = 0; i < nodes.m_nodes; ++i)
+        {
+            const V m = massAt(nodes, i, lane);
+            mass = mass + m;
+            center = center + positionAt(nodes, i, lane) * m;
+        }
+        storeValues(mass, lane, pieces.m_mass);
+        store(center, lane, pieces.m_center);
+    }
+}
+
+void SumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces, PerLane& squares)
+{
+    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    {
+        const V zero = hn::Zero(D()), alpha = valuesOf(loads.m_alpha, lane), share = valuesOf(loads.m_share, lane);
+        const V3 center = load(pieces.m_center, lane);
+        V3 linear = {zero, zero, zero}, angular = linear, diagonal = linear, others = linear;  // yz, xz, xy
+        V square = zero;
+        for (int i = 0; i < nodes.m_nodes; ++i)
+        {
+            const V m = massAt(nodes, i, lane);
+            const V3 r = positionAt(nodes, i, lane) - center, p = load3(loads.m_v + place(i, lane)) * m;
+            const V3 load = load3(loads.m_force + place(i, lane)), prescribed = p + (load - p * alpha) * share;
+            square = square + dot(load, load);
+            linear = linear + prescribed;
+            angular = angular + cross(r, prescribed);
+            const V rr = dot(r, r);
+            diagonal = diagonal + V3{rr - r.x * r.x, rr - r.y * r.y, rr - r.z * r.z} * m;
+            others = others + V3{zero - r.y * r.z, zero - r.x * r.z, zero - r.x * r.y} * m;
+        }
+        storeValues(square, lane, squares);
+        store(linear, lane, pieces.m_linear);
+        store(angular, lane, pieces.m_angular);
+        const V inertia[9] = {diagonal.x, others.z, others.y, others.z,  diagonal.y,
+                              others.x,   others.y, others.x, diagonal.z};
+        for (int k = 0; k < 9; ++k) storeValues(inertia[k], lane, pieces.m_inertia[k]);
+    }
+}
+
+void AddImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces,
+                 PerLane& squares)
+{
+    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    {
+        const V3 center = load(pieces.m_center, lane);
+        V3 linear = load(pieces.m_linear, lane), angular = load(pieces.m_angular, lane);
+        V square = hn::Zero(D());
+        for (int i = 0; i < nodes.m_nodes; ++i)
+        {
+            const V3 given = load3(impulses + place(i, lane)), impulse = given * valuesOf(share, lane);
+            square = square + dot(given, given);
+            linear = linear + impulse;
+            angular = angular + cross(positionAt(nodes, i, lane) - center, impulse);
+        }
+        storeValues(square, lane, squares);
+        store(linear, lane, pieces.m_linear);
+        store(angular, lane, pieces.m_angular);
+    }
+}
+
+/// Adds to before(i, lane) the rigid motion that gives a body its momentum, and hands it to then(i, lane, velocity).
+template <class Before, class Then>
+HWY_INLINE void restore(const LaneMasses& nodes, const LanePieces& pieces, const Before& before, const Then& then)
+{
+    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    {
+        const V3 center = load(pieces.m_center, lane);
+        V3 linear = load(pieces.m_linear, lane), angular = load(pieces.m_angular, lane);
+        for (int i = 0; i < nodes.m_nodes; ++i)
+        {
+            const V3 p = before(i, lane) * massAt(nodes, i, lane);
+            linear = linear - p;
+            angular = angular - cross(positionAt(nodes, i, lane) - center, p);
+        }
+        linear = linear * (hn::Set(D(), 1.0) / valuesOf(pieces.m_mass, lane));
+        const auto row = [&](int k)
+        {
+            const PerLane* I = pieces.m_inertia + 3 * k;
+            return dot({valuesOf(I[0], lane), valuesOf(I[1], lane), valuesOf(I[2], lane)}, angular);
+        };
+        const V3 spin = {row(0), row(1), row(2)};
+        for (int i = 0; i < nodes.m_nodes; ++i)
+        {
+            const V3 rigid = linear + cross(spin, positionAt(nodes, i, lane) - center);
+            then(i, lane, before(i, lane) + rigid);
+        }
+    }
+}
+
+void CompleteIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv)
+{
+    const auto before = [=](int i, int lane) { return load3(dv + place(i, lane)) + load3(v + place(i, lane)); };
+    const auto then = [=](int i, int lane, const V3& after)
+    { store3(after - load3(v + place(i, lane)), dv + place(i, lane)); };
+    restore(nodes, pieces, before, then);
+}
+
+void AddWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v)
+{
+    const auto before = [=](int i, int lane) { return load3(v + place(i, lane)) + load3(dv + place(i, lane)); };
+    const auto then = [=](int i, int lane, const V3& after) { store3(after, v + place(i, lane)); };
+    restore(nodes, pieces, before, then);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bullet_fem
+{
+
+HWY_EXPORT(SumMasses);
+HWY_EXPORT(SumPrescribed);
+HWY_EXPORT(AddImpulses);
+HWY_EXPORT(CompleteIncrements);
+HWY_EXPORT(AddWithMomentum);
+
+void sumMasses(const LaneMasses& nodes, LanePieces& pieces)
+{
+    HWY_DYNAMIC_DISPATCH(SumMasses)(nodes, pieces);
+}
+
+PerLane sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces)
+{
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(SumPrescribed)(nodes, loads, pieces, squares);
+    return squares;
+}
+
+PerLane addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces)
+{
+    PerLane squares;
+    HWY_DYNAMIC_DISPATCH(AddImpulses)(nodes, impulses, share, pieces, squares);
+    return squares;
+}
+
+void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv)
+{
+    HWY_DYNAMIC_DISPATCH(CompleteIncrements)(nodes, pieces, v, dv);
+}
+
+void addWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v)
+{
+    HWY_DYNAMIC_DISPATCH(AddWithMomentum)(nodes, pieces, dv, v);
+}
+
+}  // namespace bullet_fem
+#endif

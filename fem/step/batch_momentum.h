@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// RigidMomentum of bodies side by side, each of one free piece, with the same bits.
+#pragma once
+
+#include "fem/step/batch_algebra.h"
+#include "fem/step/rigid_momentum.h"
+
+namespace bullet_fem
+{
+
+/// The pieces of some bodies: what the kernels work with.
+struct LanePieces
+{
+    PerLane m_mass;
+    PerLane3 m_center, m_linear, m_angular;
+    PerLane m_inertia[9];  ///< row-major; then its inverse
+};
+
+/// Masses and positions of all nodes.
+struct LaneMasses
+{
+    int m_nodes;
+    const double* m_mass;  ///< [node][body] [kg]
+    ConstBodyVectors m_x;  ///< [m]
+};
+
+/// Mass, and the sum of m x in place of the centre.
+void sumMasses(const LaneMasses& nodes, LanePieces& pieces);
+
+/// Momenta that loads prescribe, and inertia, about the centres that are known by now: p = m v, p + share (f - alpha
+/// p). Returns |f|^2, one node after the other.
+struct LaneLoads
+{
+    ConstBodyVectors m_v, m_force;
+    PerLane m_alpha, m_share;
+};
+PerLane sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces);
+
+/// Adds share times impulses [N s] to the prescribed momenta; returns their squares likewise.
+PerLane addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces);
+
+/// Completes increments of velocities v [m/s]: v + dv gets the rigid motion that addWithMomentum() adds.
+void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv);
+
+/// v += dv, and the rigid motion that gives every body its prescribed momentum; m_inertia is inverse by now.
+void addWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v);
+
+}  // namespace bullet_fem

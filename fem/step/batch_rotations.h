@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Rotations of the nodes of bodies side by side, and vectors turned by them: NodeRotations and what
+// WarpedPreconditioner does around the solve, with the same bits.
+#pragma once
+
+#include "fem/elements/element_blocks.h"
+#include "fem/step/batch_algebra.h"
+
+namespace bullet_fem
+{
+
+/// Rotations of nodes from those of their elements.
+struct LaneNodeRotations
+{
+    const NodeCorners* m_nodes;
+    const float* m_elements;  ///< [element][x, y, z, w][body]
+    float* m_out;             ///< [node][9][body], row-major
+    unsigned* m_doubtful;     ///< out, per node: bit b of a body b that is to have carefulAverage()
+};
+void averageLanes(const LaneNodeRotations& rotations);
+
+/// The factor's vectors of bodies side by side, [position][3][body], and the rotations of their nodes.
+struct LaneWarp
+{
+    int m_nodes;
+    const int* m_position;    ///< of every node in the factor
+    const float* m_rotation;  ///< [node][9][body]
+    float* m_factorVector;
+};
+
+/// The factor's vector <- R^T in, scaled to order one; returns what it was divided by.
+PerLane rotateIn(const LaneWarp& warp, ConstBodyVectors in);
+
+/// out <- scale R (the factor's vector); returns in . out.
+PerLane rotateOut(const LaneWarp& warp, const PerLane& scale, ConstBodyVectors in, BodyVectors out);
+
+}  // namespace bullet_fem

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/fem/step/body_snapshot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/common/byte_stream.h"
+#include "fem/elements/model_elements.h"
+#include "fem/step/step_scratch.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kFarthest = 1e6;        // [m] and [m/s]; beyond it Bullet's broad phase gives a body up
+constexpr float kUnitTolerance = 1e-3F;  // on a quaternion's square
+
+template <class T>
+void checkSize(const std::vector<T>& values, std::size_t size, const char* name)
+{
+    if (values.size() != size) reject(values.size(), " ", name, " where the body has ", size);
+}
+
+void checkVectors(const std::vector<Vec3>& values, std::size_t size, const char* name)
+{
+    checkSize(values, size, name);
+    for (std::size_t i = 0; i < size; ++i)
+        for (int c = 0; c < 3; ++c)
+            if (!(std::fabs(values[i][c]) < kFarthest))
+                reject("the ", name, " of node ", i, " have the component ", values[i][c], ", not in (-1e6, 1e6)");
+}
+
+void checkMasses(const std::vector<double>& mass)
+{
+    for (std::size_t i = 0; i < mass.size(); ++i)
+        if (!(mass[i] > 0) || !std::isfinite(mass[i]) || !std::isfinite(1 / mass[i]))
+            reject("the mass of node ", i, " is ", mass[i], " kg, not in (0, inf)");
+}
+
+void checkFlags(const std::vector<unsigned char>& flags, const char* name)
+{
+    for (std::size_t i = 0; i < flags.size(); ++i)
+        if (flags[i] > 1) reject(name, " of node ", i, " is ", static_cast<int>(flags[i]), ", not 0 or 1");
+}
+
+void checkRotations(const BodySnapshot& s)
+{
+    for (std::size_t e = 0; e < s.m_elementRotation.size(); ++e)
+    {
+        const Quaternion& q = s.m_elementRotation[e];
+        const float square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+        if (!(std::fabs(square - 1) <= kUnitTolerance))
+            reject("the rotation of element ", e, " has the squared length ", square, ", not 1");
+    }
+    const Mat3 product = transposeTimes(s.m_bodyRotation, s.m_bodyRotation) - Mat3::identity();
+    if (!(squaredNorm(product) <= double(kUnitTolerance)) || !(determinant(s.m_bodyRotation) > 0))
+        reject("the body's rotation is none");
+}
+
+}  // namespace
+
+std::uint64_t markOf(const RestShape& shape)
+{
+    std::uint64_t mark = kEmptyMark;
+    for (const Vec3& X : shape.m_mesh.restPositions())
+        for (int c = 0; c < 3; ++c) addToMark(mark, X[c]);
+    for (const Tet& tet : shape.m_mesh.tets())
+        for (int node : tet) addToMark(mark, node);
+    for (const RestElement& element : shape.m_elements)
+        for (double value : {element.m_volume, element.m_muVolume, element.m_lambdaVolume}) addToMark(mark, value);
+    const Material& material = shape.m_material;
+    for (double value : {material.m_youngModulus, material.m_poissonRatio, material.m_density, material.m_massDamping,
+                         material.m_stiffnessDamping})
+        addToMark(mark, value);
+    return mark;
+}
+
+BodySnapshot snapshotOf(const Body& body)
+{
+    const BodyState& state = body.m_state;
+    BodySnapshot s;
+    s.m_shapeMark = markOf(body.m_model->shape());
+    s.m_path = body.m_model->factorReport().m_path;
+    const FactorInput& input = body.m_model->factorInput();
+    s.m_factor.m_step = input.m_step;
+    if (input.m_mass != state.m_mass) s.m_factor.m_mass = input.m_mass;
+    if (input.m_fixed != state.m_fixed) s.m_factor.m_fixed = input.m_fixed;
+    s.m_complianceScale = body.m_workspace.scratch().m_complianceScale;
+    s.m_x = state.m_x;
+    s.m_v = state.m_v;
+    s.m_mass = state.m_mass;
+    s.m_fixed = state.m_fixed;
+    s.m_lastIncrement = state.m_lastIncrement;
+    s.m_elementRotation = state.m_elementRotation;
+    s.m_bodyRotation = state.m_bodyRotation;
+    return s;
+}
+
+void check(const BodySnapshot& s, const BodyModel& model)
+{
+    const std::size_t n = model.nodeCount();
+    const std::size_t rotations = static_cast<std::size_t>(kLanes) * model.elements().blockCount();
+    checkVectors(s.m_x, n, "positions");
+    checkVectors(s.m_v, n, "velocities");
+    for (const std::vector<Vec3>& increment : s.m_lastIncrement) checkVectors(increment, n, "velocity increments");
+    checkSize(s.m_mass, n, "masses");
+    checkMasses(s.m_mass);
+    checkSize(s.m_fixed, n, "fixed flags");
+    checkFlags(s.m_fixed, "the fixed flag");
+    if (!s.m_factor.m_mass.empty()) checkSize(s.m_factor.m_mass, n, "masses of the factor");
+    checkMasses(s.m_factor.m_mass);
+    if (!s.m_factor.m_fixed.empty()) checkSize(s.m_factor.m_fixed, n, "fixed flags of the factor");
+    checkFlags(s.m_factor.m_fixed, "the factor's fixed flag");
+    if (!(s.m_factor.m_step >= 1e-6 && s.m_factor.m_step <= 1))
+        reject("the factor's step is ", s.m_factor.m_step, " s, not in [1e-6, 1]");
+    if (s.m_path != FactorPath::full && s.m_path != FactorPath::lowMemory)
+        reject("the kind of the factor is ", static_cast<int>(s.m_path), ", not 0 or 1");
+    checkSize(s.m_elementRotation, rotations, "element rotations");
+    checkRotations(s);
+    if (!(s.m_complianceScale > 0) || !std::isfinite(s.m_complianceScale))
+        reject("the compliance scale is ", s.m_complianceScale, ", not in (0, inf)");
+}
+
+FactorInput factorInputOf(const BodySnapshot& s)
+{
+    FactorInput input = s.m_factor;
+    if (input.m_mass.empty()) input.m_mass = s.m_mass;
+    if (input.m_fixed.empty()) input.m_fixed = s.m_fixed;
+    return input;
+}
+
+void restore(const BodySnapshot& s, Body& body)
+{
+    BodyState& state = body.m_state;
+    state.m_x = s.m_x;
+    state.m_v = s.m_v;
+    state.m_mass = s.m_mass;
+    state.m_fixed = s.m_fixed;
+    state.m_lastIncrement = s.m_lastIncrement;
+    state.m_elementRotation = s.m_elementRotation;
+    state.m_bodyRotation = s.m_bodyRotation;
+    StepScratch& scratch = body.m_workspace.scratch();
+    scratch.m_complianceScale = s.m_complianceScale;
+    scratch.m_velocity = s.m_v;
+    std::fill(scratch.m_push.begin(), scratch.m_push.end(), Vec3());
+    scratch.m_isPushed = false;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/step/body.h"
+
+namespace bullet_fem
+{
+
+/// The momentum that external impulses prescribe for every connected piece of a body without fixed nodes. The warped
+/// stiffness has no torque balance about the deformed positions and conjugate gradients stop early; both leak momentum,
+/// and a rigid motion of six unknowns a piece puts it back.
+class RigidMomentum
+{
+public:
+    explicit RigidMomentum(const TetMesh& mesh) : m_pieces(mesh.componentCount()) {}
+
+    /// Sets the prescription to that of the loads: (1 + h alpha)(p' - p) = h (F - alpha p), and the same for angular
+    /// momentum about the centre of mass at the state's positions. alpha includes the loads' extra damping; what draws
+    /// it to the loads' frame is added likewise.
+    void prescribe(const Body& body, double step);
+
+    /// Pieces that hang on fixed nodes in one place or on one line keep the angular momentum about these that
+    /// `velocity` gives them, the motion without the impulses to come, if they are drawn to a frame: else it would damp
+    /// the part of those that turns them. Nothing else changes.
+    void keepHung(const Body& body, const std::vector<Vec3>& velocity);
+
+    /// Adds node impulses J [N s] to the prescription; the frame, which moves along, does not damp them.
+    void addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step);
+
+    /// Adds an angular impulse [N m s] to the prescription of the piece that a node belongs to.
+    void addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step);
+
+    /// Adds to `velocity` the rigid motion that gives every free piece its prescribed momentum.
+    void restore(const Body& body, std::vector<Vec3>& velocity);
+
+    /// A free piece, as the prescription has it.
+    struct FreePiece
+    {
+        double m_mass = 0;         ///< [kg]
+        Vec3 m_center;             ///< [m]
+        Vec3 m_linear, m_angular;  ///< prescribed [kg m/s], about the centre [kg m2/s]
+        Mat3 m_inverseInertia;     ///< [1/(kg m2)]
+    };
+
+    /// Of a body of one piece that hangs on nothing: what it has been prescribed; for who sums up for several bodies at
+    /// once.
+    FreePiece onlyPiece() const;
+    void setOnlyPiece(const FreePiece& piece);
+
+    /// The inverse of a piece's inertia about its centre [kg m2].
+    static Mat3 inverseInertia(const Mat3& inertia, double mass, const Vec3& center);
+
+    /// alpha of a body's own and of its loads [1/s].
+    static double damping(const Body& body);
+
+private:
+    struct Piece
+    {
+        bool m_free = true;   // or hung: infinitely heavy, its centre on what it hangs on
+        bool m_hung = false;  // not free, but turns about a point or a line
+        double m_mass = 0;
+        Vec3 m_center;             // [m]
+        Vec3 m_axis;               // to the farthest fixed node of a hung piece [m]
+        Vec3 m_linear, m_angular;  // prescribed [kg m/s], [kg m2/s]
+        Mat3 m_inverseInertia;     // [1/(kg m2)]; zero where the piece has collapsed to a point
+        Vec3 m_linearVelocity, m_angularVelocity;
+    };
+    bool findPivots(const Body& body);
+    void findClamped(const Body& body);
+
+    std::vector<Piece> m_pieces;
+    bool m_anyFree = false;  // of the last prescription; all is skipped where there is none
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/step/body.h"
+#include "fem/common/aligned_array.h"
+#include "fem/elements/element_scratch.h"
+#include "fem/step/conjugate_gradients.h"
+#include "fem/step/rigid_momentum.h"
+
+namespace bullet_fem
+{
+
+/// What a solve with the factor writes.
+struct FactorWork
+{
+    AlignedFloats m_vector, m_scratch;
+};
+
+/// Everything that a step writes besides the state.
+struct StepScratch
+{
+    explicit StepScratch(const BodyModel& model);
+
+    std::vector<Vec3> m_velocity;   ///< velocities during the step [m/s]
+    std::vector<Vec3> m_push;       ///< velocities of position correction: moved by, never kept [m/s]
+    bool m_isPushed = false;        ///< false: m_push is zero
+    std::vector<Vec3> m_rightSide;  ///< b [kg m/s]
+    std::vector<Vec3> m_increment;  ///< dv [m/s]
+    std::vector<Vec3> m_residual;   ///< what the responses of this step have left of the impulses [kg m/s]
+    bool m_hasResidual = false;     ///< false: that is nothing, whatever is in there
+    RigidMomentum m_momentum;       ///< what the impulses prescribe for every connected piece
+    double m_complianceScale =
+        1;  ///< what contact has learnt: A^-1 is about this times the warped A0^-1 at the surface
+    ConjugateGradientScratch m_solver;
+    mutable ElementWork m_elements;
+    mutable FactorWork m_factor;
+};
+
+}  // namespace bullet_fem

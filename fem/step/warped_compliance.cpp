@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/step/warped_compliance.h"
+
+#include <algorithm>
+
+#include "fem/step/step_scratch.h"
+#include "fem/step/warped_system.h"
+
+namespace bullet_fem
+{
+
+void WarpedCompliance::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    const WarpedPreconditioner P(m_body, m_threads);
+    if (m_body.m_model->factorReport().m_path == FactorPath::full) return P.apply(in, out);
+    StepScratch& scratch = m_body.m_workspace.scratch();
+    for (std::size_t i = 0; i < in.size(); ++i) scratch.m_rightSide[i] = m_body.m_state.m_fixed[i] ? Vec3() : in[i];
+    std::fill(out.begin(), out.end(), Vec3());
+    ConjugateGradientStop stop;
+    stop.m_tolerance = 1e-3;
+    stop.m_threads = m_threads;
+    solveConjugateGradients(WarpedSystem(m_body, m_threads), P, scratch.m_rightSide, stop, scratch.m_solver, out);
+}
+
+}  // namespace bullet_fem

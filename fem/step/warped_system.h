@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/fem/step/body.h"
+#include "fem/step/conjugate_gradients.h"
+
+namespace bullet_fem
+{
+
+/// True if a step with these settings works in single precision.
+bool isSinglePrecision(const StepSettings& settings);
+
+/// Rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4 and above and in double
+/// below. Turns the state's rotations to its positions, adds f_el(x) - (h + beta) K' v to `force` [N], and
+/// leaves in the body's scratch what WarpedSystem and WarpedPreconditioner work with. Allocates in the first step of
+/// double precision, never else.
+void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force);
+
+/// What A multiplies masses and K' with in steps of `step` [s], in the body's scratch: part of prepareWarpedSystem().
+void scaleWarpedSystem(Body& body, double step);
+
+/// To be called before A is used again in the same step, for impulses: makes up for what bodies that are solved side by
+/// side leave out where none have followed in their last steps, as that takes them longer than all the products with A.
+/// The state's positions are still those that the step began with. Never allocates.
+void completeWarpedSystem(Body& body, const StepSettings& settings);
+
+/// A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T over the free nodes, as last prepared; rows and columns of fixed
+/// nodes are zero.
+class WarpedSystem : public LinearOperator
+{
+public:
+    explicit WarpedSystem(const Body& body, const Threads* threads = nullptr) : m_body(body), m_threads(threads) {}
+    void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
+
+    /// A with the rows and columns of fixed nodes: what their motion does to the others.
+    void applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
+
+private:
+    const Body& m_body;
+    const Threads* m_threads;
+};
+
+/// P = R A0^-1 R^T [Garcia et al. 2006], R block-diagonal with the body's one rotation (global) or one a node (nodal).
+/// A node that is fixed now has zero rows; one that was fixed when the factor was built gets the inverse of its
+/// diagonal.
+class WarpedPreconditioner : public LinearOperator
+{
+public:
+    explicit WarpedPreconditioner(const Body& body, const Threads* threads = nullptr) : m_body(body), m_threads(threads)
+    {
+    }
+    void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
+
+    /// The rotation R_i that the preconditioner gives node i.
+    Mat3 rotation(int node) const;
+
+private:
+    double rotateIn(const std::vector<Vec3>& in) const;
+    void rotateOut(const std::vector<Vec3>& in, double scale, std::vector<Vec3>& out) const;
+
+    const Body& m_body;
+    const Threads* m_threads;
+};
+
+}  // namespace bullet_fem

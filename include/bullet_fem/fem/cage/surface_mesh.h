@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_fem/fem/mesh/tet_mesh.h"
+
+namespace bullet_fem
+{
+
+/// A triangle soup with shared vertices: what a surface file gives. Nothing is checked here.
+struct SurfaceMesh
+{
+    std::vector<Vec3> m_vertices;       ///< [m]
+    std::vector<Triangle> m_triangles;  ///< vertex indices
+};
+
+/// The volume enclosed, by the divergence theorem about the vertices' centroid [m3]; negative if inside out.
+double signedVolume(const SurfaceMesh& surface);
+
+}  // namespace bullet_fem

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/fem/step/body.h"
+
+namespace bullet_fem
+{
+
+/// One linearly implicit Euler step, in the three parts that constraints need. None of them allocates or throws, but
+/// for what StepSettings::m_threads says; different bodies may be stepped by different threads.
+///
+///     A dv = b        A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T
+///                     b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v)
+///
+/// with K' = sum R_e K_e R_e^T and the tensile geometric stiffness T (docs/theory.md).
+
+/// Rotations, system and the free velocities v + dv, as if nothing touched the body. Nodes marked fixed get their
+/// target velocity. The result stands in velocity(body) and is not yet the state's.
+SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
+
+/// Adds the response A^-1 J to velocity(body), for impulses J on the nodes [N s]; those on fixed nodes are ignored.
+/// What is left of other impulses since solveFreeMotion is solved for with them, so that no residual adds up; it is
+/// measured against what there is to solve or `floor`, whichever is larger [N s], >= 0. Where it is small enough from
+/// the start only the momentum changes. To be called after solveFreeMotion, any number of times.
+SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings,
+                          double floor = 0);
+
+/// solveFreeMotion of one body of several.
+struct FreeMotion
+{
+    Body* m_body = nullptr;
+    StepSettings m_settings;
+    SolveReport m_report;  ///< out
+    /// Impulses that contact is expected to make [N s], one a node: solved for with the loads, from the guess that the
+    /// body goes on as it moves. ContactBody::m_expected is to be the same then. Null: none.
+    const std::vector<Vec3>* m_expected = nullptr;
+    double m_expectedFloor = 1;  ///< share of their norm that |b| counts as at least, for the tolerance [-], in [0, 1]
+};
+
+/// applyImpulses to one body of several.
+struct ImpulseResponse
+{
+    Body* m_body = nullptr;
+    const std::vector<Vec3>* m_impulses = nullptr;  ///< [N s], one a node
+    StepSettings m_settings;
+    double m_floor = 0;     ///< [N s], >= 0
+    bool m_steady = false;  ///< the guess: the body ends with the velocities that it began the step with
+    SolveReport m_report;   ///< out
+};
+
+/// The same for `count` different bodies. Those that share their model and come one after the other are solved
+/// together, each with its own state, fixed nodes, loads and settings: a pass over their factor serves several of them,
+/// and whoever has converged leaves. Every body gets the bits that it gets alone. Bodies that share their model must
+/// have the same StepSettings::m_threads.
+void solveFreeMotions(FreeMotion* motions, int count);
+void applyImpulses(ImpulseResponse* responses, int count);
+
+/// Adds to velocity(body), one change a node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
+void addVelocity(Body& body, const std::vector<Vec3>& change);
+
+/// Adds h P J to the displacement of this step without a trace in the velocities: position correction, J [N s]. On the
+/// low-memory path A^-1 J, solved to 1e-3, stands for P J; settings.m_threads share the work. Returns the angular
+/// momentum about the origin that the body gains by being elsewhere with its velocities [kg m2/s].
+Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
+
+/// v <- velocity(body), x <- x + h v, and the pushes.
+void finishStep(Body& body, const StepSettings& settings);
+
+/// True if the velocities and pushes of the step are numbers, and below 1e6 m/s.
+bool canFinishStep(const Body& body);
+
+/// In place of finishStep: the body stands still where it is.
+void abandonStep(Body& body);
+
+/// solveFreeMotion and finishStep: a step of a body that touches nothing.
+SolveReport step(Body& body, const StepSettings& settings);
+
+/// Velocities during the step [m/s], one a node: valid from solveFreeMotion to finishStep.
+const std::vector<Vec3>& velocity(const Body& body);
+
+/// Linear and angular momentum about the origin [kg m/s, kg m2/s] of a state.
+Vec3 linearMomentum(const BodyState& state);
+Vec3 angularMomentum(const BodyState& state);
+
+/// Kinetic energy plus the warped elastic energy 1/2 sum (x R - X)^T K_e (R^T x - X) [J].
+double mechanicalEnergy(const Body& body);
+
+}  // namespace bullet_fem

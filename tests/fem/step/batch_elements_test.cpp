@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// The element kernels of bodies side by side give every body the bits of the kernels of a single one.
+#include "fem/step/batch_elements.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "fem/scenes/element_case.h"
+#include "fem/step/batch_arrays.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+bool sameBits(double a, double b)
+{
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
+
+/// Copies of a mesh, each strained, turned and moving in its own way, alone and in lanes.
+class StrainedCopies
+{
+public:
+    explicit StrainedCopies(const TetMesh& mesh)
+        : m_model(makeBody(mesh, elasticMaterial(1e4, 0.3)).m_model), m_lanes(*m_model)
+    {
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            const std::vector<Vec3> x = positions(b), v = velocities(b);
+            m_alone.emplace_back(m_model->shape(), x, v);
+            copyTo(m_lanes.m_x.get(), b, x);
+            copyTo(m_lanes.m_v.get(), b, v);
+            m_rotation.emplace_back(m_alone[b].m_rotation.size());
+            m_warped.emplace_back(m_alone[b].m_warped.size());
+        }
+    }
+
+    LanePass pass()
+    {
+        const ElementPass<float> own = m_alone[0].pass();
+        LanePass pass = {m_lanes.m_x.get(), m_lanes.m_v.get(), own.m_damping, own.m_tensionFactor, {}, {}, {}};
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            pass.m_rotationBefore[b] = m_rotation[b].data();
+            if (b == kSpared) continue;
+            pass.m_rotation[b] = m_rotation[b].data();
+            pass.m_warped[b] = m_warped[b].data();
+        }
+        return pass;
+    }
+
+    void run()
+    {
+        for (ElementCase<float>& alone : m_alone) runElementPass(alone.pass(), alone.blocks());
+        clearSums();
+        passOverLanes(m_lanes.elements(), pass());
+    }
+
+    void multiply()
+    {
+        for (int b = 0; b < kBodyLanes; ++b) m_product.push_back(m_alone[b].times(velocities(b)));
+        clearSums();
+        multiplyLanes(m_lanes.elements(), ElementCase<float>::kStiffnessFactor, m_lanes.m_v.get());
+    }
+
+    void expectTheirForces() const
+    {
+        for (int b = 0; b < kBodyLanes; ++b) expectSums(b, m_alone[b].cornerSums());
+    }
+    void expectTheirProducts() const
+    {
+        for (int b = 0; b < kBodyLanes; ++b) expectSums(b, m_product[b]);
+    }
+
+    // The one that is spared keeps what it had.
+    void expectTheirRotations() const
+    {
+        const int count = m_model->mesh().tetCount();
+        const std::vector<Quaternion> before(count);
+        for (int b = 0; b < kBodyLanes; ++b)
+        {
+            const std::vector<Quaternion>& expected = b == kSpared ? before : m_alone[b].m_rotation;
+            EXPECT_EQ(0, std::memcmp(expected.data(), m_rotation[b].data(), count * sizeof(Quaternion))) << b;
+        }
+    }
+
+    void expectTheirGradientsAndTensions()
+    {
+        std::vector<WarpedBlock<float>> before(m_warped[kSpared].size());
+        for (int b = 0; b < kBodyLanes; ++b)
+            for (int e = 0; e < m_model->mesh().tetCount(); ++e)
+                for (int row = 0; row < kWarpedRows; ++row)
+                {
+                    const int at = row * kLanes + e % kLanes;
+                    WarpedBlock<float>& expected = b == kSpared ? before[e / kLanes] : m_alone[b].m_warped[e / kLanes];
+                    ASSERT_EQ(m_warped[b][e / kLanes].rows()[at], expected.rows()[at]) << b << ", " << e << ", " << row;
+                }
+    }
+
+private:
+    static constexpr int kSpared = 5;
+
+    // Copy 2 is inside out, 3 flat, 4 a point: what converges late, or goes the long way.
+    std::vector<Vec3> positions(int b) const
+    {
+        RandomVectors random(9 + b);
+        const Mat3 Q = rotationAbout({1, -2, 3}, 0.4 * b);
+        const Mat3 shape = Mat3::diagonal(b == 4 ? 0.0 : 1.0 + 0.02 * b);
+        std::vector<Vec3> x;
+        for (Vec3 X : m_model->mesh().restPositions())
+        {
+            X = shape * X + 0.01 * b * m_model->mesh().meanEdgeLength() * random.next();
+            if (b == 2) X.z = -X.z;
+            if (b == 3) X.z = 0;
+            x.push_back(Q * X + Vec3{10.0 * b, 20, -10});
+        }
+        return x;
+    }
+
+    std::vector<Vec3> velocities(int b) const
+    {
+        RandomVectors random(70 + b);
+        std::vector<Vec3> v;
+        for (int i = 0; i < m_model->nodeCount(); ++i) v.push_back(random.next());
+        return v;
+    }
+
+    static void copyTo(double* lanes, int b, const std::vector<Vec3>& from)
+    {
+        for (std::size_t i = 0; i < from.size(); ++i)
+            for (int c = 0; c < 3; ++c) lanes[(3 * i + c) * kBodyLanes + b] = (&from[i].x)[c];
+    }
+
+    void clearSums()
+    {
+        std::fill_n(m_lanes.m_sums.get(), static_cast<std::size_t>(6 * kBodyLanes) * m_lanes.nodeCount(), 0.0);
+    }
+
+    void expectSums(int b, const std::vector<Vec3>& expected) const
+    {
+        const double* sums = m_lanes.m_sums.get();
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+            {
+                const double even = sums[(6 * i + c) * kBodyLanes + b], odd = sums[(6 * i + 3 + c) * kBodyLanes + b];
+                ASSERT_TRUE(sameBits(even + odd, (&expected[i].x)[c])) << b << ", node " << i;
+            }
+    }
+
+    std::shared_ptr<const BodyModel> m_model;
+    BodyLanes m_lanes;
+    std::vector<ElementCase<float>> m_alone;
+    std::vector<std::vector<Quaternion>> m_rotation;
+    std::vector<std::vector<WarpedBlock<float>>> m_warped;
+    std::vector<std::vector<Vec3>> m_product;
+};
+
+std::vector<Target> vectorTargets()
+{
+    std::vector<Target> targets = availableTargets();
+    const auto isScalar = [](const Target& target) { return target.m_bit == HWY_SCALAR; };
+    targets.erase(std::remove_if(targets.begin(), targets.end(), isScalar), targets.end());
+    return targets;
+}
+
+class ElementsSideBySide : public OnTarget
+{
+protected:
+    // Of fewer elements than a block has, of as many and of more.
+    static std::vector<TetMesh> meshes()
+    {
+        const TetMesh box = makeBox({1, 0.6, 0.5}, {4, 2, 2}, {}, CellSplit::kuhnSix);
+        return {firstElements(box, 1), firstElements(box, 16), firstElements(box, 18), box};
+    }
+};
+
+TEST_P(ElementsSideBySide, HaveTheBitsThatTheyHaveAlone)
+{
+    for (const TetMesh& mesh : meshes())
+    {
+        SCOPED_TRACE(std::to_string(mesh.tetCount()) + " elements");
+        StrainedCopies copies(mesh);
+        copies.run();
+        copies.expectTheirForces();
+        copies.expectTheirRotations();
+        copies.expectTheirGradientsAndTensions();
+        copies.multiply();
+        copies.expectTheirProducts();
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, ElementsSideBySide, testing::ValuesIn(vectorTargets()), targetName);
+
+}  // namespace
+}  // namespace bullet_fem

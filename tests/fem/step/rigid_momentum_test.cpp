@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/step/rigid_momentum.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fem/scenes/elasticity_scenes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kStep = 1.0 / 50;
+
+// Linear and angular momentum about a point, and the sizes that rounding is measured against.
+struct Momentum
+{
+    Vec3 m_linear, m_angular;
+    double m_linearSize = 0, m_angularSize = 0;
+
+    void add(const Vec3& arm, const Vec3& p)
+    {
+        m_linear += p;
+        m_angular += cross(arm, p);
+        m_linearSize += norm(p);
+        m_angularSize += norm(arm) * norm(p);
+    }
+};
+
+void expectSame(const Momentum& got, const Momentum& expected, double tolerance)
+{
+    EXPECT_LE(norm(got.m_linear - expected.m_linear), tolerance * (got.m_linearSize + expected.m_linearSize));
+    EXPECT_LE(norm(got.m_angular - expected.m_angular), tolerance * (got.m_angularSize + expected.m_angularSize));
+}
+
+TetMesh twoBoxes()
+{
+    const TetMesh a = makeBox({1, 1, 1}, {2, 2, 2}), b = makeBox({1, 0.5, 0.5}, {2, 1, 1}, {5, 0, 0});
+    std::vector<Vec3> X = a.restPositions();
+    X.insert(X.end(), b.restPositions().begin(), b.restPositions().end());
+    std::vector<Tet> tets = a.tets();
+    for (Tet tet : b.tets())
+    {
+        for (int& node : tet) node += a.nodeCount();
+        tets.push_back(tet);
+    }
+    return TetMesh(X, tets);
+}
+
+// Two pieces far from the origin, damped, moving and loaded at random.
+class RigidMomentumTest : public testing::Test
+{
+protected:
+    RigidMomentumTest()
+    {
+        RandomVectors random(6);
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+        {
+            m_body.m_state.m_x[i] += Vec3{10, -20, 30} + 0.1 * random.next();
+            m_body.m_state.m_v[i] = random.next();
+            m_body.m_state.m_mass[i] *= 1.5 + random.next().x;
+            m_body.m_loads.m_force[i] = 100 * random.next();
+            m_velocity[i] = random.next();
+            m_impulses[i] = random.next();
+        }
+        m_body.m_loads.m_massDamping = 0.3;
+    }
+
+    static Body makeDampedBody()
+    {
+        Material material;
+        material.m_massDamping = 0.5;
+        return makeBody(twoBoxes(), material);
+    }
+
+    Vec3 center(int piece) const
+    {
+        Vec3 sum;
+        double mass = 0;
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+            if (m_component[i] == piece)
+            {
+                sum += m_body.m_state.m_mass[i] * m_body.m_state.m_x[i];
+                mass += m_body.m_state.m_mass[i];
+            }
+        return (1 / mass) * sum;
+    }
+
+    // Of a piece, with node momenta p(i).
+    template <typename NodeMomentum>
+    Momentum momentum(int piece, NodeMomentum p) const
+    {
+        Momentum result;
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+            if (m_component[i] == piece) result.add(m_body.m_state.m_x[i] - center(piece), p(i));
+        return result;
+    }
+
+    Momentum restored(int piece) const
+    {
+        return momentum(piece, [&](std::size_t i) { return m_body.m_state.m_mass[i] * m_velocity[i]; });
+    }
+
+    // (1 + h alpha) p' = p + h F + `impulses` J, alpha = 0.5 + 0.3.
+    Momentum prescribed(int piece, double impulses) const
+    {
+        return momentum(piece,
+                        [&](std::size_t i)
+                        {
+                            const Vec3 p = m_body.m_state.m_mass[i] * m_body.m_state.m_v[i];
+                            return (1 / (1 + kStep * 0.8)) *
+                                   (p + kStep * m_body.m_loads.m_force[i] + impulses * m_impulses[i]);
+                        });
+    }
+
+    Body m_body = makeDampedBody();
+    const std::vector<int> m_component = m_body.m_model->mesh().nodeComponent();
+    std::vector<Vec3> m_velocity = std::vector<Vec3>(m_component.size());
+    std::vector<Vec3> m_impulses = m_velocity;
+    RigidMomentum m_momentum{m_body.m_model->mesh()};
+};
+
+TEST_F(RigidMomentumTest, RestoresWhatTheLoadsPrescribeOfEveryPiece)
+{
+    ASSERT_EQ(m_body.m_model->mesh().componentCount(), 2);
+    m_momentum.prescribe(m_body, kStep);
+    m_momentum.restore(m_body, m_velocity);
+    expectSame(restored(0), prescribed(0, 0), 1e-14);
+    expectSame(restored(1), prescribed(1, 0), 1e-14);
+}
+
+TEST_F(RigidMomentumTest, AddsImpulses)
+{
+    m_momentum.prescribe(m_body, kStep);
+    m_momentum.addImpulses(m_body, m_impulses, kStep);
+    m_momentum.addImpulses(m_body, m_impulses, kStep);
+    m_momentum.restore(m_body, m_velocity);
+    expectSame(restored(0), prescribed(0, 2), 1e-14);
+    expectSame(restored(1), prescribed(1, 2), 1e-14);
+}
+
+// The correction is the six rigid motions alone: v' - v = a + w x (x - c).
+TEST_F(RigidMomentumTest, AddsARigidMotionAlone)
+{
+    const std::vector<Vec3> before = m_velocity;
+    m_momentum.prescribe(m_body, kStep);
+    m_momentum.restore(m_body, m_velocity);
+    const std::vector<Vec3>& x = m_body.m_state.m_x;
+    for (const Tet& tet : m_body.m_model->mesh().tets())
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < a; ++b)
+            {
+                const Vec3 edge = x[tet[a]] - x[tet[b]];
+                const Vec3 change = (m_velocity[tet[a]] - before[tet[a]]) - (m_velocity[tet[b]] - before[tet[b]]);
+                EXPECT_NEAR(dot(edge, change), 0, 1e-13);  // no edge changes its length
+            }
+    EXPECT_GT(largestDistance(before, m_velocity), 0.01);
+}
+
+TEST_F(RigidMomentumTest, HasNothingToAddTheSecondTime)
+{
+    m_momentum.prescribe(m_body, kStep);
+    m_momentum.restore(m_body, m_velocity);
+    const std::vector<Vec3> once = m_velocity;
+    m_momentum.restore(m_body, m_velocity);
+    EXPECT_LE(largestDistance(once, m_velocity), 1e-13);
+}
+
+TEST_F(RigidMomentumTest, LeavesAPieceWithAFixedNodeAlone)
+{
+    m_body.m_state.m_fixed[3] = 1;
+    const int fixedPiece = m_component[3];
+    const std::vector<Vec3> before = m_velocity;
+    m_momentum.prescribe(m_body, kStep);
+    m_momentum.addImpulses(m_body, m_impulses, kStep);
+    m_momentum.restore(m_body, m_velocity);
+    std::vector<int> changed(2);
+    for (std::size_t i = 0; i < before.size(); ++i) changed[m_component[i]] += norm(before[i] - m_velocity[i]) > 0;
+    EXPECT_EQ(changed[fixedPiece], 0);
+    EXPECT_GT(changed[1 - fixedPiece], 0);
+    expectSame(restored(1 - fixedPiece), prescribed(1 - fixedPiece, 1), 1e-14);
+}
+
+// A piece drawn to a frame that hangs on the nodes of one edge of its box, or on one node.
+class HungPiece : public RigidMomentumTest
+{
+protected:
+    // Box 0's nodes on the edge along x, not yet where the random numbers put them.
+    void hang(int nodes, double drawn)
+    {
+        m_body.m_loads.m_frameDamping = drawn;
+        const std::vector<Vec3>& X = m_body.m_model->mesh().restPositions();
+        for (std::size_t i = 0; i < X.size() && nodes > 0; ++i)
+        {
+            if (X[i].y != 0 || X[i].z != 0 || m_component[i] != 0) continue;
+            m_body.m_state.m_x[i] = X[i] + Vec3{10, -20, 30};
+            m_body.m_state.m_fixed[i] = 1;
+            --nodes;
+        }
+        ASSERT_EQ(nodes, 0);
+        m_momentum.prescribe(m_body, kStep);
+        m_momentum.keepHung(m_body, m_velocity);
+    }
+
+    // About the first node of that edge.
+    template <class Value>
+    Vec3 aboutPin(const Value& p) const
+    {
+        Vec3 sum;
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+            if (m_component[i] == 0) sum += cross(m_body.m_state.m_x[i] - Vec3{10, -20, 30}, p(i));
+        return sum;
+    }
+    Vec3 momentumAboutPin() const
+    {
+        return aboutPin([this](std::size_t i) { return m_body.m_state.m_mass[i] * m_velocity[i]; });
+    }
+
+    // What the impulses leave of it when all velocities of free nodes were taken away since.
+    Vec3 momentumOfImpulses()
+    {
+        const Vec3 before = momentumAboutPin();
+        for (std::size_t i = 0; i < m_impulses.size(); ++i)
+            if (m_body.m_state.m_fixed[i]) m_impulses[i] = {};
+        m_momentum.addImpulses(m_body, m_impulses, kStep);
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+            if (!m_body.m_state.m_fixed[i]) m_velocity[i] = {};
+        const std::vector<Vec3> still = m_velocity;
+        m_momentum.restore(m_body, m_velocity);
+        for (std::size_t i = 0; i < still.size(); ++i)
+            m_pinsMoved = m_pinsMoved || (m_body.m_state.m_fixed[i] && norm(m_velocity[i] - still[i]) > 0);
+        return momentumAboutPin() - before;
+    }
+    Vec3 expected() const
+    {
+        return (1 / (1 + kStep * 0.8)) * aboutPin([this](std::size_t i) { return m_impulses[i]; });
+    }
+
+    double fastestFree() const
+    {
+        double fastest = 0;
+        for (std::size_t i = 0; i < m_velocity.size(); ++i)
+            if (m_component[i] == 0 && !m_body.m_state.m_fixed[i]) fastest = std::max(fastest, norm(m_velocity[i]));
+        return fastest;
+    }
+
+    bool m_pinsMoved = false;
+};
+
+TEST_F(HungPiece, KeepsTheAngularMomentumAboutItsPin)
+{
+    hang(1, 50);
+    const Vec3 got = momentumOfImpulses();
+    EXPECT_FALSE(m_pinsMoved);
+    EXPECT_LE(norm(got - expected()), 1e-11 * norm(expected()));
+}
+
+TEST_F(HungPiece, KeepsTheAngularMomentumAboutItsHinge)
+{
+    hang(3, 50);
+    const Vec3 got = momentumOfImpulses();
+    EXPECT_FALSE(m_pinsMoved);
+    EXPECT_NEAR(got.x, expected().x, 1e-11 * norm(expected()));
+    EXPECT_GT(norm(got - expected()), 0.1 * norm(expected()));  // the hinge takes the rest
+}
+
+TEST_F(HungPiece, IsLeftAloneWithoutAFrameAndWhereItIsClamped)
+{
+    hang(3, 0);
+    momentumOfImpulses();
+    EXPECT_EQ(fastestFree(), 0);
+    const std::vector<Vec3>& X = m_body.m_model->mesh().restPositions();
+    for (std::size_t i = 0; i < X.size(); ++i)
+        if (m_component[i] == 0 && X[i].z == 1) m_body.m_state.m_fixed[i] = 1;
+    hang(3, 50);
+    momentumOfImpulses();
+    EXPECT_EQ(fastestFree(), 0);
+}
+
+// Random velocities and loads are of order one; so is what is left of them, whatever rounding makes of the inertia.
+TEST_F(RigidMomentumTest, StaysBoundedForABodyCollapsedToAPoint)
+{
+    m_body.m_state.m_x.assign(m_velocity.size(), {1, 2, 3});
+    m_momentum.prescribe(m_body, kStep);
+    m_momentum.restore(m_body, m_velocity);
+    for (const Vec3& v : m_velocity) EXPECT_LT(norm(v), 10);
+}
+
+// About the line there is no inertia; across it momentum is restored, to what the inverse of a tensor of condition 1e14
+// is worth.
+TEST_F(RigidMomentumTest, RestoresWhatABodyCollapsedToALineHas)
+{
+    const Vec3 axis = {0.6, 0, 0.8};
+    for (Vec3& x : m_body.m_state.m_x) x = dot(x, axis) * axis;
+    m_momentum.prescribe(m_body, kStep);
+    m_momentum.restore(m_body, m_velocity);
+    for (const Vec3& v : m_velocity) EXPECT_LT(norm(v), 10);
+    expectSame(restored(0), prescribed(0, 0), 1e-2);
+}
+
+TEST_F(RigidMomentumTest, RestoresABodyCollapsedToAPlane)
+{
+    for (Vec3& x : m_body.m_state.m_x) x.y = 7;
+    m_momentum.prescribe(m_body, kStep);
+    m_momentum.restore(m_body, m_velocity);
+    expectSame(restored(0), prescribed(0, 0), 1e-14);
+}
+
+}  // namespace
+}  // namespace bullet_fem
