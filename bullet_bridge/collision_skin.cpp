@@ -128,7 +128,7 @@ void CollisionSkin::takeVertices(const std::vector<SkinVertex>& vertices, const 
 void CollisionSkin::turnOutward()
 {
     const std::vector<Vec3>& x = m_rest.m_positions;
-    JoinedSets pieces(x.size());
+    DisjointSets pieces(x.size());
     for (const Triangle& t : m_rest.m_triangles)
         for (int corner : t) pieces.join(t[0], corner);
     std::vector<double> volume(x.size(), 0);

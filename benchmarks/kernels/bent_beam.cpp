@@ -64,6 +64,7 @@ void BentBeam::passOverElements()
 void BentBeam::prepareSystem()
 {
     prepareWarpedSystem(m_body, m_settings, m_out);
+    averageNodeRotations(m_body, m_settings);
 }
 
 void BentBeam::restoreInput()

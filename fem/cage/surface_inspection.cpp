@@ -112,7 +112,7 @@ void countEdges(SurfaceInspection& result)
 void countPieces(const SurfaceMesh& surface, SurfaceInspection& result)
 {
     const std::vector<int>& welded = result.m_repaired.m_welded;
-    JoinedSets joined(welded.size());
+    DisjointSets joined(welded.size());
     for (const Triangle& t : surface.m_triangles)
         for (int a = 1; a < 3; ++a) joined.join(welded[t[0]], welded[t[a]]);
     std::vector<char> counted(welded.size(), 0);

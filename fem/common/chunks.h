@@ -11,18 +11,18 @@ namespace bullet_fem
 {
 
 // Shorter pieces would cost more to hand out than they take: some 10 us each.
-constexpr int kBlocksOfPiece = 64;     ///< element blocks, 1,024 elements
-constexpr int kNodesOfPiece = 512;     ///< nodes of which something is computed
-constexpr int kEntriesOfPiece = 2048;  ///< nodes of vectors that are added or multiplied
+constexpr int kBlocksPerChunk = 64;     ///< element blocks, 1,024 elements
+constexpr int kNodesPerChunk = 512;     ///< nodes of which something is computed
+constexpr int kEntriesPerChunk = 2048;  ///< nodes of vectors that are added or multiplied
 
 /// [0, size) in pieces of nearly equal length, not much shorter than asked for. They depend on the size alone, never on
 /// the number of threads, so that sums over pieces have the same bits for all of them.
-class Pieces
+class Chunks
 {
 public:
     static constexpr int kMost = 64;
 
-    Pieces(int size, int shortest) : m_size(size), m_count(std::clamp(size / shortest, 1, kMost)) {}
+    Chunks(int size, int shortest) : m_size(size), m_count(std::clamp(size / shortest, 1, kMost)) {}
 
     int count() const { return m_count; }
     Range operator[](int k) const { return {bound(k), bound(k + 1)}; }
@@ -46,7 +46,7 @@ void runTasks(const Threads* threads, int tasks, const Task& task)
 /// Calls run(range) for ranges that make up [0, size): the whole at once on one thread, else pieces. Only for what has
 /// the same bits however it is divided.
 template <class Run>
-void runRanges(const Threads* threads, const Pieces& pieces, const Run& run)
+void runRanges(const Threads* threads, const Chunks& pieces, const Run& run)
 {
     if (!threads || threads->count() == 1)
         run(Range{pieces[0].m_begin, pieces[pieces.count() - 1].m_end});

@@ -10,10 +10,10 @@ namespace bullet_fem
 {
 
 /// Things [0, n) that are joined pairwise to pieces; the lowest of a piece stands for it.
-class JoinedSets
+class DisjointSets
 {
 public:
-    explicit JoinedSets(std::size_t count) : m_parent(count) { std::iota(m_parent.begin(), m_parent.end(), 0); }
+    explicit DisjointSets(std::size_t count) : m_parent(count) { std::iota(m_parent.begin(), m_parent.end(), 0); }
 
     int root(int i)
     {

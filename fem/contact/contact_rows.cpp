@@ -160,7 +160,7 @@ double ContactRows::error()
 // What rests closes no faster than allowed: its velocity has just been measured.
 RowSurvey ContactRows::survey()
 {
-    std::array<RowSurvey, Pieces::kMost> found{};
+    std::array<RowSurvey, Chunks::kMost> found{};
     forEachPiece(
         [&](int p, Range rows)
         {

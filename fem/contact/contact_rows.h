@@ -138,13 +138,13 @@ public:
     template <class Part>
     void forEachPiece(const Part& part)
     {
-        const Pieces pieces(static_cast<int>(m_rows.size()), kRowsOfPiece);
+        const Chunks pieces(static_cast<int>(m_rows.size()), kRowsPerChunk);
         runTasks(pieces.count() > 1 ? m_settings.m_step.m_threads : nullptr, pieces.count(),
                  [&](int p) { part(p, pieces[p]); });
     }
 
 private:
-    static constexpr int kRowsOfPiece = 512;  // shorter pieces would not be worth handing out
+    static constexpr int kRowsPerChunk = 512;  // shorter pieces would not be worth handing out
 
     static void setAxes(const Vec3& normal, ContactRow& row);
     void addContactRows();
@@ -174,7 +174,7 @@ private:
     template <class Value>
     double largestOfRows(const Value& value)
     {
-        std::array<double, Pieces::kMost> largest{};
+        std::array<double, Chunks::kMost> largest{};
         forEachPiece(
             [&](int p, Range rows)
             {

@@ -161,12 +161,12 @@ namespace bullet_fem
 HWY_EXPORT(ForwardPanelSide);
 HWY_EXPORT(BackwardPanelSide);
 
-void forwardPanelSide(const Panel& panel, float* y, float* scratch)
+void forwardPanelBatch(const Panel& panel, float* y, float* scratch)
 {
     HWY_DYNAMIC_DISPATCH(ForwardPanelSide)(panel, y, scratch);
 }
 
-void backwardPanelSide(const Panel& panel, float* y, float* scratch)
+void backwardPanelBatch(const Panel& panel, float* y, float* scratch)
 {
     HWY_DYNAMIC_DISPATCH(BackwardPanelSide)(panel, y, scratch);
 }

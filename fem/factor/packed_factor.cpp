@@ -174,15 +174,15 @@ void PackedFactor::solve(float* y, float* scratch, const Threads* threads) const
     solve(kernels(), y, scratch, threads);
 }
 
-void PackedFactor::solveSide(float* y, float* scratch) const
+void PackedFactor::solveBatch(float* y, float* scratch) const
 {
-    solve({forwardPanelSide, backwardPanelSide, 3 * kPanelLanes, false}, y, scratch, nullptr);
+    solve({forwardPanelBatch, backwardPanelBatch, 3 * kPanelLanes, false}, y, scratch, nullptr);
 }
 
-std::size_t PackedFactor::sideScratchSize() const
+std::size_t PackedFactor::batchScratchSize() const
 {
     std::size_t most = 0;
-    for (int s : m_all) most = std::max(most, sideScratchOf(panel(s)));
+    for (int s : m_all) most = std::max(most, batchScratchOf(panel(s)));
     return most;
 }
 

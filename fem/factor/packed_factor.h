@@ -57,9 +57,9 @@ public:
     void solve(float* y, float* scratch, const Threads* threads = nullptr) const;
 
     /// The same for kPanelLanes interleaved vectors of a factor of blocks, each of which gets the bits that it gets
-    /// alone: y has vectorSize() * kPanelLanes entries, scratch sideScratchSize(), both aligned to 64 bytes.
-    void solveSide(float* y, float* scratch) const;
-    std::size_t sideScratchSize() const;
+    /// alone: y has vectorSize() * kPanelLanes entries, scratch batchScratchSize(), both aligned to 64 bytes.
+    void solveBatch(float* y, float* scratch) const;
+    std::size_t batchScratchSize() const;
 
     /// Floats of scratch that solveLanes() needs.
     std::size_t laneScratchSize() const { return kPanelLanes * scratchOf(m_scratchRows); }

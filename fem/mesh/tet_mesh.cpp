@@ -163,7 +163,7 @@ std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
 /// Numbers the pieces connected through shared nodes from 0 by their lowest node; returns their count.
 int labelComponents(const std::vector<Tet>& tets, std::vector<int>& label)
 {
-    JoinedSets pieces(label.size());
+    DisjointSets pieces(label.size());
     for (const Tet& tet : tets)
         for (int a = 1; a < 4; ++a) pieces.join(tet[0], tet[a]);
     int count = 0;

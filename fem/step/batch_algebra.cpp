@@ -39,7 +39,7 @@ HWY_INLINE V storeMeasured(const V3& v, double* to)
     return dot(v, v);
 }
 
-void AddLanes(ConstBodyVectors b, BodyVectors a, int nodes, PerLane& squares)
+void AddLanes(ConstBodyVectors b, BodyVectors a, int nodes, PerBatch& squares)
 {
     sumOverNodes(nodes, squares,
                  [&](int node, int lane)
@@ -55,20 +55,20 @@ HWY_INLINE V3 choose(hn::Mask<D> yes, const V3& a, const V3& b)
 }
 
 /// Writes where the body is active.
-HWY_INLINE void storeActive(const LaneRecurrence& v, const V3& value, int lane, double* to)
+HWY_INLINE void storeActive(const BatchRecurrence& v, const V3& value, int lane, double* to)
 {
     const auto active = valuesOf(v.m_active, lane) > hn::Zero(D());
     store3(choose(active, value, load3(to)), to);
 }
 
 /// Writes r where the body is active; returns |r|^2.
-HWY_INLINE V storeResidual(const LaneRecurrence& v, const V3& r, int lane, std::size_t at)
+HWY_INLINE V storeResidual(const BatchRecurrence& v, const V3& r, int lane, std::size_t at)
 {
     storeActive(v, r, lane, v.m_r + at);
     return dot(r, r);
 }
 
-void SubtractProduct(const LaneRecurrence& v, PerLane& squares)
+void SubtractProduct(const BatchRecurrence& v, PerBatch& squares)
 {
     sumOverNodes(v.m_nodes, squares,
                  [&](int node, int lane)
@@ -78,7 +78,7 @@ void SubtractProduct(const LaneRecurrence& v, PerLane& squares)
                  });
 }
 
-void ClearOthers(const PerLane& kept, BodyVectors a, int nodes)
+void ClearOthers(const PerBatch& kept, BodyVectors a, int nodes)
 {
     forEachNumber(nodes,
                   [&](std::size_t at, int lane)
@@ -88,7 +88,7 @@ void ClearOthers(const PerLane& kept, BodyVectors a, int nodes)
                   });
 }
 
-void ScaleGuess(const LaneRecurrence& v, const PerLane& scale, PerLane& squares)
+void ScaleGuess(const BatchRecurrence& v, const PerBatch& scale, PerBatch& squares)
 {
     sumOverNodes(v.m_nodes, squares,
                  [&](int node, int lane)
@@ -101,7 +101,7 @@ void ScaleGuess(const LaneRecurrence& v, const PerLane& scale, PerLane& squares)
                  });
 }
 
-void TurnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& beta)
+void TurnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch& beta)
 {
     forEachNode(v.m_nodes,
                 [&](int node, int lane)
@@ -113,7 +113,7 @@ void TurnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& b
                 });
 }
 
-void AdvanceAlong(const LaneRecurrence& v, const PerLane& step, PerLane& squares)
+void AdvanceAlong(const BatchRecurrence& v, const PerBatch& step, PerBatch& squares)
 {
     sumOverNodes(v.m_nodes, squares,
                  [&](int node, int lane)
@@ -125,8 +125,8 @@ void AdvanceAlong(const LaneRecurrence& v, const PerLane& step, PerLane& squares
                  });
 }
 
-void AddForces(const LaneInertia& inertia, const PerLane& alpha, double step, ConstBodyVectors v, BodyVectors b,
-               PerLane& squares)
+void AddForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b,
+               PerBatch& squares)
 {
     const V h = hn::Set(D(), step);
     sumOverNodes(inertia.m_nodes, squares,
@@ -140,7 +140,7 @@ void AddForces(const LaneInertia& inertia, const PerLane& alpha, double step, Co
 }
 
 /// A p of a node, which is stored, too.
-HWY_INLINE V3 applyAt(const LaneInertia& inertia, const PerLane& factor, const V3& p, BodyVectors Ap, int node,
+HWY_INLINE V3 applyAt(const BatchInertia& inertia, const PerBatch& factor, const V3& p, BodyVectors Ap, int node,
                       int lane)
 {
     const V scaledMass = valuesOf(factor, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
@@ -151,8 +151,8 @@ HWY_INLINE V3 applyAt(const LaneInertia& inertia, const PerLane& factor, const V
     return product;
 }
 
-void AddInertia(const LaneInertia& inertia, const PerLane& factor, ConstBodyVectors p, BodyVectors Ap,
-                PerLane& products)
+void AddInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap,
+                PerBatch& products)
 {
     sumOverNodes(inertia.m_nodes, products,
                  [&](int node, int lane)
@@ -162,7 +162,7 @@ void AddInertia(const LaneInertia& inertia, const PerLane& factor, ConstBodyVect
                  });
 }
 
-void MeasureGuess(const LaneInertia& inertia, const PerLane& factor, const LaneGuess& guess, LaneGuessMeasure& out)
+void MeasureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess, BatchGuessMeasure& out)
 {
     sumsOverNodes<4>(inertia.m_nodes, {&out.m_xx, &out.m_bx, &out.m_xAx, &out.m_residual},
                      [&](int node, int lane)
@@ -194,71 +194,71 @@ HWY_EXPORT(AddForces);
 HWY_EXPORT(AddInertia);
 HWY_EXPORT(MeasureGuess);
 
-void subtractLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
+void subtract(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
 {
     HWY_DYNAMIC_DISPATCH(SubtractLanes)(a, b, out, nodes);
 }
 
-void continueLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
+void extrapolate(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
 {
     HWY_DYNAMIC_DISPATCH(ContinueLanes)(a, b, out, nodes);
 }
 
-PerLane addLanes(ConstBodyVectors b, BodyVectors a, int nodes)
+PerBatch addAndMeasure(ConstBodyVectors b, BodyVectors a, int nodes)
 {
-    PerLane squares;
+    PerBatch squares;
     HWY_DYNAMIC_DISPATCH(AddLanes)(b, a, nodes, squares);
     return squares;
 }
 
-PerLane subtractProduct(const LaneRecurrence& v)
+PerBatch subtractProduct(const BatchRecurrence& v)
 {
-    PerLane squares;
+    PerBatch squares;
     HWY_DYNAMIC_DISPATCH(SubtractProduct)(v, squares);
     return squares;
 }
 
-void clearOthers(const PerLane& kept, BodyVectors a, int nodes)
+void clearOthers(const PerBatch& kept, BodyVectors a, int nodes)
 {
     HWY_DYNAMIC_DISPATCH(ClearOthers)(kept, a, nodes);
 }
 
-PerLane scaleGuess(const LaneRecurrence& v, const PerLane& scale)
+PerBatch scaleGuess(const BatchRecurrence& v, const PerBatch& scale)
 {
-    PerLane squares;
+    PerBatch squares;
     HWY_DYNAMIC_DISPATCH(ScaleGuess)(v, scale, squares);
     return squares;
 }
 
-void turnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& beta)
+void turnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch& beta)
 {
     HWY_DYNAMIC_DISPATCH(TurnDirection)(v, z, beta);
 }
 
-PerLane advanceAlong(const LaneRecurrence& v, const PerLane& step)
+PerBatch advanceAlong(const BatchRecurrence& v, const PerBatch& step)
 {
-    PerLane squares;
+    PerBatch squares;
     HWY_DYNAMIC_DISPATCH(AdvanceAlong)(v, step, squares);
     return squares;
 }
 
-PerLane addForces(const LaneInertia& inertia, const PerLane& alpha, double step, ConstBodyVectors v, BodyVectors b)
+PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b)
 {
-    PerLane squares;
+    PerBatch squares;
     HWY_DYNAMIC_DISPATCH(AddForces)(inertia, alpha, step, v, b, squares);
     return squares;
 }
 
-PerLane addInertia(const LaneInertia& inertia, const PerLane& factor, ConstBodyVectors p, BodyVectors Ap)
+PerBatch addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap)
 {
-    PerLane products;
+    PerBatch products;
     HWY_DYNAMIC_DISPATCH(AddInertia)(inertia, factor, p, Ap, products);
     return products;
 }
 
-LaneGuessMeasure measureGuess(const LaneInertia& inertia, const PerLane& factor, const LaneGuess& guess)
+BatchGuessMeasure measureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess)
 {
-    LaneGuessMeasure measure;
+    BatchGuessMeasure measure;
     HWY_DYNAMIC_DISPATCH(MeasureGuess)(inertia, factor, guess, measure);
     return measure;
 }

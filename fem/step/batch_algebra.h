@@ -16,34 +16,34 @@ using BodyVectors = double*;
 using ConstBodyVectors = const double*;
 
 /// out = a - b, and out = 2 a - b.
-void subtractLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes);
-void continueLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes);
+void subtract(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes);
+void extrapolate(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes);
 /// a += b; returns |a|^2, a sum over nodes as dot() of single bodies.
-PerLane addLanes(ConstBodyVectors b, BodyVectors a, int nodes);
+PerBatch addAndMeasure(ConstBodyVectors b, BodyVectors a, int nodes);
 
 /// What conjugate gradients do to vectors, in the bodies of `active` (1; others: 0), the others stay.
-struct LaneRecurrence
+struct BatchRecurrence
 {
     int m_nodes;
     BodyVectors m_x, m_r, m_p;
     ConstBodyVectors m_b, m_Ap;
-    PerLane m_active;
+    PerBatch m_active;
 };
 
 /// r = b - Ap; returns |r|^2, as the next ones do.
-PerLane subtractProduct(const LaneRecurrence& v);
+PerBatch subtractProduct(const BatchRecurrence& v);
 /// x *= scale; r = b - scale Ap, or b where scale is 0.
-PerLane scaleGuess(const LaneRecurrence& v, const PerLane& scale);
+PerBatch scaleGuess(const BatchRecurrence& v, const PerBatch& scale);
 /// x += step p, r -= step Ap.
-PerLane advanceAlong(const LaneRecurrence& v, const PerLane& step);
+PerBatch advanceAlong(const BatchRecurrence& v, const PerBatch& step);
 /// p = z + beta p; z where beta is 0, whatever was in p.
-void turnDirection(const LaneRecurrence& v, ConstBodyVectors z, const PerLane& beta);
+void turnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch& beta);
 
 /// a = 0 in the bodies of which `kept` is 0.
-void clearOthers(const PerLane& kept, BodyVectors a, int nodes);
+void clearOthers(const PerBatch& kept, BodyVectors a, int nodes);
 
 /// Masses, and what elements have added up at the nodes.
-struct LaneInertia
+struct BatchInertia
 {
     int m_nodes;
     const double* m_mass;  ///< [node][body] [kg]
@@ -51,20 +51,20 @@ struct LaneInertia
 };
 
 /// b = h (f - alpha m v + sums) in place of f; returns |b|^2.
-PerLane addForces(const LaneInertia& inertia, const PerLane& alpha, double step, ConstBodyVectors v, BodyVectors b);
+PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b);
 /// Ap = factor m p + sums; returns p . Ap.
-PerLane addInertia(const LaneInertia& inertia, const PerLane& factor, ConstBodyVectors p, BodyVectors Ap);
+PerBatch addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap);
 
 /// The same of a guess, of which conjugate gradients ask more.
-struct LaneGuess
+struct BatchGuess
 {
     ConstBodyVectors m_x, m_b;
     BodyVectors m_Ax;
 };
-struct LaneGuessMeasure
+struct BatchGuessMeasure
 {
-    PerLane m_xx, m_bx, m_xAx, m_residual;  ///< x . x, b . x, x . A x, |b - A x|^2
+    PerBatch m_xx, m_bx, m_xAx, m_residual;  ///< x . x, b . x, x . A x, |b - A x|^2
 };
-LaneGuessMeasure measureGuess(const LaneInertia& inertia, const PerLane& factor, const LaneGuess& guess);
+BatchGuessMeasure measureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess);
 
 }  // namespace bullet_fem

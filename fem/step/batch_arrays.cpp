@@ -15,11 +15,11 @@ namespace
 // Lanes of larger models would take more than some 50 MB.
 constexpr int kMostElements = 15000;
 
-std::vector<LaneCorners> cornersOf(const BodyModel& model)
+std::vector<BatchCorners> cornersOf(const BodyModel& model)
 {
-    constexpr int kVector = 3 * kBodyLanes;
+    constexpr int kVector = 3 * kBatchWidth;
     const std::vector<Tet>& tets = model.mesh().tets();
-    std::vector<LaneCorners> corners(tets.size());
+    std::vector<BatchCorners> corners(tets.size());
     for (std::size_t e = 0; e < tets.size(); ++e)
         for (int a = 0; a < 4; ++a)
         {
@@ -33,7 +33,7 @@ std::vector<LaneCorners> cornersOf(const BodyModel& model)
 template <class Real>
 AlignedArray<Real> zeros(std::size_t valuesOfBody)
 {
-    const std::size_t count = kBodyLanes * valuesOfBody;
+    const std::size_t count = kBatchWidth * valuesOfBody;
     AlignedArray<Real> values = allocateAligned<Real>(count);
     std::fill_n(values.get(), count, Real(0));
     return values;
@@ -41,14 +41,15 @@ AlignedArray<Real> zeros(std::size_t valuesOfBody)
 
 }  // namespace
 
-bool canBeSideBySide(const BodyModel& model)
+bool canBeBatched(const BodyModel& model)
 {
     const TetMesh& mesh = model.mesh();
-    return hasLaneKernels() && mesh.tetCount() <= kMostElements && model.factorReport().m_path == FactorPath::full &&
+    return hasBatchKernels() && mesh.tetCount() <= kMostElements && model.factorReport().m_path == FactorPath::full &&
            mesh.componentCount() == 1 && mesh.looseCount() == 0 && model.factor().freeNodeCount() == model.nodeCount();
 }
 
-BodyLanes::BodyLanes(const BodyModel& model) : m_zeros(model.nodeCount()), m_model(model), m_corners(cornersOf(model))
+BatchArrays::BatchArrays(const BodyModel& model)
+    : m_zeros(model.nodeCount()), m_model(model), m_corners(cornersOf(model))
 {
     const std::size_t nodes = nodeCount(), elements = elementCount();
     for (AlignedDoubles* vectors : {&m_x, &m_v, &m_rightSide, &m_increment, &m_residual, &m_direction, &m_product})
@@ -61,22 +62,22 @@ BodyLanes::BodyLanes(const BodyModel& model) : m_zeros(model.nodeCount()), m_mod
     m_doubtful.resize(nodes);
     const RestFactor& factor = m_model.factor();
     m_factorVector = zeros<float>(factor.lower().vectorSize());
-    m_factorScratch = allocateFloats(factor.lower().sideScratchSize());
+    m_factorScratch = allocateFloats(factor.lower().batchScratchSize());
     for (std::size_t i = 0; i < nodes; ++i) m_position.push_back(factor.position(static_cast<int>(i)));
 }
 
-LaneElements BodyLanes::elements() const
+BatchElements BatchArrays::elements() const
 {
     const ModelElements& elements = m_model.elements();
     return {&elements.m_single, m_corners.data(), elementCount(), m_rotation.get(), m_warped.get(), m_sums.get()};
 }
 
-LaneNodeRotations BodyLanes::nodeRotations()
+BatchNodeRotations BatchArrays::nodeRotations()
 {
     return {&m_model.elements().m_nodes, m_rotation.get(), m_nodeRotation.get(), m_doubtful.data()};
 }
 
-LaneWarp BodyLanes::warp() const
+BatchWarp BatchArrays::warp() const
 {
     return {nodeCount(), m_position.data(), m_nodeRotation.get(), m_factorVector.get()};
 }

@@ -15,39 +15,39 @@ namespace bullet_fem
 
 /// True if bodies of this model can be solved side by side: of one piece and not too large, with all nodes in a factor
 /// of blocks.
-bool canBeSideBySide(const BodyModel& model);
+bool canBeBatched(const BodyModel& model);
 
-/// What kBodyLanes bodies of one model are solved in side by side: scratch, interleaved, a lane a body.
-class BodyLanes
+/// What kBatchWidth bodies of one model are solved in side by side: scratch, interleaved, a lane a body.
+class BatchArrays
 {
 public:
     /// For a model that can be side by side, and must live as long as they are used. Allocates.
-    explicit BodyLanes(const BodyModel& model);
+    explicit BatchArrays(const BodyModel& model);
 
     const BodyModel& model() const { return m_model; }
     int nodeCount() const { return m_model.nodeCount(); }
     int elementCount() const { return m_model.mesh().tetCount(); }
 
-    LaneElements elements() const;
-    LaneMasses masses() const { return {nodeCount(), m_mass.get(), m_x.get()}; }
-    LaneInertia inertia() const { return {nodeCount(), m_mass.get(), m_sums.get()}; }
-    LaneNodeRotations nodeRotations();
-    LaneWarp warp() const;
+    BatchElements elements() const;
+    BatchMasses masses() const { return {nodeCount(), m_mass.get(), m_x.get()}; }
+    BatchInertia inertia() const { return {nodeCount(), m_mass.get(), m_sums.get()}; }
+    BatchNodeRotations nodeRotations();
+    BatchWarp warp() const;
 
     AlignedDoubles m_x, m_v;                  ///< [node][3][body]: positions; velocities during the step [m], [m/s]
     AlignedDoubles m_rightSide, m_increment;  ///< likewise: b, before that forces [N s], [N]; dv [m/s]
     AlignedDoubles m_residual, m_direction, m_product;  ///< likewise, of conjugate gradients: r, p, A p
     AlignedDoubles m_mass;                              ///< [node][body] [kg]
     AlignedDoubles m_sums;                              ///< [node][2][3][body]; zero between the kernels that use it
-    AlignedFloats m_rotation, m_warped;                 ///< see LaneElements
+    AlignedFloats m_rotation, m_warped;                 ///< see BatchElements
     AlignedFloats m_nodeRotation;                       ///< [node][9][body]
-    AlignedFloats m_factorVector, m_factorScratch;      ///< of PackedFactor::solveSide()
-    std::vector<unsigned> m_doubtful;                   ///< see LaneNodeRotations
+    AlignedFloats m_factorVector, m_factorScratch;      ///< of PackedFactor::solveBatch()
+    std::vector<unsigned> m_doubtful;                   ///< see BatchNodeRotations
     const std::vector<Vec3> m_zeros;
 
 private:
     const BodyModel& m_model;
-    std::vector<LaneCorners> m_corners;
+    std::vector<BatchCorners> m_corners;
     std::vector<int> m_position;  // of every node in the factor
 };
 

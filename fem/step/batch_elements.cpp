@@ -26,8 +26,8 @@ namespace HWY_NAMESPACE
 #if HWY_TARGET == HWY_SCALAR
 
 // Processors with nothing that Highway knows.
-void passLanes(const LaneElements&, const LanePass&) {}
-void multiply(const LaneElements&, double, const double*) {}
+void passLanes(const BatchElements&, const BatchElementPass&) {}
+void multiply(const BatchElements&, double, const double*) {}
 
 #else
 
@@ -42,23 +42,23 @@ HWY_INLINE Vector<double> difference(const double* to, const double* from)
 /// One element of as many bodies as a vector has lanes.
 struct LaneElement
 {
-    const LaneElements& m_all;
-    const LanePass* m_pass;
+    const BatchElements& m_all;
+    const BatchElementPass* m_pass;
     int m_element, m_lane;  // the first body
 
     HWY_INLINE const ElementBlock<float>& block() const { return m_all.m_rest->m_blocks[m_element / kLanes]; }
     HWY_INLINE int place() const { return m_element % kLanes; }
-    HWY_INLINE const LaneCorners& corners() const { return m_all.m_corners[m_element]; }
+    HWY_INLINE const BatchCorners& corners() const { return m_all.m_corners[m_element]; }
     HWY_INLINE double* sumOf(int corner) const { return m_all.m_sums + corners().m_sum[corner] + m_lane; }
     HWY_INLINE float* rotations() const
     {
-        return m_all.m_rotation + static_cast<std::size_t>(m_element) * 4 * kBodyLanes + m_lane;
+        return m_all.m_rotation + static_cast<std::size_t>(m_element) * 4 * kBatchWidth + m_lane;
     }
     HWY_INLINE float* gradients() const
     {
-        return m_all.m_warped + static_cast<std::size_t>(m_element) * kWarpedRows * kBodyLanes + m_lane;
+        return m_all.m_warped + static_cast<std::size_t>(m_element) * kWarpedRows * kBatchWidth + m_lane;
     }
-    HWY_INLINE float* tensions() const { return gradients() + 9 * kBodyLanes; }
+    HWY_INLINE float* tensions() const { return gradients() + 9 * kBatchWidth; }
 
     HWY_INLINE F lambda() const { return hn::Set(Lanes<float>(), block().m_lambdaVolume[place()]); }
     HWY_INLINE F mu() const { return hn::Set(Lanes<float>(), block().m_muVolume[place()]); }
@@ -87,7 +87,7 @@ struct LaneElement
         {
             const double* to = at + corners().m_node[a + 1];
             HWY_UNROLL(3)
-            for (int i = 0; i < 3; ++i) D.m[i][a] = difference(to + i * kBodyLanes, from + i * kBodyLanes);
+            for (int i = 0; i < 3; ++i) D.m[i][a] = difference(to + i * kBatchWidth, from + i * kBatchWidth);
         }
         return D;
     }
@@ -109,9 +109,9 @@ struct LaneElement
         for (int i = 0; i < 3; ++i)
         {
             const F others = hn::Add(hn::Add(f.m[i][0], f.m[i][1]), f.m[i][2]);
-            addTo(sums[0] + i * kBodyLanes, hn::Sub(hn::Zero(Lanes<float>()), others));
+            addTo(sums[0] + i * kBatchWidth, hn::Sub(hn::Zero(Lanes<float>()), others));
             HWY_UNROLL(3)
-            for (int a = 0; a < 3; ++a) addTo(sums[a + 1] + i * kBodyLanes, f.m[i][a]);
+            for (int a = 0; a < 3; ++a) addTo(sums[a + 1] + i * kBatchWidth, f.m[i][a]);
         }
     }
     static HWY_INLINE void addTo(double* sum, F value)
@@ -124,58 +124,58 @@ struct LaneElement
     HWY_INLINE void storeGradients(const Matrix<float>& g) const
     {
         HWY_UNROLL(9)
-        for (int k = 0; k < 9; ++k) hn::Store(g.m[k % 3][k / 3], Lanes<float>(), gradients() + k * kBodyLanes);
+        for (int k = 0; k < 9; ++k) hn::Store(g.m[k % 3][k / 3], Lanes<float>(), gradients() + k * kBatchWidth);
     }
     HWY_INLINE Matrix<float> loadGradients() const
     {
         Matrix<float> g;
         HWY_UNROLL(9)
-        for (int k = 0; k < 9; ++k) g.m[k / 3][k % 3] = hn::Load(Lanes<float>(), gradients() + k * kBodyLanes);
+        for (int k = 0; k < 9; ++k) g.m[k / 3][k % 3] = hn::Load(Lanes<float>(), gradients() + k * kBatchWidth);
         return g;
     }
     HWY_INLINE void storeTension(const Symmetric<float>& T) const
     {
         const F entries[6] = {T.xx, T.yy, T.zz, T.yz, T.xz, T.xy};
         HWY_UNROLL(6)
-        for (int k = 0; k < 6; ++k) hn::Store(entries[k], Lanes<float>(), tensions() + k * kBodyLanes);
+        for (int k = 0; k < 6; ++k) hn::Store(entries[k], Lanes<float>(), tensions() + k * kBatchWidth);
     }
     HWY_INLINE Symmetric<float> loadTension() const
     {
         const Lanes<float> d;
         const float* t = tensions();
         return {hn::Load(d, t),
-                hn::Load(d, t + kBodyLanes),
-                hn::Load(d, t + 2 * kBodyLanes),
-                hn::Load(d, t + 3 * kBodyLanes),
-                hn::Load(d, t + 4 * kBodyLanes),
-                hn::Load(d, t + 5 * kBodyLanes)};
+                hn::Load(d, t + kBatchWidth),
+                hn::Load(d, t + 2 * kBatchWidth),
+                hn::Load(d, t + 3 * kBatchWidth),
+                hn::Load(d, t + 4 * kBatchWidth),
+                hn::Load(d, t + 5 * kBatchWidth)};
     }
 
     HWY_INLINE Quaternions<float> loadRotations() const
     {
         const Lanes<float> d;
         const float* q = rotations();
-        return {hn::Load(d, q), hn::Load(d, q + kBodyLanes), hn::Load(d, q + 2 * kBodyLanes),
-                hn::Load(d, q + 3 * kBodyLanes)};
+        return {hn::Load(d, q), hn::Load(d, q + kBatchWidth), hn::Load(d, q + 2 * kBatchWidth),
+                hn::Load(d, q + 3 * kBatchWidth)};
     }
     HWY_INLINE void storeRotations(const Quaternions<float>& q) const
     {
         const Lanes<float> d;
         float* to = rotations();
         hn::Store(q.x, d, to);
-        hn::Store(q.y, d, to + kBodyLanes);
-        hn::Store(q.z, d, to + 2 * kBodyLanes);
-        hn::Store(q.w, d, to + 3 * kBodyLanes);
+        hn::Store(q.y, d, to + kBatchWidth);
+        hn::Store(q.z, d, to + 2 * kBatchWidth);
+        hn::Store(q.w, d, to + 3 * kBatchWidth);
     }
 };
 
-constexpr int kVectors = kBodyLanes / width<float>();  // of an element
+constexpr int kVectors = kBatchWidth / width<float>();  // of an element
 
 /// Elements of a block, and the bodies' arrays of theirs.
 struct LaneBlock
 {
-    const LaneElements& m_all;
-    const LanePass& m_pass;
+    const BatchElements& m_all;
+    const BatchElementPass& m_pass;
     int m_first, m_count;
 
     HWY_INLINE int vectors() const { return m_count * kVectors; }
@@ -202,10 +202,10 @@ HWY_NOINLINE void prefetchBodies(const LaneBlock& block)
 
 HWY_NOINLINE void rotate(const LaneBlock& block)
 {
-    const float* before[kBodyLanes];
-    for (int b = 0; b < kBodyLanes; ++b) before[b] = &block.m_pass.m_rotationBefore[b][block.m_first].x;
+    const float* before[kBatchWidth];
+    for (int b = 0; b < kBatchWidth; ++b) before[b] = &block.m_pass.m_rotationBefore[b][block.m_first].x;
     for (int e = 0; e < block.m_count; ++e)  // a quaternion is a block of exchanges
-        gatherBlocks(before, 4 * e, block.element(e * kVectors).rotations(), kBodyLanes);
+        gatherBlocks(before, 4 * e, block.element(e * kVectors).rotations(), kBatchWidth);
     for (int k = 0; k < block.vectors(); ++k)
     {
         const LaneElement element = block.element(k);
@@ -246,9 +246,9 @@ HWY_NOINLINE void clearTensions(const LaneBlock& block)
 
 HWY_NOINLINE void tellBodies(const LaneBlock& block)
 {
-    float *rotation[kBodyLanes], *warped[kBodyLanes];
+    float *rotation[kBatchWidth], *warped[kBatchWidth];
     bool anyWarped = false;
-    for (int b = 0; b < kBodyLanes; ++b)
+    for (int b = 0; b < kBatchWidth; ++b)
     {
         Quaternion* q = block.m_pass.m_rotation[b];
         WarpedBlock<float>* w = block.m_pass.m_warped[b];
@@ -256,16 +256,16 @@ HWY_NOINLINE void tellBodies(const LaneBlock& block)
         warped[b] = w ? w[block.m_first / kLanes].rows() : nullptr;
         anyWarped = anyWarped || w;
     }
-    constexpr int kSome = kBlock<float>, kStride = kWarpedRows * kBodyLanes;
+    constexpr int kSome = kBlock<float>, kStride = kWarpedRows * kBatchWidth;
     for (int e = 0; e < block.m_count; ++e)
-        scatterBlocks(rotation, 4 * e, block.element(e * kVectors).rotations(), kBodyLanes);
+        scatterBlocks(rotation, 4 * e, block.element(e * kVectors).rotations(), kBatchWidth);
     for (int row = 0; row < kWarpedRows && anyWarped; ++row)
         for (int e = 0; e < block.m_count; e += kSome)  // the last ones take what fills the block along
-            scatterBlocks(warped, row * kLanes + e, block.element(e * kVectors).gradients() + row * kBodyLanes,
+            scatterBlocks(warped, row * kLanes + e, block.element(e * kVectors).gradients() + row * kBatchWidth,
                           kStride);
 }
 
-HWY_INLINE void passLanes(const LaneElements& all, const LanePass& pass)
+HWY_INLINE void passLanes(const BatchElements& all, const BatchElementPass& pass)
 {
     for (int first = 0; first < all.m_count; first += kLanes)
     {
@@ -281,11 +281,11 @@ HWY_INLINE void passLanes(const LaneElements& all, const LanePass& pass)
     }
 }
 
-HWY_INLINE void multiply(const LaneElements& all, double stiffnessFactor, const double* p)
+HWY_INLINE void multiply(const BatchElements& all, double stiffnessFactor, const double* p)
 {
     const F factor = number<float>(stiffnessFactor);
     for (int e = 0; e < all.m_count; ++e)
-        for (int lane = 0; lane < kBodyLanes; lane += width<float>())
+        for (int lane = 0; lane < kBatchWidth; lane += width<float>())
         {
             const LaneElement element = {all, nullptr, e, lane};
             const Matrix<float> g = element.loadGradients();
@@ -303,12 +303,12 @@ bool HasLaneKernels()
     return HWY_TARGET != HWY_SCALAR;
 }
 
-void PassOverLanes(const LaneElements& elements, const LanePass& pass)
+void PassOverLanes(const BatchElements& elements, const BatchElementPass& pass)
 {
     passLanes(elements, pass);
 }
 
-void MultiplyLanes(const LaneElements& elements, double stiffnessFactor, const double* p)
+void MultiplyLanes(const BatchElements& elements, double stiffnessFactor, const double* p)
 {
     multiply(elements, stiffnessFactor, p);
 }
@@ -325,17 +325,17 @@ HWY_EXPORT(HasLaneKernels);
 HWY_EXPORT(PassOverLanes);
 HWY_EXPORT(MultiplyLanes);
 
-bool hasLaneKernels()
+bool hasBatchKernels()
 {
     return HWY_DYNAMIC_DISPATCH(HasLaneKernels)();
 }
 
-void passOverLanes(const LaneElements& elements, const LanePass& pass)
+void runElementPass(const BatchElements& elements, const BatchElementPass& pass)
 {
     HWY_DYNAMIC_DISPATCH(PassOverLanes)(elements, pass);
 }
 
-void multiplyLanes(const LaneElements& elements, double stiffnessFactor, const double* p)
+void runElementProduct(const BatchElements& elements, double stiffnessFactor, const double* p)
 {
     HWY_DYNAMIC_DISPATCH(MultiplyLanes)(elements, stiffnessFactor, p);
 }

@@ -10,41 +10,41 @@ namespace bullet_fem
 
 /// Where the vectors of an element's nodes begin in [node][3][body], and what its corners add to in [node][2][3][body]:
 /// one of two sums, by NodeCorners::m_parity.
-struct LaneCorners
+struct BatchCorners
 {
     std::int32_t m_node[4], m_sum[4];
 };
 
-/// The elements of kBodyLanes bodies, and what their kernels hand on. All arrays are aligned to 64 bytes, and
+/// The elements of kBatchWidth bodies, and what their kernels hand on. All arrays are aligned to 64 bytes, and
 /// interleaved: the last index is the body.
-struct LaneElements
+struct BatchElements
 {
     const ElementBlocks<float>* m_rest;
-    const LaneCorners* m_corners;  ///< one an element
-    int m_count;                   ///< elements
-    float* m_rotation;             ///< [element][x, y, z, w][body]
-    float* m_warped;               ///< [element][kWarpedRows][body], as in WarpedBlock
-    double* m_sums;                ///< [node][2][3][body]: of what corners hold
+    const BatchCorners* m_corners;  ///< one an element
+    int m_count;                    ///< elements
+    float* m_rotation;              ///< [element][x, y, z, w][body]
+    float* m_warped;                ///< [element][kWarpedRows][body], as in WarpedBlock
+    double* m_sums;                 ///< [node][2][3][body]: of what corners hold
 };
 
 /// ElementPass over them.
-struct LanePass
+struct BatchElementPass
 {
     const double* m_x;  ///< [node][3][body] [m]
     const double* m_v;  ///< likewise [m/s]
     double m_damping, m_tensionFactor;
-    const Quaternion* m_rotationBefore[kBodyLanes];  ///< of every body's elements, in the last step
-    Quaternion* m_rotation[kBodyLanes];              ///< out; may be the same; null: of no body
-    WarpedBlock<float>* m_warped[kBodyLanes];        ///< out; null likewise
+    const Quaternion* m_rotationBefore[kBatchWidth];  ///< of every body's elements, in the last step
+    Quaternion* m_rotation[kBatchWidth];              ///< out; may be the same; null: of no body
+    WarpedBlock<float>* m_warped[kBatchWidth];        ///< out; null likewise
 };
 
 /// False on processors without vectors: then the functions here do nothing.
-bool hasLaneKernels();
+bool hasBatchKernels();
 
 /// Every body gets the bits that runElementPass gives it; corner forces are added to m_sums.
-void passOverLanes(const LaneElements& elements, const LanePass& pass);
+void runElementPass(const BatchElements& elements, const BatchElementPass& pass);
 
 /// ElementProduct with p: [node][3][body]; adds to m_sums likewise.
-void multiplyLanes(const LaneElements& elements, double stiffnessFactor, const double* p);
+void runElementProduct(const BatchElements& elements, double stiffnessFactor, const double* p);
 
 }  // namespace bullet_fem

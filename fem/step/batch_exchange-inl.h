@@ -34,7 +34,7 @@ template <class Real>
 constexpr bool kHasBlocks = true;
 
 template <class Real>
-using BodyTag = hn::CappedTag<Real, kBodyLanes>;
+using BodyTag = hn::CappedTag<Real, kBatchWidth>;
 
 /// A block of each of some arrays, one after the other.
 template <class D>
@@ -96,7 +96,7 @@ HWY_INLINE void gatherBlocks(const Real* const* arrays, std::ptrdiff_t at, Real*
 {
     const BodyTag<Real> d;
     constexpr int kN = static_cast<int>(hn::MaxLanes(BodyTag<Real>())), kBlocks = kN / kBlock<Real>;
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         hn::Vec<BodyTag<Real> > r[kBlock<Real>];
         HWY_UNROLL(4)
@@ -117,7 +117,7 @@ HWY_INLINE void scatterBlocks(Real* const* arrays, std::ptrdiff_t at, const Real
 {
     const BodyTag<Real> d;
     constexpr int kN = static_cast<int>(hn::MaxLanes(BodyTag<Real>())), kBlocks = kN / kBlock<Real>;
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         hn::Vec<BodyTag<Real> > r[kBlock<Real>];
         HWY_UNROLL(4)

@@ -20,9 +20,9 @@ namespace HWY_NAMESPACE
 /// Calls some(at, place) for blocks of values, `at` in a body's array and `place` in the lanes, and one(at, place) for
 /// what is left: in the order of the bodies' arrays, which are farther away.
 template <class Real, class Some, class One>
-HWY_INLINE void forEachBlock(const LaneLayout& layout, const Some& some, const One& one)
+HWY_INLINE void forEachBlock(const BatchLayout& layout, const Some& some, const One& one)
 {
-    const std::ptrdiff_t rows = layout.m_rows, stride = rows * kBodyLanes;
+    const std::ptrdiff_t rows = layout.m_rows, stride = rows * kBatchWidth;
     const std::ptrdiff_t run = rows > 1 ? kLanes : layout.m_count;
     for (std::ptrdiff_t first = 0; first < layout.m_count; first += run)
         for (std::ptrdiff_t row = 0; row < rows; ++row)
@@ -31,56 +31,56 @@ HWY_INLINE void forEachBlock(const LaneLayout& layout, const Some& some, const O
             const std::ptrdiff_t end = HWY_MIN(first + run, static_cast<std::ptrdiff_t>(layout.m_count));
             if constexpr (kHasBlocks<Real>)
                 for (; value + kBlock<Real> <= end; value += kBlock<Real>, at += kBlock<Real>)
-                    some(at, value * stride + row * kBodyLanes);
-            for (; value < end; ++value, ++at) one(at, value * stride + row * kBodyLanes);
+                    some(at, value * stride + row * kBatchWidth);
+            for (; value < end; ++value, ++at) one(at, value * stride + row * kBatchWidth);
         }
 }
 
 template <class Real>
-HWY_INLINE void gather(const Real* const* arrays, Real* lanes, const LaneLayout& layout)
+HWY_INLINE void gather(const Real* const* arrays, Real* lanes, const BatchLayout& layout)
 {
     const auto some = [&](std::ptrdiff_t at, std::ptrdiff_t place)
     {
-        if constexpr (kHasBlocks<Real>) gatherBlocks(arrays, at, lanes + place, layout.m_rows * kBodyLanes);
+        if constexpr (kHasBlocks<Real>) gatherBlocks(arrays, at, lanes + place, layout.m_rows * kBatchWidth);
     };
     const auto one = [&](std::ptrdiff_t at, std::ptrdiff_t place)
     {
-        for (int b = 0; b < kBodyLanes; ++b) lanes[place + b] = arrays[b][at];
+        for (int b = 0; b < kBatchWidth; ++b) lanes[place + b] = arrays[b][at];
     };
     forEachBlock<Real>(layout, some, one);
 }
 
 template <class Real>
-HWY_INLINE void scatter(Real* const* arrays, const Real* lanes, const LaneLayout& layout)
+HWY_INLINE void scatter(Real* const* arrays, const Real* lanes, const BatchLayout& layout)
 {
     const auto some = [&](std::ptrdiff_t at, std::ptrdiff_t place)
     {
-        if constexpr (kHasBlocks<Real>) scatterBlocks(arrays, at, lanes + place, layout.m_rows * kBodyLanes);
+        if constexpr (kHasBlocks<Real>) scatterBlocks(arrays, at, lanes + place, layout.m_rows * kBatchWidth);
     };
     const auto one = [&](std::ptrdiff_t at, std::ptrdiff_t place)
     {
-        for (int b = 0; b < kBodyLanes; ++b)
+        for (int b = 0; b < kBatchWidth; ++b)
             if (arrays[b]) arrays[b][at] = lanes[place + b];
     };
     forEachBlock<Real>(layout, some, one);
 }
 
-void GatherFloats(const float* const* arrays, float* lanes, const LaneLayout& layout)
+void GatherFloats(const float* const* arrays, float* lanes, const BatchLayout& layout)
 {
     gather(arrays, lanes, layout);
 }
 
-void GatherDoubles(const double* const* arrays, double* lanes, const LaneLayout& layout)
+void GatherDoubles(const double* const* arrays, double* lanes, const BatchLayout& layout)
 {
     gather(arrays, lanes, layout);
 }
 
-void ScatterFloats(float* const* arrays, const float* lanes, const LaneLayout& layout)
+void ScatterFloats(float* const* arrays, const float* lanes, const BatchLayout& layout)
 {
     scatter(arrays, lanes, layout);
 }
 
-void ScatterDoubles(double* const* arrays, const double* lanes, const LaneLayout& layout)
+void ScatterDoubles(double* const* arrays, const double* lanes, const BatchLayout& layout)
 {
     scatter(arrays, lanes, layout);
 }
@@ -98,22 +98,22 @@ HWY_EXPORT(GatherDoubles);
 HWY_EXPORT(ScatterFloats);
 HWY_EXPORT(ScatterDoubles);
 
-void gatherLanes(const float* const* arrays, float* lanes, const LaneLayout& layout)
+void gatherBatch(const float* const* arrays, float* lanes, const BatchLayout& layout)
 {
     HWY_DYNAMIC_DISPATCH(GatherFloats)(arrays, lanes, layout);
 }
 
-void gatherLanes(const double* const* arrays, double* lanes, const LaneLayout& layout)
+void gatherBatch(const double* const* arrays, double* lanes, const BatchLayout& layout)
 {
     HWY_DYNAMIC_DISPATCH(GatherDoubles)(arrays, lanes, layout);
 }
 
-void scatterLanes(float* const* arrays, const float* lanes, const LaneLayout& layout)
+void scatterBatch(float* const* arrays, const float* lanes, const BatchLayout& layout)
 {
     HWY_DYNAMIC_DISPATCH(ScatterFloats)(arrays, lanes, layout);
 }
 
-void scatterLanes(double* const* arrays, const double* lanes, const LaneLayout& layout)
+void scatterBatch(double* const* arrays, const double* lanes, const BatchLayout& layout)
 {
     HWY_DYNAMIC_DISPATCH(ScatterDoubles)(arrays, lanes, layout);
 }

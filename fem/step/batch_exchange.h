@@ -10,19 +10,19 @@
 namespace bullet_fem
 {
 
-/// Values of kBodyLanes bodies: in lanes [value][row][body]; in an array of each body [value], or, of more than one
+/// Values of kBatchWidth bodies: in lanes [value][row][body]; in an array of each body [value], or, of more than one
 /// row, [block of kLanes values][row][value of the block].
-struct LaneLayout
+struct BatchLayout
 {
     int m_count;     ///< values
     int m_rows = 1;  ///< >= 1
 };
 
-/// From kBodyLanes arrays, aligned as their numbers are, to lanes, aligned to 64 bytes; and back, but to arrays that
+/// From kBatchWidth arrays, aligned as their numbers are, to lanes, aligned to 64 bytes; and back, but to arrays that
 /// are null. On the widest vectors that the processor has.
-void gatherLanes(const float* const* arrays, float* lanes, const LaneLayout& layout);
-void gatherLanes(const double* const* arrays, double* lanes, const LaneLayout& layout);
-void scatterLanes(float* const* arrays, const float* lanes, const LaneLayout& layout);
-void scatterLanes(double* const* arrays, const double* lanes, const LaneLayout& layout);
+void gatherBatch(const float* const* arrays, float* lanes, const BatchLayout& layout);
+void gatherBatch(const double* const* arrays, double* lanes, const BatchLayout& layout);
+void scatterBatch(float* const* arrays, const float* lanes, const BatchLayout& layout);
+void scatterBatch(double* const* arrays, const double* lanes, const BatchLayout& layout);
 
 }  // namespace bullet_fem

@@ -13,7 +13,7 @@ BatchMemory::~BatchMemory() = default;
 
 BatchLoan::BatchLoan(BatchMemory& memory, const std::shared_ptr<const BodyModel>& model) : m_memory(memory)
 {
-    if (!takeFree(model)) m_loan = {model, std::make_unique<BodyLanes>(*model)};
+    if (!takeFree(model)) m_loan = {model, std::make_unique<BatchArrays>(*model)};
     const std::lock_guard<std::mutex> lock(memory.m_mutex);
     memory.m_free.reserve(memory.m_free.size() + memory.m_lent + 1);  // so that giving it back never fails
     ++memory.m_lent;
@@ -22,10 +22,10 @@ BatchLoan::BatchLoan(BatchMemory& memory, const std::shared_ptr<const BodyModel>
 bool BatchLoan::takeFree(const std::shared_ptr<const BodyModel>& model)
 {
     const std::lock_guard<std::mutex> lock(m_memory.m_mutex);
-    std::vector<BatchMemory::Lanes>& free = m_memory.m_free;
-    const auto isOfNoModel = [](const BatchMemory::Lanes& lanes) { return lanes.m_model.expired(); };
+    std::vector<BatchMemory::Arrays>& free = m_memory.m_free;
+    const auto isOfNoModel = [](const BatchMemory::Arrays& one) { return one.m_model.expired(); };
     free.erase(std::remove_if(free.begin(), free.end(), isOfNoModel), free.end());
-    const auto fits = [&](const BatchMemory::Lanes& lanes) { return lanes.m_model.lock() == model; };
+    const auto fits = [&](const BatchMemory::Arrays& one) { return one.m_model.lock() == model; };
     const auto found = std::find_if(free.begin(), free.end(), fits);
     if (found == free.end()) return false;
     m_loan = std::move(*found);

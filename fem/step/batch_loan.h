@@ -12,10 +12,10 @@ namespace bullet_fem
 {
 
 /// Lanes, and the model that they fit, which is known again though its address may be that of another by then.
-struct BatchMemory::Lanes
+struct BatchMemory::Arrays
 {
     std::weak_ptr<const BodyModel> m_model;
-    std::unique_ptr<BodyLanes> m_lanes;
+    std::unique_ptr<BatchArrays> m_arrays;
 };
 
 /// Lanes for bodies of a model, which go back to their memory in the end.
@@ -28,13 +28,13 @@ public:
     BatchLoan(const BatchLoan&) = delete;
     BatchLoan& operator=(const BatchLoan&) = delete;
 
-    BodyLanes& lanes() { return *m_loan.m_lanes; }
+    BatchArrays& arrays() { return *m_loan.m_arrays; }
 
 private:
     bool takeFree(const std::shared_ptr<const BodyModel>& model);
 
     BatchMemory& m_memory;
-    BatchMemory::Lanes m_loan;
+    BatchMemory::Arrays m_loan;
 };
 
 }  // namespace bullet_fem

@@ -18,31 +18,31 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-HWY_INLINE V3 load(const PerLane3& from, int lane)
+HWY_INLINE V3 load(const PerBatch3& from, int lane)
 {
     return {valuesOf(from[0], lane), valuesOf(from[1], lane), valuesOf(from[2], lane)};
 }
 
-HWY_INLINE void store(const V3& v, int lane, PerLane3& to)
+HWY_INLINE void store(const V3& v, int lane, PerBatch3& to)
 {
     storeValues(v.x, lane, to[0]);
     storeValues(v.y, lane, to[1]);
     storeValues(v.z, lane, to[2]);
 }
 
-HWY_INLINE V massAt(const LaneMasses& nodes, int node, int lane)
+HWY_INLINE V massAt(const BatchMasses& nodes, int node, int lane)
 {
     return loadOne(nodes.m_mass + massPlace(node, lane));
 }
 
-HWY_INLINE V3 positionAt(const LaneMasses& nodes, int node, int lane)
+HWY_INLINE V3 positionAt(const BatchMasses& nodes, int node, int lane)
 {
     return load3(nodes.m_x + place(node, lane));
 }
 
-void SumMasses(const LaneMasses& nodes, LanePieces& pieces)
+void SumMasses(const BatchMasses& nodes, BatchMomenta& pieces)
 {
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         const V zero = hn::Zero(D());
         V mass = zero;
@@ -58,9 +58,9 @@ void SumMasses(const LaneMasses& nodes, LanePieces& pieces)
     }
 }
 
-void SumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces, PerLane& squares)
+void SumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces, PerBatch& squares)
 {
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         const V zero = hn::Zero(D()), alpha = valuesOf(loads.m_alpha, lane), share = valuesOf(loads.m_share, lane);
         const V3 center = load(pieces.m_center, lane);
@@ -87,10 +87,10 @@ void SumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& 
     }
 }
 
-void AddImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces,
-                 PerLane& squares)
+void AddImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces,
+                 PerBatch& squares)
 {
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         const V3 center = load(pieces.m_center, lane);
         V3 linear = load(pieces.m_linear, lane), angular = load(pieces.m_angular, lane);
@@ -110,9 +110,9 @@ void AddImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLa
 
 /// Adds to before(i, lane) the rigid motion that gives a body its momentum, and hands it to then(i, lane, velocity).
 template <class Before, class Then>
-HWY_INLINE void restore(const LaneMasses& nodes, const LanePieces& pieces, const Before& before, const Then& then)
+HWY_INLINE void restore(const BatchMasses& nodes, const BatchMomenta& pieces, const Before& before, const Then& then)
 {
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         const V3 center = load(pieces.m_center, lane);
         V3 linear = load(pieces.m_linear, lane), angular = load(pieces.m_angular, lane);
@@ -125,7 +125,7 @@ HWY_INLINE void restore(const LaneMasses& nodes, const LanePieces& pieces, const
         linear = linear * (hn::Set(D(), 1.0) / valuesOf(pieces.m_mass, lane));
         const auto row = [&](int k)
         {
-            const PerLane* I = pieces.m_inertia + 3 * k;
+            const PerBatch* I = pieces.m_inertia + 3 * k;
             return dot({valuesOf(I[0], lane), valuesOf(I[1], lane), valuesOf(I[2], lane)}, angular);
         };
         const V3 spin = {row(0), row(1), row(2)};
@@ -137,7 +137,7 @@ HWY_INLINE void restore(const LaneMasses& nodes, const LanePieces& pieces, const
     }
 }
 
-void CompleteIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv)
+void CompleteIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv)
 {
     const auto before = [=](int i, int lane) { return load3(dv + place(i, lane)) + load3(v + place(i, lane)); };
     const auto then = [=](int i, int lane, const V3& after)
@@ -145,7 +145,7 @@ void CompleteIncrements(const LaneMasses& nodes, const LanePieces& pieces, Const
     restore(nodes, pieces, before, then);
 }
 
-void AddWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v)
+void AddWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv, BodyVectors v)
 {
     const auto before = [=](int i, int lane) { return load3(v + place(i, lane)) + load3(dv + place(i, lane)); };
     const auto then = [=](int i, int lane, const V3& after) { store3(after, v + place(i, lane)); };
@@ -166,31 +166,31 @@ HWY_EXPORT(AddImpulses);
 HWY_EXPORT(CompleteIncrements);
 HWY_EXPORT(AddWithMomentum);
 
-void sumMasses(const LaneMasses& nodes, LanePieces& pieces)
+void sumMasses(const BatchMasses& nodes, BatchMomenta& pieces)
 {
     HWY_DYNAMIC_DISPATCH(SumMasses)(nodes, pieces);
 }
 
-PerLane sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces)
+PerBatch sumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces)
 {
-    PerLane squares;
+    PerBatch squares;
     HWY_DYNAMIC_DISPATCH(SumPrescribed)(nodes, loads, pieces, squares);
     return squares;
 }
 
-PerLane addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces)
+PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces)
 {
-    PerLane squares;
+    PerBatch squares;
     HWY_DYNAMIC_DISPATCH(AddImpulses)(nodes, impulses, share, pieces, squares);
     return squares;
 }
 
-void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv)
+void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv)
 {
     HWY_DYNAMIC_DISPATCH(CompleteIncrements)(nodes, pieces, v, dv);
 }
 
-void addWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v)
+void addWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv, BodyVectors v)
 {
     HWY_DYNAMIC_DISPATCH(AddWithMomentum)(nodes, pieces, dv, v);
 }

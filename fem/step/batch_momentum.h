@@ -11,15 +11,15 @@ namespace bullet_fem
 {
 
 /// The pieces of some bodies: what the kernels work with.
-struct LanePieces
+struct BatchMomenta
 {
-    PerLane m_mass;
-    PerLane3 m_center, m_linear, m_angular;
-    PerLane m_inertia[9];  ///< row-major; then its inverse
+    PerBatch m_mass;
+    PerBatch3 m_center, m_linear, m_angular;
+    PerBatch m_inertia[9];  ///< row-major; then its inverse
 };
 
 /// Masses and positions of all nodes.
-struct LaneMasses
+struct BatchMasses
 {
     int m_nodes;
     const double* m_mass;  ///< [node][body] [kg]
@@ -27,24 +27,24 @@ struct LaneMasses
 };
 
 /// Mass, and the sum of m x in place of the centre.
-void sumMasses(const LaneMasses& nodes, LanePieces& pieces);
+void sumMasses(const BatchMasses& nodes, BatchMomenta& pieces);
 
 /// Momenta that loads prescribe, and inertia, about the centres that are known by now: p = m v, p + share (f - alpha
 /// p). Returns |f|^2, one node after the other.
-struct LaneLoads
+struct BatchLoads
 {
     ConstBodyVectors m_v, m_force;
-    PerLane m_alpha, m_share;
+    PerBatch m_alpha, m_share;
 };
-PerLane sumPrescribed(const LaneMasses& nodes, const LaneLoads& loads, LanePieces& pieces);
+PerBatch sumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces);
 
 /// Adds share times impulses [N s] to the prescribed momenta; returns their squares likewise.
-PerLane addImpulses(const LaneMasses& nodes, ConstBodyVectors impulses, const PerLane& share, LanePieces& pieces);
+PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces);
 
 /// Completes increments of velocities v [m/s]: v + dv gets the rigid motion that addWithMomentum() adds.
-void completeIncrements(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors v, BodyVectors dv);
+void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv);
 
 /// v += dv, and the rigid motion that gives every body its prescribed momentum; m_inertia is inverse by now.
-void addWithMomentum(const LaneMasses& nodes, const LanePieces& pieces, ConstBodyVectors dv, BodyVectors v);
+void addWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv, BodyVectors v);
 
 }  // namespace bullet_fem

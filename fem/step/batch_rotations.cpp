@@ -21,24 +21,24 @@ namespace HWY_NAMESPACE
 
 using DF = hn::Rebind<float, D>;  // as many bodies as a vector of doubles has
 using F = hn::Vec<DF>;
-using DWide = hn::CappedTag<float, kBodyLanes>;  // as many as one of floats has
+using DWide = hn::CappedTag<float, kBatchWidth>;  // as many as one of floats has
 using Wide = hn::Vec<DWide>;
 
 /// [item][Count][body], from body `lane` on.
 template <class Tag, int Count>
 HWY_INLINE void loadFloats(Tag tag, const float* from, int item, int lane, hn::Vec<Tag> (&v)[Count])
 {
-    const float* at = from + static_cast<std::size_t>(item) * Count * kBodyLanes + lane;
+    const float* at = from + static_cast<std::size_t>(item) * Count * kBatchWidth + lane;
     HWY_UNROLL(9)
-    for (int k = 0; k < Count; ++k) v[k] = hn::Load(tag, at + k * kBodyLanes);
+    for (int k = 0; k < Count; ++k) v[k] = hn::Load(tag, at + k * kBatchWidth);
 }
 
 template <class Tag, int Count>
 HWY_INLINE void storeFloats(Tag tag, const hn::Vec<Tag> (&v)[Count], int item, int lane, float* to)
 {
-    float* at = to + static_cast<std::size_t>(item) * Count * kBodyLanes + lane;
+    float* at = to + static_cast<std::size_t>(item) * Count * kBatchWidth + lane;
     HWY_UNROLL(9)
-    for (int k = 0; k < Count; ++k) hn::Store(v[k], tag, at + k * kBodyLanes);
+    for (int k = 0; k < Count; ++k) hn::Store(v[k], tag, at + k * kBatchWidth);
 }
 
 /// R, row-major, of quaternions of squared length n > 0.
@@ -62,14 +62,14 @@ HWY_INLINE unsigned unmarked(hn::Mask<DWide> mask, int lane)
     return (~marked & all) << lane;
 }
 
-void AverageLanes(const LaneNodeRotations& rotations)
+void AverageLanes(const BatchNodeRotations& rotations)
 {
     const NodeCorners& nodes = *rotations.m_nodes;
     for (int i = 0; i < nodes.nodeCount(); ++i)
     {
         rotations.m_doubtful[i] = 0;
         const Wide least = hn::Set(DWide(), leastSquaredLength(nodes, i));
-        for (int lane = 0; lane < kBodyLanes; lane += static_cast<int>(hn::MaxLanes(DWide())))
+        for (int lane = 0; lane < kBatchWidth; lane += static_cast<int>(hn::MaxLanes(DWide())))
         {
             const Wide zero = hn::Zero(DWide());
             Wide q[4] = {zero, zero, zero, zero}, odd[4] = {zero, zero, zero, zero}, R[9];
@@ -100,9 +100,9 @@ void AverageLanes(const LaneNodeRotations& rotations)
     }
 }
 
-void RotateIn(const LaneWarp& warp, ConstBodyVectors in, PerLane& largest)
+void RotateIn(const BatchWarp& warp, ConstBodyVectors in, PerBatch& largest)
 {
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         const V zero = hn::Zero(D()), one = hn::Set(D(), 1.0);
         V most = zero;
@@ -126,7 +126,7 @@ void RotateIn(const LaneWarp& warp, ConstBodyVectors in, PerLane& largest)
     }
 }
 
-void RotateOut(const LaneWarp& warp, const PerLane& scale, ConstBodyVectors in, BodyVectors out, PerLane& products)
+void RotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out, PerBatch& products)
 {
     sumOverNodes(warp.m_nodes, products,
                  [&](int node, int lane)
@@ -154,21 +154,21 @@ HWY_EXPORT(AverageLanes);
 HWY_EXPORT(RotateIn);
 HWY_EXPORT(RotateOut);
 
-void averageLanes(const LaneNodeRotations& rotations)
+void averageRotations(const BatchNodeRotations& rotations)
 {
     HWY_DYNAMIC_DISPATCH(AverageLanes)(rotations);
 }
 
-PerLane rotateIn(const LaneWarp& warp, ConstBodyVectors in)
+PerBatch rotateIn(const BatchWarp& warp, ConstBodyVectors in)
 {
-    PerLane largest;
+    PerBatch largest;
     HWY_DYNAMIC_DISPATCH(RotateIn)(warp, in, largest);
     return largest;
 }
 
-PerLane rotateOut(const LaneWarp& warp, const PerLane& scale, ConstBodyVectors in, BodyVectors out)
+PerBatch rotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out)
 {
-    PerLane products;
+    PerBatch products;
     HWY_DYNAMIC_DISPATCH(RotateOut)(warp, scale, in, out, products);
     return products;
 }

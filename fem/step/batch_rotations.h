@@ -12,17 +12,17 @@ namespace bullet_fem
 {
 
 /// Rotations of nodes from those of their elements.
-struct LaneNodeRotations
+struct BatchNodeRotations
 {
     const NodeCorners* m_nodes;
     const float* m_elements;  ///< [element][x, y, z, w][body]
     float* m_out;             ///< [node][9][body], row-major
     unsigned* m_doubtful;     ///< out, per node: bit b of a body b that is to have carefulAverage()
 };
-void averageLanes(const LaneNodeRotations& rotations);
+void averageRotations(const BatchNodeRotations& rotations);
 
 /// The factor's vectors of bodies side by side, [position][3][body], and the rotations of their nodes.
-struct LaneWarp
+struct BatchWarp
 {
     int m_nodes;
     const int* m_position;    ///< of every node in the factor
@@ -31,9 +31,9 @@ struct LaneWarp
 };
 
 /// The factor's vector <- R^T in, scaled to order one; returns what it was divided by.
-PerLane rotateIn(const LaneWarp& warp, ConstBodyVectors in);
+PerBatch rotateIn(const BatchWarp& warp, ConstBodyVectors in);
 
 /// out <- scale R (the factor's vector); returns in . out.
-PerLane rotateOut(const LaneWarp& warp, const PerLane& scale, ConstBodyVectors in, BodyVectors out);
+PerBatch rotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out);
 
 }  // namespace bullet_fem

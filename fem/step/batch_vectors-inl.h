@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<double, kBodyLanes>;
+using D = hn::CappedTag<double, kBatchWidth>;
 using V = hn::Vec<D>;
 constexpr int kN = static_cast<int>(hn::MaxLanes(D()));  // bodies of a vector
 
@@ -57,11 +57,11 @@ HWY_INLINE V3 cross(const V3& a, const V3& b)
 /// Where a node's vectors are in [node][3][body], from body `lane` on; its masses in [node][body].
 HWY_INLINE std::size_t place(int node, int lane)
 {
-    return static_cast<std::size_t>(node) * 3 * kBodyLanes + lane;
+    return static_cast<std::size_t>(node) * 3 * kBatchWidth + lane;
 }
 HWY_INLINE std::size_t massPlace(int node, int lane)
 {
-    return static_cast<std::size_t>(node) * kBodyLanes + lane;
+    return static_cast<std::size_t>(node) * kBatchWidth + lane;
 }
 
 HWY_INLINE V loadOne(const double* from)
@@ -70,21 +70,21 @@ HWY_INLINE V loadOne(const double* from)
 }
 HWY_INLINE V3 load3(const double* from)
 {
-    return {loadOne(from), loadOne(from + kBodyLanes), loadOne(from + 2 * kBodyLanes)};
+    return {loadOne(from), loadOne(from + kBatchWidth), loadOne(from + 2 * kBatchWidth)};
 }
 HWY_INLINE void store3(const V3& v, double* to)
 {
     hn::Store(v.x, D(), to);
-    hn::Store(v.y, D(), to + kBodyLanes);
-    hn::Store(v.z, D(), to + 2 * kBodyLanes);
+    hn::Store(v.y, D(), to + kBatchWidth);
+    hn::Store(v.z, D(), to + 2 * kBatchWidth);
 }
 
 /// Numbers of bodies, which the stack need not align.
-HWY_INLINE V valuesOf(const PerLane& values, int lane)
+HWY_INLINE V valuesOf(const PerBatch& values, int lane)
 {
     return hn::LoadU(D(), values.m + lane);
 }
-HWY_INLINE void storeValues(V v, int lane, PerLane& to)
+HWY_INLINE void storeValues(V v, int lane, PerBatch& to)
 {
     hn::StoreU(v, D(), to.m + lane);
 }
@@ -105,7 +105,7 @@ template <class Visit>
 HWY_INLINE void forEachNode(int nodes, const Visit& visit)
 {
     for (int node = 0; node < nodes; ++node)
-        for (int lane = 0; lane < kBodyLanes; lane += kN) visit(node, lane);
+        for (int lane = 0; lane < kBatchWidth; lane += kN) visit(node, lane);
 }
 
 /// What a node adds to some sums of every body.
@@ -124,12 +124,12 @@ struct Terms
 /// Sums of terms(node, lane), a Terms; what else it does to the node is done once. As dot() of single bodies: in
 /// pieces, with four sums in each, so that an addition need not wait for the one before it.
 template <int kSums, class TermsOf>
-HWY_INLINE void sumsOverNodes(int nodes, PerLane* const (&out)[kSums], const TermsOf& terms)
+HWY_INLINE void sumsOverNodes(int nodes, PerBatch* const (&out)[kSums], const TermsOf& terms)
 {
     Terms<kSums> zero;
     for (V& term : zero.m_term) term = hn::Zero(D());
-    const Pieces pieces(nodes, kEntriesOfPiece);
-    for (int lane = 0; lane < kBodyLanes; lane += kN)
+    const Chunks pieces(nodes, kEntriesPerChunk);
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         Terms<kSums> total = zero;
         for (int p = 0; p < pieces.count(); ++p)
@@ -153,7 +153,7 @@ HWY_INLINE void sumsOverNodes(int nodes, PerLane* const (&out)[kSums], const Ter
 
 /// One sum, likewise.
 template <class Term>
-HWY_INLINE void sumOverNodes(int nodes, PerLane& out, const Term& term)
+HWY_INLINE void sumOverNodes(int nodes, PerBatch& out, const Term& term)
 {
     sumsOverNodes<1>(nodes, {&out}, [&](int node, int lane) { return Terms<1>{{term(node, lane)}}; });
 }
@@ -163,8 +163,8 @@ template <class Visit>
 HWY_INLINE void forEachNumber(int nodes, const Visit& visit)
 {
     const std::size_t size = place(nodes, 0);
-    for (std::size_t at = 0; at < size; at += kBodyLanes)
-        for (int lane = 0; lane < kBodyLanes; lane += kN) visit(at + lane, lane);
+    for (std::size_t at = 0; at < size; at += kBatchWidth)
+        for (int lane = 0; lane < kBatchWidth; lane += kN) visit(at + lane, lane);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -7,20 +7,22 @@
 namespace bullet_fem
 {
 
-/// Bodies of one model that are solved side by side: a number of each is a lane. One AVX-512 vector of floats, two of
-/// AVX2, four of SSE or NEON.
-constexpr int kBodyLanes = 16;
+/// Bodies of one model that are solved in a batch, at most. One AVX-512 vector of floats, two of AVX2, four of SSE or
+/// NEON.
+constexpr int kBatchWidth = 16;
 
-/// One number a body.
-struct PerLane
+/// One number for each of some bodies.
+template <int kBodies>
+struct PerBody
 {
-    double m[kBodyLanes] = {};
+    double m[kBodies] = {};
 
-    double& operator[](int lane) { return m[lane]; }
-    double operator[](int lane) const { return m[lane]; }
+    double& operator[](int body) { return m[body]; }
+    double operator[](int body) const { return m[body]; }
 };
 
-/// A vector a body.
-using PerLane3 = std::array<PerLane, 3>;
+/// One number, or one vector, for each body of a batch.
+using PerBatch = PerBody<kBatchWidth>;
+using PerBatch3 = std::array<PerBatch, 3>;
 
 }  // namespace bullet_fem

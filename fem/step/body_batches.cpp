@@ -14,18 +14,18 @@ namespace
 // What a batch takes, however many bodies it has, in times of a body alone.
 constexpr int kBatchTime = 7;
 
-// Of bodies that share a model, how many batches of kBodyLanes to make, the last one of as many as are left, so that no
-// thread has to wait long: the others go one by one.
+// Of bodies that share a model, how many batches of kBatchWidth to make, the last one of as many as are left, so that
+// no thread has to wait long: the others go one by one.
 int batchesSideBySide(int bodies, int threads)
 {
     const auto time = [&](int batches)
     {
         const int longest = (batches + threads - 1) / threads * kBatchTime;
-        const int work = batches * kBatchTime + std::max(0, bodies - batches * kBodyLanes);
+        const int work = batches * kBatchTime + std::max(0, bodies - batches * kBatchWidth);
         return std::max(longest, (work + threads - 1) / threads);
     };
     int best = 0;
-    for (int batches = 1; batches <= (bodies + kBodyLanes - 1) / kBodyLanes; ++batches)
+    for (int batches = 1; batches <= (bodies + kBatchWidth - 1) / kBatchWidth; ++batches)
         if (time(batches) < time(best)) best = batches;
     return best;
 }
@@ -58,7 +58,7 @@ void BodyBatches::divide(const std::vector<const Body*>& bodies, int threads, bo
     for (std::size_t m = 0; m < m_models.size(); ++m)
     {
         const Range all = {m_end[m] - m_count[m], m_end[m]};
-        const bool lanes = together && canBeSideBySide(*m_models[m]);
+        const bool lanes = together && canBeBatched(*m_models[m]);
         if (lanes && threads == 1)
             m_batches.push_back(all);
         else
@@ -85,7 +85,7 @@ void BodyBatches::divideModel(const Range& all, int sideBySide)
 {
     int k = all.m_begin;
     for (int batch = 0; batch < sideBySide; ++batch, k = m_batches.back().m_end)
-        m_batches.push_back({k, std::min(k + kBodyLanes, all.m_end)});
+        m_batches.push_back({k, std::min(k + kBatchWidth, all.m_end)});
     for (; k < all.m_end; ++k) m_alone.push_back({k, k + 1});
 }
 

@@ -2,38 +2,12 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/step/conjugate_gradients.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "fem/common/chunks.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-// A residual below it has a square that is lost to rounding: nothing is left to solve.
-constexpr double kNothing = 1e-150;
-
-// The recurrence's residual drifts from the true one by about the rounding of A, 1e-6 |b| in single precision, an
-// iteration. It is believed where that is far below the tolerance.
-constexpr double kTrustedTolerance = 1e-4;
-constexpr int kTrustedIterations = 8;
-
-// A guess that is good enough as it stands must be better than an iteration's answer would have to be: its error is
-// that of the step before, and would be carried on from step to step.
-constexpr double kGuessShare = 0.1;
-
-// Calls update(i) for every node, which changes nothing but entries i.
-template <class Update>
-void forEachNode(const Threads* threads, std::size_t size, const Update& update)
-{
-    runRanges(threads, {static_cast<int>(size), kEntriesOfPiece},
-              [&](Range nodes)
-              {
-                  for (int i = nodes.m_begin; i < nodes.m_end; ++i) update(i);
-              });
-}
 
 // Four sums, so that an addition need not wait for the one before it; their order is fixed.
 double dotOfRange(const std::vector<Vec3>& a, const std::vector<Vec3>& b, Range nodes)
@@ -50,189 +24,128 @@ double dotOfRange(const std::vector<Vec3>& a, const std::vector<Vec3>& b, Range 
 
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Threads* threads)
 {
-    const Pieces pieces(static_cast<int>(a.size()), kEntriesOfPiece);
-    double sums[Pieces::kMost];
-    runTasks(threads, pieces.count(), [&](int k) { sums[k] = dotOfRange(a, b, pieces[k]); });
+    const Chunks chunks(static_cast<int>(a.size()), kEntriesPerChunk);
+    double sums[Chunks::kMost];
+    runTasks(threads, chunks.count(), [&](int k) { sums[k] = dotOfRange(a, b, chunks[k]); });
     double sum = 0;
-    for (int k = 0; k < pieces.count(); ++k) sum += sums[k];
+    for (int k = 0; k < chunks.count(); ++k) sum += sums[k];
     return sum;
 }
 
 namespace
 {
 
-/// What the solve does to vectors of nodes.
-class NodeVectors
+/// The vectors of one system.
+class VectorsOfOne
 {
 public:
-    explicit NodeVectors(const Threads* threads) : m_threads(threads) {}
+    static constexpr int kBodies = 1;
+    using Numbers = PerBody<1>;
 
-    double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) const
-    {
-        return bullet_fem::dot(a, b, m_threads);
-    }
-    double norm(const std::vector<Vec3>& a) const { return std::sqrt(dot(a, a)); }
+    explicit VectorsOfOne(const OperatorSystem& system) : m_system(system) {}
 
-    /// r = b - Ax.
-    void residual(const std::vector<Vec3>& b, const std::vector<Vec3>& Ax, std::vector<Vec3>& r) const
-    {
-        forEachNode(m_threads, b.size(), [&](int i) { r[i] = b[i] - Ax[i]; });
-    }
+    int count() const { return 1; }
+    Numbers rightSideSquares() const { return {{dotOf(m_system.m_b, m_system.m_b)}}; }
+    void startFromZero() { vectors().m_r = m_system.m_b; }
 
-    /// p = z + beta p; z where beta is 0, whatever was in p.
-    void turn(double beta, const std::vector<Vec3>& z, std::vector<Vec3>& p) const
+    GuessMeasure<1> measureGuess()
     {
-        forEachNode(m_threads, p.size(), [&](int i) { p[i] = beta > 0 ? z[i] + beta * p[i] : z[i]; });
+        const Numbers xx = {{dotOf(m_system.m_x, m_system.m_x)}};
+        if (xx[0] > 0) return {xx, trueResidual({})};
+        startFromZero();
+        return {xx, {}};
     }
 
-    /// x += step p, r -= step Ap.
-    void advance(double step, const ConjugateGradientScratch& scratch, std::vector<Vec3>& x, std::vector<Vec3>& r) const
+    GuessProducts<1> guessProducts() const
     {
-        forEachNode(m_threads, x.size(),
-                    [&](int i)
-                    {
-                        x[i] += step * scratch.m_p[i];
-                        r[i] += -step * scratch.m_Ap[i];
-                    });
+        return {{{dotOf(m_system.m_b, m_system.m_x)}}, {{dotOf(m_system.m_x, vectors().m_Ap)}}};
     }
 
-    /// x *= scale; r becomes b - A x, or b where nothing is left of x.
-    void scaleGuess(double scale, const std::vector<Vec3>& Ax, const std::vector<Vec3>& b, std::vector<Vec3>& x,
-                    std::vector<Vec3>& r) const
+    /// r becomes b - A x, or b where nothing is left of x.
+    Numbers scaleGuess(const Numbers& scale, const Numbers& isScaled)
     {
-        forEachNode(m_threads, x.size(),
-                    [&](int i)
-                    {
-                        x[i] *= scale;
-                        r[i] = scale > 0 ? b[i] - scale * Ax[i] : b[i];
-                    });
+        if (!(isScaled[0] > 0)) return {};
+        const double factor = scale[0];
+        std::vector<Vec3>&x = m_system.m_x, &r = vectors().m_r;
+        const std::vector<Vec3>&b = m_system.m_b, &Ax = vectors().m_Ap;
+        forEachNode(
+            [&](int i)
+            {
+                x[i] *= factor;
+                r[i] = factor > 0 ? b[i] - factor * Ax[i] : b[i];
+            });
+        return {{dotOf(r, r)}};
+    }
+
+    Numbers trueResidual(const Numbers&)
+    {
+        std::vector<Vec3>&Ax = vectors().m_Ap, &r = vectors().m_r;
+        const std::vector<Vec3>& b = m_system.m_b;
+        m_system.m_A.apply(m_system.m_x, Ax);
+        forEachNode([&](int i) { r[i] = b[i] - Ax[i]; });
+        return {{dotOf(r, r)}};
+    }
+
+    Numbers precondition(bool isFirst)
+    {
+        std::vector<Vec3>& z = isFirst ? vectors().m_p : vectors().m_z;  // the first direction
+        m_system.m_P.apply(vectors().m_r, z);
+        return {{dotOf(vectors().m_r, z)}};
+    }
+
+    /// z where beta is 0, whatever was in p.
+    void turnDirection(const Numbers& beta, const Numbers&)
+    {
+        std::vector<Vec3>& p = vectors().m_p;
+        const std::vector<Vec3>& z = vectors().m_z;
+        forEachNode([&, factor = beta[0]](int i) { p[i] = factor > 0 ? z[i] + factor * p[i] : z[i]; });
+    }
+
+    Numbers applyToDirection()
+    {
+        m_system.m_A.apply(vectors().m_p, vectors().m_Ap);
+        return {{dotOf(vectors().m_p, vectors().m_Ap)}};
+    }
+
+    Numbers advance(const Numbers& step, const Numbers&)
+    {
+        std::vector<Vec3>&x = m_system.m_x, &r = vectors().m_r;
+        const std::vector<Vec3>&p = vectors().m_p, &Ap = vectors().m_Ap;
+        forEachNode(
+            [&, length = step[0]](int i)
+            {
+                x[i] += length * p[i];
+                r[i] += -length * Ap[i];
+            });
+        return {{dotOf(r, r)}};
     }
 
 private:
-    const Threads* m_threads;
+    ConjugateGradientScratch& vectors() const { return m_system.m_scratch; }
+    double dotOf(const std::vector<Vec3>& a, const std::vector<Vec3>& b) const { return dot(a, b, m_system.m_threads); }
+
+    /// Calls update(i) for every node, which changes nothing but entries i.
+    template <class Update>
+    void forEachNode(const Update& update) const
+    {
+        runRanges(m_system.m_threads, {static_cast<int>(m_system.m_b.size()), kEntriesPerChunk},
+                  [&](Range nodes)
+                  {
+                      for (int i = nodes.m_begin; i < nodes.m_end; ++i) update(i);
+                  });
+    }
+
+    const OperatorSystem& m_system;
 };
 
 }  // namespace
 
-double optimalScale(double bx, double xAx)
+SolveReport solveConjugateGradients(const OperatorSystem& system, const ConjugateGradientStop& stop)
 {
-    const double best = bx / xAx;
-    return best > 0 && std::isfinite(best) ? best : 0;
-}
-
-ConjugateGradientCourse::ConjugateGradientCourse(const ConjugateGradientStop& stop, double bNorm, bool zero)
-    : m_stop(stop),
-      m_bNorm(bNorm),
-      m_goal(std::max(stop.m_tolerance * std::max(bNorm, stop.m_floor), kNothing)),
-      m_rNorm(bNorm),
-      m_guessed(!zero || stop.m_steady),
-      m_over(false)
-{
-}
-
-bool ConjugateGradientCourse::noteGuess(double rNorm)
-{
-    m_rNorm = rNorm;
-    return m_rNorm <= kGuessShare * m_goal;
-}
-
-bool ConjugateGradientCourse::wantsTrueResidual() const
-{
-    return m_rNorm <= m_goal && !m_residualIsTrue;
-}
-
-void ConjugateGradientCourse::noteTrueResidual(double rNorm)
-{
-    m_rNorm = rNorm;
-    m_residualIsTrue = true;
-    m_rz = 0;  // restart from here if the recurrence had drifted
-}
-
-bool ConjugateGradientCourse::isSolved() const
-{
-    const double share = m_report.m_iterations == 0 && m_guessed ? kGuessShare : 1;
-    return m_rNorm <= share * m_goal && std::isfinite(m_goal);
-}
-
-bool ConjugateGradientCourse::decide()
-{
-    if (!m_over && isSolved())
-        m_over = true;
-    else if (!m_over && m_report.m_iterations == m_stop.m_maxIterations)
-    {
-        m_report.m_stop = SolveStop::budget;
-        m_over = true;
-    }
-    return m_over && !m_residualIsTrue;
-}
-
-void ConjugateGradientCourse::noteLastResidual(double rNorm)
-{
-    m_rNorm = rNorm;
-    m_residualIsTrue = true;
-}
-
-bool ConjugateGradientCourse::step(double rz, double pAp, double& step)
-{
-    step = rz / pAp;
-    if (rz > 0 && pAp > 0 && std::isfinite(step)) return true;
-    m_report.m_stop = SolveStop::breakdown;
-    m_over = true;
-    return false;
-}
-
-void ConjugateGradientCourse::noteStep(double rz, double rNorm)
-{
-    m_rz = rz;
-    m_rNorm = rNorm;
-    ++m_report.m_iterations;
-    m_residualIsTrue = m_stop.m_tolerance >= kTrustedTolerance && m_report.m_iterations <= kTrustedIterations;
-}
-
-SolveReport ConjugateGradientCourse::report() const
-{
-    SolveReport report = m_report;
-    const double scale = m_stop.m_steady ? std::max(m_bNorm, m_stop.m_floor) : m_bNorm;
-    report.m_residual = scale > 0 ? m_rNorm / scale : 0;
+    VectorsOfOne vectors(system);
+    SolveReport report;
+    solveConjugateGradients(vectors, &stop, true, &report);
     return report;
-}
-
-SolveReport solveConjugateGradients(const LinearOperator& A, const LinearOperator& P, const std::vector<Vec3>& b,
-                                    const ConjugateGradientStop& stop, ConjugateGradientScratch& scratch,
-                                    std::vector<Vec3>& x)
-{
-    const NodeVectors vectors(stop.m_threads);
-    std::vector<Vec3>&r = scratch.m_r, &z = scratch.m_z, &p = scratch.m_p, &Ap = scratch.m_Ap;
-    const auto measureTruly = [&]
-    {
-        A.apply(x, Ap);
-        vectors.residual(b, Ap, r);
-        return vectors.norm(r);
-    };
-
-    r = b;
-    const double bNorm = vectors.norm(b);
-    const bool zero = !(vectors.dot(x, x) > 0);
-    ConjugateGradientCourse course(stop, bNorm, zero);
-    if (!zero && !course.noteGuess(measureTruly()))
-    {
-        vectors.scaleGuess(optimalScale(vectors.dot(b, x), vectors.dot(x, Ap)), Ap, b, x, r);
-        course.noteScaledGuess(vectors.norm(r));
-    }
-    while (true)
-    {
-        if (course.wantsTrueResidual()) course.noteTrueResidual(measureTruly());
-        if (course.decide()) course.noteLastResidual(measureTruly());
-        if (course.isOver()) return course.report();
-        P.apply(r, z);
-        const double rz = vectors.dot(r, z);
-        vectors.turn(course.beta(rz), z, p);
-        A.apply(p, Ap);
-        double step;
-        if (!course.step(rz, vectors.dot(p, Ap), step)) continue;
-        vectors.advance(step, scratch, x, r);
-        course.noteStep(rz, vectors.norm(r));
-    }
 }
 
 }  // namespace bullet_fem

@@ -22,7 +22,7 @@ public:
     /// it to the loads' frame is added likewise.
     void prescribe(const Body& body, double step);
 
-    /// Pieces that hang on fixed nodes in one place or on one line keep the angular momentum about these that
+    /// Chunks that hang on fixed nodes in one place or on one line keep the angular momentum about these that
     /// `velocity` gives them, the motion without the impulses to come, if they are drawn to a frame: else it would damp
     /// the part of those that turns them. Nothing else changes.
     void keepHung(const Body& body, const std::vector<Vec3>& velocity);

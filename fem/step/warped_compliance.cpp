@@ -19,8 +19,8 @@ void WarpedCompliance::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out
     std::fill(out.begin(), out.end(), Vec3());
     ConjugateGradientStop stop;
     stop.m_tolerance = 1e-3;
-    stop.m_threads = m_threads;
-    solveConjugateGradients(WarpedSystem(m_body, m_threads), P, scratch.m_rightSide, stop, scratch.m_solver, out);
+    const WarpedSystem A(m_body, m_threads);
+    solveConjugateGradients({A, P, scratch.m_rightSide, out, scratch.m_solver, m_threads}, stop);
 }
 
 }  // namespace bullet_fem

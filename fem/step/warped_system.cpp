@@ -22,7 +22,7 @@ constexpr double kFinestSingle = 3e-4;  // tolerance that single precision keeps
 
 void pad(const Threads* threads, const std::vector<Vec3>& from, std::vector<PaddedVec3>& to)
 {
-    runRanges(threads, {static_cast<int>(from.size()), kEntriesOfPiece},
+    runRanges(threads, {static_cast<int>(from.size()), kEntriesPerChunk},
               [&](Range nodes)
               {
                   for (int i = nodes.m_begin; i < nodes.m_end; ++i) to[i] = {from[i].x, from[i].y, from[i].z, 0};
@@ -32,7 +32,7 @@ void pad(const Threads* threads, const std::vector<Vec3>& from, std::vector<Padd
 template <class Real>
 void sumOverNodes(const Threads* threads, const NodeSums<Real>& sums)
 {
-    runRanges(threads, {sums.m_nodes->nodeCount(), kNodesOfPiece}, [&](Range nodes) { sumCorners(sums, nodes); });
+    runRanges(threads, {sums.m_nodes->nodeCount(), kNodesPerChunk}, [&](Range nodes) { sumCorners(sums, nodes); });
 }
 
 // The forces, rotations and parts of A of all elements.
@@ -60,7 +60,7 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
 template <class Real>
 void runPass(const ElementPass<Real>& pass, const Threads* threads)
 {
-    runRanges(threads, {pass.m_elements->blockCount(), kBlocksOfPiece},
+    runRanges(threads, {pass.m_elements->blockCount(), kBlocksPerChunk},
               [&](Range blocks) { runElementPass(pass, blocks); });
 }
 
@@ -74,25 +74,6 @@ void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3
                  NodeSums<Real>{&body.m_model->elements().m_nodes, pass.m_force, nullptr, nullptr, force.data()});
 }
 
-// One rotation a node, or the body's one for all.
-void rotateNodes(Body& body, const StepSettings& settings)
-{
-    const ModelElements& elements = body.m_model->elements();
-    BodyState& state = body.m_state;
-    std::vector<NodeRotation>& R = body.m_workspace.scratch().m_elements.m_nodeRotation;
-    if (settings.m_warp == Warp::nodal)
-    {
-        const NodeRotations average = {&elements.m_nodes, state.m_elementRotation.data(), R.data()};
-        return runRanges(settings.m_threads, {body.m_model->nodeCount(), kNodesOfPiece},
-                         [&](Range nodes) { averageRotations(average, nodes); });
-    }
-    const Mat3 sum = sumRotations(elements.m_nodes, state.m_elementRotation.data(), {0, elements.blockCount()});
-    state.m_bodyRotation = polarRotation(sum, state.m_bodyRotation);
-    NodeRotation Q;
-    for (int k = 0; k < 9; ++k) Q.m[k] = static_cast<float>(state.m_bodyRotation(k / 3, k % 3));
-    std::fill(R.begin(), R.end(), Q);
-}
-
 template <class Real>
 void product(const Body& body, const Threads* threads, const std::vector<Vec3>& in, std::vector<Vec3>& out)
 {
@@ -102,7 +83,7 @@ void product(const Body& body, const Threads* threads, const std::vector<Vec3>& 
     pad(threads, in, work.m_x);
     const ElementProduct<Real> forces = {&elements.blocks<Real>(), scratch.m_warped.data(), work.m_stiffnessFactor,
                                          work.m_x.data(), scratch.m_corners.data()};
-    runRanges(threads, {elements.blockCount(), kBlocksOfPiece},
+    runRanges(threads, {elements.blockCount(), kBlocksPerChunk},
               [&](Range blocks) { runElementProduct(forces, blocks); });
     sumOverNodes(threads, NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(), work.m_scaledMass.data(),
                                          work.m_x.data(), out.data()});
@@ -139,7 +120,24 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
         passOverElements<double>(body, settings, force);
     else
         passOverElements<float>(body, settings, force);
-    rotateNodes(body, settings);
+}
+
+void averageNodeRotations(Body& body, const StepSettings& settings)
+{
+    const ModelElements& elements = body.m_model->elements();
+    BodyState& state = body.m_state;
+    std::vector<NodeRotation>& R = body.m_workspace.scratch().m_elements.m_nodeRotation;
+    if (settings.m_warp == Warp::nodal)
+    {
+        const NodeRotations average = {&elements.m_nodes, state.m_elementRotation.data(), R.data()};
+        return runRanges(settings.m_threads, {body.m_model->nodeCount(), kNodesPerChunk},
+                         [&](Range nodes) { averageRotations(average, nodes); });
+    }
+    const Mat3 sum = sumRotations(elements.m_nodes, state.m_elementRotation.data(), {0, elements.blockCount()});
+    state.m_bodyRotation = polarRotation(sum, state.m_bodyRotation);
+    NodeRotation Q;
+    for (int k = 0; k < 9; ++k) Q.m[k] = static_cast<float>(state.m_bodyRotation(k / 3, k % 3));
+    std::fill(R.begin(), R.end(), Q);
 }
 
 void completeWarpedSystem(Body& body, const StepSettings& settings)
@@ -189,7 +187,7 @@ double WarpedPreconditioner::rotateIn(const std::vector<Vec3>& in) const
     double largest = 0;
     for (const Vec3& r : in) largest = std::max({largest, std::fabs(r.x), std::fabs(r.y), std::fabs(r.z)});
     const double down = largest > 0 ? 1 / largest : 0;
-    runRanges(m_threads, {static_cast<int>(in.size()), kNodesOfPiece},
+    runRanges(m_threads, {static_cast<int>(in.size()), kNodesPerChunk},
               [&](Range nodes)
               {
                   for (int i = nodes.m_begin; i < nodes.m_end; ++i)
@@ -213,7 +211,7 @@ void WarpedPreconditioner::rotateOut(const std::vector<Vec3>& in, double scale, 
     const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
     const std::vector<NodeRotation>& R = m_body.m_workspace.scratch().m_elements.m_nodeRotation;
     const float* y = m_body.m_workspace.scratch().m_factor.m_vector.get();
-    runRanges(m_threads, {static_cast<int>(in.size()), kNodesOfPiece},
+    runRanges(m_threads, {static_cast<int>(in.size()), kNodesPerChunk},
               [&](Range nodes)
               {
                   for (int i = nodes.m_begin; i < nodes.m_end; ++i)

@@ -11,11 +11,14 @@ namespace bullet_fem
 /// True if a step with these settings works in single precision.
 bool isSinglePrecision(const StepSettings& settings);
 
-/// Rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4 and above and in double
-/// below. Turns the state's rotations to its positions, adds f_el(x) - (h + beta) K' v to `force` [N], and
-/// leaves in the body's scratch what WarpedSystem and WarpedPreconditioner work with. Allocates in the first step of
-/// double precision, never else.
+/// Element rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4 and above and in
+/// double below. Turns the state's rotations to its positions, adds f_el(x) - (h + beta) K' v to `force` [N], and
+/// leaves in the body's scratch what WarpedSystem works with. Allocates in the first step of double precision, never
+/// else.
 void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force);
+
+/// The rotations that WarpedPreconditioner works with, of those of the elements: one a node, or the body's one for all.
+void averageNodeRotations(Body& body, const StepSettings& settings);
 
 /// What A multiplies masses and K' with in steps of `step` [s], in the body's scratch: part of prepareWarpedSystem().
 void scaleWarpedSystem(Body& body, double step);

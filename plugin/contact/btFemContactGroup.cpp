@@ -20,7 +20,7 @@ namespace
 // Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
 constexpr int kSweepsWithJoints = 50;
 
-constexpr int kContactsOfPiece = 256;  // copied at once
+constexpr int kContactsPerChunk = 256;  // copied at once
 
 // The user's defaults are the solver's own.
 static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
@@ -138,7 +138,7 @@ void btFemContactGroup::collectContacts()
     contacts.resize(m_firstRigid.back() + soft.size());
     const auto place = [&contacts](std::size_t k) { return contacts.begin() + static_cast<std::ptrdiff_t>(k); };
     const int bodies = static_cast<int>(m_bodies.size());
-    const Pieces pieces(static_cast<int>(soft.size()), kContactsOfPiece);
+    const Chunks pieces(static_cast<int>(soft.size()), kContactsPerChunk);
     m_settings.m_step.m_threads->run(bodies + pieces.count(),
                                      [&](int k)
                                      {

@@ -50,7 +50,7 @@ protected:
             hwy::SetSupportedTargetsForTest(target);
             const AlignedFloats y = randomFloats(static_cast<std::size_t>(m_size) * kPanelLanes, 10);
             const AlignedFloats before = randomFloats(static_cast<std::size_t>(m_size) * kPanelLanes, 10);
-            const AlignedFloats scratch = randomFloats(sideScratchOf(m_panel), 20);  // what it held does not matter
+            const AlignedFloats scratch = randomFloats(batchScratchOf(m_panel), 20);  // what it held does not matter
             together(m_panel, y.get(), scratch.get());
             for (int lane = 0; lane < kPanelLanes; ++lane)
             {
@@ -74,12 +74,12 @@ protected:
 
 TEST_P(SidePanelKernels, ForwardGivesEveryVectorItsOwnBits)
 {
-    compare(forwardPanelSide, forwardPanel);
+    compare(forwardPanelBatch, forwardPanel);
 }
 
 TEST_P(SidePanelKernels, BackwardGivesEveryVectorItsOwnBits)
 {
-    compare(backwardPanelSide, backwardPanel);
+    compare(backwardPanelBatch, backwardPanel);
 }
 
 // All widths of a last chunk, and rows that fill their last block or do not.

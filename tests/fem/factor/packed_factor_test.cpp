@@ -131,10 +131,10 @@ TEST_P(PackedSolve, GivesTheSameBitsEveryTime)
 TEST_P(PackedSolve, GivesVectorsSideBySideTheirOwnBits)
 {
     const AlignedFloats y = allocateFloats(m_packed.vectorSize() * kPanelLanes);
-    const AlignedFloats scratch = allocateFloats(m_packed.sideScratchSize());
+    const AlignedFloats scratch = allocateFloats(m_packed.batchScratchSize());
     const std::vector<float> b = randomVector(m_packed.size() * kPanelLanes, 5);
     std::copy(b.begin(), b.end(), y.get());
-    m_packed.solveSide(y.get(), scratch.get());
+    m_packed.solveBatch(y.get(), scratch.get());
     for (int lane = 0; lane < kPanelLanes; ++lane)
     {
         for (int i = 0; i < m_packed.size(); ++i) m_y[i] = b[i * kPanelLanes + lane];

@@ -27,7 +27,7 @@ public:
     explicit StrainedCopies(const TetMesh& mesh)
         : m_model(makeBody(mesh, elasticMaterial(1e4, 0.3)).m_model), m_lanes(*m_model)
     {
-        for (int b = 0; b < kBodyLanes; ++b)
+        for (int b = 0; b < kBatchWidth; ++b)
         {
             const std::vector<Vec3> x = positions(b), v = velocities(b);
             m_alone.emplace_back(m_model->shape(), x, v);
@@ -38,11 +38,11 @@ public:
         }
     }
 
-    LanePass pass()
+    BatchElementPass pass()
     {
         const ElementPass<float> own = m_alone[0].pass();
-        LanePass pass = {m_lanes.m_x.get(), m_lanes.m_v.get(), own.m_damping, own.m_tensionFactor, {}, {}, {}};
-        for (int b = 0; b < kBodyLanes; ++b)
+        BatchElementPass pass = {m_lanes.m_x.get(), m_lanes.m_v.get(), own.m_damping, own.m_tensionFactor, {}, {}, {}};
+        for (int b = 0; b < kBatchWidth; ++b)
         {
             pass.m_rotationBefore[b] = m_rotation[b].data();
             if (b == kSpared) continue;
@@ -56,23 +56,23 @@ public:
     {
         for (ElementCase<float>& alone : m_alone) runElementPass(alone.pass(), alone.blocks());
         clearSums();
-        passOverLanes(m_lanes.elements(), pass());
+        runElementPass(m_lanes.elements(), pass());
     }
 
     void multiply()
     {
-        for (int b = 0; b < kBodyLanes; ++b) m_product.push_back(m_alone[b].times(velocities(b)));
+        for (int b = 0; b < kBatchWidth; ++b) m_product.push_back(m_alone[b].times(velocities(b)));
         clearSums();
-        multiplyLanes(m_lanes.elements(), ElementCase<float>::kStiffnessFactor, m_lanes.m_v.get());
+        runElementProduct(m_lanes.elements(), ElementCase<float>::kStiffnessFactor, m_lanes.m_v.get());
     }
 
     void expectTheirForces() const
     {
-        for (int b = 0; b < kBodyLanes; ++b) expectSums(b, m_alone[b].cornerSums());
+        for (int b = 0; b < kBatchWidth; ++b) expectSums(b, m_alone[b].cornerSums());
     }
     void expectTheirProducts() const
     {
-        for (int b = 0; b < kBodyLanes; ++b) expectSums(b, m_product[b]);
+        for (int b = 0; b < kBatchWidth; ++b) expectSums(b, m_product[b]);
     }
 
     // The one that is spared keeps what it had.
@@ -80,7 +80,7 @@ public:
     {
         const int count = m_model->mesh().tetCount();
         const std::vector<Quaternion> before(count);
-        for (int b = 0; b < kBodyLanes; ++b)
+        for (int b = 0; b < kBatchWidth; ++b)
         {
             const std::vector<Quaternion>& expected = b == kSpared ? before : m_alone[b].m_rotation;
             EXPECT_EQ(0, std::memcmp(expected.data(), m_rotation[b].data(), count * sizeof(Quaternion))) << b;
@@ -90,7 +90,7 @@ public:
     void expectTheirGradientsAndTensions()
     {
         std::vector<WarpedBlock<float>> before(m_warped[kSpared].size());
-        for (int b = 0; b < kBodyLanes; ++b)
+        for (int b = 0; b < kBatchWidth; ++b)
             for (int e = 0; e < m_model->mesh().tetCount(); ++e)
                 for (int row = 0; row < kWarpedRows; ++row)
                 {
@@ -131,12 +131,12 @@ private:
     static void copyTo(double* lanes, int b, const std::vector<Vec3>& from)
     {
         for (std::size_t i = 0; i < from.size(); ++i)
-            for (int c = 0; c < 3; ++c) lanes[(3 * i + c) * kBodyLanes + b] = (&from[i].x)[c];
+            for (int c = 0; c < 3; ++c) lanes[(3 * i + c) * kBatchWidth + b] = (&from[i].x)[c];
     }
 
     void clearSums()
     {
-        std::fill_n(m_lanes.m_sums.get(), static_cast<std::size_t>(6 * kBodyLanes) * m_lanes.nodeCount(), 0.0);
+        std::fill_n(m_lanes.m_sums.get(), static_cast<std::size_t>(6 * kBatchWidth) * m_lanes.nodeCount(), 0.0);
     }
 
     void expectSums(int b, const std::vector<Vec3>& expected) const
@@ -145,13 +145,13 @@ private:
         for (std::size_t i = 0; i < expected.size(); ++i)
             for (int c = 0; c < 3; ++c)
             {
-                const double even = sums[(6 * i + c) * kBodyLanes + b], odd = sums[(6 * i + 3 + c) * kBodyLanes + b];
+                const double even = sums[(6 * i + c) * kBatchWidth + b], odd = sums[(6 * i + 3 + c) * kBatchWidth + b];
                 ASSERT_TRUE(sameBits(even + odd, (&expected[i].x)[c])) << b << ", node " << i;
             }
     }
 
     std::shared_ptr<const BodyModel> m_model;
-    BodyLanes m_lanes;
+    BatchArrays m_lanes;
     std::vector<ElementCase<float>> m_alone;
     std::vector<std::vector<Quaternion>> m_rotation;
     std::vector<std::vector<WarpedBlock<float>>> m_warped;

@@ -10,21 +10,21 @@ namespace bullet_fem
 namespace
 {
 
-/// Arrays of kBodyLanes bodies with numbers that say where they are, and room for lanes.
+/// Arrays of kBatchWidth bodies with numbers that say where they are, and room for lanes.
 template <class Real>
 class ExchangeCase
 {
 public:
-    explicit ExchangeCase(const LaneLayout& layout) : m_layout(layout)
+    explicit ExchangeCase(const BatchLayout& layout) : m_layout(layout)
     {
         const int run = layout.m_rows > 1 ? kLanes : layout.m_count;
         m_size = (layout.m_count + run - 1) / run * run * layout.m_rows;
-        for (int b = 0; b < kBodyLanes; ++b)
+        for (int b = 0; b < kBatchWidth; ++b)
         {
             m_arrays.emplace_back(m_size);
             for (int k = 0; k < m_size; ++k) m_arrays[b][k] = static_cast<Real>(1000 * b + k);
         }
-        m_lanes = allocateAligned<Real>(static_cast<std::size_t>(kBodyLanes) * layout.m_count * layout.m_rows);
+        m_lanes = allocateAligned<Real>(static_cast<std::size_t>(kBatchWidth) * layout.m_count * layout.m_rows);
     }
 
     int place(int value, int row) const
@@ -35,28 +35,29 @@ public:
 
     void gather()
     {
-        const Real* from[kBodyLanes];
-        for (int b = 0; b < kBodyLanes; ++b) from[b] = m_arrays[b].data();
-        gatherLanes(from, m_lanes.get(), m_layout);
+        const Real* from[kBatchWidth];
+        for (int b = 0; b < kBatchWidth; ++b) from[b] = m_arrays[b].data();
+        gatherBatch(from, m_lanes.get(), m_layout);
     }
 
     void expectLanes() const
     {
         for (int value = 0; value < m_layout.m_count; ++value)
             for (int row = 0; row < m_layout.m_rows; ++row)
-                for (int b = 0; b < kBodyLanes; ++b)
-                    ASSERT_EQ(m_lanes[(value * m_layout.m_rows + row) * kBodyLanes + b], m_arrays[b][place(value, row)])
+                for (int b = 0; b < kBatchWidth; ++b)
+                    ASSERT_EQ(m_lanes[(value * m_layout.m_rows + row) * kBatchWidth + b],
+                              m_arrays[b][place(value, row)])
                         << value << ", " << row << ", " << b;
     }
 
     // Into arrays of -1, but of two bodies.
     void expectWayBack() const
     {
-        std::vector<std::vector<Real>> back(kBodyLanes, std::vector<Real>(m_size, Real(-1)));
-        Real* to[kBodyLanes];
-        for (int b = 0; b < kBodyLanes; ++b) to[b] = b == 3 || b == 15 ? nullptr : back[b].data();
-        scatterLanes(to, m_lanes.get(), m_layout);
-        for (int b = 0; b < kBodyLanes; ++b)
+        std::vector<std::vector<Real>> back(kBatchWidth, std::vector<Real>(m_size, Real(-1)));
+        Real* to[kBatchWidth];
+        for (int b = 0; b < kBatchWidth; ++b) to[b] = b == 3 || b == 15 ? nullptr : back[b].data();
+        scatterBatch(to, m_lanes.get(), m_layout);
+        for (int b = 0; b < kBatchWidth; ++b)
             for (int value = 0; value < m_layout.m_count; ++value)
                 for (int row = 0; row < m_layout.m_rows; ++row)
                     ASSERT_EQ(back[b][place(value, row)], to[b] ? m_arrays[b][place(value, row)] : Real(-1))
@@ -64,7 +65,7 @@ public:
     }
 
 private:
-    LaneLayout m_layout;
+    BatchLayout m_layout;
     int m_size;
     std::vector<std::vector<Real>> m_arrays;
     AlignedArray<Real> m_lanes;
@@ -74,7 +75,7 @@ class LaneExchange : public OnTarget
 {
 protected:
     template <class Real>
-    static void goThereAndBack(const LaneLayout& layout)
+    static void goThereAndBack(const BatchLayout& layout)
     {
         SCOPED_TRACE(std::to_string(layout.m_count) + " values, " + std::to_string(layout.m_rows) + " rows");
         ExchangeCase<Real> exchange(layout);

@@ -24,9 +24,9 @@ TEST(BatchMemory, LendsWhatCameBack)
 {
     BatchMemory memory;
     const auto model = smallModel();
-    const BodyLanes* lanes = &BatchLoan(memory, model).lanes();
+    const BatchArrays* arrays = &BatchLoan(memory, model).arrays();
     const AllocationCounter counter;
-    for (int k = 0; k < 5; ++k) EXPECT_EQ(&BatchLoan(memory, model).lanes(), lanes);
+    for (int k = 0; k < 5; ++k) EXPECT_EQ(&BatchLoan(memory, model).arrays(), arrays);
     EXPECT_EQ(counter.count(), 0);
 }
 
@@ -35,16 +35,16 @@ TEST(BatchMemory, LendsNothingTwiceAtATime)
     BatchMemory memory;
     const auto model = smallModel();
     BatchLoan first(memory, model), second(memory, model);
-    EXPECT_NE(&first.lanes(), &second.lanes());
+    EXPECT_NE(&first.arrays(), &second.arrays());
 }
 
 TEST(BatchMemory, LendsEveryModelItsOwn)
 {
     BatchMemory memory;
     const auto a = smallModel(), b = smallModel();
-    const BodyLanes* lanes = &BatchLoan(memory, a).lanes();
-    EXPECT_EQ(&BatchLoan(memory, b).lanes().model(), b.get());
-    EXPECT_EQ(&BatchLoan(memory, a).lanes(), lanes);
+    const BatchArrays* arrays = &BatchLoan(memory, a).arrays();
+    EXPECT_EQ(&BatchLoan(memory, b).arrays().model(), b.get());
+    EXPECT_EQ(&BatchLoan(memory, a).arrays(), arrays);
 }
 
 // Another model may get the address of one that is gone.
@@ -54,7 +54,7 @@ TEST(BatchMemory, ForgetsModelsThatAreGone)
     for (int k = 0; k < 20; ++k)
     {
         const auto model = makeBody(makeBox({1, 1, 1}, {1 + k % 3, 1, 1}), Material()).m_model;
-        EXPECT_EQ(BatchLoan(memory, model).lanes().nodeCount(), model->nodeCount());
+        EXPECT_EQ(BatchLoan(memory, model).arrays().nodeCount(), model->nodeCount());
     }
 }
 
@@ -70,9 +70,9 @@ TEST(BatchMemory, LendsToSeveralThreads)
                 for (int k = 0; k < 50; ++k)
                 {
                     BatchLoan loan(memory, model);
-                    loan.lanes().m_x[0] = t;
+                    loan.arrays().m_x[0] = t;
                     std::this_thread::yield();
-                    EXPECT_EQ(loan.lanes().m_x[0], t);
+                    EXPECT_EQ(loan.arrays().m_x[0], t);
                 }
             });
     for (std::thread& thread : threads) thread.join();

@@ -13,7 +13,7 @@
 #include "bullet_fem/fem/step/batch_memory.h"
 #include "fem/scenes/element_case.h"
 #include "fem/scenes/stepping_scenes.h"
-#include "fem/step/batched_solve.h"
+#include "fem/step/body_batch.h"
 
 namespace bullet_fem
 {
@@ -107,7 +107,7 @@ public:
     int sideBySide()
     {
         int result = 0;
-        for (int k = 0; k < count(); ++k) result += canBeSideBySide(FreeMotion{&m_bodies[k], m_settings[k], {}});
+        for (int k = 0; k < count(); ++k) result += canBeBatched(FreeMotion{&m_bodies[k], m_settings[k], {}});
         return result;
     }
 
@@ -182,7 +182,7 @@ TEST(BatchOfCopies, ConvergesBodyByBody)
         stops.insert(report.m_stop);
     }
     EXPECT_GE(iterations.size(), 5u);
-    EXPECT_GE(bodies.sideBySide(), kLeastSideBySide);
+    EXPECT_GE(bodies.sideBySide(), kSmallestBatch);
     EXPECT_EQ(stops, (std::set<SolveStop>{SolveStop::converged, SolveStop::budget}));
 }
 

@@ -65,7 +65,7 @@ protected:
 
 TEST_F(BodyBatchesTest, OfAModelAreOneBatchForASingleThread)
 {
-    ASSERT_TRUE(canBeSideBySide(*m_free));
+    ASSERT_TRUE(canBeBatched(*m_free));
     divide(40, 0, 1);
     EXPECT_EQ(batchesOf(40), 1);
 }
@@ -83,7 +83,7 @@ TEST_F(BodyBatchesTest, AreBodiesAloneWhereTheyAreNotToBeTogether)
 TEST_F(BodyBatchesTest, FillTheLanesAndShareOutTheRest)
 {
     divide(100, 0, 2);
-    EXPECT_EQ(batchesOf(kBodyLanes), 6);
+    EXPECT_EQ(batchesOf(kBatchWidth), 6);
     EXPECT_EQ(batchesOf(1), 4);
 }
 
@@ -91,7 +91,7 @@ TEST_F(BodyBatchesTest, FillTheLanesAndShareOutTheRest)
 TEST_F(BodyBatchesTest, TakeInManyThatAreLeft)
 {
     divide(94, 0, 2);
-    EXPECT_EQ(batchesOf(kBodyLanes), 5);
+    EXPECT_EQ(batchesOf(kBatchWidth), 5);
     EXPECT_EQ(batchesOf(14), 1);
 }
 
@@ -105,7 +105,7 @@ TEST_F(BodyBatchesTest, LeaveNoThreadWithoutWork)
 
 TEST_F(BodyBatchesTest, AreBodiesAloneWhereTheModelCannotBeSideBySide)
 {
-    ASSERT_FALSE(canBeSideBySide(*m_hung));
+    ASSERT_FALSE(canBeBatched(*m_hung));
     divide(0, 50, 2);
     EXPECT_EQ(batchesOf(1), 50);
 }
@@ -115,7 +115,7 @@ TEST_F(BodyBatchesTest, BeginWithTheLongOnes)
     divide(33, 40, 2);
     const std::vector<Range>& batches = m_batches.batches();
     const auto isShorter = [](const Range& a, const Range& b) { return a.m_end - a.m_begin > b.m_end - b.m_begin; };
-    EXPECT_EQ(batchesOf(kBodyLanes), 2);
+    EXPECT_EQ(batchesOf(kBatchWidth), 2);
     EXPECT_TRUE(std::is_sorted(batches.begin(), batches.end(), isShorter));
 }
 

@@ -72,7 +72,7 @@ protected:
 
     SolveReport solve(const LinearOperator& A, const LinearOperator& P)
     {
-        return solveConjugateGradients(A, P, m_b, m_stop, m_scratch, m_x);
+        return solveConjugateGradients({A, P, m_b, m_x, m_scratch}, m_stop);
     }
     SolveReport solve() { return solve(m_A, m_identity); }
 

@@ -22,10 +22,10 @@ public:
 
 private:
     friend class BatchLoan;
-    struct Lanes;
+    struct Arrays;
 
     std::mutex m_mutex;
-    std::vector<Lanes> m_free;
+    std::vector<Arrays> m_free;
     std::size_t m_lent = 0;
 };
 

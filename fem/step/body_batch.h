@@ -11,19 +11,19 @@ namespace bullet_fem
 {
 
 /// Fewer bodies are solved sooner one after another: a batch takes as long however many it has.
-constexpr int kLeastSideBySide = 6;
+constexpr int kSmallestBatch = 6;
 
 /// True if a body may be solved side by side with others of its model: of one piece, none of whose nodes are fixed,
 /// solved in single precision and with the nodal warp, with nothing but what most bodies have.
-bool canBeSideBySide(const FreeMotion& motion);
-bool canBeSideBySide(const ImpulseResponse& response);
+bool canBeBatched(const FreeMotion& motion);
+bool canBeBatched(const ImpulseResponse& response);
 
 /// True if the settings of two such bodies allow it.
 bool areAlike(const StepSettings& a, const StepSettings& b);
 
-/// Solves up to kBodyLanes bodies of one model for which that is true. False, and nothing was done, if they are too few
-/// or there is no memory for it.
-bool solveSideBySide(FreeMotion* const* motions, int count);
-bool solveSideBySide(ImpulseResponse* const* responses, int count);
+/// Solves up to kBatchWidth bodies of one model for which that is true. False, and nothing was done, if they are too
+/// few or there is no memory for it.
+bool solveBatched(FreeMotion* const* motions, int count);
+bool solveBatched(ImpulseResponse* const* responses, int count);
 
 }  // namespace bullet_fem

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/step/one_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/step/step_scratch.h"
+#include "fem/step/step_stages.h"
+#include "fem/step/warped_system.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Smaller bodies are solved in less time than it takes to share one out [nodes], of some 5 tets each.
+constexpr int kNodesToShare = 1000;
+
+class OneBody
+{
+public:
+    OneBody(Body& body, const StepSettings& settings)
+        : m_body(body),
+          m_state(body.m_state),
+          m_scratch(body.m_workspace.scratch()),
+          m_settings(settings),
+          m_A(body, settings.m_threads)
+    {
+    }
+
+    void solve()
+    {
+        const WarpedPreconditioner P(m_body, m_settings.m_threads);
+        m_report = solveConjugateGradients(
+            {m_A, P, m_scratch.m_rightSide, m_scratch.m_increment, m_scratch.m_solver, m_settings.m_threads}, m_stop);
+    }
+
+    void addIncrement()
+    {
+        std::vector<Vec3>& v = m_scratch.m_velocity;
+        for (std::size_t i = 0; i < v.size(); ++i)
+            if (!m_state.m_fixed[i]) v[i] += m_scratch.m_increment[i];
+        if (m_settings.m_momentumCorrection) m_scratch.m_momentum.restore(m_body, v);
+    }
+
+    // What impulses have left undone. After a breakdown that may not be finite.
+    void keepResidual()
+    {
+        m_scratch.m_hasResidual = m_report.m_stop != SolveStop::breakdown;
+        if (m_scratch.m_hasResidual) m_scratch.m_residual = m_scratch.m_solver.m_r;
+    }
+
+    const SolveReport& report() const { return m_report; }
+
+protected:
+    // Adds to the guess of dv the rigid motion that gives free pieces the momentum prescribed.
+    void completeGuess()
+    {
+        std::vector<Vec3>& dv = m_scratch.m_increment;
+        for (std::size_t i = 0; i < dv.size(); ++i) dv[i] += m_scratch.m_velocity[i];
+        m_scratch.m_momentum.restore(m_body, dv);
+        for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= m_scratch.m_velocity[i];
+    }
+
+    Body& m_body;
+    BodyState& m_state;
+    StepScratch& m_scratch;
+    const StepSettings& m_settings;
+    const WarpedSystem m_A;
+    ConjugateGradientStop m_stop;
+    SolveReport m_report;
+};
+
+class OneFreeMotion : public OneBody
+{
+public:
+    OneFreeMotion(const FreeMotion& motion, const StepSettings& settings)
+        : OneBody(*motion.m_body, settings), m_motion(motion), m_loads(m_body.m_loads)
+    {
+    }
+
+    void readState()
+    {
+        m_stop = stopOf(m_settings, kLoadFloor * loadImpulseNorm(), m_motion.m_expected != nullptr);
+        for (std::size_t i = 0; i < m_scratch.m_velocity.size(); ++i)
+            m_scratch.m_velocity[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] : m_state.m_v[i];
+    }
+
+    void prescribeMomentum() { m_scratch.m_momentum.prescribe(m_body, m_settings.m_step); }
+
+    // T is in A but not in b: it damps the change of velocity in the step, and so must see what was changed from
+    // outside before it, u = v - v_prior. Else a node that is thrown again and again is held where it is by the tension
+    // that should pull it back. As impulses on the motion before, A (dv + u) = b(v_prior) + M u; without T that is
+    // A dv = b(v).
+    void passOverElements()
+    {
+        std::vector<Vec3>& prior = m_loads.m_priorVelocity;
+        if (prior.empty()) return makeRightSide();
+        m_state.m_v.swap(prior);
+        makeRightSide();
+        m_state.m_v.swap(prior);
+    }
+
+    void averageRotations() { averageNodeRotations(m_body, m_settings); }
+
+    // dv_p = v_target - v moves to the right-hand side, b_f -= A_fp dv_p, and b_p = 0.
+    void eliminateFixedNodes()
+    {
+        addOutsideChange();
+        std::vector<Vec3>&dv = m_scratch.m_increment, &b = m_scratch.m_rightSide, &Adv = m_scratch.m_solver.m_Ap;
+        bool moving = false;
+        for (std::size_t i = 0; i < dv.size(); ++i)
+        {
+            dv[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] - m_state.m_v[i] : Vec3();
+            moving = moving || dot(dv[i], dv[i]) > 0;
+        }
+        if (moving)
+        {
+            m_A.applyUnconstrained(dv, Adv);
+            for (std::size_t i = 0; i < b.size(); ++i) b[i] -= Adv[i];
+        }
+        for (std::size_t i = 0; i < b.size(); ++i)
+            if (m_state.m_fixed[i]) b[i] = {};
+    }
+
+    // Nothing changes by them but the way that the body moves as one.
+    void addPredictedImpulses()
+    {
+        if (!m_motion.m_expected) return;
+        const std::vector<Vec3>& impulses = *m_motion.m_expected;
+        double sum = 0;
+        for (std::size_t i = 0; i < impulses.size(); ++i)
+        {
+            if (m_state.m_fixed[i]) continue;
+            m_scratch.m_rightSide[i] += impulses[i];
+            sum += dot(impulses[i], impulses[i]);
+        }
+        m_scratch.m_momentum.addImpulses(m_body, impulses, m_settings.m_step);
+        m_stop.m_floor = std::max(m_stop.m_floor, m_motion.m_expectedFloor * std::sqrt(sum));
+    }
+
+    // The increments of the last two steps, continued along a straight line: motion is smooth more often than not. With
+    // predicted impulses: that the body goes on as it moves.
+    void guessIncrement()
+    {
+        const std::vector<Vec3>&last = m_state.m_lastIncrement[0], &before = m_state.m_lastIncrement[1];
+        std::vector<Vec3>& dv = m_scratch.m_increment;
+        const bool isSmooth = !m_motion.m_expected;
+        for (std::size_t i = 0; i < dv.size(); ++i)
+            dv[i] = isSmooth && !m_state.m_fixed[i] ? 2.0 * last[i] - before[i] : Vec3();
+        completeGuess();
+    }
+
+    // Increments with impulses in them say nothing about those without.
+    void keepIncrement()
+    {
+        m_scratch.m_momentum.keepHung(m_body, m_scratch.m_velocity);
+        if (m_motion.m_expected) return keepResidual();
+        std::swap(m_state.m_lastIncrement[0], m_state.m_lastIncrement[1]);
+        m_state.m_lastIncrement[0] = m_scratch.m_increment;
+        m_scratch.m_hasResidual = false;
+    }
+
+private:
+    // h |f_ext| over the free nodes.
+    double loadImpulseNorm() const
+    {
+        double sum = 0;
+        for (std::size_t i = 0; i < m_loads.m_force.size(); ++i)
+            if (!m_state.m_fixed[i]) sum += dot(m_loads.m_force[i], m_loads.m_force[i]);
+        return m_settings.m_step * std::sqrt(sum);
+    }
+
+    // b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v), and A of this step.
+    void makeRightSide()
+    {
+        const double alpha = RigidMomentum::damping(m_body), toFrame = m_loads.m_frameDamping;
+        std::vector<Vec3>& b = m_scratch.m_rightSide;
+        for (std::size_t i = 0; i < b.size(); ++i)
+            b[i] = m_loads.m_force[i] - alpha * m_state.m_mass[i] * m_state.m_v[i];
+        for (std::size_t i = 0; i < b.size() && toFrame > 0; ++i)
+            b[i] += toFrame * m_state.m_mass[i] * (m_loads.m_frameVelocity[i] - m_state.m_v[i]);
+        prepareWarpedSystem(m_body, m_settings, b);
+        for (Vec3& bi : b) bi *= m_settings.m_step;
+    }
+
+    // See passOverElements().
+    void addOutsideChange()
+    {
+        const std::vector<Vec3>& prior = m_loads.m_priorVelocity;
+        if (prior.empty()) return;
+        std::vector<Vec3>&u = m_scratch.m_increment, &b = m_scratch.m_rightSide, &Au = m_scratch.m_solver.m_Ap;
+        for (std::size_t i = 0; i < u.size(); ++i) u[i] = m_state.m_fixed[i] ? Vec3() : m_state.m_v[i] - prior[i];
+        m_A.applyUnconstrained(u, Au);
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] += m_state.m_mass[i] * u[i] - Au[i];
+    }
+
+    const FreeMotion& m_motion;
+    StepLoads& m_loads;
+};
+
+class OneResponse : public OneBody
+{
+public:
+    OneResponse(const ImpulseResponse& response, const StepSettings& settings)
+        : OneBody(*response.m_body, settings), m_response(response)
+    {
+        m_stop = stopOf(settings, response.m_floor, response.m_steady);
+    }
+
+    void readImpulses()
+    {
+        std::vector<Vec3>& b = m_scratch.m_rightSide;
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] = m_state.m_fixed[i] ? Vec3() : (*m_response.m_impulses)[i];
+    }
+
+    void completeSystem() { completeWarpedSystem(m_body, m_settings); }
+
+    void addMomentum() { m_scratch.m_momentum.addImpulses(m_body, m_scratch.m_rightSide, m_settings.m_step); }
+
+    void addResidual()
+    {
+        std::vector<Vec3>& b = m_scratch.m_rightSide;
+        for (std::size_t i = 0; i < b.size() && m_scratch.m_hasResidual; ++i) b[i] += m_scratch.m_residual[i];
+    }
+
+    void guessResponse()
+    {
+        std::vector<Vec3>& dv = m_scratch.m_increment;
+        if (!m_response.m_steady) return std::fill(dv.begin(), dv.end(), Vec3());
+        for (std::size_t i = 0; i < dv.size(); ++i)
+            dv[i] = m_state.m_fixed[i] ? Vec3() : m_state.m_v[i] - m_scratch.m_velocity[i];
+        completeGuess();
+    }
+
+private:
+    const ImpulseResponse& m_response;
+};
+
+// Calls solve(settings) on the threads at hand, or without them where the body is too small.
+template <class Solve>
+void onThreads(const Body& body, const StepSettings& given, const Solve& solve)
+{
+    const StepSettings settings = sharedSettings(*body.m_model, given);
+    if (settings.m_threads)
+        settings.m_threads->gather([&] { solve(settings); });
+    else
+        solve(settings);
+}
+
+}  // namespace
+
+StepSettings sharedSettings(const BodyModel& model, StepSettings settings)
+{
+    if (model.nodeCount() < kNodesToShare) settings.m_threads = nullptr;
+    return settings;
+}
+
+void solveAlone(FreeMotion& motion)
+{
+    onThreads(*motion.m_body, motion.m_settings,
+              [&](const StepSettings& settings)
+              {
+                  OneFreeMotion one(motion, settings);
+                  solveFreeMotion(one);
+                  motion.m_report = one.report();
+              });
+}
+
+void solveAlone(ImpulseResponse& response)
+{
+    onThreads(*response.m_body, response.m_settings,
+              [&](const StepSettings& settings)
+              {
+                  OneResponse one(response, settings);
+                  respondToImpulses(one);
+                  response.m_report = one.report();
+              });
+}
+
+}  // namespace bullet_fem
