@@ -7,8 +7,8 @@
 
 #include "benchmarks/figures.h"
 #include "benchmarks/heap_bytes.h"
+#include "benchmarks/reference/warped_elements.h"
 #include "bullet_fem/fem/step/stepping.h"
-#include "fem/elements/warped_elements.h"
 
 namespace bullet_fem
 {

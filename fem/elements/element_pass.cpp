@@ -25,7 +25,7 @@ namespace HWY_NAMESPACE
 template <class Real>
 void passBlocks(const ElementPass<Real>& pass, Range blocks)
 {
-    scalar::runElementPass(pass, blocks);
+    reference::runElementPass(pass, blocks);
 }
 
 #else

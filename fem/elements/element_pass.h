@@ -48,7 +48,7 @@ template <class Real>
 void runElementPass(const ElementPass<Real>& pass, Range blocks);
 
 /// The same in plain C++: what the kernel is tested against.
-namespace scalar
+namespace reference
 {
 template <class Real>
 void runElementPass(const ElementPass<Real>& pass, Range blocks);

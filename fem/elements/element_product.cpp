@@ -25,7 +25,7 @@ namespace HWY_NAMESPACE
 template <class Real>
 void multiplyBlocks(const ElementProduct<Real>& product, Range blocks)
 {
-    scalar::runElementProduct(product, blocks);
+    reference::runElementProduct(product, blocks);
 }
 
 #else

@@ -25,7 +25,7 @@ template <class Real>
 void runElementProduct(const ElementProduct<Real>& product, Range blocks);
 
 /// The same in plain C++: what the kernel is tested against.
-namespace scalar
+namespace reference
 {
 template <class Real>
 void runElementProduct(const ElementProduct<Real>& product, Range blocks);

@@ -24,12 +24,12 @@ namespace HWY_NAMESPACE
 // Processors with nothing that Highway knows.
 void averageOverNodes(const NodeRotations& rotations, Range nodes)
 {
-    scalar::averageRotations(rotations, nodes);
+    reference::averageRotations(rotations, nodes);
 }
 
 Mat3 sumOverBlocks(const NodeCorners& nodes, const Quaternion* rotation, Range blocks)
 {
-    return scalar::sumRotations(nodes, rotation, blocks);
+    return reference::sumRotations(nodes, rotation, blocks);
 }
 
 #else

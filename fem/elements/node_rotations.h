@@ -32,10 +32,10 @@ void averageRotations(const NodeRotations& rotations, Range nodes);
 Mat3 sumRotations(const NodeCorners& nodes, const Quaternion* rotation, Range blocks);
 
 /// The same in plain C++: what the kernels are tested against.
-namespace scalar
+namespace reference
 {
 void averageRotations(const NodeRotations& rotations, Range nodes);
 Mat3 sumRotations(const NodeCorners& nodes, const Quaternion* rotation, Range blocks);
-}  // namespace scalar
+}  // namespace reference
 
 }  // namespace bullet_fem

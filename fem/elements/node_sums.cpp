@@ -27,7 +27,7 @@ namespace HWY_NAMESPACE
 template <class Real>
 void sumOverNodes(const NodeSums<Real>& sums, Range nodes)
 {
-    scalar::sumCorners(sums, nodes);
+    reference::sumCorners(sums, nodes);
 }
 
 #else

@@ -25,7 +25,7 @@ template <class Real>
 void sumCorners(const NodeSums<Real>& sums, Range nodes);
 
 /// The same in plain C++: what the kernel is tested against.
-namespace scalar
+namespace reference
 {
 template <class Real>
 void sumCorners(const NodeSums<Real>& sums, Range nodes);

@@ -4,11 +4,11 @@
 // The element kernels in plain C++, an element at a time in double precision: what the others are tested against.
 #include "fem/common/rotation.h"
 #include "fem/elements/element_product.h"
-#include "fem/elements/warped_elements.h"
+#include "fem/elements/positive_part.h"
 
 namespace bullet_fem
 {
-namespace scalar
+namespace reference
 {
 namespace
 {
@@ -130,5 +130,5 @@ template void runElementPass(const ElementPass<double>&, Range);
 template void runElementProduct(const ElementProduct<float>&, Range);
 template void runElementProduct(const ElementProduct<double>&, Range);
 
-}  // namespace scalar
+}  // namespace reference
 }  // namespace bullet_fem

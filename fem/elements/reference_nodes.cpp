@@ -59,7 +59,7 @@ NodeRotation carefulAverage(const NodeRotations& rotations, int node)
     return length >= kSpread * volume ? rounded(toMatrix(sum)) : polarOfSum(rotations, node);
 }
 
-namespace scalar
+namespace reference
 {
 
 void averageRotations(const NodeRotations& rotations, Range nodes)
@@ -95,5 +95,5 @@ void sumCorners(const NodeSums<Real>& sums, Range nodes)
 template void sumCorners(const NodeSums<float>&, Range);
 template void sumCorners(const NodeSums<double>&, Range);
 
-}  // namespace scalar
+}  // namespace reference
 }  // namespace bullet_fem

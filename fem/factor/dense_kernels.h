@@ -25,9 +25,6 @@ std::size_t eliminationScratch(int mostPivots, int mostRows);
 /// blocks hold nothing of use, and `pivotValue` is that pivot. Vectorised for the processor it runs on.
 int eliminatePivots(const DenseFront& front, double* scratch, double& pivotValue);
 
-/// The same in plain C++, one pivot after the other.
-int eliminatePivotsPlain(const DenseFront& front, double& pivotValue);
-
 /// C -= U V^T; U is m x k, V is n x k, C is m x n, all column by column with these distances between columns.
 struct DenseProduct
 {
@@ -43,8 +40,5 @@ std::size_t productScratch(int m, int n, int k);
 
 /// The product above, vectorised for the processor it runs on.
 void subtractProduct(const DenseProduct& product, double* scratch);
-
-/// The same in plain C++.
-void subtractProductPlain(const DenseProduct& product);
 
 }  // namespace bullet_fem

@@ -18,11 +18,4 @@ void backwardIsotropic(const Panel& panel, float* y, float* scratch);
 void forwardIsotropicLanes(const Panel& panel, float* y, float* scratch);
 void backwardIsotropicLanes(const Panel& panel, float* y, float* scratch);
 
-/// The same in plain C++: what the kernels are tested against.
-namespace scalar
-{
-void forwardIsotropic(const Panel& panel, float* y, int lanes);
-void backwardIsotropic(const Panel& panel, float* y, int lanes);
-}  // namespace scalar
-
 }  // namespace bullet_fem

@@ -29,11 +29,4 @@ void backwardPanel(const Panel& panel, float* y, float* scratch);
 void forwardPanelLanes(const Panel& panel, float* y, float* scratch);
 void backwardPanelLanes(const Panel& panel, float* y, float* scratch);
 
-/// The same in plain C++: what the kernels are tested against.
-namespace scalar
-{
-void forwardPanel(const Panel& panel, float* y, int lanes);
-void backwardPanel(const Panel& panel, float* y, int lanes);
-}  // namespace scalar
-
 }  // namespace bullet_fem

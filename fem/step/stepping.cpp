@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bullet_fem/fem/common/threads.h"
-#include "fem/step/body_batch.h"
+#include "fem/step/batched_solve.h"
 #include "fem/step/one_body.h"
 #include "fem/step/step_scratch.h"
 #include "fem/step/warped_compliance.h"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem/elements/warped_elements.h"
+#include "benchmarks/reference/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/step/warped_system.h"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/elements/warped_elements.h"
+#include "benchmarks/reference/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
 
 namespace bullet_fem

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "fem/elements/warped_elements.h"
+#include "benchmarks/reference/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/test_constants.h"
 

@@ -117,12 +117,12 @@ TEST_P(ElementMesh, AgreesWithItsScalarTwin)
     const RestShape shape(mesh, elasticMaterial(1e4, 0.3));
     deform(mesh);
     ElementCase<float> kernels(shape, m_x, m_v), twin(shape, m_x, m_v);
-    scalar::runElementPass(twin.pass(), twin.blocks());
+    reference::runElementPass(twin.pass(), twin.blocks());
     const std::vector<Vec3> expected = twin.cornerSums();
     EXPECT_LE(largestDistance(kernels.forces(), expected), 6e-6 * largest(expected));
 
     const std::vector<PaddedVec3> p = padded(m_v);
-    scalar::runElementProduct(twin.product(p), twin.blocks());
+    reference::runElementProduct(twin.product(p), twin.blocks());
     const std::vector<Vec3> product = twin.cornerSums();
     EXPECT_LE(largestDistance(kernels.times(m_v), product), 6e-6 * largest(product));
 }

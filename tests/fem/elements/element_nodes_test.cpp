@@ -126,13 +126,13 @@ TEST_P(ElementNodes, RotationsAgreeWithTheirScalarTwins)
     {
         spreadRotations(rotationAbout({1, -2, 3}, 3), spread);
         std::vector<NodeRotation> twin(m_mesh.nodeCount());
-        scalar::averageRotations({&m_nodes, m_rotation.data(), twin.data()}, {0, m_mesh.nodeCount()});
+        reference::averageRotations({&m_nodes, m_rotation.data(), twin.data()}, {0, m_mesh.nodeCount()});
         std::vector<Mat3> expected;
         for (const NodeRotation& R : twin) expected.push_back(matrix(R));
         // 0.5 % of the volume may lie on the wrong side, if it is there by less than the spread.
         EXPECT_LE(largestError(averages(), expected), 1e-6 + 0.01 * std::min(spread, 0.4)) << spread;
         const Range blocks = {0, blockCount(m_mesh.tetCount())};
-        const Mat3 sum = scalar::sumRotations(m_nodes, m_rotation.data(), blocks);
+        const Mat3 sum = reference::sumRotations(m_nodes, m_rotation.data(), blocks);
         EXPECT_LE(squaredNorm(sumRotations(m_nodes, m_rotation.data(), blocks) - sum), 1e-12 * m_mesh.volume());
     }
 }
@@ -154,7 +154,8 @@ TEST_P(ElementNodes, SumsAgreeWithTheirScalarTwin)
         std::vector<Vec3> out = given, expected = given, parts = given;
         const int n = m_mesh.nodeCount();
         sumCorners(NodeSums<float>{&m_nodes, corners.data(), factors, paddedP.data(), out.data()}, {0, n});
-        scalar::sumCorners(NodeSums<float>{&m_nodes, corners.data(), factors, paddedP.data(), expected.data()}, {0, n});
+        reference::sumCorners(NodeSums<float>{&m_nodes, corners.data(), factors, paddedP.data(), expected.data()},
+                              {0, n});
         EXPECT_LE(largestDistance(out, expected), 1e-13);
         for (const Range range : {Range{n / 2, n}, Range{0, n / 2}})
             sumCorners(NodeSums<float>{&m_nodes, corners.data(), factors, paddedP.data(), parts.data()}, range);

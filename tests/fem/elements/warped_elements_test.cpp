@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/elements/warped_elements.h"
+#include "benchmarks/reference/warped_elements.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <tuple>
 
+#include "fem/elements/positive_part.h"
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/test_constants.h"

@@ -14,6 +14,8 @@
 
 #include <hwy/highway.h>
 
+#include "fem/scenes/reference_kernels.h"
+
 namespace bullet_fem
 {
 namespace
@@ -123,7 +125,7 @@ TEST_P(DenseKernels, ProductIsThatOfItsPlainTwin)
                     DenseProduct plain = product;
                     plain.m_C = expected.data();
                     subtractProduct(product, scratch.data());
-                    subtractProductPlain(plain);
+                    reference::subtractProduct(plain);
                     MatrixXd difference = (C - expected).topRows(m).leftCols(n);
                     if (lowerOnly) difference = MatrixXd(difference.triangularView<Eigen::Lower>());
                     EXPECT_LE(difference.cwiseAbs().maxCoeff(), 1e-14 * k) << m << " " << n << " " << k;
@@ -143,7 +145,7 @@ TEST_P(DenseKernels, EliminationIsThatOfItsPlainTwin)
             Front front(A, p), expected(A, p);
             double pivotValue = 0;
             EXPECT_EQ(eliminatePivots(front.view(), front.m_scratch.data(), pivotValue), -1);
-            EXPECT_EQ(eliminatePivotsPlain(expected.view(), pivotValue), -1);
+            EXPECT_EQ(reference::eliminatePivots(expected.view(), pivotValue), -1);
             EXPECT_LE((front.A11() - expected.A11()).norm(), 1e-13 * p) << p << " " << r;
             EXPECT_LE((front.A21() - expected.A21()).norm(), 1e-13 * p) << p << " " << r;
             EXPECT_LE((front.lowerA22() - expected.lowerA22()).norm(), 1e-13 * p) << p << " " << r;
@@ -164,7 +166,7 @@ TEST_P(DenseKernels, EliminationNamesThePivotThatIsNotPositive)
             double pivotValue = 17;
             EXPECT_EQ(eliminatePivots(front.view(), front.m_scratch.data(), pivotValue), failing);
             EXPECT_EQ(std::to_string(pivotValue), std::to_string(value));  // NaN is not equal to itself
-            EXPECT_EQ(eliminatePivotsPlain(plain.view(), pivotValue), failing);
+            EXPECT_EQ(reference::eliminatePivots(plain.view(), pivotValue), failing);
         }
 }
 
@@ -178,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Targets, DenseKernels, testing::ValuesIn(targetsHere())
 TEST(DenseKernelsPlain, OnePivotByHand)
 {
     double A11 = 4, A21 = 2, A22 = 5, pivotValue = 0;
-    EXPECT_EQ(eliminatePivotsPlain({1, 1, &A11, &A21, &A22}, pivotValue), -1);
+    EXPECT_EQ(reference::eliminatePivots({1, 1, &A11, &A21, &A22}, pivotValue), -1);
     EXPECT_DOUBLE_EQ(A11, 0.25);
     EXPECT_DOUBLE_EQ(A21, 0.5);
     EXPECT_DOUBLE_EQ(A22, 4);
@@ -191,7 +193,7 @@ TEST(DenseKernelsPlain, EliminationIsInverseQuotientAndSchurComplement)
     const MatrixXd A = positiveDefinite(p + r, 9);
     Front front(A, p);
     double pivotValue = 0;
-    EXPECT_EQ(eliminatePivotsPlain(front.view(), pivotValue), -1);
+    EXPECT_EQ(reference::eliminatePivots(front.view(), pivotValue), -1);
     const MatrixXd S = A.topLeftCorner(p, p).llt().solve(MatrixXd::Identity(p, p)), A21 = A.bottomLeftCorner(r, p);
     const MatrixXd schur = A.bottomRightCorner(r, r) - A21 * S * A21.transpose();
     EXPECT_LE((front.A11() - S).norm(), 1e-13);

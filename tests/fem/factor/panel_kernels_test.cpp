@@ -16,6 +16,8 @@
 #include "fem/factor/isotropic_panel_kernels.h"
 #include "fem/scenes/elasticity_scenes.h"
 
+#include "fem/scenes/reference_kernels.h"
+
 namespace bullet_fem
 {
 namespace
@@ -98,42 +100,42 @@ using IsotropicKernels = PanelKernelsTest<1>;
 
 TEST_P(PanelKernels, ForwardIsItsScalarTwin)
 {
-    compare(1, forwardPanel, scalar::forwardPanel);
+    compare(1, forwardPanel, reference::forwardPanel);
 }
 
 TEST_P(PanelKernels, BackwardIsItsScalarTwin)
 {
-    compare(1, backwardPanel, scalar::backwardPanel);
+    compare(1, backwardPanel, reference::backwardPanel);
 }
 
 TEST_P(PanelKernels, ForwardOfSixteenIsItsScalarTwin)
 {
-    compare(kPanelLanes, forwardPanelLanes, scalar::forwardPanel);
+    compare(kPanelLanes, forwardPanelLanes, reference::forwardPanel);
 }
 
 TEST_P(PanelKernels, BackwardOfSixteenIsItsScalarTwin)
 {
-    compare(kPanelLanes, backwardPanelLanes, scalar::backwardPanel);
+    compare(kPanelLanes, backwardPanelLanes, reference::backwardPanel);
 }
 
 TEST_P(IsotropicKernels, ForwardIsItsScalarTwin)
 {
-    compare(1, forwardIsotropic, scalar::forwardIsotropic);
+    compare(1, forwardIsotropic, reference::forwardIsotropic);
 }
 
 TEST_P(IsotropicKernels, BackwardIsItsScalarTwin)
 {
-    compare(1, backwardIsotropic, scalar::backwardIsotropic);
+    compare(1, backwardIsotropic, reference::backwardIsotropic);
 }
 
 TEST_P(IsotropicKernels, ForwardOfSixteenIsItsScalarTwin)
 {
-    compare(kPanelLanes, forwardIsotropicLanes, scalar::forwardIsotropic);
+    compare(kPanelLanes, forwardIsotropicLanes, reference::forwardIsotropic);
 }
 
 TEST_P(IsotropicKernels, BackwardOfSixteenIsItsScalarTwin)
 {
-    compare(kPanelLanes, backwardIsotropicLanes, scalar::backwardIsotropic);
+    compare(kPanelLanes, backwardIsotropicLanes, reference::backwardIsotropic);
 }
 
 // All widths of a last chunk, and rows that fill their last block or do not.

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "fem/elements/warped_elements.h"
+#include "benchmarks/reference/warped_elements.h"
 #include "fem/factor/block_matrix.h"
 
 namespace bullet_fem

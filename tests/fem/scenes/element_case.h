@@ -11,9 +11,9 @@
 
 #include <hwy/highway.h>
 
+#include "benchmarks/reference/warped_elements.h"
 #include "fem/elements/element_product.h"
 #include "fem/elements/node_sums.h"
-#include "fem/elements/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
 
 namespace bullet_fem

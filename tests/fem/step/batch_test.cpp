@@ -13,7 +13,7 @@
 #include "bullet_fem/fem/step/batch_memory.h"
 #include "fem/scenes/element_case.h"
 #include "fem/scenes/stepping_scenes.h"
-#include "fem/step/body_batch.h"
+#include "fem/step/batched_solve.h"
 
 namespace bullet_fem
 {

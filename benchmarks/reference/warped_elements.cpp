@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/elements/warped_elements.h"
-
-#include <Eigen/Eigenvalues>
+#include "benchmarks/reference/warped_elements.h"
 
 #include "fem/common/rotation.h"
+#include "fem/elements/positive_part.h"
 
 namespace bullet_fem
 {
@@ -39,18 +38,6 @@ Mat3 hooke(const RestElement& element, const Mat3& E)
              {xz, yz, 2 * mu * E(2, 2) + pressure}}};
 }
 
-// True if the symmetric s I + sign A has positive pivots.
-bool isPositive(const Mat3& A, double sign)
-{
-    const double a = sign * A(0, 0);
-    if (!(a > 0)) return false;
-    const double l1 = sign * A(1, 0) / a, l2 = sign * A(2, 0) / a;
-    const double b = sign * A(1, 1) - l1 * sign * A(1, 0);
-    if (!(b > 0)) return false;
-    const double c = sign * A(2, 1) - l2 * sign * A(1, 0);
-    return sign * A(2, 2) - l2 * sign * A(2, 0) - c * c / b > 0;
-}
-
 std::array<double, 6> packed(const Mat3& s)
 {
     return {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)};
@@ -62,24 +49,6 @@ Mat3 unpacked(const std::array<double, 6>& s)
 }
 
 }  // namespace
-
-Mat3 positivePart(const Mat3& symmetric)
-{
-    if (isPositive(symmetric, 1)) return symmetric;
-    if (isPositive(symmetric, -1)) return {};
-    Eigen::Matrix3d A;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) A(i, j) = symmetric(i, j);
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-    eigen.computeDirect(A);
-    Mat3 result;
-    for (int k = 0; k < 3; ++k)
-    {
-        const Vec3 q = {eigen.eigenvectors()(0, k), eigen.eigenvectors()(1, k), eigen.eigenvectors()(2, k)};
-        if (eigen.eigenvalues()(k) > 0) result += eigen.eigenvalues()(k) * outer(q, q);
-    }
-    return result;
-}
 
 void updateElementRotations(const RestShape& shape, const std::vector<Vec3>& x, std::vector<Mat3>& R)
 {

@@ -27,7 +27,4 @@ void addStiffnessProduct(const RestShape& shape, const std::vector<Mat3>& R,
                          const std::vector<std::array<double, 6>>& tension, const std::array<double, 2>& factors,
                          const std::vector<Vec3>& p, std::vector<Vec3>& out);
 
-/// Positive part of a symmetric matrix: its negative eigenvalues set to zero.
-Mat3 positivePart(const Mat3& symmetric);
-
 }  // namespace bullet_fem
