@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bullet_fem/fem/cage/cage.h"
+#include "bullet_fem/fem/cage/cage_settings.h"
 #include "fem/cage/surface_inspection.h"
 
 namespace bullet_fem

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/fem/cage/cage_report.h"
 #include "fem/cage/cage_fill.h"
 #include "fem/cage/grading.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/contact/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_problem.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/point_compliance.h"

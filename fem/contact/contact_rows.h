@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "bullet_fem/fem/contact/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_problem.h"
 #include "bullet_fem/fem/step/body_batches.h"
 #include "fem/common/chunks.h"
 #include "fem/contact/body_ends.h"

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/contact/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_problem.h"
 
 namespace bullet_fem
 {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/contact/contact_solver.h"
+#include "bullet_fem/fem/contact/contact_problem.h"
 #include "fem/contact/response_kernel.h"
 
 namespace bullet_fem

@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Zlib
+# Copyright (c) 2026 The BulletFEM authors
+"""Prints the structure of the source tree by its includes, and with --check fails where it is not the one that
+docs/architecture.md draws. Standard library only.
+
+    tools/structure.py             rooms, arrows between them, arrows back, mutual rooms, knots, longest files and functions
+    tools/structure.py --check     the same; exit code 1 if a limit is exceeded or a room sees what it must not
+
+A room is a folder; the public headers of a room are part of it. A unit is a header with the source file of its name. A
+knot is a set of units that reach each other by includes. An arrow is back if its room stands above the one that it
+leaves; rooms that FLOORS does not name are not judged by it.
+"""
+import argparse
+import os
+import re
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+SOURCES = ("fem", "bullet_bridge", "plugin", "io", "tools", "demos", "benchmarks", "include")
+
+# Rooms from the ground up; a room may include from those before it on its line, and from what is named behind the colon.
+FLOORS = [
+    ("fem/common", []),
+    ("fem/mesh", ["fem/common"]),
+    ("fem/elements", ["fem/mesh", "fem/common"]),
+    ("fem/factor", ["fem/elements", "fem/mesh", "fem/common"]),
+    ("fem/step", ["fem/factor", "fem/elements", "fem/mesh", "fem/common"]),
+    ("fem/contact", ["fem/step", "fem/factor", "fem/elements", "fem/mesh", "fem/common"]),
+    ("fem/cage", ["fem/mesh", "fem/common"]),
+    ("fem/baked", ["fem/cage", "fem/factor", "fem/elements", "fem/mesh", "fem/common"]),
+]
+# Layers likewise, by their first folder; `fem` stands for its public headers and fem/common.
+LAYERS = {
+    "fem": ["fem"],
+    "io": ["io", "fem"],
+    "bullet_bridge": ["bullet_bridge", "fem"],
+    "plugin": ["plugin", "bullet_bridge", "io", "fem"],
+    "tools": ["tools", "plugin", "io", "fem"],
+    "demos": ["demos", "tools", "plugin", "io", "fem"],
+    "benchmarks": ["benchmarks", "plugin", "bullet_bridge", "io", "fem"],
+}
+# Public headers of the bridge; the others beside them are the plug-in's.
+BRIDGE_HEADERS = {"btFemVectors.h"}
+MOST_LINES_OF_FILE = 400
+MOST_LINES_OF_FUNCTION = 60
+MOST_UNITS_OF_KNOT = {"fem": 3, "bullet_bridge": 6, "plugin": 6, "io": 3, "tools": 6, "demos": 3, "benchmarks": 3}
+
+
+def source_files():
+    for top in SOURCES:
+        for folder, folders, names in os.walk(os.path.join(ROOT, top)):
+            folders.sort()
+            for name in sorted(names):
+                if name.endswith((".h", ".cpp")):
+                    yield os.path.relpath(os.path.join(folder, name), ROOT)
+
+
+def room_of(path):
+    """The folder of a file; public headers stand with what they declare."""
+    folder, name = os.path.split(path)
+    if folder == "include/bullet_fem":
+        return "bullet_bridge" if name in BRIDGE_HEADERS else "plugin"
+    return re.sub(r"^include/bullet_fem/", "", folder)
+
+
+def unit_of(path):
+    """Path without include/bullet_fem and ending, so that a public header and its source file are one."""
+    name = re.sub(r"(-inl)?\.(h|cpp)$", "", path)
+    return re.sub(r"^include/bullet_fem/", "", name)
+
+
+def resolve(name, files):
+    for candidate in (name, "include/" + name):
+        if candidate in files:
+            return candidate
+    return None
+
+
+def includes(files):
+    """Pairs of files: who includes whom."""
+    found = set(files)
+    for path in files:
+        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+            for name in re.findall(r'^#include "([^"]+)"', file.read(), re.MULTILINE):
+                target = resolve(name, found)
+                if target:
+                    yield path, target
+
+
+def unit_graph(pairs):
+    """Of units, by the header's public place where a source file stands elsewhere."""
+    by_name = {}
+    graph = {}
+    for path, target in pairs:
+        for one in (path, target):
+            by_name.setdefault(unit_of(one), one)
+        a, b = unit_of(path), unit_of(target)
+        graph.setdefault(a, set())
+        graph.setdefault(b, set())
+        if a != b:
+            graph[a].add(b)
+    return graph
+
+
+def merge_public(graph):
+    """A source file whose header is public has another path: plugin/x.cpp and btFemX.h are one unit."""
+    headers = {os.path.basename(unit): unit for unit in graph if "/" not in unit}
+    rename = {unit: headers[os.path.basename(unit)] for unit in graph
+              if "/" in unit and unit.startswith("plugin/") and os.path.basename(unit) in headers}
+    merged = {}
+    for unit, targets in graph.items():
+        name = rename.get(unit, unit)
+        merged.setdefault(name, set()).update(rename.get(t, t) for t in targets)
+    for unit in merged:
+        merged[unit].discard(unit)
+    return merged
+
+
+def knots(graph):
+    """Strongly connected components of more than one unit [Tarjan 1972]."""
+    index, low, on_stack, stack, result = {}, {}, set(), [], []
+    for root in sorted(graph):
+        if root in index:
+            continue
+        work = [(root, iter(sorted(graph[root])))]
+        index[root] = low[root] = len(index)
+        stack.append(root)
+        on_stack.add(root)
+        while work:
+            unit, targets = work[-1]
+            for target in targets:
+                if target not in index:
+                    index[target] = low[target] = len(index)
+                    stack.append(target)
+                    on_stack.add(target)
+                    work.append((target, iter(sorted(graph[target]))))
+                    break
+                if target in on_stack:
+                    low[unit] = min(low[unit], index[target])
+            else:
+                work.pop()
+                if work:
+                    low[work[-1][0]] = min(low[work[-1][0]], low[unit])
+                if low[unit] == index[unit]:
+                    component = []
+                    while True:
+                        component.append(stack.pop())
+                        on_stack.discard(component[-1])
+                        if component[-1] == unit:
+                            break
+                    if len(component) > 1:
+                        result.append(sorted(component))
+    return sorted(result, key=len, reverse=True)
+
+
+def top_of(unit):
+    top = unit.split("/")[0]
+    return top if "/" in unit else "plugin"
+
+
+def function_lengths(path):
+    """Lines of the functions of a file: bodies that begin with a brace in the first column or after a member's head."""
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        lines = file.read().split("\n")
+    for number, line in enumerate(lines):
+        if line != "{" or number == 0 or re.match(r"(namespace|struct|class|enum|extern)\b", lines[number - 1]):
+            continue
+        if re.search(r"[=:,]\s*$", lines[number - 1]) or not re.search(r"\)|const$", lines[number - 1]):
+            continue
+        for end in range(number, len(lines)):
+            if lines[end].startswith("}"):
+                yield number, end - number + 1
+                break
+
+
+def judge_rooms(arrows):
+    """Arrows that FLOORS and LAYERS do not allow, with the reason."""
+    floors = dict(FLOORS)
+    for (a, b), files in sorted(arrows.items()):
+        if a in floors and b in floors and b not in floors[a]:
+            yield f"{a} -> {b}: not a floor below it ({files[0][0]} includes {files[0][1]})"
+        top_a, top_b = a.split("/")[0], b.split("/")[0]
+        if top_b not in LAYERS.get(top_a, [top_b]) and not all(target.startswith("include/") for _, target in files):
+            yield f"{a} -> {b}: not a layer below it ({files[0][0]} includes {files[0][1]})"
+        if top_b == "fem" and top_a not in ("fem", "benchmarks"):
+            for path, target in files:
+                if not target.startswith(("include/", "fem/common/")):
+                    yield f"{a} -> {b}: {path} includes the private {target}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--check", action="store_true", help="exit code 1 if a limit is exceeded")
+    options = parser.parse_args()
+    files = list(source_files())
+    pairs = [(a, b) for a, b in includes(files)]
+    arrows = {}
+    for path, target in pairs:
+        a, b = room_of(path), room_of(target)
+        if a != b:
+            arrows.setdefault((a, b), []).append((path, target))
+    rooms = sorted({room_of(path) for path in files})
+    faults = list(judge_rooms(arrows))
+
+    for top in ("fem", "bullet_bridge", "plugin", "io"):
+        own = [room for room in rooms if room.split("/")[0] == top]
+        inner = [arrow for arrow in arrows if arrow[0] in own and arrow[1] in own]
+        mutual = sorted({tuple(sorted(arrow)) for arrow in inner if (arrow[1], arrow[0]) in arrows})
+        print(f"{top}: {len(own)} rooms, {len(inner)} arrows, {len(mutual)} mutual")
+        for room in own:
+            targets = sorted(b for a, b in inner if a == room)
+            print(f"    {room} -> {', '.join(t.split('/', 1)[-1] for t in targets) or '-'}")
+        if mutual and top == "fem":
+            faults.append(f"mutual rooms: {mutual}")
+        for a, b in mutual:
+            print(f"    mutual: {a} and {b}")
+    order = [name for name, _ in FLOORS]
+    back = [arrow for arrow in arrows if arrow[0] in order and arrow[1] in order
+            and arrow[1] not in dict(FLOORS)[arrow[0]]]
+    print(f"arrows back in fem: {len(back)}")
+
+    found = knots(merge_public(unit_graph(pairs)))
+    print(f"knots of units: {len(found)}")
+    for knot in found:
+        print(f"    {len(knot)}: {', '.join(knot)}")
+        limit = min(MOST_UNITS_OF_KNOT.get(top_of(unit), 3) for unit in knot)
+        if len(knot) > limit:
+            faults.append(f"a knot of {len(knot)} units; {limit} is the most: {', '.join(knot)}")
+
+    lengths = [(sum(1 for _ in open(os.path.join(ROOT, path), encoding="utf-8")), path) for path in files]
+    for lines, path in sorted(lengths, reverse=True)[:3]:
+        print(f"{lines:5d} lines  {path}")
+    faults += [f"{path} has {lines} lines; {MOST_LINES_OF_FILE} is the most"
+               for lines, path in lengths if lines > MOST_LINES_OF_FILE]
+    functions = [(length, path, start) for path in files if not path.startswith("benchmarks/")  # tables of cases
+                 for start, length in function_lengths(path)]
+    for length, path, start in sorted(functions, reverse=True)[:3]:
+        print(f"{length:5d} lines  {path}:{start}")
+    faults += [f"{path}:{start} is a function of {length} lines; {MOST_LINES_OF_FUNCTION} is the most"
+               for length, path, start in functions if length > MOST_LINES_OF_FUNCTION]
+
+    for fault in faults:
+        print("fault:", fault)
+    if options.check and faults:
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()
