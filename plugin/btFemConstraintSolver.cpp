@@ -9,7 +9,8 @@
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/btFemCoupling.h"
+#include "plugin/record/btFemCoupling.h"
+#include "plugin/stages/btFemContactGroup.h"
 
 using namespace bullet_fem;
 

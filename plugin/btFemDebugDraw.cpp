@@ -8,9 +8,11 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btIDebugDraw.h"
 #include "bullet_fem/btFemVectors.h"
+#include "fem/common/attempt.h"
 #include "fem/common/rotation.h"
-#include "plugin/btFemCoupling.h"
-#include "plugin/btFemRangeCheck.h"
+#include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemCoupling.h"
+#include "plugin/record/btFemRangeCheck.h"
 
 using namespace bullet_fem;
 
@@ -115,15 +117,20 @@ bool btFemDrawSettings::valid(std::string* why) const
                            "[0, 1e6] m per N s; 0.1 is usual");
 }
 
-void btFemDebugDraw::draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,
-                          const btFemDrawSettings& settings)
+bool btFemDebugDraw::draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,
+                          const btFemDrawSettings& settings, std::string* why)
 {
-    std::string why;
-    if (!settings.valid(&why)) throw std::invalid_argument("btFemDrawSettings: " + why);
-    if (!drawer || !fem.isFem(body)) return;
-    const btFemEntry& entry = *btFemCoupling::entry(fem, *body);
+    const auto check = [&settings]
+    {
+        std::string reason;
+        if (!settings.valid(&reason)) throw std::invalid_argument("btFemDrawSettings: " + reason);
+    };
+    if (!attempt(why, check)) return false;
+    if (!drawer || !fem.isFem(body)) return true;
+    const btFemBodyRecord& record = *btFemCoupling::record(fem, *body);
     if (modes & BT_FEM_DRAW_ELEMENTS) drawElements(*body, *drawer, settings);
-    if (modes & BT_FEM_DRAW_STRESS_FREE) drawStressFree(*entry.m_fem, *drawer, settings);
-    for (int k = 0; (modes & BT_FEM_DRAW_CONTACTS) && k < entry.m_contacts.size(); ++k)
-        drawContact(entry.m_contacts[k], *drawer, settings);
+    if (modes & BT_FEM_DRAW_STRESS_FREE) drawStressFree(record.fem(), *drawer, settings);
+    for (int k = 0; (modes & BT_FEM_DRAW_CONTACTS) && k < record.m_reports.m_contacts.size(); ++k)
+        drawContact(record.m_reports.m_contacts[k], *drawer, settings);
+    return true;
 }

@@ -9,10 +9,10 @@
 #include "bullet_bridge/body_arrays.h"
 #include "bullet_bridge/rigid_obstacles.h"
 #include "bullet_fem/btFemVectors.h"
-#include "plugin/btFemArrays.h"
-#include "plugin/btFemCoupling.h"
 #include "plugin/btFemDeformableForces.h"
 #include "plugin/btFemWorldStep.h"
+#include "plugin/record/btFemArrays.h"
+#include "plugin/record/btFemCoupling.h"
 
 using namespace bullet_fem;
 
@@ -98,18 +98,18 @@ bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
     if (body.m_tetras.size() == 0) return false;
     Known& known = know(body);
     const btFemForceMaterial material = m_forces.materialOf(body);
-    const btFemEntry* entry = btFemCoupling::entry(m_fem, body);
+    const btFemBodyRecord* record = btFemCoupling::record(m_fem, body);
     const bool changed = material != known.m_material;
     known.m_material = material;
-    if (!material.m_given && !(entry && entry->m_materialGiven) && isForBullet(body)) return false;
-    const bool triedAnew = entry && !entry->m_rejected;  // by the user
+    if (!material.m_given && !(record && record->m_asked.m_materialGiven) && isForBullet(body)) return false;
+    const bool triedAnew = record && !record->m_model.m_rejected;  // by the user
     if (!known.m_rejection.empty() && !changed && !triedAnew) return false;
     try
     {
         if (changed && material.m_given) m_fem.setMaterial(&body, material.m_material);
         const btScalar step = dt * body.m_cfg.timescale;
         if (!m_fem.isFem(&body)) m_fem.prepare(&body, isUsableStep(step) ? step : kUsualStep);
-        FemSoftBody& moved = *btFemCoupling::entry(m_fem, body)->m_fem;
+        FemSoftBody& moved = *btFemCoupling::record(m_fem, body)->m_model.m_fem;
         moved.m_hasOwnGravity = true;
         moved.m_ownGravity = m_forces.gravityOf(body);
         known.m_rejection.clear();
@@ -188,9 +188,9 @@ void btFemDeformableBodySolver::Impl::drawNodes()
 {
     for (int i = 0; i < m_femBodies.size(); ++i)
     {
-        const btFemEntry* entry = btFemCoupling::entry(m_fem, *m_femBodies[i]);
-        if (!entry || !entry->m_fem) continue;
-        std::vector<NodeSpring>& springs = entry->m_fem->m_joints.m_springs;
+        const btFemBodyRecord* record = btFemCoupling::record(m_fem, *m_femBodies[i]);
+        if (!record || !record->isFem()) continue;
+        std::vector<NodeSpring>& springs = record->fem().m_joints.m_springs;
         const auto isDrawn = [](const NodeSpring& s) { return s.m_id < 0; };
         springs.erase(std::remove_if(springs.begin(), springs.end(), isDrawn), springs.end());
         for (const btFemDrawnNode& drawn : m_forces.drawn())

@@ -7,7 +7,7 @@
 
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/mesh/material.h"
-#include "plugin/btFemArrays.h"
+#include "plugin/record/btFemArrays.h"
 
 using namespace bullet_fem;
 

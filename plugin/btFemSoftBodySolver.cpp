@@ -12,35 +12,39 @@
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
-#include "bullet_fem/btFemHelpers.h"
-#include "plugin/bodies/btFemBaked.h"
-#include "plugin/bodies/btFemBodyRegistry.h"
-#include "plugin/bodies/btFemMaterialConversion.h"
-#include "plugin/btFemCoupling.h"
+#include "fem/common/attempt.h"
 #include "plugin/btFemWorldStep.h"
-#include "plugin/contact/btFemManifolds.h"
+#include "plugin/dispatch/btFemDispatch.h"
+#include "plugin/dispatch/btFemManifolds.h"
+#include "plugin/record/btFemCoupling.h"
+#include "plugin/setup/btFemBaked.h"
+#include "plugin/setup/btFemMaterialConversion.h"
+#include "plugin/snapshot/btFemSnapshot.h"
+#include "plugin/stages/btFemSleeping.h"
 
 using namespace bullet_fem;
 
 struct btFemSoftBodySolver::Impl
 {
     explicit Impl(const btFemSolverInfo& info)
-        : m_registry(info), m_step(info), m_manifolds(info.m_manifolds ? std::make_shared<btFemManifolds>() : nullptr)
+        : m_setUp(info, info.m_manifolds ? announceWithManifolds : announceToDispatcher),
+          m_step(info, m_registry, m_setUp),
+          m_manifolds(info.m_manifolds ? std::make_shared<btFemManifolds>() : nullptr)
     {
     }
 
-    btFemEntry& femEntry(const btSoftBody* body, const char* caller)
+    btFemBodyRecord& femRecord(const btSoftBody* body, const char* caller)
     {
-        btFemEntry* entry = m_registry.find(body);
-        if (!entry || !entry->m_fem)
+        btFemBodyRecord* record = m_registry.find(body);
+        if (!record || !record->isFem())
             throw std::invalid_argument(
                 std::string(caller) +
                 ": the body is not moved by finite elements; call prepare() or step its world first");
-        if (!arraysAsSetUp(*entry->m_fem))
+        if (!arraysAsSetUp(record->fem()))
             throw std::invalid_argument(
                 std::string(caller) +
                 ": nodes or tetrahedra of the body were appended or removed; call prepare() or step its world first");
-        return *entry;
+        return *record;
     }
 
     // Tick callbacks run within a step, and may remove and delete soft bodies; Bullet tells nobody. Those whose arrays
@@ -54,24 +58,25 @@ struct btFemSoftBodySolver::Impl
         for (int i = 0; i < stepped.size(); ++i)
             if (isHeld(stepped[i])) stepped[kept++] = stepped[i];
         stepped.resize(kept);
-        for (const auto& entry : m_registry.entries())
+        for (const auto& record : m_registry.records())
         {
-            if (!entry->m_present) continue;
-            const bool held = isHeld(entry->m_softBody),
-                       changed = held && entry->m_fem && !arraysAsSetUp(*entry->m_fem);
-            if (changed) showClusterJoints(*entry->m_fem);
-            if (!held || changed) entry->m_present = false;
+            if (!record->m_membership.m_present) continue;
+            const bool held = isHeld(record->m_softBody),
+                       changed = held && record->isFem() && !arraysAsSetUp(record->fem());
+            if (changed) showClusterJoints(record->fem());
+            if (!held || changed) record->m_membership.m_present = false;
         }
     }
 
     bool movesBySprings(const btSoftBody* body) const
     {
-        const btFemEntry* entry = m_registry.find(body);
-        return body->isActive() && (!entry || (entry->m_rejected && entry->m_present));
+        const btFemBodyRecord* record = m_registry.find(body);
+        return body->isActive() && (!record || (record->m_model.m_rejected && record->m_membership.m_present));
     }
 
     const btAlignedObjectArray<btSoftBody*>* m_worldBodies = nullptr;  // of the world being stepped
     btFemBodyRegistry m_registry;
+    btFemBodySetUp m_setUp;
     btFemWorldStep m_step;
     const std::shared_ptr<btFemManifolds> m_manifolds;  // null: not shown
     const btFemStepReport m_noReport;
@@ -121,65 +126,85 @@ btFemSoftBodySolver::btFemSoftBodySolver(const btFemSolverInfo& info)
 
 btFemSoftBodySolver::~btFemSoftBodySolver() = default;
 
-void btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& material)
+bool btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& material, std::string* why)
 {
-    std::string why;
-    if (!material.valid(&why)) throw std::invalid_argument("btFemMaterial: " + why);
-    if (m_impl->m_registry.find(body)) m_impl->m_registry.entry(body);  // which notices what the program changed
-    if (!valid(body, &why)) throw std::invalid_argument("setMaterial: " + why);
-    keepFaceTree(*body);
-    btFemEntry& entry = m_impl->m_registry.entry(body);
-    if (material.m_density > 0) writeMasses(*body, massesAtRest(entry, material.m_density));
-    entry.m_material = coreMaterial(material);
-    entry.m_materialGiven = true;
-    entry.m_materialChanged = true;
-    entry.m_rejected = false;
+    const auto set = [&]
+    {
+        std::string reason;
+        if (!material.valid(&reason)) throw std::invalid_argument("btFemMaterial: " + reason);
+        if (m_impl->m_registry.find(body)) m_impl->m_registry.record(body);  // which notices what the program changed
+        if (!valid(body, &reason)) throw std::invalid_argument("setMaterial: " + reason);
+        keepFaceTree(*body);
+        btFemBodyRecord& record = m_impl->m_registry.record(body);
+        if (material.m_density > 0) writeMasses(*body, massesAtRest(record, material.m_density));
+        record.m_asked.m_material = coreMaterial(material);
+        record.m_asked.m_materialGiven = true;
+        record.m_asked.m_materialChanged = true;
+        record.m_model.m_rejected = false;
+    };
+    return attempt(why, set);
 }
 
-void btFemSoftBodySolver::setDetail(btSoftBody* body, btFemDetail detail)
+bool btFemSoftBodySolver::setDetail(btSoftBody* body, btFemDetail detail, std::string* why)
 {
-    btFemEntry& entry = m_impl->m_registry.entry(body);
-    entry.m_detail = detail;
-    entry.m_detailLevel = {};
+    const auto set = [&]
+    {
+        btFemBodyRecord& record = m_impl->m_registry.record(body);
+        record.m_asked.m_detail = detail;
+        record.m_work.m_detailLevel = {};
+    };
+    return attempt(why, set);
 }
 
-void btFemSoftBodySolver::setInterest(btFemInterest* interest, const btFemDetailPolicy& policy)
+bool btFemSoftBodySolver::setInterest(btFemInterest* interest, const btFemDetailPolicy& policy, std::string* why)
 {
-    m_impl->m_step.setInterest(interest, policy);
+    return attempt(why, [&] { m_impl->m_step.setInterest(interest, policy); });
 }
 
-void btFemSoftBodySolver::prepare(btSoftBody* body, btScalar fixedTimeStep)
+bool btFemSoftBodySolver::prepare(btSoftBody* body, btScalar fixedTimeStep, std::string* why)
 {
-    btFemEntry& entry = m_impl->m_registry.entry(body);
-    m_impl->m_registry.setUp(entry, fixedTimeStep);
-    entry.m_rejected = false;
-    m_impl->m_registry.chooseSurface(entry);
+    const auto setUp = [&]
+    {
+        btFemBodyRecord& record = m_impl->m_registry.record(body);
+        m_impl->m_setUp.setUp(record, fixedTimeStep);
+        record.m_model.m_rejected = false;
+        m_impl->m_setUp.chooseSurface(record);
+    };
+    return attempt(why, setUp);
 }
 
-void btFemSoftBodySolver::useBaked(btSoftBody* body, const BakedBody& baked)
+bool btFemSoftBodySolver::useBaked(btSoftBody* body, const BakedBody& baked, std::string* why)
 {
-    ::useBaked(m_impl->m_registry, body, baked);
+    return attempt(why, [&] { ::useBaked(m_impl->m_registry, body, baked); });
 }
 
-void btFemSoftBodySolver::refactor(btSoftBody* body)
+bool btFemSoftBodySolver::refactor(btSoftBody* body, std::string* why)
 {
-    btFemEntry& entry = m_impl->femEntry(body, "refactor");
-    readNodes(*entry.m_fem);
-    const double step = entry.m_lastStep > 0 ? entry.m_lastStep : entry.m_fem->m_body.m_model->factorInput().m_step;
-    m_impl->m_registry.refactor(entry, step);
-    entry.m_factorAccount.clear();
-    entry.m_factorJob.reset();
+    const auto renew = [&]
+    {
+        btFemBodyRecord& record = m_impl->femRecord(body, "refactor");
+        readNodes(record.fem());
+        const double last = record.m_work.m_lastStep;
+        m_impl->m_setUp.refactor(record, last > 0 ? last : record.fem().m_body.m_model->factorInput().m_step);
+        record.m_work.m_factorAccount.clear();
+        record.m_work.m_factorJob.reset();
+    };
+    return attempt(why, renew);
 }
 
-void btFemSoftBodySolver::setContactOffset(btSoftBody* body, btScalar metres)
+bool btFemSoftBodySolver::setContactOffset(btSoftBody* body, btScalar metres, std::string* why)
 {
-    if (!(metres >= 0 && metres <= 1000))
-        throw std::invalid_argument("contact offset " + std::to_string(metres) + " m is not in [0, 1000]");
-    btFemEntry& entry = m_impl->m_registry.entry(body);
-    entry.m_contactOffset = metres;
-    if (!entry.m_fem) return;
-    entry.m_fem->m_contactOffset = metres;
-    entry.m_fem->m_surface.forgetPlace();  // what it touches is searched for again
+    const auto set = [&]
+    {
+        if (!(metres >= 0 && metres <= 1000))
+            throw std::invalid_argument("contact offset " + std::to_string(metres) + " m is not in [0, 1000]");
+        btFemBodyRecord& record = m_impl->m_registry.record(body);
+        record.m_asked.m_contactOffset = metres;
+        if (!record.isFem()) return;
+        record.fem().m_contactOffset = metres;
+        record.fem().m_surface.forgetPlace();  // what it touches is searched for again
+    };
+    return attempt(why, set);
 }
 
 void btFemSoftBodySolver::forget(btSoftBody* body)
@@ -189,77 +214,63 @@ void btFemSoftBodySolver::forget(btSoftBody* body)
 
 bool btFemSoftBodySolver::valid(const btSoftBody* body, std::string* why)
 {
-    const auto says = [why](const char* message)
-    {
-        if (why) *why = message;
-        return false;
-    };
-    if (!body) return says("the soft body is null; give one made by btFemHelpers or btSoftBodyHelpers");
-    if (body->m_tetras.size() == 0) return says("the soft body has no tetrahedra; make it with btFemHelpers");
-    try
-    {
-        tetMeshOf(*body);
-        return true;
-    }
-    catch (const std::exception& error)
-    {
-        return says(error.what());
-    }
+    std::string reason;
+    return canBecomeFem(body, why ? *why : reason);
 }
 
 bool btFemSoftBodySolver::isFem(const btSoftBody* body) const
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
-    return entry && entry->m_fem;
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
+    return record && record->isFem();
 }
 
 const btFemStepReport& btFemSoftBodySolver::stepReport(const btSoftBody* body) const
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
-    return entry ? entry->m_report : m_impl->m_noReport;
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
+    return record ? record->m_reports.m_step : m_impl->m_noReport;
 }
 
 const btAlignedObjectArray<btFemContact>& btFemSoftBodySolver::contacts(const btSoftBody* body) const
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
-    return entry ? entry->m_contacts : m_impl->m_noContacts;
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
+    return record ? record->m_reports.m_contacts : m_impl->m_noContacts;
 }
 
 const btAlignedObjectArray<btFemAnchorReport>& btFemSoftBodySolver::anchors(const btSoftBody* body) const
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
-    return entry ? entry->m_anchors : m_impl->m_noAnchors;
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
+    return record ? record->m_reports.m_anchors : m_impl->m_noAnchors;
 }
 
 const btAlignedObjectArray<btFemTouch>& btFemSoftBodySolver::touches(const btSoftBody* body) const
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
-    return entry ? entry->m_touches : m_impl->m_noTouches;
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
+    return record ? record->m_reports.m_touches : m_impl->m_noTouches;
 }
 
 btVector3 btFemSoftBodySolver::contactForce(const btSoftBody* body, const btCollisionObject* other) const
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
     btVector3 sum(0, 0, 0);
-    if (!entry || !(entry->m_lastStep > 0)) return sum;
-    for (int k = 0; k < entry->m_contacts.size(); ++k)
-        if (entry->m_contacts[k].m_other == other) sum += entry->m_contacts[k].m_impulse;
-    return sum / static_cast<btScalar>(entry->m_lastStep);
+    if (!record || !(record->m_work.m_lastStep > 0)) return sum;
+    for (int k = 0; k < record->m_reports.m_contacts.size(); ++k)
+        if (record->m_reports.m_contacts[k].m_other == other) sum += record->m_reports.m_contacts[k].m_impulse;
+    return sum / static_cast<btScalar>(record->m_work.m_lastStep);
 }
 
 bool btFemSoftBodySolver::getContactForces(const btSoftBody* body, btAlignedObjectArray<btVector3>& perNode) const
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
-    const bool known = entry && entry->m_fem && arraysAsSetUp(*entry->m_fem);
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
+    const bool known = record && record->isFem() && arraysAsSetUp(record->fem());
     perNode.resize(known ? body->m_nodes.size() : 0);
     for (int i = 0; i < perNode.size(); ++i) perNode[i].setZero();
-    for (int k = 0; known && entry->m_lastStep > 0 && k < entry->m_contacts.size(); ++k)
+    for (int k = 0; known && record->m_work.m_lastStep > 0 && k < record->m_reports.m_contacts.size(); ++k)
     {
-        const btFemContact& contact = entry->m_contacts[k];
+        const btFemContact& contact = record->m_reports.m_contacts[k];
         for (int a = 0; a < contact.m_nodeCount; ++a)
             if (contact.m_nodes[a] < perNode.size())  // prepare() may have found fewer nodes than the last step
                 perNode[contact.m_nodes[a]] +=
-                    contact.m_impulse * (contact.m_weights[a] / static_cast<btScalar>(entry->m_lastStep));
+                    contact.m_impulse * (contact.m_weights[a] / static_cast<btScalar>(record->m_work.m_lastStep));
     }
     return known;
 }
@@ -267,27 +278,32 @@ bool btFemSoftBodySolver::getContactForces(const btSoftBody* body, btAlignedObje
 btFemContactGroup* btFemCoupling::beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
                                              double step)
 {
-    return fem.m_impl->m_step.beginGroup(fem.m_impl->m_registry, bodies, count, step);
+    return fem.m_impl->m_step.beginGroup(bodies, count, step);
 }
 
-btFemEntry& btFemCoupling::femEntry(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller)
+btFemBodyRecord& btFemCoupling::femRecord(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller)
 {
-    return fem.m_impl->femEntry(body, caller);
+    return fem.m_impl->femRecord(body, caller);
 }
 
-const btFemEntry* btFemCoupling::entry(const btFemSoftBodySolver& fem, const btSoftBody& body)
+const btFemBodyRecord* btFemCoupling::record(const btFemSoftBodySolver& fem, const btSoftBody& body)
 {
     return fem.m_impl->m_registry.find(&body);
 }
 
+btFemBodyRegistry& btFemCoupling::registry(const btFemSoftBodySolver& fem)
+{
+    return fem.m_impl->m_registry;
+}
+
 void btFemCoupling::reportRejection(btFemSoftBodySolver& fem, btSoftBody& body, const std::string& why)
 {
-    btFemEntry& entry = fem.m_impl->m_registry.entry(&body);
-    if (!entry.m_rejected) btFemBodyRegistry::reject(entry);
-    entry.m_message = why;
-    entry.m_report = {};
-    entry.m_report.m_flags = BT_FEM_REJECTED;
-    entry.m_report.m_message = entry.m_message.c_str();
+    btFemBodyRecord& record = fem.m_impl->m_registry.record(&body);
+    if (!record.m_model.m_rejected) fem.m_impl->m_setUp.reject(record);
+    record.m_model.m_message = why;
+    record.m_reports.m_step = {};
+    record.m_reports.m_step.m_flags = BT_FEM_REJECTED;
+    record.m_reports.m_step.m_message = record.m_model.m_message.c_str();
 }
 
 void btFemCoupling::assumeForcesGiven(btFemSoftBodySolver& fem, const Vec3& gravity)
@@ -307,7 +323,7 @@ btFemStressScratch& btFemCoupling::stressScratch(const btFemSoftBodySolver& fem)
 
 btFemSnapshotScope btFemCoupling::snapshotScope(const btFemSoftBodySolver& fem)
 {
-    return {fem.m_impl->m_registry, fem.m_impl->m_step.group(), fem.m_impl->m_worldBodies};
+    return {fem.m_impl->m_registry, fem.m_impl->m_setUp, fem.m_impl->m_step.group(), fem.m_impl->m_worldBodies};
 }
 
 void btFemSoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate)
@@ -320,7 +336,7 @@ void btFemSoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& softBodies
 void btFemSoftBodySolver::predictMotion(btScalar timeStep)
 {
     m_impl->dropRemovedBodies(m_softBodySet);
-    m_impl->m_step.predict(m_impl->m_registry, timeStep);
+    m_impl->m_step.predict(timeStep);
     for (int i = 0; i < m_softBodySet.size(); ++i)
     {
         if (!m_impl->movesBySprings(m_softBodySet[i])) continue;
@@ -331,38 +347,38 @@ void btFemSoftBodySolver::predictMotion(btScalar timeStep)
 
 void btFemSoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* other)
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
-    if (!entry || entry->m_rejected)
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
+    if (!record || record->m_model.m_rejected)
     {
         if (hasUsableNodes(*body)) btDefaultSoftBodySolver::processCollision(body, other);
     }
-    else if (entry->m_present && entry->m_fem && !ignoresRigidBodies(*body) &&
+    else if (record->m_membership.m_present && record->isFem() && !ignoresRigidBodies(*body) &&
              other->getCollisionObject()->hasContactResponse() &&
              !ignoresCollision(*body, *other->getCollisionObject()))
     {
-        wakeIfPushed(*entry, *other->getCollisionObject());
-        recordTouching(*entry->m_fem, *other->getCollisionObject());
+        wakeIfPushed(*record, *other->getCollisionObject());
+        recordTouching(record->fem(), *other->getCollisionObject());
         m_impl->m_step.noteBeforeSolve(*other->getCollisionObject());
     }
 }
 
 void btFemSoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
 {
-    const btFemEntry* entry = m_impl->m_registry.find(body);
-    const bool fem = entry && entry->m_fem, otherFem = isFem(other);
+    const btFemBodyRecord* record = m_impl->m_registry.find(body);
+    const bool fem = record && record->isFem(), otherFem = isFem(other);
     // Bullet's handlers would move a FEM body's nodes behind its back.
     if (!fem && !otherFem)
     {
         if (hasUsableNodes(*body) && hasUsableNodes(*other)) btDefaultSoftBodySolver::processCollision(body, other);
         return;
     }
-    if (fem && otherFem && collide(*body, *other)) recordTouching(*entry->m_fem, *other);
+    if (fem && otherFem && collide(*body, *other)) recordTouching(record->fem(), *other);
 }
 
 void btFemSoftBodySolver::solveConstraints(btScalar timeStep)
 {
     m_impl->dropRemovedBodies(m_softBodySet);
-    m_impl->m_step.solve(m_impl->m_registry, timeStep);
+    m_impl->m_step.solve(timeStep);
     for (int i = 0; i < m_softBodySet.size(); ++i)
         if (m_impl->movesBySprings(m_softBodySet[i])) m_softBodySet[i]->solveConstraints();
 }
@@ -372,10 +388,9 @@ void btFemSoftBodySolver::updateSoftBodies()
     m_impl->dropRemovedBodies(m_softBodySet);
     for (int i = 0; i < m_softBodySet.size(); ++i)
     {
-        const btFemEntry* entry = m_impl->m_registry.find(m_softBodySet[i]);
-        if (!(entry && entry->isStepped()) && m_softBodySet[i]->isActive()) m_softBodySet[i]->integrateMotion();
+        const btFemBodyRecord* record = m_impl->m_registry.find(m_softBodySet[i]);
+        if (!(record && record->isStepped()) && m_softBodySet[i]->isActive()) m_softBodySet[i]->integrateMotion();
     }
-    m_impl->m_step.updateSurfaces(m_impl->m_registry);
-    updateSleep(m_impl->m_registry);
+    m_impl->m_step.publish();
     if (m_impl->m_manifolds) m_impl->m_manifolds->update();
 }

@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <string>
 
-#include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "plugin/btFemRangeCheck.h"
+#include "plugin/record/btFemRangeCheck.h"
 
 using namespace bullet_fem;
 

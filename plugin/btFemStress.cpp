@@ -3,8 +3,8 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_arrays.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/bodies/btFemBodyRegistry.h"
-#include "plugin/btFemCoupling.h"
+#include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemCoupling.h"
 
 using namespace bullet_fem;
 
@@ -14,12 +14,12 @@ namespace
 // Stresses of the body's elements, or of its nodes; null if it is not FEM as it is now.
 const std::vector<Stress>* stressesOf(const btFemSoftBodySolver& solver, const btSoftBody* body, bool perNode)
 {
-    const btFemEntry* entry = body ? btFemCoupling::entry(solver, *body) : nullptr;
-    if (!entry || !entry->m_fem || !arraysAsSetUp(*entry->m_fem)) return nullptr;
+    const btFemBodyRecord* record = body ? btFemCoupling::record(solver, *body) : nullptr;
+    if (!record || !record->isFem() || !arraysAsSetUp(record->fem())) return nullptr;
     btFemStressScratch& scratch = btFemCoupling::stressScratch(solver);
-    elementStresses(entry->m_fem->m_body, scratch.m_perElement);
+    elementStresses(record->fem().m_body, scratch.m_perElement);
     if (!perNode) return &scratch.m_perElement;
-    nodeStresses(*entry->m_fem->m_body.m_model, scratch.m_perElement, scratch.m_perNode);
+    nodeStresses(*record->fem().m_body.m_model, scratch.m_perElement, scratch.m_perNode);
     return &scratch.m_perNode;
 }
 

@@ -60,7 +60,7 @@ def room_of(path):
     """The folder of a file; public headers stand with what they declare."""
     folder, name = os.path.split(path)
     if folder == "include/bullet_fem":
-        return "bullet_bridge" if name in BRIDGE_HEADERS else "plugin"
+        return "bullet_bridge" if name in BRIDGE_HEADERS else "plugin/public"
     return re.sub(r"^include/bullet_fem/", "", folder)
 
 

@@ -27,6 +27,13 @@ public:
     /// the body: its world info has no broadphase or not that of its world.
     bool holds(const btSoftBody& body, const btCollisionObject* object) const;
 
+    /// read() and holds().
+    bool readAndHolds(const btSoftBody& body, const btCollisionObject* object)
+    {
+        read(body);
+        return holds(body, object);
+    }
+
     /// True if `cluster` is one of a soft body that the world holds, or that cannot be known.
     bool holdsCluster(const btSoftBody& body, const void* cluster) const;
 

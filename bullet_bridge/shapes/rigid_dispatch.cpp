@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/shapes/rigid_dispatch.h"
 
+#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
+#include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionDispatch/btCollisionConfiguration.h"
 #include "BulletCollision/CollisionDispatch/btCollisionDispatcher.h"
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
@@ -98,6 +100,22 @@ void dispatchRigidShapes(btDispatcher* dispatcher)
         collisions->registerCollisionCreateFunc(SOFTBODY_SHAPE_PROXYTYPE, type, &softFirst);
         collisions->registerCollisionCreateFunc(type, SOFTBODY_SHAPE_PROXYTYPE, &softSecond);
     }
+}
+
+void renewAlgorithms(btSoftBody& body)
+{
+    btDispatcher* dispatcher = body.m_worldInfo->m_dispatcher;
+    btBroadphaseInterface* broadphase = body.m_worldInfo->m_broadphase;
+    if (dispatcher && broadphase && body.getBroadphaseHandle())
+        broadphase->getOverlappingPairCache()->cleanProxyFromPairs(body.getBroadphaseHandle(), dispatcher);
+}
+
+void clearBulletContacts(btSoftBody& body)
+{
+    body.m_rcontacts.resize(0);
+    body.m_scontacts.resize(0);
+    body.m_nodeRigidContacts.resize(0);
+    body.m_faceRigidContacts.resize(0);
 }
 
 }  // namespace bullet_fem

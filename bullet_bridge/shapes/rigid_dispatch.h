@@ -23,6 +23,13 @@ void dispatchRigidShapes(btDispatcher* dispatcher);
 btCollisionAlgorithm* createBulletsAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                              const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b);
 
+/// What a body overlaps gets new collision algorithms at the next collision detection. Its m_worldInfo is not null.
+void renewAlgorithms(btSoftBody& body);
+
+/// Empties m_rcontacts, m_scontacts and the deformable contacts: they have pointers to objects that may be gone by the
+/// next step.
+void clearBulletContacts(btSoftBody& body);
+
 /// Takes the contacts with an object out of m_rcontacts and m_faceRigidContacts: it may be deleted before anybody looks
 /// there again. Leaves it alone.
 void removeContactsWith(const btCollisionObject* object, btSoftBody& body);

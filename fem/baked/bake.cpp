@@ -6,6 +6,7 @@
 
 #include "bullet_fem/fem/baked/baked_body.h"
 #include "bullet_fem/fem/mesh/rest_shape.h"
+#include "fem/common/attempt.h"
 #include "fem/common/message.h"
 
 namespace bullet_fem
@@ -112,14 +113,7 @@ BakedBody bakeMesh(const Given& given, const BakeSettings& settings)
     return body;
 }
 
-}  // namespace
-
-BakedBody bakeBody(const TetMesh& mesh, const BakeSettings& settings)
-{
-    return bakeMesh({mesh, {}, 1}, settings);
-}
-
-BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings)
+BakedBody bakeCage(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings)
 {
     if (cage.m_embedding.size() != surface.m_vertices.size())
         reject("bakeBody: the cage embeds ", cage.m_embedding.size(), " vertices, and the surface has ",
@@ -129,6 +123,18 @@ BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSetti
     body.m_triangles = surface.m_triangles;
     body.m_surfaceCollides = cage.m_surfaceCollides;
     return body;
+}
+
+}  // namespace
+
+BakedBody bakeBody(const TetMesh& mesh, const BakeSettings& settings, std::string* why)
+{
+    return attemptValue(why, [&] { return bakeMesh({mesh, {}, 1}, settings); });
+}
+
+BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings, std::string* why)
+{
+    return attemptValue(why, [&] { return bakeCage(cage, surface, settings); });
 }
 
 }  // namespace bullet_fem

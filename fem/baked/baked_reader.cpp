@@ -11,6 +11,7 @@
 #include "fem/baked/baked_checks.h"
 #include "fem/baked/baked_header.h"
 #include "fem/baked/file_bytes.h"
+#include "fem/common/attempt.h"
 #include "fem/common/message.h"
 #include "fem/factor/rest_factor.h"
 
@@ -126,22 +127,23 @@ BakedBody open(const FileBytes& file)
 
 }  // namespace
 
-BakedBody readBakedBody(const std::string& path, BakedLoading loading)
+BakedBody readBakedBody(const std::string& path, BakedLoading loading, std::string* why)
 {
-    return readNamed(path, [&] { return open(loading == BakedLoading::mapped ? mapFile(path) : readFile(path)); });
+    const auto read = [&] { return open(loading == BakedLoading::mapped ? mapFile(path) : readFile(path)); };
+    return attemptValue(why, [&] { return readNamed(path, read); });
 }
 
-BakedBody readBakedBody(const unsigned char* data, std::size_t size, const std::string& name)
+BakedBody readBakedBody(const unsigned char* data, std::size_t size, const std::string& name, std::string* why)
 {
-    return readNamed(name,
-                     [&]
-                     {
-                         if (!data && size > 0) reject("its bytes are null");
-                         return open(copyBytes(data, size));
-                     });
+    const auto read = [&]
+    {
+        if (!data && size > 0) reject("its bytes are null");
+        return open(copyBytes(data, size));
+    };
+    return attemptValue(why, [&] { return readNamed(name, read); });
 }
 
-BakedFileInfo inspectBakedBody(const std::string& path)
+BakedFileInfo inspectBakedBody(const std::string& path, std::string* why)
 {
     const auto inspect = [&path]
     {
@@ -152,7 +154,7 @@ BakedFileInfo inspectBakedBody(const std::string& path)
         file.read(reinterpret_cast<char*>(begin), sizeof begin);
         return infoOf(openHeader(begin, static_cast<std::size_t>(file.gcount()), length));
     };
-    return readNamed(path, inspect);
+    return attemptValue(why, [&] { return readNamed(path, inspect); });
 }
 
 }  // namespace bullet_fem

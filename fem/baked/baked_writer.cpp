@@ -7,6 +7,7 @@
 
 #include "fem/baked/baked_checks.h"
 #include "fem/baked/baked_header.h"
+#include "fem/common/attempt.h"
 #include "fem/common/message.h"
 #include "fem/common/output_file.h"
 #include "fem/factor/rest_factor.h"
@@ -133,21 +134,25 @@ std::vector<unsigned char> bytesOf(const BakedBody& body)
 
 }  // namespace
 
-void writeBakedBody(const std::string& path, const BakedBody& body)
+bool writeBakedBody(const std::string& path, const BakedBody& body, std::string* why)
 {
-    std::vector<unsigned char> bytes;
-    try
-    {
-        bytes = bytesOf(body);
-    }
-    catch (const std::exception& error)
-    {
-        throw std::runtime_error("cannot write '" + path + "': " + error.what());
-    }
-    OutputFile file(path);
-    file.write(bytes.data(), bytes.size());
-    file.sync();
-    file.commit();
+    return attempt(why,
+                   [&]
+                   {
+                       std::vector<unsigned char> bytes;
+                       try
+                       {
+                           bytes = bytesOf(body);
+                       }
+                       catch (const std::exception& error)
+                       {
+                           throw std::runtime_error("cannot write '" + path + "': " + error.what());
+                       }
+                       OutputFile file(path);
+                       file.write(bytes.data(), bytes.size());
+                       file.sync();
+                       file.commit();
+                   });
 }
 
 }  // namespace bullet_fem

@@ -8,10 +8,16 @@
 namespace bullet_fem
 {
 
-/// Calls what may throw; false and the reason in `why` (if given) if it did.
+/// Calls what may throw, for functions whose last argument is `why`. Null: what is thrown goes on. Else false is
+/// returned, and the reason written to it, where something was thrown.
 template <class Call>
-bool succeeds(const Call& call, std::string* why)
+bool attempt(std::string* why, const Call& call)
 {
+    if (!why)
+    {
+        call();
+        return true;
+    }
     try
     {
         call();
@@ -19,9 +25,18 @@ bool succeeds(const Call& call, std::string* why)
     }
     catch (const std::exception& error)
     {
-        if (why) *why = error.what();
+        *why = error.what();
         return false;
     }
+}
+
+/// The same for what returns a value: one made by its default constructor where something was thrown.
+template <class Call>
+auto attemptValue(std::string* why, const Call& call)
+{
+    decltype(call()) value{};
+    attempt(why, [&] { value = call(); });
+    return value;
 }
 
 }  // namespace bullet_fem

@@ -42,9 +42,7 @@ struct btFemDebugDraw
 {
     /// Draws modes (btFemDrawModes) of a body; nothing if it is not FEM, or the drawer is null. Throws
     /// std::invalid_argument if !settings.valid().
-    static void draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,
-                     const btFemDrawSettings& settings = btFemDrawSettings());
-    /// The same for engines without exceptions: false and the reason in `why` (if given) where the other throws.
+    /// With `why`, for engines without exceptions: false and the reason there instead.
     static bool draw(const btFemSoftBodySolver& fem, const btSoftBody* body, btIDebugDraw* drawer, int modes,
-                     const btFemDrawSettings& settings, std::string* why);
+                     const btFemDrawSettings& settings = btFemDrawSettings(), std::string* why = nullptr);
 };

@@ -28,57 +28,41 @@ struct btFemHelpers
     /// the file's, unless BT_FEM_RENDER_SURFACE is put into m_cfg.collisions. `scale` [-], > 0, multiplies the file's
     /// positions.
     static btSoftBody* createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
-                                             btScalar scale = btScalar(1));
+                                             btScalar scale = btScalar(1), std::string* why = nullptr);
 
     /// The same from a surface in memory.
     static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
-                                         const bullet_fem::CageSettings& settings);
+                                         const bullet_fem::CageSettings& settings, std::string* why = nullptr);
 
     /// The same, with a report on the cage and on what was found in the surface.
     static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
-                                         const bullet_fem::CageSettings& settings, bullet_fem::CageReport& report);
+                                         const bullet_fem::CageSettings& settings, bullet_fem::CageReport& report,
+                                         std::string* why = nullptr);
 
     /// As the first `<deformable>` of a URDF file says, which is how pybullet loads soft bodies: mesh of tetrahedra,
     /// mass, friction, margin, gravity factor, and the surface to draw as m_renderNodes. `material` takes Young's
     /// modulus, Poisson's ratio and damping from the file, if it gives moduli, and density 0, so that the mass stays
     /// the file's: hand it to setMaterial. `scale` [-], > 0, multiplies positions. Place it with translate and rotate.
     static btSoftBody* createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
-                                      btScalar scale = btScalar(1));
+                                      btScalar scale = btScalar(1), std::string* why = nullptr);
 
     /// From a tetrahedral mesh, in the order of its nodes and elements.
-    static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh);
+    static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh,
+                                         std::string* why = nullptr);
 
     /// From `nodeCount` positions [m] and 4 `tetCount` node indices, in the given order. Elements of negative
     /// orientation are turned.
     static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
-                                         const int* tets, int tetCount);
+                                         const int* tets, int tetCount, std::string* why = nullptr);
 
     /// A box around `center` with half extents [m], each > 0, of about `cellSize` [m] cells.
     static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,
-                                 btScalar cellSize);
+                                 btScalar cellSize, std::string* why = nullptr);
 
     /// From a baked body, where it was baked, with its masses, pins and embedded surface. It does not keep the factor:
     /// give both to btFemSoftBodySolver::useBaked.
-    static btSoftBody* createFromBaked(btSoftBodyWorldInfo& worldInfo, const bullet_fem::BakedBody& baked);
-
-    /// Twins for engines without exceptions: null, and the reason in `why` (null: not told) where those throw.
-    static btSoftBody* createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
-                                             btScalar scale, std::string* why);
-    static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
-                                         const bullet_fem::CageSettings& settings, std::string* why);
-    static btSoftBody* createFromSurface(btSoftBodyWorldInfo& worldInfo, const bullet_fem::SurfaceMesh& surface,
-                                         const bullet_fem::CageSettings& settings, bullet_fem::CageReport& report,
-                                         std::string* why);
-    static btSoftBody* createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
-                                      btScalar scale, std::string* why);
-    static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const bullet_fem::TetMesh& mesh,
-                                         std::string* why);
-    static btSoftBody* createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
-                                         const int* tets, int tetCount, std::string* why);
-    static btSoftBody* createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center, const btVector3& halfExtents,
-                                 btScalar cellSize, std::string* why);
     static btSoftBody* createFromBaked(btSoftBodyWorldInfo& worldInfo, const bullet_fem::BakedBody& baked,
-                                       std::string* why);
+                                       std::string* why = nullptr);
 
     /// Moves m_renderNodes with the body, as Bullet's interpolateBarycentricWeights or extrapolateBarycentricWeights
     /// have tied them to it; nothing if weights or parents are missing. The solver does so after every step, and

@@ -12,6 +12,7 @@
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/btFemReports.h"
+#include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/btFemSpring.h"
 
 class btSoftBody;
@@ -21,73 +22,6 @@ namespace bullet_fem
 {
 struct BakedBody;  // bullet_fem/fem/baked_body.h
 }
-
-/// Who gives a body a new factor when its step, masses or pins are not the factor's any more (BT_FEM_STALE_FACTOR). A
-/// new one pays as soon as the stale one has cost as many iterations of the free motion as it takes time; both are
-/// counted from the sizes of mesh and factor, never by a clock.
-enum class btFemRefactoring
-{
-    onRequest,    ///< refactor(); the step report says when it pays (BT_FEM_REFACTOR_PAYS)
-    synchronous,  ///< also the step after that report, which takes longer then; the same on every machine
-    /// Likewise, but it is made by a thread of its own and taken over at the beginning of the first step that finds it
-    /// ready. **Not deterministic:** results depend, within the tolerance, on when that is. Orders with METIS, which
-    /// seeds and draws from std::rand, while the program runs; a body that is set up meanwhile waits for its turn. The
-    /// destructor waits for the factor that is being made.
-    background
-};
-
-/// Which factor preconditions a body's steps.
-enum class btFemFactorChoice
-{
-    full,             ///< that of its own matrix: one or two iterations a step
-    lowMemoryBeyond,  ///< that, or the one below where it would be larger than m_maxFactorMegabytes
-    lowMemory         ///< a scalar Laplacian's, about a ninth of the memory and far sooner made; some ten iterations a
-               ///< step or more. Nodes that first touch something take ten to twenty times as long: .1 s for 64 of a
-               ///< body of 10,000 elements, .9 s at 50,000
-};
-
-/// Settings of a solver; fixed for its life.
-struct btFemSolverInfo
-{
-    btScalar m_tolerance = btScalar(1e-3);  ///< relative residual of the linear solves [-], in [1e-8, 0.5]
-    int m_maxIterations = 100;              ///< conjugate gradient iterations a solve, in [1, 10000]
-    int m_contactRounds = 1;                ///< corrective solves after contact at least, in [1, 10]; ten at most
-    int m_contactSweeps = 50;               ///< sweeps a round at most, in [1, 1000]; 50 at most with joints
-    /// Errors of velocity at which contact ends, as a share of what gravity gives a body in a step, or of what contact
-    /// changes at first if that is more [-], in [1e-7, 0.1]. 3e-5 keeps tall stacks still; at 1e-2 crowds cost
-    /// half or less, but stacks of soft bodies may fall over without btFemConstraintSolver. Joints are solved more
-    /// closely; without any, contact's own linear solves are no closer than this.
-    btScalar m_contactTolerance = btScalar(3e-5);
-    int m_maxContacts = 2000;                  ///< contact points a body, in [8, 20000]
-    btScalar m_erp = btScalar(0.2);            ///< share of a penetration taken back a step [-], in [0, 1]
-    btScalar m_maxPushVelocity = btScalar(1);  ///< speed at which penetration is taken back at most [m/s], in [0, 1000]
-    /// Memory that the factor of a body may take [MB, 1e6 bytes], in [0, 1e6]; 0 is no limit. A body that needs more is
-    /// rejected with the amount in its report's message, before the work is done, unless m_factorChoice says otherwise.
-    /// 1,000 elements take about 0.7 MB in a body of 10,000 and 1.3 MB in one of 100,000.
-    btScalar m_maxFactorMegabytes = 0;
-    /// Which factor bodies get: the full one, the low-memory one where the full one would be larger than the limit, or
-    /// always the low-memory one. Both are iterated to m_tolerance. A body whose low-memory factor is larger than the
-    /// limit is rejected as well.
-    btFemFactorChoice m_factorChoice = btFemFactorChoice::full;
-    /// Threads that share the bodies of a step, and the work on a body of some thousand tetrahedra; the stepping one is
-    /// among them [-], in [0, 256]; 0: as many as the machine has. The bits of the result are the same for all.
-    int m_threads = 1;
-    /// Whether bodies that share their factor, copies of each other, are solved side by side, in some 3 KB an
-    /// element and thread. The bits of the result are the same; off to save memory, or to compare times.
-    bool m_batchBodies = true;
-    /// Who renews stale factors. Bodies that touch something get a new one in any case if the old one is 1.5 times off.
-    btFemRefactoring m_refactoring = btFemRefactoring::onRequest;
-    /// Whether Bullet's dispatcher shows a btPersistentManifold of every FEM body and other object that touch: the four
-    /// deepest points of the last step with their impulses. The rigid object is the first, the soft body the second;
-    /// Bullet's rigid solver leaves the manifolds alone, but an active kinematic object keeps awake what touches it, as
-    /// it does with rigid bodies. Self contact has none. Bullet's contact callbacks are called; what they change has no
-    /// effect. The body's m_worldInfo must have the world's dispatcher, also for contactTest and contactPairTest, which
-    /// tell the last step's contact points of FEM bodies in any case.
-    bool m_manifolds = false;
-
-    /// True if every value is in its range; else `why` (if given) names the value, the range and the remedy.
-    bool valid(std::string* why = nullptr) const;
-};
 
 /// Makes every tetrahedral btSoftBody of a btSoftRigidDynamicsWorld a corotational finite-element body: give it to the
 /// world's constructor in place of the default solver. Bodies without tetrahedra keep Bullet's behaviour, bit for bit.
@@ -124,6 +58,9 @@ struct btFemSolverInfo
 /// which calls it, make the present shape the rest shape at any time, from the next step on; translate, rotate and
 /// transform do not. Scaling keeps the node masses, as it does in Bullet; setMaterial with a density sets those of the
 /// new size.
+///
+/// Functions with a last argument `why` throw if that is null. Else, for engines without exceptions, they return false
+/// (or 0 in place of a handle) where they would throw, with the reason in `why`, and true where all is well.
 class btFemSoftBodySolver : public btDefaultSoftBodySolver
 {
 public:
@@ -136,21 +73,22 @@ public:
     /// Gives a body its material, before or after addSoftBody, at any time; a density > 0 sets the masses of nodes that
     /// are not pinned, now. Without it a body has E = 1e6 kLST Pa, nu .3, beta .005 s and its own masses. Throws
     /// std::invalid_argument on a bad material or a body without (usable) tetrahedra.
-    void setMaterial(btSoftBody* body, const btFemMaterial& material);
+    bool setMaterial(btSoftBody* body, const btFemMaterial& material, std::string* why = nullptr);
 
     /// Chooses between accuracy and speed for a body, whatever its interest; btFemDetail::automatic, which it is unless
     /// called, leaves that to the interest again. Throws std::invalid_argument on null.
-    void setDetail(btSoftBody* body, btFemDetail detail);
+    bool setDetail(btSoftBody* body, btFemDetail detail, std::string* why = nullptr);
 
     /// Chooses the details of all other bodies by how much they matter, from the next step on. The function must live
     /// until it is replaced, or the solver is gone; null, which it is unless called, makes all of them nodalWarp.
     /// Throws std::invalid_argument if !policy.valid().
-    void setInterest(btFemInterest* interest, const btFemDetailPolicy& policy = btFemDetailPolicy());
+    bool setInterest(btFemInterest* interest, const btFemDetailPolicy& policy = btFemDetailPolicy(),
+                     std::string* why = nullptr);
 
     /// Makes the body FEM, unless it is, with the rest shape of now, and factors now for a step of fixedTimeStep
     /// [s], in [1e-6, 1], so that the first step does not hitch. Throws std::invalid_argument on a bad step or mesh,
     /// and std::runtime_error if masses and moduli are so far apart that rounding makes the factor none.
-    void prepare(btSoftBody* body, btScalar fixedTimeStep);
+    bool prepare(btSoftBody* body, btScalar fixedTimeStep, std::string* why = nullptr);
 
     /// Gives a body that btFemHelpers::createFromBaked made of it, or one with the same nodes and tetrahedra, its rest
     /// shape, material and factor: when it is stepped or prepared next nothing is factored. Before addSoftBody or
@@ -158,73 +96,55 @@ public:
     /// it was baked for, the factor is stale: that costs iterations (BT_FEM_STALE_FACTOR), and it is replaced like any
     /// other. The file's data live as long as a body uses them. All else that was known of the body, but for detail and
     /// contact offset, is forgotten. Throws std::invalid_argument if nodes or tetrahedra are others.
-    void useBaked(btSoftBody* body, const bullet_fem::BakedBody& baked);
+    bool useBaked(btSoftBody* body, const bullet_fem::BakedBody& baked, std::string* why = nullptr);
 
     /// Factors anew for the present masses and pins and the last step size. Throws std::invalid_argument if the body is
     /// not FEM, and std::runtime_error as prepare() does: then it keeps the factor that it has.
-    void refactor(btSoftBody* body);
+    bool refactor(btSoftBody* body, std::string* why = nullptr);
 
     /// Makes a node go to a world position [m] within the next step, and stay there; its mass is kept for when it is
     /// let go. Throws std::invalid_argument on a node index out of range, a position that is not in [-1e6, 1e6] m, or a
     /// body that is not FEM.
-    void setNodeTarget(btSoftBody* body, int node, const btVector3& position);
+    bool setNodeTarget(btSoftBody* body, int node, const btVector3& position, std::string* why = nullptr);
     /// Lets the node go. Throws std::invalid_argument on a node index out of range, or a body that is not FEM.
-    void clearNodeTarget(btSoftBody* body, int node);
+    bool clearNodeTarget(btSoftBody* body, int node, std::string* why = nullptr);
 
     /// The same for `count` nodes at once: to positions, or to where `fromRest` moves the places of the rest shape,
     /// laid over the body as it was when first stepped or prepared. Throws std::invalid_argument like setNodeTarget,
     /// before any node has got a target.
-    void setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions);
-    void setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest);
+    bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions,
+                        std::string* why = nullptr);
+    bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest,
+                        std::string* why = nullptr);
     /// Lets them go. Throws likewise.
-    void clearNodeTargets(btSoftBody* body, const int* nodes, int count);
+    bool clearNodeTargets(btSoftBody* body, const int* nodes, int count, std::string* why = nullptr);
 
     /// Ties a node to a node of another FEM body, or of the same one, until detach() or until one of them leaves the
     /// world; what lies apart is drawn together. Anchors to rigid bodies are made by Bullet's own appendAnchor, joints
     /// of clusters by its appendLinearJoint and appendAngularJoint. Returns a handle, > 0. Throws std::invalid_argument
     /// on a body that is not FEM, or a node out of range.
-    int attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB);
+    int attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB, std::string* why = nullptr);
     /// Ties a node to a point of tetrahedron tetB of another body, with barycentric weights [-] of sum 1. Throws
     /// std::invalid_argument likewise.
-    int attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4]);
+    int attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4],
+                        std::string* why = nullptr);
     /// Unties what attachNodes or attachNodeToTet of body `a` returned; nothing if that is gone. Throws
     /// std::invalid_argument if `a` is not FEM.
-    void detach(btSoftBody* a, int attachment);
+    bool detach(btSoftBody* a, int attachment, std::string* why = nullptr);
 
     /// Pulls a point of the body to a place from the next step on, until removeSpring() or until the body leaves the
     /// world. Returns a handle, > 0; anchors() tells its impulse. Throws std::invalid_argument on a body that is not
     /// FEM, if !spring.valid(), or on a node with a weight that is out of range.
-    int addSpring(btSoftBody* body, const btFemSpring& spring);
+    int addSpring(btSoftBody* body, const btFemSpring& spring, std::string* why = nullptr);
     /// Moves what a spring pulls to [m]. Throws std::invalid_argument on a spring that the body does not have, or a
     /// target that is not in [-1e6, 1e6] m.
-    void setSpringTarget(btSoftBody* body, int spring, const btVector3& target);
+    bool setSpringTarget(btSoftBody* body, int spring, const btVector3& target, std::string* why = nullptr);
     /// Nothing if the spring is gone. Throws std::invalid_argument if the body is not FEM.
-    void removeSpring(btSoftBody* body, int spring);
+    bool removeSpring(btSoftBody* body, int spring, std::string* why = nullptr);
 
     /// Keeps the surface this far from others [m], in [0, 1e3]; 0 unless called. Bullet's shape margin is ignored.
     /// Throws std::invalid_argument on null, or out of the range.
-    void setContactOffset(btSoftBody* body, btScalar metres);
-
-    /// Twins of the calls above for engines without exceptions: false, or 0 in place of a handle, and the reason in
-    /// `why` (null: not told) where those throw.
-    bool setMaterial(btSoftBody* body, const btFemMaterial& material, std::string* why);
-    bool setDetail(btSoftBody* body, btFemDetail detail, std::string* why);
-    bool setInterest(btFemInterest* interest, const btFemDetailPolicy& policy, std::string* why);
-    bool prepare(btSoftBody* body, btScalar fixedTimeStep, std::string* why);
-    bool useBaked(btSoftBody* body, const bullet_fem::BakedBody& baked, std::string* why);
-    bool refactor(btSoftBody* body, std::string* why);
-    bool setNodeTarget(btSoftBody* body, int node, const btVector3& position, std::string* why);
-    bool clearNodeTarget(btSoftBody* body, int node, std::string* why);
-    bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions, std::string* why);
-    bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest, std::string* why);
-    bool clearNodeTargets(btSoftBody* body, const int* nodes, int count, std::string* why);
-    int attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB, std::string* why);
-    int attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4], std::string* why);
-    bool detach(btSoftBody* a, int attachment, std::string* why);
-    int addSpring(btSoftBody* body, const btFemSpring& spring, std::string* why);
-    bool setSpringTarget(btSoftBody* body, int spring, const btVector3& target, std::string* why);
-    bool removeSpring(btSoftBody* body, int spring, std::string* why);
-    bool setContactOffset(btSoftBody* body, btScalar metres, std::string* why);
+    bool setContactOffset(btSoftBody* body, btScalar metres, std::string* why = nullptr);
 
     /// Drops all that is known of a body: before deleting one that was never added.
     void forget(btSoftBody* body);
@@ -280,10 +200,7 @@ public:
     /// or with another precision of btScalar. A std::vector, because who saves every step uses one again: it grows
     /// once. Between steps; the world must be alive. Throws std::invalid_argument within a step, or if no FEM body's
     /// m_worldInfo has the world's m_broadphase.
-    void saveState(std::vector<unsigned char>& buffer) const;
-    /// The same for engines without exceptions: false, an empty buffer and the reason in `why` (if given) where the
-    /// other throws.
-    bool saveState(std::vector<unsigned char>& buffer, std::string* why) const;
+    bool saveState(std::vector<unsigned char>& buffer, std::string* why = nullptr) const;
 
     /// Puts the FEM bodies of the world back to a state that was saved of it, or of one that was built in the same way.
     /// Bodies are known by their ids in the broad phase: a body that was taken out and added again is another one.
@@ -300,26 +217,20 @@ public:
     /// in their order, after saving as after restoring, so that they begin anew both times. A rigid solver with
     /// SOLVER_RANDMIZE_ORDER wants its getRandSeed() back by setRandSeed(). A factor being made in the background is
     /// dropped. Between steps. Throws std::invalid_argument with the reason.
-    void restoreState(const unsigned char* data, std::size_t size);
-    /// The same for engines without exceptions: false and the reason in `why` (if given) where the other throws.
-    bool restoreState(const unsigned char* data, std::size_t size, std::string* why);
+    bool restoreState(const unsigned char* data, std::size_t size, std::string* why = nullptr);
 
     /// Saves what makes a body the FEM body that it is, for a side-car to whatever keeps its nodes, because Bullet's
     /// serializer loses it: rest shape, material, masses and pins, filled fractions of a cage, contact offset, detail.
     /// (Bullet 3.24's btSoftBody::serialize writes beyond its buffer in double precision; nothing here calls it.) A
     /// body that was not stepped or prepared yet has its present shape as rest shape. Throws std::invalid_argument on
     /// null, or a body without usable tetrahedra.
-    void saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer) const;
-    /// For engines without exceptions: false, an empty buffer and the reason in `why` (if given) instead.
-    bool saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer, std::string* why) const;
+    bool saveDefinition(const btSoftBody* body, std::vector<unsigned char>& buffer, std::string* why = nullptr) const;
 
     /// Gives it to a body with the same nodes and tetrahedra that was restored by other means: its nodes keep their
     /// positions and velocities, and get their masses and pins at once; the rest is used when it is stepped or prepared
     /// next. All that was known of the body is forgotten, its targets and attachments too. In place of setMaterial, and
     /// before addSoftBody or after. Throws std::invalid_argument with the reason, and changes nothing then.
-    void applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size);
-    /// For engines without exceptions: false and the reason in `why` (if given) instead.
-    bool applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size, std::string* why);
+    bool applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size, std::string* why = nullptr);
 
     // Called by the world.
     void optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate = false) override;

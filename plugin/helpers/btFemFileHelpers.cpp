@@ -5,21 +5,17 @@
 
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/io/surface_file.h"
-#include "plugin/btFemAttempt.h"
-
-btSoftBody* btFemHelpers::createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
-                                                btScalar scale)
-{
-    if (!path) throw std::invalid_argument("createFromSurfaceFile: the path is null");
-    bullet_fem::CageSettings settings;
-    settings.m_cellSize = cellSize;
-    return createFromSurface(worldInfo, bullet_fem::readSurfaceFile(path, scale), settings);
-}
+#include "fem/common/attempt.h"
 
 btSoftBody* btFemHelpers::createFromSurfaceFile(btSoftBodyWorldInfo& worldInfo, const char* path, btScalar cellSize,
                                                 btScalar scale, std::string* why)
 {
-    btSoftBody* body = nullptr;
-    succeeds([&] { body = createFromSurfaceFile(worldInfo, path, cellSize, scale); }, why);
-    return body;
+    const auto create = [&]
+    {
+        if (!path) throw std::invalid_argument("createFromSurfaceFile: the path is null");
+        bullet_fem::CageSettings settings;
+        settings.m_cellSize = cellSize;
+        return createFromSurface(worldInfo, bullet_fem::readSurfaceFile(path, scale), settings);
+    };
+    return bullet_fem::attemptValue(why, create);
 }

@@ -14,6 +14,7 @@
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/baked/baked_body.h"
 #include "bullet_fem/fem/mesh/generators.h"
+#include "fem/common/attempt.h"
 
 using namespace bullet_fem;
 
@@ -115,74 +116,95 @@ bool isEmbedded(const btSoftBody& body)
 }  // namespace
 
 btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, const SurfaceMesh& surface,
-                                            const CageSettings& settings)
+                                            const CageSettings& settings, std::string* why)
 {
     CageReport report;
-    return createFromSurface(worldInfo, surface, settings, report);
+    return createFromSurface(worldInfo, surface, settings, report, why);
 }
 
 btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, const SurfaceMesh& surface,
-                                            const CageSettings& settings, CageReport& report)
+                                            const CageSettings& settings, CageReport& report, std::string* why)
 {
-    const Cage cage = makeCage(surface, settings);
-    std::unique_ptr<btSoftBody> body = softBodyOf(worldInfo, cage.m_mesh, cage.m_filled, cage.m_massScale);
-    embed(*body, {cage.m_mesh.tets(), cage.m_embedding, surface.m_triangles});
-    if (cage.m_surfaceCollides) body->m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
-    report = cage.m_report;
-    return body.release();
+    const auto create = [&]
+    {
+        const Cage cage = makeCage(surface, settings);
+        std::unique_ptr<btSoftBody> body = softBodyOf(worldInfo, cage.m_mesh, cage.m_filled, cage.m_massScale);
+        embed(*body, {cage.m_mesh.tets(), cage.m_embedding, surface.m_triangles});
+        if (cage.m_surfaceCollides) body->m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
+        report = cage.m_report;
+        return body.release();
+    };
+    return attemptValue(why, create);
 }
 
-btSoftBody* btFemHelpers::createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const TetMesh& mesh)
+btSoftBody* btFemHelpers::createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const TetMesh& mesh, std::string* why)
 {
-    if (mesh.tetCount() == 0)
-        throw std::invalid_argument("createFromTetMesh: the mesh is empty; build it from elements");
-    return softBodyOf(worldInfo, mesh, {}, 1).release();
+    const auto create = [&]
+    {
+        if (mesh.tetCount() == 0)
+            throw std::invalid_argument("createFromTetMesh: the mesh is empty; build it from elements");
+        return softBodyOf(worldInfo, mesh, {}, 1).release();
+    };
+    return attemptValue(why, create);
 }
 
 btSoftBody* btFemHelpers::createFromTetMesh(btSoftBodyWorldInfo& worldInfo, const btVector3* positions, int nodeCount,
-                                            const int* tets, int tetCount)
+                                            const int* tets, int tetCount, std::string* why)
 {
-    if (!positions || !tets || nodeCount < 4 || tetCount < 1)
-        throw std::invalid_argument("createFromTetMesh: " + std::to_string(nodeCount) + " nodes and " +
-                                    std::to_string(tetCount) +
-                                    " tets given; at least 4 and 1 are needed, neither null");
-    std::vector<Vec3> X(nodeCount);
-    for (int i = 0; i < nodeCount; ++i) X[i] = vec3(positions[i]);
-    std::vector<Tet> elements(tetCount);
-    for (int e = 0; e < tetCount; ++e) std::copy(tets + 4 * e, tets + 4 * e + 4, elements[e].begin());
-    return createFromTetMesh(worldInfo, TetMesh(std::move(X), std::move(elements)));
+    const auto create = [&]
+    {
+        if (!positions || !tets || nodeCount < 4 || tetCount < 1)
+            throw std::invalid_argument("createFromTetMesh: " + std::to_string(nodeCount) + " nodes and " +
+                                        std::to_string(tetCount) +
+                                        " tets given; at least 4 and 1 are needed, neither null");
+        std::vector<Vec3> X(nodeCount);
+        for (int i = 0; i < nodeCount; ++i) X[i] = vec3(positions[i]);
+        std::vector<Tet> elements(tetCount);
+        for (int e = 0; e < tetCount; ++e) std::copy(tets + 4 * e, tets + 4 * e + 4, elements[e].begin());
+        return createFromTetMesh(worldInfo, TetMesh(std::move(X), std::move(elements)));
+    };
+    return attemptValue(why, create);
 }
 
 btSoftBody* btFemHelpers::createBox(btSoftBodyWorldInfo& worldInfo, const btVector3& center,
-                                    const btVector3& halfExtents, btScalar cellSize)
+                                    const btVector3& halfExtents, btScalar cellSize, std::string* why)
 {
-    const Vec3 size = 2.0 * vec3(halfExtents);
-    std::array<int, 3> cells;
-    for (int c = 0; c < 3; ++c)
+    const auto create = [&]
     {
-        const double count = std::round(size[c] / double(cellSize));
-        if (!(cellSize > 0) || !(size[c] > 0) || !(count <= 1000))
-            throw std::invalid_argument("createBox: half extent " + std::to_string(size[c] / 2) + " m with cells of " +
-                                        std::to_string(cellSize) +
-                                        " m; both must be > 0 and give at most 1000 cells along each axis");
-        cells[c] = std::max(1, static_cast<int>(count));
-    }
-    return createFromTetMesh(worldInfo, makeBox(size, cells, vec3(center) - 0.5 * size));
+        const Vec3 size = 2.0 * vec3(halfExtents);
+        std::array<int, 3> cells;
+        for (int c = 0; c < 3; ++c)
+        {
+            const double count = std::round(size[c] / double(cellSize));
+            if (!(cellSize > 0) || !(size[c] > 0) || !(count <= 1000))
+                throw std::invalid_argument("createBox: half extent " + std::to_string(size[c] / 2) +
+                                            " m with cells of " + std::to_string(cellSize) +
+                                            " m; both must be > 0 and give at most 1000 cells along each axis");
+            cells[c] = std::max(1, static_cast<int>(count));
+        }
+        return createFromTetMesh(worldInfo, makeBox(size, cells, vec3(center) - 0.5 * size));
+    };
+    return attemptValue(why, create);
 }
 
-btSoftBody* btFemHelpers::createFromBaked(btSoftBodyWorldInfo& worldInfo, const BakedBody& baked)
+btSoftBody* btFemHelpers::createFromBaked(btSoftBodyWorldInfo& worldInfo, const BakedBody& baked, std::string* why)
 {
-    if (!baked.m_model)
-        throw std::invalid_argument("createFromBaked: the baked body is empty; read it with readBakedBody");
-    const BodyModel& model = *baked.m_model;
-    const std::vector<unsigned char>& fixed = model.factorInput().m_fixed;
-    std::unique_ptr<btSoftBody> body = softBodyOf(
-        worldInfo, {model.mesh(), baked.m_positions, model.factorInput().m_mass, baked.m_filled, baked.m_massScale});
-    for (int i = 0; i < body->m_nodes.size(); ++i)
-        body->m_nodes[i].m_im = fixed[i] ? btScalar(0) : static_cast<btScalar>(baked.m_inverseMass[i]);
-    if (!baked.m_embedding.empty()) embed(*body, {model.mesh().tets(), baked.m_embedding, baked.m_triangles});
-    if (baked.m_surfaceCollides) body->m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
-    return body.release();
+    const auto create = [&]
+    {
+        if (!baked.m_model)
+            throw std::invalid_argument("createFromBaked: the baked body is empty; read it with readBakedBody");
+        const BodyModel& model = *baked.m_model;
+        const std::vector<unsigned char>& fixed = model.factorInput().m_fixed;
+        std::unique_ptr<btSoftBody> body = softBodyOf(
+            worldInfo,
+            {model.mesh(), baked.m_positions, model.factorInput().m_mass, baked.m_filled, baked.m_massScale});
+        for (int i = 0; i < body->m_nodes.size(); ++i)
+            body->m_nodes[i].m_im = fixed[i] ? btScalar(0) : static_cast<btScalar>(baked.m_inverseMass[i]);
+        if (!baked.m_embedding.empty()) embed(*body, {model.mesh().tets(), baked.m_embedding, baked.m_triangles});
+        if (baked.m_surfaceCollides) body->m_cfg.collisions |= BT_FEM_RENDER_SURFACE;
+        return body.release();
+    };
+    return attemptValue(why, create);
 }
 
 void btFemHelpers::updateEmbeddedSurface(btSoftBody* body)

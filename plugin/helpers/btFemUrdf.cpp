@@ -12,7 +12,7 @@
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "bullet_fem/io/urdf_deformable.h"
-#include "plugin/btFemAttempt.h"
+#include "fem/common/attempt.h"
 
 using namespace bullet_fem;
 
@@ -52,24 +52,20 @@ void takeMaterial(const UrdfDeformable& urdf, btFemMaterial& material)
 }  // namespace
 
 btSoftBody* btFemHelpers::createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
-                                         btScalar scale)
-{
-    if (!path) throw std::invalid_argument("createFromUrdf: the path is null");
-    const UrdfDeformable urdf = readUrdfDeformable(path);
-    std::unique_ptr<btSoftBody> body(createFromTetMesh(worldInfo, readTetMeshFile(urdf.m_meshPath, scale).mesh()));
-    if (!urdf.m_visualPath.empty()) drawAs(*body, readSurfaceFile(urdf.m_visualPath, scale));
-    body->setTotalMass(static_cast<btScalar>(urdf.m_mass));
-    body->getCollisionShape()->setMargin(static_cast<btScalar>(urdf.m_collisionMargin));
-    body->m_cfg.kDF = static_cast<btScalar>(urdf.m_friction);
-    body->setGravityFactor(static_cast<btScalar>(urdf.m_gravityFactor));
-    takeMaterial(urdf, material);
-    return body.release();
-}
-
-btSoftBody* btFemHelpers::createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
                                          btScalar scale, std::string* why)
 {
-    btSoftBody* body = nullptr;
-    succeeds([&] { body = createFromUrdf(worldInfo, path, material, scale); }, why);
-    return body;
+    const auto create = [&]
+    {
+        if (!path) throw std::invalid_argument("createFromUrdf: the path is null");
+        const UrdfDeformable urdf = readUrdfDeformable(path);
+        std::unique_ptr<btSoftBody> body(createFromTetMesh(worldInfo, readTetMeshFile(urdf.m_meshPath, scale).mesh()));
+        if (!urdf.m_visualPath.empty()) drawAs(*body, readSurfaceFile(urdf.m_visualPath, scale));
+        body->setTotalMass(static_cast<btScalar>(urdf.m_mass));
+        body->getCollisionShape()->setMargin(static_cast<btScalar>(urdf.m_collisionMargin));
+        body->m_cfg.kDF = static_cast<btScalar>(urdf.m_friction);
+        body->setGravityFactor(static_cast<btScalar>(urdf.m_gravityFactor));
+        takeMaterial(urdf, material);
+        return body.release();
+    };
+    return attemptValue(why, create);
 }

@@ -7,72 +7,106 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/bodies/btFemBodyRegistry.h"
-#include "plugin/btFemCoupling.h"
+#include "fem/common/attempt.h"
 #include "plugin/joints/btFemAttachments.h"
+#include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemCoupling.h"
 
 using namespace bullet_fem;
 
-void btFemSoftBodySolver::setNodeTarget(btSoftBody* body, int node, const btVector3& position)
+bool btFemSoftBodySolver::setNodeTarget(btSoftBody* body, int node, const btVector3& position, std::string* why)
 {
-    setTargets(*btFemCoupling::femEntry(*this, body, "setNodeTarget").m_fem, {&node, 1}, &position);
+    return attempt(why,
+                   [&] {
+                       setTargets(btFemCoupling::femRecord(*this, body, "setNodeTarget").fem(), {&node, 1}, &position);
+                   });
 }
 
-void btFemSoftBodySolver::clearNodeTarget(btSoftBody* body, int node)
+bool btFemSoftBodySolver::clearNodeTarget(btSoftBody* body, int node, std::string* why)
 {
-    clearTargets(*btFemCoupling::femEntry(*this, body, "clearNodeTarget").m_fem, {&node, 1});
+    return attempt(why,
+                   [&] {
+                       clearTargets(btFemCoupling::femRecord(*this, body, "clearNodeTarget").fem(), {&node, 1});
+                   });
 }
 
-void btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions)
+bool btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions,
+                                         std::string* why)
 {
-    setTargets(*btFemCoupling::femEntry(*this, body, "setNodeTargets").m_fem, {nodes, count}, positions);
+    return attempt(
+        why,
+        [&] {
+            setTargets(btFemCoupling::femRecord(*this, body, "setNodeTargets").fem(), {nodes, count}, positions);
+        });
 }
 
-void btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest)
+bool btFemSoftBodySolver::setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest,
+                                         std::string* why)
 {
-    setTargets(*btFemCoupling::femEntry(*this, body, "setNodeTargets").m_fem, {nodes, count}, fromRest);
+    return attempt(
+        why,
+        [&] {
+            setTargets(btFemCoupling::femRecord(*this, body, "setNodeTargets").fem(), {nodes, count}, fromRest);
+        });
 }
 
-void btFemSoftBodySolver::clearNodeTargets(btSoftBody* body, const int* nodes, int count)
+bool btFemSoftBodySolver::clearNodeTargets(btSoftBody* body, const int* nodes, int count, std::string* why)
 {
-    clearTargets(*btFemCoupling::femEntry(*this, body, "clearNodeTargets").m_fem, {nodes, count});
+    return attempt(why,
+                   [&] {
+                       clearTargets(btFemCoupling::femRecord(*this, body, "clearNodeTargets").fem(), {nodes, count});
+                   });
 }
 
-int btFemSoftBodySolver::attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB)
+int btFemSoftBodySolver::attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB, std::string* why)
 {
-    const FemSoftBody& other = *btFemCoupling::femEntry(*this, b, "attachNodes").m_fem;
-    return attachNode(*btFemCoupling::femEntry(*this, a, "attachNodes").m_fem, nodeA, other,
-                      {nodeB, nodeB, nodeB, nodeB}, {1, 0, 0, 0});
+    return attemptValue(why,
+                        [&]
+                        {
+                            const FemSoftBody& other = btFemCoupling::femRecord(*this, b, "attachNodes").fem();
+                            return attachNode(btFemCoupling::femRecord(*this, a, "attachNodes").fem(), nodeA, other,
+                                              {nodeB, nodeB, nodeB, nodeB}, {1, 0, 0, 0});
+                        });
 }
 
-int btFemSoftBodySolver::attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4])
+int btFemSoftBodySolver::attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4],
+                                         std::string* why)
 {
-    const FemSoftBody& other = *btFemCoupling::femEntry(*this, b, "attachNodeToTet").m_fem;
-    if (tetB < 0 || tetB >= b->m_tetras.size() || !weights)
-        throw std::invalid_argument("attachNodeToTet: tetrahedron " + std::to_string(tetB) + " is not in [0, " +
-                                    std::to_string(b->m_tetras.size()) + "), or the weights are null");
-    std::array<int, 4> nodes;
-    for (int k = 0; k < 4; ++k) nodes[k] = static_cast<int>(b->m_tetras[tetB].m_n[k] - &b->m_nodes[0]);
-    return attachNode(*btFemCoupling::femEntry(*this, a, "attachNodeToTet").m_fem, nodeA, other, nodes,
-                      {weights[0], weights[1], weights[2], weights[3]});
+    return attemptValue(why,
+                        [&]
+                        {
+                            const FemSoftBody& other = btFemCoupling::femRecord(*this, b, "attachNodeToTet").fem();
+                            if (tetB < 0 || tetB >= b->m_tetras.size() || !weights)
+                                throw std::invalid_argument("attachNodeToTet: tetrahedron " + std::to_string(tetB) +
+                                                            " is not in [0, " + std::to_string(b->m_tetras.size()) +
+                                                            "), or the weights are null");
+                            std::array<int, 4> nodes;
+                            for (int k = 0; k < 4; ++k)
+                                nodes[k] = static_cast<int>(b->m_tetras[tetB].m_n[k] - &b->m_nodes[0]);
+                            return attachNode(btFemCoupling::femRecord(*this, a, "attachNodeToTet").fem(), nodeA, other,
+                                              nodes, {weights[0], weights[1], weights[2], weights[3]});
+                        });
 }
 
-void btFemSoftBodySolver::detach(btSoftBody* a, int attachment)
+bool btFemSoftBodySolver::detach(btSoftBody* a, int attachment, std::string* why)
 {
-    detachNode(*btFemCoupling::femEntry(*this, a, "detach").m_fem, attachment);
+    return attempt(why, [&] { detachNode(btFemCoupling::femRecord(*this, a, "detach").fem(), attachment); });
 }
 
-int btFemSoftBodySolver::addSpring(btSoftBody* body, const btFemSpring& spring)
+int btFemSoftBodySolver::addSpring(btSoftBody* body, const btFemSpring& spring, std::string* why)
 {
-    return ::addSpring(*btFemCoupling::femEntry(*this, body, "addSpring").m_fem, spring);
+    return attemptValue(why,
+                        [&] { return ::addSpring(btFemCoupling::femRecord(*this, body, "addSpring").fem(), spring); });
 }
 
-void btFemSoftBodySolver::setSpringTarget(btSoftBody* body, int spring, const btVector3& target)
+bool btFemSoftBodySolver::setSpringTarget(btSoftBody* body, int spring, const btVector3& target, std::string* why)
 {
-    ::setSpringTarget(*btFemCoupling::femEntry(*this, body, "setSpringTarget").m_fem, spring, target);
+    return attempt(
+        why,
+        [&] { ::setSpringTarget(btFemCoupling::femRecord(*this, body, "setSpringTarget").fem(), spring, target); });
 }
 
-void btFemSoftBodySolver::removeSpring(btSoftBody* body, int spring)
+bool btFemSoftBodySolver::removeSpring(btSoftBody* body, int spring, std::string* why)
 {
-    ::removeSpring(*btFemCoupling::femEntry(*this, body, "removeSpring").m_fem, spring);
+    return attempt(why, [&] { ::removeSpring(btFemCoupling::femRecord(*this, body, "removeSpring").fem(), spring); });
 }

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "bullet_fem/btFemRay.h"
-#include "plugin/btFemRangeCheck.h"
+#include "plugin/record/btFemRangeCheck.h"
 
 namespace
 {
 
-constexpr double kMost = 1e12, kFarthest = 1e6, kSumTolerance = 1e-4;
+constexpr double kMost = 1e12, kFarthestTarget = 1e6, kSumTolerance = 1e-4;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ bool btFemSpring::valid(std::string* why) const
     for (int c = 0; c < 3; ++c)
     {
         finite = finite && std::isfinite(m_weights[c]);
-        if (!btFemRangeCheck(std::fabs(m_target[c]) <= kFarthest, why, "a coordinate of m_target", m_target[c],
+        if (!btFemRangeCheck(std::fabs(m_target[c]) <= kFarthestTarget, why, "a coordinate of m_target", m_target[c],
                              "[-1e6, 1e6] m; give a place near the body"))
             return false;
     }

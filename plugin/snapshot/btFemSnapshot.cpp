@@ -7,8 +7,8 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "plugin/bodies/btFemEnvelope.h"
-#include "plugin/snapshot/btFemEntrySnapshot.h"
+#include "plugin/snapshot/btFemEnvelope.h"
+#include "plugin/snapshot/btFemRecordSnapshot.h"
 
 using namespace bullet_fem;
 
@@ -18,7 +18,7 @@ namespace
 /// All that is written.
 struct WorldSnapshot
 {
-    std::vector<btFemEntrySnapshot> m_bodies;  // in the order in which they became known, which is that of solving
+    std::vector<btFemRecordSnapshot> m_bodies;  // in the order in which they became known, which is that of solving
     SoftPairMemory::Kept m_softPairs;
     RigidObstacles::Memory m_rigid;
 };
@@ -30,32 +30,33 @@ void transfer(Bytes& bytes, WorldSnapshot& s)
 }
 
 // FEM bodies that are in the world. Others may be deleted: they must not be looked at.
-std::vector<btFemEntry*> livingEntries(const btFemSnapshotScope& scope)
+std::vector<btFemBodyRecord*> livingRecords(const btFemSnapshotScope& scope)
 {
-    std::vector<btFemEntry*> living;
-    for (const auto& entry : scope.m_registry.entries())
+    std::vector<btFemBodyRecord*> living;
+    for (const auto& record : scope.m_registry.records())
     {
-        if (entry->m_stage != btFemStage::none)
+        if (record->m_work.m_stage != btFemStage::none)
             reject("a step is being made; call it between steps, not from a tick callback");
         const bool held = !scope.m_worldBodies ||
-                          scope.m_worldBodies->findLinearSearch(entry->m_softBody) < scope.m_worldBodies->size();
-        if (held && entry->m_fem && entry->m_softBody->getBroadphaseHandle() && btFemBodyRegistry::isAsBuilt(*entry))
-            living.push_back(entry.get());
+                          scope.m_worldBodies->findLinearSearch(record->m_softBody) < scope.m_worldBodies->size();
+        if (held && record->isFem() && record->m_softBody->getBroadphaseHandle() &&
+            btFemBodyRegistry::isAsBuilt(*record))
+            living.push_back(record.get());
     }
     return living;
 }
 
-WorldIds idsOf(const std::vector<btFemEntry*>& entries)
+WorldIds idsOf(const std::vector<btFemBodyRecord*>& records)
 {
-    if (entries.empty()) return {};
-    for (const btFemEntry* known : entries)
+    if (records.empty()) return {};
+    for (const btFemBodyRecord* known : records)
     {
         btBroadphaseInterface* broadphase =
             known->m_softBody->m_worldInfo ? known->m_softBody->m_worldInfo->m_broadphase : nullptr;
         if (!broadphase) continue;
         WorldIds world(*broadphase);
         if (world.idOf(known->m_softBody) < 0) continue;
-        for (const btFemEntry* entry : entries) world.m_bodies.push_back(entry->m_fem.get());
+        for (const btFemBodyRecord* record : records) world.m_bodies.push_back(&record->fem());
         return world;
     }
     reject(
@@ -72,22 +73,22 @@ WorldSnapshot read(const unsigned char* data, std::size_t size)
     return snapshot;
 }
 
-std::string nameOf(const btFemEntrySnapshot& s)
+std::string nameOf(const btFemRecordSnapshot& s)
 {
     return message("the FEM body with broad phase id ", s.m_id);
 }
 
-// The entries of the snapshot's bodies.
-std::vector<btFemEntry*> matched(const WorldSnapshot& snapshot, const std::vector<btFemEntry*>& entries,
-                                 const WorldIds& world)
+// The records of the snapshot's bodies.
+std::vector<btFemBodyRecord*> matched(const WorldSnapshot& snapshot, const std::vector<btFemBodyRecord*>& records,
+                                      const WorldIds& world)
 {
-    std::vector<btFemEntry*> found;
-    for (const btFemEntrySnapshot& s : snapshot.m_bodies)
+    std::vector<btFemBodyRecord*> found;
+    for (const btFemRecordSnapshot& s : snapshot.m_bodies)
     {
         const FemSoftBody* fem = world.bodyOf(s.m_id);
-        const auto isIt = [fem](const btFemEntry* entry) { return entry->m_fem.get() == fem; };
-        const auto at = std::find_if(entries.begin(), entries.end(), isIt);
-        if (at == entries.end())
+        const auto isIt = [fem](const btFemBodyRecord* record) { return &record->fem() == fem; };
+        const auto at = std::find_if(records.begin(), records.end(), isIt);
+        if (at == records.end())
             reject(nameOf(s), " is not in the world, or not FEM yet: prepare() it, or step its world once");
         if (std::find(found.begin(), found.end(), *at) != found.end()) reject(nameOf(s), " is there twice");
         found.push_back(*at);
@@ -102,25 +103,25 @@ struct Models
 };
 
 // One that is not at hand is made.
-Models modelsOf(const btFemEntrySnapshot& s, const btFemEntry& entry, btFemBodyRegistry& registry)
+Models modelsOf(const btFemRecordSnapshot& s, const btFemBodyRecord& record, btFemBodySetUp& setUp)
 {
     Models models;
-    models.m_model = entry.m_fem->m_body.m_model;
+    models.m_model = record.fem().m_body.m_model;
     if (s.m_materialChanged) return models;  // the next step makes another in any case
-    const std::shared_ptr<const RestShape> shape = registry.shapeOf(entry, s.m_body.m_shapeMark);
+    const std::shared_ptr<const RestShape> shape = setUp.shapeOf(record, s.m_body.m_shapeMark);
     if (!shape) reject("its rest shape is another than when the state was saved");
-    models.m_model = registry.exactModel(entry, shape, factorInputOf(s.m_body));
+    models.m_model = setUp.exactModel(record, shape, factorInputOf(s.m_body));
     if (models.m_model->factorReport().m_path != s.m_body.m_path)
         reject("its factor was of the other kind: m_factorChoice or m_maxFactorMegabytes of the solver is another");
-    if (s.m_hasFormerFactor) models.m_former = registry.findExactModel(shape, s.m_formerFactor);
+    if (s.m_hasFormerFactor) models.m_former = setUp.findExactModel(shape, s.m_formerFactor);
     return models;
 }
 
-void checkEntry(const btFemEntrySnapshot& s, const btFemEntry& entry, const WorldIds& world)
+void checkRecord(const btFemRecordSnapshot& s, const btFemBodyRecord& record, const WorldIds& world)
 {
     try
     {
-        check(s, entry, world);
+        check(s, record, world);
     }
     catch (const std::invalid_argument& error)
     {
@@ -132,10 +133,10 @@ void checkEntry(const btFemEntrySnapshot& s, const btFemEntry& entry, const Worl
 
 void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& buffer)
 {
-    const std::vector<btFemEntry*> entries = livingEntries(scope);
-    const WorldIds world = idsOf(entries);
+    const std::vector<btFemBodyRecord*> records = livingRecords(scope);
+    const WorldIds world = idsOf(records);
     WorldSnapshot snapshot;
-    for (const btFemEntry* entry : entries) snapshot.m_bodies.push_back(snapshotOf(*entry, world));
+    for (const btFemBodyRecord* record : records) snapshot.m_bodies.push_back(snapshotOf(*record, world));
     snapshot.m_softPairs = scope.m_group.softPairs().kept();
     snapshot.m_rigid = scope.m_group.rigid().memory();
     beginEnvelope(buffer, btFemContents::state);
@@ -147,19 +148,19 @@ void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& b
 void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data, std::size_t size)
 {
     WorldSnapshot snapshot = read(data, size);
-    const std::vector<btFemEntry*> entries = livingEntries(scope);
-    const WorldIds world = idsOf(entries);
-    const std::vector<btFemEntry*> bodies = matched(snapshot, entries, world);
-    for (std::size_t b = 0; b < bodies.size(); ++b) checkEntry(snapshot.m_bodies[b], *bodies[b], world);
+    const std::vector<btFemBodyRecord*> records = livingRecords(scope);
+    const WorldIds world = idsOf(records);
+    const std::vector<btFemBodyRecord*> bodies = matched(snapshot, records, world);
+    for (std::size_t b = 0; b < bodies.size(); ++b) checkRecord(snapshot.m_bodies[b], *bodies[b], world);
     checkAndDrop(snapshot.m_softPairs, world);
     check(snapshot.m_rigid);
     std::vector<Models> models;
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        models.push_back(modelsOf(snapshot.m_bodies[b], *bodies[b], scope.m_registry));
+        models.push_back(modelsOf(snapshot.m_bodies[b], *bodies[b], scope.m_setUp));
 
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
-        scope.m_registry.giveFactors(*bodies[b], models[b].m_model, models[b].m_former);
+        scope.m_setUp.giveFactors(*bodies[b], models[b].m_model, models[b].m_former);
         restore(snapshot.m_bodies[b], world, *bodies[b]);
     }
     scope.m_registry.putFirst(bodies);

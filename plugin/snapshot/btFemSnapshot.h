@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "LinearMath/btAlignedObjectArray.h"
-#include "plugin/bodies/btFemBodyRegistry.h"
-#include "plugin/contact/btFemContactGroup.h"
+#include "plugin/registry/btFemBodyRegistry.h"
+#include "plugin/setup/btFemBodySetUp.h"
+#include "plugin/stages/btFemContactGroup.h"
 
 class btSoftBody;
 
@@ -15,6 +16,7 @@ class btSoftBody;
 struct btFemSnapshotScope
 {
     btFemBodyRegistry& m_registry;
+    btFemBodySetUp& m_setUp;
     btFemContactGroup& m_group;
     const btAlignedObjectArray<btSoftBody*>* m_worldBodies;  ///< of the world stepped last; null: none was stepped
 };

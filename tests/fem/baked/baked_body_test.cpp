@@ -185,12 +185,29 @@ TEST(Baking, RejectsWhatCannotBe)
     const TetMesh far = makeBox({1e-3, 1e-3, 1e-3}, {1, 1, 1}, {1e6, 0, 0});
     expectRejected([&] { bakeBody(far, settings); }, {"element 0"});
     std::string why;
-    BakedBody body;
-    EXPECT_FALSE(bakeBody(TetMesh(), settings, body, &why));
+    EXPECT_FALSE(bakeBody(TetMesh(), settings, &why).m_model);
     EXPECT_NE(why, "");
-    EXPECT_FALSE(bakeBody(Cage(), SurfaceMesh{{{0, 0, 0}}, {}}, settings, body, nullptr));
-    EXPECT_TRUE(bakeBody(mesh, settings, body, &why));
+    EXPECT_FALSE(bakeBody(Cage(), SurfaceMesh{{{0, 0, 0}}, {}}, settings, &why).m_model);
+    EXPECT_NE(why.find("0 vertices"), std::string::npos) << why;
+    EXPECT_TRUE(bakeBody(mesh, settings, &why).m_model);
 }
+
+// The forms of an earlier version, which need no reason.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+TEST(BakeRejects, InItsFormerFormsToo)
+{
+    const BakeSettings settings;
+    BakedBody body;
+    std::string why;
+    EXPECT_FALSE(bakeBody(TetMesh(), settings, body, nullptr));
+    EXPECT_FALSE(readBakedBody("missing.bfem", body, &why));
+    EXPECT_NE(why.find("missing.bfem"), std::string::npos) << why;
+    EXPECT_FALSE(body.m_model);
+    EXPECT_TRUE(bakeBody(makeBox({1, 1, 1}, {2, 2, 2}), settings, body, &why)) << why;
+    EXPECT_TRUE(body.m_model);
+}
+#pragma GCC diagnostic pop
 
 TEST(BakedFactor, OfAnotherMaterialPreconditionsAndIsCalledStale)
 {

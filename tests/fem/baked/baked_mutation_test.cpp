@@ -96,9 +96,9 @@ TEST_P(BakedMutations, AreRefusedOrHarmless)
     for (int k = 0; k < 5000; ++k)
     {
         const std::string bytes = mutator.mutated();
-        BakedBody body;
         std::string why;
-        if (readBakedBody(rawBytes(bytes), bytes.size(), body, &why))
+        const BakedBody body = readBakedBody(rawBytes(bytes), bytes.size(), "memory", &why);
+        if (body.m_model)
         {
             ++used;
             ASSERT_TRUE(standsUse(body)) << k;

@@ -8,9 +8,9 @@
 
 #include "bullet_fem/fem/mesh/generators.h"
 #include "bullet_fem/fem/step/stepping.h"
-#include "plugin/policy/btFemFactorThread.h"
 #include "plugin/scenes/clamped_beam.h"
 #include "plugin/scenes/scene_measures.h"
+#include "plugin/setup/btFemFactorThread.h"
 
 namespace bullet_fem
 {

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "bullet_fem/fem/mesh/generators.h"
-#include "plugin/policy/btFemFactorAccount.h"
-#include "plugin/policy/btFemRealTime.h"
+#include "plugin/record/btFemFactorAccount.h"
+#include "plugin/record/btFemRealTime.h"
 #include "plugin/scenes/clamped_beam.h"
 #include "plugin/scenes/scene_measures.h"
 

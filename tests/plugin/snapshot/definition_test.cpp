@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "bullet_bridge/soft_body_mesh.h"
-#include "plugin/bodies/btFemEnvelope.h"
 #include "plugin/scenes/each_world.h"
 #include "plugin/scenes/snapshot_scene.h"
+#include "plugin/snapshot/btFemEnvelope.h"
 
 namespace bullet_fem
 {

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "plugin/bodies/btFemEnvelope.h"
 #include "plugin/scenes/snapshot_scene.h"
+#include "plugin/snapshot/btFemEnvelope.h"
 
 namespace bullet_fem
 {

@@ -42,15 +42,19 @@ struct BakeSettings
     std::size_t m_maxBytes = 0;                  ///< memory that the factor may take [B], 0 for any amount
 };
 
+/// Functions with a last argument `why` throw if that is null. Else, for engines without exceptions, they return false,
+/// a body without model or an info without nodes where they would throw, with the reason in `why`.
+
 /// Makes a body of a mesh ready, or of a cage with the surface that it was made of. Throws std::invalid_argument,
 /// naming the value, on bad settings or a mesh that rounding spoils, and what BodyModel::create throws.
-BakedBody bakeBody(const TetMesh& mesh, const BakeSettings& settings);
-BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings);
+BakedBody bakeBody(const TetMesh& mesh, const BakeSettings& settings, std::string* why = nullptr);
+BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings,
+                   std::string* why = nullptr);
 
 /// Writes it to a file, under a temporary name beside it at first, so that there is either the whole file or what was
 /// there before. The same body gives the same bytes. Throws std::runtime_error that names the file, what went wrong and
 /// what to do.
-void writeBakedBody(const std::string& path, const BakedBody& body);
+bool writeBakedBody(const std::string& path, const BakedBody& body, std::string* why = nullptr);
 
 /// How a file gets into memory.
 enum class BakedLoading
@@ -65,10 +69,12 @@ enum class BakedLoading
 /// Reads one. Every byte is checked, and all that is an index: nothing in a file can make the program crash. Throws
 /// std::runtime_error that names the file, what is wrong with it and what to do: it is missing, cut off, damaged, not a
 /// baked body, of another byte order, of an older or newer version, or its numbers do not make a body.
-BakedBody readBakedBody(const std::string& path, BakedLoading loading = BakedLoading::mapped);
+BakedBody readBakedBody(const std::string& path, BakedLoading loading = BakedLoading::mapped,
+                        std::string* why = nullptr);
 
 /// The same for a file that lies in memory already, as those of an archive do; it is copied. `name` is for messages.
-BakedBody readBakedBody(const unsigned char* data, std::size_t size, const std::string& name);
+BakedBody readBakedBody(const unsigned char* data, std::size_t size, const std::string& name,
+                        std::string* why = nullptr);
 
 /// What stands at the beginning of a file.
 struct BakedFileInfo
@@ -88,15 +94,24 @@ struct BakedFileInfo
 };
 
 /// Reads the beginning alone, and whether the file is as long as it must be. Throws like readBakedBody.
-BakedFileInfo inspectBakedBody(const std::string& path);
+BakedFileInfo inspectBakedBody(const std::string& path, std::string* why = nullptr);
 
-/// Twins for engines without exceptions: false and the reason in `why` (null: not told) where the others throw.
-bool bakeBody(const TetMesh& mesh, const BakeSettings& settings, BakedBody& body, std::string* why);
-bool bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings, BakedBody& body,
-              std::string* why);
-bool writeBakedBody(const std::string& path, const BakedBody& body, std::string* why);
-bool readBakedBody(const std::string& path, BakedBody& body, std::string* why);
-bool readBakedBody(const unsigned char* data, std::size_t size, BakedBody& body, std::string* why);
-bool inspectBakedBody(const std::string& path, BakedFileInfo& info, std::string* why);
+/// For engines without exceptions, forms of the functions above that go with the next version: give them `why`.
+[[deprecated("give `why` to bakeBody(mesh, settings, why)")]] bool bakeBody(const TetMesh& mesh,
+                                                                            const BakeSettings& settings,
+                                                                            BakedBody& body, std::string* why);
+[[deprecated("give `why` to bakeBody(cage, surface, settings, why)")]] bool bakeBody(const Cage& cage,
+                                                                                     const SurfaceMesh& surface,
+                                                                                     const BakeSettings& settings,
+                                                                                     BakedBody& body, std::string* why);
+[[deprecated("give `why` to readBakedBody(path, loading, why)")]] bool readBakedBody(const std::string& path,
+                                                                                     BakedBody& body, std::string* why);
+[[deprecated("give `why` to readBakedBody(data, size, name, why)")]] bool readBakedBody(const unsigned char* data,
+                                                                                        std::size_t size,
+                                                                                        BakedBody& body,
+                                                                                        std::string* why);
+[[deprecated("give `why` to inspectBakedBody(path, why)")]] bool inspectBakedBody(const std::string& path,
+                                                                                  BakedFileInfo& info,
+                                                                                  std::string* why);
 
 }  // namespace bullet_fem

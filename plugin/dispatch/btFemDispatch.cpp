@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/dispatch/btFemDispatch.h"
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/shapes/rigid_dispatch.h"
+#include "plugin/dispatch/btFemContactTest.h"
+#include "plugin/dispatch/btFemManifolds.h"
+
+namespace
+{
+
+void announce(btSoftBody& body, bool withManifolds)
+{
+    if (!body.m_worldInfo) return;
+    btDispatcher* dispatcher = body.m_worldInfo->m_dispatcher;
+    bullet_fem::dispatchRigidShapes(dispatcher);
+    if (withManifolds) btFemManifolds::showIn(dispatcher);  // whose algorithms take the place of those before
+    answerContactTests(dispatcher);
+    bullet_fem::renewAlgorithms(body);  // what it overlapped before it was FEM has Bullet's
+}
+
+}  // namespace
+
+void announceToDispatcher(btSoftBody& body)
+{
+    announce(body, false);
+}
+
+void announceWithManifolds(btSoftBody& body)
+{
+    announce(body, true);
+}

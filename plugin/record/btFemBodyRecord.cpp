@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/record/btFemBodyRecord.h"
+
+#include <limits>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/node_exchange.h"
+#include "bullet_bridge/soft_body_mesh.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+constexpr double kSameFactor =
+    1 + 2e-3;  // ratio of step or mass up to which a factor is not called stale: a copy elsewhere may share it
+
+}  // namespace
+
+Material materialOf(const btFemBodyRecord& record)
+{
+    return record.m_asked.m_materialGiven ? record.m_asked.m_material : unsetMaterialOf(*record.m_softBody);
+}
+
+btFemDetail detailInUse(const btFemBodyRecord& record)
+{
+    const bool automatic = record.m_asked.m_detail == btFemDetail::automatic;
+    const btFemDetail detail = automatic ? record.m_work.m_detailLevel.detail() : record.m_asked.m_detail;
+    if (record.m_reports.m_contacts.size() == 0) return detail;
+    if (detail == btFemDetail::direct && !automatic) return btFemDetail::globalWarp;
+    return detail == btFemDetail::globalWarp ? detail : btFemDetail::nodalWarp;
+}
+
+double staleness(const btFemBodyRecord& record, double step)
+{
+    const Body& body = record.fem().m_body;
+    if (body.m_model->factorInput().m_fixed != body.m_state.m_fixed) return std::numeric_limits<double>::infinity();
+    const double mismatch = factorMismatch(record.fem(), step);
+    return mismatch > kSameFactor ? mismatch : 1;
+}
+
+double bodyStep(const btFemBodyRecord& record, double worldStep)
+{
+    return worldStep * record.m_softBody->m_cfg.timescale;
+}
+
+bool isUsableStep(double step)
+{
+    return step >= 1e-6 && step <= 1;
+}
+
+void readBody(btFemBodyRecord& record)
+{
+    const NodeReadReport read = readNodes(record.fem());
+    int& flags = record.m_reports.m_step.m_flags;
+    if (read.m_restored) flags |= BT_FEM_RESTORED;
+    if (read.m_badMass) flags |= BT_FEM_BAD_MASS;
+    if (read.m_stalePins) flags |= BT_FEM_STALE_FACTOR;
+}

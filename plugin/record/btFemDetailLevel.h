@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/btFemInterest.h"
+#include "bullet_fem/btFemReports.h"
+
+/// The detail that a body's interest has brought it to.
+class btFemDetailLevel
+{
+public:
+    /// Takes over the interest of a step [-], in [0, 1]; `step` [s] has passed since the last one. The first interest
+    /// sets the level as it stands.
+    void update(double interest, double step, const btFemDetailPolicy& policy);
+
+    /// A level up, for a dwell at least: the present one was not good enough.
+    void raise();
+
+    /// nodalWarp, oneIteration or direct; nodalWarp before the first interest.
+    btFemDetail detail() const;
+
+    /// Its members, to or from a snapshot; and whether they can be those of a level.
+    template <class Bytes>
+    void transfer(Bytes& bytes)
+    {
+        bytes(m_begun, m_level, m_seconds);
+    }
+    bool valid() const { return m_level >= 0 && m_level <= 2 && m_seconds >= 0; }
+
+private:
+    bool m_begun = false;
+    int m_level = 2;       // 0: direct, 1: oneIteration, 2: nodalWarp
+    double m_seconds = 0;  // in that level
+};

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "LinearMath/btScalar.h"
+#include "bullet_fem/btFemReports.h"
+#include "bullet_fem/fem/factor/body_model.h"
+
+/// What a body that was baked is made of when it is set up.
+struct btFemBaked
+{
+    std::shared_ptr<const bullet_fem::BodyModel> m_model;
+    std::uint64_t m_restMark = 0;  ///< of the element matrices at the time: another rest shape has others
+};
+
+/// What makes a btSoftBody the FEM body that it is, whatever its state: what Bullet's serializer does not know.
+struct btFemDefinition
+{
+    std::vector<bullet_fem::Vec3> m_restPositions;  ///< relative to node 0 [m]
+    bullet_fem::Vec3 m_restOrigin;                  ///< of node 0 when the body became FEM [m]
+    std::vector<std::array<int, 4>> m_tets;         ///< as the btSoftBody has them
+    std::vector<double> m_filled;                   ///< fraction of every element in (0, 1]; empty if all are 1
+    double m_massScale = 1;                         ///< of a cage, > 0 [-]
+    bullet_fem::Material m_material;
+    std::vector<double> m_mass;           ///< per node, of pinned ones too [kg]
+    std::vector<btScalar> m_inverseMass;  ///< likewise [1/kg]; 0: pinned
+    double m_contactOffset = 0;           ///< [m]
+    btFemDetail m_detail = btFemDetail::automatic;
+};

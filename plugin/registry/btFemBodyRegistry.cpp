@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/registry/btFemBodyRegistry.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body_arrays.h"
+#include "bullet_bridge/body_mark.h"
+#include "bullet_fem/fem/common/threads.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+constexpr int kInTwoWorlds = 2;  // claims of a body by its former world that two living worlds alone can make
+
+}  // namespace
+
+std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
+{
+    const auto at = m_number.find(body);
+    return at == m_number.end() ? m_records.size() : at->second;
+}
+
+// After every change of their order.
+void btFemBodyRegistry::numberRecords()
+{
+    m_number.clear();
+    for (std::size_t k = 0; k < m_records.size(); ++k) m_number[m_records[k]->m_softBody] = k;
+}
+
+btFemBodyRecord* btFemBodyRegistry::find(const btSoftBody* body) const
+{
+    const std::size_t k = indexOf(body);
+    return k < m_records.size() ? m_records[k].get() : nullptr;
+}
+
+btFemBodyRecord& btFemBodyRegistry::record(btSoftBody* body)
+{
+    if (!body)
+        throw std::invalid_argument("the soft body is null; give a body made by btFemHelpers or btSoftBodyHelpers");
+    const std::size_t known = indexOf(body);
+    if (known < m_records.size() && isAnother(known, *body))
+        forget(body);
+    else if (known < m_records.size())
+    {
+        btFemBodyRecord& record = *m_records[known];
+        if (record.isFem()) followNodes(record.fem());
+        lookAgain(record, record.isFem() && topologyAsSetUp(record.fem()));
+        return record;
+    }
+    m_records.push_back(std::make_unique<btFemBodyRecord>(body));
+    m_number[body] = m_records.size() - 1;
+    return *m_records.back();
+}
+
+void btFemBodyRegistry::forget(const btSoftBody* body)
+{
+    m_records.erase(std::remove_if(m_records.begin(), m_records.end(),
+                                   [body](const auto& record) { return record->m_softBody == body; }),
+                    m_records.end());
+    numberRecords();
+}
+
+bool btFemBodyRegistry::isAsBuilt(const btFemBodyRecord& record)
+{
+    return !record.isFem() || (hasMark(*record.m_softBody, record.fem().m_mark) && topologyAsSetUp(record.fem()));
+}
+
+// True if another body lives now at the address of one that is known.
+bool btFemBodyRegistry::isAnother(std::size_t known, const btSoftBody& body) const
+{
+    const btFemBodyRecord& record = *m_records[known];
+    return record.isFem() && !hasMark(body, record.fem().m_mark);
+}
+
+// Bodies at such addresses are new, and come last, as they would at any others: the order of bodies decides about
+// rounding.
+void btFemBodyRegistry::forgetTheDead(const btAlignedObjectArray<btSoftBody*>& softBodies)
+{
+    for (int i = 0; i < softBodies.size(); ++i)
+    {
+        const std::size_t known = indexOf(softBodies[i]);
+        if (known < m_records.size() && isAnother(known, *softBodies[i])) forget(softBodies[i]);
+    }
+}
+
+// Nodes or tetrahedra may have been appended, removed, or joined otherwise: then the body keeps what the user asked for
+// it.
+void btFemBodyRegistry::lookAgain(btFemBodyRecord& record, bool joinedAsBefore)
+{
+    if (!record.isFem() || joinedAsBefore) return;
+    btFemBodyRecord changed(record.m_softBody);
+    changed.m_membership.m_world = record.m_membership.m_world;
+    changed.m_asked.m_material = record.m_asked.m_material;
+    changed.m_asked.m_materialGiven = record.m_asked.m_materialGiven;
+    changed.m_asked.m_detail = record.m_asked.m_detail;
+    changed.m_asked.m_contactOffset = record.m_asked.m_contactOffset;
+    changed.m_model.m_wasChanged = true;
+    record.m_softBody->activate();
+    record = std::move(changed);
+}
+
+// A world that holds a body of another one takes it over. Worlds that take it from each other both hold it; once may be
+// a new world at the address of a deleted one.
+void btFemBodyRegistry::claim(btFemBodyRecord& record, const void* world, const btSoftBodySolver* solver)
+{
+    if (record.m_membership.m_world && record.m_membership.m_world != world &&
+        record.m_membership.m_handedBack < kInTwoWorlds)
+    {
+        record.m_membership.m_handedBack =
+            record.m_membership.m_formerWorld == world ? record.m_membership.m_handedBack + 1 : 0;
+        record.m_membership.m_formerWorld = record.m_membership.m_world;
+        record.m_membership.m_world = world;
+    }
+    if (!record.m_membership.m_world) record.m_membership.m_world = world;
+    const bool otherSolver = record.m_softBody->getSoftBodySolver() != solver;
+    if (record.m_membership.m_handedBack >= kInTwoWorlds || otherSolver)
+        record.m_reports.m_step.m_flags |= BT_FEM_OTHER_WORLD;
+    record.m_membership.m_present = record.m_membership.m_world == world && !otherSolver;
+}
+
+// Every tetrahedron of every body is looked at, which takes longer than all else here.
+void btFemBodyRegistry::compareTopologies(const btAlignedObjectArray<btSoftBody*>& softBodies, const Threads& threads)
+{
+    m_joinedAsBefore.assign(m_records.size(), 0);
+    m_compared.clear();
+    for (int i = 0; i < softBodies.size(); ++i)
+    {
+        const std::size_t known = indexOf(softBodies[i]);
+        if (known == m_records.size() || m_joinedAsBefore[known] || !m_records[known]->isFem()) continue;
+        followNodes(m_records[known]->fem());
+        m_joinedAsBefore[known] = 1;
+        m_compared.push_back(static_cast<int>(known));
+    }
+    threads.run(static_cast<int>(m_compared.size()),
+                [this](int k)
+                {
+                    const int known = m_compared[k];
+                    m_joinedAsBefore[known] = topologyInTurnAsSetUp(m_records[known]->fem());
+                });
+}
+
+void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver,
+                                    const Threads& threads)
+{
+    forgetTheDead(softBodies);
+    compareTopologies(softBodies, threads);
+    const void* world = &softBodies;
+    m_held.assign(m_records.size(), 0);
+    for (const auto& record : m_records)
+    {
+        record->m_membership.m_present = false;
+        record->m_reports.m_step.m_flags = 0;
+    }
+    for (int i = 0; i < softBodies.size(); ++i)
+    {
+        btSoftBody* soft = softBodies[i];
+        std::size_t known = indexOf(soft);
+        if (known < m_records.size() && m_held[known])
+        {
+            m_records[known]->m_reports.m_step.m_flags |= BT_FEM_ADDED_TWICE;
+            continue;
+        }
+        if (known < m_records.size()) lookAgain(*m_records[known], m_joinedAsBefore[known] != 0);
+        if (known == m_records.size() && soft->m_tetras.size() == 0) continue;
+        if (known == m_records.size())
+        {
+            record(soft);
+            m_held.push_back(0);
+        }
+        m_held[known] = 1;
+        claim(*m_records[known], world, solver);
+    }
+    // What this world, or none, has and the world does not hold is gone, and must not be looked at.
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < m_records.size(); ++k)
+    {
+        const bool gone =
+            !m_held[k] && (m_records[k]->m_membership.m_world == world || !m_records[k]->m_membership.m_world);
+        if (!gone) std::swap(m_records[kept++], m_records[k]);
+    }
+    if (kept == m_records.size()) return;
+    m_records.resize(kept);
+    numberRecords();
+}
+
+void btFemBodyRegistry::putFirst(const std::vector<btFemBodyRecord*>& records)
+{
+    const auto place = [&records](const std::unique_ptr<btFemBodyRecord>& record)
+    { return std::find(records.begin(), records.end(), record.get()); };
+    std::stable_sort(m_records.begin(), m_records.end(),
+                     [&place](const auto& a, const auto& b) { return place(a) < place(b); });
+    numberRecords();
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bullet_bridge/snapshot/contact_snapshot.h"
+#include "bullet_bridge/snapshot/node_snapshot.h"
+#include "bullet_fem/fem/step/body_snapshot.h"
+#include "plugin/record/btFemBodyRecord.h"
+
+/// Something that points to another object, with that object's id instead: see WorldIds.
+template <class T>
+struct btFemWithOther
+{
+    T m_value;
+    int m_other = bullet_fem::WorldIds::kGone;
+};
+
+/// All that the steps wrote to a btFemBodyRecord and that the next one reads or a user may ask for, but not what the
+/// clock said: the same state gives the same bytes.
+struct btFemRecordSnapshot
+{
+    int m_id = -1;  ///< in the broad phase
+    int m_nodeCount = 0, m_tetCount = 0;
+    bool m_materialGiven = false, m_materialChanged = false;
+    bullet_fem::Material m_material;
+    bullet_fem::BodySnapshot m_body;
+    bool m_hasFormerFactor = false;
+    bullet_fem::FactorInput m_formerFactor;
+    bullet_fem::NodeSnapshot m_nodes;
+    bullet_fem::ContactSnapshot m_contact;
+    int m_setUpFlags = 0;
+    std::string m_message;
+    btFemStepReport m_report;
+    std::vector<btFemWithOther<btFemContact>> m_contacts;
+    std::vector<btFemWithOther<btFemTouch>> m_touches;
+    btFemSleepRecord m_sleep;  ///< without neighbours
+    std::vector<btFemWithOther<btFemNeighbour>> m_neighbours;
+    double m_lastStep = 0;
+    btFemDetailLevel m_detailLevel;
+    btFemFactorAccount m_factorAccount;
+};
+
+/// A body that is in the world.
+btFemRecordSnapshot snapshotOf(const btFemBodyRecord& record, const bullet_fem::WorldIds& world);
+
+/// Throws std::invalid_argument, naming the value, unless the snapshot can be that of this body, with the material that
+/// it has now.
+void check(const btFemRecordSnapshot& snapshot, const btFemBodyRecord& record, const bullet_fem::WorldIds& world);
+
+/// Gives it to the body, which has the factor that the snapshot tells; what is no longer in the world is left out.
+/// After check().
+void restore(const btFemRecordSnapshot& snapshot, const bullet_fem::WorldIds& world, btFemBodyRecord& record);
+
+template <class Bytes>
+void transfer(Bytes& bytes, btVector3& v)
+{
+    bytes(v[0], v[1], v[2]);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, btTransform& t)
+{
+    bytes(t.getBasis()[0], t.getBasis()[1], t.getBasis()[2], t.getOrigin(), t.getOrigin()[3]);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, btFemContact& c)
+{
+    bytes(c.m_point, c.m_normal, c.m_gap, c.m_impulse, c.m_normalImpulse, c.m_frictionImpulse, c.m_part, c.m_index,
+          c.m_nodeCount);
+    bullet_fem::checkNodeCount(c.m_nodeCount);
+    for (int a = 0; a < c.m_nodeCount; ++a) bytes(c.m_nodes[a], c.m_weights[a]);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, btFemTouch& t)
+{
+    bytes(t.m_otherId, t.m_state, t.m_points, t.m_impulse, t.m_normalImpulse);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, btFemNeighbour& n)
+{
+    bytes(n.m_id, n.m_transform, n.m_touches, n.m_held);
+}
+
+template <class Bytes, class T>
+void transfer(Bytes& bytes, btFemWithOther<T>& w)
+{
+    bytes(w.m_value, w.m_other);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, btFemSleepRecord& s)
+{
+    bytes(s.m_asleep, s.m_recorded, s.m_influences, s.m_targets, s.m_forces);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, btFemStepReport& r)
+{
+    bytes(r.m_flags, r.m_detail, r.m_iterations, r.m_residual, r.m_contactIterations, r.m_contactSweeps, r.m_contacts,
+          r.m_contactViolation, r.m_deepestPenetration);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, btFemRecordSnapshot& s)
+{
+    bullet_fem::Material& m = s.m_material;
+    bytes(s.m_id, s.m_nodeCount, s.m_tetCount, s.m_materialGiven, s.m_materialChanged, m.m_youngModulus,
+          m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping, s.m_body, s.m_hasFormerFactor,
+          s.m_formerFactor, s.m_nodes, s.m_contact, s.m_setUpFlags, s.m_message, s.m_report, s.m_contacts, s.m_touches,
+          s.m_sleep, s.m_neighbours, s.m_lastStep);
+    s.m_detailLevel.transfer(bytes);
+    s.m_factorAccount.transfer(bytes);
+}

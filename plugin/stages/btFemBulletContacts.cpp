@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/stages/btFemBulletContacts.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <utility>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/joints/world_objects.h"
+#include "bullet_bridge/shapes/rigid_dispatch.h"
+#include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemTouches.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+using FaceContact = btSoftBody::DeformableFaceRigidContact;
+
+Triangle ascending(Triangle nodes)
+{
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+}
+
+Triangle nodesOf(const btSoftBody::Face& face, const btSoftBody& soft)
+{
+    Triangle nodes;
+    for (int a = 0; a < 3; ++a) nodes[a] = static_cast<int>(face.m_n[a] - &soft.m_nodes[0]);
+    return nodes;
+}
+
+void refresh(btFemFaceIndex& index, const btSoftBody& soft, const TetMesh& mesh)
+{
+    const void* first = soft.m_faces.size() > 0 ? &soft.m_faces[0] : nullptr;
+    if (index.m_first == first && index.m_count == soft.m_faces.size()) return;
+    std::vector<std::pair<Triangle, int>> faces;
+    for (int f = 0; f < soft.m_faces.size(); ++f) faces.push_back({ascending(nodesOf(soft.m_faces[f], soft)), f});
+    std::sort(faces.begin(), faces.end());
+    index.m_faceOf.clear();
+    for (const Triangle& triangle : mesh.surface())
+    {
+        const Triangle key = ascending(triangle);
+        const auto found = std::lower_bound(faces.begin(), faces.end(), std::make_pair(key, 0));
+        index.m_faceOf.push_back(found != faces.end() && found->first == key ? found->second : -1);
+    }
+    index.m_first = first;
+    index.m_count = soft.m_faces.size();
+}
+
+// The node next to the point.
+int nearestNode(const btFemContact& contact)
+{
+    const btScalar* const weights = contact.m_weights;
+    return contact.m_nodes[std::max_element(weights, weights + contact.m_nodeCount) - weights];
+}
+
+// A face that has the point, and its weights in the face's order; null if there is none.
+btSoftBody::Face* faceAt(const btFemContact& contact, const btFemBodyRecord& record, btVector3& weights)
+{
+    if (record.fem().m_skin) return nullptr;  // no face of the mesh has points of a skin
+    btSoftBody& soft = *record.m_softBody;
+    const SurfaceFeatures& features = record.fem().m_surface.features();
+    const int node = nearestNode(contact);
+    for (int k = features.m_firstAround[node]; k < features.m_firstAround[node + 1]; ++k)
+    {
+        const int index = record.m_model.m_faceIndex.m_faceOf[features.m_around[k]];
+        if (index < 0) continue;
+        const Triangle nodes = nodesOf(soft.m_faces[index], soft);
+        weights.setZero();
+        btScalar sum = 0;
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < contact.m_nodeCount; ++b)
+                if (contact.m_weights[b] != 0 && contact.m_nodes[b] == nodes[a])
+                    weights[a] += contact.m_weights[b], sum += contact.m_weights[b];
+        if (sum > btScalar(0.999)) return &soft.m_faces[index];
+    }
+    return nullptr;
+}
+
+// What both kinds of contact have. A zero impulse matrix, and an inverse mass of 0, keep solvers off.
+template <class Contact>
+void fill(Contact& to, const btFemContact& contact)
+{
+    const btVector3 zero(0, 0, 0);
+    to.m_cti.m_colObj = contact.m_other;
+    to.m_cti.m_normal = contact.m_normal;
+    to.m_cti.m_offset = contact.m_gap - contact.m_normal.dot(contact.m_point);
+    to.m_cti.m_bary = zero;
+    to.m_c0.setValue(0, 0, 0, 0, 0, 0, 0, 0, 0);
+    to.m_c1 = contact.m_point - contact.m_other->getWorldTransform().getOrigin();
+    to.m_c2 = to.m_c3 = to.m_c4 = 0;
+    to.t1 = to.t2 = zero;
+}
+
+// Without copies of what a contact has for multibodies.
+template <class Contact>
+Contact& append(btAlignedObjectArray<Contact>& contacts)
+{
+    return *new (&contacts.expandNonInitializing()) Contact();
+}
+
+}  // namespace
+
+void makeRoomForBulletContacts(const btFemBodyRecord& record)
+{
+    if (record.fem().m_contacts.empty()) return;
+    record.m_softBody->m_rcontacts.reserve(record.m_reports.m_contacts.capacity());
+    record.m_softBody->m_faceRigidContacts.reserve(record.m_reports.m_contacts.capacity());
+}
+
+void writeBulletContacts(btFemBodyRecord& record, WorldObjects& world)
+{
+    btSoftBody& soft = *record.m_softBody;
+    clearBulletContacts(soft);
+    const int rigid = std::min(static_cast<int>(record.fem().m_contacts.size()), record.m_reports.m_contacts.size());
+    if (rigid == 0) return;
+    refresh(record.m_model.m_faceIndex, soft, record.fem().m_body.m_model->mesh());
+    for (int k = 0; k < rigid; ++k)  // those with soft bodies come after them
+    {
+        const btFemContact& contact = record.m_reports.m_contacts[k];
+        if (!isTouch(contact, 0) || !world.readAndHolds(soft, contact.m_other)) continue;
+        btSoftBody::RContact& atNode = append(soft.m_rcontacts);
+        fill(atNode, contact);
+        atNode.m_node = &soft.m_nodes[nearestNode(contact)];
+        btVector3 weights;
+        btSoftBody::Face* face = faceAt(contact, record, weights);
+        if (!face) continue;
+        FaceContact& atFace = append(soft.m_faceRigidContacts);
+        fill(atFace, contact);
+        atFace.m_c5.setValue(0, 0, 0, 0, 0, 0, 0, 0, 0);
+        atFace.m_cti.m_bary = atFace.m_bary = atFace.m_weights = weights;
+        atFace.m_contactPoint = contact.m_point;
+        atFace.m_face = face;
+    }
+}

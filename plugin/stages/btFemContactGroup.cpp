@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/stages/btFemContactGroup.h"
+
+#include <algorithm>
+
+#include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "fem/common/chunks.h"
+#include "plugin/joints/btFemAttachments.h"
+#include "plugin/record/btFemStopwatch.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+// Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
+constexpr int kSweepsWithJoints = 50;
+
+constexpr int kContactsPerChunk = 256;  // copied at once
+
+// The user's defaults are the solver's own.
+static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
+static_assert(btFemSolverInfo().m_contactRounds == ContactSettings().m_rounds);
+static_assert(btFemSolverInfo().m_contactTolerance == static_cast<btScalar>(ContactSettings().m_tolerance));
+
+// Sets the impulse on one side, and the point of that side.
+void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
+{
+    const SurfacePoint& side = otherSide ? point.m_other : point.m_soft;
+    const Vec3 normal = otherSide ? -point.m_normal : point.m_normal;
+    const Vec3 impulse = otherSide ? -point.m_impulse : point.m_impulse;
+    contact.m_point = bulletVector(point.m_point);
+    contact.m_normal = bulletVector(normal);
+    contact.m_gap = static_cast<btScalar>(point.m_gap);
+    contact.m_impulse = bulletVector(impulse);
+    contact.m_normalImpulse = static_cast<btScalar>(dot(impulse, normal));
+    contact.m_frictionImpulse = bulletVector(impulse - dot(impulse, normal) * normal);
+    static_assert(btFemContact::kMostNodes == SurfacePoint::kMostNodes);
+    contact.m_nodeCount = side.m_count;
+    for (int a = 0; a < side.m_count; ++a)
+    {
+        contact.m_nodes[a] = side.m_nodes[a];
+        contact.m_weights[a] = static_cast<btScalar>(side.m_weights[a]);
+    }
+}
+
+void deepen(btFemStepReport& report, const ContactPoint& point)
+{
+    report.m_deepestPenetration = std::max(report.m_deepestPenetration, static_cast<btScalar>(-point.m_gap));
+}
+
+}  // namespace
+
+void btFemContactGroup::beginStep()
+{
+    m_rigid.beginStep();
+    m_softPairs.beginStep();
+    m_joints.forgetWorld();
+}
+
+// But for the room of the contacts, which are as many and as large as all else that is written anew in a step.
+void btFemContactGroup::clearProblem()
+{
+    std::vector<ContactPoint> contacts;
+    contacts.swap(m_problem.m_contacts);
+    m_problem.clear();
+    contacts.swap(m_problem.m_contacts);
+}
+
+void btFemContactGroup::collect(const Scope& scope)
+{
+    const btFemStopwatch watch;
+    m_step = scope.m_step;
+    m_records = scope.m_records;
+    m_rigid.clear(scope.m_phase);
+    clearProblem();
+    m_bodies.clear();
+    for (btFemBodyRecord* record : m_records)
+    {
+        FemSoftBody& fem = record->fem();
+        m_bodies.push_back(&fem);
+        m_problem.m_bodies.push_back(
+            {&fem.m_body, fem.m_compliance.get(), fem.m_expected.empty() ? nullptr : &fem.m_expected});
+    }
+    collectJoints(scope);  // first: the rigid bodies that they hold are not rewound
+    findRigid();
+    findSoft();
+    collectContacts();
+    m_rigid.connectLinks(m_problem.m_responses);
+    const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
+    if (world && world->m_dispatcher && !m_problem.m_contacts.empty())
+        m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidTouches);
+    m_problem.m_obstacles.assign(m_rigid.obstacles().begin(), m_rigid.obstacles().end());
+    m_settings.m_step.m_step = m_step;
+    const bool joints = !m_problem.m_joints.empty();
+    m_settings.m_step.m_tolerance =
+        joints ? m_info.m_tolerance : std::max(m_info.m_tolerance, m_info.m_contactTolerance);
+    m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
+    m_settings.m_rounds = m_info.m_contactRounds;
+    m_settings.m_sweeps = joints ? std::min(m_info.m_contactSweeps, kSweepsWithJoints) : m_info.m_contactSweeps;
+    m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the rounds, too
+    m_settings.m_tolerance = m_info.m_contactTolerance;
+    m_settings.m_pushFraction = m_info.m_erp;
+    m_settings.m_maxPushVelocity = m_info.m_maxPushVelocity;
+    m_milliseconds = watch.milliseconds();
+}
+
+void btFemContactGroup::findRigid()
+{
+    m_rigidSearch.find(m_bodies, m_step, m_info.m_maxContacts, m_rigid);
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+    {
+        const ContactSearchReport& found = m_rigidSearch.reports()[b];
+        if (found.m_unknownShape) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_UNKNOWN_SHAPE;
+        if (found.m_limited) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_CONTACT_LIMIT;
+    }
+}
+
+// Bodies in the order of the problem, which does not depend on addresses.
+void btFemContactGroup::findSoft()
+{
+    m_softPairs.find(m_bodies, m_step, m_info.m_maxContacts);
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+        if (m_softPairs.isLimited(b)) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_CONTACT_LIMIT;
+}
+
+// Those of every body with rigid ones, then those between soft bodies.
+void btFemContactGroup::collectContacts()
+{
+    m_firstRigid.assign(1, 0);
+    for (const FemSoftBody* fem : m_bodies) m_firstRigid.push_back(m_firstRigid.back() + fem->m_contacts.size());
+    const std::vector<ContactPoint>& soft = m_softPairs.contacts();
+    std::vector<ContactPoint>& contacts = m_problem.m_contacts;
+    contacts.resize(m_firstRigid.back() + soft.size());
+    const auto place = [&contacts](std::size_t k) { return contacts.begin() + static_cast<std::ptrdiff_t>(k); };
+    const int bodies = static_cast<int>(m_bodies.size());
+    const Chunks pieces(static_cast<int>(soft.size()), kContactsPerChunk);
+    m_settings.m_step.m_threads->run(bodies + pieces.count(),
+                                     [&](int k)
+                                     {
+                                         if (k < bodies)
+                                         {
+                                             alignLinks(m_bodies[k]->m_contacts);
+                                             std::copy(m_bodies[k]->m_contacts.begin(), m_bodies[k]->m_contacts.end(),
+                                                       place(m_firstRigid[k]));
+                                             return;
+                                         }
+                                         const Range piece = pieces[k - bodies];
+                                         std::copy(soft.begin() + piece.m_begin, soft.begin() + piece.m_end,
+                                                   place(m_firstRigid.back() + piece.m_begin));
+                                     });
+}
+
+// Links go on arcs: only one point in space for both keeps momenta.
+void btFemContactGroup::alignLinks(std::vector<ContactPoint>& contacts) const
+{
+    for (ContactPoint& contact : contacts)
+        if (m_rigid.isMovableLink(contact.m_obstacle)) contact.m_approach = {};
+}
+
+void btFemContactGroup::collectJoints(const Scope& scope)
+{
+    m_outside.clear();
+    for (const auto& record : scope.m_all)
+        if (record->m_membership.m_present && record->isFem() &&
+            std::find(m_records.begin(), m_records.end(), record.get()) == m_records.end())
+            m_outside.push_back(&record->fem());
+    m_joints.append({m_bodies, m_outside, m_rigid, m_step, scope.m_phase}, m_problem, m_jointFlags);
+    const auto joins = [this](const FemSoftBody* other)
+    { return other->m_softBody->isActive() && reachesInto(*other, m_bodies); };
+    m_reachesOut = std::any_of(m_outside.begin(), m_outside.end(), joins);
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+    {
+        if (m_jointFlags[b].m_lost) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_LOST_ANCHOR;
+        if (m_jointFlags[b].m_bad) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_BAD_ANCHOR;
+        m_reachesOut = m_reachesOut || m_jointFlags[b].m_outside;
+    }
+}
+
+bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count) const
+{
+    if (m_reachesOut || m_rigid.holdsLinks()) return false;
+    for (std::size_t k = 0; k < m_rigid.obstacles().size(); ++k)
+    {
+        const btRigidBody* body = m_rigid.movableBody(static_cast<int>(k));
+        if (body && std::find(bodies, bodies + count, body) == bodies + count) return false;
+    }
+    return true;
+}
+
+void btFemContactGroup::solve()
+{
+    const btFemStopwatch watch;
+    const ContactReport solved = m_solver.solve(m_problem, m_settings);
+    moveRigid();
+    m_milliseconds += watch.milliseconds();
+    report(solved);
+}
+
+// A part of the solution, with the obstacles' velocities from the rigid solver's bodies and back to them.
+template <class Part>
+void btFemContactGroup::onSolverBodies(const Part& part)
+{
+    const btFemStopwatch watch;
+    m_solverBodies.read(m_problem.m_obstacles);
+    part();
+    m_solverBodies.write(m_problem.m_obstacles);
+    m_milliseconds += watch.milliseconds();
+}
+
+void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool)
+{
+    m_solverBodies.begin(m_rigid, pool);
+    onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
+}
+
+bool btFemContactGroup::sweep(double others)
+{
+    bool moves = false;
+    onSolverBodies([&] { moves = m_solver.sweep(others); });
+    return moves;
+}
+
+void btFemContactGroup::correct()
+{
+    const btFemStopwatch watch;
+    m_solver.correct();
+    m_milliseconds += watch.milliseconds();
+}
+
+void btFemContactGroup::goBack()
+{
+    onSolverBodies([this] { m_solver.goBack(); });
+}
+
+void btFemContactGroup::finish()
+{
+    ContactReport solved;
+    onSolverBodies([&] { solved = m_solver.finish(); });
+    m_solverBodies.end(m_rigid);
+    report(solved);
+}
+
+void btFemContactGroup::moveRigid()
+{
+    m_rigid.obstacles().assign(m_problem.m_obstacles.begin(), m_problem.m_obstacles.end());
+    m_rigid.applyReactions(m_problem, m_step);
+}
+
+// Gives every body its share of contacts, joints and report.
+void btFemContactGroup::report(const ContactReport& report)
+{
+    makeRoomForReports();
+    m_together.clear();
+    for (const btFemBodyRecord* record : m_records) m_together.emplace_back(record->m_softBody, record);
+    std::sort(m_together.begin(), m_together.end());
+    m_touchesBegin.assign(m_records.size(), 0);
+    m_settings.m_step.m_threads->run(static_cast<int>(m_records.size()),
+                                     [&](int b)
+                                     {
+                                         reportBody(b, report);
+                                         m_touchesBegin[b] = !updateKnownTouches(*m_records[b], m_together);
+                                     });
+    m_softPairs.remember(m_problem.m_contacts.data() + m_firstRigid.back());
+    for (std::size_t b = 0; b < m_records.size(); ++b)
+    {
+        btFemBodyRecord& record = *m_records[b];
+        if (m_touchesBegin[b]) updateTouches(record, m_together);
+        SoftJoints::takeBack(record.fem(), m_problem);
+        writeReports(record.fem(), record.m_reports.m_anchors);
+    }
+}
+
+// On one thread: Bullet's memory may not bear several.
+void btFemContactGroup::makeRoomForReports()
+{
+    const std::size_t contacts = m_problem.m_contacts.size();
+    const auto visitSides = [this, contacts](const auto& visit)
+    {
+        for (std::size_t k = m_firstRigid.back(); k < contacts; ++k)
+        {
+            const int a = m_problem.m_contacts[k].m_soft.m_body, b = m_problem.m_contacts[k].m_other.m_body;
+            visit(a, k);
+            if (b != a) visit(b, k);
+        }
+    };
+    std::vector<std::size_t>& first = m_firstSoft;
+    first.assign(m_records.size() + 2, 0);  // shifted by one until they are all there
+    visitSides([&first](int b, std::size_t) { ++first[b + 2]; });
+    for (std::size_t b = 2; b < first.size(); ++b) first[b] += first[b - 1];
+    m_softContacts.resize(first.back());
+    visitSides([&](int b, std::size_t k) { m_softContacts[first[b + 1]++] = k; });
+    first.pop_back();
+    for (std::size_t b = 0; b < m_records.size(); ++b)
+    {
+        btAlignedObjectArray<btFemContact>& reported = m_records[b]->m_reports.m_contacts;
+        const int count = static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b]);
+        if (count > reported.capacity()) reported.reserve(std::max(count, 2 * reported.capacity()));
+    }
+}
+
+void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
+{
+    btFemBodyRecord& record = *m_records[b];
+    FemSoftBody& fem = record.fem();
+    std::copy_n(m_problem.m_contacts.begin() + static_cast<std::ptrdiff_t>(m_firstRigid[b]), fem.m_contacts.size(),
+                fem.m_contacts.begin());
+    record.m_reports.m_contacts.resize(0);
+    record.m_reports.m_step.m_contactMs = static_cast<btScalar>(m_milliseconds);
+    record.m_reports.m_step.m_contactSweeps = report.m_sweeps;
+    record.m_reports.m_step.m_contactIterations = report.m_iterations;
+    record.m_reports.m_step.m_contactViolation = static_cast<btScalar>(report.m_violation);
+    record.m_reports.m_step.m_deepestPenetration = 0;
+    if (!report.m_converged) record.m_reports.m_step.m_flags |= BT_FEM_NOT_CONVERGED;
+    for (std::size_t k = 0; k < fem.m_contacts.size(); ++k)
+    {
+        btFemContact contact;
+        fill(contact, fem.m_contacts[k], false);
+        contact.m_other = fem.m_origins[k].m_object;
+        contact.m_part = fem.m_origins[k].m_part;
+        contact.m_index = fem.m_origins[k].m_triangle;
+        record.m_reports.m_contacts.push_back(contact);
+        deepen(record.m_reports.m_step, fem.m_contacts[k]);
+    }
+    // Both bodies see a contact between them, each from its side; self contact is one contact.
+    for (std::size_t k = m_firstSoft[b]; k < m_firstSoft[b + 1]; ++k)
+    {
+        const ContactPoint& point = m_problem.m_contacts[m_softContacts[k]];
+        const bool otherSide = point.m_soft.m_body != static_cast<int>(b);
+        btFemContact contact;
+        fill(contact, point, otherSide);
+        contact.m_other = m_records[otherSide ? point.m_soft.m_body : point.m_other.m_body]->m_softBody;
+        record.m_reports.m_contacts.push_back(contact);
+        deepen(record.m_reports.m_step, point);
+    }
+    record.m_reports.m_step.m_contacts = record.m_reports.m_contacts.size();
+}

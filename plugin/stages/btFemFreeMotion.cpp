@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/stages/btFemFreeMotion.h"
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body_arrays.h"
+#include "bullet_bridge/node_exchange.h"
+#include "bullet_fem/fem/contact/contact_solver.h"
+#include "plugin/record/btFemModelReport.h"
+#include "plugin/record/btFemStopwatch.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+void clearReport(btFemBodyRecord& record)
+{
+    btFemStepReport report;
+    report.m_flags =
+        record.m_reports.m_step.m_flags | record.m_model.m_flags | (record.m_model.m_rejected ? BT_FEM_REJECTED : 0);
+    report.m_message = record.m_model.m_message.c_str();
+    if (record.isFem()) reportModel(*record.fem().m_body.m_model, report);
+    record.m_reports.m_step = report;
+}
+
+}  // namespace
+
+bool beginFreeMotion(btFemBodyRecord& record, double worldStep)
+{
+    if (!record.m_membership.m_present || record.m_work.m_stage != btFemStage::predicted) return false;
+    if (!record.isFem() || record.m_softBody->isActive()) clearReport(record);
+    if (!record.isFem() || !record.m_softBody->isActive() || !arraysAsSetUp(record.fem())) return false;
+    record.m_work.m_lastStep = bodyStep(record, worldStep);
+    if (!isUsableStep(record.m_work.m_lastStep))
+    {
+        record.m_reports.m_step.m_flags |= BT_FEM_BAD_STEP;
+        return false;
+    }
+    return true;
+}
+
+StepSettings btFemFreeMotion::settingsOf(const btFemBodyRecord& record) const
+{
+    StepSettings settings;
+    settings.m_step = record.m_work.m_lastStep;
+    settings.m_tolerance = m_info.m_tolerance;
+    settings.m_maxIterations = m_info.m_maxIterations;
+    const btFemDetail detail = detailInUse(record);
+    settings.m_direct = detail == btFemDetail::direct || detail == btFemDetail::oneIteration;
+    settings.m_warp =
+        detail == btFemDetail::nodalWarp || detail == btFemDetail::oneIteration ? Warp::nodal : Warp::global;
+    settings.m_threads = &m_threads;
+    settings.m_batchMemory = m_batchMemory;
+    return settings;
+}
+
+void btFemFreeMotion::solve(const std::vector<btFemBodyRecord*>& due, const SoftPairMemory& softPairs)
+{
+    m_due = due;
+    m_fems.clear();
+    m_bodies.clear();
+    for (const btFemBodyRecord* record : m_due)
+    {
+        m_fems.push_back(&record->fem());
+        m_bodies.push_back(&record->fem().m_body);
+    }
+    m_steady.sumImpulses(m_fems, softPairs, m_threads);
+    m_batches.divide(m_bodies, m_threads.count(), m_info.m_batchBodies);
+    m_motions.resize(m_due.size());
+    const std::vector<Range>& batches = m_batches.batches();
+    m_threads.run(static_cast<int>(batches.size()), [&](int k) { solveBatch(batches[k]); });
+}
+
+// Every body of the batch is charged the same time.
+void btFemFreeMotion::solveBatch(const Range& batch)
+{
+    for (int k = batch.m_begin; k < batch.m_end; ++k) prepare(inBatches(k));
+    const btFemStopwatch watch;
+    const int count = batch.m_end - batch.m_begin;
+    for (int k = batch.m_begin; k < batch.m_end; ++k) m_motions[k] = motionOf(inBatches(k));
+    solveFreeMotions(m_motions.data() + batch.m_begin, count);
+    for (int k = batch.m_begin; k < batch.m_end; ++k) report(inBatches(k), m_motions[k]);
+    const auto share = static_cast<btScalar>(watch.milliseconds() / count);
+    for (int k = batch.m_begin; k < batch.m_end; ++k) inBatches(k).m_reports.m_step.m_freeMotionMs = share;
+}
+
+void btFemFreeMotion::prepare(btFemBodyRecord& record)
+{
+    readBody(record);  // once more: callbacks may have written since predict
+    FemSoftBody& fem = record.fem();
+    if (!readLoads(fem, record.m_work.m_lastStep)) record.m_reports.m_step.m_flags |= BT_FEM_RESTORED;
+    record.m_work.m_staleness = staleness(record, record.m_work.m_lastStep);
+    if (record.m_work.m_staleness > 1) record.m_reports.m_step.m_flags |= BT_FEM_STALE_FACTOR;
+    record.m_reports.m_step.m_detail = detailInUse(record);
+    SteadyBodies::judge(fem, record.m_work.m_lastStep);
+}
+
+FreeMotion btFemFreeMotion::motionOf(btFemBodyRecord& record) const
+{
+    const FemSoftBody& fem = record.fem();
+    FreeMotion motion;
+    motion.m_body = &record.fem().m_body;
+    motion.m_settings = settingsOf(record);
+    if (fem.m_expected.empty()) return motion;
+    motion.m_expected = &fem.m_expected;
+    motion.m_expectedFloor = residualFloor(m_info.m_contactTolerance, m_info.m_tolerance);
+    return motion;
+}
+
+void btFemFreeMotion::report(btFemBodyRecord& record, const FreeMotion& motion) const
+{
+    btFemStepReport& report = record.m_reports.m_step;
+    const SolveReport& solved = motion.m_report;
+    m_note(record, motion);
+    if (!motion.m_settings.m_direct && solved.m_stop == SolveStop::budget) report.m_flags |= BT_FEM_NOT_CONVERGED;
+    if (!motion.m_settings.m_direct && solved.m_stop == SolveStop::breakdown) report.m_flags |= BT_FEM_BREAKDOWN;
+    report.m_iterations = solved.m_iterations;
+    report.m_residual = static_cast<btScalar>(solved.m_residual);
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "bullet_bridge/soft_pairs/soft_pair_memory.h"
+#include "bullet_bridge/steady_bodies.h"
+#include "bullet_fem/btFemSolverInfo.h"
+#include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/step/body_batches.h"
+#include "bullet_fem/fem/step/stepping.h"
+#include "plugin/record/btFemBodyRecord.h"
+
+/// Clears the report of a body whose step is to be solved. True if its free motion is due; false, with a report, if it
+/// stands still.
+bool beginFreeMotion(btFemBodyRecord& record, double worldStep);
+
+/// The free motions of bodies, which know nothing of each other here: on any thread, in batches of copies. Scratch
+/// only.
+class btFemFreeMotion
+{
+public:
+    /// Told of every body whose free motion was solved, by any thread.
+    using Note = std::function<void(btFemBodyRecord&, const bullet_fem::FreeMotion&)>;
+
+    /// `threads` share the work, `memory` is for batches, null: bodies one after another. Both must live as long.
+    btFemFreeMotion(const btFemSolverInfo& info, const bullet_fem::Threads& threads, bullet_fem::BatchMemory* memory,
+                    Note note)
+        : m_info(info), m_threads(threads), m_batchMemory(memory), m_note(std::move(note))
+    {
+    }
+
+    /// Every body once, each of which beginFreeMotion() was true for.
+    void solve(const std::vector<btFemBodyRecord*>& due, const bullet_fem::SoftPairMemory& softPairs);
+
+private:
+    void solveBatch(const bullet_fem::Range& batch);
+    static void prepare(btFemBodyRecord& record);
+    bullet_fem::FreeMotion motionOf(btFemBodyRecord& record) const;
+    bullet_fem::StepSettings settingsOf(const btFemBodyRecord& record) const;
+    void report(btFemBodyRecord& record, const bullet_fem::FreeMotion& motion) const;
+    btFemBodyRecord& inBatches(int k) const { return *m_due[m_batches.order()[k]]; }
+
+    const btFemSolverInfo m_info;
+    const bullet_fem::Threads& m_threads;
+    bullet_fem::BatchMemory* m_batchMemory;
+    Note m_note;
+    std::vector<btFemBodyRecord*> m_due;
+    std::vector<const bullet_fem::Body*> m_bodies;  // of these
+    std::vector<bullet_fem::FemSoftBody*> m_fems;
+    bullet_fem::BodyBatches m_batches;
+    bullet_fem::SteadyBodies m_steady;
+    std::vector<bullet_fem::FreeMotion> m_motions;  // in the order of the batches
+};

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/stages/btFemPrediction.h"
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/face_tree.h"
+#include "bullet_bridge/joints/cluster_joints.h"
+#include "bullet_bridge/node_exchange.h"
+#include "bullet_bridge/shapes/rigid_dispatch.h"
+#include "bullet_fem/btFemVectors.h"
+#include "plugin/record/btFemTouches.h"
+#include "plugin/setup/btFemBodySetUp.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+constexpr double kReach = 0.6;  // mean edges around a body: rigid ones go half of one ahead of their contacts
+
+// What predictMotion of btSoftBody does besides moving nodes, without resetting the links' rest lengths.
+void refreshBulletConstants(btSoftBody& soft, double step)
+{
+    if (soft.m_bUpdateRtCst)
+    {
+        soft.m_bUpdateRtCst = false;
+        soft.updateLinkConstants();
+        soft.updateArea();
+    }
+    soft.m_sst.sdt = static_cast<btScalar>(step);
+    soft.m_sst.isdt = 1 / soft.m_sst.sdt;
+    soft.m_sst.velmrg = soft.m_sst.sdt * 3;
+    soft.m_sst.radmrg = soft.getCollisionShape()->getMargin();
+    soft.m_sst.updmrg = soft.m_sst.radmrg * btScalar(0.25);
+}
+
+// Wind, pressure and volume conservation. Bullet's wind meets nodes to whose velocities gravity's has just been added.
+void applyBulletForces(const FemSoftBody& fem, double step)
+{
+    btSoftBody& soft = *fem.m_softBody;
+    const btSoftBody::Config& cfg = soft.m_cfg;
+    const bool inWind = cfg.kLF > 0 || cfg.kDG > 0;
+    if (!inWind && cfg.kPR == 0 && !(cfg.kVC > 0)) return;  // Bullet would look at every face all the same
+    const btVector3 fall = bulletVector(step * fem.gravity());
+    if (!inWind || !isFinite(vec3(fall))) return soft.applyForces();
+    soft.addVelocity(fall);  // of nodes that are not pinned
+    soft.applyForces();
+    for (int i = 0; i < soft.m_nodes.size(); ++i) soft.m_nodes[i].m_v = fem.m_written.m_v[i];  // as has just been read
+}
+
+}  // namespace
+
+bool beginBodyStep(btFemBodySetUp& setUp, btFemBodyRecord& record, double worldStep)
+{
+    const bool present = record.m_membership.m_present;
+    record.m_work.m_stage = btFemStage::predicted;
+    if (present) ageTouches(record);
+    if (record.isFem())
+    {
+        record.fem().m_touching.clear();
+        record.fem().m_touchingSoft.clear();
+    }
+    if (!present || record.m_model.m_rejected || !record.m_softBody->isActive()) return false;
+    const double step = bodyStep(record, worldStep);
+    if (!isUsableStep(step)) return false;
+    if (!record.isFem() || record.m_asked.m_materialChanged || restMatricesChanged(record.fem()))
+        setUp.trySetUp(record, step);
+    if (record.isFem()) setUp.tryChooseSurface(record);
+    return record.isFem();
+}
+
+void predictBody(btFemBodyRecord& record, double step)
+{
+    FemSoftBody& fem = record.fem();
+    readBody(record);
+    record.m_work.m_factorMismatch = factorMismatch(fem, step);
+    setSweptBounds(fem, step, kReach * fem.m_body.m_model->mesh().meanEdgeLength());
+    refreshBulletConstants(*record.m_softBody, step);
+    applyBulletForces(fem, step);
+}
+
+void prepareForCollision(const btFemRecords& records)
+{
+    for (const auto& record : records)
+    {
+        if (!record->isStepped()) continue;
+        hideClusterJoints(record->fem());
+        keepFaceTree(*record->m_softBody);
+        clearBulletContacts(*record->m_softBody);
+    }
+}

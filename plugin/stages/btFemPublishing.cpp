@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/stages/btFemPublishing.h"
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/node_exchange.h"
+#include "bullet_fem/fem/step/stepping.h"
+
+using namespace bullet_fem;
+
+void finishMotion(btFemBodyRecord& record)
+{
+    FemSoftBody& fem = record.fem();
+    btFemStepReport& report = record.m_reports.m_step;
+    StepSettings settings;
+    settings.m_step = record.m_work.m_lastStep;
+    if (canFinishStep(fem.m_body))
+        finishStep(fem.m_body, settings);
+    else  // no NaN may reach a node
+    {
+        report.m_flags |= BT_FEM_BREAKDOWN;
+        abandonStep(fem.m_body);
+    }
+    writeNodes(fem);
+    finishNodes(record);
+    const double length = 1e3 * record.m_work.m_lastStep / record.m_softBody->m_cfg.timescale;
+    report.m_tooSlow = record.m_work.m_realTime.isTooSlow(report.m_freeMotionMs + report.m_contactMs, length);
+}
+
+void finishNodes(btFemBodyRecord& record)
+{
+    record.m_softBody->integrateMotion();
+    record.m_work.m_isFinished = true;
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/stages/btFemRefactoring.h"
+
+#include <exception>
+#include <memory>
+#include <utility>
+
+#include "plugin/setup/btFemBodySetUp.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+// Ratio of step or mass to the factor's beyond which a body that touches something is factored anew. Without contact a
+// stale factor costs iterations only; contact would rest on a wrong picture of the compliance.
+constexpr double kRefactorInContact = 1.5;
+
+double priceFor(const btFemBodyRecord& record)
+{
+    return refactorPrice(*record.fem().m_body.m_model);
+}
+
+}  // namespace
+
+void btFemRefactorPolicy::note(btFemBodyRecord& record, int iterations) const
+{
+    record.m_work.m_factorAccount.note(iterations, record.m_work.m_staleness, m_tolerance);
+    if (record.m_work.m_factorAccount.refactorPays(priceFor(record)))
+        record.m_reports.m_step.m_flags |= BT_FEM_REFACTOR_PAYS;
+}
+
+void btFemRefactorPolicy::refresh(btFemBodySetUp& setUp, btFemBodyRecord& record, double step)
+{
+    if (m_refactoring == btFemRefactoring::onRequest) return;
+    if (record.m_work.m_factorJob) return takeOver(setUp, record, step);
+    if (!record.m_work.m_factorAccount.refactorPays(priceFor(record)) || staleness(record, step) <= 1) return;
+    if (m_refactoring == btFemRefactoring::background && !setUp.knowsFactor(record, step))
+        return startJob(setUp, record, step);
+    record.m_work.m_factorAccount.spend(priceFor(record));
+    setUp.tryRefactor(record, step);
+}
+
+void btFemRefactorPolicy::startJob(const btFemBodySetUp& setUp, btFemBodyRecord& record, double step)
+{
+    try
+    {
+        record.m_work.m_factorJob =
+            m_thread.start(record.fem().m_body.m_model->sharedShape(), setUp.factorInput(record, step));
+    }
+    catch (const std::exception& error)  // no thread to be had
+    {
+        record.m_model.m_message = error.what();
+        record.m_work.m_factorAccount.spend(priceFor(record));
+    }
+}
+
+void btFemRefactorPolicy::takeOver(btFemBodySetUp& setUp, btFemBodyRecord& record, double step) const
+{
+    if (!record.m_work.m_factorJob->m_done.load(std::memory_order_acquire)) return;
+    const std::shared_ptr<btFemFactorJob> job = std::move(record.m_work.m_factorJob);
+    record.m_work.m_factorAccount.spend(priceFor(record));
+    if (!job->m_model) record.m_model.m_message = job->m_error;
+    // Of no use after all if what was changed was changed back. (Another material drops the job.)
+    if (job->m_model && staleness(record, step) > 1) setUp.takeFactor(record, job->m_model);
+}
+
+void btFemRefactorPolicy::renew(btFemBodySetUp& setUp, btFemBodyRecord& record, double step)
+{
+    const bool touches = record.m_reports.m_contacts.size() > 0;
+    if (!touches || record.m_work.m_factorMismatch <= kRefactorInContact) return refresh(setUp, record, step);
+    setUp.tryRefactor(record, step);
+    record.m_work.m_factorAccount.clear();
+}
