@@ -78,17 +78,17 @@ void ArticulatedBodies::clear()
     m_answer.clear();
 }
 
-LinkMotion ArticulatedBodies::add(int index, const btMultiBodyLinkCollider& link, double step, Obstacle& obstacle)
+LinkMotion ArticulatedBodies::add(int index, const btMultiBodyLinkCollider& link, double step, RigidProxy& rigidProxy)
 {
     Link added = {index, treeOf(*link.m_multiBody, step), link.m_link, m_jacobian.size(), {}, {}};
-    fillRows(added, obstacle.m_center);
+    fillRows(added, rigidProxy.m_center);
     m_links.push_back(added);
     const LinkMotion next = motion(added, m_freeVelocity);
-    obstacle.m_linearVelocity = next.m_linear;
-    obstacle.m_angularVelocity = next.m_angular;
-    const ObstacleResponse own = response(added, added);
-    for (int c = 0; c < 3; ++c) obstacle.m_inverseMass[c] = own.m_linear(c, c);
-    obstacle.m_inverseInertia = own.m_angular;
+    rigidProxy.m_linearVelocity = next.m_linear;
+    rigidProxy.m_angularVelocity = next.m_angular;
+    const RigidResponse own = response(added, added);
+    for (int c = 0; c < 3; ++c) rigidProxy.m_inverseMass[c] = own.m_linear(c, c);
+    rigidProxy.m_inverseInertia = own.m_angular;
     return motion(added, m_velocity);
 }
 
@@ -146,7 +146,7 @@ void ArticulatedBodies::predict(const Tree& tree, double step)
     addSupport(tree, step);
 }
 
-// As RigidObstacles does with rigid bodies, in the coordinates of the joints.
+// As RigidProxies does with rigid bodies, in the coordinates of the joints.
 void ArticulatedBodies::addSupport(const Tree& tree, double step)
 {
     const auto before =
@@ -220,28 +220,28 @@ Mat3 ArticulatedBodies::block(const Link& moved, int rowOfMoved, const Link& pus
     return result;
 }
 
-ObstacleResponse ArticulatedBodies::response(const Link& moved, const Link& pushed) const
+RigidResponse ArticulatedBodies::response(const Link& moved, const Link& pushed) const
 {
-    return {moved.m_obstacle, block(moved, 0, pushed, 0), block(moved, 0, pushed, 3), block(moved, 3, pushed, 0),
+    return {moved.m_rigidProxy, block(moved, 0, pushed, 0), block(moved, 0, pushed, 3), block(moved, 3, pushed, 0),
             block(moved, 3, pushed, 3)};
 }
 
 void ArticulatedBodies::setCenter(int index, const Vec3& center)
 {
     for (const Link& link : m_links)
-        if (link.m_obstacle == index) fillRows(link, center);
+        if (link.m_rigidProxy == index) fillRows(link, center);
 }
 
-void ArticulatedBodies::connect(std::vector<Obstacle>& obstacles, std::vector<ObstacleResponse>& responses) const
+void ArticulatedBodies::connect(std::vector<RigidProxy>& rigidProxies, std::vector<RigidResponse>& responses) const
 {
     responses.clear();
     for (const Link& pushed : m_links)
     {
-        Obstacle& obstacle = obstacles[pushed.m_obstacle];
-        obstacle.m_firstResponse = static_cast<int>(responses.size());
+        RigidProxy& rigidProxy = rigidProxies[pushed.m_rigidProxy];
+        rigidProxy.m_firstResponse = static_cast<int>(responses.size());
         for (const Link& moved : m_links)
             if (moved.m_tree == pushed.m_tree) responses.push_back(response(moved, pushed));
-        obstacle.m_responseCount = static_cast<int>(responses.size()) - obstacle.m_firstResponse;
+        rigidProxy.m_responseCount = static_cast<int>(responses.size()) - rigidProxy.m_firstResponse;
     }
 }
 

@@ -49,27 +49,27 @@ public:
     /// Forgets all links.
     void clear();
 
-    /// Makes obstacle number `index` that of a link which can move. Its velocity is the one that it has next without
+    /// Makes rigid proxy number `index` that of a link which can move. Its velocity is the one that it has next without
     /// soft bodies: with what forces, gravity and Coriolis' ones add in `step` [s], and with what contacts, motors and
     /// limits hold it with: in every joint what they did in this step, as far as it withstands the forces and what soft
     /// bodies gave before. Returns the velocity that it has now. The order of calls decides the order of responses.
-    LinkMotion add(int index, const btMultiBodyLinkCollider& link, double step, Obstacle& obstacle);
+    LinkMotion add(int index, const btMultiBodyLinkCollider& link, double step, RigidProxy& rigidProxy);
 
-    /// From now on velocities and impulses of obstacle number `index` are about a point at `center` [m] that goes with
-    /// the link.
+    /// From now on velocities and impulses of rigid proxy number `index` are about a point at `center` [m] that goes
+    /// with the link.
     void setCenter(int index, const Vec3& center);
 
     /// Writes how links answer impulses. Once all links are known; it may be called again when there are more.
-    void connect(std::vector<Obstacle>& obstacles, std::vector<ObstacleResponse>& responses) const;
+    void connect(std::vector<RigidProxy>& rigidProxies, std::vector<RigidResponse>& responses) const;
 
     bool isEmpty() const { return m_links.empty(); }
 
-    /// Adds to what obstacle number `index` gets, about its centre [N s], [N m s]; nothing if it is no link.
+    /// Adds to what rigid proxy number `index` gets, about its centre [N s], [N m s]; nothing if it is no link.
     void addImpulse(int index, const Vec3& impulse, const Vec3& angular);
 
     /// Gives the multibodies their impulses, once each and rounded once, moves them by the position corrections of the
-    /// obstacles in `step` [s], and wakes those that felt something.
-    void apply(const std::vector<Obstacle>& obstacles, double step);
+    /// rigid proxies in `step` [s], and wakes those that felt something.
+    void apply(const std::vector<RigidProxy>& rigidProxies, double step);
 
 private:
     struct Before
@@ -93,7 +93,7 @@ private:
     };
     struct Link
     {
-        int m_obstacle, m_tree;
+        int m_rigidProxy, m_tree;
         int m_index;          // of the link in its multibody; -1: the base
         std::size_t m_first;  // of its six rows in m_jacobian and m_answer: three of velocity, three of spin
         Vec3 m_impulse, m_angularImpulse;
@@ -112,9 +112,9 @@ private:
     void support(const Tree& tree, int first, int count, const double* before, double step);
     void fillRows(const Link& link, const Vec3& center);
     Mat3 block(const Link& moved, int rowOfMoved, const Link& pushed, int rowOfPushed) const;
-    ObstacleResponse response(const Link& moved, const Link& pushed) const;
+    RigidResponse response(const Link& moved, const Link& pushed) const;
     LinkMotion motion(const Link& link, const std::vector<double>& velocity) const;
-    bool solve(const Tree& tree, int number, const std::vector<Obstacle>* pushed);
+    bool solve(const Tree& tree, int number, const std::vector<RigidProxy>* pushed);
     void addVelocity(const Tree& tree);
     void displace(const Tree& tree, double step);
     Momentum momentum(const btMultiBody& body);

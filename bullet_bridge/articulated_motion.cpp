@@ -44,15 +44,15 @@ void ArticulatedBodies::addImpulse(int index, const Vec3& impulse, const Vec3& a
 {
     for (Link& link : m_links)
     {
-        if (link.m_obstacle != index) continue;
+        if (link.m_rigidProxy != index) continue;
         link.m_impulse += impulse;
         link.m_angularImpulse += angular;
     }
 }
 
-void ArticulatedBodies::apply(const std::vector<Obstacle>& obstacles, double step)
+void ArticulatedBodies::apply(const std::vector<RigidProxy>& rigidProxies, double step)
 {
-    for (Link& link : m_links) link.m_angularImpulse += obstacles[link.m_obstacle].m_angularImpulse;
+    for (Link& link : m_links) link.m_angularImpulse += rigidProxies[link.m_rigidProxy].m_angularImpulse;
     for (std::size_t k = 0; k < m_trees.size(); ++k)
     {
         const Tree& tree = m_trees[k];
@@ -62,12 +62,12 @@ void ArticulatedBodies::apply(const std::vector<Obstacle>& obstacles, double ste
             memoryOf(*tree.m_body, tree.m_coordinates).m_given.assign(m_change.begin(), m_change.end());
             wakeIfAsleep(*tree.m_body);
         }
-        if (solve(tree, static_cast<int>(k), &obstacles)) displace(tree, step);
+        if (solve(tree, static_cast<int>(k), &rigidProxies)) displace(tree, step);
     }
 }
 
 // What the impulses on all links of a tree, or those behind their push, change in its coordinates. False if nothing.
-bool ArticulatedBodies::solve(const Tree& tree, int number, const std::vector<Obstacle>* pushed)
+bool ArticulatedBodies::solve(const Tree& tree, int number, const std::vector<RigidProxy>* pushed)
 {
     const int n = tree.m_coordinates;
     m_force.assign(n, 0);
@@ -75,8 +75,8 @@ bool ArticulatedBodies::solve(const Tree& tree, int number, const std::vector<Ob
     for (const Link& link : m_links)
     {
         if (link.m_tree != number) continue;
-        const Vec3 impulse = pushed ? (*pushed)[link.m_obstacle].m_pushImpulse : link.m_impulse;
-        const Vec3 angular = pushed ? (*pushed)[link.m_obstacle].m_pushAngularImpulse : link.m_angularImpulse;
+        const Vec3 impulse = pushed ? (*pushed)[link.m_rigidProxy].m_pushImpulse : link.m_impulse;
+        const Vec3 angular = pushed ? (*pushed)[link.m_rigidProxy].m_pushAngularImpulse : link.m_angularImpulse;
         for (int row = 0; row < 6; ++row)
             for (int k = 0; k < n; ++k)
                 m_force[k] +=

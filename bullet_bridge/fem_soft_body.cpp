@@ -44,7 +44,7 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
     m_pins.m_position.resize(n);
     m_pins.m_hasTarget.assign(n, 0);
     m_pins.m_moved.assign(n, 0);
-    m_expected.reserve(n);
+    m_predicted.reserve(n);
     sizeScratch();
     noteRestMatrices(*this);
     for (int i = 0; i < n; ++i)

@@ -116,7 +116,7 @@ struct FemSoftBody
 
     HeldJoints m_joints;  ///< what holds the body
 
-    std::vector<Vec3> m_expected;  ///< impulses of contact in the free motion [N s], one a node; empty: SteadyBodies
+    std::vector<Vec3> m_predicted;  ///< impulses of contact in the free motion [N s], one a node; empty: SteadyBodies
 
     std::vector<ContactPoint> m_contacts;              ///< of the last step
     std::vector<ContactOrigin> m_origins;              ///< one a contact, ascending

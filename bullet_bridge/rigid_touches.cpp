@@ -32,7 +32,7 @@ bool isMovable(const btCollisionObject& object)
     return body && !body->isStaticOrKinematicObject() && body->getInvMass() > 0;
 }
 
-// Of kinematic objects; others that are no obstacles stand still.
+// Of kinematic objects; others that are no rigid proxies stand still.
 Vec3 velocityOf(const btCollisionObject& object, const Vec3& point)
 {
     if (!object.isKinematicObject() || !object.isActive()) return {};
@@ -42,30 +42,30 @@ Vec3 velocityOf(const btCollisionObject& object, const Vec3& point)
 
 }  // namespace
 
-void RigidTouchFinder::find(btDispatcher& dispatcher, double step, RigidObstacles& obstacles,
+void RigidTouchFinder::find(btDispatcher& dispatcher, double step, RigidProxies& rigidProxies,
                             std::vector<RigidTouch>& touches)
 {
     m_pairs.clear();
-    listMovable(obstacles);
+    listMovable(rigidProxies);
     if (m_byAddress.empty()) return;
     listPairs(dispatcher);
     lookUp();
-    for (int far = 0; far < kFar && obstacles.phase() == RigidPhase::moved && spread(step, obstacles); ++far)
+    for (int far = 0; far < kFar && rigidProxies.phase() == RigidPhase::moved && spread(step, rigidProxies); ++far)
     {
-        listMovable(obstacles);
+        listMovable(rigidProxies);
         lookUp();
     }
     keepTouching();
     for (const Pair& pair : m_pairs)
         for (int k = 0; k < pair.m_manifold->getNumContacts(); ++k)
-            add(pair, pair.m_manifold->getContactPoint(k), step, obstacles, touches);
+            add(pair, pair.m_manifold->getContactPoint(k), step, rigidProxies, touches);
 }
 
-void RigidTouchFinder::listMovable(const RigidObstacles& obstacles)
+void RigidTouchFinder::listMovable(const RigidProxies& rigidProxies)
 {
     m_byAddress.clear();
-    for (int k = 0; k < static_cast<int>(obstacles.obstacles().size()); ++k)
-        if (obstacles.movableBody(k)) m_byAddress.push_back({&obstacles.object(k), k});
+    for (int k = 0; k < static_cast<int>(rigidProxies.rigidProxies().size()); ++k)
+        if (rigidProxies.movableBody(k)) m_byAddress.push_back({&rigidProxies.object(k), k});
     std::sort(m_byAddress.begin(), m_byAddress.end());
 }
 
@@ -106,25 +106,25 @@ void RigidTouchFinder::keepTouching()
     std::sort(m_pairs.begin(), m_pairs.end(), [&](const Pair& a, const Pair& b) { return keyOf(a) < keyOf(b); });
 }
 
-// Makes obstacles of what obstacles touch. False if there is nothing new.
-bool RigidTouchFinder::spread(double step, RigidObstacles& obstacles)
+// Makes rigid proxies of what rigid proxies touch. False if there is nothing new.
+bool RigidTouchFinder::spread(double step, RigidProxies& rigidProxies)
 {
-    const std::size_t before = obstacles.obstacles().size();
+    const std::size_t before = rigidProxies.rigidProxies().size();
     for (const Pair& pair : m_pairs)
     {
         const btCollisionObject &a = *pair.m_manifold->getBody0(), &b = *pair.m_manifold->getBody1();
-        if (pair.m_first >= 0 && pair.m_second < 0 && isMovable(b)) obstacles.indexBeside(b, step, pair.m_first);
-        if (pair.m_second >= 0 && pair.m_first < 0 && isMovable(a)) obstacles.indexBeside(a, step, pair.m_second);
+        if (pair.m_first >= 0 && pair.m_second < 0 && isMovable(b)) rigidProxies.indexBeside(b, step, pair.m_first);
+        if (pair.m_second >= 0 && pair.m_first < 0 && isMovable(a)) rigidProxies.indexBeside(a, step, pair.m_second);
     }
-    return obstacles.obstacles().size() > before;
+    return rigidProxies.rigidProxies().size() > before;
 }
 
 // Bullet measured as the step began. Soft bodies must not close more of the gap than is left, nor undo what Bullet has
 // given two bodies to part; what closes or stays inside without them is Bullet's own affair.
-void RigidTouchFinder::add(const Pair& pair, const btManifoldPoint& point, double step, const RigidObstacles& obstacles,
-                           std::vector<RigidTouch>& touches) const
+void RigidTouchFinder::add(const Pair& pair, const btManifoldPoint& point, double step,
+                           const RigidProxies& rigidProxies, std::vector<RigidTouch>& touches) const
 {
-    const bool moved = obstacles.phase() == RigidPhase::moved, turned = pair.m_first < 0;
+    const bool moved = rigidProxies.phase() == RigidPhase::moved, turned = pair.m_first < 0;
     const btCollisionObject* objects[2] = {pair.m_manifold->getBody0(), pair.m_manifold->getBody1()};
     const int indices[2] = {pair.m_first, pair.m_second};
     Vec3 at = vec3(point.getPositionWorldOnB()), velocities[2];
@@ -137,11 +137,11 @@ void RigidTouchFinder::add(const Pair& pair, const btManifoldPoint& point, doubl
             givesWay = givesWay || isMovable(*objects[side]);
             continue;
         }
-        const LinkMotion now = obstacles.motionNow(indices[side]);
-        const Vec3 center = vec3(obstacles.movableBody(indices[side])->getCenterOfMassPosition());
+        const LinkMotion now = rigidProxies.motionNow(indices[side]);
+        const Vec3 center = vec3(rigidProxies.movableBody(indices[side])->getCenterOfMassPosition());
         const Vec3 arm = at - (moved ? center - step * now.m_linear : center);
         velocities[side] = now.m_linear + cross(now.m_angular, arm);
-        rewound = rewound || obstacles.isRewound(indices[side]);
+        rewound = rewound || rigidProxies.isRewound(indices[side]);
     }
     const Vec3 normal = vec3(point.m_normalWorldOnB);
     RigidTouch touch;
@@ -156,15 +156,15 @@ void RigidTouchFinder::add(const Pair& pair, const btManifoldPoint& point, doubl
     for (int side = 0; side < 2; ++side)
     {
         if (indices[side] < 0) continue;
-        const Obstacle& obstacle = obstacles.obstacles()[indices[side]];
-        arms[side] = at - obstacle.m_center;
-        velocities[side] = obstacle.m_linearVelocity + cross(obstacle.m_angularVelocity, arms[side]);
+        const RigidProxy& rigidProxy = rigidProxies.rigidProxies()[indices[side]];
+        arms[side] = at - rigidProxy.m_center;
+        velocities[side] = rigidProxy.m_linearVelocity + cross(rigidProxy.m_angularVelocity, arms[side]);
     }
     const double recovers = touch.m_moves ? kRecovery : 0;
     const double allowed = -(touch.m_gap > 0 ? 1 : recovers) * touch.m_gap / step;
     touch.m_leastSpeed = std::min(dot(normal, velocities[0] - velocities[1]), allowed);
     touch.m_normal = turned ? -normal : normal;
-    touch.m_obstacle = indices[turned ? 1 : 0];
+    touch.m_rigidProxy = indices[turned ? 1 : 0];
     touch.m_other = indices[turned ? 0 : 1];
     touch.m_arm = arms[turned ? 1 : 0];
     touch.m_otherArm = arms[turned ? 0 : 1];

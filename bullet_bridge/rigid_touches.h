@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 
 class btDispatcher;
 class btManifoldPoint;
@@ -20,27 +20,27 @@ namespace bullet_fem
 class RigidTouchFinder
 {
 public:
-    /// Once all that soft bodies touch are obstacles. In phase `moved`, what these touch become obstacles, too, and so
-    /// on, a few bodies far. `step` [s] is the world's.
-    void find(btDispatcher& dispatcher, double step, RigidObstacles& obstacles, std::vector<RigidTouch>& touches);
+    /// Once all that soft bodies touch are rigid proxies. In phase `moved`, what these touch become rigid proxies, too,
+    /// and so on, a few bodies far. `step` [s] is the world's.
+    void find(btDispatcher& dispatcher, double step, RigidProxies& rigidProxies, std::vector<RigidTouch>& touches);
 
 private:
     struct Pair
     {
         const btPersistentManifold* m_manifold;
-        int m_first, m_second;  // obstacles that can move; -1: none
+        int m_first, m_second;  // rigid proxies that can move; -1: none
     };
 
-    void listMovable(const RigidObstacles& obstacles);
+    void listMovable(const RigidProxies& rigidProxies);
     void listPairs(btDispatcher& dispatcher);
     void lookUp();
-    bool spread(double step, RigidObstacles& obstacles);
+    bool spread(double step, RigidProxies& rigidProxies);
     void keepTouching();
-    void add(const Pair& pair, const btManifoldPoint& point, double step, const RigidObstacles& obstacles,
+    void add(const Pair& pair, const btManifoldPoint& point, double step, const RigidProxies& rigidProxies,
              std::vector<RigidTouch>& touches) const;
 
     std::vector<Pair> m_pairs;
-    std::vector<std::pair<const btCollisionObject*, int>> m_byAddress;  // of all obstacles that are rigid bodies
+    std::vector<std::pair<const btCollisionObject*, int>> m_byAddress;  // of all rigid proxies that are rigid bodies
 };
 
 }  // namespace bullet_fem

@@ -9,22 +9,22 @@
 namespace bullet_fem
 {
 
-void SolverBodies::begin(RigidObstacles& rigid, btAlignedObjectArray<btSolverBody>& pool)
+void SolverBodies::begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool)
 {
     m_pool = &pool;
-    m_links.assign(rigid.obstacles().size(), Link());
+    m_links.assign(rigid.rigidProxies().size(), Link());
     for (std::size_t k = 0; k < m_links.size(); ++k)
     {
         const btRigidBody* body = rigid.movableBody(static_cast<int>(k));
         if (!body || body->getCompanionId() < 0 || body->getCompanionId() >= pool.size()) continue;
-        const RigidObstacles::Remainder& remainder = rigid.remainder(static_cast<int>(k));
+        const RigidProxies::Remainder& remainder = rigid.remainder(static_cast<int>(k));
         m_links[k].m_solverBody = body->getCompanionId();
         m_links[k].m_linearRemainder = remainder.m_linear;
         m_links[k].m_angularRemainder = remainder.m_angular;
     }
 }
 
-void SolverBodies::read(std::vector<Obstacle>& obstacles)
+void SolverBodies::read(std::vector<RigidProxy>& rigidProxies)
 {
     for (std::size_t k = 0; k < m_links.size(); ++k)
     {
@@ -35,12 +35,12 @@ void SolverBodies::read(std::vector<Obstacle>& obstacles)
                         vec3(body.m_externalForceImpulse) + link.m_linearRemainder;
         link.m_angular = vec3(body.m_angularVelocity) + vec3(body.m_deltaAngularVelocity) +
                          vec3(body.m_externalTorqueImpulse) + link.m_angularRemainder;
-        obstacles[k].m_linearVelocity = link.m_linear;
-        obstacles[k].m_angularVelocity = link.m_angular;
+        rigidProxies[k].m_linearVelocity = link.m_linear;
+        rigidProxies[k].m_angularVelocity = link.m_angular;
     }
 }
 
-void SolverBodies::write(const std::vector<Obstacle>& obstacles)
+void SolverBodies::write(const std::vector<RigidProxy>& rigidProxies)
 {
     for (std::size_t k = 0; k < m_links.size(); ++k)
     {
@@ -48,13 +48,13 @@ void SolverBodies::write(const std::vector<Obstacle>& obstacles)
         if (link.m_solverBody < 0) continue;
         btSolverBody& body = (*m_pool)[link.m_solverBody];
         body.m_deltaLinearVelocity = addedExactly(
-            body.m_deltaLinearVelocity, obstacles[k].m_linearVelocity - link.m_linear, link.m_linearRemainder);
+            body.m_deltaLinearVelocity, rigidProxies[k].m_linearVelocity - link.m_linear, link.m_linearRemainder);
         body.m_deltaAngularVelocity = addedExactly(
-            body.m_deltaAngularVelocity, obstacles[k].m_angularVelocity - link.m_angular, link.m_angularRemainder);
+            body.m_deltaAngularVelocity, rigidProxies[k].m_angularVelocity - link.m_angular, link.m_angularRemainder);
     }
 }
 
-void SolverBodies::end(RigidObstacles& rigid)
+void SolverBodies::end(RigidProxies& rigid)
 {
     for (std::size_t k = 0; k < m_links.size(); ++k)
     {
@@ -67,7 +67,7 @@ void SolverBodies::end(RigidObstacles& rigid)
             body.m_deltaAngularVelocity.setZero();
             m_links[k].m_linearRemainder = m_links[k].m_angularRemainder = {};
         }
-        RigidObstacles::Remainder& remainder = rigid.remainder(static_cast<int>(k));
+        RigidProxies::Remainder& remainder = rigid.remainder(static_cast<int>(k));
         remainder.m_linear = m_links[k].m_linearRemainder;
         remainder.m_angular = m_links[k].m_angularRemainder;
         remainder.m_used = true;

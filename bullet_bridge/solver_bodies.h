@@ -6,29 +6,29 @@
 
 #include "BulletDynamics/ConstraintSolver/btSolverBody.h"
 #include "LinearMath/btAlignedObjectArray.h"
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 
 namespace bullet_fem
 {
 
-/// Carries velocities between the obstacles of a contact problem and the bodies of Bullet's rigid solver while it
+/// Carries velocities between the rigid proxies of a contact problem and the bodies of Bullet's rigid solver while it
 /// iterates. A solver body's velocity is m_linearVelocity + delta + m_externalForceImpulse in single precision; what it
 /// cannot hold is kept here and added again.
 class SolverBodies
 {
 public:
-    /// To be called when the solver has set its bodies up: from then on obstacle k is solver body
+    /// To be called when the solver has set its bodies up: from then on rigid proxy k is solver body
     /// rigid.movableBody(k)->getCompanionId() of `pool`. Starts from what was cut off in the last step.
-    void begin(RigidObstacles& rigid, btAlignedObjectArray<btSolverBody>& pool);
+    void begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool);
 
-    /// The solver bodies' velocities become the obstacles'.
-    void read(std::vector<Obstacle>& obstacles);
+    /// The solver bodies' velocities become the rigid proxies'.
+    void read(std::vector<RigidProxy>& rigidProxies);
 
-    /// What was added to the obstacles' velocities since read() is added to the solver bodies'.
-    void write(const std::vector<Obstacle>& obstacles);
+    /// What was added to the rigid proxies' velocities since read() is added to the solver bodies'.
+    void write(const std::vector<RigidProxy>& rigidProxies);
 
     /// Keeps what was cut off for the next step.
-    void end(RigidObstacles& rigid);
+    void end(RigidProxies& rigid);
 
 private:
     struct Link

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 #include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
@@ -32,9 +32,9 @@ bool isSteady(const FemSoftBody& fem, double step)
     for (std::size_t i = 0; i < state.m_v.size(); ++i)
     {
         const Vec3 load = step * fem.m_body.m_loads.m_force[i];
-        pushed += fem.m_expected[i];
+        pushed += fem.m_predicted[i];
         loads += load;
-        allPushed += norm(fem.m_expected[i]);
+        allPushed += norm(fem.m_predicted[i]);
         allLoads += norm(load);
         momentum += state.m_mass[i] * state.m_v[i];
         mass += state.m_mass[i];
@@ -57,9 +57,9 @@ void SteadyBodies::sumImpulses(const std::vector<FemSoftBody*>& bodies, const So
                 [&](int b)
                 {
                     FemSoftBody& fem = *bodies[b];
-                    fem.m_expected.assign(fem.m_body.m_state.m_x.size(), Vec3());
+                    fem.m_predicted.assign(fem.m_body.m_state.m_x.size(), Vec3());
                     for (const ContactPoint& contact : fem.m_contacts)
-                        spread(contact.m_soft, contact.m_impulse, fem.m_expected);
+                        spread(contact.m_soft, contact.m_impulse, fem.m_predicted);
                 });
     m_byId.clear();
     for (FemSoftBody* fem : bodies)
@@ -69,7 +69,7 @@ void SteadyBodies::sumImpulses(const std::vector<FemSoftBody*>& bodies, const So
     const auto add = [&](int id, const SurfacePoint& point, const Vec3& impulse)
     {
         const auto at = std::lower_bound(m_byId.begin(), m_byId.end(), Numbered{id, nullptr}, before);
-        if (at != m_byId.end() && at->m_id == id) spread(point, impulse, at->m_fem->m_expected);
+        if (at != m_byId.end() && at->m_id == id) spread(point, impulse, at->m_fem->m_predicted);
     };
     const SoftPairMemory::Last last = memory.last();
     for (std::size_t k = 0; k < last.m_count; ++k)
@@ -84,7 +84,7 @@ void SteadyBodies::sumImpulses(const std::vector<FemSoftBody*>& bodies, const So
 
 void SteadyBodies::judge(FemSoftBody& fem, double step)
 {
-    if (fem.m_body.m_loads.m_frameDamping > 0 || !isSteady(fem, step)) fem.m_expected.clear();
+    if (fem.m_body.m_loads.m_frameDamping > 0 || !isSteady(fem, step)) fem.m_predicted.clear();
 }
 
 }  // namespace bullet_fem

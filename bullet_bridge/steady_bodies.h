@@ -19,11 +19,11 @@ class Threads;
 class SteadyBodies
 {
 public:
-    /// Before solveFreeMotion: sums up in m_expected what contact pushed every body with in the last step. `memory` has
-    /// the contacts between soft bodies of that. Each body once.
+    /// Before solveFreeMotion: sums up in m_predicted what contact pushed every body with in the last step. `memory`
+    /// has the contacts between soft bodies of that. Each body once.
     void sumImpulses(const std::vector<FemSoftBody*>& bodies, const SoftPairMemory& memory, const Threads& threads);
 
-    /// Empties m_expected unless contact pushed the body, and it will be within a quarter of the contact band of where
+    /// Empties m_predicted unless contact pushed the body, and it will be within a quarter of the contact band of where
     /// its velocities take it in a step [s], if contact pushes as it did. Loads must have been read. May be called by
     /// several threads at once, for different bodies.
     static void judge(FemSoftBody& fem, double step);

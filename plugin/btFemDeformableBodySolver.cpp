@@ -7,7 +7,7 @@
 
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
 #include "bullet_bridge/body_arrays.h"
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 #include "bullet_fem/btFemVectors.h"
 #include "plugin/btFemDeformableForces.h"
 #include "plugin/btFemWorldStep.h"

@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kBand = 0.05;            // share of a mean edge that the contact band is wide
+constexpr double kContactBand = 0.05;     // share of a mean edge that the contact band is wide
 constexpr double kAdvantage = 0.003;      // share of a mean edge by which a nearest point must beat the fixed ones
 constexpr double kSlop = 5e-5;            // share of the body's size by which it may sink in
 constexpr double kMovableSlop = 1e-4;     // the same for movable objects: position corrections spend angular momentum
@@ -25,18 +25,18 @@ constexpr double kUsualKineticHardness = 0.1;  // Bullet's value of kKHR; those 
 constexpr double kLeastLikeness = -2;          // of a contact and the one that it was in the last step; 1 is the same
 
 // Bound on the speed of any of an object's points near the body: its centre's, and its spin over the distance.
-double fastestPoint(const Obstacle& obstacle, const ShapeLeaf& shape)
+double fastestPoint(const RigidProxy& rigidProxy, const ShapeLeaf& shape)
 {
-    const double spin = norm(obstacle.m_angularVelocity);
+    const double spin = norm(rigidProxy.m_angularVelocity);
     const double size = spin > 0 ? norm(shape.m_boundsMax - shape.m_boundsMin) : 0;  // a plane has none
-    return norm(obstacle.m_linearVelocity) + spin * size;
+    return norm(rigidProxy.m_linearVelocity) + spin * size;
 }
 
 // True if the surface looks against the normal at a feature: one of its triangles does, or their mean. A point next to
 // the side wall of a box that lies on the surface is near that wall, but the surface does not face it.
 bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
 {
-    constexpr double kAgainst = -0.5;  // cosine
+    constexpr double kOpposedCosine = -0.5;  // cosine
     const std::vector<Triangle>& triangles = fem.m_surface.triangles();
     const std::vector<Vec3>& x = fem.surfacePosition();
     const SurfaceFeatures& features = fem.m_surface.features();
@@ -47,10 +47,10 @@ bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
         const auto has = [&t](int node) { return t[0] == node || t[1] == node || t[2] == node; };
         if (!has(nodes[1]) || !has(nodes[2])) continue;
         const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
-        if (dot(area, normal) < kAgainst * norm(area)) return true;
+        if (dot(area, normal) < kOpposedCosine * norm(area)) return true;
         mean += area;
     }
-    return dot(mean, normal) <= kAgainst * norm(mean);
+    return dot(mean, normal) <= kOpposedCosine * norm(mean);
 }
 
 }  // namespace
@@ -86,14 +86,14 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     {
         const TouchedObject& touched = around.m_touched[k];
         report.m_unknownShape = touched.m_unknownShape || report.m_unknownShape;
-        const Obstacle& obstacle = around.m_obstacles[touched.m_obstacle];
+        const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
         const Surface surface = surfaceOf(*fem.m_softBody, *touched.m_object);
         for (int l = 0; l < touched.m_leafCount; ++l)
         {
             const ShapeLeaf& shape = around.m_leaves[touched.m_firstLeaf + l];
-            const Leaf leaf = {touched.m_object, l, touched.m_obstacle, surface,
-                               softReach + step * fastestPoint(obstacle, shape)};
-            const Target target = {shape, leaf, obstacle, step};
+            const Leaf leaf = {touched.m_object, l, touched.m_rigidProxy, surface,
+                               softReach + step * fastestPoint(rigidProxy, shape)};
+            const Target target = {shape, leaf, rigidProxy, step};
             if (shape.m_shape->isConcave() && !shape.m_shape->isInfinite())
                 findOnSheets(fem, target);
             else
@@ -117,7 +117,7 @@ void ContactFinder::begin(const FemSoftBody& fem, int bodyIndex)
     m_measured = false;
     m_bodyIndex = bodyIndex;
     m_edge = fem.m_surface.meanEdge();
-    m_band = kBand * m_edge;
+    m_band = kContactBand * m_edge;
     m_advantage = kAdvantage * m_edge;
     m_size = fem.m_surface.size();
 }
@@ -145,7 +145,7 @@ void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature
 {
     const Vec3 point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     const Vec3 relative =
-        interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_obstacle.velocityAt(point);
+        interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_rigidProxy.velocityAt(point);
     if (d.m_gap > m_band && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band) return;
     if (d.m_gap > -m_band && !faces(fem, nodes, d.m_normal)) return;
     keep(fem, target, feature, nodes, d);
@@ -159,9 +159,9 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     contact.m_soft = fem.pointOn(m_bodyIndex, nodes, d.m_barycentric);
     for (int a = 0; a < contact.m_soft.m_count; ++a)
         if (isAnchoredTo(fem, contact.m_soft.m_nodes[a], *target.m_leaf.m_object)) return nullptr;
-    const Vec3& inverseMass = target.m_obstacle.m_inverseMass;
+    const Vec3& inverseMass = target.m_rigidProxy.m_inverseMass;
     contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
-    contact.m_obstacle = target.m_leaf.m_obstacle;
+    contact.m_rigidProxy = target.m_leaf.m_rigidProxy;
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap;
     contact.m_slop = (dot(inverseMass, inverseMass) > 0 ? kMovableSlop : kSlop) * m_size;
@@ -193,20 +193,20 @@ const ContactPoint* ContactFinder::pushing(const FemSoftBody& fem, const Contact
 // By the motion of the last step: the free one is not slowed down by what the body lies on.
 void ContactFinder::thin(const FemSoftBody& fem, const RigidSurroundings& around)
 {
-    const double cell = ContactThinning::cellOf(fem);
+    const double cell = ContactReduction::cellOf(fem);
     if (!(cell > 0)) return;
-    m_thinning.clear(cell);
+    m_reduction.clear(cell);
     const std::vector<Vec3>& X = fem.m_body.m_model->mesh().restPositions();
     for (std::size_t k = 0; k < m_contacts.size(); ++k)
     {
         const ContactPoint& contact = m_contacts[k];
         const Vec3 relative = contact.m_soft.of(fem.m_body.m_state.m_v) -
-                              around.m_obstacles[contact.m_obstacle].velocityAt(contact.m_point);
-        m_thinning.add({m_origins[k].m_objectId, contact, contact.m_soft.of(X),
-                        contact.m_gap + around.m_step * dot(contact.m_normal, relative),
-                        pushing(fem, m_origins[k]) != nullptr});
+                              around.m_rigidProxies[contact.m_rigidProxy].velocityAt(contact.m_point);
+        m_reduction.add({m_origins[k].m_objectId, contact, contact.m_soft.of(X),
+                         contact.m_gap + around.m_step * dot(contact.m_normal, relative),
+                         pushing(fem, m_origins[k]) != nullptr});
     }
-    m_thinning.thin(m_contacts, m_origins);
+    m_reduction.thin(m_contacts, m_origins);
 }
 
 // Both lists ascend, as the features were searched. Of several contacts of a feature with a leaf, the one before is
@@ -244,16 +244,16 @@ void ContactFinder::inheritImpulses(const FemSoftBody& fem)
     for (std::size_t first = 0, end = 0, k = 0; first < fem.m_origins.size(); first = end)
     {
         const int id = idOf(fem.m_origins[first]);
-        m_heirs.clear(fem.m_origins.size());
+        m_transfer.clear(fem.m_origins.size());
         for (end = first; end < fem.m_origins.size() && idOf(fem.m_origins[end]) == id; ++end)
         {
             const ContactPoint& old = fem.m_contacts[end];
             if (m_continued[end]) continue;
-            m_heirs.addLost(old.m_soft.of(fem.m_body.m_state.m_x), old.m_normal, old.m_impulse);
+            m_transfer.addLost(old.m_soft.of(fem.m_body.m_state.m_x), old.m_normal, old.m_impulse);
         }
         while (k < m_origins.size() && idOf(m_origins[k]) < id) ++k;
-        for (; k < m_origins.size() && idOf(m_origins[k]) == id; ++k) m_heirs.addHeir(m_contacts[k], 1);
-        m_heirs.settle(fem.m_body.m_model->mesh().meanEdgeLength());
+        for (; k < m_origins.size() && idOf(m_origins[k]) == id; ++k) m_transfer.addHeir(m_contacts[k], 1);
+        m_transfer.settle(fem.m_body.m_model->mesh().meanEdgeLength());
     }
 }
 

@@ -5,12 +5,12 @@
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_bridge/contact/sheet_touch.h"
 #include "bullet_bridge/contact/surface_culling.h"
-#include "bullet_bridge/contact_heirs.h"
-#include "bullet_bridge/contact_thinning.h"
+#include "bullet_bridge/contact_reduction.h"
 #include "bullet_bridge/fem_soft_body.h"
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 #include "bullet_bridge/shapes/shape_distance.h"
 #include "bullet_bridge/shapes/swept_distance.h"
+#include "bullet_bridge/warm_start_transfer.h"
 
 namespace bullet_fem
 {
@@ -26,8 +26,8 @@ struct ContactSearchReport
 struct TouchedObject
 {
     const btCollisionObject* m_object;
-    int m_obstacle;                ///< its index
-    int m_firstLeaf, m_leafCount;  ///< of its shape, where its obstacle is
+    int m_rigidProxy;              ///< its index
+    int m_firstLeaf, m_leafCount;  ///< of its shape, where its rigid proxy is
     bool m_unknownShape;           ///< some of its shape has no contact support
 };
 
@@ -37,7 +37,7 @@ struct RigidSurroundings
     const TouchedObject* m_touched;  ///< objects near the body, by ascending broadphase id
     int m_count;
     const btAlignedObjectArray<ShapeLeaf>& m_leaves;
-    const std::vector<Obstacle>& m_obstacles;
+    const std::vector<RigidProxy>& m_rigidProxies;
     double m_step;      ///< [s]
     int m_maxContacts;  ///< of the body
 };
@@ -80,7 +80,7 @@ private:
     {
         const btCollisionObject* m_object;
         int m_index;  // among the object's leaves
-        int m_obstacle;
+        int m_rigidProxy;
         Surface m_surface;
         double m_reach;  // distance at which this leaf may be touched within the step [m]
     };
@@ -90,7 +90,7 @@ private:
     {
         const ShapeLeaf& m_shape;
         const Leaf& m_leaf;
-        const Obstacle& m_obstacle;
+        const RigidProxy& m_rigidProxy;
         double m_step;
     };
     using Weights = std::array<double, 3>;
@@ -149,8 +149,8 @@ private:
     std::vector<ContactOrigin> m_origins;
     std::vector<int> m_order;
     std::vector<unsigned char> m_continued;  // contacts of the last step
-    ContactHeirs m_heirs;
-    ContactThinning m_thinning;
+    WarmStartTransfer m_transfer;
+    ContactReduction m_reduction;
     SurfaceCulling m_culling;
     TriangleSoup m_soup;
     std::vector<SheetTouch> m_touches;

@@ -13,12 +13,12 @@ namespace
 {
 
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
-constexpr double kSlack = 1e-3;          // of a mean edge: gaps that are bounded by gradients; those may be off as much
+constexpr double kGradientSlack = 1e-3;  // of a mean edge: gaps that are bounded by gradients; those may be off as much
 constexpr double kHeldAdvantage = 0.1;   // of what a nearest point must be nearer by, if it pushed in the last step
-constexpr double kSlow = 0.02;           // mean edges that a nearest point that pushed moves in a step, at most,
-constexpr double kFollow = 0.1;          // where the nodes' shares go but this share of their way
+constexpr double kSlowestWander = 0.02;  // mean edges that a nearest point that pushed moves in a step, at most,
+constexpr double kFollowedShare = 0.1;   // where the nodes' shares go but this share of their way
 constexpr double kFarthestBehind = 0.1;  // mean edges that it may stay behind
-constexpr double kRounding = 1e-9;       // of a mean edge, of gaps
+constexpr double kGapRounding = 1e-9;    // of a mean edge, of gaps
 
 bool overlaps(const Vec3& point, const ShapeLeaf& shape, double reach)
 {
@@ -86,7 +86,7 @@ bool ContactFinder::overOneFace(const FemSoftBody& fem, int a, int b) const
 // True if no point of an edge or triangle is within reach.
 bool ContactFinder::isFar(const Target& target, const Triangle& nodes) const
 {
-    return m_culling.leastGap(nodes) > target.m_leaf.m_reach + kSlack * m_edge;
+    return m_culling.leastGap(nodes) > target.m_leaf.m_reach + kGradientSlack * m_edge;
 }
 
 void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
@@ -135,13 +135,13 @@ double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, in
 {
     const std::vector<Vec3>& x = fem.surfacePosition();
     const bool moved = target.m_leaf.m_object->isKinematicObject();
-    if (!moved && m_culling.leastGap(nodes) - fem.m_contactOffset >= nearest - kRounding * m_edge) return nearest;
+    if (!moved && m_culling.leastGap(nodes) - fem.m_contactOffset >= nearest - kGapRounding * m_edge) return nearest;
     SurfaceDistance d;
     if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
         return nearest;
     const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
     const ContactPoint* const last = gap < m_band ? pushing(fem, originOf(target, feature)) : nullptr;
-    const double advantage = gap >= m_band ? kRounding * m_edge : last ? kHeldAdvantage * m_advantage : m_advantage;
+    const double advantage = gap >= m_band ? kGapRounding * m_edge : last ? kHeldAdvantage * m_advantage : m_advantage;
     if (!(gap < nearest - advantage)) return std::min(gap, nearest);
     const std::size_t count = m_contacts.size();
     consider(fem, target, feature, nodes, d);
@@ -156,10 +156,10 @@ void ContactFinder::holdBack(const FemSoftBody& fem, const Triangle& nodes, cons
                              const Weights& nearest, double step)
 {
     const std::vector<Vec3>& x = fem.surfacePosition();
-    if (step * norm(last.m_soft.of(fem.m_body.m_state.m_v)) > kSlow * m_edge) return;  // as in an impact
+    if (step * norm(last.m_soft.of(fem.m_body.m_state.m_v)) > kSlowestWander * m_edge) return;  // as in an impact
     Weights weights;
     if (!weightsOf({x[nodes[0]], x[nodes[1]], x[nodes[2]]}, last.m_soft.of(fem.m_body.m_state.m_x), weights)) return;
-    for (int k = 0; k < 3; ++k) weights[k] += kFollow * (nearest[k] - weights[k]);
+    for (int k = 0; k < 3; ++k) weights[k] += kFollowedShare * (nearest[k] - weights[k]);
     if (!(std::min({weights[0], weights[1], weights[2]}) >= 0)) return;  // on a skin, the point may have left it
     if (norm(interpolated(x, nodes, weights) - interpolated(x, nodes, nearest)) > kFarthestBehind * m_edge) return;
     m_contacts.back().m_soft = fem.pointOn(m_bodyIndex, nodes, weights);
@@ -172,7 +172,7 @@ double ContactFinder::gapAsTheStepBegan(const FemSoftBody& fem, const Target& ta
 {
     d.m_gap -= fem.m_contactOffset;
     if (target.m_leaf.m_object->isKinematicObject())
-        d.m_gap += target.m_step * dot(d.m_normal, target.m_obstacle.velocityAt(point));
+        d.m_gap += target.m_step * dot(d.m_normal, target.m_rigidProxy.velocityAt(point));
     return d.m_gap;
 }
 

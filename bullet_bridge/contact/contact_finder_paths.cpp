@@ -17,9 +17,9 @@ namespace
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Kinematic objects have moved already.
-SweptShape pathOf(const ShapeLeaf& leaf, const Obstacle& obstacle, double step, bool moved)
+SweptShape pathOf(const ShapeLeaf& leaf, const RigidProxy& rigidProxy, double step, bool moved)
 {
-    RigidMotion motion = {obstacle.m_center, obstacle.m_linearVelocity, obstacle.m_angularVelocity};
+    RigidMotion motion = {rigidProxy.m_center, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
     if (!moved) return SweptShape(leaf, motion, step);
     const ShapeLeaf start = movedBack(leaf, motion, step);
     motion.m_center -= step * motion.m_linearVelocity;
@@ -39,8 +39,8 @@ double fallingSpeed(const FemSoftBody& fem, double step)
 bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
 {
     const SweptShape swept =
-        pathOf(target.m_shape, target.m_obstacle, target.m_step, target.m_leaf.m_object->isKinematicObject());
-    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as RigidObstacles decides
+        pathOf(target.m_shape, target.m_rigidProxy, target.m_step, target.m_leaf.m_object->isKinematicObject());
+    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as RigidProxies decides
     const double falling = 2 * fallingSpeed(fem, target.m_step);
     if (!isFast(swept, m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge)) return false;  // at most
     const double nodeSpeed = fastestNode(fem.m_body, swept.m_motion.m_linearVelocity);
@@ -102,7 +102,7 @@ double ContactFinder::considerPath(const PathSearch& search, int feature, const 
     if (path.m_count == 1) fem.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
     if (time < earliest - m_advantage / search.m_speed)
         if (ContactPoint* kept = keep(fem, search.m_target, feature, nodes, contact.m_surface))
-            kept->m_approach = contact.m_arm - (kept->m_point - search.m_target.m_obstacle.m_center);
+            kept->m_approach = contact.m_arm - (kept->m_point - search.m_target.m_rigidProxy.m_center);
     return std::min(time, earliest);
 }
 

@@ -21,7 +21,8 @@ double alongCone(const Vec3& way, const Vec3& axis, double cosine)
     return std::max(0.0, along * cosine + across * sine);
 }
 
-constexpr double kDepth = 0.3;  // share of a mean edge that corners and edges of sheets are looked for inside the body
+constexpr double kFeatureDepth =
+    0.3;  // share of a mean edge that corners and edges of sheets are looked for inside the body
 
 Vec3 normalOf(const std::vector<Vec3>& x, const Triangle& t)
 {
@@ -81,7 +82,7 @@ void ContactFinder::measureSurface(const FemSoftBody& fem)
 Vec3 ContactFinder::asTheStepBegan(const Target& target, const Vec3& point)
 {
     const bool moved = target.m_leaf.m_object->isKinematicObject();
-    return moved ? point + target.m_step * target.m_obstacle.velocityAt(point) : point;
+    return moved ? point + target.m_step * target.m_rigidProxy.velocityAt(point) : point;
 }
 
 // The free motion of a node in the step relative to the object.
@@ -89,7 +90,7 @@ Vec3 ContactFinder::wayOf(const SheetSearch& search, int node) const
 {
     const FemSoftBody& fem = search.m_fem;
     return search.m_target.m_step *
-           (fem.surfaceVelocity()[node] - search.m_target.m_obstacle.velocityAt(fem.surfacePosition()[node]));
+           (fem.surfaceVelocity()[node] - search.m_target.m_rigidProxy.velocityAt(fem.surfacePosition()[node]));
 }
 
 // Where the node was on the right side of the sheets: remembered if the leaf was near in the last step. A node that has
@@ -146,7 +147,7 @@ void ContactFinder::findOnSheetTriangles(const SheetSearch& search)
             closing = std::max(closing, dot(wayOf(search, t[a]), feature.m_outward));
         }
         feature.m_reach = m_band + closing;
-        feature.m_depth = kDepth * m_edge;
+        feature.m_depth = kFeatureDepth * m_edge;
         feature.m_thickness = search.m_thickness;
         findCornerTouches(m_soup, feature, m_touches);
         considerTouches(search, firstFeature + static_cast<int>(k), t);
@@ -170,7 +171,7 @@ void ContactFinder::findOnSheetEdges(const SheetSearch& search)
         const double cosine = widestNormal(feature);
         feature.m_reach = m_band + std::max(alongCone(wayOf(search, a), feature.m_outward, cosine),
                                             alongCone(wayOf(search, b), feature.m_outward, cosine));
-        feature.m_depth = kDepth * m_edge;
+        feature.m_depth = kFeatureDepth * m_edge;
         feature.m_thickness = search.m_thickness;
         findEdgeTouches(m_soup, feature, m_touches);
         considerTouches(search, firstFeature + static_cast<int>(k), {a, b, a});

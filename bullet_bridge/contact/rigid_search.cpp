@@ -24,10 +24,10 @@ btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
 }
 
 // To where the object was before Bullet moved it.
-void moveBack(ShapeLeaf& leaf, const Obstacle& obstacle, double step)
+void moveBack(ShapeLeaf& leaf, const RigidProxy& rigidProxy, double step)
 {
-    const Vec3 present = obstacle.m_center + step * obstacle.m_linearVelocity;
-    leaf = movedBack(leaf, {present, obstacle.m_linearVelocity, obstacle.m_angularVelocity}, step);
+    const Vec3 present = rigidProxy.m_center + step * rigidProxy.m_linearVelocity;
+    leaf = movedBack(leaf, {present, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity}, step);
 }
 
 // True for shapes whose distances are closed forms or come of our own search over their corners. Others ask Bullet,
@@ -54,7 +54,8 @@ bool bearsThreads(const btCollisionShape& shape)
 
 RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts) {}
 
-void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts, RigidObstacles& obstacles)
+void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts,
+                       RigidProxies& rigidProxies)
 {
     m_touching.clear();
     m_touched.clear();
@@ -64,7 +65,7 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
         removeGone(*bodies[b], static_cast<int>(b));
-        listTouched(*bodies[b], step, obstacles);
+        listTouched(*bodies[b], step, rigidProxies);
     }
     m_reports.assign(bodies.size(), {});
 
@@ -73,7 +74,7 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
         const Touching& touching = m_touching[b];
         m_reports[b] = finder.find(*bodies[b], static_cast<int>(b),
                                    {m_touched.data() + touching.m_first, touching.m_count, m_leaves,
-                                    obstacles.obstacles(), step, maxContacts});
+                                    rigidProxies.rigidProxies(), step, maxContacts});
     };
     m_threads.run(kParts,
                   [&](int part)
@@ -127,34 +128,34 @@ void RigidSearch::removeGone(FemSoftBody& fem, int body) const
     fem.m_touching.erase(std::remove_if(fem.m_touching.begin(), fem.m_touching.end(), isGone), fem.m_touching.end());
 }
 
-void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidObstacles& obstacles)
+void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidProxies& rigidProxies)
 {
     std::sort(fem.m_touching.begin(), fem.m_touching.end(),
               [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
     Touching touching = {static_cast<int>(m_touched.size()), static_cast<int>(fem.m_touching.size()), false};
     for (const btCollisionObject* object : fem.m_touching)
     {
-        const int obstacle = obstacles.indexForContact(*object, step, fem.m_body);
-        const ShapeRange& shape = shapeOf(*object, obstacle, step, obstacles);
+        const int rigidProxy = rigidProxies.indexForContact(*object, step, fem.m_body);
+        const ShapeRange& shape = shapeOf(*object, rigidProxy, step, rigidProxies);
         touching.m_alone = touching.m_alone || shape.m_alone;
-        m_touched.push_back({object, obstacle, shape.m_first, shape.m_count, shape.m_unknown});
+        m_touched.push_back({object, rigidProxy, shape.m_first, shape.m_count, shape.m_unknown});
     }
     m_touching.push_back(touching);
 }
 
 // The leaves of an object's shape, collected when first asked for.
-const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& object, int obstacle, double step,
-                                                    const RigidObstacles& obstacles)
+const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& object, int rigidProxy, double step,
+                                                    const RigidProxies& rigidProxies)
 {
-    if (m_shapes.size() < obstacles.obstacles().size()) m_shapes.resize(obstacles.obstacles().size());
-    ShapeRange& range = m_shapes[obstacle];
+    if (m_shapes.size() < rigidProxies.rigidProxies().size()) m_shapes.resize(rigidProxies.rigidProxies().size());
+    ShapeRange& range = m_shapes[rigidProxy];
     if (range.m_first >= 0) return range;
     range.m_first = m_leaves.size();
     range.m_unknown = collectShapeLeaves(object, m_leaves) > 0;
     range.m_count = m_leaves.size() - range.m_first;
     for (int l = range.m_first; l < m_leaves.size(); ++l)
     {
-        if (obstacles.isRewound(obstacle)) moveBack(m_leaves[l], obstacles.obstacles()[obstacle], step);
+        if (rigidProxies.isRewound(rigidProxy)) moveBack(m_leaves[l], rigidProxies.rigidProxies()[rigidProxy], step);
         range.m_alone = range.m_alone || !bearsThreads(*m_leaves[l].m_shape);
     }
     return range;

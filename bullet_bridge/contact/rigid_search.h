@@ -25,7 +25,7 @@ public:
 
     /// Bodies in an order that does not depend on addresses, after solveFreeMotion: m_contacts and m_origins of each
     /// become those of this step, with m_soft.m_body = its place. At most maxContacts a body are kept; `step` [s].
-    void find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts, RigidObstacles& obstacles);
+    void find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts, RigidProxies& rigidProxies);
 
     /// What find() found besides contacts, one a body.
     const std::vector<ContactSearchReport>& reports() const { return m_reports; }
@@ -33,7 +33,7 @@ public:
 private:
     static constexpr int kParts = 32;  // of the bodies, whatever the number of threads
 
-    /// What bodies touch is looked up on one thread: obstacles are made when first asked for.
+    /// What bodies touch is looked up on one thread: rigid proxies are made when first asked for.
     struct Touching
     {
         int m_first, m_count;  // among m_touched
@@ -47,15 +47,15 @@ private:
 
     void listOverlapping(const std::vector<FemSoftBody*>& bodies);
     void removeGone(FemSoftBody& fem, int body) const;
-    void listTouched(FemSoftBody& fem, double step, RigidObstacles& obstacles);
-    const ShapeRange& shapeOf(const btCollisionObject& object, int obstacle, double step,
-                              const RigidObstacles& obstacles);
+    void listTouched(FemSoftBody& fem, double step, RigidProxies& rigidProxies);
+    const ShapeRange& shapeOf(const btCollisionObject& object, int rigidProxy, double step,
+                              const RigidProxies& rigidProxies);
 
     const Threads& m_threads;
     std::vector<ContactFinder> m_finders;
     std::vector<Touching> m_touching;      // one a body
     std::vector<TouchedObject> m_touched;  // body by body
-    std::vector<ShapeRange> m_shapes;      // one an obstacle
+    std::vector<ShapeRange> m_shapes;      // one a rigid proxy
     btAlignedObjectArray<ShapeLeaf> m_leaves;
     std::vector<ContactSearchReport> m_reports;
     std::vector<std::pair<const void*, int>> m_byAddress;     // bodies, ascending

@@ -11,9 +11,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSharp = 1e-3;          // sine by which a corner or edge must stand out to be one [-]
-constexpr double kParallelEdges = 1e-3;  // sine of the angle below which edges do not cross [-]
-constexpr double kOutsideOfCone = 0.05;  // by which a normal may miss the cone of a soft edge's normals [-]
+constexpr double kSharpFeatureSine = 1e-3;  // sine by which a corner or edge must stand out to be one [-]
+constexpr double kParallelEdges = 1e-3;     // sine of the angle below which edges do not cross [-]
+constexpr double kOutsideOfCone = 0.05;     // by which a normal may miss the cone of a soft edge's normals [-]
 
 /// Calls visit(index) for the triangles that a feature's corners may meet on their way outward, and inside. `spread` is
 /// the sine of the angle by which they may stray.
@@ -53,7 +53,7 @@ bool isTip(const TriangleSoup& soup, int triangle, const Vec3& q, const Vec3& di
             if (length <= soup.tolerance())
                 tip = tip && t >= triangle;
             else
-                tip = tip && dot(way, direction) > kSharp * length;
+                tip = tip && dot(way, direction) > kSharpFeatureSine * length;
         }
     };
     check(triangle);
@@ -108,7 +108,7 @@ bool isRidge(const TriangleSoup& soup, int triangle, const EdgeCrossing& crossin
             if (norm(cross(way, crossing.m_along)) <= soup.tolerance())
                 ++onEdge;
             else
-                ridge = ridge && dot(way, crossing.m_normal) < -kSharp * norm(way);
+                ridge = ridge && dot(way, crossing.m_normal) < -kSharpFeatureSine * norm(way);
         }
         ridge = ridge && (onEdge < 2 || t >= triangle);
     };

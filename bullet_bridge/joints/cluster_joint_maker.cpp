@@ -115,8 +115,8 @@ ClusterJointMaker::Place ClusterJointMaker::placeOf(const End& end, const Vec3& 
     {
         place.m_pivot = rigidPivot(end.m_object, angular ? Vec3() : reference, m_scene);
         place.m_start = angular ? place.m_pivot.m_rotation * reference : place.m_pivot.m_start;
-        if (place.m_pivot.m_obstacle >= 0)
-            place.m_spin = m_scene.m_rigid.obstacles()[place.m_pivot.m_obstacle].m_angularVelocity;
+        if (place.m_pivot.m_rigidProxy >= 0)
+            place.m_spin = m_scene.m_rigid.rigidProxies()[place.m_pivot.m_rigidProxy].m_angularVelocity;
         return place;
     }
     const ClusterMotion motion(*end.m_fem, *end.m_cluster);
@@ -130,7 +130,7 @@ JointEnd ClusterJointMaker::pointEnd(const End& end, const Place& place, const V
     if (end.m_kind == End::Kind::cluster)
         return ClusterMotion(*end.m_fem, *end.m_cluster).pointEnd(end.m_body, at, m_problem);
     JointEnd rigid;
-    rigid.m_obstacle = place.m_pivot.m_obstacle;
+    rigid.m_rigidProxy = place.m_pivot.m_rigidProxy;
     rigid.m_point = at;
     return rigid;
 }
@@ -140,7 +140,7 @@ JointEnd ClusterJointMaker::spinEnd(const End& end, const Place& place)
     if (end.m_kind == End::Kind::cluster)
         return ClusterMotion(*end.m_fem, *end.m_cluster).spinEnd(end.m_body, m_problem);
     JointEnd rigid;
-    rigid.m_obstacle = place.m_pivot.m_obstacle;
+    rigid.m_rigidProxy = place.m_pivot.m_rigidProxy;
     rigid.m_angular = true;
     return rigid;
 }

@@ -6,7 +6,7 @@
 
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/joints/world_objects.h"
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 
 namespace bullet_fem
 {
@@ -16,7 +16,7 @@ struct JointScene
 {
     const std::vector<FemSoftBody*>& m_bodies;   ///< solved together: an index is that of ContactProblem::m_bodies
     const std::vector<FemSoftBody*>& m_outside;  ///< the others of the world
-    RigidObstacles& m_rigid;
+    RigidProxies& m_rigid;
     const WorldObjects& m_world;
     double m_step;       ///< of the world [s]
     RigidPhase m_phase;  ///< that m_rigid was cleared for

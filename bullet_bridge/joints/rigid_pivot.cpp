@@ -44,8 +44,8 @@ RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const 
     RigidPivot pivot;
     pivot.m_start = local;
     if (!object) return pivot;
-    pivot.m_obstacle = scene.m_rigid.indexOf(*object, scene.m_step);
-    const LinkMotion motion = scene.m_rigid.motionNow(pivot.m_obstacle);
+    pivot.m_rigidProxy = scene.m_rigid.indexOf(*object, scene.m_step);
+    const LinkMotion motion = scene.m_rigid.motionNow(pivot.m_rigidProxy);
     pivot.m_linearVelocity = motion.m_linear;
     pivot.m_angularVelocity = motion.m_angular;
     const btTransform& pose = object->getWorldTransform();

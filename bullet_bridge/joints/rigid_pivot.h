@@ -13,7 +13,7 @@ namespace bullet_fem
 /// object's velocity stays. Along the arc of a spin, not its tangent, so nothing that is held there lags behind.
 struct RigidPivot
 {
-    int m_obstacle = -1;                                 ///< index; -1: the place is fixed in the world
+    int m_rigidProxy = -1;                               ///< index; -1: the place is fixed in the world
     Mat3 m_rotation = Mat3::identity();                  ///< of the object as the step began
     Vec3 m_start;                                        ///< [m]
     Vec3 m_way;                                          ///< from there to where it ends [m]

@@ -107,14 +107,14 @@ bool AnchorHolder::hold(const AnchorView& anchor)
 void AnchorHolder::append(const AnchorView& anchor, const RigidPivot& pivot, HeldJoint& held)
 {
     const bool pinned = m_fem.m_body.m_state.m_fixed[held.m_node];
-    if (anchor.m_influence == 0 || (pinned && !m_scene.m_rigid.obstacles()[pivot.m_obstacle].canMove()))
+    if (anchor.m_influence == 0 || (pinned && !m_scene.m_rigid.rigidProxies()[pivot.m_rigidProxy].canMove()))
     {
         held.m_impulse = {};
         return;
     }
     Joint joint;
     joint.m_a = nodeEnd(m_body, held.m_node, m_problem);
-    joint.m_b.m_obstacle = pivot.m_obstacle;
+    joint.m_b.m_rigidProxy = pivot.m_rigidProxy;
     joint.m_b.m_point = held.m_point;  // both sides feel the impulse at one point
     const double erp = std::min(1.0, std::max(0.0, double(m_fem.m_softBody->m_cfg.kAHR)));
     joint.m_softness = anchor.m_influence < 1 ? 1 / anchor.m_influence - 1 : 0;

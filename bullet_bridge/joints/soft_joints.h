@@ -24,13 +24,13 @@ public:
     {
         const std::vector<FemSoftBody*>& m_bodies;
         const std::vector<FemSoftBody*>& m_outside;
-        RigidObstacles& m_rigid;
+        RigidProxies& m_rigid;
         double m_step;
         RigidPhase m_phase;
     };
 
-    /// Adds the joints of all bodies to the problem, and their objects to the group's obstacles; `flags` gets one entry
-    /// a body. After solveFreeMotion. May be called anew for the same step.
+    /// Adds the joints of all bodies to the problem, and their objects to the group's rigid proxies; `flags` gets one
+    /// entry a body. After solveFreeMotion. May be called anew for the same step.
     void append(const Group& group, ContactProblem& problem, std::vector<JointFlags>& flags);
 
     /// Hands a body the impulses of a solved problem that it was in.

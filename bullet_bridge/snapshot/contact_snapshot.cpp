@@ -240,9 +240,9 @@ void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
     kept.m_origins.resize(left);
 }
 
-void check(const RigidObstacles::Memory& memory)
+void check(const RigidProxies::Memory& memory)
 {
-    for (const RigidObstacles::Remainder& r : memory.m_remainders)
+    for (const RigidProxies::Remainder& r : memory.m_remainders)
         checkSane("a rigid body's remainder", r.m_linear, r.m_angular, r.m_linearGiven, r.m_angularGiven);
 }
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 #include "bullet_bridge/snapshot/world_ids.h"
 #include "bullet_bridge/soft_pairs/soft_pair_memory.h"
 
@@ -52,7 +52,7 @@ void restore(const ContactSnapshot& snapshot, const WorldIds& world, FemSoftBody
 void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world);
 
 /// Throws std::invalid_argument unless all numbers are finite.
-void check(const RigidObstacles::Memory& memory);
+void check(const RigidProxies::Memory& memory);
 
 /// Throws std::invalid_argument unless a SurfacePoint may have so many nodes.
 void checkNodeCount(int count);
@@ -123,13 +123,13 @@ void transfer(Bytes& bytes, SoftPairMemory::Kept& k)
 }
 
 template <class Bytes>
-void transfer(Bytes& bytes, RigidObstacles::Remainder& r)
+void transfer(Bytes& bytes, RigidProxies::Remainder& r)
 {
     bytes(r.m_objectId, r.m_linear, r.m_angular, r.m_used, r.m_linearGiven, r.m_angularGiven);
 }
 
 template <class Bytes>
-void transfer(Bytes& bytes, RigidObstacles::Memory& m)
+void transfer(Bytes& bytes, RigidProxies::Memory& m)
 {
     bytes(m.m_remainders, m.m_rewound);
 }

@@ -12,15 +12,15 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kBetween = 0.03;       // sine by which a normal may leave the arc between two faces' normals
-constexpr double kBetweenImpact = 0.2;  // the same at an impact: the faces have turned since the start
-constexpr double kHeldBend = 0.03;      // sine of the angle at which what was a ridge is a groove
-constexpr double kParallel = 0.05;      // sine of the angle below which the nearest points wander
-constexpr double kEnd = 1e-3;           // share of an edge that belongs to its ends
-constexpr double kShallow = 1e-3;       // edges up to which a depth needs no proof
-constexpr double kAside = 1e-3;         // share of the depth that the way out runs beside the edges
-constexpr double kRounding = 3e-7;      // of positions in single precision: what two may be off in all
-constexpr double kWayEnd = 0.01;        // share of the way that belongs to its ends, which lie on the surfaces
+constexpr double kNormalArcSine = 0.03;         // sine by which a normal may leave the arc between two faces' normals
+constexpr double kNormalArcSineAtImpact = 0.2;  // the same at an impact: the faces have turned since the start
+constexpr double kHeldBend = 0.03;              // sine of the angle at which what was a ridge is a groove
+constexpr double kParallel = 0.05;              // sine of the angle below which the nearest points wander
+constexpr double kEdgeEndShare = 1e-3;          // share of an edge that belongs to its ends
+constexpr double kUnprovenDepth = 1e-3;         // edges up to which a depth needs no proof
+constexpr double kWayAsideShare = 1e-3;         // share of the depth that the way out runs beside the edges
+constexpr double kPositionRounding = 3e-7;      // of positions in single precision: what two may be off in all
+constexpr double kWayEnd = 0.01;                // share of the way that belongs to its ends, which lie on the surfaces
 
 Vec3 along(const std::array<Vec3, 4>& ends, int first, double s)
 {
@@ -35,7 +35,7 @@ Vec3 between(const std::array<Vec3, 4>& ends, const LineParameters& at)
 
 bool isInterior(const LineParameters& at)
 {
-    return at.m_a > kEnd && at.m_a < 1 - kEnd && at.m_b > kEnd && at.m_b < 1 - kEnd;
+    return at.m_a > kEdgeEndShare && at.m_a < 1 - kEdgeEndShare && at.m_b > kEdgeEndShare && at.m_b < 1 - kEdgeEndShare;
 }
 
 Vec3 unitNormal(const std::array<Vec3, 4>& ends)
@@ -116,7 +116,7 @@ void EdgePairSearch::listNear()
     m_ridgesA.list(*m_first, {boxB, planeB, near, band}, middle);
     m_ridgesB.list(*m_second, {boxA, planeA, near, band}, middle);
     const double extent = std::max(m_ridgesA.extent(), m_ridgesB.extent());
-    m_ridgeReach = {coarse(near), coarse(band), coarse(kRounding * extent)};
+    m_ridgeReach = {coarse(near), coarse(band), coarse(kPositionRounding * extent)};
 }
 
 // Of boxes that are swept over SurfaceRidges::kSteps steps.
@@ -205,7 +205,7 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
     if (!nearestOfLines(pair.m_x, kParallel, crossing.m_at) || !isInterior(crossing.m_at)) return false;
     crossing.m_normal = unitNormal(pair.m_x);
     if (!(dot(crossing.m_normal, m_first->edgeNormal(pair.m_edgeA)) < 0)) crossing.m_normal = -crossing.m_normal;
-    if (!separates(pair, crossing.m_normal, kBetween)) return false;
+    if (!separates(pair, crossing.m_normal, kNormalArcSine)) return false;
     crossing.m_gap = dot(crossing.m_normal, between(pair.m_x, crossing.m_at));
     if (crossing.m_gap >= m_reach.m_band)
     {
@@ -217,7 +217,7 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
     const auto ofSecond = [&](int k) { return nodes.m_ofSecond.depthAside(pair.m_nodes[k], -crossing.m_normal); };
     const double shortest = std::min({ofFirst(0), ofFirst(1), ofSecond(2), ofSecond(3)});
     if (!(crossing.m_gap >= -std::min(m_reach.depth(), 2 * shortest))) return false;
-    return crossing.m_gap >= -kShallow * m_reach.m_edge || isFreeWayOut(pair, crossing);
+    return crossing.m_gap >= -kUnprovenDepth * m_reach.m_edge || isFreeWayOut(pair, crossing);
 }
 
 // True if nothing lies between edges that have passed each other: those on the far sides of two bars have both bars
@@ -232,7 +232,7 @@ bool EdgePairSearch::isFreeWayOut(const Pair& pair, const Crossing& crossing) co
         const Vec3 &flatter = into[firstIsFlatter ? 0 : 1], &steeper = into[firstIsFlatter ? 1 : 0];
         const Vec3 inside = flatter - dot(flatter, n) * n;
         const double over = dot(steeper, inside);
-        return (kAside + (over > 0 ? std::min(over / std::fabs(dot(steeper, n)), 1.0) : 0)) * inside;
+        return (kWayAsideShare + (over > 0 ? std::min(over / std::fabs(dot(steeper, n)), 1.0) : 0)) * inside;
     };
     const Vec3 way = -crossing.m_gap * n;  // from A's edge to B's
     const Vec3 aside =
@@ -289,7 +289,7 @@ bool EdgePairSearch::tryImpact(const Pair& pair, Crossing& crossing) const
             crossing.m_normal = -crossing.m_normal;
             crossing.m_gap = -crossing.m_gap;
         }
-        if (separates(pair, crossing.m_normal, kBetweenImpact)) return true;
+        if (separates(pair, crossing.m_normal, kNormalArcSineAtImpact)) return true;
     }
     return false;
 }

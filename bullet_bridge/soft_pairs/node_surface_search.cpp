@@ -12,17 +12,17 @@ namespace
 {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRim = 1e-3;            // edges that a face reaches beyond its rim
-constexpr double kGroove = 0.05;         // and beyond an edge where the next face rises
-constexpr double kGrooveBend = 0.03;     // sine of the angle at which an edge is a groove
-constexpr double kFacing = -0.1;         // cosine up to which a node's normal and a face's are turned to each other
-constexpr double kFacingImpact = -0.25;  // the same at an impact: grazing ones follow others that come first
-constexpr double kSeparates = -0.05;     // sine up to which the body may lie beyond a separating plane
-constexpr double kSame = 0.99;           // cosine of the angle between normals that count as one
-constexpr double kSameWay = 0.9;         // cosine of the angle between ways out that count as one
-constexpr double kCorner = 2e-3;         // weight that lies on a corner or an edge
-constexpr std::size_t kWorthProof = 8;   // nodes near the other body from which a proof costs less than it saves
-constexpr double kDeepest = 3;           // times its distance from the surface that a node may be led out
+constexpr double kRimReach = 1e-3;      // edges that a face reaches beyond its rim
+constexpr double kGrooveReach = 0.05;   // and beyond an edge where the next face rises
+constexpr double kGrooveSine = 0.03;    // sine of the angle at which an edge is a groove
+constexpr double kFacingCosine = -0.1;  // cosine up to which a node's normal and a face's are turned to each other
+constexpr double kFacingCosineAtImpact = -0.25;  // the same at an impact: grazing ones follow others that come first
+constexpr double kSeparatingSine = -0.05;        // sine up to which the body may lie beyond a separating plane
+constexpr double kSameNormalCosine = 0.99;       // cosine of the angle between normals that count as one
+constexpr double kSameWayOutCosine = 0.9;        // cosine of the angle between ways out that count as one
+constexpr double kCornerWeight = 2e-3;           // weight that lies on a corner or an edge
+constexpr std::size_t kLeastNodesForProof = 8;  // nodes near the other body from which a proof costs less than it saves
+constexpr double kDeepest = 3;                  // times its distance from the surface that a node may be led out
 
 double height(const Corners& t, int corner)
 {
@@ -49,7 +49,7 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
 
 double NodeSurfaceSearch::depthAside(int node, const Vec3& direction) const
 {
-    return m_depth[node] < kInfinity && dot(m_wayOut[node], direction) < kSameWay ? m_depth[node] : kInfinity;
+    return m_depth[node] < kInfinity && dot(m_wayOut[node], direction) < kSameWayOutCosine ? m_depth[node] : kInfinity;
 }
 
 void NodeSurfaceSearch::forget()
@@ -119,7 +119,7 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     if (!bounds.meets(point, m_reach.m_band)) return false;
     const double travel = largestTravel(point, bounds);
     const bool self = m_nodes == m_faces;
-    if (!self && ++m_looks == 1 && m_near.size() > kWorthProof)
+    if (!self && ++m_looks == 1 && m_near.size() > kLeastNodesForProof)
         m_outside = OutsideProof(*m_faces, unit(m_nodes->middle() - m_faces->middle()));
     if (m_outside.isFarOutside(visit.m_x, m_reach.m_band + travel)) return false;
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
@@ -134,8 +134,8 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
         visit.m_limit = m_reach.depth();
     else if (visit.m_inside)
         visit.m_limit = std::max(kDeepest * visit.m_distance, m_reach.depth());
-    else if (visit.m_distance < kRim * m_reach.m_edge)  // on a rim rounding decides between inside and outside
-        visit.m_limit = kGroove * m_reach.m_edge;
+    else if (visit.m_distance < kRimReach * m_reach.m_edge)  // on a rim rounding decides between inside and outside
+        visit.m_limit = kGrooveReach * m_reach.m_edge;
     return visit.m_inside || self || visit.m_distance <= m_reach.m_band + travel;
 }
 
@@ -147,9 +147,9 @@ bool NodeSurfaceSearch::placeOf(int triangle, const std::array<double, 3>& weigh
     {
         if (weights[k] >= 0) continue;
         const int edge = m_faces->features().m_triangleEdges[triangle][(k + 1) % 3];
-        const bool groove = m_faces->bend(edge) > kGrooveBend;
+        const bool groove = m_faces->bend(edge) > kGrooveSine;
         const double beyond = -weights[k] * height(m_faces->tree().corners(triangle), k);
-        if (beyond > (groove ? kGroove : kRim) * m_reach.m_edge) return false;
+        if (beyond > (groove ? kGrooveReach : kRimReach) * m_reach.m_edge) return false;
         place = groove && place != Place::rim ? Place::groove : Place::rim;
     }
     return true;
@@ -180,7 +180,7 @@ void NodeSurfaceSearch::tryDeepFace(const Visit& visit)
 
 bool NodeSurfaceSearch::isFacing(const Visit& visit, int triangle) const
 {
-    return dot(visit.m_normal, m_faces->faceNormal(triangle)) < kFacing;
+    return dot(visit.m_normal, m_faces->faceNormal(triangle)) < kFacingCosine;
 }
 
 // Touches at the start, or closes within the step without moving far along the face.
@@ -236,11 +236,11 @@ void NodeSurfaceSearch::tryImpact(const Visit& visit, int triangle)
                               x[t[2]] + time * change[t[2]]};
         Hit hit = {triangle, {}, {}, 0, time, Place::over, false};
         if (!projectOnPlane(then, visit.m_x + time * visit.m_change, hit.m_weights)) continue;
-        if (std::min({hit.m_weights[0], hit.m_weights[1], hit.m_weights[2]}) < -kGroove) continue;
+        if (std::min({hit.m_weights[0], hit.m_weights[1], hit.m_weights[2]}) < -kGrooveReach) continue;
         const Vec3 normal = cross(then[1] - then[0], then[2] - then[0]);
         hit.m_normal = (1 / norm(normal)) * normal;
         hit.m_gap = dot(hit.m_normal, visit.m_x - interpolated(x, t, hit.m_weights));
-        if (!(hit.m_gap > 0) || dot(visit.m_normal, hit.m_normal) > kFacingImpact) continue;
+        if (!(hit.m_gap > 0) || dot(visit.m_normal, hit.m_normal) > kFacingCosineAtImpact) continue;
         m_hits.push_back(hit);
         return;
     }
@@ -297,7 +297,7 @@ void NodeSurfaceSearch::dropContinuations()
     for (Hit& a : m_hits)
         for (const Hit& b : m_hits)
         {
-            if (&a == &b || a.m_dropped || b.m_dropped || dot(a.m_normal, b.m_normal) < kSame) continue;
+            if (&a == &b || a.m_dropped || b.m_dropped || dot(a.m_normal, b.m_normal) < kSameNormalCosine) continue;
             if (b.m_gap < a.m_gap || (b.m_gap == a.m_gap && b.m_triangle < a.m_triangle)) a.m_dropped = true;
         }
 }
@@ -310,8 +310,8 @@ void NodeSurfaceSearch::tryNearestFeature(const Visit& visit)
     const Vec3 normal = (1 / visit.m_distance) * (visit.m_x - visit.m_nearest.m_point);
     const Hit hit = {
         visit.m_nearestTriangle, visit.m_nearest.m_weights, normal, visit.m_distance, 0, Place::over, false};
-    if (!isNear(visit, hit) || m_nodes->leastAlongEdges(visit.m_node, normal) < kSeparates) return;
-    if (dot(visit.m_normal, normal) > kFacing) return;
+    if (!isNear(visit, hit) || m_nodes->leastAlongEdges(visit.m_node, normal) < kSeparatingSine) return;
+    if (dot(visit.m_normal, normal) > kFacingCosine) return;
     const std::size_t count = m_touches->size();
     emit(visit, hit);
     if (m_touches->size() > count) m_touches->back().m_otherFeature = -1;
@@ -339,8 +339,8 @@ void NodeSurfaceSearch::emit(const Visit& visit, const Hit& hit)
     int corner = -1, thin = -1;
     for (int k = 0; k < 3; ++k)
     {
-        if (hit.m_weights[k] > 1 - kCorner) corner = k;
-        if (hit.m_weights[k] < kCorner) thin = k;
+        if (hit.m_weights[k] > 1 - kCornerWeight) corner = k;
+        if (hit.m_weights[k] < kCornerWeight) thin = k;
     }
     if (corner >= 0 && hit.m_time == 0)
     {

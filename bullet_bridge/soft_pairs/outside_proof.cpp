@@ -10,8 +10,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFaceForward = 0.01;  // cosine from which a triangle does
-constexpr double kDoubt = 1e-9;        // share of lengths that rounding may take
+constexpr double kProofFacingCosine = 0.01;   // cosine from which a triangle does
+constexpr double kRoundingShare = 1e-9;  // share of lengths that rounding may take
 
 }  // namespace
 
@@ -29,7 +29,7 @@ OutsideProof::OutsideProof(const SoftSurface& surface, const Vec3& direction) : 
     }
     for (std::size_t t = 0; t < surface.triangles().size(); ++t)
     {
-        if (dot(direction, surface.faceNormal(static_cast<int>(t))) > kFaceForward) continue;
+        if (dot(direction, surface.faceNormal(static_cast<int>(t))) > kProofFacingCosine) continue;
         for (int i : surface.triangles()[t]) m_back = std::max(m_back, dot(direction, x[i]));
     }
 }
@@ -37,9 +37,9 @@ OutsideProof::OutsideProof(const SoftSurface& surface, const Vec3& direction) : 
 bool OutsideProof::isFarOutside(const Vec3& x, double distance) const
 {
     const double at = dot(m_direction, x), size = std::fabs(at) + std::fabs(m_front);
-    if (!(at - m_front > distance + kDoubt * (distance + 1e-3 * size))) return false;
+    if (!(at - m_front > distance + kRoundingShare * (distance + 1e-3 * size))) return false;
     const double farthest = norm(x - m_foremost);
-    return at - farthest > m_back + kDoubt * (farthest + size);
+    return at - farthest > m_back + kRoundingShare * (farthest + size);
 }
 
 }  // namespace bullet_fem

@@ -8,7 +8,7 @@
 #include "bullet_bridge/friction.h"
 #include "bullet_bridge/joints/node_attachments.h"
 #include "bullet_bridge/nearest_contacts.h"
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 
 namespace bullet_fem
 {
@@ -157,11 +157,11 @@ void SoftPairFinder::append(const Roles& roles, double offset)
 // False if there is nothing to thin.
 bool SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
 {
-    const double cells[2] = {ContactThinning::cellOf(first.m_fem), ContactThinning::cellOf(second.m_fem)};
+    const double cells[2] = {ContactReduction::cellOf(first.m_fem), ContactReduction::cellOf(second.m_fem)};
     if (!(cells[0] > 0 || cells[1] > 0)) return false;
     const bool byFirst = cells[0] > 0 && !(cells[1] > 0 && cells[1] < cells[0]);
     const FemSoftBody& fem = (byFirst ? first : second).m_fem;
-    m_thinning.clear(byFirst ? cells[0] : cells[1]);
+    m_reduction.clear(byFirst ? cells[0] : cells[1]);
     const std::vector<Vec3>& X = fem.m_body.m_model->mesh().restPositions();
     for (std::size_t k = 0; k < m_found.size(); ++k)
     {
@@ -171,10 +171,10 @@ bool SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
         const SoftPairOrigin* const end = m_last.m_origins + m_last.m_count;
         const SoftPairOrigin* const old = std::lower_bound(m_last.m_origins, end, m_foundOrigins[k]);
         const bool known = old != end && !(m_foundOrigins[k] < *old);
-        m_thinning.add(
+        m_reduction.add(
             {0, contact, point.of(X), contact.m_gap, known && isPushing(m_last.m_contacts[old - m_last.m_origins])});
     }
-    m_thinning.thin(m_found, m_foundOrigins);
+    m_reduction.thin(m_found, m_foundOrigins);
     return true;
 }
 
@@ -218,7 +218,7 @@ int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal)
 void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSide& second)
 {
     const auto isSecond = [](const SoftPairOrigin& origin) { return origin.m_kind == SoftPairKind::nodeOfSecond; };
-    m_heirs.clear(m_last.m_count);
+    m_transfer.clear(m_last.m_count);
     for (std::size_t k = 0; k < m_last.m_count; ++k)
     {
         if (m_continued[k]) continue;
@@ -226,12 +226,13 @@ void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSi
         const FemSoftBody& fem = (ofSecond ? second : first).m_fem;
         const double sign = ofSecond ? -1 : 1;
         const ContactPoint& last = m_last.m_contacts[k];
-        m_heirs.addLost(last.m_soft.of(fem.m_skin ? fem.m_body.m_state.m_x : fem.m_surface.position()),
-                        sign * last.m_normal, sign * last.m_impulse);
+        m_transfer.addLost(last.m_soft.of(fem.m_skin ? fem.m_body.m_state.m_x : fem.m_surface.position()),
+                           sign * last.m_normal, sign * last.m_impulse);
     }
-    for (std::size_t k = 0; k < m_found.size(); ++k) m_heirs.addHeir(m_found[k], isSecond(m_foundOrigins[k]) ? -1 : 1);
+    for (std::size_t k = 0; k < m_found.size(); ++k)
+        m_transfer.addHeir(m_found[k], isSecond(m_foundOrigins[k]) ? -1 : 1);
     const auto edgeOf = [](const SoftPairSide& side) { return side.m_fem.m_body.m_model->mesh().meanEdgeLength(); };
-    m_heirs.settle(std::max(edgeOf(first), edgeOf(second)));
+    m_transfer.settle(std::max(edgeOf(first), edgeOf(second)));
 }
 
 }  // namespace bullet_fem

@@ -2,11 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_bridge/contact_heirs.h"
-#include "bullet_bridge/contact_thinning.h"
+#include "bullet_bridge/contact_reduction.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/soft_pairs/edge_pair_search.h"
 #include "bullet_bridge/soft_pairs/soft_pair_memory.h"
+#include "bullet_bridge/warm_start_transfer.h"
 
 namespace bullet_fem
 {
@@ -23,7 +23,7 @@ struct SoftPairReport
 {
     int m_contacts = 0;      ///< appended
     bool m_limited = false;  ///< more points than allowed were found; those with the smallest gaps were kept
-    bool m_thinned = false;  ///< a skin is too fine for all its points to be kept: see ContactThinning
+    bool m_thinned = false;  ///< a skin is too fine for all its points to be kept: see ContactReduction
 };
 
 /// Finds where the surfaces of two FEM bodies, or of one with itself, touch or may do so within the step: nodes against
@@ -76,8 +76,8 @@ private:
     SoftPairMemory::Last m_last;             // of the pair
     std::vector<EdgePair> m_heldEdges;       // of these, that pushed
     std::vector<unsigned char> m_continued;  // of these
-    ContactHeirs m_heirs;
-    ContactThinning m_thinning;
+    WarmStartTransfer m_transfer;
+    ContactReduction m_reduction;
 };
 
 }  // namespace bullet_fem

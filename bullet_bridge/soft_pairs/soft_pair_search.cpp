@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 #include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
@@ -16,7 +16,7 @@ namespace
 
 // Mean edges by which the nodes of a body may be away from where they were noted: two bodies come closer by four times
 // as much since they were searched, half the contact band.
-constexpr double kStill = 0.00625;
+constexpr double kStillShare = 0.00625;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       FemSoftBody& fem = *bodies[b];
                       fem.updateSkin();
                       m_isStill[b] = fem.m_surface.isStill(fem.surfacePosition(), fem.surfaceVelocity(), step,
-                                                           kStill * m_smallestEdge[b]);
+                                                           kStillShare * m_smallestEdge[b]);
                   });
     choosePairs();
     m_threads.run(paired,

@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFlat = 0.99;  // cosine of the angle between normals that count as one
+constexpr double kFlatSurfaceCosine = 0.99;  // cosine of the angle between normals that count as one
 
 double angleBetween(const Vec3& a, const Vec3& b)
 {
@@ -215,7 +215,7 @@ bool SoftSurface::isFlatEdge(int edge) const
 {
     const Vec3 normal = edgeNormal(edge);
     bool flat = true;
-    visitTrianglesAt(edge, [&](int t) { flat = flat && !(dot(m_faceNormal[t], normal) < kFlat); });
+    visitTrianglesAt(edge, [&](int t) { flat = flat && !(dot(m_faceNormal[t], normal) < kFlatSurfaceCosine); });
     return flat;
 }
 
@@ -224,7 +224,7 @@ bool SoftSurface::isFlatNode(int node) const
     const Vec3 normal = nodeNormal(node);
     const int* const around = m_features.m_around.data();
     return std::none_of(around + m_features.m_firstAround[node], around + m_features.m_firstAround[node + 1],
-                        [&](int t) { return dot(m_faceNormal[t], normal) < kFlat; });
+                        [&](int t) { return dot(m_faceNormal[t], normal) < kFlatSurfaceCosine; });
 }
 
 double SoftSurface::leastAlongEdges(int node, const Vec3& direction) const

@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kThinnest = 1e-7;  // volume over area times length below which nothing is enclosed
+constexpr double kLeastThickness = 1e-7;  // volume over area times length below which nothing is enclosed
 
 /// Mean ratio of the tets that cut off a cube's corners, less rounding: 12 (1/2)^(2/3) / 9; the middle one is regular.
 constexpr double kLatticeQuality = 0.8399;
@@ -68,8 +68,8 @@ double enclosedVolume(const SurfaceInspection& surface, const CageFill& fill, do
     const double volume = exact ? std::abs(signedVolume(surface.m_repaired.m_surface))
                                 : fill.m_insideVolume * cellSize * cellSize * cellSize;
     const double size = norm(surface.m_high - surface.m_low);
-    if (!(volume > kThinnest * surface.m_area * size))
-        reject("the surface has no inside: its volume is ", volume, " m3, less than ", kThinnest,
+    if (!(volume > kLeastThickness * surface.m_area * size))
+        reject("the surface has no inside: its volume is ", volume, " m3, less than ", kLeastThickness,
                " of area times length, with ", surface.m_openEdges, " open edges and ", fill.m_sampleCount,
                " points looked at; close the surface, or use a cell size below ", cellSize, " m if it is only thin");
     return volume;

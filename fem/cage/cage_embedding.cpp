@@ -20,7 +20,7 @@ std::array<double, 4> barycentric(const std::array<Vec3, 4>& x, const Vec3& p)
 namespace
 {
 
-constexpr double kOnTet = -1e-9;  // least barycentric weight of a vertex that lies in or on an element
+constexpr double kOnTetWeight = -1e-9;  // least barycentric weight of a vertex that lies in or on an element
 
 /// A tet of the lattice, in the order of the cage's elements.
 int latticeTet(int cube, int tet)
@@ -38,14 +38,15 @@ struct Holder
 
 Holder findHolder(const CageLattice& lattice, const std::vector<std::uint8_t>& kept, const Vec3& p)
 {
-    constexpr double kNear = 1e-6;  // one cube, or all those that share the face, edge or corner p lies on
+    constexpr double kSharedCubeTolerance =
+        1e-6;  // one cube, or all those that share the face, edge or corner p lies on
     Holder best;
-    for (const int cube : lattice.cubesAround(p, kNear))
+    for (const int cube : lattice.cubesAround(p, kSharedCubeTolerance))
         for (int tet = 0; tet < 5; ++tet)
         {
             const std::array<double, 4> w = barycentric(lattice.corners(cube, tet), p);
             const double least = *std::min_element(w.begin(), w.end());
-            const bool isKept = (kept[cube] >> tet & 1) && least >= kOnTet;
+            const bool isKept = (kept[cube] >> tet & 1) && least >= kOnTetWeight;
             if (isKept != best.m_kept ? isKept : least > best.m_leastWeight) best = {cube, tet, least, isKept};
         }
     return best;
@@ -122,9 +123,9 @@ void embedAnew(const TetMesh& mesh, const std::vector<Vec3>& vertices, const std
         Embedding& best = embedding[i];
         best.m_weights = weightsIn(mesh, old, vertices[i]);
         if (!used[i]) continue;
-        for (int a = 0; a < 4 && least(best.m_weights) < kOnTet; ++a)
+        for (int a = 0; a < 4 && least(best.m_weights) < kOnTetWeight; ++a)
             for (const int e : tetsOf[mesh.tets()[old][a]]) takeIfBetter(mesh, e, vertices[i], best);
-        for (int e = 0; e < mesh.tetCount() && least(best.m_weights) < kOnTet; ++e)
+        for (int e = 0; e < mesh.tetCount() && least(best.m_weights) < kOnTetWeight; ++e)
             takeIfBetter(mesh, e, vertices[i], best);
     }
 }

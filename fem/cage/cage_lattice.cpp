@@ -14,13 +14,13 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSlack = 1e-9;          // what counts as touching, in lattice units
-constexpr double kMostCubesPerTet = 20;  // bounds memory: room for cages that fill 1 / 100 of their box
+constexpr double kTouchTolerance = 1e-9;  // what counts as touching, in lattice units
+constexpr double kMostCubesPerTet = 20;   // bounds memory: room for cages that fill 1 / 100 of their box
 constexpr double kMostCubes = 2e7;
 
 double cubesAlong(double extent, double cellSize)
 {
-    return std::max(1.0, std::ceil(extent / cellSize - kSlack));
+    return std::max(1.0, std::ceil(extent / cellSize - kTouchTolerance));
 }
 
 double cubesIn(const Vec3& extent, double cellSize)
@@ -132,8 +132,8 @@ void CageLattice::markSurface(const SurfaceMesh& surface)
         for (int a = 0; a < 3; ++a)
         {
             const auto [least, most] = std::minmax({triangle[0][a], triangle[1][a], triangle[2][a]});
-            low[a] = std::clamp(static_cast<int>(std::floor(least - kSlack)), 0, m_cubes[a] - 1);
-            high[a] = std::clamp(static_cast<int>(std::floor(most + kSlack)), 0, m_cubes[a] - 1);
+            low[a] = std::clamp(static_cast<int>(std::floor(least - kTouchTolerance)), 0, m_cubes[a] - 1);
+            high[a] = std::clamp(static_cast<int>(std::floor(most + kTouchTolerance)), 0, m_cubes[a] - 1);
         }
         markTriangle(triangle, low, high);
     }
@@ -144,7 +144,7 @@ void CageLattice::markTriangle(const std::array<Vec3, 3>& triangle, const std::a
                                const std::array<int, 3>& high)
 {
     if (!triangleMeetsBox(triangle, {1.0 * low[0], 1.0 * low[1], 1.0 * low[2]},
-                          {high[0] + 1.0, high[1] + 1.0, high[2] + 1.0}, kSlack))
+                          {high[0] + 1.0, high[1] + 1.0, high[2] + 1.0}, kTouchTolerance))
         return;
     int axis = 0;
     for (int a = 1; a < 3; ++a)
@@ -161,9 +161,10 @@ void CageLattice::markTriangle(const std::array<Vec3, 3>& triangle, const std::a
     const int at = cube(low);
     for (int tet = 0; tet < 5; ++tet)
     {
-        if (m_entered[at] >> tet & 1 || !triangleMeetsTet(triangle, corners(at, tet), kSlack)) continue;
+        if (m_entered[at] >> tet & 1 || !triangleMeetsTet(triangle, corners(at, tet), kTouchTolerance)) continue;
         m_touched[at] |= static_cast<std::uint8_t>(1 << tet);
-        if (triangleMeetsTet(triangle, corners(at, tet), -kSlack)) m_entered[at] |= static_cast<std::uint8_t>(1 << tet);
+        if (triangleMeetsTet(triangle, corners(at, tet), -kTouchTolerance))
+            m_entered[at] |= static_cast<std::uint8_t>(1 << tet);
     }
 }
 

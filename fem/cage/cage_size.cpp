@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr int kMostLattices = 20;
-constexpr double kNearEnough = 0.03;  // of the wanted number
+constexpr double kCountTolerance = 0.03;  // of the wanted number
 
 /// A lattice cube holds five tets. The cage holds the solid and a skin of cut elements, half of which stands out: about
 /// half a cell thick over the whole surface (measured on a dozen meshes). The estimate falls with the cell.
@@ -59,7 +59,7 @@ public:
         {
             m_longest = kMostOverEstimate * std::exp(cell);
             m_graded.emplace(m_surface, m_winding, m_settings, m_longest);
-            most = std::log(std::min(m_longest, range.m_most) * kMostLess);
+            most = std::log(std::min(m_longest, range.m_most) * kMostCellsFewer);
         }
         Trial finer{least, 1}, coarser{most, -1}, best{0, 1e300};  // a bracket; its ends are not known at first
         bool knowsFiner = false, knowsCoarser = false;
@@ -67,12 +67,12 @@ public:
         {
             const Trial trial = look(cell);
             if (std::abs(trial.m_excess) < std::abs(best.m_excess)) best = trial;
-            if (std::abs(best.m_excess) < kNearEnough) break;
+            if (std::abs(best.m_excess) < kCountTolerance) break;
             const bool tooMany = trial.m_excess > 0;
             (tooMany ? finer : coarser) = trial;
             (tooMany ? knowsFiner : knowsCoarser) = true;
             if (!knowsFiner || !knowsCoarser)
-                cell = std::clamp(cell + kSlope * trial.m_excess, least, most);
+                cell = std::clamp(cell + kLeastCountExponent * trial.m_excess, least, most);
             else if (n % 2 == 0)
                 cell = finer.m_cell +
                        (coarser.m_cell - finer.m_cell) * finer.m_excess / (finer.m_excess - coarser.m_excess);
@@ -85,8 +85,9 @@ public:
 
 private:
     static constexpr double kMostOverEstimate = 2;  // thin parts take elements, so that other cells become longer
-    static constexpr double kMostLess = 8;          // cells across than asked for; nothing is graded then
-    static constexpr double kSlope = 0.5;  // counts fall with the square to the cube of the cell: no step is too short
+    static constexpr double kMostCellsFewer = 8;    // cells across than asked for; nothing is graded then
+    static constexpr double kLeastCountExponent =
+        0.5;  // counts fall with the square to the cube of the cell: no step is too short
 
     /// Up to a length cells grow; after that a graded cage has fewer across thin parts, and fewer levels.
     CageSize sizeAt(double cell) const
@@ -96,8 +97,8 @@ private:
         CageSize size{std::clamp(wanted, range.m_least, longest), Grading::of(m_settings)};
         if (wanted <= longest) return size;
         size.m_grading.m_cellsAcross *= longest / wanted;
-        size.m_grading.m_mostGenerations = static_cast<int>(
-            std::round(size.m_grading.m_mostGenerations * (1 - std::log(wanted / longest) / std::log(kMostLess))));
+        size.m_grading.m_mostGenerations = static_cast<int>(std::round(
+            size.m_grading.m_mostGenerations * (1 - std::log(wanted / longest) / std::log(kMostCellsFewer))));
         return size;
     }
 

@@ -14,10 +14,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kDepth = 1e-9;          // a surface is entered from here on, in cells
+constexpr double kEntryDepth = 1e-9;     // a surface is entered from here on, in cells
 constexpr double kQualityMargin = 1e-6;  // more than rounding takes when positions move back from the centre
-constexpr int kRounds = 8;
-constexpr double kShareOfRound = 0.25;
+constexpr int kSnapRounds = 8;
+constexpr double kMovePerRound = 0.25;
 constexpr int kHalvings = 3;          // of a move that is not possible
 constexpr double kLeastMove = 0.001;  // of the way: less is not tried
 
@@ -46,8 +46,8 @@ public:
           m_centre(0.5 * (target.m_surface.m_low + target.m_surface.m_high)),
           m_tree(moved(target.m_surface.m_repaired.m_surface.m_vertices, -m_centre),
                  target.m_surface.m_repaired.m_surface.m_triangles),
-          m_depth(kDepth * target.m_cellSize),
-          m_rounding(kDepth * std::pow(target.m_cellSize, 3)),
+          m_depth(kEntryDepth * target.m_cellSize),
+          m_rounding(kEntryDepth * std::pow(target.m_cellSize, 3)),
           m_x(moved(cage.restPositions(), -m_centre)),
           m_tetsOf(usersOf(cage.nodeCount(), cage.tets())),
           m_trianglesOf(usersOf(cage.nodeCount(), cage.surface())),
@@ -62,8 +62,8 @@ public:
             m_start.push_back(m_x[node]);
             m_way.push_back((m_tree.nearest(m_x[node]) - m_x[node]) * m_target.m_share);
         }
-        for (int round = 0; round < kRounds; ++round)
-            for (std::size_t n = 0; n < m_start.size(); ++n) advance(n, std::min(1.0, kShareOfRound * (round + 1)));
+        for (int round = 0; round < kSnapRounds; ++round)
+            for (std::size_t n = 0; n < m_start.size(); ++n) advance(n, std::min(1.0, kMovePerRound * (round + 1)));
 
         std::vector<Vec3> X = m_cage.restPositions();
         for (std::size_t n = 0; n < m_start.size(); ++n)

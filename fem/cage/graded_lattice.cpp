@@ -14,8 +14,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTouchingPlane = 1e-9;  // of a cell, as in the lattice without grading
-constexpr double kSplitPerKept = 12;     // bounds memory: inner generations and what is dropped
+constexpr double kGradedTouchTolerance = 1e-9;  // of a cell, as in the lattice without grading
+constexpr double kSplitPerKept = 12;            // bounds memory: inner generations and what is dropped
 
 double leastOf(const std::array<double, 4>& weights)
 {
@@ -95,7 +95,7 @@ GradedLattice::State GradedLattice::look(int tet)
     std::array<Vec3, 4> x = m_tets.corners(tet);
     const Vec3 middle = middleOf(x);
     for (Vec3& corner : x) corner = lattice.toCentred(corner);
-    const double slack = kTouchingPlane * lattice.cellSize();
+    const double slack = kGradedTouchTolerance * lattice.cellSize();
     if (tree.entersTet(x, slack)) return State::entered;
     if (!m_input.m_closed && tree.entersTet(x, -slack)) return State::unsure;
     const double winding = windingAt(middle);
@@ -175,8 +175,8 @@ std::vector<int> GradedLattice::holdVertices(const std::vector<Vec3>& vertices, 
 
 void GradedLattice::findHolder(int tet, const Vec3& p, Holder& best) const
 {
-    constexpr double kOnTet = -1e-9;  // least barycentric weight of a vertex that lies in or on an element
-    constexpr double kNear = -1e-3;   // ... in or near a tet whose halves are looked at
+    constexpr double kOnTetWeight = -1e-9;  // least barycentric weight of a vertex that lies in or on an element
+    constexpr double kNear = -1e-3;         // ... in or near a tet whose halves are looked at
     const double weight = leastOf(barycentric(m_tets.corners(tet), p));
     if (weight < kNear && best.m_tet >= 0) return;
     const int child = m_tets.tets()[tet].m_child;
@@ -185,7 +185,7 @@ void GradedLattice::findHolder(int tet, const Vec3& p, Holder& best) const
         findHolder(child, p, best);
         return findHolder(child + 1, p, best);
     }
-    const bool kept = m_kept[tet] && weight >= kOnTet;
+    const bool kept = m_kept[tet] && weight >= kOnTetWeight;
     if (kept != best.m_kept ? kept : weight > best.m_leastWeight) best = {tet, weight, kept};
 }
 

@@ -15,11 +15,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTouching = 1e-9;         // of a cell
-constexpr double kWithin = 1e-6;           // of a wanted cell: tets that come less deep do not count
-constexpr double kEdge = 2;                // longest edge of a part, in cells that it wants
-constexpr std::size_t kRepeated = 100000;  // cells that are not yet looked through
-constexpr int kMostCopies = 64;            // of a part on its way across; more are never needed for 8 cells
+constexpr double kGradingTouchTolerance = 1e-9;   // of a cell
+constexpr double kLeastDepth = 1e-6;              // of a wanted cell: tets that come less deep do not count
+constexpr double kLongestEdge = 2;                // longest edge of a part, in cells that it wants
+constexpr std::size_t kMostQueuedCells = 100000;  // cells that are not yet looked through
+constexpr int kMostCopies = 64;                   // of a part on its way across; more are never needed for 8 cells
 
 std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
 {
@@ -32,7 +32,7 @@ std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
 /// Halvings of a tet after which `cells` of its size are not longer than `width` cells of the lattice.
 int generationFor(double cells, double width)
 {
-    return std::max(0, static_cast<int>(std::ceil(3 * std::log2(cells / width) - kTouching)));
+    return std::max(0, static_cast<int>(std::ceil(3 * std::log2(cells / width) - kGradingTouchTolerance)));
 }
 
 /// Halvings of a cell's edge, the last of them begun.
@@ -94,8 +94,8 @@ private:
         {
             const auto [least, most] = std::minmax({x[0][a], x[1][a], x[2][a]});
             const int last = (m_lattice.cubes()[a] << cell.m_level) - 1;
-            low[a] = std::clamp(static_cast<int>(std::floor(least - kTouching)), 0, last);
-            high[a] = std::clamp(static_cast<int>(std::floor(most + kTouching)), 0, last);
+            low[a] = std::clamp(static_cast<int>(std::floor(least - kGradingTouchTolerance)), 0, last);
+            high[a] = std::clamp(static_cast<int>(std::floor(most + kGradingTouchTolerance)), 0, last);
         }
         if (low == high)
         {
@@ -108,7 +108,8 @@ private:
                 for (at[0] = low[0]; at[0] <= high[0]; ++at[0])
                 {
                     const Vec3 corner = {1.0 * at[0], 1.0 * at[1], 1.0 * at[2]};
-                    if (triangleMeetsBox(x, corner, corner + Vec3{1, 1, 1}, kTouching)) m_cells.push_back(cell);
+                    if (triangleMeetsBox(x, corner, corner + Vec3{1, 1, 1}, kGradingTouchTolerance))
+                        m_cells.push_back(cell);
                 }
     }
 
@@ -126,7 +127,7 @@ struct Wish
 
 bool meets(const WantedCell& cell, const std::array<Vec3, 4>& tet)
 {
-    const double edge = std::ldexp(1.0, -cell.m_level), in = kWithin * edge;
+    const double edge = std::ldexp(1.0, -cell.m_level), in = kLeastDepth * edge;
     const Vec3 low = Vec3{1.0 * cell.m_place[0], 1.0 * cell.m_place[1], 1.0 * cell.m_place[2]} * edge;
     return TetRegion(tet).mayMeet(low + Vec3{in, in, in}, low + Vec3{edge - in, edge - in, edge - in});
 }
@@ -150,9 +151,9 @@ GradedSurface::GradedSurface(const SurfaceInspection& surface, const WindingNumb
     ThinSearch search{m_tree, winding};
     search.m_reach = settings.m_cellsAcross * cellSize;
     search.m_coarsest = cellSize / 2;
-    search.m_edgePerWidth = kEdge / settings.m_cellsAcross;
+    search.m_edgePerWidth = kLongestEdge / settings.m_cellsAcross;
     // Cells much shorter than that make more than m_maxTets of such an area.
-    search.m_finest = std::max(kEdge * std::ldexp(cellSize, -settings.m_mostLevels),
+    search.m_finest = std::max(kLongestEdge * std::ldexp(cellSize, -settings.m_mostLevels),
                                3 * std::sqrt(surface.m_area / settings.m_maxTets));
     m_parts = findThinParts(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles, search);
 }
@@ -164,7 +165,8 @@ bool findWantedCells(const CageLattice& lattice, const std::vector<ThinPart>& pa
     for (const ThinPart& part : parts)
     {
         wanting.add(part);
-        if (wanting.size() > 2 * wanted.m_most + kRepeated && wanting.cells().size() > wanted.m_most) return false;
+        if (wanting.size() > 2 * wanted.m_most + kMostQueuedCells && wanting.cells().size() > wanted.m_most)
+            return false;
     }
     wanted.m_cells = std::move(wanting.cells());
     return true;

@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFlat = 1e-6;            // thickness over length below which a surface is a sheet
+constexpr double kSheetThickness = 1e-6;  // thickness over length below which a surface is a sheet
 constexpr double kMostOneSided = 0.9;     // |vector area| / area of an open surface: 1 flat, 1/2 hemisphere, 0 closed
 constexpr double kMostMisoriented = 0.1;  // of all edges; one flipped patch passes, random orientation does not
 constexpr double kLeastRelativeSize = 1e-7;  // size over distance from the origin, for digits enough
@@ -145,9 +145,9 @@ SurfaceInspection inspectSurface(const SurfaceMesh& surface)
     countPieces(surface, result);
 
     const double size = norm(result.m_high - result.m_low), thick = thickness(surface, result.m_used, result.m_low);
-    if (!(thick > kFlat * size) || !(result.m_area > 0))
-        reject("the surface has no inside: it is flat, ", thick, " m thick and ", size, " m long, at least ", kFlat,
-               " of the length is needed; give a closed surface");
+    if (!(thick > kSheetThickness * size) || !(result.m_area > 0))
+        reject("the surface has no inside: it is flat, ", thick, " m thick and ", size, " m long, at least ",
+               kSheetThickness, " of the length is needed; give a closed surface");
     const double oneSided = norm(vectorArea) / result.m_area;
     if (result.m_openEdges > 0 && oneSided > kMostOneSided)
         reject("the surface has no inside: it is wide open, with ", result.m_openEdges,

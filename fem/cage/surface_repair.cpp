@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFewTurned = 0.25;  // of a patch's triangles: the others are trusted to know outside
+constexpr double kMostTurnedShare = 0.25;  // of a patch's triangles: the others are trusted to know outside
 
 bool hasArea(const SurfaceMesh& surface, const Triangle& t)
 {
@@ -113,7 +113,7 @@ private:
     {
         const auto turned = std::count_if(patch.begin(), patch.end(), [&](int t) { return m_turned[t]; });
         const double share = static_cast<double>(turned) / static_cast<double>(patch.size());
-        const bool clear = std::min(share, 1 - share) <= kFewTurned;
+        const bool clear = std::min(share, 1 - share) <= kMostTurnedShare;
         if (clear ? share > 0.5 : volumeOf(patch) < 0)
             for (const int t : patch) m_turned[t] = !m_turned[t];
     }

@@ -14,9 +14,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kNoHit = 1e-6;    // of the reach: nearer hits are the piece itself
-constexpr double kBeyond = 1e-3;   // of the width: how far behind a side is looked whether the solid ends
-constexpr double kOpposing = 0.5;  // cosine between the normal of a piece and the line of the other side's
+constexpr double kOwnPieceReach = 1e-6;  // of the reach: nearer hits are the piece itself
+constexpr double kProbeBeyond = 1e-3;    // of the width: how far behind a side is looked whether the solid ends
+constexpr double kOpposingCosine = 0.5;  // cosine between the normal of a piece and the line of the other side's
 
 /// The ways across from a point, zero where nothing is near.
 struct Widths
@@ -94,12 +94,13 @@ private:
         Widths widths;
         for (const double side : {-1.0, 1.0})
         {
-            const Ray ray{p, m_normal * (side * m_search.m_reach), kNoHit, 1};
+            const Ray ray{p, m_normal * (side * m_search.m_reach), kOwnPieceReach, 1};
             const RayHit hit = m_search.m_tree.firstAlong(ray);
-            if (hit.m_along < 0 || std::abs(dot(m_normal, hit.m_normal)) < kOpposing * norm(hit.m_normal)) continue;
+            if (hit.m_along < 0 || std::abs(dot(m_normal, hit.m_normal)) < kOpposingCosine * norm(hit.m_normal))
+                continue;
             const Vec3 across = ray.m_way * hit.m_along;
-            const bool between = insideAt(p + 0.5 * across), before = insideAt(p - kBeyond * across),
-                       after = insideAt(p + (1 + kBeyond) * across);
+            const bool between = insideAt(p + 0.5 * across), before = insideAt(p - kProbeBeyond * across),
+                       after = insideAt(p + (1 + kProbeBeyond) * across);
             if (between != before && between != after) (between ? widths.m_solid : widths.m_gap) = across;
         }
         return widths;

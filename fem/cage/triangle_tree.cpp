@@ -55,15 +55,15 @@ double squaredDistance(const Vec3& low, const Vec3& high, const Vec3& p)
 /// [Moeller & Trumbore 1997]; rays through an edge meet both of its triangles.
 double alongRay(const TriangleCorners& t, const Vec3& from, const Vec3& way)
 {
-    constexpr double kOnEdge = -1e-9;
+    constexpr double kOnEdgeWeight = -1e-9;
     const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], p = cross(way, ac);
     const double determinant = dot(ab, p);
     if (determinant == 0) return -1;
     const double u = dot(from - t[0], p) / determinant;
-    if (!(u >= kOnEdge && u <= 1 - kOnEdge)) return -1;
+    if (!(u >= kOnEdgeWeight && u <= 1 - kOnEdgeWeight)) return -1;
     const Vec3 q = cross(from - t[0], ab);
     const double v = dot(way, q) / determinant;
-    if (!(v >= kOnEdge && u + v <= 1 - kOnEdge)) return -1;
+    if (!(v >= kOnEdgeWeight && u + v <= 1 - kOnEdgeWeight)) return -1;
     return dot(ac, q) / determinant;
 }
 

@@ -65,7 +65,7 @@ void BodyEnds::takeExpected(const StepSettings& settings, const CorrectionGoal& 
     double left = 0;
     for (std::size_t i = 0; i < m_nodeIn.size(); ++i)
     {
-        m_nodeIn[i] = body.m_state.m_fixed[i] ? Vec3() : m_nodeIn[i] - (*m_body.m_expected)[i];
+        m_nodeIn[i] = body.m_state.m_fixed[i] ? Vec3() : m_nodeIn[i] - (*m_body.m_predicted)[i];
         scratch.m_residual[i] += m_nodeIn[i];
         left += dot(scratch.m_residual[i], scratch.m_residual[i]);
     }
@@ -77,7 +77,7 @@ void BodyEnds::takeExpected(const StepSettings& settings, const CorrectionGoal& 
 
 void BodyEnds::giveUpExpected(const StepSettings& settings)
 {
-    const std::vector<Vec3>& expected = *m_body.m_expected;
+    const std::vector<Vec3>& expected = *m_body.m_predicted;
     m_nodeIn.assign(expected.begin(), expected.end());
     for (Vec3& impulse : m_nodeIn) impulse *= -1;
     applyImpulses(*m_body.m_body, m_nodeIn, settings);

@@ -95,8 +95,8 @@ public:
 
     /// True of an end whose impulse the body's free motion may have been solved with: takeExpected() is to be called
     /// once these have been pushed.
-    bool isExpected(int e) const { return m_body.m_expected && !isGroup(m_ends[e]); }
-    bool expects() const { return m_body.m_expected != nullptr; }
+    bool isExpected(int e) const { return m_body.m_predicted && !isGroup(m_ends[e]); }
+    bool expects() const { return m_body.m_predicted != nullptr; }
 
     /// The impulses so far of such ends count as applied; what they are other than expected is left to the next
     /// correction, at once if it is much, but for the momentum. Without ends all is taken back.

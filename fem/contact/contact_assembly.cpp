@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fem/contact/contact_rows.h"
-#include "fem/contact/obstacle_response.h"
+#include "fem/contact/rigid_response.h"
 
 namespace bullet_fem
 {
@@ -86,7 +86,7 @@ void ContactRows::addContactRows()
     for (std::size_t k = 0; k < contacts.size(); ++k)
     {
         m_rows[k].m_a.m_end = number(contacts[k].m_soft);
-        m_rows[k].m_b.m_end = contacts[k].m_obstacle >= 0 ? -1 : number(contacts[k].m_other);
+        m_rows[k].m_b.m_end = contacts[k].m_rigidProxy >= 0 ? -1 : number(contacts[k].m_other);
     }
     runTasks(threadsForCompliance(), static_cast<int>(m_problem->m_bodies.size()),
              [this](int b) { m_bodies[b].makeRoom(); });
@@ -100,8 +100,8 @@ void ContactRows::addContactRows()
 void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 {
     const RowEnd a = softEnd(contact.m_soft, contact.m_point, row.m_a.m_end);
-    const RowEnd b = contact.m_obstacle >= 0 ? rigidEnd(contact.m_obstacle, contact.m_point + contact.m_approach)
-                                             : softEnd(contact.m_other, contact.m_point, row.m_b.m_end);
+    const RowEnd b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, contact.m_point + contact.m_approach)
+                                               : softEnd(contact.m_other, contact.m_point, row.m_b.m_end);
     row = ContactRow();
     row.m_a = a;
     row.m_b = b;
@@ -139,7 +139,7 @@ RowEnd ContactRows::jointEnd(const JointEnd& joint)
 {
     if (joint.m_body < 0)
     {
-        RowEnd end = rigidEnd(joint.m_obstacle, joint.m_point);
+        RowEnd end = rigidEnd(joint.m_rigidProxy, joint.m_point);
         end.m_angular = joint.m_angular;
         return end;
     }
@@ -150,19 +150,19 @@ RowEnd ContactRows::jointEnd(const JointEnd& joint)
     return end;
 }
 
-RowEnd ContactRows::rigidEnd(int obstacle, const Vec3& point) const
+RowEnd ContactRows::rigidEnd(int rigidProxy, const Vec3& point) const
 {
     RowEnd end;
-    end.m_obstacle = obstacle;
-    if (obstacle >= 0) end.m_arm = point - m_problem->m_obstacles[obstacle].m_center;
+    end.m_rigidProxy = rigidProxy;
+    if (rigidProxy >= 0) end.m_arm = point - m_problem->m_rigidProxies[rigidProxy].m_center;
     return end;
 }
 
 Mat3 ContactRows::compliance(const RowEnd& end) const
 {
     if (end.m_body >= 0) return m_bodies[end.m_body].compliance(end.m_end, end.m_end);
-    if (end.m_obstacle < 0) return {};
-    return obstacleCompliance(*m_problem, end.m_obstacle, end.m_arm, end.m_angular);
+    if (end.m_rigidProxy < 0) return {};
+    return obstacleCompliance(*m_problem, end.m_rigidProxy, end.m_arm, end.m_angular);
 }
 
 void ContactRows::finishRows()

@@ -7,22 +7,22 @@
 namespace bullet_fem
 {
 
-/// What one side of a row pulls at: a soft body's end, a point of an obstacle, or, with neither, the world.
+/// What one side of a row pulls at: a soft body's end, a point of a rigid proxy, or, with neither, the world.
 struct RowEnd
 {
     int m_body = -1, m_end = -1;  ///< soft: indices into the problem's bodies, and into the body's ends
-    int m_obstacle = -1;          ///< rigid: index into the problem's obstacles
+    int m_rigidProxy = -1;        ///< rigid: index into the problem's rigid proxies
     bool m_angular = false;       ///< rigid: its velocity is the angular one, and impulses are angular
-    Vec3 m_arm;                   ///< rigid: from the obstacle's centre [m]
+    Vec3 m_arm;                   ///< rigid: from the rigid proxy's centre [m]
 
-    bool sharesOwner(const RowEnd& other) const { return m_body == other.m_body && m_obstacle == other.m_obstacle; }
+    bool sharesOwner(const RowEnd& other) const { return m_body == other.m_body && m_rigidProxy == other.m_rigidProxy; }
 };
 
 /// A contact or a joint: three impulses between two ends. What every look at it reads comes first.
 struct ContactRow
 {
     bool m_joint = false;
-    bool m_touch = false;  ///< of obstacles
+    bool m_touch = false;  ///< of rigid proxies
     bool m_idle = false;   ///< nothing can move: no compliance
     RowEnd m_a, m_b;
     Vec3 m_impulse;         ///< on end a [N s] or [N m s]

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bullet_fem/fem/step/stepping.h"
-#include "fem/contact/obstacle_response.h"
+#include "fem/contact/rigid_response.h"
 
 namespace bullet_fem
 {
@@ -22,27 +22,27 @@ constexpr double kRunaway = 1e3;
 Vec3 ContactRows::velocity(const RowEnd& end) const
 {
     if (end.m_body >= 0) return m_bodies[end.m_body].velocity(end.m_end);
-    if (end.m_obstacle < 0) return {};
-    const Obstacle& o = m_problem->m_obstacles[end.m_obstacle];
+    if (end.m_rigidProxy < 0) return {};
+    const RigidProxy& o = m_problem->m_rigidProxies[end.m_rigidProxy];
     return end.m_angular ? o.m_angularVelocity : o.m_linearVelocity + cross(o.m_angularVelocity, end.m_arm);
 }
 
 void ContactRows::react(const RowEnd& end, const Vec3& impulse)
 {
     if (end.m_body >= 0) m_bodies[end.m_body].push(end.m_end, impulse);
-    if (end.m_obstacle < 0) return;
-    std::vector<Obstacle>& obstacles = m_problem->m_obstacles;
-    const Obstacle& obstacle = obstacles[end.m_obstacle];
-    if (obstacle.m_responseCount == 0 && !obstacle.canMove()) return;  // others read its velocity meanwhile
-    const auto add = [&obstacles](int k, const Vec3& linear, const Vec3& angular)
+    if (end.m_rigidProxy < 0) return;
+    std::vector<RigidProxy>& rigidProxies = m_problem->m_rigidProxies;
+    const RigidProxy& rigidProxy = rigidProxies[end.m_rigidProxy];
+    if (rigidProxy.m_responseCount == 0 && !rigidProxy.canMove()) return;  // others read its velocity meanwhile
+    const auto add = [&rigidProxies](int k, const Vec3& linear, const Vec3& angular)
     {
-        obstacles[k].m_linearVelocity += linear;
-        obstacles[k].m_angularVelocity += angular;
+        rigidProxies[k].m_linearVelocity += linear;
+        rigidProxies[k].m_angularVelocity += angular;
     };
     if (end.m_angular)
-        respond(*m_problem, end.m_obstacle, {}, impulse, add);
+        respond(*m_problem, end.m_rigidProxy, {}, impulse, add);
     else
-        respond(*m_problem, end.m_obstacle, impulse, cross(end.m_arm, impulse), add);
+        respond(*m_problem, end.m_rigidProxy, impulse, cross(end.m_arm, impulse), add);
 }
 
 void ContactRows::change(ContactRow& row, const Vec3& impulse)
@@ -82,8 +82,8 @@ void ContactRows::warmStart()
 {
     for (ContactRow& row : m_rows)
     {
-        if (row.m_a.m_obstacle >= 0) react(row.m_a, row.m_impulse);
-        if (row.m_b.m_obstacle >= 0) react(row.m_b, -row.m_impulse);
+        if (row.m_a.m_rigidProxy >= 0) react(row.m_a, row.m_impulse);
+        if (row.m_b.m_rigidProxy >= 0) react(row.m_b, -row.m_impulse);
     }
 }
 

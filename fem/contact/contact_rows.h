@@ -22,20 +22,20 @@ struct RowSurvey
     double m_closing = 0;  ///< how much faster than allowed a contact closes, at most
 };
 
-/// The rows of all contacts and joints of a problem, and what their impulses do to bodies and obstacles. Who sweeps
+/// The rows of all contacts and joints of a problem, and what their impulses do to bodies and rigid proxies. Who sweeps
 /// over them is ContactSweeps. Grows with the problem, never shrinks.
 class ContactRows
 {
 public:
-    /// Ends, frames and compliance of all rows, from free velocities of bodies and present ones of obstacles. `goal`:
-    /// how closely bodies are to have solved for the impulses that rows start with. The problem must live until the
-    /// step is over.
+    /// Ends, frames and compliance of all rows, from free velocities of bodies and present ones of rigid proxies.
+    /// `goal`: how closely bodies are to have solved for the impulses that rows start with. The problem must live until
+    /// the step is over.
     void assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal);
 
     ContactProblem& problem() const { return *m_problem; }
     const ContactSettings& settings() const { return m_settings; }
 
-    /// Of the contacts, the joints and the touches of obstacles, in this order.
+    /// Of the contacts, the joints and the touches of rigid proxies, in this order.
     std::vector<ContactRow>& rows() { return m_rows; }
     const std::vector<ContactRow>& rows() const { return m_rows; }
     BodyEnds& body(int b) { return m_bodies[b]; }
@@ -43,7 +43,7 @@ public:
     /// True if all bodies have a dense compliance: a change of one row is felt by the others at once.
     bool isDense() const { return m_dense; }
 
-    /// Gives the obstacles the reactions of the impulses that the rows start with.
+    /// Gives the rigid proxies the reactions of the impulses that the rows start with.
     void warmStart();
 
     /// Takes all impulses back.
@@ -56,7 +56,7 @@ public:
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
 
-    /// Lets the touches of obstacles answer what the impulses so far do to them. Returns whether there are any.
+    /// Lets the touches of rigid proxies answer what the impulses so far do to them. Returns whether there are any.
     bool settleTouches();
 
     /// Relative velocity of a row's ends, as predicted [m/s].
@@ -66,7 +66,7 @@ public:
     void change(ContactRow& row, const Vec3& impulse);
     void flush();
 
-    /// Adds to a row's impulse; the velocities of obstacles follow, those of bodies are left to whoever mixes them.
+    /// Adds to a row's impulse; the velocities of rigid proxies follow, those of bodies are left to whoever mixes them.
     void pushAlong(ContactRow& row, const Vec3& impulse);
 
     /// Brings the ends' velocities up to the bodies' true ones.
@@ -154,7 +154,7 @@ private:
     static void limitTouchFriction(ContactRow& row);
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at, int end);
     RowEnd jointEnd(const JointEnd& end);
-    RowEnd rigidEnd(int obstacle, const Vec3& point) const;
+    RowEnd rigidEnd(int rigidProxy, const Vec3& point) const;
     void pushStarts(bool expected);
     void finishRows();
     void finishRow(ContactRow& row) const;

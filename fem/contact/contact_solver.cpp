@@ -24,7 +24,7 @@ std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyM
 void ContactProblem::clear()
 {
     m_bodies.clear();
-    m_obstacles.clear();
+    m_rigidProxies.clear();
     m_responses.clear();
     m_contacts.clear();
     m_joints.clear();
@@ -129,21 +129,21 @@ struct Standstill
 };
 constexpr Standstill kStandstill = {0.8, 5e-3}, kStandstillWhereSoft = {0.97, 1e-3};
 
-// An obstacle's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
+// A rigid proxy's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
 // all. Of an articulated one, whoever knows its joints makes the sum.
-void payBackOwn(Obstacle& obstacle, double h)
+void payBackOwn(RigidProxy& rigidProxy, double h)
 {
-    if (obstacle.m_responseCount > 0) return;
-    const Vec3& w = obstacle.m_inverseMass;
+    if (rigidProxy.m_responseCount > 0) return;
+    const Vec3& w = rigidProxy.m_inverseMass;
     if (!(w.x > 0 && w.y > 0 && w.z > 0))
     {
-        obstacle.m_angularImpulse = {};
+        rigidProxy.m_angularImpulse = {};
         return;
     }
-    const Vec3 momentum = {obstacle.m_linearVelocity.x / w.x, obstacle.m_linearVelocity.y / w.y,
-                           obstacle.m_linearVelocity.z / w.z};
-    obstacle.m_angularImpulse -= cross(h * obstacle.m_pushLinear, momentum);
-    obstacle.m_angularVelocity += obstacle.m_inverseInertia * obstacle.m_angularImpulse;
+    const Vec3 momentum = {rigidProxy.m_linearVelocity.x / w.x, rigidProxy.m_linearVelocity.y / w.y,
+                           rigidProxy.m_linearVelocity.z / w.z};
+    rigidProxy.m_angularImpulse -= cross(h * rigidProxy.m_pushLinear, momentum);
+    rigidProxy.m_angularVelocity += rigidProxy.m_inverseInertia * rigidProxy.m_angularImpulse;
 }
 
 }  // namespace
@@ -178,12 +178,12 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_report = {};
     s.m_isBest = false;
     s.m_report.m_contacts = static_cast<int>(problem.m_contacts.size());
-    const auto expects = [](const ContactBody& body) { return body.m_expected != nullptr; };
+    const auto expects = [](const ContactBody& body) { return body.m_predicted != nullptr; };
     const bool anyExpects = std::any_of(problem.m_bodies.begin(), problem.m_bodies.end(), expects);
     s.m_empty = problem.m_contacts.empty() && problem.m_joints.empty() && !anyExpects;
-    for (Obstacle& obstacle : problem.m_obstacles)
-        obstacle.m_pushLinear = obstacle.m_pushAngular = obstacle.m_angularImpulse = obstacle.m_pushImpulse =
-            obstacle.m_pushAngularImpulse = {};
+    for (RigidProxy& rigidProxy : problem.m_rigidProxies)
+        rigidProxy.m_pushLinear = rigidProxy.m_pushAngular = rigidProxy.m_angularImpulse = rigidProxy.m_pushImpulse =
+            rigidProxy.m_pushAngularImpulse = {};
     if (s.m_empty) return;
     const bool joints = !problem.m_joints.empty();
     s.m_minRounds = joints ? std::max(settings.m_rounds, kRoundsWithJoints) : settings.m_rounds;
@@ -322,7 +322,7 @@ ContactReport ContactSolver::finish()
     s.m_report.m_violation = s.m_rows.store();
     if (!s.m_push.isNeeded()) return s.m_report;
     s.m_report.m_sweeps += s.m_push.push();
-    for (Obstacle& obstacle : s.m_problem->m_obstacles) payBackOwn(obstacle, s.m_settings.m_step.m_step);
+    for (RigidProxy& rigidProxy : s.m_problem->m_rigidProxies) payBackOwn(rigidProxy, s.m_settings.m_step.m_step);
     return s.m_report;
 }
 

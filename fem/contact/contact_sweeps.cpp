@@ -9,7 +9,7 @@ void ContactSweeps::begin()
 {
     m_inTurn.begin();
     m_atOnce.begin();
-    m_runaways.reserve(m_rows.problem().m_bodies.size() + m_rows.problem().m_obstacles.size());
+    m_runaways.reserve(m_rows.problem().m_bodies.size() + m_rows.problem().m_rigidProxies.size());
 }
 
 void ContactSweeps::measure()
@@ -44,14 +44,14 @@ void ContactSweeps::letGo()
 {
     const ContactProblem& problem = m_rows.problem();
     const std::size_t bodies = problem.m_bodies.size();
-    m_runaways.assign(bodies + problem.m_obstacles.size(), 0);
+    m_runaways.assign(bodies + problem.m_rigidProxies.size(), 0);
     const auto forMovableEnds = [&](const ContactRow& row, const auto& visit)
     {
         for (const RowEnd* end : {&row.m_a, &row.m_b})
         {
             if (end->m_body >= 0) visit(m_runaways[end->m_body]);
-            if (end->m_obstacle >= 0 && problem.m_obstacles[end->m_obstacle].canMove())
-                visit(m_runaways[bodies + end->m_obstacle]);
+            if (end->m_rigidProxy >= 0 && problem.m_rigidProxies[end->m_rigidProxy].canMove())
+                visit(m_runaways[bodies + end->m_rigidProxy]);
         }
     };
     for (const ContactRow& row : m_rows.rows())

@@ -29,10 +29,10 @@ public:
     /// Forgets all that sweeps have found out.
     void reset();
 
-    /// Rows of others have changed the obstacles' velocities since the last sweep.
+    /// Rows of others have changed the rigid proxies' velocities since the last sweep.
     void othersMoved() { m_inTurn.othersMoved(); }
 
-    /// One sweep; the velocities of ends and obstacles follow. True if an impulse changed, or is to change, by more
+    /// One sweep; the velocities of ends and rigid proxies follow. True if an impulse changed, or is to change, by more
     /// than the tolerance: the speed that it gives a row's own point over the scale; after a gradient step, of which
     /// many short ones make up a way, what a whole step of every row alone would still change.
     bool sweep(double tolerance);
@@ -40,7 +40,7 @@ public:
     /// True if the last sweep changed a velocity by so much that sweeping leads nowhere.
     bool runsAway() const;
 
-    /// Takes back the impulses on all bodies and obstacles that run away, and holds them no more in this step.
+    /// Takes back the impulses on all bodies and rigid proxies that run away, and holds them no more in this step.
     void letGo();
 
     /// What the last sweep in turn changed, as a share of the scale; 0 of one at once, whose short steps need not
@@ -51,7 +51,7 @@ private:
     ContactRows& m_rows;
     SweepsInTurn m_inTurn;
     SweepsAtOnce m_atOnce;
-    std::vector<unsigned char> m_runaways;  // per body, then per obstacle: is being let go
+    std::vector<unsigned char> m_runaways;  // per body, then per rigid proxy: is being let go
 };
 
 }  // namespace bullet_fem

@@ -32,7 +32,7 @@ double pushSpeed(const ContactPoint& contact, const ContactSettings& settings)
 void PositionPush::begin()
 {
     const ContactProblem& problem = m_rows.problem();
-    for (std::vector<Vec3>* own : {&m_linear, &m_angular}) own->reserve(problem.m_obstacles.size());
+    for (std::vector<Vec3>* own : {&m_linear, &m_angular}) own->reserve(problem.m_rigidProxies.size());
     m_pushed.reserve(problem.m_bodies.size());
 }
 
@@ -62,14 +62,14 @@ void PositionPush::prepare()
             prepareContacts(rows);
         });
     prepareTouches();
-    std::vector<Obstacle>& obstacles = m_rows.problem().m_obstacles;
+    std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
     m_linear.clear();
     m_angular.clear();
-    for (Obstacle& obstacle : obstacles)
+    for (RigidProxy& rigidProxy : rigidProxies)
     {
-        m_linear.push_back(obstacle.m_linearVelocity);
-        m_angular.push_back(obstacle.m_angularVelocity);
-        obstacle.m_linearVelocity = obstacle.m_angularVelocity = {};
+        m_linear.push_back(rigidProxy.m_linearVelocity);
+        m_angular.push_back(rigidProxy.m_angularVelocity);
+        rigidProxy.m_linearVelocity = rigidProxy.m_angularVelocity = {};
     }
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(), [this](int b) { m_rows.body(b).beginPush(); });
     m_sweeps.reset();
@@ -94,8 +94,8 @@ void PositionPush::prepareContacts(Range rows)
     }
 }
 
-// What lies on a floor is not pushed into it: the soft body goes all the way. Whoever moves the obstacles takes back
-// what they penetrate.
+// What lies on a floor is not pushed into it: the soft body goes all the way. Whoever moves the rigid proxies takes
+// back what they penetrate.
 void PositionPush::prepareTouches()
 {
     const ContactProblem& problem = m_rows.problem();
@@ -120,13 +120,13 @@ int PositionPush::push()
     for (; m_sweeps.sweep(tolerance) && sweeps < kMaxSweepsOfPush; ++sweeps)
         if (m_sweeps.runsAway()) m_sweeps.letGo();
     sumImpulses();
-    std::vector<Obstacle>& obstacles = m_rows.problem().m_obstacles;
-    for (std::size_t k = 0; k < obstacles.size(); ++k)
+    std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
+    for (std::size_t k = 0; k < rigidProxies.size(); ++k)
     {
-        obstacles[k].m_pushLinear = obstacles[k].m_linearVelocity;
-        obstacles[k].m_pushAngular = obstacles[k].m_angularVelocity;
-        obstacles[k].m_linearVelocity = m_linear[k];
-        obstacles[k].m_angularVelocity = m_angular[k];
+        rigidProxies[k].m_pushLinear = rigidProxies[k].m_linearVelocity;
+        rigidProxies[k].m_pushAngular = rigidProxies[k].m_angularVelocity;
+        rigidProxies[k].m_linearVelocity = m_linear[k];
+        rigidProxies[k].m_angularVelocity = m_angular[k];
     }
     const StepSettings& step = m_rows.settings().m_step;
     m_pushed.assign(m_rows.problem().m_bodies.size(), {});
@@ -140,11 +140,11 @@ void PositionPush::sumImpulses()
 {
     const auto add = [this](const RowEnd& end, const Vec3& impulse)
     {
-        if (end.m_obstacle < 0) return;
-        Obstacle& obstacle = m_rows.problem().m_obstacles[end.m_obstacle];
-        if (obstacle.m_responseCount == 0) return;
-        if (!end.m_angular) obstacle.m_pushImpulse += impulse;
-        obstacle.m_pushAngularImpulse += end.m_angular ? impulse : cross(end.m_arm, impulse);
+        if (end.m_rigidProxy < 0) return;
+        RigidProxy& rigidProxy = m_rows.problem().m_rigidProxies[end.m_rigidProxy];
+        if (rigidProxy.m_responseCount == 0) return;
+        if (!end.m_angular) rigidProxy.m_pushImpulse += impulse;
+        rigidProxy.m_pushAngularImpulse += end.m_angular ? impulse : cross(end.m_arm, impulse);
     };
     for (const ContactRow& row : m_rows.rows())
     {
@@ -153,8 +153,8 @@ void PositionPush::sumImpulses()
     }
 }
 
-// Displacing a moving body changes its angular momentum about the origin. The movable obstacles that it was pushed off
-// take the opposite, in proportion to the push; where it was pushed off soft ones it spins itself.
+// Displacing a moving body changes its angular momentum about the origin. The movable rigid proxies that it was pushed
+// off take the opposite, in proportion to the push; where it was pushed off soft ones it spins itself.
 void PositionPush::payBack()
 {
     const auto visitBodies = [this](const ContactRow& row, auto visit)
@@ -175,10 +175,10 @@ void PositionPush::payBack()
         visitBodies(row,
                     [&](const Pushed& pushed, const RowEnd& other)
                     {
-                        if (other.m_obstacle < 0 || !(pushed.m_total > 0)) return;
-                        Obstacle& obstacle = m_rows.problem().m_obstacles[other.m_obstacle];
-                        if (obstacle.canMove())
-                            obstacle.m_angularImpulse -= (norm(row.m_impulse) / pushed.m_total) * pushed.m_gained;
+                        if (other.m_rigidProxy < 0 || !(pushed.m_total > 0)) return;
+                        RigidProxy& rigidProxy = m_rows.problem().m_rigidProxies[other.m_rigidProxy];
+                        if (rigidProxy.canMove())
+                            rigidProxy.m_angularImpulse -= (norm(row.m_impulse) / pushed.m_total) * pushed.m_gained;
                     });
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(),
                               [this](int b)

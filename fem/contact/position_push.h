@@ -41,7 +41,7 @@ private:
 
     ContactRows& m_rows;
     ContactSweeps& m_sweeps;
-    std::vector<Vec3> m_linear, m_angular;  // the obstacles' own velocities
+    std::vector<Vec3> m_linear, m_angular;  // the rigid proxies' own velocities
     std::vector<Pushed> m_pushed;           // one a body
 };
 

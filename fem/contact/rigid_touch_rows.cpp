@@ -21,9 +21,9 @@ void ContactRows::addTouchRow(const RigidTouch& touch)
 {
     ContactRow row;
     row.m_touch = true;
-    row.m_a.m_obstacle = touch.m_obstacle;
+    row.m_a.m_rigidProxy = touch.m_rigidProxy;
     row.m_a.m_arm = touch.m_arm;
-    row.m_b.m_obstacle = touch.m_other;
+    row.m_b.m_rigidProxy = touch.m_other;
     row.m_b.m_arm = touch.m_otherArm;
     setAxes(touch.m_normal, row);
     for (int i = 0; i < 3; ++i) row.m_target[i] = dot(touch.m_otherVelocity, row.m_axes[i]);
@@ -41,8 +41,8 @@ void ContactRows::limitTouchFriction(ContactRow& row)
     row.m_friction = std::min(row.m_friction, kMostPressing * dot(byNormal, row.m_axes[0]) / std::max(lever, 1e-300));
 }
 
-// The guesses of all other impulses push obstacles into what holds them. What that takes back is no change that contact
-// has to make.
+// The guesses of all other impulses push rigid proxies into what holds them. What that takes back is no change that
+// contact has to make.
 bool ContactRows::settleTouches()
 {
     const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();

@@ -52,24 +52,24 @@ void SweepsInTurn::divideRows()
 {
     const ContactProblem& problem = m_rows.problem();
     const std::vector<ContactRow>& rows = m_rows.rows();
-    const std::vector<Obstacle>& obstacles = problem.m_obstacles;
+    const std::vector<RigidProxy>& rigidProxies = problem.m_rigidProxies;
     const int bodies = static_cast<int>(problem.m_bodies.size());
     const auto mover = [&](const RowEnd& end)
     {
         if (end.m_body >= 0) return end.m_body;
-        return end.m_obstacle >= 0 && obstacles[end.m_obstacle].canMove() ? bodies + end.m_obstacle : -1;
+        return end.m_rigidProxy >= 0 && rigidProxies[end.m_rigidProxy].canMove() ? bodies + end.m_rigidProxy : -1;
     };
-    const auto isLink = [](const Obstacle& obstacle) { return obstacle.m_responseCount > 0; };
-    m_parts.clear(bodies + static_cast<int>(obstacles.size()));
+    const auto isLink = [](const RigidProxy& rigidProxy) { return rigidProxy.m_responseCount > 0; };
+    m_parts.clear(bodies + static_cast<int>(rigidProxies.size()));
     for (std::size_t k = 0; k < problem.m_contacts.size(); ++k)
         m_parts.add(mover(rows[k].m_a), mover(rows[k].m_b), problem.m_contacts[k].m_point);
     std::size_t k = problem.m_contacts.size() + problem.m_joints.size();  // with joints there is one part
     for (const RigidTouch& touch : problem.m_rigidTouches)
     {
         const ContactRow& row = rows[k++];
-        m_parts.add(mover(row.m_a), mover(row.m_b), obstacles[touch.m_obstacle].m_center + touch.m_arm);
+        m_parts.add(mover(row.m_a), mover(row.m_b), rigidProxies[touch.m_rigidProxy].m_center + touch.m_arm);
     }
-    m_parts.divide(problem.m_joints.empty() && std::none_of(obstacles.begin(), obstacles.end(), isLink));
+    m_parts.divide(problem.m_joints.empty() && std::none_of(rigidProxies.begin(), rigidProxies.end(), isLink));
 }
 
 void SweepsInTurn::restart()

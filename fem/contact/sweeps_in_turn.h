@@ -28,7 +28,7 @@ public:
     /// The rows have noted what they want.
     void noteLooked() { m_looked = true; }
 
-    /// Rows of others have changed the obstacles' velocities since the last sweep.
+    /// Rows of others have changed the rigid proxies' velocities since the last sweep.
     void othersMoved() { m_looked = false; }
 
     /// See ContactSweeps.

@@ -10,8 +10,8 @@ namespace bullet_fem
 /// Squared length of the plain sum of V_e q_e around a node below which carefulAverage() is to look at it [m6].
 inline float leastSquaredLength(const NodeCorners& nodes, int node)
 {
-    constexpr float kNearlyOne = 0.98f;
-    const float least = kNearlyOne * nodes.m_volumeAround[node];
+    constexpr float kAlignedShare = 0.98f;
+    const float least = kAlignedShare * nodes.m_volumeAround[node];
     return least * least;
 }
 

@@ -25,7 +25,7 @@ struct ElementScratch
 };
 
 /// Bodies in contact get impulses now and then: not to be ready for them costs as much as to be so in some six steps.
-constexpr int kLikelySteps = 16;
+constexpr int kStepsReadyForImpulses = 16;
 
 /// The vectors of the element kernels. The double-precision half is grown when it is first used.
 struct ElementWork
@@ -44,10 +44,10 @@ struct ElementWork
             return m_double;
     }
 
-    bool m_isDouble = false;       ///< precision of this step
-    bool m_isComplete = true;      ///< false: m_warped and m_scaledMass are still those of a step before
-    int m_likelySteps = 0;         ///< from now on in which impulses are likely to follow
-    double m_stiffnessFactor = 0;  ///< of K' in this step's A, h^2 + h beta [s2]
+    bool m_isDouble = false;          ///< precision of this step
+    bool m_isComplete = true;         ///< false: m_warped and m_scaledMass are still those of a step before
+    int m_stepsReadyForImpulses = 0;  ///< from now on in which impulses are likely to follow
+    double m_stiffnessFactor = 0;     ///< of K' in this step's A, h^2 + h beta [s2]
     ElementScratch<float> m_single;
     ElementScratch<double> m_double;
     std::vector<PaddedVec3> m_x, m_v;          ///< positions and velocities; then m_x is what A is applied to

@@ -40,7 +40,7 @@ NodeRotation polarOfSum(const NodeRotations& rotations, int node)
 
 NodeRotation carefulAverage(const NodeRotations& rotations, int node)
 {
-    constexpr double kSpread = 0.7;
+    constexpr double kAlignedShareOfPlainSum = 0.7;
     const NodeCorners& nodes = *rotations.m_nodes;
     const int begin = nodes.m_start[node], end = nodes.m_start[node + 1];
     if (begin == end) return {};  // a loose node
@@ -56,7 +56,7 @@ NodeRotation carefulAverage(const NodeRotations& rotations, int node)
         volume += std::fabs(V);
     }
     const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z + sum.w * sum.w);
-    return length >= kSpread * volume ? rounded(toMatrix(sum)) : polarOfSum(rotations, node);
+    return length >= kAlignedShareOfPlainSum * volume ? rounded(toMatrix(sum)) : polarOfSum(rotations, node);
 }
 
 namespace reference

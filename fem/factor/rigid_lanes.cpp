@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kOnLine = 1e-9;  // share of their extent by which fixed nodes may lie beside a line
+constexpr double kCollinearShare = 1e-9;  // share of their extent by which fixed nodes may lie beside a line
 
 }  // namespace
 
@@ -83,7 +83,7 @@ void RigidLanes::findAxes()
     forEachFixed(
         [](Piece& piece, const Vec3& a, const Vec3& r)
         {
-            if (norm(cross(a, r)) > kOnLine * dot(a, a)) piece.m_inverseInertia = {};
+            if (norm(cross(a, r)) > kCollinearShare * dot(a, a)) piece.m_inverseInertia = {};
         });
 }
 

@@ -10,12 +10,12 @@ namespace
 {
 
 // Entries of the factor below which a solve is over before other threads have woken up: 1 MB.
-constexpr double kSmallest = 250e3;
+constexpr double kLeastEntriesToDivide = 250e3;
 
 // A subtree holds at most this share of the entries: the smaller, the more threads have work, but the larger the top,
 // which is left to one. One with less than the other share is not worth rows of its own.
-constexpr double kLargestShare = 0.28;
-constexpr double kSmallestShare = 1. / 400;
+constexpr double kLargestSubtreeShare = 0.28;
+constexpr double kSmallestSubtreeShare = 1. / 400;
 
 double entries(const Supernode& s)
 {
@@ -71,7 +71,8 @@ TreeDivision::TreeDivision(const SupernodeTree& tree) : m_forwardRow(tree.m_row)
     for (const Supernode& s : tree.m_supernodes) total += entries(s);
     for (int s = static_cast<int>(sum.size()) - 1; s >= 0;)
     {
-        const bool own = total >= kSmallest && sum[s] <= kLargestShare * total && sum[s] >= kSmallestShare * total;
+        const bool own = total >= kLeastEntriesToDivide && sum[s] <= kLargestSubtreeShare * total &&
+                         sum[s] >= kSmallestSubtreeShare * total;
         if (own)
         {
             m_subtrees.push_back({first[s], s + 1, m_rowCount});

@@ -19,7 +19,7 @@ constexpr double kMostTets = 5'000'000;  // in one mesh, as in CageSettings
 constexpr double kPi = 3.14159265358979323846;
 // How far the cells in the middle of a ball or disc are shrunk; by search: the least volume / longest edge^3 of all
 // elements is above 0.03 for every cell count up to 40, and falls on either side.
-constexpr double kCoreScale = 0.9;
+constexpr double kBallCoreScale = 0.9;
 
 void checkLength(const char* what, double value)
 {
@@ -93,7 +93,7 @@ Vec3 ballFromCube(const Vec3& q)
     const double rho = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     if (rho == 0) return {};
     const Vec3 t = {std::tan(kPi / 4 * q.x / rho), std::tan(kPi / 4 * q.y / rho), std::tan(kPi / 4 * q.z / rho)};
-    return rho * ((1 - rho) * kCoreScale + rho / norm(t)) * t;
+    return rho * ((1 - rho) * kBallCoreScale + rho / norm(t)) * t;
 }
 
 /// The centred coordinate of grid line i of n, in [-1, 1], exactly odd about the middle.

@@ -64,7 +64,7 @@ public:
         for (int b = 0; b < kBatchWidth; ++b)
         {
             m_stops[b] = stopOf(motion(b).m_settings, kLoadFloor * (m_settings.m_step * std::sqrt(squares[b])),
-                                motion(b).m_expected != nullptr);
+                                motion(b).m_predicted != nullptr);
             Mat3 inertia;
             for (int k = 0; k < 9; ++k) inertia(k / 3, k % 3) = m_momenta.m_inertia[k][b];
             const Vec3 center = {m_momenta.m_center[0][b], m_momenta.m_center[1][b], m_momenta.m_center[2][b]};
@@ -86,7 +86,7 @@ public:
             if (b >= m_count) continue;
             pass.m_rotation[b] = rotation;
             ElementWork& work = scratch(b).m_elements;
-            if (work.m_likelySteps > 0) pass.m_warped[b] = work.m_single.m_warped.data();
+            if (work.m_stepsReadyForImpulses > 0) pass.m_warped[b] = work.m_single.m_warped.data();
         }
         runElementPass(m_arrays.elements(), pass);
         m_bSquares = addForces(m_arrays.inertia(), m_alpha, h, m_arrays.m_v.get(), m_arrays.m_rightSide.get());
@@ -115,7 +115,7 @@ public:
     {
         double *last = m_arrays.m_direction.get(), *before = m_arrays.m_product.get();
         const auto lastIncrement = [this](int b, int k) -> const std::vector<Vec3>&
-        { return motion(b).m_expected ? m_arrays.m_zeros : body(b).m_state.m_lastIncrement[k]; };
+        { return motion(b).m_predicted ? m_arrays.m_zeros : body(b).m_state.m_lastIncrement[k]; };
         gatherVectors([&](int b) -> const std::vector<Vec3>& { return lastIncrement(b, 0); }, last);
         gatherVectors([&](int b) -> const std::vector<Vec3>& { return lastIncrement(b, 1); }, before);
         extrapolate(last, before, m_arrays.m_increment.get(), nodes());
@@ -127,15 +127,15 @@ public:
         if (!anyExpected()) return;
         double* impulses = m_arrays.m_direction.get();
         gatherVectors([this](int b) -> const std::vector<Vec3>&
-                      { return motion(b).m_expected ? *motion(b).m_expected : m_arrays.m_zeros; },
+                      { return motion(b).m_predicted ? *motion(b).m_predicted : m_arrays.m_zeros; },
                       impulses);
         m_bSquares = addAndMeasure(impulses, m_arrays.m_rightSide.get(), nodes());
         PerBatch share;
         for (int b = 0; b < kBatchWidth; ++b) share[b] = 1 / (1 + m_settings.m_step * m_alpha[b]);
         const PerBatch squares = addImpulses(m_arrays.masses(), impulses, share, m_momenta);
         for (int b = 0; b < kBatchWidth; ++b)
-            if (motion(b).m_expected)
-                m_stops[b].m_floor = std::max(m_stops[b].m_floor, motion(b).m_expectedFloor * std::sqrt(squares[b]));
+            if (motion(b).m_predicted)
+                m_stops[b].m_floor = std::max(m_stops[b].m_floor, motion(b).m_predictedFloor * std::sqrt(squares[b]));
     }
 
     // Increments with impulses in them say nothing about those without.
@@ -145,7 +145,7 @@ public:
         std::array<bool, kBatchWidth> expected{};
         for (int b = 0; b < m_count; ++b)
         {
-            expected[b] = m_motions[b]->m_expected != nullptr;
+            expected[b] = m_motions[b]->m_predicted != nullptr;
             m_motions[b]->m_report = m_reports[b];
             std::array<std::vector<Vec3>, 2>& last = body(b).m_state.m_lastIncrement;
             if (!expected[b]) last[0].swap(last[1]);
@@ -161,7 +161,7 @@ private:
     bool anyExpected() const
     {
         return std::any_of(m_motions, m_motions + m_count,
-                           [](const FreeMotion* m) { return m->m_expected != nullptr; });
+                           [](const FreeMotion* m) { return m->m_predicted != nullptr; });
     }
 
     // What A and P need of every body alone, but for what assemble() has told.
@@ -171,9 +171,9 @@ private:
         {
             ElementWork& work = scratch(b).m_elements;
             work.m_isDouble = false;
-            work.m_isComplete = work.m_likelySteps > 0;
+            work.m_isComplete = work.m_stepsReadyForImpulses > 0;
             if (!work.m_isComplete) continue;
-            --work.m_likelySteps;
+            --work.m_stepsReadyForImpulses;
             scaleWarpedSystem(body(b), m_settings.m_step);
         }
         scatter([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_arrays.m_nodeRotation.get(),

@@ -18,7 +18,7 @@ void BodyBatch::gatherMomenta()
 {
     for (int b = 0; b < kBatchWidth; ++b)
     {
-        const RigidMomentum::FreePiece piece = scratch(b).m_momentum.onlyPiece();
+        const RigidMomentum::FreeComponent piece = scratch(b).m_momentum.onlyComponent();
         m_momenta.m_mass[b] = piece.m_mass;
         for (int c = 0; c < 3; ++c)
         {
@@ -34,7 +34,7 @@ void BodyBatch::keepMomenta() const
 {
     for (int b = 0; b < m_count; ++b)
     {
-        RigidMomentum::FreePiece piece;
+        RigidMomentum::FreeComponent piece;
         piece.m_mass = m_momenta.m_mass[b];
         for (int c = 0; c < 3; ++c)
         {
@@ -43,7 +43,7 @@ void BodyBatch::keepMomenta() const
             piece.m_angular[c] = m_momenta.m_angular[c][b];
         }
         for (int k = 0; k < 9; ++k) piece.m_inverseInertia(k / 3, k % 3) = m_momenta.m_inertia[k][b];
-        scratch(b).m_momentum.setOnlyPiece(piece);
+        scratch(b).m_momentum.setOnlyComponent(piece);
     }
 }
 

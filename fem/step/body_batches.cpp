@@ -12,7 +12,7 @@ namespace
 {
 
 // What a batch takes, however many bodies it has, in times of a body alone.
-constexpr int kBatchTime = 7;
+constexpr int kBatchCostInBodies = 7;
 
 // Of bodies that share a model, how many batches of kBatchWidth to make, the last one of as many as are left, so that
 // no thread has to wait long: the others go one by one.
@@ -20,8 +20,8 @@ int batchesSideBySide(int bodies, int threads)
 {
     const auto time = [&](int batches)
     {
-        const int longest = (batches + threads - 1) / threads * kBatchTime;
-        const int work = batches * kBatchTime + std::max(0, bodies - batches * kBatchWidth);
+        const int longest = (batches + threads - 1) / threads * kBatchCostInBodies;
+        const int work = batches * kBatchCostInBodies + std::max(0, bodies - batches * kBatchWidth);
         return std::max(longest, (work + threads - 1) / threads);
     };
     int best = 0;

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFarthest = 1e6;        // [m] and [m/s]; beyond it Bullet's broad phase gives a body up
+constexpr double kFarthestNode = 1e6;    // [m] and [m/s]; beyond it Bullet's broad phase gives a body up
 constexpr float kUnitTolerance = 1e-3F;  // on a quaternion's square
 
 template <class T>
@@ -28,7 +28,7 @@ void checkVectors(const std::vector<Vec3>& values, std::size_t size, const char*
     checkSize(values, size, name);
     for (std::size_t i = 0; i < size; ++i)
         for (int c = 0; c < 3; ++c)
-            if (!(std::fabs(values[i][c]) < kFarthest))
+            if (!(std::fabs(values[i][c]) < kFarthestNode))
                 reject("the ", name, " of node ", i, " have the component ", values[i][c], ", not in (-1e6, 1e6)");
 }
 

@@ -11,7 +11,7 @@ namespace
 {
 
 // A residual below it has a square that is lost to rounding: nothing is left to solve.
-constexpr double kNothing = 1e-150;
+constexpr double kLeastResidual = 1e-150;
 
 // The recurrence's residual drifts from the true one by about the rounding of A, 1e-6 |b| in single precision, an
 // iteration. It is believed where that is far below the tolerance.
@@ -20,7 +20,7 @@ constexpr int kTrustedIterations = 8;
 
 // A guess that is good enough as it stands must be better than an iteration's answer would have to be: its error is
 // that of the step before, and would be carried on from step to step.
-constexpr double kGuessShare = 0.1;
+constexpr double kGuessToleranceShare = 0.1;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ double optimalScale(double bx, double xAx)
 ConvergenceMonitor::ConvergenceMonitor(const ConjugateGradientStop& stop, double bNorm, bool zero)
     : m_stop(stop),
       m_bNorm(bNorm),
-      m_goal(std::max(stop.m_tolerance * std::max(bNorm, stop.m_floor), kNothing)),
+      m_goal(std::max(stop.m_tolerance * std::max(bNorm, stop.m_floor), kLeastResidual)),
       m_rNorm(bNorm),
       m_guessed(!zero || stop.m_steady),
       m_over(false)
@@ -43,7 +43,7 @@ ConvergenceMonitor::ConvergenceMonitor(const ConjugateGradientStop& stop, double
 bool ConvergenceMonitor::noteGuess(double rNorm)
 {
     m_rNorm = rNorm;
-    return m_rNorm <= kGuessShare * m_goal;
+    return m_rNorm <= kGuessToleranceShare * m_goal;
 }
 
 bool ConvergenceMonitor::wantsTrueResidual() const
@@ -60,7 +60,7 @@ void ConvergenceMonitor::noteTrueResidual(double rNorm)
 
 bool ConvergenceMonitor::isSolved() const
 {
-    const double share = m_report.m_iterations == 0 && m_guessed ? kGuessShare : 1;
+    const double share = m_report.m_iterations == 0 && m_guessed ? kGuessToleranceShare : 1;
     return m_rNorm <= share * m_goal && std::isfinite(m_goal);
 }
 

@@ -82,7 +82,7 @@ public:
 
     void readState()
     {
-        m_stop = stopOf(m_settings, kLoadFloor * loadImpulseNorm(), m_motion.m_expected != nullptr);
+        m_stop = stopOf(m_settings, kLoadFloor * loadImpulseNorm(), m_motion.m_predicted != nullptr);
         for (std::size_t i = 0; i < m_scratch.m_velocity.size(); ++i)
             m_scratch.m_velocity[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] : m_state.m_v[i];
     }
@@ -127,8 +127,8 @@ public:
     // Nothing changes by them but the way that the body moves as one.
     void addPredictedImpulses()
     {
-        if (!m_motion.m_expected) return;
-        const std::vector<Vec3>& impulses = *m_motion.m_expected;
+        if (!m_motion.m_predicted) return;
+        const std::vector<Vec3>& impulses = *m_motion.m_predicted;
         double sum = 0;
         for (std::size_t i = 0; i < impulses.size(); ++i)
         {
@@ -137,7 +137,7 @@ public:
             sum += dot(impulses[i], impulses[i]);
         }
         m_scratch.m_momentum.addImpulses(m_body, impulses, m_settings.m_step);
-        m_stop.m_floor = std::max(m_stop.m_floor, m_motion.m_expectedFloor * std::sqrt(sum));
+        m_stop.m_floor = std::max(m_stop.m_floor, m_motion.m_predictedFloor * std::sqrt(sum));
     }
 
     // The increments of the last two steps, continued along a straight line: motion is smooth more often than not. With
@@ -146,7 +146,7 @@ public:
     {
         const std::vector<Vec3>&last = m_state.m_lastIncrement[0], &before = m_state.m_lastIncrement[1];
         std::vector<Vec3>& dv = m_scratch.m_increment;
-        const bool isSmooth = !m_motion.m_expected;
+        const bool isSmooth = !m_motion.m_predicted;
         for (std::size_t i = 0; i < dv.size(); ++i)
             dv[i] = isSmooth && !m_state.m_fixed[i] ? 2.0 * last[i] - before[i] : Vec3();
         completeGuess();
@@ -156,7 +156,7 @@ public:
     void keepIncrement()
     {
         m_scratch.m_momentum.keepHung(m_body, m_scratch.m_velocity);
-        if (m_motion.m_expected) return keepResidual();
+        if (m_motion.m_predicted) return keepResidual();
         std::swap(m_state.m_lastIncrement[0], m_state.m_lastIncrement[1]);
         m_state.m_lastIncrement[0] = m_scratch.m_increment;
         m_scratch.m_hasResidual = false;

@@ -11,8 +11,8 @@ namespace bullet_fem
 namespace
 {
 
-// Inverse of an inertia tensor; along axes without inertia (a piece collapsed to a point or a line) it stays bounded.
-// What is below `rounding` [kg m2] is none.
+// Inverse of an inertia tensor; along axes without inertia (a component collapsed to a point or a line) it stays
+// bounded. What is below `rounding` [kg m2] is none.
 Mat3 boundedInverse(const Mat3& inertia, double rounding)
 {
     const double size = trace(inertia);
@@ -20,21 +20,21 @@ Mat3 boundedInverse(const Mat3& inertia, double rounding)
     return inverse(inertia + Mat3::diagonal(1e-14 * size));
 }
 
-// Share of a piece's size by which fixed nodes may lie beside a point or a line.
-constexpr double kOnLine = 1e-4;
+// Share of a component's size by which fixed nodes may lie beside a point or a line.
+constexpr double kCollinearShare = 1e-4;
 
-// Calls add(piece, i) for every node, in order. Nodes of a piece mostly follow each other: what is summed up for such a
-// run stays in registers, for additions to memory would wait for one another.
-template <class Piece, class Add>
-void forEachNode(const std::vector<int>& component, std::vector<Piece>& pieces, const Add& add)
+// Calls add(component, i) for every node, in order. Nodes of a component mostly follow each other: what is summed up
+// for such a run stays in registers, for additions to memory would wait for one another.
+template <class Component, class Add>
+void forEachNode(const std::vector<int>& componentOf, std::vector<Component>& components, const Add& add)
 {
-    const int n = static_cast<int>(component.size());
+    const int n = static_cast<int>(componentOf.size());
     for (int i = 0; i < n;)
     {
-        const int c = component[i];
-        Piece piece = pieces[c];
-        for (; i < n && component[i] == c; ++i) add(piece, i);
-        pieces[c] = piece;
+        const int c = componentOf[i];
+        Component component = components[c];
+        for (; i < n && componentOf[i] == c; ++i) add(component, i);
+        components[c] = component;
     }
 }
 
@@ -42,37 +42,38 @@ void forEachNode(const std::vector<int>& component, std::vector<Piece>& pieces, 
 
 void RigidMomentum::prescribe(const Body& body, double step)
 {
-    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
     const int n = body.m_model->nodeCount();
-    for (Piece& piece : m_pieces) piece = Piece();
+    for (Component& component : m_components) component = Component();
     for (int i = 0; i < n; ++i)
-        if (s.m_fixed[i]) m_pieces[component[i]].m_free = false;
-    m_anyFree = std::any_of(m_pieces.begin(), m_pieces.end(), [](const Piece& piece) { return piece.m_free; });
+        if (s.m_fixed[i]) m_components[componentOf[i]].m_free = false;
+    m_anyFree = std::any_of(m_components.begin(), m_components.end(),
+                            [](const Component& component) { return component.m_free; });
     if (!m_anyFree) return;
-    forEachNode(component, m_pieces,
-                [&](Piece& piece, int i)
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
                 {
-                    piece.m_mass += s.m_mass[i];
-                    piece.m_center += s.m_mass[i] * s.m_x[i];
+                    component.m_mass += s.m_mass[i];
+                    component.m_center += s.m_mass[i] * s.m_x[i];
                 });
-    for (Piece& piece : m_pieces) piece.m_center *= 1 / piece.m_mass;
+    for (Component& component : m_components) component.m_center *= 1 / component.m_mass;
 
     const double alpha = damping(body), toFrame = body.m_loads.m_frameDamping;
     const double share = step / (1 + step * (alpha + toFrame));
-    forEachNode(component, m_pieces,
-                [&](Piece& piece, int i)
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
                 {
-                    const Vec3 r = s.m_x[i] - piece.m_center, p = s.m_mass[i] * s.m_v[i];
+                    const Vec3 r = s.m_x[i] - component.m_center, p = s.m_mass[i] * s.m_v[i];
                     Vec3 force = body.m_loads.m_force[i] - alpha * p;
                     if (toFrame > 0) force += toFrame * (s.m_mass[i] * body.m_loads.m_frameVelocity[i] - p);
                     const Vec3 prescribed = p + share * force;
-                    piece.m_linear += prescribed;
-                    piece.m_angular += cross(r, prescribed);
-                    piece.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+                    component.m_linear += prescribed;
+                    component.m_angular += cross(r, prescribed);
+                    component.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
                 });
-    for (Piece& piece : m_pieces)
-        piece.m_inverseInertia = inverseInertia(piece.m_inverseInertia, piece.m_mass, piece.m_center);
+    for (Component& component : m_components)
+        component.m_inverseInertia = inverseInertia(component.m_inverseInertia, component.m_mass, component.m_center);
 }
 
 double RigidMomentum::damping(const Body& body)
@@ -85,73 +86,73 @@ Mat3 RigidMomentum::inverseInertia(const Mat3& inertia, double mass, const Vec3&
     return boundedInverse(inertia, 1e-24 * mass * dot(center, center));
 }
 
-RigidMomentum::FreePiece RigidMomentum::onlyPiece() const
+RigidMomentum::FreeComponent RigidMomentum::onlyComponent() const
 {
-    const Piece& piece = m_pieces.front();
-    return {piece.m_mass, piece.m_center, piece.m_linear, piece.m_angular, piece.m_inverseInertia};
+    const Component& component = m_components.front();
+    return {component.m_mass, component.m_center, component.m_linear, component.m_angular, component.m_inverseInertia};
 }
 
-void RigidMomentum::setOnlyPiece(const FreePiece& free)
+void RigidMomentum::setOnlyComponent(const FreeComponent& free)
 {
     m_anyFree = true;
-    Piece& piece = m_pieces.front();
-    piece = Piece();
-    piece.m_mass = free.m_mass;
-    piece.m_center = free.m_center;
-    piece.m_linear = free.m_linear;
-    piece.m_angular = free.m_angular;
-    piece.m_inverseInertia = free.m_inverseInertia;
+    Component& component = m_components.front();
+    component = Component();
+    component.m_mass = free.m_mass;
+    component.m_center = free.m_center;
+    component.m_linear = free.m_linear;
+    component.m_angular = free.m_angular;
+    component.m_inverseInertia = free.m_inverseInertia;
 }
 
-// Centre, mass, inertia and axis of the pieces with fixed nodes, by any of those and the one farthest from it; false if
-// there are no such pieces.
+// Centre, mass, inertia and axis of the components with fixed nodes, by any of those and the one farthest from it;
+// false if there are no such components.
 bool RigidMomentum::findPivots(const Body& body)
 {
-    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
     bool any = false;
-    for (Piece& piece : m_pieces)
-        if (!piece.m_free) piece = Piece();
+    for (Component& component : m_components)
+        if (!component.m_free) component = Component();
     for (std::size_t i = 0; i < s.m_x.size(); ++i)
     {
-        Piece& piece = m_pieces[component[i]];
-        if (!s.m_fixed[i] || !piece.m_free) continue;
-        piece.m_free = false;
-        piece.m_center = s.m_x[i];
+        Component& component = m_components[componentOf[i]];
+        if (!s.m_fixed[i] || !component.m_free) continue;
+        component.m_free = false;
+        component.m_center = s.m_x[i];
         any = true;
     }
     for (std::size_t i = 0; i < s.m_x.size(); ++i)
     {
-        Piece& piece = m_pieces[component[i]];
-        if (piece.m_free) continue;
-        const Vec3 r = s.m_x[i] - piece.m_center;
-        piece.m_mass += s.m_mass[i];
-        piece.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
-        if (s.m_fixed[i] && dot(r, r) > dot(piece.m_axis, piece.m_axis)) piece.m_axis = r;
+        Component& component = m_components[componentOf[i]];
+        if (component.m_free) continue;
+        const Vec3 r = s.m_x[i] - component.m_center;
+        component.m_mass += s.m_mass[i];
+        component.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+        if (s.m_fixed[i] && dot(r, r) > dot(component.m_axis, component.m_axis)) component.m_axis = r;
     }
     return any;
 }
 
-// A piece is clamped, not hung, if a fixed node lies beside the point or line of the others.
+// A component is clamped, not hung, if a fixed node lies beside the point or line of the others.
 void RigidMomentum::findClamped(const Body& body)
 {
-    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
-    const auto slack = [](const Piece& piece)
-    { return kOnLine * std::sqrt(trace(piece.m_inverseInertia) / piece.m_mass); };
-    for (Piece& piece : m_pieces)
+    const auto slack = [](const Component& component)
+    { return kCollinearShare * std::sqrt(trace(component.m_inverseInertia) / component.m_mass); };
+    for (Component& component : m_components)
     {
-        piece.m_hung = !piece.m_free;
-        if (piece.m_hung && norm(piece.m_axis) <= slack(piece)) piece.m_axis = {};
+        component.m_hung = !component.m_free;
+        if (component.m_hung && norm(component.m_axis) <= slack(component)) component.m_axis = {};
     }
     for (std::size_t i = 0; i < s.m_x.size(); ++i)
     {
-        Piece& piece = m_pieces[component[i]];
+        Component& component = m_components[componentOf[i]];
         if (!s.m_fixed[i]) continue;
-        const Vec3 r = s.m_x[i] - piece.m_center;
-        const double length2 = dot(piece.m_axis, piece.m_axis);
-        const Vec3 beside = length2 > 0 ? r - (dot(r, piece.m_axis) / length2) * piece.m_axis : r;
-        if (norm(beside) > slack(piece)) piece.m_hung = false;
+        const Vec3 r = s.m_x[i] - component.m_center;
+        const double length2 = dot(component.m_axis, component.m_axis);
+        const Vec3 beside = length2 > 0 ? r - (dot(r, component.m_axis) / length2) * component.m_axis : r;
+        if (norm(beside) > slack(component)) component.m_hung = false;
     }
 }
 
@@ -159,70 +160,71 @@ void RigidMomentum::keepHung(const Body& body, const std::vector<Vec3>& velocity
 {
     if (!(body.m_loads.m_frameDamping > 0) || !findPivots(body)) return;
     findClamped(body);
-    for (Piece& piece : m_pieces)
+    for (Component& component : m_components)
     {
-        if (!piece.m_hung) continue;
-        const double about = dot(piece.m_axis, piece.m_inverseInertia * piece.m_axis);  // it is the inertia so far
-        piece.m_inverseInertia =
-            about > 0 ? (1 / about) * outer(piece.m_axis, piece.m_axis) : boundedInverse(piece.m_inverseInertia, 0);
-        piece.m_mass = std::numeric_limits<double>::infinity();
-        piece.m_free = m_anyFree = true;
+        if (!component.m_hung) continue;
+        const double about =
+            dot(component.m_axis, component.m_inverseInertia * component.m_axis);  // it is the inertia so far
+        component.m_inverseInertia = about > 0 ? (1 / about) * outer(component.m_axis, component.m_axis)
+                                               : boundedInverse(component.m_inverseInertia, 0);
+        component.m_mass = std::numeric_limits<double>::infinity();
+        component.m_free = m_anyFree = true;
     }
-    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
     for (std::size_t i = 0; i < s.m_x.size(); ++i)
     {
-        Piece& piece = m_pieces[component[i]];
-        if (piece.m_hung) piece.m_angular += cross(s.m_x[i] - piece.m_center, s.m_mass[i] * velocity[i]);
+        Component& component = m_components[componentOf[i]];
+        if (component.m_hung) component.m_angular += cross(s.m_x[i] - component.m_center, s.m_mass[i] * velocity[i]);
     }
 }
 
 void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step)
 {
     if (!m_anyFree) return;
-    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const double share = 1 / (1 + step * damping(body));
     for (std::size_t i = 0; i < impulses.size(); ++i)
     {
-        Piece& piece = m_pieces[component[i]];
-        piece.m_linear += share * impulses[i];
-        piece.m_angular += cross(body.m_state.m_x[i] - piece.m_center, share * impulses[i]);
+        Component& component = m_components[componentOf[i]];
+        component.m_linear += share * impulses[i];
+        component.m_angular += cross(body.m_state.m_x[i] - component.m_center, share * impulses[i]);
     }
 }
 
 void RigidMomentum::addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step)
 {
-    m_pieces[body.m_model->mesh().nodeComponent()[node]].m_angular += (1 / (1 + step * damping(body))) * impulse;
+    m_components[body.m_model->mesh().nodeComponent()[node]].m_angular += (1 / (1 + step * damping(body))) * impulse;
 }
 
 void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
 {
     if (!m_anyFree) return;
-    const std::vector<int>& component = body.m_model->mesh().nodeComponent();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
-    for (Piece& piece : m_pieces)
+    for (Component& component : m_components)
     {
-        piece.m_linearVelocity = piece.m_linear;
-        piece.m_angularVelocity = piece.m_angular;
+        component.m_linearVelocity = component.m_linear;
+        component.m_angularVelocity = component.m_angular;
     }
-    forEachNode(component, m_pieces,
-                [&](Piece& piece, int i)
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
                 {
                     const Vec3 p = s.m_mass[i] * velocity[i];
-                    piece.m_linearVelocity -= p;
-                    piece.m_angularVelocity -= cross(s.m_x[i] - piece.m_center, p);
+                    component.m_linearVelocity -= p;
+                    component.m_angularVelocity -= cross(s.m_x[i] - component.m_center, p);
                 });
-    for (Piece& piece : m_pieces)
+    for (Component& component : m_components)
     {
-        piece.m_linearVelocity *= 1 / piece.m_mass;
-        piece.m_angularVelocity = piece.m_inverseInertia * piece.m_angularVelocity;
+        component.m_linearVelocity *= 1 / component.m_mass;
+        component.m_angularVelocity = component.m_inverseInertia * component.m_angularVelocity;
     }
-    forEachNode(component, m_pieces,
-                [&](const Piece& piece, int i)
+    forEachNode(componentOf, m_components,
+                [&](const Component& component, int i)
                 {
-                    if (piece.m_free && !s.m_fixed[i])
-                        velocity[i] +=
-                            piece.m_linearVelocity + cross(piece.m_angularVelocity, s.m_x[i] - piece.m_center);
+                    if (component.m_free && !s.m_fixed[i])
+                        velocity[i] += component.m_linearVelocity +
+                                       cross(component.m_angularVelocity, s.m_x[i] - component.m_center);
                 });
 }
 

@@ -9,13 +9,13 @@
 namespace bullet_fem
 {
 
-/// The momentum that external impulses prescribe for every connected piece of a body without fixed nodes. The warped
-/// stiffness has no torque balance about the deformed positions and conjugate gradients stop early; both leak momentum,
-/// and a rigid motion of six unknowns a piece puts it back.
+/// The momentum that external impulses prescribe for every connected component of a body without fixed nodes. The
+/// warped stiffness has no torque balance about the deformed positions and conjugate gradients stop early; both leak
+/// momentum, and a rigid motion of six unknowns a component puts it back.
 class RigidMomentum
 {
 public:
-    explicit RigidMomentum(const TetMesh& mesh) : m_pieces(mesh.componentCount()) {}
+    explicit RigidMomentum(const TetMesh& mesh) : m_components(mesh.componentCount()) {}
 
     /// Sets the prescription to that of the loads: (1 + h alpha)(p' - p) = h (F - alpha p), and the same for angular
     /// momentum about the centre of mass at the state's positions. alpha includes the loads' extra damping; what draws
@@ -30,14 +30,14 @@ public:
     /// Adds node impulses J [N s] to the prescription; the frame, which moves along, does not damp them.
     void addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step);
 
-    /// Adds an angular impulse [N m s] to the prescription of the piece that a node belongs to.
+    /// Adds an angular impulse [N m s] to the prescription of the component that a node belongs to.
     void addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step);
 
-    /// Adds to `velocity` the rigid motion that gives every free piece its prescribed momentum.
+    /// Adds to `velocity` the rigid motion that gives every free component its prescribed momentum.
     void restore(const Body& body, std::vector<Vec3>& velocity);
 
-    /// A free piece, as the prescription has it.
-    struct FreePiece
+    /// A free component, as the prescription has it.
+    struct FreeComponent
     {
         double m_mass = 0;         ///< [kg]
         Vec3 m_center;             ///< [m]
@@ -45,33 +45,33 @@ public:
         Mat3 m_inverseInertia;     ///< [1/(kg m2)]
     };
 
-    /// Of a body of one piece that hangs on nothing: what it has been prescribed; for who sums up for several bodies at
-    /// once.
-    FreePiece onlyPiece() const;
-    void setOnlyPiece(const FreePiece& piece);
+    /// Of a body of one component that hangs on nothing: what it has been prescribed; for who sums up for several
+    /// bodies at once.
+    FreeComponent onlyComponent() const;
+    void setOnlyComponent(const FreeComponent& component);
 
-    /// The inverse of a piece's inertia about its centre [kg m2].
+    /// The inverse of a component's inertia about its centre [kg m2].
     static Mat3 inverseInertia(const Mat3& inertia, double mass, const Vec3& center);
 
     /// alpha of a body's own and of its loads [1/s].
     static double damping(const Body& body);
 
 private:
-    struct Piece
+    struct Component
     {
         bool m_free = true;   // or hung: infinitely heavy, its centre on what it hangs on
         bool m_hung = false;  // not free, but turns about a point or a line
         double m_mass = 0;
         Vec3 m_center;             // [m]
-        Vec3 m_axis;               // to the farthest fixed node of a hung piece [m]
+        Vec3 m_axis;               // to the farthest fixed node of a hung component [m]
         Vec3 m_linear, m_angular;  // prescribed [kg m/s], [kg m2/s]
-        Mat3 m_inverseInertia;     // [1/(kg m2)]; zero where the piece has collapsed to a point
+        Mat3 m_inverseInertia;     // [1/(kg m2)]; zero where the component has collapsed to a point
         Vec3 m_linearVelocity, m_angularVelocity;
     };
     bool findPivots(const Body& body);
     void findClamped(const Body& body);
 
-    std::vector<Piece> m_pieces;
+    std::vector<Component> m_components;
     bool m_anyFree = false;  // of the last prescription; all is skipped where there is none
 };
 

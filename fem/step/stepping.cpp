@@ -127,14 +127,14 @@ void finishStep(Body& body, const StepSettings& settings)
 
 bool canFinishStep(const Body& body)
 {
-    constexpr double kFastest = 1e6;
+    constexpr double kFastestNode = 1e6;
     const StepScratch& scratch = body.m_workspace.scratch();
     int good = 0;  // no early return: the loops are for vectors
-    for (const Vec3& v : scratch.m_velocity) good += dot(v, v) < kFastest * kFastest;
+    for (const Vec3& v : scratch.m_velocity) good += dot(v, v) < kFastestNode * kFastestNode;
     for (std::size_t i = 0; i < scratch.m_push.size() && scratch.m_isPushed; ++i)
     {
         const Vec3 total = scratch.m_velocity[i] + scratch.m_push[i];
-        good -= !(dot(total, total) < kFastest * kFastest);
+        good -= !(dot(total, total) < kFastestNode * kFastestNode);
     }
     return good == static_cast<int>(scratch.m_velocity.size());
 }

@@ -112,7 +112,7 @@ void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<V
     const BodyState& state = body.m_state;
     work.m_isDouble = !isSinglePrecision(settings);
     work.m_isComplete = true;
-    if (work.m_likelySteps > 0) --work.m_likelySteps;
+    if (work.m_stepsReadyForImpulses > 0) --work.m_stepsReadyForImpulses;
     scaleWarpedSystem(body, settings.m_step);
     pad(settings.m_threads, state.m_x, work.m_x);
     pad(settings.m_threads, state.m_v, work.m_v);
@@ -143,7 +143,7 @@ void averageNodeRotations(Body& body, const StepSettings& settings)
 void completeWarpedSystem(Body& body, const StepSettings& settings)
 {
     ElementWork& work = body.m_workspace.scratch().m_elements;
-    work.m_likelySteps = kLikelySteps;
+    work.m_stepsReadyForImpulses = kStepsReadyForImpulses;
     if (work.m_isComplete) return;
     work.m_isComplete = true;
     scaleWarpedSystem(body, settings.m_step);

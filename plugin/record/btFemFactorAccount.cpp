@@ -23,8 +23,8 @@ constexpr double kCacheEntries = 5e6;       // 20 MB
 // Flops over records^1.5, .18 to .21 in the beams of the benchmarks; .94 for a dense matrix.
 constexpr double kFlops = 0.2;
 
-constexpr double kRemembered = 1.0 / 16;  // weight of a step in the mean
-constexpr double kMostDear = 64;
+constexpr double kMeanWeight = 1.0 / 16;  // weight of a step in the mean
+constexpr double kHighestDearness = 64;
 
 // Iterations with a fresh factor: in the beams of the benchmarks 1.4 at 1e-3, 4.4 at 1e-6, 6.3 at 1e-8.
 double usualIterations(double tolerance)
@@ -66,14 +66,14 @@ void btFemFactorAccount::note(int iterations, double mismatch, double tolerance)
         ++m_staleSteps;
         return;
     }
-    m_fresh = m_fresh >= 0 ? m_fresh + kRemembered * (iterations - m_fresh) : iterations;
+    m_fresh = m_fresh >= 0 ? m_fresh + kMeanWeight * (iterations - m_fresh) : iterations;
     m_owed -= m_rate;
     if (m_owed <= 0) m_dearness = 1;
 }
 
 void btFemFactorAccount::spend(double price)
 {
-    const double dearness = std::min(2 * m_dearness, kMostDear);
+    const double dearness = std::min(2 * m_dearness, kHighestDearness);
     const double rate = m_lost / std::max(m_staleSteps, 1);
     clear();
     m_dearness = dearness;

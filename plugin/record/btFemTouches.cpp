@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 #include "plugin/record/btFemBodyRecord.h"
 
 using namespace bullet_fem;
@@ -12,7 +12,7 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr double kSlack = 0.01;  // share of a mean edge
+constexpr double kTouchSlack = 0.01;  // share of a mean edge
 
 /// The other side of contact points, which are listed object by object.
 struct Other
@@ -115,7 +115,7 @@ bool updateKnownTouches(btFemBodyRecord& record, const btFemTogether& together)
 
 btScalar touchSlack(const btFemBodyRecord& record)
 {
-    return static_cast<btScalar>(kSlack * record.fem().m_surface.meanEdge());
+    return static_cast<btScalar>(kTouchSlack * record.fem().m_surface.meanEdge());
 }
 
 const btFemTouch* touchWith(const btFemBodyRecord& record, const btCollisionObject* other)

@@ -20,7 +20,7 @@ struct WorldSnapshot
 {
     std::vector<btFemRecordSnapshot> m_bodies;  // in the order in which they became known, which is that of solving
     SoftPairMemory::Kept m_softPairs;
-    RigidObstacles::Memory m_rigid;
+    RigidProxies::Memory m_rigid;
 };
 
 template <class Bytes>

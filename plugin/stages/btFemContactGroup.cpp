@@ -84,7 +84,7 @@ void btFemContactGroup::collect(const Scope& scope)
         FemSoftBody& fem = record->fem();
         m_bodies.push_back(&fem);
         m_problem.m_bodies.push_back(
-            {&fem.m_body, fem.m_compliance.get(), fem.m_expected.empty() ? nullptr : &fem.m_expected});
+            {&fem.m_body, fem.m_compliance.get(), fem.m_predicted.empty() ? nullptr : &fem.m_predicted});
     }
     collectJoints(scope);  // first: the rigid bodies that they hold are not rewound
     findRigid();
@@ -94,7 +94,7 @@ void btFemContactGroup::collect(const Scope& scope)
     const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
     if (world && world->m_dispatcher && !m_problem.m_contacts.empty())
         m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidTouches);
-    m_problem.m_obstacles.assign(m_rigid.obstacles().begin(), m_rigid.obstacles().end());
+    m_problem.m_rigidProxies.assign(m_rigid.rigidProxies().begin(), m_rigid.rigidProxies().end());
     m_settings.m_step.m_step = m_step;
     const bool joints = !m_problem.m_joints.empty();
     m_settings.m_step.m_tolerance =
@@ -159,7 +159,7 @@ void btFemContactGroup::collectContacts()
 void btFemContactGroup::alignLinks(std::vector<ContactPoint>& contacts) const
 {
     for (ContactPoint& contact : contacts)
-        if (m_rigid.isMovableLink(contact.m_obstacle)) contact.m_approach = {};
+        if (m_rigid.isMovableLink(contact.m_rigidProxy)) contact.m_approach = {};
 }
 
 void btFemContactGroup::collectJoints(const Scope& scope)
@@ -184,7 +184,7 @@ void btFemContactGroup::collectJoints(const Scope& scope)
 bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count) const
 {
     if (m_reachesOut || m_rigid.holdsLinks()) return false;
-    for (std::size_t k = 0; k < m_rigid.obstacles().size(); ++k)
+    for (std::size_t k = 0; k < m_rigid.rigidProxies().size(); ++k)
     {
         const btRigidBody* body = m_rigid.movableBody(static_cast<int>(k));
         if (body && std::find(bodies, bodies + count, body) == bodies + count) return false;
@@ -201,14 +201,14 @@ void btFemContactGroup::solve()
     report(solved);
 }
 
-// A part of the solution, with the obstacles' velocities from the rigid solver's bodies and back to them.
+// A part of the solution, with the rigid proxies' velocities from the rigid solver's bodies and back to them.
 template <class Part>
 void btFemContactGroup::onSolverBodies(const Part& part)
 {
     const btFemStopwatch watch;
-    m_solverBodies.read(m_problem.m_obstacles);
+    m_solverBodies.read(m_problem.m_rigidProxies);
     part();
-    m_solverBodies.write(m_problem.m_obstacles);
+    m_solverBodies.write(m_problem.m_rigidProxies);
     m_milliseconds += watch.milliseconds();
 }
 
@@ -247,7 +247,7 @@ void btFemContactGroup::finish()
 
 void btFemContactGroup::moveRigid()
 {
-    m_rigid.obstacles().assign(m_problem.m_obstacles.begin(), m_problem.m_obstacles.end());
+    m_rigid.rigidProxies().assign(m_problem.m_rigidProxies.begin(), m_problem.m_rigidProxies.end());
     m_rigid.applyReactions(m_problem, m_step);
 }
 

@@ -72,8 +72,8 @@ public:
     const bullet_fem::ContactSettings& settings() const { return m_settings; }
 
     /// What lasts from step to step.
-    bullet_fem::RigidObstacles& rigid() { return m_rigid; }
-    const bullet_fem::RigidObstacles& rigid() const { return m_rigid; }
+    bullet_fem::RigidProxies& rigid() { return m_rigid; }
+    const bullet_fem::RigidProxies& rigid() const { return m_rigid; }
     bullet_fem::SoftPairMemory& softPairs() { return m_softPairs.memory(); }
     const bullet_fem::SoftPairMemory& softPairs() const { return m_softPairs.memory(); }
 
@@ -104,7 +104,7 @@ private:
     std::vector<bullet_fem::FemSoftBody*> m_bodies, m_outside;
     bool m_reachesOut = false;  // joined to soft bodies that should be in the group
     std::vector<bullet_fem::JointFlags> m_jointFlags;
-    bullet_fem::RigidObstacles m_rigid;
+    bullet_fem::RigidProxies m_rigid;
     bullet_fem::SolverBodies m_solverBodies;
     bullet_fem::ContactProblem m_problem;
     bullet_fem::ContactSolver m_solver;

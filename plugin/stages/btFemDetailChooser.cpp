@@ -15,7 +15,7 @@ namespace
 // Residual up to which one iteration is good enough. In a beam that swings by its own length and bends by more than 90
 // degrees, steps below it moved the tip within .1 % of the full solution's way; the error then grows to 2 mm a step in
 // a 4 m beam at residuals of .6.
-constexpr double kCoarse = 0.05;
+constexpr double kCoarseResidual = 0.05;
 
 }  // namespace
 
@@ -44,6 +44,6 @@ void btFemDetailChooser::choose(btFemBodyRecord& record, double step) const
 void btFemDetailChooser::judge(btFemBodyRecord& record, const bullet_fem::SolveReport& solved)
 {
     if (record.m_asked.m_detail != btFemDetail::automatic || detailInUse(record) == btFemDetail::nodalWarp) return;
-    if (solved.m_stop != bullet_fem::SolveStop::converged && !(solved.m_residual <= kCoarse))
+    if (solved.m_stop != bullet_fem::SolveStop::converged && !(solved.m_residual <= kCoarseResidual))
         record.m_work.m_detailLevel.raise();
 }

@@ -102,9 +102,9 @@ FreeMotion btFemFreeMotion::motionOf(btFemBodyRecord& record) const
     FreeMotion motion;
     motion.m_body = &record.fem().m_body;
     motion.m_settings = settingsOf(record);
-    if (fem.m_expected.empty()) return motion;
-    motion.m_expected = &fem.m_expected;
-    motion.m_expectedFloor = residualFloor(m_info.m_contactTolerance, m_info.m_tolerance);
+    if (fem.m_predicted.empty()) return motion;
+    motion.m_predicted = &fem.m_predicted;
+    motion.m_predictedFloor = residualFloor(m_info.m_contactTolerance, m_info.m_tolerance);
     return motion;
 }
 

@@ -16,7 +16,7 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr double kReach = 0.6;  // mean edges around a body: rigid ones go half of one ahead of their contacts
+constexpr double kBoundsMargin = 0.6;  // mean edges around a body: rigid ones go half of one ahead of their contacts
 
 // What predictMotion of btSoftBody does besides moving nodes, without resetting the links' rest lengths.
 void refreshBulletConstants(btSoftBody& soft, double step)
@@ -74,7 +74,7 @@ void predictBody(btFemBodyRecord& record, double step)
     FemSoftBody& fem = record.fem();
     readBody(record);
     record.m_work.m_factorMismatch = factorMismatch(fem, step);
-    setSweptBounds(fem, step, kReach * fem.m_body.m_model->mesh().meanEdgeLength());
+    setSweptBounds(fem, step, kBoundsMargin * fem.m_body.m_model->mesh().meanEdgeLength());
     refreshBulletConstants(*record.m_softBody, step);
     applyBulletForces(fem, step);
 }

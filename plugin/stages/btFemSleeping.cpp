@@ -22,9 +22,9 @@ namespace
 // In a pile a node slips off another body's edge now and then, and for a step is faster than the threshold. Such a
 // twitch costs some steps of the time at rest, motion all of it. Some time is put by, so that of many bodies all can
 // want to sleep at once.
-constexpr btScalar kTwitch = 4;                 // times the threshold; what is faster is motion
-constexpr btScalar kTwitchCost = 4;             // steps
-constexpr btScalar kPutBy = btScalar(1.0 / 4);  // of gDeactivationTime
+constexpr btScalar kTwitchSpeed = 4;                  // times the threshold; what is faster is motion
+constexpr btScalar kTwitchCostSteps = 4;              // steps
+constexpr btScalar kReserveTime = btScalar(1.0 / 4);  // of gDeactivationTime
 
 // Sleeps, or waits for its island to do so.
 bool isQuiet(const btFemBodyRecord& record)
@@ -189,8 +189,8 @@ void updateTimeAtRest(btSoftBody& soft, btScalar step)
         soft.setDeactivationTime(time + step);
         return;
     }
-    const bool twitches = soft.m_maxSpeedSquared < kTwitch * kTwitch * threshold;
-    const btScalar left = std::min(time, (1 + kPutBy) * gDeactivationTime) - kTwitchCost * step;
+    const bool twitches = soft.m_maxSpeedSquared < kTwitchSpeed * kTwitchSpeed * threshold;
+    const btScalar left = std::min(time, (1 + kReserveTime) * gDeactivationTime) - kTwitchCostSteps * step;
     soft.setDeactivationTime(twitches ? std::max(left, btScalar(0)) : 0);
     if (!(soft.getDeactivationTime() > gDeactivationTime)) soft.setActivationState(ACTIVE_TAG);
 }

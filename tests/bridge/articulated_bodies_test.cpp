@@ -53,23 +53,23 @@ protected:
         m_body.updateCollisionObjectWorldTransforms(m_turns, m_places);
     }
 
-    // Obstacle k is link k - 1.
+    // RigidProxy k is link k - 1.
     void addAll()
     {
         m_bodies.clear();
-        m_obstacles.assign(m_colliders.size(), Obstacle());
+        m_rigidProxies.assign(m_colliders.size(), RigidProxy());
         m_now.clear();
         for (std::size_t k = 0; k < m_colliders.size(); ++k)
         {
-            m_obstacles[k].m_center = vec3(m_colliders[k]->getWorldTransform().getOrigin());
-            m_now.push_back(m_bodies.add(static_cast<int>(k), *m_colliders[k], kStep, m_obstacles[k]));
+            m_rigidProxies[k].m_center = vec3(m_colliders[k]->getWorldTransform().getOrigin());
+            m_now.push_back(m_bodies.add(static_cast<int>(k), *m_colliders[k], kStep, m_rigidProxies[k]));
         }
-        m_bodies.connect(m_obstacles, m_responses);
+        m_bodies.connect(m_rigidProxies, m_responses);
     }
 
-    const ObstacleResponse& response(int moved, int pushed) const
+    const RigidResponse& response(int moved, int pushed) const
     {
-        return m_responses[m_obstacles[pushed].m_firstResponse + moved];
+        return m_responses[m_rigidProxies[pushed].m_firstResponse + moved];
     }
 
     static double difference(const Mat3& a, const Mat3& b) { return std::sqrt(squaredNorm(a - b) / squaredNorm(b)); }
@@ -80,8 +80,8 @@ protected:
     btAlignedObjectArray<btQuaternion> m_turns;
     btAlignedObjectArray<btVector3> m_places;
     ArticulatedBodies m_bodies;
-    std::vector<Obstacle> m_obstacles;
-    std::vector<ObstacleResponse> m_responses;
+    std::vector<RigidProxy> m_rigidProxies;
+    std::vector<RigidResponse> m_responses;
     std::vector<LinkMotion> m_now;
 };
 
@@ -105,8 +105,8 @@ TEST_F(ArticulatedBodiesTest, allLinksMoveAsTheirResponsesSaid)
         addAll();
         const std::vector<LinkMotion> before = m_now;
         m_bodies.addImpulse(pushed, impulse, angular);
-        m_bodies.apply(m_obstacles, kStep);
-        const std::vector<ObstacleResponse> said(&response(0, pushed), &response(0, pushed) + 5);
+        m_bodies.apply(m_rigidProxies, kStep);
+        const std::vector<RigidResponse> said(&response(0, pushed), &response(0, pushed) + 5);
         addAll();
         for (int k = 0; k < 5; ++k)
         {
@@ -141,10 +141,10 @@ TEST_F(ArticulatedBodiesTest, aBaseAloneIsARigidBody)
     btMultiBodyLinkCollider base(&body, -1);
     body.setBaseCollider(&base);
     body.updateCollisionObjectWorldTransforms(m_turns, m_places);
-    m_obstacles.resize(1);
-    m_obstacles[0].m_center = {3, 4, 5};
-    m_bodies.add(0, base, kStep, m_obstacles[0]);
-    m_bodies.connect(m_obstacles, m_responses);
+    m_rigidProxies.resize(1);
+    m_rigidProxies[0].m_center = {3, 4, 5};
+    m_bodies.add(0, base, kStep, m_rigidProxies[0]);
+    m_bodies.connect(m_rigidProxies, m_responses);
     const btMatrix3x3 toWorld(turn.inverse());
     const btMatrix3x3 inverse = toWorld.scaled(btVector3(1, btScalar(0.5), btScalar(1) / 3)) * toWorld.transpose();
     Mat3 expected;
@@ -161,7 +161,7 @@ TEST_F(ArticulatedBodiesTest, forcesCountAsInBulletsNextStep)
     m_body.addLinkForce(2, btVector3(5, 0, -9));
     m_body.addJointTorque(1, 3);
     addAll();
-    const std::vector<Obstacle> said = m_obstacles;
+    const std::vector<RigidProxy> said = m_rigidProxies;
     btAlignedObjectArray<btScalar> r;
     btAlignedObjectArray<btVector3> v;
     btAlignedObjectArray<btMatrix3x3> m;

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bridge/bridge_test_bodies.h"
-#include "bullet_bridge/contact_thinning.h"
+#include "bullet_bridge/contact_reduction.h"
 
 namespace bullet_fem
 {
@@ -126,18 +126,18 @@ protected:
         const Vec3 place = {0.005 + 0.01 * static_cast<double>(m_contacts.size()), 0.05, 0.05};
         m_contacts.push_back(contact);
         m_origins.push_back(static_cast<int>(m_origins.size()));
-        m_thinning.add({3, contact, place, gap, held});
+        m_reduction.add({3, contact, place, gap, held});
     }
 
     std::vector<int> kept()
     {
-        m_thinning.thin(m_contacts, m_origins);
+        m_reduction.thin(m_contacts, m_origins);
         return m_origins;
     }
 
-    Thinning() { m_thinning.clear(0.1); }
+    Thinning() { m_reduction.clear(0.1); }
 
-    ContactThinning m_thinning;
+    ContactReduction m_reduction;
     std::vector<ContactPoint> m_contacts;
     std::vector<int> m_origins;
 };

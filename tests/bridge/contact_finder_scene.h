@@ -32,8 +32,8 @@ protected:
         m_fem.m_touching.clear();
         recordTouching(m_fem, object);
         solveFreeMotion(m_fem.m_body, StepSettings());
-        m_obstacles.clear();
-        m_search.find({&m_fem}, kStep, most, m_obstacles);
+        m_rigidProxies.clear();
+        m_search.find({&m_fem}, kStep, most, m_rigidProxies);
         m_report = m_search.reports().front();
         return m_fem.m_contacts;
     }
@@ -47,7 +47,7 @@ protected:
     btSoftBodyWorldInfo m_info;
     TestBox m_box;
     FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
-    RigidObstacles m_obstacles;
+    RigidProxies m_rigidProxies;
     Threads m_threads;
     RigidSearch m_search{m_threads};
     ContactSearchReport m_report;

@@ -235,13 +235,13 @@ TEST_F(ContactFinderTest, manyBodiesOnSeveralThreadsFindWhatEachFindsAlone)
     }
     Threads threads(3);
     RigidSearch search(threads);
-    search.find(bodies, kStep, 1000, m_obstacles);
+    search.find(bodies, kStep, 1000, m_rigidProxies);
     ASSERT_EQ(search.reports().size(), bodies.size());
     for (int b = 0; b < kCount; ++b)
     {
         const std::vector<ContactPoint> together = bodies[b]->m_contacts;
-        m_obstacles.clear();
-        m_search.find({bodies[b]}, kStep, 1000, m_obstacles);
+        m_rigidProxies.clear();
+        m_search.find({bodies[b]}, kStep, 1000, m_rigidProxies);
         const std::vector<ContactPoint>& alone = bodies[b]->m_contacts;
         EXPECT_GE(alone.size(), b % 3 == 0 ? 18u : 9u);
         ASSERT_EQ(together.size(), alone.size());

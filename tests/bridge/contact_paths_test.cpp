@@ -51,7 +51,7 @@ TEST_F(ContactPathsTest, theArmIsThatOfTheTouch)
 {
     const auto& contacts = findFrom({-0.2, 0.2, 1.5625}, {60, 0, -60});
     ASSERT_FALSE(contacts.empty());
-    const Vec3 centre = m_obstacles.obstacles()[0].m_center;
+    const Vec3 centre = m_rigidProxies.rigidProxies()[0].m_center;
     for (const ContactPoint& c : contacts)
         EXPECT_NEAR(norm(c.m_point + c.m_approach - centre - 0.0625 * c.m_normal), 0, 1e-5);
 }

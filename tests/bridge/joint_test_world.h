@@ -64,16 +64,16 @@ public:
     ContactProblem& append(RigidPhase phase = RigidPhase::moved)
     {
         m_problem.clear();
-        m_obstacles.clear(phase);
+        m_rigidProxies.clear(phase);
         m_joints.forgetWorld();
-        m_joints.append({m_bodies, m_outside, m_obstacles, kStep, phase}, m_problem, m_flags);
+        m_joints.append({m_bodies, m_outside, m_rigidProxies, kStep, phase}, m_problem, m_flags);
         return m_problem;
     }
 
     btSoftRigidDynamicsWorld& world() { return m_world; }
 
     std::vector<FemSoftBody*> m_bodies, m_outside;
-    RigidObstacles m_obstacles;
+    RigidProxies m_rigidProxies;
     std::vector<JointFlags> m_flags;
 
 private:

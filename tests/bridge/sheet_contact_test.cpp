@@ -164,7 +164,7 @@ TEST_P(FlatSheetTest, aKinematicSheetIsSeenWhereItWasAsTheStepBegan)
     m_ground.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     m_ground.setInterpolationLinearVelocity({0, 0, 3});
     find(m_sheet, m_atZero + btScalar(3 * kStep));  // it has moved already
-    ASSERT_NEAR(m_obstacles.obstacles().at(0).m_linearVelocity.z, 3, 1e-6);
+    ASSERT_NEAR(m_rigidProxies.rigidProxies().at(0).m_linearVelocity.z, 3, 1e-6);
     expectFlat({0, 0, 1}, 0);
 }
 

@@ -44,7 +44,7 @@ TEST_F(SoftAnchorTest, joinsItsNodeToTheRigidBody)
     ASSERT_EQ(joint.m_a.m_count, 1);
     EXPECT_EQ(problem.m_handleNodes[joint.m_a.m_first], 5);
     EXPECT_EQ(squaredNorm(problem.m_handleBlocks[joint.m_a.m_first] - Mat3::identity()), 0);
-    EXPECT_EQ(&m_world.m_obstacles.object(joint.m_b.m_obstacle), &wall);
+    EXPECT_EQ(&m_world.m_rigidProxies.object(joint.m_b.m_rigidProxy), &wall);
     expectNear(joint.m_b.m_point, position(5), 1e-12);
     expectNear(joint.m_wanted, {}, 1e-5);  // what single precision left of the pivot, over the step
     EXPECT_EQ(joint.m_softness, 0);
@@ -117,7 +117,7 @@ TEST_F(SoftAnchorTest, aKinematicBodyThatFellAsleepStandsStill)
     body.setInterpolationLinearVelocity(btVector3(1, 0, 0));
     body.setActivationState(ISLAND_SLEEPING);
     expectNear(m_world.append().m_joints[0].m_wanted, {}, 1e-5);
-    expectNear(m_world.m_obstacles.obstacles()[0].m_linearVelocity, {}, 1e-12);
+    expectNear(m_world.m_rigidProxies.rigidProxies()[0].m_linearVelocity, {}, 1e-12);
 }
 
 TEST_F(SoftAnchorTest, influenceSoftensIt)
@@ -138,7 +138,7 @@ TEST_F(SoftAnchorTest, aPinnedNodeIsHeldToWhatCanMoveOnly)
     m_cube.m_body.m_state.m_fixed[5] = 1;
     const ContactProblem& problem = m_world.append();
     ASSERT_EQ(problem.m_joints.size(), 1u);
-    EXPECT_EQ(&m_world.m_obstacles.object(problem.m_joints[0].m_b.m_obstacle), &ball);
+    EXPECT_EQ(&m_world.m_rigidProxies.object(problem.m_joints[0].m_b.m_rigidProxy), &ball);
 }
 
 TEST_F(SoftAnchorTest, aDeformableAnchorIsOneToo)
@@ -273,10 +273,10 @@ TEST_F(SoftAnchorTest, aMultibodysLinkLeadsItsNode)
 
     soft().appendDeformableAnchor(5, &link);
     ASSERT_EQ(m_world.append().m_joints.size(), 1u);
-    const LinkMotion motion = m_world.m_obstacles.motionNow(0);
+    const LinkMotion motion = m_world.m_rigidProxies.motionNow(0);
     expectNear(motion.m_angular, {0, 0, 4}, 1e-6);
     expectNear(motion.m_linear, {0, 3 + 4 * 2, 0}, 1e-5);
-    EXPECT_TRUE(m_world.m_obstacles.obstacles()[0].canMove());
+    EXPECT_TRUE(m_world.m_rigidProxies.rigidProxies()[0].canMove());
     m_world.world().removeCollisionObject(&link);
 }
 
@@ -339,7 +339,7 @@ TEST_F(NodeAttachmentTest, aBodyOutsideTheSolveStandsStill)
     m_world.m_outside.push_back(&m_other);
     const Joint joint = m_world.append().m_joints[0];
     EXPECT_EQ(joint.m_b.m_body, -1);
-    EXPECT_EQ(joint.m_b.m_obstacle, -1);
+    EXPECT_EQ(joint.m_b.m_rigidProxy, -1);
     EXPECT_TRUE(m_world.m_flags[0].m_outside);  // awake: it should have been solved together
 }
 

@@ -68,7 +68,7 @@ TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
         expectAlongZ(found, gap);
         EXPECT_EQ(found.m_contacts[0].m_soft.m_body, 0);
         EXPECT_EQ(found.m_contacts[0].m_other.m_body, 1);
-        EXPECT_EQ(found.m_contacts[0].m_obstacle, -1);
+        EXPECT_EQ(found.m_contacts[0].m_rigidProxy, -1);
     }
 }
 

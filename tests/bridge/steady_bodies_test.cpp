@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bridge/bridge_test_bodies.h"
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 #include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
@@ -52,7 +52,7 @@ protected:
         SteadyBodies steady;
         steady.sumImpulses({&m_fem}, m_memory, Threads());
         SteadyBodies::judge(m_fem, kStep);
-        return !m_fem.m_expected.empty();
+        return !m_fem.m_predicted.empty();
     }
 
     TestBox m_box;
@@ -127,11 +127,11 @@ TEST_F(SteadyBodiesTest, IsExpectedToGetWhatItsNodesGotInTheLastStep)
     restOnSoft(SoftPairKind::nodeOfSecond, -0.5 * m_weight);
     ASSERT_TRUE(isSteady());
     Vec3 sum;
-    for (const Vec3& impulse : m_fem.m_expected) sum += impulse;
+    for (const Vec3& impulse : m_fem.m_predicted) sum += impulse;
     EXPECT_NEAR(sum.z, m_weight, 1e-12);
-    EXPECT_NEAR(m_fem.m_expected[3].z, 0.35 * m_weight, 1e-12);
-    EXPECT_NEAR(m_fem.m_expected[4].z, 0.15 * m_weight, 1e-12);
-    EXPECT_NEAR(m_fem.m_expected[0].z, 0.5 * m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_predicted[3].z, 0.35 * m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_predicted[4].z, 0.15 * m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_predicted[0].z, 0.5 * m_weight, 1e-12);
 }
 
 // As after it was attached to something, or set up anew: its contacts may be told by other nodes.

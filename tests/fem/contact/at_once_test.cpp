@@ -29,12 +29,12 @@ public:
     {
         setGravity(m_body, {0, 0, -kStandardGravity});
         m_settings.m_denseLimit = denseLimit;
-        m_problem.m_obstacles.resize(1);
+        m_problem.m_rigidProxies.resize(1);
         for (int node = 0; node < kLower; ++node)  // the grid's first layer
         {
             ContactPoint contact;
             contact.m_soft = {0, {node, node, node}, {1, 0, 0}};
-            contact.m_obstacle = 0;
+            contact.m_rigidProxy = 0;
             contact.m_point = m_body.m_state.m_x[node];
             contact.m_normal = {0, 0, 1};
             contact.m_friction = 0.5;

@@ -114,7 +114,7 @@ TEST(BodyEnds, LearnNothingFromImpulsesThatWereExpectedInVain)
     expected[0] = {0, 0, -100};
     FreeMotion motion;
     motion.m_body = &body;
-    motion.m_expected = &expected;
+    motion.m_predicted = &expected;
     solveFreeMotions(&motion, 1);
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;

@@ -32,11 +32,11 @@ public:
             for (Vec3& x : m_bodies.back()->m_state.m_x) x += corner;
             for (Vec3& v : m_bodies.back()->m_state.m_v) v = middle - corner + Vec3{0.1 * (k % 7), 0, -4};
         }
-        m_problem.m_obstacles.resize(1 + kBalls);
+        m_problem.m_rigidProxies.resize(1 + kBalls);
         for (int k = 0; k < kBalls; ++k)
         {
             const int column = k / kColumn, level = k % kColumn;
-            Obstacle& ball = m_problem.m_obstacles[1 + k];
+            RigidProxy& ball = m_problem.m_rigidProxies[1 + k];
             ball.m_center = {column % kSide + 0.5, column / kSide + 0.5, kSide + 0.5 + level};
             ball.m_linearVelocity = {0, 0, -6};
             makeBall(ball, kBallMass, 0.5);
@@ -79,14 +79,14 @@ public:
     {
         Vec3 sum;
         for (const ContactPoint& contact : m_problem.m_contacts)
-            if (contact.m_obstacle == 0) sum += contact.m_impulse;
+            if (contact.m_rigidProxy == 0) sum += contact.m_impulse;
         return sum;
     }
     std::vector<Vec3> velocities() const
     {
         std::vector<Vec3> all;
-        for (const Obstacle& obstacle : m_problem.m_obstacles)
-            all.insert(all.end(), {obstacle.m_linearVelocity, obstacle.m_angularVelocity});
+        for (const RigidProxy& rigidProxy : m_problem.m_rigidProxies)
+            all.insert(all.end(), {rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity});
         for (const auto& body : m_bodies) all.insert(all.end(), velocity(*body).begin(), velocity(*body).end());
         return all;
     }
@@ -97,8 +97,8 @@ public:
     {
         double largest = 0;
         for (const RigidTouch& touch : m_problem.m_rigidTouches)
-            largest = std::max(largest, m_problem.m_obstacles[touch.m_other].m_linearVelocity.z -
-                                            m_problem.m_obstacles[touch.m_obstacle].m_linearVelocity.z);
+            largest = std::max(largest, m_problem.m_rigidProxies[touch.m_other].m_linearVelocity.z -
+                                            m_problem.m_rigidProxies[touch.m_rigidProxy].m_linearVelocity.z);
         return largest;
     }
 
@@ -132,14 +132,14 @@ private:
     Vec3 momentumOfBalls() const
     {
         Vec3 sum;
-        for (int k = 1; k <= kBalls; ++k) sum += kBallMass * m_problem.m_obstacles[k].m_linearVelocity;
+        for (int k = 1; k <= kBalls; ++k) sum += kBallMass * m_problem.m_rigidProxies[k].m_linearVelocity;
         return sum;
     }
 
     void addTouch(int above, int below)
     {
         RigidTouch touch;
-        touch.m_obstacle = above;
+        touch.m_rigidProxy = above;
         touch.m_other = below;
         touch.m_normal = {0, 0, 1};
         touch.m_arm = {0, 0, -0.5};
@@ -167,7 +167,7 @@ private:
                 if (axis == 2 && last) addFace(b, -1, 1 + kColumn * (b % step[2]), axis, 1);
             }
     }
-    void addFace(int body, int other, int obstacle, int axis, double side)
+    void addFace(int body, int other, int rigidProxy, int axis, double side)
     {
         const std::vector<Vec3>& rest = m_bodies[0]->m_state.m_x;  // whose corner is the origin
         for (int i = 0; i < static_cast<int>(rest.size()); ++i)
@@ -175,7 +175,7 @@ private:
             if (rest[i][axis] != side) continue;
             ContactPoint contact;
             contact.m_soft = {body, {i, i, i}, {1, 0, 0}};
-            contact.m_obstacle = obstacle;
+            contact.m_rigidProxy = rigidProxy;
             contact.m_point = m_bodies[body]->m_state.m_x[i];
             contact.m_normal[axis] = side == 0 ? 1 : -1;
             contact.m_friction = 0.3;

@@ -23,9 +23,9 @@ protected:
     {
         Scene()
         {
-            makeBall(m_obstacles[0], kBallMass, 0.5);
-            m_obstacles[0].m_center = {0.6, 0.3, -0.5};
-            m_obstacles[0].m_linearVelocity = {-0.1, 0.05, 0.2};
+            makeBall(m_rigidProxies[0], kBallMass, 0.5);
+            m_rigidProxies[0].m_center = {0.6, 0.3, -0.5};
+            m_rigidProxies[0].m_linearVelocity = {-0.1, 0.05, 0.2};
             setVelocity({0.1, 0, -0.2});
             BodyState& state = m_body.m_state;
             for (Vec3& x : state.m_x) x.x *= 1 + 0.05 * x.z;
@@ -49,8 +49,8 @@ protected:
         FreeMotion motion;
         motion.m_body = &scene.m_body;
         motion.m_settings = scene.m_settings.m_step;
-        motion.m_expected = &expected;
-        motion.m_expectedFloor = floor;
+        motion.m_predicted = &expected;
+        motion.m_predictedFloor = floor;
         solveFreeMotions(&motion, 1);
         return motion.m_report;
     }
@@ -72,7 +72,7 @@ protected:
             EXPECT_LT(norm(velocity(scene.m_body)[i] - velocity(reference.m_body)[i]), 1e-5) << i;
         const double impulse = norm(reference.totalImpulse());
         EXPECT_LT(norm(scene.totalImpulse() - reference.totalImpulse()), 1e-5 * impulse);
-        EXPECT_LT(norm(scene.m_obstacles[0].m_linearVelocity - reference.m_obstacles[0].m_linearVelocity), 1e-5);
+        EXPECT_LT(norm(scene.m_rigidProxies[0].m_linearVelocity - reference.m_rigidProxies[0].m_linearVelocity), 1e-5);
     }
 
     // Of cube and ball about the origin, less what gravity gives the cube.
@@ -86,7 +86,7 @@ protected:
             linear += p;
             angular += cross(s.m_x[i], p);
         }
-        const Obstacle& ball = scene.m_obstacles[0];
+        const RigidProxy& ball = scene.m_rigidProxies[0];
         linear += kBallMass * ball.m_linearVelocity;
         angular += cross(ball.m_center, kBallMass * ball.m_linearVelocity) + 0.1 * kBallMass * ball.m_angularVelocity;
         return {linear, angular};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What a soft body loses its obstacles gain, to rounding, however approximate the compliance is.
+// What a soft body loses its rigid proxies gain, to rounding, however approximate the compliance is.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/fem/step/stepping.h"
@@ -32,7 +32,7 @@ protected:
     // A ball comes up, spinning, against the lower face of the soft cube that comes down and sideways.
     MomentumExchange()
     {
-        Obstacle& ball = m_scene.m_obstacles[0];
+        RigidProxy& ball = m_scene.m_rigidProxies[0];
         m_mass = GetParam() * m_scene.softMass();
         makeBall(ball, m_mass, 0.5);
         ball.m_center = {0.6, 0.3, -0.5};
@@ -51,7 +51,7 @@ protected:
         Momenta sum;
         const BodyState& s = m_scene.m_body.m_state;
         for (std::size_t i = 0; i < v.size(); ++i) sum.add(s.m_x[i], s.m_mass[i] * v[i]);
-        const Obstacle& ball = m_scene.m_obstacles[0];
+        const RigidProxy& ball = m_scene.m_rigidProxies[0];
         sum.add(ball.m_center, m_mass * ball.m_linearVelocity);
         const Vec3 spin = 0.4 * m_mass * 0.25 * ball.m_angularVelocity;
         sum.m_angular += spin;
@@ -85,10 +85,10 @@ TEST_P(MomentumExchange, KeepsItFromAGuessToo)
 
 TEST_P(MomentumExchange, GivesTheSumOfItsImpulsesToBothSides)
 {
-    const Vec3 ballBefore = m_scene.m_obstacles[0].m_linearVelocity;
+    const Vec3 ballBefore = m_scene.m_rigidProxies[0].m_linearVelocity;
     m_scene.solve();
     const Vec3 J = m_scene.totalImpulse();
-    const Vec3 ballGain = m_mass * (m_scene.m_obstacles[0].m_linearVelocity - ballBefore);
+    const Vec3 ballGain = m_mass * (m_scene.m_rigidProxies[0].m_linearVelocity - ballBefore);
     EXPECT_LE(norm(ballGain + J), 1e-12 * (norm(J) + m_mass * norm(ballBefore)));
     Vec3 softGain;
     for (std::size_t i = 0; i < m_scene.m_body.m_state.m_v.size(); ++i)
@@ -128,13 +128,13 @@ TEST(InelasticImpact, EndsInTheCommonVelocity)
         ContactScene scene(1e10);
         const double m1 = scene.softMass(), m2 = ratio * m1;
         scene.setVelocity({0, 0, -2});
-        makeBall(scene.m_obstacles[0], m2, 0.5);
-        scene.m_obstacles[0].m_center = {0.5, 0.5, -0.5};
-        scene.m_obstacles[0].m_linearVelocity = {0, 0, 3};
+        makeBall(scene.m_rigidProxies[0], m2, 0.5);
+        scene.m_rigidProxies[0].m_center = {0.5, 0.5, -0.5};
+        scene.m_rigidProxies[0].m_linearVelocity = {0, 0, 3};
         scene.touchNode(4, 0, 0);
         scene.solve();
         const double common = (m2 * 3 - m1 * 2) / (m1 + m2);
-        EXPECT_NEAR(scene.m_obstacles[0].m_linearVelocity.z, common, 0.02) << ratio;
+        EXPECT_NEAR(scene.m_rigidProxies[0].m_linearVelocity.z, common, 0.02) << ratio;
         for (const Vec3& v : velocity(scene.m_body)) EXPECT_NEAR(v.z, common, 0.02) << ratio;
     }
 }
@@ -144,13 +144,14 @@ TEST(Slider, TakesImpulsesAlongItsAxisOnly)
 {
     ContactScene scene;
     scene.setVelocity({1, 2, -2});
-    scene.m_obstacles[0].m_inverseMass = {0, 0, 1.0 / 500};
+    scene.m_rigidProxies[0].m_inverseMass = {0, 0, 1.0 / 500};
     scene.touchLowerFace(0, 0.5);
     scene.solve();
-    EXPECT_EQ(scene.m_obstacles[0].m_linearVelocity.x, 0);
-    EXPECT_EQ(scene.m_obstacles[0].m_linearVelocity.y, 0);
-    EXPECT_EQ(norm(scene.m_obstacles[0].m_angularVelocity), 0);
-    EXPECT_NEAR(500 * scene.m_obstacles[0].m_linearVelocity.z, -scene.totalImpulse().z, 1e-12 * scene.totalImpulse().z);
+    EXPECT_EQ(scene.m_rigidProxies[0].m_linearVelocity.x, 0);
+    EXPECT_EQ(scene.m_rigidProxies[0].m_linearVelocity.y, 0);
+    EXPECT_EQ(norm(scene.m_rigidProxies[0].m_angularVelocity), 0);
+    EXPECT_NEAR(500 * scene.m_rigidProxies[0].m_linearVelocity.z, -scene.totalImpulse().z,
+                1e-12 * scene.totalImpulse().z);
 }
 
 }  // namespace

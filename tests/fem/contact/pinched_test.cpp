@@ -21,8 +21,8 @@ void pinch(ContactScene& scene, double speed, double guess)
     scene.m_settings.m_sweeps = 50;
     setGravity(scene.m_body, {0, 0, -9.81});
     scene.setVelocity({0, 0, -1});
-    scene.m_obstacles.resize(2);
-    Obstacle& ball = scene.m_obstacles[1];
+    scene.m_rigidProxies.resize(2);
+    RigidProxy& ball = scene.m_rigidProxies[1];
     makeBall(ball, kMass, 0.5);
     ball.m_center = {0.5, 0.5, 0.5};
     ball.m_linearVelocity = {0, 0, speed};
@@ -31,7 +31,7 @@ void pinch(ContactScene& scene, double speed, double guess)
     for (int k = 0; k < 9; ++k)
     {
         ContactPoint contact = scene.m_contacts[k];
-        contact.m_obstacle = 1;
+        contact.m_rigidProxy = 1;
         contact.m_normal = {0, 0, -1};
         scene.m_contacts.push_back(contact);
     }
@@ -59,9 +59,9 @@ TEST(Pinched, NodesAreOnlyPushed)
                     const double normal = dot(contact.m_impulse, contact.m_normal);
                     EXPECT_GE(normal, 0);
                     EXPECT_LE(norm(contact.m_impulse), std::hypot(1, 0.5) * normal * (1 + 1e-9));
-                    if (contact.m_obstacle == 1) held += contact.m_impulse.z;
+                    if (contact.m_rigidProxy == 1) held += contact.m_impulse.z;
                 }
-                EXPECT_NEAR(scene.m_obstacles[1].m_linearVelocity.z, speed - held / kMass, 1e-9 * (1 + guess));
+                EXPECT_NEAR(scene.m_rigidProxies[1].m_linearVelocity.z, speed - held / kMass, 1e-9 * (1 + guess));
             }
 }
 

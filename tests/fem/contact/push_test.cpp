@@ -88,15 +88,15 @@ TEST(Penetration, IsNotTakenBackTwice)
 TEST(Penetration, IsSharedWithAFreeObstacle)
 {
     ContactScene scene;
-    makeBall(scene.m_obstacles[0], 100, 0.5);
-    scene.m_obstacles[0].m_center = {0.5, 0.5, -0.5};
+    makeBall(scene.m_rigidProxies[0], 100, 0.5);
+    scene.m_rigidProxies[0].m_center = {0.5, 0.5, -0.5};
     scene.touchNode(4, -0.01, 0);
     scene.solve();
     finishStep(scene.m_body, scene.m_settings.m_step);
-    const double pushed = scene.m_obstacles[0].m_pushLinear.z / 60;
+    const double pushed = scene.m_rigidProxies[0].m_pushLinear.z / 60;
     EXPECT_LT(pushed, 0);
     EXPECT_NEAR(scene.m_body.m_state.m_x[4].z - pushed, 0.002, 1e-5 * 0.002);
-    EXPECT_LE(norm(scene.m_obstacles[0].m_linearVelocity), 1e-12);
+    EXPECT_LE(norm(scene.m_rigidProxies[0].m_linearVelocity), 1e-12);
     EXPECT_LE(norm(scene.m_body.m_state.m_v[4]), 1e-12);
 }
 
@@ -120,7 +120,7 @@ TEST(FixedContact, PushesAFreeObstacle)
     ContactScene scene;
     scene.m_body.m_state.m_fixed[4] = 1;
     scene.m_body.m_loads.m_targetVelocity[4] = {0, 0, -1};
-    Obstacle& ball = scene.m_obstacles[0];
+    RigidProxy& ball = scene.m_rigidProxies[0];
     makeBall(ball, 10, 0.5);
     ball.m_center = {0.5, 0.5, -0.5};
     scene.touchNode(4, 0, 0);

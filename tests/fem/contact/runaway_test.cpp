@@ -107,10 +107,10 @@ TEST(Runaway, OfPositionCorrectionsIsLetGo)
     {
         Plate plate(seed, kJoint, -0.02);
         plate.setVelocity({0, 0, 0.03});
-        makeBall(plate.m_obstacles[0], 10, 0.5);
+        makeBall(plate.m_rigidProxies[0], 10, 0.5);
         plate.solve();
-        EXPECT_LT(norm(plate.m_obstacles[0].m_pushLinear), 1) << seed;
-        EXPECT_LT(norm(plate.m_obstacles[0].m_pushAngular), 1) << seed;
+        EXPECT_LT(norm(plate.m_rigidProxies[0].m_pushLinear), 1) << seed;
+        EXPECT_LT(norm(plate.m_rigidProxies[0].m_pushAngular), 1) << seed;
         finishStep(plate.m_body, plate.m_settings.m_step);
         for (const Vec3& x : plate.m_body.m_state.m_x) ASSERT_LT(norm(x), 1) << seed;
     }
@@ -127,13 +127,13 @@ TEST(Runaway, OfAMixOfSweepsIsTakenBack)
         scene.m_settings.m_rounds = 1;
         scene.setVelocity({number(), 0, -1});
         scene.touchLowerFace(0, 0.5);
-        scene.m_obstacles.resize(2);
-        scene.m_obstacles[1].m_linearVelocity = {0, 0, -0.5};
+        scene.m_rigidProxies.resize(2);
+        scene.m_rigidProxies[1].m_linearVelocity = {0, 0, -0.5};
         scene.touchNode(k % 9, 0, 0.5);
         ContactPoint& driven = scene.m_contacts.back();
         const Vec3 n = {0.2 * number(), 0.2 * number(), -1};
         driven.m_normal = (1 / norm(n)) * n;
-        driven.m_obstacle = 1;
+        driven.m_rigidProxy = 1;
         for (ContactPoint& contact : scene.m_contacts) contact.m_impulse = 20 * contact.m_normal;
         EXPECT_TRUE(scene.solve().m_converged) << k;
         EXPECT_GT(norm(driven.m_impulse), 1) << k;  // [N s]

@@ -79,7 +79,7 @@ TEST(Contact, OnAFaceStopsThePointInIt)
     ContactScene scene;
     scene.setVelocity({0, 0, -2});
     ContactPoint contact;
-    contact.m_obstacle = 0;
+    contact.m_rigidProxy = 0;
     contact.m_soft = {0, {0, 1, 4}, {0.2, 0.3, 0.5}};
     for (int a = 0; a < 3; ++a)
         contact.m_point += contact.m_soft.m_weights[a] * scene.m_body.m_state.m_x[contact.m_soft.m_nodes[a]];
@@ -100,7 +100,7 @@ TEST(Contact, OnAPointOfThreeElementsActsThere)
     scene.m_cache = makeComplianceCache(body.m_model, all);
     scene.setVelocity({0.5, 0, -2});
     ContactPoint contact;
-    contact.m_obstacle = 0;
+    contact.m_rigidProxy = 0;
     contact.m_soft.m_body = 0;
     contact.m_soft.m_count = SurfacePoint::kMostNodes;
     for (int a = 0; a < SurfacePoint::kMostNodes; ++a)
@@ -187,13 +187,13 @@ TEST(Contact, LetsTheGapCloseWithinTheStep)
 TEST(Contact, WithNothingReportsNothing)
 {
     ContactScene scene;
-    scene.m_obstacles[0].m_pushLinear = {1, 2, 3};
+    scene.m_rigidProxies[0].m_pushLinear = {1, 2, 3};
     const ContactReport report = scene.solve();
     EXPECT_EQ(report.m_contacts, 0);
     EXPECT_EQ(report.m_sweeps, 0);
     EXPECT_EQ(report.m_iterations, 0);
     EXPECT_TRUE(report.m_converged);
-    EXPECT_EQ(norm(scene.m_obstacles[0].m_pushLinear), 0);
+    EXPECT_EQ(norm(scene.m_rigidProxies[0].m_pushLinear), 0);
 }
 
 // --- Obstacles that move ---
@@ -201,7 +201,7 @@ TEST(Contact, WithNothingReportsNothing)
 TEST(Contact, FollowsAnObstacleThatRisesDuringTheStep)
 {
     ContactScene scene;
-    scene.m_obstacles[0].m_linearVelocity = {0, 0, 1};
+    scene.m_rigidProxies[0].m_linearVelocity = {0, 0, 1};
     scene.touchLowerFace(0, 0);
     scene.solve();
     for (int node = 0; node < 9; ++node) EXPECT_NEAR(velocity(scene.m_body)[node].z, 1, kSolved);
@@ -210,8 +210,8 @@ TEST(Contact, FollowsAnObstacleThatRisesDuringTheStep)
 TEST(Contact, SticksToAConveyorAndToATurntable)
 {
     ContactScene scene;
-    scene.m_obstacles[0].m_linearVelocity = {1, 0, 0};
-    scene.m_obstacles[0].m_angularVelocity = {0, 0, 2};
+    scene.m_rigidProxies[0].m_linearVelocity = {1, 0, 0};
+    scene.m_rigidProxies[0].m_angularVelocity = {0, 0, 2};
     scene.setVelocity({0, 0, -1});
     scene.touchLowerFace(0, 100);
     scene.solve();
@@ -232,13 +232,13 @@ TEST(Contacts, OfSeveralBodiesDoNotMix)
     ContactProblem problem;
     problem.m_bodies = {
         {&a.m_body, a.m_cache.get()}, {&quiet.m_body, quiet.m_cache.get()}, {&b.m_body, b.m_cache.get()}};
-    problem.m_obstacles.resize(2);
+    problem.m_rigidProxies.resize(2);
     std::vector<ContactPoint>& contacts = problem.m_contacts;
     contacts = a.m_contacts;
     for (ContactPoint contact : b.m_contacts)
     {
         contact.m_soft.m_body = 2;
-        contact.m_obstacle = 1;
+        contact.m_rigidProxy = 1;
         contacts.push_back(contact);
     }
     for (ContactScene* scene : {&a, &quiet, &b}) solveFreeMotion(scene->m_body, scene->m_settings.m_step);

@@ -17,10 +17,10 @@ constexpr double kRadius = 0.2, kLight = 10;  // of balls [m], [kg]; the cube ha
 void putBalls(ContactScene& scene, int count)
 {
     scene.setVelocity({0, 0, -2});
-    scene.m_obstacles.resize(count);
+    scene.m_rigidProxies.resize(count);
     for (int k = 0; k < count; ++k)
     {
-        Obstacle& ball = scene.m_obstacles[k];
+        RigidProxy& ball = scene.m_rigidProxies[k];
         makeBall(ball, kLight, kRadius);
         ball.m_center = Vec3{0.5, 0.5, -kRadius - 2 * kRadius * k};
     }
@@ -31,7 +31,7 @@ void putBalls(ContactScene& scene, int count)
 RigidTouch touchBelow(int ball, int count)
 {
     RigidTouch touch;
-    touch.m_obstacle = ball;
+    touch.m_rigidProxy = ball;
     touch.m_other = ball + 1 < count ? ball + 1 : -1;
     touch.m_normal = {0, 0, 1};
     touch.m_arm = {0, 0, -kRadius};
@@ -64,7 +64,7 @@ TEST(RigidTouch, HoldsWhatLiesOnAFloor)
         putBalls(scene, count);
         for (int k = 0; k < count; ++k) scene.m_problem.m_rigidTouches.push_back(touchBelow(k, count));
         EXPECT_NEAR(impulseOf(scene), whole, 1e-3 * whole) << count;
-        for (const Obstacle& ball : scene.m_obstacles) EXPECT_NEAR(ball.m_linearVelocity.z, 0, 2e-3) << count;
+        for (const RigidProxy& ball : scene.m_rigidProxies) EXPECT_NEAR(ball.m_linearVelocity.z, 0, 2e-3) << count;
     }
     ContactScene alone;
     putBalls(alone, 1);
@@ -78,9 +78,9 @@ TEST(RigidTouch, NeverPulls)
     scene.m_contacts.clear();
     scene.touchNode(4, 10, 0);  // far away
     scene.m_problem.m_rigidTouches.push_back(touchBelow(0, 1));
-    scene.m_obstacles[0].m_linearVelocity = {0, 0, 1};
+    scene.m_rigidProxies[0].m_linearVelocity = {0, 0, 1};
     scene.solve();
-    EXPECT_EQ(scene.m_obstacles[0].m_linearVelocity.z, 1);
+    EXPECT_EQ(scene.m_rigidProxies[0].m_linearVelocity.z, 1);
 }
 
 TEST(RigidTouch, LeavesTheGapThatThereIs)
@@ -91,7 +91,7 @@ TEST(RigidTouch, LeavesTheGapThatThereIs)
     scene.m_problem.m_rigidTouches.push_back(touchBelow(0, 1));
     scene.m_problem.m_rigidTouches[0].m_leastSpeed = -gap / scene.m_settings.m_step.m_step;
     scene.solve();
-    EXPECT_NEAR(scene.m_obstacles[0].m_linearVelocity.z, -gap / scene.m_settings.m_step.m_step, 2e-3);
+    EXPECT_NEAR(scene.m_rigidProxies[0].m_linearVelocity.z, -gap / scene.m_settings.m_step.m_step, 2e-3);
 }
 
 // The soft cube goes all the way where the ball cannot give way; nearly none of it otherwise.
@@ -107,7 +107,7 @@ TEST(RigidTouch, KeepsPositionCorrectionsOutOfTheFloor)
         touch.m_pushOnly = true;
         if (touches) scene.m_problem.m_rigidTouches.push_back(touch);
         scene.solve();
-        const double pushed = scene.m_obstacles[0].m_pushLinear.z;
+        const double pushed = scene.m_rigidProxies[0].m_pushLinear.z;
         if (touches)
             EXPECT_NEAR(pushed, 0, 1e-3);
         else

@@ -147,7 +147,7 @@ class Shaft
 public:
     explicit Shaft(double gap)
     {
-        m_scene.m_obstacles.resize(3);
+        m_scene.m_rigidProxies.resize(3);
         m_scene.m_settings.m_tolerance = 1e-9;
         m_scene.m_settings.m_maxRounds = 30;
         m_scene.setVelocity({0, 0, -2});
@@ -164,7 +164,7 @@ private:
     {
         m_scene.touchNode(node, gap, 0.3);
         m_scene.m_contacts.back().m_normal = {side, 0, 0};
-        m_scene.m_contacts.back().m_obstacle = side > 0 ? 1 : 2;
+        m_scene.m_contacts.back().m_rigidProxy = side > 0 ? 1 : 2;
     }
 };
 

@@ -12,7 +12,7 @@ ContactScene::ContactScene(double young, const Mat3& turn)
       m_body(makeBody(makeBox({1, 1, 1}, {2, 2, 2}), elasticMaterial(young, 0.3))),
       m_cache(makeComplianceCache(m_body.m_model))
 {
-    m_obstacles.resize(1);
+    m_rigidProxies.resize(1);
     for (Vec3& x : m_body.m_state.m_x) x = m_turn * x;
     m_settings.m_step.m_tolerance = 1e-9;
     m_settings.m_step.m_maxIterations = 200;
@@ -24,7 +24,7 @@ void ContactScene::touchNode(int node, double gap, double friction)
 {
     ContactPoint contact;
     contact.m_soft = {0, {node, node, node}, {1, 0, 0}};
-    contact.m_obstacle = 0;
+    contact.m_rigidProxy = 0;
     contact.m_point = m_body.m_state.m_x[node];
     contact.m_normal = m_turn * Vec3{0, 0, 1};
     contact.m_gap = gap;
@@ -51,7 +51,7 @@ ContactReport ContactScene::solve()
 
 Vec3 ContactScene::relativeVelocity(const ContactPoint& contact) const
 {
-    Vec3 v = -m_obstacles[contact.m_obstacle].velocityAt(contact.m_point);
+    Vec3 v = -m_rigidProxies[contact.m_rigidProxy].velocityAt(contact.m_point);
     for (int a = 0; a < 3; ++a) v += contact.m_soft.m_weights[a] * velocity(m_body)[contact.m_soft.m_nodes[a]];
     return v;
 }
@@ -68,10 +68,10 @@ Vec3 ContactScene::totalImpulse() const
     return sum;
 }
 
-void makeBall(Obstacle& obstacle, double mass, double radius)
+void makeBall(RigidProxy& rigidProxy, double mass, double radius)
 {
-    obstacle.m_inverseMass = {1 / mass, 1 / mass, 1 / mass};
-    obstacle.m_inverseInertia = Mat3::diagonal(1 / (0.4 * mass * radius * radius));
+    rigidProxy.m_inverseMass = {1 / mass, 1 / mass, 1 / mass};
+    rigidProxy.m_inverseInertia = Mat3::diagonal(1 / (0.4 * mass * radius * radius));
 }
 
 }  // namespace bullet_fem

@@ -11,15 +11,15 @@
 namespace bullet_fem
 {
 
-/// A soft cube of 1 m and 1000 kg, its lowest corner at the origin, above one obstacle: a static half space until told
-/// otherwise. Sweeps, rounds and tolerances are such that the answer is that of the contact law, not of the solver's
-/// patience.
+/// A soft cube of 1 m and 1000 kg, its lowest corner at the origin, above one rigid proxy: a static half space until
+/// told otherwise. Sweeps, rounds and tolerances are such that the answer is that of the contact law, not of the
+/// solver's patience.
 struct ContactScene
 {
     /// young: E [Pa]; turn: rotates body, contacts and velocities set through the scene about the origin.
     explicit ContactScene(double young = 1e6, const Mat3& turn = Mat3::identity());
 
-    /// A contact for each of the 9 nodes of the lower face, with the obstacle's surface `gap` [m] below.
+    /// A contact for each of the 9 nodes of the lower face, with the rigid proxy's surface `gap` [m] below.
     void touchLowerFace(double gap, double friction);
 
     /// One at a node.
@@ -41,13 +41,13 @@ struct ContactScene
     Body m_body;
     std::shared_ptr<ComplianceCache> m_cache;
     ContactProblem m_problem;
-    std::vector<Obstacle>& m_obstacles = m_problem.m_obstacles;
+    std::vector<RigidProxy>& m_rigidProxies = m_problem.m_rigidProxies;
     std::vector<ContactPoint>& m_contacts = m_problem.m_contacts;
     ContactSettings m_settings;
     ContactSolver m_solver;
 };
 
-/// The obstacle's mass properties become those of a solid ball [kg, m].
-void makeBall(Obstacle& obstacle, double mass, double radius);
+/// The rigid proxy's mass properties become those of a solid ball [kg, m].
+void makeBall(RigidProxy& rigidProxy, double mass, double radius);
 
 }  // namespace bullet_fem

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemHelpers.h"
+#include "plugin/record/btFemDetailLevel.h"
 #include "plugin/scenes/clamped_beam.h"
 #include "plugin/scenes/scene_measures.h"
-#include "plugin/record/btFemDetailLevel.h"
 
 namespace bullet_fem
 {

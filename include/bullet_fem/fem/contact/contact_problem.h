@@ -21,7 +21,7 @@ std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyM
 std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model, std::vector<int> nodes);
 
 /// A rigid body as the contact solver sees it.
-struct Obstacle
+struct RigidProxy
 {
     Vec3 m_inverseMass;       ///< along the world axes [1/kg]; 0 for static and kinematic ones
     Mat3 m_inverseInertia;    ///< world axes [1/(kg m2)]
@@ -32,9 +32,9 @@ struct Obstacle
     Vec3 m_pushAngular;       ///< likewise [rad/s]
     Vec3 m_angularImpulse;    ///< written by solve(): pays back the angular momentum that corrections made [N m s]
     int m_firstResponse = 0;  ///< its responses are m_responses[m_firstResponse ... + m_responseCount) of the problem
-    int m_responseCount =
-        0;               ///< > 0: they tell what impulses on it do, and inverse mass and inertia only that it moves
-    Vec3 m_pushImpulse;  ///< written by solve() if it has responses: what makes the push [N s]
+    /// > 0: they tell what impulses on it do, and inverse mass and inertia only that it moves.
+    int m_responseCount = 0;
+    Vec3 m_pushImpulse;         ///< written by solve() if it has responses: what makes the push [N s]
     Vec3 m_pushAngularImpulse;  ///< likewise, about its centre [N m s]
 
     /// True if an impulse moves or turns it.
@@ -42,17 +42,21 @@ struct Obstacle
     Vec3 velocityAt(const Vec3& point) const { return m_linearVelocity + cross(m_angularVelocity, point - m_center); }
 };
 
-/// What an impulse on one obstacle does to another that hangs on the same joints, or to itself: links of an articulated
-/// body, which no mass and inertia describe. For impulses f and angular impulses t about the one's centre, the other's
-/// centre gets m_linear f + m_linearOfAngular t, its spin m_angularOfLinear f + m_angular t. World axes.
-struct ObstacleResponse
+/// What an impulse on one rigid proxy does to another that hangs on the same joints, or to itself: links of an
+/// articulated body, which no mass and inertia describe. For impulses f and angular impulses t about the one's centre,
+/// the other's centre gets m_linear f + m_linearOfAngular t, its spin m_angularOfLinear f + m_angular t. World axes.
+struct RigidResponse
 {
-    int m_obstacle = 0;      ///< index of the one that moves
+    int m_rigidProxy = 0;    ///< index of the one that moves
     Mat3 m_linear;           ///< [1/kg]
     Mat3 m_linearOfAngular;  ///< [1/(kg m)]
     Mat3 m_angularOfLinear;  ///< [1/(kg m)]
     Mat3 m_angular;          ///< [1/(kg m2)]
 };
+
+/// Names of these two before 0.2.
+using Obstacle [[deprecated("is RigidProxy")]] = RigidProxy;
+using ObstacleResponse [[deprecated("is RigidResponse")]] = RigidResponse;
 
 /// A point of a soft surface: a weighted sum of nodes of a body, of those that its compliance cache serves. An impulse
 /// on it is shared out by the same weights, and so has no other moment than that of the impulse at the point.
@@ -74,18 +78,18 @@ struct SurfacePoint
     }
 };
 
-/// Where a soft surface touches an obstacle, another soft body or itself, or may do so within the step.
+/// Where a soft surface touches a rigid proxy, another soft body or itself, or may do so within the step.
 struct ContactPoint
 {
-    SurfacePoint m_soft;   ///< feels the impulse
-    SurfacePoint m_other;  ///< feels the opposite, where the other side is soft; its m_body is -1 otherwise
-    int m_obstacle = -1;   ///< index into the obstacles of the solve, where the other side is rigid; -1 otherwise
-    Vec3 m_point;       ///< where both sides feel the impulse: the soft point, between two soft ones their middle [m]
-    Vec3 m_approach;    ///< added to m_point for the arm of an obstacle that it meets later in the step: what they come
-                        ///< closer until then [m]
-    Vec3 m_normal;      ///< unit [-], from the other side to m_soft
-    double m_gap = 0;   ///< signed distance at the start [m]; negative inside
-    double m_slop = 0;  ///< penetration that is left alone [m], >= 0
+    SurfacePoint m_soft;    ///< feels the impulse
+    SurfacePoint m_other;   ///< feels the opposite, where the other side is soft; its m_body is -1 otherwise
+    int m_rigidProxy = -1;  ///< index into the rigid proxies of the solve, where the other side is rigid; -1 otherwise
+    Vec3 m_point;     ///< where both sides feel the impulse: the soft point, between two soft ones their middle [m]
+    Vec3 m_approach;  ///< added to m_point for the arm of a rigid proxy that it meets later in the step: what they come
+                      ///< closer until then [m]
+    Vec3 m_normal;    ///< unit [-], from the other side to m_soft
+    double m_gap = 0;          ///< signed distance at the start [m]; negative inside
+    double m_slop = 0;         ///< penetration that is left alone [m], >= 0
     double m_hardness = 1;     ///< factor on ContactSettings::m_pushFraction [-], >= 0
     double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
     double m_restitution = 0;  ///< share of the closing speed that is given back [-], in [0, 1]
@@ -96,14 +100,14 @@ struct ContactPoint
                   ///< of the last step before, the new one after
 };
 
-/// Where an obstacle touches another, or something immovable: a row that keeps the two apart. Its impulses are part of
-/// the obstacles' new velocities, and told nowhere else.
+/// Where a rigid proxy touches another, or something immovable: a row that keeps the two apart. Its impulses are part
+/// of the rigid proxies' new velocities, and told nowhere else.
 struct RigidTouch
 {
-    int m_obstacle = -1;      ///< index into the obstacles of the solve
+    int m_rigidProxy = -1;    ///< index into the rigid proxies of the solve
     int m_other = -1;         ///< likewise; -1: immovable
     Vec3 m_arm, m_otherArm;   ///< from their centres to where they touch [m]
-    Vec3 m_normal;            ///< unit [-], from the other to the obstacle
+    Vec3 m_normal;            ///< unit [-], from the other to the rigid proxy
     double m_gap = 0;         ///< signed distance [m]; negative inside
     bool m_moves = true;      ///< the velocities of the solve will bring them together or apart from there
     double m_leastSpeed = 0;  ///< at which they part along the normal, at least; < 0: they may close [m/s]
@@ -118,9 +122,9 @@ struct ContactBody
 {
     Body* m_body = nullptr;                   ///< has had solveFreeMotion
     ComplianceCache* m_compliance = nullptr;  ///< of the body's model
-    /// FreeMotion::m_expected, [N s], one a node: what it has in its velocities of the impulses that its contacts start
-    /// with. Null: nothing.
-    const std::vector<Vec3>* m_expected = nullptr;
+    /// FreeMotion::m_predicted, [N s], one a node: what it has in its velocities of the impulses that its contacts
+    /// start with. Null: nothing.
+    const std::vector<Vec3>* m_predicted = nullptr;
 };
 
 /// How a ContactProblem is solved.
@@ -153,13 +157,13 @@ struct ContactReport
     bool m_converged = true;  ///< all corrective solves met their tolerance
 };
 
-/// One end of a joint: a point or a group of nodes of a soft body, or a rigid obstacle.
+/// One end of a joint: a point or a group of nodes of a soft body, or a rigid body.
 struct JointEnd
 {
     int m_body = -1;         ///< soft end: index into the bodies of the solve
     int m_first = 0;         ///< soft end: its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
     int m_count = 0;         ///< and its velocity is the sum of m_handleBlocks times theirs
-    int m_obstacle = -1;     ///< rigid end: index into the obstacles; an end of neither is fixed in the world
+    int m_rigidProxy = -1;   ///< rigid end: index into the rigid proxies; an end of neither is fixed in the world
     Vec3 m_point;            ///< rigid end: where it is held [m]
     bool m_angular = false;  ///< rigid end: its velocity is the angular one, and impulses are angular
 };
@@ -184,14 +188,14 @@ struct Joint
 /// Nothing is checked: indices must be in range, and all numbers finite.
 struct ContactProblem
 {
-    std::vector<ContactBody> m_bodies;          ///< each once
-    std::vector<Obstacle> m_obstacles;          ///< each once
-    std::vector<ObstacleResponse> m_responses;  ///< of the obstacles that have some
-    std::vector<ContactPoint> m_contacts;       ///< between them; their order decides
-    std::vector<Joint> m_joints;                ///< likewise
-    std::vector<RigidTouch> m_rigidTouches;     ///< likewise
-    std::vector<int> m_handleNodes;             ///< nodes of the joints' soft ends, one end's after another
-    std::vector<Mat3> m_handleBlocks;           ///< one a handle node [-]
+    std::vector<ContactBody> m_bodies;       ///< each once
+    std::vector<RigidProxy> m_rigidProxies;  ///< each once
+    std::vector<RigidResponse> m_responses;  ///< of the rigid proxies that have some
+    std::vector<ContactPoint> m_contacts;    ///< between them; their order decides
+    std::vector<Joint> m_joints;             ///< likewise
+    std::vector<RigidTouch> m_rigidTouches;  ///< likewise
+    std::vector<int> m_handleNodes;          ///< nodes of the joints' soft ends, one end's after another
+    std::vector<Mat3> m_handleBlocks;        ///< one a handle node [-]
 
     /// Empties all; nothing is freed.
     void clear();

@@ -24,8 +24,8 @@ double residualFloor(double contactTolerance, double solveTolerance);
 ///
 /// solve() does it all. Who sweeps rows of its own in between, such as those between rigid bodies, calls its parts:
 /// begin, then while wantsRound sweep ... sweep, correct, then if wantsBack goBack, and at the end finish; it may read
-/// and write the obstacles' velocities between any two of them. The scratch grows with the number of contacts and never
-/// shrinks. Deterministic: the order of contacts decides.
+/// and write the rigid proxies' velocities between any two of them. The scratch grows with the number of contacts and
+/// never shrinks. Deterministic: the order of contacts decides.
 class ContactSolver
 {
 public:
@@ -33,15 +33,15 @@ public:
     ~ContactSolver();
 
     /// Bodies must have had solveFreeMotion with settings.m_step. Adds the response of contacts and joints to their
-    /// velocities, and to the obstacles'. Throws nothing; what did not converge is in the report.
+    /// velocities, and to the rigid proxies'. Throws nothing; what did not converge is in the report.
     ContactReport solve(ContactProblem& problem, const ContactSettings& settings);
 
-    /// Gives the obstacles the reactions of the guessed impulses, and measures. `problem` must live until finish.
+    /// Gives the rigid proxies the reactions of the guessed impulses, and measures. `problem` must live until finish.
     void begin(ContactProblem& problem, const ContactSettings& settings);
 
-    /// One sweep over all rows; the obstacles' velocities follow. Returns false if it changed less than the tolerance,
-    /// and so did rows of others that are swept in turn with these, or both no longer get anywhere: the round may end.
-    /// `others`: the largest change of velocity by those rows since the last sweep [m/s].
+    /// One sweep over all rows; the rigid proxies' velocities follow. Returns false if it changed less than the
+    /// tolerance, and so did rows of others that are swept in turn with these, or both no longer get anywhere: the
+    /// round may end. `others`: the largest change of velocity by those rows since the last sweep [m/s].
     bool sweep(double others = 0);
 
     /// Ends a round: solves the true systems for the impulses that are new since the last call.

@@ -33,9 +33,9 @@ struct FreeMotion
     StepSettings m_settings;
     SolveReport m_report;  ///< out
     /// Impulses that contact is expected to make [N s], one a node: solved for with the loads, from the guess that the
-    /// body goes on as it moves. ContactBody::m_expected is to be the same then. Null: none.
-    const std::vector<Vec3>* m_expected = nullptr;
-    double m_expectedFloor = 1;  ///< share of their norm that |b| counts as at least, for the tolerance [-], in [0, 1]
+    /// body goes on as it moves. ContactBody::m_predicted is to be the same then. Null: none.
+    const std::vector<Vec3>* m_predicted = nullptr;
+    double m_predictedFloor = 1;  ///< share of their norm that |b| counts as at least, for the tolerance [-], in [0, 1]
 };
 
 /// applyImpulses to one body of several.

@@ -22,10 +22,10 @@ enum class RigidPhase
     solving  ///< Bullet's rigid solver is about to solve them, together with the soft ones
 };
 
-/// The rigid side of a step's contacts and joints: turns Bullet's collision objects into obstacles, and hands the
+/// The rigid side of a step's contacts and joints: turns Bullet's collision objects into rigid proxies, and hands the
 /// reactions back. Links of multibodies answer as parts of their multibody. What single precision cuts off a rigid
 /// body's velocity is carried to the next step.
-class RigidObstacles
+class RigidProxies
 {
 public:
     /// What single precision cut off a body's velocity.
@@ -55,52 +55,55 @@ public:
     /// See ArticulatedBodies::assumeForcesGiven.
     void assumeForcesGiven(const Vec3& gravity) { m_articulated.assumeForcesGiven(gravity); }
 
-    /// Forgets all obstacles.
+    /// Forgets all rigid proxies.
     void clear(RigidPhase phase = RigidPhase::moved);
 
-    /// Index of an object's obstacle, made when first asked for. `step` [s] is the world's. Rows use the velocity that
-    /// a dynamic body will have next without soft bodies: in phase `moved` v + h g, and what other rigid bodies hold it
-    /// with (see supportOf); else v and what all its forces add.
+    /// Index of an object's rigid proxy, made when first asked for. `step` [s] is the world's. Rows use the velocity
+    /// that a dynamic body will have next without soft bodies: in phase `moved` v + h g, and what other rigid bodies
+    /// hold it with (see supportOf); else v and what all its forces add.
     int indexOf(const btCollisionObject& object, double step);
 
     /// The same for contacts with a soft body, after its free motion. Where the two move fast relative to each other
-    /// (as isFast() has it) in phase `moved`, the rigid one is rewound: its obstacle is where Bullet moved it from,
+    /// (as isFast() has it) in phase `moved`, the rigid one is rewound: its rigid proxy is where Bullet moved it from,
     /// with the velocity that it moved with; what Bullet's joints did to it holds it. It stays so as long as it is
     /// asked for in every step. One that was asked for before in this step stays as it is.
     int indexForContact(const btCollisionObject& object, double step, const Body& soft);
 
-    /// The same for what Bullet's contacts keep apart from an obstacle, and which is rewound if that is.
+    /// The same for what Bullet's contacts keep apart from a rigid proxy, and which is rewound if that is.
     int indexBeside(const btCollisionObject& object, double step, int neighbour);
 
     RigidPhase phase() const { return m_phase; }
 
-    /// True if Bullet has moved the object already, but its obstacle is as the step began.
-    bool isRewound(int obstacle) const { return m_sources[obstacle].m_rewound; }
+    /// True if Bullet has moved the object already, but its rigid proxy is as the step began.
+    bool isRewound(int rigidProxy) const { return m_sources[rigidProxy].m_rewound; }
 
-    /// Writes how links of multibodies answer impulses, for ContactProblem. Once all obstacles are known.
-    void connectLinks(std::vector<ObstacleResponse>& responses) { m_articulated.connect(m_obstacles, responses); }
+    /// Writes how links of multibodies answer impulses, for ContactProblem. Once all rigid proxies are known.
+    void connectLinks(std::vector<RigidResponse>& responses) { m_articulated.connect(m_rigidProxies, responses); }
 
-    /// True if the obstacle is a multibody's link that impulses can move.
-    bool isMovableLink(int obstacle) const { return m_obstacles[obstacle].canMove() && !movableBody(obstacle); }
+    /// True if the rigid proxy is a multibody's link that impulses can move.
+    bool isMovableLink(int rigidProxy) const
+    {
+        return m_rigidProxies[rigidProxy].canMove() && !movableBody(rigidProxy);
+    }
 
-    /// True if links of multibodies that can move are among the obstacles.
+    /// True if links of multibodies that can move are among the rigid proxies.
     bool holdsLinks() const { return !m_articulated.isEmpty(); }
 
     /// The velocity that the object moves with, or moved with: without what gravity will add to it in the next step.
-    LinkMotion motionNow(int obstacle) const;
+    LinkMotion motionNow(int rigidProxy) const;
 
-    std::vector<Obstacle>& obstacles() { return m_obstacles; }
-    const std::vector<Obstacle>& obstacles() const { return m_obstacles; }
-    const btCollisionObject& object(int obstacle) const { return *m_sources[obstacle].m_object; }
+    std::vector<RigidProxy>& rigidProxies() { return m_rigidProxies; }
+    const std::vector<RigidProxy>& rigidProxies() const { return m_rigidProxies; }
+    const btCollisionObject& object(int rigidProxy) const { return *m_sources[rigidProxy].m_object; }
 
-    /// The rigid body of an obstacle that impulses can move; null for others.
-    btRigidBody* movableBody(int obstacle) const;
-    Remainder& remainder(int obstacle) { return remainderOf(m_sources[obstacle].m_objectId); }
+    /// The rigid body of a rigid proxy that impulses can move; null for others.
+    btRigidBody* movableBody(int rigidProxy) const;
+    Remainder& remainder(int rigidProxy) { return remainderOf(m_sources[rigidProxy].m_objectId); }
 
     /// Moves the bodies by the position corrections, and rewound ones by what their change of velocity makes (touches
     /// included, so that a floor stays a floor; but for what goes against Bullet's joints), and wakes those that felt
     /// impulses; in phase `moved` also adds the changes to their velocities, in double and once. `problem` is the one
-    /// solved, with these obstacles.
+    /// solved, with these rigid proxies.
     void applyReactions(const ContactProblem& problem, double step);
 
 private:
@@ -114,17 +117,17 @@ private:
         LinkMotion m_now = {};  // as the solve began; of rigid bodies and links that can move
     };
 
-    void addReaction(int obstacle, const Vec3& impulse, const Vec3& point);
+    void addReaction(int rigidProxy, const Vec3& impulse, const Vec3& point);
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
     void addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change);
-    LinkMotion doneByBullet(const btRigidBody& body, double step, const Obstacle& obstacle) const;
-    LinkMotion supportOf(const btRigidBody& body, double step, const Obstacle& obstacle, bool rewound);
-    void rewind(int obstacle, double step);
-    bool mustRewind(int obstacle, double step, const Body& soft) const;
+    LinkMotion doneByBullet(const btRigidBody& body, double step, const RigidProxy& rigidProxy) const;
+    LinkMotion supportOf(const btRigidBody& body, double step, const RigidProxy& rigidProxy, bool rewound);
+    void rewind(int rigidProxy, double step);
+    bool mustRewind(int rigidProxy, double step, const Body& soft) const;
     Remainder& remainderOf(int objectId);
 
     RigidPhase m_phase = RigidPhase::moved;
-    std::vector<Obstacle> m_obstacles;
+    std::vector<RigidProxy> m_rigidProxies;
     std::vector<Source> m_sources;
     std::vector<Remainder> m_remainders;
     struct Before

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/contact_heirs.h"
+#include "bullet_bridge/warm_start_transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -20,10 +20,10 @@ ContactPoint contactAt(double x, double impulse, const Vec3& normal = kUp)
     return contact;
 }
 
-TEST(ContactHeirs, TheNearestWithoutAnImpulseInherits)
+TEST(WarmStartTransfer, TheNearestWithoutAnImpulseInherits)
 {
     ContactPoint rich = contactAt(0.1, 5), near = contactAt(0.3, 0), far = contactAt(0.4, 0);
-    ContactHeirs heirs;
+    WarmStartTransfer heirs;
     heirs.addLost({0.1, 0, 0}, kUp, {0, 0, 2});
     for (ContactPoint* contact : {&rich, &far, &near}) heirs.addHeir(*contact, 1);
     heirs.settle(1);
@@ -32,10 +32,10 @@ TEST(ContactHeirs, TheNearestWithoutAnImpulseInherits)
     EXPECT_EQ(rich.m_impulse.z, 5);
 }
 
-TEST(ContactHeirs, WhereAllHaveImpulsesTheNearestGetsItOnTop)
+TEST(WarmStartTransfer, WhereAllHaveImpulsesTheNearestGetsItOnTop)
 {
     ContactPoint near = contactAt(0.1, 5), far = contactAt(0.4, 3);
-    ContactHeirs heirs;
+    WarmStartTransfer heirs;
     heirs.addLost({0, 0, 0}, kUp, {0.5, 0, 2});
     heirs.addHeir(far, 1);
     heirs.addHeir(near, 1);
@@ -45,12 +45,12 @@ TEST(ContactHeirs, WhereAllHaveImpulsesTheNearestGetsItOnTop)
     EXPECT_EQ(far.m_impulse.z, 3);
 }
 
-TEST(ContactHeirs, OneThatTouchesComesBeforeANearerOneThatDoesNotYet)
+TEST(WarmStartTransfer, OneThatTouchesComesBeforeANearerOneThatDoesNotYet)
 {
     ContactPoint apart = contactAt(0.1, 0), touching = contactAt(0.4, 0), sunk = contactAt(0.5, 0);
     apart.m_gap = 0.02;
     sunk.m_gap = -0.02;
-    ContactHeirs heirs;
+    WarmStartTransfer heirs;
     heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
     for (ContactPoint* contact : {&apart, &touching, &sunk}) heirs.addHeir(*contact, 1);
     heirs.settle(1);
@@ -59,10 +59,10 @@ TEST(ContactHeirs, OneThatTouchesComesBeforeANearerOneThatDoesNotYet)
     EXPECT_EQ(sunk.m_impulse.z, 0);
 }
 
-TEST(ContactHeirs, TwoLostOnesGoToTwoHeirs)
+TEST(WarmStartTransfer, TwoLostOnesGoToTwoHeirs)
 {
     ContactPoint near = contactAt(0.1, 0), far = contactAt(0.2, 0);
-    ContactHeirs heirs;
+    WarmStartTransfer heirs;
     heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
     heirs.addLost({0, 0, 0}, kUp, {0, 0, 3});
     heirs.addHeir(far, 1);
@@ -72,10 +72,10 @@ TEST(ContactHeirs, TwoLostOnesGoToTwoHeirs)
     EXPECT_EQ(far.m_impulse.z, 3);
 }
 
-TEST(ContactHeirs, OnesOutOfReachOrOfAnotherNormalInheritNothing)
+TEST(WarmStartTransfer, OnesOutOfReachOrOfAnotherNormalInheritNothing)
 {
     ContactPoint far = contactAt(1, 0), turned = contactAt(0, 0, {1, 0, 0}), opposite = contactAt(0, 0, {0, 0, -1});
-    ContactHeirs heirs;
+    WarmStartTransfer heirs;
     heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
     for (ContactPoint* contact : {&far, &turned, &opposite}) heirs.addHeir(*contact, 1);
     heirs.settle(1);
@@ -83,10 +83,10 @@ TEST(ContactHeirs, OnesOutOfReachOrOfAnotherNormalInheritNothing)
         EXPECT_EQ(dot(contact->m_impulse, contact->m_impulse), 0);
 }
 
-TEST(ContactHeirs, AContactSeenFromTheOtherSideInheritsTheOppositeImpulse)
+TEST(WarmStartTransfer, AContactSeenFromTheOtherSideInheritsTheOppositeImpulse)
 {
     ContactPoint heir = contactAt(0, 0, {0, 0, -1});
-    ContactHeirs heirs;
+    WarmStartTransfer heirs;
     heirs.addLost({0, 0, 0}, kUp, {0.5, 0, 2});
     heirs.addHeir(heir, -1);
     heirs.settle(1);
@@ -94,10 +94,10 @@ TEST(ContactHeirs, AContactSeenFromTheOtherSideInheritsTheOppositeImpulse)
     EXPECT_EQ(heir.m_impulse.x, -0.5);
 }
 
-TEST(ContactHeirs, NothingIsInheritedTwice)
+TEST(WarmStartTransfer, NothingIsInheritedTwice)
 {
     ContactPoint heir = contactAt(0, 0);
-    ContactHeirs heirs;
+    WarmStartTransfer heirs;
     heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
     heirs.clear(1);
     heirs.addHeir(heir, 1);

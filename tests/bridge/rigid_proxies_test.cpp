@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 
 #include <gtest/gtest.h>
 
@@ -19,16 +19,16 @@ class RigidObstaclesTest : public ::testing::Test
 protected:
     btSphereShape m_sphere{1};
     btRigidBody m_body{btRigidBody::btRigidBodyConstructionInfo(2, nullptr, &m_sphere, btVector3(1, 1, 1))};
-    RigidObstacles m_obstacles;
+    RigidProxies m_rigidProxies;
 
-    // With an impulse on the soft body, and with what the solve has made of the obstacle's velocities by it.
+    // With an impulse on the soft body, and with what the solve has made of the rigid proxy's velocities by it.
     ContactProblem contact(const Vec3& impulse, const Vec3& point)
     {
         ContactPoint result;
-        result.m_obstacle = m_obstacles.indexOf(m_body, kObstacleStep);
-        Obstacle& obstacle = m_obstacles.obstacles()[result.m_obstacle];
-        for (int c = 0; c < 3; ++c) obstacle.m_linearVelocity[c] -= obstacle.m_inverseMass[c] * impulse[c];
-        obstacle.m_angularVelocity -= obstacle.m_inverseInertia * cross(point - obstacle.m_center, impulse);
+        result.m_rigidProxy = m_rigidProxies.indexOf(m_body, kObstacleStep);
+        RigidProxy& rigidProxy = m_rigidProxies.rigidProxies()[result.m_rigidProxy];
+        for (int c = 0; c < 3; ++c) rigidProxy.m_linearVelocity[c] -= rigidProxy.m_inverseMass[c] * impulse[c];
+        rigidProxy.m_angularVelocity -= rigidProxy.m_inverseInertia * cross(point - rigidProxy.m_center, impulse);
         result.m_impulse = impulse;
         result.m_point = point;
         ContactProblem problem;
@@ -41,23 +41,23 @@ TEST_F(RigidObstaclesTest, aDynamicBodyIsSeenWithTheVelocityOfItsNextStep)
 {
     m_body.setGravity(btVector3(0, 0, -6));
     m_body.setLinearVelocity(btVector3(1, 0, 0));
-    const Obstacle obstacle = m_obstacles.obstacles()[m_obstacles.indexOf(m_body, 0.5)];
-    EXPECT_NEAR(obstacle.m_linearVelocity.z, -3, 1e-6);
-    EXPECT_NEAR(obstacle.m_linearVelocity.x, 1, 1e-6);
-    EXPECT_NEAR(obstacle.m_inverseMass.x, 0.5, 1e-6);
+    const RigidProxy rigidProxy = m_rigidProxies.rigidProxies()[m_rigidProxies.indexOf(m_body, 0.5)];
+    EXPECT_NEAR(rigidProxy.m_linearVelocity.z, -3, 1e-6);
+    EXPECT_NEAR(rigidProxy.m_linearVelocity.x, 1, 1e-6);
+    EXPECT_NEAR(rigidProxy.m_inverseMass.x, 0.5, 1e-6);
 }
 
 TEST_F(RigidObstaclesTest, anObjectHasOneObstacle)
 {
-    EXPECT_EQ(m_obstacles.indexOf(m_body, kObstacleStep), m_obstacles.indexOf(m_body, kObstacleStep));
-    EXPECT_EQ(m_obstacles.obstacles().size(), 1u);
+    EXPECT_EQ(m_rigidProxies.indexOf(m_body, kObstacleStep), m_rigidProxies.indexOf(m_body, kObstacleStep));
+    EXPECT_EQ(m_rigidProxies.rigidProxies().size(), 1u);
 }
 
 TEST_F(RigidObstaclesTest, lockedAxesFeelNoImpulse)
 {
     m_body.setLinearFactor(btVector3(1, 1, 0));
     m_body.setAngularFactor(btVector3(0, 0, 1));
-    m_obstacles.applyReactions(contact({-2, 0, -2}, {0, 1, 0}), kObstacleStep);
+    m_rigidProxies.applyReactions(contact({-2, 0, -2}, {0, 1, 0}), kObstacleStep);
     EXPECT_NEAR(m_body.getLinearVelocity().x(), 1, 1e-6);
     EXPECT_EQ(m_body.getLinearVelocity().z(), 0);
     EXPECT_EQ(m_body.getAngularVelocity().x(), 0);
@@ -70,8 +70,8 @@ TEST_F(RigidObstaclesTest, impulsesBelowTheRoundingOfFloatAddUp)
     const double tiny = 2e-8;  // each changes the velocity by 1e-8, a sixth of what float can add to 1
     for (int step = 0; step < 1000; ++step)
     {
-        m_obstacles.clear();
-        m_obstacles.applyReactions(contact({-tiny, 0, 0}, {0, 0, 0}), kObstacleStep);
+        m_rigidProxies.clear();
+        m_rigidProxies.applyReactions(contact({-tiny, 0, 0}, {0, 0, 0}), kObstacleStep);
     }
     EXPECT_NEAR(m_body.getLinearVelocity().x(), 1 + 1e-5, 2e-7);
 }
@@ -79,15 +79,15 @@ TEST_F(RigidObstaclesTest, impulsesBelowTheRoundingOfFloatAddUp)
 TEST_F(RigidObstaclesTest, impulsesWakeABody)
 {
     m_body.setActivationState(ISLAND_SLEEPING);
-    m_obstacles.applyReactions(contact({-1, 0, 0}, {0, 0, 0}), kObstacleStep);
+    m_rigidProxies.applyReactions(contact({-1, 0, 0}, {0, 0, 0}), kObstacleStep);
     EXPECT_TRUE(m_body.isActive());
 }
 
 TEST_F(RigidObstaclesTest, aPushMovesTheBodyAndLeavesItsVelocityAlone)
 {
-    m_obstacles.indexOf(m_body, kObstacleStep);
-    m_obstacles.obstacles()[0].m_pushLinear = {0, 6, 0};
-    m_obstacles.applyReactions(ContactProblem(), kObstacleStep);
+    m_rigidProxies.indexOf(m_body, kObstacleStep);
+    m_rigidProxies.rigidProxies()[0].m_pushLinear = {0, 6, 0};
+    m_rigidProxies.applyReactions(ContactProblem(), kObstacleStep);
     EXPECT_NEAR(m_body.getCenterOfMassPosition().y(), 0.1, 1e-6);
     EXPECT_EQ(m_body.getLinearVelocity(), btVector3(0, 0, 0));
 }
@@ -96,10 +96,10 @@ TEST_F(RigidObstaclesTest, staticAndKinematicBodiesCannotBeMoved)
 {
     m_body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     m_body.setInterpolationLinearVelocity(btVector3(0, 3, 0));
-    const Obstacle obstacle = m_obstacles.obstacles()[m_obstacles.indexOf(m_body, kObstacleStep)];
-    EXPECT_EQ(obstacle.m_inverseMass.x, 0);
-    EXPECT_EQ(obstacle.m_linearVelocity.y, 3);
-    m_obstacles.applyReactions(contact({5, 5, 5}, {0, 0, 0}), kObstacleStep);
+    const RigidProxy rigidProxy = m_rigidProxies.rigidProxies()[m_rigidProxies.indexOf(m_body, kObstacleStep)];
+    EXPECT_EQ(rigidProxy.m_inverseMass.x, 0);
+    EXPECT_EQ(rigidProxy.m_linearVelocity.y, 3);
+    m_rigidProxies.applyReactions(contact({5, 5, 5}, {0, 0, 0}), kObstacleStep);
     EXPECT_EQ(m_body.getLinearVelocity(), btVector3(0, 0, 0));
 }
 

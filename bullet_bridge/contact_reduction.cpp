@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/contact_thinning.h"
+#include "bullet_bridge/contact_reduction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,19 +18,19 @@ constexpr double kSameNormal = 0.9;  // cosine of the angle between normals that
 
 }  // namespace
 
-double ContactThinning::cellOf(const FemSoftBody& fem)
+double ContactReduction::cellOf(const FemSoftBody& fem)
 {
     const double edge = fem.m_body.m_model->mesh().meanEdgeLength();
     return fem.m_skin && fem.m_surface.meanEdge() < kFine * edge ? kCell * edge : 0;
 }
 
-void ContactThinning::clear(double cell)
+void ContactReduction::clear(double cell)
 {
     m_cell = cell;
     m_candidates.clear();
 }
 
-void ContactThinning::add(const Given& given)
+void ContactReduction::add(const Given& given)
 {
     std::array<int, 3> cell;
     for (int c = 0; c < 3; ++c) cell[c] = static_cast<int>(std::floor(given.m_restPoint[c] / m_cell));
@@ -39,7 +39,7 @@ void ContactThinning::add(const Given& given)
                             given.m_contact.m_normal});
 }
 
-void ContactThinning::choose()
+void ContactReduction::choose()
 {
     const auto key = [](const Candidate& c) { return std::tie(c.m_objectId, c.m_cell, c.m_isNew, c.m_gap, c.m_index); };
     std::sort(m_candidates.begin(), m_candidates.end(),
@@ -52,7 +52,7 @@ void ContactThinning::choose()
     }
 }
 
-bool ContactThinning::isNeeded(std::size_t candidate, std::size_t firstOfCell) const
+bool ContactReduction::isNeeded(std::size_t candidate, std::size_t firstOfCell) const
 {
     const Candidate& c = m_candidates[candidate];
     int alike = 0;

@@ -12,7 +12,7 @@ namespace bullet_fem
 /// Hands the impulses of contacts that are gone to contacts near them between the same two surfaces, as guesses: where
 /// round surfaces rest on each other, the points that touch change all the time, and the force between the two does
 /// not. Scratch grows, never shrinks.
-class ContactHeirs
+class WarmStartTransfer
 {
 public:
     /// Forgets all; `lost` are expected at most.
@@ -45,7 +45,7 @@ private:
     Heir* nearestHeir(const Lost& lost, double reach);
 
     std::vector<Lost> m_lost;
-    std::vector<Heir> m_heirs;
+    std::vector<Heir> m_transfer;
 };
 
 }  // namespace bullet_fem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/contact_heirs.h"
+#include "bullet_bridge/warm_start_transfer.h"
 
 #include <algorithm>
 
@@ -19,28 +19,28 @@ bool isZero(const Vec3& v)
 
 }  // namespace
 
-void ContactHeirs::clear(std::size_t lost)
+void WarmStartTransfer::clear(std::size_t lost)
 {
     m_lost.clear();
     m_lost.reserve(lost);
-    m_heirs.clear();
+    m_transfer.clear();
 }
 
-void ContactHeirs::addLost(const Vec3& point, const Vec3& normal, const Vec3& impulse)
+void WarmStartTransfer::addLost(const Vec3& point, const Vec3& normal, const Vec3& impulse)
 {
     if (!isZero(impulse)) m_lost.push_back({point, normal, impulse});
 }
 
-void ContactHeirs::addHeir(ContactPoint& contact, double sign)
+void WarmStartTransfer::addHeir(ContactPoint& contact, double sign)
 {
-    m_heirs.push_back({&contact, sign, !isZero(contact.m_impulse)});
+    m_transfer.push_back({&contact, sign, !isZero(contact.m_impulse)});
 }
 
-ContactHeirs::Heir* ContactHeirs::nearestHeir(const Lost& lost, double reach)
+WarmStartTransfer::Heir* WarmStartTransfer::nearestHeir(const Lost& lost, double reach)
 {
     Heir* nearest = nullptr;
     double best = 2 * reach;  // one that has an impulse already counts as farther than all that have none
-    for (Heir& heir : m_heirs)
+    for (Heir& heir : m_transfer)
     {
         const double distance = norm(heir.m_contact->m_point - lost.m_point);
         const double cost =
@@ -53,7 +53,7 @@ ContactHeirs::Heir* ContactHeirs::nearestHeir(const Lost& lost, double reach)
     return nearest;
 }
 
-void ContactHeirs::settle(double reach)
+void WarmStartTransfer::settle(double reach)
 {
     for (const Lost& lost : m_lost)
         if (Heir* heir = nearestHeir(lost, reach))

@@ -7,26 +7,26 @@
 namespace bullet_fem
 {
 
-/// Calls add(k, linear, angular) with the changes of velocity [m/s], [rad/s] of every obstacle k that an impulse [N s]
-/// and an angular impulse [N m s] about its centre on one obstacle moves.
+/// Calls add(k, linear, angular) with the changes of velocity [m/s], [rad/s] of every rigid proxy k that an impulse [N
+/// s] and an angular impulse [N m s] about its centre on one rigid proxy moves.
 template <class Add>
-void respond(const ContactProblem& problem, int obstacle, const Vec3& impulse, const Vec3& angular, const Add& add)
+void respond(const ContactProblem& problem, int rigidProxy, const Vec3& impulse, const Vec3& angular, const Add& add)
 {
-    const Obstacle& o = problem.m_obstacles[obstacle];
-    if (o.m_responseCount == 0) return add(obstacle, scaled(o.m_inverseMass, impulse), o.m_inverseInertia * angular);
+    const RigidProxy& o = problem.m_rigidProxies[rigidProxy];
+    if (o.m_responseCount == 0) return add(rigidProxy, scaled(o.m_inverseMass, impulse), o.m_inverseInertia * angular);
     for (int k = o.m_firstResponse; k < o.m_firstResponse + o.m_responseCount; ++k)
     {
-        const ObstacleResponse& r = problem.m_responses[k];
-        add(r.m_obstacle, r.m_linear * impulse + r.m_linearOfAngular * angular,
+        const RigidResponse& r = problem.m_responses[k];
+        add(r.m_rigidProxy, r.m_linear * impulse + r.m_linearOfAngular * angular,
             r.m_angularOfLinear * impulse + r.m_angular * angular);
     }
 }
 
-/// What an impulse on an obstacle does to the velocity of its own point at `arm` [m] from its centre [1/kg], or, with
+/// What an impulse on a rigid proxy does to the velocity of its own point at `arm` [m] from its centre [1/kg], or, with
 /// `angularEnd`, what an angular one does to its spin [1/(kg m2)].
-inline Mat3 obstacleCompliance(const ContactProblem& problem, int obstacle, const Vec3& arm, bool angularEnd)
+inline Mat3 obstacleCompliance(const ContactProblem& problem, int rigidProxy, const Vec3& arm, bool angularEnd)
 {
-    const Obstacle& o = problem.m_obstacles[obstacle];
+    const RigidProxy& o = problem.m_rigidProxies[rigidProxy];
     const Mat3 r = crossMatrix(arm);
     if (o.m_responseCount == 0)
     {
@@ -39,8 +39,8 @@ inline Mat3 obstacleCompliance(const ContactProblem& problem, int obstacle, cons
     Mat3 w;
     for (int k = o.m_firstResponse; k < o.m_firstResponse + o.m_responseCount; ++k)
     {
-        const ObstacleResponse& own = problem.m_responses[k];
-        if (own.m_obstacle != obstacle) continue;
+        const RigidResponse& own = problem.m_responses[k];
+        if (own.m_rigidProxy != rigidProxy) continue;
         if (angularEnd) return own.m_angular;
         w = own.m_linear + own.m_linearOfAngular * r;
         w -= r * own.m_angularOfLinear + r * own.m_angular * r;

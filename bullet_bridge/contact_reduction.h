@@ -21,7 +21,7 @@ inline bool isPushing(const ContactPoint& contact)
 /// in one cell of the rest shape, half an edge of the tetrahedra wide, those are kept that held something in the last
 /// step (they are a set of active constraints), and the one that comes deepest by the end of this step, if it is deeper
 /// than these by the slop, or if their normals differ. Scratch grows, never shrinks.
-class ContactThinning
+class ContactReduction
 {
 public:
     /// Width of the cells for a body [m]; 0 if its contacts need no thinning.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/rigid_obstacles.h"
+#include "bullet_bridge/rigid_proxies.h"
 
 #include <algorithm>
 
@@ -35,27 +35,27 @@ btRigidBody* movable(const btCollisionObject& object)
     return body && !body->isStaticOrKinematicObject() && body->getInvMass() > 0 ? body : nullptr;
 }
 
-Obstacle immovable(const btCollisionObject& object)
+RigidProxy immovable(const btCollisionObject& object)
 {
-    Obstacle obstacle;
-    obstacle.m_center = vec3(object.getWorldTransform().getOrigin());
+    RigidProxy rigidProxy;
+    rigidProxy.m_center = vec3(object.getWorldTransform().getOrigin());
     if (object.isKinematicObject() && object.isActive())  // Bullet no longer moves one that fell asleep
     {
-        obstacle.m_linearVelocity = vec3(object.getInterpolationLinearVelocity());
-        obstacle.m_angularVelocity = vec3(object.getInterpolationAngularVelocity());
+        rigidProxy.m_linearVelocity = vec3(object.getInterpolationLinearVelocity());
+        rigidProxy.m_angularVelocity = vec3(object.getInterpolationAngularVelocity());
     }
-    return obstacle;
+    return rigidProxy;
 }
 
 // The motion of a multibody's link that impulses do not reach. `scratch` grows with the number of links.
-void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>& scratch, Obstacle& obstacle)
+void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>& scratch, RigidProxy& rigidProxy)
 {
     const std::size_t count = link.m_multiBody->getNumLinks() + 1, k = link.m_link + 1;
     if (scratch.size() < 2 * count) scratch.resize(2 * count);
     link.m_multiBody->compTreeLinkVelocities(&scratch[0], &scratch[count]);
     const btMatrix3x3& fromLink = link.getWorldTransform().getBasis();
-    obstacle.m_angularVelocity = vec3(fromLink * scratch[k]);
-    obstacle.m_linearVelocity = vec3(fromLink * scratch[count + k]);
+    rigidProxy.m_angularVelocity = vec3(fromLink * scratch[k]);
+    rigidProxy.m_linearVelocity = vec3(fromLink * scratch[count + k]);
 }
 
 // A link of a multibody that is still there; null for other objects.
@@ -99,13 +99,13 @@ int broadphaseId(const btCollisionObject& object)
     return object.getBroadphaseHandle() ? object.getBroadphaseHandle()->m_uniqueId : -1;
 }
 
-void RigidObstacles::restore(const Memory& memory)
+void RigidProxies::restore(const Memory& memory)
 {
     m_remainders.assign(memory.m_remainders.begin(), memory.m_remainders.end());
     m_rewound.assign(memory.m_rewound.begin(), memory.m_rewound.end());
 }
 
-void RigidObstacles::beginStep()
+void RigidProxies::beginStep()
 {
     m_remainders.erase(
         std::remove_if(m_remainders.begin(), m_remainders.end(), [](const Remainder& r) { return !r.m_used; }),
@@ -117,61 +117,61 @@ void RigidObstacles::beginStep()
     m_rewound.clear();
 }
 
-void RigidObstacles::clear(RigidPhase phase)
+void RigidProxies::clear(RigidPhase phase)
 {
     m_phase = phase;
-    m_obstacles.clear();
+    m_rigidProxies.clear();
     m_sources.clear();
     m_articulated.clear();
 }
 
-btRigidBody* RigidObstacles::movableBody(int obstacle) const
+btRigidBody* RigidProxies::movableBody(int rigidProxy) const
 {
-    return movable(*m_sources[obstacle].m_object);
+    return movable(*m_sources[rigidProxy].m_object);
 }
 
-int RigidObstacles::indexOf(const btCollisionObject& object, double step)
+int RigidProxies::indexOf(const btCollisionObject& object, double step)
 {
     for (std::size_t k = 0; k < m_sources.size(); ++k)
         if (m_sources[k].m_object == &object) return static_cast<int>(k);
     m_sources.push_back({});
     m_sources.back().m_object = &object;
     m_sources.back().m_objectId = broadphaseId(object);
-    Obstacle obstacle = immovable(object);
+    RigidProxy rigidProxy = immovable(object);
     const btMultiBodyLinkCollider* link = linkOf(object);
     if (link && ArticulatedBodies::canMove(*link))
-        m_sources.back().m_now = m_articulated.add(static_cast<int>(m_obstacles.size()), *link, step, obstacle);
+        m_sources.back().m_now = m_articulated.add(static_cast<int>(m_rigidProxies.size()), *link, step, rigidProxy);
     else if (link)
-        setLinkVelocity(*link, m_linkVelocities, obstacle);
+        setLinkVelocity(*link, m_linkVelocities, rigidProxy);
     if (const btRigidBody* body = movable(object))
     {
         const Mat3 factor = {{{body->getAngularFactor().x(), 0, 0},
                               {0, body->getAngularFactor().y(), 0},
                               {0, 0, body->getAngularFactor().z()}}};
-        obstacle.m_inverseMass = body->getInvMass() * vec3(body->getLinearFactor());
-        obstacle.m_inverseInertia = factor * mat3(body->getInvInertiaTensorWorld()) * factor;
-        obstacle.m_center = vec3(body->getCenterOfMassPosition());
-        obstacle.m_linearVelocity = vec3(body->getLinearVelocity());
-        obstacle.m_angularVelocity = vec3(body->getAngularVelocity());
+        rigidProxy.m_inverseMass = body->getInvMass() * vec3(body->getLinearFactor());
+        rigidProxy.m_inverseInertia = factor * mat3(body->getInvInertiaTensorWorld()) * factor;
+        rigidProxy.m_center = vec3(body->getCenterOfMassPosition());
+        rigidProxy.m_linearVelocity = vec3(body->getLinearVelocity());
+        rigidProxy.m_angularVelocity = vec3(body->getAngularVelocity());
         if (m_phase == RigidPhase::moved)
         {
-            obstacle.m_linearVelocity += step * vec3(body->getGravity());
-            const LinkMotion support = supportOf(*body, step, obstacle, false);
-            obstacle.m_linearVelocity += support.m_linear;
-            obstacle.m_angularVelocity += support.m_angular;
+            rigidProxy.m_linearVelocity += step * vec3(body->getGravity());
+            const LinkMotion support = supportOf(*body, step, rigidProxy, false);
+            rigidProxy.m_linearVelocity += support.m_linear;
+            rigidProxy.m_angularVelocity += support.m_angular;
         }
         else
         {
-            obstacle.m_linearVelocity += step * body->getInvMass() * vec3(body->getTotalForce());
-            obstacle.m_angularVelocity += step * (obstacle.m_inverseInertia * vec3(body->getTotalTorque()));
+            rigidProxy.m_linearVelocity += step * body->getInvMass() * vec3(body->getTotalForce());
+            rigidProxy.m_angularVelocity += step * (rigidProxy.m_inverseInertia * vec3(body->getTotalTorque()));
         }
-        m_sources.back().m_now = {obstacle.m_linearVelocity, obstacle.m_angularVelocity};
+        m_sources.back().m_now = {rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
     }
-    m_obstacles.push_back(obstacle);
-    return static_cast<int>(m_obstacles.size()) - 1;
+    m_rigidProxies.push_back(rigidProxy);
+    return static_cast<int>(m_rigidProxies.size()) - 1;
 }
 
-void RigidObstacles::noteBeforeSolve(const btCollisionObject& object)
+void RigidProxies::noteBeforeSolve(const btCollisionObject& object)
 {
     const btRigidBody* body = movable(object);
     const btMultiBodyLinkCollider* link = linkOf(object);
@@ -182,14 +182,14 @@ void RigidObstacles::noteBeforeSolve(const btCollisionObject& object)
 }
 
 // What Bullet's contacts and joints changed in this step.
-LinkMotion RigidObstacles::doneByBullet(const btRigidBody& body, double step, const Obstacle& obstacle) const
+LinkMotion RigidProxies::doneByBullet(const btRigidBody& body, double step, const RigidProxy& rigidProxy) const
 {
     const auto before =
         std::find_if(m_before.begin(), m_before.end(), [&](const Before& b) { return b.m_object == &body; });
     if (before == m_before.end()) return {};
     const Vec3 after = vec3(body.getLinearVelocity());
     const Vec3 forces = step * body.getInvMass() * vec3(body.getTotalForce());
-    const Vec3 torques = step * (obstacle.m_inverseInertia * vec3(body.getTotalTorque()));
+    const Vec3 torques = step * (rigidProxy.m_inverseInertia * vec3(body.getTotalTorque()));
     LinkMotion done = {after - before->m_linear - forces,
                        vec3(body.getAngularVelocity()) - before->m_angular - torques};
     if (norm(done.m_linear) < kRounding * (norm(after) + norm(forces))) done.m_linear = {};
@@ -199,9 +199,9 @@ LinkMotion RigidObstacles::doneByBullet(const btRigidBody& body, double step, co
 // A body on a floor does not fall in the next step, and gives no way to what presses on it. What Bullet's contacts and
 // joints did to it in this step is what they will do in the next, as far as it withstands gravity and what soft bodies
 // gave it before; the rest, such as an impact, is over. A rewound one is where it was before they did it.
-LinkMotion RigidObstacles::supportOf(const btRigidBody& body, double step, const Obstacle& obstacle, bool rewound)
+LinkMotion RigidProxies::supportOf(const btRigidBody& body, double step, const RigidProxy& rigidProxy, bool rewound)
 {
-    const LinkMotion done = doneByBullet(body, step, obstacle);
+    const LinkMotion done = doneByBullet(body, step, rigidProxy);
     const auto part = [](const Vec3& whole, const Vec3& needed)
     {
         const double square = dot(whole, whole);
@@ -215,35 +215,35 @@ LinkMotion RigidObstacles::supportOf(const btRigidBody& body, double step, const
 // What gravity gives in a step is not speed: resting bodies have it as well. Bullet clears the hit fraction of those
 // that its own continuous collision has stopped on their way. What is not rewound is seen one step ahead: a body that
 // changed over near a surface would skip a step, and may be thinner than its way in it.
-bool RigidObstacles::mustRewind(int obstacle, double step, const Body& soft) const
+bool RigidProxies::mustRewind(int rigidProxy, double step, const Body& soft) const
 {
-    const btCollisionObject& object = *m_sources[obstacle].m_object;
+    const btCollisionObject& object = *m_sources[rigidProxy].m_object;
     if (object.getHitFraction() == 0) return false;
     const int id = broadphaseId(object);
     if (std::find(m_lastRewound.begin(), m_lastRewound.end(), id) != m_lastRewound.end()) return true;
     const btTransform& present = object.getWorldTransform();
     const ShapeLeaf whole = {object.getCollisionShape(), {mat3(present.getBasis()), vec3(present.getOrigin())}, {}, {}};
-    const LinkMotion now = motionNow(obstacle);
+    const LinkMotion now = motionNow(rigidProxy);
     const RigidMotion motion = {vec3(present.getOrigin()), now.m_linear, now.m_angular};
-    const btRigidBody* body = movableBody(obstacle);
+    const btRigidBody* body = movableBody(rigidProxy);
     const double byGravity =
-        body ? step * norm(vec3(body->getGravity())) : norm(m_obstacles[obstacle].m_linearVelocity - now.m_linear);
+        body ? step * norm(vec3(body->getGravity())) : norm(m_rigidProxies[rigidProxy].m_linearVelocity - now.m_linear);
     const double speed = fastestNode(soft, motion.m_linearVelocity);
     return isFast(SweptShape(whole, motion, step), speed - 2 * byGravity, soft.m_model->mesh().meanEdgeLength());
 }
 
-int RigidObstacles::indexForContact(const btCollisionObject& object, double step, const Body& soft)
+int RigidProxies::indexForContact(const btCollisionObject& object, double step, const Body& soft)
 {
     const std::size_t known = m_sources.size();
     const int index = indexOf(object, step);
-    if (m_sources.size() == known || m_phase != RigidPhase::moved || !m_obstacles[index].canMove() ||
+    if (m_sources.size() == known || m_phase != RigidPhase::moved || !m_rigidProxies[index].canMove() ||
         !mustRewind(index, step, soft))
         return index;
     rewind(index, step);
     return index;
 }
 
-int RigidObstacles::indexBeside(const btCollisionObject& object, double step, int neighbour)
+int RigidProxies::indexBeside(const btCollisionObject& object, double step, int neighbour)
 {
     const int index = indexOf(object, step);
     const bool asMoved = movableBody(index) && object.getHitFraction() != 0;  // what Bullet stopped on its way was not
@@ -252,30 +252,30 @@ int RigidObstacles::indexBeside(const btCollisionObject& object, double step, in
 }
 
 // Bullet's contacts are touches of the solve; its joints are known by what they did.
-void RigidObstacles::rewind(int index, double step)
+void RigidProxies::rewind(int index, double step)
 {
     Source& source = m_sources[index];
-    Obstacle& obstacle = m_obstacles[index];
+    RigidProxy& rigidProxy = m_rigidProxies[index];
     const LinkMotion now = motionNow(index);
-    obstacle.m_center -= step * now.m_linear;
-    obstacle.m_linearVelocity = now.m_linear;
+    rigidProxy.m_center -= step * now.m_linear;
+    rigidProxy.m_linearVelocity = now.m_linear;
     const btRigidBody* body = movable(*source.m_object);
-    if (!body || body->getNumConstraintRefs() == 0) obstacle.m_angularVelocity = now.m_angular;
+    if (!body || body->getNumConstraintRefs() == 0) rigidProxy.m_angularVelocity = now.m_angular;
     if (body)
     {
         if (body->getNumConstraintRefs() > 0)
         {
-            source.m_held = doneByBullet(*body, step, obstacle).m_linear;
-            obstacle.m_linearVelocity += supportOf(*body, step, obstacle, true).m_linear;
+            source.m_held = doneByBullet(*body, step, rigidProxy).m_linear;
+            rigidProxy.m_linearVelocity += supportOf(*body, step, rigidProxy, true).m_linear;
         }
-        source.m_now = {obstacle.m_linearVelocity, obstacle.m_angularVelocity};
+        source.m_now = {rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
     }
-    m_articulated.setCenter(index, obstacle.m_center);
+    m_articulated.setCenter(index, rigidProxy.m_center);
     source.m_rewound = true;
     m_rewound.push_back(source.m_objectId);
 }
 
-RigidObstacles::Remainder& RigidObstacles::remainderOf(int objectId)
+RigidProxies::Remainder& RigidProxies::remainderOf(int objectId)
 {
     for (Remainder& r : m_remainders)
         if (r.m_objectId == objectId) return r;
@@ -283,26 +283,26 @@ RigidObstacles::Remainder& RigidObstacles::remainderOf(int objectId)
     return m_remainders.back();
 }
 
-void RigidObstacles::addReaction(int obstacle, const Vec3& impulse, const Vec3& point)
+void RigidProxies::addReaction(int rigidProxy, const Vec3& impulse, const Vec3& point)
 {
-    if (obstacle < 0) return;
-    m_sources[obstacle].m_linearImpulse += impulse;
-    m_sources[obstacle].m_angularImpulse += cross(point - m_obstacles[obstacle].m_center, impulse);
+    if (rigidProxy < 0) return;
+    m_sources[rigidProxy].m_linearImpulse += impulse;
+    m_sources[rigidProxy].m_angularImpulse += cross(point - m_rigidProxies[rigidProxy].m_center, impulse);
 }
 
-void RigidObstacles::addJointReaction(const JointEnd& end, const Vec3& impulse)
+void RigidProxies::addJointReaction(const JointEnd& end, const Vec3& impulse)
 {
-    if (end.m_obstacle < 0) return;
+    if (end.m_rigidProxy < 0) return;
     if (end.m_angular)
-        m_sources[end.m_obstacle].m_angularImpulse += impulse;
+        m_sources[end.m_rigidProxy].m_angularImpulse += impulse;
     else
-        addReaction(end.m_obstacle, impulse, end.m_point);
+        addReaction(end.m_rigidProxy, impulse, end.m_point);
 }
 
-void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
+void RigidProxies::applyReactions(const ContactProblem& problem, double step)
 {
     for (const ContactPoint& contact : problem.m_contacts)
-        addReaction(contact.m_obstacle, -contact.m_impulse, contact.m_point + contact.m_approach);
+        addReaction(contact.m_rigidProxy, -contact.m_impulse, contact.m_point + contact.m_approach);
     for (const Joint& joint : problem.m_joints)
     {
         addJointReaction(joint.m_a, joint.m_impulse);
@@ -311,21 +311,21 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
     for (std::size_t k = 0; k < m_sources.size(); ++k)
     {
         Source& source = m_sources[k];
-        const Obstacle& obstacle = m_obstacles[k];
-        const LinkMotion change = {obstacle.m_linearVelocity - source.m_now.m_linear,
-                                   obstacle.m_angularVelocity - source.m_now.m_angular};
+        const RigidProxy& rigidProxy = m_rigidProxies[k];
+        const LinkMotion change = {rigidProxy.m_linearVelocity - source.m_now.m_linear,
+                                   rigidProxy.m_angularVelocity - source.m_now.m_angular};
         if (!isBelow(kFastest, change.m_linear) || !isBelow(kFastest, change.m_angular) ||
-            !isBelow(kFastest, obstacle.m_pushLinear) || !isBelow(kFastest, obstacle.m_pushAngular))
+            !isBelow(kFastest, rigidProxy.m_pushLinear) || !isBelow(kFastest, rigidProxy.m_pushAngular))
             continue;
         m_articulated.addImpulse(static_cast<int>(k), source.m_linearImpulse, source.m_angularImpulse);
         if (source.m_rewound)
         {
-            m_obstacles[k].m_pushImpulse += source.m_linearImpulse;
-            m_obstacles[k].m_pushAngularImpulse += source.m_angularImpulse;
+            m_rigidProxies[k].m_pushImpulse += source.m_linearImpulse;
+            m_rigidProxies[k].m_pushAngularImpulse += source.m_angularImpulse;
         }
         btRigidBody* body = movable(*source.m_object);
         if (!body) continue;
-        source.m_angularImpulse += obstacle.m_angularImpulse;
+        source.m_angularImpulse += rigidProxy.m_angularImpulse;
         const bool felt = isAny(source.m_linearImpulse, source.m_angularImpulse);
         const bool throughOthers = m_phase == RigidPhase::moved && body->isActive();
         if (felt || (throughOthers && isAny(change.m_linear, change.m_angular)))
@@ -333,7 +333,7 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
             if (m_phase == RigidPhase::moved) addToVelocity(*body, source, change);
             if (!body->isActive()) body->activate();  // islands know when one that is awake may rest
         }
-        Vec3 linear = obstacle.m_pushLinear, angular = obstacle.m_pushAngular;
+        Vec3 linear = rigidProxy.m_pushLinear, angular = rigidProxy.m_pushAngular;
         if (source.m_rewound)  // it went with the old velocity where it should have gone with the new
         {
             linear += heldBack(change.m_linear, source.m_held);
@@ -345,19 +345,19 @@ void RigidObstacles::applyReactions(const ContactProblem& problem, double step)
                                             bulletVector(angular), btScalar(step), pushed);
         body->setCenterOfMassTransform(pushed);
     }
-    m_articulated.apply(m_obstacles, step);
+    m_articulated.apply(m_rigidProxies, step);
 }
 
-LinkMotion RigidObstacles::motionNow(int obstacle) const
+LinkMotion RigidProxies::motionNow(int rigidProxy) const
 {
-    const btRigidBody* body = movableBody(obstacle);
+    const btRigidBody* body = movableBody(rigidProxy);
     if (m_phase == RigidPhase::moved && body)
         return {vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())};
-    if (isMovableLink(obstacle)) return m_sources[obstacle].m_now;
-    return {m_obstacles[obstacle].m_linearVelocity, m_obstacles[obstacle].m_angularVelocity};
+    if (isMovableLink(rigidProxy)) return m_sources[rigidProxy].m_now;
+    return {m_rigidProxies[rigidProxy].m_linearVelocity, m_rigidProxies[rigidProxy].m_angularVelocity};
 }
 
-void RigidObstacles::addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change)
+void RigidProxies::addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change)
 {
     Remainder& remainder = remainderOf(source.m_objectId);
     remainder.m_used = true;
