@@ -166,7 +166,8 @@ TEST_P(Definition, IsRefusedByOtherBodies)
     std::swap(turned.m_tetras[0].m_n[0], turned.m_tetras[0].m_n[1]);
     m_scene.m_world.step();
     expectRefused(turned, swapped, "join other nodes");
-    EXPECT_FALSE(m_scene.m_fem.applyDefinition(nullptr, swapped.data(), swapped.size(), nullptr));
+    std::string why;
+    EXPECT_FALSE(m_scene.m_fem.applyDefinition(nullptr, swapped.data(), swapped.size(), &why));
 }
 
 TEST_P(Definition, IsRefusedIfDamaged)
@@ -175,17 +176,19 @@ TEST_P(Definition, IsRefusedIfDamaged)
     expectRefused(*m_beam, m_scene.save(), "not a body's definition");
     expectRefused(*m_beam, Bytes(m_saved.begin(), m_saved.end() - 1), "cut off");
     std::mt19937 random(1);
+    std::string why;
     for (int k = 0; k < 1000; ++k)
     {
         Bytes bytes = m_saved;
         bytes[random() % bytes.size()] ^= static_cast<unsigned char>(1u << random() % 8);
-        EXPECT_FALSE(m_scene.m_fem.applyDefinition(m_beam, bytes.data(), bytes.size(), nullptr));
+        EXPECT_FALSE(m_scene.m_fem.applyDefinition(m_beam, bytes.data(), bytes.size(), &why));
     }
 }
 
 TEST_P(Definition, OfAnyBytesIsRefusedOrMoves)
 {
     std::mt19937 random(3);
+    std::string why;
     int refused = 0;
     for (int k = 0; k < 2000; ++k)
     {
@@ -196,7 +199,7 @@ TEST_P(Definition, OfAnyBytesIsRefusedOrMoves)
         else
             bytes.erase(bytes.begin() + at, bytes.begin() + at + 1 + random() % 8);
         closeEnvelope(bytes);
-        const bool taken = m_scene.m_fem.applyDefinition(m_beam, bytes.data(), bytes.size(), nullptr);
+        const bool taken = m_scene.m_fem.applyDefinition(m_beam, bytes.data(), bytes.size(), &why);
         refused += taken ? 0 : 1;
         if (k % 50 == 0) m_scene.m_world.step(2);
         ASSERT_TRUE(allFinite(*m_beam)) << "mutation " << k;

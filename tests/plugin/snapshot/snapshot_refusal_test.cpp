@@ -42,7 +42,7 @@ protected:
         EXPECT_FALSE(m_scene.m_fem.restoreState(bytes.data(), bytes.size(), &why)) << reason;
         EXPECT_THAT(why, HasSubstr(reason));
         EXPECT_TRUE(m_scene.save() == before) << reason;
-        EXPECT_FALSE(m_scene.m_fem.restoreState(bytes.data(), bytes.size(), nullptr));
+        EXPECT_THROW(m_scene.m_fem.restoreState(bytes.data(), bytes.size()), std::invalid_argument);
     }
 
     Bytes with(std::size_t at, unsigned char value) const
@@ -98,7 +98,8 @@ protected:
 TEST_F(RefusedSnapshot, BytesThatAreNone)
 {
     expectRefused({}, "header");
-    EXPECT_FALSE(m_scene.m_fem.restoreState(nullptr, 100, nullptr));
+    std::string why;
+    EXPECT_FALSE(m_scene.m_fem.restoreState(nullptr, 100, &why));
     EXPECT_THROW(m_scene.m_fem.restoreState(nullptr, 0), std::invalid_argument);
     expectRefused(Bytes(1000, 7), "something else");
     expectRefused(with(0, 'b'), "something else");
@@ -118,19 +119,21 @@ TEST_F(RefusedSnapshot, BytesThatAreNone)
 
 TEST_F(RefusedSnapshot, CutOffAnywhere)
 {
+    std::string why;
     for (std::size_t size = 0; size < m_good.size(); size += size < 100 ? 1 : 997)
-        EXPECT_FALSE(m_scene.m_fem.restoreState(m_good.data(), size, nullptr)) << size;
+        EXPECT_FALSE(m_scene.m_fem.restoreState(m_good.data(), size, &why)) << size;
     expectRefused(Bytes(m_good.begin(), m_good.end() - 1), "cut off");
 }
 
 TEST_F(RefusedSnapshot, WithAnyBitFlipped)
 {
     std::mt19937 random(1);
+    std::string why;
     for (int k = 0; k < 3000; ++k)
     {
         Bytes bytes = m_good;
         bytes[random() % bytes.size()] ^= static_cast<unsigned char>(1u << random() % 8);
-        EXPECT_FALSE(m_scene.m_fem.restoreState(bytes.data(), bytes.size(), nullptr));
+        EXPECT_FALSE(m_scene.m_fem.restoreState(bytes.data(), bytes.size(), &why));
     }
     EXPECT_TRUE(m_scene.save() == m_good);
 }
