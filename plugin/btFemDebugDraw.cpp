@@ -7,6 +7,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btIDebugDraw.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/btFemVectors.h"
 #include "fem/common/attempt.h"
 #include "fem/common/rotation.h"

@@ -10,8 +10,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kProofFacingCosine = 0.01;   // cosine from which a triangle does
-constexpr double kRoundingShare = 1e-9;  // share of lengths that rounding may take
+constexpr double kProofFacingCosine = 0.01;  // cosine from which a triangle does
+constexpr double kRoundingShare = 1e-9;      // share of lengths that rounding may take
 
 }  // namespace
 

@@ -25,13 +25,14 @@ namespace bullet_fem
 
 /// Values that are copied byte by byte: they have no padding, and any bytes are a value.
 template <class T>
-constexpr bool isCopiedAsBytes = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T> ||
-                                 std::is_same_v<T, Vec3> || std::is_same_v<T, Mat3> || std::is_same_v<T, Quaternion>;
+inline constexpr bool isCopiedAsBytes =
+    (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T> || std::is_same_v<T, Vec3> ||
+    std::is_same_v<T, Mat3> || std::is_same_v<T, Quaternion>;
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Mat3) == 9 * sizeof(double) &&
               sizeof(Quaternion) == 4 * sizeof(float));
 
 template <class T>
-constexpr bool isCopiedAsBytes<std::array<T, 3>> = isCopiedAsBytes<T>;
+inline constexpr bool isCopiedAsBytes<std::array<T, 3>> = isCopiedAsBytes<T>;
 
 /// Appends values to a vector of bytes.
 class ByteWriter

@@ -125,7 +125,7 @@ HWY_INLINE void singleRotations(const Matrix<Real>& F, hn::Mask<Lanes<Real>> kno
 {
     const Lanes<Real> d;
     HWY_ALIGN Real entries[9][kLanes];
-    HWY_ALIGN BasicQuaternion<Real> rotation[kLanes];
+    BasicQuaternion<Real> rotation[kLanes];
     HWY_ALIGN Real marks[kLanes];
     for (int k = 0; k < 9; ++k) hn::Store(F.m[k / 3][k % 3], d, entries[k]);
     hn::StoreInterleaved4(q.x, q.y, q.z, q.w, d, &rotation[0].x);

@@ -21,36 +21,58 @@ enum class btFemDetail
 /// What happened in a step, or to a body at set-up. Several may be set at once.
 enum btFemFlags
 {
-    BT_FEM_NOT_CONVERGED =
-        1 << 0,                    ///< the iteration cap came before the tolerance: usable; raise the cap or refactor()
-    BT_FEM_BREAKDOWN = 1 << 1,     ///< the system was not solvable to rounding: best iterate kept; look at masses and E
-    BT_FEM_STALE_FACTOR = 1 << 2,  ///< step, masses or pins are not the factor's: more iterations; refactor()
-    BT_FEM_RESTORED = 1 << 3,      ///< m_x or m_v not finite or over 1e6 m, m/s: put back; m_f or gravity: dropped
-    BT_FEM_BAD_MASS = 1 << 4,      ///< an inverse mass was negative or NaN: the node got its share of the volume; or
-                                   ///< infinite (setTotalMass by faces): the mass of all was shared out by volume
-    BT_FEM_BAD_STEP = 1 << 5,      ///< the step was not in [1e-6, 1] s: the body stood still
-    BT_FEM_REJECTED = 1 << 6,      ///< the mesh or material is unusable (see m_message): the body is left to Bullet
-    BT_FEM_ADDED_TWICE = 1 << 7,   ///< the world holds the body more than once: it is stepped once; remove it once
-    BT_FEM_OTHER_WORLD =
-        1 << 8,  ///< the body was added to a second world or solver, which steps it; remove it from one
-    BT_FEM_TURNED_TETS = 1 << 9,      ///< elements of negative orientation were turned
-    BT_FEM_SEVERAL_PIECES = 1 << 10,  ///< the mesh is not connected: every piece moves on its own
-    BT_FEM_UNKNOWN_SHAPE = 1 << 11,   ///< it overlaps a shape without contact support (empty, signed distance field,
-                                      ///< custom concave): no contact
-    BT_FEM_CONTACT_LIMIT = 1 << 12,   ///< more contact points than the solver info allows: the deepest were kept
-    BT_FEM_LOST_ANCHOR = 1 << 14,  ///< the other end of an anchor or joint left the world: it was removed from the body
-    BT_FEM_BAD_ANCHOR = 1 << 15,   ///< an anchor to a foreign node, or to a soft body that is not FEM: ignored
-    BT_FEM_REFACTORED = 1 << 13,   ///< a new factor from this step on: it touches something while step or masses were
-                                   ///< 1.5 times off, or as btFemSolverInfo::m_refactoring says
-    BT_FEM_REFACTOR_PAYS = 1 << 16,  ///< the stale factor has cost more iterations than a new one costs: refactor()
-    BT_FEM_CHANGED_MESH = 1 << 19,   ///< nodes or tetrahedra were appended, removed or joined otherwise: the body was
-                                     ///< set up anew in this step, without its targets and attachments
-    BT_FEM_UNUSED_NODES = 1 << 18,   ///< no element uses some nodes: they stand still, or go where m_x is written
-    BT_FEM_BAD_INTEREST = 1 << 17,   ///< its interest was NaN, taken for 1, or not in [0, 1], and clamped
-    BT_FEM_BAD_SURFACE = 1 << 20,    ///< its render surface cannot collide, as BT_FEM_RENDER_SURFACE asks (see
-                                     ///< m_message): the boundary of its tetrahedra does
-    BT_FEM_BAKED_UNUSED = 1 << 24    ///< it was factored anew in place of its baked factor, which is larger than the
-                                   ///< solver's limit, or of another rest shape: it was scaled, or its elements changed
+    /// The solve reached the iteration limit before its tolerance. The result is usable; raise the limit or call
+    /// refactor().
+    BT_FEM_NOT_CONVERGED = 1 << 0,
+    /// The system was singular to rounding, and the best iterate was kept. Check the masses and Young's modulus.
+    BT_FEM_BREAKDOWN = 1 << 1,
+    /// The factor was made for another step, other masses or other pins, which costs iterations. refactor() mends it.
+    BT_FEM_STALE_FACTOR = 1 << 2,
+    /// Some m_x or m_v was not finite, or beyond 1e6 m or m/s, and was put back; m_f or gravity that was not finite was
+    /// dropped.
+    BT_FEM_RESTORED = 1 << 3,
+    /// An inverse mass was negative or NaN, and the node got its share of the volume; or infinite (setTotalMass by
+    /// faces), and the mass of the body was shared out by volume.
+    BT_FEM_BAD_MASS = 1 << 4,
+    /// The step was not in [1e-6, 1] s, and the body stood still.
+    BT_FEM_BAD_STEP = 1 << 5,
+    /// The mesh or the material is unusable (see m_message), and Bullet steps the body.
+    BT_FEM_REJECTED = 1 << 6,
+    /// The world holds the body more than once. It is stepped once; remove it once.
+    BT_FEM_ADDED_TWICE = 1 << 7,
+    /// The body was added to a second world or solver, which steps it. Remove it from one.
+    BT_FEM_OTHER_WORLD = 1 << 8,
+    /// Elements of negative orientation were turned.
+    BT_FEM_TURNED_TETS = 1 << 9,
+    /// The mesh is not connected: every component moves on its own.
+    BT_FEM_SEVERAL_PIECES = 1 << 10,
+    /// The body overlaps a shape without contact support (empty, signed distance field, custom concave) and does not
+    /// touch it.
+    BT_FEM_UNKNOWN_SHAPE = 1 << 11,
+    /// There were more contact points than the solver info allows, and the deepest were kept.
+    BT_FEM_CONTACT_LIMIT = 1 << 12,
+    /// The body has a new factor from this step on: it touches something while its step or masses were 1.5 times off,
+    /// or btFemSolverInfo::m_refactoring asked for it.
+    BT_FEM_REFACTORED = 1 << 13,
+    /// The other end of an anchor or joint left the world, and the body lost it.
+    BT_FEM_LOST_ANCHOR = 1 << 14,
+    /// An anchor to a foreign node, or to a soft body that is not FEM, was ignored.
+    BT_FEM_BAD_ANCHOR = 1 << 15,
+    /// The stale factor has cost more iterations than a new one costs: call refactor().
+    BT_FEM_REFACTOR_PAYS = 1 << 16,
+    /// The interest was NaN and taken for 1, or was outside [0, 1] and clamped.
+    BT_FEM_BAD_INTEREST = 1 << 17,
+    /// Some nodes belong to no element: they stand still, or go where m_x is written.
+    BT_FEM_UNUSED_NODES = 1 << 18,
+    /// Nodes or tetrahedra were appended, removed or connected otherwise: the body was set up anew in this step,
+    /// without its targets and attachments.
+    BT_FEM_CHANGED_MESH = 1 << 19,
+    /// The render surface cannot collide as BT_FEM_RENDER_SURFACE asks (see m_message): the boundary of the tetrahedra
+    /// does.
+    BT_FEM_BAD_SURFACE = 1 << 20,
+    /// The baked factor was not used, and a new one made: it is larger than the solver's limit, or the rest shape is
+    /// another (scaled, or its elements changed).
+    BT_FEM_BAKED_UNUSED = 1 << 21
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.

@@ -11,6 +11,7 @@
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodyConcaveCollisionAlgorithm.h"
+#include "BulletSoftBody/btSoftBodySolvers.h"
 #include "bullet_bridge/friction.h"
 #include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "plugin/dispatch/btFemPair.h"

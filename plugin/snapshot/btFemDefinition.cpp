@@ -11,6 +11,7 @@
 #include "bullet_bridge/rest_positions.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "plugin/registry/btFemBodyRegistry.h"
+#include "plugin/setup/btFemBodySetUp.h"
 #include "plugin/snapshot/btFemEnvelope.h"
 
 using namespace bullet_fem;

@@ -10,6 +10,7 @@
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/joints/world_objects.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 
 using namespace bullet_fem;
