@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+// What the documents' snippets of C++ take for granted; they are compiled, and never run.
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btDeformableMultiBodyConstraintSolver.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftBodyHelpers.h>
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+#include <bullet_fem/btFemCollision.h>
+#include <bullet_fem/btFemConstraintSolver.h>
+#include <bullet_fem/btFemDeformableBodySolver.h>
+#include <bullet_fem/btFemHelpers.h>
+#include <bullet_fem/btFemRay.h>
+#include <bullet_fem/btFemSoftBodySolver.h>
+
+#include <iostream>
+#include <vector>
+
+extern btCollisionDispatcher dispatcher;
+extern btBroadphaseInterface& broadphase;
+extern btSoftBodyRigidBodyCollisionConfiguration config;
+extern btSoftRigidDynamicsWorld world;
+extern btFemSoftBodySolver fem;
+extern btSoftBody* body;
+extern const char *ele, *node;  // the texts of TetGen's files
