@@ -9,7 +9,8 @@ if ! command -v node >/dev/null; then
     echo "skipped: there is no node"
     exit 77
 fi
-export NODE_PATH="$modules:$(npm root --global 2>/dev/null || true)"
+NODE_PATH="$modules:$(npm root --global 2>/dev/null || true)"
+export NODE_PATH
 if ! node -e 'require("gltf-validator")' 2>/dev/null; then
     echo "skipped: gltf-validator is not installed; npm install --prefix ${modules%/node_modules} gltf-validator"
     exit 77

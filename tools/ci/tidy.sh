@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Zlib
+# tidy.sh [--changed]: clang-tidy 14 finds nothing, by the rules of .clang-tidy, in the source files of fem, bullet_bridge,
+# plugin and io. With --changed: in those that differ from where this branch left origin/main, or from the last commit but
+# one, and in those of the folders whose headers do. Highway's sources are read as for the instruction set of the compiler
+# command, once for each that Highway compiles them for.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+source "$root/tools/ci/stages.sh"
+changed=0
+case ${1-} in
+"") ;;
+--changed) changed=1 ;;
+*) fail "tidy.sh: $1 is not --changed" ;;
+esac
+
+is_available clang-tidy-14 clang-tidy-14 || exit 0
+install_for_build clang-tidy-14
+# Each source file alone, once: no unity, no precompiled headers, one precision. Nothing is built.
+build=$root/build/tidy
+(cd "$root" && cmake --preset tidy) >/dev/null || fail "cannot configure build/tidy"
+mapfile -t all < <(grep -oP '"file": "\K[^"]+' "$build/compile_commands.json" | sort -u |
+    grep -E "^$root/(fem|bullet_bridge|plugin|io)/")
+[ ${#all[@]} -gt 0 ] || fail "build/tidy/compile_commands.json has no source files"
+
+# The commit that --changed compares with; nothing if there is none, as in a clone of one commit.
+base_commit()
+{
+    local head base
+    head=$(in_git rev-parse --verify --quiet HEAD) || return 0
+    base=$(in_git merge-base HEAD origin/main 2>/dev/null || true)
+    [ -n "$base" ] && [ "$base" != "$head" ] || base=$(in_git rev-parse --verify --quiet HEAD~1 || true)
+    printf '%s' "$base"
+}
+
+# folder_of <header>: that of its source files.
+folder_of()
+{
+    case $1 in
+    include/bullet_fem/fem/*/*) dirname "${1#include/bullet_fem/}" ;;
+    include/bullet_fem/fem/*) echo fem ;;
+    include/bullet_fem/io/*) echo io ;;
+    include/bullet_fem/*) echo plugin ;;
+    *) dirname "$1" ;;
+    esac
+}
+
+# changed_sources <commit>: among all, one a line; paths from the root.
+changed_sources()
+{
+    local path
+    {
+        in_git diff --name-only --diff-filter=d "$1"
+        in_git ls-files --others --exclude-standard
+    } | while IFS= read -r path; do
+        case $path in
+        .clang-tidy) printf '%s\n' "${all[@]}" ;;
+        *.cpp) printf '%s\n' "${all[@]}" | grep -Fx "$root/$path" ;;
+        *.h) printf '%s\n' "${all[@]}" | grep -E "^$root/$(folder_of "$path")/" ;;
+        esac
+    done | sort -u
+}
+
+files=("${all[@]}")
+if [ "$changed" -eq 1 ]; then
+    base=$(base_commit)
+    if [ -z "$base" ]; then
+        say "there is no commit to compare with: all files"
+    else
+        mapfile -t files < <(changed_sources "$base" || true)
+        say "${#files[@]} of ${#all[@]} source files are touched since $(in_git rev-parse --short "$base")"
+    fi
+fi
+[ ${#files[@]} -gt 0 ] || exit 0
+
+# Options that only GCC has are no finding. A header is shown at its place in the source tree.
+printf '%s\0' "${files[@]}" |
+    xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option \
+        --extra-arg=-Wno-ignored-optimization-argument 2> >(grep -vE '^[0-9]+ warnings? (generated|treated)' >&2) |
+    sed -E "s#$build/rooms/[^/]+/##; s#$root/##" ||
+    fail "clang-tidy finds the above (rules: .clang-tidy)"
+say "${#files[@]} source files: nothing found"
