@@ -32,27 +32,6 @@ double fastestPoint(const RigidProxy& rigidProxy, const ShapeLeaf& shape)
     return norm(rigidProxy.m_linearVelocity) + spin * size;
 }
 
-// True if the surface looks against the normal at a feature: one of its triangles does, or their mean. A point next to
-// the side wall of a box that lies on the surface is near that wall, but the surface does not face it.
-bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
-{
-    constexpr double kOpposedCosine = -0.5;  // cosine
-    const std::vector<Triangle>& triangles = fem.m_surface.triangles();
-    const std::vector<Vec3>& x = fem.surfacePosition();
-    const SurfaceFeatures& features = fem.m_surface.features();
-    Vec3 mean;
-    for (int k = features.m_firstAround[nodes[0]]; k < features.m_firstAround[nodes[0] + 1]; ++k)
-    {
-        const Triangle& t = triangles[features.m_around[k]];
-        const auto has = [&t](int node) { return t[0] == node || t[1] == node || t[2] == node; };
-        if (!has(nodes[1]) || !has(nodes[2])) continue;
-        const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
-        if (dot(area, normal) < kOpposedCosine * norm(area)) return true;
-        mean += area;
-    }
-    return dot(mean, normal) <= kOpposedCosine * norm(mean);
-}
-
 }  // namespace
 
 void recordTouching(FemSoftBody& fem, const btCollisionObject& object)
@@ -72,34 +51,19 @@ void recordTouching(FemSoftBody& fem, const btSoftBody& other)
 ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const RigidSurroundings& around)
 {
     ContactSearchReport report;
-    const double step = around.m_step;
     begin(fem, bodyIndex);
-    double softReach = 0;
-    if (around.m_count > 0)
-    {
-        fem.updateSkin();
-        m_culling.begin(fem.m_surface, fem.surfacePosition());
-        m_fastest = fastestNode(fem.m_body, Vec3());
-        softReach = m_band + fem.m_contactOffset + step * (fem.m_skin ? fastestVertex(fem, Vec3()) : m_fastest);
-    }
     for (int k = 0; k < around.m_count; ++k)
-    {
-        const TouchedObject& touched = around.m_touched[k];
-        report.m_unknownShape = touched.m_unknownShape || report.m_unknownShape;
-        const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
-        const Surface surface = surfaceOf(*fem.m_softBody, *touched.m_object);
-        for (int l = 0; l < touched.m_leafCount; ++l)
-        {
-            const ShapeLeaf& shape = around.m_leaves[touched.m_firstLeaf + l];
-            const Leaf leaf = {touched.m_object, l, touched.m_rigidProxy, surface,
-                               softReach + step * fastestPoint(rigidProxy, shape)};
-            const Target target = {shape, leaf, rigidProxy, step};
-            if (shape.m_shape->isConcave() && !shape.m_shape->isInfinite())
-                findOnSheets(fem, target);
-            else
-                findOnFeatures(fem, target);
-        }
-    }
+        report.m_unknownShape = around.m_touched[k].m_unknownShape || report.m_unknownShape;
+    listTargets(fem, around);
+    for (Target& target : m_targets) findNear(fem, target);
+    makeRoom();
+    m_near.swap(m_contacts);
+    m_nearOrigins.swap(m_origins);
+    m_nearWeights.swap(m_weights);
+    m_contacts.clear();
+    m_origins.clear();
+    markFlush(fem);
+    for (const Target& target : m_targets) findWithinStep(fem, target);
     thin(fem, around);
     report.m_limited = keepNearest(around.m_maxContacts, m_contacts, m_origins, m_order);
     takeOverImpulses(fem);
@@ -109,17 +73,74 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     return report;
 }
 
+// For what comes near without touching: steps in which no more touches than before shall not allocate.
+void ContactFinder::makeRoom()
+{
+    constexpr std::size_t kLeast = 64;  // contacts
+    const std::size_t room = std::max(kLeast, 2 * m_contacts.size());
+    for (std::vector<ContactPoint>* points : {&m_contacts, &m_near}) points->reserve(room);
+    for (std::vector<ContactOrigin>* origins : {&m_origins, &m_nearOrigins}) origins->reserve(room);
+    for (std::vector<Weights>* weights : {&m_weights, &m_nearWeights}) weights->reserve(room);
+    m_flush.reserve(room);
+    m_targets.reserve(kLeast);
+    m_carried.reserve(room);
+}
+
+// All leaves of all objects near the body.
+void ContactFinder::listTargets(FemSoftBody& fem, const RigidSurroundings& around)
+{
+    m_targets.clear();
+    if (around.m_count == 0) return;
+    fem.updateSkin();
+    m_culling.begin(fem.m_surface, fem.surfacePosition());
+    m_fastest = fastestNode(fem.m_body, Vec3());
+    const double softReach =
+        m_band + fem.m_contactOffset + around.m_step * (fem.m_skin ? fastestVertex(fem, Vec3()) : m_fastest);
+    for (int k = 0; k < around.m_count; ++k)
+    {
+        const TouchedObject& touched = around.m_touched[k];
+        const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
+        const Surface surface = surfaceOf(*fem.m_softBody, *touched.m_object);
+        for (int l = 0; l < touched.m_leafCount; ++l)
+        {
+            const ShapeLeaf& shape = around.m_leaves[touched.m_firstLeaf + l];
+            m_targets.push_back({&shape, touched.m_object, l, touched.m_rigidProxy, &rigidProxy, surface,
+                                 softReach + around.m_step * fastestPoint(rigidProxy, shape), around.m_step,
+                                 &touched.m_carrying, TargetKind::slow, 0, 0, 0, 0});
+        }
+    }
+}
+
 void ContactFinder::begin(const FemSoftBody& fem, int bodyIndex)
 {
     m_contacts.clear();
     m_origins.clear();
+    m_weights.clear();
     m_sheetSides.clear();
     m_measured = false;
+
     m_bodyIndex = bodyIndex;
     m_edge = fem.m_surface.meanEdge();
     m_band = kContactBand * m_edge;
     m_advantage = kAdvantage * m_edge;
     m_size = fem.m_surface.size();
+    noteHeld(fem);
+}
+
+// What pushed vertices in the last step, by the strongest.
+void ContactFinder::noteHeld(const FemSoftBody& fem)
+{
+    const int vertexCount = fem.m_surface.vertexCount();
+    m_heldNormal.assign(vertexCount, Vec3());
+    m_heldBy.assign(vertexCount, 0);
+    for (std::size_t k = 0; k < fem.m_contacts.size(); ++k)
+    {
+        const int vertex = fem.m_origins[k].m_feature;
+        const double impulse = dot(fem.m_contacts[k].m_impulse, fem.m_contacts[k].m_normal);
+        if (vertex >= vertexCount || impulse <= m_heldBy[vertex]) continue;
+        m_heldBy[vertex] = impulse;
+        m_heldNormal[vertex] = fem.m_contacts[k].m_normal;
+    }
 }
 
 // What Bullet's contacts take of both sides, with the soft body's friction coefficient. Values that are no numbers
@@ -139,13 +160,34 @@ ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const bt
     return surface;
 }
 
+// True if the surface looks against the normal at a feature: one of its triangles does, or their mean. A point next to
+// the side wall of a box that lies on the surface is near that wall, but the surface does not face it.
+bool ContactFinder::faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
+{
+    constexpr double kOpposedCosine = -0.5;  // cosine
+    const std::vector<Triangle>& triangles = fem.m_surface.triangles();
+    const std::vector<Vec3>& x = fem.surfacePosition();
+    const SurfaceFeatures& features = fem.m_surface.features();
+    Vec3 mean;
+    for (int k = features.m_firstAround[nodes[0]]; k < features.m_firstAround[nodes[0] + 1]; ++k)
+    {
+        const Triangle& t = triangles[features.m_around[k]];
+        const auto has = [&t](int node) { return t[0] == node || t[1] == node || t[2] == node; };
+        if (!has(nodes[1]) || !has(nodes[2])) continue;
+        const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+        if (dot(area, normal) < kOpposedCosine * norm(area)) return true;
+        mean += area;
+    }
+    return dot(mean, normal) <= kOpposedCosine * norm(mean);
+}
+
 // Keeps a point that touches, or would if nothing pushed until the end of the step.
 void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                              const SurfaceDistance& d)
 {
     const Vec3 point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     const Vec3 relative =
-        interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_rigidProxy.velocityAt(point);
+        interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_motion->velocityAt(point);
     if (d.m_gap > m_band && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band) return;
     if (d.m_gap > -m_band && !faces(fem, nodes, d.m_normal)) return;
     keep(fem, target, feature, nodes, d);
@@ -158,27 +200,28 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     ContactPoint contact;
     contact.m_soft = fem.pointOn(m_bodyIndex, nodes, d.m_barycentric);
     for (int a = 0; a < contact.m_soft.m_count; ++a)
-        if (isAnchoredTo(fem, contact.m_soft.m_nodes[a], *target.m_leaf.m_object)) return nullptr;
-    const Vec3& inverseMass = target.m_rigidProxy.m_inverseMass;
+        if (isAnchoredTo(fem, contact.m_soft.m_nodes[a], *target.m_object)) return nullptr;
+    const Vec3& inverseMass = target.m_motion->m_inverseMass;
     contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
-    contact.m_rigidProxy = target.m_leaf.m_rigidProxy;
+    contact.m_rigidProxy = target.m_rigidProxy;
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap;
     contact.m_slop = (dot(inverseMass, inverseMass) > 0 ? kMovableSlop : kSlop) * m_size;
-    contact.m_friction = target.m_leaf.m_surface.m_friction;
-    contact.m_restitution = target.m_leaf.m_surface.m_restitution;
-    contact.m_stiffness = target.m_leaf.m_surface.m_stiffness;
-    contact.m_damping = target.m_leaf.m_surface.m_damping;
-    contact.m_hardness = target.m_leaf.m_surface.m_hardness;
+    contact.m_friction = target.m_surface.m_friction;
+    contact.m_restitution = target.m_surface.m_restitution;
+    contact.m_stiffness = target.m_surface.m_stiffness;
+    contact.m_damping = target.m_surface.m_damping;
+    contact.m_hardness = target.m_surface.m_hardness;
     m_contacts.push_back(contact);
     m_origins.push_back(originOf(target, feature));
+    m_weights.push_back(d.m_barycentric);
     return &m_contacts.back();
 }
 
 ContactOrigin ContactFinder::originOf(const Target& target, int feature)
 {
-    const btCollisionObject* object = target.m_leaf.m_object;
-    return {object, broadphaseId(*object), target.m_leaf.m_index, feature};
+    const btCollisionObject* object = target.m_object;
+    return {object, broadphaseId(*object), target.m_leaf, feature};
 }
 
 // The body's contact from there that pushed in the last step, or null.

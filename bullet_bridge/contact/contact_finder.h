@@ -3,6 +3,7 @@
 #pragma once
 
 #include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/contact/carried_motion.h"
 #include "bullet_bridge/contact/sheet_touch.h"
 #include "bullet_bridge/contact/surface_culling.h"
 #include "bullet_bridge/contact_reduction.h"
@@ -22,6 +23,14 @@ struct ContactSearchReport
     bool m_limited = false;       ///< more points than allowed were found; those with the smallest gaps were kept
 };
 
+/// A flat face of a moving object, by which soft bodies carry it.
+struct CarryingPlane
+{
+    bool m_exists = false;
+    Vec3 m_normal;          ///< unit, out of the object
+    double m_distance = 0;  ///< of the plane from the origin, along the normal [m]
+};
+
 /// An object that a body may touch.
 struct TouchedObject
 {
@@ -29,6 +38,7 @@ struct TouchedObject
     int m_rigidProxy;              ///< its index
     int m_firstLeaf, m_leafCount;  ///< of its shape, where its rigid proxy is
     bool m_unknownShape;           ///< some of its shape has no contact support
+    CarryingPlane m_carrying;
 };
 
 /// What a body's contacts are searched among.
@@ -56,7 +66,13 @@ void recordTouching(FemSoftBody& fem, const btSoftBody& other);
 /// are taken over as guesses.
 ///
 /// Where the two move farther within the step than half of an edge or of the shape's thickness, these gaps and normals
-/// mean little: there a feature is a contact if the paths meet, with the normal of that time (swept_distance.h).
+/// mean little: there a feature is a contact if the paths meet, with the normal of that time (swept_distance.h). What
+/// does not touch yet is a contact only if the paths meet, too.
+///
+/// Paths are those that contacts allow (carried_motion.h): a vertex that slides goes along what carries it, a contact
+/// band above, and not into the side of the next box. Of what touches, a side wall that does not rise above a surface
+/// that carries the point is dropped: it lies flush in it. Objects that slide over soft bodies sink in, and what stands
+/// before their side a little above the face that they lie on is dropped likewise (CarryingPlane).
 ///
 /// Concave shapes are sheets of triangles with two sides (sheet_touch.h): a node keeps off them on the side that it
 /// came from, which is remembered as long as it is near. One that is seen for the first time is on the side where it
@@ -76,33 +92,38 @@ private:
     {
         double m_hardness = 1, m_friction = 0, m_restitution = 0, m_stiffness = 0, m_damping = 0;
     };
-    struct Leaf
+    enum class TargetKind
     {
-        const btCollisionObject* m_object;
-        int m_index;  // among the object's leaves
-        int m_rigidProxy;
-        Surface m_surface;
-        double m_reach;  // distance at which this leaf may be touched within the step [m]
+        slow,   // convex, and neither it nor the body moves far within the step
+        fast,   // convex: contacts are looked for on the paths
+        sheets  // of triangles
     };
-
-    /// What is tested against: a leaf, the object's motion, the step.
+    /// What is tested against: one shape of an object, its motion, the step.
     struct Target
     {
-        const ShapeLeaf& m_shape;
-        const Leaf& m_leaf;
-        const RigidProxy& m_rigidProxy;
-        double m_step;
+        const ShapeLeaf* m_shape;
+        const btCollisionObject* m_object;
+        int m_leaf;        // among the object's
+        int m_rigidProxy;  // its index
+        const RigidProxy* m_motion;
+        Surface m_surface;
+        double m_reach;  // distance at which it may be touched within the step [m]
+        double m_step;   // [s]
+        const CarryingPlane* m_carrying;
+        TargetKind m_kind;
+        std::size_t m_first, m_end;          // what touches it as the step begins, or may soon, in m_near
+        std::size_t m_firstSide, m_endSide;  // of sheets, in m_sheetSides
     };
     using Weights = std::array<double, 3>;
 
     static Surface surfaceOf(const btSoftBody& soft, const btCollisionObject& object);
-    /// A search for contacts with a leaf where the two move far within the step.
+    /// A search for contacts with a leaf along the paths.
     struct PathSearch
     {
-        FemSoftBody& m_fem;
         const Target& m_target;
         const SweptShape& m_swept;
-        double m_speed;  // of the surface relative to the leaf, at most [m/s]
+        double m_speed;      // of the surface relative to the leaf, at most [m/s]
+        double m_clearance;  // what comes nearer meets it [m]
     };
     /// A search for contacts with the sheets of one leaf.
     struct SheetSearch
@@ -112,21 +133,46 @@ private:
         double m_thickness;  // of the sheet, with the contact offset [m]
     };
 
-    void findOnFeatures(FemSoftBody& fem, const Target& target);
     void findOnNodes(FemSoftBody& fem, const Target& target);
     void findOnEdges(FemSoftBody& fem, const Target& target);
     void findOnTriangles(FemSoftBody& fem, const Target& target);
     void findOnSheets(FemSoftBody& fem, const Target& target);
-    bool findOnPaths(FemSoftBody& fem, const Target& target);
-    double considerPath(const PathSearch& search, int feature, const Triangle& nodes, double earliest);
+    void makeRoom();
+    void listTargets(FemSoftBody& fem, const RigidSurroundings& around);
+    void findNear(FemSoftBody& fem, Target& target);
+    void findTouchingNodes(FemSoftBody& fem, const Target& target);
+    void addCarriers(const FemSoftBody& fem);
+    void markFlush(FemSoftBody& fem);
+    int surfaceOf(std::size_t target, std::size_t k) const;
+    bool isFlush(FemSoftBody& fem, const Target& target, std::size_t k, int surface);
+    bool isBesideCarryingPlane(const Target& target, const Vec3& point, const Vec3& normal, double gap) const;
+    bool isPassed(const FemSoftBody& fem, const Target& target, std::size_t k, int surface);
+    bool isFlushWith(const Target& target, const ContactPoint& contact, const Vec3& onPlane, const Vec3& normal);
+    bool nearestOn(const Target& target, const Vec3& point, const ContactPoint& contact, Vec3& nearest);
+    void findWithinStep(FemSoftBody& fem, const Target& target);
+    SweptFeature pathOf(const FemSoftBody& fem, const Triangle& nodes, double step) const;
+    static SweptShape sweptShapeOf(const Target& target);
+    bool isFastTarget(const FemSoftBody& fem, const Target& target) const;
+    static Triangle cornersOf(const FemSoftBody& fem, const Target& target, int feature);
+    void findOnPaths(FemSoftBody& fem, const Target& target);
+    bool meets(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes, SweptContact& contact) const;
+    double considerPath(FemSoftBody& fem, const PathSearch& search, int feature, const Triangle& nodes,
+                        double earliest);
     void measureSurface(const FemSoftBody& fem);
+    bool collectSheets(const FemSoftBody& fem, const Target& target);
+    void findOnSheetPaths(FemSoftBody& fem, const Target& target);
+    bool isTurned(const SheetSearch& search, int node, Vec3& way) const;
+    void considerSheetPath(const SheetSearch& search, int node, const Vec3& way, const Vec3& rightSide);
+    void keepNear(std::size_t k);
     void findOnSheetNodes(const SheetSearch& search);
     void findOnSheetEdges(const SheetSearch& search);
     void findOnSheetTriangles(const SheetSearch& search);
     static Vec3 asTheStepBegan(const Target& target, const Vec3& point);
     Vec3 wayOf(const SheetSearch& search, int node) const;
+    Vec3 rightSideOf(const SheetSearch& search, int node, const Vec3& position) const;
     Vec3 safePosition(const SheetSearch& search, int node, const Vec3& position) const;
     void considerTouches(const SheetSearch& search, int feature, const Triangle& nodes);
+    static bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal);
     bool isFar(const Target& target, const Triangle& nodes) const;
     bool overOneFace(const FemSoftBody& fem, int a, int b) const;
     double gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
@@ -141,12 +187,22 @@ private:
     ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                        const SurfaceDistance& d);
     void begin(const FemSoftBody& fem, int bodyIndex);
+    void noteHeld(const FemSoftBody& fem);
     void thin(const FemSoftBody& fem, const RigidSurroundings& around);
     void takeOverImpulses(const FemSoftBody& fem);
     void inheritImpulses(const FemSoftBody& fem);
 
+    std::vector<Target> m_targets;
     std::vector<ContactPoint> m_contacts;
     std::vector<ContactOrigin> m_origins;
+    std::vector<Weights> m_weights;    // of m_contacts' features' corners, as found near
+    std::vector<ContactPoint> m_near;  // as the step begins: what touches, and what may within the step
+    std::vector<ContactOrigin> m_nearOrigins;
+    std::vector<Weights> m_nearWeights;
+    std::vector<unsigned char> m_flush;  // one of each: it is no wall
+    CarriedMotion m_carried;
+    std::vector<Vec3> m_heldNormal;  // of the strongest contact that a vertex had in the last step; 0: of none
+    std::vector<double> m_heldBy;    // its impulse [N s]
     std::vector<int> m_order;
     std::vector<unsigned char> m_continued;  // contacts of the last step
     WarmStartTransfer m_transfer;

@@ -41,21 +41,38 @@ bool weightsOf(const Corners& t, const Vec3& p, std::array<double, 3>& weights)
 
 }  // namespace
 
-// Of convex shapes and planes.
-void ContactFinder::findOnFeatures(FemSoftBody& fem, const Target& target)
+// What touches a target as the step begins, or may within it.
+void ContactFinder::findNear(FemSoftBody& fem, Target& target)
 {
-    const bool isConvex = target.m_shape.m_shape->isConvex();
-    if (isConvex && findOnPaths(fem, target)) return;
-    if (!m_culling.meets({target.m_shape.m_boundsMin, target.m_shape.m_boundsMax, target.m_leaf.m_reach})) return;
-    findOnNodes(fem, target);
-    if (!isConvex) return;
-    findOnEdges(fem, target);
-    findOnTriangles(fem, target);
+    target.m_first = m_contacts.size();
+    const btCollisionShape& shape = *target.m_shape->m_shape;
+    if (shape.isConcave() && !shape.isInfinite())
+    {
+        target.m_kind = TargetKind::sheets;
+        target.m_firstSide = m_sheetSides.size();
+        findOnSheets(fem, target);
+        target.m_endSide = m_sheetSides.size();
+    }
+    else if (shape.isConvex() && isFastTarget(fem, target))
+    {
+        target.m_kind = TargetKind::fast;
+        findTouchingNodes(fem, target);
+    }
+    else if (m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, target.m_reach}))
+    {
+        findOnNodes(fem, target);
+        if (shape.isConvex())
+        {
+            findOnEdges(fem, target);
+            findOnTriangles(fem, target);
+        }
+    }
+    target.m_end = m_contacts.size();
 }
 
 void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
 {
-    const double reach = target.m_leaf.m_reach;
+    const double reach = target.m_reach;
     const double farthest = reach + m_culling.longestEdge();  // of what culling asks for
     for (int i : fem.m_surface.nodes())
     {
@@ -67,7 +84,7 @@ void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
             m_culling.noteNoGap(i);
             continue;
         }
-        const bool isKnown = pointShapeDistance(target.m_shape, x, farthest, d);
+        const bool isKnown = pointShapeDistance(*target.m_shape, x, farthest, d);
         m_culling.noteGap(i, isKnown ? d.m_gap : kNotNear, d.m_normal);
         if (!isKnown || d.m_gap > reach) continue;
         fem.m_nodeGap[i] = gapAsTheStepBegan(fem, target, x, d);
@@ -86,7 +103,7 @@ bool ContactFinder::overOneFace(const FemSoftBody& fem, int a, int b) const
 // True if no point of an edge or triangle is within reach.
 bool ContactFinder::isFar(const Target& target, const Triangle& nodes) const
 {
-    return m_culling.leastGap(nodes) > target.m_leaf.m_reach + kGradientSlack * m_edge;
+    return m_culling.leastGap(nodes) > target.m_reach + kGradientSlack * m_edge;
 }
 
 void ContactFinder::findOnEdges(FemSoftBody& fem, const Target& target)
@@ -134,10 +151,10 @@ double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, in
                                       double nearest)
 {
     const std::vector<Vec3>& x = fem.surfacePosition();
-    const bool moved = target.m_leaf.m_object->isKinematicObject();
+    const bool moved = target.m_object->isKinematicObject();
     if (!moved && m_culling.leastGap(nodes) - fem.m_contactOffset >= nearest - kGapRounding * m_edge) return nearest;
     SurfaceDistance d;
-    if (!triangleShapeDistance(target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_leaf.m_reach, d))
+    if (!triangleShapeDistance(*target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_reach, d))
         return nearest;
     const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
     const ContactPoint* const last = gap < m_band ? pushing(fem, originOf(target, feature)) : nullptr;
@@ -171,8 +188,8 @@ double ContactFinder::gapAsTheStepBegan(const FemSoftBody& fem, const Target& ta
                                         SurfaceDistance& d) const
 {
     d.m_gap -= fem.m_contactOffset;
-    if (target.m_leaf.m_object->isKinematicObject())
-        d.m_gap += target.m_step * dot(d.m_normal, target.m_rigidProxy.velocityAt(point));
+    if (target.m_object->isKinematicObject())
+        d.m_gap += target.m_step * dot(d.m_normal, target.m_motion->velocityAt(point));
     return d.m_gap;
 }
 
@@ -181,8 +198,8 @@ double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const 
                             SurfaceDistance& d) const
 {
     const Vec3 point = interpolated(fem.surfacePosition(), nodes, weights);
-    if (!overlaps(point, target.m_shape, target.m_leaf.m_reach) ||
-        !pointShapeDistance(target.m_shape, point, target.m_leaf.m_reach, d))
+    if (!overlaps(point, *target.m_shape, target.m_reach) ||
+        !pointShapeDistance(*target.m_shape, point, target.m_reach, d))
         return kNotNear;
     d.m_barycentric = weights;
     return gapAsTheStepBegan(fem, target, point, d);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "BulletCollision/CollisionDispatch/btCollisionObject.h"
 #include "BulletSoftBody/btSoftBody.h"
@@ -14,10 +15,12 @@ namespace bullet_fem
 namespace
 {
 
+constexpr double kGrazing = 1e-3;        // of a mean edge: what passes nearer, meets, as along the rim of a face
+constexpr double kSameSideCosine = 0.9;  // of a nearest point's normal and that of where the paths meet
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Kinematic objects have moved already.
-SweptShape pathOf(const ShapeLeaf& leaf, const RigidProxy& rigidProxy, double step, bool moved)
+SweptShape sweptShapeOf(const ShapeLeaf& leaf, const RigidProxy& rigidProxy, double step, bool moved)
 {
     RigidMotion motion = {rigidProxy.m_center, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
     if (!moved) return SweptShape(leaf, motion, step);
@@ -34,27 +37,112 @@ double fallingSpeed(const FemSoftBody& fem, double step)
 
 }  // namespace
 
-// False, with nothing found, if the two do not move far. Nodes first; of edges and triangles only those points that are
-// met before all their corners and edges.
-bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
+SweptShape ContactFinder::sweptShapeOf(const Target& target)
 {
-    const SweptShape swept =
-        pathOf(target.m_shape, target.m_rigidProxy, target.m_step, target.m_leaf.m_object->isKinematicObject());
+    return bullet_fem::sweptShapeOf(*target.m_shape, *target.m_motion, target.m_step,
+                                    target.m_object->isKinematicObject());
+}
+
+bool ContactFinder::isFastTarget(const FemSoftBody& fem, const Target& target) const
+{
+    const SweptShape swept = sweptShapeOf(target);
     const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as RigidProxies decides
     const double falling = 2 * fallingSpeed(fem, target.m_step);
-    if (!isFast(swept, m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge)) return false;  // at most
-    const double nodeSpeed = fastestNode(fem.m_body, swept.m_motion.m_linearVelocity);
-    if (!isFast(swept, nodeSpeed - falling, edge)) return false;
+    return isFast(swept, m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge) &&  // at most
+           isFast(swept, fastestNode(fem.m_body, swept.m_motion.m_linearVelocity) - falling, edge);
+}
 
-    const double speed = fastestVertex(fem, swept.m_motion.m_linearVelocity);
-    const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
-    const PathSearch search = {fem, target, swept, speed + spin};
-    m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_contactOffset});
+// Of a fast target: nodes alone, as edges and triangles are looked for on their paths.
+void ContactFinder::findTouchingNodes(FemSoftBody& fem, const Target& target)
+{
+    const double reach = m_band + fem.m_contactOffset;
+    if (!m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, reach})) return;
     for (int i : fem.m_surface.nodes())
     {
         const Vec3& x = fem.surfacePosition()[i];
-        m_culling.noteVertex(i, x, x + target.m_step * fem.surfaceVelocity()[i]);
-        fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever);
+        SurfaceDistance d;
+        if (!m_culling.noteVertex(i, x, x) || !pointShapeDistance(*target.m_shape, x, reach, d)) continue;
+        if (gapAsTheStepBegan(fem, target, x, d) <= m_band) consider(fem, target, i, {i, i, i}, d);
+    }
+}
+
+// The contacts of a target: those near it that are walls, and of what is not touched yet, what the surface meets on its
+// way, which the carriers turn.
+void ContactFinder::findWithinStep(FemSoftBody& fem, const Target& target)
+{
+    if (target.m_kind == TargetKind::fast) return findOnPaths(fem, target);
+    if (target.m_kind == TargetKind::sheets) return findOnSheetPaths(fem, target);
+    const bool isConvex = target.m_shape->m_shape->isConvex();
+    std::optional<SweptShape> swept;
+    for (std::size_t k = target.m_first; k < target.m_end; ++k)
+    {
+        if (!isConvex || m_near[k].m_gap <= m_band)
+        {
+            keepNear(k);
+            continue;
+        }
+        if (!swept) swept.emplace(sweptShapeOf(target));
+        const int feature = m_nearOrigins[k].m_feature;
+        const Triangle corners = cornersOf(fem, target, feature);
+        SweptContact contact;
+        if (!meets(fem, {target, *swept, 0, kGrazing * m_edge}, corners, contact)) continue;
+        if (dot(contact.m_surface.m_normal, m_near[k].m_normal) > kSameSideCosine)
+            keepNear(k);
+        else
+            keep(fem, target, feature, corners, contact.m_surface);
+    }
+}
+
+// Keeps what was found near, unless it lies flush.
+void ContactFinder::keepNear(std::size_t k)
+{
+    if (m_flush[k]) return;
+    m_contacts.push_back(m_near[k]);
+    m_origins.push_back(m_nearOrigins[k]);
+}
+
+// What touches a vertex turns its way, and it is as far off as m_carried says.
+SweptFeature ContactFinder::pathOf(const FemSoftBody& fem, const Triangle& nodes, double step) const
+{
+    SweptFeature path;
+    path.m_count = nodes[1] == nodes[0] ? 1 : nodes[2] == nodes[0] ? 2 : 3;
+    for (int i = 0; i < path.m_count; ++i)
+    {
+        path.m_position[i] = fem.surfacePosition()[nodes[i]];
+        path.m_velocity[i] = fem.surfaceVelocity()[nodes[i]];
+        if (!m_carried.isCarried(nodes[i])) continue;
+        path.m_position[i] += m_carried.liftOf(nodes[i]);
+        path.m_velocity[i] = m_carried.allowed(nodes[i], step * path.m_velocity[i]) * (1 / step);
+    }
+    return path;
+}
+
+// Nodes first; of edges and triangles only those points that are met before all their corners and edges.
+void ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
+{
+    const SweptShape swept = sweptShapeOf(target);
+    const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
+    const PathSearch search = {target, swept, fastestVertex(fem, swept.m_motion.m_linearVelocity) + spin, 0};
+    m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_contactOffset});
+    std::size_t near = target.m_first;
+    for (int i : fem.m_surface.nodes())
+    {
+        const SweptFeature path = pathOf(fem, {i, i, i}, target.m_step);
+        m_culling.noteVertex(i, path.m_position[0], path.m_position[0] + target.m_step * path.m_velocity[0]);
+        fem.m_nodeGap[i] = kNever;
+        if (near < target.m_end && m_nearOrigins[near].m_feature == i)
+        {
+            const ContactPoint& contact = m_near[near];
+            fem.m_nodeNormal[i] = contact.m_normal;
+            if (!m_flush[near])
+            {
+                fem.m_nodeGap[i] = contact.m_gap / search.m_speed;
+                keepNear(near);
+            }
+            ++near;
+            continue;
+        }
+        if (!m_culling.isOutside({i, i, i})) fem.m_nodeGap[i] = considerPath(fem, search, i, {i, i, i}, kNever);
     }
     const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
     int firstFeature = fem.m_surface.vertexCount() + 1;  // ids are those of nearest points
@@ -62,47 +150,55 @@ bool ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
     {
         const auto [a, b] = fem.m_surface.features().m_edges[k];
         fem.m_edgeGap[k] = std::min(fem.m_nodeGap[a], fem.m_nodeGap[b]);
-        if (!overOneFace(fem, a, b))
-            fem.m_edgeGap[k] = considerPath(search, firstFeature + 2 * k, {a, b, a}, fem.m_edgeGap[k]);
+        if (!overOneFace(fem, a, b) && !m_culling.isOutside({a, b, a}))
+            fem.m_edgeGap[k] = considerPath(fem, search, firstFeature + 2 * k, {a, b, a}, fem.m_edgeGap[k]);
     }
     const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
     firstFeature += 2 * edgeCount;
     for (int k = 0; k < triangleCount; ++k)
     {
         const Triangle& t = fem.m_surface.triangles()[k];
-        if (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2])) continue;
+        if (m_culling.isOutside(t) || (overOneFace(fem, t[0], t[1]) && overOneFace(fem, t[0], t[2]))) continue;
         double earliest = kNever;
         for (int a = 0; a < 3; ++a)
             earliest = std::min(
                 {earliest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
-        considerPath(search, firstFeature + 2 * k, t, earliest);
+        considerPath(fem, search, firstFeature + 2 * k, t, earliest);
     }
+}
+
+// True if a node (all three the same), edge (first and last the same) or triangle meets a target within the step; what
+// overlaps was met before the step.
+bool ContactFinder::meets(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes,
+                          SweptContact& contact) const
+{
+    const SweptFeature path = pathOf(fem, nodes, search.m_target.m_step);
+    const double offset = fem.m_contactOffset + search.m_clearance;
+    if (!mayMeet(search.m_swept, path, offset) || !sweptDistance(search.m_swept, path, offset, contact)) return false;
+    SurfaceDistance& d = contact.m_surface;
+    d.m_gap += search.m_clearance;
+    if (search.m_target.m_carrying->m_exists && contact.m_time > 0 && !faces(fem, nodes, d.m_normal)) return false;
+    for (int i = 0; i < path.m_count; ++i)
+        d.m_gap -= d.m_barycentric[i] * dot(d.m_normal, path.m_position[i] - fem.surfacePosition()[nodes[i]]);
+    const Vec3 point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
+    if (isBesideCarryingPlane(search.m_target, point, d.m_normal, d.m_gap)) return false;
+    if (search.m_target.m_carrying->m_exists && dot(d.m_normal, search.m_target.m_carrying->m_normal) > kSameSideCosine)
+        d.m_normal = search.m_target.m_carrying->m_normal;
     return true;
 }
 
-// Keeps the first point of a node (all three the same), edge (first and last the same) or triangle that is met, if this
-// is before `earliest` [s]; what overlaps already was met before the step, the sooner the deeper. Returns the earlier
-// of the two times.
-double ContactFinder::considerPath(const PathSearch& search, int feature, const Triangle& nodes, double earliest)
+// Keeps the first point of a feature that is met, if this is before `earliest` [s]; what overlaps already was met the
+// sooner the deeper. Returns the earlier of the two times.
+double ContactFinder::considerPath(FemSoftBody& fem, const PathSearch& search, int feature, const Triangle& nodes,
+                                   double earliest)
 {
-    FemSoftBody& fem = search.m_fem;
-    if (m_culling.isOutside(nodes)) return earliest;
-    SweptFeature path;
-    path.m_count = nodes[1] == nodes[0] ? 1 : nodes[2] == nodes[0] ? 2 : 3;
-    for (int i = 0; i < path.m_count; ++i)
-    {
-        path.m_position[i] = fem.surfacePosition()[nodes[i]];
-        path.m_velocity[i] = fem.surfaceVelocity()[nodes[i]];
-    }
     SweptContact contact;
-    if (!mayMeet(search.m_swept, path, fem.m_contactOffset) ||
-        !sweptDistance(search.m_swept, path, fem.m_contactOffset, contact))
-        return earliest;
+    if (!meets(fem, search, nodes, contact)) return earliest;
     const double time = contact.m_time > 0 ? contact.m_time : contact.m_surface.m_gap / search.m_speed;
-    if (path.m_count == 1) fem.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
+    if (feature < fem.m_surface.vertexCount()) fem.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
     if (time < earliest - m_advantage / search.m_speed)
         if (ContactPoint* kept = keep(fem, search.m_target, feature, nodes, contact.m_surface))
-            kept->m_approach = contact.m_arm - (kept->m_point - search.m_target.m_rigidProxy.m_center);
+            kept->m_approach = contact.m_arm - (kept->m_point - search.m_target.m_motion->m_center);
     return std::min(time, earliest);
 }
 

@@ -33,9 +33,19 @@ Vec3 normalOf(const std::vector<Vec3>& x, const Triangle& t)
 
 void ContactFinder::findOnSheets(FemSoftBody& fem, const Target& target)
 {
+    if (!collectSheets(fem, target)) return;
+    measureSurface(fem);
+    const SheetSearch search = {fem, target, target.m_shape->m_shape->getMargin() + fem.m_contactOffset};
+    findOnSheetNodes(search);
+    findOnSheetTriangles(search);
+    findOnSheetEdges(search);
+}
+
+// Into m_soup; false if none is near.
+bool ContactFinder::collectSheets(const FemSoftBody& fem, const Target& target)
+{
     const std::vector<Vec3>& x = fem.surfacePosition();
     const std::vector<int>& nodes = fem.m_surface.nodes();
-    const double thickness = target.m_shape.m_shape->getMargin() + fem.m_contactOffset;
     Vec3 low = x[nodes.front()], high = low;
     for (int i : nodes)
         for (int c = 0; c < 3; ++c)
@@ -43,18 +53,13 @@ void ContactFinder::findOnSheets(FemSoftBody& fem, const Target& target)
             low[c] = std::min(low[c], x[i][c]);
             high[c] = std::max(high[c], x[i][c]);
         }
-    const double reach = target.m_leaf.m_reach + thickness;
+    const double reach = target.m_reach + target.m_shape->m_shape->getMargin() + fem.m_contactOffset;
     const Vec3 box = {reach, reach, reach};
     for (int c = 0; c < 3; ++c)
-        if (!(low[c] - reach <= target.m_shape.m_boundsMax[c] && high[c] + reach >= target.m_shape.m_boundsMin[c]))
-            return;
-    m_soup.collect(target.m_shape, low - box, high + box);
-    if (m_soup.triangles().empty()) return;
-    measureSurface(fem);
-    const SheetSearch search = {fem, target, thickness};
-    findOnSheetNodes(search);
-    findOnSheetTriangles(search);
-    findOnSheetEdges(search);
+        if (!(low[c] - reach <= target.m_shape->m_boundsMax[c] && high[c] + reach >= target.m_shape->m_boundsMin[c]))
+            return false;
+    m_soup.collect(*target.m_shape, low - box, high + box);
+    return !m_soup.triangles().empty();
 }
 
 // Where the surface's nodes and edges face.
@@ -81,8 +86,8 @@ void ContactFinder::measureSurface(const FemSoftBody& fem)
 // Where a point of the soft surface was relative to the object as the step began: kinematic objects have moved already.
 Vec3 ContactFinder::asTheStepBegan(const Target& target, const Vec3& point)
 {
-    const bool moved = target.m_leaf.m_object->isKinematicObject();
-    return moved ? point + target.m_step * target.m_rigidProxy.velocityAt(point) : point;
+    const bool moved = target.m_object->isKinematicObject();
+    return moved ? point + target.m_step * target.m_motion->velocityAt(point) : point;
 }
 
 // The free motion of a node in the step relative to the object.
@@ -90,7 +95,7 @@ Vec3 ContactFinder::wayOf(const SheetSearch& search, int node) const
 {
     const FemSoftBody& fem = search.m_fem;
     return search.m_target.m_step *
-           (fem.surfaceVelocity()[node] - search.m_target.m_rigidProxy.velocityAt(fem.surfacePosition()[node]));
+           (fem.surfaceVelocity()[node] - search.m_target.m_motion->velocityAt(fem.surfacePosition()[node]));
 }
 
 // Where the node was on the right side of the sheets: remembered if the leaf was near in the last step. A node that has
@@ -98,22 +103,31 @@ Vec3 ContactFinder::wayOf(const SheetSearch& search, int node) const
 Vec3 ContactFinder::safePosition(const SheetSearch& search, int node, const Vec3& position) const
 {
     const Target& target = search.m_target;
-    const SheetSide key = {broadphaseId(*target.m_leaf.m_object), target.m_leaf.m_index, node, Vec3(), Vec3()};
+    const SheetSide key = {broadphaseId(*target.m_object), target.m_leaf, node, Vec3(), Vec3()};
     const std::vector<SheetSide>& known = search.m_fem.m_sheetSides;
     const auto side = std::lower_bound(known.begin(), known.end(), key);
     if (side != known.end() && !(key < *side))
     {
-        const Vec3 way = position - target.m_shape.m_pose.toWorld(side->m_position);
-        if (norm(way) < 4 * target.m_leaf.m_reach + m_edge) return target.m_shape.m_pose.toWorld(side->m_safe);
+        const Vec3 way = position - target.m_shape->m_pose.toWorld(side->m_position);
+        if (norm(way) < 4 * target.m_reach + m_edge) return target.m_shape->m_pose.toWorld(side->m_safe);
     }
     return position - m_band * m_outward[node];
+}
+
+// A node that slides may go past what lies flush in the surface that held it, a little below: so it is led to its
+// position from above.
+Vec3 ContactFinder::rightSideOf(const SheetSearch& search, int node, const Vec3& position) const
+{
+    const Vec3 safe = safePosition(search, node, position);
+    const Vec3 lift = m_band * m_heldNormal[node];
+    return onRightSide(m_soup, norm(lift) > 0 ? onRightSide(m_soup, safe, position + lift) : safe, position);
 }
 
 void ContactFinder::findOnSheetNodes(const SheetSearch& search)
 {
     const Target& target = search.m_target;
     const FemSoftBody& fem = search.m_fem;
-    const int objectId = broadphaseId(*target.m_leaf.m_object);
+    const int objectId = broadphaseId(*target.m_object);
     for (int i : fem.m_surface.nodes())
     {
         SheetProbe probe;
@@ -121,13 +135,62 @@ void ContactFinder::findOnSheetNodes(const SheetSearch& search)
         probe.m_path = wayOf(search, i);
         probe.m_band = m_band;
         probe.m_thickness = search.m_thickness;
-        probe.m_rightSide = onRightSide(m_soup, safePosition(search, i, probe.m_position), probe.m_position);
+        probe.m_rightSide = rightSideOf(search, i, probe.m_position);
         findPointTouches(m_soup, probe, m_touches);
         considerTouches(search, i, {i, i, i});
-        const Pose& pose = target.m_shape.m_pose;
+        const Pose& pose = target.m_shape->m_pose;
         m_sheetSides.push_back(
-            {objectId, target.m_leaf.m_index, i, pose.toLocal(probe.m_position), pose.toLocal(probe.m_rightSide)});
+            {objectId, target.m_leaf, i, pose.toLocal(probe.m_position), pose.toLocal(probe.m_rightSide)});
     }
+}
+
+// What carries a vertex turns its way: then it does not meet what it would on the free one, and may meet what is
+// behind.
+bool ContactFinder::isTurned(const SheetSearch& search, int node, Vec3& way) const
+{
+    if (!m_carried.isCarried(node)) return false;
+    const Target& target = search.m_target;
+    const Vec3 carriedAlong = target.m_step * target.m_motion->velocityAt(search.m_fem.surfacePosition()[node]);
+    way = m_carried.allowed(node, target.m_step * search.m_fem.surfaceVelocity()[node]) - carriedAlong;
+    return norm(way) > m_band;
+}
+
+// Of sheets: what is near and no wall, and for vertices whose way is turned, what they meet on it.
+void ContactFinder::findOnSheetPaths(FemSoftBody& fem, const Target& target)
+{
+    const SheetSearch search = {fem, target, target.m_shape->m_shape->getMargin() + fem.m_contactOffset};
+    std::size_t k = target.m_first, side = target.m_firstSide;
+    bool isCollected = false;
+    for (int i : fem.m_surface.nodes())
+    {
+        if (side == target.m_endSide) break;
+        Vec3 way;
+        const bool turned = isTurned(search, i, way);
+        for (; k < target.m_end && m_nearOrigins[k].m_feature == i; ++k)
+            if (!turned || m_near[k].m_gap <= m_band) keepNear(k);
+        const Vec3 rightSide = target.m_shape->m_pose.toWorld(m_sheetSides[side++].m_safe);
+        if (!turned) continue;
+        if (!isCollected) collectSheets(fem, target);
+        isCollected = true;
+        considerSheetPath(search, i, way, rightSide);
+    }
+    for (; k < target.m_end; ++k) keepNear(k);
+}
+
+void ContactFinder::considerSheetPath(const SheetSearch& search, int node, const Vec3& way, const Vec3& rightSide)
+{
+    const Vec3 lift = m_carried.liftOf(node);
+    SheetProbe probe;
+    probe.m_position = asTheStepBegan(search.m_target, search.m_fem.surfacePosition()[node]) + lift;
+    probe.m_rightSide = onRightSide(m_soup, rightSide, rightSide + lift);
+    probe.m_path = way;
+    probe.m_band = m_band;
+    probe.m_thickness = search.m_thickness;
+    findPointTouches(m_soup, probe, m_touches);
+    for (SheetTouch& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
+    const auto isNear = [this](const SheetTouch& touch) { return touch.m_surface.m_gap <= m_band; };
+    m_touches.erase(std::remove_if(m_touches.begin(), m_touches.end(), isNear), m_touches.end());
+    considerTouches(search, node, {node, node, node});
 }
 
 void ContactFinder::findOnSheetTriangles(const SheetSearch& search)

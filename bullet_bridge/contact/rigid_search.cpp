@@ -15,6 +15,10 @@ namespace bullet_fem
 namespace
 {
 
+constexpr double kOneFaceCosine = 0.9999;  // of the normals of contacts with one flat face
+constexpr int kFewest = 3;                 // contacts on it
+constexpr double kCarriedShare = 0.8;      // of all normal impulses that those have of what a flat face carries
+
 // Null if that cannot be known.
 btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
 {
@@ -52,7 +56,10 @@ bool bearsThreads(const btCollisionShape& shape)
 
 }  // namespace
 
-RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts) {}
+RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts)
+{
+    m_carried.reserve(kParts);
+}
 
 void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts,
                        RigidProxies& rigidProxies)
@@ -62,6 +69,7 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
     m_shapes.clear();
     m_leaves.resizeNoInitialize(0);
     listOverlapping(bodies);
+    listCarrying(bodies);
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
         removeGone(*bodies[b], static_cast<int>(b));
@@ -120,6 +128,59 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
     std::sort(m_overlapping.begin(), m_overlapping.end());
 }
 
+// How the soft bodies carried the objects in the last step.
+void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
+{
+    const auto before = [](const Carried& a, const Carried& b) { return a.m_objectId < b.m_objectId; };
+    const auto forEachPush = [&](const auto& use)
+    {
+        for (const FemSoftBody* fem : bodies)
+            for (std::size_t k = 0; k < fem->m_contacts.size(); ++k)
+            {
+                const ContactPoint& contact = fem->m_contacts[k];
+                const double size = dot(contact.m_impulse, contact.m_normal);
+                const Carried key = {fem->m_origins[k].m_objectId, 0, 0, 0, 0, Vec3(), Vec3()};
+                if (size > 0)
+                    use(std::lower_bound(m_carried.begin(), m_carried.end(), key, before), key, size, contact);
+            }
+    };
+    m_carried.clear();
+    forEachPush(
+        [&](auto at, const Carried& key, double size, const ContactPoint& contact)
+        {
+            if (at == m_carried.end() || at->m_objectId != key.m_objectId) at = m_carried.insert(at, key);
+            at->m_sum += size;
+            if (size <= at->m_largest) return;
+            at->m_largest = size;
+            at->m_normal = contact.m_normal;
+        });
+    forEachPush(
+        [&](auto at, const Carried&, double size, const ContactPoint& contact)
+        {
+            if (dot(contact.m_normal, at->m_normal) < kOneFaceCosine) return;
+            ++at->m_count;
+            at->m_onFace += size;
+            at->m_foot += size * (contact.m_point - contact.m_gap * contact.m_normal);
+        });
+}
+
+// The plane of a moving object that lay on soft bodies in the last step, as this one begins.
+CarryingPlane RigidSearch::carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy,
+                                           double step) const
+{
+    CarryingPlane plane;
+    if (norm(rigidProxy.m_linearVelocity) == 0) return plane;
+    const int id = broadphaseId(object);
+    const auto at = std::lower_bound(m_carried.begin(), m_carried.end(), id,
+                                     [](const Carried& carried, int other) { return carried.m_objectId < other; });
+    if (at == m_carried.end() || at->m_objectId != id) return plane;
+    if (at->m_count < kFewest || at->m_onFace < kCarriedShare * at->m_sum) return plane;
+    plane.m_exists = true;
+    plane.m_normal = at->m_normal;
+    plane.m_distance = dot(plane.m_normal, at->m_foot * (1 / at->m_onFace) + step * rigidProxy.m_linearVelocity);
+    return plane;
+}
+
 void RigidSearch::removeGone(FemSoftBody& fem, int body) const
 {
     if (!broadphaseOf(fem)) return;
@@ -138,7 +199,8 @@ void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidProxies& rigid
         const int rigidProxy = rigidProxies.indexForContact(*object, step, fem.m_body);
         const ShapeRange& shape = shapeOf(*object, rigidProxy, step, rigidProxies);
         touching.m_alone = touching.m_alone || shape.m_alone;
-        m_touched.push_back({object, rigidProxy, shape.m_first, shape.m_count, shape.m_unknown});
+        m_touched.push_back({object, rigidProxy, shape.m_first, shape.m_count, shape.m_unknown,
+                             carryingPlaneOf(*object, rigidProxies.rigidProxies()[rigidProxy], step)});
     }
     m_touching.push_back(touching);
 }

@@ -45,11 +45,25 @@ private:
         bool m_unknown = false, m_alone = false;
     };
 
+    void listCarrying(const std::vector<FemSoftBody*>& bodies);
+    CarryingPlane carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy, double step) const;
     void listOverlapping(const std::vector<FemSoftBody*>& bodies);
     void removeGone(FemSoftBody& fem, int body) const;
     void listTouched(FemSoftBody& fem, double step, RigidProxies& rigidProxies);
     const ShapeRange& shapeOf(const btCollisionObject& object, int rigidProxy, double step,
                               const RigidProxies& rigidProxies);
+
+    /// What the soft bodies gave an object in the last step.
+    struct Carried
+    {
+        int m_objectId;
+        double m_sum;      // of the sizes of the normal impulses [N s]
+        double m_largest;  // of these [N s], and its normal:
+        int m_count;       // contacts that have this one, too
+        double m_onFace;   // the sum of their sizes [N s]
+        Vec3 m_normal;     // unit, from the object to the soft bodies
+        Vec3 m_foot;       // of their points on the object, times the sizes [N s m]
+    };
 
     const Threads& m_threads;
     std::vector<ContactFinder> m_finders;
@@ -57,6 +71,7 @@ private:
     std::vector<TouchedObject> m_touched;  // body by body
     std::vector<ShapeRange> m_shapes;      // one a rigid proxy
     btAlignedObjectArray<ShapeLeaf> m_leaves;
+    std::vector<Carried> m_carried;  // by object, ascending
     std::vector<ContactSearchReport> m_reports;
     std::vector<std::pair<const void*, int>> m_byAddress;     // bodies, ascending
     std::vector<const btBroadphaseInterface*> m_broadphases;  // of theirs, each once

@@ -85,6 +85,7 @@ void PointCompliance::form(const ContactBody& body, double scale)
     m_columnsOf.assign(points(), -1);
     m_columnsFormed = 0;
     m_columns.reserve(3 * m_rows * points());
+    m_terms.reserve(SurfacePoint::kMostNodes);
 }
 
 void PointCompliance::scale(double factor)
