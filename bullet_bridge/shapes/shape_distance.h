@@ -38,6 +38,9 @@ struct ShapeLeaf
 /// scaled to nothing, soft bodies.
 int collectShapeLeaves(const btCollisionObject& object, btAlignedObjectArray<ShapeLeaf>& leaves);
 
+/// True if the shape can be a leaf: it is of a known kind, and neither a compound nor a whole GImpact mesh.
+bool isKnownShape(const btCollisionShape& shape);
+
 /// Where a point of a soft surface is nearest to a rigid shape. The nearest point of the rigid shape is the soft point
 /// minus m_gap m_normal.
 struct SurfaceDistance

@@ -45,29 +45,6 @@ bool hasUsableTree(const btCollisionShape& shape)
     return scale.x * scale.y * scale.z != 0 && isFinite(scale) && hasUsableTree(*scaled.getChildShape());
 }
 
-bool isKnown(const btCollisionShape& shape)
-{
-    switch (shape.getShapeType())
-    {
-        case STATIC_PLANE_PROXYTYPE:
-        case TERRAIN_SHAPE_PROXYTYPE:
-            return true;
-        case TRIANGLE_MESH_SHAPE_PROXYTYPE:
-        case MULTIMATERIAL_TRIANGLE_MESH_PROXYTYPE:
-        case SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE:
-            return hasUsableTree(shape);
-        case GIMPACT_SHAPE_PROXYTYPE:
-            return static_cast<const btGImpactShapeInterface&>(shape).getGImpactShapeType() ==
-                   CONST_GIMPACT_TRIMESH_SHAPE_PART;
-        case CONVEX_HULL_SHAPE_PROXYTYPE:
-            return static_cast<const btConvexHullShape&>(shape).getNumPoints() > 0;
-        case MULTI_SPHERE_SHAPE_PROXYTYPE:
-            return static_cast<const btMultiSphereShape&>(shape).getSphereCount() > 0;
-        default:
-            return shape.isConvex();
-    }
-}
-
 /// Bullet's bounds are floats: asked for about the leaf's own origin, they keep their precision far from the world's.
 void setBounds(ShapeLeaf& leaf)
 {
@@ -131,7 +108,7 @@ int collect(const btCollisionShape& shape, const Pose& pose, btAlignedObjectArra
         return unknown;
     }
     if (collectGImpact(shape, pose, leaves, unknown)) return unknown;
-    if (!isKnown(shape)) return 1;
+    if (!isKnownShape(shape)) return 1;
     ShapeLeaf leaf;
     leaf.m_shape = &shape;
     leaf.m_pose = pose;
@@ -141,6 +118,29 @@ int collect(const btCollisionShape& shape, const Pose& pose, btAlignedObjectArra
 }
 
 }  // namespace
+
+bool isKnownShape(const btCollisionShape& shape)
+{
+    switch (shape.getShapeType())
+    {
+        case STATIC_PLANE_PROXYTYPE:
+        case TERRAIN_SHAPE_PROXYTYPE:
+            return true;
+        case TRIANGLE_MESH_SHAPE_PROXYTYPE:
+        case MULTIMATERIAL_TRIANGLE_MESH_PROXYTYPE:
+        case SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE:
+            return hasUsableTree(shape);
+        case GIMPACT_SHAPE_PROXYTYPE:
+            return static_cast<const btGImpactShapeInterface&>(shape).getGImpactShapeType() ==
+                   CONST_GIMPACT_TRIMESH_SHAPE_PART;
+        case CONVEX_HULL_SHAPE_PROXYTYPE:
+            return static_cast<const btConvexHullShape&>(shape).getNumPoints() > 0;
+        case MULTI_SPHERE_SHAPE_PROXYTYPE:
+            return static_cast<const btMultiSphereShape&>(shape).getSphereCount() > 0;
+        default:
+            return shape.isConvex();
+    }
+}
 
 int collectShapeLeaves(const btCollisionObject& object, btAlignedObjectArray<ShapeLeaf>& leaves)
 {

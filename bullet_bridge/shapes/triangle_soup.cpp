@@ -65,7 +65,7 @@ private:
 };
 
 /// Like btGImpactMeshShapePart::processAllTriangles, which allocates: down the part's own box tree.
-void processGImpactPart(const btGImpactMeshShapePart& part, const btAABB& box, Collector& collector)
+void processGImpactPart(const btGImpactMeshShapePart& part, const btAABB& box, btTriangleCallback& visitor)
 {
     const btGImpactBoxSet& tree = *part.getBoxSet();
     part.lockChildShapes();
@@ -78,7 +78,7 @@ void processGImpactPart(const btGImpactMeshShapePart& part, const btAABB& box, C
         {
             btPrimitiveTriangle triangle;
             part.getPrimitiveTriangle(tree.getNodeData(node), triangle);
-            collector.processTriangle(triangle.m_vertices, part.getPart(), tree.getNodeData(node));
+            visitor.processTriangle(triangle.m_vertices, part.getPart(), tree.getNodeData(node));
         }
         node += overlaps || isLeaf ? 1 : tree.getEscapeNodeIndex(node);
     }
@@ -87,6 +87,17 @@ void processGImpactPart(const btGImpactMeshShapePart& part, const btAABB& box, C
 
 }  // namespace
 
+void forEachTriangle(const btCollisionShape& sheet, const btVector3& low, const btVector3& high,
+                     btTriangleCallback& visitor)
+{
+    if (sheet.getShapeType() != GIMPACT_SHAPE_PROXYTYPE)
+        return static_cast<const btConcaveShape&>(sheet).processAllTriangles(&visitor, low, high);
+    btAABB box;
+    box.m_min = low;
+    box.m_max = high;
+    processGImpactPart(static_cast<const btGImpactMeshShapePart&>(sheet), box, visitor);
+}
+
 void TriangleSoup::collect(const ShapeLeaf& leaf, const Vec3& low, const Vec3& high)
 {
     m_triangles.clear();
@@ -94,15 +105,7 @@ void TriangleSoup::collect(const ShapeLeaf& leaf, const Vec3& low, const Vec3& h
     const Box local = localBox(leaf.m_pose, {low, high});
     const btVector3 localLow = bulletVector(local.m_low), localHigh = bulletVector(local.m_high);
     Collector collector(leaf.m_pose, m_triangles);
-    if (leaf.m_shape->getShapeType() == GIMPACT_SHAPE_PROXYTYPE)
-    {
-        btAABB box;
-        box.m_min = localLow;
-        box.m_max = localHigh;
-        processGImpactPart(static_cast<const btGImpactMeshShapePart&>(*leaf.m_shape), box, collector);
-    }
-    else
-        static_cast<const btConcaveShape&>(*leaf.m_shape).processAllTriangles(&collector, localLow, localHigh);
+    forEachTriangle(*leaf.m_shape, localLow, localHigh, collector);
     m_low = low;
     m_high = high;
     buildGrid();

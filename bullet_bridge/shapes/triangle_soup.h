@@ -8,6 +8,9 @@
 #include "bullet_bridge/shapes/shape_distance.h"
 #include "bullet_bridge/soft_pairs/triangle_proximity.h"
 
+class btTriangleCallback;
+class btVector3;
+
 namespace bullet_fem
 {
 
@@ -19,6 +22,11 @@ struct SoupTriangle
     int m_part = 0;     ///< Bullet's numbers of it
     int m_index = 0;
 };
+
+/// Hands the visitor the triangles of a sheet (see ShapeLeaf) that overlap a box, both in the sheet's frame. The box
+/// must be finite. Never allocates.
+void forEachTriangle(const btCollisionShape& sheet, const btVector3& low, const btVector3& high,
+                     btTriangleCallback& visitor);
 
 /// Where a straight path meets the soup first.
 struct SoupCrossing

@@ -84,7 +84,7 @@ void transfer(Bytes& bytes, btFemTouch& t)
 template <class Bytes>
 void transfer(Bytes& bytes, btFemNeighbour& n)
 {
-    bytes(n.m_id, n.m_transform, n.m_touches, n.m_held);
+    bytes(n.m_id, n.m_transform, n.m_touches, n.m_held, n.m_mark);
 }
 
 template <class Bytes, class T>
@@ -96,7 +96,7 @@ void transfer(Bytes& bytes, btFemWithOther<T>& w)
 template <class Bytes>
 void transfer(Bytes& bytes, btFemSleepRecord& s)
 {
-    bytes(s.m_asleep, s.m_recorded, s.m_influences, s.m_targets, s.m_forces);
+    bytes(s.m_asleep, s.m_recorded, s.m_influences, s.m_targets, s.m_low, s.m_high, s.m_forces);
 }
 
 template <class Bytes>

@@ -11,6 +11,10 @@
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/world_objects.h"
+#include "bullet_bridge/shapes/shape_mark.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/tet_mesh.h"
+#include "fem/common/byte_stream.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 
 using namespace bullet_fem;
@@ -19,6 +23,13 @@ namespace
 {
 
 using Neighbours = std::vector<btFemNeighbour>;
+
+// What lies farther from a body at rest than its contact offset and this does not touch it [mean edges].
+constexpr double kReach = 0.25;
+
+// How a rigid object answers to contact.
+constexpr int kContactFlags = btCollisionObject::CF_STATIC_OBJECT | btCollisionObject::CF_KINEMATIC_OBJECT |
+                              btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING;
 
 const btCollisionObject& objectOf(const btBroadphaseProxy& proxy)
 {
@@ -40,6 +51,67 @@ bool isMoving(const btCollisionObject& object)
     return state == DISABLE_DEACTIVATION || (state == ACTIVE_TAG && object.getDeactivationTime() <= gDeactivationTime);
 }
 
+bool mayCollide(const btSoftBody& soft, const btCollisionObject& object)
+{
+    const auto& ignored = soft.m_collisionDisabledObjects;
+    for (int i = 0; i < ignored.size(); ++i)
+        if (ignored[i] == &object) return false;
+    return soft.checkCollideWith(&object) && object.checkCollideWith(&soft);
+}
+
+// The weight that it may put on the body.
+void addLoad(std::uint64_t& mark, const btCollisionObject& object)
+{
+    const btRigidBody* rigid = btRigidBody::upcast(&object);
+    if (!rigid || rigid->isStaticOrKinematicObject()) return;
+    addToMark(mark, rigid->getInvMass());
+    for (int c = 0; c < 3; ++c) addToMark(mark, rigid->getGravity()[c]);
+}
+
+// Of what the body feels of an object that stands at `transform`. Values, not addresses: a saved state has it, too.
+std::uint64_t markOf(const btFemBodyRecord& record, const btCollisionObject& object, const btTransform& transform)
+{
+    std::uint64_t mark = kEmptyMark;
+    addToMark(mark, mayCollide(*record.m_softBody, object));
+    addToMark(mark, object.getRestitution());
+    if (const btSoftBody* soft = btSoftBody::upcast(&object))
+    {
+        for (const btScalar value : {soft->m_cfg.kDF, soft->m_cfg.kSHR}) addToMark(mark, value);
+        addToMark(mark, soft->m_cfg.collisions);
+        return mark;
+    }
+    addToMark(mark, object.getCollisionFlags() & kContactFlags);
+    for (const btScalar value : {object.getFriction(), object.getContactStiffness(), object.getContactDamping()})
+        addToMark(mark, value);
+    addLoad(mark, object);
+    const btFemSleepRecord& sleep = record.m_work.m_sleep;
+    if (const btCollisionShape* shape = object.getCollisionShape())
+        addToMark(mark, markOfShape(*shape, transform, sleep.m_low, sleep.m_high));
+    return mark;
+}
+
+btFemNeighbour neighbourOf(const btFemBodyRecord& record, const btCollisionObject& object, int id)
+{
+    btFemNeighbour neighbour = {&object, id, object.getWorldTransform(), false, false};
+    neighbour.m_mark = markOf(record, object, neighbour.m_transform);
+    return neighbour;
+}
+
+void recordBounds(btFemBodyRecord& record)
+{
+    const FemSoftBody& fem = record.fem();
+    const double reach = fem.m_contactOffset + kReach * fem.m_body.m_model->mesh().meanEdgeLength();
+    Vec3 low = vec3(fem.m_softBody->m_nodes[0].m_x), high = low;
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+        {
+            low[c] = std::min(low[c], double(fem.m_softBody->m_nodes[i].m_x[c]));
+            high[c] = std::max(high[c], double(fem.m_softBody->m_nodes[i].m_x[c]));
+        }
+    record.m_work.m_sleep.m_low = low - Vec3{reach, reach, reach};
+    record.m_work.m_sleep.m_high = high + Vec3{reach, reach, reach};
+}
+
 void recordOverlapping(btFemBodyRecord& record, const btBroadphaseProxy& proxy)
 {
     const btCollisionObject& object = objectOf(proxy);
@@ -47,8 +119,8 @@ void recordOverlapping(btFemBodyRecord& record, const btBroadphaseProxy& proxy)
     bool touches = btSoftBody::upcast(&object) != nullptr;  // may be at rest on it, too
     for (int k = 0; k < record.m_reports.m_contacts.size() && !touches; ++k)
         touches = record.m_reports.m_contacts[k].m_other == &object;
-    record.m_work.m_sleep.m_neighbours.push_back(
-        {&object, proxy.m_uniqueId, object.getWorldTransform(), touches, false});
+    record.m_work.m_sleep.m_neighbours.push_back(neighbourOf(record, object, proxy.m_uniqueId));
+    record.m_work.m_sleep.m_neighbours.back().m_touches = touches;
 }
 
 void recordHeld(WorldObjects& world, btFemBodyRecord& record)
@@ -57,10 +129,9 @@ void recordHeld(WorldObjects& world, btFemBodyRecord& record)
     for (const HeldJoint& joint : record.fem().m_joints.m_now)
     {
         if (!joint.m_object || !world.readAndHolds(*record.m_softBody, joint.m_object)) continue;
-        if (btFemNeighbour* known = findNeighbour(neighbours, *joint.m_object, joint.m_objectId))
-            known->m_held = true;
-        else
-            neighbours.push_back({joint.m_object, joint.m_objectId, joint.m_object->getWorldTransform(), false, true});
+        if (!findNeighbour(neighbours, *joint.m_object, joint.m_objectId))
+            neighbours.push_back(neighbourOf(record, *joint.m_object, joint.m_objectId));
+        findNeighbour(neighbours, *joint.m_object, joint.m_objectId)->m_held = true;
     }
 }
 
@@ -72,7 +143,14 @@ void compare(btFemBodyRecord& record, btFemNeighbour& known)
     const bool onItsOwn = !object.isStaticOrKinematicObject() && object.isActive();
     const bool moved = !onItsOwn && !(object.getWorldTransform() == known.m_transform);
     const bool pulls = known.m_held && record.m_work.m_sleep.m_asleep && isMoving(object);
-    if (moved || pulls) record.m_softBody->activate();
+    const bool changed = markOf(record, object, known.m_transform) != known.m_mark;
+    if (moved || pulls || changed) record.m_softBody->activate();
+}
+
+// No island tells that it is new. A soft body that was moved by hand is awake.
+bool restsByItself(const btCollisionObject& object)
+{
+    return object.isStaticOrKinematicObject() || (!object.isActive() && !btSoftBody::upcast(&object));
 }
 
 void compareOverlapping(btFemBodyRecord& record, const btBroadphaseProxy& proxy)
@@ -81,7 +159,7 @@ void compareOverlapping(btFemBodyRecord& record, const btBroadphaseProxy& proxy)
     if (!object.hasContactResponse()) return;
     if (btFemNeighbour* known = findNeighbour(record.m_work.m_sleep.m_neighbours, object, proxy.m_uniqueId))
         compare(record, *known);
-    else if (object.isStaticOrKinematicObject() && record.m_work.m_sleep.m_asleep)
+    else if (restsByItself(object) && record.m_work.m_sleep.m_asleep)
         record.m_softBody->activate();
 }
 
@@ -127,6 +205,8 @@ void visitNeighbours(const btFemBodyRegistry& registry, btFemChoice chosen,
 
 void recordNeighbours(const btFemBodyRegistry& registry, WorldObjects& world, btFemChoice chosen)
 {
+    for (const auto& record : registry.records())
+        if (record->isStepped() && chosen(*record)) recordBounds(*record);
     visitNeighbours(registry, chosen, recordOverlapping);
     for (const auto& record : registry.records())
         if (record->isStepped() && chosen(*record)) recordHeld(world, *record);

@@ -23,7 +23,8 @@ void visitNeighbours(const btFemBodyRegistry& registry, btFemChoice chosen,
 void recordNeighbours(const btFemBodyRegistry& registry, bullet_fem::WorldObjects& world, btFemChoice chosen);
 
 /// Wakes bodies with a record whose neighbours did what Bullet's islands do not tell: one that touched or was held is
-/// gone, one was moved by hand, an immovable one is new; or what a joint holds, in another island, moves.
+/// gone, one was moved by hand or has another shape or material, a rigid one at rest is new; or what a joint holds, in
+/// another island, moves.
 void wakeByNeighbours(const btFemBodyRegistry& registry, bullet_fem::WorldObjects& world);
 
 /// True if an anchor or joint of the body holds something that is not ready to rest.

@@ -16,8 +16,8 @@ class WorldObjects;
 // or as way over step, whichever is more. In the order of the step:
 
 /// Before anything of a step is read: wakes bodies whose nodes (m_x, m_v, m_im, m_f, targets), material, influences
-/// (gravity, wind, pressure, friction, contact offset, numbers of anchors and joints) or neighbours (see
-/// wakeByNeighbours) changed since the last step.
+/// (gravity, wind, pressure, friction, restitution, hardness, contact offset, numbers of anchors and joints) or
+/// neighbours (see wakeByNeighbours) changed since the last step.
 void wakeDisturbedBodies(const btFemBodyRegistry& registry, bullet_fem::WorldObjects& world);
 
 /// After Bullet's forces were added to m_f: what differs later was written by the user.

@@ -18,6 +18,7 @@ class SleepingScene
 {
 protected:
     explicit SleepingScene(WorldClass worldClass = WorldClass::softRigid) : m_world(worldClass) {}
+    explicit SleepingScene(Coupling coupling) : m_world(WorldClass::softRigid, coupling) {}
 
     btSoftBody& addCube(btScalar x = 0, btScalar height = btScalar(0.01), int state = ACTIVE_TAG)
     {

@@ -131,6 +131,10 @@ const Write kWrites[] = {
     {"Wind", [](btFemSoftBodySolver&, btSoftBody& b) { b.setWindVelocity(btVector3(10, 0, 0)); }},
     {"Pressure", [](btFemSoftBodySolver&, btSoftBody& b) { b.m_cfg.kPR = 100; }},
     {"Friction", [](btFemSoftBodySolver&, btSoftBody& b) { b.m_cfg.kDF = 0; }},
+    {"Restitution", [](btFemSoftBodySolver&, btSoftBody& b) { b.setRestitution(btScalar(0.5)); }},
+    {"Hardness", [](btFemSoftBodySolver&, btSoftBody& b) { b.m_cfg.kKHR = btScalar(0.05); }},
+    {"NoContact", [](btFemSoftBodySolver&, btSoftBody& b)
+     { b.setCollisionFlags(b.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE); }},
     {"Gravity",
      [](btFemSoftBodySolver&, btSoftBody& b)
      {

@@ -90,6 +90,14 @@ TEST_P(Snapshot, OfBodiesThatFallAsleepOrSleepContinuesBitForBit)
     m_scene.m_world.info().m_gravity *= 2;  // what it slept under is saved, too: it wakes
     m_scene.m_world.step();
     EXPECT_NE(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
+    m_scene.m_world.info().m_gravity /= 2;
+    m_scene.restore(sleeping);
+    m_scene.m_world.step();
+    EXPECT_EQ(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
+    m_scene.m_rigid.front()->setFriction(btScalar(0.1));  // and what it felt of its neighbours
+    m_scene.restore(sleeping);
+    m_scene.m_world.step();
+    EXPECT_NE(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
 }
 
 TEST_P(Snapshot, TakesBackWhatTheUserDidSince)

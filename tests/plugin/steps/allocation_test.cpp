@@ -175,6 +175,21 @@ TEST(Allocations, NoneForACubeAtRestOnABox)
     EXPECT_GT(fem.contacts(&cube).size(), 0);
 }
 
+TEST(Allocations, NoneForABodyThatSleeps)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    auto* floor = new btCompoundShape;
+    for (const btScalar x : {btScalar(-0.5), btScalar(0.5), btScalar(9)})
+        floor->addChildShape(at(x, 0, 0), world.keep(new btBoxShape(btVector3(btScalar(0.5), 2, 1))));
+    world.addRigid(floor, {0, at(0, 0, -1)}).forceActivationState(ISLAND_SLEEPING);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, btScalar(0.501)));
+    cube.forceActivationState(ACTIVE_TAG);
+    world.step(300);
+    ASSERT_EQ(cube.getActivationState(), ISLAND_SLEEPING);
+    EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 30), 28);
+}
+
 TEST(Allocations, NoneForACubeThatSlides)
 {
     CountingSolver fem;
