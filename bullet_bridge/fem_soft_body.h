@@ -118,6 +118,7 @@ struct FemSoftBody
 
     std::vector<Vec3> m_predicted;  ///< impulses of contact in the free motion [N s], one a node; empty: SteadyBodies
 
+    Vec3 m_meanSpin;  ///< as the step begins, see contact_patch.h; of a body that may touch something [rad/s]
     std::vector<ContactPoint> m_contacts;              ///< of the last step
     std::vector<ContactOrigin> m_origins;              ///< one a contact, ascending
     std::vector<SheetSide> m_sheetSides;               ///< of the last step, ascending

@@ -302,7 +302,7 @@ void RigidProxies::addJointReaction(const JointEnd& end, const Vec3& impulse)
 void RigidProxies::applyReactions(const ContactProblem& problem, double step)
 {
     for (const ContactPoint& contact : problem.m_contacts)
-        addReaction(contact.m_rigidProxy, -contact.m_impulse, contact.m_point + contact.m_approach);
+        addReaction(contact.m_rigidProxy, -contact.m_impulse, contact.m_point + contact.m_patch + contact.m_approach);
     for (const Joint& joint : problem.m_joints)
     {
         addJointReaction(joint.m_a, joint.m_impulse);

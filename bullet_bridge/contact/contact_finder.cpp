@@ -3,9 +3,12 @@
 #include "bullet_bridge/contact/contact_finder.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "BulletCollision/CollisionShapes/btSphereShape.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/contact_patch.h"
 #include "bullet_bridge/friction.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/nearest_contacts.h"
@@ -25,6 +28,13 @@ constexpr double kUsualKineticHardness = 0.1;  // Bullet's value of kKHR; those 
 constexpr double kLeastLikeness = -2;          // of a contact and the one that it was in the last step; 1 is the same
 
 // Bound on the speed of any of an object's points near the body: its centre's, and its spin over the distance.
+double curvatureOf(const ShapeLeaf& leaf)
+{
+    if (leaf.m_shape->getShapeType() != SPHERE_SHAPE_PROXYTYPE) return 0;
+    const double radius = static_cast<const btSphereShape*>(leaf.m_shape)->getRadius();
+    return radius > 0 ? 1 / radius : 0;
+}
+
 double fastestPoint(const RigidProxy& rigidProxy, const ShapeLeaf& shape)
 {
     const double spin = norm(rigidProxy.m_angularVelocity);
@@ -193,6 +203,22 @@ void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature
     keep(fem, target, feature, nodes, d);
 }
 
+// Of a node, which touches where it will be after a time. The nearest point of an edge or triangle goes with the
+// patch.
+Vec3 ContactFinder::patchOf(const FemSoftBody& fem, const Target& target, int node, const Vec3& normal,
+                            double time) const
+{
+    const Vec3& x = fem.surfacePosition()[node];
+    const double infinite = std::numeric_limits<double>::infinity();
+    const bool canMove = !target.m_object->isStaticOrKinematicObject();
+    const TouchingSide soft = {fem.surfaceVelocity()[node], fem.m_meanSpin,
+                               roundness(fem.m_surface.curvature(node), m_size), m_size};
+    const TouchingSide rigid = {target.m_motion->velocityAt(x), target.m_motion->m_angularVelocity,
+                                curvatureOf(*target.m_shape),
+                                canMove ? norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) : infinite};
+    return patchLag(soft, rigid, normal, time);
+}
+
 // Null where the surface is anchored to the object.
 ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                                   const SurfaceDistance& d)
@@ -204,6 +230,8 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     const Vec3& inverseMass = target.m_motion->m_inverseMass;
     contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     contact.m_rigidProxy = target.m_rigidProxy;
+    if (feature < fem.m_surface.vertexCount())
+        contact.m_patch = patchOf(fem, target, feature, d.m_normal, target.m_step);
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap;
     contact.m_slop = (dot(inverseMass, inverseMass) > 0 ? kMovableSlop : kSlop) * m_size;

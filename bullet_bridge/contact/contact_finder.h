@@ -156,6 +156,8 @@ private:
     static Triangle cornersOf(const FemSoftBody& fem, const Target& target, int feature);
     void findOnPaths(FemSoftBody& fem, const Target& target);
     bool meets(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes, SweptContact& contact) const;
+    void setLevers(const FemSoftBody& fem, const Target& target, int feature, const SweptContact& met,
+                   ContactPoint& contact) const;
     double considerPath(FemSoftBody& fem, const PathSearch& search, int feature, const Triangle& nodes,
                         double earliest);
     void measureSurface(const FemSoftBody& fem);
@@ -184,6 +186,7 @@ private:
                   double step);
     double considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, double nearest);
     void consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes, const SurfaceDistance& d);
+    Vec3 patchOf(const FemSoftBody& fem, const Target& target, int node, const Vec3& normal, double time) const;
     ContactPoint* keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                        const SurfaceDistance& d);
     void begin(const FemSoftBody& fem, int bodyIndex);

@@ -7,6 +7,7 @@
 #include "BulletCollision/CollisionDispatch/btCollisionObject.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_bridge/contact_patch.h"
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/step/stepping.h"
 
@@ -15,6 +16,7 @@ namespace bullet_fem
 namespace
 {
 
+constexpr double kRollingGap = 0.1;      // of the body's size: what rolls closes less within a step
 constexpr double kGrazing = 1e-3;        // of a mean edge: what passes nearer, meets, as along the rim of a face
 constexpr double kSameSideCosine = 0.9;  // of a nearest point's normal and that of where the paths meet
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -198,8 +200,20 @@ double ContactFinder::considerPath(FemSoftBody& fem, const PathSearch& search, i
     if (feature < fem.m_surface.vertexCount()) fem.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
     if (time < earliest - m_advantage / search.m_speed)
         if (ContactPoint* kept = keep(fem, search.m_target, feature, nodes, contact.m_surface))
-            kept->m_approach = contact.m_arm - (kept->m_point - search.m_target.m_motion->m_center);
+            setLevers(fem, search.m_target, feature, contact, *kept);
     return std::min(time, earliest);
+}
+
+// Of what is met later in the step, to where it is then. What rolls and is near has one lever for both sides, so that
+// no angular momentum is lost; what flies far within the step has its own.
+void ContactFinder::setLevers(const FemSoftBody& fem, const Target& target, int feature, const SweptContact& met,
+                              ContactPoint& contact) const
+{
+    const bool isNode = feature < fem.m_surface.vertexCount();
+    if (isNode) contact.m_patch = patchOf(fem, target, feature, contact.m_normal, met.m_time);
+    if (isNode && contact.m_gap < kRollingGap * m_size && roundness(fem.m_surface.curvature(feature), m_size) > 0)
+        return;
+    contact.m_approach = met.m_arm - (contact.m_point + contact.m_patch - target.m_motion->m_center);
 }
 
 }  // namespace bullet_fem

@@ -8,6 +8,7 @@
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/contact_patch.h"
 #include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
@@ -80,6 +81,8 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
     const auto findOf = [&](ContactFinder& finder, std::size_t b)
     {
         const Touching& touching = m_touching[b];
+        FemSoftBody& fem = *bodies[b];
+        if (touching.m_count > 0) fem.m_meanSpin = meanSpin(fem.m_body);
         m_reports[b] = finder.find(*bodies[b], static_cast<int>(b),
                                    {m_touched.data() + touching.m_first, touching.m_count, m_leaves,
                                     rigidProxies.rigidProxies(), step, maxContacts});

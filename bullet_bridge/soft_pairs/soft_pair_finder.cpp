@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/contact_patch.h"
 #include "bullet_bridge/friction.h"
 #include "bullet_bridge/joints/node_attachments.h"
 #include "bullet_bridge/nearest_contacts.h"
@@ -130,6 +131,25 @@ ContactPoint SoftPairFinder::commonOf(const FemSoftBody& first, const FemSoftBod
     return common;
 }
 
+// Of a node on a face, which touches where it will be as the step ends.
+Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceTouch& touch)
+{
+    const double step = roles.m_soft.m_fem.m_surface.step();
+    const auto sideOf = [step](const FemSoftBody& fem, const Triangle& nodes, const std::array<double, 3>& weights)
+    {
+        TouchingSide side = {{}, fem.m_meanSpin, 0, fem.m_surface.size()};
+        for (int a = 0; a < 3; ++a)
+        {
+            side.m_velocity += weights[a] / step * fem.m_surface.change()[nodes[a]];
+            side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
+        }
+        side.m_curvature = roundness(side.m_curvature, side.m_size);
+        return side;
+    };
+    return patchLag(sideOf(roles.m_soft.m_fem, touch.m_nodes, touch.m_weights),
+                    sideOf(roles.m_other.m_fem, touch.m_otherNodes, touch.m_otherWeights), touch.m_normal, step);
+}
+
 void SoftPairFinder::append(const Roles& roles, double offset)
 {
     const SoftSurface &soft = roles.m_soft.m_fem.m_surface, &other = roles.m_other.m_fem.m_surface;
@@ -145,6 +165,7 @@ void SoftPairFinder::append(const Roles& roles, double offset)
         contact.m_point = 0.5 * (interpolated(soft.position(), touch.m_nodes, touch.m_weights) +
                                  interpolated(other.position(), touch.m_otherNodes, touch.m_otherWeights));
         contact.m_normal = touch.m_normal;
+        if (roles.m_origin.m_kind != SoftPairKind::edges) contact.m_patch = patchOf(roles, touch);
         contact.m_gap = touch.m_gap - offset;
         SoftPairOrigin origin = roles.m_origin;
         origin.m_feature = touch.m_feature;

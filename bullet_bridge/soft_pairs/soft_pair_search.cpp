@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/contact_patch.h"
 #include "bullet_bridge/rigid_proxies.h"
 #include "bullet_fem/fem/common/threads.h"
 
@@ -41,7 +42,9 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                   {
                       const int b = m_paired[k];
                       FemSoftBody& fem = *bodies[b];
-                      if (m_isSearched[b]) fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
+                      if (!m_isSearched[b]) return;
+                      fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
+                      fem.m_meanSpin = meanSpin(fem.m_body);
                   });
     m_moved.clear();
     for (int b : m_paired)

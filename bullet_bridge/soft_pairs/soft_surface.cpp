@@ -46,6 +46,7 @@ SoftSurface::SoftSurface(const RestSurface& rest)
       m_bend(m_features.m_edges.size())
 {
     listEdgeTriangles();
+    measureCurvature(rest.m_positions);
     std::vector<std::vector<int>> around(rest.m_positions.size());
     for (const auto& [a, b] : m_features.m_edges)
     {
@@ -56,6 +57,29 @@ SoftSurface::SoftSurface(const RestSurface& rest)
     {
         m_around.insert(m_around.end(), around[i].begin(), around[i].end());
         m_firstAround[i + 1] = static_cast<int>(m_around.size());
+    }
+}
+
+// By the normals of the vertices at the ends of edges.
+void SoftSurface::measureCurvature(const std::vector<Vec3>& x)
+{
+    std::vector<Vec3> normal(x.size());
+    for (const Triangle& t : m_triangles)
+    {
+        const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+        for (int a = 0; a < 3; ++a) normal[t[a]] += area;
+    }
+    for (Vec3& n : normal)
+        if (norm(n) > 0) n = unit(n);
+    m_curvature.assign(x.size(), 0);
+    for (const auto& [a, b] : m_features.m_edges)
+    {
+        const Vec3 edge = x[b] - x[a];
+        const double square = dot(edge, edge);
+        if (!(square > 0)) continue;
+        const double curvature = dot(normal[b] - normal[a], edge) / square;
+        m_curvature[a] = std::max(m_curvature[a], curvature);
+        m_curvature[b] = std::max(m_curvature[b], curvature);
     }
 }
 
@@ -84,6 +108,7 @@ void SoftSurface::setRestNeighbours(std::shared_ptr<const RestNeighbours> neighb
 
 void SoftSurface::update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h)
 {
+    m_step = h;
     for (std::size_t i = 0; i < v.size(); ++i) m_change[i] = h * v[i];
     m_tree.refit(x, m_change);
     updateFaces();

@@ -93,13 +93,16 @@ public:
     int vertexCount() const { return static_cast<int>(position().size()); }
     const SurfaceFeatures& features() const { return m_features; }
     double meanEdge() const { return m_meanEdge; }  ///< of the tetrahedra at rest, or of finer triangles [m]
-    double size() const { return m_size; }          ///< cube root of the volume at rest [m]
+    /// Largest curvature of the surface at a vertex at rest, of its edges there [1/m]; 0 where it is flat or hollow.
+    double curvature(int vertex) const { return m_curvature[vertex]; }
+    double size() const { return m_size; }  ///< cube root of the volume at rest [m]
     const SurfaceTree& tree() const { return m_tree; }
     const SurfaceRidges& ridges() const { return m_ridges; }
     /// True if two vertices cannot touch each other however the body is bent: see RestNeighbours.
     bool areCloseAtRest(int a, int b) const { return m_restNeighbours->areClose(nodeAt(a), nodeAt(b)); }
     Vec3 middle() const;                                                      ///< of the bounds at the start [m]
     const std::vector<Vec3>& position() const { return m_tree.positions(); }  ///< [m], of all vertices
+    double step() const { return m_step; }                                    ///< h of the last update [s]
     const std::vector<Vec3>& change() const { return m_change; }              ///< h v [m]
 
     /// Outward unit normals; zero where triangles have no area. Those of edges and nodes are calculated when asked for:
@@ -127,6 +130,7 @@ public:
 
 private:
     void listEdgeTriangles();
+    void measureCurvature(const std::vector<Vec3>& x);
     void updateFaces();
     void updateEdges();
     template <class Visit>
@@ -137,7 +141,8 @@ private:
     std::vector<Triangle> m_triangles;
     std::vector<int> m_nodes;
     SurfaceFeatures m_features;
-    double m_meanEdge, m_size;
+    double m_meanEdge, m_size, m_step = 0;
+    std::vector<double> m_curvature;  // of every vertex
     SurfaceTree m_tree;
     SurfaceRidges m_ridges;
     std::shared_ptr<const RestNeighbours> m_restNeighbours;

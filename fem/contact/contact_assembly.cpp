@@ -99,9 +99,10 @@ void ContactRows::addContactRows()
 
 void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 {
-    const RowEnd a = softEnd(contact.m_soft, contact.m_point, row.m_a.m_end);
-    const RowEnd b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, contact.m_point + contact.m_approach)
-                                               : softEnd(contact.m_other, contact.m_point, row.m_b.m_end);
+    const Vec3 at = contact.m_point + contact.m_patch;
+    const RowEnd a = softEnd(contact.m_soft, at, row.m_a.m_end);
+    const RowEnd b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, at + contact.m_approach)
+                                               : softEnd(contact.m_other, at, row.m_b.m_end);
     row = ContactRow();
     row.m_a = a;
     row.m_b = b;

@@ -87,7 +87,9 @@ struct ContactPoint
     Vec3 m_point;     ///< where both sides feel the impulse: the soft point, between two soft ones their middle [m]
     Vec3 m_approach;  ///< added to m_point for the arm of a rigid proxy that it meets later in the step: what they come
                       ///< closer until then [m]
-    Vec3 m_normal;    ///< unit [-], from the other side to m_soft
+    Vec3
+        m_patch;  ///< added to m_point for the levers of both sides: to where the patch, as it moves, has come from [m]
+    Vec3 m_normal;             ///< unit [-], from the other side to m_soft
     double m_gap = 0;          ///< signed distance at the start [m]; negative inside
     double m_slop = 0;         ///< penetration that is left alone [m], >= 0
     double m_hardness = 1;     ///< factor on ContactSettings::m_pushFraction [-], >= 0
