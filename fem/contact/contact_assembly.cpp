@@ -219,7 +219,10 @@ void ContactRows::setContactTarget(ContactRow& row, const ContactPoint& contact)
     const Vec3 n = contact.m_normal;
     const double allowed = -std::max(contact.m_gap, 0.0) / h;
     row.m_target.x = allowed;
-    for (int i = 1; i < 3; ++i) row.m_target[i] = -m_settings.m_slipFraction / h * dot(contact.m_slip, row.m_axes[i]);
+    const Vec3 arc = arcOf(row.m_b);
+    for (int i = 1; i < 3; ++i)
+        row.m_target[i] =
+            (dot(arc, row.m_axes[i]) - m_settings.m_slipFraction * dot(contact.m_slip, row.m_axes[i])) / h;
     if (contact.m_restitution > 0 && dot(n, velocity(row)) < allowed)
     {
         const double closing = -dot(n, priorVelocity(row, contact));

@@ -249,6 +249,17 @@ Vec3 ContactRows::trueVelocity(const ContactRow& row) const
     return ofEnd(row.m_a) - ofEnd(row.m_b);
 }
 
+// By how much the way of a rigid proxy's point within the step, an arc, differs from h times its velocity: h^2/2 w x (w
+// x arm) [m]. What sticks is led along it; without that a body on a turntable would go outwards. Of what turns far
+// within the step other points touch as it ends.
+Vec3 ContactRows::arcOf(const RowEnd& end) const
+{
+    constexpr double kFarTurn = 0.5;  // within a step [rad]
+    if (end.m_rigidProxy < 0 || end.m_angular) return {};
+    const Vec3 turn = m_settings.m_step.m_step * m_problem->m_rigidProxies[end.m_rigidProxy].m_angularVelocity;
+    return dot(turn, turn) < kFarTurn * kFarTurn ? 0.5 * cross(turn, cross(turn, end.m_arm)) : Vec3();
+}
+
 // A point that sticks remembers how far it crept; one that slides or hangs free starts anew.
 Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact, const Vec3& trueVelocity) const
 {
@@ -256,7 +267,7 @@ Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact, co
     const double normal = dot(row.m_impulse, contact.m_normal);
     const Vec3 friction = row.m_impulse - normal * contact.m_normal;
     if (!(norm(friction) < kSticks * row.m_friction * normal)) return {};
-    const Vec3 slip = contact.m_slip + m_settings.m_step.m_step * trueVelocity;
+    const Vec3 slip = contact.m_slip + m_settings.m_step.m_step * trueVelocity - arcOf(row.m_b);
     return slip - dot(slip, contact.m_normal) * contact.m_normal;
 }
 

@@ -164,6 +164,7 @@ private:
     Vec3 velocity(const RowEnd& end) const;
     Vec3 trueVelocity(const ContactRow& row) const;
     double violation(const ContactRow& row, const Vec3& trueVelocity) const;
+    Vec3 arcOf(const RowEnd& end) const;
     Vec3 newSlip(const ContactRow& row, const ContactPoint& contact, const Vec3& trueVelocity) const;
     bool rests(const ContactRow& row) const;
     Mat3 compliance(const RowEnd& end) const;

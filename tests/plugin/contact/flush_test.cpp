@@ -129,6 +129,8 @@ void PrintTo(const Jam& jam, std::ostream* stream)
             << (jam.m_hasBall ? ", under a ball" : "");
 }
 
+constexpr double kThrown = 15;  // rounding alone makes it 3 to 8; what was thrown had hundreds and more [m/s]
+
 class JamOfCubes : public testing::TestWithParam<Jam>
 {
 };
@@ -147,7 +149,7 @@ TEST_P(JamOfCubes, IsNotThrownApart)
     for (int k = 0; k < 60; ++k)
     {
         world.step(1);
-        for (const btSoftBody* cube : cubes) ASSERT_LT(fastestNode(*cube), 6) << "step " << k;
+        for (const btSoftBody* cube : cubes) ASSERT_LT(fastestNode(*cube), kThrown) << "step " << k;
     }
 }
 
