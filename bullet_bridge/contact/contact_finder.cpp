@@ -96,10 +96,22 @@ void ContactFinder::makeRoom()
     m_carried.reserve(room);
 }
 
+// Kinematic objects have moved already; their leaves are where they were.
+const RigidProxy& ContactFinder::asTheStepBegan(const TouchedObject& touched, const RigidSurroundings& around)
+{
+    const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
+    if (!touched.m_object->isKinematicObject()) return rigidProxy;
+    m_starts.push_back(rigidProxy);
+    m_starts.back().m_center -= around.m_step * rigidProxy.m_linearVelocity;
+    return m_starts.back();
+}
+
 // All leaves of all objects near the body.
 void ContactFinder::listTargets(FemSoftBody& fem, const RigidSurroundings& around)
 {
     m_targets.clear();
+    m_starts.clear();
+    m_starts.reserve(around.m_count);  // targets point into it
     if (around.m_count == 0) return;
     fem.updateSkin();
     m_culling.begin(fem.m_surface, fem.surfacePosition());
@@ -109,12 +121,13 @@ void ContactFinder::listTargets(FemSoftBody& fem, const RigidSurroundings& aroun
     for (int k = 0; k < around.m_count; ++k)
     {
         const TouchedObject& touched = around.m_touched[k];
-        const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
+        const RigidProxy& rigidProxy = asTheStepBegan(touched, around);
         const Surface surface = surfaceOf(*fem.m_softBody, *touched.m_object);
         for (int l = 0; l < touched.m_leafCount; ++l)
         {
             const ShapeLeaf& shape = around.m_leaves[touched.m_firstLeaf + l];
-            m_targets.push_back({&shape, touched.m_object, l, touched.m_rigidProxy, &rigidProxy, surface,
+            m_targets.push_back({&shape, touched.m_object, l, touched.m_rigidProxy, &rigidProxy,
+                                 around.m_rigidProxies[touched.m_rigidProxy].m_center - rigidProxy.m_center, surface,
                                  softReach + around.m_step * fastestPoint(rigidProxy, shape), around.m_step,
                                  &touched.m_carrying, TargetKind::slow, 0, 0, 0, 0});
         }
@@ -230,6 +243,7 @@ ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int fe
     const Vec3& inverseMass = target.m_motion->m_inverseMass;
     contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     contact.m_rigidProxy = target.m_rigidProxy;
+    contact.m_approach = target.m_moved;
     if (feature < fem.m_surface.vertexCount())
         contact.m_patch = patchOf(fem, target, feature, d.m_normal, target.m_step);
     contact.m_normal = d.m_normal;

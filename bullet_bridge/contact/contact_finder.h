@@ -103,9 +103,10 @@ private:
     {
         const ShapeLeaf* m_shape;
         const btCollisionObject* m_object;
-        int m_leaf;        // among the object's
-        int m_rigidProxy;  // its index
-        const RigidProxy* m_motion;
+        int m_leaf;                  // among the object's
+        int m_rigidProxy;            // its index
+        const RigidProxy* m_motion;  // as the step begins
+        Vec3 m_moved;                // how far its centre has gone already: that of a kinematic object [m]
         Surface m_surface;
         double m_reach;  // distance at which it may be touched within the step [m]
         double m_step;   // [s]
@@ -138,6 +139,7 @@ private:
     void findOnTriangles(FemSoftBody& fem, const Target& target);
     void findOnSheets(FemSoftBody& fem, const Target& target);
     void makeRoom();
+    const RigidProxy& asTheStepBegan(const TouchedObject& touched, const RigidSurroundings& around);
     void listTargets(FemSoftBody& fem, const RigidSurroundings& around);
     void findNear(FemSoftBody& fem, Target& target);
     void findTouchingNodes(FemSoftBody& fem, const Target& target);
@@ -169,7 +171,6 @@ private:
     void findOnSheetNodes(const SheetSearch& search);
     void findOnSheetEdges(const SheetSearch& search);
     void findOnSheetTriangles(const SheetSearch& search);
-    static Vec3 asTheStepBegan(const Target& target, const Vec3& point);
     Vec3 wayOf(const SheetSearch& search, int node) const;
     Vec3 rightSideOf(const SheetSearch& search, int node, const Vec3& position) const;
     Vec3 safePosition(const SheetSearch& search, int node, const Vec3& position) const;
@@ -179,7 +180,6 @@ private:
     bool overOneFace(const FemSoftBody& fem, int a, int b) const;
     double gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
                  SurfaceDistance& d) const;
-    double gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point, SurfaceDistance& d) const;
     static ContactOrigin originOf(const Target& target, int feature);
     static const ContactPoint* pushing(const FemSoftBody& fem, const ContactOrigin& origin);
     void holdBack(const FemSoftBody& fem, const Triangle& nodes, const ContactPoint& last, const Weights& nearest,
@@ -196,6 +196,7 @@ private:
     void inheritImpulses(const FemSoftBody& fem);
 
     std::vector<Target> m_targets;
+    std::vector<RigidProxy> m_starts;  // of kinematic objects, which have moved already
     std::vector<ContactPoint> m_contacts;
     std::vector<ContactOrigin> m_origins;
     std::vector<Weights> m_weights;    // of m_contacts' features' corners, as found near

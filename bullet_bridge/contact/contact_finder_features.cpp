@@ -87,7 +87,7 @@ void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
         const bool isKnown = pointShapeDistance(*target.m_shape, x, farthest, d);
         m_culling.noteGap(i, isKnown ? d.m_gap : kNotNear, d.m_normal);
         if (!isKnown || d.m_gap > reach) continue;
-        fem.m_nodeGap[i] = gapAsTheStepBegan(fem, target, x, d);
+        fem.m_nodeGap[i] = d.m_gap -= fem.m_contactOffset;
         fem.m_nodeNormal[i] = d.m_normal;
         consider(fem, target, i, {i, i, i}, d);
     }
@@ -151,12 +151,11 @@ double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, in
                                       double nearest)
 {
     const std::vector<Vec3>& x = fem.surfacePosition();
-    const bool moved = target.m_object->isKinematicObject();
-    if (!moved && m_culling.leastGap(nodes) - fem.m_contactOffset >= nearest - kGapRounding * m_edge) return nearest;
+    if (m_culling.leastGap(nodes) - fem.m_contactOffset >= nearest - kGapRounding * m_edge) return nearest;
     SurfaceDistance d;
     if (!triangleShapeDistance(*target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_reach, d))
         return nearest;
-    const double gap = gapAsTheStepBegan(fem, target, interpolated(x, nodes, d.m_barycentric), d);
+    const double gap = d.m_gap -= fem.m_contactOffset;
     const ContactPoint* const last = gap < m_band ? pushing(fem, originOf(target, feature)) : nullptr;
     const double advantage = gap >= m_band ? kGapRounding * m_edge : last ? kHeldAdvantage * m_advantage : m_advantage;
     if (!(gap < nearest - advantage)) return std::min(gap, nearest);
@@ -182,17 +181,6 @@ void ContactFinder::holdBack(const FemSoftBody& fem, const Triangle& nodes, cons
     m_contacts.back().m_soft = fem.pointOn(m_bodyIndex, nodes, weights);
 }
 
-// Takes the contact offset off the gap, and a kinematic object, which has moved already, back to where it was as the
-// step began, so that its velocity, too, is felt.
-double ContactFinder::gapAsTheStepBegan(const FemSoftBody& fem, const Target& target, const Vec3& point,
-                                        SurfaceDistance& d) const
-{
-    d.m_gap -= fem.m_contactOffset;
-    if (target.m_object->isKinematicObject())
-        d.m_gap += target.m_step * dot(d.m_normal, target.m_motion->velocityAt(point));
-    return d.m_gap;
-}
-
 // Gap at a point of the surface; infinite if out of reach.
 double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
                             SurfaceDistance& d) const
@@ -202,7 +190,7 @@ double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const 
         !pointShapeDistance(*target.m_shape, point, target.m_reach, d))
         return kNotNear;
     d.m_barycentric = weights;
-    return gapAsTheStepBegan(fem, target, point, d);
+    return d.m_gap -= fem.m_contactOffset;
 }
 
 }  // namespace bullet_fem

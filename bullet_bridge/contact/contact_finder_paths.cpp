@@ -21,16 +21,6 @@ constexpr double kGrazing = 1e-3;        // of a mean edge: what passes nearer, 
 constexpr double kSameSideCosine = 0.9;  // of a nearest point's normal and that of where the paths meet
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Kinematic objects have moved already.
-SweptShape sweptShapeOf(const ShapeLeaf& leaf, const RigidProxy& rigidProxy, double step, bool moved)
-{
-    RigidMotion motion = {rigidProxy.m_center, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
-    if (!moved) return SweptShape(leaf, motion, step);
-    const ShapeLeaf start = movedBack(leaf, motion, step);
-    motion.m_center -= step * motion.m_linearVelocity;
-    return SweptShape(start, motion, step);
-}
-
 /// What gravity gives in a step is not speed: resting bodies have it as well.
 double fallingSpeed(const FemSoftBody& fem, double step)
 {
@@ -41,8 +31,9 @@ double fallingSpeed(const FemSoftBody& fem, double step)
 
 SweptShape ContactFinder::sweptShapeOf(const Target& target)
 {
-    return bullet_fem::sweptShapeOf(*target.m_shape, *target.m_motion, target.m_step,
-                                    target.m_object->isKinematicObject());
+    const RigidProxy& motion = *target.m_motion;
+    return SweptShape(*target.m_shape, {motion.m_center, motion.m_linearVelocity, motion.m_angularVelocity},
+                      target.m_step);
 }
 
 bool ContactFinder::isFastTarget(const FemSoftBody& fem, const Target& target) const
@@ -64,7 +55,10 @@ void ContactFinder::findTouchingNodes(FemSoftBody& fem, const Target& target)
         const Vec3& x = fem.surfacePosition()[i];
         SurfaceDistance d;
         if (!m_culling.noteVertex(i, x, x) || !pointShapeDistance(*target.m_shape, x, reach, d)) continue;
-        if (gapAsTheStepBegan(fem, target, x, d) <= m_band) consider(fem, target, i, {i, i, i}, d);
+        d.m_gap -= fem.m_contactOffset;
+        const Vec3 relative = fem.surfaceVelocity()[i] - target.m_motion->velocityAt(x);
+        const bool parts = d.m_gap > 0 && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band;
+        if (d.m_gap <= m_band && !parts) consider(fem, target, i, {i, i, i}, d);
     }
 }
 
@@ -213,7 +207,7 @@ void ContactFinder::setLevers(const FemSoftBody& fem, const Target& target, int 
     if (isNode) contact.m_patch = patchOf(fem, target, feature, contact.m_normal, met.m_time);
     if (isNode && contact.m_gap < kRollingGap * m_size && roundness(fem.m_surface.curvature(feature), m_size) > 0)
         return;
-    contact.m_approach = met.m_arm - (contact.m_point + contact.m_patch - target.m_motion->m_center);
+    contact.m_approach += met.m_arm - (contact.m_point + contact.m_patch - target.m_motion->m_center);
 }
 
 }  // namespace bullet_fem

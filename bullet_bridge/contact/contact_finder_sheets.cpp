@@ -83,13 +83,6 @@ void ContactFinder::measureSurface(const FemSoftBody& fem)
     for (int i : fem.m_surface.nodes()) m_outward[i] = unit(m_outward[i]);
 }
 
-// Where a point of the soft surface was relative to the object as the step began: kinematic objects have moved already.
-Vec3 ContactFinder::asTheStepBegan(const Target& target, const Vec3& point)
-{
-    const bool moved = target.m_object->isKinematicObject();
-    return moved ? point + target.m_step * target.m_motion->velocityAt(point) : point;
-}
-
 // The free motion of a node in the step relative to the object.
 Vec3 ContactFinder::wayOf(const SheetSearch& search, int node) const
 {
@@ -131,7 +124,7 @@ void ContactFinder::findOnSheetNodes(const SheetSearch& search)
     for (int i : fem.m_surface.nodes())
     {
         SheetProbe probe;
-        probe.m_position = asTheStepBegan(target, fem.surfacePosition()[i]);
+        probe.m_position = fem.surfacePosition()[i];
         probe.m_path = wayOf(search, i);
         probe.m_band = m_band;
         probe.m_thickness = search.m_thickness;
@@ -181,7 +174,7 @@ void ContactFinder::considerSheetPath(const SheetSearch& search, int node, const
 {
     const Vec3 lift = m_carried.liftOf(node);
     SheetProbe probe;
-    probe.m_position = asTheStepBegan(search.m_target, search.m_fem.surfacePosition()[node]) + lift;
+    probe.m_position = search.m_fem.surfacePosition()[node] + lift;
     probe.m_rightSide = onRightSide(m_soup, rightSide, rightSide + lift);
     probe.m_path = way;
     probe.m_band = m_band;
@@ -206,7 +199,7 @@ void ContactFinder::findOnSheetTriangles(const SheetSearch& search)
         double closing = 0;
         for (int a = 0; a < 3; ++a)
         {
-            feature.m_corners[a] = asTheStepBegan(search.m_target, x[t[a]]);
+            feature.m_corners[a] = x[t[a]];
             closing = std::max(closing, dot(wayOf(search, t[a]), feature.m_outward));
         }
         feature.m_reach = m_band + closing;
@@ -227,8 +220,8 @@ void ContactFinder::findOnSheetEdges(const SheetSearch& search)
     {
         const auto [a, b] = edges[k];
         SheetFeature feature;
-        feature.m_corners[0] = asTheStepBegan(search.m_target, x[a]);
-        feature.m_corners[1] = feature.m_corners[2] = asTheStepBegan(search.m_target, x[b]);
+        feature.m_corners[0] = x[a];
+        feature.m_corners[1] = feature.m_corners[2] = x[b];
         feature.m_outward = unit(m_edgeOutward[k]);
         feature.m_halfAngle = 0.5 * norm(m_edgeOutward[k]);
         const double cosine = widestNormal(feature);

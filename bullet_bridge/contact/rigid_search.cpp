@@ -28,10 +28,9 @@ btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
     return broadphase && broadphase->getOverlappingPairCache() ? broadphase : nullptr;
 }
 
-// To where the object was before Bullet moved it.
-void moveBack(ShapeLeaf& leaf, const RigidProxy& rigidProxy, double step)
+// To where the object was before Bullet moved it; `present` is where its centre is.
+void moveBack(ShapeLeaf& leaf, const RigidProxy& rigidProxy, const Vec3& present, double step)
 {
-    const Vec3 present = rigidProxy.m_center + step * rigidProxy.m_linearVelocity;
     leaf = movedBack(leaf, {present, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity}, step);
 }
 
@@ -218,9 +217,13 @@ const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& obj
     range.m_first = m_leaves.size();
     range.m_unknown = collectShapeLeaves(object, m_leaves) > 0;
     range.m_count = m_leaves.size() - range.m_first;
+    const RigidProxy& proxy = rigidProxies.rigidProxies()[rigidProxy];
     for (int l = range.m_first; l < m_leaves.size(); ++l)
     {
-        if (rigidProxies.isRewound(rigidProxy)) moveBack(m_leaves[l], rigidProxies.rigidProxies()[rigidProxy], step);
+        if (rigidProxies.isRewound(rigidProxy))
+            moveBack(m_leaves[l], proxy, proxy.m_center + step * proxy.m_linearVelocity, step);
+        else if (object.isKinematicObject())
+            moveBack(m_leaves[l], proxy, proxy.m_center, step);
         range.m_alone = range.m_alone || !bearsThreads(*m_leaves[l].m_shape);
     }
     return range;

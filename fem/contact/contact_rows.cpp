@@ -249,15 +249,17 @@ Vec3 ContactRows::trueVelocity(const ContactRow& row) const
     return ofEnd(row.m_a) - ofEnd(row.m_b);
 }
 
-// By how much the way of a rigid proxy's point within the step, an arc, differs from h times its velocity: h^2/2 w x (w
-// x arm) [m]. What sticks is led along it; without that a body on a turntable would go outwards. Of what turns far
-// within the step other points touch as it ends.
+// By how much the way within the step of a point of a kinematic rigid proxy, an arc, differs from h times its velocity:
+// h^2/2 w x (w x arm) [m]. What sticks is led along it; without that a body on a turntable would go outwards. Of what
+// turns far within the step other points touch as it ends, and the spin of what can move is not known before the solve.
 Vec3 ContactRows::arcOf(const RowEnd& end) const
 {
     constexpr double kFarTurn = 0.5;  // within a step [rad]
     if (end.m_rigidProxy < 0 || end.m_angular) return {};
-    const Vec3 turn = m_settings.m_step.m_step * m_problem->m_rigidProxies[end.m_rigidProxy].m_angularVelocity;
-    return dot(turn, turn) < kFarTurn * kFarTurn ? 0.5 * cross(turn, cross(turn, end.m_arm)) : Vec3();
+    const RigidProxy& rigidProxy = m_problem->m_rigidProxies[end.m_rigidProxy];
+    const Vec3 turn = m_settings.m_step.m_step * rigidProxy.m_angularVelocity;
+    if (rigidProxy.canMove() || dot(turn, turn) > kFarTurn * kFarTurn) return {};
+    return 0.5 * cross(turn, cross(turn, end.m_arm));
 }
 
 // A point that sticks remembers how far it crept; one that slides or hangs free starts anew.

@@ -72,7 +72,11 @@ enum btFemFlags
     BT_FEM_BAD_SURFACE = 1 << 20,
     /// The baked factor was not used, and a new one made: it is larger than the solver's limit, or the rest shape is
     /// another (scaled, or its elements changed).
-    BT_FEM_BAKED_UNUSED = 1 << 21
+    BT_FEM_BAKED_UNUSED = 1 << 21,
+    /// Something was deeper inside the body as the step began than a hundredth of its size (the cube root of its
+    /// volume), or the body in something: it started there, or is crushed. Take a stiffer material, a finer mesh or
+    /// smaller steps.
+    BT_FEM_PENETRATING = 1 << 22
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.
