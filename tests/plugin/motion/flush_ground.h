@@ -43,7 +43,7 @@ private:
     btTriangleMesh& newMesh();
 
     std::vector<std::unique_ptr<btTriangleMesh>> m_meshes;  // the shapes refer to them
-    std::vector<float> m_heights;
+    std::vector<btScalar> m_heights;                        // as Bullet reads PHY_FLOAT
 };
 
 }  // namespace bullet_fem
