@@ -61,8 +61,7 @@ void ContactFinder::addCarriers(const FemSoftBody& fem)
             m_carried.add(
                 m_nearOrigins[k].m_feature,
                 {contact.m_normal, contact.m_gap,
-                 m_targets[t].m_step * m_targets[t].m_motion->velocityAt(contact.m_point),
-                 m_targets[t].m_kind == TargetKind::sheets ? -1 - static_cast<int>(k) : static_cast<int>(t), -1});
+                 m_targets[t].m_step * m_targets[t].m_motion->velocityAt(contact.m_point), surfaceOf(t, k), -1});
         }
 }
 
