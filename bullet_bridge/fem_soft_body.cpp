@@ -87,12 +87,12 @@ void FemSoftBody::updateSkin()
 {
     if (!m_skin) return;
     m_skin->follow(m_body.m_state.m_x, m_skinPosition);
-    m_skin->follow(velocity(m_body), m_skinVelocity);
+    m_skin->follow(freeMeanVelocity(m_body), m_skinVelocity);
 }
 
 const std::vector<Vec3>& FemSoftBody::surfaceVelocity() const
 {
-    return m_skin ? m_skinVelocity : velocity(m_body);
+    return m_skin ? m_skinVelocity : freeMeanVelocity(m_body);
 }
 
 bool restMatricesChanged(const FemSoftBody& fem)
@@ -134,7 +134,7 @@ void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
 
 double fastestNode(const Body& body, const Vec3& relativeTo)
 {
-    const std::vector<Vec3>& v = velocity(body);
+    const std::vector<Vec3>& v = freeMeanVelocity(body);
     double fastest = 0;  // squares
     for (int i : body.m_model->mesh().surfaceNodes())
         fastest = std::max(fastest, dot(v[i] - relativeTo, v[i] - relativeTo));

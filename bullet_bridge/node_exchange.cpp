@@ -12,6 +12,7 @@
 #include "bullet_bridge/pose_matching.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {
@@ -205,8 +206,10 @@ NodeReadReport readNodes(FemSoftBody& fem)
 
 double factorMismatch(const FemSoftBody& fem, double step)
 {
-    const FactorInput& input = fem.m_body.m_model->factorInput();
-    double least = std::min(step / input.m_step, 1.0), most = std::max(step / input.m_step, 1.0);
+    const BodyModel& model = *fem.m_body.m_model;
+    const FactorInput& input = model.factorInput();
+    const double steps = factorStep(step, fem.m_numericalDamping, model.shape().m_material) / input.m_step;
+    double least = std::min(steps, 1.0), most = std::max(steps, 1.0);
     for (std::size_t i = 0; i < input.m_mass.size(); ++i)
     {
         const double ratio = fem.m_body.m_state.m_mass[i] / input.m_mass[i];

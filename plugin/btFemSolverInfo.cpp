@@ -12,6 +12,8 @@ bool btFemSolverInfo::valid(std::string* why) const
 {
     return btFemRangeCheck(m_tolerance >= btScalar(1e-8) && m_tolerance <= btScalar(0.5), why, "m_tolerance",
                            m_tolerance, "[1e-8, 0.5]; 1e-3 is usual") &&
+           btFemRangeCheck(m_numericalDamping >= 0 && m_numericalDamping <= 1, why, "m_numericalDamping",
+                           m_numericalDamping, "[0, 1]; 0 is usual") &&
            btFemRangeCheck(m_maxIterations >= 1 && m_maxIterations <= 10000, why, "m_maxIterations", m_maxIterations,
                            "[1, 10000]; 100 is usual") &&
            btFemRangeCheck(m_contactRounds >= 1 && m_contactRounds <= 10, why, "m_contactRounds", m_contactRounds,

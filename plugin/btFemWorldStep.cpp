@@ -141,9 +141,11 @@ void btFemWorldStep::finishMotions()
             m_active.push_back(record.get());
         }
     runOn(m_active,
-          [](btFemBodyRecord& record)
+          [this](btFemBodyRecord& record)
           {
-              finishMotion(record);
+              StepSettings settings = m_freeMotion.settingsOf(record);
+              settings.m_threads = nullptr;  // they are shared by the bodies
+              finishMotion(record, settings);
               noteSpeed(record);
           });
     for (const auto& record : m_registry.records())

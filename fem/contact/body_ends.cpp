@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fem/factor/rest_factor.h"
+#include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
 #include "fem/step/warped_compliance.h"
 #include "fem/step/warped_system.h"
@@ -32,9 +33,20 @@ double speedByLoads(const Body& body, double step)
 
 }  // namespace
 
-void BodyEnds::clear(const ContactBody& body)
+void BodyEnds::clear(const ContactBody& body, const StepSettings& settings)
 {
     m_body = body;
+    m_theta = StepCoefficients(settings).theta();
+    const std::vector<Vec3>& v = bullet_fem::velocity(*body.m_body);
+    const std::vector<double>& mass = body.m_body->m_state.m_mass;
+    Vec3 momentum;
+    m_mass = 0;
+    for (std::size_t i = 0; i < v.size() && m_theta < 1; ++i)
+    {
+        m_mass += mass[i];
+        momentum += mass[i] * v[i];
+    }
+    m_centerVelocity = m_mass > 0 ? (1 / m_mass) * momentum : Vec3();
     m_added = 0;
     m_working.reset(0);
 }
@@ -43,7 +55,7 @@ void BodyEnds::setPoint(int e, const SurfacePoint& point, const Vec3& at)
 {
     m_ends[e].m_point = point;
     m_ends[e].m_nodes = nullptr;
-    m_ends[e].m_offset = at - read(m_ends[e], m_body.m_body->m_state.m_x);
+    m_ends[e].m_offset = at - read(m_ends[e], m_body.m_body->m_workspace.scratch().m_kickPosition);
 }
 
 int BodyEnds::addGroup(const int* nodes, const Mat3* blocks, int count)
@@ -181,6 +193,11 @@ Mat3 BodyEnds::compliance(int e, int f) const
 Vec3 BodyEnds::trueVelocity(int e) const
 {
     return read(m_ends[e], bullet_fem::velocity(*m_body.m_body));
+}
+
+Vec3 BodyEnds::meanVelocity(int e) const
+{
+    return read(m_ends[e], m_body.m_body->m_workspace.scratch().m_drift) + m_theta * velocity(e);
 }
 
 void BodyEnds::push(int e, const Vec3& impulse)

@@ -29,7 +29,7 @@ class BodyEnds
 {
 public:
     /// Another problem: points, then makeRoom(), then groups are to be added. Until then the ends are those of before.
-    void clear(const ContactBody& body);
+    void clear(const ContactBody& body, const StepSettings& settings);
 
     /// Adds a point of the surface, for which room is to be made, and which is to be set; returns its index.
     int addPoint() { return m_added++; }
@@ -71,6 +71,13 @@ public:
 
     /// As predicted [m/s]; of a dense body that of an end which does not work is that of the last refresh().
     Vec3 velocity(int e) const { return m_dense && m_working.has(e) ? m_working.velocity(e) : known(e); }
+
+    /// With which the end moves in the step, by velocity() and what was before [m/s].
+    Vec3 meanVelocity(int e) const;
+
+    /// Of the body, and its centre's velocity [kg], [m/s].
+    double mass() const { return m_mass; }
+    Vec3 centerVelocity() const { return m_centerVelocity; }
 
     /// From the true velocities of the body [m/s].
     Vec3 trueVelocity(int e) const;
@@ -155,6 +162,9 @@ private:
     ContactBody m_body;
     bool m_dense = true;
     double m_loadSpeed = 0;  // [m/s]
+    double m_theta = 1;      // see StepCoefficients
+    double m_mass = 0;       // [kg]
+    Vec3 m_centerVelocity;   // [m/s]
     bool m_formed = false;
     int m_added = 0;  // points
     std::vector<End> m_ends;

@@ -5,6 +5,7 @@
 
 #include "fem/contact/contact_rows.h"
 #include "fem/contact/rigid_response.h"
+#include "fem/step/step_coefficients.h"
 
 namespace bullet_fem
 {
@@ -25,7 +26,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     m_dense = true;
     if (m_bodies.size() < problem.m_bodies.size()) m_bodies.resize(problem.m_bodies.size());
     m_corrections.assign(problem.m_bodies.size(), ImpulseResponse());
-    for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b]);
+    for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b], settings.m_step);
     addContactRows();
     for (const Joint& joint : problem.m_joints) addJointRow(joint);
     for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
@@ -99,7 +100,7 @@ void ContactRows::addContactRows()
 
 void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 {
-    const Vec3 at = contact.m_point + contact.m_patch;
+    const Vec3 at = contact.m_point + contact.m_patch + carryOf(contact);
     const RowEnd a = softEnd(contact.m_soft, at, row.m_a.m_end);
     const RowEnd b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, at + contact.m_approach)
                                                : softEnd(contact.m_other, at, row.m_b.m_end);
@@ -109,6 +110,24 @@ void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
     setAxes(contact.m_normal, row);
     row.m_friction = contact.m_friction;
     row.m_impulse = contact.m_impulse;
+}
+
+// Soft bodies measure levers from the positions y of the step, (1 - theta) h ahead, and rigid ones from where they
+// begin. Both sides feel the impulse at one point, or angular momentum would be lost: nearer to where the lighter one
+// wants it.
+Vec3 ContactRows::carryOf(const ContactPoint& contact) const
+{
+    const double ahead = (1 - StepCoefficients(m_settings.m_step).theta()) * m_settings.m_step.m_step;
+    if (!(ahead > 0)) return {};
+    const BodyEnds& a = m_bodies[contact.m_soft.m_body];
+    if (contact.m_rigidProxy < 0)
+    {
+        const BodyEnds& b = m_bodies[contact.m_other.m_body];
+        const double share = a.mass() / (a.mass() + b.mass());
+        return ahead * ((1 - share) * a.centerVelocity() + share * b.centerVelocity());
+    }
+    const Vec3& w = m_problem->m_rigidProxies[contact.m_rigidProxy].m_inverseMass;
+    return (ahead / (1 + a.mass() * std::max({w.x, w.y, w.z}))) * a.centerVelocity();
 }
 
 void ContactRows::addJointRow(const Joint& joint)

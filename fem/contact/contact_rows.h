@@ -62,6 +62,9 @@ public:
     /// Relative velocity of a row's ends, as predicted [m/s].
     Vec3 velocity(const ContactRow& row) const { return velocity(row.m_a) - velocity(row.m_b); }
 
+    /// With which its ends move against each other in the step [m/s].
+    Vec3 meanVelocity(const ContactRow& row) const { return meanVelocity(row.m_a) - meanVelocity(row.m_b); }
+
     /// Gives a row another impulse; the velocities of its ends follow: of a body that is not dense with flush().
     void change(ContactRow& row, const Vec3& impulse);
     void flush();
@@ -149,6 +152,7 @@ private:
     static void setAxes(const Vec3& normal, ContactRow& row);
     void addContactRows();
     void setContactRow(ContactRow& row, const ContactPoint& contact);
+    Vec3 carryOf(const ContactPoint& contact) const;
     void addJointRow(const Joint& joint);
     void addTouchRow(const RigidTouch& touch);
     static void limitTouchFriction(ContactRow& row);
@@ -162,6 +166,10 @@ private:
     Vec3 priorVelocity(const ContactRow& row, const ContactPoint& contact) const;
 
     Vec3 velocity(const RowEnd& end) const;
+    Vec3 meanVelocity(const RowEnd& end) const
+    {
+        return end.m_body >= 0 ? m_bodies[end.m_body].meanVelocity(end.m_end) : velocity(end);
+    }
     Vec3 trueVelocity(const ContactRow& row) const;
     double violation(const ContactRow& row, const Vec3& trueVelocity) const;
     Vec3 arcOf(const RowEnd& end) const;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "fem/step/step_coefficients.h"
+
 namespace bullet_fem
 {
 namespace
@@ -33,6 +35,9 @@ void PositionPush::begin()
 {
     const ContactProblem& problem = m_rows.problem();
     for (std::vector<Vec3>* own : {&m_linear, &m_angular}) own->reserve(problem.m_rigidProxies.size());
+    m_base.reserve(m_rows.rows().size());
+    m_share = 1 - StepCoefficients(m_rows.settings().m_step).theta();
+    m_step = m_rows.settings().m_step.m_step;
     m_pushed.reserve(problem.m_bodies.size());
 }
 
@@ -40,6 +45,7 @@ bool PositionPush::isNeeded() const
 {
     const std::vector<ContactPoint>& contacts = m_rows.problem().m_contacts;
     const double negligible = pushTolerance(m_rows.settings().m_tolerance) * m_rows.loadSpeed();
+    if (lags()) return true;
     return std::any_of(contacts.begin(), contacts.end(),
                        [&](const ContactPoint& c)
                        {
@@ -48,18 +54,65 @@ bool PositionPush::isNeeded() const
                        });
 }
 
-// From here on all velocities are those of the push.
+// Nodes move with the mean of the velocities before and after an impulse, but shall end where its row wants them. True
+// if they do not.
+bool PositionPush::lags() const
+{
+    if (!(m_share > 0)) return false;
+    const ContactProblem& problem = m_rows.problem();
+    const double negligible = pushTolerance(m_rows.settings().m_tolerance) * m_rows.speedScale();
+    const std::size_t contacts = problem.m_contacts.size(), joints = problem.m_joints.size();
+    for (std::size_t k = 0; k < contacts + joints; ++k)
+    {
+        const ContactRow& row = m_rows.rows()[k];
+        if (row.m_idle || row.m_yield.x > 0) continue;
+        const Vec3 mean = m_rows.meanVelocity(row);
+        if (k < contacts)
+        {
+            if (-dot(row.m_axes[0], mean) - std::max(problem.m_contacts[k].m_gap, 0.0) / m_step > negligible)
+                return true;
+        }
+        else if (norm(lagOf(row, problem.m_joints[k - contacts])) > negligible)
+            return true;
+    }
+    return false;
+}
+
+// Along the axes of a rigid joint: how much faster its ends must move to end where they shall [m/s].
+Vec3 PositionPush::lagOf(const ContactRow& row, const Joint& joint) const
+{
+    Vec3 lag;
+    if (!(m_share > 0) || row.m_yield.x > 0 || joint.m_most < Joint::kUnlimited) return lag;
+    const Vec3 mean = m_rows.meanVelocity(row);
+    for (int i = 0; i < 3; ++i)
+        if (joint.m_limit[i] >= Joint::kUnlimited) lag[i] = joint.m_wanted[i] - dot(row.m_axes[i], mean);
+    return lag;
+}
+
+// From here on all velocities are those of the push, and impulses what it adds to the share that moves the nodes
+// anyway.
 void PositionPush::prepare()
 {
+    const std::size_t contacts = m_rows.problem().m_contacts.size();
     m_rows.forEachPiece(
-        [this](int, Range rows)
+        [&](int, Range rows)
+        {
+            prepareContacts(rows);
+            for (int k = std::max(rows.m_begin, static_cast<int>(contacts)); k < rows.m_end; ++k)
+                m_rows.rows()[k].m_target = {};
+        });
+    prepareJoints();
+    m_base.assign(m_rows.rows().size(), Vec3());
+    m_rows.forEachPiece(
+        [&](int, Range rows)
         {
             for (int k = rows.m_begin; k < rows.m_end; ++k)
             {
                 ContactRow& row = m_rows.rows()[k];
-                row.m_impulse = row.m_roundImpulse = row.m_target = {};
+                if (!row.m_joint && !row.m_touch)
+                    m_base[k] = m_share * dot(row.m_impulse, row.m_axes[0]) * row.m_axes[0];
+                row.m_impulse = row.m_roundImpulse = m_base[k];
             }
-            prepareContacts(rows);
         });
     prepareTouches();
     std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
@@ -87,10 +140,20 @@ void PositionPush::prepareContacts(Range rows)
     {
         ContactRow& row = m_rows.rows()[k];
         const ContactPoint& c = contacts[k];
-        const double moving = dot(c.m_normal, m_rows.velocity(row));
-        row.m_target.x = c.m_gap < 0 ? pushSpeed(c, settings) - std::max(moving, 0.0) : -(moving + c.m_gap / h);
+        const double moving = dot(c.m_normal, m_rows.meanVelocity(row));
+        row.m_target = {c.m_gap < 0 ? pushSpeed(c, settings) - moving : -(moving + c.m_gap / h), 0, 0};
         row.m_friction = 0;
         row.m_idle = row.m_idle || row.m_yield.x > 0;
+    }
+}
+
+void PositionPush::prepareJoints()
+{
+    std::size_t k = m_rows.problem().m_contacts.size();
+    for (const Joint& joint : m_rows.problem().m_joints)
+    {
+        ContactRow& row = m_rows.rows()[k++];
+        row.m_target = lagOf(row, joint);
     }
 }
 
@@ -146,10 +209,11 @@ void PositionPush::sumImpulses()
         if (!end.m_angular) rigidProxy.m_pushImpulse += impulse;
         rigidProxy.m_pushAngularImpulse += end.m_angular ? impulse : cross(end.m_arm, impulse);
     };
-    for (const ContactRow& row : m_rows.rows())
+    const std::vector<ContactRow>& rows = m_rows.rows();
+    for (std::size_t k = 0; k < rows.size(); ++k)
     {
-        add(row.m_a, row.m_impulse);
-        add(row.m_b, -row.m_impulse);
+        add(rows[k].m_a, pushOf(k));
+        add(rows[k].m_b, -pushOf(k));
     }
 }
 
@@ -157,29 +221,31 @@ void PositionPush::sumImpulses()
 // off take the opposite, in proportion to the push; where it was pushed off soft ones it spins itself.
 void PositionPush::payBack()
 {
-    const auto visitBodies = [this](const ContactRow& row, auto visit)
+    const auto visitBodies = [this](auto visit)
     {
-        const int a = row.m_a.m_body, b = row.m_b.m_body;
-        if (dot(row.m_impulse, row.m_impulse) == 0) return;
-        if (a >= 0) visit(m_pushed[a], row.m_b);
-        if (b >= 0 && b != a) visit(m_pushed[b], row.m_a);
+        const std::vector<ContactRow>& rows = m_rows.rows();
+        for (std::size_t k = 0; k < rows.size(); ++k)
+        {
+            const double size = norm(pushOf(k));
+            if (size == 0) continue;
+            const int a = rows[k].m_a.m_body, b = rows[k].m_b.m_body;
+            if (a >= 0) visit(m_pushed[a], rows[k].m_b, size);
+            if (b >= 0 && b != a) visit(m_pushed[b], rows[k].m_a, size);
+        }
     };
-    for (const ContactRow& row : m_rows.rows())
-        visitBodies(row,
-                    [&row](Pushed& pushed, const RowEnd& other)
-                    {
-                        pushed.m_total += norm(row.m_impulse);
-                        if (other.m_body >= 0) pushed.m_bySoft += norm(row.m_impulse);
-                    });
-    for (const ContactRow& row : m_rows.rows())
-        visitBodies(row,
-                    [&](const Pushed& pushed, const RowEnd& other)
-                    {
-                        if (other.m_rigidProxy < 0 || !(pushed.m_total > 0)) return;
-                        RigidProxy& rigidProxy = m_rows.problem().m_rigidProxies[other.m_rigidProxy];
-                        if (rigidProxy.canMove())
-                            rigidProxy.m_angularImpulse -= (norm(row.m_impulse) / pushed.m_total) * pushed.m_gained;
-                    });
+    visitBodies(
+        [](Pushed& pushed, const RowEnd& other, double size)
+        {
+            pushed.m_total += size;
+            if (other.m_body >= 0) pushed.m_bySoft += size;
+        });
+    visitBodies(
+        [&](const Pushed& pushed, const RowEnd& other, double size)
+        {
+            if (other.m_rigidProxy < 0 || !(pushed.m_total > 0)) return;
+            RigidProxy& rigidProxy = m_rows.problem().m_rigidProxies[other.m_rigidProxy];
+            if (rigidProxy.canMove()) rigidProxy.m_angularImpulse -= (size / pushed.m_total) * pushed.m_gained;
+        });
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(),
                               [this](int b)
                               {

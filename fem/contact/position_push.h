@@ -33,8 +33,12 @@ private:
         double m_total = 0, m_bySoft = 0;  // impulses on it, and those of soft bodies [N s]
     };
 
+    bool lags() const;
+    Vec3 lagOf(const ContactRow& row, const Joint& joint) const;
+    Vec3 pushOf(std::size_t row) const { return m_rows.rows()[row].m_impulse - m_base[row]; }
     void prepare();
     void prepareContacts(Range rows);
+    void prepareJoints();
     void prepareTouches();
     void sumImpulses();
     void payBack();
@@ -43,6 +47,9 @@ private:
     ContactSweeps& m_sweeps;
     std::vector<Vec3> m_linear, m_angular;  // the rigid proxies' own velocities
     std::vector<Pushed> m_pushed;           // one a body
+    std::vector<Vec3> m_base;  // one a row: impulses that move the nodes less than they change velocities [N s]
+    double m_share = 0;        // by this share of what they change [-]
+    double m_step = 0;         // [s]
 };
 
 }  // namespace bullet_fem

@@ -108,6 +108,17 @@ void AddImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerB
     }
 }
 
+/// I^-1 times a vector.
+HWY_INLINE V3 timesInertia(const BatchMomenta& pieces, int lane, const V3& vector)
+{
+    const auto row = [&](int k)
+    {
+        const PerBatch* I = pieces.m_inertia + 3 * k;
+        return dot({valuesOf(I[0], lane), valuesOf(I[1], lane), valuesOf(I[2], lane)}, vector);
+    };
+    return {row(0), row(1), row(2)};
+}
+
 /// Adds to before(i, lane) the rigid motion that gives a body its momentum, and hands it to then(i, lane, velocity).
 template <class Before, class Then>
 HWY_INLINE void restore(const BatchMasses& nodes, const BatchMomenta& pieces, const Before& before, const Then& then)
@@ -123,16 +134,26 @@ HWY_INLINE void restore(const BatchMasses& nodes, const BatchMomenta& pieces, co
             angular = angular - cross(positionAt(nodes, i, lane) - center, p);
         }
         linear = linear * (hn::Set(D(), 1.0) / valuesOf(pieces.m_mass, lane));
-        const auto row = [&](int k)
-        {
-            const PerBatch* I = pieces.m_inertia + 3 * k;
-            return dot({valuesOf(I[0], lane), valuesOf(I[1], lane), valuesOf(I[2], lane)}, angular);
-        };
-        const V3 spin = {row(0), row(1), row(2)};
+        const V3 spin = timesInertia(pieces, lane, angular);
         for (int i = 0; i < nodes.m_nodes; ++i)
         {
             const V3 rigid = linear + cross(spin, positionAt(nodes, i, lane) - center);
             then(i, lane, before(i, lane) + rigid);
+        }
+    }
+}
+
+void FindViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning, BodyVectors w)
+{
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
+    {
+        const V step = hn::Set(D(), turning.m_step), ofVelocity = hn::Set(D(), turning.m_ofVelocity),
+                ofTurning = hn::Set(D(), turning.m_ofTurning);
+        const V3 center = load(pieces.m_center, lane), spin = timesInertia(pieces, lane, load(pieces.m_angular, lane));
+        for (int i = 0; i < nodes.m_nodes; ++i)
+        {
+            const V3 r = positionAt(nodes, i, lane) - center, turned = cross(spin, cross(spin, r)) * step;
+            store3(load3(turning.m_v + place(i, lane)) * ofVelocity - turned * ofTurning, w + place(i, lane));
         }
     }
 }
@@ -163,6 +184,7 @@ namespace bullet_fem
 HWY_EXPORT(SumMasses);
 HWY_EXPORT(SumPrescribed);
 HWY_EXPORT(AddImpulses);
+HWY_EXPORT(FindViscous);
 HWY_EXPORT(CompleteIncrements);
 HWY_EXPORT(AddWithMomentum);
 
@@ -183,6 +205,11 @@ PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const 
     PerBatch squares;
     HWY_DYNAMIC_DISPATCH(AddImpulses)(nodes, impulses, share, pieces, squares);
     return squares;
+}
+
+void findViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning, BodyVectors w)
+{
+    HWY_DYNAMIC_DISPATCH(FindViscous)(nodes, pieces, turning, w);
 }
 
 void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv)

@@ -38,6 +38,15 @@ struct BatchLoads
 };
 PerBatch sumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces);
 
+/// w = ofVelocity v - ofTurning h w' x (w' x r) with the angular velocities w' that the prescribed momenta make: see
+/// RigidMomentum::addTurning() and ViscousShares.
+struct BatchTurning
+{
+    ConstBodyVectors m_v;
+    double m_step, m_ofVelocity, m_ofTurning;
+};
+void findViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning, BodyVectors w);
+
 /// Adds share times impulses [N s] to the prescribed momenta; returns their squares likewise.
 PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces);
 

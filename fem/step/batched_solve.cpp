@@ -12,6 +12,9 @@
 #include "fem/elements/model_elements.h"
 #include "fem/step/batch_loan.h"
 #include "fem/step/body_batch.h"
+#include "fem/step/drift.h"
+#include "fem/step/smoothing.h"
+#include "fem/step/step_coefficients.h"
 #include "fem/step/step_stages.h"
 #include "fem/step/warped_system.h"
 
@@ -38,6 +41,7 @@ public:
 
     void readState()
     {
+        for (int b = 0; b < m_count; ++b) beginDrift(body(b), m_settings);
         gatherNodes();
         gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_state.m_v; }, m_arrays.m_v.get());
         gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_loads.m_force; },
@@ -73,12 +77,15 @@ public:
         }
     }
 
-    // b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v), and A of this step.
+    // b = h (f_ext + f_el(y) - alpha M v - K' w), and A of this step.
     void passOverElements()
     {
         const double h = m_settings.m_step, beta = m_arrays.model().shape().m_material.m_stiffnessDamping;
-        BatchElementPass pass = {
-            m_arrays.m_x.get(), m_arrays.m_v.get(), h + beta, m_settings.m_tension ? h * h : 0, {}, {}, {}};
+        const ViscousShares shares(m_coefficients, h, beta);
+        double* w = m_arrays.m_direction.get();
+        findViscous(m_arrays.masses(), m_momenta, {m_arrays.m_v.get(), h, shares.m_ofVelocity, shares.m_ofTurning}, w);
+        const double tension = m_settings.m_tension ? m_coefficients.stiffness() * h * h : 0;
+        BatchElementPass pass = {m_arrays.m_x.get(), w, 1, tension, {}, {}, {}};
         for (int b = 0; b < kBatchWidth; ++b)
         {
             Quaternion* rotation = body(b).m_state.m_elementRotation.data();
@@ -142,6 +149,7 @@ public:
     void keepIncrement()
     {
         keepMomenta();
+        for (int b = 0; b < m_count; ++b) noteMeanVelocity(body(b), m_settings);
         std::array<bool, kBatchWidth> expected{};
         for (int b = 0; b < m_count; ++b)
         {
@@ -174,7 +182,7 @@ private:
             work.m_isComplete = work.m_stepsReadyForImpulses > 0;
             if (!work.m_isComplete) continue;
             --work.m_stepsReadyForImpulses;
-            scaleWarpedSystem(body(b), m_settings.m_step);
+            scaleWarpedSystem(body(b), m_settings);
         }
         scatter([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_arrays.m_nodeRotation.get(),
                 {9 * nodes()});
@@ -268,6 +276,42 @@ private:
     ImpulseResponse* const* m_responses;
 };
 
+class BatchedSmoothing : public BodyBatch
+{
+public:
+    BatchedSmoothing(BatchArrays& arrays, Body* const* bodies, int count, StepEnd* const* ends)
+        : BodyBatch(arrays, bodies, count, ends[0]->m_settings)
+    {
+        for (int b = 0; b < kBatchWidth; ++b)
+            m_stops[b] = smoothingStop(body(b), ends[std::min(b, count - 1)]->m_settings);
+    }
+
+    void readChange()
+    {
+        gatherNodes();
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_increment; },
+                      m_arrays.m_increment.get());
+    }
+
+    void completeSystem()
+    {
+        gatherWarped();
+        for (int b = 0; b < kBatchWidth; ++b)
+            m_inertiaFactor[b] = 1 + m_settings.m_step * RigidMomentum::damping(body(b));
+    }
+
+    void applyStiffness()
+    {
+        stiffnessOf(m_arrays.m_increment.get());
+        m_isGuessed = false;
+    }
+
+    void keepUnresolved()
+    {
+        scatterVectors([this](int b) { return &scratch(b).m_increment; }, m_arrays.m_increment.get());
+    }
+};
+
 // Calls solve(arrays, bodies) with arrays that are lent for it.
 template <class Job, class Solve>
 bool solveInArrays(Job* const* jobs, int count, const Solve& solve)
@@ -302,10 +346,16 @@ bool canBeBatched(const ImpulseResponse& response)
            !response.m_body->m_workspace.scratch().m_elements.m_isDouble;
 }
 
+bool canBeBatched(const StepEnd& end)
+{
+    return end.m_isRough && isPlain(*end.m_body, end.m_settings) &&
+           !end.m_body->m_workspace.scratch().m_elements.m_isDouble;
+}
+
 bool areAlike(const StepSettings& a, const StepSettings& b)
 {
-    return a.m_step == b.m_step && a.m_tension == b.m_tension && a.m_momentumCorrection == b.m_momentumCorrection &&
-           a.m_batchMemory == b.m_batchMemory;
+    return a.m_step == b.m_step && a.m_numericalDamping == b.m_numericalDamping && a.m_tension == b.m_tension &&
+           a.m_momentumCorrection == b.m_momentumCorrection && a.m_batchMemory == b.m_batchMemory;
 }
 
 bool solveBatched(FreeMotion* const* motions, int count)
@@ -325,6 +375,16 @@ bool solveBatched(ImpulseResponse* const* responses, int count)
                          {
                              BatchedResponses batch(arrays, bodies, count, responses);
                              respondToImpulses(batch);
+                         });
+}
+
+bool solveBatched(StepEnd* const* ends, int count)
+{
+    return solveInArrays(ends, count,
+                         [&](BatchArrays& arrays, Body* const* bodies)
+                         {
+                             BatchedSmoothing batch(arrays, bodies, count, ends);
+                             findUnresolved(batch);
                          });
 }
 

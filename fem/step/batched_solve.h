@@ -17,6 +17,7 @@ constexpr int kSmallestBatch = 6;
 /// solved in single precision and with the nodal warp, with nothing but what most bodies have.
 bool canBeBatched(const FreeMotion& motion);
 bool canBeBatched(const ImpulseResponse& response);
+bool canBeBatched(const StepEnd& end);
 
 /// True if the settings of two such bodies allow it.
 bool areAlike(const StepSettings& a, const StepSettings& b);
@@ -25,5 +26,6 @@ bool areAlike(const StepSettings& a, const StepSettings& b);
 /// few or there is no memory for it.
 bool solveBatched(FreeMotion* const* motions, int count);
 bool solveBatched(ImpulseResponse* const* responses, int count);
+bool solveBatched(StepEnd* const* ends, int count);
 
 }  // namespace bullet_fem

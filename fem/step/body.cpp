@@ -16,6 +16,9 @@ namespace bullet_fem
 
 StepScratch::StepScratch(const BodyModel& model)
     : m_velocity(model.nodeCount()),
+      m_kickPosition(model.nodeCount()),
+      m_drift(model.nodeCount()),
+      m_meanVelocity(model.nodeCount()),
       m_push(model.nodeCount()),
       m_rightSide(model.nodeCount()),
       m_increment(model.nodeCount()),

@@ -10,7 +10,7 @@ namespace bullet_fem
 
 void BodyBatch::gatherNodes()
 {
-    gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_state.m_x; }, m_arrays.m_x.get());
+    gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_kickPosition; }, m_arrays.m_x.get());
     gather([this](int b) { return body(b).m_state.m_mass.data(); }, m_arrays.m_mass.get(), {nodes()});
 }
 
@@ -66,7 +66,20 @@ void BodyBatch::completeGuess()
 void BodyBatch::addStiffness(ConstBodyVectors p) const
 {
     const double h = m_settings.m_step, beta = m_arrays.model().shape().m_material.m_stiffnessDamping;
-    runElementProduct(m_arrays.elements(), h * h + h * beta, p);
+    runElementProduct(m_arrays.elements(), h * (m_coefficients.stiffness() * h + beta), p);
+}
+
+// b = (A - M) p, |b|^2, and p = 0.
+void BodyBatch::stiffnessOf(BodyVectors p)
+{
+    const std::size_t size = static_cast<std::size_t>(3 * kBatchWidth) * nodes();
+    PerBatch none;
+    std::fill(std::begin(none.m), std::end(none.m), 0.0);
+    addStiffness(p);
+    addInertia(m_arrays.inertia(), none, p, m_arrays.m_product.get());
+    std::fill_n(m_arrays.m_rightSide.get(), size, 0.0);
+    m_bSquares = addAndMeasure(m_arrays.m_product.get(), m_arrays.m_rightSide.get(), nodes());
+    std::fill_n(p, size, 0.0);
 }
 
 // Returns p . A p.

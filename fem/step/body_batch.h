@@ -9,6 +9,7 @@
 #include "fem/step/batch_arrays.h"
 #include "fem/step/batch_exchange.h"
 #include "fem/step/conjugate_gradients.h"
+#include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
 
 namespace bullet_fem
@@ -20,7 +21,7 @@ class BodyBatch
 {
 public:
     BodyBatch(BatchArrays& arrays, Body* const* bodies, int count, const StepSettings& settings)
-        : m_arrays(arrays), m_count(count), m_settings(settings)
+        : m_arrays(arrays), m_count(count), m_settings(settings), m_coefficients(settings)
     {
         for (int b = 0; b < kBatchWidth; ++b) m_bodies[b] = bodies[std::min(b, count - 1)];
     }
@@ -92,12 +93,14 @@ protected:
     void keepMomenta() const;
     void gatherWarped();
     void completeGuess();
+    void stiffnessOf(BodyVectors p);
     void keepResiduals(const std::array<bool, kBatchWidth>& wanted) const;
 
     BatchArrays& m_arrays;
     Body* m_bodies[kBatchWidth];
     int m_count;
     StepSettings m_settings;
+    StepCoefficients m_coefficients;
     BatchMomenta m_momenta;
     PerBatch m_inertiaFactor;  // 1 + h alpha
     PerBatch m_bSquares;       // |b|^2

@@ -140,11 +140,11 @@ private:
 
 }  // namespace
 
-SolveReport solveConjugateGradients(const OperatorSystem& system, const ConjugateGradientStop& stop)
+SolveReport solveConjugateGradients(const OperatorSystem& system, const ConjugateGradientStop& stop, bool isGuessed)
 {
     VectorsOfOne vectors(system);
     SolveReport report;
-    solveConjugateGradients(vectors, &stop, true, &report);
+    solveConjugateGradients(vectors, &stop, isGuessed, &report);
     return report;
 }
 

@@ -73,7 +73,8 @@ struct OperatorSystem
 };
 
 /// See above; x is the guess.
-SolveReport solveConjugateGradients(const OperatorSystem& system, const ConjugateGradientStop& stop);
+SolveReport solveConjugateGradients(const OperatorSystem& system, const ConjugateGradientStop& stop,
+                                    bool isGuessed = true);
 
 /// Sum over nodes of a_i . b_i; the same bits for any number of threads.
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const class Threads* threads = nullptr);

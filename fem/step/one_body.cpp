@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/step/drift.h"
+#include "fem/step/smoothing.h"
+#include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
 #include "fem/step/step_stages.h"
 #include "fem/step/warped_system.h"
@@ -25,6 +28,7 @@ public:
           m_state(body.m_state),
           m_scratch(body.m_workspace.scratch()),
           m_settings(settings),
+          m_coefficients(settings),
           m_A(body, settings.m_threads)
     {
     }
@@ -33,7 +37,8 @@ public:
     {
         const WarpedPreconditioner P(m_body, m_settings.m_threads);
         m_report = solveConjugateGradients(
-            {m_A, P, m_scratch.m_rightSide, m_scratch.m_increment, m_scratch.m_solver, m_settings.m_threads}, m_stop);
+            {m_A, P, m_scratch.m_rightSide, m_scratch.m_increment, m_scratch.m_solver, m_settings.m_threads}, m_stop,
+            m_isGuessed);
     }
 
     void addIncrement()
@@ -67,8 +72,10 @@ protected:
     BodyState& m_state;
     StepScratch& m_scratch;
     const StepSettings& m_settings;
+    const StepCoefficients m_coefficients;
     const WarpedSystem m_A;
     ConjugateGradientStop m_stop;
+    bool m_isGuessed = true;  // false: dv is zero
     SolveReport m_report;
 };
 
@@ -85,6 +92,7 @@ public:
         m_stop = stopOf(m_settings, kLoadFloor * loadImpulseNorm(), m_motion.m_predicted != nullptr);
         for (std::size_t i = 0; i < m_scratch.m_velocity.size(); ++i)
             m_scratch.m_velocity[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] : m_state.m_v[i];
+        beginDrift(m_body, m_settings);
     }
 
     void prescribeMomentum() { m_scratch.m_momentum.prescribe(m_body, m_settings.m_step); }
@@ -156,6 +164,7 @@ public:
     void keepIncrement()
     {
         m_scratch.m_momentum.keepHung(m_body, m_scratch.m_velocity);
+        noteMeanVelocity(m_body, m_settings);
         if (m_motion.m_predicted) return keepResidual();
         std::swap(m_state.m_lastIncrement[0], m_state.m_lastIncrement[1]);
         m_state.m_lastIncrement[0] = m_scratch.m_increment;
@@ -172,7 +181,7 @@ private:
         return m_settings.m_step * std::sqrt(sum);
     }
 
-    // b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v), and A of this step.
+    // b = h (f_ext + f_el(y) - alpha M v - K' w), and A of this step.
     void makeRightSide()
     {
         const double alpha = RigidMomentum::damping(m_body), toFrame = m_loads.m_frameDamping;
@@ -181,8 +190,21 @@ private:
             b[i] = m_loads.m_force[i] - alpha * m_state.m_mass[i] * m_state.m_v[i];
         for (std::size_t i = 0; i < b.size() && toFrame > 0; ++i)
             b[i] += toFrame * m_state.m_mass[i] * (m_loads.m_frameVelocity[i] - m_state.m_v[i]);
-        prepareWarpedSystem(m_body, m_settings, b);
+        findViscous();
+        prepareWarpedSystem(m_body, m_settings, m_scratch.m_increment, b);
         for (Vec3& bi : b) bi *= m_settings.m_step;
+    }
+
+    // w = (s h + beta) v, less (1 - s) (c h + beta) h w x (w x r): velocities that turn with the body are no strain.
+    void findViscous()
+    {
+        const double h = m_settings.m_step, beta = m_body.m_model->shape().m_material.m_stiffnessDamping;
+        const ViscousShares shares(m_coefficients, h, beta);
+        std::vector<Vec3>& w = m_scratch.m_increment;
+        std::fill(w.begin(), w.end(), Vec3());
+        if (shares.m_ofTurning > 0) m_scratch.m_momentum.addTurning(m_body, h, w);
+        for (std::size_t i = 0; i < w.size(); ++i)
+            w[i] = shares.m_ofVelocity * m_state.m_v[i] - shares.m_ofTurning * w[i];
     }
 
     // See passOverElements().
@@ -238,6 +260,22 @@ private:
     const ImpulseResponse& m_response;
 };
 
+class OneSmoothing : public OneBody
+{
+public:
+    OneSmoothing(const StepEnd& end, const StepSettings& settings) : OneBody(*end.m_body, settings) {}
+
+    void readChange() { m_stop = smoothingStop(m_body, m_settings); }
+    void completeSystem() { completeWarpedSystem(m_body, m_settings); }
+    void applyStiffness()
+    {
+        m_A.applyStiffness(m_scratch.m_increment, m_scratch.m_rightSide);
+        std::fill(m_scratch.m_increment.begin(), m_scratch.m_increment.end(), Vec3());
+        m_isGuessed = false;
+    }
+    void keepUnresolved() {}
+};
+
 // Calls solve(settings) on the threads at hand, or without them where the body is too small.
 template <class Solve>
 void onThreads(const Body& body, const StepSettings& given, const Solve& solve)
@@ -276,6 +314,17 @@ void solveAlone(ImpulseResponse& response)
                   OneResponse one(response, settings);
                   respondToImpulses(one);
                   response.m_report = one.report();
+              });
+}
+
+void solveAlone(StepEnd& end)
+{
+    if (!end.m_isRough) return;
+    onThreads(*end.m_body, end.m_settings,
+              [&](const StepSettings& settings)
+              {
+                  OneSmoothing one(end, settings);
+                  findUnresolved(one);
               });
 }
 

@@ -15,5 +15,6 @@ StepSettings sharedSettings(const BodyModel& model, StepSettings settings);
 /// On the threads of the settings, or without them where the body is too small.
 void solveAlone(FreeMotion& motion);
 void solveAlone(ImpulseResponse& response);
+void solveAlone(StepEnd& end);
 
 }  // namespace bullet_fem

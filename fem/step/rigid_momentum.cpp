@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/step/step_scratch.h"
+
 namespace bullet_fem
 {
 namespace
@@ -38,15 +40,22 @@ void forEachNode(const std::vector<int>& componentOf, std::vector<Component>& co
     }
 }
 
+// From where levers are measured: x+ is this and h theta v+, so that of the angular momentum of the step's end only the
+// part with these positions depends on the end velocities.
+const std::vector<Vec3>& leverPositions(const Body& body)
+{
+    return body.m_workspace.scratch().m_kickPosition;
+}
+
 }  // namespace
 
-void RigidMomentum::prescribe(const Body& body, double step)
+// Which components are free, their masses and centres.
+void RigidMomentum::sumFree(const Body& body, const std::vector<Vec3>& x)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
-    const int n = body.m_model->nodeCount();
     for (Component& component : m_components) component = Component();
-    for (int i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < x.size(); ++i)
         if (s.m_fixed[i]) m_components[componentOf[i]].m_free = false;
     m_anyFree = std::any_of(m_components.begin(), m_components.end(),
                             [](const Component& component) { return component.m_free; });
@@ -55,16 +64,24 @@ void RigidMomentum::prescribe(const Body& body, double step)
                 [&](Component& component, int i)
                 {
                     component.m_mass += s.m_mass[i];
-                    component.m_center += s.m_mass[i] * s.m_x[i];
+                    component.m_center += s.m_mass[i] * x[i];
                 });
     for (Component& component : m_components) component.m_center *= 1 / component.m_mass;
+}
 
+void RigidMomentum::prescribe(const Body& body, double step)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    const std::vector<Vec3>& x = leverPositions(body);
+    sumFree(body, x);
+    if (!m_anyFree) return;
     const double alpha = damping(body), toFrame = body.m_loads.m_frameDamping;
     const double share = step / (1 + step * (alpha + toFrame));
     forEachNode(componentOf, m_components,
                 [&](Component& component, int i)
                 {
-                    const Vec3 r = s.m_x[i] - component.m_center, p = s.m_mass[i] * s.m_v[i];
+                    const Vec3 r = x[i] - component.m_center, p = s.m_mass[i] * s.m_v[i];
                     Vec3 force = body.m_loads.m_force[i] - alpha * p;
                     if (toFrame > 0) force += toFrame * (s.m_mass[i] * body.m_loads.m_frameVelocity[i] - p);
                     const Vec3 prescribed = p + share * force;
@@ -110,22 +127,23 @@ bool RigidMomentum::findPivots(const Body& body)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
+    const std::vector<Vec3>& x = leverPositions(body);
     bool any = false;
     for (Component& component : m_components)
         if (!component.m_free) component = Component();
-    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    for (std::size_t i = 0; i < x.size(); ++i)
     {
         Component& component = m_components[componentOf[i]];
         if (!s.m_fixed[i] || !component.m_free) continue;
         component.m_free = false;
-        component.m_center = s.m_x[i];
+        component.m_center = x[i];
         any = true;
     }
-    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    for (std::size_t i = 0; i < x.size(); ++i)
     {
         Component& component = m_components[componentOf[i]];
         if (component.m_free) continue;
-        const Vec3 r = s.m_x[i] - component.m_center;
+        const Vec3 r = x[i] - component.m_center;
         component.m_mass += s.m_mass[i];
         component.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
         if (s.m_fixed[i] && dot(r, r) > dot(component.m_axis, component.m_axis)) component.m_axis = r;
@@ -138,6 +156,7 @@ void RigidMomentum::findClamped(const Body& body)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
+    const std::vector<Vec3>& x = leverPositions(body);
     const auto slack = [](const Component& component)
     { return kCollinearShare * std::sqrt(trace(component.m_inverseInertia) / component.m_mass); };
     for (Component& component : m_components)
@@ -145,11 +164,11 @@ void RigidMomentum::findClamped(const Body& body)
         component.m_hung = !component.m_free;
         if (component.m_hung && norm(component.m_axis) <= slack(component)) component.m_axis = {};
     }
-    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    for (std::size_t i = 0; i < x.size(); ++i)
     {
         Component& component = m_components[componentOf[i]];
         if (!s.m_fixed[i]) continue;
-        const Vec3 r = s.m_x[i] - component.m_center;
+        const Vec3 r = x[i] - component.m_center;
         const double length2 = dot(component.m_axis, component.m_axis);
         const Vec3 beside = length2 > 0 ? r - (dot(r, component.m_axis) / length2) * component.m_axis : r;
         if (norm(beside) > slack(component)) component.m_hung = false;
@@ -172,10 +191,11 @@ void RigidMomentum::keepHung(const Body& body, const std::vector<Vec3>& velocity
     }
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
-    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (std::size_t i = 0; i < x.size(); ++i)
     {
         Component& component = m_components[componentOf[i]];
-        if (component.m_hung) component.m_angular += cross(s.m_x[i] - component.m_center, s.m_mass[i] * velocity[i]);
+        if (component.m_hung) component.m_angular += cross(x[i] - component.m_center, s.m_mass[i] * velocity[i]);
     }
 }
 
@@ -183,12 +203,13 @@ void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impul
 {
     if (!m_anyFree) return;
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const std::vector<Vec3>& x = leverPositions(body);
     const double share = 1 / (1 + step * damping(body));
     for (std::size_t i = 0; i < impulses.size(); ++i)
     {
         Component& component = m_components[componentOf[i]];
         component.m_linear += share * impulses[i];
-        component.m_angular += cross(body.m_state.m_x[i] - component.m_center, share * impulses[i]);
+        component.m_angular += cross(x[i] - component.m_center, share * impulses[i]);
     }
 }
 
@@ -200,19 +221,26 @@ void RigidMomentum::addAngularImpulse(const Body& body, int node, const Vec3& im
 void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
 {
     if (!m_anyFree) return;
-    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
-    const BodyState& s = body.m_state;
+    const std::vector<Vec3>& x = leverPositions(body);
     for (Component& component : m_components)
     {
         component.m_linearVelocity = component.m_linear;
         component.m_angularVelocity = component.m_angular;
     }
+    addRigid(body, x, velocity);
+}
+
+// Of momenta that are to be had, in place of the velocities: adds what is missing to them.
+void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& velocity)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
     forEachNode(componentOf, m_components,
                 [&](Component& component, int i)
                 {
                     const Vec3 p = s.m_mass[i] * velocity[i];
                     component.m_linearVelocity -= p;
-                    component.m_angularVelocity -= cross(s.m_x[i] - component.m_center, p);
+                    component.m_angularVelocity -= cross(x[i] - component.m_center, p);
                 });
     for (Component& component : m_components)
     {
@@ -223,9 +251,39 @@ void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
                 [&](const Component& component, int i)
                 {
                     if (component.m_free && !s.m_fixed[i])
-                        velocity[i] += component.m_linearVelocity +
-                                       cross(component.m_angularVelocity, s.m_x[i] - component.m_center);
+                        velocity[i] +=
+                            component.m_linearVelocity + cross(component.m_angularVelocity, x[i] - component.m_center);
                 });
+}
+
+void RigidMomentum::addTurning(const Body& body, double step, std::vector<Vec3>& change) const
+{
+    if (!m_anyFree) return;
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const Component& component = m_components[componentOf[i]];
+        if (!component.m_free || component.m_hung) continue;
+        const Vec3 w = component.m_inverseInertia * component.m_angular;
+        change[i] += step * cross(w, cross(w, x[i] - component.m_center));
+    }
+}
+
+void RigidMomentum::removeMomentum(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& change)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    sumFree(body, x);
+    if (!m_anyFree) return;
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
+                {
+                    const Vec3 r = x[i] - component.m_center;
+                    component.m_inverseInertia += body.m_state.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+                });
+    for (Component& component : m_components)
+        component.m_inverseInertia = inverseInertia(component.m_inverseInertia, component.m_mass, component.m_center);
+    addRigid(body, x, change);
 }
 
 }  // namespace bullet_fem

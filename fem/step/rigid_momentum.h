@@ -36,6 +36,14 @@ public:
     /// Adds to `velocity` the rigid motion that gives every free component its prescribed momentum.
     void restore(const Body& body, std::vector<Vec3>& velocity);
 
+    /// Adds h w x (w x r) to the nodes of free components: how their velocities turn in a step, with the angular
+    /// velocity w that the prescription makes.
+    void addTurning(const Body& body, double step, std::vector<Vec3>& change) const;
+
+    /// Takes the rigid motion out of a change of velocities, so that no free component gets momentum by it at the
+    /// positions x. Leaves no prescription.
+    void removeMomentum(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& change);
+
     /// A free component, as the prescription has it.
     struct FreeComponent
     {
@@ -69,6 +77,8 @@ private:
         Vec3 m_linearVelocity, m_angularVelocity;
     };
     bool findPivots(const Body& body);
+    void sumFree(const Body& body, const std::vector<Vec3>& x);
+    void addRigid(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& velocity);
     void findClamped(const Body& body);
 
     std::vector<Component> m_components;

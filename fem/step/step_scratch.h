@@ -24,14 +24,18 @@ struct StepScratch
 {
     explicit StepScratch(const BodyModel& model);
 
-    std::vector<Vec3> m_velocity;   ///< velocities during the step [m/s]
-    std::vector<Vec3> m_push;       ///< velocities of position correction: moved by, never kept [m/s]
-    bool m_isPushed = false;        ///< false: m_push is zero
-    std::vector<Vec3> m_rightSide;  ///< b [kg m/s]
-    std::vector<Vec3> m_increment;  ///< dv [m/s]
-    std::vector<Vec3> m_residual;   ///< what the responses of this step have left of the impulses [kg m/s]
-    bool m_hasResidual = false;     ///< false: that is nothing, whatever is in there
-    RigidMomentum m_momentum;       ///< what the impulses prescribe for every connected piece
+    std::vector<Vec3> m_velocity;  ///< velocities during the step [m/s]
+    /// Where the forces of the step act: x + (1 - theta) h v, of fixed nodes with the target velocity [m].
+    std::vector<Vec3> m_kickPosition;
+    std::vector<Vec3> m_drift;  ///< the nodes move with theta times m_velocity and this [m/s]; see meanVelocity()
+    std::vector<Vec3> m_meanVelocity;  ///< with which they move in the free motion [m/s]
+    std::vector<Vec3> m_push;          ///< velocities of position correction: moved by, never kept [m/s]
+    bool m_isPushed = false;           ///< false: m_push is zero
+    std::vector<Vec3> m_rightSide;     ///< b [kg m/s]
+    std::vector<Vec3> m_increment;     ///< dv [m/s]
+    std::vector<Vec3> m_residual;      ///< what the responses of this step have left of the impulses [kg m/s]
+    bool m_hasResidual = false;        ///< false: that is nothing, whatever is in there
+    RigidMomentum m_momentum;          ///< what the impulses prescribe for every connected piece
     double m_complianceScale =
         1;  ///< what contact has learnt: A^-1 is about this times the warped A0^-1 at the surface
     ConjugateGradientScratch m_solver;

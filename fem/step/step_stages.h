@@ -13,12 +13,15 @@ namespace bullet_fem
 
 /// The free motion, as if nothing touched the body [docs/theory.md]:
 ///
-///     A dv = b        A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T        K' = sum R_e K_e R_e^T
-///                     b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v)
+///     A dv = b        A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T        K' = sum R_e K_e R_e^T
+///                     b = h (f_ext + f_el(y) - alpha M v - K' w)                  y = x + (1 - theta) h v
+///
+/// with w = (s h + beta) v but for what turns with the body, and c, theta and s of StepCoefficients: implicit Euler
+/// with c = theta = s = 1.
 template <class Width>
 void solveFreeMotion(Width& width)
 {
-    width.readState();             // x, v, M and the loads f_ext
+    width.readState();             // y, v, M and the loads f_ext
     width.prescribeMomentum();     // linear and angular momentum that the loads give every free piece
     width.passOverElements();      // rotations R_e, elastic forces f_el, A; and b
     width.averageRotations();      // R_i, one a node, or the body's one: of the preconditioner R A0^-1 R^T
@@ -45,7 +48,16 @@ void respondToImpulses(Width& width)
     width.keepResidual();
 }
 
-// The step ends with x += h v: finishStep() of stepping.h.
+/// Once no more impulses follow: what the step does not resolve of its change of velocities (smoothing.h).
+template <class Width>
+void findUnresolved(Width& width)
+{
+    width.readChange();      // v* - v
+    width.completeSystem();  // as above
+    width.applyStiffness();  // b = (A - M) (v* - v)
+    width.solve();           // to a few hundredths of M (v* - v)
+    width.keepUnresolved();
+}
 
 /// When the conjugate gradients of a body stop; `floor` and `isSteady` as in ConjugateGradientStop.
 inline ConjugateGradientStop stopOf(const StepSettings& settings, double floor, bool isSteady)

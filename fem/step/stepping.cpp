@@ -3,11 +3,15 @@
 #include "bullet_fem/fem/step/stepping.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bullet_fem/fem/common/threads.h"
 #include "fem/step/batched_solve.h"
+#include "fem/step/drift.h"
 #include "fem/step/one_body.h"
+#include "fem/step/smoothing.h"
+#include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
 #include "fem/step/warped_compliance.h"
 
@@ -50,10 +54,13 @@ Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings&
 {
     StepScratch& scratch = body.m_workspace.scratch();
     WarpedCompliance(body, settings.m_threads).apply(impulses, scratch.m_increment);
+    // What implicit Euler takes back are penetrations, bit by bit; other steps go all the way that a contact wants.
+    const double scale = settings.m_numericalDamping < 1 ? scratch.m_complianceScale : 1;
     scratch.m_isPushed = true;
     Vec3 angularMomentum;
     for (std::size_t i = 0; i < scratch.m_push.size(); ++i)
     {
+        scratch.m_increment[i] *= scale;
         scratch.m_push[i] += scratch.m_increment[i];
         angularMomentum +=
             cross(settings.m_step * scratch.m_increment[i], body.m_state.m_mass[i] * scratch.m_velocity[i]);
@@ -68,6 +75,17 @@ void stopPushing(StepScratch& scratch)
 }
 
 }  // namespace
+
+// h'^2 + h' beta = c h^2 + h beta
+double factorStep(double step, double numericalDamping, const Material& material)
+{
+    if (numericalDamping == 1) return step;
+    StepSettings settings;
+    settings.m_numericalDamping = numericalDamping;
+    const double half = 0.5 * material.m_stiffnessDamping;
+    const double all = step * (StepCoefficients(settings).stiffness() * step + material.m_stiffnessDamping);
+    return all / (half + std::sqrt(half * half + all));
+}
 
 void solveFreeMotions(FreeMotion* motions, int count)
 {
@@ -116,13 +134,28 @@ Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings
 
 void finishStep(Body& body, const StepSettings& settings)
 {
-    StepScratch& scratch = body.m_workspace.scratch();
-    BodyState& s = body.m_state;
-    s.m_v = scratch.m_velocity;
-    for (std::size_t i = 0; i < s.m_x.size(); ++i) s.m_x[i] += settings.m_step * s.m_v[i];
-    if (!scratch.m_isPushed) return;
-    for (std::size_t i = 0; i < s.m_x.size(); ++i) s.m_x[i] += settings.m_step * scratch.m_push[i];
-    stopPushing(scratch);
+    StepEnd end;
+    end.m_body = &body;
+    end.m_settings = settings;
+    finishSteps(&end, 1);
+}
+
+void finishSteps(StepEnd* ends, int count)
+{
+    for (int k = 0; k < count; ++k)
+    {
+        endDrift(*ends[k].m_body, ends[k].m_settings);
+        ends[k].m_isRough = findChange(*ends[k].m_body, ends[k].m_settings);
+    }
+    solveAll(ends, count);
+    for (int k = 0; k < count; ++k)
+    {
+        Body& body = *ends[k].m_body;
+        if (ends[k].m_isRough) subtractUnresolved(body, ends[k].m_settings);
+        StepScratch& scratch = body.m_workspace.scratch();
+        body.m_state.m_v = scratch.m_velocity;
+        if (scratch.m_isPushed) stopPushing(scratch);
+    }
 }
 
 bool canFinishStep(const Body& body)
@@ -156,6 +189,11 @@ SolveReport step(Body& body, const StepSettings& settings)
 const std::vector<Vec3>& velocity(const Body& body)
 {
     return body.m_workspace.scratch().m_velocity;
+}
+
+const std::vector<Vec3>& freeMeanVelocity(const Body& body)
+{
+    return body.m_workspace.scratch().m_meanVelocity;
 }
 
 }  // namespace bullet_fem

@@ -11,6 +11,7 @@
 #include "fem/elements/model_elements.h"
 #include "fem/elements/node_sums.h"
 #include "fem/factor/rest_factor.h"
+#include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
 
 namespace bullet_fem
@@ -43,14 +44,14 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
     ElementWork& work = body.m_workspace.scratch().m_elements;
     ElementScratch<Real>& scratch = work.scratch<Real>();
     scratch.grow(elements.blockCount());
-    const double h = settings.m_step, beta = body.m_model->shape().m_material.m_stiffnessDamping;
+    const double h = settings.m_step;
 
     ElementPass<Real> pass;
     pass.m_elements = &elements.blocks<Real>();
     pass.m_x = work.m_x.data();
     pass.m_v = work.m_v.data();
-    pass.m_damping = h + beta;
-    pass.m_tensionFactor = settings.m_tension ? h * h : 0;
+    pass.m_damping = 1;  // it is in these
+    pass.m_tensionFactor = settings.m_tension ? StepCoefficients(settings).stiffness() * h * h : 0;
     pass.m_rotation = body.m_state.m_elementRotation.data();
     pass.m_force = scratch.m_corners.data();
     pass.m_warped = scratch.m_warped.data();
@@ -75,7 +76,8 @@ void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3
 }
 
 template <class Real>
-void product(const Body& body, const Threads* threads, const std::vector<Vec3>& in, std::vector<Vec3>& out)
+void product(const Body& body, const Threads* threads, bool withMass, const std::vector<Vec3>& in,
+             std::vector<Vec3>& out)
 {
     const ModelElements& elements = body.m_model->elements();
     ElementWork& work = body.m_workspace.scratch().m_elements;
@@ -85,8 +87,9 @@ void product(const Body& body, const Threads* threads, const std::vector<Vec3>& 
                                          work.m_x.data(), scratch.m_corners.data()};
     runRanges(threads, {elements.blockCount(), kBlocksPerChunk},
               [&](Range blocks) { runElementProduct(forces, blocks); });
-    sumOverNodes(threads, NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(), work.m_scaledMass.data(),
-                                         work.m_x.data(), out.data()});
+    if (!withMass) std::fill(out.begin(), out.end(), Vec3());
+    sumOverNodes(threads, NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(),
+                                         withMass ? work.m_scaledMass.data() : nullptr, work.m_x.data(), out.data()});
 }
 
 }  // namespace
@@ -96,26 +99,27 @@ bool isSinglePrecision(const StepSettings& settings)
     return settings.m_tolerance >= kFinestSingle;
 }
 
-void scaleWarpedSystem(Body& body, double step)
+void scaleWarpedSystem(Body& body, const StepSettings& settings)
 {
+    const double step = settings.m_step;
     ElementWork& work = body.m_workspace.scratch().m_elements;
     const Material& material = body.m_model->shape().m_material;
     const double alpha = material.m_massDamping + body.m_loads.m_massDamping + body.m_loads.m_frameDamping;
-    work.m_stiffnessFactor = step * step + step * material.m_stiffnessDamping;
+    work.m_stiffnessFactor = step * (StepCoefficients(settings).stiffness() * step + material.m_stiffnessDamping);
     for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i)
         work.m_scaledMass[i] = (1 + step * alpha) * body.m_state.m_mass[i];
 }
 
-void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
+void prepareWarpedSystem(Body& body, const StepSettings& settings, const std::vector<Vec3>& viscous,
+                         std::vector<Vec3>& force)
 {
     ElementWork& work = body.m_workspace.scratch().m_elements;
-    const BodyState& state = body.m_state;
     work.m_isDouble = !isSinglePrecision(settings);
     work.m_isComplete = true;
     if (work.m_stepsReadyForImpulses > 0) --work.m_stepsReadyForImpulses;
-    scaleWarpedSystem(body, settings.m_step);
-    pad(settings.m_threads, state.m_x, work.m_x);
-    pad(settings.m_threads, state.m_v, work.m_v);
+    scaleWarpedSystem(body, settings);
+    pad(settings.m_threads, body.m_workspace.scratch().m_kickPosition, work.m_x);
+    pad(settings.m_threads, viscous, work.m_v);
     if (work.m_isDouble)
         passOverElements<double>(body, settings, force);
     else
@@ -146,8 +150,8 @@ void completeWarpedSystem(Body& body, const StepSettings& settings)
     work.m_stepsReadyForImpulses = kStepsReadyForImpulses;
     if (work.m_isComplete) return;
     work.m_isComplete = true;
-    scaleWarpedSystem(body, settings.m_step);
-    pad(settings.m_threads, body.m_state.m_x, work.m_x);
+    scaleWarpedSystem(body, settings);
+    pad(settings.m_threads, body.m_workspace.scratch().m_kickPosition, work.m_x);
     ElementPass<float> pass = passOver<float>(body, settings);
     pass.m_isRotated = true;
     runPass(pass, settings.m_threads);
@@ -156,14 +160,28 @@ void completeWarpedSystem(Body& body, const StepSettings& settings)
 void WarpedSystem::applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
     if (m_body.m_workspace.scratch().m_elements.m_isDouble)
-        product<double>(m_body, m_threads, in, out);
+        product<double>(m_body, m_threads, true, in, out);
     else
-        product<float>(m_body, m_threads, in, out);
+        product<float>(m_body, m_threads, true, in, out);
+}
+
+void WarpedSystem::applyStiffness(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    if (m_body.m_workspace.scratch().m_elements.m_isDouble)
+        product<double>(m_body, m_threads, false, in, out);
+    else
+        product<float>(m_body, m_threads, false, in, out);
+    clearFixed(out);
 }
 
 void WarpedSystem::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
     applyUnconstrained(in, out);
+    clearFixed(out);
+}
+
+void WarpedSystem::clearFixed(std::vector<Vec3>& out) const
+{
     const std::vector<unsigned char>& fixed = m_body.m_state.m_fixed;
     for (std::size_t i = 0; i < out.size(); ++i)
         if (fixed[i]) out[i] = {};

@@ -12,23 +12,25 @@ namespace bullet_fem
 bool isSinglePrecision(const StepSettings& settings);
 
 /// Element rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4 and above and in
-/// double below. Turns the state's rotations to its positions, adds f_el(x) - (h + beta) K' v to `force` [N], and
+/// double below. Turns the state's rotations to the positions y = m_kickPosition of the scratch, adds f_el(y) - K' w to
+/// `force` [N], with w of `viscous` [m], and
 /// leaves in the body's scratch what WarpedSystem works with. Allocates in the first step of double precision, never
 /// else.
-void prepareWarpedSystem(Body& body, const StepSettings& settings, std::vector<Vec3>& force);
+void prepareWarpedSystem(Body& body, const StepSettings& settings, const std::vector<Vec3>& viscous,
+                         std::vector<Vec3>& force);
 
 /// The rotations that WarpedPreconditioner works with, of those of the elements: one a node, or the body's one for all.
 void averageNodeRotations(Body& body, const StepSettings& settings);
 
-/// What A multiplies masses and K' with in steps of `step` [s], in the body's scratch: part of prepareWarpedSystem().
-void scaleWarpedSystem(Body& body, double step);
+/// What A multiplies masses and K' with, in the body's scratch: part of prepareWarpedSystem().
+void scaleWarpedSystem(Body& body, const StepSettings& settings);
 
 /// To be called before A is used again in the same step, for impulses: makes up for what bodies that are solved side by
 /// side leave out where none have followed in their last steps, as that takes them longer than all the products with A.
-/// The state's positions are still those that the step began with. Never allocates.
+/// Never allocates.
 void completeWarpedSystem(Body& body, const StepSettings& settings);
 
-/// A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T over the free nodes, as last prepared; rows and columns of fixed
+/// A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T over the free nodes, as last prepared; rows and columns of fixed
 /// nodes are zero.
 class WarpedSystem : public LinearOperator
 {
@@ -39,7 +41,12 @@ public:
     /// A with the rows and columns of fixed nodes: what their motion does to the others.
     void applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
+    /// A without its masses, over the free nodes.
+    void applyStiffness(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
+
 private:
+    void clearFixed(std::vector<Vec3>& out) const;
+
     const Body& m_body;
     const Threads* m_threads;
 };

@@ -16,7 +16,7 @@ FactorInput btFemBodySetUp::factorInput(const btFemBodyRecord& record, double st
     FactorInput input;
     input.m_mass = record.fem().m_body.m_state.m_mass;
     input.m_fixed = record.fem().m_body.m_state.m_fixed;
-    input.m_step = step;
+    input.m_step = factorStep(step, m_numericalDamping, record.fem().m_body.m_model->shape().m_material);
     return m_library.limited(std::move(input));
 }
 

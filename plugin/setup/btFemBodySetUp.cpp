@@ -58,6 +58,7 @@ RestMesh restOf(const btFemBodyRecord& record)
 
 btFemBodySetUp::btFemBodySetUp(const btFemSolverInfo& info, void (*announce)(btSoftBody& body))
     : m_announce(announce),
+      m_numericalDamping(info.m_numericalDamping),
       m_library(static_cast<std::size_t>(1e6 * info.m_maxFactorMegabytes), coreChoice(info.m_factorChoice))
 {
 }
@@ -132,10 +133,11 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
         input.m_fixed.push_back(pinned || mesh.isLoose(i));
         if (defined && pinned) input.m_mass[i] = defined->m_mass[i];
     }
-    input.m_step = step;
+    input.m_step = factorStep(step, m_numericalDamping, shape->m_material);
     const auto model = baked ? m_library.modelWithFactor(shape, input, record.m_asked.m_baked->m_model)
                              : m_library.model(shape, input);
     record.m_model.m_fem = std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model));
+    record.fem().m_numericalDamping = m_numericalDamping;
     record.fem().m_body.m_state.m_mass = input.m_mass;    // the model's may be those of a copy elsewhere,
     record.fem().m_body.m_state.m_fixed = input.m_fixed;  // or of when it was baked
     record.fem().m_restOrigin = rest.m_origin;

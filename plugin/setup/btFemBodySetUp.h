@@ -9,6 +9,7 @@
 
 #include "bullet_bridge/model_library.h"
 #include "bullet_fem/btFemSolverInfo.h"
+#include "bullet_fem/fem/step/stepping.h"
 #include "plugin/record/btFemBodyRecord.h"
 
 /// The masses [kg] that a density [kg/m3] gives a body's nodes at rest, however it is deformed now. Throws
@@ -90,5 +91,6 @@ private:
     void exchangeModel(btFemBodyRecord& record, const std::shared_ptr<const bullet_fem::BodyModel>& model);
 
     void (*m_announce)(btSoftBody& body);
+    double m_numericalDamping;  // of the bodies' steps
     bullet_fem::ModelLibrary m_library;
 };

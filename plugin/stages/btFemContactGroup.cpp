@@ -98,6 +98,7 @@ void btFemContactGroup::collect(const Scope& scope)
         m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidTouches);
     m_problem.m_rigidProxies.assign(m_rigid.rigidProxies().begin(), m_rigid.rigidProxies().end());
     m_settings.m_step.m_step = m_step;
+    m_settings.m_step.m_numericalDamping = m_info.m_numericalDamping;
     const bool joints = !m_problem.m_joints.empty();
     m_settings.m_step.m_tolerance =
         joints ? m_info.m_tolerance : std::max(m_info.m_tolerance, m_info.m_contactTolerance);

@@ -46,6 +46,7 @@ StepSettings btFemFreeMotion::settingsOf(const btFemBodyRecord& record) const
     settings.m_step = record.m_work.m_lastStep;
     settings.m_tolerance = m_info.m_tolerance;
     settings.m_maxIterations = m_info.m_maxIterations;
+    settings.m_numericalDamping = m_info.m_numericalDamping;
     const btFemDetail detail = detailInUse(record);
     settings.m_direct = detail == btFemDetail::direct || detail == btFemDetail::oneIteration;
     settings.m_warp =

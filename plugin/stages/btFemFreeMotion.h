@@ -36,11 +36,13 @@ public:
     /// Every body once, each of which beginFreeMotion() was true for.
     void solve(const std::vector<btFemBodyRecord*>& due, const bullet_fem::SoftPairMemory& softPairs);
 
+    /// How the step of a body is solved.
+    bullet_fem::StepSettings settingsOf(const btFemBodyRecord& record) const;
+
 private:
     void solveBatch(const bullet_fem::Range& batch);
     static void prepare(btFemBodyRecord& record);
     bullet_fem::FreeMotion motionOf(btFemBodyRecord& record) const;
-    bullet_fem::StepSettings settingsOf(const btFemBodyRecord& record) const;
     void report(btFemBodyRecord& record, const bullet_fem::FreeMotion& motion) const;
     btFemBodyRecord& inBatches(int k) const { return *m_due[m_batches.order()[k]]; }
 

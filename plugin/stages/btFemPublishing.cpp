@@ -8,12 +8,10 @@
 
 using namespace bullet_fem;
 
-void finishMotion(btFemBodyRecord& record)
+void finishMotion(btFemBodyRecord& record, const StepSettings& settings)
 {
     FemSoftBody& fem = record.fem();
     btFemStepReport& report = record.m_reports.m_step;
-    StepSettings settings;
-    settings.m_step = record.m_work.m_lastStep;
     if (canFinishStep(fem.m_body))
         finishStep(fem.m_body, settings);
     else  // no NaN may reach a node

@@ -52,7 +52,7 @@ TEST(BodyEnds, SolveForWhatALooseCorrectionLeft)
     };
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
-    ends.clear({&body, cache.get()});
+    ends.clear({&body, cache.get()}, StepSettings());
     addNode(ends, body, 0);
     ends.assemble(400, settings.m_step);
     ends.request();
@@ -86,7 +86,7 @@ TEST(BodyEnds, LearnNothingFromTheRoundingOfVelocities)
     solveFreeMotion(body, settings);
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
-    ends.clear({&body, cache.get()});
+    ends.clear({&body, cache.get()}, StepSettings());
     for (int node : {0, 1, 2}) addNode(ends, body, node);
     ends.assemble(400, settings.m_step);
     ends.request();
@@ -118,7 +118,7 @@ TEST(BodyEnds, LearnNothingFromImpulsesThatWereExpectedInVain)
     solveFreeMotions(&motion, 1);
     const auto cache = makeComplianceCache(body.m_model);
     BodyEnds ends;
-    ends.clear({&body, cache.get(), &expected});
+    ends.clear({&body, cache.get(), &expected}, StepSettings());
     for (int node : {0, 1, 2}) addNode(ends, body, node);
     ends.assemble(400, motion.m_settings.m_step);
     ends.request();

@@ -18,7 +18,10 @@ enum class Warp
 /// How one step is solved.
 struct StepSettings
 {
-    double m_step = 1.0 / 60;   ///< h [s], in [1e-6, 1]
+    double m_step = 1.0 / 60;  ///< h [s], in [1e-6, 1]
+    /// Damping by the step itself [-], in [0, 1]: 1 is implicit Euler, 0 a step of second order that damps only what it
+    /// cannot resolve (docs/theory.md).
+    double m_numericalDamping = 1;
     double m_tolerance = 1e-3;  ///< of |r| / max(|b|, 1e-3 h |f_ext|) [-], in [1e-12, 1)
     int m_maxIterations = 100;  ///< conjugate gradient iterations a solve, >= 1
     Warp m_warp = Warp::nodal;

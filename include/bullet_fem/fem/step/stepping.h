@@ -7,13 +7,20 @@
 namespace bullet_fem
 {
 
-/// One linearly implicit Euler step, in the three parts that constraints need. None of them allocates or throws, but
-/// for what StepSettings::m_threads says; different bodies may be stepped by different threads.
+/// One linearly implicit step, in the three parts that constraints need. None of them allocates or throws, but for what
+/// StepSettings::m_threads says; different bodies may be stepped by different threads.
 ///
-///     A dv = b        A = (1 + h alpha) M + (h^2 + h beta) K' + h^2 T
-///                     b = h (f_ext + f_el(x) - alpha M v - (h + beta) K' v)
+///     y = x + (1 - theta) h v
+///     A dv = b        A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T
+///                     b = h (f_ext + f_el(y) - alpha M v - (s h + beta) K' v)
+///     x+ = y + theta h (v + dv)
 ///
-/// with K' = sum R_e K_e R_e^T and the tensile geometric stiffness T (docs/theory.md).
+/// with K' = sum R_e K_e R_e^T and the tensile geometric stiffness T (docs/theory.md). s is the numerical damping of
+/// the settings; implicit Euler with s = 1, for which theta = c = 1.
+
+/// Step of FactorInput [s] that A of a step of `step` and that numerical damping is factored with: c of its h^2 K are
+/// in that step's h^2.
+double factorStep(double step, double numericalDamping, const Material& material);
 
 /// Rotations, system and the free velocities v + dv, as if nothing touched the body. Nodes marked fixed get their
 /// target velocity. The result stands in velocity(body) and is not yet the state's.
@@ -56,6 +63,14 @@ struct ImpulseResponse
 void solveFreeMotions(FreeMotion* motions, int count);
 void applyImpulses(ImpulseResponse* responses, int count);
 
+/// finishStep of one body of several.
+struct StepEnd
+{
+    Body* m_body = nullptr;
+    StepSettings m_settings;
+    bool m_isRough = false;  ///< written: the step changed the velocities by more than it resolves
+};
+
 /// Adds to velocity(body), one change a node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
 void addVelocity(Body& body, const std::vector<Vec3>& change);
 
@@ -64,8 +79,10 @@ void addVelocity(Body& body, const std::vector<Vec3>& change);
 /// momentum about the origin that the body gains by being elsewhere with its velocities [kg m2/s].
 Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
 
-/// v <- velocity(body), x <- x + h v, and the pushes.
+/// x <- x+ and v <- velocity(body), and the pushes; with less than full numerical damping v goes without what the step
+/// does not resolve. To be called with the settings of solveFreeMotion; side by side as above.
 void finishStep(Body& body, const StepSettings& settings);
+void finishSteps(StepEnd* ends, int count);
 
 /// True if the velocities and pushes of the step are numbers, and below 1e6 m/s.
 bool canFinishStep(const Body& body);
@@ -78,6 +95,9 @@ SolveReport step(Body& body, const StepSettings& settings);
 
 /// Velocities during the step [m/s], one a node: valid from solveFreeMotion to finishStep.
 const std::vector<Vec3>& velocity(const Body& body);
+
+/// With which nodes move in the step, as if nothing touched them [m/s]: (x+ - x) / h, valid likewise.
+const std::vector<Vec3>& freeMeanVelocity(const Body& body);
 
 /// Linear and angular momentum about the origin [kg m/s, kg m2/s] of a state.
 Vec3 linearMomentum(const BodyState& state);

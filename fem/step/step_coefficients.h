@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/fem/step/step_types.h"
+
+namespace bullet_fem
+{
+
+/// What a step of numerical damping s multiplies with what [-] (docs/theory.md):
+///
+///     y = x + (1 - theta) h v          A (v* - v) = h f(y) - h (s h + beta) K' v     A = M + c h^2 (K' + T) + h beta
+///     K' x+ = y + theta h v*              v+ = v* - d A^-1 (A - M) (v* - v)
+///
+/// s = 1 is implicit Euler, s = 0 of second order. A mode of (omega h)^2 = k keeps the share 1 - d c k^2 / (2 (1 + c
+/// k)^2) of its amplitude's square then; c = 3/8 and d = 2 c are the pair of which that tends to zero as k grows while
+/// strips of twice their length come to rest.
+struct StepCoefficients
+{
+    explicit StepCoefficients(const StepSettings& settings) : m_damping(settings.m_numericalDamping) {}
+
+    double m_damping;                                       ///< s
+    double theta() const { return 0.5 * (1 + m_damping); }  ///< share of the end velocities in the motion
+    double stiffness() const { return kLeast + (1 - kLeast) * m_damping; }  ///< c, of h^2 K' and h^2 T in A
+    double smoothing() const { return 2 * kLeast * (1 - m_damping); }       ///< d, of what the step does not resolve
+
+    static constexpr double kLeast = 0.375;
+};
+
+/// Of what K' makes forces of h besides the positions y: of the velocities v and of h w x (w x r), as they turn with
+/// the body in the step [s].
+struct ViscousShares
+{
+    ViscousShares(const StepCoefficients& step, double h, double beta)
+        : m_ofVelocity(step.m_damping * h + beta), m_ofTurning((1 - step.m_damping) * (step.stiffness() * h + beta))
+    {
+    }
+
+    double m_ofVelocity, m_ofTurning;
+};
+
+}  // namespace bullet_fem
