@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "fem/factor/rest_factor.h"
 #include "fem/step/step_coefficients.h"
@@ -37,16 +38,8 @@ void BodyEnds::clear(const ContactBody& body, const StepSettings& settings)
 {
     m_body = body;
     m_theta = StepCoefficients(settings).theta();
-    const std::vector<Vec3>& v = bullet_fem::velocity(*body.m_body);
     const std::vector<double>& mass = body.m_body->m_state.m_mass;
-    Vec3 momentum;
-    m_mass = 0;
-    for (std::size_t i = 0; i < v.size() && m_theta < 1; ++i)
-    {
-        m_mass += mass[i];
-        momentum += mass[i] * v[i];
-    }
-    m_centerVelocity = m_mass > 0 ? (1 / m_mass) * momentum : Vec3();
+    m_mass = std::accumulate(mass.begin(), mass.end(), 0.0);
     m_added = 0;
     m_working.reset(0);
 }

@@ -75,9 +75,8 @@ public:
     /// With which the end moves in the step, by velocity() and what was before [m/s].
     Vec3 meanVelocity(int e) const;
 
-    /// Of the body, and its centre's velocity [kg], [m/s].
+    /// Of the body [kg].
     double mass() const { return m_mass; }
-    Vec3 centerVelocity() const { return m_centerVelocity; }
 
     /// From the true velocities of the body [m/s].
     Vec3 trueVelocity(int e) const;
@@ -164,7 +163,6 @@ private:
     double m_loadSpeed = 0;  // [m/s]
     double m_theta = 1;      // see StepCoefficients
     double m_mass = 0;       // [kg]
-    Vec3 m_centerVelocity;   // [m/s]
     bool m_formed = false;
     int m_added = 0;  // points
     std::vector<End> m_ends;

@@ -100,7 +100,7 @@ void ContactRows::addContactRows()
 
 void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 {
-    const Vec3 at = contact.m_point + contact.m_patch + carryOf(contact);
+    const Vec3 at = impulsePoint(contact);
     const RowEnd a = softEnd(contact.m_soft, at, row.m_a.m_end);
     const RowEnd b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, at + contact.m_approach)
                                                : softEnd(contact.m_other, at, row.m_b.m_end);
@@ -112,22 +112,24 @@ void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
     row.m_impulse = contact.m_impulse;
 }
 
-// Soft bodies measure levers from the positions y of the step, (1 - theta) h ahead, and rigid ones from where they
-// begin. Both sides feel the impulse at one point, or angular momentum would be lost: nearer to where the lighter one
-// wants it.
-Vec3 ContactRows::carryOf(const ContactPoint& contact) const
+// Where both sides feel the impulse, for all angular momentum to be kept. Of implicit Euler it stands for the forces at
+// the end of the step, and the patch has come from where m_patch says; else for those at a share theta of it, where the
+// nodes are then, or, of what touches only as the step ends, for those at its end.
+// Soft bodies measure levers from their positions y at 1 - theta, rigid ones from where they begin: the point is nearer
+// to where the lighter one wants it.
+Vec3 ContactRows::impulsePoint(const ContactPoint& contact) const
 {
-    const double ahead = (1 - StepCoefficients(m_settings.m_step).theta()) * m_settings.m_step.m_step;
-    if (!(ahead > 0)) return {};
-    const BodyEnds& a = m_bodies[contact.m_soft.m_body];
-    if (contact.m_rigidProxy < 0)
-    {
-        const BodyEnds& b = m_bodies[contact.m_other.m_body];
-        const double share = a.mass() / (a.mass() + b.mass());
-        return ahead * ((1 - share) * a.centerVelocity() + share * b.centerVelocity());
-    }
+    const double theta = StepCoefficients(m_settings.m_step).theta();
+    const double ahead = (1 - theta) * m_settings.m_step.m_step;
+    const bool isNew = contact.m_gap > contact.m_slop;
+    const Vec3 at = contact.m_point + (isNew ? theta : 2 * theta - 1) * contact.m_patch;
+    if (!(ahead > 0)) return at;
+    const auto velocity = [this](const SurfacePoint& p)
+    { return p.of(m_problem->m_bodies[p.m_body].m_body->m_state.m_v); };
+    if (contact.m_rigidProxy < 0) return at + 0.5 * ahead * (velocity(contact.m_soft) + velocity(contact.m_other));
     const Vec3& w = m_problem->m_rigidProxies[contact.m_rigidProxy].m_inverseMass;
-    return (ahead / (1 + a.mass() * std::max({w.x, w.y, w.z}))) * a.centerVelocity();
+    const double share = 1 / (1 + m_bodies[contact.m_soft.m_body].mass() * std::max({w.x, w.y, w.z}));
+    return at + share * ahead * velocity(contact.m_soft);
 }
 
 void ContactRows::addJointRow(const Joint& joint)

@@ -152,7 +152,7 @@ private:
     static void setAxes(const Vec3& normal, ContactRow& row);
     void addContactRows();
     void setContactRow(ContactRow& row, const ContactPoint& contact);
-    Vec3 carryOf(const ContactPoint& contact) const;
+    Vec3 impulsePoint(const ContactPoint& contact) const;
     void addJointRow(const Joint& joint);
     void addTouchRow(const RigidTouch& touch);
     static void limitTouchFriction(ContactRow& row);

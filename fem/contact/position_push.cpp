@@ -109,8 +109,7 @@ void PositionPush::prepare()
             for (int k = rows.m_begin; k < rows.m_end; ++k)
             {
                 ContactRow& row = m_rows.rows()[k];
-                if (!row.m_joint && !row.m_touch)
-                    m_base[k] = m_share * dot(row.m_impulse, row.m_axes[0]) * row.m_axes[0];
+                if (!row.m_joint && !row.m_touch) m_base[k] = m_share * row.m_impulse;
                 row.m_impulse = row.m_roundImpulse = m_base[k];
             }
         });
@@ -140,9 +139,13 @@ void PositionPush::prepareContacts(Range rows)
     {
         ContactRow& row = m_rows.rows()[k];
         const ContactPoint& c = contacts[k];
-        const double moving = dot(c.m_normal, m_rows.meanVelocity(row));
-        row.m_target = {c.m_gap < 0 ? pushSpeed(c, settings) - moving : -(moving + c.m_gap / h), 0, 0};
-        row.m_friction = 0;
+        const Vec3 mean = m_rows.meanVelocity(row);
+        const double moving = dot(c.m_normal, mean);
+        row.m_target.x = c.m_gap < 0 ? pushSpeed(c, settings) - moving : -(moving + c.m_gap / h);
+        if (m_share > 0)
+            for (int i = 1; i < 3; ++i) row.m_target[i] -= dot(row.m_axes[i], mean);
+        else
+            row.m_target.y = row.m_target.z = row.m_friction = 0;
         row.m_idle = row.m_idle || row.m_yield.x > 0;
     }
 }

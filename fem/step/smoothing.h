@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/step/stepping.h"
+#include "bullet_fem/fem/step/body.h"
 #include "fem/step/convergence_monitor.h"
 
 namespace bullet_fem

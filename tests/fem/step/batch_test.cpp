@@ -84,8 +84,10 @@ public:
         {
             m_reports.push_back(motions[k].m_report);
             m_reports.push_back(isPushed(k) ? response++->m_report : SolveReport());
-            finishStep(m_bodies[k], m_settings[k]);
         }
+        std::vector<StepEnd> ends;
+        for (int k = 0; k < count(); ++k) ends.push_back({&m_bodies[k], m_settings[k], false});
+        finishSteps(ends.data(), count());
         ++m_step;
     }
 
@@ -236,6 +238,24 @@ TEST(BatchOfCopies, TakesImpulsesThatComeNowAndThen)
             for (StepSettings& settings : copies->m_settings) settings.m_tension = tension;
         }
         for (int k = 0; k < 20; ++k)
+        {
+            together.stepTogether();
+            alone.stepAlone();
+            together.expectSameBits(alone, k);
+        }
+    }
+}
+
+// Their ends are solved side by side, too.
+TEST(BatchOfCopies, TakesStepsOfSecondOrder)
+{
+    const auto model = freeBlock().m_model;
+    for (const double damping : {0.0, 0.4})
+    {
+        Copies together(model, 40), alone(model, 40);
+        for (Copies* copies : {&together, &alone})
+            for (StepSettings& settings : copies->m_settings) settings.m_numericalDamping = damping;
+        for (int k = 0; k < 10; ++k)
         {
             together.stepTogether();
             alone.stepAlone();

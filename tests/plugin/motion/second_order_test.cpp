@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Bodies in steps without numerical damping, in Bullet worlds: what bounces, rolls and rests. The free motion has tests
+// of its own in tests/fem.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/fem/mesh/generators.h"
+#include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/soft_boxes.h"
+#include "plugin/scenes/soft_world.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kBall = 0.25;  // of the balls [m]
+
+btFemSolverInfo secondOrder()
+{
+    btFemSolverInfo info;
+    info.m_numericalDamping = 0;
+    return info;
+}
+
+btSoftBody& addRubberBall(FemWorld& world, double young, double stiffnessDamping, double height)
+{
+    btSoftBody* body = btFemHelpers::createFromTetMesh(world.info(), makeSphere(kBall, 6));
+    body->translate({0, 0, btScalar(height)});
+    btFemMaterial material;
+    material.m_youngModulus = btScalar(young);
+    material.m_density = 1000;
+    material.m_stiffnessDamping = btScalar(stiffnessDamping);
+    world.fem().setMaterial(body, material);
+    body->m_cfg.kDF = btScalar(0.5);
+    return world.addSoft(body);
+}
+
+struct Drop
+{
+    double m_youngModulus, m_rate;  // [Pa], steps a second
+    double m_least, m_most;         // of the speed that it returns with [-]
+};
+
+void PrintTo(const Drop& drop, std::ostream* stream)
+{
+    *stream << drop.m_youngModulus << " Pa at " << drop.m_rate << " Hz";
+}
+
+class SecondOrderDrop : public testing::TestWithParam<std::tuple<Coupling, Drop>>
+{
+};
+
+// Undamped rubber balls that fall from a metre return with .81, .90 and .85 of their speed in steps of 1/1920 s.
+// Implicit Euler at 60 Hz gives .32, .19 and .10 back, and .35 of the stiffest at 240 Hz.
+TEST_P(SecondOrderDrop, GivesBackWhatTheContactLasts)
+{
+    const auto& [coupling, drop] = GetParam();
+    for (const double later : {0.01, 0.035, 0.06})
+    {
+        FemWorld world(WorldClass::softRigid, coupling, {0, 0, btScalar(-kGravity)}, secondOrder());
+        btRigidBody& floor = world.addFloorBox();
+        btSoftBody& ball = addRubberBall(world, drop.m_youngModulus, 0, kBall + 1 + later);
+        const double h = 1 / drop.m_rate, impact = std::sqrt(2 * kGravity * (1 + later));
+        int touched = 0, parted = 0;
+        double lowest = 0;
+        for (int k = 0; k < 3 * drop.m_rate && parted < 3; ++k)
+        {
+            world.step(1, btScalar(h));
+            const bool touches = world.fem().contactForce(&ball, &floor).z() > 0;
+            touched += touches;
+            parted = touches || touched == 0 ? 0 : parted + 1;
+            lowest = std::min(lowest, lowestHeight(ball));
+        }
+        const double returns = (velocityOf(ball).z + kGravity * h * parted) / impact;
+        EXPECT_GE(returns, drop.m_least) << later;
+        EXPECT_LE(returns, drop.m_most) << later;
+        EXPECT_GT(lowest, -0.002) << later;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Balls, SecondOrderDrop,
+                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                                          testing::Values(Drop{1e5, 60, 0.6, 0.81}, Drop{1e6, 60, 0.62, 0.9},
+                                                          Drop{1e7, 60, 0.3, 0.85}, Drop{1e7, 240, 0.8, 1})));
+
+// Down ten degrees, as rolling_test.cpp has it: what touches acts where it is within the step.
+TEST(SecondOrderRolling, IsAsFastAsWithSmallSteps)
+{
+    struct Slope
+    {
+        double m_youngModulus, m_converged;  // [Pa], after six seconds in steps of 1/1920 s [m/s]
+    };
+    for (const Slope& descent : {Slope{1e5, 4.71}, Slope{1e6, 5.38}})
+    {
+        const double angle = std::acos(-1) / 18;
+        const btVector3 gravity(btScalar(kGravity * std::sin(angle)), 0, btScalar(-kGravity * std::cos(angle)));
+        FemWorld world(WorldClass::softRigid, Coupling::swap, gravity, secondOrder());
+        world.addPlane();
+        btSoftBody& ball = addRubberBall(world, descent.m_youngModulus, 0.005, kBall + 1e-4);
+        ball.m_cfg.kDF = btScalar(0.8);
+        world.step(360);
+        EXPECT_NEAR(velocityOf(ball).x / descent.m_converged, 1, 0.1) << descent.m_youngModulus;
+    }
+}
+
+// A cube that has come to rest weighs what it weighs, and stands as still as with implicit Euler.
+TEST(SecondOrderRest, CarriesTheWeight)
+{
+    for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
+    {
+        FemWorld world(WorldClass::softRigid, coupling, {0, 0, btScalar(-kGravity)}, secondOrder());
+        btRigidBody& floor = world.addFloorBox();
+        btSoftBody* cube = btFemHelpers::createBox(world.info(), {0, 0, btScalar(0.26)}, {.25f, .25f, .25f}, .125f);
+        btFemMaterial material;
+        material.m_youngModulus = btScalar(1e6);
+        material.m_density = 1000;
+        material.m_stiffnessDamping = btScalar(0.01);
+        world.fem().setMaterial(cube, material);
+        world.addSoft(cube);
+        cube->setActivationState(DISABLE_DEACTIVATION);
+        world.step(300);
+        const double weight = massOf(*cube) * kGravity;
+        EXPECT_NEAR(world.fem().contactForce(cube, &floor).z(), weight, 1e-4 * weight);
+        EXPECT_LT(fastestNode(*cube), 1e-5);
+    }
+}
+
+// Two free balls that meet off their centres.
+TEST(SecondOrderMomentum, IsKeptInCollisions)
+{
+    FemWorld world(WorldClass::softRigid, Coupling::swap, {0, 0, 0}, secondOrder());
+    btSoftBody& a = addRubberBall(world, 1e6, 0, 0);
+    btSoftBody& b = addRubberBall(world, 1e6, 0, 2.2 * kBall);
+    for (btSoftBody* ball : {&a, &b})
+    {
+        ball->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
+        ball->setActivationState(DISABLE_DEACTIVATION);
+    }
+    a.setVelocity({btScalar(0.2), 0, 2});
+    b.setVelocity({0, btScalar(0.3), -1});
+    const Motion before[2] = {motionOf(a), motionOf(b)};
+    world.step(60);
+    const Motion after[2] = {motionOf(a), motionOf(b)};
+    const auto gained = [&](Vec3 Motion::*of) { return after[0].*of + after[1].*of - before[0].*of - before[1].*of; };
+    const double size = norm(before[0].m_linear);
+    EXPECT_GT(velocityOf(b).z, 0.5);  // they have met
+    EXPECT_LT(norm(gained(&Motion::m_linear)), 1e-5 * size);
+    EXPECT_LT(norm(gained(&Motion::m_angular)), 1e-4 * size * kBall);
+}
+
+}  // namespace
+}  // namespace bullet_fem
