@@ -109,6 +109,7 @@ private:
         Vec3 m_moved;                // how far its centre has gone already: that of a kinematic object [m]
         Surface m_surface;
         double m_reach;  // distance at which it may be touched within the step [m]
+        Vec3 m_fall;     // by which the two may come nearer than they would freely, if one does not fall [m]
         double m_step;   // [s]
         const CarryingPlane* m_carrying;
         TargetKind m_kind;
@@ -152,12 +153,15 @@ private:
     bool isFlushWith(const Target& target, const ContactPoint& contact, const Vec3& onPlane, const Vec3& normal);
     bool nearestOn(const Target& target, const Vec3& point, const ContactPoint& contact, Vec3& nearest);
     void findWithinStep(FemSoftBody& fem, const Target& target);
-    SweptFeature pathOf(const FemSoftBody& fem, const Triangle& nodes, double step) const;
+    static Vec3 fallOf(const FemSoftBody& fem, const Target& target);
+    SweptFeature pathOf(const FemSoftBody& fem, const Triangle& nodes, const Vec3& held, double step) const;
     static SweptShape sweptShapeOf(const Target& target);
     bool isFastTarget(const FemSoftBody& fem, const Target& target) const;
     static Triangle cornersOf(const FemSoftBody& fem, const Target& target, int feature);
     void findOnPaths(FemSoftBody& fem, const Target& target);
     bool meets(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes, SweptContact& contact) const;
+    bool meetsIfHeld(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes, const Vec3& held,
+                     SweptContact& contact) const;
     void setLevers(const FemSoftBody& fem, const Target& target, int feature, const SweptContact& met,
                    ContactPoint& contact) const;
     double considerPath(FemSoftBody& fem, const PathSearch& search, int feature, const Triangle& nodes,
