@@ -94,6 +94,7 @@ void ContactFinder::makeRoom()
     m_flush.reserve(room);
     m_targets.reserve(kLeast);
     m_carried.reserve(room);
+    m_lainOn.reserve(kLeast);
 }
 
 // Kinematic objects have moved already; their leaves are where they were.

@@ -61,9 +61,10 @@ void recordTouching(FemSoftBody& fem, const btSoftBody& other);
 /// surface nodes. Against convex shapes, where the nodes do not lie over one flat face: the middles of edges and
 /// triangles, and, where the shape lies between all of these, the nearest points of edges and triangles. Points that
 /// are fixed in the surface come first because the nearest point wanders where edges or faces are parallel, and contact
-/// forces with it. Gaps are measured from the positions at the start of the step to the objects' present poses; what
-/// separates faster than it could close within the step is left out (speculative contact). Impulses of the last step
-/// are taken over as guesses.
+/// forces with it; on triangles below the corners of a polyhedron that is no larger than they are, these take the
+/// nearest point's place. Gaps are measured from the positions at the start of the step to the objects' present poses;
+/// what separates faster than it could close within the step is left out (speculative contact). Impulses of the last
+/// step are taken over as guesses.
 ///
 /// Where the two move farther within the step than half of an edge or of the shape's thickness, these gaps and normals
 /// mean little: there a feature is a contact if the paths meet, with the normal of that time (swept_distance.h). What
@@ -138,6 +139,12 @@ private:
     void findOnNodes(FemSoftBody& fem, const Target& target);
     void findOnEdges(FemSoftBody& fem, const Target& target);
     void findOnTriangles(FemSoftBody& fem, const Target& target);
+    void findOnCorners(FemSoftBody& fem, const Target& target);
+    static int firstCornerFeature(const FemSoftBody& fem);
+    static int triangleOfCorner(const FemSoftBody& fem, int feature);
+    template <class Use>
+    void forEachCornerOver(const FemSoftBody& fem, const Target& target, const Triangle& t, const Use& use) const;
+    bool isUnderCorner(const FemSoftBody& fem, const Target& target, const Triangle& t) const;
     void findOnSheets(FemSoftBody& fem, const Target& target);
     void makeRoom();
     const RigidProxy& asTheStepBegan(const TouchedObject& touched, const RigidSurroundings& around);
@@ -211,6 +218,7 @@ private:
     CarriedMotion m_carried;
     std::vector<Vec3> m_heldNormal;  // of the strongest contact that a vertex had in the last step; 0: of none
     std::vector<double> m_heldBy;    // its impulse [N s]
+    std::vector<int> m_lainOn;       // triangles below corners of the present target
     std::vector<int> m_order;
     std::vector<unsigned char> m_continued;  // contacts of the last step
     WarmStartTransfer m_transfer;
