@@ -71,7 +71,7 @@ TEST_P(EverySize, WhatIsDroppedIsNeitherLostNorSinksIn)
             return lowestHeight(other ? *other : lower);
         };
         const double rest = drop == Drop::softOnGround ? 0 : size;  // but for what the cube is squashed by
-        const int steps = static_cast<int>(frequency * (2 + 2 * std::sqrt(size)));
+        const int steps = static_cast<int>(frequency * (2 + 3 * std::sqrt(size)));
         double before = 0;
         for (int k = 0; k < steps; ++k)
         {
