@@ -212,9 +212,10 @@ LinkMotion RigidProxies::supportOf(const btRigidBody& body, double step, const R
     return {part(done.m_linear, -(gravity + memory.m_linearGiven)), part(done.m_angular, -memory.m_angularGiven)};
 }
 
-// What gravity gives in a step is not speed: resting bodies have it as well. Bullet clears the hit fraction of those
-// that its own continuous collision has stopped on their way. What is not rewound is seen one step ahead: a body that
-// changed over near a surface would skip a step, and may be thinner than its way in it.
+// What gravity gives in a step is not speed: resting bodies have it as well; but small ones fall far by it. Bullet
+// clears the hit fraction of those that its own continuous collision has stopped on their way. What is not rewound is
+// seen one step ahead: a body that changed over near a surface would skip a step, and may be thinner than its way in
+// it.
 bool RigidProxies::mustRewind(int rigidProxy, double step, const Body& soft) const
 {
     const btCollisionObject& object = *m_sources[rigidProxy].m_object;
@@ -228,8 +229,9 @@ bool RigidProxies::mustRewind(int rigidProxy, double step, const Body& soft) con
     const btRigidBody* body = movableBody(rigidProxy);
     const double byGravity =
         body ? step * norm(vec3(body->getGravity())) : norm(m_rigidProxies[rigidProxy].m_linearVelocity - now.m_linear);
-    const double speed = fastestNode(soft, motion.m_linearVelocity);
-    return isFast(SweptShape(whole, motion, step), speed - 2 * byGravity, soft.m_model->mesh().meanEdgeLength());
+    const double speed = fastestNode(soft, motion.m_linearVelocity), edge = soft.m_model->mesh().meanEdgeLength();
+    const SweptShape swept(whole, motion, step);
+    return isFast(swept, speed - 2 * byGravity, edge) || fallsFar(swept, byGravity / step, edge);
 }
 
 int RigidProxies::indexForContact(const btCollisionObject& object, double step, const Body& soft)

@@ -94,6 +94,7 @@ void ContactFinder::makeRoom()
     m_flush.reserve(room);
     m_targets.reserve(kLeast);
     m_carried.reserve(room);
+    m_lainOn.reserve(kLeast);
 }
 
 // Kinematic objects have moved already; their leaves are where they were.
@@ -128,8 +129,10 @@ void ContactFinder::listTargets(FemSoftBody& fem, const RigidSurroundings& aroun
             const ShapeLeaf& shape = around.m_leaves[touched.m_firstLeaf + l];
             m_targets.push_back({&shape, touched.m_object, l, touched.m_rigidProxy, &rigidProxy,
                                  around.m_rigidProxies[touched.m_rigidProxy].m_center - rigidProxy.m_center, surface,
-                                 softReach + around.m_step * fastestPoint(rigidProxy, shape), around.m_step,
+                                 softReach + around.m_step * fastestPoint(rigidProxy, shape), Vec3(), around.m_step,
                                  &touched.m_carrying, TargetKind::slow, 0, 0, 0, 0});
+            m_targets.back().m_fall = fallOf(fem, m_targets.back());
+            m_targets.back().m_reach += norm(m_targets.back().m_fall);
         }
     }
 }
@@ -211,7 +214,8 @@ void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature
     const Vec3 point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     const Vec3 relative =
         interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_motion->velocityAt(point);
-    if (d.m_gap > m_band && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band) return;
+    const double closest = d.m_gap + target.m_step * dot(d.m_normal, relative) - norm(target.m_fall);
+    if (d.m_gap > m_band && closest > m_band) return;
     if (d.m_gap > -m_band && !faces(fem, nodes, d.m_normal)) return;
     keep(fem, target, feature, nodes, d);
 }
@@ -224,7 +228,8 @@ Vec3 ContactFinder::patchOf(const FemSoftBody& fem, const Target& target, int no
     const Vec3& x = fem.surfacePosition()[node];
     const double infinite = std::numeric_limits<double>::infinity();
     const bool canMove = !target.m_object->isStaticOrKinematicObject();
-    const TouchingSide soft = {fem.surfaceVelocity()[node], fem.m_meanSpin,
+    const SurfacePoint point = fem.pointOn(m_bodyIndex, {node, node, node}, {1, 0, 0});
+    const TouchingSide soft = {point.of(fem.m_body.m_state.m_v), fem.m_meanSpin,
                                roundness(fem.m_surface.curvature(node), m_size), m_size};
     const TouchingSide rigid = {target.m_motion->velocityAt(x), target.m_motion->m_angularVelocity,
                                 curvatureOf(*target.m_shape),

@@ -61,9 +61,10 @@ void recordTouching(FemSoftBody& fem, const btSoftBody& other);
 /// surface nodes. Against convex shapes, where the nodes do not lie over one flat face: the middles of edges and
 /// triangles, and, where the shape lies between all of these, the nearest points of edges and triangles. Points that
 /// are fixed in the surface come first because the nearest point wanders where edges or faces are parallel, and contact
-/// forces with it. Gaps are measured from the positions at the start of the step to the objects' present poses; what
-/// separates faster than it could close within the step is left out (speculative contact). Impulses of the last step
-/// are taken over as guesses.
+/// forces with it; on triangles below the corners of a polyhedron that is no larger than they are, these take the
+/// nearest point's place. Gaps are measured from the positions at the start of the step to the objects' present poses;
+/// what separates faster than it could close within the step is left out (speculative contact). Impulses of the last
+/// step are taken over as guesses.
 ///
 /// Where the two move farther within the step than half of an edge or of the shape's thickness, these gaps and normals
 /// mean little: there a feature is a contact if the paths meet, with the normal of that time (swept_distance.h). What
@@ -109,6 +110,7 @@ private:
         Vec3 m_moved;                // how far its centre has gone already: that of a kinematic object [m]
         Surface m_surface;
         double m_reach;  // distance at which it may be touched within the step [m]
+        Vec3 m_fall;     // by which the two may come nearer than they would freely, if one does not fall [m]
         double m_step;   // [s]
         const CarryingPlane* m_carrying;
         TargetKind m_kind;
@@ -137,6 +139,12 @@ private:
     void findOnNodes(FemSoftBody& fem, const Target& target);
     void findOnEdges(FemSoftBody& fem, const Target& target);
     void findOnTriangles(FemSoftBody& fem, const Target& target);
+    void findOnCorners(FemSoftBody& fem, const Target& target);
+    static int firstCornerFeature(const FemSoftBody& fem);
+    static int triangleOfCorner(const FemSoftBody& fem, int feature);
+    template <class Use>
+    void forEachCornerOver(const FemSoftBody& fem, const Target& target, const Triangle& t, const Use& use) const;
+    bool isUnderCorner(const FemSoftBody& fem, const Target& target, const Triangle& t) const;
     void findOnSheets(FemSoftBody& fem, const Target& target);
     void makeRoom();
     const RigidProxy& asTheStepBegan(const TouchedObject& touched, const RigidSurroundings& around);
@@ -152,12 +160,15 @@ private:
     bool isFlushWith(const Target& target, const ContactPoint& contact, const Vec3& onPlane, const Vec3& normal);
     bool nearestOn(const Target& target, const Vec3& point, const ContactPoint& contact, Vec3& nearest);
     void findWithinStep(FemSoftBody& fem, const Target& target);
-    SweptFeature pathOf(const FemSoftBody& fem, const Triangle& nodes, double step) const;
+    static Vec3 fallOf(const FemSoftBody& fem, const Target& target);
+    SweptFeature pathOf(const FemSoftBody& fem, const Triangle& nodes, const Vec3& held, double step) const;
     static SweptShape sweptShapeOf(const Target& target);
     bool isFastTarget(const FemSoftBody& fem, const Target& target) const;
     static Triangle cornersOf(const FemSoftBody& fem, const Target& target, int feature);
     void findOnPaths(FemSoftBody& fem, const Target& target);
     bool meets(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes, SweptContact& contact) const;
+    bool meetsIfHeld(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes, const Vec3& held,
+                     SweptContact& contact) const;
     void setLevers(const FemSoftBody& fem, const Target& target, int feature, const SweptContact& met,
                    ContactPoint& contact) const;
     double considerPath(FemSoftBody& fem, const PathSearch& search, int feature, const Triangle& nodes,
@@ -207,6 +218,7 @@ private:
     CarriedMotion m_carried;
     std::vector<Vec3> m_heldNormal;  // of the strongest contact that a vertex had in the last step; 0: of none
     std::vector<double> m_heldBy;    // its impulse [N s]
+    std::vector<int> m_lainOn;       // triangles below corners of the present target
     std::vector<int> m_order;
     std::vector<unsigned char> m_continued;  // contacts of the last step
     WarmStartTransfer m_transfer;

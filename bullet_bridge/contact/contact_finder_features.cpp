@@ -18,6 +18,7 @@ constexpr double kHeldAdvantage = 0.1;   // of what a nearest point must be near
 constexpr double kSlowestWander = 0.02;  // mean edges that a nearest point that pushed moves in a step, at most,
 constexpr double kFollowedShare = 0.1;   // where the nodes' shares go but this share of their way
 constexpr double kFarthestBehind = 0.1;  // mean edges that it may stay behind
+constexpr double kSmallShape = 2;        // mean edges: bounds of shapes that may lie on one triangle with a face
 constexpr double kGapRounding = 1e-9;    // of a mean edge, of gaps
 
 bool overlaps(const Vec3& point, const ShapeLeaf& shape, double reach)
@@ -129,6 +130,8 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
     const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
     const int firstFeature =
         fem.m_surface.vertexCount() + 2 * static_cast<int>(fem.m_surface.features().m_edges.size());
+    const bool isSmall = norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) < kSmallShape * m_edge;
+    m_lainOn.clear();
     for (int k = 0; k < triangleCount; ++k)
     {
         const Triangle& t = fem.m_surface.triangles()[k];
@@ -140,8 +143,12 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
         for (int a = 0; a < 3; ++a)
             nearest =
                 std::min({nearest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
-        considerNearest(fem, target, firstFeature + 2 * k + 1, t, nearest);
+        if (isSmall && isUnderCorner(fem, target, t))
+            m_lainOn.push_back(k);
+        else
+            considerNearest(fem, target, firstFeature + 2 * k + 1, t, nearest);
     }
+    findOnCorners(fem, target);
 }
 
 // The point of an edge (first and last node equal) or triangle that is nearest to the shape, if it is nearer than the

@@ -73,6 +73,7 @@ Triangle ContactFinder::cornersOf(const FemSoftBody& fem, const Target& target, 
     const bool areSheets = target.m_kind == TargetKind::sheets;
     const int vertexCount = surface.vertexCount(), edgeCount = static_cast<int>(edges.size());
     if (feature < vertexCount) return {feature, feature, feature};
+    if (!areSheets && feature >= firstCornerFeature(fem)) return surface.triangles()[triangleOfCorner(fem, feature)];
     const int k = areSheets ? feature - vertexCount : (feature - vertexCount) / 2;
     const int edge = areSheets ? k - static_cast<int>(surface.triangles().size()) : k;
     if (edge >= 0 && edge < edgeCount) return {edges[edge][0], edges[edge][1], edges[edge][0]};

@@ -57,7 +57,8 @@ void ContactFinder::findTouchingNodes(FemSoftBody& fem, const Target& target)
         if (!m_culling.noteVertex(i, x, x) || !pointShapeDistance(*target.m_shape, x, reach, d)) continue;
         d.m_gap -= fem.m_contactOffset;
         const Vec3 relative = fem.surfaceVelocity()[i] - target.m_motion->velocityAt(x);
-        const bool parts = d.m_gap > 0 && d.m_gap + target.m_step * dot(d.m_normal, relative) > m_band;
+        const double closest = d.m_gap + target.m_step * dot(d.m_normal, relative) - norm(target.m_fall);
+        const bool parts = d.m_gap > 0 && closest > m_band;
         if (d.m_gap <= m_band && !parts) consider(fem, target, i, {i, i, i}, d);
     }
 }
@@ -97,15 +98,25 @@ void ContactFinder::keepNear(std::size_t k)
     m_origins.push_back(m_nearOrigins[k]);
 }
 
-// What touches a vertex turns its way, and it is as far off as m_carried says.
-SweptFeature ContactFinder::pathOf(const FemSoftBody& fem, const Triangle& nodes, double step) const
+// What cannot move does not fall either.
+Vec3 ContactFinder::fallOf(const FemSoftBody& fem, const Target& target)
+{
+    const Vec3 gravity = fem.gravity();
+    if (!target.m_motion->canMove() || !isFinite(gravity)) return {};
+    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as RigidProxies decides
+    return fallsFar(sweptShapeOf(target), norm(gravity), edge) ? target.m_step * target.m_step * gravity : Vec3();
+}
+
+// What touches a vertex turns its way, and it is as far off as m_carried says. `held`: a velocity that the free one
+// lacks [m/s].
+SweptFeature ContactFinder::pathOf(const FemSoftBody& fem, const Triangle& nodes, const Vec3& held, double step) const
 {
     SweptFeature path;
     path.m_count = nodes[1] == nodes[0] ? 1 : nodes[2] == nodes[0] ? 2 : 3;
     for (int i = 0; i < path.m_count; ++i)
     {
         path.m_position[i] = fem.surfacePosition()[nodes[i]];
-        path.m_velocity[i] = fem.surfaceVelocity()[nodes[i]];
+        path.m_velocity[i] = fem.surfaceVelocity()[nodes[i]] + held;
         if (!m_carried.isCarried(nodes[i])) continue;
         path.m_position[i] += m_carried.liftOf(nodes[i]);
         path.m_velocity[i] = m_carried.allowed(nodes[i], step * path.m_velocity[i]) * (1 / step);
@@ -118,12 +129,14 @@ void ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
 {
     const SweptShape swept = sweptShapeOf(target);
     const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
-    const PathSearch search = {target, swept, fastestVertex(fem, swept.m_motion.m_linearVelocity) + spin, 0};
-    m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_contactOffset});
+    const double fall = norm(target.m_fall);
+    const double fastest = fastestVertex(fem, swept.m_motion.m_linearVelocity) + fall / target.m_step;
+    const PathSearch search = {target, swept, fastest + spin, 0};
+    m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_contactOffset + fall});
     std::size_t near = target.m_first;
     for (int i : fem.m_surface.nodes())
     {
-        const SweptFeature path = pathOf(fem, {i, i, i}, target.m_step);
+        const SweptFeature path = pathOf(fem, {i, i, i}, {}, target.m_step);
         m_culling.noteVertex(i, path.m_position[0], path.m_position[0] + target.m_step * path.m_velocity[0]);
         fem.m_nodeGap[i] = kNever;
         if (near < target.m_end && m_nearOrigins[near].m_feature == i)
@@ -163,12 +176,21 @@ void ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
     }
 }
 
-// True if a node (all three the same), edge (first and last the same) or triangle meets a target within the step; what
-// overlaps was met before the step.
+// True if a node (all three the same), edge (first and last the same) or triangle meets a target within the step, or
+// would if one of the two did not fall; what overlaps was met before the step.
 bool ContactFinder::meets(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes,
                           SweptContact& contact) const
 {
-    const SweptFeature path = pathOf(fem, nodes, search.m_target.m_step);
+    const Vec3 given = (1 / search.m_target.m_step) * search.m_target.m_fall;
+    if (meetsIfHeld(fem, search, nodes, {}, contact)) return true;
+    if (norm(given) == 0) return false;
+    return meetsIfHeld(fem, search, nodes, -given, contact) || meetsIfHeld(fem, search, nodes, given, contact);
+}
+
+bool ContactFinder::meetsIfHeld(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes,
+                                const Vec3& held, SweptContact& contact) const
+{
+    const SweptFeature path = pathOf(fem, nodes, held, search.m_target.m_step);
     const double offset = fem.m_contactOffset + search.m_clearance;
     if (!mayMeet(search.m_swept, path, offset) || !sweptDistance(search.m_swept, path, offset, contact)) return false;
     SurfaceDistance& d = contact.m_surface;

@@ -21,6 +21,7 @@ constexpr double kAccuracy = 1e-6;     // gap that counts as touching, relative 
 constexpr double kLeast = 1e-8;        // and to the greatest extent, for sheets; below, GJK loses the direction
 constexpr double kFastFraction = 0.5;  // travel, relative to an edge or the thickness, that is fast [-]
 constexpr double kThinnest = 0.2;      // edges; shapes count as no thinner
+constexpr double kSlowSpeed = 2;       // times what gravity gives in a step: up to it bodies at rest are not fast [-]
 
 bool isPlane(const ShapeLeaf& leaf)
 {
@@ -35,6 +36,11 @@ Mat3 rotationBy(const Vec3& w)
     const Vec3 axis = w * (1 / angle);
     return std::cos(angle) * Mat3::identity() + std::sin(angle) * crossMatrix(axis) +
            (1 - std::cos(angle)) * outer(axis, axis);
+}
+
+double fastWay(const SweptShape& shape, double edge)
+{
+    return kFastFraction * std::min(edge, std::max(shape.m_thickness, kThinnest * edge));
 }
 
 double axisDistance(const RigidMotion& motion, const Vec3& point)
@@ -207,9 +213,13 @@ ShapeLeaf movedBack(const ShapeLeaf& leaf, const RigidMotion& motion, double ste
 
 bool isFast(const SweptShape& shape, double speed, double edge)
 {
-    if (isPlane(shape.m_leaf)) return false;
     const double fastest = speed + norm(shape.m_motion.m_angularVelocity) * shape.m_spinRadius;
-    return shape.m_step * fastest > kFastFraction * std::min(edge, std::max(shape.m_thickness, kThinnest * edge));
+    return !isPlane(shape.m_leaf) && shape.m_step * fastest > fastWay(shape, edge);
+}
+
+bool fallsFar(const SweptShape& shape, double gravity, double edge)
+{
+    return !isPlane(shape.m_leaf) && kSlowSpeed * shape.m_step * shape.m_step * gravity > fastWay(shape, edge);
 }
 
 bool mayMeet(const SweptShape& shape, const SweptFeature& feature, double reach)

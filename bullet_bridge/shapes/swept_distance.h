@@ -62,6 +62,10 @@ ShapeLeaf movedBack(const ShapeLeaf& leaf, const RigidMotion& motion, double ste
 /// normal is the same everywhere.
 bool isFast(const SweptShape& shape, double speed, double edge);
 
+/// True if gravity [m/s2] takes what rests so far within the step. Then it counts as motion: free motion has both
+/// sides fall, and what one of them lies on may hold it. Never for planes.
+bool fallsFar(const SweptShape& shape, double gravity, double edge);
+
 /// False only if the feature stays farther than `reach` [m] from the leaf throughout the step: by its bounds, and by
 /// the sphere about it.
 bool mayMeet(const SweptShape& shape, const SweptFeature& feature, double reach);

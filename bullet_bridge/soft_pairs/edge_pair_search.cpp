@@ -104,7 +104,7 @@ bool EdgePairSearch::areClose(const Pair& pair) const
 // Ridges of either surface that are near what the other has near.
 void EdgePairSearch::listNear()
 {
-    const double near = m_reach.m_band + m_reach.depth(), band = m_reach.m_band;
+    const double near = m_reach.within() + m_reach.depth(), band = m_reach.within();
     m_ridgesA.clear();
     m_ridgesB.clear();
     const CoarseBox boxA = NearRidges::bounds(*m_first, m_second->tree().coarseBounds(), near);
@@ -210,7 +210,8 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
     if (crossing.m_gap >= m_reach.m_band)
     {
         const Vec3 travel = between(pair.m_change, crossing.m_at);
-        return crossing.m_gap + dot(crossing.m_normal, travel) < m_reach.m_band && norm(travel) < m_reach.depth();
+        return crossing.m_gap + dot(crossing.m_normal, travel) < m_reach.within() &&
+               norm(travel) < m_reach.depth() + m_reach.m_fall;
     }
     // Ends that have a much shorter way out in another direction lead the edges out there.
     const auto ofFirst = [&](int k) { return nodes.m_ofFirst.depthAside(pair.m_nodes[k], crossing.m_normal); };
@@ -276,7 +277,7 @@ bool EdgePairSearch::tryImpact(const Pair& pair, Crossing& crossing) const
                                                  MovingVector{x[1] - x[0], change[1] - change[0]},
                                                  MovingVector{x[3] - x[2], change[3] - change[2]}};
     std::array<double, 3> times;
-    const int count = timesInOnePlane(vectors, 1 + m_reach.m_band / travel, times);
+    const int count = timesInOnePlane(vectors, std::min(2.0, 1 + m_reach.within() / travel), times);
     for (int k = 0; k < count; ++k)
     {
         std::array<Vec3, 4> then;

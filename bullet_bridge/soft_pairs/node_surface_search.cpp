@@ -71,7 +71,7 @@ void NodeSurfaceSearch::forget()
 // The nodes that may reach the bounds of the faces, and some others.
 void NodeSurfaceSearch::listNear()
 {
-    m_nodes->tree().visitNear(m_faces->tree().coarseBounds(), m_reach.m_band,
+    m_nodes->tree().visitNear(m_faces->tree().coarseBounds(), m_reach.within(),
                               [this](int t)
                               {
                                   for (int i : m_nodes->triangles()[t])
@@ -98,7 +98,7 @@ void NodeSurfaceSearch::findNode(int node)
     visit.m_normal = m_nodes->nodeNormal(node);
     m_hits.clear();
     m_faces->tree().visitNear(CoarseBox::of(visit.m_x, visit.m_change),
-                              std::max(m_reach.m_band, std::min(visit.m_limit, m_reach.depth())),
+                              std::max(m_reach.within(), std::min(visit.m_limit, m_reach.depth())),
                               [&](int t)
                               {
                                   if (!isClose(node, t)) tryFace(visit, t);
@@ -116,14 +116,14 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
 {
     const SweptBox point = SweptBox::of(visit.m_x, visit.m_change);
     const SweptBox& bounds = m_faces->tree().bounds();
-    if (!bounds.meets(point, m_reach.m_band)) return false;
+    if (!bounds.meets(point, m_reach.within())) return false;
     const double travel = largestTravel(point, bounds);
     const bool self = m_nodes == m_faces;
     if (!self && ++m_looks == 1 && m_near.size() > kLeastNodesForProof)
         m_outside = OutsideProof(*m_faces, unit(m_nodes->middle() - m_faces->middle()));
-    if (m_outside.isFarOutside(visit.m_x, m_reach.m_band + travel)) return false;
+    if (m_outside.isFarOutside(visit.m_x, m_reach.within() + travel)) return false;
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
-    const double most = maybeInside ? kInfinity : std::max(m_reach.m_band, m_reach.depth()) + travel;
+    const double most = maybeInside ? kInfinity : std::max(m_reach.within(), m_reach.depth()) + travel;
     visit.m_nearestTriangle = m_faces->tree().nearestTriangle(
         visit.m_x, most, [&](int t) { return isClose(visit.m_node, t); }, visit.m_nearest);
     if (visit.m_nearestTriangle < 0) return false;
@@ -136,7 +136,7 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
         visit.m_limit = std::max(kDeepest * visit.m_distance, m_reach.depth());
     else if (visit.m_distance < kRimReach * m_reach.m_edge)  // on a rim rounding decides between inside and outside
         visit.m_limit = kGrooveReach * m_reach.m_edge;
-    return visit.m_inside || self || visit.m_distance <= m_reach.m_band + travel;
+    return visit.m_inside || self || visit.m_distance <= m_reach.within() + travel;
 }
 
 // Where a projection lies: over the face, or a little beyond one of its edges. False if farther.
@@ -189,7 +189,7 @@ bool NodeSurfaceSearch::isNear(const Visit& visit, const Hit& hit) const
     if (hit.m_gap < m_reach.m_band) return true;
     const Vec3 travel =
         visit.m_change - interpolated(m_faces->change(), m_faces->triangles()[hit.m_triangle], hit.m_weights);
-    return hit.m_gap + dot(hit.m_normal, travel) < m_reach.m_band && norm(travel) < m_reach.depth();
+    return hit.m_gap + dot(hit.m_normal, travel) < m_reach.within() && norm(travel) < m_reach.depth() + m_reach.m_fall;
 }
 
 // Quick proof that a node cannot meet a face: it is in front of all corners, or beyond them seen along its way, before
@@ -204,7 +204,7 @@ bool NodeSurfaceSearch::staysAside(const Visit& visit, const Hit& hit) const
         for (int i : t)
             least = std::min(least, dot(direction, visit.m_x - x[i]) +
                                         2 * std::min(0.0, dot(direction, visit.m_change - change[i])));
-        return least > m_reach.m_band * norm(direction);
+        return least > m_reach.within() * norm(direction);
     };
     if (isBeyond(hit.m_normal)) return true;
     for (int k = 0; k < 3; ++k)
@@ -228,7 +228,7 @@ void NodeSurfaceSearch::tryImpact(const Visit& visit, int triangle)
                                                  MovingVector{x[t[1]] - x[t[0]], change[t[1]] - change[t[0]]},
                                                  MovingVector{x[t[2]] - x[t[0]], change[t[2]] - change[t[0]]}};
     std::array<double, 3> times;
-    const int count = timesInOnePlane(vectors, 1 + m_reach.m_band / travel, times);
+    const int count = timesInOnePlane(vectors, std::min(2.0, 1 + m_reach.within() / travel), times);
     for (int k = 0; k < count; ++k)
     {
         const double time = times[k];
@@ -306,7 +306,7 @@ void NodeSurfaceSearch::dropContinuations()
 void NodeSurfaceSearch::tryNearestFeature(const Visit& visit)
 {
     if (visit.m_inside || visit.m_nearest.m_feature == TriangleFeature::face) return;
-    if (!(visit.m_distance > 1e-9 * m_reach.m_edge) || visit.m_distance > m_reach.m_band + m_reach.depth()) return;
+    if (!(visit.m_distance > 1e-9 * m_reach.m_edge) || visit.m_distance > m_reach.within() + m_reach.depth()) return;
     const Vec3 normal = (1 / visit.m_distance) * (visit.m_x - visit.m_nearest.m_point);
     const Hit hit = {
         visit.m_nearestTriangle, visit.m_nearest.m_weights, normal, visit.m_distance, 0, Place::over, false};

@@ -3,6 +3,7 @@
 #include "bullet_bridge/soft_pairs/soft_pair_finder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/contact_patch.h"
@@ -17,6 +18,7 @@ namespace
 {
 
 constexpr double kPairBand = 0.05;    // share of the smaller mean edge that the contact band is wide
+constexpr double kLittleFall = 0.25;  // of that edge: what gravity moves less in a step is little, as in fallsFar()
 constexpr double kPairSlop = 5e-4;    // share of the smaller body's size by which surfaces may sink in
 constexpr double kSameContact = 0.9;  // cosine between the normals of a node's contact in two steps
 
@@ -24,6 +26,14 @@ constexpr double kSameContact = 0.9;  // cosine between the normals of a node's 
 double offsetBetween(const FemSoftBody& first, const FemSoftBody& second)
 {
     return &first == &second ? 0 : first.m_contactOffset + second.m_contactOffset;
+}
+
+// What gravity moves either within the step, unless that is little [m]: freely both fall, but what one of them lies on
+// may hold it.
+double fallBetween(const FemSoftBody& first, const FemSoftBody& second, double edge)
+{
+    const double step = first.m_surface.step(), fall = step * step * norm(first.gravity());
+    return &first != &second && fall > kLittleFall * edge && std::isfinite(fall) ? fall : 0;
 }
 
 }  // namespace
@@ -37,7 +47,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     const SoftSurface &a = first.m_fem.m_surface, &b = second.m_fem.m_surface;
     const double offset = offsetBetween(first.m_fem, second.m_fem);
     const double edge = std::min(a.meanEdge(), b.meanEdge());
-    const TouchReach reach = {kPairBand * edge + offset, edge};
+    const TouchReach reach = {kPairBand * edge + offset, edge, fallBetween(first.m_fem, second.m_fem, edge)};
     Roles roles = {first, second, {}};
     roles.m_origin.m_firstId = broadphaseId(*first.m_fem.m_softBody);
     roles.m_origin.m_secondId = broadphaseId(*second.m_fem.m_softBody);
@@ -132,22 +142,19 @@ ContactPoint SoftPairFinder::commonOf(const FemSoftBody& first, const FemSoftBod
 }
 
 // Of a node on a face, which touches where it will be as the step ends.
-Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceTouch& touch)
+Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceTouch& touch, const ContactPoint& contact)
 {
-    const double step = roles.m_soft.m_fem.m_surface.step();
-    const auto sideOf = [step](const FemSoftBody& fem, const Triangle& nodes, const std::array<double, 3>& weights)
+    const auto sideOf = [](const FemSoftBody& fem, const SurfacePoint& point, const Triangle& nodes,
+                           const std::array<double, 3>& weights)
     {
-        TouchingSide side = {{}, fem.m_meanSpin, 0, fem.m_surface.size()};
-        for (int a = 0; a < 3; ++a)
-        {
-            side.m_velocity += weights[a] / step * fem.m_surface.change()[nodes[a]];
-            side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
-        }
+        TouchingSide side = {point.of(fem.m_body.m_state.m_v), fem.m_meanSpin, 0, fem.m_surface.size()};
+        for (int a = 0; a < 3; ++a) side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
         side.m_curvature = roundness(side.m_curvature, side.m_size);
         return side;
     };
-    return patchLag(sideOf(roles.m_soft.m_fem, touch.m_nodes, touch.m_weights),
-                    sideOf(roles.m_other.m_fem, touch.m_otherNodes, touch.m_otherWeights), touch.m_normal, step);
+    return patchLag(sideOf(roles.m_soft.m_fem, contact.m_soft, touch.m_nodes, touch.m_weights),
+                    sideOf(roles.m_other.m_fem, contact.m_other, touch.m_otherNodes, touch.m_otherWeights),
+                    touch.m_normal, roles.m_soft.m_fem.m_surface.step());
 }
 
 void SoftPairFinder::append(const Roles& roles, double offset)
@@ -165,7 +172,7 @@ void SoftPairFinder::append(const Roles& roles, double offset)
         contact.m_point = 0.5 * (interpolated(soft.position(), touch.m_nodes, touch.m_weights) +
                                  interpolated(other.position(), touch.m_otherNodes, touch.m_otherWeights));
         contact.m_normal = touch.m_normal;
-        if (roles.m_origin.m_kind != SoftPairKind::edges) contact.m_patch = patchOf(roles, touch);
+        if (roles.m_origin.m_kind != SoftPairKind::edges) contact.m_patch = patchOf(roles, touch, contact);
         contact.m_gap = touch.m_gap - offset;
         SoftPairOrigin origin = roles.m_origin;
         origin.m_feature = touch.m_feature;

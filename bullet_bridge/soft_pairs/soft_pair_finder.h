@@ -61,7 +61,7 @@ private:
     void listHeldEdges();
     static ContactPoint commonOf(const FemSoftBody& first, const FemSoftBody& second);
     void append(const Roles& roles, double offset);
-    static Vec3 patchOf(const Roles& roles, const SurfaceTouch& touch);
+    static Vec3 patchOf(const Roles& roles, const SurfaceTouch& touch, const ContactPoint& contact);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
     bool thin(const SoftPairSide& first, const SoftPairSide& second);
     void takeOverImpulses();

@@ -16,7 +16,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastQuality = 1e-9;  // volume over longest edge cubed; below it the shape gradients are noise
+constexpr double kLeastQuality = 1e-9;   // volume over longest edge cubed; below it the shape gradients are noise
+constexpr double kSliverQuality = 1e-3;  // the same; a regular tetrahedron has .118, slivers cost iterations
 
 /// The face opposite each node of a positive element, counter-clockwise seen from outside.
 constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -241,6 +242,8 @@ void TetMesh::takeElements(std::vector<Vec3> restPositions, std::vector<Tet> tet
     if (loose == LooseNodes::refused) refuseLooseNodes(m_loose);
     m_looseCount = static_cast<int>(std::count(m_loose.begin(), m_loose.end(), 1));
     m_turnedCount = turnNegative(m_restPositions, m_tets);
+    const auto isSliver = [this](const Tet& tet) { return signedQuality(m_restPositions, tet) < kSliverQuality; };
+    m_sliverCount = static_cast<int>(std::count_if(m_tets.begin(), m_tets.end(), isSliver));
 }
 
 void TetMesh::measure()

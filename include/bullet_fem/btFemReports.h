@@ -76,7 +76,14 @@ enum btFemFlags
     /// Something was deeper inside the body as the step began than a hundredth of its size (the cube root of its
     /// volume), or the body in something: it started there, or is crushed. Take a stiffer material, a finer mesh or
     /// smaller steps.
-    BT_FEM_PENETRATING = 1 << 22
+    BT_FEM_PENETRATING = 1 << 22,
+    /// Some elements are inside out, or were within the last 32 steps: the body is crushed or twisted beyond what its
+    /// elements can follow, and what rests so has not the shape that its material would give it. Take a stiffer
+    /// material, a coarser mesh, lighter loads or smaller steps.
+    BT_FEM_INSIDE_OUT = 1 << 23,
+    /// Some elements are slivers: their volume is below a thousandth of their longest edge cubed (a regular one has
+    /// .118). They cost iterations, and the solve may miss its tolerance. Take a better mesh, or a cage.
+    BT_FEM_SLIVERS = 1 << 24
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.

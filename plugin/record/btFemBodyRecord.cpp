@@ -16,6 +16,8 @@ namespace
 constexpr double kSameFactor =
     1 + 2e-3;  // ratio of step or mass up to which a factor is not called stale: a copy elsewhere may share it
 
+constexpr double kDeepShare = 0.01;  // of a body's size: what is deeper is told; see BT_FEM_PENETRATING
+
 }  // namespace
 
 Material materialOf(const btFemBodyRecord& record)
@@ -38,6 +40,12 @@ double staleness(const btFemBodyRecord& record, double step)
     if (body.m_model->factorInput().m_fixed != body.m_state.m_fixed) return std::numeric_limits<double>::infinity();
     const double mismatch = factorMismatch(record.fem(), step);
     return mismatch > kSameFactor ? mismatch : 1;
+}
+
+int stateFlags(const btFemBodyRecord& record)
+{
+    const bool isDeep = record.m_reports.m_step.m_deepestPenetration > kDeepShare * record.fem().m_surface.size();
+    return (isDeep ? BT_FEM_PENETRATING : 0) | (record.m_work.m_insideOut.isAny() ? BT_FEM_INSIDE_OUT : 0);
 }
 
 double bodyStep(const btFemBodyRecord& record, double worldStep)

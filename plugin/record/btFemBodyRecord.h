@@ -12,6 +12,7 @@
 #include "bullet_fem/btFemReports.h"
 #include "plugin/record/btFemDetailLevel.h"
 #include "plugin/record/btFemFactorAccount.h"
+#include "plugin/record/btFemInsideOut.h"
 #include "plugin/record/btFemRealTime.h"
 #include "plugin/record/btFemSleepRecord.h"
 #include "plugin/record/btFemSources.h"
@@ -91,6 +92,7 @@ struct btFemStepWork
     btFemFactorAccount m_factorAccount;
     std::shared_ptr<btFemFactorJob> m_factorJob;  ///< the next factor, being made in the background
     btFemRealTime m_realTime;
+    btFemInsideOut m_insideOut;
 };
 
 /// What the user reads.
@@ -133,6 +135,9 @@ bullet_fem::Material materialOf(const btFemBodyRecord& record);
 
 /// The detail that a body's next free motion is solved with: what touches something is iterated to the tolerance.
 btFemDetail detailInUse(const btFemBodyRecord& record);
+
+/// Those of BT_FEM_PENETRATING and BT_FEM_INSIDE_OUT that a FEM body's last step left it with.
+int stateFlags(const btFemBodyRecord& record);
 
 /// By how much a body's factor is off for a step [s]: 1 if it is fresh, the largest ratio of step or masses if it is
 /// not, infinity if other nodes are fixed than those that it was made for.

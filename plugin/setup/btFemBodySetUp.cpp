@@ -34,7 +34,7 @@ int flagsOf(const TetMesh& mesh)
 {
     return (mesh.turnedCount() > 0 ? BT_FEM_TURNED_TETS : 0) |
            (mesh.componentCount() - mesh.looseCount() > 1 ? BT_FEM_SEVERAL_PIECES : 0) |
-           (mesh.looseCount() > 0 ? BT_FEM_UNUSED_NODES : 0);
+           (mesh.looseCount() > 0 ? BT_FEM_UNUSED_NODES : 0) | (mesh.sliverCount() > 0 ? BT_FEM_SLIVERS : 0);
 }
 
 // A body that was FEM until it was cut or refined has its mark and a FEM body's algorithms; with those, Bullet's

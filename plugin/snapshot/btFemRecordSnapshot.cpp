@@ -111,6 +111,7 @@ btFemRecordSnapshot snapshotOf(const btFemBodyRecord& record, const WorldIds& wo
     s.m_lastStep = record.m_work.m_lastStep;
     s.m_detailLevel = record.m_work.m_detailLevel;
     s.m_factorAccount = record.m_work.m_factorAccount;
+    s.m_insideOut = record.m_work.m_insideOut;
     return s;
 }
 
@@ -130,6 +131,7 @@ void check(const btFemRecordSnapshot& s, const btFemBodyRecord& record, const Wo
     if (!(s.m_lastStep >= 0) || !std::isfinite(s.m_lastStep))
         reject("its last step is ", s.m_lastStep, " s, not in [0, inf)");
     if (!s.m_detailLevel.valid()) reject("its level of detail is none");
+    if (!s.m_insideOut.valid()) reject("the part of its elements that is looked at next is none");
 }
 
 void restore(const btFemRecordSnapshot& s, const WorldIds& world, btFemBodyRecord& record)
@@ -146,6 +148,7 @@ void restore(const btFemRecordSnapshot& s, const WorldIds& world, btFemBodyRecor
     record.m_work.m_lastStep = s.m_lastStep;
     record.m_work.m_detailLevel = s.m_detailLevel;
     record.m_work.m_factorAccount = s.m_factorAccount;
+    record.m_work.m_insideOut = s.m_insideOut;
     showClusterJoints(fem);
     btFemHelpers::updateEmbeddedSurface(record.m_softBody);
 }

@@ -41,6 +41,7 @@ struct btFemRecordSnapshot
     double m_lastStep = 0;
     btFemDetailLevel m_detailLevel;
     btFemFactorAccount m_factorAccount;
+    btFemInsideOut m_insideOut;
 };
 
 /// A body that is in the world.
@@ -116,4 +117,5 @@ void transfer(Bytes& bytes, btFemRecordSnapshot& s)
           s.m_sleep, s.m_neighbours, s.m_lastStep);
     s.m_detailLevel.transfer(bytes);
     s.m_factorAccount.transfer(bytes);
+    s.m_insideOut.transfer(bytes);
 }

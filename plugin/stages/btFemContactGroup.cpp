@@ -48,8 +48,6 @@ void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
     }
 }
 
-constexpr double kDeepShare = 0.01;  // of a body's size: what is deeper is told; see BT_FEM_PENETRATING
-
 void deepen(btFemStepReport& report, const ContactPoint& point)
 {
     report.m_deepestPenetration = std::max(report.m_deepestPenetration, static_cast<btScalar>(-point.m_gap));
@@ -341,6 +339,5 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
         deepen(record.m_reports.m_step, point);
     }
     record.m_reports.m_step.m_contacts = record.m_reports.m_contacts.size();
-    if (record.m_reports.m_step.m_deepestPenetration > kDeepShare * fem.m_surface.size())
-        record.m_reports.m_step.m_flags |= BT_FEM_PENETRATING;
+    record.m_reports.m_step.m_flags |= stateFlags(record) & BT_FEM_PENETRATING;
 }

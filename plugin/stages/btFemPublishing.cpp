@@ -19,6 +19,8 @@ void finishMotion(btFemBodyRecord& record, const StepSettings& settings)
         report.m_flags |= BT_FEM_BREAKDOWN;
         abandonStep(fem.m_body);
     }
+    record.m_work.m_insideOut.look(fem.m_body.m_model->mesh().tets(), fem.m_body.m_state.m_x);
+    report.m_flags |= stateFlags(record) & BT_FEM_INSIDE_OUT;
     writeNodes(fem);
     finishNodes(record);
     const double length = 1e3 * record.m_work.m_lastStep / record.m_softBody->m_cfg.timescale;

@@ -296,7 +296,7 @@ void updateSleep(const btFemBodyRegistry& registry, WorldObjects& world)
         updateActivation(world, record);
         const bool sleeps = record.m_softBody->getActivationState() == ISLAND_SLEEPING;
         if (sleeps && !record.m_work.m_sleep.m_asleep) fallAsleep(record);
-        if (sleeps) record.m_reports.m_step.m_flags |= record.m_model.m_flags;
+        if (sleeps) record.m_reports.m_step.m_flags |= record.m_model.m_flags | stateFlags(record);
         // The record of a body that sleeps is that of its last step awake.
         const bool keeps = isWatched(record) && record.m_work.m_sleep.m_asleep;
         record.m_work.m_sleep.m_recorded = keeps;

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "bridge/concave_test_shapes.h"
 #include "bridge/contact_finder_scene.h"
+#include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
 {
@@ -87,6 +89,34 @@ TEST_F(ContactFinderTest, aBallBetweenTheFixedPointsTouchesTheNearestPointOfATri
     EXPECT_NEAR(c.m_soft.m_weights[0] + c.m_soft.m_weights[1] + c.m_soft.m_weights[2], 1, 1e-12);
     EXPECT_NEAR(c.m_point.x, 0.3, 1e-6);
     EXPECT_NEAR(c.m_point.y, 0.26, 1e-6);
+}
+
+// A box within one triangle of the top.
+TEST_F(ContactFinderTest, aSmallBoxThatLiesOnATriangleTouchesItWithItsCorners)
+{
+    const double half = 0.04, edge = m_fem.m_surface.meanEdge();
+    const auto touchesAt = [&](double depth, double height)
+    {
+        btBoxShape box(bulletVector({half, half, height / 2}));
+        btCollisionObject object;
+        object.setCollisionShape(&box);
+        object.getWorldTransform().setOrigin(bulletVector({0.25, 0.1, 1 - depth + height / 2}));
+        int count = 0;
+        for (const ContactPoint& c : find(object))
+        {
+            const bool isCorner = std::fabs(std::fabs(c.m_point.x - 0.25) - half) < 1e-6 &&
+                                  std::fabs(std::fabs(c.m_point.y - 0.1) - half) < 1e-6;
+            count += isCorner && c.m_normal.z < -1 + 1e-6 && std::fabs(c.m_gap + depth) < 1e-6;
+        }
+        return count;
+    };
+    EXPECT_EQ(touchesAt(0.001, 2 * half), 4);
+    EXPECT_EQ(touchesAt(-0.01, 2 * half), 4) << "within the contact band";
+    EXPECT_EQ(touchesAt(0.29 * edge, 0.5), 4);
+    EXPECT_NE(touchesAt(0.31 * edge, 0.5), 4) << "it came from elsewhere";
+    const double tallest = std::sqrt(4 * edge * edge - 8 * half * half);  // its bounds are two edges wide
+    EXPECT_EQ(touchesAt(0.001, 0.99 * tallest), 4);
+    EXPECT_LT(touchesAt(0.001, 1.01 * tallest), 4);
 }
 
 TEST_F(ContactFinderTest, aNearestPointThatPushesStaysUntilAFixedPointIsHardlyFarther)

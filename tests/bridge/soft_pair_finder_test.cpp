@@ -72,6 +72,23 @@ TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
     }
 }
 
+// Neither moves relative to the other, but the ground may hold the lower one.
+TEST(SoftPairFinder, SmallBodiesTouchWhenGravityCanCloseTheGapWithinTheStep)
+{
+    const double fall = 10.0 / (60 * 60), edgeOfUnitCube = cube().meanEdgeLength();  // [m], [-]
+    const auto countAt = [&](double gap, double fallPerEdge)
+    {
+        const double size = fall / (fallPerEdge * edgeOfUnitCube);
+        PairBody upper(makeBox({size, size, size}, {2, 2, 2})), lower(makeBox({size, size, size}, {2, 2, 2}));
+        upper.move({0, 0, size + gap});
+        return PairContacts(upper, lower).m_contacts.size();
+    };
+    EXPECT_EQ(countAt(0.9 * fall, 4), 9u);
+    EXPECT_EQ(countAt(0.9 * fall, 0.26), 9u) << "a quarter of an edge is far";
+    EXPECT_EQ(countAt(0.9 * fall, 0.24), 0u);
+    EXPECT_EQ(countAt(1.1 * fall, 4), 0u) << "a contact band above";
+}
+
 TEST(SoftPairFinder, ATipNearTheFarSideOfAThinPlateIsNotDeepInside)
 {
     PairBody tip(uprightTip());

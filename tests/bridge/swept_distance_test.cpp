@@ -289,6 +289,20 @@ TEST(SweptShape, isFastFromHalfAnEdgeOrThicknessAStep)
     EXPECT_TRUE(isFast(sweep(box, {}, {}, {0, 0, 1.01 * 0.05 / radius / kSweep}), 0, 0.1));
 }
 
+// Twice what gravity moves in a step: bodies at rest are not fast up to there.
+TEST(SweptShape, fallsFarFromAQuarterOfAnEdgeOrThicknessAStep)
+{
+    btBoxShape box(btVector3(btScalar(0.5), btScalar(0.25), btScalar(0.125)));
+    const SweptShape still = sweep(box, {}, {});
+    const double square = kSweep * kSweep;
+    EXPECT_FALSE(fallsFar(still, 0.99 * 0.025 / square, 0.1));
+    EXPECT_TRUE(fallsFar(still, 1.01 * 0.025 / square, 0.1));
+    EXPECT_FALSE(fallsFar(still, 0.99 * 0.0625 / square, 1));
+    EXPECT_TRUE(fallsFar(still, 1.01 * 0.0625 / square, 1));
+    btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
+    EXPECT_FALSE(fallsFar(sweep(plane, {}, {}), 1e6, 1e-3)) << "its normal is the same everywhere";
+}
+
 TEST(SweptShape, whatIsNotANumberIsNoContact)
 {
     btSphereShape sphere(btScalar(0.01));

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -26,6 +27,8 @@ btSoftBody* makeByHand(SoftWorld& world, const std::vector<btVector3>& x, const 
     for (const std::array<int, 4>& t : tets) body->appendTetra(t[0], t[1], t[2], t[3]);
     return body;
 }
+
+constexpr int kStepsToLook = 32;  // in which all elements are looked at, as BT_FEM_INSIDE_OUT says
 
 const std::vector<btVector3> kCorners = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 2}};
 
@@ -118,6 +121,38 @@ TEST_P(Meshes, InvertedElementsAreTurnedAndFlagged)
     EXPECT_EQ(fem.stepReport(&body).m_flags, BT_FEM_TURNED_TETS);
     EXPECT_NEAR(velocityOf(body).z, -kGravity * 30 * kStep, 1e-4);
     EXPECT_NEAR((body.m_nodes[1].m_x - body.m_nodes[0].m_x).length(), 1, 1e-4);
+}
+
+TEST_P(Meshes, SliversAreFlagged)
+{
+    const auto flagsOf = [](double height)
+    {
+        FemWorld world(GetParam());
+        btSoftBody& body = world.addSoft(
+            makeByHand(world, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 1 + btScalar(height)}}, {{0, 1, 2, 3}}));
+        world.step(2);
+        EXPECT_TRUE(world.fem().isFem(&body));
+        return world.fem().stepReport(&body).m_flags;
+    };
+    const double least = 6e-3 * std::sqrt(8.0);  // [m]: volumes of a thousandth of the longest edge cubed
+    EXPECT_EQ(flagsOf(1.01 * least), 0);
+    EXPECT_EQ(flagsOf(0.99 * least), BT_FEM_SLIVERS);
+}
+
+TEST_P(Meshes, AnElementThatIsInsideOutIsFlaggedUntilItIsNot)
+{
+    FemWorld world(GetParam(), btVector3(0, 0, 0));
+    btSoftBody& body = world.addSoft(makeByHand(world, kCorners, {{0, 1, 2, 3}}));
+    world.step();
+    EXPECT_EQ(world.fem().stepReport(&body).m_flags, 0);
+    const btVector3 corner = body.m_nodes[3].m_x;
+    const btVector3 mirrored(corner.x(), corner.y(), 2 * body.m_nodes[0].m_x.z() - corner.z());
+    for (int i = 0; i < 4; ++i) world.fem().setNodeTarget(&body, i, i == 3 ? mirrored : body.m_nodes[i].m_x);
+    world.step(kStepsToLook);
+    EXPECT_TRUE(world.fem().stepReport(&body).m_flags & BT_FEM_INSIDE_OUT);
+    world.fem().setNodeTarget(&body, 3, corner);
+    world.step(2 * kStepsToLook);
+    EXPECT_FALSE(world.fem().stepReport(&body).m_flags & BT_FEM_INSIDE_OUT);
 }
 
 TEST_P(Meshes, PiecesThatAreNotConnectedMoveOnTheirOwn)

@@ -53,9 +53,13 @@ public:
     int componentCount() const { return m_componentCount; }  ///< connected pieces (through shared nodes)
     int looseCount() const { return m_looseCount; }          ///< nodes that no element uses
     bool isLoose(int node) const { return m_looseCount > 0 && m_loose[node]; }
-    int turnedCount() const { return m_turnedCount; }           ///< elements whose orientation was mended
-    double tetVolume(int e) const;                              ///< V_e [m3], > 0
-    double volume() const { return m_volume; }                  ///< sum of V_e [m3]
+    int turnedCount() const { return m_turnedCount; }  ///< elements whose orientation was mended
+    int sliverCount() const
+    {
+        return m_sliverCount;
+    }                                           ///< elements with a volume below 1e-3 of their longest edge cubed
+    double tetVolume(int e) const;              ///< V_e [m3], > 0
+    double volume() const { return m_volume; }  ///< sum of V_e [m3]
     double meanEdgeLength() const { return m_meanEdgeLength; }  ///< mean over the elements' edges [m]
 
 private:
@@ -71,6 +75,7 @@ private:
     int m_looseCount = 0;
     int m_componentCount = 0;
     int m_turnedCount = 0;
+    int m_sliverCount = 0;
     double m_meanEdgeLength = 0;
     double m_volume = 0;
 };
