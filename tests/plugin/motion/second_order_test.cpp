@@ -43,18 +43,18 @@ btSoftBody& addRubberBall(FemWorld& world, double young, double stiffnessDamping
     return world.addSoft(body);
 }
 
-struct Drop
+struct RubberDrop
 {
     double m_youngModulus, m_rate;  // [Pa], steps a second
     double m_least, m_most;         // of the speed that it returns with [-]
 };
 
-void PrintTo(const Drop& drop, std::ostream* stream)
+void PrintTo(const RubberDrop& drop, std::ostream* stream)
 {
     *stream << drop.m_youngModulus << " Pa at " << drop.m_rate << " Hz";
 }
 
-class SecondOrderDrop : public testing::TestWithParam<std::tuple<Coupling, Drop>>
+class SecondOrderDrop : public testing::TestWithParam<std::tuple<Coupling, RubberDrop>>
 {
 };
 
@@ -88,8 +88,8 @@ TEST_P(SecondOrderDrop, GivesBackWhatTheContactLasts)
 
 INSTANTIATE_TEST_SUITE_P(Balls, SecondOrderDrop,
                          testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
-                                          testing::Values(Drop{1e5, 60, 0.6, 0.81}, Drop{1e6, 60, 0.62, 0.9},
-                                                          Drop{1e7, 60, 0.3, 0.85}, Drop{1e7, 240, 0.8, 1})));
+                                          testing::Values(RubberDrop{1e5, 60, 0.6, 0.81}, RubberDrop{1e6, 60, 0.62, 0.9},
+                                                          RubberDrop{1e7, 60, 0.3, 0.85}, RubberDrop{1e7, 240, 0.8, 1})));
 
 // Down ten degrees, as rolling_test.cpp has it: what touches acts where it is within the step.
 TEST(SecondOrderRolling, IsAsFastAsWithSmallSteps)
