@@ -57,7 +57,7 @@ void PositionPush::prepare()
             for (int k = rows.m_begin; k < rows.m_end; ++k)
             {
                 ContactRow& row = m_rows.rows()[k];
-                row.m_impulse = row.m_roundImpulse = row.m_target = {};
+                row.m_impulse = row.m_target = {};
             }
             prepareContacts(rows);
         });
