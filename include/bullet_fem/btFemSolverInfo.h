@@ -36,7 +36,7 @@ struct btFemSolverInfo
     btScalar m_tolerance = btScalar(1e-3);  ///< relative residual of the linear solves [-], in [1e-8, 0.5]
     int m_maxIterations = 100;              ///< conjugate gradient iterations a solve, in [1, 10000]
     int m_contactRounds = 1;                ///< corrective solves after contact at least, in [1, 10]; ten at most
-    int m_contactSweeps = 50;               ///< sweeps a round at most, in [1, 1000]; 50 at most with joints
+    int m_contactSweeps = 50;               ///< sweeps a round at most, in [1, 1000]
     /// Errors of velocity at which contact ends, as a share of what gravity gives a body in a step, or of what contact
     /// changes at first if that is more [-], in [1e-7, 0.1]. 3e-5 keeps tall stacks still; at 1e-2 crowds cost
     /// half or less, but stacks of soft bodies may fall over without btFemConstraintSolver. Joints are solved more
