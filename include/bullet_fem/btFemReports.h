@@ -76,7 +76,11 @@ enum btFemFlags
     /// Something was deeper inside the body as the step began than a hundredth of its size (the cube root of its
     /// volume), or the body in something: it started there, or is crushed. Take a stiffer material, a finer mesh or
     /// smaller steps.
-    BT_FEM_PENETRATING = 1 << 22
+    BT_FEM_PENETRATING = 1 << 22,
+    /// btFemConstraintSolver solved the body after Bullet's rigid solver, as without that line: one of the bodies
+    /// solved with it is joined to something that Bullet did not hand over together with them, because it sleeps or
+    /// there are more contacts than btContactSolverInfo::m_minimumSolverBatchSize, or to a multibody's link.
+    BT_FEM_SOLVED_AFTER = 1 << 23
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.
