@@ -146,7 +146,9 @@ void ContactRows::addJointRow(const Joint& joint, const int* points)
     row.m_most = joint.m_most;
     row.m_softness = joint.m_softness;
     row.m_spring = joint.m_compliance;
-    if (isFinite(joint.m_impulse)) row.m_impulse = joint.m_impulse;
+    for (int i = 0; i < 3 && isFinite(joint.m_impulse); ++i)
+        row.m_impulse +=
+            std::clamp(dot(joint.m_impulse, row.m_axes[i]), -row.m_limit[i], row.m_limit[i]) * row.m_axes[i];
     m_rows.push_back(row);
 }
 

@@ -111,6 +111,7 @@ TEST_F(JointSystemTest, HoldsImpulsesAtTheirLimits)
     m_joints[0].m_limit = {Joint::kUnlimited, Joint::kUnlimited, 50};
     m_joints[1].m_most = 20;
     m_joints[2].m_limit = {0, Joint::kUnlimited, Joint::kUnlimited};
+    m_joints[2].m_impulse = {10, 0, 0};  // of a step in which it had none
     solve();
     EXPECT_NEAR(m_joints[0].m_impulse.z, 50, 1e-6);
     EXPECT_NEAR(norm(m_joints[1].m_impulse), 20, 1e-6);
@@ -127,7 +128,7 @@ TEST_F(JointSystemTest, LetsGoOfLimitsThatAreNoLongerReached)
     hold(4).m_most = 1e6;
     m_joints[0].m_impulse = {0, 0, -1e6};
     solve();
-    EXPECT_LT(miss(m_joints[0]), 1e-4);
+    EXPECT_LT(miss(m_joints[0]), 1e-3);  // what it started with would make a thousand m/s
     EXPECT_LT(norm(m_joints[0].m_impulse), 1e4);
 }
 
