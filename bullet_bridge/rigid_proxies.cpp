@@ -242,14 +242,32 @@ int RigidProxies::indexForContact(const btCollisionObject& object, double step, 
         !mustRewind(index, step, soft))
         return index;
     rewind(index, step);
+    m_rewound.push_back(m_sources[index].m_objectId);
     return index;
+}
+
+int RigidProxies::indexForJoint(const btCollisionObject& object, double step)
+{
+    const std::size_t known = m_sources.size();
+    const int index = indexOf(object, step);
+    const btRigidBody* body = movableBody(index);
+    const bool canRewind = body && body->getNumConstraintRefs() == 0 && object.getHitFraction() != 0;
+    if (m_sources.size() > known && m_phase == RigidPhase::moved && canRewind) rewind(index, step);
+    return index;
+}
+
+bool RigidProxies::holdsRewound() const
+{
+    return std::any_of(m_sources.begin(), m_sources.end(), [](const Source& source) { return source.m_rewound; });
 }
 
 int RigidProxies::indexBeside(const btCollisionObject& object, double step, int neighbour)
 {
     const int index = indexOf(object, step);
     const bool asMoved = movableBody(index) && object.getHitFraction() != 0;  // what Bullet stopped on its way was not
-    if (asMoved && isRewound(neighbour) && !isRewound(index)) rewind(index, step);
+    if (!asMoved || !isRewound(neighbour) || isRewound(index)) return index;
+    rewind(index, step);
+    m_rewound.push_back(m_sources[index].m_objectId);
     return index;
 }
 
@@ -274,7 +292,6 @@ void RigidProxies::rewind(int index, double step)
     }
     m_articulated.setCenter(index, rigidProxy.m_center);
     source.m_rewound = true;
-    m_rewound.push_back(source.m_objectId);
 }
 
 RigidProxies::Remainder& RigidProxies::remainderOf(int objectId)

@@ -69,6 +69,10 @@ public:
     /// asked for in every step. One that was asked for before in this step stays as it is.
     int indexForContact(const btCollisionObject& object, double step, const Body& soft);
 
+    /// The same for joints. In phase `moved` a rigid body that Bullet's own joints do not hold is rewound: where it is
+    /// as the step ends is what the joint is about, and a stiff link that were told a step late would shake it off.
+    int indexForJoint(const btCollisionObject& object, double step);
+
     /// The same for what Bullet's contacts keep apart from a rigid proxy, and which is rewound if that is.
     int indexBeside(const btCollisionObject& object, double step, int neighbour);
 
@@ -85,6 +89,9 @@ public:
     {
         return m_rigidProxies[rigidProxy].canMove() && !movableBody(rigidProxy);
     }
+
+    /// True if a rigid proxy is rewound.
+    bool holdsRewound() const;
 
     /// True if links of multibodies that can move are among the rigid proxies.
     bool holdsLinks() const { return !m_articulated.isEmpty(); }

@@ -8,7 +8,9 @@
 
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemCoupling.h"
 #include "plugin/stages/btFemContactGroup.h"
 
@@ -63,16 +65,49 @@ btScalar btFemConstraintSolver::solveGroup(btCollisionObject** bodies, int numBo
     return 0;
 }
 
-// Picks the islands with soft bodies, or those without. What joins two objects is in the island of the movable one.
-void btFemConstraintSolver::select(const Islands& all, bool withFem)
+bool btFemConstraintSolver::isTagged(int tag) const
+{
+    return std::find(m_tags.begin(), m_tags.end(), tag) != m_tags.end();
+}
+
+// Bullet's islands know of contacts and its own constraints, not of what soft bodies are anchored and joined to.
+void btFemConstraintSolver::tagIslands(const Islands& all)
 {
     m_tags.clear();
     for (int k = 0; k < all.m_bodyCount; ++k)
-        if (btSoftBody::upcast(all.m_bodies[k])) m_tags.push_back(all.m_bodies[k]->getIslandTag());
+        if (btSoftBody::upcast(all.m_bodies[k]) && !isTagged(all.m_bodies[k]->getIslandTag()))
+            m_tags.push_back(all.m_bodies[k]->getIslandTag());
+    for (int k = 0; k < all.m_bodyCount; ++k)
+    {
+        const btSoftBody* soft = btSoftBody::upcast(all.m_bodies[k]);
+        const btFemBodyRecord* record = soft ? btFemCoupling::record(*m_fem, *soft) : nullptr;
+        const btCollisionObject* last = nullptr;
+        if (!record || !record->isFem()) continue;
+        forEachRigidEnd(*record->m_model.m_fem,
+                        [&](const btCollisionObject* object)
+                        {
+                            if (object != last) tagJoined(all, object);
+                            last = object;
+                        });
+    }
+}
+
+// What is joined may be gone: its address is only compared.
+void btFemConstraintSolver::tagJoined(const Islands& all, const btCollisionObject* joined)
+{
+    btCollisionObject** end = all.m_bodies + all.m_bodyCount;
+    btCollisionObject** found = std::find(all.m_bodies, end, joined);
+    if (found != end && !isTagged((*found)->getIslandTag())) m_tags.push_back((*found)->getIslandTag());
+}
+
+// Picks the islands with soft bodies, or those without. What joins two objects is in the island of the movable one.
+void btFemConstraintSolver::select(const Islands& all, bool withFem)
+{
+    tagIslands(all);
     const auto isSelected = [&](const btCollisionObject& a, const btCollisionObject& b)
     {
         const int tag = a.getIslandTag() >= 0 ? a.getIslandTag() : b.getIslandTag();
-        return (std::find(m_tags.begin(), m_tags.end(), tag) != m_tags.end()) == withFem;
+        return isTagged(tag) == withFem;
     };
     m_bodies.clear();
     m_manifolds.clear();

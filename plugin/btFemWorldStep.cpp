@@ -66,7 +66,12 @@ btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, 
     m_freeMotion.solve(m_due, m_group.softPairs());
     m_active.assign(m_due.begin(), m_due.end());
     m_group.collect({m_active, m_registry.records(), step, RigidPhase::solving});
-    if (m_group.isEmpty() || !m_group.holdsOnly(bodies, count)) return nullptr;
+    if (m_group.isEmpty()) return nullptr;
+    if (!m_group.holdsOnly(bodies, count))
+    {
+        for (btFemBodyRecord* record : m_active) record->m_reports.m_step.m_flags |= BT_FEM_SOLVED_AFTER;
+        return nullptr;
+    }
     for (btFemBodyRecord* record : m_active) record->m_work.m_stage = btFemStage::solved;
     return &m_group;
 }

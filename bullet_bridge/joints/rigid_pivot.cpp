@@ -42,9 +42,9 @@ Vec3 RigidPivot::wantedVelocity(const Vec3& at, const Vec3& correction, double s
 RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const JointScene& scene)
 {
     RigidPivot pivot;
-    pivot.m_start = local;
+    pivot.m_start = pivot.m_now = local;
     if (!object) return pivot;
-    pivot.m_rigidProxy = scene.m_rigid.indexOf(*object, scene.m_step);
+    pivot.m_rigidProxy = scene.m_rigid.indexForJoint(*object, scene.m_step);
     const LinkMotion motion = scene.m_rigid.motionNow(pivot.m_rigidProxy);
     pivot.m_linearVelocity = motion.m_linear;
     pivot.m_angularVelocity = motion.m_angular;
@@ -53,12 +53,18 @@ RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const 
         for (int j = 0; j < 3; ++j) pivot.m_rotation(i, j) = pose.getBasis()[i][j];
     pivot.m_center = vec3(pose.getOrigin());
     const Vec3 arm = pivot.m_rotation * local, now = pivot.m_center + arm;
+    pivot.m_now = now;
     const double sign = hasMoved(*object, scene) ? -1 : 1;
     const Vec3 turn = sign * scene.m_step * pivot.m_angularVelocity;
     const Vec3 other = pivot.m_center + sign * scene.m_step * pivot.m_linearVelocity + turned(arm, turn);
     pivot.m_start = sign < 0 ? other : now;
     pivot.m_way = sign < 0 ? now - other : other - now;
     if (sign > 0) return pivot;
+    if (scene.m_rigid.isRewound(pivot.m_rigidProxy))
+    {
+        pivot.m_center = scene.m_rigid.rigidProxies()[pivot.m_rigidProxy].m_center;
+        pivot.m_now = pivot.m_start;
+    }
     const Mat3 R = pivot.m_rotation;
     pivot.m_rotation =
         Mat3::fromColumns(turned(R.column(0), turn), turned(R.column(1), turn), turned(R.column(2), turn));

@@ -17,6 +17,7 @@ struct RigidPivot
     Mat3 m_rotation = Mat3::identity();                  ///< of the object as the step began
     Vec3 m_start;                                        ///< [m]
     Vec3 m_way;                                          ///< from there to where it ends [m]
+    Vec3 m_now;                                          ///< where it is on the rigid proxy [m]
     Vec3 m_center, m_linearVelocity, m_angularVelocity;  ///< that the way was found with [m], [m/s], [rad/s]
 
     /// Velocity [m/s] that a point at `at` [m] shall have relative to the object's, so that within `step` [s] it goes

@@ -115,12 +115,14 @@ void AnchorHolder::append(const AnchorView& anchor, const RigidPivot& pivot, Hel
     Joint joint;
     joint.m_a = nodeEnd(m_body, held.m_node, m_problem);
     joint.m_b.m_rigidProxy = pivot.m_rigidProxy;
-    joint.m_b.m_point = held.m_point;  // both sides feel the impulse at one point
     const double erp = std::min(1.0, std::max(0.0, double(m_fem.m_softBody->m_cfg.kAHR)));
     joint.m_softness = anchor.m_influence < 1 ? 1 / anchor.m_influence - 1 : 0;
     const double longest = longestCorrection(m_fem, joint.m_softness);
     const Vec3 correction = shortened(erp * (pivot.m_start - held.m_point), longest);
-    joint.m_wanted = pivot.wantedVelocity(held.m_point, correction, m_scene.m_step);
+    // Both sides feel the impulse at one point, or it would turn the pair. A far pivot feels it where it is: a lever of
+    // that length would be a strange one, and what turned as it is drawn in would turn faster and faster.
+    joint.m_b.m_point = held.m_error > longest ? pivot.m_now : held.m_point;
+    joint.m_wanted = pivot.wantedVelocity(joint.m_b.m_point, correction, m_scene.m_step);
     joint.m_impulse = held.m_impulse;
     held.m_row = static_cast<int>(m_problem.m_joints.size());
     m_problem.m_joints.push_back(joint);

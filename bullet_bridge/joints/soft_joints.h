@@ -44,6 +44,19 @@ private:
 /// end.
 bool reachesInto(const FemSoftBody& fem, const std::vector<FemSoftBody*>& others);
 
+/// Calls visit(object) with the address of all rigid objects that anchors and cluster joints of the body hold, which
+/// may be gone. Between predictMotion and the step's end.
+template <class Visit>
+void forEachRigidEnd(const FemSoftBody& fem, const Visit& visit)
+{
+    const btSoftBody& soft = *fem.m_softBody;
+    for (int k = 0; k < soft.m_anchors.size(); ++k) visit(soft.m_anchors[k].m_body);
+    for (int k = 0; k < soft.m_deformableAnchors.size(); ++k) visit(soft.m_deformableAnchors[k].m_cti.m_colObj);
+    for (const HiddenJoint& hidden : fem.m_joints.m_hidden)
+        for (const btSoftBody::Body& end : hidden.m_bodies)
+            if (!end.m_soft) visit(end.m_collisionObject ? end.m_collisionObject : end.m_rigid);
+}
+
 /// True if the two shall not collide: Bullet's switches setIgnoreCollisionCheck on either side, and anchors with
 /// disableCollisionBetweenLinkedBodies. Does not allocate; may be called by several threads.
 bool ignoresCollision(const btSoftBody& body, const btCollisionObject& object);

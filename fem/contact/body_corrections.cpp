@@ -98,7 +98,7 @@ void BodyEnds::endCorrection()
         trueWork += dot(impulse, trueVelocity(e) - before(e));
         predictedWork += dot(impulse, known(e) - before(e));
     }
-    if (!m_mixed && predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
+    if (m_firstJoint > 0 && !m_mixed && predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
     m_mixed = false;
 }
 
@@ -122,8 +122,8 @@ void BodyEnds::learn(const Lesson& lesson)
     m_learnt = factor != 1;
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
+    if (m_points.points() > 0) m_points.scale(factor);
     if (!m_dense) return;
-    m_points.scale(factor);
     formOwn();
     m_working.reset(size());
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "fem/factor/rest_factor.h"
@@ -41,6 +42,7 @@ void BodyEnds::clear(const ContactBody& body, const StepSettings& settings)
     const std::vector<double>& mass = body.m_body->m_state.m_mass;
     m_mass = std::accumulate(mass.begin(), mass.end(), 0.0);
     m_added = 0;
+    m_firstJoint = std::numeric_limits<int>::max();
     m_working.reset(0);
 }
 
@@ -93,19 +95,21 @@ void BodyEnds::assemble(int denseLimit, double step)
     m_nodeOut.resize(nodes);
     m_loadSpeed = speedByLoads(*m_body.m_body, step);
     m_formed = m_tooSoft = m_leftMuch = m_mixed = false;
+    m_firstJoint = std::min(m_firstJoint, size());
+    m_firstPoint = m_dense ? 0 : m_firstJoint;
+    m_points.clear(nodes);
+    for (int e = m_firstPoint; e < size(); ++e)
+        if (isGroup(m_ends[e]))
+            m_points.addOwn();
+        else
+            m_points.add(m_ends[e].m_point);
+    m_points.numberSlots();
     if (!m_dense)
     {
         m_velocity.assign(m_ends.size(), Vec3());
         m_before.assign(m_ends.size(), Vec3());
         return;
     }
-    m_points.clear(nodes);
-    for (const End& end : m_ends)
-        if (isGroup(end))
-            m_points.addOwn();
-        else
-            m_points.add(end.m_point);
-    m_points.numberSlots();
     m_working.reset(size());
     m_responses.reserve(m_ends.size());
     m_own.resize(m_ends.size());
@@ -115,7 +119,7 @@ void BodyEnds::assemble(int denseLimit, double step)
 
 void BodyEnds::request(const Threads* threads)
 {
-    if (!m_dense) return;
+    if (m_points.points() == 0) return;
     m_points.request(m_body, threads);
     if (m_body.m_compliance->forgets()) form();  // before the next body asks
 }
@@ -124,11 +128,12 @@ void BodyEnds::form()
 {
     if (m_formed) return;
     m_formed = true;
-    if (!m_dense) return estimateDiagonal();
+    if (!m_dense) estimateDiagonal();
+    if (m_points.points() == 0) return;
     m_points.form(m_body, m_scale);
-    for (int e = 0; e < size(); ++e)
+    for (int e = m_firstPoint; e < size(); ++e)
         if (isGroup(m_ends[e])) formGroup(e);
-    formOwn();
+    if (m_dense) formOwn();
 }
 
 void BodyEnds::formOwn()
@@ -141,7 +146,7 @@ void BodyEnds::formGroup(int e)
 {
     const WarpedCompliance P(*m_body.m_body);
     const std::vector<int>& nodes = m_points.nodes();
-    const std::size_t own = 3 * static_cast<std::size_t>(m_points.slot(e));
+    const std::size_t own = 3 * static_cast<std::size_t>(m_points.slot(e - m_firstPoint));
     for (std::size_t c = 0; c < 3; ++c)
     {
         Vec3 unit;
@@ -156,7 +161,7 @@ void BodyEnds::formGroup(int e)
         };
         for (std::size_t t = 0; t < nodes.size(); ++t) set(t, m_nodeOut[nodes[t]]);
         for (int f = e; f < size(); ++f)
-            if (isGroup(m_ends[f])) set(m_points.slot(f), read(m_ends[f], m_nodeOut));
+            if (isGroup(m_ends[f])) set(m_points.slot(f - m_firstPoint), read(m_ends[f], m_nodeOut));
     }
 }
 
@@ -179,8 +184,9 @@ void BodyEnds::estimateDiagonal()
 
 Mat3 BodyEnds::compliance(int e, int f) const
 {
-    if (!m_dense) return e == f ? m_scale * m_meanDiagonal : Mat3();
-    return e == f ? m_own[e] : m_points.block(e, f);
+    if (m_dense && e == f) return m_own[e];
+    if (std::min(e, f) >= m_firstPoint) return m_points.block(e - m_firstPoint, f - m_firstPoint);
+    return e == f ? m_scale * m_meanDiagonal : Mat3();
 }
 
 Vec3 BodyEnds::trueVelocity(int e) const

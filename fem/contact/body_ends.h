@@ -31,9 +31,14 @@ public:
     /// Another problem: points, then makeRoom(), then groups are to be added. Until then the ends are those of before.
     void clear(const ContactBody& body, const StepSettings& settings);
 
-    /// Adds a point of the surface, for which room is to be made, and which is to be set; returns its index.
+    /// Adds a point of the surface, for which room is to be made, and which is to be set; returns its index. Those of
+    /// joints come last, after beginJoints().
     int addPoint() { return m_added++; }
+    void beginJoints() { m_firstJoint = m_added; }
     void makeRoom() { m_ends.resize(m_added); }
+
+    /// True if the body has the columns of A0^-1 at a node: joints at such nodes may be points.
+    bool serves(int node) const { return m_body.m_compliance->serves(node); }
 
     /// Sets it: its impulse counts as acting at `at` [m]. May be called by several threads at once, for different ones.
     void setPoint(int e, const SurfacePoint& point, const Vec3& at);
@@ -43,7 +48,7 @@ public:
     int addGroup(const int* nodes, const Mat3* blocks, int count);
 
     /// When all ends are added: makes ready for request() and form(), which are to follow, for a step [s]. The
-    /// compliance is dense for at most denseLimit ends.
+    /// compliance is dense for at most denseLimit ends, and between those of joints always.
     void assemble(int denseLimit, double step);
 
     /// Asks for what form() needs of the model's compliance. Not for two bodies of one cache at a time.
@@ -66,7 +71,7 @@ public:
     bool isDense() const { return m_dense; }
     const Body& body() const { return *m_body.m_body; }
 
-    /// W_ef; of a body that is not dense only an estimate of W_ee, and zero for e != f.
+    /// W_ef; of a body that is not dense, but for ends of joints, only an estimate of W_ee, and zero for e != f.
     Mat3 compliance(int e, int f) const;
 
     /// As predicted [m/s]; of a dense body that of an end which does not work is that of the last refresh().
@@ -101,7 +106,7 @@ public:
 
     /// True of an end whose impulse the body's free motion may have been solved with: takeExpected() is to be called
     /// once these have been pushed.
-    bool isExpected(int e) const { return m_body.m_predicted && !isGroup(m_ends[e]); }
+    bool isExpected(int e) const { return m_body.m_predicted && e < m_firstJoint && !isGroup(m_ends[e]); }
     bool expects() const { return m_body.m_predicted != nullptr; }
 
     /// The impulses so far of such ends count as applied; what they are other than expected is left to the next
@@ -164,7 +169,9 @@ private:
     double m_theta = 1;      // see StepCoefficients
     double m_mass = 0;       // [kg]
     bool m_formed = false;
-    int m_added = 0;  // points
+    int m_added = 0;       // points
+    int m_firstJoint = 0;  // first end of a joint
+    int m_firstPoint = 0;  // first end that m_points has: of a dense body all, else those of joints
     std::vector<End> m_ends;
     std::vector<Vec3> m_impulse;                       // per end, all
     std::vector<Vec3> m_applied;                       // per end, in the body's true velocities

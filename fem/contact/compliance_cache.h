@@ -34,6 +34,9 @@ public:
 
     const BodyModel& model() const { return *m_model; }
 
+    /// True of a node that it was made for.
+    bool serves(int node) const { return m_placeOfNode[node] >= 0; }
+
     /// Makes the columns of these nodes, which are among those it was made for, available until the next request, on
     /// these threads (if not null), of which it uses four at most. Repeated nodes are allowed.
     void request(const std::vector<int>& nodes, const Threads* threads = nullptr);

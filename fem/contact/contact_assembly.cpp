@@ -28,7 +28,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     m_corrections.assign(problem.m_bodies.size(), ImpulseResponse());
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b], settings.m_step);
     addContactRows();
-    for (const Joint& joint : problem.m_joints) addJointRow(joint);
+    for (std::size_t k = 0; k < problem.m_joints.size(); ++k) addJointRow(problem.m_joints[k], &m_jointPoints[2 * k]);
     for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
     m_wants.assign(m_rows.size(), 0);
     forEachTouchedBody(threadsForCompliance(),
@@ -89,6 +89,7 @@ void ContactRows::addContactRows()
         m_rows[k].m_a.m_end = number(contacts[k].m_soft);
         m_rows[k].m_b.m_end = contacts[k].m_rigidProxy >= 0 ? -1 : number(contacts[k].m_other);
     }
+    numberJointPoints();
     runTasks(threadsForCompliance(), static_cast<int>(m_problem->m_bodies.size()),
              [this](int b) { m_bodies[b].makeRoom(); });
     forEachPiece(
@@ -96,6 +97,28 @@ void ContactRows::addContactRows()
         {
             for (int k = rows.m_begin; k < rows.m_end; ++k) setContactRow(m_rows[k], contacts[k]);
         });
+}
+
+// Of joints, ends that move as nodes by weights, if the body has the columns of these. It solves for the others.
+bool ContactRows::isPoint(const JointEnd& end) const
+{
+    if (end.m_body < 0 || end.m_count > SurfacePoint::kMostNodes) return false;
+    for (int k = end.m_first; k < end.m_first + end.m_count; ++k)
+    {
+        const Mat3& block = m_problem->m_handleBlocks[k];
+        if (!m_bodies[end.m_body].serves(m_problem->m_handleNodes[k])) return false;
+        if (squaredNorm(block - Mat3::diagonal(block(0, 0))) > 0) return false;
+    }
+    return true;
+}
+
+void ContactRows::numberJointPoints()
+{
+    for (std::size_t b = 0; b < m_problem->m_bodies.size(); ++b) m_bodies[b].beginJoints();
+    m_jointPoints.clear();
+    for (const Joint& joint : m_problem->m_joints)
+        for (const JointEnd* end : {&joint.m_a, &joint.m_b})
+            m_jointPoints.push_back(isPoint(*end) ? m_bodies[end->m_body].addPoint() : -1);
 }
 
 void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
@@ -132,19 +155,21 @@ Vec3 ContactRows::impulsePoint(const ContactPoint& contact) const
     return at + share * ahead * velocity(contact.m_soft);
 }
 
-void ContactRows::addJointRow(const Joint& joint)
+void ContactRows::addJointRow(const Joint& joint, const int* points)
 {
     ContactRow row;
     row.m_joint = true;
-    row.m_a = jointEnd(joint.m_a);
-    row.m_b = jointEnd(joint.m_b);
+    row.m_a = jointEnd(joint.m_a, points[0]);
+    row.m_b = jointEnd(joint.m_b, points[1]);
     for (int i = 0; i < 3; ++i) row.m_axes[i] = joint.m_axes[i];
     row.m_target = joint.m_wanted;
     row.m_limit = joint.m_limit;
     row.m_most = joint.m_most;
     row.m_softness = joint.m_softness;
     row.m_spring = joint.m_compliance;
-    row.m_impulse = joint.m_impulse;
+    for (int i = 0; i < 3 && isFinite(joint.m_impulse); ++i)
+        row.m_impulse +=
+            std::clamp(dot(joint.m_impulse, row.m_axes[i]), -row.m_limit[i], row.m_limit[i]) * row.m_axes[i];
     m_rows.push_back(row);
 }
 
@@ -157,13 +182,25 @@ RowEnd ContactRows::softEnd(const SurfacePoint& point, const Vec3& at, int end)
     return row;
 }
 
-RowEnd ContactRows::jointEnd(const JointEnd& joint)
+RowEnd ContactRows::jointEnd(const JointEnd& joint, int number)
 {
     if (joint.m_body < 0)
     {
         RowEnd end = rigidEnd(joint.m_rigidProxy, joint.m_point);
         end.m_angular = joint.m_angular;
         return end;
+    }
+    if (number >= 0)
+    {
+        SurfacePoint point;
+        point.m_body = joint.m_body;
+        point.m_count = joint.m_count;
+        for (int k = 0; k < joint.m_count; ++k)
+        {
+            point.m_nodes[k] = m_problem->m_handleNodes[joint.m_first + k];
+            point.m_weights[k] = m_problem->m_handleBlocks[joint.m_first + k](0, 0);
+        }
+        return softEnd(point, point.of(m_problem->m_bodies[joint.m_body].m_body->m_state.m_x), number);
     }
     RowEnd end;
     end.m_body = joint.m_body;
@@ -180,11 +217,12 @@ RowEnd ContactRows::rigidEnd(int rigidProxy, const Vec3& point) const
     return end;
 }
 
-Mat3 ContactRows::compliance(const RowEnd& end) const
+Mat3 ContactRows::compliance(const RowEnd& of, const RowEnd& from) const
 {
-    if (end.m_body >= 0) return m_bodies[end.m_body].compliance(end.m_end, end.m_end);
-    if (end.m_rigidProxy < 0) return {};
-    return obstacleCompliance(*m_problem, end.m_rigidProxy, end.m_arm, end.m_angular);
+    if (from.m_body >= 0)
+        return of.m_body == from.m_body ? m_bodies[of.m_body].compliance(of.m_end, from.m_end) : Mat3();
+    if (from.m_rigidProxy < 0 || of.m_rigidProxy < 0) return {};
+    return rigidCompliance(*m_problem, of, from);
 }
 
 void ContactRows::finishRows()
@@ -198,10 +236,10 @@ void ContactRows::finishRows()
 
 void ContactRows::finishRow(ContactRow& row) const
 {
-    row.m_compliance = compliance(row.m_a) + compliance(row.m_b);
+    row.m_compliance = compliance(row.m_a, row.m_a) + compliance(row.m_b, row.m_b);
     if (row.m_a.m_body >= 0 && row.m_a.m_body == row.m_b.m_body)
     {
-        const Mat3 between = m_bodies[row.m_a.m_body].compliance(row.m_a.m_end, row.m_b.m_end);
+        const Mat3 between = compliance(row.m_a, row.m_b);
         row.m_compliance -= between + transpose(between);
     }
     Vec3 w[3];
@@ -218,7 +256,7 @@ void ContactRows::finishRow(ContactRow& row) const
         if (!(row.m_rowCompliance.y > 0)) row.m_rowCompliance.y = row.m_rowCompliance.z = row.m_rowCompliance.x;
         if (row.m_touch) limitTouchFriction(row);
     }
-    if (!m_dense)
+    if (!m_dense && !row.m_joint)
     {
         const double largest = std::max({row.m_rowCompliance.x, row.m_rowCompliance.y, row.m_rowCompliance.z});
         row.m_rowCompliance = {largest, largest, largest};

@@ -22,6 +22,7 @@ struct RowEnd
 struct ContactRow
 {
     bool m_joint = false;
+    bool m_held = false;   ///< of a joint: at a limit, and swept like a contact
     bool m_touch = false;  ///< of rigid proxies
     bool m_idle = false;   ///< nothing can move: no compliance
     RowEnd m_a, m_b;
@@ -32,13 +33,18 @@ struct ContactRow
     Vec3 m_yield;           ///< compliance added along the axes [1/kg]
     double m_friction = 0;  ///< [-]
     Mat3 m_compliance;      ///< of the relative velocity to the impulse [1/kg]
-    Vec3 m_roundImpulse;    ///< at the end of the last round
-    Vec3 m_bestImpulse;     ///< at the end of the best
+    Vec3 m_bestImpulse;     ///< at the end of the best round
     Vec3 m_limit;           ///< of a joint's impulses
     double m_most = 0;      ///< and of their sum
     double m_softness = 0;  ///< of a joint: compliance added, as a share of its own [-]
     double m_spring = 0;    ///< of a joint: compliance added [1/kg]
 };
+
+/// True of a joint within its limits.
+inline bool isSolvedAtOnce(const ContactRow& row)
+{
+    return row.m_joint && !row.m_held;
+}
 
 /// The impulse that a row wants for a relative velocity [m/s] that it has at another impulse. `step`: share of the way;
 /// only at 1 are axes solved one after another, as in Gauss-Seidel.

@@ -154,7 +154,8 @@ void ContactRows::noteWants()
 
 double ContactRows::error()
 {
-    return share(largestOfRows([this](int k) { return rests(m_rows[k]) ? 0 : wantedSpeed(m_rows[k]); }));
+    return share(largestOfRows([this](int k)
+                               { return isSolvedAtOnce(m_rows[k]) || rests(m_rows[k]) ? 0 : wantedSpeed(m_rows[k]); }));
 }
 
 // What rests closes no faster than allowed: its velocity has just been measured.
@@ -170,18 +171,20 @@ RowSurvey ContactRows::survey()
                 const ContactRow& row = m_rows[k];
                 m_wants[k] = !rests(row);
                 if (!m_wants[k]) continue;
-                ofPiece.m_wanted = std::max(ofPiece.m_wanted, wantedSpeed(row));
+                double& largest = isSolvedAtOnce(row) ? ofPiece.m_joints : ofPiece.m_wanted;
+                largest = std::max(largest, wantedSpeed(row));
                 ofPiece.m_closing = std::max(ofPiece.m_closing, violation(row, trueVelocity(row)));
             }
             found[p] = ofPiece;
         });
     RowSurvey all;
     for (const RowSurvey& piece : found)
-        all = {std::max(all.m_wanted, piece.m_wanted), std::max(all.m_closing, piece.m_closing)};
+        all = {std::max(all.m_wanted, piece.m_wanted), std::max(all.m_joints, piece.m_joints),
+               std::max(all.m_closing, piece.m_closing)};
     return all;
 }
 
-void ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& report)
+bool ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& report)
 {
     forEachTouchedBody(m_settings.m_step.m_threads,
                        [&](int b)
@@ -203,8 +206,8 @@ void ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& 
         report.m_converged = report.m_converged && solved.m_stop == SolveStop::converged;
         learnt = learnt || m_bodies[b].hasLearnt();
     }
-    if (!learnt) return;  // the rows' compliance is what it was
-    finishRows();
+    if (learnt) finishRows();
+    return learnt;
 }
 
 // Bodies that share their model several at a time, batches on threads.
@@ -227,19 +230,6 @@ void ContactRows::solveCorrections()
              [&](int k) { applyImpulses(&m_ordered[batches[k].m_begin], batches[k].m_end - batches[k].m_begin); });
     for (std::size_t k = 0; k < m_ordered.size(); ++k)
         m_corrections[m_corrected[m_batches.order()[k]]].m_report = m_ordered[k].m_report;
-}
-
-double ContactRows::changeOfRound()
-{
-    double change = 0, largest = 0;
-    for (ContactRow& row : m_rows)
-    {
-        const Vec3 difference = row.m_impulse - row.m_roundImpulse;
-        change = std::max(change, dot(difference, difference));
-        largest = std::max(largest, dot(row.m_impulse, row.m_impulse));
-        row.m_roundImpulse = row.m_impulse;
-    }
-    return largest > 0 ? std::sqrt(change / largest) : 0;
 }
 
 Vec3 ContactRows::trueVelocity(const ContactRow& row) const

@@ -18,7 +18,8 @@ namespace bullet_fem
 /// What a look at all rows finds [m/s].
 struct RowSurvey
 {
-    double m_wanted = 0;   ///< by how much a row alone wants to change the velocity of its point, at most
+    double m_wanted = 0;   ///< by how much a contact alone wants to change the velocity of its point, at most
+    double m_joints = 0;   ///< and a joint within its limits
     double m_closing = 0;  ///< how much faster than allowed a contact closes, at most
 };
 
@@ -58,6 +59,10 @@ public:
 
     /// Lets the touches of rigid proxies answer what the impulses so far do to them. Returns whether there are any.
     bool settleTouches();
+
+    /// What an impulse on one end of a row does to the velocity of another's [1/kg]; angular ends of rigid proxies have
+    /// spins and angular impulses.
+    Mat3 compliance(const RowEnd& of, const RowEnd& from) const;
 
     /// Relative velocity of a row's ends, as predicted [m/s].
     Vec3 velocity(const ContactRow& row) const { return velocity(row.m_a) - velocity(row.m_b); }
@@ -102,18 +107,15 @@ public:
     /// By how much a row that is more than that alone wants to change the velocity of its point [m/s].
     double wantedSpeed(const ContactRow& row) const;
 
-    /// The largest of these, as a share of the scale.
+    /// The largest of these, but for joints within their limits, as a share of the scale.
     double error();
 
     /// Solves the bodies' true systems for what is new. `steady`: the impulses are all of a step much like the one
-    /// before.
-    void apply(const CorrectionGoal& goal, bool steady, ContactReport& report);
+    /// before. Returns whether the rows' compliance has changed.
+    bool apply(const CorrectionGoal& goal, bool steady, ContactReport& report);
 
     /// True if a body has answered less than its compliance said: rounds go a part of the way only.
     bool isTooSoft() const;
-
-    /// Largest change of an impulse since the last call, over the largest impulse.
-    double changeOfRound();
 
     /// The largest speed [m/s] at which a contact closes faster than allowed, from the bodies' true velocities.
     double worstViolation();
@@ -153,11 +155,13 @@ private:
     void addContactRows();
     void setContactRow(ContactRow& row, const ContactPoint& contact);
     Vec3 impulsePoint(const ContactPoint& contact) const;
-    void addJointRow(const Joint& joint);
+    void addJointRow(const Joint& joint, const int* points);
     void addTouchRow(const RigidTouch& touch);
     static void limitTouchFriction(ContactRow& row);
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at, int end);
-    RowEnd jointEnd(const JointEnd& end);
+    bool isPoint(const JointEnd& end) const;
+    void numberJointPoints();
+    RowEnd jointEnd(const JointEnd& end, int point);
     RowEnd rigidEnd(int rigidProxy, const Vec3& point) const;
     void pushStarts(bool expected);
     void finishRows();
@@ -175,7 +179,6 @@ private:
     Vec3 arcOf(const RowEnd& end) const;
     Vec3 newSlip(const ContactRow& row, const ContactPoint& contact, const Vec3& trueVelocity) const;
     bool rests(const ContactRow& row) const;
-    Mat3 compliance(const RowEnd& end) const;
     void react(const RowEnd& end, const Vec3& impulse);
     void solveCorrections();
 
@@ -203,6 +206,7 @@ private:
     std::vector<const Body*> m_correctedBodies;  // likewise
     BodyBatches m_batches;                       // of these
     std::vector<ContactRow> m_rows;
+    std::vector<int> m_jointPoints;      // per joint the ends a and b: their points on their bodies, or -1
     std::vector<unsigned char> m_wants;  // per row
     bool m_dense = true;
     double m_loadSpeed = 0;   // [m/s]

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "fem/contact/joint_rounds.h"
 #include "fem/contact/position_push.h"
 
 namespace bullet_fem
@@ -63,12 +64,11 @@ struct ContactSolver::Scratch
 {
     ContactRows m_rows;
     ContactSweeps m_sweeps{m_rows};
+    JointRounds m_jointRounds{m_rows, m_sweeps.joints()};
     PositionPush m_push{m_rows, m_sweeps};
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     ContactReport m_report;
-    int m_minRounds = 1;
-    double m_sweepTolerance = 0, m_roundTolerance = 0;
     RowSurvey m_found;        // after the last round
     double m_error = 1;       // likewise
     double m_best = 0;        // the smallest so far
@@ -79,23 +79,27 @@ struct ContactSolver::Scratch
     bool m_guessing = false;  // the impulses are those of the last step
     SweepProgress m_progress;
     bool m_stalled = false;
+    bool m_begins = false;  // no sweep has been made since the bodies' true velocities were measured
     bool m_empty = true;
 };
 
 namespace
 {
 
-// A pull that is off by 1e-7 a sweep lets anchors of 1:1000 creep. Rounds with joints end by what they change.
-constexpr int kRoundsWithJoints = 2;
-constexpr double kSweepToleranceWithJoints = 1e-9;
-constexpr double kRoundToleranceWithJoints = 5e-3;  // of the largest impulse
-constexpr double kFloorWithJoints = 1e-3;
+// Rounds go on until no joint lacks more than this share of the impulses on its bodies, nor its ends more than this
+// share of the speed scale: a heavy body on a light one needs both. Less than the other share of the scale is no
+// impulse.
+constexpr double kJointTolerance = 1e-3;
+constexpr double kNoJointSpeed = 1e-6;
+constexpr int kMoreRounds = 2;            // times as many as usual at most: strained bodies need them
+constexpr double kUnsolvedJoints = 0.05;  // what is left by then that is told
 
 // The residuals of a body's corrective solves count as what they leave of its impulses: a share of the tolerance. Where
-// more rounds than usual do not meet that, every further one is solved more closely, down to what joints need.
+// more rounds than usual do not meet that, every further one is solved more closely, down to what joints begin with.
 constexpr double kResidualShare = 0.3;
 constexpr int kUsualRounds = 3;
 constexpr double kCloser = 0.3;
+constexpr double kFinestFloor = 1e-3;
 
 // What further sweeps would add up to is some times what one changes: at a tolerance above this, piles would take
 // seconds longer to rest.
@@ -150,7 +154,7 @@ void payBackOwn(RigidProxy& rigidProxy, double h)
 
 double residualFloor(double contactTolerance, double solveTolerance)
 {
-    return std::clamp(kResidualShare * contactTolerance / solveTolerance, kFloorWithJoints, 1.0);
+    return std::clamp(kResidualShare * contactTolerance / solveTolerance, kFinestFloor, 1.0);
 }
 
 ContactSolver::ContactSolver() : m_scratch(std::make_unique<Scratch>()) {}
@@ -186,32 +190,44 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
             rigidProxy.m_pushAngularImpulse = {};
     if (s.m_empty) return;
     const bool joints = !problem.m_joints.empty();
-    s.m_minRounds = joints ? std::max(settings.m_rounds, kRoundsWithJoints) : settings.m_rounds;
-    s.m_sweepTolerance = joints ? kSweepToleranceWithJoints : settings.m_tolerance;
-    s.m_roundTolerance = joints ? kRoundToleranceWithJoints : settings.m_tolerance;
-    s.m_floor = joints ? kFloorWithJoints : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
+    s.m_floor = joints ? kFinestFloor : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
     s.m_rows.assemble(problem, settings, {s.m_floor, 0});
     s.m_sweeps.begin();
+    s.m_jointRounds.begin();
     s.m_push.begin();
     s.m_error = 1;
     s.m_progress = {};
     s.m_stalled = s.m_loose = false;
-    // What was right a step ago is tried on the true system first, and W has only the difference to answer for. Joints
-    // hold both ways, and would answer the errors of W in it too eagerly.
-    const bool guesses = !joints && (anyExpects || s.m_rows.hasImpulses());
+    // What was right a step ago is tried on the true system first, and W has only the difference to answer for.
+    const bool guesses = anyExpects || s.m_rows.hasImpulses();
     if (guesses)
         guess();
     else
     {
         s.m_rows.warmStart();
         s.m_sweeps.measure();
+        s.m_jointRounds.look();
     }
     if (s.m_rows.settleTouches() || !guesses) s.m_found = s.m_sweeps.look();
-    s.m_rows.setSpeedScale(s.m_found.m_wanted);
-    s.m_error = joints ? 1 : s.m_rows.share(s.m_found.m_wanted);
-    s.m_goal = joints ? s.m_roundTolerance : kRoundGuessShare * s.m_roundTolerance;
+    s.m_rows.setSpeedScale(std::max(s.m_found.m_wanted, s.m_found.m_joints));
+    s.m_error = errorNow();
+    s.m_goal = kRoundGuessShare * settings.m_tolerance;
     s.m_best = std::numeric_limits<double>::infinity();
-    noteBest();
+    if (guesses || !joints) noteBest();  // to let go of all joints is no answer
+}
+
+// As a share of the speed scale. What joints lack is brought to the tolerance of contacts.
+double ContactSolver::errorNow() const
+{
+    const Scratch& s = *m_scratch;
+    return std::max(s.m_rows.share(s.m_found.m_wanted), s.m_settings.m_tolerance / kJointTolerance * errorOfJoints());
+}
+
+double ContactSolver::errorOfJoints() const
+{
+    const Scratch& s = *m_scratch;
+    return std::max(s.m_jointRounds.largestShare(kNoJointSpeed * s.m_rows.speedScale()),
+                    s.m_rows.share(s.m_jointRounds.largestSpeed()));
 }
 
 // Where bodies are jammed or deep in each other the impulses of the last step may be those of another world: what they
@@ -235,7 +251,7 @@ void ContactSolver::guess()
 void ContactSolver::noteBest()
 {
     Scratch& s = *m_scratch;
-    s.m_isBest = s.m_problem->m_joints.empty() && s.m_error <= s.m_best;
+    s.m_isBest = s.m_error <= s.m_best;
     if (!s.m_isBest) return;
     s.m_best = s.m_error;
     s.m_rows.keep();
@@ -249,7 +265,7 @@ bool ContactSolver::isBest() const
 bool ContactSolver::wantsBack() const
 {
     const Scratch& s = *m_scratch;
-    return !s.m_empty && s.m_problem->m_joints.empty() && s.m_error > std::max(kMuchWorse * s.m_best, kWorse);
+    return !s.m_empty && s.m_error > std::max(kMuchWorse * s.m_best, kWorse);
 }
 
 void ContactSolver::goBack()
@@ -266,8 +282,8 @@ bool ContactSolver::wantsRound() const
     const Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     const int rounds = s.m_report.m_rounds;
-    return rounds < s.m_minRounds ||
-           (rounds < s.m_settings.m_maxRounds && (s.m_loose || (s.m_error > s.m_goal && !s.m_stalled)));
+    const int most = (errorOfJoints() > kJointTolerance ? kMoreRounds : 1) * s.m_settings.m_maxRounds;
+    return rounds < s.m_settings.m_rounds || (rounds < most && (s.m_loose || (s.m_error > s.m_goal && !s.m_stalled)));
 }
 
 bool ContactSolver::sweep(double others)
@@ -275,12 +291,13 @@ bool ContactSolver::sweep(double others)
     Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     ++s.m_report.m_sweeps;
+    if (s.m_begins) s.m_jointRounds.combine();
+    s.m_begins = false;
+    const double tolerance = s.m_settings.m_tolerance;
     const double othersChange = s.m_rows.share(others);
-    const bool othersMove = others > kRoundingOfOthers && othersChange > s.m_sweepTolerance;
+    const bool othersMove = others > kRoundingOfOthers && othersChange > tolerance;
     if (othersMove) s.m_sweeps.othersMoved();
-    const bool joints = !s.m_problem->m_joints.empty();  // with them, all are swept to the end
-    const bool moves =
-        s.m_sweeps.sweep(s.m_rows.isDense() ? std::min(s.m_sweepTolerance, kCoarsestChange) : s.m_sweepTolerance);
+    const bool moves = s.m_sweeps.sweep(s.m_rows.isDense() ? std::min(tolerance, kCoarsestChange) : tolerance);
     if (s.m_sweeps.runsAway())
     {
         s.m_sweeps.letGo();
@@ -288,7 +305,7 @@ bool ContactSolver::sweep(double others)
         return true;
     }
     if (!moves && !othersMove) return false;
-    return joints || !s.m_progress.stalls(std::max(s.m_sweeps.lastChange(), othersChange));
+    return !s.m_progress.stalls(std::max(s.m_sweeps.lastChange(), othersChange));
 }
 
 void ContactSolver::correct()
@@ -297,21 +314,24 @@ void ContactSolver::correct()
     if (s.m_empty) return;
     ++s.m_report.m_rounds;
     s.m_progress = {};
-    const double change = s.m_rows.changeOfRound();
-    if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFloorWithJoints);
+    if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFinestFloor);
     const bool joints = !s.m_problem->m_joints.empty();
     const bool wasLoose = s.m_loose;
     s.m_loose = !joints && !s.m_guessing && s.m_report.m_rounds < s.m_settings.m_maxRounds &&
-                s.m_error > kFarFromTolerance * s.m_roundTolerance;
-    s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report);
+                s.m_error > kFarFromTolerance * s.m_settings.m_tolerance;
+    if (s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report))
+        s.m_sweeps.joints().reform();
     s.m_sweeps.measure();
+    s.m_jointRounds.look();
+    s.m_begins = true;
     const double before = s.m_error;
-    if (!joints) s.m_found = s.m_sweeps.look();
-    s.m_error = joints ? change : s.m_rows.share(s.m_found.m_wanted);
-    s.m_goal = s.m_roundTolerance;
+    s.m_found = s.m_sweeps.look();
+    s.m_error = errorNow();
+    s.m_goal = s.m_settings.m_tolerance;
     const Standstill limit = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
-    s.m_stalled = !s.m_settings.m_untilSolved && !wasLoose && s.m_report.m_rounds > s.m_minRounds + 1 &&
-                  s.m_error > limit.m_share * before && s.m_error < limit.m_smallError;
+    s.m_stalled = !s.m_settings.m_untilSolved && !wasLoose && s.m_report.m_rounds > s.m_settings.m_rounds + 1 &&
+                  s.m_error > limit.m_share * before && s.m_error < limit.m_smallError &&
+                  errorOfJoints() <= kJointTolerance;
     noteBest();
 }
 
@@ -319,6 +339,12 @@ ContactReport ContactSolver::finish()
 {
     Scratch& s = *m_scratch;
     if (s.m_empty) return s.m_report;
+    if (s.m_begins && errorOfJoints() > kJointTolerance && s.m_jointRounds.isBestBehind())
+    {
+        s.m_jointRounds.takeBest();
+        correct();
+    }
+    s.m_report.m_converged = s.m_report.m_converged && errorOfJoints() <= kUnsolvedJoints;
     s.m_report.m_violation = s.m_rows.store();
     if (!s.m_push.isNeeded()) return s.m_report;
     s.m_report.m_sweeps += s.m_push.push();

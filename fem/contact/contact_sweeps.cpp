@@ -7,6 +7,7 @@ namespace bullet_fem
 
 void ContactSweeps::begin()
 {
+    m_joints.begin();
     m_inTurn.begin();
     m_atOnce.begin();
     m_runaways.reserve(m_rows.problem().m_bodies.size() + m_rows.problem().m_rigidProxies.size());
@@ -26,6 +27,7 @@ RowSurvey ContactSweeps::look()
 
 void ContactSweeps::reset()
 {
+    m_joints.shift(nullptr);
     m_inTurn.restart();
     m_atOnce.restart();
 }
@@ -55,12 +57,13 @@ void ContactSweeps::letGo()
         }
     };
     for (const ContactRow& row : m_rows.rows())
-        if (m_rows.share(speedOf(row, row.m_impulse)) > 1) forMovableEnds(row, [](unsigned char& runs) { runs = 1; });
+        if (!row.m_joint && m_rows.share(speedOf(row, row.m_impulse)) > 1)
+            forMovableEnds(row, [](unsigned char& runs) { runs = 1; });
     for (ContactRow& row : m_rows.rows())
     {
         bool runs = false;
         forMovableEnds(row, [&runs](unsigned char end) { runs = runs || end; });
-        if (!runs) continue;
+        if (!runs || row.m_joint) continue;
         m_rows.change(row, {});
         row.m_idle = true;
     }

@@ -15,7 +15,10 @@ class ContactSweeps
 {
 public:
     /// The rows must outlive it.
-    explicit ContactSweeps(ContactRows& rows) : m_rows(rows), m_inTurn(rows), m_atOnce(rows) {}
+    explicit ContactSweeps(ContactRows& rows)
+        : m_rows(rows), m_joints(rows), m_inTurn(rows, m_joints), m_atOnce(rows, m_joints)
+    {
+    }
 
     /// When the rows are assembled anew.
     void begin();
@@ -25,6 +28,9 @@ public:
 
     /// Looks at all rows, which have just been measured: the next sweep need not look for those that want something.
     RowSurvey look();
+
+    /// Joints are solved in every sweep.
+    JointSystem& joints() { return m_joints; }
 
     /// Forgets all that sweeps have found out.
     void reset();
@@ -49,6 +55,7 @@ public:
 
 private:
     ContactRows& m_rows;
+    JointSystem m_joints;
     SweepsInTurn m_inTurn;
     SweepsAtOnce m_atOnce;
     std::vector<unsigned char> m_runaways;  // per body, then per rigid proxy: is being let go

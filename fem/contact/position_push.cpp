@@ -110,7 +110,7 @@ void PositionPush::prepare()
             {
                 ContactRow& row = m_rows.rows()[k];
                 if (!row.m_joint && !row.m_touch) m_base[k] = m_share * row.m_impulse;
-                row.m_impulse = row.m_roundImpulse = m_base[k];
+                row.m_impulse = m_base[k];
             }
         });
     prepareTouches();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bullet_fem/fem/contact/contact_problem.h"
+#include "fem/contact/contact_row.h"
 
 namespace bullet_fem
 {
@@ -22,30 +23,32 @@ void respond(const ContactProblem& problem, int rigidProxy, const Vec3& impulse,
     }
 }
 
-/// What an impulse on a rigid proxy does to the velocity of its own point at `arm` [m] from its centre [1/kg], or, with
-/// `angularEnd`, what an angular one does to its spin [1/(kg m2)].
-inline Mat3 obstacleCompliance(const ContactProblem& problem, int rigidProxy, const Vec3& arm, bool angularEnd)
+/// What an impulse at `from` does to the velocity at `of`, two ends on rigid proxies [1/kg]; angular ends have spins
+/// and angular impulses [1/(kg m)], [1/(kg m2)].
+inline Mat3 rigidCompliance(const ContactProblem& problem, const RowEnd& of, const RowEnd& from)
 {
-    const RigidProxy& o = problem.m_rigidProxies[rigidProxy];
-    const Mat3 r = crossMatrix(arm);
-    if (o.m_responseCount == 0)
+    const RigidProxy& o = problem.m_rigidProxies[from.m_rigidProxy];
+    if (o.m_responseCount == 0 && (of.m_rigidProxy != from.m_rigidProxy || !o.canMove())) return {};
+    const Mat3 arm = crossMatrix(of.m_arm), lever = crossMatrix(from.m_arm);
+    const auto between =
+        [&](const Mat3& linear, const Mat3& linearOfAngular, const Mat3& angularOfLinear, const Mat3& angular)
     {
-        if (angularEnd) return o.m_inverseInertia;
-        const Vec3& m = o.m_inverseMass;
-        Mat3 w = Mat3::fromColumns({m.x, 0, 0}, {0, m.y, 0}, {0, 0, m.z});
-        w -= r * o.m_inverseInertia * r;
+        const Mat3 spin = from.m_angular ? angular : angularOfLinear + angular * lever;
+        if (of.m_angular) return spin;
+        Mat3 w = from.m_angular ? linearOfAngular : linear + linearOfAngular * lever;
+        w -= arm * spin;
         return w;
-    }
-    Mat3 w;
+    };
+    const Vec3& m = o.m_inverseMass;
+    const Mat3 inverseMass = Mat3::fromColumns({m.x, 0, 0}, {0, m.y, 0}, {0, 0, m.z});
+    if (o.m_responseCount == 0) return between(inverseMass, {}, {}, o.m_inverseInertia);
     for (int k = o.m_firstResponse; k < o.m_firstResponse + o.m_responseCount; ++k)
     {
-        const RigidResponse& own = problem.m_responses[k];
-        if (own.m_rigidProxy != rigidProxy) continue;
-        if (angularEnd) return own.m_angular;
-        w = own.m_linear + own.m_linearOfAngular * r;
-        w -= r * own.m_angularOfLinear + r * own.m_angular * r;
+        const RigidResponse& r = problem.m_responses[k];
+        if (r.m_rigidProxy == of.m_rigidProxy)
+            return between(r.m_linear, r.m_linearOfAngular, r.m_angularOfLinear, r.m_angular);
     }
-    return w;
+    return {};
 }
 
 }  // namespace bullet_fem

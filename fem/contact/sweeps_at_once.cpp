@@ -8,6 +8,16 @@
 namespace bullet_fem
 {
 
+namespace
+{
+
+bool isSwept(const ContactRow& row)
+{
+    return !row.m_idle && !row.m_joint;
+}
+
+}  // namespace
+
 void SweepsAtOnce::begin()
 {
     m_step = 0;
@@ -50,7 +60,7 @@ void SweepsAtOnce::chooseStep()
         const double sum = sumOfSquares();
         probe(sum > 0 ? 1 / std::sqrt(sum) : 0);
         for (std::size_t k = 0; k < rows.size(); ++k)
-            if (!rows[k].m_idle)
+            if (isSwept(rows[k]))
                 m_memory[k].m_impulse =
                     (1 / rows[k].m_rowCompliance.x) * (m_rows.velocity(rows[k]) - m_memory[k].m_velocity);
         const double before = eigenvalue;
@@ -73,7 +83,7 @@ double SweepsAtOnce::sumOfSquares() const
     const std::vector<ContactRow>& rows = m_rows.rows();
     double sum = 0;
     for (std::size_t k = 0; k < rows.size(); ++k)
-        if (!rows[k].m_idle) sum += rows[k].m_rowCompliance.x * dot(m_memory[k].m_impulse, m_memory[k].m_impulse);
+        if (isSwept(rows[k])) sum += rows[k].m_rowCompliance.x * dot(m_memory[k].m_impulse, m_memory[k].m_impulse);
     return sum;
 }
 
@@ -81,7 +91,7 @@ void SweepsAtOnce::probe(double unit)
 {
     std::vector<ContactRow>& rows = m_rows.rows();
     for (std::size_t k = 0; k < rows.size(); ++k)
-        if (!rows[k].m_idle) m_rows.change(rows[k], m_memory[k].m_next + unit * m_memory[k].m_impulse);
+        if (isSwept(rows[k])) m_rows.change(rows[k], m_memory[k].m_next + unit * m_memory[k].m_impulse);
     m_rows.flush();
 }
 
@@ -96,6 +106,7 @@ bool SweepsAtOnce::sweep(double tolerance)
     for (std::size_t k = 0; k < rows.size(); ++k)
     {
         const ContactRow& row = rows[k];
+        if (row.m_joint) continue;
         Memory& memory = m_memory[k];
         const Vec3 v = m_rows.velocity(row), before = row.m_impulse;
         const Vec3 from = before + beta * (before - memory.m_impulse);
@@ -104,11 +115,13 @@ bool SweepsAtOnce::sweep(double tolerance)
         largest = std::max(largest, speedOf(row, wanted - before));
         memory = {before, v, wanted};
     }
-    for (std::size_t k = 0; k < rows.size(); ++k) m_rows.change(rows[k], m_memory[k].m_next);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        if (!rows[k].m_joint) m_rows.change(rows[k], m_memory[k].m_next);
     m_rows.flush();
     m_lastSpeed = largest;
     m_acceleration = uphill > 0 ? 1 : next;
-    return m_rows.error() > tolerance;
+    const double joints = m_joints.solve();
+    return std::max(m_rows.error(), m_rows.share(joints)) > tolerance;
 }
 
 }  // namespace bullet_fem

@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "fem/contact/contact_rows.h"
+#include "fem/contact/joint_system.h"
 
 namespace bullet_fem
 {
 
 /// Accelerated projected gradient steps on all rows at the same time: where a body has no dense compliance, and is
-/// solved for what all impulses do to it together. Grows with the problem, never shrinks.
+/// solved for what all impulses do to it together; behind a step the joints are solved. Grows with the problem, never
+/// shrinks.
 class SweepsAtOnce
 {
 public:
-    /// The rows must outlive it.
-    explicit SweepsAtOnce(ContactRows& rows) : m_rows(rows) {}
+    /// Both must outlive it.
+    SweepsAtOnce(ContactRows& rows, JointSystem& joints) : m_rows(rows), m_joints(joints) {}
 
     /// When the rows are assembled anew.
     void begin();
@@ -41,6 +43,7 @@ private:
     void probe(double unit);
 
     ContactRows& m_rows;
+    JointSystem& m_joints;
     std::vector<Memory> m_memory;
     double m_step = 0;  // of the gradient; 0: not chosen yet
     double m_acceleration = 1;

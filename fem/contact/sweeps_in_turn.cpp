@@ -128,8 +128,8 @@ bool SweepsInTurn::sweep(double tolerance)
 {
     if (m_lifeOfSet <= 0) chooseWorkingSet();
     --m_lifeOfSet;
-    const bool mixes = m_rows.problem().m_joints.empty();
-    m_negligible = mixes ? kNegligible * tolerance * m_rows.speedScale() : 0;
+    const bool mixes = m_rows.rows().size() > m_rows.problem().m_joints.size();
+    m_negligible = kNegligible * tolerance * m_rows.speedScale();
     if (mixes) m_mixing.mix(m_working);
     sweepAll();
     if (mixes && m_rows.isRunaway(m_lastSpeed) && m_mixing.takeBack(m_working)) sweepAll();
@@ -147,7 +147,7 @@ void SweepsInTurn::sweepAll()
     std::array<double, SweepParts::kMost> changes;
     m_parts.inTurn(m_rows.settings().m_step.m_threads, [&](int part, Range rows) { changes[part] = sweepRows(rows); });
     m_lastSpeed = *std::max_element(changes.begin() + 1, changes.begin() + m_parts.parts());
-    m_lastChange = m_rows.share(m_lastSpeed);
+    m_lastChange = m_rows.share(std::max(m_lastSpeed, m_joints.solve()));
 }
 
 // Of the working ones, one pair of ends after another. Where that has much to do it is swept again at once, while what
@@ -157,14 +157,13 @@ void SweepsInTurn::sweepAll()
 double SweepsInTurn::sweepRows(Range rows)
 {
     const double much = std::max(kMuch, m_rows.settings().m_tolerance);
-    const bool again = m_rows.problem().m_joints.empty();
     double largest = 0;
     for (Range pair = {rows.m_begin, rows.m_begin}; pair.m_begin < rows.m_end; pair.m_begin = pair.m_end)
     {
         pair.m_end = endOfPair(pair.m_begin, rows.m_end);
         double change = sweepOnce(pair);
         largest = std::max(largest, change);
-        for (int k = 1; again && k < kMostTimes && m_rows.share(change) > much && !m_rows.isRunaway(change); ++k)
+        for (int k = 1; k < kMostTimes && m_rows.share(change) > much && !m_rows.isRunaway(change); ++k)
             change = sweepOnce(pair);
         if (m_rows.isRunaway(change)) return change;
     }
@@ -188,6 +187,7 @@ double SweepsInTurn::sweepOnce(Range rows)
     for (int k = rows.m_begin; k < rows.m_end; ++k)
     {
         ContactRow& row = m_rows.rows()[m_working[k]];
+        if (row.m_joint) continue;
         const Vec3 wanted = wantedImpulse(row, row.m_impulse, m_rows.velocity(row), 1);
         const Vec3 difference = wanted - row.m_impulse;
         const double square = dot(difference, difference);

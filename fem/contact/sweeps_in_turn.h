@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/contact/contact_rows.h"
+#include "fem/contact/joint_system.h"
 #include "fem/contact/sweep_mixing.h"
 #include "fem/contact/sweep_parts.h"
 
@@ -12,12 +13,12 @@ namespace bullet_fem
 {
 
 /// Gauss-Seidel over rows whose bodies all have a dense compliance: over those that carry something, the working set,
-/// mixed by Anderson's acceleration. Grows with the problem, never shrinks.
+/// mixed by Anderson's acceleration; behind them the joints are solved. Grows with the problem, never shrinks.
 class SweepsInTurn
 {
 public:
-    /// The rows must outlive it.
-    explicit SweepsInTurn(ContactRows& rows) : m_rows(rows), m_mixing(rows) {}
+    /// Both must outlive it.
+    SweepsInTurn(ContactRows& rows, JointSystem& joints) : m_rows(rows), m_joints(joints), m_mixing(rows) {}
 
     /// When the rows are assembled anew.
     void begin();
@@ -49,6 +50,7 @@ private:
     int endOfPair(int begin, int end) const;
 
     ContactRows& m_rows;
+    JointSystem& m_joints;
     SweepMixing m_mixing;
     SweepParts m_parts;                  // of the rows
     std::vector<int> m_working;          // rows that the sweeps are over, part by part

@@ -51,6 +51,9 @@ private:
         int m_constraintCount;
     };
     void select(const Islands& all, bool withFem);
+    void tagIslands(const Islands& all);
+    void tagJoined(const Islands& all, const btCollisionObject* joined);
+    bool isTagged(int tag) const;
     void noteImpulses();
     void goBackToNoted();
     template <class Visit>
@@ -58,7 +61,7 @@ private:
 
     btFemSoftBodySolver* m_fem;
     btFemContactGroup* m_group = nullptr;      // FEM bodies of the islands being solved; null if there are none
-    std::vector<int> m_tags;                   // islands with soft bodies
+    std::vector<int> m_tags;                   // islands with soft bodies, and those that these are joined to
     std::vector<btCollisionObject*> m_bodies;  // what select() picked
     std::vector<btPersistentManifold*> m_manifolds;
     std::vector<btTypedConstraint*> m_constraints;

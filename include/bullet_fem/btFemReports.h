@@ -83,7 +83,11 @@ enum btFemFlags
     BT_FEM_INSIDE_OUT = 1 << 23,
     /// Some elements are slivers: their volume is below a thousandth of their longest edge cubed (a regular one has
     /// .118). They cost iterations, and the solve may miss its tolerance. Take a better mesh, or a cage.
-    BT_FEM_SLIVERS = 1 << 24
+    BT_FEM_SLIVERS = 1 << 24,
+    /// btFemConstraintSolver solved the body after Bullet's rigid solver, as without that line: one of the bodies
+    /// solved with it is joined to something that Bullet did not hand over together with them, because it sleeps or
+    /// there are more contacts than btContactSolverInfo::m_minimumSolverBatchSize, or to a multibody's link.
+    BT_FEM_SOLVED_AFTER = 1 << 25
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.

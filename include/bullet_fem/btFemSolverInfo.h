@@ -36,11 +36,11 @@ struct btFemSolverInfo
     btScalar m_tolerance = btScalar(1e-3);  ///< relative residual of the linear solves [-], in [1e-8, 0.5]
     /// Damping by the step itself [-], in [0, 1]: 0 is a step of second order, which damps what it cannot resolve and
     /// nothing else; 1 is implicit Euler. In between, vibrations of frequency f lose half of their amplitude in some
-    /// 1 / (50 m_numericalDamping f^2 h).
+    /// 1 / (28 m_numericalDamping f^2 h).
     btScalar m_numericalDamping = 1;
     int m_maxIterations = 100;  ///< conjugate gradient iterations a solve, in [1, 10000]
     int m_contactRounds = 1;    ///< corrective solves after contact at least, in [1, 10]; ten at most
-    int m_contactSweeps = 50;   ///< sweeps a round at most, in [1, 1000]; 50 at most with joints
+    int m_contactSweeps = 50;   ///< sweeps a round at most, in [1, 1000]
     /// Errors of velocity at which contact ends, as a share of what gravity gives a body in a step, or of what contact
     /// changes at first if that is more [-], in [1e-7, 0.1]. 3e-5 keeps tall stacks still; at 1e-2 crowds cost
     /// half or less, but stacks of soft bodies may fall over without btFemConstraintSolver. Joints are solved more

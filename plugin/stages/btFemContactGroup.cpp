@@ -17,9 +17,6 @@ using namespace bullet_fem;
 namespace
 {
 
-// Joints hold both ways, and W is approximate: with sweeps to the end, rounds would answer its errors too eagerly.
-constexpr int kSweepsWithJoints = 50;
-
 constexpr int kContactsPerChunk = 256;  // copied at once
 
 // The user's defaults are the solver's own.
@@ -86,13 +83,13 @@ void btFemContactGroup::collect(const Scope& scope)
         m_problem.m_bodies.push_back(
             {&fem.m_body, fem.m_compliance.get(), fem.m_predicted.empty() ? nullptr : &fem.m_predicted});
     }
-    collectJoints(scope);  // first: the rigid bodies that they hold are not rewound
+    collectJoints(scope);  // first: they decide whether the rigid bodies that they hold are rewound
     findRigid();
     findSoft();
     collectContacts();
     m_rigid.connectLinks(m_problem.m_responses);
     const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
-    if (world && world->m_dispatcher && !m_problem.m_contacts.empty())
+    if (world && world->m_dispatcher && (!m_problem.m_contacts.empty() || m_rigid.holdsRewound()))
         m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidTouches);
     m_problem.m_rigidProxies.assign(m_rigid.rigidProxies().begin(), m_rigid.rigidProxies().end());
     m_settings.m_step.m_step = m_step;
@@ -102,7 +99,7 @@ void btFemContactGroup::collect(const Scope& scope)
         joints ? m_info.m_tolerance : std::max(m_info.m_tolerance, m_info.m_contactTolerance);
     m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
     m_settings.m_rounds = m_info.m_contactRounds;
-    m_settings.m_sweeps = joints ? std::min(m_info.m_contactSweeps, kSweepsWithJoints) : m_info.m_contactSweeps;
+    m_settings.m_sweeps = m_info.m_contactSweeps;
     m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the rounds, too
     m_settings.m_tolerance = m_info.m_contactTolerance;
     m_settings.m_pushFraction = m_info.m_erp;

@@ -24,7 +24,7 @@ protected:
     /// Where the node ends the step if the joint gets what it wants and the object keeps the velocity it has.
     Vec3 endOfNode(const Joint& joint, int node, const btRigidBody& body) const
     {
-        const Vec3 arm = joint.m_b.m_point - vec3(body.getCenterOfMassPosition());
+        const Vec3 arm = joint.m_b.m_point - m_world.m_rigidProxies.rigidProxies()[joint.m_b.m_rigidProxy].m_center;
         const Vec3 v = vec3(body.getLinearVelocity()) + cross(vec3(body.getAngularVelocity()), arm);
         return position(node) + JointTestWorld::kStep * (v + joint.m_wanted);
     }

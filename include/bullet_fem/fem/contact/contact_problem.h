@@ -133,12 +133,12 @@ struct ContactBody
 struct ContactSettings
 {
     StepSettings m_step;   ///< of the corrective solves
-    int m_rounds = 1;      ///< corrective solves at least, in [1, 100]; with joints 2
-    int m_maxRounds = 10;  ///< and at most, >= m_rounds, while the error exceeds m_tolerance
+    int m_rounds = 1;      ///< corrective solves at least, in [1, 100]
+    int m_maxRounds = 10;  ///< and at most, >= m_rounds, while the error exceeds m_tolerance; twice as many for joints
     int m_sweeps = 50;     ///< sweeps a round at most, in [1, 1000]
     /// Error of velocities at which contact ends, as a share of the speed that the loads give a body in a step, or of
     /// what contact changes at first if that is more [-], > 0. 3e-5 keeps tall stacks still; from 1e-3 on they may
-    /// fall. Joints are solved more closely.
+    /// fall. Joints are solved to 1e-3 of the speed that loads give, and of the impulses on their bodies.
     double m_tolerance = 3e-5;
     bool m_untilSolved = false;    ///< rounds go on to m_maxRounds even where one hardly lowers the error
     int m_denseLimit = 400;        ///< points of a body up to which its compliance is formed as a dense matrix, >= 0

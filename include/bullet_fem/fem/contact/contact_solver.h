@@ -19,8 +19,9 @@ double residualFloor(double contactTolerance, double solveTolerance);
 ///     joints: v = wanted, |lambda| <= limit
 /// for relative velocities v. Their response is approximated by W = J P J^T with the warped rest factor P for the
 /// sweeps, and solved for with the true system between rounds; where W turns out too stiff (a stale factor), it is
-/// scaled up, and where it is too soft, more rounds follow. The same impulses act on both sides, so momentum is
-/// conserved however good W is. Penetration is taken back as a displacement.
+/// scaled up, and where it is too soft, more rounds follow. Joints are one system, solved at once in every sweep. The
+/// same impulses act on both sides, so momentum is conserved however good W is. Penetration is taken back as a
+/// displacement.
 ///
 /// solve() does it all. Who sweeps rows of its own in between, such as those between rigid bodies, calls its parts:
 /// begin, then while wantsRound sweep ... sweep, correct, then if wantsBack goBack, and at the end finish; it may read
@@ -48,11 +49,11 @@ public:
     void correct();
 
     /// True if another round is to be made: fewer than m_rounds were, or the error of the true velocities exceeds
-    /// m_tolerance (with joints: the last round has changed impulses).
+    /// m_tolerance.
     bool wantsRound() const;
 
     /// True if no impulses before have left a smaller error than those of the last begin or correct: others note those
-    /// of their rows. Never with joints.
+    /// of their rows.
     bool isBest() const;
 
     /// True if the last round has left much more than the best. Others give their rows the impulses noted last, and
@@ -68,6 +69,8 @@ public:
 private:
     void guess();
     void noteBest();
+    double errorNow() const;
+    double errorOfJoints() const;
 
     struct Scratch;
     std::unique_ptr<Scratch> m_scratch;

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/joint_rounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bullet_fem
+{
+namespace
+{
+
+// A direction of which less than this is left beyond the others is rounding, as a share of its square.
+constexpr double kSameDirection = 1e-10;
+
+constexpr double kMuchLess = 0.25;  // of a square
+
+double product(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+}  // namespace
+
+void JointRounds::Vectors::resize(int size)
+{
+    for (std::vector<double>* values : {&m_impulse, &m_left, &m_answer}) values->resize(size);
+}
+
+double JointRounds::Vectors::square() const
+{
+    return product(m_left, m_answer);
+}
+
+void JointRounds::Vectors::add(double share, const Vectors& other)
+{
+    for (std::size_t i = 0; i < m_left.size(); ++i)
+    {
+        m_impulse[i] += share * other.m_impulse[i];
+        m_left[i] += share * other.m_left[i];
+        m_answer[i] += share * other.m_answer[i];
+    }
+}
+
+void JointRounds::begin()
+{
+    m_hasBest = false;
+    m_count = m_next = 0;
+    for (Vectors* vectors : {&m_now, &m_best}) vectors->resize(m_joints.unknowns());
+    for (Vectors& direction : m_directions) direction.resize(m_joints.unknowns());
+    m_before.resize(m_joints.unknowns());
+    m_shift.resize(m_joints.unknowns());
+}
+
+void JointRounds::look()
+{
+    if (m_joints.isEmpty()) return;
+    for (int i = 0; i < m_joints.unknowns(); ++i)
+    {
+        const ContactRow& row = m_joints.row(i / 3);
+        m_now.m_impulse[i] = dot(row.m_impulse, row.m_axes[i % 3]);
+    }
+    m_joints.residual(m_now.m_left);
+    m_now.m_answer.assign(m_now.m_left.begin(), m_now.m_left.end());
+    m_joints.answer(m_now.m_answer);
+    // Contacts that came or went, or rows of others, make another system of it.
+    const double square = m_now.square();
+    const bool alone = m_rows.rows().size() == m_rows.problem().m_joints.size();
+    if (m_changes != m_joints.changes() || (!alone && square > m_square)) m_hasBest = false;
+    m_square = square;
+    m_changes = m_joints.changes();
+    noteDirection();
+    noteLargest();
+}
+
+// From the best so far to the last round, made orthogonal to the others; the best goes along it as far as that helps.
+void JointRounds::noteDirection()
+{
+    const auto copy = [](const Vectors& from, Vectors& to)
+    {
+        std::copy(from.m_impulse.begin(), from.m_impulse.end(), to.m_impulse.begin());
+        std::copy(from.m_left.begin(), from.m_left.end(), to.m_left.begin());
+        std::copy(from.m_answer.begin(), from.m_answer.end(), to.m_answer.begin());
+    };
+    if (!m_hasBest)
+    {
+        copy(m_now, m_best);
+        m_hasBest = true;
+        m_count = m_next = 0;
+        return;
+    }
+    Vectors& direction = m_directions[m_next];
+    copy(m_now, direction);
+    direction.add(-1, m_best);
+    const double whole = direction.square();
+    for (int k = 0; k < m_count; ++k)
+        if (k != m_next) direction.add(-product(direction.m_left, m_directions[k].m_answer), m_directions[k]);
+    const double square = direction.square();
+    const double unit = square > kSameDirection * whole ? 1 / std::sqrt(square) : 0;
+    for (std::vector<double>* values : {&direction.m_impulse, &direction.m_left, &direction.m_answer})
+        for (double& value : *values) value *= unit;
+    m_best.add(-product(m_best.m_left, direction.m_answer), direction);
+    m_next = (m_next + 1) % kDirections;
+    m_count = std::min(m_count + 1, kDirections);
+}
+
+template <class Visit>
+void JointRounds::forEndsOf(const ContactRow& row, const Visit& visit) const
+{
+    for (const RowEnd* end : {&row.m_a, &row.m_b})
+        if (end->m_body >= 0) visit(end->m_body);
+}
+
+void JointRounds::noteLargest()
+{
+    m_largest.assign(m_rows.problem().m_bodies.size(), 0);
+    for (int k = 0; 3 * k < m_joints.unknowns(); ++k)
+    {
+        const double size = norm(m_joints.row(k).m_impulse);
+        forEndsOf(m_joints.row(k), [&](int b) { m_largest[b] = std::max(m_largest[b], size); });
+    }
+}
+
+double JointRounds::largestShare(double negligible) const
+{
+    double share = 0;
+    for (int k = 0; 3 * k < m_joints.unknowns(); ++k)
+    {
+        const ContactRow& row = m_joints.row(k);
+        const double* answer = &m_now.m_answer[3 * static_cast<std::size_t>(k)];
+        const Vec3 lacks = {answer[0], answer[1], answer[2]};
+        if (!(speedOf(row, lacks) > negligible)) continue;
+        double largest = norm(lacks);
+        forEndsOf(row, [&](int b) { largest = std::max(largest, m_largest[b]); });
+        share = std::max(share, norm(lacks) / largest);
+    }
+    return share;
+}
+
+double JointRounds::largestSpeed() const
+{
+    double largest = 0;
+    for (int i = 0; i < m_joints.unknowns(); ++i) largest = std::max(largest, std::fabs(m_now.m_left[i]));
+    return largest;
+}
+
+void JointRounds::combine()
+{
+    if (m_joints.isEmpty() || !m_hasBest || m_count == 0) return;
+    m_joints.residual(m_before);
+    takeBest();
+    m_joints.residual(m_shift);
+    for (std::size_t i = 0; i < m_shift.size(); ++i)
+        m_shift[i] = (m_best.m_left[i] - m_now.m_left[i]) - (m_shift[i] - m_before[i]);
+    m_joints.shift(&m_shift);
+}
+
+bool JointRounds::isBestBehind() const
+{
+    return !m_joints.isEmpty() && m_count > 0 && m_best.square() < kMuchLess * m_now.square();
+}
+
+void JointRounds::takeBest()
+{
+    for (int k = 0; 3 * k < m_joints.unknowns(); ++k)
+    {
+        ContactRow& row = m_joints.row(k);
+        Vec3 impulse = row.m_impulse;
+        for (int i = 0; i < 3; ++i)
+            impulse += (m_best.m_impulse[3 * k + i] - m_now.m_impulse[3 * k + i]) * row.m_axes[i];
+        m_rows.change(row, impulse);
+    }
+    m_rows.flush();
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/joint_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Multiplications that one factor may take, some 20 ms; where joints are more, parts of them are solved in turn.
+constexpr double kMostWork = 6e7;
+constexpr int kJointsOfPart = 64;
+
+constexpr int kPatience = 30;          // changes of what is held, a step: each takes another factor
+constexpr double kNothing = 1e-7;      // share of the speed scale that is not worth an answer
+constexpr double kAtLimit = 1 - 1e-9;  // share of a limit that counts as all of it
+
+double along(const ContactRow& row, int axis)
+{
+    return dot(row.m_impulse, row.m_axes[axis]);
+}
+
+}  // namespace
+
+void JointSystem::begin()
+{
+    m_first = static_cast<int>(m_rows.problem().m_contacts.size());
+    m_count = static_cast<int>(m_rows.problem().m_joints.size());
+    m_partCount = 0;
+    if (isEmpty()) return;
+    for (std::vector<double>* values : {&m_shift, &m_change}) values->assign(unknowns(), 0);
+    m_isHeld.assign(unknowns(), 0);
+    m_isIdle.assign(unknowns(), 0);
+    m_patience = kPatience;
+    ++m_changes;
+    for (int k = 0; k < m_count; ++k)
+    {
+        ContactRow& joint = row(k);
+        const bool atMost = norm(joint.m_impulse) >= kAtLimit * joint.m_most;
+        for (int i = 0; i < 3; ++i)
+        {
+            m_isIdle[3 * k + i] = joint.m_idle || !(joint.m_rowCompliance[i] > 0) || !(joint.m_limit[i] > 0) ||
+                                  !isFinite(joint.m_target);  // what is no number is never applied
+            m_isHeld[3 * k + i] =
+                m_isIdle[3 * k + i] || atMost || std::fabs(along(joint, i)) >= kAtLimit * joint.m_limit[i];
+            joint.m_held = joint.m_held || (m_isHeld[3 * k + i] && !m_isIdle[3 * k + i]);
+        }
+    }
+    chooseParts();
+    reform();
+}
+
+void JointSystem::reform()
+{
+    for (int p = 0; p < m_partCount; ++p) form(m_parts[p]);
+}
+
+// The first joint that has the same owner: a body, or a rigid proxy that can move, with all that moves with it.
+int JointSystem::firstWithOwner(const RowEnd& end, int joint)
+{
+    const ContactProblem& problem = m_rows.problem();
+    int owner = end.m_body;
+    if (end.m_body < 0)
+    {
+        if (end.m_rigidProxy < 0) return joint;
+        const RigidProxy& rigidProxy = problem.m_rigidProxies[end.m_rigidProxy];
+        if (rigidProxy.m_responseCount == 0 && !rigidProxy.canMove()) return joint;
+        owner = end.m_rigidProxy;
+        for (int k = 0; k < rigidProxy.m_responseCount; ++k)
+            owner = std::min(owner, problem.m_responses[rigidProxy.m_firstResponse + k].m_rigidProxy);
+        owner += static_cast<int>(problem.m_bodies.size());
+    }
+    int& first = m_firstOfOwner[owner];
+    if (first < 0) first = joint;
+    return first;
+}
+
+void JointSystem::chooseParts()
+{
+    const ContactProblem& problem = m_rows.problem();
+    m_firstOfOwner.assign(problem.m_bodies.size() + problem.m_rigidProxies.size(), -1);
+    m_profile.resize(m_count);
+    double work = 0;
+    for (int k = 0; k < m_count; ++k)
+    {
+        m_profile[k] = std::min(firstWithOwner(row(k).m_a, k), firstWithOwner(row(k).m_b, k));
+        work += EnvelopeFactor::work(k - m_profile[k] + 1);
+    }
+    const int length = work > kMostWork ? kJointsOfPart : m_count;
+    for (int k = 0; k < m_count; k += length) addPart(k, std::min(k + length, m_count));
+}
+
+void JointSystem::addPart(int begin, int end)
+{
+    if (m_partCount == static_cast<int>(m_parts.size())) m_parts.emplace_back();
+    Part& part = m_parts[m_partCount++];
+    part.m_begin = begin;
+    part.m_end = end;
+    part.m_factor.clear();
+    for (int k = begin; k < end; ++k) part.m_factor.addRow(std::max(m_profile[k] - begin, 0));
+}
+
+Mat3 JointSystem::between(const ContactRow& a, const ContactRow& b) const
+{
+    return m_rows.compliance(a.m_a, b.m_a) + m_rows.compliance(a.m_b, b.m_b) - m_rows.compliance(a.m_a, b.m_b) -
+           m_rows.compliance(a.m_b, b.m_a);
+}
+
+void JointSystem::form(Part& part)
+{
+    for (int k = part.m_begin; k < part.m_end; ++k)
+        for (int j = part.m_begin + part.m_factor.first(k - part.m_begin); j <= k; ++j)
+        {
+            const ContactRow &a = row(k), &b = row(j);
+            const Mat3 w = between(a, b);
+            Mat3 block;
+            for (int i = 0; i < 3; ++i)
+                for (int l = 0; l < 3; ++l) block(i, l) = dot(a.m_axes[i], w * b.m_axes[l]);
+            for (int i = 0; j == k && i < 3; ++i) block(i, i) += a.m_yield[i];
+            part.m_factor.set(k - part.m_begin, j - part.m_begin, block);
+        }
+    part.m_stale = true;
+}
+
+double JointSystem::residual(int joint, int axis, const Vec3& velocity) const
+{
+    const ContactRow& r = row(joint);
+    return r.m_target[axis] + m_shift[3 * joint + axis] - dot(r.m_axes[axis], velocity) -
+           r.m_yield[axis] * along(r, axis);
+}
+
+void JointSystem::residual(std::vector<double>& e) const
+{
+    for (int k = 0; k < m_count; ++k)
+    {
+        const Vec3 v = m_rows.velocity(row(k));
+        for (int i = 0; i < 3; ++i) e[3 * k + i] = m_isHeld[3 * k + i] ? 0 : residual(k, i, v);
+    }
+}
+
+void JointSystem::answer(std::vector<double>& x)
+{
+    for (int p = 0; p < m_partCount; ++p) answer(m_parts[p], x);
+}
+
+void JointSystem::answer(Part& part, std::vector<double>& x)
+{
+    const std::size_t first = 3 * static_cast<std::size_t>(part.m_begin);
+    if (part.m_stale) part.m_factor.factor(&m_isHeld[first]);
+    part.m_stale = false;
+    part.m_factor.solve(&x[first]);
+}
+
+void JointSystem::shift(const std::vector<double>* by)
+{
+    if (by)
+        m_shift.assign(by->begin(), by->end());
+    else
+        m_shift.assign(unknowns(), 0);
+}
+
+double JointSystem::solve()
+{
+    double left = 0;
+    for (int p = 0; p < m_partCount; ++p) left = std::max(left, solvePart(m_parts[p]));
+    return left;
+}
+
+// What is held once more by what it wants, then the others at once: again where one of them then exceeds its limit.
+double JointSystem::solvePart(Part& part)
+{
+    double held = 0;
+    for (int k = part.m_begin; k < part.m_end; ++k) held = std::max(held, sweepHeld(part, k));
+    do
+    {
+        follow();
+        if (!(missBy(part) > kNothing * m_rows.speedScale())) return held;
+        answer(part, m_change);
+    } while (holdBeyondLimits(part, held));
+    const double largest = takeChanges(part);
+    follow();
+    return m_partCount > 1 ? std::max(held, largest) : held;
+}
+
+// Notes what the ends' velocities lack, and returns the largest of it [m/s].
+double JointSystem::missBy(const Part& part)
+{
+    double largest = 0;
+    for (int k = part.m_begin; k < part.m_end; ++k)
+    {
+        const Vec3 v = m_rows.velocity(row(k));
+        for (int i = 0; i < 3; ++i)
+        {
+            m_change[3 * k + i] = m_isHeld[3 * k + i] ? 0 : residual(k, i, v);
+            largest = std::max(largest, std::fabs(m_change[3 * k + i]));
+        }
+    }
+    return largest;
+}
+
+// Velocities of dense bodies follow at once.
+void JointSystem::follow()
+{
+    if (!m_rows.isDense()) m_rows.flush();
+}
+
+double JointSystem::sweepHeld(Part& part, int joint)
+{
+    ContactRow& r = row(joint);
+    const Vec3 wanted = wantedImpulse(r, r.m_impulse, m_rows.velocity(r), 1);
+    Vec3 impulse = r.m_impulse;
+    bool any = false;
+    for (int i = 0; i < 3; ++i)
+    {
+        if (m_isIdle[3 * joint + i] || !m_isHeld[3 * joint + i]) continue;
+        any = true;
+        impulse += (dot(wanted, r.m_axes[i]) - along(r, i)) * r.m_axes[i];
+    }
+    if (!any) return 0;
+    const double change = speedOf(r, impulse - r.m_impulse);
+    m_rows.change(r, impulse);
+    const bool isWithin = norm(impulse) < kAtLimit * r.m_most;
+    for (int i = 0; i < 3; ++i)
+    {
+        if (m_isIdle[3 * joint + i] || !m_isHeld[3 * joint + i] || m_patience == 0) continue;
+        if (!isWithin || !(std::fabs(along(r, i)) < kAtLimit * r.m_limit[i])) continue;
+        m_isHeld[3 * joint + i] = 0;
+        part.m_stale = true;
+        --m_patience;
+        ++m_changes;
+    }
+    r.m_held = false;
+    for (int i = 3 * joint; i < 3 * joint + 3; ++i) r.m_held = r.m_held || (m_isHeld[i] && !m_isIdle[i]);
+    return change;
+}
+
+Vec3 JointSystem::changeOf(int joint) const
+{
+    Vec3 change;
+    for (int i = 0; i < 3; ++i) change += m_change[3 * joint + i] * row(joint).m_axes[i];
+    return change;
+}
+
+bool JointSystem::isBeyondLimits(const ContactRow& joint, const Vec3& impulse) const
+{
+    bool isBeyond = norm(impulse) > joint.m_most;
+    for (int i = 0; i < 3; ++i) isBeyond = isBeyond || std::fabs(dot(impulse, joint.m_axes[i])) > joint.m_limit[i];
+    return isBeyond;
+}
+
+// Gives joints whose changes would lead beyond their limits what they may have, and holds them there. True if there are
+// any, and all are to be solved again.
+bool JointSystem::holdBeyondLimits(Part& part, double& largest)
+{
+    bool any = false;
+    for (int k = part.m_begin; k < part.m_end && m_patience > 0; ++k)
+    {
+        ContactRow& r = row(k);
+        Vec3 impulse = r.m_impulse + changeOf(k);
+        const unsigned char* held = &m_isHeld[3 * static_cast<std::size_t>(k)];
+        if ((held[0] && held[1] && held[2]) || !isBeyondLimits(r, impulse)) continue;
+        any = r.m_held = true;
+        for (int i = 0; i < 3; ++i)
+        {
+            const double component = dot(impulse, r.m_axes[i]);
+            if (!(std::fabs(component) > r.m_limit[i])) continue;
+            impulse += (std::copysign(r.m_limit[i], component) - component) * r.m_axes[i];
+            m_isHeld[3 * k + i] = 1;
+        }
+        const double length = norm(impulse);
+        if (length > r.m_most)
+        {
+            impulse *= r.m_most / length;
+            std::fill_n(m_isHeld.begin() + 3 * k, 3, 1);
+        }
+        largest = std::max(largest, speedOf(r, impulse - r.m_impulse));
+        m_rows.change(r, impulse);
+        --m_patience;
+        ++m_changes;
+    }
+    part.m_stale = part.m_stale || any;
+    return any;
+}
+
+// Where patience is over limits are kept all the same.
+double JointSystem::takeChanges(const Part& part)
+{
+    double largest = 0;
+    for (int k = part.m_begin; k < part.m_end; ++k)
+    {
+        ContactRow& r = row(k);
+        Vec3 impulse = r.m_impulse + changeOf(k);
+        for (int i = 0; i < 3; ++i)
+        {
+            const double component = dot(impulse, r.m_axes[i]);
+            impulse += (std::clamp(component, -r.m_limit[i], r.m_limit[i]) - component) * r.m_axes[i];
+        }
+        const double length = norm(impulse);
+        if (length > r.m_most) impulse *= r.m_most / length;
+        if (!isFinite(impulse)) continue;
+        largest = std::max(largest, speedOf(r, impulse - r.m_impulse));
+        m_rows.change(r, impulse);
+    }
+    return largest;
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Joints of a problem are solved at once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bullet_fem/fem/step/stepping.h"
+#include "fem/scenes/contact_scene.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// Joints of single nodes of the cube with the scene's rigid proxy, or with the world.
+class JointSystemTest : public testing::Test
+{
+protected:
+    static constexpr int kWorld = -1;
+
+    Joint& hold(int node, int rigidProxy = kWorld)
+    {
+        ContactProblem& problem = m_scene.m_problem;
+        Joint joint;
+        joint.m_a.m_body = 0;
+        joint.m_a.m_first = static_cast<int>(problem.m_handleNodes.size());
+        joint.m_a.m_count = 1;
+        joint.m_b.m_rigidProxy = rigidProxy;
+        joint.m_b.m_point = m_scene.m_body.m_state.m_x[node];
+        problem.m_handleNodes.push_back(node);
+        problem.m_handleBlocks.push_back(Mat3::identity());
+        problem.m_joints.push_back(joint);
+        return problem.m_joints.back();
+    }
+
+    /// Of the node of a joint, beyond what it wants [m/s].
+    double miss(const Joint& joint) const
+    {
+        const Vec3 v = velocity(m_scene.m_body)[m_scene.m_problem.m_handleNodes[joint.m_a.m_first]];
+        const Vec3 other = joint.m_b.m_rigidProxy >= 0
+                               ? m_scene.m_rigidProxies[joint.m_b.m_rigidProxy].velocityAt(joint.m_b.m_point)
+                               : Vec3();
+        return norm(v - other - joint.m_wanted);
+    }
+
+    ContactReport solve()
+    {
+        m_scene.setVelocity({0.3, -0.5, -1});
+        m_scene.m_settings.m_sweeps = 50;
+        return m_scene.solve();
+    }
+
+    ContactScene m_scene;
+    std::vector<Joint>& m_joints = m_scene.m_problem.m_joints;
+};
+
+TEST_F(JointSystemTest, TakesOneSweepARound)
+{
+    for (int node = 0; node < 9; ++node) hold(node);
+    const ContactReport report = solve();
+    EXPECT_LE(report.m_sweeps, report.m_rounds);
+    for (const Joint& joint : m_joints) EXPECT_LT(miss(joint), 1e-6);
+}
+
+// Neither a ball of a gram nor one of a thousand tons is let go of.
+TEST_F(JointSystemTest, HoldsRigidBodiesOfAnyMass)
+{
+    for (const double mass : {1e-3, 1e3, 1e6})
+    {
+        m_joints.clear();
+        m_scene.m_problem.m_handleNodes.clear();
+        m_scene.m_problem.m_handleBlocks.clear();
+        makeBall(m_scene.m_rigidProxies[0], mass, 0.5);
+        m_scene.m_rigidProxies[0].m_linearVelocity = {};
+        m_scene.m_rigidProxies[0].m_angularVelocity = {};
+        for (int node = 0; node < 9; ++node) hold(node, 0);
+        solve();
+        for (const Joint& joint : m_joints) EXPECT_LT(miss(joint), 1e-5) << mass;
+    }
+}
+
+TEST_F(JointSystemTest, BearsAJointThatIsGivenTwice)
+{
+    for (int node : {0, 4, 8, 4, 0}) hold(node);
+    solve();
+    for (const Joint& joint : m_joints)
+    {
+        EXPECT_LT(miss(joint), 1e-6);
+        EXPECT_LT(norm(joint.m_impulse), 2e3);  // the cube has 1000 kg and 1.2 m/s
+    }
+}
+
+TEST_F(JointSystemTest, BearsJointsThatContradictEachOther)
+{
+    hold(4).m_wanted = {1, 0, 0};
+    hold(4).m_wanted = {-1, 0, 0};
+    hold(0);
+    solve();
+    EXPECT_LT(std::min(miss(m_joints[0]), miss(m_joints[1])), 1e-6);
+    EXPECT_LT(miss(m_joints[2]), 1e-6);
+    for (const Joint& joint : m_joints) EXPECT_LT(norm(joint.m_impulse), 3e3);
+}
+
+// What would pull harder than it may pulls as hard as it may, and the others do the rest.
+TEST_F(JointSystemTest, HoldsImpulsesAtTheirLimits)
+{
+    for (int node : {0, 2, 6, 8}) hold(node);
+    m_joints[0].m_limit = {Joint::kUnlimited, Joint::kUnlimited, 50};
+    m_joints[1].m_most = 20;
+    m_joints[2].m_limit = {0, Joint::kUnlimited, Joint::kUnlimited};
+    m_joints[2].m_impulse = {10, 0, 0};  // of a step in which it had none
+    solve();
+    EXPECT_NEAR(m_joints[0].m_impulse.z, 50, 1e-6);
+    EXPECT_NEAR(norm(m_joints[1].m_impulse), 20, 1e-6);
+    EXPECT_EQ(m_joints[2].m_impulse.x, 0);
+    EXPECT_GT(miss(m_joints[0]), 1e-3);
+    EXPECT_LT(miss(m_joints[3]), 1e-4);
+    const Vec3 v = velocity(m_scene.m_body)[6];
+    EXPECT_LT(std::hypot(v.y, v.z), 1e-4);
+}
+
+// One that starts at its limit, as it was a step ago, lets go of it.
+TEST_F(JointSystemTest, LetsGoOfLimitsThatAreNoLongerReached)
+{
+    hold(4).m_most = 1e6;
+    m_joints[0].m_impulse = {0, 0, -1e6};
+    solve();
+    EXPECT_LT(miss(m_joints[0]), 1e-3);  // what it started with would make a thousand m/s
+    EXPECT_LT(norm(m_joints[0].m_impulse), 1e4);
+}
+
+TEST_F(JointSystemTest, AddsCompliance)
+{
+    Joint& joint = hold(4);
+    joint.m_compliance = 0.02;
+    solve();
+    const Vec3 v = velocity(m_scene.m_body)[4];
+    EXPECT_LT(norm(v + 0.02 * m_joints[0].m_impulse), 1e-5);
+    EXPECT_GT(norm(v), 0.01);
+}
+
+// Beside contacts both hold.
+TEST_F(JointSystemTest, IsSolvedAmongContacts)
+{
+    hold(22);
+    m_scene.touchLowerFace(0, 0.5);
+    const ContactReport report = solve();
+    EXPECT_TRUE(report.m_converged);
+    EXPECT_LT(miss(m_joints[0]), 1e-4);
+    for (const ContactPoint& contact : m_scene.m_contacts) EXPECT_GT(m_scene.relativeVelocity(contact).z, -1e-4);
+}
+
+}  // namespace
+}  // namespace bullet_fem
