@@ -86,10 +86,11 @@ TEST_P(SecondOrderDrop, GivesBackWhatTheContactLasts)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Balls, SecondOrderDrop,
-                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
-                                          testing::Values(RubberDrop{1e5, 60, 0.6, 0.81}, RubberDrop{1e6, 60, 0.62, 0.9},
-                                                          RubberDrop{1e7, 60, 0.3, 0.85}, RubberDrop{1e7, 240, 0.8, 1})));
+INSTANTIATE_TEST_SUITE_P(
+    Balls, SecondOrderDrop,
+    testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                     testing::Values(RubberDrop{1e5, 60, 0.6, 0.81}, RubberDrop{1e6, 60, 0.62, 0.9},
+                                     RubberDrop{1e7, 60, 0.3, 0.85}, RubberDrop{1e7, 240, 0.8, 1})));
 
 // Down ten degrees, as rolling_test.cpp has it: what touches acts where it is within the step.
 TEST(SecondOrderRolling, IsAsFastAsWithSmallSteps)
