@@ -145,12 +145,11 @@ void btFemWorldStep::finishMotions()
             readChanges(*record);
             m_active.push_back(record.get());
         }
+    m_freeMotion.finish(m_active);
     runOn(m_active,
-          [this](btFemBodyRecord& record)
+          [](btFemBodyRecord& record)
           {
-              StepSettings settings = m_freeMotion.settingsOf(record);
-              settings.m_threads = nullptr;  // they are shared by the bodies
-              finishMotion(record, settings);
+              writeMotion(record);
               noteSpeed(record);
           });
     for (const auto& record : m_registry.records())

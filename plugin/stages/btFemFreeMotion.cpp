@@ -86,6 +86,38 @@ void btFemFreeMotion::solveBatch(const Range& batch)
     for (int k = batch.m_begin; k < batch.m_end; ++k) inBatches(k).m_reports.m_step.m_freeMotionMs = share;
 }
 
+void btFemFreeMotion::finish(const std::vector<btFemBodyRecord*>& solved)
+{
+    m_isUsable.resize(solved.size());
+    m_threads.run(static_cast<int>(solved.size()),
+                  [&](int k) { m_isUsable[k] = canFinishStep(solved[k]->fem().m_body); });
+    m_due.clear();
+    m_bodies.clear();
+    for (std::size_t k = 0; k < solved.size(); ++k)
+    {
+        Body& body = solved[k]->fem().m_body;
+        if (!m_isUsable[k])  // no NaN may reach a node
+        {
+            solved[k]->m_reports.m_step.m_flags |= BT_FEM_BREAKDOWN;
+            abandonStep(body);
+            continue;
+        }
+        m_due.push_back(solved[k]);
+        m_bodies.push_back(&body);
+    }
+    m_batches.divide(m_bodies, m_threads.count(), m_info.m_batchBodies);
+    m_ends.resize(m_due.size());
+    const std::vector<Range>& batches = m_batches.batches();
+    m_threads.run(static_cast<int>(batches.size()),
+                  [&](int b)
+                  {
+                      const Range& batch = batches[b];
+                      for (int k = batch.m_begin; k < batch.m_end; ++k)
+                          m_ends[k] = {&inBatches(k).fem().m_body, settingsOf(inBatches(k)), false};
+                      finishSteps(m_ends.data() + batch.m_begin, batch.m_end - batch.m_begin);
+                  });
+}
+
 void btFemFreeMotion::prepare(btFemBodyRecord& record)
 {
     readBody(record);  // once more: callbacks may have written since predict

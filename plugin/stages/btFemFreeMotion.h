@@ -18,8 +18,8 @@
 /// stands still.
 bool beginFreeMotion(btFemBodyRecord& record, double worldStep);
 
-/// The free motions of bodies, which know nothing of each other here: on any thread, in batches of copies. Scratch
-/// only.
+/// The free motions of bodies, and the ends of their steps; they know nothing of each other here: on any thread, in
+/// batches of copies. Scratch only.
 class btFemFreeMotion
 {
 public:
@@ -36,10 +36,12 @@ public:
     /// Every body once, each of which beginFreeMotion() was true for.
     void solve(const std::vector<btFemBodyRecord*>& due, const bullet_fem::SoftPairMemory& softPairs);
 
-    /// How the step of a body is solved.
-    bullet_fem::StepSettings settingsOf(const btFemBodyRecord& record) const;
+    /// Ends the steps of bodies whose contact is solved, in batches likewise: new positions and velocities of their
+    /// nodes, not yet written. What has no usable ones stands still, with a flag.
+    void finish(const std::vector<btFemBodyRecord*>& solved);
 
 private:
+    bullet_fem::StepSettings settingsOf(const btFemBodyRecord& record) const;
     void solveBatch(const bullet_fem::Range& batch);
     static void prepare(btFemBodyRecord& record);
     bullet_fem::FreeMotion motionOf(btFemBodyRecord& record) const;
@@ -56,4 +58,6 @@ private:
     bullet_fem::BodyBatches m_batches;
     bullet_fem::SteadyBodies m_steady;
     std::vector<bullet_fem::FreeMotion> m_motions;  // in the order of the batches
+    std::vector<bullet_fem::StepEnd> m_ends;        // likewise
+    std::vector<unsigned char> m_isUsable;          // one a body that is to be finished
 };

@@ -8,17 +8,10 @@
 
 using namespace bullet_fem;
 
-void finishMotion(btFemBodyRecord& record, const StepSettings& settings)
+void writeMotion(btFemBodyRecord& record)
 {
     FemSoftBody& fem = record.fem();
     btFemStepReport& report = record.m_reports.m_step;
-    if (canFinishStep(fem.m_body))
-        finishStep(fem.m_body, settings);
-    else  // no NaN may reach a node
-    {
-        report.m_flags |= BT_FEM_BREAKDOWN;
-        abandonStep(fem.m_body);
-    }
     record.m_work.m_insideOut.look(fem.m_body.m_model->mesh().tets(), fem.m_body.m_state.m_x);
     report.m_flags |= stateFlags(record) & BT_FEM_INSIDE_OUT;
     writeNodes(fem);

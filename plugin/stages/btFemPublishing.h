@@ -4,8 +4,8 @@
 
 #include "plugin/record/btFemBodyRecord.h"
 
-/// Ends the step of a body, and its nodes are written. May be called by several threads for different bodies.
-void finishMotion(btFemBodyRecord& record, const bullet_fem::StepSettings& settings);
+/// When the step of a body is over: its nodes are written. May be called by several threads for different bodies.
+void writeMotion(btFemBodyRecord& record);
 
 /// Normals of the nodes, while these are still in the cache.
 void finishNodes(btFemBodyRecord& record);
