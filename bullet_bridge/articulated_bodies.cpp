@@ -7,7 +7,7 @@
 
 #include "BulletDynamics/Featherstone/btMultiBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

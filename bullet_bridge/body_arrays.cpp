@@ -6,7 +6,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/limits.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

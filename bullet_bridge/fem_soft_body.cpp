@@ -9,7 +9,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body_mark.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem

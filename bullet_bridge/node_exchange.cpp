@@ -11,7 +11,7 @@
 #include "bullet_bridge/limits.h"
 #include "bullet_bridge/pose_matching.h"
 #include "bullet_bridge/soft_body_mesh.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "fem/common/rotation.h"
 
 namespace bullet_fem

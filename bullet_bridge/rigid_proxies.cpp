@@ -10,7 +10,7 @@
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_bridge/limits.h"
 #include "bullet_bridge/shapes/swept_distance.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem

@@ -4,7 +4,7 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_bridge/limits.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

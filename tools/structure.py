@@ -40,8 +40,6 @@ LAYERS = {
     "demos": ["demos", "tools", "plugin", "io", "fem"],
     "benchmarks": ["benchmarks", "plugin", "bullet_bridge", "io", "fem"],
 }
-# Public headers of the bridge; the others beside them are the plug-in's.
-BRIDGE_HEADERS = {"btFemVectors.h"}
 MOST_LINES_OF_FILE = 400
 MOST_LINES_OF_FUNCTION = 60
 MOST_UNITS_OF_KNOT = {"fem": 3, "bullet_bridge": 6, "plugin": 6, "io": 3, "tools": 6, "demos": 3, "benchmarks": 3}
@@ -58,9 +56,9 @@ def source_files():
 
 def room_of(path):
     """The folder of a file; public headers stand with what they declare."""
-    folder, name = os.path.split(path)
+    folder = os.path.dirname(path)
     if folder == "include/bullet_fem":
-        return "bullet_bridge" if name in BRIDGE_HEADERS else "plugin/public"
+        return "plugin/public"
     return re.sub(r"^include/bullet_fem/", "", folder)
 
 

@@ -4,7 +4,7 @@
 
 #include "BulletCollision/CollisionShapes/btPolyhedralConvexShape.h"
 #include "bullet_bridge/contact/contact_finder.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

@@ -8,7 +8,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/contact/contact_finder.h"
 #include "bullet_bridge/contact_patch.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem

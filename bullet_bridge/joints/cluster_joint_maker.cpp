@@ -9,7 +9,7 @@
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_bridge/joints/cluster_motion.h"
 #include "bullet_bridge/joints/soft_anchors.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "fem/common/rotation.h"
 
 namespace bullet_fem

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

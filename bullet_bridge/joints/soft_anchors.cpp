@@ -7,7 +7,7 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_bridge/joints/rigid_pivot.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

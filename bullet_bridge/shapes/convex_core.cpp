@@ -12,7 +12,7 @@
 #include "BulletCollision/CollisionShapes/btCylinderShape.h"
 #include "BulletCollision/CollisionShapes/btMultiSphereShape.h"
 #include "BulletCollision/CollisionShapes/btSphereShape.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

@@ -12,7 +12,7 @@
 #include "BulletCollision/CollisionShapes/btStaticPlaneShape.h"
 #include "bullet_bridge/shapes/convex_distance.h"
 #include "bullet_bridge/shapes/primitive_distance.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

@@ -12,7 +12,7 @@
 #include "LinearMath/btAabbUtil2.h"
 #include "bullet_bridge/shapes/shape_distance.h"
 #include "bullet_bridge/shapes/triangle_soup.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "fem/common/byte_stream.h"
 
 namespace bullet_fem

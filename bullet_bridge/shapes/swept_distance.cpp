@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {

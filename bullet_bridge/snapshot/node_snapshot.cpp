@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "fem/common/message.h"
 
 namespace bullet_fem

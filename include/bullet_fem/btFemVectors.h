@@ -2,22 +2,5 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "LinearMath/btVector3.h"
-#include "bullet_fem/fem/common/vec3.h"
-
-namespace bullet_fem
-{
-
-/// Bullet's vector in double.
-inline Vec3 vec3(const btVector3& v)
-{
-    return {double(v.x()), double(v.y()), double(v.z())};
-}
-
-/// A vector in Bullet's precision.
-inline btVector3 bulletVector(const Vec3& v)
-{
-    return {btScalar(v.x), btScalar(v.y), btScalar(v.z)};
-}
-
-}  // namespace bullet_fem
+// For Bullet programs: bullet_fem::vec3() and bullet_fem::bulletVector().
+#include "bullet_fem/bullet_bridge/vectors.h"
