@@ -40,7 +40,7 @@ void BodyEnds::clear(const ContactBody& body, const StepSettings& settings)
     m_body = body;
     m_theta = StepCoefficients(settings).theta();
     const std::vector<double>& mass = body.m_body->m_state.m_mass;
-    m_mass = std::accumulate(mass.begin(), mass.end(), 0.0);
+    if (m_theta < 1) m_mass = std::accumulate(mass.begin(), mass.end(), 0.0);
     m_added = 0;
     m_firstJoint = std::numeric_limits<int>::max();
     m_working.reset(0);

@@ -80,7 +80,7 @@ public:
     /// With which the end moves in the step, by velocity() and what was before [m/s].
     Vec3 meanVelocity(int e) const;
 
-    /// Of the body [kg].
+    /// Of the body [kg]; not there in steps of implicit Euler, which do not ask.
     double mass() const { return m_mass; }
 
     /// From the true velocities of the body [m/s].

@@ -237,7 +237,7 @@ TEST(SecondOrder, ComesToRestWhereStepsWithoutDampingExplode)
     }
 }
 
-// Full numerical damping is implicit Euler, bit for bit whatever the other terms are multiplied with.
+// Where a damped bar comes to rest under its weight is none of the step's business.
 TEST(SecondOrder, RestsWhereEulerRests)
 {
     std::vector<Vec3> rest[2];

@@ -135,6 +135,17 @@ public:
     std::vector<SolveReport> m_reports;  // of the free motion and the response of every body
 };
 
+// That many steps, bodies of one side by side and those of the other one by one.
+void expectSameSteps(Copies& together, Copies& alone, int count)
+{
+    for (int k = 0; k < count; ++k)
+    {
+        together.stepTogether();
+        alone.stepAlone();
+        together.expectSameBits(alone, k);
+    }
+}
+
 class Batch : public testing::TestWithParam<int>
 {
 };
@@ -143,12 +154,7 @@ TEST_P(Batch, GivesEveryBodyItsOwnBits)
 {
     const auto model = freeBlock().m_model;
     Copies together(model, GetParam()), alone(model, GetParam());
-    for (int k = 0; k < kSteps; ++k)
-    {
-        together.stepTogether();
-        alone.stepAlone();
-        together.expectSameBits(alone, k);
-    }
+    expectSameSteps(together, alone, kSteps);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Batch, testing::Values(1, 5, 17, 40));
@@ -161,12 +167,7 @@ TEST_P(BatchOnTarget, GivesEveryBodyItsOwnBits)
 {
     const auto model = makeBody(makeBox({1, 0.8, 0.7}, {3, 3, 2}), dampedMaterial()).m_model;
     Copies together(model, 40), alone(model, 40);
-    for (int k = 0; k < 5; ++k)
-    {
-        together.stepTogether();
-        alone.stepAlone();
-        together.expectSameBits(alone, k);
-    }
+    expectSameSteps(together, alone, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, BatchOnTarget, testing::ValuesIn(availableTargets()), targetName);
@@ -194,12 +195,7 @@ TEST(BatchOfCopies, TakesBodiesOfOtherModelsAmongThem)
     Copies together(block, 0), alone(block, 0);
     for (unsigned k = 0; k < 9; ++k)
         for (Copies* copies : {&together, &alone}) copies->add(k == 2 || k > 6 ? beam : block, k);
-    for (int k = 0; k < 10; ++k)
-    {
-        together.stepTogether();
-        alone.stepAlone();
-        together.expectSameBits(alone, k);
-    }
+    expectSameSteps(together, alone, 10);
 }
 
 // Bodies that are large enough to be shared out, on the low-memory path, too.
@@ -237,12 +233,7 @@ TEST(BatchOfCopies, TakesImpulsesThatComeNowAndThen)
             copies->m_pushedEvery = 3;
             for (StepSettings& settings : copies->m_settings) settings.m_tension = tension;
         }
-        for (int k = 0; k < 20; ++k)
-        {
-            together.stepTogether();
-            alone.stepAlone();
-            together.expectSameBits(alone, k);
-        }
+        expectSameSteps(together, alone, 20);
     }
 }
 
@@ -255,12 +246,7 @@ TEST(BatchOfCopies, TakesStepsOfSecondOrder)
         Copies together(model, 40), alone(model, 40);
         for (Copies* copies : {&together, &alone})
             for (StepSettings& settings : copies->m_settings) settings.m_numericalDamping = damping;
-        for (int k = 0; k < 10; ++k)
-        {
-            together.stepTogether();
-            alone.stepAlone();
-            together.expectSameBits(alone, k);
-        }
+        expectSameSteps(together, alone, 10);
     }
 }
 
@@ -270,12 +256,7 @@ TEST(BatchOfCopies, MayGoWithoutMomentumCorrection)
     Copies together(model, 17), alone(model, 17);
     for (Copies* copies : {&together, &alone})
         for (StepSettings& settings : copies->m_settings) settings.m_momentumCorrection = false;
-    for (int k = 0; k < 5; ++k)
-    {
-        together.stepTogether();
-        alone.stepAlone();
-        together.expectSameBits(alone, k);
-    }
+    expectSameSteps(together, alone, 5);
 }
 
 // A body that breaks down leaves the others alone.

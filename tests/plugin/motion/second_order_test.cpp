@@ -30,15 +30,20 @@ btFemSolverInfo secondOrder()
     return info;
 }
 
-btSoftBody& addRubberBall(FemWorld& world, double young, double stiffnessDamping, double height)
+btFemMaterial rubber(double young, double stiffnessDamping)
 {
-    btSoftBody* body = btFemHelpers::createFromTetMesh(world.info(), makeSphere(kBall, 6));
-    body->translate({0, 0, btScalar(height)});
     btFemMaterial material;
     material.m_youngModulus = btScalar(young);
     material.m_density = 1000;
     material.m_stiffnessDamping = btScalar(stiffnessDamping);
-    world.fem().setMaterial(body, material);
+    return material;
+}
+
+btSoftBody& addRubberBall(FemWorld& world, double young, double stiffnessDamping, double height)
+{
+    btSoftBody* body = btFemHelpers::createFromTetMesh(world.info(), makeSphere(kBall, 6));
+    body->translate({0, 0, btScalar(height)});
+    world.fem().setMaterial(body, rubber(young, stiffnessDamping));
     body->m_cfg.kDF = btScalar(0.5);
     return world.addSoft(body);
 }
@@ -120,11 +125,7 @@ TEST(SecondOrderRest, CarriesTheWeight)
         FemWorld world(WorldClass::softRigid, coupling, {0, 0, btScalar(-kGravity)}, secondOrder());
         btRigidBody& floor = world.addFloorBox();
         btSoftBody* cube = btFemHelpers::createBox(world.info(), {0, 0, btScalar(0.26)}, {.25f, .25f, .25f}, .125f);
-        btFemMaterial material;
-        material.m_youngModulus = btScalar(1e6);
-        material.m_density = 1000;
-        material.m_stiffnessDamping = btScalar(0.01);
-        world.fem().setMaterial(cube, material);
+        world.fem().setMaterial(cube, rubber(1e6, 0.01));
         world.addSoft(cube);
         cube->setActivationState(DISABLE_DEACTIVATION);
         world.step(300);
