@@ -141,7 +141,8 @@ void PositionPush::prepareContacts(Range rows)
         const ContactPoint& c = contacts[k];
         const Vec3 mean = m_rows.meanVelocity(row);
         const double moving = dot(c.m_normal, mean);
-        row.m_target.x = c.m_gap < 0 ? pushSpeed(c, settings) - moving : -(moving + c.m_gap / h);
+        const double parting = m_share > 0 ? moving : std::max(moving, 0.0);  // what still closes is left to the rows
+        row.m_target.x = c.m_gap < 0 ? pushSpeed(c, settings) - parting : -(moving + c.m_gap / h);
         if (m_share > 0)
             for (int i = 1; i < 3; ++i) row.m_target[i] -= dot(row.m_axes[i], mean);
         else
