@@ -302,11 +302,11 @@ RigidProxies::Remainder& RigidProxies::remainderOf(int objectId)
     return m_remainders.back();
 }
 
-void RigidProxies::addReaction(int rigidProxy, const Vec3& impulse, const Vec3& point)
+void RigidProxies::addReaction(int rigidProxy, const Vec3& impulse, const Vec3& arm)
 {
     if (rigidProxy < 0) return;
     m_sources[rigidProxy].m_linearImpulse += impulse;
-    m_sources[rigidProxy].m_angularImpulse += cross(point - m_rigidProxies[rigidProxy].m_center, impulse);
+    m_sources[rigidProxy].m_angularImpulse += cross(arm, impulse);
 }
 
 void RigidProxies::addJointReaction(const JointEnd& end, const Vec3& impulse)
@@ -315,13 +315,13 @@ void RigidProxies::addJointReaction(const JointEnd& end, const Vec3& impulse)
     if (end.m_angular)
         m_sources[end.m_rigidProxy].m_angularImpulse += impulse;
     else
-        addReaction(end.m_rigidProxy, impulse, end.m_point);
+        addReaction(end.m_rigidProxy, impulse, end.m_point - m_rigidProxies[end.m_rigidProxy].m_center);
 }
 
 void RigidProxies::applyReactions(const ContactProblem& problem, double step)
 {
     for (const ContactPoint& contact : problem.m_contacts)
-        addReaction(contact.m_rigidProxy, -contact.m_impulse, contact.m_point + contact.m_patch + contact.m_approach);
+        addReaction(contact.m_rigidProxy, -contact.m_impulse, contact.m_arm);
     for (const Joint& joint : problem.m_joints)
     {
         addJointReaction(joint.m_a, joint.m_impulse);

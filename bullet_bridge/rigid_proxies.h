@@ -124,7 +124,7 @@ private:
         LinkMotion m_now = {};  // as the solve began; of rigid bodies and links that can move
     };
 
-    void addReaction(int rigidProxy, const Vec3& impulse, const Vec3& point);
+    void addReaction(int rigidProxy, const Vec3& impulse, const Vec3& arm);
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
     void addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change);
     LinkMotion doneByBullet(const btRigidBody& body, double step, const RigidProxy& rigidProxy) const;

@@ -229,6 +229,7 @@ void ContactFinder::setLevers(const FemSoftBody& fem, const Target& target, int 
     if (isNode) contact.m_patch = patchOf(fem, target, feature, contact.m_normal, met.m_time);
     if (isNode && contact.m_gap < kRollingGap * m_size && roundness(fem.m_surface.curvature(feature), m_size) > 0)
         return;
+    contact.m_isMetLater = true;
     contact.m_approach += met.m_arm - (contact.m_point + contact.m_patch - target.m_motion->m_center);
 }
 

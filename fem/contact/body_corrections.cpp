@@ -43,14 +43,31 @@ double BodyEnds::floorOf(const CorrectionGoal& goal) const
     return goal.m_floor * std::sqrt(all);
 }
 
-// Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin.
+// Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin. So is what
+// the nodes of a group, which is where the step begins, are ahead of it as they feel theirs.
 void BodyEnds::addLevers(const StepSettings& settings)
 {
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
     for (int e = 0; e < size(); ++e)
-        if (!isGroup(m_ends[e]))
-            momentum.addAngularImpulse(*m_body.m_body, m_ends[e].m_point.m_nodes[0],
-                                       cross(m_ends[e].m_offset, m_impulse[e] - m_applied[e]), settings.m_step);
+    {
+        const End& end = m_ends[e];
+        const Vec3 added = m_impulse[e] - m_applied[e];
+        if (!isGroup(end))
+            momentum.addAngularImpulse(*m_body.m_body, end.m_point.m_nodes[0], cross(end.m_offset, added),
+                                       settings.m_step);
+        else if (m_theta < 1)
+            momentum.addAngularImpulse(*m_body.m_body, end.m_nodes[0], groupLever(end, added), settings.m_step);
+    }
+}
+
+Vec3 BodyEnds::groupLever(const End& end, const Vec3& impulse) const
+{
+    const std::vector<Vec3>& begin = m_body.m_body->m_state.m_x;
+    const std::vector<Vec3>& kick = m_body.m_body->m_workspace.scratch().m_kickPosition;
+    Vec3 lever;
+    for (int i = 0; i < end.m_count; ++i)
+        lever += cross(begin[end.m_nodes[i]] - kick[end.m_nodes[i]], transpose(end.m_blocks[i]) * impulse);
+    return lever;
 }
 
 void BodyEnds::takeExpected(const StepSettings& settings, const CorrectionGoal& goal)

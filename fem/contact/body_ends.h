@@ -157,6 +157,7 @@ private:
     bool gatherBeyond(const std::vector<Vec3>& known);
     double floorOf(const CorrectionGoal& goal) const;
     void addLevers(const StepSettings& settings);
+    Vec3 groupLever(const End& end, const Vec3& impulse) const;
     void giveUpExpected(const StepSettings& settings);
     void formOwn();
     void see(int e);

@@ -95,7 +95,11 @@ void ContactRows::addContactRows()
     forEachPiece(
         [&](int, Range rows)
         {
-            for (int k = rows.m_begin; k < rows.m_end; ++k) setContactRow(m_rows[k], contacts[k]);
+            for (int k = rows.m_begin; k < rows.m_end; ++k)
+            {
+                setContactRow(m_rows[k], contacts[k]);
+                m_problem->m_contacts[k].m_arm = m_rows[k].m_b.m_arm;
+            }
         });
 }
 
@@ -125,7 +129,8 @@ void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 {
     const Vec3 at = impulsePoint(contact);
     const RowEnd a = softEnd(contact.m_soft, at, row.m_a.m_end);
-    const RowEnd b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, at + contact.m_approach)
+    const Vec3 atRigid = (contact.m_isMetLater ? contact.m_point + contact.m_patch : at) + contact.m_approach;
+    const RowEnd b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, atRigid)
                                                : softEnd(contact.m_other, at, row.m_b.m_end);
     row = ContactRow();
     row.m_a = a;
@@ -278,7 +283,7 @@ void ContactRows::setContactTarget(ContactRow& row, const ContactPoint& contact)
     const Vec3 n = contact.m_normal;
     const double allowed = -std::max(contact.m_gap, 0.0) / h;
     row.m_target.x = allowed;
-    const Vec3 arc = arcOf(row.m_b);
+    const Vec3 arc = arcOf(row);
     for (int i = 1; i < 3; ++i)
         row.m_target[i] =
             (dot(arc, row.m_axes[i]) - m_settings.m_slipFraction * dot(contact.m_slip, row.m_axes[i])) / h;

@@ -6,6 +6,7 @@
 
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/rigid_response.h"
+#include "fem/step/step_coefficients.h"
 
 namespace bullet_fem
 {
@@ -242,9 +243,10 @@ Vec3 ContactRows::trueVelocity(const ContactRow& row) const
 // By how much the way within the step of a point of a kinematic rigid proxy, an arc, differs from h times its velocity:
 // h^2/2 w x (w x arm) [m]. What sticks is led along it; without that a body on a turntable would go outwards. Of what
 // turns far within the step other points touch as it ends, and the spin of what can move is not known before the solve.
-Vec3 ContactRows::arcOf(const RowEnd& end) const
+Vec3 ContactRows::arcOf(const ContactRow& row) const
 {
     constexpr double kFarTurn = 0.5;  // within a step [rad]
+    const RowEnd& end = row.m_b;
     if (end.m_rigidProxy < 0 || end.m_angular) return {};
     const RigidProxy& rigidProxy = m_problem->m_rigidProxies[end.m_rigidProxy];
     const Vec3 turn = m_settings.m_step.m_step * rigidProxy.m_angularVelocity;
@@ -252,14 +254,19 @@ Vec3 ContactRows::arcOf(const RowEnd& end) const
     return 0.5 * cross(turn, cross(turn, end.m_arm));
 }
 
+Vec3 ContactRows::arcOfMean(const ContactRow& row) const
+{
+    return (2 * StepCoefficients(m_settings.m_step).theta() - 1) * arcOf(row);
+}
+
 // A point that sticks remembers how far it crept; one that slides or hangs free starts anew.
-Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact, const Vec3& trueVelocity) const
+Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact) const
 {
     constexpr double kSticks = 0.999;  // share of the friction that it could have
     const double normal = dot(row.m_impulse, contact.m_normal);
     const Vec3 friction = row.m_impulse - normal * contact.m_normal;
     if (!(norm(friction) < kSticks * row.m_friction * normal)) return {};
-    const Vec3 slip = contact.m_slip + m_settings.m_step.m_step * trueVelocity - arcOf(row.m_b);
+    const Vec3 slip = contact.m_slip + m_settings.m_step.m_step * meanVelocity(row) - arcOfMean(row);
     return slip - dot(slip, contact.m_normal) * contact.m_normal;
 }
 
@@ -293,7 +300,7 @@ double ContactRows::store()
             const ContactRow& row = m_rows[k];
             const Vec3 v = trueVelocity(row);
             contacts[k].m_impulse = row.m_impulse;
-            contacts[k].m_slip = newSlip(row, contacts[k], v);
+            contacts[k].m_slip = newSlip(row, contacts[k]);
             return violation(row, v);
         });
     std::size_t k = contacts.size();

@@ -70,6 +70,11 @@ public:
     /// With which its ends move against each other in the step [m/s].
     Vec3 meanVelocity(const ContactRow& row) const { return meanVelocity(row.m_a) - meanVelocity(row.m_b); }
 
+    /// Of what turns with a rigid proxy that nothing moves, less h times its velocity at 1 - theta of the step: what it
+    /// goes in theta of it, over theta, and in the whole step [m].
+    Vec3 arcOf(const ContactRow& row) const;
+    Vec3 arcOfMean(const ContactRow& row) const;
+
     /// Gives a row another impulse; the velocities of its ends follow: of a body that is not dense with flush().
     void change(ContactRow& row, const Vec3& impulse);
     void flush();
@@ -176,8 +181,7 @@ private:
     }
     Vec3 trueVelocity(const ContactRow& row) const;
     double violation(const ContactRow& row, const Vec3& trueVelocity) const;
-    Vec3 arcOf(const RowEnd& end) const;
-    Vec3 newSlip(const ContactRow& row, const ContactPoint& contact, const Vec3& trueVelocity) const;
+    Vec3 newSlip(const ContactRow& row, const ContactPoint& contact) const;
     bool rests(const ContactRow& row) const;
     void react(const RowEnd& end, const Vec3& impulse);
     void solveCorrections();

@@ -141,10 +141,14 @@ void PositionPush::prepareContacts(Range rows)
         const ContactPoint& c = contacts[k];
         const Vec3 mean = m_rows.meanVelocity(row);
         const double moving = dot(c.m_normal, mean);
-        const double parting = m_share > 0 ? moving : std::max(moving, 0.0);  // what still closes is left to the rows
+        const double left = (1 - m_share) * std::min(dot(c.m_normal, m_rows.velocity(row)), 0.0);  // to the rows
+        const double parting = moving - left;
         row.m_target.x = c.m_gap < 0 ? pushSpeed(c, settings) - parting : -(moving + c.m_gap / h);
         if (m_share > 0)
-            for (int i = 1; i < 3; ++i) row.m_target[i] -= dot(row.m_axes[i], mean);
+        {
+            const Vec3 moves = mean + (1 / h) * (m_rows.arcOf(row) - m_rows.arcOfMean(row));
+            for (int i = 1; i < 3; ++i) row.m_target[i] -= dot(row.m_axes[i], moves);
+        }
         else
             row.m_target.y = row.m_target.z = row.m_friction = 0;
         row.m_idle = row.m_idle || row.m_yield.x > 0;

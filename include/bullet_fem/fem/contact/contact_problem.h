@@ -89,6 +89,8 @@ struct ContactPoint
                       ///< closer until then [m]
     Vec3
         m_patch;  ///< added to m_point for the levers of both sides: to where the patch, as it moves, has come from [m]
+    bool m_isMetLater = false;  ///< the rigid proxy's arm is to m_point + m_patch + m_approach, whatever the soft one's
+    Vec3 m_arm;                 ///< of the rigid proxy, from its centre [m]: part of the answer
     Vec3 m_normal;             ///< unit [-], from the other side to m_soft
     double m_gap = 0;          ///< signed distance at the start [m]; negative inside
     double m_slop = 0;         ///< penetration that is left alone [m], >= 0
