@@ -38,7 +38,7 @@ double speedByLoads(const Body& body, double step)
 void BodyEnds::clear(const ContactBody& body, const StepSettings& settings)
 {
     m_body = body;
-    m_theta = StepCoefficients(settings).theta();
+    m_theta = StepCoefficients(settings, *body.m_body).theta();
     const std::vector<double>& mass = body.m_body->m_state.m_mass;
     if (m_theta < 1) m_mass = std::accumulate(mass.begin(), mass.end(), 0.0);
     m_added = 0;

@@ -80,6 +80,9 @@ public:
     /// With which the end moves in the step, by velocity() and what was before [m/s].
     Vec3 meanVelocity(int e) const;
 
+    /// Of the body's step: see StepCoefficients [-].
+    double theta() const { return m_theta; }
+
     /// Of the body [kg]; not there in steps of implicit Euler, which do not ask.
     double mass() const { return m_mass; }
 

@@ -5,7 +5,6 @@
 
 #include "fem/contact/contact_rows.h"
 #include "fem/contact/rigid_response.h"
-#include "fem/step/step_coefficients.h"
 
 namespace bullet_fem
 {
@@ -147,7 +146,7 @@ void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 // to where the lighter one wants it.
 Vec3 ContactRows::impulsePoint(const ContactPoint& contact) const
 {
-    const double theta = StepCoefficients(m_settings.m_step).theta();
+    const double theta = this->theta(contact.m_soft.m_body, contact.m_rigidProxy < 0 ? contact.m_other.m_body : -1);
     const double ahead = (1 - theta) * m_settings.m_step.m_step;
     const bool isNew = contact.m_gap > contact.m_slop;
     const Vec3 at = contact.m_point + (isNew ? theta : 2 * theta - 1) * contact.m_patch;

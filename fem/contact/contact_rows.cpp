@@ -6,7 +6,6 @@
 
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/rigid_response.h"
-#include "fem/step/step_coefficients.h"
 
 namespace bullet_fem
 {
@@ -243,6 +242,12 @@ Vec3 ContactRows::trueVelocity(const ContactRow& row) const
 // By how much the way within the step of a point of a kinematic rigid proxy, an arc, differs from h times its velocity:
 // h^2/2 w x (w x arm) [m]. What sticks is led along it; without that a body on a turntable would go outwards. Of what
 // turns far within the step other points touch as it ends, and the spin of what can move is not known before the solve.
+double ContactRows::theta(int a, int b) const
+{
+    const double ofA = a >= 0 ? m_bodies[a].theta() : 0, ofB = b >= 0 ? m_bodies[b].theta() : 0;
+    return a >= 0 || b >= 0 ? std::max(ofA, ofB) : 1;
+}
+
 Vec3 ContactRows::arcOf(const ContactRow& row) const
 {
     constexpr double kFarTurn = 0.5;  // within a step [rad]
@@ -256,7 +261,7 @@ Vec3 ContactRows::arcOf(const ContactRow& row) const
 
 Vec3 ContactRows::arcOfMean(const ContactRow& row) const
 {
-    return (2 * StepCoefficients(m_settings.m_step).theta() - 1) * arcOf(row);
+    return (2 * theta(row) - 1) * arcOf(row);
 }
 
 // A point that sticks remembers how far it crept; one that slides or hangs free starts anew.

@@ -75,6 +75,11 @@ public:
     Vec3 arcOf(const ContactRow& row) const;
     Vec3 arcOfMean(const ContactRow& row) const;
 
+    /// StepCoefficients::theta() of a row's soft body, of two the larger: shares of the step are those of implicit Euler
+    /// where one of them goes by it. 1 without soft bodies.
+    double theta(const ContactRow& row) const { return theta(row.m_a.m_body, row.m_b.m_body); }
+    double theta(int a, int b) const;
+
     /// Gives a row another impulse; the velocities of its ends follow: of a body that is not dense with flush().
     void change(ContactRow& row, const Vec3& impulse);
     void flush();

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "fem/step/step_coefficients.h"
-
 namespace bullet_fem
 {
 namespace
@@ -36,7 +34,6 @@ void PositionPush::begin()
     const ContactProblem& problem = m_rows.problem();
     for (std::vector<Vec3>* own : {&m_linear, &m_angular}) own->reserve(problem.m_rigidProxies.size());
     m_base.reserve(m_rows.rows().size());
-    m_share = 1 - StepCoefficients(m_rows.settings().m_step).theta();
     m_step = m_rows.settings().m_step.m_step;
     m_pushed.reserve(problem.m_bodies.size());
 }
@@ -58,14 +55,13 @@ bool PositionPush::isNeeded() const
 // if they do not.
 bool PositionPush::lags() const
 {
-    if (!(m_share > 0)) return false;
     const ContactProblem& problem = m_rows.problem();
     const double negligible = pushTolerance(m_rows.settings().m_tolerance) * m_rows.speedScale();
     const std::size_t contacts = problem.m_contacts.size(), joints = problem.m_joints.size();
     for (std::size_t k = 0; k < contacts + joints; ++k)
     {
         const ContactRow& row = m_rows.rows()[k];
-        if (row.m_idle || row.m_yield.x > 0) continue;
+        if (row.m_idle || row.m_yield.x > 0 || !(m_rows.theta(row) < 1)) continue;
         const Vec3 mean = m_rows.meanVelocity(row);
         if (k < contacts)
         {
@@ -82,7 +78,7 @@ bool PositionPush::lags() const
 Vec3 PositionPush::lagOf(const ContactRow& row, const Joint& joint) const
 {
     Vec3 lag;
-    if (!(m_share > 0) || row.m_yield.x > 0 || joint.m_most < Joint::kUnlimited) return lag;
+    if (!(m_rows.theta(row) < 1) || row.m_yield.x > 0 || joint.m_most < Joint::kUnlimited) return lag;
     const Vec3 mean = m_rows.meanVelocity(row);
     for (int i = 0; i < 3; ++i)
         if (joint.m_limit[i] >= Joint::kUnlimited) lag[i] = joint.m_wanted[i] - dot(row.m_axes[i], mean);
@@ -109,7 +105,7 @@ void PositionPush::prepare()
             for (int k = rows.m_begin; k < rows.m_end; ++k)
             {
                 ContactRow& row = m_rows.rows()[k];
-                if (!row.m_joint && !row.m_touch) m_base[k] = m_share * row.m_impulse;
+                if (!row.m_joint && !row.m_touch) m_base[k] = (1 - m_rows.theta(row)) * row.m_impulse;
                 row.m_impulse = m_base[k];
             }
         });
@@ -141,10 +137,11 @@ void PositionPush::prepareContacts(Range rows)
         const ContactPoint& c = contacts[k];
         const Vec3 mean = m_rows.meanVelocity(row);
         const double moving = dot(c.m_normal, mean);
-        const double left = (1 - m_share) * std::min(dot(c.m_normal, m_rows.velocity(row)), 0.0);  // to the rows
+        const double theta = m_rows.theta(row);
+        const double left = theta * std::min(dot(c.m_normal, m_rows.velocity(row)), 0.0);  // to the rows
         const double parting = moving - left;
         row.m_target.x = c.m_gap < 0 ? pushSpeed(c, settings) - parting : -(moving + c.m_gap / h);
-        if (m_share > 0)
+        if (theta < 1)
         {
             const Vec3 moves = mean + (1 / h) * (m_rows.arcOf(row) - m_rows.arcOfMean(row));
             for (int i = 1; i < 3; ++i) row.m_target[i] -= dot(row.m_axes[i], moves);

@@ -47,8 +47,7 @@ private:
     ContactSweeps& m_sweeps;
     std::vector<Vec3> m_linear, m_angular;  // the rigid proxies' own velocities
     std::vector<Pushed> m_pushed;           // one a body
-    std::vector<Vec3> m_base;  // one a row: impulses that move the nodes less than they change velocities [N s]
-    double m_share = 0;        // by this share of what they change [-]
+    std::vector<Vec3> m_base;  // one a row: the share of its impulse that has not moved the nodes yet [N s]
     double m_step = 0;         // [s]
 };
 

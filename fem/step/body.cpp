@@ -20,6 +20,7 @@ StepScratch::StepScratch(const BodyModel& model)
       m_drift(model.nodeCount()),
       m_meanVelocity(model.nodeCount()),
       m_push(model.nodeCount()),
+      m_strained(model.nodeCount()),
       m_rightSide(model.nodeCount()),
       m_increment(model.nodeCount()),
       m_residual(model.nodeCount()),

@@ -13,6 +13,10 @@ namespace bullet_fem
 /// y = x + (1 - theta) h v; fixed nodes go with their target velocities.
 void beginDrift(Body& body, const StepSettings& settings);
 
+/// After the free motion's solve: a change of velocities from outside moves the nodes by the share (1 - theta), too, as
+/// elements let it: by the precomputed factor, as impulses of contact do. Until then only its rigid motion has.
+void driftByOutsideChange(Body& body, const StepSettings& settings);
+
 /// When the velocities of the free motion stand in the scratch: with which mean velocities the nodes move by them.
 void noteMeanVelocity(Body& body, const StepSettings& settings);
 

@@ -28,7 +28,7 @@ public:
           m_state(body.m_state),
           m_scratch(body.m_workspace.scratch()),
           m_settings(settings),
-          m_coefficients(settings),
+          m_coefficients(settings, body),
           m_A(body, settings.m_threads)
     {
     }
@@ -164,11 +164,16 @@ public:
     void keepIncrement()
     {
         m_scratch.m_momentum.keepHung(m_body, m_scratch.m_velocity);
+        if (m_motion.m_predicted)
+            keepResidual();
+        else
+        {
+            std::swap(m_state.m_lastIncrement[0], m_state.m_lastIncrement[1]);
+            m_state.m_lastIncrement[0] = m_scratch.m_increment;
+            m_scratch.m_hasResidual = false;
+        }
+        driftByOutsideChange(m_body, m_settings);
         noteMeanVelocity(m_body, m_settings);
-        if (m_motion.m_predicted) return keepResidual();
-        std::swap(m_state.m_lastIncrement[0], m_state.m_lastIncrement[1]);
-        m_state.m_lastIncrement[0] = m_scratch.m_increment;
-        m_scratch.m_hasResidual = false;
     }
 
 private:

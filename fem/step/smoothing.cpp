@@ -42,14 +42,16 @@ double noise(const Body& body, const StepSettings& settings)
 
 bool findChange(Body& body, const StepSettings& settings)
 {
-    const StepCoefficients coefficients(settings);
+    const StepCoefficients coefficients(settings, body);
     if (!(coefficients.smoothing() > 0)) return false;
     StepScratch& scratch = body.m_workspace.scratch();
     const BodyState& s = body.m_state;
     std::vector<Vec3>& d = scratch.m_increment;
     std::fill(d.begin(), d.end(), Vec3());
     scratch.m_momentum.addTurning(body, settings.m_step, d);
-    for (std::size_t i = 0; i < d.size(); ++i) d[i] = s.m_fixed[i] ? Vec3() : scratch.m_velocity[i] - s.m_v[i] - d[i];
+    const std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;  // an outside change is one of the step's
+    const std::vector<Vec3>& before = prior.empty() ? s.m_v : prior;
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] = s.m_fixed[i] ? Vec3() : scratch.m_velocity[i] - before[i] - d[i];
     scratch.m_momentum.removeMomentum(body, scratch.m_kickPosition, d);
     return std::sqrt(squaredMomenta(body, d)) > noise(body, settings);
 }
@@ -67,7 +69,7 @@ ConjugateGradientStop smoothingStop(const Body& body, const StepSettings& settin
 void subtractUnresolved(Body& body, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    const double share = StepCoefficients(settings).smoothing();
+    const double share = StepCoefficients(settings, body).smoothing();
     scratch.m_momentum.removeMomentum(body, body.m_state.m_x, scratch.m_increment);
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i) scratch.m_velocity[i] -= share * scratch.m_increment[i];
 }

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <algorithm>
+
+#include "bullet_fem/fem/step/body.h"
 #include "bullet_fem/fem/step/step_types.h"
 
 namespace bullet_fem
@@ -17,7 +20,11 @@ namespace bullet_fem
 /// strips of twice their length come to rest.
 struct StepCoefficients
 {
-    explicit StepCoefficients(const StepSettings& settings) : m_damping(settings.m_numericalDamping) {}
+    explicit StepCoefficients(double numericalDamping) : m_damping(numericalDamping) {}
+    StepCoefficients(const StepSettings& settings, const Body& body)
+        : m_damping(std::max(settings.m_numericalDamping, body.m_loads.m_leastDamping))
+    {
+    }
 
     double m_damping;                                       ///< s
     double theta() const { return 0.5 * (1 + m_damping); }  ///< share of the end velocities in the motion

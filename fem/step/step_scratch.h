@@ -30,6 +30,8 @@ struct StepScratch
     std::vector<Vec3> m_drift;  ///< the nodes move with theta times m_velocity and this [m/s]; see meanVelocity()
     std::vector<Vec3> m_meanVelocity;  ///< with which they move in the free motion [m/s]
     std::vector<Vec3> m_push;          ///< velocities of position correction: moved by, never kept [m/s]
+    std::vector<Vec3> m_strained;      ///< velocities changed from outside, less their rigid motion [m/s]
+    bool m_isStrained = false;         ///< false: m_strained is not read
     bool m_isPushed = false;           ///< false: m_push is zero
     std::vector<Vec3> m_rightSide;     ///< b [kg m/s]
     std::vector<Vec3> m_increment;     ///< dv [m/s]

@@ -55,7 +55,7 @@ Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings&
     StepScratch& scratch = body.m_workspace.scratch();
     WarpedCompliance(body, settings.m_threads).apply(impulses, scratch.m_increment);
     // What implicit Euler takes back are penetrations, bit by bit; other steps go all the way that a contact wants.
-    const double scale = settings.m_numericalDamping < 1 ? scratch.m_complianceScale : 1;
+    const double scale = StepCoefficients(settings, body).theta() < 1 ? scratch.m_complianceScale : 1;
     scratch.m_isPushed = true;
     Vec3 angularMomentum;
     for (std::size_t i = 0; i < scratch.m_push.size(); ++i)
@@ -80,10 +80,8 @@ void stopPushing(StepScratch& scratch)
 double factorStep(double step, double numericalDamping, const Material& material)
 {
     if (numericalDamping == 1) return step;
-    StepSettings settings;
-    settings.m_numericalDamping = numericalDamping;
     const double half = 0.5 * material.m_stiffnessDamping;
-    const double all = step * (StepCoefficients(settings).stiffness() * step + material.m_stiffnessDamping);
+    const double all = step * (StepCoefficients(numericalDamping).stiffness() * step + material.m_stiffnessDamping);
     return all / (half + std::sqrt(half * half + all));
 }
 

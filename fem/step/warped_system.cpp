@@ -51,7 +51,7 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
     pass.m_x = work.m_x.data();
     pass.m_v = work.m_v.data();
     pass.m_damping = 1;  // it is in these
-    pass.m_tensionFactor = settings.m_tension ? StepCoefficients(settings).stiffness() * h * h : 0;
+    pass.m_tensionFactor = settings.m_tension ? StepCoefficients(settings, body).stiffness() * h * h : 0;
     pass.m_rotation = body.m_state.m_elementRotation.data();
     pass.m_force = scratch.m_corners.data();
     pass.m_warped = scratch.m_warped.data();
@@ -105,7 +105,7 @@ void scaleWarpedSystem(Body& body, const StepSettings& settings)
     ElementWork& work = body.m_workspace.scratch().m_elements;
     const Material& material = body.m_model->shape().m_material;
     const double alpha = material.m_massDamping + body.m_loads.m_massDamping + body.m_loads.m_frameDamping;
-    work.m_stiffnessFactor = step * (StepCoefficients(settings).stiffness() * step + material.m_stiffnessDamping);
+    work.m_stiffnessFactor = step * (StepCoefficients(settings, body).stiffness() * step + material.m_stiffnessDamping);
     for (std::size_t i = 0; i < work.m_scaledMass.size(); ++i)
         work.m_scaledMass[i] = (1 + step * alpha) * body.m_state.m_mass[i];
 }

@@ -29,8 +29,11 @@ void clearReport(btFemBodyRecord& record)
 bool beginFreeMotion(btFemBodyRecord& record, double worldStep)
 {
     if (!record.m_membership.m_present || record.m_work.m_stage != btFemStage::predicted) return false;
+    const bool wasDeep = record.isFem() && (stateFlags(record) & BT_FEM_PENETRATING) != 0;
     if (!record.isFem() || record.m_softBody->isActive()) clearReport(record);
     if (!record.isFem() || !record.m_softBody->isActive() || !arraysAsSetUp(record.fem())) return false;
+    // What is pushed out of others shall not swing back from it.
+    record.fem().m_body.m_loads.m_leastDamping = wasDeep ? 1 : 0;
     record.m_work.m_lastStep = bodyStep(record, worldStep);
     if (!isUsableStep(record.m_work.m_lastStep))
     {

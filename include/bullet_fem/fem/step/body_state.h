@@ -50,6 +50,7 @@ struct StepLoads
     /// Velocities of the nodes before BodyState::m_v was changed from outside since the last step [m/s], so that the
     /// change acts as impulses; empty, if it was not changed, or in one step with the forces.
     std::vector<Vec3> m_priorVelocity;
+    double m_leastDamping = 0;  ///< StepSettings::m_numericalDamping is at least this for the body [-], in [0, 1]
 };
 
 }  // namespace bullet_fem
