@@ -102,7 +102,7 @@ struct FemSoftBody
     std::shared_ptr<ComplianceCache> m_compliance;
     WrittenNodes m_written;
     NodePins m_pins;
-    double m_numericalDamping = 1;  ///< of its steps: StepSettings has it
+    double m_numericalDamping = 1;  ///< StepSettings has it: of the steps that factors are made for
     double m_contactOffset = 0;     ///< [m]
     bool m_hasOwnGravity = false;
     Vec3 m_ownGravity;  ///< in Bullet's deformable world: in place of the world info's [m/s2]; and m_cfg.drag of kDP

@@ -14,6 +14,8 @@ bool btFemSolverInfo::valid(std::string* why) const
                            m_tolerance, "[1e-8, 0.5]; 1e-3 is usual") &&
            btFemRangeCheck(m_numericalDamping >= 0 && m_numericalDamping <= 1, why, "m_numericalDamping",
                            m_numericalDamping, "[0, 1]; 0 is usual") &&
+           btFemRangeCheck(m_contactDamping >= 0 && m_contactDamping <= 1, why, "m_contactDamping", m_contactDamping,
+                           "[0, 1]; 1 is usual") &&
            btFemRangeCheck(m_maxIterations >= 1 && m_maxIterations <= 10000, why, "m_maxIterations", m_maxIterations,
                            "[1, 10000]; 100 is usual") &&
            btFemRangeCheck(m_contactRounds >= 1 && m_contactRounds <= 10, why, "m_contactRounds", m_contactRounds,

@@ -43,8 +43,8 @@ double BodyEnds::floorOf(const CorrectionGoal& goal) const
     return goal.m_floor * std::sqrt(all);
 }
 
-// Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin. So is what
-// the nodes of a group, which is where the step begins, are ahead of it as they feel theirs.
+// Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin. So is
+// what the nodes of a group, which is where the step begins, are ahead of it as they feel theirs.
 void BodyEnds::addLevers(const StepSettings& settings)
 {
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;

@@ -75,8 +75,8 @@ public:
     Vec3 arcOf(const ContactRow& row) const;
     Vec3 arcOfMean(const ContactRow& row) const;
 
-    /// StepCoefficients::theta() of a row's soft body, of two the larger: shares of the step are those of implicit Euler
-    /// where one of them goes by it. 1 without soft bodies.
+    /// StepCoefficients::theta() of a row's soft body, of two the larger: shares of the step are those of implicit
+    /// Euler where one of them goes by it. 1 without soft bodies.
     double theta(const ContactRow& row) const { return theta(row.m_a.m_body, row.m_b.m_body); }
     double theta(int a, int b) const;
 

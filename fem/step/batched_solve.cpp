@@ -27,10 +27,9 @@ bool isPlain(const Body& body, const StepSettings& settings)
 {
     const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
     return settings.m_batchMemory && settings.m_warp == Warp::nodal && isSinglePrecision(settings) &&
-           !(body.m_loads.m_frameDamping > 0) &&
-           !(body.m_loads.m_leastDamping > settings.m_numericalDamping) &&
-           (settings.m_numericalDamping == 1 || body.m_loads.m_priorVelocity.empty()) && !std::memchr(fixed.data(), 1, fixed.size()) &&
-           canBeBatched(*body.m_model);
+           !(body.m_loads.m_frameDamping > 0) && !(body.m_loads.m_leastDamping > settings.m_numericalDamping) &&
+           (settings.m_numericalDamping == 1 || body.m_loads.m_priorVelocity.empty()) &&
+           !std::memchr(fixed.data(), 1, fixed.size()) && canBeBatched(*body.m_model);
 }
 
 class BatchedMotions : public BodyBatch

@@ -38,6 +38,10 @@ struct btFemSolverInfo
     /// nothing else; 1 is implicit Euler. In between, vibrations of frequency f lose half of their amplitude in some
     /// 1 / (28 m_numericalDamping f^2 h).
     btScalar m_numericalDamping = 1;
+    /// The same, at least, in the steps of bodies that touched something in the step before, or that anchors, joints or
+    /// springs hold [-], in [0, 1]. At 1 bodies rest and roll as by implicit Euler, at its cost; at 0 undamped ones
+    /// bounce two to three times as high, and steps in contact take two to three times as long.
+    btScalar m_contactDamping = 1;
     int m_maxIterations = 100;  ///< conjugate gradient iterations a solve, in [1, 10000]
     int m_contactRounds = 1;    ///< corrective solves after contact at least, in [1, 10]; ten at most
     int m_contactSweeps = 50;   ///< sweeps a round at most, in [1, 1000]

@@ -58,7 +58,7 @@ RestMesh restOf(const btFemBodyRecord& record)
 
 btFemBodySetUp::btFemBodySetUp(const btFemSolverInfo& info, void (*announce)(btSoftBody& body))
     : m_announce(announce),
-      m_numericalDamping(info.m_numericalDamping),
+      m_numericalDamping(std::max(info.m_numericalDamping, info.m_contactDamping)),
       m_library(static_cast<std::size_t>(1e6 * info.m_maxFactorMegabytes), coreChoice(info.m_factorChoice))
 {
 }

@@ -91,6 +91,6 @@ private:
     void exchangeModel(btFemBodyRecord& record, const std::shared_ptr<const bullet_fem::BodyModel>& model);
 
     void (*m_announce)(btSoftBody& body);
-    double m_numericalDamping;  // of the bodies' steps
+    double m_numericalDamping;  // of the steps that factors are made for: those in contact take most
     bullet_fem::ModelLibrary m_library;
 };

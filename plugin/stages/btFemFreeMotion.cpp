@@ -24,6 +24,13 @@ void clearReport(btFemBodyRecord& record)
     record.m_reports.m_step = report;
 }
 
+// By contacts of the last step, or by anchors, joints and springs.
+bool isHeld(const btFemBodyRecord& record)
+{
+    return record.m_reports.m_contacts.size() > 0 || record.m_reports.m_anchors.size() > 0 ||
+           record.m_softBody->m_anchors.size() > 0 || record.m_softBody->m_joints.size() > 0;
+}
+
 }  // namespace
 
 bool beginFreeMotion(btFemBodyRecord& record, double worldStep)
@@ -121,11 +128,13 @@ void btFemFreeMotion::finish(const std::vector<btFemBodyRecord*>& solved)
                   });
 }
 
-void btFemFreeMotion::prepare(btFemBodyRecord& record)
+void btFemFreeMotion::prepare(btFemBodyRecord& record) const
 {
     readBody(record);  // once more: callbacks may have written since predict
     FemSoftBody& fem = record.fem();
     if (!readLoads(fem, record.m_work.m_lastStep)) record.m_reports.m_step.m_flags |= BT_FEM_RESTORED;
+    double& damping = fem.m_body.m_loads.m_leastDamping;
+    if (isHeld(record)) damping = std::max(damping, static_cast<double>(m_info.m_contactDamping));
     record.m_work.m_staleness = staleness(record, record.m_work.m_lastStep);
     if (record.m_work.m_staleness > 1) record.m_reports.m_step.m_flags |= BT_FEM_STALE_FACTOR;
     record.m_reports.m_step.m_detail = detailInUse(record);

@@ -43,7 +43,7 @@ public:
 private:
     bullet_fem::StepSettings settingsOf(const btFemBodyRecord& record) const;
     void solveBatch(const bullet_fem::Range& batch);
-    static void prepare(btFemBodyRecord& record);
+    void prepare(btFemBodyRecord& record) const;
     bullet_fem::FreeMotion motionOf(btFemBodyRecord& record) const;
     void report(btFemBodyRecord& record, const bullet_fem::FreeMotion& motion) const;
     btFemBodyRecord& inBatches(int k) const { return *m_due[m_batches.order()[k]]; }

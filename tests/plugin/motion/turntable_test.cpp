@@ -14,17 +14,19 @@ namespace bullet_fem
 namespace
 {
 
-class Turntable : public testing::TestWithParam<std::tuple<Coupling, int>>
+class Turntable : public testing::TestWithParam<std::tuple<Coupling, int, double>>  // damping of the steps
 {
 };
 
 // Friction of 0.5 holds 2 rad/s at half a metre well, but every step leads what sticks along the tangent.
 TEST_P(Turntable, KeepsWhatSticksToItAtItsRadius)
 {
-    const auto [coupling, frequency] = GetParam();
+    const auto [coupling, frequency, damping] = GetParam();
     constexpr double kSpin = 2, kRadius = 0.5;  // [rad/s], [m]
     const double step = 1.0 / frequency;
-    FemWorld world(WorldClass::softRigid, coupling);
+    btFemSolverInfo info;
+    info.m_numericalDamping = info.m_contactDamping = btScalar(damping);
+    FemWorld world(WorldClass::softRigid, coupling, {0, 0, btScalar(-kGravity)}, info);
     btRigidBody& table =
         world.addRigid(new btCylinderShapeZ(btVector3(2, 2, btScalar(0.1))), {0, at(0, 0, btScalar(-0.1))});
     table.setCollisionFlags(table.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -53,11 +55,12 @@ TEST_P(Turntable, KeepsWhatSticksToItAtItsRadius)
 
 INSTANTIATE_TEST_SUITE_P(Frequencies, Turntable,
                          testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
-                                          testing::Values(30, 60, 240)),
+                                          testing::Values(30, 60, 240), testing::Values(0, 0.5, 1)),
                          [](const auto& suite)
                          {
                              return std::string(couplingName(std::get<0>(suite.param))) + "_" +
-                                    std::to_string(std::get<1>(suite.param)) + "Hz";
+                                    std::to_string(std::get<1>(suite.param)) + "Hz_" +
+                                    std::to_string(int(100 * std::get<2>(suite.param))) + "percent";
                          });
 
 }  // namespace

@@ -60,11 +60,12 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Picking, eachWorld(), nameOfWorld);
 
-class PickingInTheSoftDemo : public EachWorld
+class PickingInTheSoftDemo : public EachWorldWith<int>  // percent of numerical damping
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Worlds, PickingInTheSoftDemo, eachWorld(), nameOfWorld);
+INSTANTIATE_TEST_SUITE_P(Worlds, PickingInTheSoftDemo, testing::Combine(eachWorld(), testing::Values(0, 100)),
+                         nameOfWorldWith([](int percent) { return std::to_string(percent) + "percent"; }));
 
 // Bullet's soft demo: the nearest node of the face that was hit gets, before every step, the velocity that would take
 // it to the mouse.
@@ -75,7 +76,9 @@ TEST_P(PickingInTheSoftDemo, ByNodeVelocityAsInBulletsSoftDemoDragsTheBodyForFiv
         btSoftBody::Node* m_node;
         btVector3 m_goal;
     };
-    FemWorld world(GetParam());
+    btFemSolverInfo info;
+    info.m_numericalDamping = info.m_contactDamping = btScalar(0.01) * value();
+    FemWorld world(worldClass(), info);
     btFemSoftBodySolver& fem = world.fem();
     btSoftBody& body = addSoftBox(world, fem, cubeAt({0, 0, 0}));
     const btVector3 from(btScalar(0.05), btScalar(0.03), 10), to(btScalar(0.05), btScalar(0.03), -10);

@@ -91,15 +91,15 @@ struct ContactPoint
         m_patch;  ///< added to m_point for the levers of both sides: to where the patch, as it moves, has come from [m]
     bool m_isMetLater = false;  ///< the rigid proxy's arm is to m_point + m_patch + m_approach, whatever the soft one's
     Vec3 m_arm;                 ///< of the rigid proxy, from its centre [m]: part of the answer
-    Vec3 m_normal;             ///< unit [-], from the other side to m_soft
-    double m_gap = 0;          ///< signed distance at the start [m]; negative inside
-    double m_slop = 0;         ///< penetration that is left alone [m], >= 0
-    double m_hardness = 1;     ///< factor on ContactSettings::m_pushFraction [-], >= 0
-    double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
-    double m_restitution = 0;  ///< share of the closing speed that is given back [-], in [0, 1]
-    double m_stiffness = 0;    ///< of a contact spring in place of the rigid contact [N/m], >= 0; 0: rigid
-    double m_damping = 0;      ///< of that spring [N s/m], >= 0
-    Vec3 m_impulse;            ///< on m_soft [N s]: a guess before, the answer after
+    Vec3 m_normal;              ///< unit [-], from the other side to m_soft
+    double m_gap = 0;           ///< signed distance at the start [m]; negative inside
+    double m_slop = 0;          ///< penetration that is left alone [m], >= 0
+    double m_hardness = 1;      ///< factor on ContactSettings::m_pushFraction [-], >= 0
+    double m_friction = 0;      ///< Coulomb's coefficient [-], >= 0
+    double m_restitution = 0;   ///< share of the closing speed that is given back [-], in [0, 1]
+    double m_stiffness = 0;     ///< of a contact spring in place of the rigid contact [N/m], >= 0; 0: rigid
+    double m_damping = 0;       ///< of that spring [N s/m], >= 0
+    Vec3 m_impulse;             ///< on m_soft [N s]: a guess before, the answer after
     Vec3 m_slip;  ///< displacement of a point that sticks, in the tangent plane [m]: taken back within some steps; that
                   ///< of the last step before, the new one after
 };
