@@ -4,6 +4,8 @@
 // Soft bodies on light rigid bodies that Bullet's joints hold: in the swap, too, the joints carry the load.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -136,6 +138,40 @@ TEST(SprungPlatform, ContinuesFromASavedStateToTheBit)
     scene.m_world.fem().restoreState(state.data(), state.size());
     bullet.restore(scene.m_world);
     EXPECT_TRUE(scene.run(60) == bits);
+}
+
+// A cube flies onto a plate that a spring joins to another body, and nothing else acts on the three.
+TEST(SprungPlatform, KeepsTheMomentum)
+{
+    FemWorld world(WorldClass::softRigid, Coupling::swap, {0, 0, 0}, withDamping(1));
+    btRigidBody& plate = world.addRigid(new btBoxShape({.5f, .5f, .05f}), {5, at(0, 0, btScalar(-0.05))});
+    btRigidBody& other = world.addRigid(new btBoxShape({.5f, .5f, .5f}), {50, at(0, 0, -2)});
+    for (btRigidBody* body : {&plate, &other}) body->setActivationState(DISABLE_DEACTIVATION);
+    btGeneric6DofSpring2Constraint joint(other, plate, at(0, 0, btScalar(1.95)), btTransform::getIdentity());
+    joint.setLinearLowerLimit({0, 0, 1});
+    joint.setLinearUpperLimit({0, 0, -1});
+    joint.enableSpring(2, true);
+    joint.setStiffness(2, btScalar(kSpring));
+    joint.setDamping(2, btScalar(kDamper));
+    joint.setEquilibriumPoint(2, 0);
+    world.bullet().addConstraint(&joint, true);
+    const btScalar half(kCubeSide / 2);
+    btSoftBody& cube =
+        world.addSoft(btFemHelpers::createBox(world.info(), {0, 0, 2 * half}, {half, half, half}, half / 2));
+    cube.setActivationState(DISABLE_DEACTIVATION);
+    cube.setVelocity({0, 0, -2});
+    const double momentum = motionOf(cube).m_linear.z;
+    double pushed = 0, worst = 0;
+    for (int k = 0; k < 120; ++k)
+    {
+        world.step();
+        pushed += world.fem().contactForce(&cube, &plate).z() > 0;
+        const double sum = motionOf(cube).m_linear.z + motionOf(plate).m_linear.z + motionOf(other).m_linear.z;
+        worst = std::max(worst, std::fabs(sum / momentum - 1));
+    }
+    world.bullet().removeConstraint(&joint);
+    EXPECT_GT(pushed, 20);  // steps, so that some of it was expected
+    EXPECT_LT(worst, 1e-5);
 }
 
 // A load that leaves takes its reaction along.
