@@ -1,25 +1,26 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
 # Installs what is missing (Debian 12, as root or with sudo), builds the benchmarks, runs them, writes their figures to
-# out/benchmarks/, and renews the tables and the picture of docs/performance.md.
+# out/benchmarks/, and renews the tables and pictures of docs/performance.md and docs/accuracy.md.
 #
 #   benchmarks/run.sh                     all of them, small: about two minutes
 #   benchmarks/run.sh --full              all of them, as in docs/performance.md: ten minutes to an hour
-#   benchmarks/run.sh --full beam curve   some: of beam curve kernels factors scaling contact copies crowd
+#   benchmarks/run.sh --full beam curve   some: of beam curve kernels factors scaling contact copies
+#                                         crowd motion
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 
 build=$root/build/benchmarks # of its own, so that no script changes the options of another's
 out=$root/out/benchmarks
-known=(beam curve kernels factors scaling contact copies crowd)
+known=(beam curve kernels factors scaling contact copies crowd motion)
 full=0
 chosen=()
 for argument in "$@"; do
     case $argument in
         --full) full=1 ;;
         -h | --help)
-            sed -n '3,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+            sed -n '3,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
             exit 0
             ;;
         *)
@@ -56,6 +57,7 @@ run_benchmark()
         contact)
             run contact contact "--quick" "--scenes block,ball --contacts 10,100 --tets 1000,5000"
             ;;
+        motion) run motion motion "--rates 30,60,120 --reference 240 --cells 6" "" ;;
         copies) run crowd copies "--free" "--free" ;;
         crowd)
             local small="--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only"
@@ -88,4 +90,7 @@ say "renewing docs/performance.md"
 "$python" "$root/tools/performance_tables.py" "$out" "$root/docs/performance.md"
 if [ -s "$out/curve.json" ]; then
     "$python" "$root/tools/plot_error_against_time.py" "$out/curve.json" "$root/docs/error_against_time.png"
+fi
+if [ "$full" -eq 1 ] && [ -s "$out/motion.json" ]; then
+    "$python" "$root/tools/plot_motion_against_step.py" "$out/motion.json" "$root/docs/motion_against_step.png"
 fi

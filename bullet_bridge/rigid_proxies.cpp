@@ -28,13 +28,6 @@ Mat3 mat3(const btMatrix3x3& m)
     return result;
 }
 
-// A rigid body that impulses can move; null for static, kinematic and foreign objects.
-btRigidBody* movable(const btCollisionObject& object)
-{
-    auto* body = const_cast<btRigidBody*>(btRigidBody::upcast(&object));
-    return body && !body->isStaticOrKinematicObject() && body->getInvMass() > 0 ? body : nullptr;
-}
-
 RigidProxy immovable(const btCollisionObject& object)
 {
     RigidProxy rigidProxy;
@@ -58,18 +51,6 @@ void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>
     rigidProxy.m_linearVelocity = vec3(fromLink * scratch[count + k]);
 }
 
-// A link of a multibody that is still there; null for other objects.
-const btMultiBodyLinkCollider* linkOf(const btCollisionObject& object)
-{
-    const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(&object);
-    return link && link->m_multiBody && link->m_link < link->m_multiBody->getNumLinks() ? link : nullptr;
-}
-
-bool isAny(const Vec3& linear, const Vec3& angular)
-{
-    return dot(linear, linear) + dot(angular, angular) > 0;
-}
-
 // A change of velocity without what goes against the direction in which something holds a body.
 Vec3 heldBack(const Vec3& change, const Vec3& holding)
 {
@@ -78,6 +59,18 @@ Vec3 heldBack(const Vec3& change, const Vec3& holding)
 }
 
 }  // namespace
+
+btRigidBody* movableBody(const btCollisionObject& object)
+{
+    auto* body = const_cast<btRigidBody*>(btRigidBody::upcast(&object));
+    return body && !body->isStaticOrKinematicObject() && body->getInvMass() > 0 ? body : nullptr;
+}
+
+const btMultiBodyLinkCollider* linkOf(const btCollisionObject& object)
+{
+    const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(&object);
+    return link && link->m_multiBody && link->m_link < link->m_multiBody->getNumLinks() ? link : nullptr;
+}
 
 // A component at a time, through memory: GCC 12 vectorises the narrowing of three components and the widening that
 // follows into nothing.
@@ -105,8 +98,9 @@ void RigidProxies::restore(const Memory& memory)
     m_rewound.assign(memory.m_rewound.begin(), memory.m_rewound.end());
 }
 
-void RigidProxies::beginStep()
+void RigidProxies::beginStep(double step)
 {
+    m_step = step;
     m_remainders.erase(
         std::remove_if(m_remainders.begin(), m_remainders.end(), [](const Remainder& r) { return !r.m_used; }),
         m_remainders.end());
@@ -127,7 +121,7 @@ void RigidProxies::clear(RigidPhase phase)
 
 btRigidBody* RigidProxies::movableBody(int rigidProxy) const
 {
-    return movable(*m_sources[rigidProxy].m_object);
+    return bullet_fem::movableBody(*m_sources[rigidProxy].m_object);
 }
 
 int RigidProxies::indexOf(const btCollisionObject& object, double step)
@@ -143,7 +137,7 @@ int RigidProxies::indexOf(const btCollisionObject& object, double step)
         m_sources.back().m_now = m_articulated.add(static_cast<int>(m_rigidProxies.size()), *link, step, rigidProxy);
     else if (link)
         setLinkVelocity(*link, m_linkVelocities, rigidProxy);
-    if (const btRigidBody* body = movable(object))
+    if (const btRigidBody* body = bullet_fem::movableBody(object))
     {
         const Mat3 factor = {{{body->getAngularFactor().x(), 0, 0},
                               {0, body->getAngularFactor().y(), 0},
@@ -162,6 +156,7 @@ int RigidProxies::indexOf(const btCollisionObject& object, double step)
         }
         else
         {
+            takeBack(object);
             rigidProxy.m_linearVelocity += step * body->getInvMass() * vec3(body->getTotalForce());
             rigidProxy.m_angularVelocity += step * (rigidProxy.m_inverseInertia * vec3(body->getTotalTorque()));
         }
@@ -169,16 +164,6 @@ int RigidProxies::indexOf(const btCollisionObject& object, double step)
     }
     m_rigidProxies.push_back(rigidProxy);
     return static_cast<int>(m_rigidProxies.size()) - 1;
-}
-
-void RigidProxies::noteBeforeSolve(const btCollisionObject& object)
-{
-    const btRigidBody* body = movable(object);
-    const btMultiBodyLinkCollider* link = linkOf(object);
-    if (!body && !link) return;
-    const std::lock_guard<std::mutex> lock(m_beforeMutex);
-    if (link) return m_articulated.noteBeforeSolve(*link->m_multiBody);
-    m_before.push_back({&object, vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())});
 }
 
 // What Bullet's contacts and joints changed in this step.
@@ -279,7 +264,7 @@ void RigidProxies::rewind(int index, double step)
     const LinkMotion now = motionNow(index);
     rigidProxy.m_center -= step * now.m_linear;
     rigidProxy.m_linearVelocity = now.m_linear;
-    const btRigidBody* body = movable(*source.m_object);
+    const btRigidBody* body = bullet_fem::movableBody(*source.m_object);
     if (!body || body->getNumConstraintRefs() == 0) rigidProxy.m_angularVelocity = now.m_angular;
     if (body)
     {
@@ -289,6 +274,9 @@ void RigidProxies::rewind(int index, double step)
             rigidProxy.m_linearVelocity += supportOf(*body, step, rigidProxy, true).m_linear;
         }
         source.m_now = {rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
+        const LinkMotion expected = takeExpected(*body);
+        rigidProxy.m_linearVelocity -= expected.m_linear;
+        rigidProxy.m_angularVelocity -= expected.m_angular;
     }
     m_articulated.setCenter(index, rigidProxy.m_center);
     source.m_rewound = true;
@@ -298,7 +286,7 @@ RigidProxies::Remainder& RigidProxies::remainderOf(int objectId)
 {
     for (Remainder& r : m_remainders)
         if (r.m_objectId == objectId) return r;
-    m_remainders.push_back({objectId, {}, {}, true, {}, {}});
+    m_remainders.push_back({objectId, {}, {}, true, {}, {}, {}, {}});
     return m_remainders.back();
 }
 
@@ -342,7 +330,7 @@ void RigidProxies::applyReactions(const ContactProblem& problem, double step)
             m_rigidProxies[k].m_pushImpulse += source.m_linearImpulse;
             m_rigidProxies[k].m_pushAngularImpulse += source.m_angularImpulse;
         }
-        btRigidBody* body = movable(*source.m_object);
+        btRigidBody* body = bullet_fem::movableBody(*source.m_object);
         if (!body) continue;
         source.m_angularImpulse += rigidProxy.m_angularImpulse;
         const bool felt = isAny(source.m_linearImpulse, source.m_angularImpulse);
@@ -365,6 +353,7 @@ void RigidProxies::applyReactions(const ContactProblem& problem, double step)
         body->setCenterOfMassTransform(pushed);
     }
     m_articulated.apply(m_rigidProxies, step);
+    if (m_phase == RigidPhase::moved) returnExpected();
 }
 
 LinkMotion RigidProxies::motionNow(int rigidProxy) const
@@ -374,16 +363,6 @@ LinkMotion RigidProxies::motionNow(int rigidProxy) const
         return {vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())};
     if (isMovableLink(rigidProxy)) return m_sources[rigidProxy].m_now;
     return {m_rigidProxies[rigidProxy].m_linearVelocity, m_rigidProxies[rigidProxy].m_angularVelocity};
-}
-
-void RigidProxies::addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change)
-{
-    Remainder& remainder = remainderOf(source.m_objectId);
-    remainder.m_used = true;
-    remainder.m_linearGiven = change.m_linear;
-    remainder.m_angularGiven = change.m_angular;
-    body.setLinearVelocity(addedExactly(body.getLinearVelocity(), change.m_linear, remainder.m_linear));
-    body.setAngularVelocity(addedExactly(body.getAngularVelocity(), change.m_angular, remainder.m_angular));
 }
 
 }  // namespace bullet_fem

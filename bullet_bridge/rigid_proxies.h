@@ -10,6 +10,7 @@
 #include "bullet_fem/fem/contact/contact_solver.h"
 
 class btCollisionObject;
+class btMultiBodyLinkCollider;
 class btRigidBody;
 
 namespace bullet_fem
@@ -32,9 +33,10 @@ public:
     struct Remainder
     {
         int m_objectId = -1;
-        Vec3 m_linear, m_angular;            ///< [m/s], [rad/s]
-        bool m_used = false;                 ///< in this step
-        Vec3 m_linearGiven, m_angularGiven;  ///< what soft bodies gave it in the last step [m/s], [rad/s]
+        Vec3 m_linear, m_angular;                  ///< [m/s], [rad/s]
+        bool m_used = false;                       ///< in this step
+        Vec3 m_linearGiven, m_angularGiven;        ///< what soft bodies gave it in the last step [m/s], [rad/s]
+        Vec3 m_linearExpected, m_angularExpected;  ///< and what of it they are expected to give again
     };
 
     /// What the next step depends on.
@@ -46,10 +48,12 @@ public:
     Memory memory() const { return {m_remainders, m_rewound}; }
     void restore(const Memory& memory);
 
-    /// Forgets the remainders of bodies that were not touched in the last step.
-    void beginStep();
+    /// Forgets the remainders of bodies that were not touched in the last step. `step` of the world [s].
+    void beginStep(double step);
 
-    /// Remembers how fast a body is before Bullet's rigid solver. May be called by several threads at once.
+    /// Remembers how fast a body is before Bullet's rigid solver. One that Bullet's joints hold gets what soft bodies
+    /// are expected to give it, so that the joints withstand it; the reactions are less by that. May be called by
+    /// several threads at once.
     void noteBeforeSolve(const btCollisionObject& object);
 
     /// See ArticulatedBodies::assumeForcesGiven.
@@ -124,9 +128,23 @@ private:
         LinkMotion m_now = {};  // as the solve began; of rigid bodies and links that can move
     };
 
+    struct Before
+    {
+        const btCollisionObject* m_object;
+        Vec3 m_linear, m_angular;
+        LinkMotion m_expected = {};   // what forces in place of soft bodies give; 0 once it is accounted for
+        btVector3 m_force, m_torque;  // without these [N], [N m]
+        bool m_pushed = false;        // these forces are on it
+    };
+
     void addReaction(int rigidProxy, const Vec3& impulse, const Vec3& arm);
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
     void addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change);
+    LinkMotion takeExpected(const btCollisionObject& object);
+    void expect(btRigidBody& body, Before& before);
+    void takeBack(const btCollisionObject& object);
+    static void clearPush(Before& before);
+    void returnExpected();
     LinkMotion doneByBullet(const btRigidBody& body, double step, const RigidProxy& rigidProxy) const;
     LinkMotion supportOf(const btRigidBody& body, double step, const RigidProxy& rigidProxy, bool rewound);
     void rewind(int rigidProxy, double step);
@@ -137,17 +155,25 @@ private:
     std::vector<RigidProxy> m_rigidProxies;
     std::vector<Source> m_sources;
     std::vector<Remainder> m_remainders;
-    struct Before
-    {
-        const btCollisionObject* m_object;
-        Vec3 m_linear, m_angular;
-    };
+    double m_step = 0;  // [s]
     std::mutex m_beforeMutex;
     std::vector<Before> m_before;               // velocities before Bullet's rigid solver
     std::vector<int> m_rewound, m_lastRewound;  // ids of the objects in this step and in the last
     std::vector<btVector3> m_linkVelocities;    // scratch
     ArticulatedBodies m_articulated;
 };
+
+/// A rigid body that impulses can move; null for static, kinematic and foreign objects.
+btRigidBody* movableBody(const btCollisionObject& object);
+
+/// A link of a multibody that is still there; null for other objects.
+const btMultiBodyLinkCollider* linkOf(const btCollisionObject& object);
+
+/// True if one of them is not 0.
+inline bool isAny(const Vec3& linear, const Vec3& angular)
+{
+    return dot(linear, linear) + dot(angular, angular) > 0;
+}
 
 /// Adds `change` to a Bullet velocity, with what rounding cut off before, and keeps what it cuts off now.
 btVector3 addedExactly(const btVector3& velocity, const Vec3& change, Vec3& remainder);

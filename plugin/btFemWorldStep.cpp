@@ -33,7 +33,7 @@ btFemWorldStep::btFemWorldStep(const btFemSolverInfo& info, btFemBodyRegistry& r
 void btFemWorldStep::predict(double step)
 {
     wakeDisturbedBodies(m_registry, m_world);
-    m_group.beginStep();
+    m_group.beginStep(step);
     selectMoving(step);
     runOn(m_due,
           [step](btFemBodyRecord& record)

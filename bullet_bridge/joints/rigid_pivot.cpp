@@ -48,6 +48,9 @@ RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const 
     const LinkMotion motion = scene.m_rigid.motionNow(pivot.m_rigidProxy);
     pivot.m_linearVelocity = motion.m_linear;
     pivot.m_angularVelocity = motion.m_angular;
+    // What torques of this step would make of a light body's spin alone is not the arc that it goes on.
+    const btRigidBody* body = btRigidBody::upcast(object);
+    if (body && !hasMoved(*object, scene)) pivot.m_angularVelocity = vec3(body->getAngularVelocity());
     const btTransform& pose = object->getWorldTransform();
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) pivot.m_rotation(i, j) = pose.getBasis()[i][j];

@@ -243,7 +243,8 @@ void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
 void check(const RigidProxies::Memory& memory)
 {
     for (const RigidProxies::Remainder& r : memory.m_remainders)
-        checkSane("a rigid body's remainder", r.m_linear, r.m_angular, r.m_linearGiven, r.m_angularGiven);
+        checkSane("a rigid body's remainder", r.m_linear, r.m_angular, r.m_linearGiven, r.m_angularGiven,
+                  r.m_linearExpected, r.m_angularExpected);
 }
 
 }  // namespace bullet_fem

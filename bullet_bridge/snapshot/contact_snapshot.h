@@ -125,7 +125,8 @@ void transfer(Bytes& bytes, SoftPairMemory::Kept& k)
 template <class Bytes>
 void transfer(Bytes& bytes, RigidProxies::Remainder& r)
 {
-    bytes(r.m_objectId, r.m_linear, r.m_angular, r.m_used, r.m_linearGiven, r.m_angularGiven);
+    bytes(r.m_objectId, r.m_linear, r.m_angular, r.m_used, r.m_linearGiven, r.m_angularGiven, r.m_linearExpected,
+          r.m_angularExpected);
 }
 
 template <class Bytes>

@@ -12,6 +12,8 @@ namespace
 {
 
 constexpr double kFlatSurfaceCosine = 0.99;  // cosine of the angle between normals that count as one
+constexpr double kCreaseCosine = 0.64;       // of 50 degrees, from which on triangles meet in a crease
+constexpr double kRoundShare = 0.1;          // of a vertex's curvature that must be left without creases
 
 double angleBetween(const Vec3& a, const Vec3& b)
 {
@@ -60,27 +62,52 @@ SoftSurface::SoftSurface(const RestSurface& rest)
     }
 }
 
-// By the normals of the vertices at the ends of edges.
+// By the normals of the vertices at the ends of edges: what a crease turns there counts only where nothing else does,
+// or the rim of a tyre would seem to roll on a radius of an element.
 void SoftSurface::measureCurvature(const std::vector<Vec3>& x)
 {
-    std::vector<Vec3> normal(x.size());
-    for (const Triangle& t : m_triangles)
+    std::vector<Vec3> area, facing, normal(x.size());  // of triangles, their unit normals, those of vertices
+    std::vector<std::vector<int>> at(x.size());
+    for (std::size_t k = 0; k < m_triangles.size(); ++k)
     {
-        const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
-        for (int a = 0; a < 3; ++a) normal[t[a]] += area;
+        const Triangle& t = m_triangles[k];
+        area.push_back(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+        facing.push_back(norm(area[k]) > 0 ? unit(area[k]) : Vec3());
+        for (int corner : t)
+        {
+            normal[corner] += area[k];
+            at[corner].push_back(static_cast<int>(k));
+        }
     }
     for (Vec3& n : normal)
         if (norm(n) > 0) n = unit(n);
-    m_curvature.assign(x.size(), 0);
-    for (const auto& [a, b] : m_features.m_edges)
+    // Of the triangles at a vertex that no crease parts from that one.
+    const auto smoothNormal = [&](int vertex, std::size_t triangle)
     {
-        const Vec3 edge = x[b] - x[a];
-        const double square = dot(edge, edge);
-        if (!(square > 0)) continue;
-        const double curvature = dot(normal[b] - normal[a], edge) / square;
-        m_curvature[a] = std::max(m_curvature[a], curvature);
-        m_curvature[b] = std::max(m_curvature[b], curvature);
-    }
+        Vec3 sum;
+        for (int k : at[vertex])
+            if (dot(facing[k], facing[triangle]) >= kCreaseCosine) sum += area[k];
+        return norm(sum) > 0 ? unit(sum) : sum;
+    };
+    std::vector<double> smooth(x.size(), 0);
+    m_curvature.assign(x.size(), 0);
+    for (std::size_t k = 0; k < m_triangles.size(); ++k)
+        for (int i = 0; i < 3; ++i)
+        {
+            const int a = m_triangles[k][i], b = m_triangles[k][(i + 1) % 3];
+            const Vec3 edge = x[b] - x[a];
+            const double square = dot(edge, edge);
+            if (!(square > 0)) continue;
+            const double whole = dot(normal[b] - normal[a], edge) / square;
+            const double part = dot(smoothNormal(b, k) - smoothNormal(a, k), edge) / square;
+            for (int end : {a, b})
+            {
+                m_curvature[end] = std::max(m_curvature[end], whole);
+                smooth[end] = std::max(smooth[end], part);
+            }
+        }
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (smooth[i] > kRoundShare * m_curvature[i]) m_curvature[i] = smooth[i];
 }
 
 void SoftSurface::listEdgeTriangles()

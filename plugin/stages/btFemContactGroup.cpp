@@ -52,9 +52,9 @@ void deepen(btFemStepReport& report, const ContactPoint& point)
 
 }  // namespace
 
-void btFemContactGroup::beginStep()
+void btFemContactGroup::beginStep(double step)
 {
-    m_rigid.beginStep();
+    m_rigid.beginStep(step);
     m_softPairs.beginStep();
     m_joints.forgetWorld();
 }

@@ -35,8 +35,8 @@ public:
         bullet_fem::RigidPhase m_phase;
     };
 
-    /// At the start of a world's step.
-    void beginStep();
+    /// At the start of a step of the world [s].
+    void beginStep(double step);
 
     /// Remembers a rigid body as it is before Bullet's rigid solver. May be called by several threads at once.
     void noteBeforeSolve(const btCollisionObject& object) { m_rigid.noteBeforeSolve(object); }

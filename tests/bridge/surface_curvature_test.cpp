@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bullet_bridge/soft_pairs/soft_surface.h"
+#include "bullet_fem/fem/mesh/generators.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// Smallest and largest curvature times `radius` of the surface's vertices that `counts` says count.
+template <class Counts>
+std::pair<double, double> roundnessOf(const TetMesh& mesh, double radius, const Counts& counts)
+{
+    const SoftSurface surface(mesh);
+    std::pair<double, double> range(1e9, 0);
+    for (const int i : mesh.surfaceNodes())
+    {
+        if (!counts(mesh.restPositions()[i])) continue;
+        range.first = std::min(range.first, radius * surface.curvature(i));
+        range.second = std::max(range.second, radius * surface.curvature(i));
+    }
+    return range;
+}
+
+// A tyre rolls on its radius at its rims, too: by the mean normals there it would on less than half of it. A rim's
+// triangles lie on one side of its vertices, and lean their normals by some of an edge.
+TEST(SurfaceCurvature, OfACylindersRimIsThatOfItsMantle)
+{
+    constexpr double kRadius = 0.4;  // [m]
+    for (const int cells : {6, 8, 12})
+    {
+        const auto isMantle = [](const Vec3& X) { return std::hypot(X.x, X.y) > 0.99 * kRadius; };
+        const auto range = roundnessOf(makeCylinder(kRadius, 0.2, cells, 2), kRadius, isMantle);
+        EXPECT_GT(range.first, 0.8) << cells;
+        EXPECT_LT(range.second, 1.2) << cells;
+    }
+}
+
+TEST(SurfaceCurvature, OfABallIsThatOfItsRadius)
+{
+    const auto range = roundnessOf(makeSphere(0.25, 8), 0.25, [](const Vec3&) { return true; });
+    EXPECT_GT(range.first, 0.85);
+    EXPECT_LT(range.second, 1.3);
+}
+
+// Where there is nothing but a crease it is an edge that a box rolls over.
+TEST(SurfaceCurvature, OfABoxIsInItsEdgesAlone)
+{
+    const TetMesh box = makeBox({1, 1, 1}, {4, 4, 4});
+    const auto outside = [](const Vec3& X)
+    {
+        int count = 0;
+        for (int c = 0; c < 3; ++c) count += X[c] < 0.01 || X[c] > 0.99;
+        return count;
+    };
+    EXPECT_GT(roundnessOf(box, 1, [&](const Vec3& X) { return outside(X) > 1; }).first, 1);
+    EXPECT_LT(
+        roundnessOf(box, 1, [&](const Vec3& X) { return X.x > 0.4 && X.x < 0.6 && X.y > 0.4 && X.y < 0.6; }).second,
+        1e-6);
+}
+
+}  // namespace
+}  // namespace bullet_fem
