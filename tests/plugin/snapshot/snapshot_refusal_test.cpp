@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemCoupling.h"
 #include "plugin/scenes/snapshot_scene.h"
 #include "plugin/snapshot/btFemEnvelope.h"
 
@@ -165,6 +167,18 @@ TEST_F(RefusedSnapshot, OrTakenButNeverACrash)
     EXPECT_GT(taken, 500);
     m_scene.restore(saved);
     EXPECT_TRUE(m_scene.run(10) == bits);
+}
+
+// A feature is an index: the next step reads at it.
+TEST_F(RefusedSnapshot, OfAContactAtNoFeature)
+{
+    FemSoftBody& fem = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem();
+    ASSERT_FALSE(fem.m_origins.empty());
+    const int feature = fem.m_origins[0].m_feature;
+    fem.m_origins[0].m_feature = -3;
+    const Bytes bytes = m_scene.save();
+    fem.m_origins[0].m_feature = feature;
+    expectRefused(bytes, "the feature of a contact is -3, below 0");
 }
 
 TEST_F(RefusedSnapshot, OfBodiesThatAreGone)
