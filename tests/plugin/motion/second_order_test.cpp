@@ -120,7 +120,7 @@ TEST(SecondOrderInTheAir, SwingsOnWhereContactIsDamped)
     ASSERT_EQ(info.m_contactDamping, 1);
     FemWorld world(WorldClass::softRigid, info);
     btSoftBody* bar = btFemHelpers::createBox(world.info(), {0, 0, 0}, {2, .2f, .2f}, .1f);
-    world.fem().setMaterial(bar, rubber(1e6, 0));
+    world.fem().setMaterial(bar, rubber(4e7, 0));
     int end = 0;
     for (int i = 0; i < bar->m_nodes.size(); ++i)
     {
