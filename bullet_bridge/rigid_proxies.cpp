@@ -318,7 +318,7 @@ void RigidProxies::addJointReaction(const JointEnd& end, const Vec3& impulse)
         addReaction(end.m_rigidProxy, impulse, end.m_point);
 }
 
-void RigidProxies::applyReactions(const ContactProblem& problem, double step)
+void RigidProxies::applyReactions(const ContactProblem& problem, double step, bool lasts)
 {
     for (const ContactPoint& contact : problem.m_contacts)
         addReaction(contact.m_rigidProxy, -contact.m_impulse, contact.m_point + contact.m_patch + contact.m_approach);
@@ -349,7 +349,7 @@ void RigidProxies::applyReactions(const ContactProblem& problem, double step)
         const bool throughOthers = m_phase == RigidPhase::moved && body->isActive();
         if (felt || (throughOthers && isAny(change.m_linear, change.m_angular)))
         {
-            if (m_phase == RigidPhase::moved) addToVelocity(*body, source, change);
+            if (m_phase == RigidPhase::moved) addToVelocity(*body, source, change, lasts);
             if (!body->isActive()) body->activate();  // islands know when one that is awake may rest
         }
         Vec3 linear = rigidProxy.m_pushLinear, angular = rigidProxy.m_pushAngular;
@@ -376,12 +376,12 @@ LinkMotion RigidProxies::motionNow(int rigidProxy) const
     return {m_rigidProxies[rigidProxy].m_linearVelocity, m_rigidProxies[rigidProxy].m_angularVelocity};
 }
 
-void RigidProxies::addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change)
+void RigidProxies::addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change, bool lasts)
 {
     Remainder& remainder = remainderOf(source.m_objectId);
     remainder.m_used = true;
-    remainder.m_linearGiven = change.m_linear;
-    remainder.m_angularGiven = change.m_angular;
+    if (lasts) remainder.m_linearGiven = change.m_linear;
+    if (lasts) remainder.m_angularGiven = change.m_angular;
     body.setLinearVelocity(addedExactly(body.getLinearVelocity(), change.m_linear, remainder.m_linear));
     body.setAngularVelocity(addedExactly(body.getAngularVelocity(), change.m_angular, remainder.m_angular));
 }

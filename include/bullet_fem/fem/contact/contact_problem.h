@@ -94,7 +94,8 @@ struct ContactPoint
     double m_slop = 0;         ///< penetration that is left alone [m], >= 0
     double m_hardness = 1;     ///< factor on ContactSettings::m_pushFraction [-], >= 0
     double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
-    double m_restitution = 0;  ///< share of the closing speed that is given back [-], in [0, 1]
+    double m_restitution = 0;  ///< share of the speed of an impact that is given back [-], in [0, 1]; not read by
+                               ///< the solver
     double m_stiffness = 0;    ///< of a contact spring in place of the rigid contact [N/m], >= 0; 0: rigid
     double m_damping = 0;      ///< of that spring [N s/m], >= 0
     Vec3 m_impulse;            ///< on m_soft [N s]: a guess before, the answer after
@@ -145,7 +146,6 @@ struct ContactSettings
     double m_pushFraction = 0.2;   ///< share of a penetration that is taken back a step [-], in [0, 1]
     double m_maxPushVelocity = 1;  ///< speed at which penetration is taken back at most [m/s], >= 0
     double m_slipFraction = 0.2;   ///< share of the slip of a sticking point that is taken back a step [-], in [0, 1]
-    double m_restitutionVelocity = 0.2;  ///< closing speed below which nothing is given back [m/s], >= 0
 };
 
 /// What a solve took, and how good it is.
