@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "bullet_bridge/limits.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/contact/rebound.h"
 #include "bullet_fem/fem/step/stepping.h"
@@ -224,8 +225,8 @@ const RigidProxy* Rebounds::supportOf(const Scene& scene, int rigidProxy, const 
 {
     static const RigidProxy atRest;
     for (const RigidTouch& touch : scene.m_problem.m_rigidTouches)
-        if (touch.m_rigidProxy == rigidProxy && touch.m_other < 0 && touch.m_gap <= kTouching && !touch.m_pushOnly &&
-            dot(touch.m_otherVelocity, touch.m_otherVelocity) == 0 && dot(touch.m_normal, against) > kHolds)
+        if (touch.m_rigidProxy == rigidProxy && touch.m_isSupport && touch.m_gap <= kTouching &&
+            dot(touch.m_normal, against) > kHolds)
             return &atRest;
     return nullptr;
 }
@@ -329,6 +330,8 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     { return m_problem.m_rigidProxies[k].m_linearVelocity - before[k].m_linearVelocity; };
     const auto angular = [&](int k)
     { return m_problem.m_rigidProxies[k].m_angularVelocity - before[k].m_angularVelocity; };
+    for (const int k : {kOther, kBody})
+        if (!isBelow(kFastest, linear(k)) || !isBelow(kFastest, angular(k))) return true;
     const auto move = [&](FemSoftBody& body, int piece, int k)
     {
         if (before[k].canMove()) addWholeMotion(body.m_body, piece, before[k].m_center, linear(k), angular(k));

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemCoupling.h"
 #include "plugin/scenes/snapshot_scene.h"
 #include "plugin/snapshot/btFemEnvelope.h"
 
@@ -165,6 +167,29 @@ TEST_F(RefusedSnapshot, OrTakenButNeverACrash)
     EXPECT_GT(taken, 500);
     m_scene.restore(saved);
     EXPECT_TRUE(m_scene.run(10) == bits);
+}
+
+TEST_F(RefusedSnapshot, OfImpactsThatCannotBe)
+{
+    FemSoftBody& fem = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem();
+    const auto expectImpactRefused = [&](const auto& spoil, const char* reason)
+    {
+        Impact impact;
+        impact.m_other = m_scene.m_soft[1];
+        impact.m_otherPiece = 0;
+        impact.m_normal = {0, 0, 1};
+        spoil(impact);
+        fem.m_impacts.assign(1, impact);
+        const Bytes bytes = m_scene.save();
+        fem.m_impacts.clear();
+        expectRefused(bytes, reason);
+    };
+    expectImpactRefused([](Impact& i) { i.m_restitution = 1.5; }, "the restitution of an impact is 1.5");
+    expectImpactRefused([](Impact& i) { i.m_piece = 1; }, "the piece of an impact is 1");
+    expectImpactRefused([](Impact& i) { i.m_otherPiece = 7; }, "the piece of an impact is 7");
+    expectImpactRefused([](Impact& i) { i.m_normal.z = 2; }, "the normal of an impact has length 2");
+    expectImpactRefused([](Impact& i) { i.m_energy = std::numeric_limits<double>::quiet_NaN(); },
+                        "the numbers of an impact");
 }
 
 TEST_F(RefusedSnapshot, OfBodiesThatAreGone)

@@ -107,17 +107,18 @@ struct ContactPoint
 /// of the rigid proxies' new velocities, and told nowhere else.
 struct RigidTouch
 {
-    int m_rigidProxy = -1;    ///< index into the rigid proxies of the solve
-    int m_other = -1;         ///< likewise; -1: immovable
-    Vec3 m_arm, m_otherArm;   ///< from their centres to where they touch [m]
-    Vec3 m_normal;            ///< unit [-], from the other to the rigid proxy
-    double m_gap = 0;         ///< signed distance [m]; negative inside
-    bool m_moves = true;      ///< the velocities of the solve will bring them together or apart from there
-    double m_leastSpeed = 0;  ///< at which they part along the normal, at least; < 0: they may close [m/s]
-    Vec3 m_otherVelocity;     ///< of what is immovable, where they touch; leastSpeed is relative to it, and so is the
-                              ///< sliding that friction acts against [m/s]
-    double m_friction = 0;    ///< Coulomb's coefficient [-], >= 0
-    bool m_pushOnly = false;  ///< it counts for position corrections alone
+    int m_rigidProxy = -1;     ///< index into the rigid proxies of the solve
+    int m_other = -1;          ///< likewise; -1: immovable
+    Vec3 m_arm, m_otherArm;    ///< from their centres to where they touch [m]
+    Vec3 m_normal;             ///< unit [-], from the other to the rigid proxy
+    double m_gap = 0;          ///< signed distance [m]; negative inside
+    bool m_moves = true;       ///< the velocities of the solve will bring them together or apart from there
+    double m_leastSpeed = 0;   ///< at which they part along the normal, at least; < 0: they may close [m/s]
+    Vec3 m_otherVelocity;      ///< of what is immovable, where they touch; leastSpeed is relative to it, and so is the
+                               ///< sliding that friction acts against [m/s]
+    double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
+    bool m_pushOnly = false;   ///< it counts for position corrections alone
+    bool m_isSupport = false;  ///< the other stands still, whatever happens
 };
 
 /// A body with its compliance cache. Neither may be null, and both must live until the solve is over.
