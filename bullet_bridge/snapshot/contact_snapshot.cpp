@@ -215,6 +215,8 @@ void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& wor
     if (s.m_contacts.size() != s.m_origins.size())
         reject(s.m_contacts.size(), " contacts with ", s.m_origins.size(), " origins");
     for (const ContactPoint& contact : s.m_contacts) checkPoint(contact, fem, nullptr);
+    for (const ContactOrigin& origin : s.m_origins)
+        if (origin.m_feature < 0) reject("the feature of a contact is ", origin.m_feature, ", below 0");
     for (const SheetSide& side : s.m_sheetSides) checkSane("a sheet's side", side.m_position, side.m_safe);
     for (const ImpactSnapshot& impact : s.m_impacts) checkImpact(impact.m_impact, fem, world.bodyOf(impact.m_other));
     for (const HeldSnapshot& held : s.m_held) checkHeld(held.m_joint, fem);
