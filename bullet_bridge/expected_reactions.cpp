@@ -100,14 +100,17 @@ void RigidProxies::returnExpected()
     }
 }
 
-void RigidProxies::addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change)
+void RigidProxies::addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change, bool lasts)
 {
     Remainder& remainder = remainderOf(source.m_objectId);
     remainder.m_used = true;
-    lasting(change.m_linear, remainder.m_linearGiven, remainder.m_linearExpected);
-    lasting(change.m_angular, remainder.m_angularGiven, remainder.m_angularExpected);
-    remainder.m_linearGiven = change.m_linear;
-    remainder.m_angularGiven = change.m_angular;
+    if (lasts)
+    {
+        lasting(change.m_linear, remainder.m_linearGiven, remainder.m_linearExpected);
+        lasting(change.m_angular, remainder.m_angularGiven, remainder.m_angularExpected);
+        remainder.m_linearGiven = change.m_linear;
+        remainder.m_angularGiven = change.m_angular;
+    }
     const LinkMotion had = takeExpected(body);
     body.setLinearVelocity(addedExactly(body.getLinearVelocity(), change.m_linear - had.m_linear, remainder.m_linear));
     body.setAngularVelocity(

@@ -70,6 +70,7 @@ void FemSoftBody::sizeScratch()
     m_edgeGap.resize(m_surface.features().m_edges.size());
     m_contacts.clear();
     m_origins.clear();
+    m_impacts.clear();
 }
 
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)

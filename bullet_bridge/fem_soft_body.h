@@ -69,6 +69,34 @@ struct NodePins
     std::vector<unsigned char> m_moved;      ///< 1: pinned and moved by the user since the last step
 };
 
+/// Something that a body has run into, until they part or rest: see Rebounds.
+struct Impact
+{
+    const btCollisionObject* m_other = nullptr;
+    int m_otherId = -1;          ///< broadphase id
+    int m_piece = 0;             ///< of the body that has hit it (TetMesh::nodeComponent)
+    int m_otherPiece = -1;       ///< likewise, if it is soft; -1: rigid
+    double m_restitution = 0;    ///< [-], in [0, 1]
+    double m_approach = 0;       ///< speed at which they met [m/s]
+    double m_energy = 0;         ///< of both as they met [J]
+    double m_speed = 0;          ///< at which they part, as the last step ended [m/s]
+    double m_gain = 0;           ///< the most that a step has added to it [m/s]
+    Vec3 m_point, m_normal;      ///< where they touched last [m], and from the other to the body [-]
+    Vec3 m_frame;                ///< velocity there of the one that cannot be moved, as they met [m/s]
+    double m_time = 0;           ///< since they met [s]
+    double m_stopTime = 0;       ///< since they met until nothing drove them apart any more; 0: it does [s]
+    bool m_isHeld = false;       ///< the body lies against something immovable, and counts as such
+    bool m_otherIsHeld = false;  ///< likewise
+    bool m_isNear = false;       ///< in this step they have contact points
+    bool m_isPressed = false;    ///< and impulses
+
+    bool isOf(const Impact& b) const
+    {
+        return m_other == b.m_other && m_otherId == b.m_otherId && m_piece == b.m_piece &&
+               m_otherPiece == b.m_otherPiece;
+    }
+};
+
 /// A btSoftBody and the finite-element body that moves it.
 struct FemSoftBody
 {
@@ -123,6 +151,7 @@ struct FemSoftBody
     std::vector<ContactPoint> m_contacts;              ///< of the last step
     std::vector<ContactOrigin> m_origins;              ///< one a contact, ascending
     std::vector<SheetSide> m_sheetSides;               ///< of the last step, ascending
+    std::vector<Impact> m_impacts;                     ///< that are not over
     SoftSurface m_surface;                             ///< what collides; update() it before soft bodies are searched
     std::shared_ptr<const CollisionSkin> m_skin;       ///< what collides follows the mesh; null: it is its boundary
     std::vector<Vec3> m_skinPosition, m_skinVelocity;  ///< see updateSkin

@@ -306,7 +306,7 @@ void RigidProxies::addJointReaction(const JointEnd& end, const Vec3& impulse)
         addReaction(end.m_rigidProxy, impulse, end.m_point - m_rigidProxies[end.m_rigidProxy].m_center);
 }
 
-void RigidProxies::applyReactions(const ContactProblem& problem, double step)
+void RigidProxies::applyReactions(const ContactProblem& problem, double step, bool lasts)
 {
     for (const ContactPoint& contact : problem.m_contacts)
         addReaction(contact.m_rigidProxy, -contact.m_impulse, contact.m_arm);
@@ -337,7 +337,7 @@ void RigidProxies::applyReactions(const ContactProblem& problem, double step)
         const bool throughOthers = m_phase == RigidPhase::moved && body->isActive();
         if (felt || (throughOthers && isAny(change.m_linear, change.m_angular)))
         {
-            if (m_phase == RigidPhase::moved) addToVelocity(*body, source, change);
+            if (m_phase == RigidPhase::moved) addToVelocity(*body, source, change, lasts);
             if (!body->isActive()) body->activate();  // islands know when one that is awake may rest
         }
         Vec3 linear = rigidProxy.m_pushLinear, angular = rigidProxy.m_pushAngular;

@@ -114,8 +114,8 @@ public:
     /// Moves the bodies by the position corrections, and rewound ones by what their change of velocity makes (touches
     /// included, so that a floor stays a floor; but for what goes against Bullet's joints), and wakes those that felt
     /// impulses; in phase `moved` also adds the changes to their velocities, in double and once. `problem` is the one
-    /// solved, with these rigid proxies.
-    void applyReactions(const ContactProblem& problem, double step);
+    /// solved, with these rigid proxies. `lasts`: soft bodies will give the like in the next step.
+    void applyReactions(const ContactProblem& problem, double step, bool lasts = true);
 
 private:
     struct Source
@@ -139,7 +139,7 @@ private:
 
     void addReaction(int rigidProxy, const Vec3& impulse, const Vec3& arm);
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
-    void addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change);
+    void addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change, bool lasts);
     LinkMotion takeExpected(const btCollisionObject& object);
     void expect(btRigidBody& body, Before& before);
     void takeBack(const btCollisionObject& object);

@@ -171,6 +171,7 @@ void RigidTouchFinder::add(const Pair& pair, const btManifoldPoint& point, doubl
     if (touch.m_other < 0) touch.m_otherVelocity = velocities[turned ? 0 : 1];
     touch.m_friction = std::max(0.0, double(point.m_combinedFriction));
     touch.m_pushOnly = !moved || givesWay;
+    touch.m_isSupport = touch.m_other < 0 && !givesWay && dot(touch.m_otherVelocity, touch.m_otherVelocity) == 0;
     touches.push_back(touch);
 }
 

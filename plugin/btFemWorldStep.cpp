@@ -83,7 +83,7 @@ void btFemWorldStep::solve(double step)
     m_freeMotion.solve(m_due, m_group.softPairs());
     m_group.collect({m_active, m_registry.records(), step, RigidPhase::moved});
     m_group.solve();
-    finishMotions();
+    finishMotions(step);
 }
 
 void btFemWorldStep::publish()
@@ -137,7 +137,7 @@ void btFemWorldStep::selectUnsolved(double step)
     }
 }
 
-void btFemWorldStep::finishMotions()
+void btFemWorldStep::finishMotions(double step)
 {
     for (const auto& record : m_registry.records())
         if (record->m_membership.m_present && record->m_work.m_stage == btFemStage::solved)
@@ -146,6 +146,7 @@ void btFemWorldStep::finishMotions()
             m_active.push_back(record.get());
         }
     m_freeMotion.finish(m_active);
+    m_group.giveRebounds(m_active, m_world, step);
     runOn(m_active,
           [](btFemBodyRecord& record)
           {

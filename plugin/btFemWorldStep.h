@@ -57,7 +57,7 @@ public:
 private:
     void selectMoving(double step);
     void selectUnsolved(double step);
-    void finishMotions();
+    void finishMotions(double step);
     void readChanges(btFemBodyRecord& record);
     template <class Task>
     void runOn(const std::vector<btFemBodyRecord*>& records, const Task& task) const

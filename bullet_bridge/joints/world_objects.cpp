@@ -52,9 +52,14 @@ bool WorldObjects::contains(const void* object) const
 }
 
 // What knows the body itself is the broadphase of its world.
+bool WorldObjects::knows(const btSoftBody& body) const
+{
+    return contains(&body);
+}
+
 bool WorldObjects::holds(const btSoftBody& body, const btCollisionObject* object) const
 {
-    return !contains(&body) || contains(object);
+    return !knows(body) || contains(object);
 }
 
 bool WorldObjects::holdsCluster(const btSoftBody& body, const void* cluster) const

@@ -23,6 +23,9 @@ public:
     /// True if it is that broadphase that was read last.
     bool hasRead(const btSoftBody& body) const;
 
+    /// True if the world that was read last holds the body itself.
+    bool knows(const btSoftBody& body) const;
+
     /// True if the world that was read last holds the object; also where that cannot be known, because it does not hold
     /// the body: its world info has no broadphase or not that of its world.
     bool holds(const btSoftBody& body, const btCollisionObject* object) const;

@@ -59,11 +59,15 @@ double sumOfWeights(const SurfacePoint& point)
     return sum;
 }
 
+bool isOne(double value)
+{
+    constexpr double kAlmost = 1e-9;
+    return std::fabs(value - 1) <= kAlmost;
+}
+
 // Contacts between bodies may be used again as they are.
 void checkKept(const ContactPoint& c)
 {
-    constexpr double kAlmost = 1e-9;
-    const auto isOne = [](double value) { return std::fabs(value - 1) <= kAlmost; };
     if (!isOne(norm(c.m_normal)))
         reject("the normal of a contact between bodies has length ", norm(c.m_normal), ", not 1");
     for (const SurfacePoint* point : {&c.m_soft, &c.m_other})
@@ -78,6 +82,27 @@ void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBod
     if (other) checkSurfacePoint(c.m_other, *other, "a contact's other side");
     checkSane("a contact", c.m_gap, c.m_slop, c.m_friction, c.m_restitution, c.m_stiffness, c.m_damping, c.m_point,
               c.m_approach, c.m_normal, c.m_impulse, c.m_slip);
+}
+
+// `other` is null for what is not soft, or has left the world.
+void checkImpact(const Impact& i, const FemSoftBody& fem, const FemSoftBody* other)
+{
+    const auto checkPiece = [](int piece, int least, const FemSoftBody& of)
+    {
+        const int count = of.m_body.m_model->mesh().componentCount();
+        if (piece < least || piece >= count)
+            reject("the piece of an impact is ", piece, ", not in [", least, ", ", count, ")");
+    };
+    checkPiece(i.m_piece, 0, fem);
+    if (other)
+        checkPiece(i.m_otherPiece, 0, *other);
+    else if (i.m_otherPiece < -1)
+        reject("the other piece of an impact is ", i.m_otherPiece, ", below -1");
+    checkSane("an impact", i.m_approach, i.m_energy, i.m_speed, i.m_gain, i.m_point, i.m_normal, i.m_frame, i.m_time,
+              i.m_stopTime);
+    if (!(i.m_restitution >= 0 && i.m_restitution <= 1))
+        reject("the restitution of an impact is ", i.m_restitution, ", not in [0, 1]");
+    if (!isOne(norm(i.m_normal))) reject("the normal of an impact has length ", norm(i.m_normal), ", not 1");
 }
 
 bool isAnchor(const HeldJoint& joint)
@@ -165,6 +190,7 @@ ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
     s.m_contacts = fem.m_contacts;
     s.m_origins = fem.m_origins;
     s.m_sheetSides = fem.m_sheetSides;
+    for (const Impact& impact : fem.m_impacts) s.m_impacts.push_back({impact, world.idOf(impact.m_other)});
     for (const HeldJoint& joint : fem.m_joints.m_now)
     {
         HeldSnapshot held;
@@ -192,6 +218,7 @@ void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& wor
     for (const ContactOrigin& origin : s.m_origins)
         if (origin.m_feature < 0) reject("the feature of a contact is ", origin.m_feature, ", below 0");
     for (const SheetSide& side : s.m_sheetSides) checkSane("a sheet's side", side.m_position, side.m_safe);
+    for (const ImpactSnapshot& impact : s.m_impacts) checkImpact(impact.m_impact, fem, world.bodyOf(impact.m_other));
     for (const HeldSnapshot& held : s.m_held) checkHeld(held.m_joint, fem);
     for (const AttachmentSnapshot& a : s.m_attachments) checkAttachment(a, fem, world);
     if (s.m_lastAttachment < 0) reject("the last attachment's handle is ", s.m_lastAttachment, ", below 0");
@@ -214,6 +241,14 @@ void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
         fem.m_origins.back().m_object = object;
     }
     fem.m_sheetSides.assign(s.m_sheetSides.begin(), s.m_sheetSides.end());
+    fem.m_impacts.clear();
+    for (const ImpactSnapshot& impact : s.m_impacts)
+    {
+        const btCollisionObject* other = world.objectOf(impact.m_other);
+        if (!other) continue;
+        fem.m_impacts.push_back(impact.m_impact);
+        fem.m_impacts.back().m_other = other;
+    }
     fem.m_touching.clear();
     fem.m_touchingSoft.clear();
     restoreJoints(s, world, fem.m_joints);

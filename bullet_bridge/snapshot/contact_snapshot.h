@@ -27,12 +27,20 @@ struct AttachmentSnapshot
     int m_other = WorldIds::kGone;
 };
 
+/// An Impact likewise.
+struct ImpactSnapshot
+{
+    Impact m_impact;
+    int m_other = WorldIds::kGone;
+};
+
 /// What a body touched and what held it in the last step: the guesses and memories of the next.
 struct ContactSnapshot
 {
     std::vector<ContactPoint> m_contacts;
     std::vector<ContactOrigin> m_origins;  ///< without pointers
     std::vector<SheetSide> m_sheetSides;
+    std::vector<ImpactSnapshot> m_impacts;
     std::vector<HeldSnapshot> m_held;
     std::vector<AttachmentSnapshot> m_attachments;
     int m_lastAttachment = 0;
@@ -85,6 +93,14 @@ void transfer(Bytes& bytes, SheetSide& s)
 }
 
 template <class Bytes>
+void transfer(Bytes& bytes, ImpactSnapshot& s)
+{
+    Impact& i = s.m_impact;
+    bytes(s.m_other, i.m_otherId, i.m_piece, i.m_otherPiece, i.m_restitution, i.m_approach, i.m_energy, i.m_speed,
+          i.m_gain, i.m_point, i.m_normal, i.m_frame, i.m_time, i.m_stopTime, i.m_isHeld, i.m_otherIsHeld);
+}
+
+template <class Bytes>
 void transfer(Bytes& bytes, HeldSnapshot& h)
 {
     HeldJoint& j = h.m_joint;
@@ -101,7 +117,8 @@ void transfer(Bytes& bytes, AttachmentSnapshot& a)
 template <class Bytes>
 void transfer(Bytes& bytes, ContactSnapshot& s)
 {
-    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_held, s.m_attachments, s.m_lastAttachment, s.m_place);
+    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_impacts, s.m_held, s.m_attachments, s.m_lastAttachment,
+          s.m_place);
 }
 
 template <class Bytes>

@@ -269,28 +269,14 @@ void ContactRows::finishRow(ContactRow& row) const
         row.m_yield = row.m_softness * row.m_rowCompliance + Vec3{row.m_spring, row.m_spring, row.m_spring};
 }
 
-// Relative velocity of a contact as the step began.
-Vec3 ContactRows::priorVelocity(const ContactRow& row, const ContactPoint& contact) const
-{
-    const auto soft = [this](const SurfacePoint& p) { return p.of(m_problem->m_bodies[p.m_body].m_body->m_state.m_v); };
-    return soft(contact.m_soft) - (row.m_b.m_body >= 0 ? soft(contact.m_other) : velocity(row.m_b));
-}
-
 void ContactRows::setContactTarget(ContactRow& row, const ContactPoint& contact) const
 {
     const double h = m_settings.m_step.m_step;
-    const Vec3 n = contact.m_normal;
-    const double allowed = -std::max(contact.m_gap, 0.0) / h;
-    row.m_target.x = allowed;
+    row.m_target.x = -std::max(contact.m_gap, 0.0) / h;
     const Vec3 arc = arcOf(row);
     for (int i = 1; i < 3; ++i)
         row.m_target[i] =
             (dot(arc, row.m_axes[i]) - m_settings.m_slipFraction * dot(contact.m_slip, row.m_axes[i])) / h;
-    if (contact.m_restitution > 0 && dot(n, velocity(row)) < allowed)
-    {
-        const double closing = -dot(n, priorVelocity(row, contact));
-        if (closing > m_settings.m_restitutionVelocity) row.m_target.x = contact.m_restitution * closing;
-    }
     if (contact.m_stiffness > 0 || contact.m_damping > 0)
     {
         // Implicit spring and damper: lambda = h (-k (gap + h v) - d v).

@@ -177,7 +177,6 @@ private:
     void finishRows();
     void finishRow(ContactRow& row) const;
     void setContactTarget(ContactRow& row, const ContactPoint& contact) const;
-    Vec3 priorVelocity(const ContactRow& row, const ContactPoint& contact) const;
 
     Vec3 velocity(const RowEnd& end) const;
     Vec3 meanVelocity(const RowEnd& end) const

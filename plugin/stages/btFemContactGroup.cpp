@@ -19,6 +19,9 @@ namespace
 
 constexpr int kContactsPerChunk = 256;  // copied at once
 
+// Slower impacts give nothing back, as of Bullet's rigid bodies: m_restitutionVelocityThreshold is the same [m/s].
+constexpr double kRestitutionVelocity = 0.2;
+
 // The user's defaults are the solver's own.
 static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
 static_assert(btFemSolverInfo().m_contactRounds == ContactSettings().m_rounds);
@@ -194,6 +197,7 @@ void btFemContactGroup::solve()
 {
     const btFemStopwatch watch;
     const ContactReport solved = m_solver.solve(m_problem, m_settings);
+    m_rebounds.note(m_problem, m_bodies, m_rigid, kRestitutionVelocity);
     moveRigid();
     m_milliseconds += watch.milliseconds();
     report(solved);
@@ -239,6 +243,7 @@ void btFemContactGroup::finish()
 {
     ContactReport solved;
     onSolverBodies([&] { solved = m_solver.finish(); });
+    m_rebounds.note(m_problem, m_bodies, m_rigid, kRestitutionVelocity);
     m_solverBodies.end(m_rigid);
     report(solved);
 }
@@ -247,6 +252,15 @@ void btFemContactGroup::moveRigid()
 {
     m_rigid.rigidProxies().assign(m_problem.m_rigidProxies.begin(), m_problem.m_rigidProxies.end());
     m_rigid.applyReactions(m_problem, m_step);
+}
+
+void btFemContactGroup::giveRebounds(const std::vector<btFemBodyRecord*>& records, WorldObjects& world, double step)
+{
+    const auto hasImpacts = [](const btFemBodyRecord* record) { return !record->fem().m_impacts.empty(); };
+    if (std::none_of(records.begin(), records.end(), hasImpacts)) return;
+    m_bodies.clear();
+    for (btFemBodyRecord* record : records) m_bodies.push_back(&record->fem());
+    m_rebounds.give(m_bodies, world, m_rigid, step);
 }
 
 // Gives every body its share of contacts, joints and report.

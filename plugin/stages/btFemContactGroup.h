@@ -6,6 +6,7 @@
 
 #include "bullet_bridge/contact/rigid_search.h"
 #include "bullet_bridge/joints/soft_joints.h"
+#include "bullet_bridge/rebounds.h"
 #include "bullet_bridge/rigid_touches.h"
 #include "bullet_bridge/soft_pairs/soft_pair_search.h"
 #include "bullet_bridge/solver_bodies.h"
@@ -69,6 +70,9 @@ public:
     void finish();
     void moveRigid();
 
+    /// As the step ends: what impacts have to give back. `records` are all whose contact was solved in this step.
+    void giveRebounds(const std::vector<btFemBodyRecord*>& records, bullet_fem::WorldObjects& world, double step);
+
     const bullet_fem::ContactSettings& settings() const { return m_settings; }
 
     /// What lasts from step to step.
@@ -106,6 +110,7 @@ private:
     std::vector<bullet_fem::JointFlags> m_jointFlags;
     bullet_fem::RigidProxies m_rigid;
     bullet_fem::SolverBodies m_solverBodies;
+    bullet_fem::Rebounds m_rebounds;
     bullet_fem::ContactProblem m_problem;
     bullet_fem::ContactSolver m_solver;
     btFemTogether m_together;

@@ -60,6 +60,7 @@ bool beginBodyStep(btFemBodySetUp& setUp, btFemBodyRecord& record, double worldS
         record.fem().m_touching.clear();
         record.fem().m_touchingSoft.clear();
     }
+    if (record.isFem() && !record.m_softBody->isActive()) record.fem().m_impacts.clear();
     if (!present || record.m_model.m_rejected || !record.m_softBody->isActive()) return false;
     const double step = bodyStep(record, worldStep);
     if (!isUsableStep(step)) return false;

@@ -80,8 +80,8 @@ protected:
     BounceInSpace() : Bounce({0, 0, 0}) {}
 };
 
-// The points that touch leave at e times the speed at which they came, whatever the material and the step.
-TEST_P(BounceInSpace, ContactPointsLeaveAtTheirShareOfTheSpeed)
+// A body leaves as a whole at e times the speed at which it came, whatever the material and the step.
+TEST_P(BounceInSpace, ABodyLeavesAtItsShareOfTheSpeed)
 {
     for (const double young : {1e5, 1e7, 1e9})
     {
@@ -89,10 +89,10 @@ TEST_P(BounceInSpace, ContactPointsLeaveAtTheirShareOfTheSpeed)
         btSoftBody& cube = addCube(young, 0.25);
         cube.setVelocity(btVector3(0, 0, -2));
         stepUntilTouched(cube);
-        const btAlignedObjectArray<btFemContact>& contacts = m_fem.contacts(&cube);
-        ASSERT_EQ(contacts.size(), 25);
-        for (int k = 0; k < contacts.size(); ++k)
-            EXPECT_NEAR(cube.m_nodes[contacts[k].m_nodes[0]].m_v.z(), 2 * kRestitution, 0.02 * 2 * kRestitution);
+        ASSERT_EQ(m_fem.contacts(&cube).size(), 25);
+        for (int k = 0; k < value() / 4; ++k) step();
+        EXPECT_EQ(m_fem.contacts(&cube).size(), 0);
+        EXPECT_NEAR(velocityOf(cube).z, 2 * kRestitution, 0.02 * 2 * kRestitution);
         m_world.deleteSoft(cube);
     }
 }

@@ -181,6 +181,29 @@ TEST_F(RefusedSnapshot, OfAContactAtNoFeature)
     expectRefused(bytes, "the feature of a contact is -3, below 0");
 }
 
+TEST_F(RefusedSnapshot, OfImpactsThatCannotBe)
+{
+    FemSoftBody& fem = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem();
+    const auto expectImpactRefused = [&](const auto& spoil, const char* reason)
+    {
+        Impact impact;
+        impact.m_other = m_scene.m_soft[1];
+        impact.m_otherPiece = 0;
+        impact.m_normal = {0, 0, 1};
+        spoil(impact);
+        fem.m_impacts.assign(1, impact);
+        const Bytes bytes = m_scene.save();
+        fem.m_impacts.clear();
+        expectRefused(bytes, reason);
+    };
+    expectImpactRefused([](Impact& i) { i.m_restitution = 1.5; }, "the restitution of an impact is 1.5");
+    expectImpactRefused([](Impact& i) { i.m_piece = 1; }, "the piece of an impact is 1");
+    expectImpactRefused([](Impact& i) { i.m_otherPiece = 7; }, "the piece of an impact is 7");
+    expectImpactRefused([](Impact& i) { i.m_normal.z = 2; }, "the normal of an impact has length 2");
+    expectImpactRefused([](Impact& i) { i.m_energy = std::numeric_limits<double>::quiet_NaN(); },
+                        "the numbers of an impact");
+}
+
 TEST_F(RefusedSnapshot, OfBodiesThatAreGone)
 {
     m_scene.m_world.deleteSoft(*m_scene.m_soft.back());

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemCoupling.h"
 #include "plugin/scenes/each_world.h"
 #include "plugin/scenes/snapshot_scene.h"
 
@@ -51,6 +53,26 @@ protected:
 TEST_P(Snapshot, ContinuesBitForBitInTheMidstOfContact)
 {
     expectToContinueInTheMidstOfContact(m_scene, kLong);
+}
+
+// What an impact has to give back is given in the run that goes on from the saved state, too.
+TEST_P(Snapshot, OfWhatAnImpactHasToGiveBackContinuesBitForBit)
+{
+    m_scene.addTower();
+    for (btSoftBody* body : m_scene.m_soft) body->setRestitution(btScalar(0.8));
+    for (btRigidBody* body : m_scene.m_rigid) body->setRestitution(1);
+    m_scene.m_soft[1]->setVelocity({0, 0, -2});
+    const auto impacts = [this]
+    { return btFemCoupling::record(m_scene.m_fem, *m_scene.m_soft[0])->fem().m_impacts.size(); };
+    for (int k = 0; k < 20 && (k == 0 || impacts() == 0); ++k) m_scene.m_world.step();
+    ASSERT_GT(impacts(), 0u);
+    const SnapshotScene::Saved saved = m_scene.saveAll();
+    const std::vector<double> bits = m_scene.run(40);
+    EXPECT_EQ(impacts(), 0u);
+    m_scene.restore(saved);
+    EXPECT_TRUE(m_scene.save() == saved.m_fem);
+    EXPECT_EQ(impacts(), 1u);
+    EXPECT_TRUE(m_scene.run(40) == bits);
 }
 
 class SnapshotInOtherWorlds : public EachWorld

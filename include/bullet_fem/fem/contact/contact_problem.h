@@ -96,7 +96,8 @@ struct ContactPoint
     double m_slop = 0;          ///< penetration that is left alone [m], >= 0
     double m_hardness = 1;      ///< factor on ContactSettings::m_pushFraction [-], >= 0
     double m_friction = 0;      ///< Coulomb's coefficient [-], >= 0
-    double m_restitution = 0;   ///< share of the closing speed that is given back [-], in [0, 1]
+    double m_restitution = 0;   ///< share of the speed of an impact that is given back [-], in [0, 1]; not read by
+                                ///< the solver
     double m_stiffness = 0;     ///< of a contact spring in place of the rigid contact [N/m], >= 0; 0: rigid
     double m_damping = 0;       ///< of that spring [N s/m], >= 0
     Vec3 m_impulse;             ///< on m_soft [N s]: a guess before, the answer after
@@ -108,17 +109,18 @@ struct ContactPoint
 /// of the rigid proxies' new velocities, and told nowhere else.
 struct RigidTouch
 {
-    int m_rigidProxy = -1;    ///< index into the rigid proxies of the solve
-    int m_other = -1;         ///< likewise; -1: immovable
-    Vec3 m_arm, m_otherArm;   ///< from their centres to where they touch [m]
-    Vec3 m_normal;            ///< unit [-], from the other to the rigid proxy
-    double m_gap = 0;         ///< signed distance [m]; negative inside
-    bool m_moves = true;      ///< the velocities of the solve will bring them together or apart from there
-    double m_leastSpeed = 0;  ///< at which they part along the normal, at least; < 0: they may close [m/s]
-    Vec3 m_otherVelocity;     ///< of what is immovable, where they touch; leastSpeed is relative to it, and so is the
-                              ///< sliding that friction acts against [m/s]
-    double m_friction = 0;    ///< Coulomb's coefficient [-], >= 0
-    bool m_pushOnly = false;  ///< it counts for position corrections alone
+    int m_rigidProxy = -1;     ///< index into the rigid proxies of the solve
+    int m_other = -1;          ///< likewise; -1: immovable
+    Vec3 m_arm, m_otherArm;    ///< from their centres to where they touch [m]
+    Vec3 m_normal;             ///< unit [-], from the other to the rigid proxy
+    double m_gap = 0;          ///< signed distance [m]; negative inside
+    bool m_moves = true;       ///< the velocities of the solve will bring them together or apart from there
+    double m_leastSpeed = 0;   ///< at which they part along the normal, at least; < 0: they may close [m/s]
+    Vec3 m_otherVelocity;      ///< of what is immovable, where they touch; leastSpeed is relative to it, and so is the
+                               ///< sliding that friction acts against [m/s]
+    double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
+    bool m_pushOnly = false;   ///< it counts for position corrections alone
+    bool m_isSupport = false;  ///< the other stands still, whatever happens
 };
 
 /// A body with its compliance cache. Neither may be null, and both must live until the solve is over.
@@ -147,7 +149,6 @@ struct ContactSettings
     double m_pushFraction = 0.2;   ///< share of a penetration that is taken back a step [-], in [0, 1]
     double m_maxPushVelocity = 1;  ///< speed at which penetration is taken back at most [m/s], >= 0
     double m_slipFraction = 0.2;   ///< share of the slip of a sticking point that is taken back a step [-], in [0, 1]
-    double m_restitutionVelocity = 0.2;  ///< closing speed below which nothing is given back [m/s], >= 0
 };
 
 /// What a solve took, and how good it is.
