@@ -130,6 +130,7 @@ void matchPose(FemSoftBody& fem, double step)
         loads.m_force[i] += (rate * state.m_mass[i] / step) * (way(i) - rigid.at(i, displacement));
     }
     loads.m_frameDamping = rate;
+    loads.m_leastDamping = 1;  // Bullet's law is that of its own steps, which are damped
 }
 
 }  // namespace bullet_fem

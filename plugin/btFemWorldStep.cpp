@@ -66,6 +66,7 @@ btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, 
     m_freeMotion.solve(m_due, m_group.softPairs());
     m_active.assign(m_due.begin(), m_due.end());
     m_group.collect({m_active, m_registry.records(), step, RigidPhase::solving});
+    m_freeMotion.dampTouching(m_group.touching());
     if (m_group.isEmpty()) return nullptr;
     if (!m_group.holdsOnly(bodies, count))
     {
@@ -82,6 +83,7 @@ void btFemWorldStep::solve(double step)
     selectUnsolved(step);
     m_freeMotion.solve(m_due, m_group.softPairs());
     m_group.collect({m_active, m_registry.records(), step, RigidPhase::moved});
+    m_freeMotion.dampTouching(m_group.touching());
     m_group.solve();
     finishMotions(step);
 }

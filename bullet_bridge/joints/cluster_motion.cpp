@@ -60,7 +60,8 @@ ClusterMotion::ClusterMotion(const FemSoftBody& fem, const btSoftBody::Cluster& 
         inertia += mass(j) * (Mat3::diagonal(dot(d, d)) - outer(d, d));
         stretch += mass(j) * outer(d, vec3(cluster.m_framerefs[j]) - reference);
     }
-    m_rotation = polarRotation(stretch, Mat3::identity());
+    // From identity bodies that have turned over would take a decomposition by singular values each.
+    m_rotation = polarRotation(stretch, toMatrix(fem.m_body.m_state.m_elementRotation[0]));
     if (trace(inertia) > 0) m_inverse = inverse(inertia + Mat3::diagonal(kThinnestInertia * trace(inertia)));
 }
 

@@ -27,9 +27,18 @@ bool isPlain(const Body& body, const StepSettings& settings)
 {
     const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
     return settings.m_batchMemory && settings.m_warp == Warp::nodal && isSinglePrecision(settings) &&
-           !(body.m_loads.m_frameDamping > 0) && !(body.m_loads.m_leastDamping > settings.m_numericalDamping) &&
-           (settings.m_numericalDamping == 1 || body.m_loads.m_priorVelocity.empty()) &&
+           !(body.m_loads.m_frameDamping > 0) &&
+           (StepCoefficients(settings, body).m_damping == 1 || body.m_loads.m_priorVelocity.empty()) &&
            !std::memchr(fixed.data(), 1, fixed.size()) && canBeBatched(*body.m_model);
+}
+
+template <class Job>
+bool areJobsAlike(const Job& jobA, const Job& jobB)
+{
+    const StepSettings &a = jobA.m_settings, &b = jobB.m_settings;
+    return StepCoefficients(a, *jobA.m_body).m_damping == StepCoefficients(b, *jobB.m_body).m_damping &&
+           a.m_step == b.m_step && a.m_tension == b.m_tension && a.m_momentumCorrection == b.m_momentumCorrection &&
+           a.m_batchMemory == b.m_batchMemory;
 }
 
 class BatchedMotions : public BodyBatch
@@ -353,10 +362,17 @@ bool canBeBatched(const StepEnd& end)
            !end.m_body->m_workspace.scratch().m_elements.m_isDouble;
 }
 
-bool areAlike(const StepSettings& a, const StepSettings& b)
+bool areAlike(const FreeMotion& a, const FreeMotion& b)
 {
-    return a.m_step == b.m_step && a.m_numericalDamping == b.m_numericalDamping && a.m_tension == b.m_tension &&
-           a.m_momentumCorrection == b.m_momentumCorrection && a.m_batchMemory == b.m_batchMemory;
+    return areJobsAlike(a, b);
+}
+bool areAlike(const ImpulseResponse& a, const ImpulseResponse& b)
+{
+    return areJobsAlike(a, b);
+}
+bool areAlike(const StepEnd& a, const StepEnd& b)
+{
+    return areJobsAlike(a, b);
 }
 
 bool solveBatched(FreeMotion* const* motions, int count)

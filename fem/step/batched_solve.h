@@ -19,8 +19,10 @@ bool canBeBatched(const FreeMotion& motion);
 bool canBeBatched(const ImpulseResponse& response);
 bool canBeBatched(const StepEnd& end);
 
-/// True if the settings of two such bodies allow it.
-bool areAlike(const StepSettings& a, const StepSettings& b);
+/// True if the settings of two such bodies allow it, and what they have been through.
+bool areAlike(const FreeMotion& a, const FreeMotion& b);
+bool areAlike(const ImpulseResponse& a, const ImpulseResponse& b);
+bool areAlike(const StepEnd& a, const StepEnd& b);
 
 /// Solves up to kBatchWidth bodies of one model for which that is true. False, and nothing was done, if they are too
 /// few or there is no memory for it.

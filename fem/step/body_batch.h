@@ -21,7 +21,7 @@ class BodyBatch
 {
 public:
     BodyBatch(BatchArrays& arrays, Body* const* bodies, int count, const StepSettings& settings)
-        : m_arrays(arrays), m_count(count), m_settings(settings), m_coefficients(settings.m_numericalDamping)
+        : m_arrays(arrays), m_count(count), m_settings(settings), m_coefficients(settings, *bodies[0])
     {
         for (int b = 0; b < kBatchWidth; ++b) m_bodies[b] = bodies[std::min(b, count - 1)];
     }

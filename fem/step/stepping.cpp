@@ -20,7 +20,8 @@ namespace bullet_fem
 namespace
 {
 
-// Runs of jobs on bodies that share their model go in a batch as far as they can, the others one by one.
+// Runs of jobs on bodies that share their model go in batches as far as they can, those like the first before the
+// others; what cannot goes one by one.
 template <class Job>
 void solveAll(Job* jobs, int count)
 {
@@ -35,18 +36,22 @@ void solveAll(Job* jobs, int count)
             collected = 0;
         };
         const BodyModel* model = jobs[first].m_body->m_model.get();
-        for (; end < count && jobs[end].m_body->m_model.get() == model; ++end)
+        while (end < count && jobs[end].m_body->m_model.get() == model) ++end;
+        for (const bool asFirst : {true, false})
         {
-            if (!canBeBatched(jobs[end]))
+            for (int k = first; k < end; ++k)
             {
-                solveAlone(jobs[end]);
-                continue;
+                if (areAlike(jobs[first], jobs[k]) != asFirst) continue;
+                if (!canBeBatched(jobs[k]))
+                {
+                    solveAlone(jobs[k]);
+                    continue;
+                }
+                if (collected == kBatchWidth || (collected > 0 && !areAlike(*together[0], jobs[k]))) solveCollected();
+                together[collected++] = &jobs[k];
             }
-            if (collected == kBatchWidth || (collected > 0 && !areAlike(together[0]->m_settings, jobs[end].m_settings)))
-                solveCollected();
-            together[collected++] = &jobs[end];
+            solveCollected();
         }
-        solveCollected();
     }
 }
 

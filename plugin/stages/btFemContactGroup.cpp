@@ -90,6 +90,7 @@ void btFemContactGroup::collect(const Scope& scope)
     findRigid();
     findSoft();
     collectContacts();
+    listTouching();
     m_rigid.connectLinks(m_problem.m_responses);
     const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
     if (world && world->m_dispatcher && (!m_problem.m_contacts.empty() || m_rigid.holdsRewound()))
@@ -154,6 +155,17 @@ void btFemContactGroup::collectContacts()
                                          std::copy(soft.begin() + piece.m_begin, soft.begin() + piece.m_end,
                                                    place(m_firstRigid.back() + piece.m_begin));
                                      });
+}
+
+void btFemContactGroup::listTouching()
+{
+    m_touches.assign(m_records.size(), 0);
+    for (const ContactPoint& contact : m_problem.m_contacts)
+        for (const int body : {contact.m_soft.m_body, contact.m_other.m_body})
+            if (body >= 0) m_touches[body] = 1;
+    m_touching.clear();
+    for (std::size_t b = 0; b < m_records.size(); ++b)
+        if (m_touches[b] != 0) m_touching.push_back(m_records[b]);
 }
 
 // Links go on arcs: only one point in space for both keeps momenta.

@@ -51,6 +51,9 @@ public:
     /// True if there is nothing to solve.
     bool isEmpty() const { return m_problem.m_contacts.empty() && m_problem.m_joints.empty(); }
 
+    /// The bodies that contacts were found of.
+    const std::vector<btFemBodyRecord*>& touching() const { return m_touching; }
+
     /// True if every rigid body that the group can move is one of `bodies`, none is a multibody's link, and no joint
     /// joins it to other soft bodies that are awake.
     bool holdsOnly(btCollisionObject* const* bodies, int count) const;
@@ -86,6 +89,7 @@ private:
     void findRigid();
     void findSoft();
     void collectContacts();
+    void listTouching();
     void alignLinks(std::vector<bullet_fem::ContactPoint>& contacts) const;
     void collectJoints(const Scope& scope);
     template <class Part>
@@ -97,6 +101,7 @@ private:
     btFemSolverInfo m_info;
     double m_step = 0;  // [s]
     std::vector<btFemBodyRecord*> m_records;
+    std::vector<btFemBodyRecord*> m_touching;
     bullet_fem::ContactSettings m_settings;
     bullet_fem::RigidSearch m_rigidSearch;
     bullet_fem::RigidTouchFinder m_touchFinder;
@@ -114,6 +119,7 @@ private:
     bullet_fem::ContactProblem m_problem;
     bullet_fem::ContactSolver m_solver;
     btFemTogether m_together;
+    std::vector<unsigned char> m_touches;       // per body: it has contacts
     std::vector<unsigned char> m_touchesBegin;  // per body: it touches what it did not
     double m_milliseconds = 0;                  // spent so far on the group
 };

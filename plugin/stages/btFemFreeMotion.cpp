@@ -70,30 +70,47 @@ void btFemFreeMotion::solve(const std::vector<btFemBodyRecord*>& due, const Soft
 {
     m_due = due;
     m_fems.clear();
-    m_bodies.clear();
-    for (const btFemBodyRecord* record : m_due)
-    {
-        m_fems.push_back(&record->fem());
-        m_bodies.push_back(&record->fem().m_body);
-    }
+    for (const btFemBodyRecord* record : m_due) m_fems.push_back(&record->fem());
     m_steady.sumImpulses(m_fems, softPairs, m_threads);
+    solveDue(true);
+}
+
+// The step in which bodies meet would be the one that is damped least: they would swing back from what has stopped
+// them.
+void btFemFreeMotion::dampTouching(const std::vector<btFemBodyRecord*>& touching)
+{
+    m_due.clear();
+    for (btFemBodyRecord* record : touching)
+    {
+        double& damping = record->fem().m_body.m_loads.m_leastDamping;
+        if (!(m_info.m_contactDamping > std::max(damping, static_cast<double>(m_info.m_numericalDamping)))) continue;
+        damping = m_info.m_contactDamping;
+        m_due.push_back(record);
+    }
+    if (!m_due.empty()) solveDue(false);
+}
+
+void btFemFreeMotion::solveDue(bool isFirst)
+{
+    m_bodies.clear();
+    for (const btFemBodyRecord* record : m_due) m_bodies.push_back(&record->fem().m_body);
     m_batches.divide(m_bodies, m_threads.count(), m_info.m_batchBodies);
     m_motions.resize(m_due.size());
     const std::vector<Range>& batches = m_batches.batches();
-    m_threads.run(static_cast<int>(batches.size()), [&](int k) { solveBatch(batches[k]); });
+    m_threads.run(static_cast<int>(batches.size()), [&](int k) { solveBatch(batches[k], isFirst); });
 }
 
 // Every body of the batch is charged the same time.
-void btFemFreeMotion::solveBatch(const Range& batch)
+void btFemFreeMotion::solveBatch(const Range& batch, bool isFirst)
 {
-    for (int k = batch.m_begin; k < batch.m_end; ++k) prepare(inBatches(k));
+    for (int k = batch.m_begin; k < batch.m_end && isFirst; ++k) prepare(inBatches(k));
     const btFemStopwatch watch;
     const int count = batch.m_end - batch.m_begin;
     for (int k = batch.m_begin; k < batch.m_end; ++k) m_motions[k] = motionOf(inBatches(k));
     solveFreeMotions(m_motions.data() + batch.m_begin, count);
     for (int k = batch.m_begin; k < batch.m_end; ++k) report(inBatches(k), m_motions[k]);
     const auto share = static_cast<btScalar>(watch.milliseconds() / count);
-    for (int k = batch.m_begin; k < batch.m_end; ++k) inBatches(k).m_reports.m_step.m_freeMotionMs = share;
+    for (int k = batch.m_begin; k < batch.m_end; ++k) inBatches(k).m_reports.m_step.m_freeMotionMs += share;
 }
 
 void btFemFreeMotion::finish(const std::vector<btFemBodyRecord*>& solved)

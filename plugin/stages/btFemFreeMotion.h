@@ -36,13 +36,18 @@ public:
     /// Every body once, each of which beginFreeMotion() was true for.
     void solve(const std::vector<btFemBodyRecord*>& due, const bullet_fem::SoftPairMemory& softPairs);
 
+    /// Once more those of `touching`, bodies that were solved in this step and touch something by its end, as far as
+    /// they were not known to do so: by the damping of contact.
+    void dampTouching(const std::vector<btFemBodyRecord*>& touching);
+
     /// Ends the steps of bodies whose contact is solved, in batches likewise: new positions and velocities of their
     /// nodes, not yet written. What has no usable ones stands still, with a flag.
     void finish(const std::vector<btFemBodyRecord*>& solved);
 
 private:
     bullet_fem::StepSettings settingsOf(const btFemBodyRecord& record) const;
-    void solveBatch(const bullet_fem::Range& batch);
+    void solveDue(bool isFirst);
+    void solveBatch(const bullet_fem::Range& batch, bool isFirst);
     void prepare(btFemBodyRecord& record) const;
     bullet_fem::FreeMotion motionOf(btFemBodyRecord& record) const;
     void report(btFemBodyRecord& record, const bullet_fem::FreeMotion& motion) const;

@@ -246,7 +246,7 @@ TEST_F(StaleBakedFactor, OfAnotherMaterial)
 
 TEST_F(StaleBakedFactor, GivesTheMotionOfAFreshOne)
 {
-    btFemSolverInfo info;
+    btFemSolverInfo info = implicitEuler();
     info.m_tolerance = btScalar(1e-6);
     btFemSoftBodySolver fem(info), plainFem(info);
     SoftWorld world(fem), plainWorld(plainFem);

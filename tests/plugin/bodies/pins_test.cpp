@@ -19,7 +19,7 @@ class Beam
 {
 public:
     Beam(WorldClass worldClass, bool pinned, const btVector3& gravity = {0, 0, btScalar(-kGravity)})
-        : m_world(worldClass, gravity), m_fem(m_world.fem()), m_body(make())
+        : m_world(worldClass, implicitEuler(), gravity), m_fem(m_world.fem()), m_body(make())
     {
         for (int i = 0; i < m_body.m_nodes.size(); ++i)
             if (m_body.m_nodes[i].m_x.x() < btScalar(1e-6)) m_root.push_back(i);

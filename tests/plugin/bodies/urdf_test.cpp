@@ -114,7 +114,7 @@ TEST_F(UrdfBody, CarriesTheSurfaceThatIsDrawn)
     const btVector3 before = cube.m_renderNodes[2].m_x;
     m_world.step(30);
     const btVector3 fallen = cube.m_renderNodes[2].m_x - before;
-    const double wanted = -kGravity * double(kStep) * double(kStep) * 30 * 31 / 2;  // of the implicit steps
+    const double wanted = -kGravity * double(kStep) * double(kStep) * 30 * 30 / 2;
     EXPECT_NEAR(fallen.z(), wanted, 1e-4 * -wanted);
     EXPECT_NEAR(fallen.x(), 0, 1e-5);
 }

@@ -17,8 +17,8 @@ namespace
 
 constexpr double kRadius = 0.09;  // of rigid balls; of soft ones half a centimetre more [m]
 // In half of all steps; impacts of rigid bodies go deeper for a while. Piles differ by their bits, and with them depths
-// of .5 to 2 mm [m].
-constexpr double kDeepest = 2.5e-3;
+// of .1 to 3.9 mm, whichever damping the steps have [m].
+constexpr double kDeepest = 5e-3;
 
 double medianOf(std::vector<double> values)
 {

@@ -113,7 +113,7 @@ TEST(FactorJobs, AndTheCallersOwnModelsDoNotDisturbEachOther)
 
 btFemSolverInfo inBackground()
 {
-    btFemSolverInfo info;
+    btFemSolverInfo info = implicitEuler();
     info.m_refactoring = btFemRefactoring::background;
     info.m_tolerance = btScalar(1e-6);  // many iterations: a stale factor does not pay for long
     return info;

@@ -323,6 +323,7 @@ protected:
         for (auto& beam : m_beam)
         {
             ClampedBeam::Settings settings;
+            settings.m_info = implicitEuler();
             settings.m_youngModulus = GetParam().m_youngModulus;
             settings.m_massDamping = static_cast<btScalar>(massDamping);
             beam = std::make_unique<ClampedBeam>(settings);

@@ -131,6 +131,7 @@ TEST(RefactorPrice, IsThatOfTheBenchmarksWithinAFactorOfTwo)
 ClampedBeam::Settings beamSettings(btFemRefactoring refactoring, int threads = 1)
 {
     ClampedBeam::Settings settings;
+    settings.m_info = implicitEuler();
     settings.m_info.m_refactoring = refactoring;
     settings.m_info.m_threads = threads;
     return settings;

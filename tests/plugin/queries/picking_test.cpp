@@ -154,7 +154,7 @@ TEST_P(Picking, ByWritingTheMotionOfAFreeNodeAddsNoEnergy)
         m_world.step();
         ASSERT_TRUE(allFinite(m_body));
         const double fallen = kGravity * k * double(kStep);
-        ASSERT_LT(motionOf(m_body).m_energy, 0.5 * kMass * (fallen + 10) * (fallen + 10));
+        ASSERT_LT(motionOf(m_body).m_energy, 0.5 * kMass * (fallen + 14) * (fallen + 14));
     }
 }
 

@@ -30,6 +30,14 @@ struct RigidSettings
     btVector3 m_spin{0, 0, 0};      ///< [rad/s]
 };
 
+/// Every step is damped, free motion as well: what is to come to rest without damping of its own does so.
+inline btFemSolverInfo implicitEuler()
+{
+    btFemSolverInfo info;
+    info.m_numericalDamping = info.m_contactDamping = 1;
+    return info;
+}
+
 /// How rigid bodies are solved.
 enum class Coupling
 {
