@@ -112,10 +112,10 @@ void renewAlgorithms(btSoftBody& body)
 
 void clearBulletContacts(btSoftBody& body)
 {
-    body.m_rcontacts.resize(0);
-    body.m_scontacts.resize(0);
-    body.m_nodeRigidContacts.resize(0);
-    body.m_faceRigidContacts.resize(0);
+    body.m_rcontacts.resizeNoInitialize(0);
+    body.m_scontacts.resizeNoInitialize(0);
+    body.m_nodeRigidContacts.resizeNoInitialize(0);
+    body.m_faceRigidContacts.resizeNoInitialize(0);
 }
 
 }  // namespace bullet_fem

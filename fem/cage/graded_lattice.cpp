@@ -124,15 +124,15 @@ double GradedLattice::fractionOf(int tet, State state)
 
 CageFill GradedLattice::fill()
 {
-    const double most = m_input.m_settings.m_maxTets;
-    if (m_tooLarge) rejectTooMany(most + 1);
+    const int most = m_input.m_settings.m_maxTets;
+    if (m_tooLarge) rejectTooMany(most + 1.0);
     CageFill fill;
     for (const int leaf : m_leaves)
     {
         const State state = look(leaf);
         const double fraction = fractionOf(leaf, state);
         if (fraction == 0 && state != State::entered) continue;
-        if (fill.m_tets.size() == most) rejectTooMany(most + 1);
+        if (static_cast<int>(fill.m_tets.size()) == most) rejectTooMany(most + 1.0);
         fill.m_tets.push_back({0, leaf, fraction});
         m_kept[leaf] = 1;
     }

@@ -44,11 +44,17 @@ HWY_INLINE Vector<Real> number(double value)
 }
 
 /// A 3x3 matrix. The constructors here are named because an implicit one would be compiled for the least processor of
-/// its kind, and GCC does not inline NEON into that.
+/// its kind, and GCC does not inline NEON into that. What has one is no aggregate from C++20 on, and so they have two.
 template <class Real>
 struct Matrix
 {
     HWY_INLINE Matrix() = default;
+    HWY_INLINE Matrix(const Vector<Real> (&rows)[3][3])
+    {
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) m[i][j] = rows[i][j];
+    }
+
     Vector<Real> m[3][3];
 };
 
@@ -56,8 +62,14 @@ struct Matrix
 template <class Real>
 struct Symmetric
 {
+    using V = Vector<Real>;
     HWY_INLINE Symmetric() = default;
-    Vector<Real> xx, yy, zz, yz, xz, xy;
+    HWY_INLINE Symmetric(V sxx, V syy, V szz, V syz, V sxz, V sxy)
+        : xx(sxx), yy(syy), zz(szz), yz(syz), xz(sxz), xy(sxy)
+    {
+    }
+
+    V xx, yy, zz, yz, xz, xy;
 };
 
 /// a0 b0 + a1 b1 + a2 b2.

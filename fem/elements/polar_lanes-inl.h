@@ -25,8 +25,11 @@ namespace HWY_NAMESPACE
 template <class Real>
 struct Quaternions
 {
+    using V = Vector<Real>;
     HWY_INLINE Quaternions() = default;
-    Vector<Real> x, y, z, w;
+    HWY_INLINE Quaternions(V qx, V qy, V qz, V qw) : x(qx), y(qy), z(qz), w(qw) {}
+
+    V x, y, z, w;
 };
 
 template <class Real>

@@ -14,6 +14,7 @@
 #include "fem/step/drift.h"
 #include "fem/step/smoothing.h"
 #include "fem/step/step_stages.h"
+#include "fem/step/warped_system.h"
 
 namespace bullet_fem
 {

@@ -72,8 +72,10 @@ struct SurfacePoint
     /// What the nodes have, at the point.
     Vec3 of(const std::vector<Vec3>& nodeValues) const
     {
-        Vec3 sum = m_weights[0] * nodeValues[m_nodes[0]];
-        for (int a = 1; a < m_count; ++a) sum += m_weights[a] * nodeValues[m_nodes[a]];
+        const auto part = [&](std::size_t a)
+        { return m_weights[a] * nodeValues[static_cast<std::size_t>(m_nodes[a])]; };
+        Vec3 sum = part(0);
+        for (int a = 1; a < m_count; ++a) sum += part(static_cast<std::size_t>(a));
         return sum;
     }
 };

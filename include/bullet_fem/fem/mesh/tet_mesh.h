@@ -52,7 +52,7 @@ public:
     int tetCount() const { return static_cast<int>(m_tets.size()); }
     int componentCount() const { return m_componentCount; }  ///< connected pieces (through shared nodes)
     int looseCount() const { return m_looseCount; }          ///< nodes that no element uses
-    bool isLoose(int node) const { return m_looseCount > 0 && m_loose[node]; }
+    bool isLoose(int node) const { return m_looseCount > 0 && m_loose[static_cast<std::size_t>(node)]; }
     int turnedCount() const { return m_turnedCount; }  ///< elements whose orientation was mended
     int sliverCount() const
     {

@@ -34,7 +34,9 @@ struct BodyState
 /// What acts on a body during one step.
 struct StepLoads
 {
-    explicit StepLoads(int nodeCount) : m_force(nodeCount), m_targetVelocity(nodeCount), m_frameVelocity(nodeCount)
+    explicit StepLoads(int nodeCount) : StepLoads(static_cast<std::size_t>(nodeCount)) {}
+    explicit StepLoads(std::size_t nodeCount)
+        : m_force(nodeCount), m_targetVelocity(nodeCount), m_frameVelocity(nodeCount)
     {
         m_priorVelocity.reserve(nodeCount);
     }
