@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Zlib
 # Bullet's two precisions. What sees Bullet is built once for each of BULLETFEM_PRECISIONS, with Bullet's own suffix: none
 # for float, "-float64" for float64. Source lists are written once.
+set(BULLETFEM_BULLET "" CACHE STRING "Which Bullet: targets (of this build), system, or the folder that it is installed in; \
+empty: targets where there are some, else system")
 find_package(BulletPrecisions REQUIRED OPTIONAL_COMPONENTS float float64)
 
 set(_found "")
@@ -13,7 +15,7 @@ set(BULLETFEM_PRECISIONS "${_found}" CACHE STRING "Bullet's precisions to build 
 
 if(NOT BULLETFEM_PRECISIONS)
     message(FATAL_ERROR "BULLETFEM_PRECISIONS is empty, or no Bullet is found: it must be float, float64 or float;float64; "
-        "install libbullet-dev")
+        "install libbullet-dev, or set BULLETFEM_BULLET to the folder of your own Bullet")
 endif()
 foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
     if(NOT _precision MATCHES "^(float|float64)$")
@@ -23,6 +25,8 @@ foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
             "install libbullet-dev, or leave it out")
     endif()
 endforeach()
+message(STATUS "Bullet ${BulletPrecisions_VERSION} (${BulletPrecisions_CHOICE}), headers in ${BulletPrecisions_INCLUDE_DIR}, "
+    "for ${BULLETFEM_PRECISIONS}")
 list(REMOVE_DUPLICATES BULLETFEM_PRECISIONS)
 
 set(BULLETFEM_SUFFIX_float "")

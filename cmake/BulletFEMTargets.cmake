@@ -43,9 +43,16 @@ function(bulletfem_sees target)
     endforeach()
 endfunction()
 
-# bulletfem_library(<name> <source>...): the static library bulletfem_<name>, known to users as BulletFEM::<name>.
+# bulletfem_library(<name> <source>...): the library bulletfem_<name>, known to users as BulletFEM::<name>. It is shared with
+# BUILD_SHARED_LIBS, and then programs go with all that have its soname: before 1.0 a minor version is a new interface.
 function(bulletfem_library name)
-    add_library(bulletfem_${name} STATIC ${ARGN})
+    set(kind STATIC)
+    if(BUILD_SHARED_LIBS)
+        set(kind SHARED)
+    endif()
+    add_library(bulletfem_${name} ${kind} ${ARGN})
+    set_target_properties(bulletfem_${name} PROPERTIES
+        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
     add_library(BulletFEM::${name} ALIAS bulletfem_${name})
     set_target_properties(bulletfem_${name} PROPERTIES EXPORT_NAME ${name})
     bulletfem_defaults(bulletfem_${name})

@@ -1,32 +1,102 @@
 # SPDX-License-Identifier: Zlib
-# Finds Bullet in both precisions side by side, as Debian ships it, and makes the imported targets that CMake's own
-# FindBullet does not make. The headers are the same for both; BT_USE_DOUBLE_PRECISION chooses the layout.
+# Finds Bullet and makes the imported targets that CMake's own FindBullet does not make. Bullet's headers are the same for
+# both precisions; BT_USE_DOUBLE_PRECISION chooses the layout.
 #   component float    Bullet::SoftBody, Bullet::Dynamics, Bullet::Collision, Bullet::LinearMath
 #   component float64  Bullet::SoftBody-float64 and so on, with BT_USE_DOUBLE_PRECISION in their interface
 # Each tells its precision as BULLET_PRECISION. CMake stops with an error where a target would have two of them.
-find_path(BulletPrecisions_INCLUDE_DIR NAMES btBulletDynamicsCommon.h PATH_SUFFIXES bullet)
-mark_as_advanced(BulletPrecisions_INCLUDE_DIR)
-
+#
+# BULLETFEM_BULLET says which Bullet:
+#   targets    that of this build: the targets BulletSoftBody and so on of Bullet's own CMakeLists.txt, made before
+#   system     both precisions side by side, as Debian ships them, where CMake looks for libraries
+#   a folder   what Bullet's own installation has put there, or Debian's layout below it
+# Empty: targets where they are, else system.
+set(_parts LinearMath BulletCollision BulletDynamics BulletSoftBody)
 set(_suffix_float "")
 set(_suffix_float64 "-float64")
-set(_parts LinearMath BulletCollision BulletDynamics BulletSoftBody)
-foreach(_precision float float64)
-    set(BulletPrecisions_${_precision}_FOUND TRUE)
+
+set(_bullet "${BULLETFEM_BULLET}")
+if(NOT _bullet AND TARGET BulletSoftBody)
+    set(_bullet targets)
+elseif(NOT _bullet)
+    set(_bullet system)
+endif()
+if(NOT _bullet MATCHES "^(targets|system)$" AND NOT IS_DIRECTORY "${_bullet}")
+    message(FATAL_ERROR "BULLETFEM_BULLET is ${_bullet}: it must be targets, system or a folder that Bullet is installed in")
+endif()
+
+# What was found for another choice is forgotten.
+if(NOT "${BulletPrecisions_CHOICE}" STREQUAL "${_bullet}")
+    unset(BulletPrecisions_INCLUDE_DIR CACHE)
     foreach(_part IN LISTS _parts)
-        find_library(BulletPrecisions_${_part}_${_precision}_LIBRARY NAMES ${_part}${_suffix_${_precision}})
-        mark_as_advanced(BulletPrecisions_${_part}_${_precision}_LIBRARY)
-        if(NOT BulletPrecisions_${_part}_${_precision}_LIBRARY)
-            set(BulletPrecisions_${_precision}_FOUND FALSE)
+        unset(BulletPrecisions_${_part}_float_LIBRARY CACHE)
+        unset(BulletPrecisions_${_part}_float64_LIBRARY CACHE)
+    endforeach()
+endif()
+set(BulletPrecisions_CHOICE "${_bullet}" CACHE INTERNAL "The Bullet that was found")
+
+set(BulletPrecisions_float_FOUND FALSE)
+set(BulletPrecisions_float64_FOUND FALSE)
+if(_bullet STREQUAL "targets")
+    foreach(_part IN LISTS _parts)
+        if(NOT TARGET ${_part})
+            message(FATAL_ERROR "BULLETFEM_BULLET is targets, but there is no target ${_part}: add Bullet's folder before "
+                "BulletFEM's, or set BULLETFEM_BULLET to system or to a folder")
         endif()
     endforeach()
-endforeach()
+    get_target_property(_source BulletSoftBody SOURCE_DIR)
+    get_filename_component(BulletPrecisions_INCLUDE_DIR "${_source}" DIRECTORY)
+    get_directory_property(_definitions DIRECTORY "${_source}" COMPILE_DEFINITIONS)
+    get_target_property(_of_target BulletSoftBody COMPILE_DEFINITIONS)
+    if("BT_USE_DOUBLE_PRECISION" IN_LIST _definitions OR "BT_USE_DOUBLE_PRECISION" IN_LIST _of_target)
+        set(BulletPrecisions_float64_FOUND TRUE)
+    else()
+        set(BulletPrecisions_float_FOUND TRUE)
+    endif()
+else()
+    set(_where "")
+    if(NOT _bullet STREQUAL "system")
+        set(_where PATHS "${_bullet}" NO_DEFAULT_PATH)
+        # Bullet's own installation has one precision, and no suffix.
+        file(GLOB _own "${_bullet}/lib*/cmake/*/BulletConfig.cmake")
+        if(_own)
+            file(STRINGS "${_own}" _double REGEX "BT_USE_DOUBLE_PRECISION")
+            set(_suffix_float64 "")
+        endif()
+    endif()
+    find_path(BulletPrecisions_INCLUDE_DIR NAMES btBulletDynamicsCommon.h PATH_SUFFIXES bullet include/bullet ${_where})
+    mark_as_advanced(BulletPrecisions_INCLUDE_DIR)
+    foreach(_precision float float64)
+        set(BulletPrecisions_${_precision}_FOUND TRUE)
+        foreach(_part IN LISTS _parts)
+            find_library(BulletPrecisions_${_part}_${_precision}_LIBRARY NAMES ${_part}${_suffix_${_precision}}
+                PATH_SUFFIXES lib lib64 ${_where})
+            mark_as_advanced(BulletPrecisions_${_part}_${_precision}_LIBRARY)
+            if(NOT BulletPrecisions_${_part}_${_precision}_LIBRARY)
+                set(BulletPrecisions_${_precision}_FOUND FALSE)
+            endif()
+        endforeach()
+    endforeach()
+    if(_suffix_float64 STREQUAL "" AND _double)
+        set(BulletPrecisions_float_FOUND FALSE)
+    elseif(_suffix_float64 STREQUAL "")
+        set(BulletPrecisions_float64_FOUND FALSE)
+    endif()
+endif()
+if(BulletPrecisions_INCLUDE_DIR)
+    file(STRINGS "${BulletPrecisions_INCLUDE_DIR}/LinearMath/btScalar.h" BulletPrecisions_VERSION
+        REGEX "^#define BT_BULLET_VERSION [0-9]+")
+    string(REGEX MATCH "[0-9]+" BulletPrecisions_VERSION "${BulletPrecisions_VERSION}")
+endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(BulletPrecisions REQUIRED_VARS BulletPrecisions_INCLUDE_DIR HANDLE_COMPONENTS
-    REASON_FAILURE_MESSAGE "install libbullet-dev")
+    REASON_FAILURE_MESSAGE "install libbullet-dev, or set BULLETFEM_BULLET to the folder of your own Bullet")
 
 foreach(_precision float float64)
-    set(_suffix "${_suffix_${_precision}}")
+    set(_suffix "")
+    if(_precision STREQUAL float64)
+        set(_suffix "-float64")
+    endif()
     if(NOT BulletPrecisions_FOUND OR NOT BulletPrecisions_${_precision}_FOUND OR TARGET Bullet::SoftBody${_suffix})
         continue()
     endif()
@@ -34,9 +104,15 @@ foreach(_precision float float64)
     foreach(_part IN LISTS _parts)
         string(REGEX REPLACE "^Bullet" "" _name "${_part}")
         set(_target Bullet::${_name}${_suffix})
-        add_library(${_target} UNKNOWN IMPORTED)
+        if(_bullet STREQUAL "targets")
+            add_library(${_target} INTERFACE IMPORTED GLOBAL)
+            list(PREPEND _below ${_part})
+        else()
+            add_library(${_target} UNKNOWN IMPORTED)
+            set_target_properties(${_target} PROPERTIES
+                IMPORTED_LOCATION "${BulletPrecisions_${_part}_${_precision}_LIBRARY}")
+        endif()
         set_target_properties(${_target} PROPERTIES
-            IMPORTED_LOCATION "${BulletPrecisions_${_part}_${_precision}_LIBRARY}"
             INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${BulletPrecisions_INCLUDE_DIR}"
             INTERFACE_INCLUDE_DIRECTORIES "${BulletPrecisions_INCLUDE_DIR}"
             INTERFACE_LINK_LIBRARIES "${_below}"

@@ -3,3 +3,4 @@
 #include "bullet_fem/btFemPrecision.h"
 
 const char BULLETFEM_PRECISION_TAG = 0;
+const char BULLETFEM_VERSION_TAG = 0;

@@ -34,14 +34,23 @@
 #define BULLETFEM_PRECISION_REFERENCE btFemNeedsSinglePrecision
 #endif
 
-/// Defined by the library; its value means nothing.
+// The same for Bullet's version, as its headers have it: layouts differ between versions as well.
+#define BULLETFEM_JOIN(a, b, c) a##b##c
+#define BULLETFEM_JOINED(a, b, c) BULLETFEM_JOIN(a, b, c)
+#define BULLETFEM_VERSION_TAG \
+    BULLETFEM_JOINED(bulletfem_error__the_program_has_headers_of_Bullet_, BT_BULLET_VERSION, __the_library_others)
+#define BULLETFEM_VERSION_REFERENCE BULLETFEM_JOINED(btFemNeedsBullet, BT_BULLET_VERSION, )
+
+/// Defined by the library; their values mean nothing.
 extern "C" const char BULLETFEM_PRECISION_TAG;
+extern "C" const char BULLETFEM_VERSION_TAG;
 
 /// Makes every object file that includes a public header refer to the tag; `retain` also where the linker drops what
 /// nothing refers to (--gc-sections).
 #if __has_cpp_attribute(gnu::retain)
-[[gnu::used, gnu::retain]]
+#define BULLETFEM_RETAIN [[gnu::used, gnu::retain]]
 #else
-[[gnu::used]]
+#define BULLETFEM_RETAIN [[gnu::used]]
 #endif
-inline const char* const BULLETFEM_PRECISION_REFERENCE = &BULLETFEM_PRECISION_TAG;
+BULLETFEM_RETAIN inline const char* const BULLETFEM_PRECISION_REFERENCE = &BULLETFEM_PRECISION_TAG;
+BULLETFEM_RETAIN inline const char* const BULLETFEM_VERSION_REFERENCE = &BULLETFEM_VERSION_TAG;

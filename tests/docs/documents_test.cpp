@@ -115,8 +115,10 @@ TEST(Documents, AreAllLinkedFromReadme)
 {
     const std::vector<std::string> links = readDocument((kRoot / "README.md").string()).m_links;
     for (const fs::path& path : documentsOfProject())
-        if (path.parent_path() == kRoot / "docs")
-            EXPECT_THAT(links, testing::Contains("docs/" + path.filename().string()));
+    {
+        if (path.parent_path() != kRoot / "docs") continue;
+        EXPECT_THAT(links, testing::Contains("docs/" + path.filename().string()));
+    }
 }
 
 TEST(Readme, IsReadInFiveMinutes)

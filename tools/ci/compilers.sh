@@ -16,7 +16,7 @@ case ${1-} in
 --quick) quick=1 ;;
 *) fail "compilers.sh: $1 is not --quick" ;;
 esac
-install_for_build
+install_for_build clang-14
 
 # Indices are int, as in Bullet, and arrays are of the standard library: there a change of sign is no news.
 warnings="-Werror -Wpedantic -Wconversion -Wno-sign-conversion"
@@ -60,7 +60,6 @@ draft_of()
 
 mkdir -p "$root/build/compilers"
 if [ $quick = 1 ]; then
-    is_available clang++-14 clang-14 || true
     compile clang++-14 17 Release
     compile "${CXX:-g++}" 20 Release
 else
