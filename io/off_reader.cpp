@@ -40,17 +40,19 @@ private:
     int m_number = 0;
 };
 
+// The word OFF may be left out, as geomview allows it: then the counts come first.
 void readHeader(Lines& lines, std::int64_t& vertexCount, std::int64_t& faceCount)
 {
     std::string_view line = lines.next("the header OFF");
     const std::string_view kind = takeWord(line);
-    bool known = false;
+    const bool isCount = kind.find_first_not_of("0123456789") == std::string_view::npos;
+    bool known = isCount;
     for (const char* name : {"OFF", "COFF", "NOFF", "CNOFF", "NCOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"})
         known = known || kind == name;
     if (!known)
         throw std::runtime_error("'" + printable(kind) +
                                  "' is not a known OFF header (OFF, or with the prefixes ST, C, N)");
-    std::string_view word = takeWord(line);
+    std::string_view word = isCount ? kind : takeWord(line);
     if (word == "BINARY") throw std::runtime_error("binary OFF is not supported; save it as text");
     if (word.empty())
     {

@@ -85,7 +85,8 @@ Property parseProperty(std::string_view line)
     return property;
 }
 
-/// Takes the header, with the line break after end_header, off the front of `bytes`.
+/// Takes the header, with the line break after end_header, off the front of `bytes`. Exporters write lines of their own
+/// before the first element, and forget that they are comments: these are passed over.
 Header takeHeader(std::string_view& bytes)
 {
     Header header;
@@ -109,7 +110,7 @@ Header takeHeader(std::string_view& bytes)
         }
         else if (key == "property" && !header.elements.empty())
             header.elements.back().properties.push_back(parseProperty(line));
-        else if (!key.empty() && key != "ply" && key != "comment" && key != "obj_info")
+        else if (!key.empty() && key != "ply" && key != "comment" && key != "obj_info" && !header.elements.empty())
             throw std::runtime_error("unexpected '" + printable(key) + "' in the header");
     }
 }

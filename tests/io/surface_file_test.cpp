@@ -85,6 +85,11 @@ std::string boxTextPly()
 {
     return plyHeader("ascii") + boxVertexLines("", " 255") + boxFaceLines("0.5 4", 0) + "0 1\n";
 }
+// As exporters write it that forget the word `comment`.
+std::string strayLine(std::string ply)
+{
+    return ply.replace(ply.find("comment made"), 8, "");
+}
 std::string boxBinaryPly(bool bigEndian)
 {
     std::string bytes = plyHeader(bigEndian ? "binary_big_endian" : "binary_little_endian");
@@ -191,6 +196,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(BoxFile{"Off", "box.off", boxOff()},
                     BoxFile{"OffWithoutLastLineBreak", "box.off", withoutLastByte(boxOff())},
                     BoxFile{"OffColoursCommentsAndCarriageReturns", "box.OFF", boxColouredOff()},
+                    BoxFile{"OffWithoutItsHeaderWord", "box.off", boxOff().substr(4)},
+                    BoxFile{"PlyWithALineThatIsNoComment", "box.ply", strayLine(boxTextPly())},
                     BoxFile{"ObjWithNormalsAndTexture", "box.Obj", boxObj()},
                     BoxFile{"PlyText", "box.ply", boxTextPly()},
                     BoxFile{"PlyTextWithoutLastLineBreak", "box.ply", withoutLastByte(boxTextPly())},
@@ -313,7 +320,8 @@ INSTANTIATE_TEST_SUITE_P(Ending, BadFileTest,
 INSTANTIATE_TEST_SUITE_P(
     Off, BadFileTest,
     testing::Values(BadFile{"Empty", "t.off", "", "the file ends where the header OFF should be"},
-                    BadFile{"Header", "t.off", "8 6 0\n", "line 1: '8' is not a known OFF header"},
+                    BadFile{"Header", "t.off", "QOFF\n8 6 0\n", "line 1: 'QOFF' is not a known OFF header"},
+                    BadFile{"CountsAlone", "t.off", "8 6 0\n", "the file ends where vertex 0 of 8 should be"},
                     BadFile{"FourCoordinates", "t.off", "4OFF\n3 1 0\n", "'4OFF' is not a known OFF header"},
                     BadFile{"Binary", "t.off", "OFF BINARY\n", "binary OFF is not supported"},
                     BadFile{"Count", "t.off", "OFF\nthree 1 0\n", "line 2: 'three' is not a vertex count"},
@@ -340,7 +348,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"HeaderCutShort", "t.ply", "ply\nformat ascii 1.0\nelement ve", "no end_header line"},
         BadFile{"Magic", "t.ply", "OFF\nend_header\n", "'ply' on its first line"},
         BadFile{"Encoding", "t.ply", "ply\nformat utf 1.0\nend_header\n", "'utf' is not a PLY encoding"},
-        BadFile{"Keyword", "t.ply", "ply\nformat ascii 1.0\nelephant\n", "unexpected 'elephant'"},
+        BadFile{"Keyword", "t.ply", "ply\nformat ascii 1.0\nelement vertex 4\nelephant\n", "unexpected 'elephant'"},
         BadFile{"Type", "t.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n", "'half' is not"},
         BadFile{"ElementCount", "t.ply", "ply\nformat ascii 1.0\nelement vertex x\n", "'x' is not an element count"},
         BadFile{"NoZ", "t.ply", kPlyVertices + "end_header\n0 0\n0 0\n0 0\n", "has 0 properties 'z', not one"},
