@@ -59,6 +59,7 @@ else()
         # Bullet's own installation has one precision, and no suffix.
         file(GLOB _own "${_bullet}/lib*/cmake/*/BulletConfig.cmake")
         if(_own)
+            list(GET _own 0 _own)
             file(STRINGS "${_own}" _double REGEX "BT_USE_DOUBLE_PRECISION")
             set(_suffix_float64 "")
         endif()

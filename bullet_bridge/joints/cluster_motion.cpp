@@ -60,7 +60,7 @@ ClusterMotion::ClusterMotion(const FemSoftBody& fem, const btSoftBody::Cluster& 
         inertia += mass(j) * (Mat3::diagonal(dot(d, d)) - outer(d, d));
         stretch += mass(j) * outer(d, vec3(cluster.m_framerefs[j]) - reference);
     }
-    // From identity bodies that have turned over would take a decomposition by singular values each.
+    // From the identity, each cluster of a body that has turned over would take a decomposition by singular values.
     m_rotation = polarRotation(stretch, toMatrix(fem.m_body.m_state.m_elementRotation[0]));
     if (trace(inertia) > 0) m_inverse = inverse(inertia + Mat3::diagonal(kThinnestInertia * trace(inertia)));
 }
