@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
 # Installs what is missing (Debian 12, as root or with sudo), builds the benchmarks, runs them, writes their figures to
-# out/benchmarks/, and renews the tables and pictures of docs/performance.md and docs/accuracy.md.
+# out/benchmarks/, and renews the tables and pictures of docs/performance.md, accuracy.md and materials.md.
 #
 #   benchmarks/run.sh                     all of them, small: about two minutes
 #   benchmarks/run.sh --full              all of them, as in docs/performance.md: ten minutes to an hour
 #   benchmarks/run.sh --full beam curve   some: of beam curve kernels factors scaling contact copies
-#                                         crowd motion
+#                                         crowd games materials motion
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 
 build=$root/build/benchmarks # of its own, so that no script changes the options of another's
 out=$root/out/benchmarks
-known=(beam curve kernels factors scaling contact copies crowd motion)
+known=(beam curve kernels factors scaling contact copies crowd games materials motion)
 full=0
 chosen=()
 for argument in "$@"; do
@@ -57,7 +57,9 @@ run_benchmark()
         contact)
             run contact contact "--quick" "--scenes block,ball --contacts 10,100 --tets 1000,5000"
             ;;
+        games) run games games "--share 0.2" "" ;;
         motion) run motion motion "--rates 30,60,120 --reference 240 --cells 6" "" ;;
+        materials) run materials materials "" "" ;;
         copies) run crowd copies "--free" "--free" ;;
         crowd)
             local small="--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only"
@@ -93,4 +95,7 @@ if [ -s "$out/curve.json" ]; then
 fi
 if [ "$full" -eq 1 ] && [ -s "$out/motion.json" ]; then
     "$python" "$root/tools/plot_motion_against_step.py" "$out/motion.json" "$root/docs/motion_against_step.png"
+fi
+if [ -s "$out/materials.json" ]; then
+    "$python" "$root/tools/plot_materials.py" "$out/materials.json" "$root/docs/materials.png"
 fi

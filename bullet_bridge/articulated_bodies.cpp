@@ -80,7 +80,24 @@ void ArticulatedBodies::clear()
 
 LinkMotion ArticulatedBodies::add(int index, const btMultiBodyLinkCollider& link, double step, RigidProxy& rigidProxy)
 {
-    Link added = {index, treeOf(*link.m_multiBody, step), link.m_link, m_jacobian.size(), {}, {}};
+    int tree = find(*link.m_multiBody);
+    if (tree < 0)
+    {
+        tree = treeOf(*link.m_multiBody);
+        predict(m_trees[tree], step);
+    }
+    return addLink(index, link, tree, rigidProxy);
+}
+
+LinkMotion ArticulatedBodies::addBeforeSolve(int index, const btMultiBodyLinkCollider& link, RigidProxy& rigidProxy)
+{
+    const int known = find(*link.m_multiBody);
+    return addLink(index, link, known < 0 ? treeOf(*link.m_multiBody) : known, rigidProxy);
+}
+
+LinkMotion ArticulatedBodies::addLink(int index, const btMultiBodyLinkCollider& link, int tree, RigidProxy& rigidProxy)
+{
+    Link added = {index, tree, link.m_link, m_jacobian.size(), {}, {}, {}, {}};
     fillRows(added, rigidProxy.m_center);
     m_links.push_back(added);
     const LinkMotion next = motion(added, m_freeVelocity);
@@ -92,10 +109,15 @@ LinkMotion ArticulatedBodies::add(int index, const btMultiBodyLinkCollider& link
     return motion(added, m_velocity);
 }
 
-int ArticulatedBodies::treeOf(btMultiBody& body, double step)
+int ArticulatedBodies::find(const btMultiBody& body) const
 {
     for (std::size_t k = 0; k < m_trees.size(); ++k)
         if (m_trees[k].m_body == &body) return static_cast<int>(k);
+    return -1;
+}
+
+int ArticulatedBodies::treeOf(btMultiBody& body)
+{
     const Tree tree = {&body, kBase + body.getNumDofs(), m_velocity.size()};
     m_trees.push_back(tree);
     const btScalar* velocity = body.getVelocityVector();
@@ -103,7 +125,6 @@ int ArticulatedBodies::treeOf(btMultiBody& body, double step)
     m_freeVelocity.insert(m_freeVelocity.end(), velocity, velocity + tree.m_coordinates);
     reserve(tree);
     factor(body);
-    predict(tree, step);
     return static_cast<int>(m_trees.size()) - 1;
 }
 

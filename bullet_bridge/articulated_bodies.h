@@ -49,6 +49,19 @@ public:
     /// Forgets all links.
     void clear();
 
+    /// The same where Bullet's rigid solver is about to solve the multibody: its velocity is the present one, which has
+    /// all forces in it.
+    LinkMotion addBeforeSolve(int index, const btMultiBodyLinkCollider& link, RigidProxy& rigidProxy);
+
+    /// Within Bullet's rigid solver, once it has set its rows up: `deltas` are what these change of the multibodies'
+    /// velocities, at their companion ids. What soft bodies give is added to them, so that Bullet's rows see it; the
+    /// multibodies get that by apply().
+    void beginSolve(btAlignedObjectArray<btScalar>& deltas);
+    /// The rigid proxies' velocities become those of the links at present.
+    void readSolved(std::vector<RigidProxy>& rigidProxies) const;
+    /// Adds what the rigid proxies have felt since beginSolve() or the last call.
+    void writeSolved(const std::vector<RigidProxy>& rigidProxies);
+
     /// Makes rigid proxy number `index` that of a link which can move. Its velocity is the one that it has next without
     /// soft bodies: with what forces, gravity and Coriolis' ones add in `step` [s], and with what contacts, motors and
     /// limits hold it with: in every joint what they did in this step, as far as it withstands the forces and what soft
@@ -97,6 +110,7 @@ private:
         int m_index;          // of the link in its multibody; -1: the base
         std::size_t m_first;  // of its six rows in m_jacobian and m_answer: three of velocity, three of spin
         Vec3 m_impulse, m_angularImpulse;
+        Vec3 m_felt, m_angularFelt;  // of the rigid proxy, when it was written last
     };
 
     struct Momentum
@@ -104,7 +118,10 @@ private:
         Vec3 m_linear, m_angular;  // about the world's origin
     };
 
-    int treeOf(btMultiBody& body, double step);
+    LinkMotion addLink(int index, const btMultiBodyLinkCollider& link, int tree, RigidProxy& rigidProxy);
+    int treeOf(btMultiBody& body);
+    int find(const btMultiBody& body) const;
+    double changeIn(const Tree& tree, int k) const;
     void reserve(const Tree& tree);
     void factor(btMultiBody& body);
     void predict(const Tree& tree, double step);
@@ -127,11 +144,14 @@ private:
     std::vector<Memory> m_memories;
     std::vector<Tree> m_trees;
     std::vector<Link> m_links;
-    std::vector<double> m_velocity, m_freeVelocity;  // per tree, of its coordinates
-    std::vector<double> m_acceleration;              // of one tree
-    std::vector<btScalar> m_jacobian, m_answer;      // J, and J M^-1
-    std::vector<double> m_force;                     // of one tree
-    std::vector<btScalar> m_rounded, m_change;       // likewise
+    std::vector<double> m_velocity, m_freeVelocity;      // per tree, of its coordinates
+    btAlignedObjectArray<btScalar>* m_deltas = nullptr;  // Bullet's
+    std::vector<double> m_beyondDeltas;          // per tree, of its coordinates: what is not in them, but was given
+    mutable std::vector<double> m_solved;        // scratch of readSolved
+    std::vector<double> m_acceleration;          // of one tree
+    std::vector<btScalar> m_jacobian, m_answer;  // J, and J M^-1
+    std::vector<double> m_force;                 // of one tree
+    std::vector<btScalar> m_rounded, m_change;   // likewise
     std::vector<btMultiBodyJointFeedback*> m_feedback;
     btAlignedObjectArray<btScalar> m_scalars;  // scratch of Bullet's functions
     btAlignedObjectArray<btVector3> m_vectors;

@@ -129,6 +129,12 @@ void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
     now.m_v.swap(before.m_v);
     now.m_mass.swap(before.m_mass);
     now.m_fixed.swap(before.m_fixed);
+    body.m_actuators = std::move(fem.m_body.m_actuators);
+    now.m_initialStress.swap(before.m_initialStress);
+    now.m_initialStressChanges = before.m_initialStressChanges;
+    // Bullet makes the present shape the rest shape: dents are in it, but how hard they made the material is not.
+    if (!now.m_plasticStrain.empty() && !before.m_plasticStrain.empty())
+        now.m_equivalentPlasticStrain.swap(before.m_equivalentPlasticStrain);
     fem.m_body = std::move(body);
     fem.setSkin(nullptr, std::move(compliance));
 }

@@ -51,15 +51,15 @@ void dropDead(std::vector<Entry>& entries, Pointer Entry::*pointer)
 
 }  // namespace
 
-std::shared_ptr<const RestShape> ModelLibrary::restShape(const TetMesh& mesh, const Material& material,
+std::shared_ptr<const RestShape> ModelLibrary::restShape(const TetMesh& mesh, const ElementMaterials& materials,
                                                          const std::vector<double>& filled)
 {
     dropDead(m_shapes, &Shape::m_shape);
     for (const Shape& entry : m_shapes)
         if (const auto shape = entry.m_shape.lock())
-            if (shape->m_material == material && entry.m_filled == filled && sameUpToTranslation(shape->m_mesh, mesh))
+            if (shape->m_materials == materials && entry.m_filled == filled && sameUpToTranslation(shape->m_mesh, mesh))
                 return shape;
-    const auto shape = std::make_shared<const RestShape>(mesh, material, filled);
+    const auto shape = std::make_shared<const RestShape>(mesh, materials, filled);
     m_shapes.push_back({shape, filled, {}});
     return shape;
 }
@@ -70,7 +70,7 @@ std::shared_ptr<const RestShape> ModelLibrary::adoptShape(const std::shared_ptr<
     dropDead(m_shapes, &Shape::m_shape);
     for (const Shape& entry : m_shapes)
         if (const auto known = entry.m_shape.lock())
-            if (known == shape || (known->m_material == shape->m_material && entry.m_filled == filled &&
+            if (known == shape || (known->m_materials == shape->m_materials && entry.m_filled == filled &&
                                    sameUpToTranslation(known->m_mesh, shape->m_mesh)))
                 return known;
     m_shapes.push_back({shape, filled, {}});

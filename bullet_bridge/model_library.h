@@ -14,7 +14,7 @@ namespace bullet_fem
 class CollisionSkin;
 class ComplianceCache;
 
-/// Finds the models that bodies can share: the same elements, material, masses, pins and step, and rest positions that
+/// Finds the models that bodies can share: the same elements, materials, masses, pins and step, and rest positions that
 /// differ by a translation, up to the rounding of Bullet's single precision. Models live as long as a body uses them.
 class ModelLibrary
 {
@@ -26,7 +26,7 @@ public:
     }
 
     /// A shape like this, an old one if there is one. Throws what RestShape's constructor throws.
-    std::shared_ptr<const RestShape> restShape(const TetMesh& mesh, const Material& material,
+    std::shared_ptr<const RestShape> restShape(const TetMesh& mesh, const ElementMaterials& materials,
                                                const std::vector<double>& filled);
 
     /// A shape that was made elsewhere, or one like it that is here already.

@@ -351,4 +351,10 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     return true;
 }
 
+bool mayRebound(const ContactProblem& problem)
+{
+    const auto rebounds = [](const ContactPoint& contact) { return contact.m_restitution > 0; };
+    return std::any_of(problem.m_contacts.begin(), problem.m_contacts.end(), rebounds);
+}
+
 }  // namespace bullet_fem

@@ -133,8 +133,10 @@ int RigidProxies::indexOf(const btCollisionObject& object, double step)
     m_sources.back().m_objectId = broadphaseId(object);
     RigidProxy rigidProxy = immovable(object);
     const btMultiBodyLinkCollider* link = linkOf(object);
+    const int index = static_cast<int>(m_rigidProxies.size());
     if (link && ArticulatedBodies::canMove(*link))
-        m_sources.back().m_now = m_articulated.add(static_cast<int>(m_rigidProxies.size()), *link, step, rigidProxy);
+        m_sources.back().m_now = m_phase == RigidPhase::moved ? m_articulated.add(index, *link, step, rigidProxy)
+                                                              : m_articulated.addBeforeSolve(index, *link, rigidProxy);
     else if (link)
         setLinkVelocity(*link, m_linkVelocities, rigidProxy);
     if (const btRigidBody* body = bullet_fem::movableBody(object))
@@ -163,7 +165,7 @@ int RigidProxies::indexOf(const btCollisionObject& object, double step)
         m_sources.back().m_now = {rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
     }
     m_rigidProxies.push_back(rigidProxy);
-    return static_cast<int>(m_rigidProxies.size()) - 1;
+    return index;
 }
 
 // What Bullet's contacts and joints changed in this step.
@@ -292,14 +294,14 @@ RigidProxies::Remainder& RigidProxies::remainderOf(int objectId)
 
 void RigidProxies::addReaction(int rigidProxy, const Vec3& impulse, const Vec3& arm)
 {
-    if (rigidProxy < 0) return;
+    if (!isOurs(rigidProxy)) return;
     m_sources[rigidProxy].m_linearImpulse += impulse;
     m_sources[rigidProxy].m_angularImpulse += cross(arm, impulse);
 }
 
 void RigidProxies::addJointReaction(const JointEnd& end, const Vec3& impulse)
 {
-    if (end.m_rigidProxy < 0) return;
+    if (!isOurs(end.m_rigidProxy)) return;
     if (end.m_angular)
         m_sources[end.m_rigidProxy].m_angularImpulse += impulse;
     else
@@ -315,6 +317,8 @@ void RigidProxies::applyReactions(const ContactProblem& problem, double step, bo
         addJointReaction(joint.m_a, joint.m_impulse);
         addJointReaction(joint.m_b, -joint.m_impulse);
     }
+    for (const TorsionalFriction& torsion : problem.m_torsions)
+        m_sources[torsion.m_rigidProxy].m_angularImpulse -= torsion.m_impulse;
     for (std::size_t k = 0; k < m_sources.size(); ++k)
     {
         Source& source = m_sources[k];

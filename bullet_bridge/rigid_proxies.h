@@ -100,6 +100,11 @@ public:
     /// True if links of multibodies that can move are among the rigid proxies.
     bool holdsLinks() const { return !m_articulated.isEmpty(); }
 
+    /// Of the links, within Bullet's rigid solver: see ArticulatedBodies.
+    void beginLinks(btAlignedObjectArray<btScalar>& deltas) { m_articulated.beginSolve(deltas); }
+    void readLinks(std::vector<RigidProxy>& rigidProxies) const { m_articulated.readSolved(rigidProxies); }
+    void writeLinks(const std::vector<RigidProxy>& rigidProxies) { m_articulated.writeSolved(rigidProxies); }
+
     /// The velocity that the object moves with, or moved with: without what gravity will add to it in the next step.
     LinkMotion motionNow(int rigidProxy) const;
 
@@ -137,6 +142,8 @@ private:
         bool m_pushed = false;        // these forces are on it
     };
 
+    // Proxies of the problem behind these are cloth's; -1 is none.
+    bool isOurs(int rigidProxy) const { return rigidProxy >= 0 && rigidProxy < static_cast<int>(m_sources.size()); }
     void addReaction(int rigidProxy, const Vec3& impulse, const Vec3& arm);
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
     void addToVelocity(btRigidBody& body, const Source& source, const LinkMotion& change, bool lasts);

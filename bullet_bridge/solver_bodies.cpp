@@ -9,9 +9,12 @@
 namespace bullet_fem
 {
 
-void SolverBodies::begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool)
+void SolverBodies::begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool,
+                         btAlignedObjectArray<btScalar>* linkDeltas)
 {
     m_pool = &pool;
+    m_multiBodies = linkDeltas && rigid.holdsLinks() ? &rigid : nullptr;
+    if (m_multiBodies) rigid.beginLinks(*linkDeltas);
     m_links.assign(rigid.rigidProxies().size(), Link());
     for (std::size_t k = 0; k < m_links.size(); ++k)
     {
@@ -38,6 +41,7 @@ void SolverBodies::read(std::vector<RigidProxy>& rigidProxies)
         rigidProxies[k].m_linearVelocity = link.m_linear;
         rigidProxies[k].m_angularVelocity = link.m_angular;
     }
+    if (m_multiBodies) m_multiBodies->readLinks(rigidProxies);
 }
 
 void SolverBodies::write(const std::vector<RigidProxy>& rigidProxies)
@@ -52,6 +56,7 @@ void SolverBodies::write(const std::vector<RigidProxy>& rigidProxies)
         body.m_deltaAngularVelocity = addedExactly(
             body.m_deltaAngularVelocity, rigidProxies[k].m_angularVelocity - link.m_angular, link.m_angularRemainder);
     }
+    if (m_multiBodies) m_multiBodies->writeLinks(rigidProxies);
 }
 
 void SolverBodies::end(RigidProxies& rigid)

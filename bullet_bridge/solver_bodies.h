@@ -12,14 +12,16 @@ namespace bullet_fem
 {
 
 /// Carries velocities between the rigid proxies of a contact problem and the bodies of Bullet's rigid solver while it
-/// iterates. A solver body's velocity is m_linearVelocity + delta + m_externalForceImpulse in single precision; what it
-/// cannot hold is kept here and added again.
+/// iterates, links of multibodies included. A solver body's velocity is m_linearVelocity + delta +
+/// m_externalForceImpulse in single precision; what it cannot hold is kept here and added again.
 class SolverBodies
 {
 public:
     /// To be called when the solver has set its bodies up: from then on rigid proxy k is solver body
     /// rigid.movableBody(k)->getCompanionId() of `pool`. Starts from what was cut off in the last step.
-    void begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool);
+    /// `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver that has no multibodies.
+    void begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool,
+               btAlignedObjectArray<btScalar>* linkDeltas);
 
     /// The solver bodies' velocities become the rigid proxies'.
     void read(std::vector<RigidProxy>& rigidProxies);
@@ -39,6 +41,7 @@ private:
     };
 
     btAlignedObjectArray<btSolverBody>* m_pool = nullptr;
+    RigidProxies* m_multiBodies = nullptr;  // null: none
     std::vector<Link> m_links;
 };
 

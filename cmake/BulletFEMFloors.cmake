@@ -15,5 +15,5 @@ function(bulletfem_floor name)
     # Kernels are short loops: what a change elsewhere moves must not cost them a twentieth of a step.
     target_compile_options(bulletfem_fem_${name} PRIVATE
         $<$<CXX_COMPILER_ID:GNU>:-falign-functions=64$<SEMICOLON>-falign-loops=32>)
-    target_link_libraries(bulletfem_fem_${name} PRIVATE Eigen3::Eigen hwy::hwy TBB::tbb)
+    target_link_libraries(bulletfem_fem_${name} PRIVATE Eigen3::Eigen hwy::hwy ${BULLETFEM_TBB})
 endfunction()

@@ -57,7 +57,7 @@ endfunction()
 set(BULLETFEM_FOREIGN_float "(LinearMath|Bullet(Collision|Dynamics|SoftBody))-float64")
 set(BULLETFEM_FOREIGN_float64 "(LinearMath|Bullet(Collision|Dynamics|SoftBody))([.]|$)")
 
-# bulletfem_bullet_library(<name> <source>...  SEES <room>...  PUBLIC <target>...  PRIVATE <target>...): bulletfem_library
+# bulletfem_bullet_library(<name> [INTERNAL] <source>...  SEES <room>...  PUBLIC <target>...  PRIVATE <target>...): bulletfem_library
 # for each precision, linked with the targets of the same precision.
 function(bulletfem_bullet_library name)
     cmake_parse_arguments(ARG "" "" "SEES;PUBLIC;PRIVATE" ${ARGN})

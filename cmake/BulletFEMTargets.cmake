@@ -9,6 +9,9 @@ set(BULLETFEM_IN_RUNTIME "$<BOOL:$<TARGET_PROPERTY:BULLETFEM_RUNTIME>>")
 function(bulletfem_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_17)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+    if(BUILD_SHARED_LIBS) # what is not marked BULLETFEM_API stays inside
+        set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    endif()
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
     if(BULLETFEM_UNITY)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${BULLETFEM_UNITY})
@@ -43,14 +46,21 @@ function(bulletfem_sees target)
     endforeach()
 endfunction()
 
-# bulletfem_library(<name> <source>...): the library bulletfem_<name>, known to users as BulletFEM::<name>. It is shared with
-# BUILD_SHARED_LIBS, and then programs go with all that have its soname: before 1.0 a minor version is a new interface.
+# bulletfem_library(<name> [INTERNAL] <source>...): the library bulletfem_<name>, known to users as BulletFEM::<name>. It is
+# shared with BUILD_SHARED_LIBS, and then programs go with all that have its soname: before 1.0 a minor version is a new
+# interface. INTERNAL: no user calls it; it stays static, and becomes part of the shared libraries that link it.
 function(bulletfem_library name)
+    cmake_parse_arguments(ARG "INTERNAL" "" "" ${ARGN})
     set(kind STATIC)
-    if(BUILD_SHARED_LIBS)
+    if(BUILD_SHARED_LIBS AND NOT ARG_INTERNAL)
         set(kind SHARED)
     endif()
-    add_library(bulletfem_${name} ${kind} ${ARGN})
+    add_library(bulletfem_${name} ${kind} ${ARG_UNPARSED_ARGUMENTS})
+    if(kind STREQUAL SHARED)
+        target_link_options(bulletfem_${name} PRIVATE "LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/bulletfem.map")
+        set_property(TARGET bulletfem_${name} APPEND PROPERTY LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/bulletfem.map")
+        set_property(GLOBAL APPEND PROPERTY BULLETFEM_SHARED_LIBRARIES bulletfem_${name})
+    endif()
     set_target_properties(bulletfem_${name} PROPERTIES
         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
     add_library(BulletFEM::${name} ALIAS bulletfem_${name})

@@ -14,13 +14,14 @@
 #include "demos/drop_report.h"
 #include "demos/drop_scene.h"
 #include "demos/drop_size.h"
+#include "tools/console/program.h"
 #include "tools/console/progress_line.h"
 
 namespace
 {
 using namespace bullet_fem;
 
-constexpr int kFailed = 1, kCheckFailed = 3;
+constexpr int kCheckFailed = 3;
 
 double stepTimed(DropScene& scene)
 {
@@ -74,13 +75,5 @@ int main(int argc, char** argv)
 {
     DropOptions options;
     if (const auto exitCode = parseOptions(argc, argv, options)) return *exitCode;
-    try
-    {
-        return run(options) ? 0 : kCheckFailed;
-    }
-    catch (const std::exception& error)
-    {
-        std::fprintf(stderr, "bulletfem_drop: %s\n", error.what());
-        return kFailed;
-    }
+    return runProgram("bulletfem_drop", [&] { return run(options) ? 0 : kCheckFailed; });
 }

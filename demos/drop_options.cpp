@@ -22,7 +22,7 @@ std::optional<int> parseOptions(int argc, char** argv, DropOptions& options)
                    "edge of the cage's cells [m] after scaling (default: for about 5000 tets)")
         ->check(inRange(1e-6, 1e3));
     app.add_option("--young", options.m_youngModulus, "Young's modulus [Pa] (default 1e6)")->check(inRange(1, 1e13));
-    app.add_option("--poisson", options.m_poissonRatio, "Poisson's ratio [-] (default 0.4)")->check(inRange(0, 0.49));
+    app.add_option("--poisson", options.m_poissonRatio, "Poisson's ratio [-] (default 0.4)")->check(inRange(0, 0.499));
     app.add_option("--density", options.m_density, "density [kg/m3] (default 1000)")->check(inRange(1, 1e6));
     app.add_option("--seconds", options.m_seconds, "time to simulate [s] (default 4)")->check(inRange(1e-4, 3600));
     app.add_option("--step", options.m_step, "time step [s] (default 1/60)")->check(inRange(1e-4, 0.1));

@@ -16,7 +16,7 @@ struct DropOptions
     double m_scale = 0;             ///< multiplies the file's positions [-]; 0: the longest side becomes 1 m
     double m_cellSize = 0;          ///< edge of a lattice cube [m]; 0: for about 5000 tets
     double m_youngModulus = 1e6;    ///< E [Pa], in [1, 1e13]
-    double m_poissonRatio = 0.4;    ///< nu [-], in [0, 0.49]
+    double m_poissonRatio = 0.4;    ///< nu [-], in [0, 0.499]
     double m_density = 1000;        ///< rho [kg/m3], in [1, 1e6]
     double m_seconds = 4;           ///< simulated time [s], in [1e-4, 3600]
     double m_step = 1.0 / 60;       ///< h [s], in [1e-4, 0.1]

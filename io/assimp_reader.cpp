@@ -61,7 +61,10 @@ PolygonMesh readWithAssimp(const std::string& path)
         const aiMesh& part = *scene->mMeshes[m];
         const auto offset = static_cast<unsigned>(mesh.m_positions.size());
         for (unsigned v = 0; v < part.mNumVertices; ++v)
+        {
             mesh.m_positions.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
+            mesh.m_labels.push_back(static_cast<int>(m) + 1);
+        }
         for (unsigned f = 0; f < part.mNumFaces; ++f)
         {
             const aiFace& face = part.mFaces[f];

@@ -88,6 +88,12 @@ void checkFrame(const char* caller, const std::vector<BodyFrame>& bodies)
         if (!body.m_tetStress.empty() && body.m_tetStress.size() != body.m_tets.size())
             blame(body.m_tetStress.size(), " stresses for ", body.m_tets.size(), " tetrahedra; give as many, or none");
         checkValues(blame, "stress", "tetrahedron", body.m_tetStress);
+        if (!body.m_tetPlasticStrain.empty() && body.m_tetPlasticStrain.size() != body.m_tets.size())
+            blame(body.m_tetPlasticStrain.size(), " plastic strains for ", body.m_tets.size(),
+                  " tetrahedra; give as many, or none");
+        checkValues(blame, "plastic strain", "tetrahedron", body.m_tetPlasticStrain);
+        if (!body.m_tetRegion.empty() && body.m_tetRegion.size() != body.m_tets.size())
+            blame(body.m_tetRegion.size(), " regions for ", body.m_tets.size(), " tetrahedra; give as many, or none");
     }
 }
 

@@ -4,16 +4,18 @@
 
 #include <string>
 
+#include "bullet_fem/fem/common/export.h"
+
 namespace bullet_fem
 {
 
 /// The ending of a file's name with its dot, in lower case; empty if there is none.
-std::string lowerCaseEnding(const std::string& path);
+BULLETFEM_API std::string lowerCaseEnding(const std::string& path);
 
 /// Throws std::runtime_error with the cause, without the path, unless this is a regular file.
-void checkIsFile(const std::string& path);
+BULLETFEM_API void checkIsFile(const std::string& path);
 
 /// All bytes of a regular file. Throws std::runtime_error with the cause, without the path.
-std::string readBytes(const std::string& path);
+BULLETFEM_API std::string readBytes(const std::string& path);
 
 }  // namespace bullet_fem

@@ -3,8 +3,10 @@
 
 // Assimp 5.2's own PLY reader never returns from a header that is cut short, invents faces when the file is, and
 // allocates what the header claims: hence this one.
+#include <algorithm>
 #include <array>
 #include <climits>
+#include <cmath>
 #include <cstdint>
 
 #include "fem/common/message.h"
@@ -155,11 +157,32 @@ private:
     Encoding m_encoding;
 };
 
-/// One vertex, face or other thing; what is not a position or a corner is read and forgotten.
+/// Where a colour's bits stand in 0xRRGGBB; -1 if that is no colour.
+int colourShift(const std::string& name)
+{
+    return name == "red" ? 16 : name == "green" ? 8 : name == "blue" ? 0 : -1;
+}
+
+/// In [0, 255]. Floating colours are in [0, 1]; a number that is none counts as 0.
+int colourOf(double value, NumberType type)
+{
+    if (type.kind == NumberType::floating) value = std::round(255 * value);
+    return value >= 0 ? static_cast<int>(std::min(value, 255.0)) : 0;
+}
+
+bool isColoured(const Element& element)
+{
+    int colours = 0;
+    for (const Property& property : element.properties) colours += !property.isList && colourShift(property.name) >= 0;
+    return colours == 3;
+}
+
+/// One vertex, face or other thing; what is not a position, a colour or a corner is read and forgotten.
 void readItem(PlyBody& body, const Element& element, PolygonMesh& mesh)
 {
     const bool isVertex = element.name == "vertex", isFace = element.name == "face";
     Vec3 x;
+    int colour = 0;
     for (const Property& property : element.properties)
     {
         if (property.isList)
@@ -176,10 +199,13 @@ void readItem(PlyBody& body, const Element& element, PolygonMesh& mesh)
             continue;
         }
         const double value = body.next(property.type);
+        if (const int shift = colourShift(property.name); shift >= 0 && isVertex)
+            colour |= colourOf(value, property.type) << shift;
         if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
             x[property.name[0] - 'x'] = value;
     }
     if (isVertex) mesh.m_positions.push_back(x);
+    if (isVertex && isColoured(element)) mesh.m_labels.push_back(colour);
     if (isFace) mesh.closeFace();
 }
 
@@ -219,6 +245,8 @@ PolygonMesh readPly(std::string_view bytes)
             }
         }
     }
+    if (mesh.m_labels.size() != mesh.m_positions.size())
+        mesh.m_labels.clear();  // vertices in two elements, one painted
     return mesh;
 }
 

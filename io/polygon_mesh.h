@@ -16,6 +16,7 @@ namespace bullet_fem
 struct PolygonMesh
 {
     std::vector<Vec3> m_positions;
+    std::vector<int> m_labels;           ///< per position, how it is painted; empty: not at all
     std::vector<int> m_corners;          ///< vertex indices of all polygons, one polygon after the other
     std::vector<std::size_t> m_faceEnd;  ///< one past the last corner of every polygon in m_corners
 
@@ -29,10 +30,12 @@ struct PolygonMesh
 /// skipped.
 PolygonMesh readOff(std::string_view text);
 
-/// Reads the bytes of a PLY file, text or binary of both byte orders; only x, y, z and the faces' corners are kept.
+/// Reads the bytes of a PLY file, text or binary of both byte orders; only x, y, z, the faces' corners and the
+/// vertices' colours (as labels, see SurfaceMesh) are kept.
 PolygonMesh readPly(std::string_view bytes);
 
-/// Reads an OBJ or STL file through Assimp, in single precision. No other file (materials) is opened.
+/// Reads an OBJ or STL file through Assimp, in single precision. No other file (materials) is opened. Labels are the
+/// parts of the file, counted from 1.
 PolygonMesh readWithAssimp(const std::string& path);
 
 }  // namespace bullet_fem

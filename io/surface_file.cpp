@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 #include <unordered_map>
 
 #include "fem/common/message.h"
+#include "fem/common/reason.h"
 #include "io/file_bytes.h"
 #include "io/polygon_mesh.h"
 #include "io/triangulate.h"
@@ -94,9 +96,19 @@ std::vector<Triangle> weldedTriangles(const PolygonMesh& mesh)
     return kept;
 }
 
-/// The vertices that the triangles use, in the file's order, and the triangles in their numbers.
-SurfaceMesh compact(const std::vector<Vec3>& positions, std::vector<Triangle> triangles, double scale)
+/// Whether labels tell regions apart: what is of one colour has none, and a photograph has too many.
+bool areRegions(const std::vector<int>& labels)
 {
+    std::set<int> different;
+    for (const int label : labels)
+        if (different.insert(label).second && static_cast<int>(different.size()) > kMostSurfaceRegions) return false;
+    return different.size() > 1;
+}
+
+/// The vertices that the triangles use, in the file's order, and the triangles in their numbers.
+SurfaceMesh compact(const PolygonMesh& mesh, std::vector<Triangle> triangles, double scale)
+{
+    const std::vector<Vec3>& positions = mesh.m_positions;
     std::vector<int> number(positions.size(), -1);
     for (const Triangle& t : triangles)
         for (const int v : t) number[v] = 0;
@@ -108,7 +120,9 @@ SurfaceMesh compact(const std::vector<Vec3>& positions, std::vector<Triangle> tr
         surface.m_vertices.push_back(positions[v] * scale);
         if (!isFinite(surface.m_vertices.back()))
             throw std::runtime_error(message("vertex ", v, " is not finite once scaled"));
+        if (!mesh.m_labels.empty()) surface.m_labels.push_back(mesh.m_labels[v]);
     }
+    if (!areRegions(surface.m_labels)) surface.m_labels.clear();
     for (Triangle& t : triangles)
         for (int& v : t) v = number[v];
     surface.m_triangles = std::move(triangles);
@@ -127,11 +141,11 @@ SurfaceMesh readSurfaceFile(const std::string& path, double scale)
         checkPolygons(polygons);
         std::vector<Triangle> triangles = weldedTriangles(polygons);
         if (triangles.empty()) throw std::runtime_error("it has no triangle");
-        return compact(polygons.m_positions, std::move(triangles), scale);
+        return compact(polygons, std::move(triangles), scale);
     }
     catch (const std::exception& error)
     {
-        throw std::runtime_error("cannot read the surface file '" + path + "': " + error.what());
+        throw std::runtime_error("cannot read the surface file '" + path + "': " + reasonOf(error));
     }
 }
 

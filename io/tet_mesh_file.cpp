@@ -2,12 +2,14 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/io/tet_mesh_file.h"
 
+#include <algorithm>
 #include <climits>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
 #include "fem/common/message.h"
+#include "fem/common/reason.h"
 #include "io/file_bytes.h"
 #include "io/tet/tet_readers.h"
 
@@ -49,9 +51,13 @@ TetMeshFile readFormat(std::string_view bytes, TetMeshFormat format)
     throw std::runtime_error("the format is not known");
 }
 
-/// Leaves out nodes that no tetrahedron uses, and scales the others.
+/// Leaves out nodes that no tetrahedron uses, and scales the others; drops regions that tell nothing.
 void finish(TetMeshFile& mesh, double scale)
 {
+    const auto isZero = [](int region) { return region == 0; };
+    if (mesh.m_regions.size() != mesh.m_tets.size() ||
+        std::all_of(mesh.m_regions.begin(), mesh.m_regions.end(), isZero))
+        mesh.m_regions.clear();
     if (mesh.m_tets.empty())
         throw std::runtime_error(message("it has no tetrahedra (but ", mesh.m_skippedFaces, " faces, ",
                                          mesh.m_skippedEdges, " edges and ", mesh.m_skippedPoints, " points)"));
@@ -91,7 +97,7 @@ auto readNamed(const std::string& path, Read read)
     }
     catch (const std::exception& error)
     {
-        throw std::runtime_error("cannot read the mesh file '" + path + "': " + error.what());
+        throw std::runtime_error("cannot read the mesh file '" + path + "': " + reasonOf(error));
     }
 }
 

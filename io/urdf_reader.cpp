@@ -9,6 +9,7 @@
 
 #include "bullet_fem/io/urdf_deformable.h"
 #include "fem/common/message.h"
+#include "fem/common/reason.h"
 #include "io/number_text.h"
 
 namespace bullet_fem
@@ -156,7 +157,7 @@ UrdfDeformable readUrdfDeformable(const std::string& path)
     }
     catch (const std::exception& error)
     {
-        throw std::runtime_error("cannot read the URDF file '" + path + "': " + error.what());
+        throw std::runtime_error("cannot read the URDF file '" + path + "': " + reasonOf(error));
     }
 }
 

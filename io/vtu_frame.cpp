@@ -60,6 +60,11 @@ void appendNumbers(std::vector<double>& numbers, const Stress& s)
     numbers.insert(numbers.end(), {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz});
 }
 
+void appendNumbers(std::vector<double>& numbers, double value)
+{
+    numbers.push_back(value);
+}
+
 /// One array of the file: a field of all bodies, zero where a body has none; empty if none has it.
 template <class Value, class Count>
 std::vector<double> joined(const std::vector<BodyFrame>& bodies, std::vector<Value> BodyFrame::*field,
@@ -85,6 +90,20 @@ std::size_t nodeCount(const BodyFrame& body)
 std::size_t cellCount(const BodyFrame& body)
 {
     return showsTets(body) ? body.m_tets.size() : body.m_triangles.size();
+}
+
+/// 0 where a body has none; empty if none has any.
+std::vector<std::int32_t> regionsOf(const std::vector<BodyFrame>& bodies)
+{
+    std::vector<std::int32_t> regions;
+    bool some = false;
+    for (const BodyFrame& body : bodies)
+    {
+        some = some || !body.m_tetRegion.empty();
+        regions.insert(regions.end(), body.m_tetRegion.begin(), body.m_tetRegion.end());
+        regions.insert(regions.end(), cellCount(body) - body.m_tetRegion.size(), 0);
+    }
+    return some ? regions : std::vector<std::int32_t>();
 }
 
 /// Writes the arrays of one file.
@@ -129,7 +148,10 @@ void appendCellData(const FrameText& text, const std::vector<BodyFrame>& bodies,
 {
     text.m_xml += "<CellData>\n";
     appendArray(text.m_xml, text.m_encoding, {"body", 1, {}}, cells.m_body);
+    if (const std::vector<std::int32_t> regions = regionsOf(bodies); !regions.empty())
+        appendArray(text.m_xml, text.m_encoding, {"region", 1, {}}, regions);
     text.appendStress(joined(bodies, &BodyFrame::m_tetStress, cellCount));
+    text.append({"plastic_strain", 1, {}}, joined(bodies, &BodyFrame::m_tetPlasticStrain, cellCount));
     text.m_xml += "</CellData>\n";
 }
 

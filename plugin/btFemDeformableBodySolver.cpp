@@ -9,6 +9,7 @@
 #include "bullet_bridge/body_arrays.h"
 #include "bullet_bridge/rigid_proxies.h"
 #include "bullet_fem/btFemVectors.h"
+#include "fem/common/reason.h"
 #include "plugin/btFemDeformableForces.h"
 #include "plugin/btFemWorldStep.h"
 #include "plugin/record/btFemArrays.h"
@@ -117,7 +118,7 @@ bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
     }
     catch (const std::exception& error)
     {
-        known.m_rejection = error.what();
+        known.m_rejection = reasonOf(error);
         return m_fem.isFem(&body);  // then it goes on with what it was
     }
 }
@@ -250,6 +251,7 @@ void btFemDeformableBodySolver::reinitialize(const btAlignedObjectArray<btSoftBo
     if (dt > 0) impl.m_forces.show(softBodies);  // a step that was not finished
     impl.sort(*this, softBodies, dt);
     if (dt > 0) impl.m_fem.optimize(impl.m_reported);
+    btFemCoupling::setClothBodies(impl.m_fem, impl.m_plain);
     if (dt > 0) impl.reportRejections();
     if (dt > 0) impl.m_forces.hide(impl.m_ours, m_objective->m_lf);
     if (impl.m_plainChanged) m_numNodes = -1;  // Bullet compares their number only
@@ -273,6 +275,7 @@ void btFemDeformableBodySolver::processCollision(btSoftBody* body, const btColli
 
 void btFemDeformableBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
 {
+    if (m_impl->m_fem.isFem(body) != m_impl->m_fem.isFem(other)) return m_impl->m_fem.processCollision(body, other);
     const bool bullets = btFemHolds(m_impl->m_plain, body) && btFemHolds(m_impl->m_plain, other);
     if (bullets && hasUsableNodes(*body) && hasUsableNodes(*other))
         btDeformableBodySolver::processCollision(body, other);

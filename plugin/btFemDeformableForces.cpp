@@ -73,7 +73,8 @@ bool btFemForceMaterial::operator==(const btFemForceMaterial& b) const
     const btFemMaterial &p = m_material, &q = b.m_material;
     return m_given == b.m_given && same(p.m_youngModulus, q.m_youngModulus) &&
            same(p.m_poissonRatio, q.m_poissonRatio) && same(p.m_massDamping, q.m_massDamping) &&
-           same(p.m_stiffnessDamping, q.m_stiffnessDamping);
+           same(p.m_stiffnessDamping, q.m_stiffnessDamping) && p.m_meanDilatation == q.m_meanDilatation &&
+           p.m_law == q.m_law;
 }
 
 btFemForceMaterial btFemDeformableForces::materialOf(const btSoftBody& body) const
@@ -89,6 +90,7 @@ btFemForceMaterial btFemDeformableForces::materialOf(const btSoftBody& body) con
         massDamping += part.m_massDamping;
         viscosity += part.m_damping * part.m_moduli.m_mu;
         result.m_given = true;
+        if (m_all[k]->getForceType() == BT_NEOHOOKEAN_FORCE) result.m_material.m_law = btFemElasticLaw::neoHooke;
     }
     if (!result.m_given) return result;
     btFemMaterial& material = result.m_material;

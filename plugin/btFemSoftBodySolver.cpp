@@ -9,17 +9,19 @@
 #include "bullet_bridge/body_arrays.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/joints/cluster_joints.h"
-#include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "fem/common/attempt.h"
+#include "fem/common/message.h"
 #include "plugin/btFemWorldStep.h"
 #include "plugin/dispatch/btFemDispatch.h"
 #include "plugin/dispatch/btFemManifolds.h"
+#include "plugin/record/btFemCollisionFlags.h"
 #include "plugin/record/btFemCoupling.h"
 #include "plugin/setup/btFemBaked.h"
-#include "plugin/setup/btFemMaterialConversion.h"
+#include "plugin/setup/btFemBodyMaterials.h"
 #include "plugin/snapshot/btFemSnapshot.h"
+#include "plugin/stages/btFemCloth.h"
 #include "plugin/stages/btFemSleeping.h"
 
 using namespace bullet_fem;
@@ -74,7 +76,18 @@ struct btFemSoftBodySolver::Impl
         return body->isActive() && (!record || (record->m_model.m_rejected && record->m_membership.m_present));
     }
 
-    const btAlignedObjectArray<btSoftBody*>* m_worldBodies = nullptr;  // of the world being stepped
+    ClothContacts& cloth() { return m_step.group().cloth(); }
+
+    // Before contact with cloth is looked for.
+    void moveCloth(const btAlignedObjectArray<btSoftBody*>& bodies)
+    {
+        if (m_clothBodies) listCloth(m_registry, *m_clothBodies, cloth());
+        for (int i = 0; i < bodies.size() && cloth().hasPairs(); ++i)
+            if (movesBySprings(bodies[i])) cloth().solveSprings(*bodies[i]);
+    }
+
+    // Of the world being stepped; cloth is among the latter.
+    const btAlignedObjectArray<btSoftBody*>*m_worldBodies = nullptr, *m_clothBodies = nullptr;
     btFemBodyRegistry m_registry;
     btFemBodySetUp m_setUp;
     btFemWorldStep m_step;
@@ -85,37 +98,6 @@ struct btFemSoftBodySolver::Impl
     const btAlignedObjectArray<btFemAnchorReport> m_noAnchors;
     btFemStressScratch m_stressScratch;
 };
-
-namespace
-{
-
-// True if all rigid contact was switched off with m_cfg.collisions.
-bool ignoresRigidBodies(const btSoftBody& body)
-{
-    using Flags = btSoftBody::fCollision;
-    return (body.m_cfg.collisions & (Flags::RVSmask | Flags::RVDFmask)) == 0 || !body.hasContactResponse();
-}
-
-// Bodies collide with each other if both have a flag for it in common; a body with itself by CL_SELF.
-bool collide(const btSoftBody& a, const btSoftBody& b)
-{
-    using Flags = btSoftBody::fCollision;
-    const int mask = &a == &b ? static_cast<int>(Flags::CL_SELF) : Flags::SVSmask & ~Flags::CL_SELF;
-    return (a.m_cfg.collisions & b.m_cfg.collisions & mask) != 0 && a.hasContactResponse() && b.hasContactResponse() &&
-           !ignoresCollision(a, b) && !ignoresCollision(b, a);
-}
-
-// Bullet builds its tree of nodes along the links, and never ends without any: helpers' bodies have none.
-void updateWithoutTree(btSoftBody& body)
-{
-    if (!body.m_bUpdateRtCst || body.m_links.size() > 0) return;
-    body.m_bUpdateRtCst = false;
-    body.updateLinkConstants();
-    body.updateArea();
-    giveFaceTreeToBullet(body);
-}
-
-}  // namespace
 
 btFemSoftBodySolver::btFemSoftBodySolver(const btFemSolverInfo& info)
 {
@@ -128,27 +110,35 @@ btFemSoftBodySolver::~btFemSoftBodySolver() = default;
 
 bool btFemSoftBodySolver::setMaterial(btSoftBody* body, const btFemMaterial& material, std::string* why)
 {
-    const auto set = [&]
-    {
-        std::string reason;
-        if (!material.valid(&reason)) throw std::invalid_argument("btFemMaterial: " + reason);
-        if (m_impl->m_registry.find(body)) m_impl->m_registry.record(body);  // which notices what the program changed
-        if (!valid(body, &reason)) throw std::invalid_argument("setMaterial: " + reason);
-        keepFaceTree(*body);
-        btFemBodyRecord& record = m_impl->m_registry.record(body);
-        if (material.m_density > 0) writeMasses(*body, massesAtRest(record, material.m_density));
-        record.m_asked.m_material = coreMaterial(material);
-        record.m_asked.m_materialGiven = true;
-        record.m_asked.m_materialChanged = true;
-        record.m_model.m_rejected = false;
-    };
-    return attempt(why, set);
+    return attempt(why, [&] { giveMaterials(m_impl->m_registry, body, materialOfAll(material)); });
+}
+
+bool btFemSoftBodySolver::setMaterials(btSoftBody* body, const std::vector<btFemMaterial>& perTetrahedron,
+                                       std::string* why)
+{
+    return attempt(why, [&] { giveMaterials(m_impl->m_registry, body, materialsOfTets(perTetrahedron)); });
+}
+
+bool btFemSoftBodySolver::setMaterials(btSoftBody* body, const std::vector<int>& labels,
+                                       const std::map<int, btFemMaterial>& ofLabel, std::string* why)
+{
+    return attempt(why, [&] { giveMaterials(m_impl->m_registry, body, materialsOfRegions(labels, ofLabel)); });
+}
+
+bool btFemSoftBodySolver::setMaterials(btSoftBody* body,
+                                       const std::function<btFemMaterial(const btVector3& centroid)>& materialAt,
+                                       std::string* why)
+{
+    return attempt(why, [&] { giveMaterials(m_impl->m_registry, body, materialsByPlace(materialAt)); });
 }
 
 bool btFemSoftBodySolver::setDetail(btSoftBody* body, btFemDetail detail, std::string* why)
 {
     const auto set = [&]
     {
+        if (detail < btFemDetail::nodalWarp || detail > btFemDetail::automatic)
+            bullet_fem::reject("setDetail: the detail is ", static_cast<int>(detail),
+                               "; it must be one of btFemDetail, 0 to ", static_cast<int>(btFemDetail::automatic));
         btFemBodyRecord& record = m_impl->m_registry.record(body);
         record.m_asked.m_detail = detail;
         record.m_work.m_detailLevel = {};
@@ -276,9 +266,15 @@ bool btFemSoftBodySolver::getContactForces(const btSoftBody* body, btAlignedObje
 }
 
 btFemContactGroup* btFemCoupling::beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
-                                             double step)
+                                             double step, bool linksToo)
 {
-    return fem.m_impl->m_step.beginGroup(bodies, count, step);
+    fem.m_impl->moveCloth(fem.m_softBodySet);
+    return fem.m_impl->m_step.beginGroup(bodies, count, step, linksToo);
+}
+
+void btFemCoupling::setClothBodies(btFemSoftBodySolver& fem, const btAlignedObjectArray<btSoftBody*>& bodies)
+{
+    fem.m_impl->m_clothBodies = &bodies;
 }
 
 btFemBodyRecord& btFemCoupling::femRecord(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller)
@@ -289,6 +285,11 @@ btFemBodyRecord& btFemCoupling::femRecord(btFemSoftBodySolver& fem, const btSoft
 const btFemBodyRecord* btFemCoupling::record(const btFemSoftBodySolver& fem, const btSoftBody& body)
 {
     return fem.m_impl->m_registry.find(&body);
+}
+
+btFemWeldBreaker& btFemCoupling::welds(const btFemSoftBodySolver& fem)
+{
+    return fem.m_impl->m_step.group().welds();
 }
 
 btFemBodyRegistry& btFemCoupling::registry(const btFemSoftBodySolver& fem)
@@ -329,7 +330,7 @@ btFemSnapshotScope btFemCoupling::snapshotScope(const btFemSoftBodySolver& fem)
 void btFemSoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate)
 {
     btDefaultSoftBodySolver::optimize(softBodies, forceUpdate);
-    m_impl->m_worldBodies = &softBodies;
+    m_impl->m_worldBodies = m_impl->m_clothBodies = &softBodies;
     m_impl->m_registry.synchronise(softBodies, this, m_impl->m_step.threads());
 }
 
@@ -366,21 +367,24 @@ void btFemSoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
 {
     const btFemBodyRecord* record = m_impl->m_registry.find(body);
     const bool fem = record && record->isFem(), otherFem = isFem(other);
-    // Bullet's handlers would move a FEM body's nodes behind its back.
-    if (!fem && !otherFem)
+    if (!fem && !otherFem)  // Bullet's handlers would move a FEM body's nodes behind its back
     {
         if (hasUsableNodes(*body) && hasUsableNodes(*other)) btDefaultSoftBodySolver::processCollision(body, other);
         return;
     }
-    if (fem && otherFem && collide(*body, *other)) recordTouching(record->fem(), *other);
+    if (!collide(*body, *other)) return;
+    if (fem && otherFem) return recordTouching(record->fem(), *other);
+    btSoftBody& cloth = fem ? *other : *body;
+    if (isCloth(cloth)) m_impl->cloth().note(m_impl->m_registry.find(fem ? body : other)->fem(), cloth);
 }
 
 void btFemSoftBodySolver::solveConstraints(btScalar timeStep)
 {
     m_impl->dropRemovedBodies(m_softBodySet);
+    m_impl->moveCloth(m_softBodySet);
     m_impl->m_step.solve(timeStep);
     for (int i = 0; i < m_softBodySet.size(); ++i)
-        if (m_impl->movesBySprings(m_softBodySet[i])) m_softBodySet[i]->solveConstraints();
+        if (m_impl->movesBySprings(m_softBodySet[i])) m_impl->cloth().finishSprings(*m_softBodySet[i]);
 }
 
 void btFemSoftBodySolver::updateSoftBodies()

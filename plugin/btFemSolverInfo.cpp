@@ -23,7 +23,7 @@ bool btFemSolverInfo::valid(std::string* why) const
            btFemRangeCheck(m_contactSweeps >= 1 && m_contactSweeps <= 1000, why, "m_contactSweeps", m_contactSweeps,
                            "[1, 1000]; 50 is usual") &&
            btFemRangeCheck(m_contactTolerance >= btScalar(1e-7) && m_contactTolerance <= btScalar(0.1), why,
-                           "m_contactTolerance", m_contactTolerance, "[1e-7, 0.1]; 3e-5 is usual, 1e-2 is cheaper") &&
+                           "m_contactTolerance", m_contactTolerance, "[1e-7, 0.1]; 3e-3 is usual") &&
            btFemRangeCheck(m_maxContacts >= 8 && m_maxContacts <= 20000, why, "m_maxContacts", m_maxContacts,
                            "[8, 20000]; 2000 is usual") &&
            btFemRangeCheck(m_erp >= 0 && m_erp <= 1, why, "m_erp", m_erp, "[0, 1]; 0.2 is usual") &&

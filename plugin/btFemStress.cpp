@@ -11,11 +11,18 @@ using namespace bullet_fem;
 namespace
 {
 
-// Stresses of the body's elements, or of its nodes; null if it is not FEM as it is now.
-const std::vector<Stress>* stressesOf(const btFemSoftBodySolver& solver, const btSoftBody* body, bool perNode)
+// Null if the body is not FEM as it is now.
+const btFemBodyRecord* femRecordOf(const btFemSoftBodySolver& solver, const btSoftBody* body)
 {
     const btFemBodyRecord* record = body ? btFemCoupling::record(solver, *body) : nullptr;
-    if (!record || !record->isFem() || !arraysAsSetUp(record->fem())) return nullptr;
+    return record && record->isFem() && arraysAsSetUp(record->fem()) ? record : nullptr;
+}
+
+// Stresses of the body's elements, or of its nodes; null likewise.
+const std::vector<Stress>* stressesOf(const btFemSoftBodySolver& solver, const btSoftBody* body, bool perNode)
+{
+    const btFemBodyRecord* record = femRecordOf(solver, body);
+    if (!record) return nullptr;
     btFemStressScratch& scratch = btFemCoupling::stressScratch(solver);
     elementStresses(record->fem().m_body, scratch.m_perElement);
     if (!perNode) return &scratch.m_perElement;
@@ -66,4 +73,13 @@ bool btFemSoftBodySolver::getVonMises(const btSoftBody* body, btAlignedObjectArr
 bool btFemSoftBodySolver::getNodeVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perNode) const
 {
     return convert(stressesOf(*this, body, true), perNode, vonMisesToBullet);
+}
+
+bool btFemSoftBodySolver::getPlasticStrain(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const
+{
+    const btFemBodyRecord* record = femRecordOf(*this, body);
+    const std::vector<double>* strain = record ? &record->fem().m_body.m_state.m_equivalentPlasticStrain : nullptr;
+    perElement.resize(strain ? static_cast<int>(strain->size()) : 0);
+    for (int e = 0; e < perElement.size(); ++e) perElement[e] = static_cast<btScalar>((*strain)[e]);
+    return perElement.size() > 0;
 }

@@ -34,6 +34,7 @@ void btFemWorldStep::predict(double step)
 {
     wakeDisturbedBodies(m_registry, m_world);
     m_group.beginStep(step);
+    m_group.welds().beginStep(step);
     selectMoving(step);
     runOn(m_due,
           [step](btFemBodyRecord& record)
@@ -50,7 +51,7 @@ void btFemWorldStep::predict(double step)
     prepareForCollision(m_registry.records());
 }
 
-btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, int count, double step)
+btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, int count, double step, bool linksToo)
 {
     completeWokenBodies(m_registry);
     m_due.clear();
@@ -68,7 +69,7 @@ btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, 
     m_group.collect({m_active, m_registry.records(), step, RigidPhase::solving});
     m_freeMotion.dampTouching(m_group.touching());
     if (m_group.isEmpty()) return nullptr;
-    if (!m_group.holdsOnly(bodies, count))
+    if (!m_group.holdsOnly(bodies, count, linksToo))
     {
         for (btFemBodyRecord* record : m_active) record->m_reports.m_step.m_flags |= BT_FEM_SOLVED_AFTER;
         return nullptr;

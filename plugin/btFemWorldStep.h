@@ -40,8 +40,8 @@ public:
 
     /// Within the rigid solver, before it sets up a group of islands: free motion of the FEM bodies among `bodies` and
     /// their contacts. Null if the rigid solver has nothing to do with them: none, or none that touches anything, or
-    /// one that holds on to a rigid body of another group.
-    btFemContactGroup* beginGroup(btCollisionObject* const* bodies, int count, double step);
+    /// one that holds on to a rigid body of another group, or, unless `linksToo`, to a link of a multibody.
+    btFemContactGroup* beginGroup(btCollisionObject* const* bodies, int count, double step, bool linksToo);
 
     /// After the rigid bodies have moved: free motion, contact and correction of the bodies that were not in a group;
     /// the new positions of all.

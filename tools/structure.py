@@ -38,7 +38,7 @@ LAYERS = {
     "plugin": ["plugin", "bullet_bridge", "io", "fem"],
     "tools": ["tools", "plugin", "io", "fem"],
     "demos": ["demos", "tools", "plugin", "io", "fem"],
-    "benchmarks": ["benchmarks", "plugin", "bullet_bridge", "io", "fem"],
+    "benchmarks": ["benchmarks", "tools", "plugin", "bullet_bridge", "io", "fem"],
 }
 MOST_LINES_OF_FILE = 400
 MOST_LINES_OF_FUNCTION = 60

@@ -10,6 +10,7 @@
 #include "benchmarks/beam/beam_methods.h"
 #include "benchmarks/json_file.h"
 #include "bullet_fem/fem/common/threads.h"
+#include "tools/console/program.h"
 
 namespace
 {
@@ -122,7 +123,7 @@ int main(int argc, char** argv)
     addOptions(app, options);
     CLI11_PARSE(app, argc, argv);
 
-    try
+    const auto run = [&]
     {
         JsonFile json(options.m_jsonFile);
         const Threads threads(options.m_threads);
@@ -133,11 +134,7 @@ int main(int argc, char** argv)
                              {"curve", options.m_curve},
                              {"tension_term", !options.m_reference},
                              {"results", toJson(rows, options.m_steps)}});
-    }
-    catch (const std::exception& error)
-    {
-        std::cerr << "bulletfem_bench_beam: " << error.what() << std::endl;
-        return 1;
-    }
-    return 0;
+        return 0;
+    };
+    return runProgram("bulletfem_bench_beam", run);
 }

@@ -12,6 +12,7 @@
 #include "benchmarks/contact/contact_fem_world.h"
 #include "benchmarks/contact/contact_report.h"
 #include "benchmarks/json_file.h"
+#include "tools/console/program.h"
 
 namespace
 {
@@ -166,7 +167,7 @@ int main(int argc, char** argv)
     if (options.m_quick && app.count("--contacts") == 0) options.m_contacts = {10, 100};
     if (options.m_quick && app.count("--tets") == 0) options.m_tets = {1000};
 
-    try
+    const auto runAll = [&]
     {
         JsonFile json(options.m_jsonFile);
         const MachineInfo machine = readMachineInfo(1);
@@ -177,11 +178,7 @@ int main(int argc, char** argv)
         printTables(std::cout, rows);
         std::cout << g_legend;
         json.write(machine, {{"coupled", options.m_coupled}, {"results", toJson(rows)}});
-    }
-    catch (const std::exception& error)
-    {
-        std::cerr << "bulletfem_bench_contact: " << error.what() << std::endl;
-        return 1;
-    }
-    return 0;
+        return 0;
+    };
+    return runProgram("bulletfem_bench_contact", runAll);
 }

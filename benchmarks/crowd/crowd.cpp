@@ -11,6 +11,7 @@
 #include "benchmarks/crowd/crowd_report.h"
 #include "benchmarks/crowd/free_copies.h"
 #include "benchmarks/json_file.h"
+#include "tools/console/program.h"
 
 namespace
 {
@@ -78,8 +79,7 @@ void addOptions(CLI::App& app, Options& options)
         ->capture_default_str();
     app.add_flag("--cubes", options.m_crowd.m_cubes, "soft cubes, which rest on whole faces, in place of soft balls");
     app.add_flag("--different", options.m_crowd.m_different, "bodies of different sizes, meshes and stiffness");
-    app.add_option("--contact-tolerance", options.m_crowd.m_contactTolerance,
-                   "btFemSolverInfo::m_contactTolerance; 1e-2 is cheaper")
+    app.add_option("--contact-tolerance", options.m_crowd.m_contactTolerance, "btFemSolverInfo::m_contactTolerance")
         ->check(CLI::Range(1e-7, 0.1))
         ->capture_default_str();
     app.add_option("--threads", options.m_crowd.m_threads, "btFemSolverInfo::m_threads")
@@ -137,7 +137,7 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
     if (options.m_quick) makeQuick(app, options);
 
-    try
+    const auto run = [&]
     {
         if (options.m_free)
         {
@@ -167,11 +167,7 @@ int main(int argc, char** argv)
                              {"tets", world.tetCount()},
                              {"setup_s", world.setupSeconds()},
                              {"results", toJson(rows)}});
-    }
-    catch (const std::exception& error)
-    {
-        std::cerr << "bulletfem_bench_crowd: " << error.what() << std::endl;
-        return 1;
-    }
-    return 0;
+        return 0;
+    };
+    return runProgram("bulletfem_bench_crowd", run);
 }

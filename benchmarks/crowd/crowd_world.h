@@ -2,15 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include <BulletSoftBody/btSoftBody.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
-#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
-
-#include <memory>
-#include <vector>
-
-#include "bullet_fem/btFemSoftBodySolver.h"
+#include "benchmarks/benchmark_world.h"
 
 namespace bullet_fem
 {
@@ -28,29 +20,17 @@ struct CrowdSettings
 };
 
 /// What one step of a crowd took and did.
-struct CrowdStep
+struct CrowdStep : BenchmarkReport
 {
-    double m_milliseconds = 0;         ///< wall time of the whole step [ms]
-    double m_freeMilliseconds = 0;     ///< of the elastic solves without contact, all bodies, over the threads [ms]
-    double m_contactMilliseconds = 0;  ///< of contact: search of surfaces, sweeps, corrective solves, all groups [ms]
-    int m_contacts = 0;                ///< contact points of all bodies; between soft bodies they count for both
-    int m_sweeps = 0;                  ///< of the group with the most
-    int m_correctiveIterations = 0;    ///< of the group with the most
-    int m_asleep = 0;                  ///< soft bodies
-    double m_closingSpeed = 0;         ///< largest at which a contact point still closes [m/s]
-    double m_deepest = 0;              ///< largest penetration at the start of the step [m]
-    int m_flags = 0;                   ///< btFemFlags of all bodies
+    double m_milliseconds = 0;  ///< wall time of the whole step [ms]; free motion is over the threads
 };
 
-/// Soft balls or cubes of about 0.2 m and rigid balls of 0.18 m, on a lattice above a pit of static boxes, in a
-/// btSoftRigidDynamicsWorld. All is factored before the first step.
+/// Soft balls or cubes of about 0.2 m and rigid balls of 0.18 m, on a lattice above a pit of static boxes. All is
+/// factored before the first step.
 class CrowdWorld
 {
 public:
     explicit CrowdWorld(const CrowdSettings& settings);
-    ~CrowdWorld();
-    CrowdWorld(const CrowdWorld&) = delete;
-    CrowdWorld& operator=(const CrowdWorld&) = delete;
 
     /// One step of 1/60 s.
     CrowdStep step();
@@ -58,29 +38,18 @@ public:
     /// Whether bodies at rest may fall asleep; not, unless called.
     void allowSleep(bool allowed);
 
-    int tetCount() const;
-    double setupSeconds() const { return m_setupSeconds; }  ///< of all soft bodies [s]
+    int tetCount() const { return m_world.tetCount(); }
+    double setupSeconds() const { return m_world.setupSeconds(); }  ///< of all soft bodies [s]
 
 private:
     void addBox(const btVector3& center, const btVector3& halfExtents);
     void addPit(btScalar halfWidth);
     void addBall(const btVector3& center);
     void addSoft(const btVector3& center, int index);
-    void addRigid(std::unique_ptr<btCollisionShape> shape, const btVector3& center, btScalar mass);
 
     CrowdSettings m_settings;
     const int m_threadCount;
-    btFemSoftBodySolver m_fem;
-    btSoftBodyRigidBodyCollisionConfiguration m_configuration;
-    btCollisionDispatcher m_dispatcher{&m_configuration};
-    btDbvtBroadphase m_broadphase;
-    std::unique_ptr<btSequentialImpulseConstraintSolver> m_rigidSolver;
-    btSoftRigidDynamicsWorld m_world;
-    std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
-    std::vector<std::unique_ptr<btRigidBody>> m_rigid;
-    std::vector<std::unique_ptr<btSoftBody>> m_soft;
-    std::vector<double> m_groupTimes;  // scratch of step()
-    double m_setupSeconds = 0;
+    BenchmarkWorld m_world;
 };
 
 }  // namespace bullet_fem

@@ -63,7 +63,7 @@ void BentBeam::passOverElements()
 
 void BentBeam::prepareSystem()
 {
-    prepareWarpedSystem(m_body, m_settings, m_body.m_state.m_v, m_out);
+    prepareWarpedSystem(m_body, m_settings, m_body.m_workspace.scratch().m_kickPosition, m_body.m_state.m_v, m_out);
     averageNodeRotations(m_body, m_settings);
 }
 

@@ -12,6 +12,7 @@
 #include "benchmarks/json_file.h"
 #include "benchmarks/kernels/kernel_report.h"
 #include "benchmarks/kernels/machine_limits.h"
+#include "tools/console/program.h"
 
 namespace
 {
@@ -105,7 +106,7 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
     if (options.m_large) options.m_tets.push_back(98304);
 
-    try
+    const auto run = [&]
     {
         JsonFile json(options.m_jsonFile);
         MachineInfo machine = readMachineInfo(1);
@@ -136,11 +137,7 @@ int main(int argc, char** argv)
         printTables(std::cout, report);
         std::cout << g_legend;
         json.write(machine, toJson(report));
-    }
-    catch (const std::exception& error)
-    {
-        std::cerr << "bulletfem_bench_kernels: " << error.what() << std::endl;
-        return 1;
-    }
-    return 0;
+        return 0;
+    };
+    return runProgram("bulletfem_bench_kernels", run);
 }

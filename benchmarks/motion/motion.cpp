@@ -9,6 +9,7 @@
 
 #include "benchmarks/json_file.h"
 #include "benchmarks/motion/motion_figures.h"
+#include "tools/console/program.h"
 
 namespace
 {
@@ -72,7 +73,7 @@ int main(int argc, char** argv)
     addOptions(app, options);
     CLI11_PARSE(app, argc, argv);
 
-    try
+    const auto run = [&]
     {
         JsonFile json(options.m_jsonFile);
         const MachineInfo machine = readMachineInfo(1);
@@ -87,11 +88,7 @@ int main(int argc, char** argv)
         printTable(std::cout, rows);
         std::cout << g_legend;
         json.write(machine, {{"reference", options.m_reference}, {"results", toJson(rows)}});
-    }
-    catch (const std::exception& error)
-    {
-        std::cerr << "bulletfem_bench_motion: " << error.what() << std::endl;
-        return 1;
-    }
-    return 0;
+        return 0;
+    };
+    return runProgram("bulletfem_bench_motion", run);
 }

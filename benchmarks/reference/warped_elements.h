@@ -10,7 +10,8 @@ namespace bullet_fem
 {
 
 /// The stiffness-warped elements of one body [Mueller & Gross 2004]: three loops over the elements, each a few dozen
-/// multiplications an element. Arrays of nodes and elements are those of the mesh. None of them allocates.
+/// multiplications an element. Arrays of nodes and elements are those of the mesh. Volume changes are those
+/// of the shape's patches, if it has any.
 
 /// R_e <- polar rotation of F_e = sum (x_a - x_0) g_a^T, started from the R_e given.
 void updateElementRotations(const RestShape& shape, const std::vector<Vec3>& x, std::vector<Mat3>& R);

@@ -12,6 +12,7 @@
 #include "benchmarks/scaling/bake_times.h"
 #include "benchmarks/scaling/scaling_report.h"
 #include "bullet_fem/fem/common/threads.h"
+#include "tools/console/program.h"
 
 namespace
 {
@@ -125,7 +126,7 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
     if (options.m_large) options.m_tets.push_back(192000);
 
-    try
+    const auto run = [&]
     {
         JsonFile json(options.m_jsonFile);
         const Threads threads(options.m_threads);
@@ -158,11 +159,7 @@ int main(int argc, char** argv)
         if (options.m_lowMemory) document["low_memory"] = toJson(lowMemory);
         if (options.m_bake) document["baked"] = toJson(baked);
         json.write(machine, std::move(document));
-    }
-    catch (const std::exception& error)
-    {
-        std::cerr << "bulletfem_bench_scaling: " << error.what() << std::endl;
-        return 1;
-    }
-    return 0;
+        return 0;
+    };
+    return runProgram("bulletfem_bench_scaling", run);
 }

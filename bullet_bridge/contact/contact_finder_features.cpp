@@ -6,6 +6,7 @@
 #include "BulletCollision/CollisionDispatch/btCollisionObject.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_bridge/shapes/field_distance.h"
 
 namespace bullet_fem
 {
@@ -47,14 +48,14 @@ void ContactFinder::findNear(FemSoftBody& fem, Target& target)
 {
     target.m_first = m_contacts.size();
     const btCollisionShape& shape = *target.m_shape->m_shape;
-    if (shape.isConcave() && !shape.isInfinite())
+    if (isSheet(shape))
     {
         target.m_kind = TargetKind::sheets;
         target.m_firstSide = m_sheetSides.size();
         findOnSheets(fem, target);
         target.m_endSide = m_sheetSides.size();
     }
-    else if (shape.isConvex() && isFastTarget(fem, target))
+    else if (isSolid(shape) && isFastTarget(fem, target))
     {
         target.m_kind = TargetKind::fast;
         findTouchingNodes(fem, target);
@@ -62,7 +63,7 @@ void ContactFinder::findNear(FemSoftBody& fem, Target& target)
     else if (m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, target.m_reach}))
     {
         findOnNodes(fem, target);
-        if (shape.isConvex())
+        if (isSolid(shape))
         {
             findOnEdges(fem, target);
             findOnTriangles(fem, target);

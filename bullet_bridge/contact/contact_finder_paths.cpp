@@ -8,6 +8,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/contact/contact_finder.h"
 #include "bullet_bridge/contact_patch.h"
+#include "bullet_bridge/shapes/field_distance.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/step/stepping.h"
 
@@ -69,11 +70,11 @@ void ContactFinder::findWithinStep(FemSoftBody& fem, const Target& target)
 {
     if (target.m_kind == TargetKind::fast) return findOnPaths(fem, target);
     if (target.m_kind == TargetKind::sheets) return findOnSheetPaths(fem, target);
-    const bool isConvex = target.m_shape->m_shape->isConvex();
+    const bool hasInside = isSolid(*target.m_shape->m_shape);
     std::optional<SweptShape> swept;
     for (std::size_t k = target.m_first; k < target.m_end; ++k)
     {
-        if (!isConvex || m_near[k].m_gap <= m_band)
+        if (!hasInside || m_near[k].m_gap <= m_band)
         {
             keepNear(k);
             continue;

@@ -3,12 +3,16 @@
 #include "bullet_bridge/contact/rigid_search.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "BulletCollision/CollisionShapes/btTriangleCallback.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/contact_patch.h"
+#include "bullet_bridge/shapes/field_distance.h"
+#include "bullet_bridge/shapes/triangle_soup.h"
 #include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
@@ -52,6 +56,12 @@ bool bearsThreads(const btCollisionShape& shape)
         default:
             return false;
     }
+}
+
+// Of a program's own class.
+bool isOwnSheet(const btCollisionShape& shape)
+{
+    return shape.getShapeType() == CUSTOM_CONCAVE_SHAPE_TYPE && isSheet(shape);
 }
 
 }  // namespace
@@ -207,6 +217,24 @@ void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidProxies& rigid
     m_touching.push_back(touching);
 }
 
+// A program's own shape need not tell its triangles, as Bullet's fields do not. One that has told some is not asked
+// again, as long as it is where it was.
+bool RigidSearch::givesTriangles(const ShapeLeaf& leaf)
+{
+    struct Any : btTriangleCallback
+    {
+        bool m_any = false;
+        void processTriangle(btVector3*, int, int) override { m_any = true; }
+    } any;
+    const auto place = std::lower_bound(m_giving.begin(), m_giving.end(), leaf.m_shape, std::less<const void*>());
+    if (place != m_giving.end() && *place == leaf.m_shape) return true;
+    btVector3 low, high;
+    leaf.m_shape->getAabb(btTransform::getIdentity(), low, high);
+    forEachTriangle(*leaf.m_shape, low, high, any);
+    if (any.m_any) m_giving.insert(place, leaf.m_shape);
+    return any.m_any;
+}
+
 // The leaves of an object's shape, collected when first asked for.
 const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& object, int rigidProxy, double step,
                                                     const RigidProxies& rigidProxies)
@@ -217,6 +245,8 @@ const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& obj
     range.m_first = m_leaves.size();
     range.m_unknown = collectShapeLeaves(object, m_leaves) > 0;
     range.m_count = m_leaves.size() - range.m_first;
+    for (int l = range.m_first; l < m_leaves.size(); ++l)
+        range.m_unknown = range.m_unknown || (isOwnSheet(*m_leaves[l].m_shape) && !givesTriangles(m_leaves[l]));
     const RigidProxy& proxy = rigidProxies.rigidProxies()[rigidProxy];
     for (int l = range.m_first; l < m_leaves.size(); ++l)
     {

@@ -65,13 +65,16 @@ private:
         Vec3 m_foot;       // of their points on the object, times the sizes [N s m]
     };
 
+    bool givesTriangles(const ShapeLeaf& leaf);
+
     const Threads& m_threads;
     std::vector<ContactFinder> m_finders;
     std::vector<Touching> m_touching;      // one a body
     std::vector<TouchedObject> m_touched;  // body by body
     std::vector<ShapeRange> m_shapes;      // one a rigid proxy
     btAlignedObjectArray<ShapeLeaf> m_leaves;
-    std::vector<Carried> m_carried;  // by object, ascending
+    std::vector<const btCollisionShape*> m_giving;  // of a program's own shapes those that gave triangles, ascending
+    std::vector<Carried> m_carried;                 // by object, ascending
     std::vector<ContactSearchReport> m_reports;
     std::vector<std::pair<const void*, int>> m_byAddress;     // bodies, ascending
     std::vector<const btBroadphaseInterface*> m_broadphases;  // of theirs, each once

@@ -62,6 +62,30 @@ struct NodeAttachment
     std::uint64_t m_otherMark = 0;                   ///< see body_mark.h: its address may come to another body
     std::array<int, 4> m_otherNodes = {};            ///< nodes that carry the point; unused ones repeat the first
     std::array<double, 4> m_weights = {1, 0, 0, 0};  ///< barycentric [-], sum 1
+    double m_area = 0;                               ///< of a weld, whose handle it has: that it holds [m2]; else 0
+    double m_compliance = 0;                         ///< of an elastic weld [m/N]; 0: rigid
+};
+
+/// Faces of two bodies that are held together by attachments with its handle, until they break: see welds.h.
+struct Weld
+{
+    int m_id = 0;                             ///< handle
+    const btSoftBody* m_other = nullptr;      ///< never followed
+    std::vector<std::array<int, 3>> m_faces;  ///< that were welded, nodes of the body that has it, seen from outside
+    double m_breakForce = 0;                  ///< of all of it [N], > 0; may be infinite, as the next
+    double m_breakStress = 0;                 ///< of a node, tension and shear [Pa], > 0
+    double m_breakStretch = 0;                ///< distance of a node from its partner [m], > 0
+};
+
+/// Ties a node of a cloth (see isCloth) to a point of the body that has it.
+struct ClothAttachment
+{
+    int m_id = 0;                                    ///< handle
+    btSoftBody* m_cloth = nullptr;                   ///< followed only while the world has it
+    int m_clothId = -1;                              ///< its broadphase id; -1: it was in no world yet
+    int m_clothNode = 0;                             ///< of the cloth
+    std::array<int, 4> m_nodes = {};                 ///< that carry the point; unused ones repeat the first
+    std::array<double, 4> m_weights = {1, 0, 0, 0};  ///< barycentric [-], sum 1
 };
 
 /// Pulls a point between nodes to a place in the world.
@@ -83,6 +107,11 @@ struct HeldJoints
     std::vector<HeldJoint> m_before;  ///< of the one before
     std::vector<HiddenJoint> m_hidden;
     std::vector<NodeAttachment> m_attachments;
+    std::vector<Weld> m_welds;              ///< ascending by handle
+    int m_cluster = -1;                     ///< of bodies that hang together by welds, in this step; -1: none
+    std::vector<unsigned char> m_isWelded;  ///< per node: it has a weld's tie, in this step; empty: none has
+    std::vector<ClothAttachment> m_clothAttachments;
+    bool m_clothIsLost = false;  ///< one of these was removed in this step
     std::vector<NodeSpring> m_springs;
     int m_lastId = 0;  ///< handle that was given last
 };

@@ -76,7 +76,13 @@ JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& 
         Joint joint;
         joint.m_a = nodeEnd(body, attachment.m_node, problem);
         if (other >= 0) joint.m_b = pointEnd(attachment, other, problem);
-        joint.m_wanted = (1 / scene.m_step) * shortened(kErp * (target - held.m_point), longestCorrection(fem));
+        if (attachment.m_compliance > 0)  // an implicit spring, see node_springs.cpp
+        {
+            joint.m_wanted = (1 / scene.m_step) * (target - held.m_point);
+            joint.m_compliance = attachment.m_compliance / (scene.m_step * scene.m_step);
+        }
+        else
+            joint.m_wanted = (1 / scene.m_step) * shortened(kErp * (target - held.m_point), longestCorrection(fem));
         joint.m_impulse = held.m_impulse;
         held.m_row = static_cast<int>(problem.m_joints.size());
         problem.m_joints.push_back(joint);

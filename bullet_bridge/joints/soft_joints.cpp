@@ -43,6 +43,7 @@ void SoftJoints::append(const Group& group, ContactProblem& problem, std::vector
         flags[b] |= appendClusterJoints(body, scene, problem);
         appendSprings(body, scene, problem);
     }
+    m_clusters.find(group.m_bodies, group.m_outside);
 }
 
 void SoftJoints::takeBack(FemSoftBody& fem, const ContactProblem& problem)

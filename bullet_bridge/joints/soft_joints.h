@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bullet_bridge/joints/joint_scene.h"
+#include "bullet_bridge/joints/welds.h"
 
 namespace bullet_fem
 {
@@ -38,6 +39,7 @@ public:
 
 private:
     WorldObjects m_world;
+    WeldClusters m_clusters;
 };
 
 /// True if an attachment or a cluster joint of the body goes to one of the others. Between predictMotion and the step's

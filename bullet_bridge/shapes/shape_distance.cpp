@@ -11,6 +11,7 @@
 #include "BulletCollision/CollisionShapes/btSphereShape.h"
 #include "BulletCollision/CollisionShapes/btStaticPlaneShape.h"
 #include "bullet_bridge/shapes/convex_distance.h"
+#include "bullet_bridge/shapes/field_distance.h"
 #include "bullet_bridge/shapes/primitive_distance.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 
@@ -62,13 +63,22 @@ bool primitiveDistance(const btCollisionShape& shape, const Vec3& p, PointDistan
     }
 }
 
-/// Distance of 1 or 3 local points to a convex shape; the normal comes back in the world.
-bool convexShapeDistance(const ShapeLeaf& leaf, const Vec3* local, int count, double maxDistance,
-                         SurfaceDistance& distance)
+/// Distance of 1 or 3 local points to a convex shape or a field; the normal comes back in the world.
+bool solidShapeDistance(const ShapeLeaf& leaf, const Vec3* local, int count, double maxDistance,
+                        SurfaceDistance& distance)
 {
-    if (!leaf.m_shape->isConvex()) return false;
-    const ConvexCore core(static_cast<const btConvexShape&>(*leaf.m_shape));
-    if (!convexDistance({core, local, count}, maxDistance, distance)) return false;
+    if (const btSdfCollisionShape* field = fieldOf(*leaf.m_shape))
+    {
+        if (count == 1 ? !pointFieldDistance(*field, local[0], maxDistance, distance)
+                       : !triangleFieldDistance(*field, {local[0], local[1], local[2]}, maxDistance, distance))
+            return false;
+    }
+    else
+    {
+        if (!leaf.m_shape->isConvex()) return false;
+        const ConvexCore core(static_cast<const btConvexShape&>(*leaf.m_shape));
+        if (!convexDistance({core, local, count}, maxDistance, distance)) return false;
+    }
     distance.m_normal = leaf.m_pose.m_rotation * distance.m_normal;
     return true;
 }
@@ -80,7 +90,7 @@ bool pointShapeDistance(const ShapeLeaf& leaf, const Vec3& point, double maxDist
     const Vec3 local = leaf.m_pose.toLocal(point);
     if (!isFinite(local)) return false;
     PointDistance d;
-    if (!primitiveDistance(*leaf.m_shape, local, d)) return convexShapeDistance(leaf, &local, 1, maxDistance, distance);
+    if (!primitiveDistance(*leaf.m_shape, local, d)) return solidShapeDistance(leaf, &local, 1, maxDistance, distance);
     if (!(d.m_gap <= maxDistance) || !std::isfinite(d.m_gap)) return false;
     distance = {d.m_gap, leaf.m_pose.m_rotation * d.m_normal, {1, 0, 0}};
     return true;
@@ -95,7 +105,7 @@ bool triangleShapeDistance(const ShapeLeaf& leaf, const std::array<Vec3, 3>& tri
         local[i] = leaf.m_pose.toLocal(triangle[i]);
         if (!isFinite(local[i])) return false;
     }
-    return convexShapeDistance(leaf, local, 3, maxDistance, distance);
+    return solidShapeDistance(leaf, local, 3, maxDistance, distance);
 }
 
 }  // namespace bullet_fem

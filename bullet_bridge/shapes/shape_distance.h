@@ -23,8 +23,9 @@ struct Pose
     Vec3 toLocal(const Vec3& world) const { return transposeTimes(m_rotation, world - m_origin); }
 };
 
-/// One shape of a collision object that is not a compound, with its world placement. Convex, a static plane, or a sheet
-/// of triangles: triangle mesh, scaled or multimaterial triangle mesh, heightfield, part of a GImpact mesh.
+/// One shape of a collision object that is not a compound, with its world placement. Convex, a static plane, a signed
+/// distance field, or a sheet of triangles: triangle mesh, scaled or multimaterial triangle mesh, heightfield, part of
+/// a GImpact mesh, any other btConcaveShape.
 struct ShapeLeaf
 {
     const btCollisionShape* m_shape = nullptr;
@@ -33,9 +34,10 @@ struct ShapeLeaf
 };
 
 /// Appends the leaves of an object's shape, through compounds of any depth, Bullet's and GImpact's; allocates only when
-/// `leaves` must grow. Returns the number of leaves of a kind that is not known (they are left out): empty and signed
-/// distance shapes, convex hulls and multi-spheres without points, triangle meshes whose tree was not built or that are
-/// scaled to nothing, soft bodies.
+/// `leaves` must grow. Returns the number of leaves of a kind that is not known (they are left out): empty shapes,
+/// signed distance fields that were not loaded, convex hulls and multi-spheres without points, triangle meshes whose
+/// tree was not built or that are scaled to nothing, soft bodies, and classes that are neither a btConvexShape nor a
+/// btConcaveShape.
 int collectShapeLeaves(const btCollisionObject& object, btAlignedObjectArray<ShapeLeaf>& leaves);
 
 /// True if the shape can be a leaf: it is of a known kind, and neither a compound nor a whole GImpact mesh.

@@ -9,6 +9,7 @@
 #include "BulletCollision/CollisionShapes/btMultiSphereShape.h"
 #include "BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h"
 #include "BulletCollision/Gimpact/btGImpactShape.h"
+#include "bullet_bridge/shapes/field_distance.h"
 #include "bullet_bridge/shapes/shape_distance.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 
@@ -34,15 +35,22 @@ Pose poseOf(const btTransform& transform)
             vec3(transform.getOrigin())};
 }
 
+/// A program's own class may have the type number of Bullet's: it is asked for its triangles.
+const btBvhTriangleMeshShape* bulletsMesh(const btCollisionShape& shape)
+{
+    return dynamic_cast<const btBvhTriangleMeshShape*>(&shape);
+}
+
 /// Bullet divides by the scaling, and searches the tree without asking whether there is one.
 bool hasUsableTree(const btCollisionShape& shape)
 {
     if (shape.getShapeType() != SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE)
-        return const_cast<btBvhTriangleMeshShape&>(static_cast<const btBvhTriangleMeshShape&>(shape))
-                   .getOptimizedBvh() != nullptr;
-    const auto& scaled = static_cast<const btScaledBvhTriangleMeshShape&>(shape);
-    const Vec3 scale = vec3(scaled.getLocalScaling());
-    return scale.x * scale.y * scale.z != 0 && isFinite(scale) && hasUsableTree(*scaled.getChildShape());
+        return !bulletsMesh(shape) ||
+               const_cast<btBvhTriangleMeshShape*>(bulletsMesh(shape))->getOptimizedBvh() != nullptr;
+    const auto* scaled = dynamic_cast<const btScaledBvhTriangleMeshShape*>(&shape);
+    if (!scaled) return true;
+    const Vec3 scale = vec3(scaled->getLocalScaling());
+    return scale.x * scale.y * scale.z != 0 && isFinite(scale) && hasUsableTree(*scaled->getChildShape());
 }
 
 /// Bullet's bounds are floats: asked for about the leaf's own origin, they keep their precision far from the world's.
@@ -137,8 +145,13 @@ bool isKnownShape(const btCollisionShape& shape)
             return static_cast<const btConvexHullShape&>(shape).getNumPoints() > 0;
         case MULTI_SPHERE_SHAPE_PROXYTYPE:
             return static_cast<const btMultiSphereShape&>(shape).getSphereCount() > 0;
+        case EMPTY_SHAPE_PROXYTYPE:
+            return false;
+        case CUSTOM_CONCAVE_SHAPE_TYPE:  // and that of fields
+            if (const btSdfCollisionShape* field = fieldOf(shape)) return isLoaded(*field);
+            [[fallthrough]];
         default:
-            return shape.isConvex();
+            return shape.isConvex() || dynamic_cast<const btConcaveShape*>(&shape);
     }
 }
 

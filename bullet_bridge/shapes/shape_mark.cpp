@@ -3,13 +3,16 @@
 #include "bullet_bridge/shapes/shape_mark.h"
 
 #include <cmath>
+#include <limits>
 
 #include "BulletCollision/BroadphaseCollision/btDbvt.h"
 #include "BulletCollision/CollisionShapes/btCompoundShape.h"
 #include "BulletCollision/CollisionShapes/btConvexHullShape.h"
+#include "BulletCollision/CollisionShapes/btSdfCollisionShape.h"
 #include "BulletCollision/CollisionShapes/btTriangleCallback.h"
 #include "BulletCollision/Gimpact/btGImpactShape.h"
 #include "LinearMath/btAabbUtil2.h"
+#include "bullet_bridge/shapes/field_distance.h"
 #include "bullet_bridge/shapes/shape_distance.h"
 #include "bullet_bridge/shapes/triangle_soup.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
@@ -99,6 +102,24 @@ void addConvex(std::uint64_t& mark, const btCollisionShape& shape)
     for (int i = 0; i < hull.getNumPoints(); ++i) addVector(mark, hull.getUnscaledPoints()[i]);
 }
 
+// By its domain, and by its values where the body is.
+void addField(std::uint64_t& mark, const btSdfCollisionShape& field, const MarkedBox& box)
+{
+    btVector3 low, high;
+    field.getAabb(btTransform::getIdentity(), low, high);
+    addVector(mark, low);
+    addVector(mark, high);
+    if (!isBox(box)) return;
+    for (int k = 0; k < 8; ++k)
+    {
+        const Vec3 corner = {double(k & 1 ? box.m_low.x() : box.m_high.x()),
+                             double(k & 2 ? box.m_low.y() : box.m_high.y()),
+                             double(k & 4 ? box.m_low.z() : box.m_high.z())};
+        SurfaceDistance d;
+        if (pointFieldDistance(field, corner, std::numeric_limits<double>::infinity(), d)) addToMark(mark, d.m_gap);
+    }
+}
+
 std::uint64_t markOf(const btCollisionShape& shape, const MarkedBox& box);
 
 std::uint64_t markOfChild(const btCollisionShape& child, const btTransform& placement, const MarkedBox& box)
@@ -165,6 +186,8 @@ std::uint64_t markOf(const btCollisionShape& shape, const MarkedBox& box)
         addVector(mark, shape.getLocalScaling());
         if (shape.isConvex())
             addConvex(mark, shape);
+        else if (const btSdfCollisionShape* field = fieldOf(shape))
+            addField(mark, *field, box);
         else
             addToMark(mark, markOfSheet(shape, box));
     }

@@ -7,6 +7,7 @@
 #include "BulletCollision/CollisionShapes/btConcaveShape.h"
 #include "BulletCollision/CollisionShapes/btTriangleCallback.h"
 #include "BulletCollision/Gimpact/btGImpactShape.h"
+#include "bullet_bridge/shapes/field_distance.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
@@ -38,14 +39,35 @@ Box localBox(const Pose& pose, const Box& world)
     return {center - reach, center + reach};
 }
 
-/// Keeps the triangles that Bullet's shape says are in the box.
+/// A program's own shape may hand over all its triangles, whatever the box.
+bool looksAtBox(const btCollisionShape& sheet)
+{
+    const int type = sheet.getShapeType();
+    return type != CUSTOM_CONCAVE_SHAPE_TYPE && type != FAST_CONCAVE_MESH_PROXYTYPE;
+}
+
+bool overlaps(const Box& box, const btVector3* corners)
+{
+    for (int c = 0; c < 3; ++c)
+    {
+        const double a = corners[0][c], b = corners[1][c], d = corners[2][c];
+        if (std::min({a, b, d}) > box.m_high[c] || std::max({a, b, d}) < box.m_low[c]) return false;
+    }
+    return true;
+}
+
+/// Keeps the triangles that the shape says are in the box, if it looks at it.
 class Collector : public btTriangleCallback
 {
 public:
-    Collector(const Pose& pose, std::vector<SoupTriangle>& triangles) : m_pose(pose), m_triangles(triangles) {}
+    Collector(const ShapeLeaf& leaf, const Box& box, std::vector<SoupTriangle>& triangles)
+        : m_pose(leaf.m_pose), m_box(box), m_looksAtBox(looksAtBox(*leaf.m_shape)), m_triangles(triangles)
+    {
+    }
 
     void processTriangle(btVector3* corners, int part, int index) override
     {
+        if (!m_looksAtBox && !overlaps(m_box, corners)) return;
         SoupTriangle t;
         for (int a = 0; a < 3; ++a) t.m_corners[a] = m_pose.toWorld(vec3(corners[a]));
         const Vec3 e0 = t.m_corners[1] - t.m_corners[0], e1 = t.m_corners[2] - t.m_corners[1],
@@ -61,6 +83,8 @@ public:
 
 private:
     const Pose& m_pose;
+    const Box& m_box;
+    const bool m_looksAtBox;
     std::vector<SoupTriangle>& m_triangles;
 };
 
@@ -101,10 +125,10 @@ void forEachTriangle(const btCollisionShape& sheet, const btVector3& low, const 
 void TriangleSoup::collect(const ShapeLeaf& leaf, const Vec3& low, const Vec3& high)
 {
     m_triangles.clear();
-    if (!leaf.m_shape->isConcave() || !isFinite(low) || !isFinite(high)) return;
+    if (!isSheet(*leaf.m_shape) || !isFinite(low) || !isFinite(high)) return;
     const Box local = localBox(leaf.m_pose, {low, high});
     const btVector3 localLow = bulletVector(local.m_low), localHigh = bulletVector(local.m_high);
-    Collector collector(leaf.m_pose, m_triangles);
+    Collector collector(leaf, local, m_triangles);
     forEachTriangle(*leaf.m_shape, localLow, localHigh, collector);
     m_low = low;
     m_high = high;

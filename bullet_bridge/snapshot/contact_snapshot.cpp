@@ -117,8 +117,8 @@ bool isClusterJoint(const HeldJoint& joint)
 
 void checkHeld(const HeldJoint& joint, const FemSoftBody& fem)
 {
-    if (joint.m_kind < HeldJoint::Kind::anchor || joint.m_kind > HeldJoint::Kind::angularJoint)
-        reject("the kind of a joint is ", static_cast<int>(joint.m_kind), ", not in [0, 4]");
+    if (joint.m_kind < HeldJoint::Kind::anchor || joint.m_kind > HeldJoint::Kind::spring)
+        reject("the kind of a joint is ", static_cast<int>(joint.m_kind), ", not in [0, 5]");
     if (joint.m_node < (isAnchor(joint) ? 0 : -1) || joint.m_node >= nodesOf(fem))
         reject("the node of a joint is ", joint.m_node, ", not in [0, ", nodesOf(fem), ")");
     checkSane("a joint", joint.m_point, joint.m_impulse, joint.m_error);
@@ -130,6 +130,16 @@ void checkAttachment(const AttachmentSnapshot& a, const FemSoftBody& fem, const 
     if (const FemSoftBody* other = world.bodyOf(a.m_other))
         for (int node : a.m_attachment.m_otherNodes) checkNode(node, *other, "an attachment's other side");
     for (double weight : a.m_attachment.m_weights) checkSane("an attachment", weight);
+    for (double value : {a.m_attachment.m_area, a.m_attachment.m_compliance})
+        if (!(value >= 0 && std::isfinite(value))) reject("an area or compliance of a weld is ", value, ", below 0");
+}
+
+void checkWeld(const Weld& weld, const FemSoftBody& fem)
+{
+    for (const std::array<int, 3>& face : weld.m_faces)
+        for (int node : face) checkNode(node, fem, "a weld");
+    for (double limit : {weld.m_breakForce, weld.m_breakStress, weld.m_breakStretch})
+        if (!(limit > 0)) reject("a limit of a weld is ", limit, ", not above 0");
 }
 
 // Finds the user's joint among those of the bodies.
@@ -173,7 +183,17 @@ void restoreJoints(const ContactSnapshot& s, const WorldIds& world, HeldJoints& 
         joints.m_attachments.back().m_other = other->m_softBody;
         joints.m_attachments.back().m_otherMark = other->m_mark;
     }
+    joints.m_welds.clear();
+    for (const WeldSnapshot& w : s.m_welds)
+    {
+        const FemSoftBody* other = world.bodyOf(w.m_other);
+        if (!other) continue;
+        joints.m_welds.push_back(w.m_weld);
+        joints.m_welds.back().m_other = other->m_softBody;
+    }
     joints.m_lastId = s.m_lastAttachment;
+    for (const ClothAttachment& a : joints.m_clothAttachments)  // they stay as they are
+        joints.m_lastId = std::max(joints.m_lastId, a.m_id);
 }
 
 }  // namespace
@@ -205,6 +225,7 @@ ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
         const bool here = other && other->m_mark == attachment.m_otherMark;
         s.m_attachments.push_back({attachment, here ? world.idOf(attachment.m_other) : WorldIds::kGone});
     }
+    for (const Weld& weld : fem.m_joints.m_welds) s.m_welds.push_back({weld, world.idOf(weld.m_other)});
     s.m_lastAttachment = fem.m_joints.m_lastId;
     s.m_place = fem.m_surface.notedPlace();
     return s;
@@ -221,6 +242,7 @@ void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& wor
     for (const ImpactSnapshot& impact : s.m_impacts) checkImpact(impact.m_impact, fem, world.bodyOf(impact.m_other));
     for (const HeldSnapshot& held : s.m_held) checkHeld(held.m_joint, fem);
     for (const AttachmentSnapshot& a : s.m_attachments) checkAttachment(a, fem, world);
+    for (const WeldSnapshot& w : s.m_welds) checkWeld(w.m_weld, fem);
     if (s.m_lastAttachment < 0) reject("the last attachment's handle is ", s.m_lastAttachment, ", below 0");
     const std::size_t vertices = fem.m_surface.nodes().size();
     if (!s.m_place.empty() && s.m_place.size() != vertices)

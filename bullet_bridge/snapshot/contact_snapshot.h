@@ -27,6 +27,13 @@ struct AttachmentSnapshot
     int m_other = WorldIds::kGone;
 };
 
+/// A Weld likewise.
+struct WeldSnapshot
+{
+    Weld m_weld;
+    int m_other = WorldIds::kGone;
+};
+
 /// An Impact likewise.
 struct ImpactSnapshot
 {
@@ -43,6 +50,7 @@ struct ContactSnapshot
     std::vector<ImpactSnapshot> m_impacts;
     std::vector<HeldSnapshot> m_held;
     std::vector<AttachmentSnapshot> m_attachments;
+    std::vector<WeldSnapshot> m_welds;
     int m_lastAttachment = 0;
     std::vector<Vec3> m_place;  ///< see SoftSurface::notedPlace
 };
@@ -111,14 +119,22 @@ void transfer(Bytes& bytes, HeldSnapshot& h)
 template <class Bytes>
 void transfer(Bytes& bytes, AttachmentSnapshot& a)
 {
-    bytes(a.m_attachment.m_id, a.m_attachment.m_node, a.m_other, a.m_attachment.m_otherNodes, a.m_attachment.m_weights);
+    bytes(a.m_attachment.m_id, a.m_attachment.m_node, a.m_other, a.m_attachment.m_otherNodes, a.m_attachment.m_weights,
+          a.m_attachment.m_area, a.m_attachment.m_compliance);
+}
+
+template <class Bytes>
+void transfer(Bytes& bytes, WeldSnapshot& w)
+{
+    bytes(w.m_weld.m_id, w.m_other, w.m_weld.m_faces, w.m_weld.m_breakForce, w.m_weld.m_breakStress,
+          w.m_weld.m_breakStretch);
 }
 
 template <class Bytes>
 void transfer(Bytes& bytes, ContactSnapshot& s)
 {
-    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_impacts, s.m_held, s.m_attachments, s.m_lastAttachment,
-          s.m_place);
+    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_impacts, s.m_held, s.m_attachments, s.m_welds,
+          s.m_lastAttachment, s.m_place);
 }
 
 template <class Bytes>

@@ -9,6 +9,7 @@
 #include "bullet_bridge/contact_patch.h"
 #include "bullet_bridge/friction.h"
 #include "bullet_bridge/joints/node_attachments.h"
+#include "bullet_bridge/joints/welds.h"
 #include "bullet_bridge/nearest_contacts.h"
 #include "bullet_bridge/rigid_proxies.h"
 
@@ -167,7 +168,8 @@ void SoftPairFinder::append(const Roles& roles, double offset)
         contact.m_soft = roles.m_soft.m_fem.pointOn(roles.m_soft.m_index, touch.m_nodes, touch.m_weights);
         contact.m_other = roles.m_other.m_fem.pointOn(roles.m_other.m_index, touch.m_otherNodes, touch.m_otherWeights);
         if (isPointAttached(roles.m_soft.m_fem, contact.m_soft, roles.m_other.m_fem) ||
-            isPointAttached(roles.m_other.m_fem, contact.m_other, roles.m_soft.m_fem))
+            isPointAttached(roles.m_other.m_fem, contact.m_other, roles.m_soft.m_fem) ||
+            areWelded(roles.m_soft.m_fem, contact.m_soft, roles.m_other.m_fem, contact.m_other))
             continue;
         contact.m_point = 0.5 * (interpolated(soft.position(), touch.m_nodes, touch.m_weights) +
                                  interpolated(other.position(), touch.m_otherNodes, touch.m_otherWeights));

@@ -7,6 +7,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/contact_patch.h"
+#include "bullet_bridge/joints/welds.h"
 #include "bullet_bridge/rigid_proxies.h"
 #include "bullet_fem/fem/common/threads.h"
 
@@ -119,7 +120,7 @@ void SoftPairSearch::listTouching(const std::vector<FemSoftBody*>& bodies)
         for (const btSoftBody* other : bodies[a]->m_touchingSoft)
         {
             const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(other, 0));
-            if (at != m_byAddress.end() && at->first == other)
+            if (at != m_byAddress.end() && at->first == other && mayTouch(*bodies[a], *bodies[at->second]))
                 m_touching.emplace_back(std::min(a, at->second), std::max(a, at->second));
         }
     std::sort(m_touching.begin(), m_touching.end());

@@ -29,11 +29,21 @@ struct Rounding
         return static_cast<double>(single);
     }
     Vec3 operator()(const Vec3& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
-    Material operator()(const Material& m) const
+    Material operator()(Material m) const
     {
-        constexpr double kMostPoisson = 0.49;  // the plug-in, too, takes its rounded value for what is meant
-        return {(*this)(m.m_youngModulus), m.m_poissonRatio == kMostPoisson ? kMostPoisson : (*this)(m.m_poissonRatio),
-                (*this)(m.m_density), (*this)(m.m_massDamping), (*this)(m.m_stiffnessDamping)};
+        // The plug-in, too, takes its rounded value for what is meant.
+        constexpr double kMostPoisson = Material::kMostPoissonRatio;
+        if (m.m_poissonRatio != kMostPoisson) m.m_poissonRatio = (*this)(m.m_poissonRatio);
+        for (double* value : {&m.m_youngModulus, &m.m_density, &m.m_massDamping, &m.m_stiffnessDamping,
+                              &m.m_yieldStress, &m.m_hardeningModulus, &m.m_plasticCreep, &m.m_mostPlasticStrain})
+            *value = (*this)(*value);
+        for (PronyTerm& term : m.m_relaxation) term = {(*this)(term.m_share), (*this)(term.m_time)};
+        return m;
+    }
+    ElementMaterials operator()(ElementMaterials materials) const
+    {
+        for (MaterialRegion& region : materials.m_regions) region.m_material = (*this)(region.m_material);
+        return materials;
     }
 };
 
@@ -72,14 +82,20 @@ struct Given
 
 // The masses that the plug-in gives: with a density those of the rounded mesh, as setMaterial does; without one
 // water's, as btFemHelpers does.
-void setMasses(BakedBody& body, const Given& given, const TetMesh& mesh, double density, const Rounding& round)
+void setMasses(BakedBody& body, const Given& given, const RestShape& shape, const Rounding& round)
 {
-    const bool own = density > 0;
+    const bool own = shape.m_material.m_density > 0;
     const std::vector<double> mass =
-        own ? lumpedMasses(mesh, body.m_filled, density * body.m_massScale)
+        own ? lumpedMasses(shape.m_mesh, body.m_filled, shape.m_materials, body.m_massScale)
             : lumpedMasses(given.m_mesh, given.m_filled, kWaterDensity * given.m_massScale);
     for (std::size_t i = 0; i < mass.size(); ++i)
         body.m_inverseMass.push_back(mass[i] > 0 ? round(1 / (own ? mass[i] : round(mass[i]))) : 1);
+}
+
+ElementMaterials materialsOf(const BakeSettings& settings)
+{
+    if (settings.m_labels.empty()) return settings.m_material;
+    return ElementMaterials::ofLabels(settings.m_labels, settings.m_regionMaterials);
 }
 
 BakedBody bakeMesh(const Given& given, const BakeSettings& settings)
@@ -97,11 +113,11 @@ BakedBody bakeMesh(const Given& given, const BakeSettings& settings)
     }
     if (!filled) body.m_filled.clear();
     for (const Vec3& X : given.m_mesh.restPositions()) body.m_positions.push_back(round(X));
-    settings.m_material.validate();
-    const Material material = round(settings.m_material);
-    auto shape =
-        std::make_shared<const RestShape>(meshAround(body.m_positions, given.m_mesh.tets()), material, body.m_filled);
-    setMasses(body, given, shape->m_mesh, material.m_density, round);
+    const ElementMaterials materials = materialsOf(settings);
+    materials.validate(given.m_mesh.tetCount());
+    auto shape = std::make_shared<const RestShape>(meshAround(body.m_positions, given.m_mesh.tets()), round(materials),
+                                                   body.m_filled);
+    setMasses(body, given, *shape, round);
 
     FactorInput input;
     for (const double inverse : body.m_inverseMass) input.m_mass.push_back(1 / inverse);

@@ -31,9 +31,30 @@ std::uint64_t headerChecksum(BakedHeader header)
     return checksumOf(&header, sizeof header);
 }
 
-Material materialOf(const BakedHeader& h)
+Material yielding(Material material, const BakedPlasticity& p)
 {
-    return {h.m_youngModulus, h.m_poissonRatio, h.m_density, h.m_massDamping, h.m_stiffnessDamping};
+    if (p.m_yieldStress == 0 && p.m_hardeningModulus == 0 && p.m_creep == 0 && p.m_mostStrain == 0) return material;
+    material.m_yieldStress = static_cast<double>(p.m_yieldStress);
+    material.m_hardeningModulus = static_cast<double>(p.m_hardeningModulus);
+    material.m_plasticCreep = static_cast<double>(p.m_creep);
+    material.m_mostPlasticStrain = static_cast<double>(p.m_mostStrain);
+    return material;
+}
+
+// Of a header, or of a region.
+template <class Numbers>
+Material materialOf(const Numbers& h)
+{
+    Material material;
+    material.m_youngModulus = h.m_youngModulus;
+    material.m_poissonRatio = h.m_poissonRatio;
+    material.m_density = h.m_density;
+    material.m_massDamping = h.m_massDamping;
+    material.m_stiffnessDamping = h.m_stiffnessDamping;
+    material.m_meanDilatation = static_cast<MeanDilatation>(h.m_meanDilatation & ~kBakedFlags);
+    if (h.m_meanDilatation & kBakedNeoHooke) material.m_law = ElasticLaw::neoHooke;
+    material.m_accurateBending = (h.m_meanDilatation & kBakedAccurateBending) != 0;
+    return yielding(material, h.m_plasticity);
 }
 
 // True if it is text that can be shown, with zeros behind.
@@ -52,11 +73,12 @@ void checkVersion(const BakedHeader& header)
         reject("it was baked on a machine of the other byte order; bake it on one of this machine's");
     if (header.m_byteOrder != kByteOrder) reject("its byte order mark is damaged", kDamaged);
     if (header.m_version < kBakedVersion)
-        reject("its format has the older version ", header.m_version, ", and this program reads version ",
-               kBakedVersion, " alone; bake it anew");
-    if (header.m_version > kBakedVersion)
-        reject("its format has the newer version ", header.m_version, ", and this program reads version ",
-               kBakedVersion, " alone; build the program with a newer BulletFEM, or bake it with this one");
+        reject("its format has the older version ", header.m_version, ", and this program reads versions ",
+               kBakedVersion, " and ", kBakedRegionsVersion, " alone; bake it anew");
+    if (header.m_version > kBakedRegionsVersion)
+        reject("its format has the newer version ", header.m_version, ", and this program reads versions ",
+               kBakedVersion, " and ", kBakedRegionsVersion,
+               " alone; build the program with a newer BulletFEM, or bake it with this one");
     if (header.m_headerChecksum != headerChecksum(header)) reject("its header is damaged", kDamaged);
 }
 
@@ -74,6 +96,8 @@ void checkCounts(const BakedHeader& h)
     if (h.m_panelFloats > h.m_fileBytes / sizeof(float) || h.m_entries > kMostEntries || h.m_fullBytes > kMostEntries)
         reject("its factor has ", h.m_panelFloats, " floats of ", h.m_fullBytes, " bytes and ", h.m_entries, " entries",
                kDamaged);
+    if (h.m_regions > h.m_tets || (h.m_regions > 0) != (h.m_version == kBakedRegionsVersion))
+        reject("it has ", h.m_regions, " regions of ", h.m_tets, " elements in version ", h.m_version, kDamaged);
     if (h.m_surfaceCollides > (h.m_triangles > 0 ? 1 : 0))
         reject("its header says that a surface of ", h.m_triangles, " triangles collides", kDamaged);
     if (h.m_lowMemory > 1 || h.m_singlePrecision > 1 || (h.m_restBlocks > 0) != (h.m_lowMemory == 1))
@@ -82,14 +106,13 @@ void checkCounts(const BakedHeader& h)
 
 void checkValues(const BakedHeader& h)
 {
+    if ((h.m_meanDilatation & ~kBakedFlags) > static_cast<std::uint32_t>(MeanDilatation::off))
+        reject("its mean dilatation is ", h.m_meanDilatation, ", not in [0, 2]", kDamaged);
     materialOf(h).validate();
     if (!(h.m_step >= 1e-6 && h.m_step <= 1)) reject("its step is ", h.m_step, " s, not in [1e-6, 1]", kDamaged);
     if (!(h.m_massScale > 0) || !std::isfinite(h.m_massScale))
         reject("its mass scale is ", h.m_massScale, ", not in (0, inf)", kDamaged);
-    const auto isZero = [](char c) { return c == '\0'; };
-    if (!isText(h.m_backend) || !isText(h.m_ordering) || h.m_reserved != 0 ||
-        !std::all_of(h.m_reserved2.begin(), h.m_reserved2.end(), isZero))
-        reject("its header has values of no meaning", kDamaged);
+    if (!isText(h.m_backend) || !isText(h.m_ordering)) reject("its header has values of no meaning", kDamaged);
 }
 
 }  // namespace
@@ -113,7 +136,7 @@ void sealHeader(BakedHeader& header, const unsigned char* body, std::size_t body
 {
     header.m_magic = kMagic;
     header.m_byteOrder = kByteOrder;
-    header.m_version = kBakedVersion;
+    header.m_version = header.m_regions > 0 ? kBakedRegionsVersion : kBakedVersion;
     header.m_fileBytes = sizeof header + bodyBytes;
     header.m_bodyChecksum = checksumOf(body, bodyBytes);
     header.m_headerChecksum = headerChecksum(header);
@@ -135,6 +158,14 @@ BakedHeader openHeader(const unsigned char* data, std::size_t size, std::uint64_
     return header;
 }
 
+ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& arrays)
+{
+    if (header.m_regions == 0) return materialOf(header);
+    std::vector<MaterialRegion> regions;
+    for (const BakedRegion& r : arrays.m_regions) regions.push_back({r.m_label, materialOf(r)});
+    return {std::move(regions), arrays.m_regionOf};
+}
+
 BakedFileInfo infoOf(const BakedHeader& h)
 {
     BakedFileInfo info;
@@ -148,6 +179,7 @@ BakedFileInfo infoOf(const BakedHeader& h)
     info.m_embeddedTriangles = static_cast<int>(h.m_triangles);
     info.m_surfaceCollides = h.m_surfaceCollides == 1;
     info.m_material = materialOf(h);
+    info.m_regions = std::max(1, static_cast<int>(h.m_regions));
     info.m_step = h.m_step;
     info.m_singlePrecision = h.m_singlePrecision == 1;
     info.m_factor.m_backend = h.m_backend.data();

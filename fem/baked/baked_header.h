@@ -12,11 +12,23 @@
 namespace bullet_fem
 {
 
-/// The version of the format. A reader takes its own alone: files are made anew in seconds.
-constexpr std::uint32_t kBakedVersion = 1;
+/// The version of the format. A reader takes no other: files are made anew in seconds.
+constexpr std::uint32_t kBakedVersion = 2;
+
+/// That of bodies whose elements are in regions of several materials, which readers of before refuse.
+constexpr std::uint32_t kBakedRegionsVersion = 3;
 
 /// Sections, and with them the panels, start at multiples of this.
 constexpr std::size_t kBakedAlignment = 64;
+
+/// The bit of m_meanDilatation of a Neo-Hookean material; readers that do not know it refuse the value.
+constexpr std::uint32_t kBakedNeoHooke = 4;
+
+/// How a material yields; all 0: the defaults, it does not.
+struct BakedPlasticity
+{
+    float m_yieldStress, m_hardeningModulus, m_creep, m_mostStrain;
+};
 
 /// The first bytes of a file, as they lie there. What has no use is 0.
 struct BakedHeader
@@ -27,21 +39,44 @@ struct BakedHeader
     std::uint64_t m_panelFloats, m_entries, m_fullBytes;
     std::uint32_t m_nodes, m_tets, m_filled, m_embedded, m_triangles;
     std::uint32_t m_freeNodes, m_supernodes, m_rows, m_restBlocks;
-    std::uint32_t m_lowMemory, m_singlePrecision, m_reserved;
+    std::uint32_t m_lowMemory, m_singlePrecision, m_meanDilatation;
     double m_step, m_massScale;
     double m_youngModulus, m_poissonRatio, m_density, m_massDamping, m_stiffnessDamping;
     std::array<char, 48> m_backend;  // with zeros behind
     std::array<char, 16> m_ordering;
     std::uint32_t m_surfaceCollides;
-    std::array<char, 20> m_reserved2;
+    BakedPlasticity m_plasticity;
+    std::uint32_t m_regions;  // 0: one material, which stands above
 };
 static_assert(sizeof(BakedHeader) == 256 && sizeof(BakedHeader) % kBakedAlignment == 0);
+
+/// Added to the mean dilatation of a material that bends accurately.
+constexpr std::uint32_t kBakedAccurateBending = 8;
+constexpr std::uint32_t kBakedFlags = kBakedNeoHooke | kBakedAccurateBending;
+
+/// Mean dilatation and accurate bending of a material in one number.
+inline std::uint32_t averagingOf(const Material& material)
+{
+    return static_cast<std::uint32_t>(material.m_meanDilatation) |
+           (material.m_accurateBending ? kBakedAccurateBending : 0) |
+           (material.m_law == ElasticLaw::neoHooke ? kBakedNeoHooke : 0);
+}
 
 /// A supernode as it stands in a file; columns and rows lie one after the other.
 struct BakedSupernode
 {
     std::int32_t m_columns, m_rows, m_parent;
 };
+
+/// A region as it stands in a file.
+struct BakedRegion
+{
+    std::int32_t m_label;
+    std::uint32_t m_meanDilatation;
+    double m_youngModulus, m_poissonRatio, m_density, m_massDamping, m_stiffnessDamping;
+    BakedPlasticity m_plasticity;
+};
+static_assert(sizeof(BakedRegion) == 64);
 
 /// All that follows the panels.
 struct BakedArrays
@@ -55,6 +90,8 @@ struct BakedArrays
     std::vector<int> m_vertexTet, m_order, m_row, m_restRowStart, m_restColumn;
     std::vector<BakedSupernode> m_supernodes;
     std::vector<unsigned char> m_sides, m_fixed;
+    std::vector<BakedRegion> m_regions;  // with m_regionOf: none of a body of one material
+    std::vector<std::int32_t> m_regionOf;
 };
 
 /// Calls section(array, length) for each of them, in the order of the file.
@@ -78,6 +115,8 @@ void forEachSection(Arrays& a, const BakedHeader& h, const Section& section)
     section(a.m_restColumn, h.m_restBlocks);
     section(a.m_sides, h.m_tets);
     section(a.m_fixed, h.m_nodes);
+    section(a.m_regions, h.m_regions);
+    section(a.m_regionOf, h.m_regions > 0 ? h.m_tets : 0);
 }
 
 /// Where the next section starts after so many bytes.
@@ -99,6 +138,9 @@ void sealHeader(BakedHeader& header, const unsigned char* body, std::size_t body
 /// is wrong and what to do; the header that it returns has its counts in keeping with the file's length, and values in
 /// their ranges.
 BakedHeader openHeader(const unsigned char* data, std::size_t size, std::uint64_t fileBytes);
+
+/// The materials that a file's arrays and header tell, unchecked.
+ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& arrays);
 
 /// What a header tells.
 BakedFileInfo infoOf(const BakedHeader& header);

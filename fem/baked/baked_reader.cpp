@@ -13,6 +13,7 @@
 #include "fem/baked/file_bytes.h"
 #include "fem/common/attempt.h"
 #include "fem/common/message.h"
+#include "fem/common/reason.h"
 #include "fem/factor/rest_factor.h"
 
 namespace bullet_fem
@@ -30,7 +31,7 @@ auto readNamed(const std::string& name, const Read& read)
     }
     catch (const std::exception& error)
     {
-        throw std::runtime_error("cannot read '" + name + "': " + error.what());
+        throw std::runtime_error("cannot read '" + name + "': " + reasonOf(error));
     }
 }
 
@@ -83,9 +84,9 @@ BakedBody assemble(const BakedHeader& header, BakedArrays arrays, const FileByte
     checkValues(header, arrays);
     std::vector<Vec3> X = arrays.m_positions;
     for (Vec3& x : X) x -= arrays.m_positions[0];
-    const Material material = infoOf(header).m_material;
+    const ElementMaterials materials = materialsOf(header, arrays);
     auto shape = std::make_shared<const RestShape>(
-        TetMesh::withSides(std::move(X), std::move(arrays.m_tets), arrays.m_sides), material, arrays.m_filled);
+        TetMesh::withSides(std::move(X), std::move(arrays.m_tets), arrays.m_sides), materials, arrays.m_filled);
     refuseFreeLooseNodes(shape->m_mesh, arrays.m_fixed);
 
     FactorOfModel factor;
@@ -93,7 +94,7 @@ BakedBody assemble(const BakedHeader& header, BakedArrays arrays, const FileByte
     for (const double inverse : arrays.m_inverseMass) factor.m_input.m_mass.push_back(1 / inverse);
     factor.m_input.m_fixed = std::move(arrays.m_fixed);
     factor.m_input.m_step = header.m_step;
-    factor.m_material = material;
+    factor.m_materials = materials;
     factor.m_report = infoOf(header).m_factor;
     BakedBody body;
     for (std::size_t v = 0; v < arrays.m_vertexTet.size(); ++v)
@@ -121,7 +122,7 @@ BakedBody open(const FileBytes& file)
     }
     catch (const std::invalid_argument& error)
     {
-        reject("it is no body: ", error.what(), "; bake it anew");
+        reject("it is no body: ", reasonOf(error), "; bake it anew");
     }
 }
 

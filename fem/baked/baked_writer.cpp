@@ -10,6 +10,7 @@
 #include "fem/common/attempt.h"
 #include "fem/common/message.h"
 #include "fem/common/output_file.h"
+#include "fem/common/reason.h"
 #include "fem/factor/rest_factor.h"
 
 namespace bullet_fem
@@ -27,6 +28,13 @@ std::uint32_t countOf(std::size_t size)
 {
     if (size > UINT32_MAX) reject("it has lists of ", size, " entries; make a coarser mesh");
     return static_cast<std::uint32_t>(size);
+}
+
+BakedPlasticity plasticityOf(const Material& material)
+{
+    if (!material.yields()) return {};
+    return {static_cast<float>(material.m_yieldStress), static_cast<float>(material.m_hardeningModulus),
+            static_cast<float>(material.m_plasticCreep), static_cast<float>(material.m_mostPlasticStrain)};
 }
 
 BakedHeader headerOf(const BakedBody& body, const BakedArrays& arrays)
@@ -47,6 +55,7 @@ BakedHeader headerOf(const BakedBody& body, const BakedArrays& arrays)
     h.m_supernodes = countOf(arrays.m_supernodes.size());
     h.m_rows = countOf(arrays.m_row.size());
     h.m_restBlocks = countOf(arrays.m_restColumn.size());
+    h.m_regions = countOf(arrays.m_regions.size());
     h.m_lowMemory = h.m_restBlocks > 0;
     h.m_surfaceCollides = body.m_surfaceCollides;
     h.m_singlePrecision = body.m_singlePrecision;
@@ -57,6 +66,8 @@ BakedHeader headerOf(const BakedBody& body, const BakedArrays& arrays)
     h.m_density = material.m_density;
     h.m_massDamping = material.m_massDamping;
     h.m_stiffnessDamping = material.m_stiffnessDamping;
+    h.m_meanDilatation = averagingOf(material);
+    h.m_plasticity = plasticityOf(material);
     setText(h.m_backend, report.m_backend);
     setText(h.m_ordering, report.m_ordering);
     return h;
@@ -94,6 +105,12 @@ BakedArrays arraysOf(const BakedBody& body)
         a.m_restColumn = factor.rest().m_column;
         a.m_restValues = factor.rest().m_values;
     }
+    const ElementMaterials& materials = model.shape().m_materials;
+    if (materials.isUniform()) return a;
+    a.m_regionOf = materials.m_regionOf;
+    for (const auto& [label, m] : materials.m_regions)
+        a.m_regions.push_back({label, averagingOf(m), m.m_youngModulus, m.m_poissonRatio, m.m_density, m.m_massDamping,
+                               m.m_stiffnessDamping, plasticityOf(m)});
     return a;
 }
 
@@ -105,7 +122,12 @@ void check(const BakedBody& body)
     if (body.m_positions.size() != n || body.m_inverseMass.size() != n)
         reject("it has ", body.m_positions.size(), " positions and ", body.m_inverseMass.size(), " inverse masses for ",
                n, " nodes");
-    if (!(body.m_model->shape().m_material == body.m_model->sharedFactor().m_material))
+    for (const auto& [label, material] : body.m_model->shape().m_materials.m_regions)
+        if (material.relaxationTerms() > 0)
+            reject(
+                "its material has relaxation terms, which a file does not keep; bake it without, and give them to the "
+                "body that is read with setMaterial: the factor stays exact");
+    if (body.m_model->shape().m_materials != body.m_model->sharedFactor().m_materials)
         reject("its factor was made for another material; bake it for the one that it has");
 }
 
@@ -146,7 +168,7 @@ bool writeBakedBody(const std::string& path, const BakedBody& body, std::string*
                        }
                        catch (const std::exception& error)
                        {
-                           throw std::runtime_error("cannot write '" + path + "': " + error.what());
+                           throw std::runtime_error("cannot write '" + path + "': " + reasonOf(error));
                        }
                        OutputFile file(path);
                        file.write(bytes.data(), bytes.size());

@@ -7,9 +7,15 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
-#if defined(__unix__) || defined(__APPLE__)
-#define BULLETFEM_HAS_MMAP
+#ifdef _WIN32
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -30,7 +36,11 @@ namespace
 
 std::string systemReason()
 {
+#ifdef _WIN32
+    return std::system_category().message(static_cast<int>(GetLastError()));
+#else
     return std::strerror(errno);
+#endif
 }
 
 // Room for so many bytes.
@@ -63,7 +73,28 @@ FileBytes readFile(const std::string& path)
     return {data, static_cast<std::size_t>(length)};
 }
 
-#ifdef BULLETFEM_HAS_MMAP
+#ifdef _WIN32
+FileBytes mapFile(const std::string& path)
+{
+    fileLength(path);
+    constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+    const HANDLE file =
+        CreateFileA(path.c_str(), GENERIC_READ, kShared, nullptr, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (file == INVALID_HANDLE_VALUE) fail("it cannot be opened: " + systemReason() + "; check its permissions");
+    LARGE_INTEGER length = {};
+    const std::size_t size = GetFileSizeEx(file, &length) ? static_cast<std::size_t>(length.QuadPart) : 0;
+    const HANDLE mapping = size > 0 ? CreateFileMappingA(file, nullptr, PAGE_READONLY, 0, 0, nullptr) : nullptr;
+    void* const address = mapping ? MapViewOfFile(mapping, FILE_MAP_READ, 0, 0, 0) : nullptr;
+    if (mapping) CloseHandle(mapping);  // the view keeps both
+    CloseHandle(file);
+    if (size > 0 && !address) return readFile(path);  // some file systems cannot
+    const auto unmap = [](const unsigned char* data)
+    {
+        if (data) UnmapViewOfFile(data);
+    };
+    return {std::shared_ptr<const unsigned char>(static_cast<const unsigned char*>(address), unmap), size};
+}
+#else
 FileBytes mapFile(const std::string& path)
 {
     fileLength(path);  // before open, which would wait at a pipe
@@ -84,11 +115,6 @@ FileBytes mapFile(const std::string& path)
         if (data) munmap(const_cast<unsigned char*>(data), size);
     };
     return {std::shared_ptr<const unsigned char>(static_cast<const unsigned char*>(address), unmap), size};
-}
-#else
-FileBytes mapFile(const std::string& path)
-{
-    return readFile(path);
 }
 #endif
 

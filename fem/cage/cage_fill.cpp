@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fem/cage/cage_stages.h"
 #include "fem/common/message.h"
 
 namespace bullet_fem
@@ -39,9 +40,9 @@ using Weights = std::array<double, 4>;
 class Filler
 {
 public:
-    Filler(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)
+    Filler(const CageLattice& lattice, const SurfaceWinding& winding, bool closed, const CageSettings& settings)
         : m_lattice(lattice),
-          m_winding(winding),
+          m_winding(winding, 2 * lattice.cellSize()),
           m_closed(closed),
           m_settings(settings),
           m_samples(spreadSamples(settings.m_fillSamples)),
@@ -55,11 +56,14 @@ public:
         if (atLeast > m_settings.m_maxTets) rejectTooMany(atLeast);
         m_fill.m_kept.assign(m_lattice.cubeCount(), 0);
         for (int cube = 0; cube < m_lattice.cubeCount(); ++cube)
+        {
+            tellLoop(m_settings.m_progress, cube, m_lattice.cubeCount(), kWholeFound, 1);
             for (int tet = 0; tet < 5; ++tet)
             {
                 const double fraction = fractionOf(cube, tet);
                 if (fraction > 0 || m_lattice.entered(cube) >> tet & 1) keep({cube, tet, fraction});
             }
+        }
         report(m_tally, m_fill);
         return std::move(m_fill);
     }
@@ -71,6 +75,7 @@ public:
         double atLeast = 0;
         for (int cube = 0, previous = -1; cube < m_lattice.cubeCount(); previous = cube++)
         {
+            tellLoop(m_settings.m_progress, cube, m_lattice.cubeCount(), 0, kWholeFound);
             const bool sameAsPrevious = m_closed && cube % m_lattice.cubes()[0] != 0 && m_lattice.touched(cube) == 0 &&
                                         m_lattice.touched(previous) == 0;
             if (sameAsPrevious)
@@ -90,7 +95,8 @@ public:
     double likely() const { return m_likely; }
 
 private:
-    static constexpr std::uint8_t kAll = 31;  // the five tets of a cube
+    static constexpr std::uint8_t kAll = 31;    // the five tets of a cube
+    static constexpr double kWholeFound = 0.2;  // share of the work
 
     void findWholeTetsOf(int cube)
     {
@@ -175,7 +181,7 @@ private:
     }
 
     const CageLattice& m_lattice;
-    const WindingNumber& m_winding;
+    WindingNear m_winding;
     const bool m_closed;
     const CageSettings& m_settings;
     const std::vector<Weights> m_samples;
@@ -190,28 +196,30 @@ private:
 
 }  // namespace
 
-CageFill fillCage(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)
+CageFill fillCage(const CageLattice& lattice, const SurfaceWinding& winding, bool closed, const CageSettings& settings)
 {
     return Filler(lattice, winding, closed, settings).run();
 }
 
-void refill(const MovedTets& tets, const WindingNumber& winding, const CageSettings& settings, CageFill& fill)
+void refill(const MovedTets& tets, const SurfaceWinding& winding, const CageSettings& settings, CageFill& fill)
 {
     const std::vector<Weights> samples = spreadSamples(settings.m_fillSamples);
+    WindingNear near(winding, 2 * settings.m_cellSize);
     const std::vector<Vec3>&X = tets.m_after.restPositions(), &before = tets.m_before.restPositions();
     for (int e = 0; e < tets.m_after.tetCount(); ++e)
     {
+        tellLoop(settings.m_progress, e, tets.m_after.tetCount(), 0, 1);
         const Tet& t = tets.m_after.tets()[e];
         if (std::all_of(t.begin(), t.end(), [&](int i) { return norm(X[i] - before[i]) == 0; })) continue;
         int hits = 0;
         for (const Weights& w : samples)
             hits +=
-                isInside(winding.at(X[t[0]] * w[0] + X[t[1]] * w[1] + X[t[2]] * w[2] + X[t[3]] * w[3] - tets.m_centre));
+                isInside(near.at(X[t[0]] * w[0] + X[t[1]] * w[1] + X[t[2]] * w[2] + X[t[3]] * w[3] - tets.m_centre));
         fill.m_tets[e].m_fraction = static_cast<double>(hits) / settings.m_fillSamples;
     }
 }
 
-double countTets(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings)
+double countTets(const CageLattice& lattice, const SurfaceWinding& winding, bool closed, const CageSettings& settings)
 {
     Filler filler(lattice, winding, closed, settings);
     const double whole = filler.findWholeTets(2.0 * settings.m_targetTets);

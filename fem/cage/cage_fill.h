@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "bullet_fem/fem/cage/winding_number.h"
 #include "fem/cage/cage_lattice.h"
 #include "fem/cage/fill_samples.h"
+#include "fem/cage/winding_near.h"
 
 namespace bullet_fem
 {
@@ -36,7 +36,7 @@ void report(const FillTally& tally, CageFill& fill);
 /// Fills a marked lattice. The winding number is about the centre of the lattice, in metres; `closed` says that the
 /// winding number is constant away from the triangles. Throws std::invalid_argument if more than m_maxTets tets are
 /// kept, before they are stored.
-CageFill fillCage(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings);
+CageFill fillCage(const CageLattice& lattice, const SurfaceWinding& winding, bool closed, const CageSettings& settings);
 
 /// A cage's elements before and after nodes have moved.
 struct MovedTets
@@ -47,10 +47,10 @@ struct MovedTets
 };
 
 /// Measures the filled fractions of the elements that have moved.
-void refill(const MovedTets& tets, const WindingNumber& winding, const CageSettings& settings, CageFill& fill);
+void refill(const MovedTets& tets, const SurfaceWinding& winding, const CageSettings& settings, CageFill& fill);
 
 /// About how many elements fillCage keeps: exactly where the surface is closed and no vertex needs another element.
 /// Counting ends beyond twice m_targetTets.
-double countTets(const CageLattice& lattice, const WindingNumber& winding, bool closed, const CageSettings& settings);
+double countTets(const CageLattice& lattice, const SurfaceWinding& winding, bool closed, const CageSettings& settings);
 
 }  // namespace bullet_fem

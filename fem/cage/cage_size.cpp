@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "fem/cage/cage_fill.h"
+#include "fem/cage/cage_stages.h"
 #include "fem/cage/graded_lattice.h"
 #include "fem/common/message.h"
 
@@ -44,7 +45,7 @@ struct Trial
 class Search
 {
 public:
-    Search(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings)
+    Search(const SurfaceInspection& surface, const SurfaceWinding& winding, const CageSettings& settings)
         : m_surface(surface), m_winding(winding), m_settings(settings)
     {
     }
@@ -65,7 +66,7 @@ public:
         bool knowsFiner = false, knowsCoarser = false;
         for (int n = 0; n < kMostLattices && coarser.m_cell - finer.m_cell > 1e-6; ++n)
         {
-            const Trial trial = look(cell);
+            const Trial trial = look(cell, n);
             if (std::abs(trial.m_excess) < std::abs(best.m_excess)) best = trial;
             if (std::abs(best.m_excess) < kCountTolerance) break;
             const bool tooMany = trial.m_excess > 0;
@@ -102,27 +103,29 @@ private:
         return size;
     }
 
-    Trial look(double cell) const
+    /// At the n-th lattice. How many there will be is not known, so that each takes a share of what is left.
+    Trial look(double cell, int n) const
     {
         const CageSize size = sizeAt(cell);
         CageSettings settings = m_settings;
         settings.m_cellSize = size.m_cellSize;
+        settings.m_progress = stageOf(m_settings.m_progress, n / (n + 3.0), (n + 1) / (n + 4.0));
         CageLattice lattice(m_surface, settings);
         lattice.markSurface(m_surface.m_repaired.m_surface);
-        const double count = countIn(lattice, size.m_grading);
+        const double count = countIn(lattice, settings, size.m_grading);
         return {cell, std::log(std::max(1.0, count) / m_settings.m_targetTets)};
     }
 
-    double countIn(const CageLattice& lattice, const Grading& grading) const
+    double countIn(const CageLattice& lattice, const CageSettings& settings, const Grading& grading) const
     {
         const bool closed = m_surface.m_openEdges == 0;
-        if (!m_graded) return countTets(lattice, m_winding, closed, m_settings);
-        GradedLattice graded({lattice, m_winding, *m_graded, closed, m_settings, grading}, m_settings.m_targetTets);
+        if (!m_graded) return countTets(lattice, m_winding, closed, settings);
+        GradedLattice graded({lattice, m_winding, *m_graded, closed, settings, grading}, m_settings.m_targetTets);
         return graded.count(2.0 * m_settings.m_targetTets);
     }
 
     const SurfaceInspection& m_surface;
-    const WindingNumber& m_winding;
+    const SurfaceWinding& m_winding;
     const CageSettings& m_settings;
     std::optional<GradedSurface> m_graded;
     double m_longest = std::numeric_limits<double>::infinity();  // cell [m]
@@ -158,7 +161,7 @@ void checkSettings(const CageSettings& settings)
                "]; choose another m_targetTets or raise m_maxTets");
 }
 
-CageSize findCageSize(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings)
+CageSize findCageSize(const SurfaceInspection& surface, const SurfaceWinding& winding, const CageSettings& settings)
 {
     return Search(surface, winding, settings).run();
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fem/cage/grading.h"
+#include "fem/cage/winding_near.h"
 
 namespace bullet_fem
 {
@@ -21,6 +22,6 @@ struct CageSize
 /// turn over the logarithms, until the count is within 3 % or 20 lattices were looked at. Cells of a graded cage become
 /// up to twice as long as they would be alike; where these are still too many, the grading becomes less. The same bits
 /// on every call. The winding number is about the centre of the surface's bounding box.
-CageSize findCageSize(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings);
+CageSize findCageSize(const SurfaceInspection& surface, const SurfaceWinding& winding, const CageSettings& settings);
 
 }  // namespace bullet_fem

@@ -102,7 +102,7 @@ private:
     /// A boundary triangle whose corner moves straight sweeps a tet: on its inner side, and free of the surface.
     bool staysOutside(int node, const Vec3& to) const
     {
-        if (m_target.m_surface.m_openEdges > 0 && std::abs(m_target.m_winding.at(to)) >= 0.5) return false;
+        if (m_target.m_surface.m_openEdges > 0 && std::abs(m_target.m_winding.m_number.at(to)) >= 0.5) return false;
         return std::all_of(m_trianglesOf[node].begin(), m_trianglesOf[node].end(),
                            [&](int t)
                            {

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/cage/winding_number.h"
 #include "fem/cage/surface_inspection.h"
+#include "fem/cage/winding_near.h"
 
 namespace bullet_fem
 {
@@ -12,9 +12,9 @@ namespace bullet_fem
 struct SnapTarget
 {
     const SurfaceInspection& m_surface;
-    const WindingNumber& m_winding;  ///< about the centre of the surface's bounding box
-    double m_share = 1;              ///< of the way to the nearest point of the surface, in [0, 1]
-    double m_cellSize = 0;           ///< [m]
+    const SurfaceWinding& m_winding;  ///< about the centre of the surface's bounding box
+    double m_share = 1;               ///< of the way to the nearest point of the surface, in [0, 1]
+    double m_cellSize = 0;            ///< [m]
 };
 
 /// Least mean ratio that snapping leaves an element.

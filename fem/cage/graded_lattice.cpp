@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fem/cage/cage_embedding.h"
+#include "fem/cage/cage_stages.h"
 #include "fem/common/message.h"
 
 namespace bullet_fem
@@ -16,6 +17,7 @@ namespace
 
 constexpr double kGradedTouchTolerance = 1e-9;  // of a cell, as in the lattice without grading
 constexpr double kSplitPerKept = 12;            // bounds memory: inner generations and what is dropped
+constexpr double kGraded = 0.3;                 // share of the work
 
 double leastOf(const std::array<double, 4>& weights)
 {
@@ -30,7 +32,10 @@ Vec3 middleOf(const std::array<Vec3, 4>& x)
 }  // namespace
 
 GradedLattice::GradedLattice(const GradingInput& input, double mostTets)
-    : m_input(input), m_tets(input.m_lattice.cubes()), m_samples(spreadSamples(input.m_settings.m_fillSamples))
+    : m_input(input),
+      m_winding(input.m_winding, 2 * input.m_lattice.cellSize()),
+      m_tets(input.m_lattice.cubes()),
+      m_samples(spreadSamples(input.m_settings.m_fillSamples))
 {
     addCubes();
     const std::size_t most = m_tets.tets().size() + static_cast<std::size_t>(kSplitPerKept * mostTets);
@@ -48,6 +53,7 @@ void GradedLattice::addCubes()
     double winding = 0;
     for (int cube = 0; cube < lattice.cubeCount(); ++cube)
     {
+        tellLoop(m_input.m_settings.m_progress, cube, lattice.cubeCount(), 0, kGraded);
         if (lattice.touched(cube) != 0)
         {
             m_tets.addCube(cube, false);
@@ -78,6 +84,7 @@ double GradedLattice::count(double most)
     double sum = 0;
     for (std::size_t n = 0; n < m_leaves.size() && sum <= most; ++n)
     {
+        tellLoop(m_input.m_settings.m_progress, n, m_leaves.size(), kGraded, 1);
         const State state = look(m_leaves[n]);
         if (state == State::unsure)
             sum += isInside(windingAt(middleOf(m_tets.corners(m_leaves[n]))));
@@ -127,8 +134,10 @@ CageFill GradedLattice::fill()
     const int most = m_input.m_settings.m_maxTets;
     if (m_tooLarge) rejectTooMany(most + 1.0);
     CageFill fill;
-    for (const int leaf : m_leaves)
+    for (std::size_t n = 0; n < m_leaves.size(); ++n)
     {
+        tellLoop(m_input.m_settings.m_progress, n, m_leaves.size(), kGraded, 1);
+        const int leaf = m_leaves[n];
         const State state = look(leaf);
         const double fraction = fractionOf(leaf, state);
         if (fraction == 0 && state != State::entered) continue;
@@ -239,7 +248,7 @@ void GradedLattice::report(const std::vector<FilledTet>& kept, CageReport& repor
 double GradedLattice::windingAt(const Vec3& p)
 {
     ++m_sampleCount;
-    return m_input.m_winding.at(m_input.m_lattice.toCentred(p));
+    return m_winding.at(m_input.m_lattice.toCentred(p));
 }
 
 void GradedLattice::rejectTooMany(double atLeast) const

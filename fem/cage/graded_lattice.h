@@ -5,6 +5,7 @@
 #include "bullet_fem/fem/cage/cage_report.h"
 #include "fem/cage/cage_fill.h"
 #include "fem/cage/grading.h"
+#include "fem/cage/winding_near.h"
 
 namespace bullet_fem
 {
@@ -13,7 +14,7 @@ namespace bullet_fem
 struct GradingInput
 {
     const CageLattice& m_lattice;  ///< marked
-    const WindingNumber& m_winding;
+    const SurfaceWinding& m_winding;
     const GradedSurface& m_surface;
     bool m_closed;  ///< the winding number is constant away from the triangles
     const CageSettings& m_settings;
@@ -71,6 +72,7 @@ private:
     [[noreturn]] void rejectTooMany(double atLeast) const;
 
     const GradingInput m_input;
+    WindingNear m_winding;
     BisectedTets m_tets;
     std::vector<int> m_leaves;  // depth first from cube to cube
     std::vector<char> m_kept;   // per tet

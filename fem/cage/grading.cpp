@@ -144,7 +144,7 @@ void follow(const Wish& wish, const BisectedTets& tets, std::vector<Wish>& wishe
 
 }  // namespace
 
-GradedSurface::GradedSurface(const SurfaceInspection& surface, const WindingNumber& winding,
+GradedSurface::GradedSurface(const SurfaceInspection& surface, const SurfaceWinding& winding,
                              const CageSettings& settings, double cellSize)
     : m_tree(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles)
 {

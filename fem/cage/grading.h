@@ -5,6 +5,7 @@
 #include "fem/cage/bisected_tets.h"
 #include "fem/cage/cage_lattice.h"
 #include "fem/cage/thin_parts.h"
+#include "fem/cage/winding_near.h"
 
 namespace bullet_fem
 {
@@ -23,7 +24,7 @@ class GradedSurface
 {
 public:
     /// Looks for parts that are thin for cells of that size [m], or shorter ones, with m_cellsAcross and m_mostLevels.
-    GradedSurface(const SurfaceInspection& surface, const WindingNumber& winding, const CageSettings& settings,
+    GradedSurface(const SurfaceInspection& surface, const SurfaceWinding& winding, const CageSettings& settings,
                   double cellSize);
 
     const TriangleTree& tree() const { return m_tree; }

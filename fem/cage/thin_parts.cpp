@@ -47,7 +47,7 @@ std::array<TriangleCorners, 2> halves(TriangleCorners t)
 class Finder
 {
 public:
-    explicit Finder(const ThinSearch& search) : m_search(search) {}
+    explicit Finder(const ThinSearch& search) : m_search(search), m_winding(search.m_winding, 2 * search.m_reach) {}
 
     void look(const TriangleCorners& t)
     {
@@ -89,7 +89,7 @@ private:
         return at->second;
     }
 
-    Widths measure(const Vec3& p) const
+    Widths measure(const Vec3& p)
     {
         Widths widths;
         for (const double side : {-1.0, 1.0})
@@ -106,9 +106,10 @@ private:
         return widths;
     }
 
-    bool insideAt(const Vec3& p) const { return isInside(m_search.m_winding.at(p)); }
+    bool insideAt(const Vec3& p) { return isInside(m_winding.at(p)); }
 
     const ThinSearch& m_search;
+    WindingNear m_winding;
     Vec3 m_normal;  // of the triangle that is looked at
     std::map<std::array<long long, 4>, Widths> m_blocks;
     std::vector<ThinPart> m_parts;

@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/cage/winding_number.h"
 #include "fem/cage/surface_inspection.h"
 #include "fem/cage/triangle_tree.h"
+#include "fem/cage/winding_near.h"
 
 namespace bullet_fem
 {
@@ -21,7 +21,7 @@ struct ThinPart
 struct ThinSearch
 {
     const TriangleTree& m_tree;
-    const WindingNumber& m_winding;
+    const SurfaceWinding& m_winding;
     double m_reach = 0;         ///< farthest the other side may be [m]
     double m_coarsest = 0;      ///< longest edge of a piece at first [m]; narrow features of large triangles need it
     double m_finest = 0;        ///< pieces with shorter edges are not cut further [m]

@@ -3,6 +3,7 @@
 #include "fem/cage/triangle_tree.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "fem/cage/tet_region.h"
@@ -67,6 +68,37 @@ double alongRay(const TriangleCorners& t, const Vec3& from, const Vec3& way)
     return dot(ac, q) / determinant;
 }
 
+// What decides where rounding leaves 0: the line is moved by (d, d^2, d^3), d > 0 and as small as one likes, which
+// changes the number by the gradient times that [Edelsbrunner and Muecke 1990, simulation of simplicity].
+bool isPositive(double number, const Vec3& gradient)
+{
+    for (const double n : {number, gradient.x, gradient.y, gradient.z})
+        if (n != 0) return n > 0;
+    return false;
+}
+
+/// Is the line on the left of the edge a b, seen along it? Edges that triangles share are looked at from the same end,
+/// so that both get the same answer, rounding or not.
+bool isLeft(const Vec3& from, const Vec3& way, const Vec3& a, const Vec3& b)
+{
+    const auto key = [](const Vec3& x) { return std::make_tuple(x.x, x.y, x.z); };
+    const bool swapped = key(b) < key(a);
+    const Vec3 &first = swapped ? b : a, &second = swapped ? a : b;
+    return isPositive(dot(way, cross(first - from, second - from)), cross(way, second - first)) != swapped;
+}
+
+/// 1 if the line passes the triangle along its normal, -1 against it, 0 if it does not.
+int crossing(const TriangleCorners& t, const Vec3& from, const Vec3& to)
+{
+    const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+    const bool begins = isPositive(dot(from - t[0], normal), normal), ends = isPositive(dot(to - t[0], normal), normal);
+    if (begins == ends) return 0;
+    const Vec3 way = to - from;
+    const bool left = isLeft(from, way, t[0], t[1]);
+    if (isLeft(from, way, t[1], t[2]) != left || isLeft(from, way, t[2], t[0]) != left) return 0;
+    return ends ? 1 : -1;
+}
+
 /// The part of a ray that is in a box; empty if m_first is greater than m_last.
 bool rayMeetsBox(const Vec3& low, const Vec3& high, const Ray& ray)
 {
@@ -111,7 +143,17 @@ void TriangleTree::build(int first, int last)
         m_nodes[self].m_skip = static_cast<int>(self) + 1;
         return;
     }
-    const Vec3 extent = node.m_high - node.m_low;
+    // Along the axis on which the triangles' middles are farthest apart: boxes of long ones side by side would all be
+    // as long.
+    const auto middleOf = [](const TriangleCorners& t) { return t[0] + t[1] + t[2]; };
+    Vec3 least = middleOf(m_triangles[first]), most = least;
+    for (int t = first; t < last; ++t)
+        for (int a = 0; a < 3; ++a)
+        {
+            least[a] = std::min(least[a], middleOf(m_triangles[t])[a]);
+            most[a] = std::max(most[a], middleOf(m_triangles[t])[a]);
+        }
+    const Vec3 extent = most - least;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const int middle = first + (last - first) / 2;
     const auto along = [axis](const TriangleCorners& t) { return t[0][axis] + t[1][axis] + t[2][axis]; };
@@ -169,6 +211,31 @@ bool TriangleTree::entersTet(const std::array<Vec3, 4>& tet, double depth) const
         ++n;
     }
     return false;
+}
+
+int TriangleTree::crossings(const Vec3& from, const Vec3& to) const
+{
+    Vec3 low, high;
+    for (int a = 0; a < 3; ++a)
+    {
+        low[a] = std::min(from[a], to[a]);
+        high[a] = std::max(from[a], to[a]);
+    }
+    int sum = 0;
+    for (std::size_t n = 0; n < m_nodes.size();)
+    {
+        const Node& node = m_nodes[n];
+        if (node.m_low.x > high.x || node.m_high.x < low.x || node.m_low.y > high.y || node.m_high.y < low.y ||
+            node.m_low.z > high.z || node.m_high.z < low.z)
+        {
+            n = node.m_skip;
+            continue;
+        }
+        if (node.m_right == 0)
+            for (int t = node.m_first; t < node.m_last; ++t) sum += crossing(m_triangles[t], from, to);
+        ++n;
+    }
+    return sum;
 }
 
 RayHit TriangleTree::firstAlong(const Ray& ray) const

@@ -37,6 +37,10 @@ public:
     /// The first triangle along a ray, of either side. One that meets it at an edge counts.
     RayHit firstAlong(const Ray& ray) const;
 
+    /// How often a straight line from one point to another passes triangles along their normals, less how often it
+    /// passes them against these. A line through an edge or a corner of a closed surface passes one triangle there.
+    int crossings(const Vec3& from, const Vec3& to) const;
+
     /// True if a triangle enters the tet deeper than `depth`; with a negative one, if it comes within -depth of it.
     bool entersTet(const std::array<Vec3, 4>& tet, double depth) const;
 

@@ -40,7 +40,7 @@ public:
         const double product = m_re * re - m_im * im;
         m_im = m_re * im + m_im * re;
         m_re = product;
-        if (!(m_re > 0 && m_re < 1e100 && std::abs(m_im) < 1e100)) flush();
+        if (!(m_re > kSmall && m_re < 1 / kSmall && std::abs(m_im) < 1 / kSmall)) flush();
     }
 
     double sum()
@@ -50,6 +50,9 @@ public:
     }
 
 private:
+    // Products of numbers near 0, from thin triangles, would come to an end in it.
+    static constexpr double kSmall = 1e-100;
+
     void flush()
     {
         m_sum += 2 * std::atan2(m_im, m_re);

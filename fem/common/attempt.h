@@ -5,6 +5,8 @@
 #include <exception>
 #include <string>
 
+#include "fem/common/reason.h"
+
 namespace bullet_fem
 {
 
@@ -25,7 +27,7 @@ bool attempt(std::string* why, const Call& call)
     }
     catch (const std::exception& error)
     {
-        *why = error.what();
+        *why = reasonOf(error);
         return false;
     }
 }

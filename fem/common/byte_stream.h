@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/common/quaternion.h"
+#include "bullet_fem/fem/common/symmetric.h"
 #include "bullet_fem/fem/common/vec3.h"
 #include "fem/common/message.h"
 
@@ -27,9 +28,9 @@ namespace bullet_fem
 template <class T>
 inline constexpr bool isCopiedAsBytes =
     (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T> || std::is_same_v<T, Vec3> ||
-    std::is_same_v<T, Mat3> || std::is_same_v<T, Quaternion>;
+    std::is_same_v<T, Mat3> || std::is_same_v<T, Quaternion> || std::is_same_v<T, SymmetricTensor>;
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Mat3) == 9 * sizeof(double) &&
-              sizeof(Quaternion) == 4 * sizeof(float));
+              sizeof(Quaternion) == 4 * sizeof(float) && sizeof(SymmetricTensor) == 6 * sizeof(double));
 
 template <class T>
 inline constexpr bool isCopiedAsBytes<std::array<T, 3>> = isCopiedAsBytes<T>;

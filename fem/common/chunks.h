@@ -12,6 +12,7 @@ namespace bullet_fem
 
 // Shorter pieces would cost more to hand out than they take: some 10 us each.
 constexpr int kBlocksPerChunk = 64;     ///< element blocks, 1,024 elements
+constexpr int kDomainsPerChunk = 1024;  ///< edge domains of strains
 constexpr int kNodesPerChunk = 512;     ///< nodes of which something is computed
 constexpr int kEntriesPerChunk = 2048;  ///< nodes of vectors that are added or multiplied
 

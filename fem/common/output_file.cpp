@@ -2,8 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/common/output_file.h"
 
-#if defined(__unix__) || defined(__APPLE__)
-#define BULLETFEM_HAS_FSYNC
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#include <sys/stat.h>
+#else
 #include <unistd.h>
 #endif
 
@@ -15,6 +18,7 @@
 #include <utility>
 
 #include "fem/common/message.h"
+#include "fem/common/unfinished_files.h"
 
 namespace bullet_fem
 {
@@ -27,6 +31,27 @@ bool isDevice(const std::string& path)
     std::error_code ignored;
     const std::filesystem::file_status status = std::filesystem::status(path, ignored);
     return exists(status) && !is_regular_file(status) && !is_directory(status);
+}
+
+// A file that was not there before, to be written; null with errno otherwise.
+std::FILE* makeFile(const std::string& path)
+{
+#ifdef _WIN32  // whose older C library does not know "x"
+    const int file = _open(path.c_str(), _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY, _S_IREAD | _S_IWRITE);
+    return file < 0 ? nullptr : _fdopen(file, "wb");
+#else
+    return std::fopen(path.c_str(), "wbx");
+#endif
+}
+
+// Waits until the file's bytes are on the disk.
+bool flushToDisk(std::FILE* file)
+{
+#ifdef _WIN32
+    return _commit(_fileno(file)) == 0;
+#else
+    return fsync(fileno(file)) == 0;
+#endif
 }
 
 }  // namespace
@@ -45,9 +70,13 @@ OutputFile::OutputFile(std::string path) : m_path(std::move(path))
     for (int k = 0; k < 100 && m_temporary != m_path && !m_pending; ++k)
     {
         m_temporary = message(m_path, ".", std::hex, random(), ".part");
-        m_file = std::fopen(m_temporary.c_str(), "wbx");
+        m_unfinished = noteUnfinishedFile(m_temporary);
+        m_file = makeFile(m_temporary);
         m_pending = m_file != nullptr;
-        if (!m_pending && errno != EEXIST) break;
+        if (m_pending) break;
+        const int error = errno;
+        forgetUnfinishedFile(std::exchange(m_unfinished, -1));
+        if (error != EEXIST) failAsTold(error);
     }
     if (!m_file) failAsTold(errno);
 }
@@ -56,6 +85,7 @@ OutputFile::~OutputFile()
 {
     if (m_file) std::fclose(m_file);
     if (m_pending) std::remove(m_temporary.c_str());
+    forgetUnfinishedFile(m_unfinished);
 }
 
 void OutputFile::write(const void* bytes, std::size_t size)
@@ -67,11 +97,7 @@ void OutputFile::write(const void* bytes, std::size_t size)
 void OutputFile::sync()
 {
     errno = 0;
-    bool whole = std::fflush(m_file) == 0;
-#ifdef BULLETFEM_HAS_FSYNC
-    whole = whole && (!m_pending || fsync(fileno(m_file)) == 0);
-#endif
-    if (!whole) failAsTold(errno);
+    if (std::fflush(m_file) != 0 || (m_pending && !flushToDisk(m_file))) failAsTold(errno);
 }
 
 void OutputFile::commit()
@@ -82,6 +108,7 @@ void OutputFile::commit()
     std::error_code error;
     std::filesystem::rename(m_temporary, m_path, error);
     if (error) failAsTold(error.value());
+    forgetUnfinishedFile(std::exchange(m_unfinished, -1));
     m_pending = false;
 }
 

@@ -7,16 +7,18 @@
 #include <string>
 #include <string_view>
 
+#include "bullet_fem/fem/common/export.h"
+
 namespace bullet_fem
 {
 
 /// A file that gets its name only when it is whole, so that a reader, a crash or a full disk never leaves half a file
-/// under it. Until then it is a `.part` of its own beside its place, and is removed with this object. Devices and pipes
-/// are written to as they are.
+/// under it. Until then it is a `.part` of its own beside its place, and is removed with this object, or by
+/// removeUnfinishedFiles. Devices and pipes are written to as they are.
 ///
 /// What fails throws std::runtime_error with the path, the system's reason and what to do; an older file of the name is
 /// then as it was.
-class OutputFile
+class BULLETFEM_API OutputFile
 {
 public:
     /// Makes the `.part`.
@@ -44,12 +46,13 @@ private:
     std::string m_path, m_temporary;
     std::FILE* m_file = nullptr;
     bool m_pending = false;  // whether there is a .part
+    int m_unfinished = -1;   // its place among unfinished files
 };
 
 /// Writes an OutputFile of these bytes.
-void writeOutputFile(const std::string& path, std::string_view bytes);
+BULLETFEM_API void writeOutputFile(const std::string& path, std::string_view bytes);
 
 /// Throws as OutputFile does if no file can be made there: before work whose result goes there. Nothing is left.
-void checkWritable(const std::string& path);
+BULLETFEM_API void checkWritable(const std::string& path);
 
 }  // namespace bullet_fem

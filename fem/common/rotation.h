@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
@@ -11,6 +12,6 @@ namespace bullet_fem
 /// inverted or zero. R maximises tr(R^T F). `guess` must be a rotation; near the answer it saves most of the work, and
 /// where F leaves R undetermined (F of rank one or zero) the answer stays as near to it as rounding allows. Where
 /// the square of F is not finite, it is the guess.
-Mat3 polarRotation(const Mat3& F, const Mat3& guess);
+BULLETFEM_API Mat3 polarRotation(const Mat3& F, const Mat3& guess);
 
 }  // namespace bullet_fem

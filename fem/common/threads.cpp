@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The one file that knows oneTBB.
+// The one file that knows oneTBB. Without BULLETFEM_WITH_TBB the caller's thread does all work, whatever the count.
+// Under ThreadSanitizer, which cannot follow oneTBB's own hand-overs, threads are made and joined for every run.
 #include "bullet_fem/fem/common/threads.h"
 
+#if defined(__SANITIZE_THREAD__)
+#define BULLETFEM_JOINED_THREADS
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define BULLETFEM_JOINED_THREADS
+#endif
+#endif
+
+#ifdef BULLETFEM_JOINED_THREADS
+#include <atomic>
+#include <thread>
+#include <vector>
+#endif
+#ifdef BULLETFEM_WITH_TBB
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
+#endif
 
 #include <algorithm>
 #include <exception>
@@ -21,14 +37,16 @@ namespace bullet_fem
 namespace
 {
 
-constexpr auto kParallelism = tbb::global_control::max_allowed_parallelism;
-
 int validCount(int count)
 {
     if (count < 0 || count > Threads::kMost)
         reject("number of threads ", count, " is not in [0, ", Threads::kMost,
                "]; 1 is the caller's thread alone, 0 all that the machine has");
+#ifdef BULLETFEM_WITH_TBB
     return count == 0 ? std::clamp(tbb::info::default_concurrency(), 1, Threads::kMost) : count;
+#else
+    return 1;
+#endif
 }
 
 /// What the first task, by its number, threw.
@@ -55,9 +73,39 @@ private:
 
 }  // namespace
 
+#ifdef BULLETFEM_JOINED_THREADS
+class Threads::Team
+{
+public:
+    explicit Team(int count) : m_count(count) {}
+    template <class Part>
+    void execute(const Part& part)
+    {
+        part();
+    }
+    template <class Task>
+    void run(int tasks, const Task& task)
+    {
+        std::atomic<int> next{0};
+        const auto work = [&]
+        {
+            for (int k = next++; k < tasks; k = next++) task(k);
+        };
+        std::vector<std::thread> others;
+        for (int k = 1; k < std::min(m_count, tasks); ++k) others.emplace_back(work);
+        work();
+        for (std::thread& other : others) other.join();
+    }
+
+private:
+    int m_count;
+};
+#elif defined(BULLETFEM_WITH_TBB)
 /// The library's threads that work for us.
 class Threads::Team
 {
+    static constexpr auto kParallelism = tbb::global_control::max_allowed_parallelism;
+
 public:
     // The library makes no more threads than the machine has unless it is told to; it never gets less than others need.
     explicit Team(int count)
@@ -72,10 +120,36 @@ public:
         m_arena.execute(part);
     }
 
+    template <class Task>
+    void run(int tasks, const Task& task)
+    {
+        // Has the caller's floating-point settings, which are made here: another thread may enter the team for it.
+        tbb::task_group_context asCaller(tbb::task_group_context::isolated, tbb::task_group_context::fp_settings);
+        execute([&] { tbb::parallel_for(0, tasks, task, tbb::auto_partitioner(), asCaller); });
+    }
+
 private:
     tbb::global_control m_limit;
     tbb::task_arena m_arena;
 };
+#else
+/// Nobody besides the caller: no one is ever made.
+class Threads::Team
+{
+public:
+    explicit Team(int) {}
+    template <class Part>
+    void execute(const Part& part)
+    {
+        part();
+    }
+    template <class Task>
+    void run(int tasks, const Task& task)
+    {
+        for (int k = 0; k < tasks; ++k) task(k);
+    }
+};
+#endif
 
 Threads::Threads(int count) : m_count(validCount(count))
 {
@@ -101,11 +175,7 @@ void Threads::runCalls(int tasks, const Call& call) const
     if (!m_team || tasks <= 1)
         for (int k = 0; k < tasks; ++k) attempt(k);
     else
-    {
-        // Has the caller's floating-point settings, which are made here: another thread may enter the team for it.
-        tbb::task_group_context asCaller(tbb::task_group_context::isolated, tbb::task_group_context::fp_settings);
-        m_team->execute([&] { tbb::parallel_for(0, tasks, attempt, tbb::auto_partitioner(), asCaller); });
-    }
+        m_team->run(tasks, attempt);
     failure.rethrow();
 }
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fem/contact/contact_rows.h"
 #include "fem/contact/rigid_response.h"
@@ -29,21 +30,25 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     addContactRows();
     for (std::size_t k = 0; k < problem.m_joints.size(); ++k) addJointRow(problem.m_joints[k], &m_jointPoints[2 * k]);
     for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
+    for (const TorsionalFriction& torsion : problem.m_torsions) addTorsionRow(torsion);
     m_wants.assign(m_rows.size(), 0);
     forEachTouchedBody(threadsForCompliance(),
                        [&](int b) { m_bodies[b].assemble(settings.m_denseLimit, settings.m_step.m_step); });
     m_loadSpeed = 0;
+    m_shortestEdge = std::numeric_limits<double>::max();
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
         if (m_bodies[b].size() == 0) continue;
         m_bodies[b].request(settings.m_step.m_threads);
         m_dense = m_dense && m_bodies[b].isDense();
         m_loadSpeed = std::max(m_loadSpeed, m_bodies[b].loadSpeed());
+        m_shortestEdge = std::min(m_shortestEdge, m_bodies[b].body().m_model->mesh().meanEdgeLength());
     }
     forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
     finishRows();
     for (ContactRow& row : m_rows)
         if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a guess that nothing would ever change
+    pressOnTorsions();
     pushStarts(true);
     runTasks(settings.m_step.m_threads, static_cast<int>(problem.m_bodies.size()),
              [&](int b)
@@ -250,7 +255,7 @@ void ContactRows::finishRow(ContactRow& row) const
     for (int i = 0; i < 3; ++i) w[i] = row.m_compliance * row.m_axes[i];
     for (int i = 0; i < 3; ++i) row.m_rowCompliance[i] = dot(row.m_axes[i], w[i]);
     row.m_idle = !(row.m_rowCompliance.x > 0);
-    if (row.m_joint)
+    if (row.m_joint || row.m_torsion)
         row.m_idle = !(trace(row.m_compliance) > 0);
     else
     {

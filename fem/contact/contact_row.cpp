@@ -3,6 +3,7 @@
 #include "fem/contact/contact_row.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bullet_fem
 {
@@ -52,17 +53,46 @@ Vec3 impulseOfJoint(const ContactRow& row, const Vec3& impulse, Vec3 v, double s
     return result;
 }
 
+// About the normal within spinning friction, about the tangents within the ellipse of rolling friction; m_limit has the
+// coefficients.
+Vec3 impulseOfTorsion(const ContactRow& row, const Vec3& impulse, Vec3 v, double step)
+{
+    const double load = std::max(row.m_load, 0.0);
+    Vec3 wanted;
+    double beyond = 0;  // square of the share of rolling friction
+    for (int i = 0; i < 3; ++i)
+    {
+        const double w = row.m_rowCompliance[i], old = dot(impulse, row.m_axes[i]), most = row.m_limit[i] * load;
+        if (!(w > 0 && most > 0)) continue;
+        wanted[i] = old + step * (row.m_target[i] - dot(row.m_axes[i], v)) / w;
+        if (i == 0) wanted[i] = std::clamp(wanted[i], -most, most);
+        if (step == 1) v += row.m_compliance * ((wanted[i] - old) * row.m_axes[i]);
+        if (i > 0) beyond += wanted[i] * wanted[i] / (most * most);
+    }
+    const double share = beyond > 1 ? 1 / std::sqrt(beyond) : 1;
+    return wanted.x * row.m_axes[0] + share * (wanted.y * row.m_axes[1] + wanted.z * row.m_axes[2]);
+}
+
 }  // namespace
+
+bool sticks(const ContactRow& row)
+{
+    constexpr double kSticks = 0.999;  // share of the friction that it could have
+    const double normal = dot(row.m_impulse, row.m_axes[0]);
+    return norm(row.m_impulse - normal * row.m_axes[0]) < kSticks * row.m_friction * normal;
+}
 
 Vec3 wantedImpulse(const ContactRow& row, const Vec3& impulse, const Vec3& v, double step)
 {
     if (row.m_idle) return impulse;
+    if (row.m_torsion) return impulseOfTorsion(row, impulse, v, step);
     return row.m_joint ? impulseOfJoint(row, impulse, v, step) : impulseOfContact(row, impulse, v, step);
 }
 
 double speedOf(const ContactRow& row, const Vec3& difference)
 {
     const Vec3& w = row.m_rowCompliance;
+    if (row.m_torsion) return row.m_lever * std::max({w.x, w.y, w.z}) * norm(difference);
     return (row.m_joint ? std::max({w.x, w.y, w.z}) : w.x) * norm(difference);
 }
 

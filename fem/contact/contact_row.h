@@ -18,13 +18,15 @@ struct RowEnd
     bool sharesOwner(const RowEnd& other) const { return m_body == other.m_body && m_rigidProxy == other.m_rigidProxy; }
 };
 
-/// A contact or a joint: three impulses between two ends. What every look at it reads comes first.
+/// A contact, a joint or a torsional friction: three impulses between two ends. What every look at it reads comes
+/// first.
 struct ContactRow
 {
     bool m_joint = false;
-    bool m_held = false;   ///< of a joint: at a limit, and swept like a contact
-    bool m_touch = false;  ///< of rigid proxies
-    bool m_idle = false;   ///< nothing can move: no compliance
+    bool m_held = false;     ///< of a joint: at a limit, and swept like a contact
+    bool m_touch = false;    ///< of rigid proxies
+    bool m_torsion = false;  ///< of rolling and spinning friction: angular about all axes
+    bool m_idle = false;     ///< nothing can move: no compliance
     RowEnd m_a, m_b;
     Vec3 m_impulse;         ///< on end a [N s] or [N m s]
     Vec3 m_target;          ///< relative velocity along the axes: at least (normal), exactly (joint) [m/s]
@@ -38,6 +40,9 @@ struct ContactRow
     double m_most = 0;      ///< and of their sum
     double m_softness = 0;  ///< of a joint: compliance added, as a share of its own [-]
     double m_spring = 0;    ///< of a joint: compliance added [1/kg]
+    int m_pressed = -1;     ///< of a contact: row of the torsional friction that its normal impulse presses on
+    double m_load = 0;      ///< of a torsional friction: the sum of these normal impulses [N s]
+    double m_lever = 1;     ///< of a torsional friction: a spin times it counts as a speed [m]
 };
 
 /// True of a joint within its limits.
@@ -49,6 +54,9 @@ inline bool isSolvedAtOnce(const ContactRow& row)
 /// The impulse that a row wants for a relative velocity [m/s] that it has at another impulse. `step`: share of the way;
 /// only at 1 are axes solved one after another, as in Gauss-Seidel.
 Vec3 wantedImpulse(const ContactRow& row, const Vec3& impulse, const Vec3& velocity, double step);
+
+/// True of a contact whose friction is below what its normal impulse allows: it does not slide.
+bool sticks(const ContactRow& row);
 
 /// A change of a row's impulse as a velocity: what it does to the row's own point [m/s].
 double speedOf(const ContactRow& row, const Vec3& difference);

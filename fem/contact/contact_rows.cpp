@@ -39,16 +39,18 @@ void ContactRows::react(const RowEnd& end, const Vec3& impulse)
         rigidProxies[k].m_linearVelocity += linear;
         rigidProxies[k].m_angularVelocity += angular;
     };
-    if (end.m_angular)
-        respond(*m_problem, end.m_rigidProxy, {}, impulse, add);
-    else
-        respond(*m_problem, end.m_rigidProxy, impulse, cross(end.m_arm, impulse), add);
+    const Vec3 linear = end.m_angular ? Vec3() : impulse, angular = end.m_angular ? impulse : cross(end.m_arm, impulse);
+    respond(*m_problem, end.m_rigidProxy, linear, angular, add);
+    if (rigidProxy.m_responseCount == 0) return;
+    rigidProxies[end.m_rigidProxy].m_felt += linear;
+    rigidProxies[end.m_rigidProxy].m_angularFelt += angular;
 }
 
 void ContactRows::change(ContactRow& row, const Vec3& impulse)
 {
     const Vec3 difference = impulse - row.m_impulse;
     row.m_impulse = impulse;
+    press(row, difference);
     react(row.m_a, difference);
     react(row.m_b, -difference);
 }
@@ -56,6 +58,7 @@ void ContactRows::change(ContactRow& row, const Vec3& impulse)
 void ContactRows::pushAlong(ContactRow& row, const Vec3& impulse)
 {
     row.m_impulse += impulse;
+    press(row, impulse);
     const auto push = [this](const RowEnd& end, const Vec3& on)
     {
         if (end.m_body >= 0)
@@ -135,6 +138,7 @@ bool ContactRows::isRunaway(double speed) const
 bool ContactRows::rests(const ContactRow& row) const
 {
     if (row.m_joint || dot(row.m_impulse, row.m_impulse) > 0) return false;
+    if (row.m_torsion) return row.m_idle || !(row.m_load > 0);
     return row.m_idle || !(row.m_target.x > dot(row.m_axes[0], velocity(row)));
 }
 
@@ -267,10 +271,7 @@ Vec3 ContactRows::arcOfMean(const ContactRow& row) const
 // A point that sticks remembers how far it crept; one that slides or hangs free starts anew.
 Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact) const
 {
-    constexpr double kSticks = 0.999;  // share of the friction that it could have
-    const double normal = dot(row.m_impulse, contact.m_normal);
-    const Vec3 friction = row.m_impulse - normal * contact.m_normal;
-    if (!(norm(friction) < kSticks * row.m_friction * normal)) return {};
+    if (!sticks(row)) return {};
     const Vec3 slip = contact.m_slip + m_settings.m_step.m_step * meanVelocity(row) - arcOfMean(row);
     return slip - dot(slip, contact.m_normal) * contact.m_normal;
 }
@@ -284,7 +285,7 @@ bool ContactRows::isTooSoft() const
 
 double ContactRows::violation(const ContactRow& row, const Vec3& trueVelocity) const
 {
-    if (row.m_joint || row.m_touch || row.m_idle) return 0;
+    if (row.m_joint || row.m_touch || row.m_torsion || row.m_idle) return 0;
     const double separating = dot(row.m_axes[0], trueVelocity);
     const double yields = row.m_yield.x * dot(row.m_axes[0], row.m_impulse);
     return row.m_target.x - separating - yields;
@@ -310,6 +311,8 @@ double ContactRows::store()
         });
     std::size_t k = contacts.size();
     for (Joint& joint : m_problem->m_joints) joint.m_impulse = m_rows[k++].m_impulse;
+    k += m_problem->m_rigidTouches.size();
+    for (TorsionalFriction& torsion : m_problem->m_torsions) torsion.m_impulse = m_rows[k++].m_impulse;
     return worst;
 }
 

@@ -36,7 +36,7 @@ public:
     ContactProblem& problem() const { return *m_problem; }
     const ContactSettings& settings() const { return m_settings; }
 
-    /// Of the contacts, the joints and the touches of rigid proxies, in this order.
+    /// Of the contacts, the joints, the touches of rigid proxies and the torsional frictions, in this order.
     std::vector<ContactRow>& rows() { return m_rows; }
     const std::vector<ContactRow>& rows() const { return m_rows; }
     BodyEnds& body(int b) { return m_bodies[b]; }
@@ -94,6 +94,9 @@ public:
     /// has to change now at most, `wanted` [m/s]; where there are no loads, or what a guess has changed.
     void setSpeedScale(double wanted);
     double speedScale() const { return m_speedScale; }
+
+    /// The shortest mean edge of an element of the bodies that have ends [m].
+    double shortestEdge() const { return m_shortestEdge; }
 
     /// The largest speed that its loads alone would give one of the bodies in a step [m/s].
     double loadSpeed() const { return m_loadSpeed; }
@@ -167,6 +170,12 @@ private:
     Vec3 impulsePoint(const ContactPoint& contact) const;
     void addJointRow(const Joint& joint, const int* points);
     void addTouchRow(const RigidTouch& touch);
+    void addTorsionRow(const TorsionalFriction& torsion);
+    void pressOnTorsions();
+    void press(const ContactRow& row, const Vec3& impulse)
+    {
+        if (row.m_pressed >= 0) m_rows[row.m_pressed].m_load += dot(impulse, row.m_axes[0]);
+    }
     static void limitTouchFriction(ContactRow& row);
     RowEnd softEnd(const SurfacePoint& point, const Vec3& at, int end);
     bool isPoint(const JointEnd& end) const;
@@ -217,8 +226,9 @@ private:
     std::vector<int> m_jointPoints;      // per joint the ends a and b: their points on their bodies, or -1
     std::vector<unsigned char> m_wants;  // per row
     bool m_dense = true;
-    double m_loadSpeed = 0;   // [m/s]
-    double m_speedScale = 0;  // that errors are measured against [m/s]
+    double m_shortestEdge = 0;  // [m]
+    double m_loadSpeed = 0;     // [m/s]
+    double m_speedScale = 0;    // that errors are measured against [m/s]
 };
 
 }  // namespace bullet_fem

@@ -30,6 +30,8 @@ void ContactProblem::clear()
     m_contacts.clear();
     m_joints.clear();
     m_rigidTouches.clear();
+    m_torsions.clear();
+    m_torsionOf.clear();
     m_handleNodes.clear();
     m_handleBlocks.clear();
 }
@@ -73,13 +75,15 @@ struct ContactSolver::Scratch
     double m_error = 1;       // likewise
     double m_best = 0;        // the smallest so far
     bool m_isBest = false;    // it is the last
+    bool m_isCalm = false;    // the guess was good
     double m_goal = 0;        // error at which rounds end
     bool m_loose = false;     // the last corrective solves were loose
     double m_floor = 0;       // of a body's impulses that residuals are measured against
     bool m_guessing = false;  // the impulses are those of the last step
     SweepProgress m_progress;
     bool m_stalled = false;
-    bool m_begins = false;  // no sweep has been made since the bodies' true velocities were measured
+    bool m_othersMoved = false;  // in the sweeps of this round
+    bool m_begins = false;       // no sweep has been made since the bodies' true velocities were measured
     bool m_empty = true;
 };
 
@@ -101,6 +105,11 @@ constexpr int kUsualRounds = 3;
 constexpr double kCloser = 0.3;
 constexpr double kFinestFloor = 1e-3;
 
+// Of a fast impact the tolerance is a share of a high speed: what it leaves must not take thin and tiny bodies far into
+// each other within the step.
+constexpr double kErrorOfEdge = 5e-4;      // of an element's [-]
+constexpr double kFinestTolerance = 1e-7;  // that is still above rounding [-]
+
 // What further sweeps would add up to is some times what one changes: at a tolerance above this, piles would take
 // seconds longer to rest.
 constexpr double kCoarsestChange = 3e-3;  // at which sweeps end
@@ -113,9 +122,15 @@ constexpr double kRoundingOfOthers = 1e-6;  // [m/s]
 constexpr double kFarFromTolerance = 30;
 constexpr double kLooseShare = 0.1;
 
-// A guess that is good enough as it stands must be better than an answer: its error is that of the step before, and
-// would be carried on from step to step.
-constexpr double kRoundGuessShare = 0.1;
+// Every step brings the error of the guess down by this factor, to the tolerance at least: so errors of what is at
+// rest, which one step hands on to the next, die out within a few. A guess that is much better needs no round.
+constexpr double kForcing = 0.1;
+constexpr double kRestShare = 0.01;   // of the tolerance
+constexpr double kFinestRest = 3e-6;  // but never finer than this [-]
+
+// Where a guess is nearer than this, bodies are all but at rest, and what sweeps leave of the coarse level would lean
+// stacks over. What falls, slides and tips finds other points in every step, and would take more sweeps for it.
+constexpr double kCalmGuess = 2e-2;
 
 // A guess that makes points close this many times faster than they do without it, or than loads make them, is none.
 constexpr double kBadGuess = 5;
@@ -187,7 +202,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_empty = problem.m_contacts.empty() && problem.m_joints.empty() && !anyExpects;
     for (RigidProxy& rigidProxy : problem.m_rigidProxies)
         rigidProxy.m_pushLinear = rigidProxy.m_pushAngular = rigidProxy.m_angularImpulse = rigidProxy.m_pushImpulse =
-            rigidProxy.m_pushAngularImpulse = {};
+            rigidProxy.m_pushAngularImpulse = rigidProxy.m_felt = rigidProxy.m_angularFelt = {};
     if (s.m_empty) return;
     const bool joints = !problem.m_joints.empty();
     s.m_floor = joints ? kFinestFloor : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
@@ -196,8 +211,9 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_jointRounds.begin();
     s.m_push.begin();
     s.m_error = 1;
+    s.m_isCalm = false;
     s.m_progress = {};
-    s.m_stalled = s.m_loose = false;
+    s.m_stalled = s.m_loose = s.m_othersMoved = false;
     // What was right a step ago is tried on the true system first, and W has only the difference to answer for.
     const bool guesses = anyExpects || s.m_rows.hasImpulses();
     if (guesses)
@@ -210,8 +226,13 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     }
     if (s.m_rows.settleTouches() || !guesses) s.m_found = s.m_sweeps.look();
     s.m_rows.setSpeedScale(std::max(s.m_found.m_wanted, s.m_found.m_joints));
+    const double shareOfEdge = s.m_rows.share(kErrorOfEdge * s.m_rows.shortestEdge() / settings.m_step.m_step);
+    s.m_settings.m_tolerance = std::min(settings.m_tolerance, std::max(shareOfEdge, kFinestTolerance));
     s.m_error = errorNow();
-    s.m_goal = kRoundGuessShare * settings.m_tolerance;
+    s.m_goal = std::max(kRestShare * s.m_settings.m_tolerance, std::min(s.m_settings.m_tolerance, kFinestRest));
+    s.m_settings.m_tolerance = std::clamp(kForcing * s.m_error, s.m_goal, s.m_settings.m_tolerance);
+    if (!joints) s.m_floor = residualFloor(s.m_settings.m_tolerance, settings.m_step.m_tolerance);
+    s.m_isCalm = s.m_error < kCalmGuess;
     s.m_best = std::numeric_limits<double>::infinity();
     if (guesses || !joints) noteBest();  // to let go of all joints is no answer
 }
@@ -297,6 +318,7 @@ bool ContactSolver::sweep(double others)
     const double othersChange = s.m_rows.share(others);
     const bool othersMove = others > kRoundingOfOthers && othersChange > tolerance;
     if (othersMove) s.m_sweeps.othersMoved();
+    s.m_othersMoved = s.m_othersMoved || othersMove;
     const bool moves = s.m_sweeps.sweep(s.m_rows.isDense() ? std::min(tolerance, kCoarsestChange) : tolerance);
     if (s.m_sweeps.runsAway())
     {
@@ -314,6 +336,7 @@ void ContactSolver::correct()
     if (s.m_empty) return;
     ++s.m_report.m_rounds;
     s.m_progress = {};
+    if (s.m_isCalm) s.m_sweeps.end();
     if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFinestFloor);
     const bool joints = !s.m_problem->m_joints.empty();
     const bool wasLoose = s.m_loose;
@@ -322,7 +345,8 @@ void ContactSolver::correct()
     if (s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report))
         s.m_sweeps.joints().reform();
     s.m_sweeps.measure();
-    s.m_jointRounds.look();
+    s.m_jointRounds.look(s.m_othersMoved);
+    s.m_othersMoved = false;
     s.m_begins = true;
     const double before = s.m_error;
     s.m_found = s.m_sweeps.look();

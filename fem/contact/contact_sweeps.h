@@ -43,6 +43,9 @@ public:
     /// many short ones make up a way, what a whole step of every row alone would still change.
     bool sweep(double tolerance);
 
+    /// After the last sweep of a round: what they leave of the coarse level is corrected.
+    void end() { m_inTurn.end(); }
+
     /// True if the last sweep changed a velocity by so much that sweeping leads nowhere.
     bool runsAway() const;
 

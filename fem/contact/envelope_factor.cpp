@@ -10,6 +10,16 @@
 namespace bullet_fem
 {
 
+void EnvelopeFactor::reserve(std::size_t rows, std::size_t blocks)
+{
+    m_first.reserve(rows);
+    m_start.reserve(rows);
+    m_inverse.reserve(3 * rows);
+    if (m_W.size() >= 9 * blocks) return;
+    m_W.resize(9 * blocks);
+    m_L.resize(9 * blocks);
+}
+
 void EnvelopeFactor::clear()
 {
     m_first.clear();
@@ -22,9 +32,13 @@ void EnvelopeFactor::addRow(int first)
     m_first.push_back(first);
     m_start.push_back(m_size);
     m_size += 3 * length(rows() - 1);
-    if (m_W.size() >= m_size) return;
-    m_W.resize(m_size);
-    m_L.resize(m_size);
+    if (m_W.size() < m_size)
+    {
+        m_W.resize(m_size);
+        m_L.resize(m_size);
+    }
+    std::fill(m_W.begin() + static_cast<std::ptrdiff_t>(m_start.back()),
+              m_W.begin() + static_cast<std::ptrdiff_t>(m_size), 0.0);
 }
 
 void EnvelopeFactor::set(int i, int j, const Mat3& block)

@@ -21,10 +21,13 @@ public:
     /// which W is formed, leaves of a zero [-].
     static constexpr double kDependent = 1e-6;
 
+    /// Makes room for so many rows, and so many blocks in all of them.
+    void reserve(std::size_t rows, std::size_t blocks);
+
     /// Forgets all rows.
     void clear();
 
-    /// The next row, whose first block that is not zero is `first`, in [0, its own number]. Its blocks are to be set.
+    /// The next row, whose first block that is not zero is `first`, in [0, its own number]. Its blocks are zero.
     void addRow(int first);
 
     int rows() const { return static_cast<int>(m_first.size()); }
@@ -32,6 +35,13 @@ public:
 
     /// Sets a block on or below the diagonal, first(i) <= j <= i.
     void set(int i, int j, const Mat3& block);
+
+    /// Adds to a number in such a block: three a row.
+    void add(int i, int j, double value)
+    {
+        const int row = i / 3;
+        m_W[m_start[row] + (i % 3) * length(row) + static_cast<std::size_t>(j - 3 * m_first[row])] += value;
+    }
 
     /// Factors; held[3 i + c] != 0 for unknowns that get no answer.
     void factor(const unsigned char* held);

@@ -54,7 +54,7 @@ void JointRounds::begin()
     m_shift.resize(m_joints.unknowns());
 }
 
-void JointRounds::look()
+void JointRounds::look(bool othersMoved)
 {
     if (m_joints.isEmpty()) return;
     for (int i = 0; i < m_joints.unknowns(); ++i)
@@ -67,7 +67,7 @@ void JointRounds::look()
     m_joints.answer(m_now.m_answer);
     // Contacts that came or went, or rows of others, make another system of it.
     const double square = m_now.square();
-    const bool alone = m_rows.rows().size() == m_rows.problem().m_joints.size();
+    const bool alone = !othersMoved && m_rows.rows().size() == m_rows.problem().m_joints.size();
     if (m_changes != m_joints.changes() || (!alone && square > m_square)) m_hasBest = false;
     m_square = square;
     m_changes = m_joints.changes();

@@ -22,8 +22,8 @@ public:
     /// When the joints are assembled anew.
     void begin();
 
-    /// When the true velocities have been measured.
-    void look();
+    /// When the true velocities have been measured. `othersMoved`: rows of others have changed the bodies since.
+    void look(bool othersMoved = false);
 
     /// The largest impulse that a joint lacked then, as a share of the largest on its bodies; less than `negligible`
     /// [m/s] of a row's own point is nothing.

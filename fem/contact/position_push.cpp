@@ -32,7 +32,8 @@ double pushSpeed(const ContactPoint& contact, const ContactSettings& settings)
 void PositionPush::begin()
 {
     const ContactProblem& problem = m_rows.problem();
-    for (std::vector<Vec3>* own : {&m_linear, &m_angular}) own->reserve(problem.m_rigidProxies.size());
+    for (std::vector<Vec3>* own : {&m_linear, &m_angular, &m_felt, &m_angularFelt})
+        own->reserve(problem.m_rigidProxies.size());
     m_base.reserve(m_rows.rows().size());
     m_step = m_rows.settings().m_step.m_step;
     m_pushed.reserve(problem.m_bodies.size());
@@ -105,18 +106,20 @@ void PositionPush::prepare()
             for (int k = rows.m_begin; k < rows.m_end; ++k)
             {
                 ContactRow& row = m_rows.rows()[k];
-                if (!row.m_joint && !row.m_touch) m_base[k] = (1 - m_rows.theta(row)) * row.m_impulse;
+                row.m_idle = row.m_idle || row.m_torsion;  // it has no part in displacements
+                if (!row.m_joint && !row.m_touch && !row.m_torsion) m_base[k] = (1 - m_rows.theta(row)) * row.m_impulse;
                 row.m_impulse = m_base[k];
             }
         });
     prepareTouches();
     std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
-    m_linear.clear();
-    m_angular.clear();
+    for (std::vector<Vec3>* own : {&m_linear, &m_angular, &m_felt, &m_angularFelt}) own->clear();
     for (RigidProxy& rigidProxy : rigidProxies)
     {
         m_linear.push_back(rigidProxy.m_linearVelocity);
         m_angular.push_back(rigidProxy.m_angularVelocity);
+        m_felt.push_back(rigidProxy.m_felt);
+        m_angularFelt.push_back(rigidProxy.m_angularFelt);
         rigidProxy.m_linearVelocity = rigidProxy.m_angularVelocity = {};
     }
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(), [this](int b) { m_rows.body(b).beginPush(); });
@@ -195,6 +198,8 @@ int PositionPush::push()
         rigidProxies[k].m_pushAngular = rigidProxies[k].m_angularVelocity;
         rigidProxies[k].m_linearVelocity = m_linear[k];
         rigidProxies[k].m_angularVelocity = m_angular[k];
+        rigidProxies[k].m_felt = m_felt[k];
+        rigidProxies[k].m_angularFelt = m_angularFelt[k];
     }
     const StepSettings& step = m_rows.settings().m_step;
     m_pushed.assign(m_rows.problem().m_bodies.size(), {});

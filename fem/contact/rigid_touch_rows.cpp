@@ -12,7 +12,8 @@ namespace
 
 constexpr double kAnySpeed = 1e300;  // [m/s]
 constexpr int kSettlingSweeps = 200;
-constexpr double kSettled = 1e-3;      // share of the largest change so far: a sweep that changes less is the last one
+// Share of the largest change so far: a sweep that changes less is the last one.
+constexpr double kTouchesSettled = 1e-3;
 constexpr double kMostPressing = 0.9;  // share of a normal impulse that its own friction may add to it
 
 }  // namespace
@@ -46,11 +47,12 @@ void ContactRows::limitTouchFriction(ContactRow& row)
 bool ContactRows::settleTouches()
 {
     const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
+    const std::size_t end = first + m_problem->m_rigidTouches.size();
     double most = 0, largest = 1;  // changes, of all sweeps and the last [m/s]
-    for (int sweep = 0; sweep < kSettlingSweeps && largest > kSettled * most; ++sweep)
+    for (int sweep = 0; sweep < kSettlingSweeps && largest > kTouchesSettled * most; ++sweep)
     {
         largest = 0;
-        for (std::size_t k = first; k < m_rows.size(); ++k)
+        for (std::size_t k = first; k < end; ++k)
         {
             ContactRow& row = m_rows[k];
             const Vec3 wanted = wantedImpulse(row, row.m_impulse, velocity(row), 1);
@@ -59,7 +61,7 @@ bool ContactRows::settleTouches()
         }
         most = std::max(most, largest);
     }
-    return first < m_rows.size();
+    return first < end;
 }
 
 }  // namespace bullet_fem

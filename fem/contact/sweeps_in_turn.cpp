@@ -27,11 +27,12 @@ constexpr int kLongLife = 10;   // sweeps of a working set
 constexpr int kShortLife = 2;   // where a share of its rows has just joined it
 constexpr double kNews = 0.02;  // that share
 
-// A mix may leave it.
+// A mix may leave it; rounding does.
 bool isInCone(const ContactRow& row)
 {
-    const Vec3& p = row.m_impulse;
-    return p.x >= 0 && p.y * p.y + p.z * p.z <= row.m_friction * row.m_friction * p.x * p.x;
+    constexpr double kWiderBy = 1e-3;  // share of the friction
+    const double normal = dot(row.m_impulse, row.m_axes[0]), most = (1 + kWiderBy) * row.m_friction * normal;
+    return !row.m_torsion && normal >= 0 && dot(row.m_impulse, row.m_impulse) - normal * normal <= most * most;
 }
 
 }  // namespace
@@ -43,6 +44,7 @@ void SweepsInTurn::begin()
     m_working.reserve(rows);
     m_works.assign(rows, 0);
     m_mixing.begin();
+    m_coarse.begin();
     restart();
     divideRows();
 }
@@ -69,13 +71,15 @@ void SweepsInTurn::divideRows()
         const ContactRow& row = rows[k++];
         m_parts.add(mover(row.m_a), mover(row.m_b), rigidProxies[touch.m_rigidProxy].m_center + touch.m_arm);
     }
+    for (std::size_t t = 0; t < problem.m_torsions.size(); ++t, ++k)  // in the part of the contacts that press on it
+        m_parts.add(mover(rows[k].m_a), mover(rows[k].m_b), rigidProxies[problem.m_torsions[t].m_rigidProxy].m_center);
     m_parts.divide(problem.m_joints.empty() && std::none_of(rigidProxies.begin(), rigidProxies.end(), isLink));
 }
 
 void SweepsInTurn::restart()
 {
     m_lifeOfSet = -1;
-    m_looked = false;
+    m_looked = m_hasSwept = false;
 }
 
 // Most points that were found near a surface carry nothing, and most of them never will: some sweeps go by without
@@ -124,10 +128,17 @@ bool SweepsInTurn::restIsDone(double tolerance)
     return m_rows.share(largest) <= tolerance;
 }
 
+void SweepsInTurn::end()
+{
+    if (m_hasSwept) m_coarse.correct(m_working);
+    m_hasSwept = false;
+}
+
 bool SweepsInTurn::sweep(double tolerance)
 {
     if (m_lifeOfSet <= 0) chooseWorkingSet();
     --m_lifeOfSet;
+    m_hasSwept = true;
     const bool mixes = m_rows.rows().size() > m_rows.problem().m_joints.size();
     m_negligible = kNegligible * tolerance * m_rows.speedScale();
     if (mixes) m_mixing.mix(m_working);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "fem/contact/coarse_correction.h"
 #include "fem/contact/contact_rows.h"
 #include "fem/contact/joint_system.h"
 #include "fem/contact/sweep_mixing.h"
@@ -13,12 +14,16 @@ namespace bullet_fem
 {
 
 /// Gauss-Seidel over rows whose bodies all have a dense compliance: over those that carry something, the working set,
-/// mixed by Anderson's acceleration; behind them the joints are solved. Grows with the problem, never shrinks.
+/// from what the coarse level has corrected, mixed by Anderson's acceleration; behind them the joints are solved. Grows
+/// with the problem, never shrinks.
 class SweepsInTurn
 {
 public:
     /// Both must outlive it.
-    SweepsInTurn(ContactRows& rows, JointSystem& joints) : m_rows(rows), m_joints(joints), m_mixing(rows) {}
+    SweepsInTurn(ContactRows& rows, JointSystem& joints)
+        : m_rows(rows), m_joints(joints), m_mixing(rows), m_coarse(rows)
+    {
+    }
 
     /// When the rows are assembled anew.
     void begin();
@@ -34,6 +39,9 @@ public:
 
     /// See ContactSweeps.
     bool sweep(double tolerance);
+
+    /// After the last sweep of a round, where there was any: corrects the coarse level of what it was over.
+    void end();
 
     /// What the last sweep changed, as a share of the speed scale, and as a speed [m/s].
     double lastChange() const { return m_lastChange; }
@@ -52,11 +60,13 @@ private:
     ContactRows& m_rows;
     JointSystem& m_joints;
     SweepMixing m_mixing;
+    CoarseCorrection m_coarse;
     SweepParts m_parts;                  // of the rows
     std::vector<int> m_working;          // rows that the sweeps are over, part by part
     std::vector<unsigned char> m_works;  // per row: belongs to them
     bool m_looked = false;               // the rows have noted what they want, and nothing has changed since
     int m_lifeOfSet = -1;                // sweeps until another is chosen; -1: there is none
+    bool m_hasSwept = false;             // since the restart
     double m_negligible = 0;             // change of a row that waits [m/s]
     double m_lastChange = 0, m_lastSpeed = 0;
 };

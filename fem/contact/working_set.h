@@ -43,6 +43,11 @@ public:
         addResponses(&response, 1, order(), m_velocity.data());
     }
 
+    /// What an impulse on one does to all of them, order() numbers; and what is at one of such numbers.
+    Response response(int e, const Vec3& impulse) const { return respond(m_place[e], impulse); }
+    Vec3 read(int e, const std::vector<double>& values) const { return at(values, m_place[e]); }
+    std::size_t order() const { return padded(3 * m_ends.size(), kResponsePadding); }
+
     /// For SweepMixing: the velocities after the last sweep, and their differences from those of the sweeps before, of
     /// which noteSweep keeps that of this one in a slot; the first has none. mixSweeps takes shares of them off.
     static constexpr int kMixed = 2;
@@ -56,7 +61,6 @@ private:
         return {v[0], v[1], v[2]};
     }
     static void put(const Vec3& v, std::vector<double>& values, std::size_t place);
-    std::size_t order() const { return padded(3 * m_ends.size(), kResponsePadding); }
     float* block(std::size_t e, std::size_t f) { return &m_W[3 * f * m_stride + 3 * e]; }
     Response respond(std::size_t place, const Vec3& impulse) const
     {

@@ -8,50 +8,64 @@ namespace bullet_fem
 {
 
 template <class Real>
-ElementBlocks<Real>::ElementBlocks(const RestShape& shape) : m_blocks(bullet_fem::blockCount(shape.m_mesh.tetCount()))
+ElementBlocks<Real>::ElementBlocks(const RestShape& shape, const ElementLanes& lanes)
+    : m_blocks(lanes.blockCount()),
+      m_groups(lanes.m_groups),
+      m_law(shape.m_materials.isNonlinear() ? lanes.blockCount() : 0),
+      m_share(hasPatches() ? lanes.blockCount() : 0)
 {
-    const int last = shape.m_mesh.tetCount() - 1;
-    for (int e = 0; e < blockCount() * kLanes; ++e)
+    for (int k = 0; k < blockCount() * kLanes; ++k)
     {
-        const RestElement& element = shape.m_elements[std::min(e, last)];
-        const double stiffness = e <= last ? 1 : 0;
-        ElementBlock<Real>& block = m_blocks[e / kLanes];
-        const int lane = e % kLanes;
-        const Tet& tet = shape.m_mesh.tets()[std::min(e, last)];
+        const int e = lanes.m_element[k];
+        const RestElement& element = shape.m_elements[e];
+        const double stiffness = lanes.isCopy(k) ? 0 : 1;
+        ElementBlock<Real>& block = m_blocks[k / kLanes];
+        const int lane = k % kLanes;
+        const Tet& tet = shape.m_mesh.tets()[e];
         for (int a = 0; a < 3; ++a)
         {
             const Vec3 edge = shape.m_mesh.restPositions()[tet[a + 1]] - shape.m_mesh.restPositions()[tet[0]];
             for (int c = 0; c < 3; ++c) block.m_Dm[3 * c + a][lane] = edge[c];
         }
-        for (int k = 0; k < 9; ++k) block.m_DmInverse[k][lane] = static_cast<Real>(element.m_DmInverse(k / 3, k % 3));
+        for (int i = 0; i < 9; ++i) block.m_DmInverse[i][lane] = static_cast<Real>(element.m_DmInverse(i / 3, i % 3));
         block.m_lambdaVolume[lane] = static_cast<Real>(stiffness * element.m_lambdaVolume);
         block.m_muVolume[lane] = static_cast<Real>(stiffness * element.m_muVolume);
         for (int a = 0; a < 4; ++a) block.m_node[lane][a] = tet[a];
+        if (!m_law.empty())
+            m_law[k / kLanes].m_lane[lane] = shape.materialOf(e).m_law == ElasticLaw::neoHooke ? Real(1) : Real(0);
+        if (hasPatches()) m_share[k / kLanes].m_lane[lane] = static_cast<Real>(stiffness * shape.shareOfPatch(e));
     }
+}
+
+template <class Real>
+int ElementBlocks<Real>::piecesPerChunk() const
+{
+    return std::max(1, kBlocksPerChunk * pieceCount() / blockCount());
 }
 
 template struct ElementBlocks<float>;
 template struct ElementBlocks<double>;
 
-NodeCorners::NodeCorners(const RestShape& shape)
+NodeCorners::NodeCorners(const RestShape& shape, const ElementLanes& lanes)
     : m_start(shape.m_mesh.nodeCount() + 1, 0),
       m_corner(4 * shape.m_elements.size()),
-      m_volume(kLanes * blockCount(shape.m_mesh.tetCount()), 0.0f),
-      m_parity(shape.m_elements.size())
+      m_volume(lanes.m_element.size(), 0.0f),
+      m_parity(lanes.m_element.size())
 {
     const std::vector<Tet>& tets = shape.m_mesh.tets();
     for (const Tet& tet : tets)
         for (int node : tet) ++m_start[node + 1];
     for (int i = 0; i < nodeCount(); ++i) m_start[i + 1] += m_start[i];
     std::vector<int> next(m_start.begin(), m_start.end() - 1);
-    for (std::size_t e = 0; e < tets.size(); ++e)
+    for (const int element : lanes.m_order)
     {
-        m_volume[e] = static_cast<float>(shape.m_elements[e].m_volume);
+        const int e = lanes.m_lane[element];
+        m_volume[e] = static_cast<float>(shape.m_elements[element].m_volume);
         for (int a = 0; a < 4; ++a)
         {
-            const int node = tets[e][a];
+            const int node = tets[element][a];
             m_parity[e][a] = (next[node] - m_start[node]) % 2;
-            m_corner[next[node]++] = corner(static_cast<int>(e), a);
+            m_corner[next[node]++] = corner(e, a);
         }
     }
     for (int i = 0; i < nodeCount(); ++i)

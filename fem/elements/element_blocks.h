@@ -9,11 +9,10 @@
 #include "bullet_fem/fem/common/quaternion.h"
 #include "bullet_fem/fem/mesh/rest_shape.h"
 #include "fem/common/chunks.h"
+#include "fem/elements/element_lanes.h"
 
 namespace bullet_fem
 {
-
-constexpr int kLanes = 16;  ///< elements of a block: one AVX-512 vector of floats, two of AVX2, four of SSE or NEON
 
 /// A node's position or velocity as the element kernels load it, in one piece.
 struct alignas(32) PaddedVec3
@@ -39,31 +38,55 @@ struct alignas(64) CornerBlock
     Real m_vector[4][kLanes][4];  ///< corner, element, (x, y, z, 0)
 };
 
-/// The elements of a RestShape in blocks, in the mesh's order. The last block is filled up with copies of the last
-/// element that have no stiffness and that no node knows. Real: float or double. Const after construction.
+/// Of a block's elements in the volumes of their patches [-].
+template <class Real>
+struct alignas(64) PatchShares
+{
+    Real m_lane[kLanes];
+};
+
+/// Of a block's elements: 1 where the law is Neo-Hookean, 0 where it is Hooke's.
+template <class Real>
+struct alignas(64) LawLanes
+{
+    Real m_lane[kLanes];
+};
+
+/// The elements of a RestShape in blocks, as ElementLanes puts them. Real: float or double. Const after construction.
 template <class Real>
 struct ElementBlocks
 {
-    explicit ElementBlocks(const RestShape& shape);
+    explicit ElementBlocks(const RestShape& shape) : ElementBlocks(shape, ElementLanes(shape)) {}
+    ElementBlocks(const RestShape& shape, const ElementLanes& lanes);
+
     int blockCount() const { return static_cast<int>(m_blocks.size()); }
+    bool hasPatches() const { return !m_groups.empty(); }
+    /// Of what kernels divide into ranges: blocks, or groups of blocks where there are patches.
+    int pieceCount() const { return hasPatches() ? static_cast<int>(m_groups.size()) : blockCount(); }
+    /// Pieces that have as many blocks as kBlocksPerChunk, or more.
+    int piecesPerChunk() const;
 
     std::vector<ElementBlock<Real>> m_blocks;
+    std::vector<PatchGroup> m_groups;        ///< none without patches
+    std::vector<LawLanes<Real>> m_law;       ///< one a block; none where all elements have Hooke's law
+    std::vector<PatchShares<Real>> m_share;  ///< likewise; a block: of every element in its patch's volume [-]
 };
 
 /// Which corners a node gathers from. Const after construction.
 struct NodeCorners
 {
-    explicit NodeCorners(const RestShape& shape);
+    explicit NodeCorners(const RestShape& shape) : NodeCorners(shape, ElementLanes(shape)) {}
+    NodeCorners(const RestShape& shape, const ElementLanes& lanes);
     int nodeCount() const { return static_cast<int>(m_start.size()) - 1; }
 
-    std::vector<int> m_start;           ///< of every node and of the end, into m_corner
-    std::vector<int> m_corner;          ///< places in an array of CornerBlock taken as vectors; elements ascending
-    std::vector<float> m_volume;        ///< V_e of every element, 0 in what fills the last block [m3]
-    std::vector<float> m_volumeAround;  ///< of every node's elements together [m3]
-    std::vector<std::array<int, 4>> m_parity;  ///< of every element's corners: 1 where it is the second, fourth ... of
+    std::vector<int> m_start;     ///< of every node and of the end, into m_corner
+    std::vector<int> m_corner;    ///< places in an array of CornerBlock taken as vectors; in ElementLanes::m_order
+    std::vector<float> m_volume;  ///< V_e of every lane's element, 0 of copies [m3]
+    std::vector<float> m_volumeAround;         ///< of every node's elements together [m3]
+    std::vector<std::array<int, 4>> m_parity;  ///< of every lane's corners: 1 where it is the second, fourth ... of
                                                ///< its node, 0 else
 
-    /// The element and the place of a corner (of element e, its local node a).
+    /// The lane of a corner, and the place of one (of the element in lane e, its local node a).
     static int element(int corner)
     {
         const unsigned c = static_cast<unsigned>(corner);

@@ -34,17 +34,24 @@ HWY_INLINE Symmetric<Real> strainOf(const Matrix<Real>& A, const Matrix<Real>& B
             entry(0, 1) + entry(1, 0)};
 }
 
-/// 2 mu E + lambda tr(E) I of a strain with doubled shears; the Lame constants times the volume.
+/// 2 mu E + pressure I of a strain with doubled shears; mu times the volume.
 template <class Real>
-HWY_INLINE Symmetric<Real> hooke(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& E)
+HWY_INLINE Symmetric<Real> hookeUnder(Vector<Real> pressure, Vector<Real> mu, const Symmetric<Real>& E)
 {
-    const Vector<Real> twoMu = mu + mu, pressure = lambda * trace(E);
+    const Vector<Real> twoMu = mu + mu;
     return {hn::MulAdd(twoMu, E.xx, pressure),
             hn::MulAdd(twoMu, E.yy, pressure),
             hn::MulAdd(twoMu, E.zz, pressure),
             mu * E.yz,
             mu * E.xz,
             mu * E.xy};
+}
+
+/// 2 mu E + lambda tr(E) I of a strain with doubled shears; the Lame constants times the volume.
+template <class Real>
+HWY_INLINE Symmetric<Real> hooke(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& E)
+{
+    return hookeUnder<Real>(lambda * trace(E), mu, E);
 }
 
 /// What an ElementPass makes of elements once they are rotated, but for their tension, which is the positive part of
@@ -73,6 +80,54 @@ HWY_INLINE Symmetric<Real> passElements(const Elements& elements, const Quaterni
     return hooke<Real>(lambda, mu, strain);
 }
 
+/// lambda D + 2/3 mu (D - own): the pressure of an element whose volume change is `own`, where D is its patch's. With
+/// it, 2 mu E + pressure I is the deviator of E times 2 mu, and D times the bulk modulus.
+template <class Real>
+HWY_INLINE Vector<Real> pressureInPatch(Vector<Real> lambda, Vector<Real> mu, Vector<Real> own, Vector<Real> D)
+{
+    return hn::MulAdd(lambda, D, number<Real>(2.0 / 3) * mu * (D - own));
+}
+
+/// The elements of a patch, or as many patches as a vector has lanes, between two looks at them: first each one's
+/// strains, then, when the mean volume change is known, forces and stress. Elements are those of passElements; they
+/// have share(), of their patch's volume, and loadGradients(), with g'_1, g'_2, g'_3 in the rows.
+template <class Real>
+struct PatchStrains
+{
+    HWY_INLINE PatchStrains() = default;  // the compiler's own would not be made for the instruction set
+
+    /// Element k of the patch. Stores its gradients.
+    template <class Elements>
+    HWY_INLINE void add(int k, const Elements& elements, const Quaternions<Real>& q)
+    {
+        const Matrix<Real> R = toMatrix(q, number<Real>(2));
+        const Matrix<Real> g = timesTranspose(R, elements.DmInverse());
+        const Matrix<Real> stretch = edgesMinusRotated(elements, q);
+        m_strain[k] = strainOf(stretch, g);
+        const Symmetric<Real> rate = strainOf(elements.velocityEdges(), g);
+        elements.storeGradients(g);
+        m_damped[k] = combined<Real>(elements.damping(), rate, number<Real>(1), m_strain[k]);
+        const Vector<Real> share = elements.share();
+        m_dilatation = k == 0 ? share * trace(m_strain[k]) : hn::MulAdd(share, trace(m_strain[k]), m_dilatation);
+        m_dampedDilatation =
+            k == 0 ? share * trace(m_damped[k]) : hn::MulAdd(share, trace(m_damped[k]), m_dampedDilatation);
+    }
+
+    /// Stores the forces of element k and returns its stress.
+    template <class Elements>
+    HWY_INLINE Symmetric<Real> finish(int k, const Elements& elements) const
+    {
+        const Vector<Real> lambda = elements.lambda(), mu = elements.mu();
+        const Vector<Real> damped = pressureInPatch<Real>(lambda, mu, trace(m_damped[k]), m_dampedDilatation);
+        const Symmetric<Real> minusStress = hookeUnder<Real>(hn::Neg(damped), hn::Neg(mu), m_damped[k]);
+        elements.storeForces(timesTranspose(full(minusStress), elements.loadGradients()));
+        return hookeUnder<Real>(pressureInPatch<Real>(lambda, mu, trace(m_strain[k]), m_dilatation), mu, m_strain[k]);
+    }
+
+    Symmetric<Real> m_strain[ElementPatches::kMost], m_damped[ElementPatches::kMost];
+    Vector<Real> m_dilatation, m_dampedDilatation;
+};
+
 /// The tension that an ElementPass makes of a stress.
 template <class Real>
 HWY_INLINE Symmetric<Real> tensionOf(double factor, const Symmetric<Real>& elastic)
@@ -82,13 +137,18 @@ HWY_INLINE Symmetric<Real> tensionOf(double factor, const Symmetric<Real>& elast
     return positivePart(number<Real>(factor), elastic, farEigenvalue(elastic));
 }
 
-/// lambda tr(H) I + mu (H + H^T) + H T.
 template <class Real>
-HWY_INLINE Matrix<Real> warpedStress(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& T,
+HWY_INLINE Vector<Real> trace(const Matrix<Real>& H)
+{
+    return H.m[0][0] + H.m[1][1] + H.m[2][2];
+}
+
+/// pressure I + mu (H + H^T) + H T; lambda tr(H) is the pressure of what has its own volume change.
+template <class Real>
+HWY_INLINE Matrix<Real> warpedStress(Vector<Real> pressure, Vector<Real> mu, const Symmetric<Real>& T,
                                      const Matrix<Real>& H)
 {
     using V = Vector<Real>;
-    const V pressure = lambda * (H.m[0][0] + H.m[1][1] + H.m[2][2]);
     Matrix<Real> P;
     HWY_UNROLL(3)
     for (int i = 0; i < 3; ++i)

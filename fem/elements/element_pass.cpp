@@ -13,6 +13,8 @@
 #include <hwy/highway.h>
 
 #include "fem/elements/element_math-inl.h"
+#include "fem/elements/initial_stress-inl.h"
+#include "fem/elements/neo_hooke-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -61,7 +63,15 @@ struct PassLanes
     HWY_INLINE Quaternion* rotations() const { return m_pass.m_rotation + m_block * kLanes + m_lane; }
 
     HWY_INLINE Vector<Real> lambda() const { return hn::Load(Lanes<Real>(), block().m_lambdaVolume + m_lane); }
+    HWY_INLINE Vector<Real> share() const
+    {
+        return hn::Load(Lanes<Real>(), m_pass.m_elements->m_share[m_block].m_lane + m_lane);
+    }
     HWY_INLINE Vector<Real> mu() const { return hn::Load(Lanes<Real>(), block().m_muVolume + m_lane); }
+    HWY_INLINE Vector<Real> law() const
+    {
+        return hn::Load(Lanes<Real>(), m_pass.m_elements->m_law[m_block].m_lane + m_lane);
+    }
     HWY_INLINE Vector<Real> damping() const { return number<Real>(m_pass.m_damping); }
     HWY_INLINE Matrix<Real> DmInverse() const { return loadMatrix(block().m_DmInverse, m_lane); }
     HWY_INLINE Matrix<double> edges(int part) const { return m_nodes.m_x.load(part * width<double>()); }
@@ -71,7 +81,19 @@ struct PassLanes
     }
     HWY_INLINE Matrix<Real> velocityEdges() const { return m_nodes.m_v.load(); }
 
+    HWY_INLINE Symmetric<Real> initialStress() const
+    {
+        const Lanes<Real> d;
+        const auto& entry = m_pass.m_initialStress[m_block].m_entry;
+        return {hn::Load(d, entry[0] + m_lane), hn::Load(d, entry[1] + m_lane), hn::Load(d, entry[2] + m_lane),
+                hn::Load(d, entry[3] + m_lane), hn::Load(d, entry[4] + m_lane), hn::Load(d, entry[5] + m_lane)};
+    }
+
     HWY_INLINE void storeForces(const Matrix<Real>& f) const { storeCorners(f, m_pass.m_force[m_block], m_lane); }
+    HWY_INLINE void addForces(const Matrix<Real>& f) const
+    {
+        storeForces(plus(loadCorners(m_pass.m_force[m_block], m_lane), f));
+    }
 
     HWY_INLINE void storeGradients(const Matrix<Real>& g) const
     {
@@ -81,12 +103,17 @@ struct PassLanes
         for (int k = 0; k < 9; ++k) hn::Store(g.m[k % 3][k / 3], d, out.m_gradient[k] + m_lane);
     }
 
-    HWY_INLINE void storeTension(const Symmetric<Real>& T) const
+    HWY_INLINE Matrix<Real> loadGradients() const { return loadMatrix(m_pass.m_warped[m_block].m_gradient, m_lane); }
+
+    HWY_INLINE void storeTension(const Symmetric<Real>& T) const { store(T, m_pass.m_warped[m_block].m_tension); }
+    HWY_INLINE void storeCofactor(const Symmetric<Real>& C) const { store(C, m_pass.m_cofactor[m_block].m_entry); }
+
+private:
+    HWY_INLINE void store(const Symmetric<Real>& S, Real (&to)[6][kLanes]) const
     {
-        const Vector<Real> entries[6] = {T.xx, T.yy, T.zz, T.yz, T.xz, T.xy};
+        const Vector<Real> entries[6] = {S.xx, S.yy, S.zz, S.yz, S.xz, S.xy};
         HWY_UNROLL(6)
-        for (int k = 0; k < 6; ++k)
-            hn::Store(entries[k], Lanes<Real>(), m_pass.m_warped[m_block].m_tension[k] + m_lane);
+        for (int k = 0; k < 6; ++k) hn::Store(entries[k], Lanes<Real>(), to[k] + m_lane);
     }
 };
 
@@ -121,21 +148,108 @@ HWY_INLINE void passBlocks(const ElementPass<Real>& pass, Range blocks)
             const auto stageNext = [&](int part) {
                 staged[1 - turn][i].stage(pass, next, {part * kN / 4, (part + 1) * kN / 4});
             };
-            lanes(i).storeTension(tensionOf(pass.m_tensionFactor, passElements(lanes(i), q[i], stageNext)));
+            const auto withGiven = [&](const Symmetric<Real>& elastic) {
+                return pass.m_initialStress ? withInitialStress(lanes(i), q[i], strainAgain(lanes(i), q[i]), elastic)
+                                            : elastic;
+            };
+            if (pass.m_cofactor)
+            {
+                const NeoHookeLanes<Real> law = passNonlinear(lanes(i), q[i], stageNext);
+                storeTangent(lanes(i), law, tensionOf(pass.m_tensionFactor, withGiven(law.m_stress)));
+                continue;
+            }
+            const Symmetric<Real> stress = withGiven(passElements(lanes(i), q[i], stageNext));
+            lanes(i).storeTension(tensionOf(pass.m_tensionFactor, stress));
         }
+    }
+}
+
+/// Some elements of a column of patches, at most kBatch.
+struct PatchBatch
+{
+    int m_column, m_first;
+};
+
+template <class Real>
+HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
+{
+    constexpr int kN = width<Real>(), kVectors = kLanes / kN;
+    const std::vector<PatchGroup>& all = pass.m_elements->m_groups;
+    const int end = groups.m_end * kVectors;
+    const auto column = [&all](int c) { return patchColumn<Real>(all, c); };
+    const auto after = [&](const PatchBatch& batch)
+    {
+        const bool isLast = batch.m_first + kBatch >= column(batch.m_column).m_size;
+        return isLast ? PatchBatch{batch.m_column + 1, 0} : PatchBatch{batch.m_column, batch.m_first + kBatch};
+    };
+    StagedNodes<Real> staged[2][kBatch];
+    const auto stage = [&](const PatchBatch& batch, int i, int slot)
+    {
+        if (batch.m_column >= end || batch.m_first + i >= column(batch.m_column).m_size) return;
+        const PatchColumn in = column(batch.m_column);
+        const int b = in.m_block + batch.m_first + i;
+        staged[slot][i].stage(pass, pass.m_elements->m_blocks[b].m_node + in.m_lane, {0, kN});
+    };
+    PatchStrains<Real> patch;
+    PatchBatch batch = {groups.m_begin * kVectors, 0};
+    for (int i = 0; i < kBatch; ++i) stage(batch, i, 0);
+    for (int turn = 0; batch.m_column < end; turn = 1 - turn)
+    {
+        const PatchColumn in = column(batch.m_column);
+        const PatchBatch next = after(batch);
+        const auto lanes = [&](int k) {
+            return PassLanes<Real>{pass, staged[turn][k - batch.m_first], in.m_block + k, in.m_lane};
+        };
+        const int count = HWY_MIN(kBatch, in.m_size - batch.m_first);
+        Matrix<Real> F[kBatch];
+        Quaternions<Real> q[kBatch];
+        for (int i = 0; i < count; ++i)
+        {
+            const PassLanes<Real> elements = lanes(batch.m_first + i);
+            F[i] = times(roundedEdges<Real>(elements), elements.DmInverse());
+            q[i] = loadQuaternions(elements.rotations(), Real());
+        }
+        if (!pass.m_isRotated) polarRotations(F, count, q);
+        for (int i = 0; i < kBatch; ++i)
+        {
+            stage(next, i, 1 - turn);
+            if (i >= count) continue;
+            storeQuaternions(q[i], lanes(batch.m_first + i).rotations());
+            patch.add(batch.m_first + i, lanes(batch.m_first + i), q[i]);
+        }
+        if (next.m_column != batch.m_column)
+            for (int k = 0; k < in.m_size; ++k)
+            {
+                const PassLanes<Real> elements = {pass, staged[turn][0], in.m_block + k, in.m_lane};
+                Symmetric<Real> stress = patch.finish(k, elements);
+                if (pass.m_initialStress)
+                    stress = withInitialStress(elements, loadQuaternions(elements.rotations(), Real()),
+                                               patch.m_strain[k], stress);
+                elements.storeTension(tensionOf(pass.m_tensionFactor, stress));
+            }
+        batch = next;
     }
 }
 
 #endif
 
-void elementPassFloat(const ElementPass<float>& pass, Range blocks)
+template <class Real>
+void passPieces(const ElementPass<Real>& pass, Range pieces)
 {
-    passBlocks(pass, blocks);
+#if HWY_TARGET != HWY_SCALAR
+    if (pass.m_elements->hasPatches()) return passPatches(pass, pieces);
+#endif
+    passBlocks(pass, pieces);
 }
 
-void elementPassDouble(const ElementPass<double>& pass, Range blocks)
+void elementPassFloat(const ElementPass<float>& pass, Range pieces)
 {
-    passBlocks(pass, blocks);
+    passPieces(pass, pieces);
+}
+
+void elementPassDouble(const ElementPass<double>& pass, Range pieces)
+{
+    passPieces(pass, pieces);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -150,15 +264,15 @@ HWY_EXPORT(elementPassFloat);
 HWY_EXPORT(elementPassDouble);
 
 template <>
-void runElementPass(const ElementPass<float>& pass, Range blocks)
+void runElementPass(const ElementPass<float>& pass, Range pieces)
 {
-    HWY_DYNAMIC_DISPATCH(elementPassFloat)(pass, blocks);
+    HWY_DYNAMIC_DISPATCH(elementPassFloat)(pass, pieces);
 }
 
 template <>
-void runElementPass(const ElementPass<double>& pass, Range blocks)
+void runElementPass(const ElementPass<double>& pass, Range pieces)
 {
-    HWY_DYNAMIC_DISPATCH(elementPassDouble)(pass, blocks);
+    HWY_DYNAMIC_DISPATCH(elementPassDouble)(pass, pieces);
 }
 
 }  // namespace bullet_fem

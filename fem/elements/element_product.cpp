@@ -12,7 +12,7 @@
 // after foreach_target.h
 #include <hwy/highway.h>
 
-#include "fem/elements/element_math-inl.h"
+#include "fem/elements/neo_hooke-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -31,10 +31,9 @@ void multiplyBlocks(const ElementProduct<Real>& product, Range blocks)
 #else
 
 template <class Real>
-HWY_INLINE Symmetric<Real> loadTension(const WarpedBlock<Real>& element, int lane)
+HWY_INLINE Symmetric<Real> loadSymmetric(const Real (&t)[6][kLanes], int lane)
 {
     const Lanes<Real> d;
-    const auto& t = element.m_tension;
     return {hn::Load(d, t[0] + lane), hn::Load(d, t[1] + lane), hn::Load(d, t[2] + lane),
             hn::Load(d, t[3] + lane), hn::Load(d, t[4] + lane), hn::Load(d, t[5] + lane)};
 }
@@ -54,22 +53,76 @@ HWY_INLINE void multiplyBlocks(const ElementProduct<Real>& product, Range blocks
         const Matrix<Real> H = times(edges[slot].load(), g);
         const Vector<Real> lambda = hn::Load(d, product.m_elements->m_blocks[b].m_lambdaVolume + lane);
         const Vector<Real> mu = hn::Load(d, product.m_elements->m_blocks[b].m_muVolume + lane);
-        const Matrix<Real> P = warpedStress<Real>(factor * lambda, factor * mu, loadTension(element, lane), H);
+        if (product.m_cofactor)
+        {
+            const Symmetric<Real> C = loadSymmetric(product.m_cofactor[b].m_entry, lane);
+            const Matrix<Real> shear =
+                warpedStress<Real>(hn::Zero(d), factor * mu, loadSymmetric(element.m_tension, lane), H);
+            const Matrix<Real> P = plusSymmetric<Real>(shear, factor * contraction(C, H), C);
+            storeCorners(timesTranspose(P, g), product.m_out[b], lane);
+            return;
+        }
+        const Matrix<Real> P =
+            warpedStress<Real>(factor * lambda * trace(H), factor * mu, loadSymmetric(element.m_tension, lane), H);
         storeCorners(timesTranspose(P, g), product.m_out[b], lane);
     };
     forEachVector<Real>(blocks, stage, compute);
 }
 
-#endif
-
-void elementProductFloat(const ElementProduct<float>& product, Range blocks)
+template <class Real>
+HWY_INLINE void multiplyPatches(const ElementProduct<Real>& product, Range groups)
 {
-    multiplyBlocks(product, blocks);
+    const Lanes<Real> d;
+    const Vector<Real> factor = number<Real>(product.m_stiffnessFactor);
+    const ElementBlocks<Real>& elements = *product.m_elements;
+    StagedEdges<Real> edges[2][ElementPatches::kMost];
+    Matrix<Real> H[ElementPatches::kMost];
+    const auto stage = [&](const PatchColumn& column, int k, int slot)
+    { edges[slot][k].stage(elements.m_blocks[column.m_block + k].m_node + column.m_lane, product.m_p); };
+    const auto compute = [&](const PatchColumn& column, int slot, const auto& other)
+    {
+        Vector<Real> dilatation = hn::Zero(d);
+        for (int k = 0; k < column.m_size; ++k)
+        {
+            const int b = column.m_block + k;
+            H[k] = times(edges[slot][k].load(), loadMatrix(product.m_warped[b].m_gradient, column.m_lane));
+            const Vector<Real> share = hn::Load(d, elements.m_share[b].m_lane + column.m_lane);
+            dilatation = hn::MulAdd(share, trace(H[k]), dilatation);
+        }
+        for (int k = 0; k < column.m_size; ++k)
+        {
+            other(k);
+            const int b = column.m_block + k, lane = column.m_lane;
+            const WarpedBlock<Real>& element = product.m_warped[b];
+            const Vector<Real> lambda = factor * hn::Load(d, elements.m_blocks[b].m_lambdaVolume + lane);
+            const Vector<Real> mu = factor * hn::Load(d, elements.m_blocks[b].m_muVolume + lane);
+            const Vector<Real> pressure = pressureInPatch<Real>(lambda, mu, trace(H[k]), dilatation);
+            const Matrix<Real> P = warpedStress<Real>(pressure, mu, loadSymmetric(element.m_tension, lane), H[k]);
+            storeCorners(timesTranspose(P, loadMatrix(element.m_gradient, lane)), product.m_out[b], lane);
+        }
+    };
+    forEachColumn<Real>(elements.m_groups, groups, stage, compute);
 }
 
-void elementProductDouble(const ElementProduct<double>& product, Range blocks)
+#endif
+
+template <class Real>
+void multiplyPieces(const ElementProduct<Real>& product, Range pieces)
 {
-    multiplyBlocks(product, blocks);
+#if HWY_TARGET != HWY_SCALAR
+    if (product.m_elements->hasPatches()) return multiplyPatches(product, pieces);
+#endif
+    multiplyBlocks(product, pieces);
+}
+
+void elementProductFloat(const ElementProduct<float>& product, Range pieces)
+{
+    multiplyPieces(product, pieces);
+}
+
+void elementProductDouble(const ElementProduct<double>& product, Range pieces)
+{
+    multiplyPieces(product, pieces);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -84,15 +137,15 @@ HWY_EXPORT(elementProductFloat);
 HWY_EXPORT(elementProductDouble);
 
 template <>
-void runElementProduct(const ElementProduct<float>& product, Range blocks)
+void runElementProduct(const ElementProduct<float>& product, Range pieces)
 {
-    HWY_DYNAMIC_DISPATCH(elementProductFloat)(product, blocks);
+    HWY_DYNAMIC_DISPATCH(elementProductFloat)(product, pieces);
 }
 
 template <>
-void runElementProduct(const ElementProduct<double>& product, Range blocks)
+void runElementProduct(const ElementProduct<double>& product, Range pieces)
 {
-    HWY_DYNAMIC_DISPATCH(elementProductDouble)(product, blocks);
+    HWY_DYNAMIC_DISPATCH(elementProductDouble)(product, pieces);
 }
 
 }  // namespace bullet_fem

@@ -5,10 +5,32 @@
 #include <vector>
 
 #include "fem/elements/element_pass.h"
+#include "fem/elements/element_strains.h"
 #include "fem/elements/node_rotations.h"
+#include "fem/elements/smoothed_elements.h"
 
 namespace bullet_fem
 {
+
+/// What the kernels of smoothed elements write; empty where there are none.
+template <class Real>
+struct SmoothedScratch
+{
+    void grow(int blocks, int domains)
+    {
+        m_warped.resize(blocks);
+        m_tension.resize(blocks);
+        for (auto& strain : m_strain) strain.resize(blocks);
+        for (auto& mean : m_mean) mean.resize(domains);
+    }
+
+    SmoothedStrain<Real> strain(int k) { return {m_strain[k].data(), m_mean[k].data()}; }
+
+    std::vector<SmoothedBlock<Real>> m_warped;
+    std::vector<TensionBlock<Real>> m_tension;
+    std::vector<StrainQuads<Real>> m_strain[2];  ///< elastic and damped of the pass; products use the first
+    std::vector<DomainStrain<Real>> m_mean[2];   ///< likewise
+};
 
 /// What one body's element kernels write in a step, in one precision.
 template <class Real>
@@ -22,6 +44,10 @@ struct ElementScratch
 
     std::vector<CornerBlock<Real>> m_corners;
     std::vector<WarpedBlock<Real>> m_warped;
+    std::vector<StressBlock<Real>> m_initialStress;  ///< empty until there is some
+    std::vector<StressBlock<Real>> m_cofactor;       ///< likewise of laws that are not linear
+    std::vector<StrainBlock<Real>> m_strain;         ///< likewise of strains
+    SmoothedScratch<Real> m_smoothed;
 };
 
 /// Bodies in contact get impulses now and then: not to be ready for them costs as much as to be so in some six steps.

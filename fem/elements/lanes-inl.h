@@ -228,6 +228,48 @@ HWY_INLINE void forEachVector(Range blocks, const Stage& stage, const Compute& c
     }
 }
 
+/// Elements of as many patches as a vector has lanes: from `m_lane` on in each of `m_size` blocks.
+struct PatchColumn
+{
+    int m_block, m_lane, m_size;
+};
+
+/// Columns are numbered group by group.
+template <class Real>
+HWY_INLINE PatchColumn patchColumn(const std::vector<PatchGroup>& groups, int column)
+{
+    constexpr int kVectors = kLanes / width<Real>();  // of a block
+    const PatchGroup& group = groups[column / kVectors];
+    return {group.m_firstBlock, column % kVectors * width<Real>(), group.m_blocks};
+}
+
+/// Calls stage(column, k, slot) for every element k of every column of the groups, and then compute(column, slot,
+/// other); other(k) stages an element of the next column, if it has so many, while this one is computed with. Slots are
+/// 0 and 1.
+template <class Real, class Stage, class Compute>
+HWY_INLINE void forEachColumn(const std::vector<PatchGroup>& groups, Range range, const Stage& stage,
+                              const Compute& compute)
+{
+    constexpr int kVectors = kLanes / width<Real>();  // of a block
+    const int end = range.m_end * kVectors;
+    const auto column = [&groups](int c) { return patchColumn<Real>(groups, c); };
+    int c = range.m_begin * kVectors;
+    if (c >= end) return;
+    PatchColumn now = column(c);
+    for (int k = 0; k < now.m_size; ++k) stage(now, k, c % 2);
+    for (; c < end; ++c)
+    {
+        const PatchColumn next = c + 1 < end ? column(c + 1) : PatchColumn{0, 0, 0};
+        const auto other = [&](int k)
+        {
+            if (k < next.m_size) stage(next, k, (c + 1) % 2);
+        };
+        compute(now, c % 2, other);
+        for (int k = now.m_size; k < next.m_size; ++k) other(k);
+        now = next;
+    }
+}
+
 /// Stores f_1, f_2, f_3, the columns given, and f_0 = -(f_1 + f_2 + f_3) as the corners of the elements from `lane` on.
 template <class Real>
 HWY_INLINE void storeCorners(const Matrix<Real>& f, CornerBlock<Real>& out, int lane)

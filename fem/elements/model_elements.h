@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "fem/elements/element_pass.h"
+#include "fem/elements/smoothed_elements.h"
 
 namespace bullet_fem
 {
@@ -10,7 +10,15 @@ namespace bullet_fem
 /// The elements of a model, packed for the kernels in both precisions.
 struct ModelElements
 {
-    explicit ModelElements(const RestShape& shape) : m_single(shape), m_double(shape), m_nodes(shape) {}
+    explicit ModelElements(const RestShape& shape)
+        : m_lanes(shape),
+          m_single(shape, m_lanes),
+          m_double(shape, m_lanes),
+          m_nodes(shape, m_lanes),
+          m_singleSmoothing(shape, m_lanes),
+          m_doubleSmoothing(shape, m_lanes)
+    {
+    }
 
     int blockCount() const { return m_single.blockCount(); }
     template <class Real>
@@ -21,10 +29,22 @@ struct ModelElements
         else
             return m_double;
     }
+    /// Empty where strains are not smoothed.
+    template <class Real>
+    const EdgeSmoothing<Real>& smoothing() const
+    {
+        if constexpr (sizeof(Real) == sizeof(float))
+            return m_singleSmoothing;
+        else
+            return m_doubleSmoothing;
+    }
 
+    ElementLanes m_lanes;
     ElementBlocks<float> m_single;
     ElementBlocks<double> m_double;
     NodeCorners m_nodes;
+    EdgeSmoothing<float> m_singleSmoothing;
+    EdgeSmoothing<double> m_doubleSmoothing;
 };
 
 }  // namespace bullet_fem

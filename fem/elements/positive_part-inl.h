@@ -60,6 +60,12 @@ HWY_INLINE Vector<Real> tinyNumber()
 template <class Real>
 struct FarEigenvalue
 {
+    HWY_INLINE FarEigenvalue() = default;  // the compiler's own would not be made for the instruction set
+    HWY_INLINE FarEigenvalue(Vector<Real> size, Vector<Real> inverse, Vector<Real> value)
+        : m_size(size), m_inverse(inverse), m_value(value)
+    {
+    }
+
     Vector<Real> m_size, m_inverse, m_value;
 };
 

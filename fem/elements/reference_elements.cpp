@@ -2,9 +2,14 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // The element kernels in plain C++, an element at a time in double precision: what the others are tested against.
+#include <array>
+#include <cmath>
+
 #include "fem/common/rotation.h"
 #include "fem/elements/element_product.h"
+#include "fem/elements/neo_hooke.h"
 #include "fem/elements/positive_part.h"
+#include "fem/elements/reference_math.h"
 
 namespace bullet_fem
 {
@@ -13,58 +18,6 @@ namespace reference
 namespace
 {
 
-/// One element of a block.
-template <class Real>
-struct Element
-{
-    const ElementBlock<Real>& m_block;
-    int m_lane;
-
-    Mat3 Dm() const { return matrix(m_block.m_Dm); }
-    Mat3 DmInverse() const { return matrix(m_block.m_DmInverse); }
-
-    template <class Entry>
-    Mat3 matrix(const Entry (*entries)[kLanes]) const
-    {
-        Mat3 A;
-        for (int k = 0; k < 9; ++k) A(k / 3, k % 3) = entries[k][m_lane];
-        return A;
-    }
-
-    /// [u_1 - u_0, u_2 - u_0, u_3 - u_0], rounded to Rounded.
-    template <class Rounded = Real>
-    Mat3 edges(const PaddedVec3* u) const
-    {
-        const std::int32_t* node = m_block.m_node[m_lane];
-        const auto edge = [&](int a)
-        {
-            const PaddedVec3 &to = u[node[a]], &from = u[node[0]];
-            return Vec3{static_cast<Rounded>(to.x - from.x), static_cast<Rounded>(to.y - from.y),
-                        static_cast<Rounded>(to.z - from.z)};
-        };
-        return Mat3::fromColumns(edge(1), edge(2), edge(3));
-    }
-
-    /// V (2 mu sym(E) + lambda tr(E) I).
-    Mat3 hooke(const Mat3& E) const
-    {
-        return m_block.m_muVolume[m_lane] * (E + transpose(E)) +
-               Mat3::diagonal(m_block.m_lambdaVolume[m_lane] * trace(E));
-    }
-};
-
-/// Corner forces f_1, f_2, f_3 in the columns, f_0 = -(f_1 + f_2 + f_3).
-template <class Real>
-void storeCorners(const Mat3& f, int lane, CornerBlock<Real>& out)
-{
-    const Vec3 corner[4] = {-(f.column(0) + f.column(1) + f.column(2)), f.column(0), f.column(1), f.column(2)};
-    for (int a = 0; a < 4; ++a)
-    {
-        for (int c = 0; c < 3; ++c) out.m_vector[a][lane][c] = static_cast<Real>(corner[a][c]);
-        out.m_vector[a][lane][3] = 0;
-    }
-}
-
 template <class Real>
 void storeTension(const Mat3& T, int lane, WarpedBlock<Real>& out)
 {
@@ -72,57 +25,133 @@ void storeTension(const Mat3& T, int lane, WarpedBlock<Real>& out)
     for (int k = 0; k < 6; ++k) out.m_tension[k][lane] = static_cast<Real>(entries[k]);
 }
 
+// Of either law, all in the element's own frame until it is stored; `initial` of an initial stress with its W.
 template <class Real>
-void passElement(const ElementPass<Real>& pass, int b, int lane)
+void passNonlinear(const ElementPass<Real>& pass, int b, int lane, const Strains& strains, const Mat3& initial)
 {
-    const Element<Real> element = {pass.m_elements->m_blocks[b], lane};
-    const Mat3 DmInverse = element.DmInverse();
-    const Mat3 F = element.edges(pass.m_x) * DmInverse, Fdot = element.edges(pass.m_v) * DmInverse;
-    Quaternion& q = pass.m_rotation[b * kLanes + lane];
-    const Mat3 R = pass.m_isRotated ? toMatrix(q) : polarRotation(F, toMatrix(q));
-    if (!pass.m_isRotated) q = rounded(toQuaternion(R));
+    const ElementBlock<Real>& block = pass.m_elements->m_blocks[b];
+    const Mat3 DmInverse = ReferenceElement<Real>{block, lane}.DmInverse(), R = strains.m_R;
+    const Mat3 e = 0.5 * (strains.m_elastic + transpose(strains.m_elastic));
+    const Mat3 rate = 0.5 * (strains.m_viscous + transpose(strains.m_viscous));
+    const double lambda = block.m_lambdaVolume[lane], mu = block.m_muVolume[lane];
+    NeoHookeResponse law;
+    if (pass.m_elements->m_law[b].m_lane[lane] > 0 && mu > 0)
+        law = neoHooke(e, lambda, mu);
+    else
+        law = {2 * mu * e + Mat3::diagonal(lambda * trace(e)), Mat3::identity(), lambda, 1, 0};
+    const double dilatation = trace(transposeTimes(law.m_cofactor, rate));
+    const Mat3 viscous = law.m_bulk * dilatation * law.m_cofactor + 2 * mu * law.m_shear * rate;
+    const Mat3 P = law.m_stress + pass.m_damping * viscous + initial;
+    storeCorners(timesTranspose(-1.0 * (R * P), DmInverse), lane, pass.m_force[b]);
 
-    const Mat3 FminusR = (element.template edges<double>(pass.m_x) - R * element.Dm()) * DmInverse;
-    const Mat3 elastic = element.hooke(transposeTimes(R, FminusR));
-    const Mat3 viscous = element.hooke(transposeTimes(R, Fdot));
-    storeCorners(timesTranspose(-1.0 * (R * (elastic + pass.m_damping * viscous)), DmInverse), lane, pass.m_force[b]);
+    WarpedBlock<Real>& warped = pass.m_warped[b];
+    const Mat3 g = std::sqrt(law.m_shear) * timesTranspose(DmInverse, R);
+    for (int k = 0; k < 9; ++k) warped.m_gradient[k][lane] = static_cast<Real>(g(k / 3, k % 3));
+    const Mat3 given = 0.5 * (initial + transpose(initial));
+    const double factor = pass.m_tensionFactor / law.m_shear;
+    storeTension(factor * (R * timesTranspose(positivePart(law.m_stress + given), R)), lane, warped);
+    const Mat3 C = std::sqrt(law.m_bulk / law.m_shear) * (R * timesTranspose(law.m_cofactor, R));
+    const double entries[6] = {C(0, 0), C(1, 1), C(2, 2), C(1, 2), C(0, 2), C(0, 1)};
+    for (int k = 0; k < 6; ++k) pass.m_cofactor[b].m_entry[k][lane] = static_cast<Real>(entries[k]);
+}
+
+template <class Real>
+void passElement(const ElementPass<Real>& pass, int b, int lane, const Strains& strains, double dilatation, double rate)
+{
+    const ReferenceElement<Real> element = {pass.m_elements->m_blocks[b], lane};
+    const Mat3 DmInverse = element.DmInverse(), R = strains.m_R;
+    const Mat3 elastic = element.hooke(strains.m_elastic, dilatation);
+    const Mat3 viscous = element.hooke(strains.m_viscous, rate), initial = initialStress(pass, b, lane);
+    const Mat3 S = Mat3::identity() + 0.5 * (strains.m_elastic + transpose(strains.m_elastic));
+    const Mat3 P = elastic + pass.m_damping * viscous + initial + torqueBalance(S, initial);
+    if (pass.m_cofactor) return passNonlinear(pass, b, lane, strains, initial + torqueBalance(S, initial));
+    storeCorners(timesTranspose(-1.0 * (R * P), DmInverse), lane, pass.m_force[b]);
 
     WarpedBlock<Real>& warped = pass.m_warped[b];
     const Mat3 g = timesTranspose(DmInverse, R);
     for (int k = 0; k < 9; ++k) warped.m_gradient[k][lane] = static_cast<Real>(g(k / 3, k % 3));
-    storeTension(pass.m_tensionFactor * (R * timesTranspose(positivePart(elastic), R)), lane, warped);
+    storeTension(pass.m_tensionFactor * (R * timesTranspose(positivePart(elastic + initial), R)), lane, warped);
+}
+
+// sum over b of p_b g'_b^T.
+template <class Real>
+Mat3 gradientOf(const ElementProduct<Real>& product, int b, int lane, Mat3& g)
+{
+    for (int k = 0; k < 9; ++k) g(k / 3, k % 3) = product.m_warped[b].m_gradient[k][lane];
+    return ReferenceElement<Real>{product.m_elements->m_blocks[b], lane}.edges(product.m_p) * g;
 }
 
 template <class Real>
-void multiplyElement(const ElementProduct<Real>& product, int b, int lane)
+double dilatationOf(const ElementProduct<Real>& product, int b, int lane)
+{
+    Mat3 g;
+    return trace(gradientOf(product, b, lane, g));
+}
+
+template <class Real>
+void multiplyElement(const ElementProduct<Real>& product, int b, int lane, double dilatation)
 {
     const WarpedBlock<Real>& warped = product.m_warped[b];
     const auto& t = warped.m_tension;
     Mat3 g;
-    for (int k = 0; k < 9; ++k) g(k / 3, k % 3) = warped.m_gradient[k][lane];
+    const Mat3 H = gradientOf(product, b, lane, g);
     const Mat3 T = {{{t[0][lane], t[5][lane], t[4][lane]},
                      {t[5][lane], t[1][lane], t[3][lane]},
                      {t[4][lane], t[3][lane], t[2][lane]}}};
-    const Element<Real> element = {product.m_elements->m_blocks[b], lane};
-    const Mat3 H = element.edges(product.m_p) * g;
-    const Mat3 P = product.m_stiffnessFactor * element.hooke(H) + H * T;
+    const ReferenceElement<Real> element = {product.m_elements->m_blocks[b], lane};
+    Mat3 P = product.m_stiffnessFactor * element.hooke(H, dilatation) + H * T;
+    if (product.m_cofactor)
+    {
+        const auto& c = product.m_cofactor[b].m_entry;
+        const Mat3 C = {{{c[0][lane], c[5][lane], c[4][lane]},
+                         {c[5][lane], c[1][lane], c[3][lane]},
+                         {c[4][lane], c[3][lane], c[2][lane]}}};
+        const double mu = element.m_block.m_muVolume[lane];
+        P = product.m_stiffnessFactor * (mu * (H + transpose(H)) + trace(transposeTimes(C, H)) * C) + H * T;
+    }
     storeCorners(timesTranspose(P, g), lane, product.m_out[b]);
 }
 
 }  // namespace
 
 template <class Real>
-void runElementPass(const ElementPass<Real>& pass, Range blocks)
+void runElementPass(const ElementPass<Real>& pass, Range pieces)
 {
-    for (int b = blocks.m_begin; b < blocks.m_end; ++b)
-        for (int lane = 0; lane < kLanes; ++lane) passElement(pass, b, lane);
+    const ElementBlocks<Real>& elements = *pass.m_elements;
+    for (int p = pieces.m_begin; p < pieces.m_end; ++p)
+        for (int lane = 0; lane < kLanes; ++lane)
+        {
+            const PatchGroup group = elements.hasPatches() ? elements.m_groups[p] : PatchGroup{p, 1};
+            std::array<Strains, ElementPatches::kMost> strains;
+            double dilatation = 0, rate = 0;
+            for (int k = 0; k < group.m_blocks; ++k)
+            {
+                const int b = group.m_firstBlock + k;
+                const double share = elements.hasPatches() ? elements.m_share[b].m_lane[lane] : 1;
+                strains[k] = strainsOf(pass, b, lane);
+                dilatation += share * trace(strains[k].m_elastic);
+                rate += share * trace(strains[k].m_viscous);
+            }
+            for (int k = 0; k < group.m_blocks; ++k)
+                passElement(pass, group.m_firstBlock + k, lane, strains[k], dilatation, rate);
+        }
 }
 
 template <class Real>
-void runElementProduct(const ElementProduct<Real>& product, Range blocks)
+void runElementProduct(const ElementProduct<Real>& product, Range pieces)
 {
-    for (int b = blocks.m_begin; b < blocks.m_end; ++b)
-        for (int lane = 0; lane < kLanes; ++lane) multiplyElement(product, b, lane);
+    const ElementBlocks<Real>& elements = *product.m_elements;
+    for (int p = pieces.m_begin; p < pieces.m_end; ++p)
+        for (int lane = 0; lane < kLanes; ++lane)
+        {
+            const PatchGroup group = elements.hasPatches() ? elements.m_groups[p] : PatchGroup{p, 1};
+            double dilatation = 0;
+            for (int b = group.m_firstBlock; b < group.m_firstBlock + group.m_blocks; ++b)
+                dilatation +=
+                    (elements.hasPatches() ? elements.m_share[b].m_lane[lane] : 1) * dilatationOf(product, b, lane);
+            for (int b = group.m_firstBlock; b < group.m_firstBlock + group.m_blocks; ++b)
+                multiplyElement(product, b, lane, dilatation);
+        }
 }
 
 template void runElementPass(const ElementPass<float>&, Range);

@@ -10,20 +10,41 @@ namespace bullet_fem
 namespace
 {
 
-Vec3 shapeGradient(const RestElement& element, int a)
+double bulkVolumeOf(const RestElement& element)
 {
-    const auto& D = element.m_DmInverse.m;
-    if (a > 0) return {D[a - 1][0], D[a - 1][1], D[a - 1][2]};
-    return -(shapeGradient(element, 1) + shapeGradient(element, 2) + shapeGradient(element, 3));
+    return element.m_lambdaVolume + 2.0 / 3 * element.m_muVolume;
 }
 
-// Sparsity pattern: nodes that share an element, and the diagonal.
-BlockMatrix emptyMatrix(const TetMesh& mesh)
+void addNodes(const std::vector<int>& from, std::vector<int>& to)
 {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+/// The nodes of a patch, ascending.
+std::vector<int> nodesOf(const RestShape& shape, int patch)
+{
+    const ElementPatches& patches = shape.m_patches;
+    std::vector<int> nodes;
+    for (int k = patches.m_start[patch]; k < patches.m_start[patch + 1]; ++k)
+        for (const int node : shape.m_mesh.tets()[patches.m_element[k]]) nodes.push_back(node);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+}
+
+// Sparsity pattern: nodes that share an element or a patch, and the diagonal.
+BlockMatrix emptyMatrix(const RestShape& shape)
+{
+    const TetMesh& mesh = shape.m_mesh;
     std::vector<std::vector<int>> neighbours(mesh.nodeCount());
     for (int i = 0; i < mesh.nodeCount(); ++i) neighbours[i].push_back(i);  // loose nodes have no more
     for (const Tet& tet : mesh.tets())
         for (int a : tet) neighbours[a].insert(neighbours[a].end(), tet.begin(), tet.end());
+    for (int p = 0; p < shape.m_patches.count(); ++p)
+    {
+        const std::vector<int> nodes = nodesOf(shape, p);
+        for (int i : nodes) addNodes(nodes, neighbours[i]);
+    }
     BlockMatrix matrix;
     matrix.m_rowStart.push_back(0);
     for (std::vector<int>& row : neighbours)
@@ -37,7 +58,38 @@ BlockMatrix emptyMatrix(const TetMesh& mesh)
     return matrix;
 }
 
+// (lambda + 2/3 mu) V G_i G_j^T of every patch.
+void addPatches(const RestShape& shape, BlockMatrix& K)
+{
+    const ElementPatches& patches = shape.m_patches;
+    for (int p = 0; p < patches.count(); ++p)
+    {
+        const std::vector<int> nodes = nodesOf(shape, p);
+        std::vector<Vec3> G(nodes.size());
+        double bulkVolume = 0;
+        for (int k = patches.m_start[p]; k < patches.m_start[p + 1]; ++k)
+        {
+            const int e = patches.m_element[k];
+            bulkVolume += bulkVolumeOf(shape.m_elements[e]);
+            for (int a = 0; a < 4; ++a)
+            {
+                const auto i = std::lower_bound(nodes.begin(), nodes.end(), shape.m_mesh.tets()[e][a]) - nodes.begin();
+                G[i] += shape.shareOfPatch(e) * shapeGradient(shape.m_elements[e], a);
+            }
+        }
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (std::size_t j = 0; j < nodes.size(); ++j) K.at(nodes[i], nodes[j]) += bulkVolume * outer(G[i], G[j]);
+    }
+}
+
 }  // namespace
+
+Vec3 shapeGradient(const RestElement& element, int a)
+{
+    const auto& D = element.m_DmInverse.m;
+    if (a > 0) return {D[a - 1][0], D[a - 1][1], D[a - 1][2]};
+    return -(shapeGradient(element, 1) + shapeGradient(element, 2) + shapeGradient(element, 3));
+}
 
 Mat3& BlockMatrix::at(int row, int column)
 {
@@ -56,13 +108,16 @@ Mat3 elementStiffnessBlock(const RestElement& element, int a, int b)
 
 BlockMatrix assembleRestStiffness(const RestShape& shape)
 {
-    BlockMatrix K = emptyMatrix(shape.m_mesh);
+    BlockMatrix K = emptyMatrix(shape);
     for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
     {
         const Tet& tet = shape.m_mesh.tets()[e];
+        RestElement element = shape.m_elements[e];
+        if (!shape.m_patches.empty()) element.m_lambdaVolume -= bulkVolumeOf(element);
         for (int a = 0; a < 4; ++a)
-            for (int b = 0; b < 4; ++b) K.at(tet[a], tet[b]) += elementStiffnessBlock(shape.m_elements[e], a, b);
+            for (int b = 0; b < 4; ++b) K.at(tet[a], tet[b]) += elementStiffnessBlock(element, a, b);
     }
+    addPatches(shape, K);
     return K;
 }
 

@@ -21,11 +21,16 @@ struct BlockMatrix
     const Mat3& at(int row, int column) const { return const_cast<BlockMatrix*>(this)->at(row, column); }
 };
 
+/// The gradient g_a of the shape function of an element's node a in 0..3 [1/m].
+Vec3 shapeGradient(const RestElement& element, int a);
+
 /// The 3x3 blocks K_ab = V (lambda g_a g_b^T + mu g_b g_a^T + mu (g_a . g_b) I) of an element's rest stiffness
 /// K_e = V B^T C B [N/m], nodes a, b in 0..3.
 Mat3 elementStiffnessBlock(const RestElement& element, int a, int b);
 
-/// The rest stiffness K [N/m], assembled over all nodes.
+/// The rest stiffness K [N/m], assembled over all nodes; where elements share their volume changes, with G_i = sum of
+/// V_e / V g_a over the elements of a patch of volume V at node i, with (lambda + 2/3 mu) V G_i G_j^T in place of what
+/// their own volume changes make.
 BlockMatrix assembleRestStiffness(const RestShape& shape);
 
 }  // namespace bullet_fem

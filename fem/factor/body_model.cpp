@@ -48,8 +48,22 @@ double mismatch(const Material& a, const Material& b, double h)
                                      stiff * (3 * m.lameLambda() + 2 * m.lameMu())};
     };
     double most = 1;
+    // Elements that share their volume changes, and such that do not: to a volume change of the one kind the other may
+    // be as soft as without lambda.
+    if (a.usesMeanDilatation() != b.usesMeanDilatation())
+        for (const Material* m : {&a, &b}) most = std::max(most, 1 + 1.5 * m->lameLambda() / m->lameMu());
     for (std::size_t k = 0; k < 3; ++k) most = std::max({most, parts(a)[k] / parts(b)[k], parts(b)[k] / parts(a)[k]});
     return std::sqrt(most);
+}
+
+// Both matrices are sums over elements: none of their eigenvalues is farther off than the worst element's.
+double mismatch(const RestShape& shape, const ElementMaterials& factored, double h)
+{
+    if (shape.m_materials.isUniform() && factored.isUniform()) return mismatch(shape.m_material, factored.first(), h);
+    double most = 1;
+    for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
+        most = std::max(most, mismatch(shape.materialOf(e), factored.of(e), h));
+    return most;
 }
 
 }  // namespace
@@ -63,7 +77,7 @@ std::shared_ptr<const BodyModel> BodyModel::create(std::shared_ptr<const RestSha
     model->m_shape = std::move(shape);
     FactorOfModel& factor = model->m_factor;
     factor.m_input = std::move(input);
-    factor.m_material = model->m_shape->m_material;
+    factor.m_materials = model->m_shape->m_materials;
     factor.m_factor = std::make_shared<const RestFactor>(*model->m_shape, factor.m_input, factor.m_report);
     model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
     factor.m_report.m_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -76,12 +90,12 @@ std::shared_ptr<const BodyModel> BodyModel::withFactor(std::shared_ptr<const Res
     if (static_cast<int>(factor.m_input.m_mass.size()) != shape->m_mesh.nodeCount())
         reject("the factor is one for ", factor.m_input.m_mass.size(), " nodes, and the shape has ",
                shape->m_mesh.nodeCount());
+    factor.m_materials.validate(shape->m_mesh.tetCount());
     std::shared_ptr<BodyModel> model(new BodyModel);
     model->m_shape = std::move(shape);
     model->m_factor = std::move(factor);
     model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
-    model->m_materialMismatch =
-        mismatch(model->m_shape->m_material, model->m_factor.m_material, model->m_factor.m_input.m_step);
+    model->m_materialMismatch = mismatch(*model->m_shape, model->m_factor.m_materials, model->m_factor.m_input.m_step);
     return model;
 }
 

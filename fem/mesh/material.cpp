@@ -40,6 +40,77 @@ Material isotropic(double youngModulus, double poissonRatio, double density)
     return material;
 }
 
+// False, and why, if the terms of the Prony series are none.
+bool validRelaxation(const std::array<PronyTerm, Material::kMostRelaxationTerms>& terms, std::string* why)
+{
+    double sum = 0;
+    bool isOver = false;  // the series
+    for (int i = 0; i < Material::kMostRelaxationTerms; ++i)
+    {
+        const PronyTerm& term = terms[i];
+        const std::string name = message("relaxation term ", i);
+        const ValueRange ranges[] = {{"share [-]", term.m_share, false, 0, Material::kMostRelaxedShare, "0 is no term"},
+                                     {"time [s]", term.m_time, false, 1e-6, 1e9, "usual ones are 0.01 to 1000 s"}};
+        for (const ValueRange& range : ranges)
+            if (!range.contains())
+            {
+                if (why) *why = message(name, ": ", range.complaint());
+                return false;
+            }
+        if (isOver && term.m_share > 0)
+        {
+            if (why)
+                *why = message(name, ": its share is ", term.m_share, ", and a term before it has none; close the gap");
+            return false;
+        }
+        isOver = term.m_share == 0;
+        sum += term.m_share;
+    }
+    const ValueRange all = {"sum of the relaxation terms' shares [-]", sum, false, 0, Material::kMostRelaxedShare,
+                            "a solid keeps some of its stiffness"};
+    if (!all.contains() && why) *why = all.complaint();
+    return all.contains();
+}
+
+// False, and why, if the law is none, or does not go with the rest of the material.
+bool validLaw(const Material& material, std::string* why)
+{
+    const auto refuse = [why](const std::string& text)
+    {
+        if (why) *why = text;
+        return false;
+    };
+    if (material.m_law != ElasticLaw::hooke && material.m_law != ElasticLaw::neoHooke)
+        return refuse(
+            message("elastic law is ", static_cast<int>(material.m_law), ", outside [0, 1]; choose hooke or neoHooke"));
+    if (material.m_law == ElasticLaw::hooke) return true;
+    if (material.yields())
+        return refuse(message("yield stress [Pa] is ", material.m_yieldStress,
+                              " with the Neo-Hookean law, which does not yield; use infinity, or the law hooke"));
+    if (material.m_relaxation[0].m_share > 0)
+        return refuse(message("relaxation term 0: its share is ", material.m_relaxation[0].m_share,
+                              " with the Neo-Hookean law, which does not relax; use none, or the law hooke"));
+    if (material.m_meanDilatation == MeanDilatation::on)
+        return refuse(
+            "mean dilatation is on with the Neo-Hookean law, whose elements have their own volume change "
+            "each; use automatic or off, or the law hooke");
+    return true;
+}
+
+// False, and why, where strains would have to be averaged that are not.
+bool validBending(const Material& material, std::string* why)
+{
+    if (!material.m_accurateBending) return true;
+    const char* without = material.m_meanDilatation == MeanDilatation::off ? "mean dilatation off; take automatic or on"
+                          : material.m_law != ElasticLaw::hooke            ? "the Neo-Hookean law; take the law hooke"
+                          : material.yields() ? "a yield stress; take infinity, or another material"
+                          : material.relaxationTerms() > 0
+                              ? "relaxation; take terms without a share, or another material"
+                              : nullptr;
+    if (without && why) *why = message("accurate bending does not go with ", without);
+    return !without;
+}
+
 }  // namespace
 
 LameModuli& LameModuli::operator+=(const LameModuli& b)
@@ -58,7 +129,7 @@ double LameModuli::youngModulus() const
 double LameModuli::poissonRatio() const
 {
     const double lambda = std::max(0.0, m_lambda);
-    return std::min(0.49, 0.5 * lambda / (lambda + m_mu));
+    return std::min(Material::kMostPoissonRatio, 0.5 * lambda / (lambda + m_mu));
 }
 
 double Material::lameLambda() const
@@ -71,21 +142,49 @@ double Material::lameMu() const
     return m_youngModulus / (2 * (1 + m_poissonRatio));
 }
 
+bool Material::usesMeanDilatation() const
+{
+    if (m_law == ElasticLaw::neoHooke) return false;
+    if (m_meanDilatation != MeanDilatation::automatic) return m_meanDilatation == MeanDilatation::on;
+    return m_accurateBending || static_cast<float>(m_poissonRatio) > static_cast<float>(kLeastAveragedRatio);
+}
+
+int Material::relaxationTerms() const
+{
+    int count = 0;
+    while (count < kMostRelaxationTerms && m_relaxation[count].m_share > 0) ++count;
+    return count;
+}
+
 bool Material::valid(std::string* why) const
 {
     const ValueRange ranges[] = {
         {"Young's modulus [Pa]", m_youngModulus, true, 0, 1e13, "rubber is about 2e6, steel 2e11"},
-        {"Poisson's ratio [-]", m_poissonRatio, false, 0, 0.49, "use 0.45 to 0.49 for a nearly incompressible solid"},
+        {"Poisson's ratio [-]", m_poissonRatio, false, 0, kMostPoissonRatio,
+         "use 0.45 to 0.499 for a nearly incompressible solid: at 0.5 no pressure would change its volume"},
         {"density [kg/m3]", m_density, false, 0, 1e6, "water is 1000; 0 keeps the body's own node masses"},
         {"mass damping [1/s]", m_massDamping, false, 0, 1e4, "0 switches it off"},
-        {"stiffness damping [s]", m_stiffnessDamping, false, 0, 10, "0 switches it off, 0.01 is already much"}};
+        {"stiffness damping [s]", m_stiffnessDamping, false, 0, 10, "0 switches it off, 0.01 is already much"},
+        {"yield stress [Pa]", m_yieldStress, true, 0, kInfinite,
+         "soft clay yields at 5e4, mild steel at 2.5e8; infinity, the default, never yields"},
+        {"hardening modulus [Pa]", m_hardeningModulus, false, 0, 1e13, "0 is perfect plasticity"},
+        {"plastic creep [1/s]", m_plasticCreep, true, 0, kInfinite, "infinity, the default, flows at once"},
+        {"largest plastic strain [-]", m_mostPlasticStrain, true, 0, 0.9,
+         "at 1 elements would be flat at rest; 0.5 is the default"}};
     for (const ValueRange& range : ranges)
         if (!range.contains())
         {
             if (why) *why = range.complaint();
             return false;
         }
-    return true;
+    if (m_meanDilatation < MeanDilatation::automatic || m_meanDilatation > MeanDilatation::off)
+    {
+        if (why)
+            *why = message("mean dilatation is ", static_cast<int>(m_meanDilatation),
+                           ", outside [0, 2]; choose automatic, on or off");
+        return false;
+    }
+    return validLaw(*this, why) && validRelaxation(m_relaxation, why) && validBending(*this, why);
 }
 
 void Material::validate() const
@@ -113,6 +212,28 @@ Material Material::flesh()
 Material Material::wood()
 {
     return isotropic(9e9, 0.3, 500);
+}
+
+// Sources: docs/materials.md, Plasticity.
+Material Material::clay()
+{
+    Material material = isotropic(2.5e6, 0.45, 1800);
+    material.m_yieldStress = 5e4;
+    return material;
+}
+Material Material::lead()
+{
+    Material material = isotropic(16e9, 0.44, 11340);
+    material.m_yieldStress = 5.5e6;
+    material.m_hardeningModulus = 20e6;
+    return material;
+}
+Material Material::mildFoam()
+{
+    Material material = foam();
+    material.m_yieldStress = 2.5e3;
+    material.m_plasticCreep = 2;
+    return material;
 }
 
 }  // namespace bullet_fem

@@ -27,25 +27,38 @@ void validateScales(const TetMesh& mesh, const std::vector<double>& filled, doub
 
 std::vector<double> lumpedMasses(const TetMesh& mesh, const std::vector<double>& filled, double density)
 {
+    Material material;
+    material.m_density = density;
+    return lumpedMasses(mesh, filled, material, 1);
+}
+
+std::vector<double> lumpedMasses(const TetMesh& mesh, const std::vector<double>& filled,
+                                 const ElementMaterials& materials, double massScale)
+{
     std::vector<double> mass(mesh.nodeCount(), 0.0);
     for (int e = 0; e < mesh.tetCount(); ++e)
+    {
+        const double density = materials.of(e).m_density * massScale;
         for (int node : mesh.tets()[e])
             mass[node] += density * mesh.tetVolume(e) * (filled.empty() ? 1.0 : filled[e]) / 4;
+    }
     return mass;
 }
 
-RestShape::RestShape(TetMesh mesh, const Material& material, const std::vector<double>& filled, double massScale)
-    : m_mesh(std::move(mesh)), m_material(material)
+RestShape::RestShape(TetMesh mesh, ElementMaterials materials, const std::vector<double>& filled, double massScale)
+    : m_mesh(std::move(mesh)), m_materials(std::move(materials))
 {
-    material.validate();
+    m_materials.validate(m_mesh.tetCount());
+    m_material = m_materials.first();
     validateScales(m_mesh, filled, massScale);
-    const double density = material.m_density > 0 ? material.m_density : 1;
     const std::vector<Vec3>& X = m_mesh.restPositions();
     m_elements.resize(m_mesh.tets().size());
     m_lumpedMass.assign(X.size(), 0.0);
     for (int e = 0; e < m_mesh.tetCount(); ++e)
     {
         const Tet& tet = m_mesh.tets()[e];
+        const Material& material = materialOf(e);
+        const double density = material.m_density > 0 ? material.m_density : 1;
         const Vec3& X0 = X[tet[0]];
         RestElement& element = m_elements[e];
         element.m_DmInverse = inverse(Mat3::fromColumns(X[tet[1]] - X0, X[tet[2]] - X0, X[tet[3]] - X0));
@@ -54,6 +67,20 @@ RestShape::RestShape(TetMesh mesh, const Material& material, const std::vector<d
         element.m_muVolume = material.lameMu() * element.m_volume;
         for (int node : tet) m_lumpedMass[node] += density * massScale * element.m_volume / 4;
     }
+    if (!m_materials.usesMeanDilatation()) return;
+    const std::vector<int> groups = m_materials.patchGroups();
+    m_patches = ElementPatches(m_mesh, groups);
+    m_patchVolume.assign(m_patches.count(), 0.0);
+    for (int e = 0; e < m_mesh.tetCount(); ++e) m_patchVolume[m_patches.m_patch[e]] += m_elements[e].m_volume;
+    if (!m_materials.bendsAccurately()) return;
+    std::vector<double> volume;
+    for (const RestElement& element : m_elements) volume.push_back(element.m_volume);
+    m_edgeDomains = EdgeDomains(m_mesh, m_materials, groups, volume);
+}
+
+double RestShape::shareOfPatch(int e) const
+{
+    return m_patches.empty() ? 1 : m_elements[e].m_volume / m_patchVolume[m_patches.m_patch[e]];
 }
 
 }  // namespace bullet_fem

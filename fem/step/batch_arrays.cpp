@@ -18,13 +18,14 @@ constexpr int kMostElements = 15000;
 std::vector<BatchCorners> cornersOf(const BodyModel& model)
 {
     constexpr int kVector = 3 * kBatchWidth;
-    const std::vector<Tet>& tets = model.mesh().tets();
-    std::vector<BatchCorners> corners(tets.size());
-    for (std::size_t e = 0; e < tets.size(); ++e)
+    const std::vector<int>& elementAt = model.elements().m_lanes.m_element;
+    std::vector<BatchCorners> corners(elementAt.size());
+    for (std::size_t e = 0; e < corners.size(); ++e)
         for (int a = 0; a < 4; ++a)
         {
-            corners[e].m_node[a] = tets[e][a] * kVector;
-            corners[e].m_sum[a] = (2 * tets[e][a] + model.elements().m_nodes.m_parity[e][a]) * kVector;
+            const int node = model.mesh().tets()[elementAt[e]][a];
+            corners[e].m_node[a] = node * kVector;
+            corners[e].m_sum[a] = (2 * node + model.elements().m_nodes.m_parity[e][a]) * kVector;
         }
     return corners;
 }
@@ -45,7 +46,8 @@ bool canBeBatched(const BodyModel& model)
 {
     const TetMesh& mesh = model.mesh();
     return hasBatchKernels() && mesh.tetCount() <= kMostElements && model.factorReport().m_path == FactorPath::full &&
-           mesh.componentCount() == 1 && mesh.looseCount() == 0 && model.factor().freeNodeCount() == model.nodeCount();
+           model.shape().m_edgeDomains.empty() && mesh.componentCount() == 1 && mesh.looseCount() == 0 &&
+           model.factor().freeNodeCount() == model.nodeCount();
 }
 
 BatchArrays::BatchArrays(const BodyModel& model)
@@ -66,10 +68,17 @@ BatchArrays::BatchArrays(const BodyModel& model)
     for (std::size_t i = 0; i < nodes; ++i) m_position.push_back(factor.position(static_cast<int>(i)));
 }
 
+int BatchArrays::elementCount() const
+{
+    const ElementBlocks<float>& blocks = m_model.elements().m_single;
+    return blocks.hasPatches() ? kLanes * blocks.blockCount() : m_model.mesh().tetCount();
+}
+
 BatchElements BatchArrays::elements() const
 {
     const ModelElements& elements = m_model.elements();
-    return {&elements.m_single, m_corners.data(), elementCount(), m_rotation.get(), m_warped.get(), m_sums.get()};
+    return {&elements.m_single, m_corners.data(), elementCount(),   m_rotation.get(),
+            m_warped.get(),     m_sums.get(),     &elements.m_lanes};
 }
 
 BatchNodeRotations BatchArrays::nodeRotations()

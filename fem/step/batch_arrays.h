@@ -14,7 +14,7 @@ namespace bullet_fem
 {
 
 /// True if bodies of this model can be solved side by side: of one piece and not too large, with all nodes in a factor
-/// of blocks.
+/// of blocks, and elements that are not smoothed.
 bool canBeBatched(const BodyModel& model);
 
 /// What kBatchWidth bodies of one model are solved in side by side: scratch, interleaved, a lane a body.
@@ -26,7 +26,7 @@ public:
 
     const BodyModel& model() const { return m_model; }
     int nodeCount() const { return m_model.nodeCount(); }
-    int elementCount() const { return m_model.mesh().tetCount(); }
+    int elementCount() const;  ///< see BatchElements::m_count
 
     BatchElements elements() const;
     BatchMasses masses() const { return {nodeCount(), m_mass.get(), m_x.get()}; }

@@ -21,10 +21,11 @@ struct BatchElements
 {
     const ElementBlocks<float>* m_rest;
     const BatchCorners* m_corners;  ///< one an element
-    int m_count;                    ///< elements
+    int m_count;                    ///< elements; with patches, lanes of m_rest
     float* m_rotation;              ///< [element][x, y, z, w][body]
     float* m_warped;                ///< [element][kWarpedRows][body], as in WarpedBlock
     double* m_sums;                 ///< [node][2][3][body]: of what corners hold
+    const ElementLanes* m_lanes;    ///< where elements stand, "element" e being that of lane e
 };
 
 /// ElementPass over them.

@@ -6,6 +6,7 @@
 
 #include "fem/step/batch_arrays.h"
 #include "fem/step/batched_solve.h"
+#include "fem/step/internal_stress.h"
 #include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
 #include "fem/step/warped_system.h"
@@ -19,7 +20,8 @@ bool isPlain(const Body& body, const StepSettings& settings)
 {
     const std::vector<unsigned char>& fixed = body.m_state.m_fixed;
     return settings.m_batchMemory && settings.m_warp == Warp::nodal && isSinglePrecision(settings) &&
-           !(body.m_loads.m_frameDamping > 0) &&
+           !body.m_model->shape().m_materials.isNonlinear() && !(body.m_loads.m_frameDamping > 0) &&
+           !hasInitialStress(body) && !body.m_actuators.hasPulls() &&
            (StepCoefficients(settings, body).m_damping == 1 || body.m_loads.m_priorVelocity.empty()) &&
            !std::memchr(fixed.data(), 1, fixed.size()) && canBeBatched(*body.m_model);
 }

@@ -126,7 +126,7 @@ struct Terms
 template <int kSums, class TermsOf>
 HWY_INLINE void sumsOverNodes(int nodes, PerBatch* const (&out)[kSums], const TermsOf& terms)
 {
-    Terms<kSums> zero;
+    Terms<kSums> zero{};  // with braces, or a constructor would be made without the instruction set
     for (V& term : zero.m_term) term = hn::Zero(D());
     const Chunks pieces(nodes, kEntriesPerChunk);
     for (int lane = 0; lane < kBatchWidth; lane += kN)

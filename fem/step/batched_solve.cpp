@@ -136,6 +136,7 @@ public:
     }
 
     // Increments with impulses in them say nothing about those without.
+    void correctIncrement() {}  // Hooke's law alone: canBeBatched()
     void keepIncrement()
     {
         keepMomenta();

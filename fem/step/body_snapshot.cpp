@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_fem/fem/step/initial_stress.h"
 #include "fem/common/byte_stream.h"
 #include "fem/elements/model_elements.h"
 #include "fem/step/step_scratch.h"
@@ -59,7 +60,66 @@ void checkRotations(const BodySnapshot& s)
         reject("the body's rotation is none");
 }
 
+void checkPlasticStrain(const BodySnapshot& s, const BodyModel& model)
+{
+    constexpr double kMost = 1;  // Material::m_mostPlasticStrain is less
+    const bool may = !model.shape().m_materials.yields();
+    const std::size_t elements = may && s.m_plasticStrain.empty() ? 0 : model.mesh().tets().size();
+    checkSize(s.m_plasticStrain, elements, "plastic strains");
+    checkSize(s.m_equivalentPlasticStrain, elements, "equivalent plastic strains");
+    for (std::size_t e = 0; e < elements; ++e)
+    {
+        const double square = contraction(s.m_plasticStrain[e], s.m_plasticStrain[e]);
+        if (!(2.0 / 3 * square <= kMost)) reject("the plastic strain of element ", e, " is beyond 1");
+        if (!(s.m_equivalentPlasticStrain[e] >= 0) || !std::isfinite(s.m_equivalentPlasticStrain[e]))
+            reject("the equivalent plastic strain of element ", e, " is ", s.m_equivalentPlasticStrain[e],
+                   ", not in [0, inf)");
+    }
+}
+
+void checkRelaxedStrain(const BodySnapshot& s, const BodyModel& model)
+{
+    constexpr double kMost = 1e12;  // squared: beyond, nodes are farther than kFarthestNode
+    const std::size_t terms = static_cast<std::size_t>(model.shape().m_materials.relaxationTerms());
+    checkSize(s.m_relaxedStrain, terms * model.mesh().tets().size(), "relaxed strains");
+    for (std::size_t k = 0; k < s.m_relaxedStrain.size(); ++k)
+        if (!(contraction(s.m_relaxedStrain[k], s.m_relaxedStrain[k]) <= kMost))
+            reject("the relaxed strain of element ", k / terms, " is beyond 1e6");
+}
+
 }  // namespace
+
+namespace
+{
+
+void addMaterial(std::uint64_t& mark, const Material& material)
+{
+    for (double value : {material.m_youngModulus, material.m_poissonRatio, material.m_density, material.m_massDamping,
+                         material.m_stiffnessDamping})
+        addToMark(mark, value);
+    if (material.m_law != ElasticLaw::hooke) addToMark(mark, static_cast<int>(material.m_law));
+    if (material.yields())
+        for (double value : {material.m_yieldStress, material.m_hardeningModulus, material.m_plasticCreep,
+                             material.m_mostPlasticStrain})
+            addToMark(mark, value);
+    for (int i = 0; i < material.relaxationTerms(); ++i)
+        for (double value : {material.m_relaxation[i].m_share, material.m_relaxation[i].m_time}) addToMark(mark, value);
+}
+
+}  // namespace
+
+std::uint64_t markOf(const ElementMaterials& materials)
+{
+    std::uint64_t mark = kEmptyMark;
+    for (const MaterialRegion& region : materials.m_regions)
+    {
+        addMaterial(mark, region.m_material);
+        addToMark(mark, static_cast<int>(region.m_material.m_meanDilatation));
+        if (region.m_material.m_accurateBending) addToMark(mark, 1);
+    }
+    for (const int region : materials.m_regionOf) addToMark(mark, region);
+    return mark;
+}
 
 std::uint64_t markOf(const RestShape& shape)
 {
@@ -70,10 +130,9 @@ std::uint64_t markOf(const RestShape& shape)
         for (int node : tet) addToMark(mark, node);
     for (const RestElement& element : shape.m_elements)
         for (double value : {element.m_volume, element.m_muVolume, element.m_lambdaVolume}) addToMark(mark, value);
-    const Material& material = shape.m_material;
-    for (double value : {material.m_youngModulus, material.m_poissonRatio, material.m_density, material.m_massDamping,
-                         material.m_stiffnessDamping})
-        addToMark(mark, value);
+    addMaterial(mark, shape.m_material);
+    if (!shape.m_materials.isUniform()) addToMark(mark, markOf(shape.m_materials));
+    if (!shape.m_patches.empty()) addToMark(mark, shape.m_patches.count());
     return mark;
 }
 
@@ -93,15 +152,22 @@ BodySnapshot snapshotOf(const Body& body)
     s.m_mass = state.m_mass;
     s.m_fixed = state.m_fixed;
     s.m_lastIncrement = state.m_lastIncrement;
-    s.m_elementRotation = state.m_elementRotation;
+    for (const int lane : body.m_model->elements().m_lanes.m_lane)
+        s.m_elementRotation.push_back(state.m_elementRotation[lane]);
     s.m_bodyRotation = state.m_bodyRotation;
+    s.m_initialStress = state.m_initialStress;
+    s.m_initialStressChanges = state.m_initialStressChanges;
+    s.m_plasticStrain = state.m_plasticStrain;
+    s.m_equivalentPlasticStrain = state.m_equivalentPlasticStrain;
+    s.m_relaxedStrain = state.m_relaxedStrain;
+    s.m_actuators = body.m_actuators;
     return s;
 }
 
 void check(const BodySnapshot& s, const BodyModel& model)
 {
     const std::size_t n = model.nodeCount();
-    const std::size_t rotations = static_cast<std::size_t>(kLanes) * model.elements().blockCount();
+    const std::size_t rotations = model.mesh().tets().size();
     checkVectors(s.m_x, n, "positions");
     checkVectors(s.m_v, n, "velocities");
     for (const std::vector<Vec3>& increment : s.m_lastIncrement) checkVectors(increment, n, "velocity increments");
@@ -119,6 +185,12 @@ void check(const BodySnapshot& s, const BodyModel& model)
         reject("the kind of the factor is ", static_cast<int>(s.m_path), ", not 0 or 1");
     checkSize(s.m_elementRotation, rotations, "element rotations");
     checkRotations(s);
+    checkPlasticStrain(s, model);
+    checkRelaxedStrain(s, model);
+    std::string why;
+    if (!isInitialStress(model, s.m_initialStress, &why)) reject(why);
+    if (!isInitialStress(model, s.m_actuators.m_ownStress, &why)) reject(why);
+    s.m_actuators.validate(model.mesh());
     if (!(s.m_complianceScale > 0) || !std::isfinite(s.m_complianceScale))
         reject("the compliance scale is ", s.m_complianceScale, ", not in (0, inf)");
 }
@@ -139,8 +211,16 @@ void restore(const BodySnapshot& s, Body& body)
     state.m_mass = s.m_mass;
     state.m_fixed = s.m_fixed;
     state.m_lastIncrement = s.m_lastIncrement;
-    state.m_elementRotation = s.m_elementRotation;
+    const std::vector<int>& elementAt = body.m_model->elements().m_lanes.m_element;
+    for (std::size_t lane = 0; lane < elementAt.size(); ++lane)
+        state.m_elementRotation[lane] = s.m_elementRotation[elementAt[lane]];
     state.m_bodyRotation = s.m_bodyRotation;
+    state.m_initialStress = s.m_initialStress;
+    state.m_initialStressChanges = s.m_initialStressChanges;
+    state.m_plasticStrain = s.m_plasticStrain;
+    state.m_equivalentPlasticStrain = s.m_equivalentPlasticStrain;
+    state.m_relaxedStrain = s.m_relaxedStrain;
+    body.m_actuators = s.m_actuators;
     StepScratch& scratch = body.m_workspace.scratch();
     scratch.m_complianceScale = s.m_complianceScale;
     scratch.m_velocity = s.m_v;

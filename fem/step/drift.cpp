@@ -13,12 +13,12 @@ namespace
 {
 
 // Of a change of velocities from outside, which acts as impulses, all but the rigid motion.
-void findStrainedChange(Body& body, std::vector<Vec3>& change)
+void findStrainedChange(Body& body, double step, std::vector<Vec3>& change)
 {
     const BodyState& s = body.m_state;
     const std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;
     for (std::size_t i = 0; i < change.size(); ++i) change[i] = s.m_fixed[i] ? Vec3() : s.m_v[i] - prior[i];
-    body.m_workspace.scratch().m_momentum.removeMomentum(body, s.m_x, change);
+    body.m_workspace.scratch().m_momentum.removeMomentum(body, step, s.m_x, change);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void beginDrift(Body& body, const StepSettings& settings)
     const BodyState& s = body.m_state;
     const double first = 1 - StepCoefficients(settings, body).theta();
     scratch.m_isStrained = first > 0 && !body.m_loads.m_priorVelocity.empty();
-    if (scratch.m_isStrained) findStrainedChange(body, scratch.m_strained);
+    if (scratch.m_isStrained) findStrainedChange(body, settings.m_step, scratch.m_strained);
     for (std::size_t i = 0; i < s.m_x.size(); ++i)
     {
         const Vec3 v = s.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : s.m_v[i];

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/step/actuated_solve.h"
 #include "fem/step/drift.h"
+#include "fem/step/quasi_newton.h"
 #include "fem/step/smoothing.h"
 #include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
@@ -23,18 +25,24 @@ constexpr int kNodesToShare = 1000;
 class OneBody
 {
 public:
-    OneBody(Body& body, const StepSettings& settings)
+    OneBody(Body& body, const StepSettings& settings, SolveOf what)
         : m_body(body),
           m_state(body.m_state),
           m_scratch(body.m_workspace.scratch()),
           m_settings(settings),
           m_coefficients(settings, body),
-          m_A(body, settings.m_threads)
+          m_A(body, settings.m_threads),
+          m_solveOf(what)
     {
     }
 
     void solve()
     {
+        if (isActuated())
+        {
+            m_report = solveActuated(m_body, m_settings, m_stop, m_isGuessed, m_solveOf);
+            return;
+        }
         const WarpedPreconditioner P(m_body, m_settings.m_threads);
         m_report = solveConjugateGradients(
             {m_A, P, m_scratch.m_rightSide, m_scratch.m_increment, m_scratch.m_solver, m_settings.m_threads}, m_stop,
@@ -59,6 +67,8 @@ public:
     const SolveReport& report() const { return m_report; }
 
 protected:
+    bool isActuated() const { return m_body.m_actuators.hasPulls(); }
+
     // Adds to the guess of dv the rigid motion that gives free pieces the momentum prescribed.
     void completeGuess()
     {
@@ -72,8 +82,9 @@ protected:
     BodyState& m_state;
     StepScratch& m_scratch;
     const StepSettings& m_settings;
-    const StepCoefficients m_coefficients;
+    StepCoefficients m_coefficients;
     const WarpedSystem m_A;
+    const SolveOf m_solveOf;
     ConjugateGradientStop m_stop;
     bool m_isGuessed = true;  // false: dv is zero
     SolveReport m_report;
@@ -83,7 +94,7 @@ class OneFreeMotion : public OneBody
 {
 public:
     OneFreeMotion(const FreeMotion& motion, const StepSettings& settings)
-        : OneBody(*motion.m_body, settings), m_motion(motion), m_loads(m_body.m_loads)
+        : OneBody(*motion.m_body, settings, SolveOf::freeMotion), m_motion(motion), m_loads(m_body.m_loads)
     {
     }
 
@@ -92,7 +103,13 @@ public:
         m_stop = stopOf(m_settings, kLoadFloor * loadImpulseNorm(), m_motion.m_predicted != nullptr);
         for (std::size_t i = 0; i < m_scratch.m_velocity.size(); ++i)
             m_scratch.m_velocity[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] : m_state.m_v[i];
+        chooseDamping();
         beginDrift(m_body, m_settings);
+        if (isActuated())
+        {
+            beginActuation(m_body, m_settings);
+            m_stop.m_floor = std::max(m_stop.m_floor, kLoadFloor * actuatorImpulseNorm(m_body));
+        }
     }
 
     void prescribeMomentum() { m_scratch.m_momentum.prescribe(m_body, m_settings.m_step); }
@@ -127,6 +144,7 @@ public:
         {
             m_A.applyUnconstrained(dv, Adv);
             for (std::size_t i = 0; i < b.size(); ++i) b[i] -= Adv[i];
+            if (isActuated()) m_scratch.m_actuation.subtractFromRightSide(m_body.m_actuators, dv, b);
         }
         for (std::size_t i = 0; i < b.size(); ++i)
             if (m_state.m_fixed[i]) b[i] = {};
@@ -142,6 +160,7 @@ public:
         {
             if (m_state.m_fixed[i]) continue;
             m_scratch.m_rightSide[i] += impulses[i];
+            if (m_scratch.m_newton.isUsed()) m_scratch.m_newton.m_loads[i] += impulses[i];
             sum += dot(impulses[i], impulses[i]);
         }
         m_scratch.m_momentum.addImpulses(m_body, impulses, m_settings.m_step);
@@ -160,10 +179,19 @@ public:
         completeGuess();
     }
 
+    // Actuators, and velocities that were changed from outside, take the linear answer.
+    void correctIncrement()
+    {
+        if (!m_scratch.m_newton.isUsed() || m_settings.m_direct || isActuated() || !m_loads.m_priorVelocity.empty())
+            return;
+        if (!isViolent(m_body, m_settings.m_step, m_scratch.m_velocity, &m_scratch.m_increment, m_settings.m_threads))
+            return;
+        QuasiNewton(m_body, m_settings, m_A).correct(m_stop, m_report);
+    }
+
     // Increments with impulses in them say nothing about those without.
     void keepIncrement()
     {
-        m_scratch.m_momentum.keepHung(m_body, m_scratch.m_velocity);
         if (m_motion.m_predicted)
             keepResidual();
         else
@@ -177,6 +205,19 @@ public:
     }
 
 private:
+    // Elements of a law that is not linear are not carried far before their forces are known.
+    void chooseDamping()
+    {
+        if (!m_scratch.m_newton.isUsed()) return;
+        double& least = m_scratch.m_newton.m_leastDamping;
+        least = 0;
+        m_coefficients = StepCoefficients(m_settings, m_body);
+        const double before = (1 - m_coefficients.theta()) * m_settings.m_step;
+        if (!(before > 0) || !isViolent(m_body, before, m_state.m_v, nullptr, m_settings.m_threads)) return;
+        least = 1;
+        m_coefficients = StepCoefficients(m_settings, m_body);
+    }
+
     // h |f_ext| over the free nodes.
     double loadImpulseNorm() const
     {
@@ -196,11 +237,14 @@ private:
         for (std::size_t i = 0; i < b.size() && toFrame > 0; ++i)
             b[i] += toFrame * m_state.m_mass[i] * (m_loads.m_frameVelocity[i] - m_state.m_v[i]);
         findViscous();
-        prepareWarpedSystem(m_body, m_settings, m_scratch.m_increment, b);
+        std::vector<Vec3>& loads = m_scratch.m_newton.m_loads;
+        for (std::size_t i = 0; i < loads.size(); ++i) loads[i] = m_settings.m_step * b[i];
+        prepareWarpedSystem(m_body, m_settings, m_scratch.m_kickPosition, m_scratch.m_increment, b);
         for (Vec3& bi : b) bi *= m_settings.m_step;
     }
 
     // w = (s h + beta) v, less (1 - s) (c h + beta) h w x (w x r): velocities that turn with the body are no strain.
+    // Actuators see them likewise, and add their forces to b.
     void findViscous()
     {
         const double h = m_settings.m_step, beta = m_body.m_model->shape().m_material.m_stiffnessDamping;
@@ -208,6 +252,7 @@ private:
         std::vector<Vec3>& w = m_scratch.m_increment;
         std::fill(w.begin(), w.end(), Vec3());
         if (shares.m_ofTurning > 0) m_scratch.m_momentum.addTurning(m_body, h, w);
+        if (isActuated()) m_scratch.m_actuation.addForces(m_body.m_actuators, m_state.m_v, w, m_scratch.m_rightSide);
         for (std::size_t i = 0; i < w.size(); ++i)
             w[i] = shares.m_ofVelocity * m_state.m_v[i] - shares.m_ofTurning * w[i];
     }
@@ -221,6 +266,7 @@ private:
         for (std::size_t i = 0; i < u.size(); ++i) u[i] = m_state.m_fixed[i] ? Vec3() : m_state.m_v[i] - prior[i];
         m_A.applyUnconstrained(u, Au);
         for (std::size_t i = 0; i < b.size(); ++i) b[i] += m_state.m_mass[i] * u[i] - Au[i];
+        if (isActuated()) m_scratch.m_actuation.subtractFromRightSide(m_body.m_actuators, u, b);
     }
 
     const FreeMotion& m_motion;
@@ -231,7 +277,7 @@ class OneResponse : public OneBody
 {
 public:
     OneResponse(const ImpulseResponse& response, const StepSettings& settings)
-        : OneBody(*response.m_body, settings), m_response(response)
+        : OneBody(*response.m_body, settings, SolveOf::response), m_response(response)
     {
         m_stop = stopOf(settings, response.m_floor, response.m_steady);
     }
@@ -268,13 +314,14 @@ private:
 class OneSmoothing : public OneBody
 {
 public:
-    OneSmoothing(const StepEnd& end, const StepSettings& settings) : OneBody(*end.m_body, settings) {}
+    OneSmoothing(const StepEnd& end, const StepSettings& settings) : OneBody(*end.m_body, settings, SolveOf::change) {}
 
     void readChange() { m_stop = smoothingStop(m_body, m_settings); }
     void completeSystem() { completeWarpedSystem(m_body, m_settings); }
     void applyStiffness()
     {
         m_A.applyStiffness(m_scratch.m_increment, m_scratch.m_rightSide);
+        if (isActuated()) m_scratch.m_actuation.setRightSide(m_body.m_actuators, m_scratch.m_increment);
         std::fill(m_scratch.m_increment.begin(), m_scratch.m_increment.end(), Vec3());
         m_isGuessed = false;
     }

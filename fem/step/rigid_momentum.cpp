@@ -49,24 +49,67 @@ const std::vector<Vec3>& leverPositions(const Body& body)
 
 }  // namespace
 
-// Which components are free, their masses and centres.
-void RigidMomentum::sumFree(const Body& body, const std::vector<Vec3>& x)
+// Mass and centre of every component: that of mass, or the first of its fixed nodes, and the fixed node farthest from
+// it.
+void RigidMomentum::findCenters(const Body& body, const std::vector<Vec3>& x)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
     for (Component& component : m_components) component = Component();
     for (std::size_t i = 0; i < x.size(); ++i)
-        if (s.m_fixed[i]) m_components[componentOf[i]].m_free = false;
-    m_anyFree = std::any_of(m_components.begin(), m_components.end(),
-                            [](const Component& component) { return component.m_free; });
-    if (!m_anyFree) return;
+    {
+        Component& component = m_components[componentOf[i]];
+        if (!s.m_fixed[i]) continue;
+        if (component.m_pivot < 0) component.m_pivot = static_cast<int>(i);
+        const Vec3 r = x[i] - x[component.m_pivot];
+        if (dot(r, r) > dot(component.m_axis, component.m_axis)) component.m_axis = r;
+    }
     forEachNode(componentOf, m_components,
                 [&](Component& component, int i)
                 {
                     component.m_mass += s.m_mass[i];
                     component.m_center += s.m_mass[i] * x[i];
                 });
-    for (Component& component : m_components) component.m_center *= 1 / component.m_mass;
+    for (Component& component : m_components)
+        component.m_center = component.m_pivot < 0 ? (1 / component.m_mass) * component.m_center : x[component.m_pivot];
+}
+
+// Which components move as one, of those whose inertia stands in the place of its inverse, and then that. A component
+// with fixed nodes is clamped if one of them lies beside the point or line of the others, or is moved otherwise.
+void RigidMomentum::findMovable(const Body& body, double step, const std::vector<Vec3>& x)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const auto slack = [](const Component& component)
+    { return kCollinearShare * std::sqrt(trace(component.m_inverseInertia) / component.m_mass); };
+    for (Component& component : m_components)
+        if (norm(component.m_axis) <= slack(component)) component.m_axis = {};
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        Component& component = m_components[componentOf[i]];
+        if (!body.m_state.m_fixed[i]) continue;
+        const Vec3 r = x[i] - component.m_center;
+        const double length2 = dot(component.m_axis, component.m_axis);
+        const Vec3 beside = length2 > 0 ? r - (dot(r, component.m_axis) / length2) * component.m_axis : r;
+        const std::vector<Vec3>& target = body.m_loads.m_targetVelocity;
+        const double apart = step * norm(target[i] - target[component.m_pivot]);
+        if (std::max(norm(beside), apart) > slack(component)) component.m_isMovable = false;
+    }
+    m_anyMovable = false;
+    for (Component& component : m_components)
+    {
+        if (!component.m_isMovable) continue;
+        m_anyMovable = true;
+        if (component.m_pivot < 0)
+        {
+            component.m_inverseInertia =
+                inverseInertia(component.m_inverseInertia, component.m_mass, component.m_center);
+            continue;
+        }
+        const double aboutAxis = dot(component.m_axis, component.m_inverseInertia * component.m_axis);
+        component.m_inverseInertia = aboutAxis > 0 ? (1 / aboutAxis) * outer(component.m_axis, component.m_axis)
+                                                   : boundedInverse(component.m_inverseInertia, 0);
+        component.m_mass = std::numeric_limits<double>::infinity();
+    }
 }
 
 void RigidMomentum::prescribe(const Body& body, double step)
@@ -74,23 +117,23 @@ void RigidMomentum::prescribe(const Body& body, double step)
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
     const std::vector<Vec3>& x = leverPositions(body);
-    sumFree(body, x);
-    if (!m_anyFree) return;
+    findCenters(body, x);
     const double alpha = damping(body), toFrame = body.m_loads.m_frameDamping;
     const double share = step / (1 + step * (alpha + toFrame));
+    for (Component& component : m_components)
+        if (component.m_pivot >= 0) component.m_carried = body.m_loads.m_targetVelocity[component.m_pivot];
     forEachNode(componentOf, m_components,
                 [&](Component& component, int i)
                 {
                     const Vec3 r = x[i] - component.m_center, p = s.m_mass[i] * s.m_v[i];
                     Vec3 force = body.m_loads.m_force[i] - alpha * p;
                     if (toFrame > 0) force += toFrame * (s.m_mass[i] * body.m_loads.m_frameVelocity[i] - p);
-                    const Vec3 prescribed = p + share * force;
+                    const Vec3 prescribed = p + share * force - s.m_mass[i] * component.m_carried;
                     component.m_linear += prescribed;
                     component.m_angular += cross(r, prescribed);
                     component.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
                 });
-    for (Component& component : m_components)
-        component.m_inverseInertia = inverseInertia(component.m_inverseInertia, component.m_mass, component.m_center);
+    findMovable(body, step, x);
 }
 
 double RigidMomentum::damping(const Body& body)
@@ -111,7 +154,7 @@ RigidMomentum::FreeComponent RigidMomentum::onlyComponent() const
 
 void RigidMomentum::setOnlyComponent(const FreeComponent& free)
 {
-    m_anyFree = true;
+    m_anyMovable = true;
     Component& component = m_components.front();
     component = Component();
     component.m_mass = free.m_mass;
@@ -121,87 +164,9 @@ void RigidMomentum::setOnlyComponent(const FreeComponent& free)
     component.m_inverseInertia = free.m_inverseInertia;
 }
 
-// Centre, mass, inertia and axis of the components with fixed nodes, by any of those and the one farthest from it;
-// false if there are no such components.
-bool RigidMomentum::findPivots(const Body& body)
-{
-    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
-    const BodyState& s = body.m_state;
-    const std::vector<Vec3>& x = leverPositions(body);
-    bool any = false;
-    for (Component& component : m_components)
-        if (!component.m_free) component = Component();
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-        Component& component = m_components[componentOf[i]];
-        if (!s.m_fixed[i] || !component.m_free) continue;
-        component.m_free = false;
-        component.m_center = x[i];
-        any = true;
-    }
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-        Component& component = m_components[componentOf[i]];
-        if (component.m_free) continue;
-        const Vec3 r = x[i] - component.m_center;
-        component.m_mass += s.m_mass[i];
-        component.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
-        if (s.m_fixed[i] && dot(r, r) > dot(component.m_axis, component.m_axis)) component.m_axis = r;
-    }
-    return any;
-}
-
-// A component is clamped, not hung, if a fixed node lies beside the point or line of the others.
-void RigidMomentum::findClamped(const Body& body)
-{
-    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
-    const BodyState& s = body.m_state;
-    const std::vector<Vec3>& x = leverPositions(body);
-    const auto slack = [](const Component& component)
-    { return kCollinearShare * std::sqrt(trace(component.m_inverseInertia) / component.m_mass); };
-    for (Component& component : m_components)
-    {
-        component.m_hung = !component.m_free;
-        if (component.m_hung && norm(component.m_axis) <= slack(component)) component.m_axis = {};
-    }
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-        Component& component = m_components[componentOf[i]];
-        if (!s.m_fixed[i]) continue;
-        const Vec3 r = x[i] - component.m_center;
-        const double length2 = dot(component.m_axis, component.m_axis);
-        const Vec3 beside = length2 > 0 ? r - (dot(r, component.m_axis) / length2) * component.m_axis : r;
-        if (norm(beside) > slack(component)) component.m_hung = false;
-    }
-}
-
-void RigidMomentum::keepHung(const Body& body, const std::vector<Vec3>& velocity)
-{
-    if (!(body.m_loads.m_frameDamping > 0) || !findPivots(body)) return;
-    findClamped(body);
-    for (Component& component : m_components)
-    {
-        if (!component.m_hung) continue;
-        const double about =
-            dot(component.m_axis, component.m_inverseInertia * component.m_axis);  // it is the inertia so far
-        component.m_inverseInertia = about > 0 ? (1 / about) * outer(component.m_axis, component.m_axis)
-                                               : boundedInverse(component.m_inverseInertia, 0);
-        component.m_mass = std::numeric_limits<double>::infinity();
-        component.m_free = m_anyFree = true;
-    }
-    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
-    const BodyState& s = body.m_state;
-    const std::vector<Vec3>& x = leverPositions(body);
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-        Component& component = m_components[componentOf[i]];
-        if (component.m_hung) component.m_angular += cross(x[i] - component.m_center, s.m_mass[i] * velocity[i]);
-    }
-}
-
 void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step)
 {
-    if (!m_anyFree) return;
+    if (!m_anyMovable) return;
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const std::vector<Vec3>& x = leverPositions(body);
     const double share = 1 / (1 + step * damping(body));
@@ -220,7 +185,7 @@ void RigidMomentum::addAngularImpulse(const Body& body, int node, const Vec3& im
 
 void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
 {
-    if (!m_anyFree) return;
+    if (!m_anyMovable) return;
     const std::vector<Vec3>& x = leverPositions(body);
     for (Component& component : m_components)
     {
@@ -238,7 +203,7 @@ void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, std::
     forEachNode(componentOf, m_components,
                 [&](Component& component, int i)
                 {
-                    const Vec3 p = s.m_mass[i] * velocity[i];
+                    const Vec3 p = s.m_mass[i] * (velocity[i] - component.m_carried);
                     component.m_linearVelocity -= p;
                     component.m_angularVelocity -= cross(x[i] - component.m_center, p);
                 });
@@ -250,7 +215,7 @@ void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, std::
     forEachNode(componentOf, m_components,
                 [&](const Component& component, int i)
                 {
-                    if (component.m_free && !s.m_fixed[i])
+                    if (component.m_isMovable && !s.m_fixed[i])
                         velocity[i] +=
                             component.m_linearVelocity + cross(component.m_angularVelocity, x[i] - component.m_center);
                 });
@@ -258,32 +223,30 @@ void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, std::
 
 void RigidMomentum::addTurning(const Body& body, double step, std::vector<Vec3>& change) const
 {
-    if (!m_anyFree) return;
+    if (!m_anyMovable) return;
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const std::vector<Vec3>& x = leverPositions(body);
     for (std::size_t i = 0; i < x.size(); ++i)
     {
         const Component& component = m_components[componentOf[i]];
-        if (!component.m_free || component.m_hung) continue;
+        if (!component.m_isMovable) continue;
         const Vec3 w = component.m_inverseInertia * component.m_angular;
         change[i] += step * cross(w, cross(w, x[i] - component.m_center));
     }
 }
 
-void RigidMomentum::removeMomentum(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& change)
+void RigidMomentum::removeMomentum(const Body& body, double step, const std::vector<Vec3>& x, std::vector<Vec3>& change)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
-    sumFree(body, x);
-    if (!m_anyFree) return;
+    findCenters(body, x);
     forEachNode(componentOf, m_components,
                 [&](Component& component, int i)
                 {
                     const Vec3 r = x[i] - component.m_center;
                     component.m_inverseInertia += body.m_state.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
                 });
-    for (Component& component : m_components)
-        component.m_inverseInertia = inverseInertia(component.m_inverseInertia, component.m_mass, component.m_center);
-    addRigid(body, x, change);
+    findMovable(body, step, x);
+    if (m_anyMovable) addRigid(body, x, change);
 }
 
 }  // namespace bullet_fem

@@ -9,23 +9,20 @@
 namespace bullet_fem
 {
 
-/// The momentum that external impulses prescribe for every connected component of a body without fixed nodes. The
-/// warped stiffness has no torque balance about the deformed positions and conjugate gradients stop early; both leak
-/// momentum, and a rigid motion of six unknowns a component puts it back.
+/// The momentum that external impulses prescribe for every connected component of a body that can move as one: about
+/// its centre of mass if it has no fixed nodes, about these if they lie in one place or on one line. The warped
+/// stiffness has no torque balance about the deformed positions and conjugate gradients stop early; both leak momentum,
+/// and a rigid motion of up to six unknowns a component puts it back.
 class RigidMomentum
 {
 public:
     explicit RigidMomentum(const TetMesh& mesh) : m_components(mesh.componentCount()) {}
 
     /// Sets the prescription to that of the loads: (1 + h alpha)(p' - p) = h (F - alpha p), and the same for angular
-    /// momentum about the centre of mass at the state's positions. alpha includes the loads' extra damping; what draws
+    /// momentum about the centre at the positions y; what hangs on fixed nodes has that of its velocities less
+    /// theirs. alpha includes the loads' extra damping; what draws
     /// it to the loads' frame is added likewise.
     void prescribe(const Body& body, double step);
-
-    /// Chunks that hang on fixed nodes in one place or on one line keep the angular momentum about these that
-    /// `velocity` gives them, the motion without the impulses to come, if they are drawn to a frame: else it would damp
-    /// the part of those that turns them. Nothing else changes.
-    void keepHung(const Body& body, const std::vector<Vec3>& velocity);
 
     /// Adds node impulses J [N s] to the prescription; the frame, which moves along, does not damp them.
     void addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step);
@@ -33,16 +30,16 @@ public:
     /// Adds an angular impulse [N m s] to the prescription of the component that a node belongs to.
     void addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step);
 
-    /// Adds to `velocity` the rigid motion that gives every free component its prescribed momentum.
+    /// Adds to `velocity` the rigid motion that gives every movable component its prescribed momentum.
     void restore(const Body& body, std::vector<Vec3>& velocity);
 
-    /// Adds h w x (w x r) to the nodes of free components: how their velocities turn in a step, with the angular
+    /// Adds h w x (w x r) to the nodes of movable components: how their velocities turn in a step, with the angular
     /// velocity w that the prescription makes.
     void addTurning(const Body& body, double step, std::vector<Vec3>& change) const;
 
-    /// Takes the rigid motion out of a change of velocities, so that no free component gets momentum by it at the
+    /// Takes the rigid motion out of a change of velocities, so that no movable component gets momentum by it at the
     /// positions x. Leaves no prescription.
-    void removeMomentum(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& change);
+    void removeMomentum(const Body& body, double step, const std::vector<Vec3>& x, std::vector<Vec3>& change);
 
     /// A free component, as the prescription has it.
     struct FreeComponent
@@ -67,22 +64,22 @@ public:
 private:
     struct Component
     {
-        bool m_free = true;   // or hung: infinitely heavy, its centre on what it hangs on
-        bool m_hung = false;  // not free, but turns about a point or a line
+        bool m_isMovable = true;
+        int m_pivot = -1;  // its first fixed node; then it is infinitely heavy, its centre there
         double m_mass = 0;
         Vec3 m_center;             // [m]
-        Vec3 m_axis;               // to the farthest fixed node of a hung component [m]
+        Vec3 m_axis;               // to the farthest fixed node [m]
+        Vec3 m_carried;            // velocity of the fixed nodes, which its momenta are relative to [m/s]
         Vec3 m_linear, m_angular;  // prescribed [kg m/s], [kg m2/s]
         Mat3 m_inverseInertia;     // [1/(kg m2)]; zero where the component has collapsed to a point
         Vec3 m_linearVelocity, m_angularVelocity;
     };
-    bool findPivots(const Body& body);
-    void sumFree(const Body& body, const std::vector<Vec3>& x);
+    void findCenters(const Body& body, const std::vector<Vec3>& x);
+    void findMovable(const Body& body, double step, const std::vector<Vec3>& x);
     void addRigid(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& velocity);
-    void findClamped(const Body& body);
 
     std::vector<Component> m_components;
-    bool m_anyFree = false;  // of the last prescription; all is skipped where there is none
+    bool m_anyMovable = false;  // of the last prescription; all is skipped where there is none
 };
 
 }  // namespace bullet_fem

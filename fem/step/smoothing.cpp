@@ -52,7 +52,7 @@ bool findChange(Body& body, const StepSettings& settings)
     const std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;  // an outside change is one of the step's
     const std::vector<Vec3>& before = prior.empty() ? s.m_v : prior;
     for (std::size_t i = 0; i < d.size(); ++i) d[i] = s.m_fixed[i] ? Vec3() : scratch.m_velocity[i] - before[i] - d[i];
-    scratch.m_momentum.removeMomentum(body, scratch.m_kickPosition, d);
+    scratch.m_momentum.removeMomentum(body, settings.m_step, scratch.m_kickPosition, d);
     return std::sqrt(squaredMomenta(body, d)) > noise(body, settings);
 }
 
@@ -70,7 +70,7 @@ void subtractUnresolved(Body& body, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
     const double share = StepCoefficients(settings, body).smoothing();
-    scratch.m_momentum.removeMomentum(body, body.m_state.m_x, scratch.m_increment);
+    scratch.m_momentum.removeMomentum(body, settings.m_step, body.m_state.m_x, scratch.m_increment);
     for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i) scratch.m_velocity[i] -= share * scratch.m_increment[i];
 }
 

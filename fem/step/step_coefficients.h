@@ -6,6 +6,7 @@
 
 #include "bullet_fem/fem/step/body.h"
 #include "bullet_fem/fem/step/step_types.h"
+#include "fem/step/step_scratch.h"
 
 namespace bullet_fem
 {
@@ -22,7 +23,8 @@ struct StepCoefficients
 {
     explicit StepCoefficients(double numericalDamping) : m_damping(numericalDamping) {}
     StepCoefficients(const StepSettings& settings, const Body& body)
-        : m_damping(std::max(settings.m_numericalDamping, body.m_loads.m_leastDamping))
+        : m_damping(std::max({settings.m_numericalDamping, body.m_loads.m_leastDamping,
+                              body.m_workspace.scratch().m_newton.m_leastDamping}))
     {
     }
 

@@ -7,6 +7,7 @@
 #include "bullet_fem/fem/step/body.h"
 #include "fem/common/aligned_array.h"
 #include "fem/elements/element_scratch.h"
+#include "fem/step/actuation.h"
 #include "fem/step/conjugate_gradients.h"
 #include "fem/step/rigid_momentum.h"
 
@@ -17,6 +18,26 @@ namespace bullet_fem
 struct FactorWork
 {
     AlignedFloats m_vector, m_scratch;
+};
+
+/// The vectors of QuasiNewton; empty where all elements have Hooke's law.
+struct QuasiNewtonScratch
+{
+    explicit QuasiNewtonScratch(std::size_t n)
+        : m_loads(n), m_turning(n), m_position(n), m_viscous(n), m_residual(n), m_direction(n)
+    {
+    }
+
+    bool isUsed() const { return !m_loads.empty(); }
+
+    /// 1 in a step that would carry elements too far before their forces are known, else 0: as of the loads [-].
+    double m_leastDamping = 0;
+    std::vector<Vec3> m_loads;      ///< b_0, written by the free motion [kg m/s]
+    std::vector<Vec3> m_turning;    ///< (1 - s) h w x (w x r) [m/s]
+    std::vector<Vec3> m_position;   ///< z [m]
+    std::vector<Vec3> m_viscous;    ///< what K' acts on besides [m]
+    std::vector<Vec3> m_residual;   ///< r [kg m/s]
+    std::vector<Vec3> m_direction;  ///< d [m/s]
 };
 
 /// Everything that a step writes besides the state.
@@ -38,9 +59,11 @@ struct StepScratch
     std::vector<Vec3> m_residual;      ///< what the responses of this step have left of the impulses [kg m/s]
     bool m_hasResidual = false;        ///< false: that is nothing, whatever is in there
     RigidMomentum m_momentum;          ///< what the impulses prescribe for every connected piece
+    Actuation m_actuation;             ///< what the body's actuators do in this step
     double m_complianceScale =
         1;  ///< what contact has learnt: A^-1 is about this times the warped A0^-1 at the surface
     ConjugateGradientScratch m_solver;
+    QuasiNewtonScratch m_newton;
     mutable ElementWork m_elements;
     mutable FactorWork m_factor;
 };

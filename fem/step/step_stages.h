@@ -29,6 +29,7 @@ void solveFreeMotion(Width& width)
     width.addPredictedImpulses();  // of contact, to b and to the momentum prescribed
     width.guessIncrement();        // dv as in the last steps, with the rigid motion that gives the momentum prescribed
     width.solve();                 // conjugate gradients: A dv = b to the tolerance
+    width.correctIncrement();      // quasi-Newton iterations, where the law is not linear
     width.addIncrement();          // v += dv, and the rigid motion that gives the momentum prescribed
     width.keepIncrement();         // for the guess of the next step
 }

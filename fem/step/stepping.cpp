@@ -9,6 +9,7 @@
 #include "bullet_fem/fem/common/threads.h"
 #include "fem/step/batched_solve.h"
 #include "fem/step/drift.h"
+#include "fem/step/inelastic_strain.h"
 #include "fem/step/one_body.h"
 #include "fem/step/smoothing.h"
 #include "fem/step/step_coefficients.h"
@@ -158,6 +159,7 @@ void finishSteps(StepEnd* ends, int count)
         StepScratch& scratch = body.m_workspace.scratch();
         body.m_state.m_v = scratch.m_velocity;
         if (scratch.m_isPushed) stopPushing(scratch);
+        advanceInelasticStrain(body, sharedSettings(*body.m_model, ends[k].m_settings));
     }
 }
 

@@ -6,6 +6,8 @@
 
 #include "fem/common/rotation.h"
 #include "fem/elements/model_elements.h"
+#include "fem/elements/neo_hooke.h"
+#include "fem/step/internal_stress.h"
 
 namespace bullet_fem
 {
@@ -17,9 +19,17 @@ double vonMises(const Stress& s)
     return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * shear);
 }
 
-// With F = R S, sigma = R Hooke(S - I) R^T = Hooke(F R^T - I), because R turns nothing in an isotropic law. The state's
-// rotations are those of the last step's start: R is found anew.
-Stress elementStress(const Body& body, int e)
+namespace
+{
+
+// With F = R S, F R^T = R S R^T, the stretch in the world's axes. The state's rotations are those of the last step's
+// start: R is found anew.
+struct LeftStretch
+{
+    Mat3 m_R, m_stretch;
+};
+
+LeftStretch leftStretch(const Body& body, int e)
 {
     const BodyModel& model = *body.m_model;
     const Tet& tet = model.mesh().tets()[e];
@@ -27,23 +37,129 @@ Stress elementStress(const Body& body, int e)
     const Vec3& x0 = x[tet[0]];
     const Mat3 F =
         Mat3::fromColumns(x[tet[1]] - x0, x[tet[2]] - x0, x[tet[3]] - x0) * model.shape().m_elements[e].m_DmInverse;
-    const Mat3 left = timesTranspose(F, polarRotation(F, toMatrix(body.m_state.m_elementRotation[e])));
+    const int lane = model.elements().m_lanes.m_lane[e];
+    const Mat3 R = polarRotation(F, toMatrix(body.m_state.m_elementRotation[lane]));
+    return {R, timesTranspose(F, R)};
+}
 
-    const double mu = model.shape().m_material.lameMu();
-    const double pressure = model.shape().m_material.lameLambda() * (trace(left) - 3);
+double dilatationOf(const LeftStretch& left)
+{
+    return trace(left.m_stretch) - 3;
+}
+
+SymmetricTensor strainOf(const LeftStretch& found)
+{
+    SymmetricTensor strain = symmetricPart(transposeTimes(found.m_R, found.m_stretch * found.m_R));
+    strain.xx -= 1, strain.yy -= 1, strain.zz -= 1;
+    return strain;
+}
+
+// Of elements that bend accurately: what their edge domains make of strains. `strains`: of all elements, or none, and
+// they are found where they are needed.
+SymmetricTensor smoothedStrain(const Body& body, int e, const std::vector<SymmetricTensor>& strains)
+{
+    const EdgeDomains& domains = body.m_model->shape().m_edgeDomains;
+    const auto own = [&](int other) { return strains.empty() ? strainOf(leftStretch(body, other)) : strains[other]; };
+    const double share = domains.m_share[e];
+    SymmetricTensor sum = (1 - share) * own(e);
+    if (share == 0) return sum;
+    for (const int d : domains.m_domain[e])
+        for (int k = domains.m_start[d]; k < domains.m_start[d + 1]; ++k)
+            sum += share / 6 * domains.m_weight[k] * own(domains.m_element[k]);
+    return sum;
+}
+
+// sigma = R (2 mu dev(s) + (lambda + 2/3 mu) theta I + sigma_0) R^T
+Stress smoothedStress(const Body& body, int e, const Mat3& R, double theta, const std::vector<SymmetricTensor>& strains)
+{
+    const Material& material = body.m_model->shape().materialOf(e);
+    Stress s = 2 * material.lameMu() * deviator(smoothedStrain(body, e, strains));
+    const double pressure = (material.lameLambda() + 2.0 / 3 * material.lameMu()) * theta;
+    s.xx += pressure, s.yy += pressure, s.zz += pressure;
+    if (hasInitialStress(body)) s += initialStress(body, e);
+    return symmetricPart(R * timesTranspose(toMatrix(s), R));
+}
+
+// sigma = R Hooke(S - I) R^T = Hooke(F R^T - I), because R turns nothing in an isotropic law, and R sigma_0 R^T.
+Stress stressOf(const Body& body, int e, const LeftStretch& found, double dilatation)
+{
+    const Material& material = body.m_model->shape().materialOf(e);
+    const Mat3& left = found.m_stretch;
+    const double mu = material.lameMu();
+    const double own = dilatationOf(found);  // the same as dilatation, but in a patch
+    const double pressure = material.lameLambda() * dilatation + 2.0 / 3 * mu * (dilatation - own);
     Stress s;
-    s.xx = 2 * mu * (left(0, 0) - 1) + pressure;
-    s.yy = 2 * mu * (left(1, 1) - 1) + pressure;
-    s.zz = 2 * mu * (left(2, 2) - 1) + pressure;
-    s.xy = mu * (left(0, 1) + left(1, 0));
-    s.yz = mu * (left(1, 2) + left(2, 1));
-    s.xz = mu * (left(0, 2) + left(2, 0));
-    return s;
+    if (material.m_law == ElasticLaw::neoHooke)
+        s = symmetricPart(
+            neoHooke(0.5 * (left + transpose(left)) - Mat3::identity(), material.lameLambda(), mu).m_stress);
+    else
+    {
+        s.xx = 2 * mu * (left(0, 0) - 1) + pressure;
+        s.yy = 2 * mu * (left(1, 1) - 1) + pressure;
+        s.zz = 2 * mu * (left(2, 2) - 1) + pressure;
+        s.xy = mu * (left(0, 1) + left(1, 0));
+        s.yz = mu * (left(1, 2) + left(2, 1));
+        s.xz = mu * (left(0, 2) + left(2, 0));
+    }
+    if (!hasInitialStress(body)) return s;
+    return s += symmetricPart(found.m_R * timesTranspose(toMatrix(initialStress(body, e)), found.m_R));
+}
+
+// Calls visit(e, left stretch, dilatation) for the elements of a patch.
+template <class Visit>
+void visitPatch(const Body& body, int patch, const Visit& visit)
+{
+    const RestShape& shape = body.m_model->shape();
+    const int* element = &shape.m_patches.m_element[shape.m_patches.m_start[patch]];
+    const int count = shape.m_patches.size(patch);
+    LeftStretch left[ElementPatches::kMost];
+    double dilatation = 0;
+    for (int k = 0; k < count; ++k)
+    {
+        left[k] = leftStretch(body, element[k]);
+        dilatation += shape.shareOfPatch(element[k]) * dilatationOf(left[k]);
+    }
+    for (int k = 0; k < count; ++k) visit(element[k], left[k], dilatation);
+}
+
+}  // namespace
+
+Stress elementStress(const Body& body, int e)
+{
+    const BodyModel& model = *body.m_model;
+    const bool isSmoothed = !model.shape().m_edgeDomains.empty();
+    if (model.shape().m_patches.empty())
+    {
+        const LeftStretch left = leftStretch(body, e);
+        return stressOf(body, e, left, dilatationOf(left));
+    }
+    Stress stress;
+    visitPatch(body, model.shape().m_patches.m_patch[e],
+               [&](int other, const LeftStretch& left, double dilatation)
+               {
+                   if (other != e) return;
+                   stress = isSmoothed ? smoothedStress(body, e, left.m_R, dilatation, {})
+                                       : stressOf(body, e, left, dilatation);
+               });
+    return stress;
 }
 
 void elementStresses(const Body& body, std::vector<Stress>& perElement)
 {
-    perElement.resize(body.m_model->mesh().tetCount());
+    const BodyModel& model = *body.m_model;
+    perElement.resize(model.mesh().tetCount());
+    const ElementPatches& patches = model.shape().m_patches;
+    std::vector<SymmetricTensor> strains;
+    if (!model.shape().m_edgeDomains.empty())
+        for (int e = 0; e < model.mesh().tetCount(); ++e) strains.push_back(strainOf(leftStretch(body, e)));
+    for (int p = 0; p < patches.count(); ++p)
+        visitPatch(body, p,
+                   [&](int e, const LeftStretch& left, double dilatation)
+                   {
+                       perElement[e] = strains.empty() ? stressOf(body, e, left, dilatation)
+                                                       : smoothedStress(body, e, left.m_R, dilatation, strains);
+                   });
+    if (!patches.empty()) return;
     for (std::size_t e = 0; e < perElement.size(); ++e) perElement[e] = elementStress(body, static_cast<int>(e));
 }
 
@@ -58,7 +174,7 @@ void nodeStresses(const BodyModel& model, const std::vector<Stress>& perElement,
         double volume = 0;
         for (int k = nodes.m_start[i]; k < nodes.m_start[i + 1]; ++k)
         {
-            const int e = NodeCorners::element(nodes.m_corner[k]);
+            const int e = model.elements().m_lanes.m_element[NodeCorners::element(nodes.m_corner[k])];
             Stress part = perElement[e];
             sum += part *= elements[e].m_volume;
             volume += elements[e].m_volume;

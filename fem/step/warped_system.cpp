@@ -11,6 +11,7 @@
 #include "fem/elements/model_elements.h"
 #include "fem/elements/node_sums.h"
 #include "fem/factor/rest_factor.h"
+#include "fem/step/internal_stress.h"
 #include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
 
@@ -55,14 +56,49 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
     pass.m_rotation = body.m_state.m_elementRotation.data();
     pass.m_force = scratch.m_corners.data();
     pass.m_warped = scratch.m_warped.data();
+    if (!pass.m_elements->m_law.empty())
+    {
+        scratch.m_cofactor.resize(elements.blockCount());
+        pass.m_cofactor = scratch.m_cofactor.data();
+    }
+    if (hasInitialStress(body))
+    {
+        scratch.m_initialStress.resize(elements.blockCount());
+        gatherInitialStress(body, settings.m_threads, scratch.m_initialStress.data());
+        pass.m_initialStress = scratch.m_initialStress.data();
+    }
     return pass;
 }
 
 template <class Real>
 void runPass(const ElementPass<Real>& pass, const Threads* threads)
 {
-    runRanges(threads, {pass.m_elements->blockCount(), kBlocksPerChunk},
-              [&](Range blocks) { runElementPass(pass, blocks); });
+    runRanges(threads, {pass.m_elements->pieceCount(), pass.m_elements->piecesPerChunk()},
+              [&](Range pieces) { runElementPass(pass, pieces); });
+}
+
+// In parts, each when the one before is done for all: `parts` is a pass or a product.
+template <class Real, class Parts>
+void runSmoothed(const Parts& parts, const ElementBlocks<Real>& elements, const SmoothedStrain<Real>* strain,
+                 int strains, const Threads* threads)
+{
+    runRanges(threads, {elements.pieceCount(), elements.piecesPerChunk()},
+              [&](Range pieces) { findStrains(parts, pieces); });
+    for (int k = 0; k < strains; ++k)
+        runRanges(threads, {parts.m_smoothing->domainCount(), kDomainsPerChunk},
+                  [&](Range domains) { averageStrains(*parts.m_smoothing, strain[k], domains); });
+    runRanges(threads, {elements.blockCount(), kBlocksPerChunk}, [&](Range blocks) { findForces(parts, blocks); });
+}
+
+template <class Real>
+void runSmoothedPass(Body& body, const ElementPass<Real>& pass, const Threads* threads)
+{
+    const EdgeSmoothing<Real>& smoothing = body.m_model->elements().smoothing<Real>();
+    SmoothedScratch<Real>& scratch = body.m_workspace.scratch().m_elements.scratch<Real>().m_smoothed;
+    scratch.grow(pass.m_elements->blockCount(), smoothing.domainCount());
+    const SmoothedStrain<Real> strain[2] = {scratch.strain(0), scratch.strain(1)};
+    runSmoothed(SmoothedPass<Real>{pass, &smoothing, strain[0], strain[1], scratch.m_warped.data()}, *pass.m_elements,
+                strain, 2, threads);
 }
 
 // The forces are added to `force` [N].
@@ -70,7 +106,10 @@ template <class Real>
 void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
 {
     const ElementPass<Real> pass = passOver<Real>(body, settings);
-    runPass(pass, settings.m_threads);
+    if (body.m_model->elements().smoothing<Real>().empty())
+        runPass(pass, settings.m_threads);
+    else
+        runSmoothedPass(body, pass, settings.m_threads);
     sumOverNodes(settings.m_threads,
                  NodeSums<Real>{&body.m_model->elements().m_nodes, pass.m_force, nullptr, nullptr, force.data()});
 }
@@ -83,10 +122,21 @@ void product(const Body& body, const Threads* threads, bool withMass, const std:
     ElementWork& work = body.m_workspace.scratch().m_elements;
     ElementScratch<Real>& scratch = work.scratch<Real>();
     pad(threads, in, work.m_x);
-    const ElementProduct<Real> forces = {&elements.blocks<Real>(), scratch.m_warped.data(), work.m_stiffnessFactor,
-                                         work.m_x.data(), scratch.m_corners.data()};
-    runRanges(threads, {elements.blockCount(), kBlocksPerChunk},
-              [&](Range blocks) { runElementProduct(forces, blocks); });
+    const ElementBlocks<Real>& blocks = elements.blocks<Real>();
+    const ElementProduct<Real> forces = {
+        &blocks,         scratch.m_warped.data(),  work.m_stiffnessFactor,
+        work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_cofactor.data()};
+    const EdgeSmoothing<Real>& smoothing = elements.smoothing<Real>();
+    if (smoothing.empty())
+        runRanges(threads, {forces.m_elements->pieceCount(), forces.m_elements->piecesPerChunk()},
+                  [&](Range pieces) { runElementProduct(forces, pieces); });
+    else
+    {
+        const SmoothedStrain<Real> strain = scratch.m_smoothed.strain(0);
+        const SmoothedProduct<Real> parts = {forces, &smoothing, strain, scratch.m_smoothed.m_tension.data(),
+                                             scratch.m_smoothed.m_warped.data()};
+        runSmoothed(parts, *forces.m_elements, &strain, 1, threads);
+    }
     if (!withMass) std::fill(out.begin(), out.end(), Vec3());
     sumOverNodes(threads, NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(),
                                          withMass ? work.m_scaledMass.data() : nullptr, work.m_x.data(), out.data()});
@@ -110,15 +160,15 @@ void scaleWarpedSystem(Body& body, const StepSettings& settings)
         work.m_scaledMass[i] = (1 + step * alpha) * body.m_state.m_mass[i];
 }
 
-void prepareWarpedSystem(Body& body, const StepSettings& settings, const std::vector<Vec3>& viscous,
-                         std::vector<Vec3>& force)
+void prepareWarpedSystem(Body& body, const StepSettings& settings, const std::vector<Vec3>& positions,
+                         const std::vector<Vec3>& viscous, std::vector<Vec3>& force)
 {
     ElementWork& work = body.m_workspace.scratch().m_elements;
     work.m_isDouble = !isSinglePrecision(settings);
     work.m_isComplete = true;
     if (work.m_stepsReadyForImpulses > 0) --work.m_stepsReadyForImpulses;
     scaleWarpedSystem(body, settings);
-    pad(settings.m_threads, body.m_workspace.scratch().m_kickPosition, work.m_x);
+    pad(settings.m_threads, positions, work.m_x);
     pad(settings.m_threads, viscous, work.m_v);
     if (work.m_isDouble)
         passOverElements<double>(body, settings, force);
@@ -171,13 +221,21 @@ void WarpedSystem::applyStiffness(const std::vector<Vec3>& in, std::vector<Vec3>
         product<double>(m_body, m_threads, false, in, out);
     else
         product<float>(m_body, m_threads, false, in, out);
+    addActuators(in, out);
     clearFixed(out);
 }
 
 void WarpedSystem::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
     applyUnconstrained(in, out);
+    addActuators(in, out);
     clearFixed(out);
+}
+
+void WarpedSystem::addActuators(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    if (!m_body.m_actuators.hasPulls()) return;
+    m_body.m_workspace.scratch().m_actuation.addProduct(m_body.m_actuators, in, out);
 }
 
 void WarpedSystem::clearFixed(std::vector<Vec3>& out) const

@@ -12,12 +12,11 @@ namespace bullet_fem
 bool isSinglePrecision(const StepSettings& settings);
 
 /// Element rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4 and above and in
-/// double below. Turns the state's rotations to the positions y = m_kickPosition of the scratch, adds f_el(y) - K' w to
-/// `force` [N], with w of `viscous` [m], and
-/// leaves in the body's scratch what WarpedSystem works with. Allocates in the first step of double precision, never
-/// else.
-void prepareWarpedSystem(Body& body, const StepSettings& settings, const std::vector<Vec3>& viscous,
-                         std::vector<Vec3>& force);
+/// double below. Turns the state's rotations to the positions y, adds f_el(y) - K' w to `force` [N], with w of
+/// `viscous` [m], and leaves in the body's scratch what WarpedSystem works with. Allocates in the first step of double
+/// precision, never else.
+void prepareWarpedSystem(Body& body, const StepSettings& settings, const std::vector<Vec3>& positions,
+                         const std::vector<Vec3>& viscous, std::vector<Vec3>& force);
 
 /// The rotations that WarpedPreconditioner works with, of those of the elements: one a node, or the body's one for all.
 void averageNodeRotations(Body& body, const StepSettings& settings);
@@ -30,21 +29,22 @@ void scaleWarpedSystem(Body& body, const StepSettings& settings);
 /// Never allocates.
 void completeWarpedSystem(Body& body, const StepSettings& settings);
 
-/// A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T over the free nodes, as last prepared; rows and columns of fixed
-/// nodes are zero.
+/// A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T over the free nodes, as last prepared, and what the body's
+/// actuators add to it; rows and columns of fixed nodes are zero.
 class WarpedSystem : public LinearOperator
 {
 public:
     explicit WarpedSystem(const Body& body, const Threads* threads = nullptr) : m_body(body), m_threads(threads) {}
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
-    /// A with the rows and columns of fixed nodes: what their motion does to the others.
+    /// A without actuators, with the rows and columns of fixed nodes: what their motion does to the others.
     void applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
     /// A without its masses, over the free nodes.
     void applyStiffness(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
 private:
+    void addActuators(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
     void clearFixed(std::vector<Vec3>& out) const;
 
     const Body& m_body;

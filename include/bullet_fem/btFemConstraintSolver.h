@@ -2,13 +2,16 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h"
 #include "bullet_fem/btFemPrecision.h"
+#include "bullet_fem/fem/common/export.h"
 
 class btFemContactGroup;
+class btFemIslands;
 class btFemSoftBodySolver;
 
 /// Bullet's rigid solver with the FEM bodies in it: contacts and joints of soft bodies are swept together with those
@@ -20,11 +23,12 @@ class btFemSoftBodySolver;
 /// Without it the rigid bodies feel a step's soft contacts after they have moved: momentum is exact all the same, and
 /// static supports are, but a rigid body at rest on a soft one reads a velocity of g h, and stacks in which the soft
 /// bodies are as heavy as the rigid ones fall.
-class btFemConstraintSolver : public btSequentialImpulseConstraintSolver
+class BULLETFEM_API btFemConstraintSolver : public btSequentialImpulseConstraintSolver
 {
 public:
     /// `fem` must be the world's soft body solver and outlive this one. Throws std::invalid_argument if it is null.
     explicit btFemConstraintSolver(btFemSoftBodySolver* fem);
+    ~btFemConstraintSolver() override;
 
     /// True if the constructor takes it; else `why` (if given) has its message. For engines without exceptions.
     static bool valid(const btFemSoftBodySolver* fem, std::string* why = nullptr);
@@ -35,35 +39,20 @@ public:
                         btIDebugDraw* debugDrawer, btDispatcher* dispatcher) override;
 
 protected:
+    /// Called by Bullet's solver for a group: its rows and the FEM bodies' in rounds. Returns 0.
     btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int numBodies,
                                                btPersistentManifold** manifolds, int numManifolds,
                                                btTypedConstraint** constraints, int numConstraints,
                                                const btContactSolverInfo& info, btIDebugDraw* debugDrawer) override;
 
 private:
-    struct Islands
-    {
-        btCollisionObject** m_bodies;
-        int m_bodyCount;
-        btPersistentManifold** m_manifolds;
-        int m_manifoldCount;
-        btTypedConstraint** m_constraints;
-        int m_constraintCount;
-    };
-    void select(const Islands& all, bool withFem);
-    void tagIslands(const Islands& all);
-    void tagJoined(const Islands& all, const btCollisionObject* joined);
-    bool isTagged(int tag) const;
     void noteImpulses();
     void goBackToNoted();
     template <class Visit>
     void forEachRigidRow(Visit visit);
 
     btFemSoftBodySolver* m_fem;
-    btFemContactGroup* m_group = nullptr;      // FEM bodies of the islands being solved; null if there are none
-    std::vector<int> m_tags;                   // islands with soft bodies, and those that these are joined to
-    std::vector<btCollisionObject*> m_bodies;  // what select() picked
-    std::vector<btPersistentManifold*> m_manifolds;
-    std::vector<btTypedConstraint*> m_constraints;
+    btFemContactGroup* m_group = nullptr;  // FEM bodies of the islands being solved; null if there are none
+    std::unique_ptr<btFemIslands> m_islands;
     std::vector<btScalar> m_noted;  // impulses of the rigid rows in the best round so far [N s]
 };

@@ -6,6 +6,7 @@
 
 #include "BulletSoftBody/btDeformableBodySolver.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/fem/common/export.h"
 
 /// Makes tetrahedral bodies of a btDeformableMultiBodyDynamicsWorld finite-element bodies: give it to the world's
 /// constructor, and to setDeformableSolver of its btDeformableMultiBodyConstraintSolver, in place of
@@ -14,8 +15,9 @@
 /// A body becomes FEM when it has tetrahedra and a material: from the btDeformableLinearElasticityForce,
 /// btDeformableCorotatedForce or btDeformableNeoHookeanForce that the world has for it, or by fem().setMaterial().
 /// Lame's coefficients mu and lambda become E = mu (3 lambda + 2 mu) / (lambda + mu) and nu = lambda / (2 (lambda +
-/// mu)), at most .49 and at least 0; of a Neo-Hookean force, too, whose setYoungsModulus() means just that, though
+/// mu)), at most .499 and at least 0; of a Neo-Hookean force, too, whose setYoungsModulus() means just that, though
 /// Bullet's formula is softer at small strain (3/4 of its mu and lambda - 5/8 mu) and stiffer when it is pressed.
+/// Its bodies have btFemElasticLaw::neoHooke, all others Hooke's law.
 /// Linear elasticity's damping is Rayleigh's, Neo-Hookean damping is stiffness damping. A change of the forces' values
 /// is obeyed at the next step. What setMaterial() gave is kept until then. Masses stay the body's.
 ///
@@ -33,11 +35,11 @@
 /// worlds; m_cfg.drag, not kDP, damps them, as it does Bullet's.
 ///
 /// FEM bodies touch rigid bodies, links of multibodies and each other (flags VF_DD, VF_SS or CL_SS in common), after
-/// the rigid bodies have moved, as in btSoftRigidDynamicsWorld. They do not touch cloth.
+/// the rigid bodies have moved, as in btSoftRigidDynamicsWorld. They touch cloth where both have VF_DD.
 ///
 /// Lifetime: outlives its world, and serves one. From the start of a step until the FEM bodies move, at its end, they
 /// are absent from the lists of the world's forces. Threads and allocation: as btFemSoftBodySolver, and Bullet's own.
-class btFemDeformableBodySolver : public btDeformableBodySolver
+class BULLETFEM_API btFemDeformableBodySolver : public btDeformableBodySolver
 {
 public:
     /// Throws std::invalid_argument if !info.valid().
@@ -49,13 +51,17 @@ public:
     /// Moves the FEM bodies: their materials, reports, contacts. Its optimize, predictMotion, solveConstraints and
     /// updateSoftBodies are for this class alone.
     btFemSoftBodySolver& fem();
+    /// The same, to read.
     const btFemSoftBodySolver& fem() const;
 
     /// Why a tetrahedral body with a material was left to Bullet in the last step; empty if it was not. Valid until the
     /// next step.
     const char* rejection(const btSoftBody* body) const;
 
-    // Called by the world.
+    /// @name Called by the world
+    /// @{
+
+    /// Each does with FEM bodies what it does in Bullet with others, and hands these to Bullet's own.
     void reinitialize(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt) override;
     void predictMotion(btScalar solverdt) override;
     void processCollision(btSoftBody* body, const btCollisionObjectWrapper* other) override;
@@ -65,6 +71,7 @@ public:
     void applyTransforms(btScalar timeStep) override;
     void setGravity(const btVector3& gravity) override;
     btAlignedObjectArray<btDeformableLagrangianForce*>* getLagrangianForceArray() override;
+    /// @}
 
 private:
     struct Impl;

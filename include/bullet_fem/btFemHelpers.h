@@ -8,6 +8,7 @@
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/cage/cage.h"
+#include "bullet_fem/fem/common/export.h"
 
 class btSoftBody;
 struct btFemMaterial;
@@ -21,7 +22,7 @@ struct BakedBody;  // bullet_fem/fem/baked_body.h
 /// Makes tetrahedral soft bodies. All have water's density (1000 kg/m3) until setMaterial says otherwise, outward
 /// boundary faces for collision and drawing, no links; the caller owns them. All throw std::invalid_argument
 /// (std::runtime_error for files) naming value, range and remedy.
-struct btFemHelpers
+struct BULLETFEM_API btFemHelpers
 {
     /// A cage of lattice cells of `cellSize` [m] around the closed surface of an OFF, OBJ, STL or PLY file, which
     /// follows the cage as m_renderNodes and m_renderFaces. What collides is the cage's surface, up to a cell outside

@@ -7,6 +7,7 @@
 
 #include "LinearMath/btVector3.h"
 #include "bullet_fem/btFemPrecision.h"
+#include "bullet_fem/fem/common/export.h"
 
 class btSoftBody;
 
@@ -27,7 +28,7 @@ public:
 /// sinks when its interest is below the level's lower bound and it has been there for m_dwell: once in that time at
 /// most, whatever its interest does. Bodies that bend so much that one iteration leaves a residual above 5 % rise a
 /// level for m_dwell, too, and so do those whose factor is stale: details do not show when they change.
-struct btFemDetailPolicy
+struct BULLETFEM_API btFemDetailPolicy
 {
     btScalar m_fullFrom = btScalar(0.5);      ///< interest from which on a body is iterated to the tolerance [-]
     btScalar m_fullUntil = btScalar(0.4);     ///< below it one iteration is enough [-], in [0, m_fullFrom]
@@ -42,7 +43,7 @@ struct btFemDetailPolicy
 
 /// Interest by distance from a viewer to the box around a body: 1 up to the near distance, 0 from the far one on,
 /// linear between them; 0 for what is not visible.
-class btFemViewerInterest : public btFemInterest
+class BULLETFEM_API btFemViewerInterest : public btFemInterest
 {
 public:
     /// Distances [m], finite, 0 <= near < far. Throws std::invalid_argument otherwise.

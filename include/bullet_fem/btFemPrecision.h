@@ -3,6 +3,7 @@
 #pragma once
 
 #include "LinearMath/btScalar.h"
+#include "bullet_fem/fem/common/export.h"
 
 // Bullet's headers serve both of its precisions, and most of their names are the same in both: a program that mixes
 // them may link, and writes beyond the ends of Bullet's objects. Every public header includes this one, which stops
@@ -42,12 +43,12 @@
 #define BULLETFEM_VERSION_REFERENCE BULLETFEM_JOINED(btFemNeedsBullet, BT_BULLET_VERSION, )
 
 /// Defined by the library; their values mean nothing.
-extern "C" const char BULLETFEM_PRECISION_TAG;
-extern "C" const char BULLETFEM_VERSION_TAG;
+extern "C" BULLETFEM_API const char BULLETFEM_PRECISION_TAG;
+extern "C" BULLETFEM_API const char BULLETFEM_VERSION_TAG;
 
 /// Makes every object file that includes a public header refer to the tag; `retain` also where the linker drops what
 /// nothing refers to (--gc-sections).
-#if __has_cpp_attribute(gnu::retain)
+#if __has_cpp_attribute(gnu::retain) && !defined(_WIN32)
 #define BULLETFEM_RETAIN [[gnu::used, gnu::retain]]
 #else
 #define BULLETFEM_RETAIN [[gnu::used]]

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "BulletCollision/CollisionDispatch/btCollisionWorld.h"
+#include "bullet_fem/fem/common/export.h"
 
 class btSoftBody;
 
@@ -21,7 +22,7 @@ struct btFemRayHit
 /// tetrahedra. Double precision inside, without gaps between triangles. Bullet's own btSoftBody::rayTest and
 /// world.rayTest work on FEM bodies, but their tolerance is an absolute one: in single precision they are good for
 /// triangles with edges of some 0.1 m and more, while those of 0.02 m are hit from several edges beside.
-struct btFemRay
+struct BULLETFEM_API btFemRay
 {
     /// The first hit between two points [m]; false if there is none, or the points are the same or not finite. Looks at
     /// every face; allocates nothing.
@@ -30,10 +31,13 @@ struct btFemRay
 
 /// For world.rayTest: like Bullet's ClosestRayResultCallback, but what is said of soft bodies is what btFemRay finds.
 /// m_hitNormalWorld, m_hitPointWorld, m_collisionObject and m_closestHitFraction as usual.
-struct btFemClosestRay : public btCollisionWorld::ClosestRayResultCallback
+struct BULLETFEM_API btFemClosestRay : public btCollisionWorld::ClosestRayResultCallback
 {
+    /// Between two points of the world [m].
     btFemClosestRay(const btVector3& from, const btVector3& to) : ClosestRayResultCallback(from, to) {}
 
+    /// Called by the world: what btFemRay finds of a soft body, and of others what Bullet says. Returns
+    /// m_closestHitFraction [-], in [0, 1].
     btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool normalInWorldSpace) override;
 
     btFemRayHit m_hit;  ///< where the soft body was hit; m_nodes are -1 if m_collisionObject is none

@@ -4,6 +4,7 @@
 
 #include "LinearMath/btVector3.h"
 #include "bullet_fem/btFemPrecision.h"
+#include "bullet_fem/fem/common/export.h"
 
 class btCollisionObject;
 
@@ -46,13 +47,14 @@ enum btFemFlags
     BT_FEM_TURNED_TETS = 1 << 9,
     /// The mesh is not connected: every component moves on its own.
     BT_FEM_SEVERAL_PIECES = 1 << 10,
-    /// The body overlaps a shape without contact support (empty, signed distance field, custom concave) and does not
-    /// touch it.
+    /// The body overlaps a shape that cannot be asked for contacts, and does not touch it: a btEmptyShape, a signed
+    /// distance field that was not loaded, a mesh without its tree, a hull without points, a class that is neither a
+    /// btConvexShape nor a btConcaveShape, or one of yours whose processAllTriangles hands over no triangle.
     BT_FEM_UNKNOWN_SHAPE = 1 << 11,
     /// There were more contact points than the solver info allows, and the deepest were kept.
     BT_FEM_CONTACT_LIMIT = 1 << 12,
-    /// The body has a new factor from this step on: it touches something while its step or masses were 1.5 times off,
-    /// or btFemSolverInfo::m_refactoring asked for it.
+    /// The body has a new factor from this step on: it touches something or is held while its step or masses were 1.5
+    /// times off, or btFemSolverInfo::m_refactoring asked for it.
     BT_FEM_REFACTORED = 1 << 13,
     /// The other end of an anchor or joint left the world, and the body lost it.
     BT_FEM_LOST_ANCHOR = 1 << 14,
@@ -97,7 +99,8 @@ struct btFemStepReport
     const char* m_message = "";  ///< why the body was rejected, its factor not made anew, or its surface not taken;
                                  ///< owned by the solver, valid until the body is removed
     btFemDetail m_detail = btFemDetail::nodalWarp;  ///< what its free motion was solved with; never automatic
-    int m_nodes = 0, m_tets = 0;                    ///< of its mesh
+    int m_nodes = 0;                                ///< of its mesh
+    int m_tets = 0;                                 ///< of its mesh
     int m_iterations = 0;                           ///< conjugate gradient iterations of the free motion, >= 0
     btScalar m_residual = 0;                        ///< its true |b - A dv| / |b| [-], >= 0: see SolveReport
     int m_contactIterations = 0;  ///< of the corrective solves after contact, of all bodies of its contact group
@@ -133,8 +136,9 @@ struct btFemContact
     btVector3 m_frictionImpulse;   ///< its other part, in the tangent plane [N s]
     const btCollisionObject* m_other = nullptr;  ///< the body itself for self contact; deleted since, it is one to
                                                  ///< compare, never to follow
-    int m_part = -1, m_index = -1;  ///< the part and triangle of a mesh, as Bullet numbers them: of a height field 2
-                                    ///< column (+ 1 for a cell's second) and row; -1 for other shapes and soft bodies
+    int m_part = -1;   ///< part of a mesh, as Bullet numbers them; of a height field 2 column (+ 1 for a cell's second
+                       ///< triangle); -1 for other shapes and soft bodies
+    int m_index = -1;  ///< likewise its triangle; of a height field the row
     /// Nodes that may carry a point: those of a triangle, or of up to three tetrahedra where the surface that follows
     /// them collides.
     static constexpr int kMostNodes = 12;
@@ -144,10 +148,14 @@ struct btFemContact
 };
 
 /// A stress in the world's axes [Pa], tension positive.
-struct btFemStress
+struct BULLETFEM_API btFemStress
 {
-    btScalar m_xx = 0, m_yy = 0, m_zz = 0;  ///< normal
-    btScalar m_xy = 0, m_yz = 0, m_xz = 0;  ///< shear; the tensor is symmetric
+    btScalar m_xx = 0;  ///< normal [Pa]
+    btScalar m_yy = 0;  ///< normal [Pa]
+    btScalar m_zz = 0;  ///< normal [Pa]
+    btScalar m_xy = 0;  ///< shear [Pa]
+    btScalar m_yz = 0;  ///< shear [Pa]
+    btScalar m_xz = 0;  ///< shear [Pa]
 
     /// Von Mises' equivalent stress [Pa], >= 0: in uniaxial stress its magnitude, under pressure from all sides 0.
     btScalar vonMises() const;

@@ -2,11 +2,14 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "BulletSoftBody/btDefaultSoftBodySolver.h"
+#include "bullet_fem/btFemActuators.h"
 #include "bullet_fem/btFemAnchors.h"
 #include "bullet_fem/btFemInterest.h"
 #include "bullet_fem/btFemMaterial.h"
@@ -14,6 +17,7 @@
 #include "bullet_fem/btFemReports.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/btFemSpring.h"
+#include "bullet_fem/fem/common/export.h"
 
 class btSoftBody;
 struct btFemCoupling;
@@ -24,7 +28,8 @@ struct BakedBody;  // bullet_fem/fem/baked_body.h
 }
 
 /// Makes every tetrahedral btSoftBody of a btSoftRigidDynamicsWorld a corotational finite-element body: give it to the
-/// world's constructor in place of the default solver. Bodies without tetrahedra keep Bullet's behaviour, bit for bit.
+/// world's constructor in place of the default solver. Bodies without tetrahedra keep Bullet's behaviour, bit for bit,
+/// but for what they touch of FEM bodies (VF_SS in both).
 ///
 /// Lifetime: outlives its world. Threads: call from the thread that steps the world; processCollision may be called by
 /// Bullet's threads. Allocates when a body is first stepped, when the number of contacts grows, and on calls of its own
@@ -61,7 +66,7 @@ struct BakedBody;  // bullet_fem/fem/baked_body.h
 ///
 /// Functions with a last argument `why` throw if that is null. Else, for engines without exceptions, they return false
 /// (or 0 in place of a handle) where they would throw, with the reason in `why`, and true where all is well.
-class btFemSoftBodySolver : public btDefaultSoftBodySolver
+class BULLETFEM_API btFemSoftBodySolver : public btDefaultSoftBodySolver
 {
 public:
     /// Throws std::invalid_argument if !info.valid().
@@ -74,6 +79,22 @@ public:
     /// are not pinned, now. Without it a body has E = 1e6 kLST Pa, nu .3, beta .005 s and its own masses. Throws
     /// std::invalid_argument on a bad material or a body without (usable) tetrahedra.
     bool setMaterial(btSoftBody* body, const btFemMaterial& material, std::string* why = nullptr);
+
+    /// The same with a material for every tetrahedron, in the order of m_tetras. Young's modulus, Poisson's ratio,
+    /// density and mean dilatation are a tetrahedron's own; the dampings must be the same in all, and a density of 0
+    /// is that of all or of none. Throws std::invalid_argument, and changes nothing then, as setMaterial does, on
+    /// another number of materials, and on such that do not go together; the message names tetrahedron or region.
+    bool setMaterials(btSoftBody* body, const std::vector<btFemMaterial>& perTetrahedron, std::string* why = nullptr);
+    /// By regions: a label for every tetrahedron, such as TetMeshFile::m_regions, and the materials of the labels.
+    /// Throws likewise, and on a label without material; labels that no tetrahedron has do no harm.
+    bool setMaterials(btSoftBody* body, const std::vector<int>& labels, const std::map<int, btFemMaterial>& ofLabel,
+                      std::string* why = nullptr);
+    /// By place: `materialAt` is called now, once for every tetrahedron with its centroid [m] in the rest shape, where
+    /// that lay when the body was first stepped or prepared, or lies now. Where nu is above .4 a few materials, in
+    /// steps, serve better than one that changes from each tetrahedron to the next: those that share a volume change
+    /// are of one material (docs/materials.md). Throws likewise, and what the function throws.
+    bool setMaterials(btSoftBody* body, const std::function<btFemMaterial(const btVector3& centroid)>& materialAt,
+                      std::string* why = nullptr);
 
     /// Chooses between accuracy and speed for a body, whatever its interest; btFemDetail::automatic, which it is unless
     /// called, leaves that to the interest again. Throws std::invalid_argument on null.
@@ -114,6 +135,7 @@ public:
     /// before any node has got a target.
     bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btVector3* positions,
                         std::string* why = nullptr);
+    /// The same, to places that a rigid motion gives: see above.
     bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest,
                         std::string* why = nullptr);
     /// Lets them go. Throws likewise.
@@ -121,14 +143,15 @@ public:
 
     /// Ties a node to a node of another FEM body, or of the same one, until detach() or until one of them leaves the
     /// world; what lies apart is drawn together. Anchors to rigid bodies are made by Bullet's own appendAnchor, joints
-    /// of clusters by its appendLinearJoint and appendAngularJoint. Returns a handle, > 0. Throws std::invalid_argument
-    /// on a body that is not FEM, or a node out of range.
+    /// of clusters by its appendLinearJoint and appendAngularJoint. `a` may be cloth, too, a body without tetrahedra:
+    /// then `b` has the attachment, for detach() and anchors(). Returns a handle, > 0. Throws std::invalid_argument on
+    /// a body that is not FEM, or a node out of range.
     int attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB, std::string* why = nullptr);
     /// Ties a node to a point of tetrahedron tetB of another body, with barycentric weights [-] of sum 1. Throws
     /// std::invalid_argument likewise.
     int attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4],
                         std::string* why = nullptr);
-    /// Unties what attachNodes or attachNodeToTet of body `a` returned; nothing if that is gone. Throws
+    /// Unties what attachNodes or attachNodeToTet of body `a` returned (of cloth, `b`); nothing if that is gone. Throws
     /// std::invalid_argument if `a` is not FEM.
     bool detach(btSoftBody* a, int attachment, std::string* why = nullptr);
 
@@ -141,6 +164,45 @@ public:
     bool setSpringTarget(btSoftBody* body, int spring, const btVector3& target, std::string* why = nullptr);
     /// Nothing if the spring is gone. Throws std::invalid_argument if the body is not FEM.
     bool removeSpring(btSoftBody* body, int spring, std::string* why = nullptr);
+
+    /// Gives every tetrahedron a stress [Pa] besides that of its strain, from the next step on: what is left of how it
+    /// was made, or comes of heat, -3 K alpha dT on the diagonal. In the axes of the rest shape, which turn with the
+    /// element; in the order of m_tetras; an empty array for none. getStress() shows it with the rest. It may change
+    /// in every step, costs no new factor, and wakes the body. Lost when the body's mesh changes. Throws
+    /// std::invalid_argument on a body that is not FEM, another number of tetrahedra, or a value that is not in [-1e13,
+    /// 1e13] Pa.
+    bool setInitialStress(btSoftBody* body, const btAlignedObjectArray<btFemStress>& perElement,
+                          std::string* why = nullptr);
+
+    /// Adds what drives the body from within (docs/actuation.md), from the next step on, until removeActuator() or
+    /// until the body leaves the world or its mesh changes. Returns a handle, > 0. A later change wakes the body. Throw
+    /// std::invalid_argument on a body that is not FEM, within a step, on values out of range, nodes or tetrahedra that
+    /// the body has not, a chamber that is not closed, or one or a cable that is not in one piece of the body.
+    int addChamber(btSoftBody* body, const btFemChamber& chamber, std::string* why = nullptr);
+    /// Likewise.
+    int addCable(btSoftBody* body, const btFemCable& cable, std::string* why = nullptr);
+    /// Likewise.
+    int addFibres(btSoftBody* body, const btFemFibres& fibres, std::string* why = nullptr);
+    /// Likewise.
+    int addExpansion(btSoftBody* body, const btFemExpansion& expansion, std::string* why = nullptr);
+
+    /// Opens a chamber to a pump that keeps this pressure above the outside [Pa]. These throw std::invalid_argument on
+    /// a handle that the body has not, within a step, or on a value out of the range that the struct tells.
+    bool setChamberPressure(btSoftBody* body, int chamber, btScalar pressure, std::string* why = nullptr);
+    /// Closes it, with so much gas in it: absolute pressure times volume [J].
+    bool setChamberGas(btSoftBody* body, int chamber, btScalar gas, std::string* why = nullptr);
+    /// Closes it, with the gas that it has now; nothing if it is closed.
+    bool sealChamber(btSoftBody* body, int chamber, std::string* why = nullptr);
+    bool setCableTension(btSoftBody* body, int cable, btScalar tension, std::string* why = nullptr);    ///< [N]
+    bool setCableRestLength(btSoftBody* body, int cable, btScalar length, std::string* why = nullptr);  ///< [m]
+    bool setActivation(btSoftBody* body, int fibres, btScalar activation, std::string* why = nullptr);  ///< [Pa]
+    bool setExpansion(btSoftBody* body, int expansion, btScalar strain, std::string* why = nullptr);    ///< [-]
+    /// Nothing if it is gone.
+    bool removeActuator(btSoftBody* body, int actuator, std::string* why = nullptr);
+
+    /// All that drives the body, as it is now: chambers, cables, fibres, expansions, each in the order in which they
+    /// were added. False, and an empty array, if the body is not FEM. Allocates only when the array grows.
+    bool getActuators(const btSoftBody* body, btAlignedObjectArray<btFemActuatorReport>& actuators) const;
 
     /// Keeps the surface this far from others [m], in [0, 1e3]; 0 unless called. Bullet's shape margin is ignored.
     /// Throws std::invalid_argument on null, or out of the range.
@@ -190,9 +252,15 @@ public:
     /// The mean of the elements at every node by their (filled) volumes, in the order of m_nodes: smooth for drawing,
     /// and lower than the elements' peaks. Zero at nodes that no element uses. Likewise otherwise.
     bool getNodeStress(const btSoftBody* body, btAlignedObjectArray<btFemStress>& perNode) const;
-    /// Von Mises' equivalent of the two [Pa]. Likewise otherwise.
+    /// Von Mises' equivalent of getStress [Pa], >= 0. Likewise otherwise.
     bool getVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const;
+    /// Von Mises' equivalent of getNodeStress [Pa], >= 0. Likewise otherwise.
     bool getNodeVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perNode) const;
+
+    /// Equivalent plastic strain of every tetrahedron [-], >= 0, in the order of m_tetras: the sum over time of
+    /// sqrt(2/3) |d eps_p|. False, and an empty array, of bodies that never had a material that yields, too. Likewise
+    /// otherwise.
+    bool getPlasticStrain(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const;
 
     /// Saves what the next steps of the FEM bodies of the world stepped last depend on, so that restoreState continues
     /// to the bit, in the midst of contact, too: motion, rotations, warm starts, contacts, joints, pins, targets,
@@ -214,7 +282,8 @@ public:
     /// phase's pairs) and what the user sets and no step changes (material, detail, contact offset, m_cfg, gravity,
     /// wind, anchors, joints, the solver's info). For the same bits that must be as it was. Bullet's contacts between
     /// rigid bodies cannot be put back: take all pairs out of the pair cache (removeOverlappingPair) and add them again
-    /// in their order, after saving as after restoring, so that they begin anew both times. A rigid solver with
+    /// in their order, after saving as after restoring, so that they begin anew both times. m_cid and m_newpairs of
+    /// btDbvtBroadphase decide in which step it drops old pairs: put these back, too. A rigid solver with
     /// SOLVER_RANDMIZE_ORDER wants its getRandSeed() back by setRandSeed(). A factor being made in the background is
     /// dropped. Between steps. Throws std::invalid_argument with the reason.
     bool restoreState(const unsigned char* data, std::size_t size, std::string* why = nullptr);
@@ -232,13 +301,17 @@ public:
     /// before addSoftBody or after. Throws std::invalid_argument with the reason, and changes nothing then.
     bool applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size, std::string* why = nullptr);
 
-    // Called by the world.
+    /// @name Called by the world
+    /// @{
+
+    /// The stages of a step (docs/architecture.md), with what Bullet does to bodies that are not FEM. The step is in s.
     void optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate = false) override;
     void predictMotion(btScalar timeStep) override;
     void processCollision(btSoftBody* body, const btCollisionObjectWrapper* other) override;
     void processCollision(btSoftBody* body, btSoftBody* other) override;
     void solveConstraints(btScalar timeStep) override;
     void updateSoftBodies() override;
+    /// @}
 
 private:
     friend struct btFemCoupling;

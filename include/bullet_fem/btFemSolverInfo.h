@@ -5,6 +5,7 @@
 #include <string>
 
 #include "LinearMath/btScalar.h"
+#include "bullet_fem/fem/common/export.h"
 
 /// Who gives a body a new factor when its step, masses or pins are not the factor's any more (BT_FEM_STALE_FACTOR). A
 /// new one pays as soon as the stale one has cost as many iterations of the free motion as it takes time; both are
@@ -31,7 +32,7 @@ enum class btFemFactorChoice
 };
 
 /// Settings of a solver; fixed for its life.
-struct btFemSolverInfo
+struct BULLETFEM_API btFemSolverInfo
 {
     btScalar m_tolerance = btScalar(1e-3);  ///< relative residual of the linear solves [-], in [1e-8, 0.5]
     /// Damping by the step itself [-], in [0, 1]: 0 is a step of second order, which damps what it cannot resolve and
@@ -49,10 +50,10 @@ struct btFemSolverInfo
     int m_contactRounds = 1;    ///< corrective solves after contact at least, in [1, 10]; ten at most
     int m_contactSweeps = 50;   ///< sweeps a round at most, in [1, 1000]
     /// Errors of velocity at which contact ends, as a share of what gravity gives a body in a step, or of what contact
-    /// changes at first if that is more [-], in [1e-7, 0.1]. 3e-5 keeps tall stacks still; at 1e-2 crowds cost
-    /// half or less, but stacks of soft bodies may fall over without btFemConstraintSolver. Joints are solved more
-    /// closely; without any, contact's own linear solves are no closer than this.
-    btScalar m_contactTolerance = btScalar(3e-5);
+    /// changes at first if that is more [-], in [1e-7, 0.1]. What is at rest is solved to a hundredth of it within a
+    /// few steps, impacts to 5e-4 of an element's edge a step, what has restitution to 3e-5, joints to 1e-3 of the
+    /// impulses on their bodies; beside rows of Bullet in btFemConstraintSolver all is solved to 1e-4.
+    btScalar m_contactTolerance = btScalar(3e-3);
     int m_maxContacts = 2000;                  ///< contact points a body, in [8, 20000]
     btScalar m_erp = btScalar(0.2);            ///< share of a penetration taken back a step [-], in [0, 1]
     btScalar m_maxPushVelocity = btScalar(1);  ///< speed at which penetration is taken back at most [m/s], in [0, 1000]
@@ -70,7 +71,8 @@ struct btFemSolverInfo
     /// Whether bodies that share their factor, copies of each other, are solved side by side, in some 3 KB an
     /// element and thread. The bits of the result are the same; off to save memory, or to compare times.
     bool m_batchBodies = true;
-    /// Who renews stale factors. Bodies that touch something get a new one in any case if the old one is 1.5 times off.
+    /// Who renews stale factors. Bodies that touch something or are held get a new one in any case if the old one
+    /// is 1.5 times off.
     btFemRefactoring m_refactoring = btFemRefactoring::onRequest;
     /// Whether Bullet's dispatcher shows a btPersistentManifold of every FEM body and other object that touch: the four
     /// deepest points of the last step with their impulses. The rigid object is the first, the soft body the second;

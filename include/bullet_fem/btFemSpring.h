@@ -5,12 +5,13 @@
 #include <string>
 
 #include "LinearMath/btVector3.h"
+#include "bullet_fem/fem/common/export.h"
 
 struct btFemRayHit;
 
 /// Pulls a point of a soft body to a place in the world, as a mouse or a hand does: a force k (target - x) - d v,
 /// limited, with x and v those at the end of the step. Stable at any stiffness and step.
-struct btFemSpring
+struct BULLETFEM_API btFemSpring
 {
     int m_nodes[3] = {0, 0, 0};         ///< nodes that carry the point; those without weight do not matter
     btScalar m_weights[3] = {1, 0, 0};  ///< barycentric [-], sum 1

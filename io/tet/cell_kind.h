@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -27,6 +28,20 @@ inline void countSkipped(TetMeshFile& mesh, CellKind kind, std::size_t count)
     if (kind == CellKind::point) mesh.m_skippedPoints += count;
     if (kind == CellKind::edge) mesh.m_skippedEdges += count;
     if (kind == CellKind::face) mesh.m_skippedFaces += count;
+}
+
+/// A region's label; what is no whole number of 32 bits makes 0.
+inline int regionOf(double label)
+{
+    const bool isWhole = label >= -2147483648.0 && label <= 2147483647.0 && std::floor(label) == label;
+    return isWhole ? static_cast<int>(label) : 0;
+}
+
+/// Notes the region of the tetrahedron that was read last.
+inline void noteRegion(TetMeshFile& mesh, double label)
+{
+    mesh.m_regions.resize(mesh.m_tets.size(), 0);
+    if (!mesh.m_regions.empty()) mesh.m_regions.back() = regionOf(label);
 }
 
 /// What to say of a cell that is not read: "a hexahedron".

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <stdexcept>
+
 #include "fem/common/message.h"
 #include "io/tet/gmsh_sections.h"
 #include "io/tet/tet_readers.h"
@@ -71,11 +73,27 @@ void readElements(GmshFile& file, int version)
     version == 2 ? readGmshElements2(file) : readGmshElements4(file);
 }
 
+// The section itself is passed with those that are not read: a mesh needs no groups.
+void findGroups(GmshFile& file)
+{
+    const MeshScanner before = file.scanner;
+    try
+    {
+        file.scanner.restOfLine();
+        readGmshEntities4(file);
+    }
+    catch (const std::runtime_error&)
+    {
+        file.groups.clear();
+    }
+    file.scanner = before;
+}
+
 }  // namespace
 
 TetMeshFile readGmsh(std::string_view bytes)
 {
-    GmshFile file{MeshScanner(bytes), {}, 8, {}};
+    GmshFile file{MeshScanner(bytes), {}, 8, {}, {}};
     MeshScanner& scanner = file.scanner;
     int version = 0;
     while (!scanner.atEnd())
@@ -87,6 +105,7 @@ TetMeshFile readGmsh(std::string_view bytes)
                          (version == 0 ? "$MeshFormat" : "$Nodes") + " should begin");
         const std::string section(word.substr(1));
         const bool isFormat = section == "MeshFormat", isNodes = section == "Nodes", isElements = section == "Elements";
+        if (section == "Entities" && version == 4) findGroups(file);
         if (!isFormat && !isNodes && !isElements)
         {
             if (!scanner.skipPast("$End" + section.substr(0, 200)))

@@ -31,7 +31,7 @@ std::uint64_t readCountLine(MeshScanner& scanner, const char* what)
 
 /// The nodes of an element, whose tags have `tagBytes` bytes in binary files.
 template <class Tag>
-void readElementNodes(GmshFile& file, const GmshCell& cell, int tagBytes)
+void readElementNodes(GmshFile& file, const GmshCell& cell, int tagBytes, std::int64_t region)
 {
     if (cell.kind == CellKind::tet)
     {
@@ -39,6 +39,7 @@ void readElementNodes(GmshFile& file, const GmshCell& cell, int tagBytes)
         for (int& place : tet)
             place = placeOfGmshNode(file, static_cast<std::uint64_t>(file.scanner.get<Tag>(kNodeTag, tagBytes)));
         file.mesh.m_tets.push_back(tet);
+        noteRegion(file.mesh, static_cast<double>(region));
         return;
     }
     for (int i = 0; i < cell.nodes; ++i) file.scanner.get<Tag>(kNodeTag, tagBytes);
@@ -54,8 +55,13 @@ void readTextElements2(GmshFile& file, std::uint64_t count)
         const GmshCell cell = cellOf(scanner.text<int>(kElementType), scanner);
         const auto tagCount = scanner.text<std::uint64_t>("a number of tags");
         scanner.need(tagCount, 1, 4, "element tags");
-        for (std::uint64_t i = 0; i < tagCount; ++i) scanner.text<std::int64_t>("an element tag");
-        readElementNodes<std::int32_t>(file, cell, 4);
+        std::int64_t group = 0;  // the first tag
+        for (std::uint64_t i = 0; i < tagCount; ++i)
+        {
+            const auto tag = scanner.text<std::int64_t>("an element tag");
+            if (i == 0) group = tag;
+        }
+        readElementNodes<std::int32_t>(file, cell, 4, group);
     }
 }
 
@@ -72,8 +78,10 @@ void readBinaryElements2(GmshFile& file, std::uint64_t count)
         scanner.need(blockCount, std::uint64_t{1} + tagCount + static_cast<unsigned>(cell.nodes), 4, "elements");
         for (std::uint32_t e = 0; e < blockCount; ++e)
         {
-            scanner.skipBytes(4 + 4 * std::uint64_t{tagCount}, "an element's number and tags");
-            readElementNodes<std::int32_t>(file, cell, 4);
+            scanner.skipBytes(4, "an element's number");
+            const auto group = tagCount > 0 ? scanner.get<std::int32_t>("an element tag") : 0;
+            if (tagCount > 1) scanner.skipBytes(4 * (std::uint64_t{tagCount} - 1), "an element's tags");
+            readElementNodes<std::int32_t>(file, cell, 4, group);
         }
         done += blockCount;
     }
@@ -170,6 +178,37 @@ void readGmshNodes4(GmshFile& file)
     if (left > 0) scanner.fail(message("the blocks have ", left, " nodes fewer than $Nodes declares"));
 }
 
+void readGmshEntities4(GmshFile& file)
+{
+    MeshScanner& scanner = file.scanner;
+    std::uint64_t counts[4];  // of points, curves, surfaces and volumes
+    for (std::uint64_t& count : counts) count = scanner.get<std::uint64_t>("a number of entities", file.sizeBytes);
+    const auto readTags = [&](const char* what)
+    {
+        const auto count = scanner.get<std::uint64_t>("a number of tags", file.sizeBytes);
+        scanner.need(count, 1, 4, what);
+        std::int32_t first = 0;
+        for (std::uint64_t i = 0; i < count; ++i)
+        {
+            const auto tag = scanner.get<std::int32_t>(what);
+            if (i == 0) first = tag;
+        }
+        return first;
+    };
+    for (int dimension = 0; dimension < 4; ++dimension)
+    {
+        scanner.need(counts[dimension], 5, 4, "entities");
+        for (std::uint64_t i = 0; i < counts[dimension]; ++i)
+        {
+            const auto tag = scanner.get<std::int32_t>("an entity's tag");
+            for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) scanner.get<double>("a coordinate of an entity");
+            const std::int32_t group = readTags("a physical group");
+            if (dimension > 0) readTags("an entity of the boundary");
+            if (dimension == 3) file.groups[tag] = group;
+        }
+    }
+}
+
 void readGmshElements4(GmshFile& file)
 {
     MeshScanner& scanner = file.scanner;
@@ -179,14 +218,15 @@ void readGmshElements4(GmshFile& file)
     std::uint64_t left = header.items;
     for (std::uint64_t b = 0; b < header.blocks; ++b)
     {
-        scanner.get<std::int32_t>("an entity's dimension");
-        scanner.get<std::int32_t>("an entity's tag");
+        const auto dimension = scanner.get<std::int32_t>("an entity's dimension");
+        const auto group = file.groups.find(scanner.get<std::int32_t>("an entity's tag"));
+        const std::int32_t region = dimension == 3 && group != file.groups.end() ? group->second : 0;
         const GmshCell cell = cellOf(scanner.get<std::int32_t>(kElementType), scanner);
         const std::uint64_t count = readBlockCount(file, left, "a number of elements");
         for (std::uint64_t e = 0; e < count; ++e)
         {
             scanner.get<std::uint64_t>("an element tag", file.sizeBytes);
-            readElementNodes<std::uint64_t>(file, cell, file.sizeBytes);
+            readElementNodes<std::uint64_t>(file, cell, file.sizeBytes, region);
         }
     }
     if (left > 0) scanner.fail(message("the blocks have ", left, " elements fewer than $Elements declares"));

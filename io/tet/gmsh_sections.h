@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "bullet_fem/io/tet_mesh_file.h"
@@ -16,8 +17,9 @@ struct GmshFile
 {
     MeshScanner scanner;
     TetMeshFile mesh;
-    int sizeBytes = 8;                     ///< of version 4's size_t in binary files
-    std::unique_ptr<NodeNumbers> numbers;  ///< once the nodes are known
+    int sizeBytes = 8;                            ///< of version 4's size_t in binary files
+    std::unique_ptr<NodeNumbers> numbers;         ///< once the nodes are known
+    std::map<std::int32_t, std::int32_t> groups;  ///< of version 4: of a volume, its first physical group
 };
 
 // The content of $Nodes and $Elements, up to the closing line, in versions 2 and 4.1.
@@ -25,6 +27,8 @@ void readGmshNodes2(GmshFile& file);
 void readGmshElements2(GmshFile& file);
 void readGmshNodes4(GmshFile& file);
 void readGmshElements4(GmshFile& file);
+/// The content of $Entities in version 4.1, up to the closing line.
+void readGmshEntities4(GmshFile& file);
 
 /// A node's position, the next three numbers.
 Vec3 readGmshPosition(MeshScanner& scanner);

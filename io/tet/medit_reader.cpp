@@ -65,8 +65,8 @@ void readTetrahedra(MeshScanner& text, TetMeshFile& mesh)
                                   mesh.m_positions.size(), "]"));
             place = static_cast<int>(number - 1);
         }
-        text.text<double>("a reference");
         mesh.m_tets.push_back(tet);
+        noteRegion(mesh, text.text<double>("a reference"));
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/common/message.h"
+#include "io/tet/cell_kind.h"
 #include "io/tet/node_numbers.h"
 #include "io/tet/tet_readers.h"
 
@@ -59,6 +60,7 @@ void readTetGenTets(MeshScanner& text, TetMeshFile& mesh)
     if (corners != 4)
         text.fail(message("a tetrahedron with ", corners, " nodes cannot be read, only those with 4",
                           corners == 10 ? "; run TetGen without -o2" : ""));
+    const bool hasAttributes = takeOr(text, line, 0) > 0;
     text.need(count, 5, 1, "tetrahedra");
     for (std::uint64_t e = 0; e < count; ++e)
     {
@@ -73,7 +75,10 @@ void readTetGenTets(MeshScanner& text, TetMeshFile& mesh)
                 text.fail(message("a tetrahedron uses point ", number, ", which the .node file does not have"));
         }
         mesh.m_tets.push_back(tet);
+        const std::string_view attribute = hasAttributes ? takeWord(line) : std::string_view();
+        if (!attribute.empty()) noteRegion(mesh, text.parse<double>(attribute, "an attribute"));
     }
+    mesh.m_regions.resize(mesh.m_regions.empty() ? 0 : mesh.m_tets.size(), 0);
 }
 
 }  // namespace bullet_fem

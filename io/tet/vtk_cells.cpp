@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "io/tet/vtk_cells.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "fem/common/message.h"
@@ -118,6 +119,28 @@ void appendVtkCells(TetMeshFile& mesh, const VtkCells& cells, std::size_t firstP
             countSkipped(mesh, kind, 1);
         begin = end;
     }
+}
+
+bool isVtkRegionName(std::string name)
+{
+    for (char& c : name)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    for (const char* known :
+         {"region", "regions", "material", "materialids", "cellentityids", "gmsh:physical", "medit:ref", "attribute"})
+        if (name == known) return true;
+    return false;
+}
+
+void noteVtkRegions(TetMeshFile& mesh, const VtkCells& cells, const std::vector<double>& regions)
+{
+    if (regions.size() != cells.m_types.size()) return;
+    constexpr std::int64_t kTetrahedron = 10;
+    const auto isTet = [](std::int64_t type) { return type == kTetrahedron; };
+    std::size_t tet =
+        mesh.m_tets.size() - static_cast<std::size_t>(std::count_if(cells.m_types.begin(), cells.m_types.end(), isTet));
+    mesh.m_regions.resize(mesh.m_tets.size(), 0);
+    for (std::size_t c = 0; c < regions.size(); ++c)
+        if (isTet(cells.m_types[c])) mesh.m_regions[tet++] = regionOf(regions[c]);
 }
 
 }  // namespace bullet_fem

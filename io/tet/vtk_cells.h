@@ -23,4 +23,12 @@ struct VtkCells
 /// Throws std::runtime_error, naming the cell, on types that are refused and on sizes and indices out of range.
 void appendVtkCells(TetMeshFile& mesh, const VtkCells& cells, std::size_t firstPoint);
 
+/// Whether a cells' array of this name tells regions: region, regions, material, MaterialIds, CellEntityIds,
+/// gmsh:physical, medit:ref or attribute, in any case.
+bool isVtkRegionName(std::string name);
+
+/// Notes the regions of the tetrahedra that were appended last, of an array with a number for each of their cells.
+/// Arrays of another length are not taken.
+void noteVtkRegions(TetMeshFile& mesh, const VtkCells& cells, const std::vector<double>& regions);
+
 }  // namespace bullet_fem

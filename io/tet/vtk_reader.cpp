@@ -17,6 +17,8 @@ struct VtkFile
     MeshScanner cellsPlace;  // what is wrong with cells is known only when their types are
     int major = 0;           // of the version
     bool hasPoints = false, hasCells = false, hasTypes = false;
+    std::string data;             // the keyword that ended the mesh: POINT_DATA or CELL_DATA
+    std::vector<double> regions;  // of the cells, if an array tells them
 };
 
 /// A keyword, of which VTK ignores the case.
@@ -125,10 +127,22 @@ void readPoints(VtkFile& file)
     }
 }
 
+/// Throws, with the place of a number of rows that begin there.
+[[noreturn]] void failAtNumber(MeshScanner rows, std::uint64_t number, const std::string& cause)
+{
+    for (std::uint64_t i = 0; i <= number; ++i)
+        if (rows.isBinary())
+            rows.bits(4, "a cell's number");
+        else
+            rows.word("a cell's number");
+    rows.fail(cause);
+}
+
 /// CELLS before version 5: for each cell the number of its corners, then these.
 void readCellRows(VtkFile& file, std::uint64_t cellCount, std::uint64_t size)
 {
     MeshScanner& scanner = file.scanner;
+    const MeshScanner begin = scanner;
     const std::vector<std::int64_t> rows = readIntegers(file, {NumberType::signedInteger, 4}, size, "a cell's number");
     VtkCells& cells = file.cells;
     std::uint64_t next = 0;
@@ -137,13 +151,15 @@ void readCellRows(VtkFile& file, std::uint64_t cellCount, std::uint64_t size)
         if (next >= size) scanner.fail(message("of ", cellCount, " CELLS only ", c, " are there"));
         const std::int64_t corners = rows[next++];
         if (corners < 0 || static_cast<std::uint64_t>(corners) > size - next)
-            scanner.fail(message("cell ", c, " has ", corners, " corners where ", size - next, " numbers are left"));
+            failAtNumber(begin, next - 1,
+                         message("cell ", c, " has ", corners, " corners where ", size - next, " numbers are left"));
         cells.m_connectivity.insert(cells.m_connectivity.end(), rows.begin() + static_cast<std::ptrdiff_t>(next),
                                     rows.begin() + static_cast<std::ptrdiff_t>(next) + corners);
         cells.m_ends.push_back(static_cast<std::int64_t>(cells.m_connectivity.size()));
         next += static_cast<std::uint64_t>(corners);
     }
-    if (next != size) scanner.fail(message("CELLS have ", next, " numbers, not ", size));
+    if (next != size)
+        failAtNumber(begin, next, message("CELLS of ", cellCount, " cells have ", next, " numbers, not ", size));
 }
 
 std::vector<std::int64_t> readNamedIntegers(VtkFile& file, const char* name, std::uint64_t count)
@@ -257,7 +273,11 @@ void skipField(MeshScanner& scanner)
 bool readSection(VtkFile& file)
 {
     const std::string keyword = upperCase(file.scanner.word("a section"));
-    if (keyword == "POINT_DATA" || keyword == "CELL_DATA") return false;
+    if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
+    {
+        file.data = keyword;
+        return false;
+    }
     if (keyword == "POINTS")
         readPoints(file);
     else if (keyword == "CELLS")
@@ -273,11 +293,68 @@ bool readSection(VtkFile& file)
     return true;
 }
 
+/// The values of an array, kept if they are the cells' regions.
+void readDataArray(VtkFile& file, const std::string& name, const std::string& type, std::uint64_t components,
+                   std::uint64_t tuples)
+{
+    const std::uint64_t most = 8 * std::uint64_t{file.scanner.left()};  // of bits
+    if (components > 0 && tuples > most / components) file.scanner.fail("an array is too long");
+    const bool areRegions = file.data == "CELL_DATA" && components == 1 && isVtkRegionName(name);
+    if (!areRegions || type == "STRING" || type == "BIT") return skipValues(file.scanner, type, components * tuples);
+    file.regions = readNumbers<double>(file, parseVtkType(file.scanner, type), tuples, "a region");
+}
+
+/// SCALARS and FIELD arrays of points and cells, up to the first thing of another kind.
+void findRegions(VtkFile& file)
+{
+    MeshScanner& scanner = file.scanner;
+    auto count = scanner.text<std::uint64_t>("a number of values");
+    while (!scanner.atEnd())
+    {
+        const std::string keyword = upperCase(scanner.word("an array"));
+        if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
+        {
+            file.data = keyword;
+            count = scanner.text<std::uint64_t>("a number of values");
+        }
+        else if (keyword == "SCALARS")
+        {
+            const std::string name = printable(scanner.word("an array's name"));
+            const std::string type = upperCase(scanner.word("an array's type"));
+            std::string_view rest = scanner.restOfLine();
+            const std::string_view components = takeWord(rest);
+            scanner.word("LOOKUP_TABLE");
+            scanner.restOfLine();
+            const auto each = components.empty() ? 1 : scanner.parse<std::uint64_t>(components, "components");
+            readDataArray(file, name, type, each, count);
+        }
+        else if (keyword == "FIELD")
+        {
+            scanner.word("a field's name");
+            const auto arrays = scanner.text<std::uint64_t>("a number of arrays");
+            for (std::uint64_t a = 0; a < arrays; ++a)
+            {
+                if (upperCase(scanner.peekWord()) == "METADATA") skipMetadata(scanner);
+                const std::string name = printable(scanner.word("an array's name"));
+                const auto components = scanner.text<std::uint64_t>("a number of components");
+                const auto tuples = scanner.text<std::uint64_t>("a number of tuples");
+                const std::string type = upperCase(scanner.word("an array's type"));
+                scanner.restOfLine();
+                readDataArray(file, name, type, components, tuples);
+            }
+        }
+        else if (keyword == "METADATA")
+            skipMetadata(scanner);
+        else
+            return;
+    }
+}
+
 }  // namespace
 
 TetMeshFile readVtk(std::string_view bytes)
 {
-    VtkFile file{MeshScanner(bytes), {}, {}, MeshScanner(bytes)};
+    VtkFile file{MeshScanner(bytes), {}, {}, MeshScanner(bytes), 0, false, false, false, {}, {}};
     MeshScanner& scanner = file.scanner;
     readHeader(file);
     if (upperCase(scanner.word("DATASET")) != "DATASET") scanner.fail("here DATASET should be");
@@ -298,6 +375,14 @@ TetMeshFile readVtk(std::string_view bytes)
     {
         file.cellsPlace.fail(message("of CELLS, ", error.what()));
     }
+    try
+    {
+        if (!file.data.empty()) findRegions(file);
+    }
+    catch (const std::runtime_error&)  // a mesh needs no regions: what follows it was never looked at
+    {
+    }
+    noteVtkRegions(file.mesh, file.cells, file.regions);
     return std::move(file.mesh);
 }
 

@@ -114,6 +114,15 @@ void readPoints(const XMLElement& piece, VtuArrayEncoding& encoding, TetMeshFile
     }
 }
 
+void readRegions(const XMLElement& piece, const VtkCells& cells, VtuArrayEncoding& encoding, TetMeshFile& mesh)
+{
+    const XMLElement* data = piece.FirstChildElement("CellData");
+    for (const XMLElement* a = data ? data->FirstChildElement("DataArray") : nullptr; a;
+         a = a->NextSiblingElement("DataArray"))
+        if (isVtkRegionName(vtuAttribute(*a, "Name")) && vtuAttribute(*a, "NumberOfComponents", "1") == "1")
+            return noteVtkRegions(mesh, cells, readVtuDoubles(*a, encoding));
+}
+
 void readPiece(const XMLElement& piece, VtuArrayEncoding& encoding, TetMeshFile& mesh)
 {
     const std::uint64_t cellCount = countOf(piece, "NumberOfCells");
@@ -135,6 +144,8 @@ void readPiece(const XMLElement& piece, VtuArrayEncoding& encoding, TetMeshFile&
     {
         failAt(element, error.what());
     }
+    readRegions(piece, cells, encoding, mesh);
+    if (!mesh.m_regions.empty()) mesh.m_regions.resize(mesh.m_tets.size(), 0);
 }
 
 }  // namespace

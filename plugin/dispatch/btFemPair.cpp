@@ -31,7 +31,8 @@ btFemPair femPair(const btCollisionObject& first, const btCollisionObject& secon
 // Contact points lie on the soft surface, between soft bodies in the middle.
 btFemPairPoint pairPoint(const btFemPair& pair, const btFemContact& contact)
 {
-    const btScalar share = btSoftBody::upcast(pair.m_other) ? btScalar(0.5) : btScalar(0);
+    const btSoftBody* soft = btSoftBody::upcast(pair.m_other);
+    const btScalar share = soft && soft->m_tetras.size() > 0 ? btScalar(0.5) : btScalar(0);
     const btVector3 onBody = contact.m_point + share * contact.m_gap * contact.m_normal;
     const btVector3 onOther = contact.m_point - (1 - share) * contact.m_gap * contact.m_normal;
     if (pair.m_isFirst) return {onBody, onOther, contact.m_normal, contact.m_frictionImpulse};

@@ -9,6 +9,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/limits.h"
+#include "bullet_bridge/rigid_proxies.h"
 #include "bullet_fem/btFemVectors.h"
 
 using namespace bullet_fem;
@@ -24,6 +25,13 @@ void checkNode(const FemSoftBody& body, int node, const char* caller)
     if (node < 0 || node >= count)
         throw std::invalid_argument(std::string(caller) + ": node " + std::to_string(node) + " is not in [0, " +
                                     std::to_string(count) + ") of its body");
+}
+
+void checkWeights(const std::array<double, 4>& weights)
+{
+    const double sum = weights[0] + weights[1] + weights[2] + weights[3];
+    if (!(std::fabs(sum - 1) <= kWeightTolerance))
+        throw std::invalid_argument("attach: the weights have the sum " + std::to_string(sum) + ", not 1");
 }
 
 void checkGroup(const FemSoftBody& body, const btFemNodeGroup& group, const char* caller)
@@ -71,20 +79,37 @@ void checkTarget(int node, const Vec3& position)
 
 }  // namespace
 
+int attachCloth(FemSoftBody& body, const std::array<int, 4>& nodes, const std::array<double, 4>& weights,
+                btSoftBody& cloth, int clothNode)
+{
+    if (clothNode < 0 || clothNode >= cloth.m_nodes.size())
+        throw std::invalid_argument("attach: node " + std::to_string(clothNode) + " is not in [0, " +
+                                    std::to_string(cloth.m_nodes.size()) + ") of the cloth");
+    for (int node : nodes) checkNode(body, node, "attach");
+    checkWeights(weights);
+    ClothAttachment attachment;
+    attachment.m_id = ++body.m_joints.m_lastId;
+    attachment.m_cloth = &cloth;
+    attachment.m_clothId = broadphaseId(cloth);
+    attachment.m_clothNode = clothNode;
+    attachment.m_nodes = nodes;
+    attachment.m_weights = weights;
+    body.m_joints.m_clothAttachments.push_back(attachment);
+    body.m_softBody->activate();
+    return attachment.m_id;
+}
+
 int attachNode(FemSoftBody& body, int node, const FemSoftBody& other, const std::array<int, 4>& otherNodes,
                const std::array<double, 4>& weights)
 {
     checkNode(body, node, "attach");
-    double sum = 0;
     for (int a = 0; a < 4; ++a)
     {
         checkNode(other, otherNodes[a], "attach");
         if (&body == &other && otherNodes[a] == node && weights[a] != 0)
             throw std::invalid_argument("attach: node " + std::to_string(node) + " would be tied to itself");
-        sum += weights[a];
     }
-    if (!(std::fabs(sum - 1) <= kWeightTolerance))
-        throw std::invalid_argument("attach: the weights have the sum " + std::to_string(sum) + ", not 1");
+    checkWeights(weights);
     NodeAttachment attachment;
     attachment.m_id = ++body.m_joints.m_lastId;
     attachment.m_node = node;
@@ -102,6 +127,13 @@ void detachNode(FemSoftBody& body, int attachment)
     std::vector<NodeAttachment>& all = body.m_joints.m_attachments;
     all.erase(std::remove_if(all.begin(), all.end(), [&](const NodeAttachment& a) { return a.m_id == attachment; }),
               all.end());
+    std::vector<Weld>& welds = body.m_joints.m_welds;
+    welds.erase(std::remove_if(welds.begin(), welds.end(), [&](const Weld& w) { return w.m_id == attachment; }),
+                welds.end());
+    std::vector<ClothAttachment>& cloth = body.m_joints.m_clothAttachments;
+    cloth.erase(
+        std::remove_if(cloth.begin(), cloth.end(), [&](const ClothAttachment& a) { return a.m_id == attachment; }),
+        cloth.end());
     body.m_surface.forgetPlace();  // what was attached touches again
 }
 

@@ -16,7 +16,11 @@ class btTransform;
 int attachNode(bullet_fem::FemSoftBody& body, int node, const bullet_fem::FemSoftBody& other,
                const std::array<int, 4>& otherNodes, const std::array<double, 4>& weights);
 
-/// Unties it; nothing if the body has no such attachment.
+/// Ties a node of a cloth to such a point of the body. Throws likewise.
+int attachCloth(bullet_fem::FemSoftBody& body, const std::array<int, 4>& nodes, const std::array<double, 4>& weights,
+                btSoftBody& cloth, int clothNode);
+
+/// Unties either; nothing if the body has no such attachment.
 void detachNode(bullet_fem::FemSoftBody& body, int attachment);
 
 /// A group of nodes, as the caller gave it.

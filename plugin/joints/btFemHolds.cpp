@@ -6,6 +6,7 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/cloth/cloth_surface.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "fem/common/attempt.h"
 #include "plugin/joints/btFemAttachments.h"
@@ -63,7 +64,9 @@ int btFemSoftBodySolver::attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, in
     return attemptValue(why,
                         [&]
                         {
-                            const FemSoftBody& other = btFemCoupling::femRecord(*this, b, "attachNodes").fem();
+                            FemSoftBody& other = btFemCoupling::femRecord(*this, b, "attachNodes").fem();
+                            if (a && isCloth(*a))
+                                return attachCloth(other, {nodeB, nodeB, nodeB, nodeB}, {1, 0, 0, 0}, *a, nodeA);
                             return attachNode(btFemCoupling::femRecord(*this, a, "attachNodes").fem(), nodeA, other,
                                               {nodeB, nodeB, nodeB, nodeB}, {1, 0, 0, 0});
                         });
@@ -72,20 +75,20 @@ int btFemSoftBodySolver::attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, in
 int btFemSoftBodySolver::attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4],
                                          std::string* why)
 {
-    return attemptValue(why,
-                        [&]
-                        {
-                            const FemSoftBody& other = btFemCoupling::femRecord(*this, b, "attachNodeToTet").fem();
-                            if (tetB < 0 || tetB >= b->m_tetras.size() || !weights)
-                                throw std::invalid_argument("attachNodeToTet: tetrahedron " + std::to_string(tetB) +
-                                                            " is not in [0, " + std::to_string(b->m_tetras.size()) +
-                                                            "), or the weights are null");
-                            std::array<int, 4> nodes;
-                            for (int k = 0; k < 4; ++k)
-                                nodes[k] = static_cast<int>(b->m_tetras[tetB].m_n[k] - &b->m_nodes[0]);
-                            return attachNode(btFemCoupling::femRecord(*this, a, "attachNodeToTet").fem(), nodeA, other,
-                                              nodes, {weights[0], weights[1], weights[2], weights[3]});
-                        });
+    return attemptValue(
+        why,
+        [&]
+        {
+            FemSoftBody& other = btFemCoupling::femRecord(*this, b, "attachNodeToTet").fem();
+            if (tetB < 0 || tetB >= b->m_tetras.size() || !weights)
+                throw std::invalid_argument("attachNodeToTet: tetrahedron " + std::to_string(tetB) + " is not in [0, " +
+                                            std::to_string(b->m_tetras.size()) + "), or the weights are null");
+            std::array<int, 4> nodes;
+            for (int k = 0; k < 4; ++k) nodes[k] = static_cast<int>(b->m_tetras[tetB].m_n[k] - &b->m_nodes[0]);
+            const std::array<double, 4> w = {weights[0], weights[1], weights[2], weights[3]};
+            if (a && isCloth(*a)) return attachCloth(other, nodes, w, *a, nodeA);
+            return attachNode(btFemCoupling::femRecord(*this, a, "attachNodeToTet").fem(), nodeA, other, nodes, w);
+        });
 }
 
 bool btFemSoftBodySolver::detach(btSoftBody* a, int attachment, std::string* why)

@@ -20,16 +20,17 @@ constexpr double kDeepShare = 0.01;  // of a body's size: what is deeper is told
 
 }  // namespace
 
-Material materialOf(const btFemBodyRecord& record)
+ElementMaterials materialsOf(const btFemBodyRecord& record)
 {
-    return record.m_asked.m_materialGiven ? record.m_asked.m_material : unsetMaterialOf(*record.m_softBody);
+    return record.m_asked.m_materialGiven ? record.m_asked.m_materials : unsetMaterialOf(*record.m_softBody);
 }
 
 btFemDetail detailInUse(const btFemBodyRecord& record)
 {
     const bool automatic = record.m_asked.m_detail == btFemDetail::automatic;
     const btFemDetail detail = automatic ? record.m_work.m_detailLevel.detail() : record.m_asked.m_detail;
-    if (record.m_reports.m_contacts.size() == 0) return detail;
+    const bool isDriven = record.isFem() && record.fem().m_body.m_actuators.hasPulls();
+    if (record.m_reports.m_contacts.size() == 0 && !isDriven) return detail;
     if (detail == btFemDetail::direct && !automatic) return btFemDetail::globalWarp;
     return detail == btFemDetail::globalWarp ? detail : btFemDetail::nodalWarp;
 }
@@ -55,7 +56,8 @@ double bodyStep(const btFemBodyRecord& record, double worldStep)
 
 bool isUsableStep(double step)
 {
-    return step >= 1e-6 && step <= 1;
+    constexpr double kShortest = 1e-6 * (1 - 1e-6);  // [s]; 1e-6f is less than 1e-6
+    return step >= kShortest && step <= 1;
 }
 
 void readBody(btFemBodyRecord& record)

@@ -48,7 +48,7 @@ struct btFemMembership
 /// What the user asked for.
 struct btFemRequest
 {
-    bullet_fem::Material m_material;
+    bullet_fem::ElementMaterials m_materials;
     bool m_materialGiven = false;
     bool m_materialChanged = false;  ///< the model does not have it yet
     btFemDetail m_detail = btFemDetail::automatic;
@@ -131,7 +131,7 @@ struct btFemBodyRecord
 using btFemRecords = std::vector<std::unique_ptr<btFemBodyRecord>>;
 
 /// What a body is made of: what the user said, or what Bullet's fields say.
-bullet_fem::Material materialOf(const btFemBodyRecord& record);
+bullet_fem::ElementMaterials materialsOf(const btFemBodyRecord& record);
 
 /// The detail that a body's next free motion is solved with: what touches something is iterated to the tolerance.
 btFemDetail detailInUse(const btFemBodyRecord& record);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_fem/fem/step/stress.h"
 
 class btCollisionObject;
@@ -13,6 +14,7 @@ class btFemBodyRegistry;
 class btFemContactGroup;
 class btFemManifolds;
 class btFemSoftBodySolver;
+class btFemWeldBreaker;
 class btSoftBody;
 struct btFemBodyRecord;
 struct btFemSnapshotScope;
@@ -29,11 +31,14 @@ struct btFemCoupling
 {
     /// See btFemWorldStep::beginGroup.
     static btFemContactGroup* beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
-                                         double step);
+                                         double step, bool linksToo);
+    /// The bodies among which cloth is that FEM bodies touch, in place of those of optimize(); must live as long.
+    static void setClothBodies(btFemSoftBodySolver& fem, const btAlignedObjectArray<btSoftBody*>& bodies);
     /// All that is known of a body; null if nothing is.
     static const btFemBodyRecord* record(const btFemSoftBodySolver& fem, const btSoftBody& body);
     /// Of a body that is FEM; throws std::invalid_argument, in the name of `caller`, if it is not.
     static btFemBodyRecord& femRecord(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller);
+    static btFemWeldBreaker& welds(const btFemSoftBodySolver& fem);
     static btFemBodyRegistry& registry(const btFemSoftBodySolver& fem);
     /// Shows in this step's report of a body that `fem` does not move why it is not FEM.
     static void reportRejection(btFemSoftBodySolver& fem, btSoftBody& body, const std::string& why);

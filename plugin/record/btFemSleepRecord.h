@@ -33,7 +33,7 @@ struct btFemSleepRecord
     bool m_asleep = false;    ///< at rest, with zeroed velocities
     bool m_recorded = false;  ///< the members below are those of the last step's end
     btFemInfluences m_influences = {};
-    std::uint64_t m_targets = 0;     ///< mark of the targets of nodes and springs
+    std::uint64_t m_targets = 0;     ///< mark of the targets of nodes and springs, and of initial stress
     bullet_fem::Vec3 m_low, m_high;  ///< bounds of what may touch the body [m]
     std::vector<btFemNeighbour> m_neighbours;
     std::uint64_t m_forces = 0;   ///< mark of m_f as the step began

@@ -26,7 +26,7 @@ struct btFemDefinition
     std::vector<std::array<int, 4>> m_tets;         ///< as the btSoftBody has them
     std::vector<double> m_filled;                   ///< fraction of every element in (0, 1]; empty if all are 1
     double m_massScale = 1;                         ///< of a cage, > 0 [-]
-    bullet_fem::Material m_material;
+    bullet_fem::ElementMaterials m_materials;
     std::vector<double> m_mass;           ///< per node, of pinned ones too [kg]
     std::vector<btScalar> m_inverseMass;  ///< likewise [1/kg]; 0: pinned
     double m_contactOffset = 0;           ///< [m]

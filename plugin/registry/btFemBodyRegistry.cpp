@@ -10,6 +10,7 @@
 #include "bullet_bridge/body_arrays.h"
 #include "bullet_bridge/body_mark.h"
 #include "bullet_fem/fem/common/threads.h"
+#include "plugin/registry/btFemBroadphaseProxy.h"
 
 using namespace bullet_fem;
 
@@ -96,7 +97,7 @@ void btFemBodyRegistry::lookAgain(btFemBodyRecord& record, bool joinedAsBefore)
     if (!record.isFem() || joinedAsBefore) return;
     btFemBodyRecord changed(record.m_softBody);
     changed.m_membership.m_world = record.m_membership.m_world;
-    changed.m_asked.m_material = record.m_asked.m_material;
+    changed.m_asked.m_materials = record.m_asked.m_materials;
     changed.m_asked.m_materialGiven = record.m_asked.m_materialGiven;
     changed.m_asked.m_detail = record.m_asked.m_detail;
     changed.m_asked.m_contactOffset = record.m_asked.m_contactOffset;
@@ -164,6 +165,7 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
         if (known < m_records.size() && m_held[known])
         {
             m_records[known]->m_reports.m_step.m_flags |= BT_FEM_ADDED_TWICE;
+            restoreBroadphaseProxy(*soft);
             continue;
         }
         if (known < m_records.size()) lookAgain(*m_records[known], m_joinedAsBefore[known] != 0);
@@ -174,6 +176,7 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
             m_held.push_back(0);
         }
         m_held[known] = 1;
+        if (!soft->getBroadphaseHandle()) restoreBroadphaseProxy(*soft);
         claim(*m_records[known], world, solver);
     }
     // What this world, or none, has and the world does not hold is gone, and must not be looked at.

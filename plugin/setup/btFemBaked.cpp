@@ -45,7 +45,7 @@ void useBaked(btFemBodyRegistry& registry, btSoftBody* body, const BakedBody& ba
     ready.m_membership.m_world = record.m_membership.m_world;
     ready.m_asked.m_detail = record.m_asked.m_detail;
     ready.m_asked.m_contactOffset = record.m_asked.m_contactOffset;
-    ready.m_asked.m_material = baked.m_model->shape().m_material;
+    ready.m_asked.m_materials = baked.m_model->shape().m_materials;
     ready.m_asked.m_materialGiven = true;
     ready.m_asked.m_baked = std::make_shared<const btFemBaked>(btFemBaked{baked.m_model, markOfRestMatrices(*body)});
     record = std::move(ready);

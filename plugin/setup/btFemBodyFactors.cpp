@@ -7,6 +7,7 @@
 
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/fem/step/body_snapshot.h"
+#include "fem/common/reason.h"
 #include "plugin/setup/btFemBodySetUp.h"
 
 using namespace bullet_fem;
@@ -41,7 +42,7 @@ bool btFemBodySetUp::tryRefactor(btFemBodyRecord& record, double step)
     }
     catch (const std::exception& error)
     {
-        record.m_model.m_message = error.what();
+        record.m_model.m_message = reasonOf(error);
         return false;
     }
 }
@@ -57,7 +58,7 @@ std::shared_ptr<const RestShape> btFemBodySetUp::shapeOf(const btFemBodyRecord& 
 {
     const BodyModel& model = *record.fem().m_body.m_model;
     if (markOf(model.shape()) == mark) return model.sharedShape();
-    const auto shape = m_library.restShape(model.mesh(), materialOf(record), filledFractionsOf(*record.m_softBody));
+    const auto shape = m_library.restShape(model.mesh(), materialsOf(record), filledFractionsOf(*record.m_softBody));
     return markOf(*shape) == mark ? shape : nullptr;
 }
 

@@ -16,7 +16,9 @@
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/step/active_stress.h"
 #include "fem/common/attempt.h"
+#include "fem/common/reason.h"
 #include "plugin/setup/btFemBaked.h"
 
 using namespace bullet_fem;
@@ -74,12 +76,15 @@ bool canBecomeFem(const btSoftBody* body, std::string& why)
     return false;
 }
 
-std::vector<double> massesAtRest(const btFemBodyRecord& record, double density)
+RestMesh restMeshNow(const btFemBodyRecord& record)
 {
-    const btSoftBody& body = *record.m_softBody;
-    const bool known = record.isFem() && !restMatricesChanged(record.fem());
-    const TetMesh mesh = known ? record.fem().m_body.m_model->mesh() : tetMeshOf(body);
-    return lumpedMasses(mesh, filledFractionsOf(body), density * massScaleOf(body));
+    if (!record.isFem() || restMatricesChanged(record.fem())) return restMeshOf(*record.m_softBody);
+    return {record.fem().m_body.m_model->mesh(), record.fem().m_restOrigin, true};
+}
+
+std::vector<double> massesAtRest(const TetMesh& rest, const btSoftBody& body, const ElementMaterials& materials)
+{
+    return lumpedMasses(rest, filledFractionsOf(body), materials, massScaleOf(body));
 }
 
 void btFemBodySetUp::setUp(btFemBodyRecord& record, double step)
@@ -92,6 +97,7 @@ void btFemBodySetUp::setUp(btFemBodyRecord& record, double step)
         renew(record, step);
     else
         setUpNew(record, step);
+    if (record.fem().m_body.m_actuators.hasActiveStress()) applyActiveStress(record.fem().m_body);
     readyForSelfContact(record);
     record.m_asked.m_materialChanged = false;
 }
@@ -108,9 +114,9 @@ std::shared_ptr<const RestShape> btFemBodySetUp::bakedShape(const btFemBodyRecor
                                                             const std::vector<double>& filled)
 {
     const std::shared_ptr<const RestShape>& shape = record.m_asked.m_baked->m_model->sharedShape();
-    const Material material = materialOf(record);
-    return shape->m_material == material ? m_library.adoptShape(shape, filled)
-                                         : m_library.restShape(shape->m_mesh, material, filled);
+    const ElementMaterials materials = materialsOf(record);
+    return shape->m_materials == materials ? m_library.adoptShape(shape, filled)
+                                           : m_library.restShape(shape->m_mesh, materials, filled);
 }
 
 void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
@@ -121,7 +127,7 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
     const std::vector<double> filled = filledFractionsOf(soft);
     const RestMesh rest = baked ? RestMesh{TetMesh(), vec3(soft.m_nodes[0].m_x), true} : restOf(record);
     const auto shape =
-        baked ? bakedShape(record, filled) : m_library.restShape(rest.m_mesh, materialOf(record), filled);
+        baked ? bakedShape(record, filled) : m_library.restShape(rest.m_mesh, materialsOf(record), filled);
     const TetMesh& mesh = baked ? shape->m_mesh : rest.m_mesh;
     FactorInput input;
     bool repaired = false;
@@ -166,7 +172,7 @@ void btFemBodySetUp::renew(btFemBodyRecord& record, double step)
         rest = restMeshOf(*fem.m_softBody);
     }
     const TetMesh& mesh = rest.m_known ? rest.m_mesh : fem.m_body.m_model->mesh();
-    const auto shape = m_library.restShape(mesh, materialOf(record), filledFractionsOf(*fem.m_softBody));
+    const auto shape = m_library.restShape(mesh, materialsOf(record), filledFractionsOf(*fem.m_softBody));
     const auto model = m_library.model(shape, factorInput(record, step));
     if (rest.m_known)
     {
@@ -231,7 +237,7 @@ void btFemBodySetUp::tryChooseSurface(btFemBodyRecord& record)
     }
     catch (const std::exception& error)
     {
-        record.m_model.m_message = error.what();
+        record.m_model.m_message = reasonOf(error);
     }
 }
 
@@ -244,7 +250,7 @@ void btFemBodySetUp::trySetUp(btFemBodyRecord& record, double step)
     }
     catch (const std::exception& error)
     {
-        record.m_model.m_message = error.what();
+        record.m_model.m_message = reasonOf(error);
         if (!record.isFem()) reject(record);  // a body that moved already keeps its old material and rest shape
         record.m_asked.m_materialChanged = false;
     }

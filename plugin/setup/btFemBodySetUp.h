@@ -8,13 +8,17 @@
 #include <vector>
 
 #include "bullet_bridge/model_library.h"
+#include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "plugin/record/btFemBodyRecord.h"
 
-/// The masses [kg] that a density [kg/m3] gives a body's nodes at rest, however it is deformed now. Throws
-/// std::invalid_argument on an unusable mesh.
-std::vector<double> massesAtRest(const btFemBodyRecord& record, double density);
+/// The masses [kg] that the densities of materials give a body's nodes at rest, however it is deformed now.
+std::vector<double> massesAtRest(const bullet_fem::TetMesh& rest, const btSoftBody& body,
+                                 const bullet_fem::ElementMaterials& materials);
+
+/// The body's mesh at rest, and where its node 0 is then. Throws std::invalid_argument on an unusable mesh.
+bullet_fem::RestMesh restMeshNow(const btFemBodyRecord& record);
 
 /// True if a body's tetrahedra can become finite elements; else `why` says why not. It may be null.
 bool canBecomeFem(const btSoftBody* body, std::string& why);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <exception>
 
+#include "fem/common/reason.h"
+
 using namespace bullet_fem;
 
 namespace
@@ -18,7 +20,7 @@ void make(btFemFactorJob& job)
     }
     catch (const std::exception& error)
     {
-        job.m_error = error.what();
+        job.m_error = reasonOf(error);
     }
     job.m_done.store(true, std::memory_order_release);
 }

@@ -13,21 +13,44 @@ btFemMaterial fromCore(const bullet_fem::Material& material)
     result.m_youngModulus = static_cast<btScalar>(material.m_youngModulus);
     result.m_poissonRatio = static_cast<btScalar>(material.m_poissonRatio);
     result.m_density = static_cast<btScalar>(material.m_density);
+    result.m_yieldStress = static_cast<btScalar>(material.m_yieldStress);
+    result.m_hardeningModulus = static_cast<btScalar>(material.m_hardeningModulus);
+    result.m_plasticCreep = static_cast<btScalar>(material.m_plasticCreep);
+    result.m_mostPlasticStrain = static_cast<btScalar>(material.m_mostPlasticStrain);
     return result;
 }
 
 }  // namespace
 
+static_assert(static_cast<int>(btFemMeanDilatation::off) == static_cast<int>(bullet_fem::MeanDilatation::off));
+
+static_assert(static_cast<int>(btFemElasticLaw::neoHooke) == static_cast<int>(bullet_fem::ElasticLaw::neoHooke));
+static_assert(btFemMaterial::kMostRelaxationTerms == bullet_fem::Material::kMostRelaxationTerms);
+
 bullet_fem::Material coreMaterial(const btFemMaterial& material)
 {
     bullet_fem::Material core;
     core.m_youngModulus = material.m_youngModulus;
-    // The largest ratio allowed, .49, is not a binary number; what single precision makes of it is meant to be in
-    // range.
-    core.m_poissonRatio = material.m_poissonRatio == btScalar(0.49) ? 0.49 : double(material.m_poissonRatio);
+    // The largest ratio allowed is not a binary number; what single precision makes of it is meant to be in range.
+    constexpr double kMost = bullet_fem::Material::kMostPoissonRatio;
+    core.m_poissonRatio = material.m_poissonRatio == btScalar(kMost) ? kMost : double(material.m_poissonRatio);
     core.m_density = material.m_density;
     core.m_massDamping = material.m_massDamping;
     core.m_stiffnessDamping = material.m_stiffnessDamping;
+    core.m_meanDilatation = static_cast<bullet_fem::MeanDilatation>(material.m_meanDilatation);
+    core.m_law = static_cast<bullet_fem::ElasticLaw>(material.m_law);
+    core.m_accurateBending = material.m_accurateBending;
+    core.m_yieldStress = material.m_yieldStress;
+    core.m_hardeningModulus = material.m_hardeningModulus;
+    core.m_plasticCreep = material.m_plasticCreep;
+    core.m_mostPlasticStrain = material.m_mostPlasticStrain;
+    constexpr double kMostShare = bullet_fem::Material::kMostRelaxedShare;  // likewise
+    for (int i = 0; i < btFemMaterial::kMostRelaxationTerms; ++i)
+    {
+        const btFemRelaxation& term = material.m_relaxation[i];
+        core.m_relaxation[i].m_share = term.m_share == btScalar(kMostShare) ? kMostShare : double(term.m_share);
+        core.m_relaxation[i].m_time = term.m_time;
+    }
     return core;
 }
 
@@ -50,6 +73,18 @@ btFemMaterial btFemMaterial::flesh()
 btFemMaterial btFemMaterial::wood()
 {
     return fromCore(bullet_fem::Material::wood());
+}
+btFemMaterial btFemMaterial::clay()
+{
+    return fromCore(bullet_fem::Material::clay());
+}
+btFemMaterial btFemMaterial::lead()
+{
+    return fromCore(bullet_fem::Material::lead());
+}
+btFemMaterial btFemMaterial::mildFoam()
+{
+    return fromCore(bullet_fem::Material::mildFoam());
 }
 
 bool btFemMaterial::valid(std::string* why) const

@@ -10,6 +10,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/rest_positions.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_fem/fem/step/body_snapshot.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 #include "plugin/setup/btFemBodySetUp.h"
 #include "plugin/snapshot/btFemEnvelope.h"
@@ -22,9 +23,8 @@ namespace
 template <class Bytes>
 void transfer(Bytes& bytes, btFemDefinition& d)
 {
-    Material& m = d.m_material;
-    bytes(d.m_restPositions, d.m_restOrigin, d.m_tets, d.m_filled, d.m_massScale, m.m_youngModulus, m.m_poissonRatio,
-          m.m_density, m.m_massDamping, m.m_stiffnessDamping, d.m_mass, d.m_inverseMass, d.m_contactOffset, d.m_detail);
+    bytes(d.m_restPositions, d.m_restOrigin, d.m_tets, d.m_filled, d.m_massScale, d.m_materials, d.m_mass,
+          d.m_inverseMass, d.m_contactOffset, d.m_detail);
 }
 
 // What the body has, or would get now.
@@ -38,9 +38,9 @@ btFemDefinition definitionOf(const btFemBodyRegistry& registry, const btSoftBody
     d.m_filled = filledFractionsOf(soft);
     d.m_massScale = massScaleOf(soft);
     const bool fem = record && record->isFem();
-    d.m_material = record && record->m_asked.m_materialGiven ? record->m_asked.m_material
-                   : fem                                     ? record->fem().m_body.m_model->shape().m_material
-                                                             : unsetMaterialOf(soft);
+    d.m_materials = record && record->m_asked.m_materialGiven ? record->m_asked.m_materials
+                    : fem                                     ? record->fem().m_body.m_model->shape().m_materials
+                                                              : unsetMaterialOf(soft);
     if (record) d.m_contactOffset = record->m_asked.m_contactOffset, d.m_detail = record->m_asked.m_detail;
     for (int i = 0; i < soft.m_nodes.size(); ++i) d.m_inverseMass.push_back(soft.m_nodes[i].m_im);
     if (fem)
@@ -86,7 +86,7 @@ void check(const btFemDefinition& d, const btSoftBody& soft)
         reject("it has ", d.m_mass.size(), " masses, ", d.m_inverseMass.size(), " inverse masses and ",
                d.m_filled.size(), " filled fractions");
     checkNumbers(d);
-    d.m_material.validate();
+    d.m_materials.validate(soft.m_tetras.size());
     TetMesh(d.m_restPositions, d.m_tets, LooseNodes::kept);  // throws if it is no mesh
 }
 
@@ -119,7 +119,7 @@ void applyDefinition(btFemBodyRegistry& registry, btSoftBody* body, const unsign
     body->m_bUpdateRtCst = true;
     registry.forget(body);
     btFemBodyRecord& record = registry.record(body);
-    record.m_asked.m_material = definition->m_material;
+    record.m_asked.m_materials = definition->m_materials;
     record.m_asked.m_materialGiven = true;
     record.m_asked.m_contactOffset = definition->m_contactOffset;
     record.m_asked.m_detail = definition->m_detail;

@@ -90,7 +90,7 @@ btFemRecordSnapshot snapshotOf(const btFemBodyRecord& record, const WorldIds& wo
     s.m_tetCount = soft.m_tetras.size();
     s.m_materialGiven = record.m_asked.m_materialGiven;
     s.m_materialChanged = record.m_asked.m_materialChanged;
-    s.m_material = record.m_asked.m_material;
+    s.m_materialMark = markOf(record.m_asked.m_materials);
     s.m_body = snapshotOf(fem.m_body);
     s.m_hasFormerFactor = record.m_model.m_formerModel &&
                           record.m_model.m_formerModel->sharedShape() == fem.m_body.m_model->sharedShape();
@@ -122,7 +122,7 @@ void check(const btFemRecordSnapshot& s, const btFemBodyRecord& record, const Wo
     if (s.m_nodeCount != soft.m_nodes.size() || s.m_tetCount != soft.m_tetras.size())
         reject("it was saved with ", s.m_nodeCount, " nodes and ", s.m_tetCount, " tetrahedra, and now has ",
                soft.m_nodes.size(), " and ", soft.m_tetras.size());
-    if (s.m_materialGiven != record.m_asked.m_materialGiven || s.m_material != record.m_asked.m_material)
+    if (s.m_materialGiven != record.m_asked.m_materialGiven || s.m_materialMark != markOf(record.m_asked.m_materials))
         reject("its material is another than when the state was saved; set the old one before restoring");
     check(s.m_body, *fem.m_body.m_model);
     check(s.m_nodes, fem);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct btFemRecordSnapshot
     int m_id = -1;  ///< in the broad phase
     int m_nodeCount = 0, m_tetCount = 0;
     bool m_materialGiven = false, m_materialChanged = false;
-    bullet_fem::Material m_material;
+    std::uint64_t m_materialMark = 0;  ///< of what was asked for
     bullet_fem::BodySnapshot m_body;
     bool m_hasFormerFactor = false;
     bullet_fem::FactorInput m_formerFactor;
@@ -110,11 +111,9 @@ void transfer(Bytes& bytes, btFemStepReport& r)
 template <class Bytes>
 void transfer(Bytes& bytes, btFemRecordSnapshot& s)
 {
-    bullet_fem::Material& m = s.m_material;
-    bytes(s.m_id, s.m_nodeCount, s.m_tetCount, s.m_materialGiven, s.m_materialChanged, m.m_youngModulus,
-          m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping, s.m_body, s.m_hasFormerFactor,
-          s.m_formerFactor, s.m_nodes, s.m_contact, s.m_setUpFlags, s.m_message, s.m_report, s.m_contacts, s.m_touches,
-          s.m_sleep, s.m_neighbours, s.m_lastStep);
+    bytes(s.m_id, s.m_nodeCount, s.m_tetCount, s.m_materialGiven, s.m_materialChanged, s.m_materialMark, s.m_body,
+          s.m_hasFormerFactor, s.m_formerFactor, s.m_nodes, s.m_contact, s.m_setUpFlags, s.m_message, s.m_report,
+          s.m_contacts, s.m_touches, s.m_sleep, s.m_neighbours, s.m_lastStep);
     s.m_detailLevel.transfer(bytes);
     s.m_factorAccount.transfer(bytes);
     s.m_insideOut.transfer(bytes);

@@ -3,6 +3,7 @@
 #include "plugin/snapshot/btFemSnapshot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -21,12 +22,13 @@ struct WorldSnapshot
     std::vector<btFemRecordSnapshot> m_bodies;  // in the order in which they became known, which is that of solving
     SoftPairMemory::Kept m_softPairs;
     RigidProxies::Memory m_rigid;
+    double m_time = 0;  // of all steps so far [s]
 };
 
 template <class Bytes>
 void transfer(Bytes& bytes, WorldSnapshot& s)
 {
-    bytes(s.m_bodies, s.m_softPairs, s.m_rigid);
+    bytes(s.m_bodies, s.m_softPairs, s.m_rigid, s.m_time);
 }
 
 // FEM bodies that are in the world. Others may be deleted: they must not be looked at.
@@ -139,6 +141,7 @@ void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& b
     for (const btFemBodyRecord* record : records) snapshot.m_bodies.push_back(snapshotOf(*record, world));
     snapshot.m_softPairs = scope.m_group.softPairs().kept();
     snapshot.m_rigid = scope.m_group.rigid().memory();
+    snapshot.m_time = scope.m_group.welds().time();
     beginEnvelope(buffer, btFemContents::state);
     ByteWriter bytes(buffer);
     bytes(snapshot);
@@ -154,6 +157,8 @@ void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data,
     for (std::size_t b = 0; b < bodies.size(); ++b) checkRecord(snapshot.m_bodies[b], *bodies[b], world);
     checkAndDrop(snapshot.m_softPairs, world);
     check(snapshot.m_rigid);
+    if (!(snapshot.m_time >= 0 && std::isfinite(snapshot.m_time)))
+        reject("the time of all steps is ", snapshot.m_time, " s, below 0 or no number");
     std::vector<Models> models;
     for (std::size_t b = 0; b < bodies.size(); ++b)
         models.push_back(modelsOf(snapshot.m_bodies[b], *bodies[b], scope.m_setUp));
@@ -166,4 +171,6 @@ void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data,
     scope.m_registry.putFirst(bodies);
     scope.m_group.softPairs().restore(snapshot.m_softPairs);
     scope.m_group.rigid().restore(snapshot.m_rigid);
+    scope.m_group.welds().setTime(snapshot.m_time);
+    scope.m_group.welds().clearBreaks();
 }

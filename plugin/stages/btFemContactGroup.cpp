@@ -3,6 +3,7 @@
 #include "plugin/stages/btFemContactGroup.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
@@ -25,7 +26,6 @@ constexpr double kRestitutionVelocity = 0.2;
 // The user's defaults are the solver's own.
 static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
 static_assert(btFemSolverInfo().m_contactRounds == ContactSettings().m_rounds);
-static_assert(btFemSolverInfo().m_contactTolerance == static_cast<btScalar>(ContactSettings().m_tolerance));
 
 // Sets the impulse on one side, and the point of that side.
 void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
@@ -59,6 +59,7 @@ void btFemContactGroup::beginStep(double step)
 {
     m_rigid.beginStep(step);
     m_softPairs.beginStep();
+    m_cloth.beginStep();
     m_joints.forgetWorld();
 }
 
@@ -89,23 +90,26 @@ void btFemContactGroup::collect(const Scope& scope)
     collectJoints(scope);  // first: they decide whether the rigid bodies that they hold are rewound
     findRigid();
     findSoft();
+    findCloth();
     collectContacts();
-    listTouching();
+    m_torsionalPatches.append(m_bodies, m_problem);
     m_rigid.connectLinks(m_problem.m_responses);
     const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
     if (world && world->m_dispatcher && (!m_problem.m_contacts.empty() || m_rigid.holdsRewound()))
         m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidTouches);
     m_problem.m_rigidProxies.assign(m_rigid.rigidProxies().begin(), m_rigid.rigidProxies().end());
+    m_cloth.append(m_step, m_problem);
+    listTouching();
     m_settings.m_step.m_step = m_step;
     m_settings.m_step.m_numericalDamping = m_info.m_numericalDamping;
-    const bool joints = !m_problem.m_joints.empty();
-    m_settings.m_step.m_tolerance =
-        joints ? m_info.m_tolerance : std::max(m_info.m_tolerance, m_info.m_contactTolerance);
+    m_settings.m_step.m_tolerance = m_info.m_tolerance;
     m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
     m_settings.m_rounds = m_info.m_contactRounds;
     m_settings.m_sweeps = m_info.m_contactSweeps;
     m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the rounds, too
     m_settings.m_tolerance = m_info.m_contactTolerance;
+    if (m_settings.m_untilSolved) m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
+    if (mayRebound(m_problem)) m_settings.m_tolerance = std::min(m_settings.m_tolerance, kReboundTolerance);
     m_settings.m_pushFraction = m_info.m_erp;
     m_settings.m_maxPushVelocity = m_info.m_maxPushVelocity;
     m_milliseconds = watch.milliseconds();
@@ -130,7 +134,18 @@ void btFemContactGroup::findSoft()
         if (m_softPairs.isLimited(b)) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_CONTACT_LIMIT;
 }
 
-// Those of every body with rigid ones, then those between soft bodies.
+void btFemContactGroup::findCloth()
+{
+    m_cloth.find(m_bodies, m_step, m_info.m_maxContacts, *m_settings.m_step.m_threads);
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+    {
+        auto& flags = m_records[b]->m_reports.m_step.m_flags;
+        if (m_cloth.isLimited(b)) flags |= BT_FEM_CONTACT_LIMIT;
+        if (std::exchange(m_bodies[b]->m_joints.m_clothIsLost, false)) flags |= BT_FEM_LOST_ANCHOR;
+    }
+}
+
+// Those of every body with rigid ones, then those between soft bodies; those with cloth are appended later.
 void btFemContactGroup::collectContacts()
 {
     m_firstRigid.assign(1, 0);
@@ -194,13 +209,13 @@ void btFemContactGroup::collectJoints(const Scope& scope)
     }
 }
 
-bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count) const
+bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count, bool linksToo) const
 {
-    if (m_reachesOut || m_rigid.holdsLinks()) return false;
-    for (std::size_t k = 0; k < m_rigid.rigidProxies().size(); ++k)
+    if (m_reachesOut || (m_rigid.holdsLinks() && !linksToo)) return false;
+    for (int k = 0; k < static_cast<int>(m_rigid.rigidProxies().size()); ++k)
     {
-        const btRigidBody* body = m_rigid.movableBody(static_cast<int>(k));
-        if (body && std::find(bodies, bodies + count, body) == bodies + count) return false;
+        const bool moves = m_rigid.movableBody(k) || m_rigid.isMovableLink(k);
+        if (moves && std::find(bodies, bodies + count, &m_rigid.object(k)) == bodies + count) return false;
     }
     return true;
 }
@@ -226,9 +241,9 @@ void btFemContactGroup::onSolverBodies(const Part& part)
     m_milliseconds += watch.milliseconds();
 }
 
-void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool)
+void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas)
 {
-    m_solverBodies.begin(m_rigid, pool);
+    m_solverBodies.begin(m_rigid, pool, linkDeltas);
     onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
 }
 
@@ -262,8 +277,9 @@ void btFemContactGroup::finish()
 
 void btFemContactGroup::moveRigid()
 {
-    m_rigid.rigidProxies().assign(m_problem.m_rigidProxies.begin(), m_problem.m_rigidProxies.end());
+    std::copy_n(m_problem.m_rigidProxies.begin(), m_rigid.rigidProxies().size(), m_rigid.rigidProxies().begin());
     m_rigid.applyReactions(m_problem, m_step);
+    m_cloth.applyReactions(m_problem);
 }
 
 void btFemContactGroup::giveRebounds(const std::vector<btFemBodyRecord*>& records, WorldObjects& world, double step)
@@ -292,20 +308,19 @@ void btFemContactGroup::report(const ContactReport& report)
     m_softPairs.remember(m_problem.m_contacts.data() + m_firstRigid.back());
     for (std::size_t b = 0; b < m_records.size(); ++b)
     {
-        btFemBodyRecord& record = *m_records[b];
-        if (m_touchesBegin[b]) updateTouches(record, m_together);
-        SoftJoints::takeBack(record.fem(), m_problem);
-        writeReports(record.fem(), record.m_reports.m_anchors);
+        if (m_touchesBegin[b]) updateTouches(*m_records[b], m_together);
+        SoftJoints::takeBack(*m_bodies[b], m_problem);
+        writeReports(*m_bodies[b], m_records[b]->m_reports.m_anchors);
     }
+    m_welds.breakWelds(m_bodies, m_step);
 }
 
 // On one thread: Bullet's memory may not bear several.
 void btFemContactGroup::makeRoomForReports()
 {
-    const std::size_t contacts = m_problem.m_contacts.size();
-    const auto visitSides = [this, contacts](const auto& visit)
+    const auto visitSides = [this](const auto& visit)
     {
-        for (std::size_t k = m_firstRigid.back(); k < contacts; ++k)
+        for (std::size_t k = m_firstRigid.back(); k < m_cloth.first(); ++k)
         {
             const int a = m_problem.m_contacts[k].m_soft.m_body, b = m_problem.m_contacts[k].m_other.m_body;
             visit(a, k);
@@ -322,7 +337,8 @@ void btFemContactGroup::makeRoomForReports()
     for (std::size_t b = 0; b < m_records.size(); ++b)
     {
         btAlignedObjectArray<btFemContact>& reported = m_records[b]->m_reports.m_contacts;
-        const int count = static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b]);
+        const int count =
+            static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b]) + m_cloth.countOf(b);
         if (count > reported.capacity()) reported.reserve(std::max(count, 2 * reported.capacity()));
     }
 }
@@ -361,6 +377,24 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
         record.m_reports.m_contacts.push_back(contact);
         deepen(record.m_reports.m_step, point);
     }
+    reportCloth(b);
     record.m_reports.m_step.m_contacts = record.m_reports.m_contacts.size();
     record.m_reports.m_step.m_flags |= stateFlags(record) & BT_FEM_PENETRATING;
+}
+
+// Contact points lie on the body's surface, as with rigid objects.
+void btFemContactGroup::reportCloth(std::size_t b)
+{
+    btFemBodyReports& reports = m_records[b]->m_reports;
+    for (std::size_t k = 0; k < m_cloth.size(); ++k)
+    {
+        const ContactPoint& point = m_problem.m_contacts[m_cloth.first() + k];
+        if (point.m_soft.m_body != static_cast<int>(b)) continue;
+        btFemContact contact;
+        fill(contact, point, false);
+        contact.m_point = bulletVector(m_cloth.onBody(k));
+        contact.m_other = &m_cloth.cloth(k);
+        reports.m_contacts.push_back(contact);
+        deepen(reports.m_step, point);
+    }
 }

@@ -4,13 +4,16 @@
 
 #include <vector>
 
+#include "bullet_bridge/cloth/cloth_contacts.h"
 #include "bullet_bridge/contact/rigid_search.h"
+#include "bullet_bridge/contact/torsional_patches.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/rebounds.h"
 #include "bullet_bridge/rigid_touches.h"
 #include "bullet_bridge/soft_pairs/soft_pair_search.h"
 #include "bullet_bridge/solver_bodies.h"
 #include "bullet_fem/btFemSolverInfo.h"
+#include "plugin/joints/btFemWeldBreaker.h"
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemTouches.h"
 
@@ -54,16 +57,17 @@ public:
     /// The bodies that contacts were found of.
     const std::vector<btFemBodyRecord*>& touching() const { return m_touching; }
 
-    /// True if every rigid body that the group can move is one of `bodies`, none is a multibody's link, and no joint
-    /// joins it to other soft bodies that are awake.
-    bool holdsOnly(btCollisionObject* const* bodies, int count) const;
+    /// True if every rigid body that the group can move is one of `bodies`, likewise every multibody's link, of which
+    /// there are none unless `linksToo`, and no joint joins it to other soft bodies that are awake.
+    bool holdsOnly(btCollisionObject* const* bodies, int count, bool linksToo) const;
 
     /// After Bullet's rigid solver: solves and hands the reactions to the rigid bodies.
     void solve();
 
     /// Within Bullet's rigid solver, on its solver bodies: begin, then while wantsRound sweep ... sweep, correct, then
     /// if wantsBack goBack, and at the end finish; after the rigid solver has written its bodies back, moveRigid.
-    void begin(btAlignedObjectArray<btSolverBody>& pool);
+    /// `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver without multibodies.
+    void begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas = nullptr);
     bool sweep(double others);
     bool wantsRound() const { return m_solver.wantsRound(); }
     void correct();
@@ -81,13 +85,23 @@ public:
     /// What lasts from step to step.
     bullet_fem::RigidProxies& rigid() { return m_rigid; }
     const bullet_fem::RigidProxies& rigid() const { return m_rigid; }
+    /// Pairs with cloth are noted there.
+    bullet_fem::ClothContacts& cloth() { return m_cloth; }
+
+    btFemWeldBreaker& welds() { return m_welds; }
+
     bullet_fem::SoftPairMemory& softPairs() { return m_softPairs.memory(); }
     const bullet_fem::SoftPairMemory& softPairs() const { return m_softPairs.memory(); }
 
 private:
+    /// Beside Bullet's rows, which answer to what is left, at most [-]. At 3e-3 heavy soft bodies on light rigid ones
+    /// shook by 3 cm.
+    static constexpr double kToleranceWithRows = 1e-4;
+
     void clearProblem();
     void findRigid();
     void findSoft();
+    void findCloth();
     void collectContacts();
     void listTouching();
     void alignLinks(std::vector<bullet_fem::ContactPoint>& contacts) const;
@@ -96,6 +110,7 @@ private:
     void onSolverBodies(const Part& part);
     void report(const bullet_fem::ContactReport& report);
     void makeRoomForReports();
+    void reportCloth(std::size_t b);
     void reportBody(std::size_t b, const bullet_fem::ContactReport& report);
 
     btFemSolverInfo m_info;
@@ -105,14 +120,18 @@ private:
     bullet_fem::ContactSettings m_settings;
     bullet_fem::RigidSearch m_rigidSearch;
     bullet_fem::RigidTouchFinder m_touchFinder;
+    bullet_fem::TorsionalPatches m_torsionalPatches;
     bullet_fem::SoftPairSearch m_softPairs;
-    std::vector<std::size_t> m_firstRigid;  // per body and the end, in the problem; then come those between soft bodies
-    std::vector<std::size_t> m_firstSoft;   // per body and the end, in m_softContacts
+    bullet_fem::ClothContacts m_cloth;
+    std::vector<std::size_t>
+        m_firstRigid;  // per body and the end, in the problem; then come those between soft bodies, then cloth
+    std::vector<std::size_t> m_firstSoft;     // per body and the end, in m_softContacts
     std::vector<std::size_t> m_softContacts;  // in the problem, body by body
     bullet_fem::SoftJoints m_joints;
     std::vector<bullet_fem::FemSoftBody*> m_bodies, m_outside;
     bool m_reachesOut = false;  // joined to soft bodies that should be in the group
     std::vector<bullet_fem::JointFlags> m_jointFlags;
+    btFemWeldBreaker m_welds;
     bullet_fem::RigidProxies m_rigid;
     bullet_fem::SolverBodies m_solverBodies;
     bullet_fem::Rebounds m_rebounds;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "fem/common/reason.h"
 #include "plugin/setup/btFemBodySetUp.h"
 
 using namespace bullet_fem;
@@ -13,8 +14,9 @@ using namespace bullet_fem;
 namespace
 {
 
-// Ratio of step or mass to the factor's beyond which a body that touches something is factored anew. Without contact a
-// stale factor costs iterations only; contact would rest on a wrong picture of the compliance.
+// Ratio of step or mass to the factor's beyond which a body that touches something, or is held, is factored anew.
+// Without that a stale factor costs iterations only; contacts and joints would rest on a wrong picture of the
+// compliance.
 constexpr double kRefactorInContact = 1.5;
 
 double priceFor(const btFemBodyRecord& record)
@@ -51,7 +53,7 @@ void btFemRefactorPolicy::startJob(const btFemBodySetUp& setUp, btFemBodyRecord&
     }
     catch (const std::exception& error)  // no thread to be had
     {
-        record.m_model.m_message = error.what();
+        record.m_model.m_message = reasonOf(error);
         record.m_work.m_factorAccount.spend(priceFor(record));
     }
 }
@@ -68,7 +70,7 @@ void btFemRefactorPolicy::takeOver(btFemBodySetUp& setUp, btFemBodyRecord& recor
 
 void btFemRefactorPolicy::renew(btFemBodySetUp& setUp, btFemBodyRecord& record, double step)
 {
-    const bool touches = record.m_reports.m_contacts.size() > 0;
+    const bool touches = record.m_reports.m_contacts.size() > 0 || record.m_reports.m_anchors.size() > 0;
     if (!touches || record.m_work.m_factorMismatch <= kRefactorInContact) return refresh(setUp, record, step);
     setUp.tryRefactor(record, step);
     record.m_work.m_factorAccount.clear();

@@ -77,6 +77,12 @@ std::uint64_t markOfTargets(const FemSoftBody& fem)
 {
     const NodePins& pins = fem.m_pins;
     std::uint64_t mark = kEmptyMark;
+    addToMark(mark, fem.m_body.m_state.m_initialStressChanges);
+    for (const Chamber& c : fem.m_body.m_actuators.m_chambers)
+        for (const double value : {double(c.m_id), double(c.m_isSealed), c.m_pressure, c.m_gas, c.m_outsidePressure})
+            addToMark(mark, value);
+    for (const Cable& c : fem.m_body.m_actuators.m_cables)
+        for (const double value : {double(c.m_id), c.m_tension, c.m_stiffness, c.m_restLength}) addToMark(mark, value);
     for (const NodeSpring& spring : fem.m_joints.m_springs)
     {
         addToMark(mark, spring.m_id);
@@ -121,7 +127,7 @@ btFemInfluences influencesOn(const FemSoftBody& fem)
             double(soft.m_anchors.size()),
             double(soft.m_deformableAnchors.size()),
             double(soft.m_joints.size()),
-            double(fem.m_joints.m_attachments.size()),
+            double(fem.m_joints.m_attachments.size() + fem.m_joints.m_clothAttachments.size()),
             fem.m_contactOffset};
 }
 

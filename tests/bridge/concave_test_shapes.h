@@ -128,6 +128,49 @@ inline ConcaveShape makeHeightfield(const GridSettings& settings = {}, bool flip
     return shape;
 }
 
+/// A program's own concave shape, which hands over all its triangles whatever the box. Bullet takes everything with the
+/// type number of custom concave shapes for a signed distance field where a rigid convex body meets it.
+class OwnSheet : public btConcaveShape
+{
+public:
+    explicit OwnSheet(btTriangleMesh& mesh, int type = CUSTOM_CONCAVE_SHAPE_TYPE) : m_mesh(mesh) { m_shapeType = type; }
+    void getAabb(const btTransform& transform, btVector3& low, btVector3& high) const override
+    {
+        btVector3 localLow, localHigh;
+        m_mesh.calculateAabbBruteForce(localLow, localHigh);
+        btTransformAabb(localLow, localHigh, getMargin(), transform, low, high);
+    }
+    void processAllTriangles(btTriangleCallback* visitor, const btVector3&, const btVector3&) const override
+    {
+        struct Visit : btInternalTriangleIndexCallback
+        {
+            btTriangleCallback* m_visitor;
+            void internalProcessTriangleIndex(btVector3* triangle, int part, int index) override
+            {
+                m_visitor->processTriangle(triangle, part, index);
+            }
+        } visit;
+        visit.m_visitor = visitor;
+        const btVector3 all(1e6, 1e6, 1e6);
+        m_mesh.InternalProcessAllTriangles(&visit, -all, all);
+    }
+    void setLocalScaling(const btVector3&) override {}
+    const btVector3& getLocalScaling() const override { return m_scaling; }
+    void calculateLocalInertia(btScalar, btVector3& inertia) const override { inertia.setZero(); }
+    const char* getName() const override { return "OwnSheet"; }
+
+private:
+    btTriangleMesh& m_mesh;
+    btVector3 m_scaling{1, 1, 1};
+};
+
+inline ConcaveShape makeOwnSheet(const GridSettings& settings, int type)
+{
+    ConcaveShape shape = makeGrid(settings);
+    shape.make<OwnSheet>(*shape.m_mesh, type).setMargin(0);
+    return shape;
+}
+
 /// In a compound in a compound, at offsets whose sum is z = -2.
 inline ConcaveShape makeNested(const GridSettings& settings = {})
 {
@@ -164,6 +207,9 @@ inline std::vector<NamedConcave> concaveShapes()
             {"gimpact", [](const GridSettings& s) { return makeGImpact(s); }},
             {"heightfield", [](const GridSettings& s) { return makeHeightfield(s); }},
             {"flippedHeightfield", [](const GridSettings& s) { return makeHeightfield(s, true); }},
+            {"ownSheet", [](const GridSettings& s) { return makeOwnSheet(s, CUSTOM_CONCAVE_SHAPE_TYPE); }},
+            {"ownMesh", [](const GridSettings& s) { return makeOwnSheet(s, TRIANGLE_MESH_SHAPE_PROXYTYPE); }},
+            {"ownFastMesh", [](const GridSettings& s) { return makeOwnSheet(s, FAST_CONCAVE_MESH_PROXYTYPE); }},
             {"meshInCompound", [](const GridSettings& s) { return makeNested(s); }, -2}};
 }
 

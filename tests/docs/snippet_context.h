@@ -17,6 +17,7 @@
 #include <bullet_fem/btFemHelpers.h>
 #include <bullet_fem/btFemRay.h>
 #include <bullet_fem/btFemSoftBodySolver.h>
+#include <bullet_fem/btFemWelds.h>
 
 #include <iostream>
 #include <vector>

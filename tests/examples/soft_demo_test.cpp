@@ -123,6 +123,7 @@ TEST_F(SoftDemo, tetraCubeFallsOnTheWavesAndComesToRest)
     EXPECT_LT(book.made(), 1e-4 * 3000 * 17);  // fallen from 17 m above the lowest that it may get
     ASSERT_TRUE(m_fem.isFem(&cube));
     EXPECT_EQ(m_fem.stepReport(&cube).m_flags, 0);
+    m_world.step(600);  // on the edge of a wave it turns by some millimetres a second until it has found its place
     EXPECT_LT(fastestNode(cube), 1e-3);
     EXPECT_NEAR(averageSupport(cube), 3000, 1e-3 * 3000);
     EXPECT_GT(smallestVolumeRatio(cube), 0.98);

@@ -2,9 +2,13 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // A tool: bakes a body to <argument>.bfem, and tells in <argument>.bits where one that is not baked falls.
+#ifdef BULLETFEM_AMALGAM
+#include "bullet_fem_runtime.h"
+#else
 #include <bullet_fem/btFemHelpers.h>
 #include <bullet_fem/fem/baked/baked_body.h>
 #include <bullet_fem/fem/mesh/generators.h>
+#endif
 
 #include "drop_bits.h"
 

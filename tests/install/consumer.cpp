@@ -2,8 +2,12 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // The five lines of the README, by someone who has only the installed headers and libraries.
+#ifdef BULLETFEM_AMALGAM
+#include "bullet_fem_runtime.h"
+#else
 #include <bullet_fem/btFemHelpers.h>
 #include <bullet_fem/btFemSoftBodySolver.h>
+#endif
 
 #include <type_traits>
 

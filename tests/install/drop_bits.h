@@ -2,7 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#ifdef BULLETFEM_AMALGAM
+#include "bullet_fem_runtime.h"
+#else
 #include <bullet_fem/btFemSoftBodySolver.h>
+#endif
 
 #include <cstdint>
 #include <cstring>

@@ -2,8 +2,12 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // A game: what the tool has baked falls as the tool says, to the bit.
+#ifdef BULLETFEM_AMALGAM
+#include "bullet_fem_runtime.h"
+#else
 #include <bullet_fem/btFemHelpers.h>
 #include <bullet_fem/fem/baked/baked_body.h>
+#endif
 
 #include <iostream>
 

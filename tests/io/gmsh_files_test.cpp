@@ -5,8 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
 
+#include "bullet_fem/fem/step/stepping.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "io/temporary_folder.h"
 
@@ -96,6 +101,69 @@ TEST_F(GmshFiles, OfSecondOrderAreRefused)
     }
     ASSERT_TRUE(run("-3 -order 2 -format vtk -o second.vtk two.geo"));
     EXPECT_THAT(messageOf<std::runtime_error>([&] { read("second.vtk"); }), HasSubstr("a quadratic tetrahedron"));
+}
+
+/// A bar of 10 x 1 x 1 m with cells of so many metres, meshed by Gmsh.
+class GmshBar : public GmshFiles
+{
+protected:
+    TetMesh bar(const std::string& cell) const
+    {
+        m_folder.write("bar.geo",
+                       "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 10, 1, 1};\n"
+                       "Mesh.CharacteristicLengthMin = " +
+                           cell + ";\nMesh.CharacteristicLengthMax = " + cell + ";\n");
+        EXPECT_TRUE(run("-3 -format msh2 -o bar.msh bar.geo")) << m_folder.read("log");
+        return read("bar.msh").mesh();
+    }
+
+    // Tip deflection over Timoshenko's, of a small load that is spread over the end's nodes. A step of 1 s that starts
+    // from rest goes all the way where the body's periods are far shorter.
+    static double tip(const TetMesh& mesh, double nu, bool isAccurate)
+    {
+        Material material;
+        material.m_poissonRatio = nu;
+        material.m_density = 1;
+        material.m_accurateBending = isAccurate;
+        FactorInput input;
+        input.m_step = 1;
+        const auto shape = std::make_shared<const RestShape>(mesh, material);
+        input.m_mass = shape->m_lumpedMass;
+        for (const Vec3& X : mesh.restPositions()) input.m_fixed.push_back(std::fabs(X.x) < 1e-9);
+        Body body(BodyModel::create(shape, input));
+        std::vector<int> end;
+        for (int i = 0; i < mesh.nodeCount(); ++i)
+            if (std::fabs(mesh.restPositions()[i].x - 10) < 1e-9) end.push_back(i);
+        const double load = 1e-2;  // [N]
+        for (const int i : end) body.m_loads.m_force[i].z = -load / static_cast<double>(end.size());
+        StepSettings settings;
+        settings.m_step = 1;
+        settings.m_tolerance = 1e-9;
+        for (int k = 0; k < 3; ++k)
+        {
+            for (Vec3& v : body.m_state.m_v) v = {};
+            step(body, settings);
+        }
+        double sum = 0;
+        for (const int i : end) sum += mesh.restPositions()[i].z - body.m_state.m_x[i].z;
+        const double kappa = 10 * (1 + nu) / (12 + 11 * nu), E = material.m_youngModulus;
+        const double exact = load * (4e3 / E + 10 / (kappa * material.lameMu()));
+        return sum / static_cast<double>(end.size()) / exact;
+    }
+};
+
+// Four, three and two cells across.
+TEST_F(GmshBar, BendsAsTimoshenkoSays)
+{
+    const TetMesh fine = bar("0.25"), middle = bar("0.33"), coarse = bar("0.5");
+    for (const double nu : {.3, .45, .49})
+    {
+        SCOPED_TRACE(nu);
+        EXPECT_NEAR(tip(fine, nu, true), 1, .06);
+        EXPECT_NEAR(tip(middle, nu, true), 1, .075);
+        EXPECT_NEAR(tip(coarse, nu, true), 1, .2);
+        EXPECT_LT(tip(fine, nu, false), .9);
+    }
 }
 
 }  // namespace

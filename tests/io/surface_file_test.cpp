@@ -255,6 +255,69 @@ TEST(SurfaceFile, KeepsVertexOrder)
         EXPECT_EQ(norm(surface.m_vertices[i] - kBoxCorners[i]), 0) << i;
 }
 
+// 0xRRGGBB, whatever the order and the type of a PLY file's colours.
+TEST(SurfaceFile, KeepsColoursOfPlyVerticesAsLabels)
+{
+    const TemporaryFolder folder;
+    const std::string
+        head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n",
+        faces = "element face 4\nproperty list uchar int vertex_indices\nend_header\n",
+        triangles = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+    const auto labels = [&](const std::string& properties, const std::string& vertices)
+    {
+        folder.write("tet.ply", head + properties + faces + vertices + triangles);
+        return readSurfaceFile(folder.path("tet.ply")).m_labels;
+    };
+    EXPECT_EQ(labels("property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n",
+                     "0 0 0 255 0 0 9\n1 0 0 255 0 0 9\n0 1 0 1 2 3 9\n0 0 1 0 0 255 9\n"),
+              (std::vector<int>{0xFF0000, 0xFF0000, 0x010203, 0x0000FF}));
+    EXPECT_EQ(labels("property float blue\nproperty float green\nproperty float red\n",
+                     "0 0 0 1 0.5 0\n1 0 0 0 0 1\n0 1 0 2 -1 nan\n0 0 1 0 0 0\n"),
+              (std::vector<int>{0x0080FF, 0xFF0000, 0x0000FF, 0}));
+    EXPECT_TRUE(labels("property uchar red\nproperty uchar green\nproperty uchar blue\n",
+                       "0 0 0 7 7 7\n1 0 0 7 7 7\n0 1 0 7 7 7\n0 0 1 7 7 7\n")
+                    .empty())
+        << "of one colour";
+    EXPECT_TRUE(labels("property uchar red\n", "0 0 0 7\n1 0 0 8\n0 1 0 9\n0 0 1 7\n").empty()) << "red alone";
+    EXPECT_TRUE(labels("", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n").empty());
+}
+
+// A fan of so many triangles, every corner in another colour.
+TEST(SurfaceFile, OfTooManyColoursIsAPhotograph)
+{
+    const TemporaryFolder folder;
+    const auto labels = [&](int colours)
+    {
+        std::ostringstream text;
+        text << "ply\nformat ascii 1.0\nelement vertex " << colours
+             << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+                "property uchar blue\nelement face "
+             << colours - 2 << "\nproperty list uchar int vertex_indices\nend_header\n";
+        for (int v = 0; v < colours; ++v) text << v << ' ' << v * v << " 0 " << v / 256 << " 0 " << v % 256 << '\n';
+        for (int t = 2; t < colours; ++t) text << "3 0 " << t - 1 << ' ' << t << '\n';
+        folder.write("fan.ply", text.str());
+        return readSurfaceFile(folder.path("fan.ply")).m_labels.size();
+    };
+    EXPECT_EQ(labels(256), 256u);
+    EXPECT_EQ(labels(257), 0u);
+}
+
+TEST(SurfaceFile, KeepsPartsOfObjFilesAsLabels)
+{
+    const TemporaryFolder folder;
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 1 0\n";
+    const auto labels = [&](const std::string& begin, const std::string& second)
+    {
+        folder.write("parts.obj", vertices + begin + "f 1 3 2\nf 1 2 4\n" + second + "f 2 3 4\nf 5 6 7\n");
+        return readSurfaceFile(folder.path("parts.obj")).m_labels;
+    };
+    const std::vector<int> parts = {1, 1, 1, 1, 2, 2, 2};
+    EXPECT_EQ(labels("g lower\n", "g upper\n"), parts);
+    EXPECT_EQ(labels("usemtl rubber\n", "usemtl steel\n"), parts);
+    EXPECT_EQ(labels("o lower\n", "o upper\n"), parts);
+    EXPECT_TRUE(labels("", "").empty());
+}
+
 TEST(SurfaceFile, RejectsScaleThatIsNotPositiveAndFinite)
 {
     const auto read = [](double scale) { return [scale] { readSurfaceFile("box.off", scale); }; };

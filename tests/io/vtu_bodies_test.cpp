@@ -11,6 +11,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "bullet_fem/io/tet_mesh_file.h"
 #include "bullet_fem/io/vtu_writer.h"
 #include "io/sample_bodies.h"
 #include "io/temporary_folder.h"
@@ -145,6 +146,23 @@ TEST_P(VtuBodies, CellsOfAllBodiesStandInOnePiece)
     EXPECT_NEAR(points[3 * 26], m_bodies[0].m_positions[26].x, 1e-7);
 }
 
+// And it is read back as what the mesh's file had.
+TEST_P(VtuBodies, RegionsAreThoseOfTheTetrahedraAndZeroWhereTheyHaveNone)
+{
+    EXPECT_THAT(m_xml, Not(HasSubstr("region")));
+    std::vector<BodyFrame> bodies = m_bodies;
+    for (int e = 0; e < 40; ++e) bodies[2].m_tetRegion.push_back(e < 7 ? -3 : 12);
+    const std::string xml = written(bodies, GetParam());
+    const std::vector<double> regions = numbersOf(xml, "CellData", "region");
+    ASSERT_EQ(regions.size(), 81u);
+    EXPECT_THAT(std::vector<double>(regions.begin() + 39, regions.begin() + 49),
+                ElementsAre(0, 0, -3, -3, -3, -3, -3, -3, -3, 12));
+    const std::vector<int> read = readTetMesh(xml.data(), xml.size(), TetMeshFormat::vtu).m_regions;
+    ASSERT_EQ(read.size(), 80u);
+    EXPECT_EQ(read[40], -3);
+    EXPECT_EQ(read[79], 12);
+}
+
 TEST_P(VtuBodies, FieldsAreThoseOfTheBodiesAndZeroWhereTheyHaveNone)
 {
     for (const char* name : {"displacement", "velocity", "contact_force"})
@@ -172,6 +190,14 @@ TEST_P(VtuBodies, StressOfCellsIsInVtksOrder)
     EXPECT_NEAR(numbersOf(m_xml, "CellData", "von_mises")[1], std::sqrt(3.0 + 3 * (16 + 25 + 36)), 1e-5);
     EXPECT_THAT(m_xml, HasSubstr("ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" "
                                  "ComponentName3=\"XY\" ComponentName4=\"YZ\" ComponentName5=\"XZ\""));
+}
+
+TEST_P(VtuBodies, CellsHaveTheirPlasticStrain)
+{
+    const std::vector<double> strain = numbersOf(m_xml, "CellData", "plastic_strain");
+    ASSERT_EQ(strain.size(), 81u);
+    EXPECT_NEAR(strain[2], 0.02, 1e-8);
+    EXPECT_EQ(strain[40], 0);
 }
 
 TEST_P(VtuBodies, MayHaveNothingAtAll)
@@ -222,9 +248,13 @@ TEST(VtuBodiesRejects, ArraysThatDoNotFit)
                 HasSubstr("body 1: 26 velocities for 27 vertices; give as many, or none"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetStress.push_back({}); }),
                 HasSubstr("41 stresses for 40 tetrahedra"));
+    EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetRegion.push_back(1); }), HasSubstr("1 regions for 40 tetrahedra"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_nodeStress.push_back({}); }), HasSubstr("stress"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_contactForce[3].y = 1e39; }),
                 HasSubstr("contact force of vertex 3 is not finite in single precision"));
+    EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetPlasticStrain.pop_back(); }), HasSubstr("plastic strains for"));
+    EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetPlasticStrain[4] = NAN; }),
+                HasSubstr("plastic strain of tetrahedron 4"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetStress[5].yz = NAN; }), HasSubstr("stress of tetrahedron 5"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tets[4][2] = 27; }),
                 HasSubstr("tetrahedron 4 uses vertex 27, which is not in [0, 27)"));

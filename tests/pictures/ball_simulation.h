@@ -49,6 +49,20 @@ public:
         m_values[index] = value;
     }
     std::string status() const override { return "one ball"; }
+    int views() const override { return m_views; }
+    void update() override { ++m_updates; }
+    void act(ViewerKey key, const PictureRay& cursor) override
+    {
+        m_keys.push_back(key);
+        m_cursor = cursor;
+    }
+    void open(const std::vector<std::string>& files, const PictureRay& cursor) override
+    {
+        m_files = files;
+        m_cursor = cursor;
+    }
+    ViewerProgress progress() const override { return m_progress; }
+    std::string message() const override { return m_message; }
 
     void place(const Vec3& centre)
     {
@@ -60,7 +74,12 @@ public:
     Vec3 m_centre;
     double m_values[2] = {1e6, 0.3}, m_rayLength = 0;
     bool m_held = false;
-    int m_steps = 0, m_moves = 0;
+    int m_steps = 0, m_moves = 0, m_views = 0, m_updates = 0;
+    std::vector<ViewerKey> m_keys;
+    std::vector<std::string> m_files;
+    PictureRay m_cursor;
+    ViewerProgress m_progress;
+    std::string m_message;
     const char* m_refusal = nullptr;
 };
 

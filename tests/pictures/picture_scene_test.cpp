@@ -199,6 +199,21 @@ TEST(Legend, TellsTheRangeInReadableUnits)
     EXPECT_EQ(legendTitle({0, 1e6, "", "Pa"}), "[MPa]");
 }
 
+TEST(Legend, TellsWhatArrowsShow)
+{
+    PictureArrows arrows;
+    arrows.m_title = "contact force";
+    arrows.m_unit = "N";
+    EXPECT_EQ(legendTitle(arrows), "contact force [N]");
+    EXPECT_EQ(legendRange(arrows), "none yet");
+    arrows.m_longest = 1254;
+    EXPECT_EQ(legendTitle(arrows), "contact force [kN]");
+    EXPECT_EQ(legendRange(arrows), "0 to 1.254");
+    arrows.m_longest = 0.02;
+    EXPECT_EQ(legendTitle(arrows), "contact force [mN]");
+    EXPECT_EQ(legendRange(arrows), "0 to 20");
+}
+
 TEST(MeshVertices, KeepSharpEdgesSharpAndRoundOnesRound)
 {
     PictureMesh box = cube({0, 0, 0}, 1);

@@ -6,6 +6,10 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <cctype>
+#include <fstream>
+#include <iterator>
+
 #include "io/temporary_folder.h"
 #include "pictures/ball_simulation.h"
 #include "tools/pictures/viewer.h"
@@ -98,6 +102,78 @@ TEST_F(ViewerControlTest, KeysPauseAndStep)
     send({ViewerEvent::key(ViewerKey::wireframe), ViewerEvent::key(ViewerKey::panel),
           ViewerEvent::key(ViewerKey::close)});
     EXPECT_TRUE(m_control.wireframe() && !m_control.panelShown() && m_control.closing());
+}
+
+double distanceTo(const Vec3& point, const PictureRay& ray)
+{
+    const Vec3 along = (1 / norm(ray.m_to - ray.m_from)) * (ray.m_to - ray.m_from);
+    return norm(cross(point - ray.m_from, along));
+}
+
+TEST_F(ViewerControlTest, OtherKeysAreTheSimulationsWithWhereTheMouseIs)
+{
+    send({moveTo({0.4, 0.5, 0}), ViewerEvent::key(ViewerKey::box)});
+    EXPECT_NEAR(distanceTo({0.4, 0.5, 0}, m_simulation.m_cursor), 0, 1e-9);
+    EXPECT_FALSE(m_control.paused());
+    for (const ViewerKey key : {ViewerKey::ball, ViewerKey::forces, ViewerKey::stress, ViewerKey::cancel})
+        send({ViewerEvent::key(key)});
+    EXPECT_THAT(m_simulation.m_keys, testing::ElementsAre(ViewerKey::box, ViewerKey::ball, ViewerKey::forces,
+                                                          ViewerKey::stress, ViewerKey::cancel));
+    send({ViewerEvent::key(ViewerKey::help), ViewerEvent::key(ViewerKey::film)});
+    EXPECT_TRUE(m_control.helpShown() && m_control.filming());
+    send({ViewerEvent::key(ViewerKey::help), ViewerEvent::key(ViewerKey::film)});
+    EXPECT_FALSE(m_control.helpShown() || m_control.filming());
+    EXPECT_EQ(m_simulation.m_keys.size(), 5u);
+}
+
+TEST_F(ViewerControlTest, GoingBackInTimePausesAndLetsGo)
+{
+    send({moveTo({0.4, 0.5, 0}), ViewerEvent::press(), ViewerEvent::key(ViewerKey::earlier)});
+    EXPECT_TRUE(m_control.paused());
+    EXPECT_FALSE(m_control.dragging() || m_simulation.m_held);
+    send({ViewerEvent::key(ViewerKey::pause), ViewerEvent::key(ViewerKey::later)});
+    EXPECT_TRUE(m_control.paused());
+    EXPECT_THAT(m_simulation.m_keys, testing::ElementsAre(ViewerKey::earlier, ViewerKey::later));
+    send({ViewerEvent::key(ViewerKey::pause)});
+    EXPECT_EQ(m_control.takeSteps(2), 2) << "it runs on";
+}
+
+TEST_F(ViewerControlTest, FilesAreDroppedWhereTheMouseIs)
+{
+    send({moveTo({-0.2, 0.3, 0}), ViewerEvent::drop({"a.off", "b.msh"})});
+    EXPECT_THAT(m_simulation.m_files, testing::ElementsAre("a.off", "b.msh"));
+    EXPECT_NEAR(distanceTo({-0.2, 0.3, 0}, m_simulation.m_cursor), 0, 1e-9);
+}
+
+TEST_F(ViewerControlTest, AnotherThingToBeSeenMovesTheCamera)
+{
+    m_simulation.m_scene.m_camera.m_eye = {0, 3, 9};
+    m_control.update();
+    EXPECT_EQ(norm(m_control.camera().m_eye - m_start.m_eye), 0);
+    m_simulation.m_views = 1;
+    m_control.update();
+    EXPECT_EQ(norm(m_control.camera().m_eye - Vec3{0, 3, 9}), 0);
+    send({ViewerEvent::scroll(3)});
+    const double zoomed = distance();
+    m_control.update();
+    EXPECT_EQ(distance(), zoomed) << "once";
+}
+
+TEST(ViewerKeys, AllAreToldByHelpAndDocument)
+{
+    ASSERT_EQ(viewerKeys().size(), static_cast<std::size_t>(ViewerKey::close) + 1);
+    EXPECT_EQ(viewerKeys()[static_cast<std::size_t>(ViewerKey::box)].m_keys, "B");
+    EXPECT_EQ(viewerKeys()[static_cast<std::size_t>(ViewerKey::close)].m_keys, "Escape");
+    std::ifstream file(BULLETFEM_TOOL_DOCUMENT);
+    const std::string document{std::istreambuf_iterator<char>(file), {}}, help = "\n" + viewerHelpText();
+    for (const ViewerHelp& line : viewerKeys())
+    {
+        EXPECT_NE(line.m_meaning, "");
+        EXPECT_THAT(help, testing::HasSubstr("\n  " + line.m_keys + "  "));
+        std::string label = line.m_keys;
+        if (label.size() > 2) label[0] = static_cast<char>(std::tolower(label[0]));
+        EXPECT_THAT(document, testing::HasSubstr("\n| " + label + " | "));
+    }
 }
 
 TEST(ViewerWithout, ADisplaySaysSo)

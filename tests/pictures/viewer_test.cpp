@@ -7,11 +7,17 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <thread>
 #include <vector>
 
+#include "io/temporary_folder.h"
 #include "pictures/ball_simulation.h"
+#include "tools/pictures/film_writer.h"
+#include "tools/pictures/legend.h"
 
 namespace bullet_fem
 {
@@ -26,6 +32,7 @@ protected:
         if (!getenv("DISPLAY")) GTEST_SKIP() << "there is no display, and no xvfb-run";
         ViewerSettings settings;
         settings.m_size = {800, 600};
+        settings.m_filmFolder = m_folder.path("films");
         m_viewer = std::make_unique<Viewer>(m_simulation, settings);
         m_viewer->frame(0);
     }
@@ -50,6 +57,7 @@ protected:
         return ViewerEvent::move(area.m_x + share * area.m_width, area.m_y + 0.5 * area.m_height);
     }
 
+    const TemporaryFolder m_folder;
     BallSimulation m_simulation;
     std::unique_ptr<Viewer> m_viewer;
 };
@@ -118,6 +126,71 @@ TEST_F(ViewerTest, ASceneThatCannotBeDrawnPausesIt)
     m_simulation.place({0, 0.5, 0});
     play({ViewerEvent::key(ViewerKey::pause)});
     EXPECT_FALSE(m_viewer->control().paused());
+}
+
+int pixelsApart(const Image& a, const Image& b)
+{
+    int different = 0;
+    for (std::size_t i = 0; i < a.m_pixels.size(); i += 3) different += a.m_pixels[i] != b.m_pixels[i];
+    return different;
+}
+
+TEST_F(ViewerTest, HelpProgressAndSentencesStandOverThePicture)
+{
+    play({ViewerEvent::key(ViewerKey::pause), ViewerEvent::key(ViewerKey::panel)});
+    m_viewer->frame();
+    const Image bare = m_viewer->screenshot();
+    play({ViewerEvent::key(ViewerKey::help)});
+    m_viewer->frame();
+    EXPECT_GT(pixelsApart(bare, m_viewer->screenshot()), 100000) << "of the help's some 250,000 pixels";
+    play({ViewerEvent::key(ViewerKey::help)});
+    m_simulation.m_progress = {"ball.off: making the cage", 0.4};
+    m_viewer->frame();
+    m_viewer->frame();
+    const Image busy = m_viewer->screenshot();
+    EXPECT_GT(pixelsApart(bare, busy), 10000);
+    m_simulation.m_progress.m_share = 0.8;
+    m_viewer->frame();
+    EXPECT_GT(pixelsApart(busy, m_viewer->screenshot()), 1000) << "the bar grows";
+    m_simulation.m_progress = {};
+    m_simulation.m_message = std::string(4000, 'x') + " \xc3";
+    m_viewer->frame();
+    m_viewer->frame();
+    EXPECT_GT(pixelsApart(bare, m_viewer->screenshot()), 10000);
+    m_simulation.m_message.clear();
+    m_viewer->frame();
+    EXPECT_EQ(m_viewer->screenshot().m_pixels, bare.m_pixels);
+    EXPECT_GT(m_simulation.m_updates, 8) << "in every frame, also in a pause";
+}
+
+TEST_F(ViewerTest, AButtonGivesUp)
+{
+    play({ViewerEvent::key(ViewerKey::panel)});
+    m_simulation.m_progress = {"ball.off: making the cage", 0.4};
+    m_viewer->frame();
+    // Above the caption, to the right of the bar.
+    play({ViewerEvent::move(400 + 180, 600 - captionHeight({800, 600}) - 22), ViewerEvent::press(),
+          ViewerEvent::release()});
+    EXPECT_THAT(m_simulation.m_keys, testing::ElementsAre(ViewerKey::cancel));
+}
+
+TEST_F(ViewerTest, ADropIsOpenedAndAFilmIsMade)
+{
+    if (!FilmWriter::available()) GTEST_SKIP() << "ffmpeg is not in PATH";
+    play({ViewerEvent::drop({"a.off"})});
+    EXPECT_THAT(m_simulation.m_files, testing::ElementsAre("a.off"));
+    play({ViewerEvent::key(ViewerKey::film)});
+    EXPECT_TRUE(m_viewer->control().filming());
+    for (int k = 0; k < 12; ++k) m_viewer->frame(2);
+    play({ViewerEvent::key(ViewerKey::film)});
+    EXPECT_FALSE(m_viewer->control().filming());
+    const std::string film = m_folder.path("films/film_001.mp4");
+    for (int k = 0; k < 500 && !std::filesystem::exists(film); ++k)
+    {
+        m_viewer->frame();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_GT(std::filesystem::file_size(film), 1000u);
 }
 
 TEST_F(ViewerTest, AnOffscreenRendererWorksBesideIt)

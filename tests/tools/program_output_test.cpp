@@ -15,9 +15,11 @@ namespace
 {
 
 using testing::AllOf;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 struct OutputCase
 {
@@ -59,10 +61,11 @@ protected:
     const std::string m_file = m_folder.path(GetParam().m_file);
 };
 
-// All of the program's files are limited to no bytes, which acts like a disk that is full from the start.
+// All of the program's files are limited to no bytes, which acts like a disk that is full from the start. By default
+// the limit's signal ends a program without a word.
 TEST_P(ProgramOutput, OnAFullDiskLeavesNothing)
 {
-    const ProgramRun full = run(m_folder.path(""), "trap '' XFSZ; ulimit -f 0;");
+    const ProgramRun full = run(m_folder.path(""), "ulimit -f 0;");
     if (cannotBeHad(full)) GTEST_SKIP() << full.m_output;
     EXPECT_EQ(full.m_code, 1) << full.m_output;
     EXPECT_THAT(full.m_output, HasSubstr("cannot write '" + m_folder.path("")));
@@ -89,6 +92,15 @@ TEST_P(ProgramOutput, BelowAFileIsToldWithTheName)
                 AllOf(HasSubstr("cannot "), HasSubstr("'" + m_folder.path("file/run")), HasSubstr("Not a directory")));
     EXPECT_EQ(m_folder.read("file"), "in the way");
     EXPECT_THAT(m_folder.names(), ElementsAre("file"));
+}
+
+TEST_P(ProgramOutput, OfARunThatIsEndedLeavesNoPart)
+{
+    if (!isScene()) GTEST_SKIP() << "it is done before it could be ended";
+    const ProgramRun ended = run(m_folder.path(""), "timeout --preserve-status -s TERM 0.4", "1e5");
+    if (cannotBeHad(ended)) GTEST_SKIP() << ended.m_output;
+    EXPECT_EQ(ended.m_code, 128 + 15) << ended.m_output;
+    EXPECT_THAT(m_folder.names(), Each(Not(HasSubstr(".part"))));
 }
 
 // More than a day of a scene: nobody waits for that to hear that its film cannot be written.

@@ -31,10 +31,12 @@ inline ProgramRun runShell(const std::string& line)
     return run;
 }
 
+#ifdef BULLETFEM_PROGRAM
 /// Runs the program bulletfem with these arguments.
 inline ProgramRun bulletfem(const std::string& arguments)
 {
     return runShell("'" BULLETFEM_PROGRAM "' " + arguments);
 }
+#endif
 
 }  // namespace bullet_fem

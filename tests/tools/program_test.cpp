@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "bullet_fem/io/tet_mesh_file.h"
 #include "tools/program_run.h"
 #include "tools/scene_samples.h"
 
@@ -68,11 +69,15 @@ TEST_F(Program, BadUsageIsToldWithItsRange)
     refused("mesh a.off", 2, "subcommand is required");
     refused("simulate", 2, "scene is required");
     refused("simulate a.json --fast", 2, "--fast");
+    refused("simulate --mesh a.off", 2, "--window");
+    refused("simulate a.json --tets 50", 2, "--window");
+    refused("simulate --window --scale 0", 2, "must be a number in");
+    refused("simulate --window --history-memory 0", 2, "must be a number in [1, 65536]");
     refused("simulate a.json --seconds -1", 2, "is -1, must be a number in [1e-06, 100000]");
     refused("simulate a.json --seconds nan", 2, "is nan, must be a number in [1e-06, 100000]");
     refused("simulate a.json --film run.avi", 2, "run.avi must end in .mp4 or .gif");
     refused("bake a.msh -o a.bfem --young 0", 2, "must be a number in [0.001, 1e+13]");
-    refused("bake a.msh -o a.bfem --poisson 0.5", 2, "must be a number in [0, 0.49]");
+    refused("bake a.msh -o a.bfem --poisson 0.5", 2, "must be a number in [0, 0.499]");
     refused("bake a.msh -o a.bfem --step 0", 2, "must be in [1e-6, 1] s");
     refused("bake a.msh -o a.bfem --step 1/0", 2, "must be in [1e-6, 1] s");
     refused("bake a.msh -o a.bfem --material gold", 2, "gold");
@@ -175,6 +180,79 @@ TEST_F(Program, BakesWhatInfoTells)
     EXPECT_EQ(told["pinned"], baked["pinned"]);
     EXPECT_EQ(told["embeddedVertices"], 8);
     EXPECT_EQ(told["bytes"].get<std::uintmax_t>(), std::filesystem::file_size(m_folder.path("cube.bfem")));
+}
+
+TEST_F(Program, TellsRegionsAndBakesThem)
+{
+    const json mesh = figures("info " + path("regions.msh"));
+    EXPECT_EQ(mesh["region 1"]["tets"], 20);
+    EXPECT_EQ(mesh["region -2"]["tets"], 20);
+    EXPECT_NEAR(mesh["region 1"]["volume"].get<double>(), 0.5, 1e-12);
+    EXPECT_FALSE(figures("info " + path("two.node")).contains("region 0"));
+    const std::string bake = "bake " + path("regions.msh") + " -o " + path("regions.bfem") + " --density 1500";
+    figures(bake + " --region 1:rubber --region=-2:young=3e7,poisson=.25");
+    const json told = figures("info " + path("regions.bfem"));
+    EXPECT_EQ(told["version"], 3);
+    EXPECT_FALSE(told.contains("young"));
+    EXPECT_EQ(told["region 1"]["young"], 2e6);
+    EXPECT_NEAR(told["region 1"]["mass"].get<double>(), 550, 1e-3);
+    EXPECT_EQ(told["region -2"]["young"], 3e7);
+    EXPECT_EQ(told["region -2"]["poisson"], .25);
+    EXPECT_NEAR(told["region -2"]["mass"].get<double>(), 750, 1e-3);
+    EXPECT_EQ(told["region -2"]["tets"], 20);
+    EXPECT_EQ(told["region 1"]["meanDilatation"], "on");
+    EXPECT_EQ(told["region -2"]["meanDilatation"], "off");
+    figures(bake);
+    EXPECT_EQ(figures("info " + path("regions.bfem"))["version"], 2) << "one material for all";
+
+    refused(bake + " --region 1:rubber", 1, "region -2 (element ");
+    refused(bake + " --region rubber", 1, "it has no label with ':' behind; give its label");
+    refused(bake + " --region 1", 1, "it has no label");
+    refused(bake + " --region 1:", 1, "there is no material");
+    refused(bake + " --region 1:gold", 1, "'gold' is no material");
+    refused(bake + " --region 1:nu=.3", 1, "'nu' is no value of a region");
+    refused(bake + " --region 1:young=soft", 1, "'soft' is no number");
+    refused(bake + " --region 1:poisson=.5", 1, "Poisson's ratio [-] is 0.5, outside [0, 0.499]");
+    refused(bake + " --region 1:foam --region 1:wood", 1, "was given before");
+    refused("bake " + path("two.node") + " -o " + path("a.bfem") + " --region 1:foam", 1, "has no regions");
+    EXPECT_FALSE(exists("a.bfem"));
+}
+
+TEST_F(Program, BakesPaintedSurfaces)
+{
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element face 6\nproperty list uchar int vertex_indices\nend_header\n";
+    m_folder.write("painted.ply",
+                   head +
+                       "0 0 0 0 0 1\n1 0 0 0 0 2\n0 1 0 0 0 1\n1 1 0 0 0 2\n0 0 1 0 0 1\n1 0 1 0 0 2\n0 1 1 0 0 1\n"
+                       "1 1 1 0 0 2\n4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n");
+    const json surface = figures("info " + path("painted.ply"));
+    EXPECT_EQ(surface["painted"], 2);
+    EXPECT_EQ(surface["region 1"]["vertices"], 4);
+    figures("bake " + path("painted.ply") + " --tets 600 --region 1:foam --region 2:wood -o " + path("painted.bfem"));
+    const json told = figures("info " + path("painted.bfem"));
+    EXPECT_NEAR(told["region 1"]["volume"].get<double>(), .5, .1);
+    EXPECT_NEAR(told["region 2"]["volume"].get<double>(), .5, .1);
+    m_folder.write("painted.json",
+                   R"({ "seconds": 0.02, "softBodies": [{ "name": "a", "mesh": { "surface": "painted.ply",
+        "tets": 300 }, "materials": { "1": "foam", "2": "rubber" } }] })");
+    const ProgramRun run = bulletfem("simulate " + path("painted.json") + " --quiet --pvd -o " + path("run"));
+    EXPECT_EQ(run.m_code, 0) << run.m_output;
+    EXPECT_FALSE(readTetMeshFile(m_folder.path("run/elements_000000.vtu")).m_regions.empty());
+    refused("bake " + path("cube.off") + " -o " + path("a.bfem") + " --region 1:foam", 1, "is not painted");
+}
+
+// What ParaView shows is what the mesh's file says.
+TEST_F(Program, WritesTheRegionOfEveryElement)
+{
+    m_folder.write("regions.json", R"({ "seconds": 0.02, "softBodies": [{ "name": "a",
+        "mesh": { "tetrahedra": "regions.msh" }, "materials": { "1": "foam", "-2": "rubber" } }] })");
+    const ProgramRun run = bulletfem("simulate " + path("regions.json") + " --quiet --pvd -o " + path("run"));
+    ASSERT_EQ(run.m_code, 0) << run.m_output;
+    const std::vector<int> expected = readTetMeshFile(m_folder.path("regions.msh")).m_regions;
+    EXPECT_EQ(readTetMeshFile(m_folder.path("run/elements_000000.vtu")).m_regions, expected);
 }
 
 TEST_F(Program, PinsAsManyBoxesAsAreGiven)

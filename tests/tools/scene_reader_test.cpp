@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "tools/scene/scene_world.h"
 #include "tools/scene_samples.h"
 
 namespace bullet_fem
@@ -73,8 +74,10 @@ TEST_F(SceneReader, ReadsSoftBodies)
     EXPECT_TRUE(body.m_pose.m_axis == Vec3({0, 0, 2}));
     EXPECT_NEAR(body.m_pose.m_angle, kPi / 2, 1e-12);
     EXPECT_TRUE(body.m_velocity == Vec3({1, 2, 3}));
-    EXPECT_TRUE(body.m_material == (Material{4e5, 0.2, 800, 0.1, 0.01}));
+    EXPECT_TRUE(body.m_material ==
+                (Material{4e5, 0.2, 800, 0.1, 0.01, MeanDilatation::on, 5e4, 1e4, 3, 0.3, {{{0.2, 0.5}}}}));
     EXPECT_EQ(body.m_friction, 0.9);
+    EXPECT_EQ(body.m_restitution, 0.3);
     EXPECT_TRUE(body.m_selfContact);
     EXPECT_TRUE(body.m_colour == Vec3({0.1, 0.2, 0.3}));
     ASSERT_EQ(body.m_pins.size(), 2u);
@@ -134,6 +137,67 @@ TEST_F(SceneReader, ReadsRigidBodiesConstraintsAndForces)
     EXPECT_EQ(scene.m_forces[0].m_to, 1.5);
 }
 
+TEST_F(SceneReader, ReadsWhetherElementsShareTheirVolumeChange)
+{
+    const auto choice = [this](const std::string& member)
+    {
+        return parse(R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1] }, "material": {)" + member +
+                     "} }] }")
+            .m_softBodies[0]
+            .m_material.m_meanDilatation;
+    };
+    EXPECT_EQ(choice(""), MeanDilatation::automatic);
+    EXPECT_EQ(choice(R"("meanDilatation": "auto")"), MeanDilatation::automatic);
+    EXPECT_EQ(choice(R"("meanDilatation": "on")"), MeanDilatation::on);
+    EXPECT_EQ(choice(R"("meanDilatation": "off")"), MeanDilatation::off);
+}
+
+TEST_F(SceneReader, ReadsWhetherAMaterialBendsAccurately)
+{
+    const auto bends = [this](const std::string& member)
+    {
+        return parse(R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1] }, "material": {)" + member +
+                     "} }] }")
+            .m_softBodies[0]
+            .m_material.m_accurateBending;
+    };
+    EXPECT_FALSE(bends(""));
+    EXPECT_TRUE(bends(R"("accurateBending": true)"));
+    EXPECT_FALSE(bends(R"("accurateBending": false)"));
+}
+
+TEST_F(SceneReader, ReadsHowAMaterialYields)
+{
+    const auto material = [this](const std::string& members)
+    {
+        return parse(R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1] }, "material": {)" + members +
+                     "} }] }")
+            .m_softBodies[0]
+            .m_material;
+    };
+    EXPECT_FALSE(material("").yields());
+    const Material read = material(
+        R"("like": "lead", "yieldStress": 2e6, "hardening": 3e6, "plasticCreep": 5, "mostPlasticStrain": 0.25)");
+    EXPECT_EQ(read.m_youngModulus, Material::lead().m_youngModulus);
+    EXPECT_EQ(read.m_yieldStress, 2e6);
+    EXPECT_EQ(read.m_hardeningModulus, 3e6);
+    EXPECT_EQ(read.m_plasticCreep, 5);
+    EXPECT_EQ(read.m_mostPlasticStrain, 0.25);
+    const btFemMaterial given = materialOf(read);
+    EXPECT_EQ(given.m_yieldStress, btScalar(2e6));
+    EXPECT_EQ(given.m_hardeningModulus, btScalar(3e6));
+    EXPECT_EQ(given.m_plasticCreep, btScalar(5));
+    EXPECT_EQ(given.m_mostPlasticStrain, btScalar(0.25));
+    const Material relaxing = material(R"("relaxation": [{ "share": 0.2, "time": 0.5 }, { "share": 0.1, "time": 7 }])");
+    EXPECT_EQ(relaxing.relaxationTerms(), 2);
+    EXPECT_EQ(relaxing.m_relaxation[0].m_share, 0.2);
+    EXPECT_EQ(relaxing.m_relaxation[1].m_time, 7);
+    EXPECT_EQ(materialOf(relaxing).m_relaxation[1].m_share, btScalar(0.1));
+    EXPECT_EQ(materialOf(relaxing).m_relaxation[0].m_time, btScalar(0.5));
+    EXPECT_TRUE(material(R"("like": "clay")").yields());
+    EXPECT_TRUE(material(R"("like": "mildFoam")").yields());
+}
+
 TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
 {
     const SceneDescription scene = parse(otherScene());
@@ -141,6 +205,15 @@ TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
     EXPECT_EQ(scene.m_softBodies[0].m_material.m_youngModulus, Material::jelly().m_youngModulus);
     EXPECT_EQ(scene.m_softBodies[0].m_material.m_stiffnessDamping, 0.005) << "the plug-in's";
     EXPECT_EQ(scene.m_softBodies[1].m_mesh.m_kind, SceneMesh::Kind::baked);
+    EXPECT_EQ(scene.m_softBodies[3].m_mesh.m_kind, SceneMesh::Kind::sphere);
+    EXPECT_EQ(scene.m_softBodies[3].m_mesh.m_radius, 0.3);
+    const std::map<int, Material>& regions = scene.m_softBodies[2].m_regionMaterials;
+    ASSERT_EQ(regions.size(), 2u);
+    EXPECT_EQ(regions.at(1).m_youngModulus, Material::rubber().m_youngModulus);
+    EXPECT_EQ(regions.at(1).m_stiffnessDamping, 0.005);
+    EXPECT_EQ(regions.at(-2).m_youngModulus, 3e7);
+    EXPECT_EQ(regions.at(-2).m_poissonRatio, Material::rubber().m_poissonRatio);
+    EXPECT_EQ(regions.at(-2).m_density, 2000);
     EXPECT_EQ(scene.m_rigidBodies[0].m_shape.m_kind, SceneShape::Kind::plane);
     EXPECT_EQ(scene.m_rigidBodies[1].m_shape.m_kind, SceneShape::Kind::sphere);
     EXPECT_EQ(scene.m_rigidBodies[1].m_shape.m_radius, 0.3);

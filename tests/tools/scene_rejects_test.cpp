@@ -57,19 +57,21 @@ TEST_P(RejectedScene, SaysWhereWhatAndWhy)
 const BadValue kUnknown[] = {
     {"InTheDocument", true, "/gravitation", "1",
      "the document has a member 'gravitation', which is not known; those that are: $schema, title, gravity, step, "
-     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, forces, camera, pictures"},
+     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, forces, actuators, camera, "
+     "pictures"},
     {"InSolver", true, "/solver/iterations", "1",
      "solver has a member 'iterations', which is not known; those that are: coupled, tolerance, contactTolerance, "
      "threads"},
     {"InAMaterial", true, "/materials/gum/nu", "1",
      "materials.gum has a member 'nu', which is not known; those that are: like, young, poisson, density, massDamping, "
-     "stiffnessDamping"},
+     "stiffnessDamping, meanDilatation, accurateBending, yieldStress, hardening, plasticCreep, "
+     "mostPlasticStrain, relaxation, law"},
     {"InASoftBody", true, "/softBodies/1/mass", "1",
      "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "
-     "material, friction, selfContact, colour, pins"},
+     "material, materials, friction, restitution, selfContact, colour, pins"},
     {"InAMesh", true, "/softBodies/0/mesh/boxes", "1",
-     "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, surface, tetrahedra, baked, "
-     "cell, tets, grade, levels, scale, surfaceCollides"},
+     "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, sphere, surface, tetrahedra, "
+     "baked, holes, cell, tets, grade, levels, scale, surfaceCollides"},
     {"InARotation", true, "/softBodies/0/rotation/angle", "1",
      "softBodies[0].rotation has a member 'angle', which is not known; those that are: axis, degrees"},
     {"InAPin", true, "/softBodies/0/pins/1/middle", "1",
@@ -118,8 +120,8 @@ const BadValue kWrongKind[] = {
      "camera is []; it must be an object with direction, eye, target, fieldOfView"},
     {"ArrayForMaterials", true, "/materials", "[]", "materials is []; it must be an object, in {}"},
     {"NumberInAnArrayOfBodies", true, "/softBodies/1", "3",
-     "softBodies[1] is 3; it must be an object with name, mesh, position, rotation, velocity, material, friction, "
-     "selfContact, colour, pins"},
+     "softBodies[1] is 3; it must be an object with name, mesh, position, rotation, velocity, material, materials, "
+     "friction, restitution, selfContact, colour, pins"},
     {"FractionForAWholeNumber", true, "/solver/threads", "1.5",
      "solver.threads is 1.5; it must be a whole number in [1, 64]"},
     {"KindThatIsNone", true, "/constraints/0/kind", R"("glue")",
@@ -137,9 +139,21 @@ const BadValue kOutOfRange[] = {
     {"ContactTolerance", true, "/solver/contactTolerance", "1",
      "solver.contactTolerance is 1; it must be a number in [1e-07, 0.1]"},
     {"Threads", true, "/solver/threads", "0", "solver.threads is 0; it must be a whole number in [1, 64]"},
+    {"YieldStress", true, "/materials/gum/yieldStress", "0",
+     "materials.gum.yieldStress is 0; it must be a number in (0, 1e+13]"},
+    {"MostPlasticStrain", true, "/materials/gum/mostPlasticStrain", "1",
+     "materials.gum.mostPlasticStrain is 1; it must be a number in (0, 0.9]"},
+    {"RelaxationShare", true, "/materials/gum/relaxation/0/share", "1",
+     "materials.gum.relaxation[0].share is 1; it must be a number in (0, 0.99]"},
+    {"RelaxationShares", true, "/materials/gum/relaxation",
+     R"([{ "share": 0.5, "time": 1 }, { "share": 0.5, "time": 2 }])",
+     "materials.gum.relaxation has shares whose sum is more than 0.99; a solid keeps some"},
+    {"RelaxationTerms", true, "/materials/gum/relaxation",
+     R"([{ "share": 0.1, "time": 1 }, { "share": 0.1, "time": 2 }, { "share": 0.1, "time": 3 }, { "share": 0.1, "time": 4 }])",
+     R"(materials.gum.relaxation is [{"share":0.1,"time":1},{"share":0.1,...; it must be an array of at most 3 terms)"},
     {"Young", true, "/materials/gum/young", "0", "materials.gum.young is 0; it must be a number in (0, 1e+13]"},
     {"Poisson", true, "/softBodies/0/material/poisson", "0.5",
-     "softBodies[0].material.poisson is 0.5; it must be a number in [0, 0.49]"},
+     "softBodies[0].material.poisson is 0.5; it must be a number in [0, 0.499]"},
     {"Density", true, "/materials/gum/density", "-1",
      "materials.gum.density is -1; it must be a number in (0, 1000000]"},
     {"Box", true, "/softBodies/0/mesh/box", "[1,0,1]",
@@ -180,10 +194,11 @@ const BadValue kMeaning[] = {
     {"NameOfASoftAndARigidBody", true, "/rigidBodies/0/name", R"("scan")",
      "rigidBodies[0].name is \"scan\"; it must be a name that no other body has"},
     {"UnknownMaterial", false, "/softBodies/0/material", R"("gold")",
-     "softBodies[0].material is \"gold\"; it must be the name of a material: flesh, foam, jelly, rubber, wood"},
+     "softBodies[0].material is \"gold\"; it must be the name of a material: clay, flesh, foam, jelly, lead, "
+     "mildFoam, rubber, wood"},
     {"UnknownMaterialAsKind", true, "/softBodies/0/material/like", R"("gold")",
-     "softBodies[0].material.like is \"gold\"; it must be the name of a material: flesh, foam, gum, jelly, rubber, "
-     "wood"},
+     "softBodies[0].material.like is \"gold\"; it must be the name of a material: clay, flesh, foam, gum, jelly, "
+     "lead, mildFoam, rubber, wood"},
     {"UnknownSoftBody", true, "/constraints/0/soft", R"("hammer")",
      "constraints[0].soft is \"hammer\"; it must be the name of a soft body"},
     {"UnknownRigidBody", true, "/constraints/1/to", R"("block")",
@@ -197,9 +212,9 @@ const BadValue kMeaning[] = {
     {"FolderForAFile", true, "/softBodies/1/mesh/surface", R"("..")",
      "softBodies[1].mesh.surface names 'FOLDER/..', which is no file"},
     {"TwoMeshes", true, "/softBodies/0/mesh/surface", R"("cube.off")",
-     "softBodies[0].mesh must have one of: box, surface, tetrahedra, baked"},
+     "softBodies[0].mesh must have one of: box, sphere, surface, tetrahedra, baked"},
     {"NoMeshKind", true, "/softBodies/0/mesh/box", "",
-     "softBodies[0].mesh must have one of: box, surface, tetrahedra, baked"},
+     "softBodies[0].mesh must have one of: box, sphere, surface, tetrahedra, baked"},
     {"CellAndTets", true, "/softBodies/0/mesh/tets", "500",
      "softBodies[0].mesh has 'cell' and 'tets'; give one of them"},
     {"Grade", true, "/softBodies/1/mesh/grade", "0.4",
@@ -214,6 +229,19 @@ const BadValue kMeaning[] = {
      "softBodies[1].mesh.scale is given, but a baked body has its size; leave it out, or bake it anew"},
     {"SurfaceOfAMeshFile", false, "/softBodies/1/mesh/surfaceCollides", "true",
      "softBodies[1].mesh.surfaceCollides is for a 'surface' with a cage around it; a baked body has it from baking"},
+    {"RegionMaterialsOfABakedBody", false, "/softBodies/1/materials", R"({ "1": "foam" })",
+     "softBodies[1].materials are given for regions, which only a 'tetrahedra' or 'surface' has; give 'material'"},
+    {"RegionMaterialsAndMaterial", false, "/softBodies/2/material", R"("jelly")",
+     "softBodies[2].materials are given with 'material'; give one of them"},
+    {"NoRegionMaterials", false, "/softBodies/2/materials", "{}",
+     "softBodies[2].materials is empty; give every region of the file a material"},
+    {"RegionWithoutLabel", false, "/softBodies/2/materials", R"({ "upper": "gum" })",
+     "softBodies[2].materials.upper must be called by the label of a region in the file, a whole number such as \"1\""},
+    {"RegionTwice", false, "/softBodies/2/materials", R"({ "01": "foam", "1": "foam" })",
+     "softBodies[2].materials.1 is of a region that has a material already"},
+    {"RegionOfAnUnknownMaterial", false, "/softBodies/2/materials/1", R"("gold")",
+     "softBodies[2].materials.1 is \"gold\"; it must be the name of a material: clay, flesh, foam, jelly, lead, "
+     "mildFoam, rubber, wood"},
     {"MaterialOfABakedBody", false, "/softBodies/1/material", R"("jelly")",
      "softBodies[1].material is given for a baked body, which has its own; leave it out, or bake it anew"},
     {"TwoShapes", true, "/rigidBodies/1/shape/sphere", "1",
@@ -254,6 +282,21 @@ TEST(SceneText, ThatIsNoSceneIsRefused)
     EXPECT_THAT(messageOfText("{ \"solver\": " + std::string(40, '[') + std::string(40, ']') + "}"),
                 HasSubstr("nested deeper than 32 levels"));
     EXPECT_THAT(messageOfText(std::string(1000000, '[')), HasSubstr("nested deeper than 32 levels"));
+}
+
+TEST(SceneText, WithAMemberTwiceIsRefused)
+{
+    const char* const twice = "it has 'step' twice in one object; give every member once";
+    EXPECT_EQ(messageOfText(R"({ "step": 0.01, "title": "a", "step": 0.02 })"), twice);
+    EXPECT_EQ(messageOfText(R"({ "solver": {}, "softBodies": [{ "a": {}, "step": 1, "step": 1 }] })"), twice);
+    EXPECT_EQ(messageOfText(R"({ "solver": { "title": 1 }, "title": "the same name elsewhere" })"),
+              "solver has a member 'title', which is not known; those that are: coupled, tolerance, contactTolerance, "
+              "threads");
+}
+
+TEST(SceneText, IsNotEchoedAtLength)
+{
+    EXPECT_LT(messageOfText("{ \"step\": 1" + std::string(100000, '0') + "x }").size(), 700u);
 }
 
 }  // namespace

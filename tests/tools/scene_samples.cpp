@@ -2,12 +2,37 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/scene_samples.h"
 
+#include <sstream>
+
 #include "bullet_fem/fem/baked/baked_body.h"
 #include "bullet_fem/fem/mesh/generators.h"
 #include "bullet_fem/io/tet_mesh_writer.h"
 
 namespace bullet_fem
 {
+
+std::string layeredMesh(const TetMesh& mesh)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << mesh.nodeCount() << '\n';
+    for (int i = 0; i < mesh.nodeCount(); ++i)
+    {
+        const Vec3& x = mesh.restPositions()[i];
+        text << i + 1 << ' ' << x.x << ' ' << x.y << ' ' << x.z << '\n';
+    }
+    text << "$EndNodes\n$Elements\n" << mesh.tetCount() << '\n';
+    for (int e = 0; e < mesh.tetCount(); ++e)
+    {
+        double y = 0;
+        for (const int node : mesh.tets()[e]) y += mesh.restPositions()[node].y / 4;
+        text << e + 1 << " 4 2 " << (y < 0.5 ? 1 : -2) << " 1";
+        for (const int node : mesh.tets()[e]) text << ' ' << node + 1;
+        text << '\n';
+    }
+    text << "$EndElements\n";
+    return text.str();
+}
 
 void writeSampleMeshes(const TemporaryFolder& folder)
 {
@@ -16,6 +41,7 @@ void writeSampleMeshes(const TemporaryFolder& folder)
                  "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n");
     const TetMesh block = makeBox({1, 1, 1}, {2, 2, 2});
     writeTetMeshFile(folder.path("two.node"), block);
+    folder.write("regions.msh", layeredMesh(block));
     BakeSettings settings;
     settings.m_step = 0.01;
     writeBakedBody(folder.path("body.bfem"), bakeBody(block, settings));
@@ -32,17 +58,19 @@ std::string fullScene()
   "framesPerSecond": 24,
   "solver": { "coupled": false, "tolerance": 1e-4, "contactTolerance": 1e-3, "threads": 2 },
   "materials": {
-    "gum": { "like": "rubber", "young": 3e5, "poisson": 0.41, "density": 900, "massDamping": 0.2, "stiffnessDamping": 0.03 }
+    "gum": { "like": "rubber", "young": 3e5, "poisson": 0.41, "density": 900, "massDamping": 0.2, "stiffnessDamping": 0.03, "meanDilatation": "on",
+      "accurateBending": false, "yieldStress": 5e4, "hardening": 1e4, "plasticCreep": 3, "mostPlasticStrain": 0.3, "relaxation": [{ "share": 0.2, "time": 0.5 }] }
   },
   "softBodies": [
     {
       "name": "block",
-      "mesh": { "box": [1, 2, 3], "cell": 0.5, "scale": 0.25 },
+      "mesh": { "box": [1, 2, 3], "holes": [{ "low": [-9, -9, 1], "high": [-8, 8, 2] }], "cell": 0.5, "scale": 0.25 },
       "position": [0.5, 1.5, -2],
       "rotation": { "axis": [0, 0, 2], "degrees": 90 },
       "velocity": [1, 2, 3],
       "material": { "like": "gum", "young": 4e5, "poisson": 0.2, "density": 800, "massDamping": 0.1, "stiffnessDamping": 0.01 },
       "friction": 0.9,
+      "restitution": 0.3,
       "selfContact": true,
       "colour": [0.1, 0.2, 0.3],
       "pins": [{ "low": [-9, -9, -9], "high": [9, 9, 0] }, { "low": [1, 1, 1], "high": [2, 2, 2] }]
@@ -71,6 +99,12 @@ std::string fullScene()
   "forces": [
     { "body": "block", "nodes": { "low": [-9, -9, -9], "high": [9, 9, 9] }, "force": [1, 0, -1], "from": 0.5, "to": 1.5 }
   ],
+  "actuators": [
+    { "kind": "chamber", "body": "block", "cavity": 1, "pressure": [[0.5, 0], [1.5, 20000]], "sealedFrom": 2 },
+    { "kind": "cable", "body": "block", "through": [[0, 1, 0], [1, 2, 0], [1, 3, 0]], "stiffness": 500, "restLength": 0.4 },
+    { "kind": "fibres", "body": "scan", "region": { "low": [-9, -9, -9], "high": [9, 0, 9] }, "direction": [0, 2, 0], "activation": 3000 },
+    { "kind": "expansion", "body": "scan", "region": { "low": [-9, 0, -9], "high": [9, 9, 9] }, "strain": 0.02 }
+  ],
   "camera": { "eye": [5, 4, 3], "target": [0, 1, 0], "fieldOfView": 60 },
   "pictures": { "width": 640, "height": 360, "stress": true, "hottest": 2e5, "forces": true, "wireframe": true }
 })";
@@ -81,7 +115,9 @@ std::string otherScene()
     return R"({
   "softBodies": [
     { "name": "tets", "mesh": { "tetrahedra": "two.node" }, "material": "jelly" },
-    { "name": "baked", "mesh": { "baked": "body.bfem" } }
+    { "name": "baked", "mesh": { "baked": "body.bfem" } },
+    { "name": "layers", "mesh": { "tetrahedra": "regions.msh" }, "materials": { "1": "rubber", "-2": { "like": "rubber", "young": 3e7, "density": 2000 } } },
+    { "name": "bubble", "mesh": { "sphere": 0.3, "cell": 0.1 } }
   ],
   "rigidBodies": [
     { "name": "ground", "shape": { "plane": [0, 1, 0] } },
@@ -90,6 +126,7 @@ std::string otherScene()
   ],
   "constraints": [{ "kind": "point", "body": "ball", "to": "rod", "pivot": [0, 1, 0] }],
   "forces": [{ "body": "ball", "force": [0, 5, 0] }],
+  "actuators": [{ "kind": "cable", "body": "tets", "through": [[0, 0, 0], [0, 1, 0]], "tension": [[0, 5]] }],
   "camera": { "direction": [1, 2, 3] }
 })";
 }

@@ -4,12 +4,17 @@
 
 #include <string>
 
+#include "bullet_fem/fem/mesh/tet_mesh.h"
 #include "io/temporary_folder.h"
 
 namespace bullet_fem
 {
 
-/// A folder with the files that the sample scenes name: cube.off, two.node and two.ele, and body.bfem, which is baked.
+/// A Gmsh file of a mesh whose elements are in region 1 where y < 0.5 m, and in region -2 above.
+std::string layeredMesh(const TetMesh& mesh);
+
+/// A folder with the files that the sample scenes name: cube.off, two.node and two.ele, regions.msh, which is a
+/// layeredMesh, and body.bfem, which is baked.
 /// `folder` must be empty.
 void writeSampleMeshes(const TemporaryFolder& folder);
 

@@ -44,12 +44,14 @@ struct SchemaPlace
 const SchemaPlace kObjects[] = {{true, "", ""},
                                 {true, "/solver", "/properties/solver"},
                                 {true, "/materials/gum", "/definitions/material"},
+                                {true, "/materials/gum/relaxation/0", "/definitions/relaxationTerm"},
                                 {true, "/softBodies/0", "/definitions/softBody"},
                                 {true, "/softBodies/0/material", "/definitions/material"},
                                 {true, "/softBodies/0/mesh", "/definitions/mesh"},
                                 {true, "/softBodies/1/mesh", "/definitions/mesh"},
                                 {false, "/softBodies/0/mesh", "/definitions/mesh"},
                                 {false, "/softBodies/1/mesh", "/definitions/mesh"},
+                                {false, "/softBodies/3/mesh", "/definitions/mesh"},
                                 {false, "/softBodies/1", "/definitions/softBody"},
                                 {true, "/softBodies/0/rotation", "/definitions/rotation"},
                                 {true, "/softBodies/0/pins/0", "/definitions/box"},
@@ -66,6 +68,13 @@ const SchemaPlace kObjects[] = {{true, "", ""},
                                 {true, "/forces/0", "/definitions/force"},
                                 {true, "/forces/0/nodes", "/definitions/box"},
                                 {false, "/forces/0", "/definitions/force"},
+                                {true, "/softBodies/0/mesh/holes/0", "/definitions/box"},
+                                {true, "/actuators/0", "/definitions/chamber"},
+                                {true, "/actuators/1", "/definitions/cable"},
+                                {false, "/actuators/0", "/definitions/cable"},
+                                {true, "/actuators/2", "/definitions/fibres"},
+                                {true, "/actuators/2/region", "/definitions/box"},
+                                {true, "/actuators/3", "/definitions/expansion"},
                                 {true, "/camera", "/definitions/camera"},
                                 {false, "/camera", "/definitions/camera"},
                                 {true, "/pictures", "/definitions/pictures"}};
@@ -275,10 +284,11 @@ std::string written(const SceneDescription& scene)
     for (const SceneSoftBody& body : scene.m_softBodies)
     {
         const Material& m = body.m_material;
-        all.insert(all.end(), {m.m_youngModulus, m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping,
-                               body.m_mesh.m_cellSize, double(body.m_mesh.m_tets), double(body.m_mesh.m_mostLevels),
-                               body.m_mesh.m_scale, body.m_friction, double(body.m_selfContact),
-                               double(body.m_mesh.m_surfaceCollides)});
+        all.insert(all.end(),
+                   {m.m_youngModulus, m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping,
+                    double(m.m_meanDilatation), double(m.m_accurateBending), body.m_mesh.m_cellSize,
+                    double(body.m_mesh.m_tets), double(body.m_mesh.m_mostLevels), body.m_mesh.m_scale, body.m_friction,
+                    body.m_restitution, double(body.m_selfContact), double(body.m_mesh.m_surfaceCollides)});
         for (const Vec3& x : {body.m_pose.m_position, body.m_velocity, body.m_colour}) add(x);
     }
     for (const SceneRigidBody& body : scene.m_rigidBodies)
@@ -292,6 +302,7 @@ std::string written(const SceneDescription& scene)
         add(constraint.m_axis);
     }
     for (const SceneForce& force : scene.m_forces) all.insert(all.end(), {force.m_from, force.m_to});
+    for (const SceneActuator& actuator : scene.m_actuators) all.push_back(actuator.m_sealedFrom);
     const ScenePictures& pictures = scene.m_pictures;
     all.insert(all.end(), {pictures.m_width, pictures.m_height, int(pictures.m_stress), int(pictures.m_forces),
                            int(pictures.m_wireframe)});
@@ -371,7 +382,8 @@ TEST_F(SceneSchema, TheMainDemosSceneIsRead)
 
 TEST_F(SceneSchema, TakesTheDemosScenes)
 {
-    for (const char* name : {"beam", "press", "hammer"})
+    for (const char* name : {"beam", "press", "hammer", "../balls/balls", "../bridge/bridge", "../dents/dents",
+                             "../finger/finger", "../tower/tower", "../walker/walker"})
     {
         std::ifstream file(BULLETFEM_SCENES "/" + std::string(name) + ".json");
         EXPECT_TRUE(isValid(json::parse(file, nullptr, true, true))) << name;

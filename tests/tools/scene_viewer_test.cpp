@@ -6,10 +6,14 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <set>
+#include <thread>
 
+#include "io/temporary_folder.h"
+#include "tools/mesh_files.h"
 #include "tools/pictures/viewer.h"
 #include "tools/scene/scene_simulation.h"
 #include "tools/scene_run.h"
@@ -29,7 +33,10 @@ protected:
     void open(const std::string& json)
     {
         m_run = std::make_unique<SceneRun>(json);
-        m_simulation.emplace(m_run->m_world);
+        SceneSimulationSettings how;
+        how.m_meshes.m_cage.m_targetTets = 300;
+        how.m_meshes.m_bake.m_material = Material::rubber();
+        m_simulation.emplace(m_run->m_world, how);
         ViewerSettings settings;
         settings.m_size = {800, 600};
         m_viewer = std::make_unique<Viewer>(*m_simulation, settings);
@@ -141,6 +148,48 @@ TEST_F(SceneViewer, SlidersOfTheMaterialKeepWhatTheyDoNotShow)
     for (int i = 0; i < m_run->nodeCount(1); ++i) top = std::max(top, m_run->node(1, i).y);
     EXPECT_LT(top, 0.19) << "jelly sags by rho g h^2 / 2 E = 20 mm under its weight, rubber would by 0.1 mm";
     EXPECT_THAT(m_simulation->status(), testing::HasSubstr("tetrahedra"));
+}
+
+// What the window's user does in a minute: a mesh, a ball onto it, back in time, and what cannot be opened.
+TEST_F(SceneViewer, ADroppedMeshIsHitByABallAndTimeGoesBack)
+{
+    open(R"({ "step": 0.01, "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }] })");
+    const TemporaryFolder folder;
+    writeBall(folder.path("ball.off"), 0.3, 10);
+    const Vec3 eye = m_viewer->control().camera().m_eye;
+    play(ViewerEvent::drop({folder.path("ball.off")}), 0);
+    for (int k = 0; k < 2000 && !m_simulation->progress().m_text.empty(); ++k)
+    {
+        m_viewer->frame(0);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ASSERT_EQ(m_run->m_world.softCount(), 1) << m_simulation->message();
+    m_viewer->frame(60);
+    EXPECT_GT(norm(m_viewer->control().camera().m_eye - eye), 0.01) << "the view is of the mesh";
+
+    const double top = 2 * middle().y;
+    play(moveTo(middle()), 0);
+    play(ViewerEvent::key(ViewerKey::ball), 0);
+    ASSERT_EQ(m_run->m_world.rigidCount(), 2);
+    const auto ballHeight = [&] { return double(m_run->m_world.rigid(1).getWorldTransform().getOrigin().y()); };
+    const double start = ballHeight();
+    EXPECT_GT(start, 0.5 * top);
+    play(ViewerEvent::key(ViewerKey::forces), 0);
+    play(ViewerEvent::key(ViewerKey::stress), 0);
+    const Image before = m_viewer->screenshot();
+    m_viewer->frame(40);
+    EXPECT_LT(ballHeight(), start - 0.05);
+    EXPECT_NE(m_viewer->screenshot().m_pixels, before.m_pixels);
+    for (int k = 0; k < 8; ++k) play(ViewerEvent::key(ViewerKey::earlier), 5);
+    EXPECT_TRUE(m_viewer->control().paused());
+    EXPECT_NEAR(ballHeight(), start, 1e-6);
+    play(ViewerEvent::key(ViewerKey::step), 5);
+    EXPECT_EQ(m_run->m_world.steps(), 61) << "one step, from there";
+
+    play(ViewerEvent::drop({folder.path("missing.off")}), 0);
+    for (int k = 0; k < 2000 && !m_simulation->progress().m_text.empty(); ++k) m_viewer->frame(0);
+    EXPECT_THAT(m_simulation->message(), testing::HasSubstr("missing.off"));
+    EXPECT_EQ(m_run->m_world.softCount(), 1);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "tools/scene/scene_frames.h"
 #include "tools/scene_run.h"
 #include "tools/scene_samples.h"
 
@@ -166,6 +167,30 @@ TEST(SceneWorld, ABakedBodyFallsWithItsOwnMass)
     EXPECT_NEAR(norm(run.node(0, 0) - corner - Vec3{0, -fall, 0.5}), 0, 1e-4);
 }
 
+// Layers of a cube of 1 m: the lower one is squeezed by what lies above, without lateral strains.
+TEST(SceneWorld, RegionsOfAFileHaveMaterialsOfTheirOwn)
+{
+    const TemporaryFolder folder;
+    writeSampleMeshes(folder);
+    SceneRun run(R"({ "step": 0.01, "softBodies": [{ "name": "layers", "mesh": { "tetrahedra": "regions.msh" },
+      "friction": 0, "materials": {
+        "1": { "young": 4e5, "poisson": 0, "density": 1000, "stiffnessDamping": 0.1 },
+        "-2": { "young": 1e8, "poisson": 0, "density": 3000, "stiffnessDamping": 0.1 } } }],
+      "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }] })",
+                 folder.path(""));
+    const std::vector<int> foot = run.nodesIn(0, {{-1, -0.1, -1}, {2, 0.1, 2}}),
+                           middle = run.nodesIn(0, {{-1, 0.4, -1}, {2, 0.6, 2}});
+    EXPECT_NEAR(run.m_world.soft(0).getTotalMass(), 2000, 0.01);
+    ASSERT_EQ(run.m_world.regionLabels(0).size(), 40u);
+    EXPECT_EQ(run.m_world.materials(0).m_regions.size(), 2u);
+    run.until(3);
+    const double height = run.node(0, middle[0]).y - run.node(0, foot[0]).y;
+    const double squeezed = 0.5 / 4e5 * 9.81 * (3000 * 0.5 + 1000 * 0.25);
+    EXPECT_NEAR(0.5 - height, squeezed, 0.02 * squeezed);
+    SceneFrames frames(run.m_world);
+    EXPECT_EQ(frames.volumes()[0].m_tetRegion, run.m_world.regionLabels(0));
+}
+
 TEST(SceneWorld, MeshesGetTheSizesAndElementsThatAreAskedFor)
 {
     const TemporaryFolder folder;
@@ -179,6 +204,9 @@ TEST(SceneWorld, MeshesGetTheSizesAndElementsThatAreAskedFor)
     EXPECT_EQ(countOf(R"("box": [1, 1, 1], "cell": 0.25, "scale": 0.5)"), 5 * 8) << "the cell is in metres";
     EXPECT_NEAR(countOf(R"("box": [1, 1, 1], "tets": 2000)"), 2000, 600);
     EXPECT_NEAR(countOf(R"("box": [20, 0.02, 0.02], "tets": 500)"), 500, 50) << "thin: one cell across";
+    EXPECT_EQ(countOf(R"("sphere": 0.4, "cell": 0.1)"), 6 * 512);
+    EXPECT_EQ(countOf(R"("sphere": 0.4, "cell": 0.1, "scale": 0.5)"), 6 * 64);
+    EXPECT_NEAR(countOf(R"("sphere": 0.4, "tets": 2000)"), 2000, 600);
     EXPECT_EQ(countOf(R"("surface": "cube.off", "cell": 0.5)"), 5 * 8);
     EXPECT_EQ(countOf(R"("surface": "cube.off", "cell": 0.5, "grade": 4, "levels": 2)"), 6 * 64);
     SceneRun scan(R"({ "softBodies": [{ "name": "b", "mesh": { "surface": "cube.off", "tets": 600, "scale": 0.5 },
@@ -187,6 +215,24 @@ TEST(SceneWorld, MeshesGetTheSizesAndElementsThatAreAskedFor)
     EXPECT_NEAR(scan.m_world.soft(0).m_tetras.size(), 600, 300);
     EXPECT_NEAR(scan.m_world.soft(0).getTotalMass(), 800 * 0.125, 0.5);
     EXPECT_NEAR(scan.m_world.soft(1).getTotalMass(), 1000 * 8, 8);
+}
+
+// A ball that falls .2 m has 2 m/s, and half of it after it has bounced.
+TEST(SceneWorld, ASoftBallBouncesByItsRestitution)
+{
+    for (const double restitution : {0.0, 0.5})
+    {
+        SceneRun run(R"({ "step": 0.005,
+          "softBodies": [{ "name": "ball", "mesh": { "sphere": 0.1, "cell": 0.05 }, "position": [0, 0.3, 0],
+            "material": { "young": 1e7, "stiffnessDamping": 0.02 }, "restitution": )" +
+                     std::to_string(restitution) + R"( }],
+          "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] }, "restitution": 1 }] })");
+        double highest = 0, mass = 0;
+        for (int i = 0; i < run.nodeCount(0); ++i) mass += 1 / double(run.m_world.soft(0).m_nodes[i].m_im);
+        run.until(0.22);  // it has touched the ground after .202 s
+        for (; run.m_world.time() < 0.5; run.m_world.step()) highest = std::max(highest, run.momentum(0).y / mass);
+        EXPECT_NEAR(highest, 2 * restitution, 0.2) << restitution;
+    }
 }
 
 TEST(SceneWorld, ASceneGivesTheSameBitsAgain)
@@ -240,6 +286,18 @@ TEST(SceneWorld, WhatNoBodyCanHaveIsRefusedWithTheBodysName)
                     testing::AllOf(StartsWith("'pad': "), HasSubstr(folder.path("")), HasSubstr("bad.")))
             << member;
     EXPECT_THAT(refusal(R"("mesh": { "surface": "open.off" })", "", folder.path("")), StartsWith("'pad': "));
+    const TemporaryFolder meshes;
+    writeSampleMeshes(meshes);
+    const auto regions = [&](const std::string& file, const std::string& materials) {
+        return refusal("\"mesh\": { \"tetrahedra\": \"" + file + "\" }, \"materials\": " + materials, "",
+                       meshes.path(""));
+    };
+    EXPECT_THAT(regions("two.node", R"({ "1": "foam" })"),
+                "'pad': its file has no regions and is not painted; give it one material");
+    EXPECT_THAT(regions("regions.msh", R"({ "1": "foam", "5": "wood" })"),
+                testing::AllOf(StartsWith("'pad': region -2"), HasSubstr("for the regions: 1, 5")));
+    EXPECT_THAT(regions("regions.msh", R"({ "1": "foam", "-2": { "stiffnessDamping": 0.1 } })"),
+                testing::AllOf(StartsWith("'pad': the stiffness damping"), HasSubstr("give all its regions the same")));
 }
 
 }  // namespace

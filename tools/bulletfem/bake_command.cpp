@@ -6,11 +6,12 @@
 
 #include "bullet_fem/fem/baked/baked_body.h"
 #include "fem/common/output_file.h"
+#include "tools/bulletfem/cage_options.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
 #include "tools/bulletfem/material_options.h"
-#include "tools/bulletfem/mesh_input.h"
 #include "tools/console/option_range.h"
+#include "tools/scene/mesh_input.h"
 
 namespace bullet_fem
 {
@@ -40,8 +41,8 @@ struct BakeCommand
     void run()
     {
         checkWritable(m_output);
-        const MeshInput input = MeshInput::read(m_mesh, m_scale, m_cage);
-        const BakeSettings wanted = settings(input.m_mesh);
+        const MeshInput input = MeshInput::read(m_mesh, m_scale, m_cage.settings());
+        const BakeSettings wanted = settings(input);
         const BakedBody body =
             input.m_cage ? bakeBody(*input.m_cage, input.m_surface, wanted) : bakeBody(input.m_mesh, wanted);
         writeBakedBody(m_output, body);
@@ -57,14 +58,19 @@ struct BakeCommand
         m_figures.print();
     }
 
-    BakeSettings settings(const TetMesh& mesh) const
+    BakeSettings settings(const MeshInput& input) const
     {
         BakeSettings settings;
         settings.m_material = m_material.material();
+        settings.m_regionMaterials = m_material.regions();
+        if (!settings.m_regionMaterials.empty()) settings.m_labels = input.m_labels;
+        if (!settings.m_regionMaterials.empty() && settings.m_labels.empty())
+            throw std::runtime_error("--region is given, and '" + m_mesh +
+                                     "' has no regions and is not painted; leave it out");
         settings.m_step = numberOf(m_step);
         settings.m_singlePrecision = !m_double;
         if (m_lowMemory) settings.m_choice = FactorChoice::lowMemory;
-        for (const auto& box : m_pinBoxes) pin(mesh, box, settings.m_pins);
+        for (const auto& box : m_pinBoxes) pin(input.m_mesh, box, settings.m_pins);
         return settings;
     }
 

@@ -4,10 +4,11 @@
 
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_writer.h"
+#include "tools/bulletfem/cage_options.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
-#include "tools/bulletfem/mesh_input.h"
 #include "tools/console/option_range.h"
+#include "tools/scene/mesh_input.h"
 
 namespace bullet_fem
 {
@@ -26,7 +27,7 @@ struct CageCommand
         if (!isSurfaceFile(m_surface))
             throw std::runtime_error("'" + m_surface + "' is no surface file; it must end in .off, .obj, .stl or .ply");
         if (!m_output.empty()) checkTetMeshOutput(m_output);
-        const MeshInput input = MeshInput::read(m_surface, m_scale, m_cage);
+        const MeshInput input = MeshInput::read(m_surface, m_scale, m_cage.settings());
         if (!m_output.empty()) writeTetMeshFile(m_output, input.m_mesh);
         tell(input.m_cage->m_report);
         m_figures.print();

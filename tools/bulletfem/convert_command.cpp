@@ -11,8 +11,8 @@
 #include "fem/common/output_file.h"
 #include "io/file_bytes.h"
 #include "tools/bulletfem/commands.h"
-#include "tools/bulletfem/mesh_input.h"
 #include "tools/console/option_range.h"
+#include "tools/scene/mesh_input.h"
 
 namespace bullet_fem
 {

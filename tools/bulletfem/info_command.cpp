@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "bullet_fem/fem/baked/baked_body.h"
 #include "bullet_fem/fem/cage/cage_report.h"
@@ -10,13 +16,15 @@
 #include "io/file_bytes.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
-#include "tools/bulletfem/mesh_input.h"
+#include "tools/scene/mesh_input.h"
 #include "tools/scene/scene_reader.h"
 
 namespace bullet_fem
 {
 namespace
 {
+
+constexpr std::size_t kMostLabels = 20;  // of a surface that are listed: photographs have thousands of colours
 
 struct InfoCommand
 {
@@ -28,7 +36,7 @@ struct InfoCommand
         const std::string ending = lowerCaseEnding(m_file);
         m_figures.add("file", m_file);
         if (ending == ".bfem")
-            tellBaked(inspectBakedBody(m_file));
+            tellBaked();
         else if (ending == ".json")
             tellScene(readScene(m_file));
         else if (isSurfaceFile(m_file))
@@ -38,8 +46,9 @@ struct InfoCommand
         m_figures.print();
     }
 
-    void tellBaked(const BakedFileInfo& info)
+    void tellBaked()
     {
+        const BakedFileInfo info = inspectBakedBody(m_file);
         m_figures.add("kind", "baked body");
         m_figures.add("version", info.m_version);
         m_figures.add("bytes", info.m_fileBytes);
@@ -50,13 +59,62 @@ struct InfoCommand
         m_figures.add("pinned", info.m_nodes - info.m_freeNodes, "nodes");
         m_figures.add("embeddedVertices", info.m_embeddedVertices);
         if (info.m_embeddedVertices > 0) m_figures.add("collides", info.m_surfaceCollides ? "surface" : "cage");
-        m_figures.add("young", info.m_material.m_youngModulus, "Pa");
-        m_figures.add("poisson", info.m_material.m_poissonRatio);
-        m_figures.add("density", info.m_material.m_density, "kg/m3");
+        if (info.m_regions == 1)
+        {
+            m_figures.add("young", info.m_material.m_youngModulus, "Pa");
+            m_figures.add("poisson", info.m_material.m_poissonRatio);
+            m_figures.add("density", info.m_material.m_density, "kg/m3");
+        }
         m_figures.add("massDamping", info.m_material.m_massDamping, "1/s");
         m_figures.add("stiffnessDamping", info.m_material.m_stiffnessDamping, "s");
+        if (info.m_regions == 1) m_figures.add("meanDilatation", info.m_material.usesMeanDilatation() ? "on" : "off");
+        if (info.m_regions == 1 && info.m_material.m_law == ElasticLaw::neoHooke) m_figures.add("law", "neoHooke");
+        if (info.m_regions == 1 && info.m_material.m_accurateBending) m_figures.add("accurateBending", "on");
+        if (info.m_regions == 1 && info.m_material.yields())
+            m_figures.add("yieldStress", info.m_material.m_yieldStress, "Pa");
         m_figures.add("step", info.m_step, "s");
         m_figures.add("precision", info.m_singlePrecision ? "single" : "double");
+        if (info.m_regions > 1) tellRegions(readBakedBody(m_file));
+    }
+
+    // Volumes are those that are filled.
+    void tellRegions(const BakedBody& body)
+    {
+        const RestShape& shape = body.m_model->shape();
+        for (std::size_t r = 0; r < shape.m_materials.m_regions.size(); ++r)
+        {
+            const auto& [label, material] = shape.m_materials.m_regions[r];
+            int tets = 0;
+            double volume = 0;
+            for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
+                if (shape.m_materials.regionOf(e) == r)
+                {
+                    ++tets;
+                    volume += shape.m_elements[e].m_volume;
+                }
+            const double density = material.m_density > 0 ? material.m_density : 1000;  // as it was baked
+            m_figures.add("region " + std::to_string(label),
+                          {{"tets", tets},
+                           {"volume", volume},
+                           {"young", material.m_youngModulus},
+                           {"poisson", material.m_poissonRatio},
+                           {"density", material.m_density},
+                           {"mass", density * body.m_massScale * volume},
+                           {"meanDilatation", material.usesMeanDilatation() ? "on" : "off"}},
+                          "m3, Pa, kg/m3, kg");
+        }
+    }
+
+    void tellLabels(const TetMesh& mesh, const std::vector<int>& labels)
+    {
+        std::map<int, std::pair<int, double>> regions;  // elements, volume
+        for (int e = 0; e < mesh.tetCount() && !labels.empty(); ++e)
+        {
+            ++regions[labels[e]].first;
+            regions[labels[e]].second += mesh.tetVolume(e);
+        }
+        for (const auto& [label, found] : regions)
+            m_figures.add("region " + std::to_string(label), {{"tets", found.first}, {"volume", found.second}}, "m3");
     }
 
     void tellScene(const SceneDescription& scene)
@@ -77,6 +135,12 @@ struct InfoCommand
         m_figures.add("vertices", surface.m_vertices.size());
         m_figures.add("triangles", surface.m_triangles.size());
         m_figures.add("signedVolume", signedVolume(surface), "m3, negative if inside out");
+        const std::set<int> labels(surface.m_labels.begin(), surface.m_labels.end());
+        m_figures.add("painted", labels.size(), "regions");
+        if (labels.size() <= kMostLabels)
+            for (const int label : labels)
+                m_figures.add("region " + std::to_string(label),
+                              {{"vertices", std::count(surface.m_labels.begin(), surface.m_labels.end(), label)}});
         tellBounds(surface.m_vertices);
     }
 
@@ -101,6 +165,7 @@ struct InfoCommand
         m_figures.add("meanEdge", mesh.meanEdgeLength(), "m");
         m_figures.add("leastQuality", least, "mean ratio, 1 is a regular tetrahedron");
         tellBounds(mesh.restPositions());
+        tellLabels(mesh, file.m_regions);
     }
 
     void tellBounds(const std::vector<Vec3>& positions)

@@ -2,10 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // From a mesh to a body, and from a scene to pictures.
-#include <cstdio>
-
 #include "tools/bulletfem/commands.h"
 #include "tools/console/option_range.h"
+#include "tools/console/program.h"
 
 int main(int argc, char** argv)
 {
@@ -25,18 +24,17 @@ int main(int argc, char** argv)
     addInfoCommand(app);
     addConvertCommand(app);
     addSimulateCommand(app);
-    try
+    const auto run = [&]
     {
-        app.parse(argc, argv);
-        return 0;
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : kUsageError;
-    }
-    catch (const std::exception& error)
-    {
-        std::fprintf(stderr, "bulletfem: %s\n", error.what());
-        return kDataError;
-    }
+        try
+        {
+            app.parse(argc, argv);
+            return 0;
+        }
+        catch (const CLI::ParseError& error)
+        {
+            return app.exit(error) == 0 ? 0 : kUsageError;
+        }
+    };
+    return runProgram("bulletfem", run);
 }

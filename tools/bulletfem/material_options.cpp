@@ -2,37 +2,132 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/bulletfem/material_options.h"
 
+#include <charconv>
+#include <cstdlib>
+#include <exception>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
 #include "tools/console/option_range.h"
 
 namespace bullet_fem
 {
+namespace
+{
+
+const std::map<std::string, Material> kPresets = {{"rubber", Material::rubber()}, {"foam", Material::foam()},
+                                                  {"jelly", Material::jelly()},   {"flesh", Material::flesh()},
+                                                  {"wood", Material::wood()},     {"clay", Material::clay()},
+                                                  {"lead", Material::lead()},     {"mildFoam", Material::mildFoam()}};
+
+constexpr const char* kRegionForm =
+    "; give its label and what it is made of, as 7:rubber or 7:rubber,young=2e5,poisson=.45,density=1100";
+
+double valueOf(const std::string& text)
+{
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != 0) throw std::runtime_error("'" + text + "' is no number");
+    return value;
+}
+
+// A preset, or the name of a value and the value.
+void take(const std::string& part, Material& material)
+{
+    const std::size_t sign = part.find('=');
+    if (sign == std::string::npos)
+    {
+        const auto preset = kPresets.find(part);
+        if (preset == kPresets.end()) throw std::runtime_error("'" + part + "' is no material");
+        const Material body = material;  // what it has is not a region's own
+        material = preset->second;
+        material.m_massDamping = body.m_massDamping;
+        material.m_stiffnessDamping = body.m_stiffnessDamping;
+        material.m_meanDilatation = body.m_meanDilatation;
+        material.m_accurateBending = body.m_accurateBending;
+        return;
+    }
+    const std::string name = part.substr(0, sign);
+    double Material::*const member = name == "young"     ? &Material::m_youngModulus
+                                     : name == "poisson" ? &Material::m_poissonRatio
+                                     : name == "density" ? &Material::m_density
+                                                         : nullptr;
+    if (!member) throw std::runtime_error("'" + name + "' is no value of a region");
+    material.*member = valueOf(part.substr(sign + 1));
+}
+
+// Into a label and a material.
+void takeRegion(const std::string& text, Material material, std::map<int, Material>& regions)
+{
+    int label = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, label);
+    if (error != std::errc() || end == last || *end != ':') throw std::runtime_error("it has no label with ':' behind");
+    std::istringstream parts(std::string(end + 1, last));
+    int count = 0;
+    for (std::string part; std::getline(parts, part, ','); ++count) take(part, material);
+    if (count == 0) throw std::runtime_error("there is no material");
+    material.validate();
+    if (!regions.emplace(label, material).second) throw std::runtime_error("its region was given before");
+}
+
+}  // namespace
+
+std::map<int, Material> MaterialOptions::regions() const
+{
+    std::map<int, Material> regions;
+    for (const std::string& text : m_regions)
+    {
+        try
+        {
+            takeRegion(text, material(), regions);
+        }
+        catch (const std::exception& error)
+        {
+            throw std::runtime_error("--region " + text + ": " + error.what() + kRegionForm);
+        }
+    }
+    return regions;
+}
 
 void MaterialOptions::add(CLI::App& command)
 {
     command
-        .add_option("--material", m_preset, "rubber, foam, jelly, flesh or wood (default: E 1e6 Pa, nu .3, 1000 kg/m3)")
-        ->check(CLI::IsMember({"rubber", "foam", "jelly", "flesh", "wood"}));
+        .add_option("--material", m_preset,
+                    "rubber, foam, jelly, flesh, wood, clay, lead or mildFoam (default: E 1e6 Pa, nu .3, 1000 kg/m3)")
+        ->check(CLI::IsMember({"rubber", "foam", "jelly", "flesh", "wood", "clay", "lead", "mildFoam"}));
     command.add_option("--young", m_young, "Young's modulus [Pa]")->check(inRange(1e-3, 1e13));
-    command.add_option("--poisson", m_poisson, "Poisson's ratio [-]")->check(inRange(0, 0.49));
+    command.add_option("--poisson", m_poisson, "Poisson's ratio [-]")->check(inRange(0, Material::kMostPoissonRatio));
     command.add_option("--density", m_density, "density [kg/m3]")->check(inRange(1e-6, 1e6));
     command.add_option("--mass-damping", m_massDamping, "Rayleigh's alpha [1/s] (default 0)")->check(inRange(0, 1e4));
     command.add_option("--stiffness-damping", m_stiffnessDamping, "Rayleigh's beta [s] (default 0.005)")
         ->check(inRange(0, 10));
+    command
+        .add_option("--mean-dilatation", m_meanDilatation,
+                    "auto, on or off: neighbouring elements share their volume change (default auto: above nu .4)")
+        ->check(CLI::IsMember({"auto", "on", "off"}));
+    command.add_flag("--accurate-bending", m_accurateBending,
+                     "strains are averaged around edges, so that thin parts bend as much as they should");
+    command
+        .add_option("--region", m_regions,
+                    "material of a region of the file, by its label: 7:rubber or 7:young=2e5,poisson=.45,density=1100; "
+                    "give it for every region")
+        ->allow_extra_args(false);
 }
 
 Material MaterialOptions::material() const
 {
-    Material material = m_preset == "rubber"  ? Material::rubber()
-                        : m_preset == "foam"  ? Material::foam()
-                        : m_preset == "jelly" ? Material::jelly()
-                        : m_preset == "flesh" ? Material::flesh()
-                        : m_preset == "wood"  ? Material::wood()
-                                              : Material();
+    Material material = m_preset.empty() ? Material() : kPresets.at(m_preset);
     material.m_stiffnessDamping = m_stiffnessDamping.value_or(0.005);  // as btFemMaterial
     material.m_youngModulus = m_young.value_or(material.m_youngModulus);
     material.m_poissonRatio = m_poisson.value_or(material.m_poissonRatio);
     material.m_density = m_density.value_or(material.m_density);
     material.m_massDamping = m_massDamping.value_or(material.m_massDamping);
+    material.m_meanDilatation = m_meanDilatation == "on"    ? MeanDilatation::on
+                                : m_meanDilatation == "off" ? MeanDilatation::off
+                                                            : MeanDilatation::automatic;
+    material.m_accurateBending = m_accurateBending;
     return material;
 }
 

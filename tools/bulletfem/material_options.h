@@ -3,8 +3,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bullet_fem/fem/mesh/material.h"
 
@@ -17,9 +19,13 @@ class MaterialOptions
 public:
     void add(CLI::App& command);
     Material material() const;
+    /// Those of regions, by label; what is not given is material()'s. Throws std::runtime_error on a text that is none.
+    std::map<int, Material> regions() const;
 
 private:
-    std::string m_preset;
+    std::string m_preset, m_meanDilatation;
+    bool m_accurateBending = false;
+    std::vector<std::string> m_regions;
     std::optional<double> m_young, m_poisson, m_density, m_massDamping, m_stiffnessDamping;
 };
 

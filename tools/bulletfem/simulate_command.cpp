@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "tools/bulletfem/cage_options.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
+#include "tools/bulletfem/material_options.h"
 #include "tools/bulletfem/run_output.h"
 #include "tools/console/option_range.h"
 #include "tools/console/progress_line.h"
@@ -21,6 +23,17 @@ namespace bullet_fem
 {
 namespace
 {
+
+std::string windowHelp()
+{
+#ifdef BULLETFEM_HAS_VIEWER
+    return viewerHelpText();
+#else
+    return "(this program was built without a window)";
+#endif
+}
+
+constexpr std::size_t kMostFactorBytes = std::size_t(4) << 30u;  // of a mesh that is opened in the window
 
 /// Cost and health of a run.
 struct RunFigures
@@ -49,22 +62,39 @@ struct SimulateCommand
     RunOutputSettings m_output;
     double m_seconds = 0;
     bool m_stress = false, m_window = false, m_quiet = false;
+    std::vector<std::string> m_meshes;  // of the window
+    double m_scale = 1;
+    CageOptions m_cage;
+    MaterialOptions m_material;
+    int m_historySteps = 10, m_historyMegabytes = 256;
     Figures m_figures;
 
     void run()
     {
+        if (m_window) return show();
+        if (m_scene.empty()) throw CLI::ValidationError("simulate", "a scene is required, but with --window");
+        simulate();
+    }
+
+    SceneDescription read() const
+    {
         SceneDescription scene = readScene(m_scene);
         if (m_seconds > 0) scene.m_seconds = m_seconds;
         if (m_stress) scene.m_pictures.m_stress = true;
-        if (m_output.m_folder.empty()) m_output.m_folder = "out/" + std::filesystem::path(m_scene).stem().string();
-        if (!m_output.m_glb && !m_output.m_png && m_output.m_films.empty()) m_output.m_pvd = true;
-        SceneWorld world(scene);
-        if (m_window) return show(world);
-        simulate(world);
+        return scene;
     }
 
-    void simulate(SceneWorld& world)
+    std::string folder() const
     {
+        if (!m_output.m_folder.empty()) return m_output.m_folder;
+        return "out/" + (m_scene.empty() ? "window" : std::filesystem::path(m_scene).stem().string());
+    }
+
+    void simulate()
+    {
+        SceneWorld world(read());
+        m_output.m_folder = folder();
+        if (!m_output.m_glb && !m_output.m_png && m_output.m_films.empty()) m_output.m_pvd = true;
         const SceneDescription& scene = world.description();
         SceneFrames frames(world);
         RunOutput output(m_output, world, frames);
@@ -115,16 +145,26 @@ struct SimulateCommand
     }
 
 #ifdef BULLETFEM_HAS_VIEWER
-    static void show(SceneWorld& world)
+    void show() const
     {
-        SceneSimulation simulation(world);
+        SceneWorld world(m_scene.empty() ? emptyScene() : read());
+        SceneSimulationSettings how;
+        how.m_meshes.m_scale = m_scale;
+        how.m_meshes.m_cage = m_cage.settings();
+        how.m_meshes.m_bake.m_material = m_material.material();
+        how.m_meshes.m_bake.m_regionMaterials = m_material.regions();
+        how.m_meshes.m_bake.m_maxBytes = kMostFactorBytes;
+        how.m_history = {m_historySteps, static_cast<std::size_t>(m_historyMegabytes) << 20u};
+        SceneSimulation simulation(world, how);
+        for (const std::string& mesh : m_meshes) simulation.open(mesh);
         ViewerSettings settings;
+        settings.m_filmFolder = folder();
         settings.m_title = world.description().m_title.empty() ? "BulletFEM" : world.description().m_title;
         settings.m_size = {world.description().m_pictures.m_width, world.description().m_pictures.m_height};
         Viewer(simulation, settings).run();
     }
 #else
-    static void show(SceneWorld&)
+    void show() const
     {
         throw std::runtime_error(
             "this program was built without a window: install what docs/pictures.md names, and build it anew");
@@ -134,15 +174,47 @@ struct SimulateCommand
 
 }  // namespace
 
+namespace
+{
+
+void addWindowOptions(CLI::App& command, SimulateCommand& options)
+{
+    CLI::Option* window =
+        command.add_flag("--window", options.m_window, "show it; only films that you make there are written");
+    const std::size_t others = command.get_options().size();
+    CLI::Option* mesh = command.add_option(
+        "--mesh", options.m_meshes,
+        "of the window: opens a surface (.off, .obj, .stl, .ply), tetrahedra (.msh, .vtk, .vtu, .mesh, .node) or a "
+        "baked body (.bfem), as if it were dropped there; may be given again");
+    mesh->take_all()->allow_extra_args(false);
+    command.add_option("--scale", options.m_scale, "of the window: times the positions of meshes (default 1)")
+        ->check(inRange(1e-9, 1e9));
+    options.m_cage.add(command);
+    options.m_material.add(command);
+    command
+        .add_option("--history-steps", options.m_historySteps,
+                    "of the window: steps between the states that it goes back to (default 10)")
+        ->check(inRange(1, 100000));
+    command
+        .add_option("--history-memory", options.m_historyMegabytes,
+                    "of the window: most memory for these states [MiB]; the oldest go first (default 256)")
+        ->check(inRange(1, 65536));
+    const std::vector<CLI::Option*> all = command.get_options();
+    for (std::size_t k = others; k < all.size(); ++k) all[k]->needs(window);
+}
+
+}  // namespace
+
 void addSimulateCommand(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
         "simulate",
-        "Runs a scene (docs/scenes.md) and writes what you ask for; ParaView files if you ask for nothing.\n"
-        "Or shows it in a window: drag bodies with the left button, turn with it beside them, space pauses.");
+        std::string(
+            "Runs a scene (docs/scenes.md) and writes what you ask for; ParaView files if you ask for nothing.\n") +
+            "Or shows it in a window, where meshes can be dropped:\n\n" + windowHelp());
     const auto options = std::make_shared<SimulateCommand>();
     RunOutputSettings& output = options->m_output;
-    command->add_option("scene", options->m_scene, "the scene's .json file")->required();
+    command->add_option("scene", options->m_scene, "the scene's .json file; the window needs none");
     command->add_option("-o,--out", output.m_folder, "folder of the files (default out/<scene>)");
     command->add_option("--seconds", options->m_seconds, "time to simulate (default: the scene's)")
         ->check(inRange(1e-6, 1e5));
@@ -161,7 +233,7 @@ void addSimulateCommand(CLI::App& app)
         ->allow_extra_args(false);
     command->add_flag("--stress", options->m_stress, "colours are von Mises stress");
     command->add_flag("--quiet", options->m_quiet, "no progress");
-    command->add_flag("--window", options->m_window, "show it; nothing is written");
+    addWindowOptions(*command, *options);
     options->m_figures.addOption(*command);
     command->callback([options] { options->run(); });
 }

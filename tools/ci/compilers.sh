@@ -46,7 +46,17 @@ compile()
     # shellcheck disable=SC2086
     "$compiler" -std="c++$(draft_of "$compiler" "$standard")" $client_warnings -Wno-deprecated-declarations -I"$root/include" \
         -isystem /usr/include/bullet -fsyntax-only "$build/client.cpp" || fail "$compiler, C++$standard: a client has warnings"
-    rows+=("$(printf '%-12s C++%s  %-8s built in %d s, and a client' "$compiler" "$standard" "$type" $((SECONDS - began)))")
+    rows+=("$(built "$(name_of "$compiler"), $type" "C++$standard" "$(bullet_version /usr/include/bullet)" float \
+        "$(system_of_build)" "libraries and a client compile without a warning"), in $((SECONDS - began)) s")
+}
+
+# name_of <compiler>: e.g. GCC 12.2.0
+name_of()
+{
+    case $1 in
+    clang*) echo "clang $("$1" -dumpversion)" ;;
+    *) echo "GCC $("$1" -dumpfullversion)" ;;
+    esac
 }
 
 # draft_of <compiler> <standard>: its name for it; clang before 17 knows C++23 as 2b.

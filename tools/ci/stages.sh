@@ -44,3 +44,26 @@ files_of_project()
         (cd "$root" && find . -path ./build -prune -o -path ./out -prune -o -type f -printf '%P\n')
     fi
 }
+
+# built <compiler> <standard> <Bullet> <precision> <system> <result>: prints it; with RECORD=1 in the environment it goes to
+# docs/compatibility.md, too.
+built()
+{
+    if [ "${RECORD-}" = 1 ]; then
+        python3 "$root/tools/ci/built.py" "$@"
+    else
+        printf '%s  %s  %s  %s  %s  %s\n' "$@"
+    fi
+}
+
+# bullet_version <headers>: e.g. 3.24
+bullet_version()
+{
+    sed -n 's/^#define BT_BULLET_VERSION \([0-9]\)\([0-9]*\).*/\1.\2/p' "$1/LinearMath/btScalar.h"
+}
+
+# system_of_build: e.g. Debian 12, x86-64
+system_of_build()
+{
+    printf '%s, %s\n' "$(. /etc/os-release && printf '%s %s' "${NAME%% *}" "${VERSION_ID-}")" "$(uname -m | tr _ -)"
+}

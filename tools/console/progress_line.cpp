@@ -2,15 +2,32 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/console/progress_line.h"
 
+#ifdef _WIN32
+#include <io.h>
+#else
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <cstdio>
 
 namespace bullet_fem
 {
+namespace
+{
 
-ProgressLine::ProgressLine() : m_onTerminal(isatty(STDOUT_FILENO) != 0) {}
+bool isTerminal(std::FILE* file)
+{
+#ifdef _WIN32
+    return _isatty(_fileno(file)) != 0;
+#else
+    return isatty(fileno(file)) != 0;
+#endif
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine() : m_onTerminal(isTerminal(stdout)) {}
 
 void ProgressLine::show(double done, const std::string& text)
 {

@@ -16,7 +16,8 @@ constexpr Colour kInk{0.16, 0.18, 0.22}, kPaper{1, 1, 1};
 constexpr double kBarHeight = 0.42;     // of the picture
 constexpr double kPaperOpacity = 0.72;  // lets what is behind shine through
 
-void addColourBar(const PictureScene& scene, const PictureSize& size, Overlay& overlay)
+/// Returns the paper's lower edge.
+double addColourBar(const PictureScene& scene, const PictureSize& size, Overlay& overlay)
 {
     const double h = legendTextHeight(size), pad = std::round(0.7 * h);
     const std::string title = legendTitle(scene.m_colourScale);
@@ -41,6 +42,37 @@ void addColourBar(const PictureScene& scene, const PictureSize& size, Overlay& o
         overlay.rectangle({left + barWidth, y - 0.5, std::round(0.35 * h), 1}, kInk, 1);
         overlay.text({left + barWidth + 0.7 * h, y + 0.36 * h}, label.m_text, TextAlignment::left, kInk);
     }
+    return paper.m_y + paper.m_height;
+}
+
+/// A shaft with a head of thin columns, its tip at the right.
+void addArrow(const PictureRectangle& area, const Colour& colour, Overlay& overlay)
+{
+    const double head = std::round(area.m_height), middle = area.m_y + 0.5 * area.m_height;
+    const double shaft = std::max(2., std::round(0.25 * area.m_height));
+    overlay.rectangle({area.m_x, middle - 0.5 * shaft, area.m_width - head, shaft}, colour, 1);
+    for (double x = 0; x < head; ++x)
+    {
+        const double height = area.m_height * (1 - x / head);
+        overlay.rectangle({area.m_x + area.m_width - head + x, middle - 0.5 * height, 1, height}, colour, 1);
+    }
+}
+
+/// Returns the paper's lower edge, like what is given for the one above.
+double addArrows(const PictureArrows& arrows, const PictureSize& size, double above, Overlay& overlay)
+{
+    const double h = legendTextHeight(size), pad = std::round(0.7 * h), arrow = std::round(2.2 * h);
+    const std::string title = legendTitle(arrows), range = legendRange(arrows);
+    const double inner = std::max(overlay.textWidth(title), arrow + 0.7 * h + overlay.textWidth(range));
+    PictureRectangle paper{0, above + std::round(1.2 * h), std::round(inner + 2 * pad), std::round(2 * pad + 2.6 * h)};
+    paper.m_x = size.m_width - paper.m_width - std::round(1.2 * h);
+    overlay.rectangle(paper, kPaper, kPaperOpacity);
+    const double left = paper.m_x + pad;
+    overlay.text({left, paper.m_y + pad + 0.75 * h}, title, TextAlignment::left, kInk);
+    const double y = paper.m_y + pad + 1.6 * h;
+    addArrow({left, y, arrow, std::round(0.8 * h)}, arrows.m_colour, overlay);
+    overlay.text({left + arrow + 0.7 * h, y + 0.76 * h}, range, TextAlignment::left, kInk);
+    return paper.m_y + paper.m_height;
 }
 
 }  // namespace
@@ -50,12 +82,20 @@ double legendTextHeight(const PictureSize& size)
     return std::clamp(std::round(std::min(size.m_height / 36., size.m_width / 40.)), 9., 48.);
 }
 
+double captionHeight(const PictureSize& size)
+{
+    return std::round(2.3 * legendTextHeight(size));
+}
+
 void addLegend(const PictureScene& scene, const PictureSize& size, Overlay& overlay)
 {
     const bool scalars = std::any_of(scene.m_meshes.begin(), scene.m_meshes.end(),
                                      [](const PictureMesh& mesh) { return !mesh.m_scalars.empty(); });
     const double h = legendTextHeight(size);
-    if (scalars && scene.m_colourScale.m_legend) addColourBar(scene, size, overlay);
+    double lower = 0;
+    if (scalars && scene.m_colourScale.m_legend) lower = addColourBar(scene, size, overlay);
+    for (const PictureArrows& arrows : scene.m_arrows)
+        if (!arrows.m_title.empty()) lower = addArrows(arrows, size, lower, overlay);
     if (!scene.m_caption.empty())
         overlay.text({1.2 * h, size.m_height - 1.2 * h}, scene.m_caption, TextAlignment::left, kInk);
 }

@@ -10,7 +10,11 @@ namespace bullet_fem
 /// The overlay's text height that suits a picture of `size` [pixels].
 double legendTextHeight(const PictureSize& size);
 
-/// Adds the colour bar with title and numbers at the right border, if the scene has scalars, and the caption.
+/// From the lower edge, up to where the caption reaches [pixels].
+double captionHeight(const PictureSize& size);
+
+/// Adds the colour bar with title and numbers at the right border, if the scene has scalars, below it what arrows with
+/// a title show, and the caption.
 void addLegend(const PictureScene& scene, const PictureSize& size, Overlay& overlay);
 
 }  // namespace bullet_fem

@@ -40,6 +40,11 @@ std::string shortNumber(double value)
     return number;
 }
 
+PictureColourScale scaleOf(const PictureArrows& arrows)
+{
+    return {0, arrows.m_longest > 0 ? arrows.m_longest : 1, arrows.m_title, arrows.m_unit, true};
+}
+
 }  // namespace
 
 std::vector<LegendLabel> legendLabels(const PictureColourScale& scale)
@@ -57,6 +62,17 @@ std::string legendTitle(const PictureColourScale& scale)
 {
     if (scale.m_unit.empty()) return scale.m_title;
     return scale.m_title + (scale.m_title.empty() ? "[" : " [") + prefix(scale).m_name + scale.m_unit + "]";
+}
+
+std::string legendTitle(const PictureArrows& arrows)
+{
+    return legendTitle(scaleOf(arrows));
+}
+
+std::string legendRange(const PictureArrows& arrows)
+{
+    if (!(arrows.m_longest > 0)) return "none yet";
+    return "0 to " + shortNumber(arrows.m_longest / prefix(scaleOf(arrows)).m_factor);
 }
 
 }  // namespace bullet_fem

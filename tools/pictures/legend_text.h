@@ -24,4 +24,8 @@ std::vector<LegendLabel> legendLabels(const PictureColourScale& scale);
 /// ends.
 std::string legendTitle(const PictureColourScale& scale);
 
+/// The same of arrows, and how far they go: "contact force [kN]" and "0 to 1.25", or "none yet".
+std::string legendTitle(const PictureArrows& arrows);
+std::string legendRange(const PictureArrows& arrows);
+
 }  // namespace bullet_fem

@@ -45,6 +45,9 @@ struct PictureArrows
     double m_scale = 1;      ///< metres a unit of the vectors, > 0; 1e-3 draws 1000 N as a metre
     double m_thickness = 0;  ///< diameter of the shafts [m]; 0: 1/150 of the scene
     Colour m_colour{0.80, 0.18, 0.22};
+    std::string m_title = {},
+                m_unit = {};  ///< for the legend, as in PictureColourScale; without a title it has no arrows
+    double m_longest = 0;     ///< the vector that the legend tells [m_unit]; 0: there was none yet
 };
 
 /// An endless plane that fades into the background. It is seen from above only.

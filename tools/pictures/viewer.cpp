@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tools/pictures/film_recorder.h"
 #include "tools/pictures/picture_framebuffer.h"
 #include "tools/pictures/scene_renderer.h"
 #include "tools/pictures/viewer_panel.h"
@@ -78,6 +79,7 @@ struct Viewer::Window
         glfwSetMouseButtonCallback(m_window, onButton);
         glfwSetScrollCallback(m_window, onScroll);
         glfwSetKeyCallback(m_window, onKey);
+        glfwSetDropCallback(m_window, onDrop);
         const Current current(m_window);
         glfwSwapInterval(1);
     }
@@ -115,13 +117,31 @@ struct Viewer::Window
     {
         events(window).push_back(ViewerEvent::scroll(clicks));
     }
+    static void onDrop(GLFWwindow* window, int count, const char** paths)
+    {
+        double x = 0, y = 0;
+        glfwGetCursorPos(window, &x, &y);
+        onMove(window, x, y);
+        events(window).push_back(ViewerEvent::drop({paths, paths + count}));
+    }
+    /// While the key is held down.
+    static bool repeats(ViewerKey key)
+    {
+        return key == ViewerKey::step || key == ViewerKey::earlier || key == ViewerKey::later;
+    }
     static void onKey(GLFWwindow* window, int key, int, int action, int)
     {
         constexpr std::pair<int, ViewerKey> keys[] = {
-            {GLFW_KEY_SPACE, ViewerKey::pause}, {GLFW_KEY_RIGHT, ViewerKey::step}, {GLFW_KEY_W, ViewerKey::wireframe},
-            {GLFW_KEY_R, ViewerKey::resetView}, {GLFW_KEY_H, ViewerKey::panel},    {GLFW_KEY_ESCAPE, ViewerKey::close}};
+            {GLFW_KEY_SPACE, ViewerKey::pause},  {GLFW_KEY_RIGHT, ViewerKey::step},
+            {GLFW_KEY_LEFT, ViewerKey::earlier}, {GLFW_KEY_COMMA, ViewerKey::earlier},
+            {GLFW_KEY_PERIOD, ViewerKey::later}, {GLFW_KEY_B, ViewerKey::box},
+            {GLFW_KEY_O, ViewerKey::ball},       {GLFW_KEY_C, ViewerKey::forces},
+            {GLFW_KEY_S, ViewerKey::stress},     {GLFW_KEY_F, ViewerKey::film},
+            {GLFW_KEY_X, ViewerKey::cancel},     {GLFW_KEY_W, ViewerKey::wireframe},
+            {GLFW_KEY_R, ViewerKey::resetView},  {GLFW_KEY_H, ViewerKey::panel},
+            {GLFW_KEY_F1, ViewerKey::help},      {GLFW_KEY_ESCAPE, ViewerKey::close}};
         for (const auto& [code, meaning] : keys)
-            if (key == code && (action == GLFW_PRESS || (action == GLFW_REPEAT && meaning == ViewerKey::step)))
+            if (key == code && (action == GLFW_PRESS || (action == GLFW_REPEAT && repeats(meaning))))
                 events(window).push_back(ViewerEvent::key(meaning));
     }
 };
@@ -133,12 +153,16 @@ struct Viewer::Parts
     SceneRenderer m_renderer;
     ViewerPanel m_panel;
     std::unique_ptr<PictureFramebuffer> m_framebuffer;
+    FilmRecorder m_film;
     ViewerTimes m_times;
     double m_lastFrame = 0;  // [s]
     int m_largestCatchUp;
 
     Parts(ViewerSimulation& simulation, const ViewerSettings& settings)
-        : m_simulation(simulation), m_control(simulation), m_largestCatchUp(settings.m_largestCatchUp)
+        : m_simulation(simulation),
+          m_control(simulation),
+          m_film(settings.m_filmFolder),
+          m_largestCatchUp(settings.m_largestCatchUp)
     {
         m_control.setPaused(settings.m_paused);
     }
@@ -146,10 +170,22 @@ struct Viewer::Parts
     void step(int due)
     {
         const double start = glfwGetTime();
-        for (int steps = m_control.takeSteps(due); steps > 0; --steps) m_simulation.step();
+        const int steps = m_control.takeSteps(due);
+        for (int k = 0; k < steps; ++k) m_simulation.step();
+        m_film.advance(steps * m_simulation.timeStep());
         const double end = glfwGetTime();
         m_times.add(milliseconds(end - start), milliseconds(end - m_lastFrame));
         m_lastFrame = end;
+    }
+
+    /// Starts and ends films as the control says, and gives them what is seen, without the panel.
+    void film(const PictureSize& size)
+    {
+        m_film.update();
+        if (m_control.filming() && !m_film.recording()) m_film.start(size);
+        if (!m_control.filming() && m_film.recording()) m_film.stop();
+        if (m_film.due() > 0) m_film.append(m_framebuffer->read());
+        m_control.setFilming(m_film.recording());
     }
 
     void draw(const PictureSize& size)
@@ -173,6 +209,7 @@ struct Viewer::Parts
             m_control.setPaused(true);
         }
         m_framebuffer->resolve();
+        film(size);
         m_panel.draw();
         m_framebuffer->copyTo(0);
     }
@@ -202,6 +239,9 @@ bool Viewer::frame(int steps)
         for (const ViewerEvent& event : m_window->m_events)
             if (!parts.m_panel.handle(event)) parts.m_control.handle(event, size);
         m_window->m_events.clear();
+        parts.m_simulation.update();
+        parts.m_control.update();
+        parts.m_panel.setFilm(parts.m_film.message());
         parts.m_panel.update(parts.m_simulation, parts.m_control, parts.m_times, size);
     }
     parts.step(steps);

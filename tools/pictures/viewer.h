@@ -18,7 +18,8 @@ struct ViewerSettings
     std::string m_title = "BulletFEM";
     PictureSize m_size;  ///< of the window; the user can change it
     bool m_paused = false;
-    int m_largestCatchUp = 4;  ///< steps a frame at most, when the simulation is slower than the clock
+    int m_largestCatchUp = 4;        ///< steps a frame at most, when the simulation is slower than the clock
+    std::string m_filmFolder = ".";  ///< of films that the user makes
 };
 
 /// A window that shows a simulation and lets the user steer it. One at a time in a program, and from its main thread.

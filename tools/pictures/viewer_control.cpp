@@ -54,8 +54,16 @@ ViewerEvent ViewerEvent::key(ViewerKey key)
     return event;
 }
 
+ViewerEvent ViewerEvent::drop(const std::vector<std::string>& files)
+{
+    ViewerEvent event;
+    event.m_kind = Kind::drop;
+    event.m_files = files;
+    return event;
+}
+
 ViewerControl::ViewerControl(ViewerSimulation& simulation)
-    : m_simulation(simulation), m_start(simulation.scene().m_camera), m_orbit(m_start)
+    : m_simulation(simulation), m_orbit(simulation.scene().m_camera), m_view(simulation.views())
 {
 }
 
@@ -72,7 +80,9 @@ void ViewerControl::handle(const ViewerEvent& event, const PictureSize& size)
         case ViewerEvent::Kind::scroll:
             return m_orbit.zoom(std::pow(kZoomPerClick, event.m_scroll));
         case ViewerEvent::Kind::key:
-            return key(event.m_key);
+            return key(event.m_key, size);
+        case ViewerEvent::Kind::drop:
+            return m_simulation.open(event.m_files, ray(size));
     }
 }
 
@@ -109,14 +119,41 @@ void ViewerControl::move(const PicturePoint& to, const PictureSize& size)
     if (m_mode == Mode::pan) m_orbit.pan(-height * right, height * down);
 }
 
-void ViewerControl::key(ViewerKey key)
+void ViewerControl::key(ViewerKey key, const PictureSize& size)
 {
-    if (key == ViewerKey::pause) m_paused = !m_paused;
-    if (key == ViewerKey::step) requestStep();
-    if (key == ViewerKey::wireframe) m_wireframe = !m_wireframe;
-    if (key == ViewerKey::resetView) resetView();
-    if (key == ViewerKey::panel) m_panelShown = !m_panelShown;
-    if (key == ViewerKey::close) m_closing = true;
+    switch (key)
+    {
+        case ViewerKey::pause:
+            m_paused = !m_paused;
+            return;
+        case ViewerKey::step:
+            return requestStep();
+        case ViewerKey::wireframe:
+            m_wireframe = !m_wireframe;
+            return;
+        case ViewerKey::resetView:
+            return resetView();
+        case ViewerKey::panel:
+            m_panelShown = !m_panelShown;
+            return;
+        case ViewerKey::help:
+            m_helpShown = !m_helpShown;
+            return;
+        case ViewerKey::film:
+            m_filming = !m_filming;
+            return;
+        case ViewerKey::close:
+            m_closing = true;
+            return;
+        case ViewerKey::earlier:
+        case ViewerKey::later:
+            m_paused = true;
+            release(m_button);  // what is held is let go
+            break;
+        default:
+            break;
+    }
+    m_simulation.act(key, ray(size));
 }
 
 void ViewerControl::requestStep()
@@ -133,7 +170,13 @@ int ViewerControl::takeSteps(int due)
 
 void ViewerControl::resetView()
 {
-    m_orbit = OrbitCamera(m_start);
+    m_orbit = OrbitCamera(m_simulation.scene().m_camera);
+    m_view = m_simulation.views();
+}
+
+void ViewerControl::update()
+{
+    if (m_simulation.views() != m_view) resetView();
 }
 
 }  // namespace bullet_fem

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "tools/pictures/viewer_simulation.h"
 
 namespace bullet_fem
@@ -14,17 +17,6 @@ enum class MouseButton
     middle
 };
 
-/// The keys that the viewer knows.
-enum class ViewerKey
-{
-    pause,      ///< space
-    step,       ///< right arrow: one step, and pause
-    wireframe,  ///< W
-    resetView,  ///< R
-    panel,      ///< H: hides or shows the panel
-    close       ///< escape
-};
-
 /// Something that the user did.
 struct ViewerEvent
 {
@@ -34,19 +26,22 @@ struct ViewerEvent
         press,
         release,
         scroll,
-        key
+        key,
+        drop
     };
     Kind m_kind = Kind::move;
     PicturePoint m_mouse;                      ///< of a move
     MouseButton m_button = MouseButton::left;  ///< of a press or release, where the mouse is
     double m_scroll = 0;                       ///< clicks of the wheel, > 0 away from the user
     ViewerKey m_key = ViewerKey::pause;
+    std::vector<std::string> m_files;  ///< that were dropped where the mouse is
 
     static ViewerEvent move(double x, double y);
     static ViewerEvent press(MouseButton button = MouseButton::left);
     static ViewerEvent release(MouseButton button = MouseButton::left);
     static ViewerEvent scroll(double clicks);
     static ViewerEvent key(ViewerKey key);
+    static ViewerEvent drop(const std::vector<std::string>& files);
 };
 
 /// What events mean: the left button drags what it hits and orbits elsewhere, the right and the middle one pan, the
@@ -69,8 +64,16 @@ public:
     int takeSteps(int due);
     bool wireframe() const { return m_wireframe; }
     void setWireframe(bool wireframe) { m_wireframe = wireframe; }
+    /// Takes the camera of the scene as it is now.
     void resetView();
+    /// The same, if there is another thing to be seen. To be called in every frame.
+    void update();
     bool panelShown() const { return m_panelShown; }
+    bool helpShown() const { return m_helpShown; }
+    void setHelpShown(bool shown) { m_helpShown = shown; }
+    /// A film is wanted of what is seen.
+    bool filming() const { return m_filming; }
+    void setFilming(bool filming) { m_filming = filming; }
     bool closing() const { return m_closing; }
     bool dragging() const { return m_mode == Mode::drag; }
 
@@ -86,16 +89,17 @@ private:
     void press(MouseButton button, const PictureSize& size);
     void release(MouseButton button);
     void move(const PicturePoint& to, const PictureSize& size);
-    void key(ViewerKey key);
+    void key(ViewerKey key, const PictureSize& size);
 
     ViewerSimulation& m_simulation;
-    PictureCamera m_start;
     OrbitCamera m_orbit;
     PicturePoint m_mouse;
     Mode m_mode = Mode::none;
     MouseButton m_button = MouseButton::left;  // that m_mode began with
     bool m_paused = false, m_wireframe = false, m_panelShown = true, m_closing = false;
+    bool m_helpShown = false, m_filming = false;
     int m_requestedSteps = 0;
+    int m_view;  // of the simulation, that the camera was taken at
 };
 
 }  // namespace bullet_fem

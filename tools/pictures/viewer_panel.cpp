@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "tools/pictures/font.h"
+#include "tools/pictures/viewer_dialogs.h"
 
 namespace bullet_fem
 {
@@ -111,6 +112,7 @@ bool ViewerPanel::handle(const ViewerEvent& event)
             io.MouseWheel += static_cast<float>(event.m_scroll);
             return io.WantCaptureMouse || isOverPanel(io.MousePos.x, io.MousePos.y);
         case ViewerEvent::Kind::key:
+        case ViewerEvent::Kind::drop:
             return false;
     }
     return false;
@@ -153,6 +155,38 @@ void ViewerPanel::showSliders(ViewerSimulation& simulation)
     ImGui::PopItemWidth();
 }
 
+void ViewerPanel::showPanel(ViewerSimulation& simulation, ViewerControl& control, const ViewerTimes& times)
+{
+    ImGui::SetNextWindowPos({kMargin, kMargin});
+    ImGui::SetNextWindowSize({kWidth, 0});
+    ImGui::Begin("panel", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+    showButtons(control);
+    showSliders(simulation);
+    ImGui::Separator();
+    showTimes(times);
+    const std::string status = simulation.status();
+    ImGui::PushTextWrapPos(0);
+    if (!status.empty()) ImGui::TextUnformatted(status.c_str());
+    for (const std::string& words : {m_message, m_fault})
+        if (!words.empty()) ImGui::TextColored({0.75f, 0.1f, 0.1f, 1}, "%s", words.c_str());
+    ImGui::PopTextWrapPos();
+    if (ImGui::Button("Keys (F1)")) control.setHelpShown(!control.helpShown());
+    m_area = {kMargin, kMargin, kWidth, static_cast<double>(ImGui::GetWindowHeight())};
+    ImGui::End();
+}
+
+void ViewerPanel::showDialogs(ViewerSimulation& simulation, ViewerControl& control, const PictureSize& size) const
+{
+    bool cancelled = false;
+    const double height = showProgress(simulation.progress(), size, cancelled);
+    if (cancelled) control.handle(ViewerEvent::key(ViewerKey::cancel), size);
+    showSentences({simulation.message(), m_film}, size, height);
+    if (control.filming()) showFilming(size);
+    showHelp(control, size);
+}
+
 void ViewerPanel::update(ViewerSimulation& simulation, ViewerControl& control, const ViewerTimes& times,
                          const PictureSize& size)
 {
@@ -163,26 +197,8 @@ void ViewerPanel::update(ViewerSimulation& simulation, ViewerControl& control, c
     ImGui::NewFrame();
     m_sliders.clear();
     m_area = {};
-    if (control.panelShown())
-    {
-        ImGui::SetNextWindowPos({kMargin, kMargin});
-        ImGui::SetNextWindowSize({kWidth, 0});
-        ImGui::Begin("panel", nullptr,
-                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoSavedSettings);
-        showButtons(control);
-        showSliders(simulation);
-        ImGui::Separator();
-        showTimes(times);
-        const std::string status = simulation.status();
-        ImGui::PushTextWrapPos(0);
-        if (!status.empty()) ImGui::TextUnformatted(status.c_str());
-        for (const std::string& words : {m_message, m_fault})
-            if (!words.empty()) ImGui::TextColored({0.75f, 0.1f, 0.1f, 1}, "%s", words.c_str());
-        ImGui::PopTextWrapPos();
-        m_area = {kMargin, kMargin, kWidth, static_cast<double>(ImGui::GetWindowHeight())};
-        ImGui::End();
-    }
+    if (control.panelShown()) showPanel(simulation, control, times);
+    showDialogs(simulation, control, size);
     ImGui::Render();
 }
 

@@ -41,18 +41,22 @@ public:
     /// Draws what `update` made into the bound framebuffer.
     void draw() const;
 
+    /// What is to be said of the film.
+    void setFilm(const std::string& film) { m_film = film; }
     /// What is wrong with the scene, shown until it is empty.
     void setFault(const std::string& fault) { m_fault = fault; }
     const std::vector<PictureRectangle>& sliders() const { return m_sliders; }
 
 private:
+    void showPanel(ViewerSimulation& simulation, ViewerControl& control, const ViewerTimes& times);
     void showSliders(ViewerSimulation& simulation);
+    void showDialogs(ViewerSimulation& simulation, ViewerControl& control, const PictureSize& size) const;
     bool isOverPanel(double x, double y) const;
 
     PictureRectangle m_area;  // in the last update
     std::vector<PictureRectangle> m_sliders;
     std::string m_message;  // of the last setting that was refused
-    std::string m_fault;
+    std::string m_fault, m_film;
 };
 
 }  // namespace bullet_fem

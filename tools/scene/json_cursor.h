@@ -13,6 +13,10 @@
 namespace bullet_fem
 {
 
+/// The document that a text is, with comments allowed. Throws std::runtime_error on text that is not JSON, that has a
+/// member twice in one object, or that is nested deeper than 32 levels.
+nlohmann::json parseJson(const std::string& text);
+
 /// What a number must lie in.
 struct JsonRange
 {
@@ -35,6 +39,7 @@ public:
     /// This must be an object with no other members than these.
     void onlyMembers(std::initializer_list<const char*> names) const;
     bool isObject() const;
+    bool isArray() const;
     bool has(const char* name) const;
     JsonCursor operator[](const char* name) const;  ///< a member that must be there
 

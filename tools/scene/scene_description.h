@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct SceneMesh
     enum class Kind
     {
         box,         ///< a block, centred on its origin
+        sphere,      ///< a ball, likewise
         surface,     ///< a cage around a surface file
         tetrahedra,  ///< a mesh file
         baked        ///< a .bfem file, with its material and pins
@@ -46,8 +48,10 @@ struct SceneMesh
     Kind m_kind = Kind::box;
     std::string m_path;              ///< of a file, found beside the scene
     Vec3 m_size{1, 1, 1};            ///< of a box [m], > 0
-    double m_cellSize = 0;           ///< of a box or cage [m]; 0: by m_tets
-    int m_tets = 2000;               ///< about so many elements in a cage or box
+    double m_radius = 0.5;           ///< of a sphere [m], > 0
+    std::vector<SceneBox> m_holes;   ///< in it, about its middle: elements whose middle is in one are left out
+    double m_cellSize = 0;           ///< of a box, sphere or cage [m]; 0: by m_tets
+    int m_tets = 2000;               ///< about so many elements in these
     double m_cellsAcross = 0;        ///< of thin parts of a cage [-], in [0.5, 8]; 0: cells are alike
     int m_mostLevels = 3;            ///< most halvings of a graded cage's cells
     double m_scale = 1;              ///< times the file's positions [-], > 0
@@ -59,9 +63,11 @@ struct SceneSoftBody
     std::string m_name;
     SceneMesh m_mesh;
     ScenePose m_pose;
-    Vec3 m_velocity;          ///< [m/s]
-    Material m_material;      ///< of baked bodies: the file's
-    double m_friction = 0.5;  ///< [-]; times the other body's
+    Vec3 m_velocity;                            ///< [m/s]
+    Material m_material;                        ///< of baked bodies: the file's
+    std::map<int, Material> m_regionMaterials;  ///< by the labels of a mesh file, in place of m_material
+    double m_friction = 0.5;                    ///< [-]; times the other body's
+    double m_restitution = 0;                   ///< [-]; times the other body's
     bool m_selfContact = false;
     Vec3 m_colour{0.86, 0.64, 0.42};  ///< sRGB
     std::vector<SceneBox> m_pins;     ///< nodes that stand still
@@ -118,6 +124,47 @@ struct SceneForce
     double m_from = 0, m_to = 1e30;  ///< [s]
 };
 
+/// A value over time, straight between its points.
+struct SceneCurve
+{
+    struct Point
+    {
+        double m_time, m_value;  ///< [s], in the unit of what it is
+    };
+    std::vector<Point> m_points;  ///< by time, at least one
+
+    double at(double time) const
+    {
+        std::size_t k = 0;  // the first point after it
+        while (k < m_points.size() && m_points[k].m_time <= time) ++k;
+        if (k == 0 || k == m_points.size()) return m_points[k == 0 ? 0 : k - 1].m_value;
+        const Point &a = m_points[k - 1], &b = m_points[k];
+        return a.m_value + (time - a.m_time) / (b.m_time - a.m_time) * (b.m_value - a.m_value);
+    }
+};
+
+/// What drives a soft body from within (docs/actuation.md).
+struct SceneActuator
+{
+    enum class Kind
+    {
+        chamber,  ///< of one or all cavities
+        cable,    ///< through the nodes that start nearest to places
+        fibres,
+        expansion
+    };
+    Kind m_kind = Kind::chamber;
+    std::string m_body;
+    SceneCurve m_value;          ///< pressure [Pa], tension [N] or rest length [m], activation [Pa], strain [-]
+    int m_cavity = -1;           ///< of a chamber: which, from 0; -1: all
+    double m_sealedFrom = 1e30;  ///< of a chamber: it keeps its gas from then on [s]
+    std::vector<Vec3> m_points;  ///< of a cable, in the world at the start [m]
+    double m_stiffness = 0;      ///< of a cable [N/m]; 0: it has a tension
+    bool m_everywhere = true;    ///< of fibres and expansion: in all elements; else those whose middle starts in m_box
+    SceneBox m_box;
+    Vec3 m_direction{1, 0, 0};  ///< of fibres, in the world at the start
+};
+
 struct SceneCamera
 {
     bool m_placed = false;          ///< m_eye and m_target are given; else the scene is framed from m_direction
@@ -145,12 +192,13 @@ struct SceneDescription
     double m_seconds = 4;         ///< to simulate
     double m_framesPerSecond = 30;
     bool m_coupled = true;  ///< rigid and soft bodies are solved together (btFemConstraintSolver)
-    double m_tolerance = 1e-3, m_contactTolerance = 3e-5;
+    double m_tolerance = 1e-3, m_contactTolerance = 3e-3;
     int m_threads = 1;
     std::vector<SceneSoftBody> m_softBodies;
     std::vector<SceneRigidBody> m_rigidBodies;
     std::vector<SceneConstraint> m_constraints;
     std::vector<SceneForce> m_forces;
+    std::vector<SceneActuator> m_actuators;
     SceneCamera m_camera;
     ScenePictures m_pictures;
 };

@@ -79,6 +79,7 @@ SceneFrames::SceneFrames(const SceneWorld& world) : m_world(world)
         m_volumes.emplace_back();
         m_volumes.back().m_id = i;
         m_volumes.back().m_tets = tetsOf(body);
+        m_volumes.back().m_tetRegion = world.regionLabels(i);
         m_surfaces.emplace_back();
         m_surfaces.back().m_id = i;
         m_drawn.push_back(drawnPart(body, i));
@@ -125,6 +126,9 @@ void SceneFrames::updateVolume(int i)
         for (int n = 0; n < count; ++n) frame.m_contactForce[n] = vec3(m_forces[n]);
     if (m_world.fem().getStress(&body, m_stress)) take(m_stress, frame.m_tetStress);
     if (m_world.fem().getNodeStress(&body, m_stress)) take(m_stress, frame.m_nodeStress);
+    frame.m_tetPlasticStrain.clear();
+    m_world.fem().getPlasticStrain(&body, m_plasticStrain);
+    for (int e = 0; e < m_plasticStrain.size(); ++e) frame.m_tetPlasticStrain.push_back(double(m_plasticStrain[e]));
 }
 
 void SceneFrames::updateSoftSurface(int i)

@@ -92,7 +92,7 @@ double largestForceOf(const std::vector<SceneSnapshot>& snapshots)
     return largest;
 }
 
-ScenePainter::ScenePainter(const SceneWorld& world, const SceneFrames& frames) : m_world(world)
+ScenePainter::ScenePainter(const SceneWorld& world, const SceneFrames& frames, double size) : m_world(world)
 {
     const SceneDescription& scene = world.description();
     for (std::size_t s = 0; s < frames.surfaces().size(); ++s)
@@ -107,9 +107,14 @@ ScenePainter::ScenePainter(const SceneWorld& world, const SceneFrames& frames) :
         mesh.m_wireframe = soft && scene.m_pictures.m_wireframe;
         m_picture.m_meshes.push_back(std::move(mesh));
     }
-    m_size = bounds(m_picture).radius();
+    m_size = size > 0 ? size : bounds(m_picture).radius();
     m_picture.m_ground = groundOf(world, m_size);
-    m_picture.m_arrows.resize(scene.m_pictures.m_forces ? 1 : 0);
+    if (scene.m_pictures.m_forces)
+    {
+        m_picture.m_arrows.emplace_back();
+        m_picture.m_arrows.back().m_title = "contact force";
+        m_picture.m_arrows.back().m_unit = "N";
+    }
     m_picture.m_colourScale.m_high = scene.m_pictures.m_hottest > 0 ? scene.m_pictures.m_hottest : 1;
     m_picture.m_colourScale.m_title = "von Mises stress";
     m_picture.m_colourScale.m_unit = "Pa";
@@ -118,7 +123,18 @@ ScenePainter::ScenePainter(const SceneWorld& world, const SceneFrames& frames) :
 
 void ScenePainter::setLargestForce(double newton)
 {
-    for (PictureArrows& arrows : m_picture.m_arrows) arrows.m_scale = 0.5 * m_size / newton;
+    for (PictureArrows& arrows : m_picture.m_arrows)
+    {
+        arrows.m_scale = 0.5 * m_size / newton;
+        arrows.m_longest = newton;
+    }
+}
+
+void ScenePainter::widenView(double factor)
+{
+    PictureCamera& camera = m_picture.m_camera;
+    if (!m_world.description().m_camera.m_placed)
+        camera.m_eye = camera.m_target + factor * (camera.m_eye - camera.m_target);
 }
 
 void ScenePainter::placeCamera()

@@ -31,14 +31,19 @@ double largestForceOf(const std::vector<SceneSnapshot>& snapshots);
 class ScenePainter
 {
 public:
-    /// `frames` as they are at the start, which the camera is framed by. Both must live longer.
-    ScenePainter(const SceneWorld& world, const SceneFrames& frames);
+    /// `frames` as they are at the start, which the camera is framed by. Both must live longer. Arrows and ground go by
+    /// `size`, a radius [m]; 0: the frames'.
+    ScenePainter(const SceneWorld& world, const SceneFrames& frames, double size = 0);
 
     /// The stress of the last colour [Pa], > 0.
     void setHottest(double pascal) { m_picture.m_colourScale.m_high = pascal; }
 
     /// The force whose arrow is a quarter of the scene long [N], > 0.
     void setLargestForce(double newton);
+
+    /// Moves a camera that is framed, not placed, to so many times its distance, > 0.
+    void widenView(double factor);
+    const PictureCamera& camera() const { return m_picture.m_camera; }
 
     /// Valid until the next call.
     const PictureScene& paint(const SceneSnapshot& snapshot);

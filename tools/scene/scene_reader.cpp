@@ -7,12 +7,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "fem/common/message.h"
+#include "fem/common/reason.h"
 #include "tools/scene/json_cursor.h"
+#include "tools/scene/scene_actuator_reader.h"
+#include "tools/scene/scene_materials.h"
+#include "tools/scene/scene_place_reader.h"
+#include "tools/scene/scene_regions.h"
 
 namespace bullet_fem
 {
@@ -23,64 +27,6 @@ constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr JsonRange kLength = {0, 1e6, true}, kPlace = {-1e6, 1e6}, kSpeed = {-1e4, 1e4}, kShare = {0, 1},
                     kNotNegative = {0, 1e30}, kAnyForce = {-1e12, 1e12}, kTime = {0, 1e30};
 
-using Materials = std::map<std::string, Material>;
-
-// With the plug-in's own damping where a scene has none.
-Material damped(Material material)
-{
-    material.m_stiffnessDamping = 0.005;
-    return material;
-}
-
-Materials presets()
-{
-    return {{"rubber", damped(Material::rubber())},
-            {"foam", damped(Material::foam())},
-            {"jelly", damped(Material::jelly())},
-            {"flesh", damped(Material::flesh())},
-            {"wood", damped(Material::wood())}};
-}
-
-const Material& materialCalled(const JsonCursor& at, const Materials& known)
-{
-    const auto found = known.find(at.text());
-    if (found != known.end()) return found->second;
-    std::string names;
-    for (const auto& [name, value] : known) names += (names.empty() ? "" : ", ") + name.substr(0, 40);
-    at.expected("the name of a material: " + names);
-}
-
-Material readMaterial(const JsonCursor& at, const Materials& known)
-{
-    at.onlyMembers({"like", "young", "poisson", "density", "massDamping", "stiffnessDamping"});
-    Material material = at.has("like") ? materialCalled(at["like"], known) : damped({});
-    at.read("young", {0, 1e13, true}, material.m_youngModulus);
-    at.read("poisson", {0, 0.49}, material.m_poissonRatio);
-    at.read("density", {0, 1e6, true}, material.m_density);
-    at.read("massDamping", {0, 1e4}, material.m_massDamping);
-    at.read("stiffnessDamping", {0, 10}, material.m_stiffnessDamping);
-    return material;
-}
-
-SceneBox readBox(const JsonCursor& at)
-{
-    at.onlyMembers({"low", "high"});
-    const SceneBox box = {at["low"].vector(kPlace), at["high"].vector(kPlace)};
-    for (int i = 0; i < 3; ++i)
-        if (box.m_low[i] > box.m_high[i]) at.fail("has a 'low' above its 'high'");
-    return box;
-}
-
-void readPose(const JsonCursor& at, ScenePose& pose)
-{
-    at.read("position", kPlace, pose.m_position);
-    if (!at.has("rotation")) return;
-    const JsonCursor rotation = at["rotation"];
-    rotation.onlyMembers({"axis", "degrees"});
-    pose.m_axis = rotation["axis"].direction();
-    pose.m_angle = rotation["degrees"].number({-3600, 3600}) * kRadians;
-}
-
 /// Reads the document that lies in one folder.
 class SceneReader
 {
@@ -90,7 +36,7 @@ public:
     SceneDescription read(const JsonCursor& at)
     {
         at.onlyMembers({"$schema", "title", "gravity", "step", "seconds", "framesPerSecond", "solver", "materials",
-                        "softBodies", "rigidBodies", "constraints", "forces", "camera", "pictures"});
+                        "softBodies", "rigidBodies", "constraints", "forces", "actuators", "camera", "pictures"});
         std::string schema;  // for editors
         at.read("$schema", schema);
         at.read("title", m_scene.m_title);
@@ -104,6 +50,7 @@ public:
         at.forEach("rigidBodies", [&](const JsonCursor& item) { readRigidBody(item); });
         at.forEach("constraints", [&](const JsonCursor& item) { readConstraint(item); });
         at.forEach("forces", [&](const JsonCursor& item) { readForce(item); });
+        at.forEach("actuators", [&](const JsonCursor& item) { addActuator(item); });
         if (at.has("camera")) readCamera(at["camera"]);
         if (at.has("pictures")) readPictures(at["pictures"]);
         if (m_scene.m_softBodies.empty() && m_scene.m_rigidBodies.empty())
@@ -125,7 +72,8 @@ private:
     {
         std::vector<std::string> names;
         const std::vector<JsonCursor> members = at.members(names);
-        for (std::size_t i = 0; i < members.size(); ++i) m_materials[names[i]] = readMaterial(members[i], presets());
+        for (std::size_t i = 0; i < members.size(); ++i)
+            m_materials[names[i]] = readMaterial(members[i], presetMaterials());
     }
 
     Material material(const JsonCursor& at) const
@@ -174,13 +122,18 @@ private:
 
     SceneMesh mesh(const JsonCursor& at) const
     {
-        at.onlyMembers(
-            {"box", "surface", "tetrahedra", "baked", "cell", "tets", "grade", "levels", "scale", "surfaceCollides"});
+        at.onlyMembers({"box", "sphere", "surface", "tetrahedra", "baked", "holes", "cell", "tets", "grade", "levels",
+                        "scale", "surfaceCollides"});
         SceneMesh mesh;
-        const int kinds = at.has("box") + at.has("surface") + at.has("tetrahedra") + at.has("baked");
-        if (kinds != 1) at.fail("must have one of: box, surface, tetrahedra, baked");
+        const int kinds = at.has("box") + at.has("sphere") + at.has("surface") + at.has("tetrahedra") + at.has("baked");
+        if (kinds != 1) at.fail("must have one of: box, sphere, surface, tetrahedra, baked");
         if (at.has("box"))
             mesh.m_size = at["box"].vector(kLength);
+        else if (at.has("sphere"))
+        {
+            mesh.m_kind = SceneMesh::Kind::sphere;
+            mesh.m_radius = at["sphere"].number(kLength);
+        }
         else
         {
             const bool surface = at.has("surface"), baked = at.has("baked");
@@ -189,6 +142,9 @@ private:
                                   : SceneMesh::Kind::tetrahedra;
             mesh.m_path = file(at[surface ? "surface" : baked ? "baked" : "tetrahedra"]);
         }
+        if (mesh.m_kind != SceneMesh::Kind::box && at.has("holes"))
+            at["holes"].fail("are given, but only a 'box' has some; leave them out");
+        at.forEach("holes", [&](const JsonCursor& item) { mesh.m_holes.push_back(readBox(item)); });
         const bool hasElements = mesh.m_kind == SceneMesh::Kind::tetrahedra || mesh.m_kind == SceneMesh::Kind::baked;
         for (const char* name : {"cell", "tets"})
             if (hasElements && at.has(name)) at[name].fail("is given, but the file has its elements; leave it out");
@@ -212,18 +168,26 @@ private:
 
     void readSoftBody(const JsonCursor& at)
     {
-        at.onlyMembers({"name", "mesh", "position", "rotation", "velocity", "material", "friction", "selfContact",
-                        "colour", "pins"});
+        at.onlyMembers({"name", "mesh", "position", "rotation", "velocity", "material", "materials", "friction",
+                        "restitution", "selfContact", "colour", "pins"});
         SceneSoftBody body;
         body.m_name = name(at);
-        body.m_material = damped({});
+        body.m_material = defaultMaterial();
         body.m_mesh = mesh(at["mesh"]);
         readPose(at, body.m_pose);
         at.read("velocity", kSpeed, body.m_velocity);
         if (at.has("material") && body.m_mesh.m_kind == SceneMesh::Kind::baked)
             at["material"].fail("is given for a baked body, which has its own; leave it out, or bake it anew");
         if (at.has("material")) body.m_material = material(at["material"]);
+        if (at.has("materials") && at.has("material"))
+            at["materials"].fail("are given with 'material'; give one of them");
+        const bool mayHaveRegions =
+            body.m_mesh.m_kind == SceneMesh::Kind::tetrahedra || body.m_mesh.m_kind == SceneMesh::Kind::surface;
+        if (at.has("materials") && !mayHaveRegions)
+            at["materials"].fail("are given for regions, which only a 'tetrahedra' or 'surface' has; give 'material'");
+        if (at.has("materials")) body.m_regionMaterials = readRegionMaterials(at["materials"], m_materials);
         at.read("friction", {0, 10}, body.m_friction);
+        at.read("restitution", kShare, body.m_restitution);
         at.read("selfContact", body.m_selfContact);
         at.read("colour", kShare, body.m_colour);
         at.forEach("pins", [&](const JsonCursor& item) { body.m_pins.push_back(readBox(item)); });
@@ -324,6 +288,12 @@ private:
         m_scene.m_forces.push_back(std::move(force));
     }
 
+    void addActuator(const JsonCursor& at)
+    {
+        m_scene.m_actuators.push_back(readActuator(at));
+        softName(at["body"]);
+    }
+
     void readCamera(const JsonCursor& at)
     {
         at.onlyMembers({"direction", "eye", "target", "fieldOfView"});
@@ -351,28 +321,14 @@ private:
     }
 
     SceneDescription m_scene;
-    Materials m_materials = presets();
+    SceneMaterials m_materials = presetMaterials();
 };
 
 }  // namespace
 
 SceneDescription parseScene(const std::string& json, const std::string& folder)
 {
-    static constexpr int deepest = 32;  // scenes need six; messages show what is there by recursion
-    const auto allowed = [](int depth, nlohmann::json::parse_event_t, nlohmann::json&)
-    {
-        if (depth > deepest) throw std::runtime_error(message("it is nested deeper than ", deepest, " levels"));
-        return true;
-    };
-    nlohmann::json document;
-    try
-    {
-        document = nlohmann::json::parse(json, allowed, true, true);  // comments are welcome
-    }
-    catch (const nlohmann::json::exception& error)
-    {
-        throw std::runtime_error(std::string("it is not JSON: ") + error.what());
-    }
+    const nlohmann::json document = parseJson(json);
     return SceneReader(folder).read(JsonCursor(document, ""));
 }
 
@@ -389,7 +345,7 @@ SceneDescription readScene(const std::string& path)
     }
     catch (const std::exception& error)
     {
-        throw std::runtime_error("cannot read the scene '" + path + "': " + error.what());
+        throw std::runtime_error("cannot read the scene '" + path + "': " + reasonOf(error));
     }
 }
 

@@ -5,141 +5,309 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_fem/btFemRay.h"
 #include "bullet_fem/btFemVectors.h"
-#include "bullet_fem/fem/baked/baked_body.h"
+#include "fem/common/reason.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-enum Parameter
-{
-    kYoung,
-    kPoisson,
-    kDamping,
-    kGravity
-};
+constexpr double kAddedSize = 0.22;       // edge of a box over the scene's radius
+constexpr double kAddedDensity = 500;     // wood's [kg/m3]
+constexpr double kDropHeight = 1;         // gap under what is added, over its own size
+constexpr double kFirstDropHeight = 0.1;  // of the first body of an empty scene
+constexpr double kRoom = 1.6;             // around the first body, which may fall over, over a tight view's distance
+constexpr double kScaleFading = 2;        // the ranges of legends fall back to what is shown in about this time [s]
+constexpr double kBeforeEye = 0.4;        // of the ray's length, where it hits nothing
+constexpr double kLongest = 20, kShortest = 0.005;  // beyond them a mesh's unit is doubtful [m]
+constexpr double kMebibyte = 1 << 20;
 
-constexpr double kPull = 20;  // weights of the body that the mouse pulls with at most
+constexpr Vec3 kAddedColours[] = {
+    {0.85, 0.50, 0.22}, {0.88, 0.72, 0.28}, {0.70, 0.30, 0.26}, {0.36, 0.55, 0.36}, {0.40, 0.48, 0.70}};
+
+template <class... Values>
+std::string formatted(const char* format, Values... values)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+/// A box along the axes around a baked body's nodes.
+PictureBounds boundsOf(const BakedBody& body)
+{
+    PictureBounds box{body.m_positions.front(), body.m_positions.front()};
+    for (const Vec3& x : body.m_positions)
+        for (int i = 0; i < 3; ++i)
+        {
+            box.m_low[i] = std::min(box.m_low[i], x[i]);
+            box.m_high[i] = std::max(box.m_high[i], x[i]);
+        }
+    return box;
+}
+
+std::string nameOf(const std::string& file)
+{
+    return std::filesystem::path(file).filename().string();
+}
 
 }  // namespace
 
-SceneSimulation::SceneSimulation(SceneWorld& world)
-    : m_world(world), m_frames(world), m_painter(world, m_frames), m_gravity(norm(world.description().m_gravity))
+SceneDescription emptyScene()
 {
-    for (const SceneSoftBody& body : world.description().m_softBodies)
-        m_materials.push_back(body.m_mesh.m_kind == SceneMesh::Kind::baked
-                                  ? inspectBakedBody(body.m_mesh.m_path).m_material
-                                  : body.m_material);
+    SceneDescription scene;
+    SceneRigidBody ground;
+    ground.m_name = "ground";
+    ground.m_shape.m_kind = SceneShape::Kind::plane;
+    ground.m_shape.m_size = {0, 1, 0};
+    scene.m_rigidBodies.push_back(ground);
+    return scene;
+}
+
+SceneSimulation::SceneSimulation(SceneWorld& world, SceneSimulationSettings settings)
+    : m_world(world),
+      m_settings(std::move(settings)),
+      m_sliders(world),
+      m_hold(world),
+      m_history(world, m_settings.m_history)
+{
+    m_settings.m_meshes.m_bake.m_step = world.description().m_step;
+    m_settings.m_meshes.m_bake.m_singlePrecision = sizeof(btScalar) == sizeof(float);
+    rebuild();
 }
 
 void SceneSimulation::step()
 {
-    m_world.step();
+    m_history.step();
+    const double share = std::exp(-timeStep() / kScaleFading);
+    m_hottest *= share;
+    m_largestForce *= share;
 }
 
 const PictureScene& SceneSimulation::scene()
 {
-    m_frames.update();
-    const SceneSnapshot snapshot = snapshotOf(m_world, m_frames);
+    m_frames->update();
+    const SceneSnapshot snapshot = snapshotOf(m_world, *m_frames);
     const double wanted = m_world.description().m_pictures.m_hottest;
-    m_hottest = std::max(m_hottest, hottestOf({snapshot}));
-    m_painter.setHottest(wanted > 0 ? wanted : m_hottest);
+    m_hottest = std::max(m_hottest, hottestOf({snapshot}));  // which is 1 Pa at least
+    m_painter->setHottest(wanted > 0 ? wanted : m_hottest);
     m_largestForce = std::max(m_largestForce, largestForceOf({snapshot}));
-    if (m_largestForce > 0) m_painter.setLargestForce(m_largestForce);
-    return m_painter.paint(snapshot);
+    if (m_largestForce > 0) m_painter->setLargestForce(m_largestForce);
+    return m_painter->paint(snapshot);
 }
 
-bool SceneSimulation::beginDrag(const PictureRay& ray)
+/// What is drawn, for the bodies that there are now.
+void SceneSimulation::rebuild()
 {
-    endDrag();
-    const btVector3 from = bulletVector(ray.m_from), to = bulletVector(ray.m_to);
-    btFemRayHit nearest, hit;
-    for (int i = 0; i < m_world.softCount(); ++i)
-        if (btFemRay::test(&m_world.soft(i), from, to, &hit) && hit.m_fraction < nearest.m_fraction)
-        {
-            nearest = hit;
-            m_held = &m_world.soft(i);
-        }
-    if (!m_held) return false;
-    const double mass = m_held->getTotalMass(), rate = 10;  // [1/s]: follows the mouse within a tenth of a second
-    btFemSpring spring = btFemSpring::at(nearest);
-    spring.m_stiffness = btScalar(mass * rate * rate);
-    spring.m_damping = btScalar(mass * rate);
-    spring.m_maxForce = btScalar(kPull * mass * std::max(1.0, m_gravity));
-    m_spring = m_world.fem().addSpring(m_held, spring);
-    m_holdDistance = norm(vec3(nearest.m_point) - ray.m_from);
-    m_held->activate();
-    return true;
+    m_frames.emplace(m_world);
+    if (m_size == 0) measure();
+    m_painter.emplace(m_world, *m_frames, m_size);
+    if (m_views > 0) m_painter->widenView(kRoom);
 }
 
-void SceneSimulation::moveDrag(const PictureRay& ray)
+/// How large what is shown is: of soft bodies, if there are any.
+void SceneSimulation::measure()
 {
-    if (!m_held) return;
-    const Vec3 along = ray.m_to - ray.m_from;
-    m_world.fem().setSpringTarget(m_held, m_spring, bulletVector(ray.m_from + (m_holdDistance / norm(along)) * along));
-    m_held->activate();
-}
-
-void SceneSimulation::endDrag()
-{
-    if (m_held) m_world.fem().removeSpring(m_held, m_spring);
-    m_held = nullptr;
-}
-
-std::vector<ViewerParameter> SceneSimulation::parameters() const
-{
-    const Material first = m_materials.empty() ? Material() : m_materials[0];
-    std::vector<ViewerParameter> all(4);
-    all[kYoung] = {"Young's modulus", "Pa", first.m_youngModulus, 1e3, 1e10, true};
-    all[kPoisson] = {"Poisson's ratio", "", first.m_poissonRatio, 0, 0.49, false};
-    all[kDamping] = {"Stiffness damping", "s", first.m_stiffnessDamping, 0, 0.1, false};
-    all[kGravity] = {"Gravity", "m/s\u00b2", m_gravity, 0, 30, false};
-    return all;
+    PictureScene soft;
+    for (std::size_t s = 0; s < m_frames->surfaces().size(); ++s)
+    {
+        if (m_world.softCount() > 0 && m_frames->bodyOf(int(s)) >= m_world.softCount()) continue;
+        soft.m_meshes.emplace_back();
+        soft.m_meshes.back().m_positions = m_frames->surfaces()[s].m_positions;
+    }
+    m_size = bounds(soft).radius();
 }
 
 void SceneSimulation::setParameter(std::size_t index, double value)
 {
-    switch (index)
+    if (m_sliders.set(index, value)) m_history.clear();
+}
+
+void SceneSimulation::act(ViewerKey key, const PictureRay& cursor)
+{
+    m_message.clear();
+    try
     {
-        case kYoung:
-            return setMaterials(&Material::m_youngModulus, value);
-        case kPoisson:
-            return setMaterials(&Material::m_poissonRatio, value);
-        case kDamping:
-            return setMaterials(&Material::m_stiffnessDamping, value);
-        case kGravity:
-            m_gravity = value;
-            return applyGravity();
-        default:
-            return;
+        switch (key)
+        {
+            case ViewerKey::box:
+                return addRigid(SceneShape::Kind::box, cursor);
+            case ViewerKey::ball:
+                return addRigid(SceneShape::Kind::sphere, cursor);
+            case ViewerKey::forces:
+                m_largestForce = 0;
+                return changePictures(&ScenePictures::m_forces);
+            case ViewerKey::stress:
+                m_hottest = 1;
+                return changePictures(&ScenePictures::m_stress);
+            case ViewerKey::earlier:
+                m_hold.end();
+                return showPast(m_history.earlier(), "Nothing earlier is kept.");
+            case ViewerKey::later:
+                m_hold.end();
+                return showPast(m_history.later(), "This is the latest state: run, or make a step.");
+            case ViewerKey::cancel:
+                return cancelLoading();
+            default:
+                return;
+        }
+    }
+    catch (const std::exception& error)
+    {
+        m_message = reasonOf(error);
     }
 }
 
-void SceneSimulation::setMaterials(double Material::*member, double value)
+void SceneSimulation::showPast(bool shown, const char* otherwise)
 {
+    if (!shown) m_message = otherwise;
+}
+
+void SceneSimulation::changePictures(bool ScenePictures::*member)
+{
+    ScenePictures pictures = m_world.description().m_pictures;
+    pictures.*member = !(pictures.*member);
+    m_world.setPictures(pictures);
+    rebuild();
+}
+
+Vec3 SceneSimulation::up() const
+{
+    const Vec3& gravity = m_world.description().m_gravity;
+    const double length = norm(gravity);
+    return length > 0 ? (-1 / length) * gravity : Vec3{0, 1, 0};
+}
+
+PictureRay SceneSimulation::middleRay() const
+{
+    const PictureCamera& camera = m_painter->camera();
+    return {camera.m_eye, camera.m_eye + 4 * (camera.m_target - camera.m_eye)};
+}
+
+/// Where the middle of something goes: above what the ray hits, or, where it hits nothing, at the scene's distance
+/// before the eye.
+Vec3 SceneSimulation::dropPlace(const PictureRay& cursor, double halfHeight, double gap) const
+{
+    const btVector3 from = bulletVector(cursor.m_from), to = bulletVector(cursor.m_to);
+    btCollisionWorld::ClosestRayResultCallback rigid(from, to);
+    m_world.world().rayTest(from, to, rigid);
+    double fraction = rigid.hasHit() ? double(rigid.m_closestHitFraction) : 2;
+    btFemRayHit hit;
     for (int i = 0; i < m_world.softCount(); ++i)
-    {
-        m_materials[i].*member = value;
-        btFemMaterial material = materialOf(m_materials[i]);
-        material.m_density = 0;  // masses stay
-        m_world.fem().setMaterial(&m_world.soft(i), material);
-        m_world.soft(i).activate();
-    }
+        if (btFemRay::test(&m_world.soft(i), from, to, &hit)) fraction = std::min(fraction, double(hit.m_fraction));
+    const Vec3 along = cursor.m_to - cursor.m_from;
+    if (fraction <= 1) return cursor.m_from + fraction * along + (halfHeight + gap) * up();
+    return cursor.m_from + kBeforeEye * along;
 }
 
-void SceneSimulation::applyGravity()
+void SceneSimulation::addRigid(SceneShape::Kind kind, const PictureRay& cursor)
 {
-    const Vec3& given = m_world.description().m_gravity;
-    const double length = norm(given);
-    const btVector3 gravity = bulletVector(length > 0 ? (m_gravity / length) * given : Vec3{0, -m_gravity, 0});
-    m_world.world().setGravity(gravity);  // of rigid bodies, too
-    m_world.world().getWorldInfo().m_gravity = gravity;
-    for (int i = 0; i < m_world.softCount(); ++i) m_world.soft(i).activate();
+    const double size = kAddedSize * m_size, radius = 0.5 * size;
+    SceneRigidBody body;
+    body.m_name = formatted("added %d", m_added + 1);
+    body.m_shape.m_kind = kind;
+    body.m_shape.m_size = {size, size, size};
+    body.m_shape.m_radius = radius;
+    const double volume =
+        kind == SceneShape::Kind::box ? size * size * size : 4. / 3 * 3.14159265358979 * radius * radius * radius;
+    body.m_mass = kAddedDensity * volume;
+    body.m_pose.m_position = dropPlace(cursor, radius, kDropHeight * size);
+    body.m_colour = kAddedColours[m_added % 5];
+    m_world.add(body);
+    ++m_added;
+    m_history.clear();
+    rebuild();
+}
+
+void SceneSimulation::open(const std::string& file)
+{
+    open(std::vector<std::string>{file}, middleRay());
+}
+
+void SceneSimulation::open(const std::vector<std::string>& files, const PictureRay& cursor)
+{
+    m_message.clear();
+    for (const std::string& file : files) m_waiting.push_back({file, cursor});
+    startLoading();
+}
+
+void SceneSimulation::startLoading()
+{
+    if (m_loading || m_waiting.empty()) return;
+    MeshRequest request = m_settings.m_meshes;
+    request.m_path = m_waiting.front().m_file;
+    m_loading = std::make_unique<MeshLoading>(std::move(request));
+}
+
+/// The thread may take a while to notice; nobody waits for it.
+void SceneSimulation::cancelLoading()
+{
+    if (!m_loading) return;
+    m_message = nameOf(m_waiting.front().m_file) + " was given up.";
+    m_loading->cancel();
+    m_givenUp.push_back(std::move(m_loading));
+    m_waiting.pop_front();
+    startLoading();
+}
+
+void SceneSimulation::update()
+{
+    m_givenUp.erase(
+        std::remove_if(m_givenUp.begin(), m_givenUp.end(), [](const auto& loading) { return loading->finished(); }),
+        m_givenUp.end());
+    if (!m_loading || !m_loading->finished()) return;
+    try
+    {
+        addLoaded();
+    }
+    catch (const std::exception& error)
+    {
+        m_message = reasonOf(error);
+    }
+    m_loading.reset();
+    m_waiting.pop_front();
+    startLoading();
+}
+
+void SceneSimulation::addLoaded()
+{
+    const BakedBody baked = m_loading->take();
+    const PictureBounds box = boundsOf(baked);
+    const Vec3 edges = box.m_high - box.m_low;
+    const double halfHeight = 0.5 * std::abs(dot(edges, up())), length = std::max({edges.x, edges.y, edges.z});
+    const bool first = m_world.softCount() == 0;
+    SceneSoftBody body;
+    body.m_name = nameOf(m_waiting.front().m_file);
+    const PictureRay down{3 * length * up(), -3 * length * up()};
+    const Vec3 place = first ? dropPlace(down, halfHeight, kFirstDropHeight * length)
+                             : dropPlace(m_waiting.front().m_cursor, halfHeight, 0.5 * kDropHeight * length);
+    body.m_pose.m_position = place - box.centre();
+    m_world.add(body, baked);
+    m_sliders.update();
+    m_history.clear();
+    if (first)
+    {
+        m_size = 0;
+        ++m_views;
+    }
+    rebuild();
+    m_message = formatted("%d tetrahedra, %.3g m long: ", baked.m_model->mesh().tetCount(), length) + body.m_name;
+    if (length > kLongest || length < kShortest)
+        m_message += ". If its unit is not the metre, give --scale, such as 0.001 for millimetres.";
+}
+
+ViewerProgress SceneSimulation::progress() const
+{
+    if (!m_loading) return {};
+    std::string text = nameOf(m_loading->request().m_path) + ": " + m_loading->stage();
+    if (m_waiting.size() > 1) text += formatted(", %d more to come", static_cast<int>(m_waiting.size()) - 1);
+    return {text, m_loading->share()};
 }
 
 std::string SceneSimulation::status() const
@@ -151,9 +319,11 @@ std::string SceneSimulation::status() const
         tets += report.m_tets;
         contacts += report.m_contacts;
     }
-    char text[96];
-    std::snprintf(text, sizeof text, "%.2f s, %d tetrahedra, %d contact points", m_world.time(), tets, contacts);
-    return text;
+    const std::string now = formatted("%.2f s, %d tetrahedra, %d contacts\n", m_world.time(), tets, contacts);
+    const double used = double(m_history.bytes()) / kMebibyte,
+                 most = double(m_history.settings().m_mostBytes) / kMebibyte;
+    return now + (m_history.isPast() ? formatted("Back in time: %.2f s of %.2f s", m_world.time(), m_history.until())
+                                     : formatted("Kept since %.2f s: %.1f of %.0f MiB", m_history.since(), used, most));
 }
 
 }  // namespace bullet_fem

@@ -3,8 +3,6 @@
 #include "tools/scene/scene_world.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <stdexcept>
 
 #include "BulletSoftBody/btSoftBody.h"
@@ -12,9 +10,10 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/baked/baked_body.h"
-#include "bullet_fem/fem/mesh/generators.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
+#include "fem/common/reason.h"
+#include "tools/scene/scene_meshes.h"
 #include "tools/scene/scene_shapes.h"
 
 namespace bullet_fem
@@ -42,49 +41,6 @@ btTransform transformOf(const ScenePose& pose)
     return btTransform(btQuaternion(bulletVector(pose.m_axis), btScalar(pose.m_angle)), bulletVector(pose.m_position));
 }
 
-constexpr double kMostCells = 1e6;  // along an edge; more than makeBox takes, which then says so
-
-double cellsAlong(double edge, double cell)
-{
-    return std::clamp(std::round(edge / cell), 1.0, kMostCells);
-}
-
-// The cell [m] that gives a block about `tets` elements, five a cell. By bisection: thin blocks have one cell across
-// however large it is.
-double cellFor(const Vec3& size, double tets)
-{
-    const auto count = [&](double cell)
-    { return 5 * cellsAlong(size.x, cell) * cellsAlong(size.y, cell) * cellsAlong(size.z, cell); };
-    double low = 1e-12 * (size.x + size.y + size.z), high = 2 * (size.x + size.y + size.z);
-    for (int k = 0; k < 100; ++k)
-    {
-        const double middle = std::sqrt(low * high);
-        (count(middle) < tets ? high : low) = middle;
-    }
-    return tets * tets < count(low) * count(high) ? high : low;  // the nearer one, as a ratio
-}
-
-TetMesh blockOf(const SceneMesh& mesh)
-{
-    const Vec3 size = mesh.m_scale * mesh.m_size;
-    const double cell = mesh.m_cellSize > 0 ? mesh.m_cellSize : cellFor(size, mesh.m_tets);
-    std::array<int, 3> cells;
-    for (int i = 0; i < 3; ++i) cells[i] = static_cast<int>(cellsAlong(size[i], cell));
-    return makeBox(size, cells, -0.5 * size);
-}
-
-CageSettings cageOf(const SceneMesh& mesh)
-{
-    CageSettings settings;
-    settings.m_cellSize = mesh.m_cellSize;
-    settings.m_targetTets = mesh.m_cellSize > 0 ? 0 : mesh.m_tets;
-    settings.m_cellsAcross = mesh.m_cellsAcross;
-    settings.m_mostLevels = mesh.m_mostLevels;
-    settings.m_maxTets = 5000000;
-    settings.m_surfaceCollides = mesh.m_surfaceCollides;
-    return settings;
-}
-
 std::vector<int> nodesIn(const btSoftBody& body, const SceneBox& box)
 {
     std::vector<int> nodes;
@@ -103,7 +59,7 @@ void named(const std::string& name, const Make& make)
     }
     catch (const std::exception& error)
     {
-        throw std::runtime_error("'" + name + "': " + error.what());
+        throw std::runtime_error("'" + name + "': " + reasonOf(error));
     }
 }
 
@@ -117,6 +73,16 @@ btFemMaterial materialOf(const Material& material)
     result.m_density = btScalar(material.m_density);
     result.m_massDamping = btScalar(material.m_massDamping);
     result.m_stiffnessDamping = btScalar(material.m_stiffnessDamping);
+    result.m_meanDilatation = static_cast<btFemMeanDilatation>(material.m_meanDilatation);
+    result.m_law = static_cast<btFemElasticLaw>(material.m_law);
+    result.m_accurateBending = material.m_accurateBending;
+    result.m_yieldStress = btScalar(material.m_yieldStress);
+    result.m_hardeningModulus = btScalar(material.m_hardeningModulus);
+    result.m_plasticCreep = btScalar(material.m_plasticCreep);
+    result.m_mostPlasticStrain = btScalar(material.m_mostPlasticStrain);
+    for (std::size_t i = 0; i < material.m_relaxation.size(); ++i)
+        result.m_relaxation[i] = {btScalar(material.m_relaxation[i].m_share),
+                                  btScalar(material.m_relaxation[i].m_time)};
     return result;
 }
 
@@ -129,12 +95,15 @@ SceneWorld::SceneWorld(const SceneDescription& description)
     m_configuration.setPlaneConvexMultipointIterations();  // else boxes touch a plane in one point, and sink into it
     m_world.setGravity(bulletVector(description.m_gravity));
     m_world.getWorldInfo().m_gravity = bulletVector(description.m_gravity);
-    for (const SceneRigidBody& body : description.m_rigidBodies) addRigid(body);
-    for (const SceneSoftBody& body : description.m_softBodies) named(body.m_name, [&] { addSoft(body); });
-    for (const SceneConstraint& constraint : description.m_constraints) addConstraint(constraint);
-    for (const SceneForce& force : description.m_forces) addForce(force);
+    for (const SceneRigidBody& body : m_description.m_rigidBodies) addRigid(body);
+    for (const SceneSoftBody& body : m_description.m_softBodies)
+        named(body.m_name, [&] { addSoft(body, makeSoft(body)); });
+    for (const SceneConstraint& constraint : m_description.m_constraints) addConstraint(constraint);
+    for (const SceneForce& force : m_description.m_forces) addForce(force);
     for (int i = 0; i < softCount(); ++i)
         named(description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
+    for (const SceneActuator& actuator : m_description.m_actuators)
+        named(actuator.m_body, [&] { m_actuators.add(m_fem, softCalled(actuator.m_body), actuator); });
 }
 
 SceneWorld::~SceneWorld()
@@ -144,9 +113,52 @@ SceneWorld::~SceneWorld()
     for (const auto& body : m_rigidBodies) m_world.removeRigidBody(body.get());
 }
 
+void SceneWorld::add(const SceneRigidBody& body)
+{
+    addRigid(body);
+    m_description.m_rigidBodies.push_back(body);
+}
+
+void SceneWorld::add(const SceneSoftBody& body, const BakedBody& baked)
+{
+    SceneSoftBody added = body;
+    added.m_mesh.m_kind = SceneMesh::Kind::baked;
+    const std::size_t count = m_softBodies.size();
+    m_materials.emplace_back();
+    m_regionLabels.emplace_back();
+    try
+    {
+        named(added.m_name, [&] { addSoft(added, makeBaked(baked)); });
+    }
+    catch (...)  // as if nothing had come
+    {
+        m_materials.resize(count);
+        m_regionLabels.resize(count);
+        throw;
+    }
+    m_description.m_softBodies.push_back(added);
+    m_fem.prepare(m_softBodies.back().get(), btScalar(m_description.m_step));
+}
+
+void SceneWorld::setGravity(const Vec3& gravity)
+{
+    m_description.m_gravity = gravity;
+    m_world.setGravity(bulletVector(gravity));  // of rigid bodies, too
+    m_world.getWorldInfo().m_gravity = bulletVector(gravity);
+    for (const auto& body : m_softBodies) body->activate();
+    for (const auto& body : m_rigidBodies) body->activate();
+}
+
+void SceneWorld::setSteps(long steps)
+{
+    m_steps = steps;
+    m_actuators.begin((double(steps) - 1) * m_description.m_step);
+}
+
 void SceneWorld::step()
 {
     applyForces();
+    m_actuators.apply(m_fem, time());
     moveKinematic();
     m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of just this size
     ++m_steps;
@@ -171,31 +183,64 @@ std::unique_ptr<btSoftBody> SceneWorld::makeSoft(const SceneSoftBody& from)
 {
     btSoftBodyWorldInfo& info = m_world.getWorldInfo();
     const SceneMesh& mesh = from.m_mesh;
+    m_materials.emplace_back();
+    m_regionLabels.emplace_back();
     switch (mesh.m_kind)
     {
         case SceneMesh::Kind::box:
             return std::unique_ptr<btSoftBody>(btFemHelpers::createFromTetMesh(info, blockOf(mesh)));
+        case SceneMesh::Kind::sphere:
+            return std::unique_ptr<btSoftBody>(btFemHelpers::createFromTetMesh(info, ballOf(mesh)));
         case SceneMesh::Kind::surface:
-            return std::unique_ptr<btSoftBody>(
-                btFemHelpers::createFromSurface(info, readSurfaceFile(mesh.m_path, mesh.m_scale), cageOf(mesh)));
+        {
+            CageReport report;
+            std::unique_ptr<btSoftBody> body(btFemHelpers::createFromSurface(
+                info, readSurfaceFile(mesh.m_path, mesh.m_scale), cageOf(mesh), report));
+            if (!from.m_regionMaterials.empty()) m_regionLabels.back() = std::move(report.m_regions);
+            return body;
+        }
         case SceneMesh::Kind::tetrahedra:
-            return std::unique_ptr<btSoftBody>(
-                btFemHelpers::createFromTetMesh(info, readTetMeshFile(mesh.m_path, mesh.m_scale).mesh()));
+        {
+            TetMeshFile file = readTetMeshFile(mesh.m_path, mesh.m_scale);
+            m_regionLabels.back() = std::move(file.m_regions);
+            return std::unique_ptr<btSoftBody>(btFemHelpers::createFromTetMesh(info, file.mesh()));
+        }
         default:
-            break;
+            return makeBaked(readBakedBody(mesh.m_path));
     }
-    const BakedBody baked = readBakedBody(mesh.m_path);
-    std::unique_ptr<btSoftBody> body(btFemHelpers::createFromBaked(info, baked));
+}
+
+std::unique_ptr<btSoftBody> SceneWorld::makeBaked(const BakedBody& baked)
+{
+    std::unique_ptr<btSoftBody> body(btFemHelpers::createFromBaked(m_world.getWorldInfo(), baked));
     m_fem.useBaked(body.get(), baked);
+    const ElementMaterials& materials = m_materials.back() = baked.m_model->shape().m_materials;
+    for (const int region : materials.m_regionOf) m_regionLabels.back().push_back(materials.m_regions[region].m_label);
     return body;
 }
 
-void SceneWorld::addSoft(const SceneSoftBody& from)
+void SceneWorld::giveMaterials(btSoftBody& body, const SceneSoftBody& from)
 {
-    std::unique_ptr<btSoftBody> body = makeSoft(from);
-    if (from.m_mesh.m_kind != SceneMesh::Kind::baked) m_fem.setMaterial(body.get(), materialOf(from.m_material));
+    if (from.m_regionMaterials.empty())
+    {
+        m_materials.back() = from.m_material;
+        m_fem.setMaterial(&body, materialOf(from.m_material));
+        return;
+    }
+    const std::vector<int>& labels = m_regionLabels.back();
+    if (labels.empty()) throw std::runtime_error("its file has no regions and is not painted; give it one material");
+    m_materials.back() = ElementMaterials::ofLabels(labels, from.m_regionMaterials);
+    std::map<int, btFemMaterial> materials;
+    for (const auto& [label, material] : from.m_regionMaterials) materials[label] = materialOf(material);
+    m_fem.setMaterials(&body, labels, materials);
+}
+
+void SceneWorld::addSoft(const SceneSoftBody& from, std::unique_ptr<btSoftBody> body)
+{
+    if (from.m_mesh.m_kind != SceneMesh::Kind::baked) giveMaterials(*body, from);
     body->transform(transformOf(from.m_pose));
     body->m_cfg.kDF = btScalar(from.m_friction);
+    body->setRestitution(btScalar(from.m_restitution));
     if (from.m_selfContact) body->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
     for (const SceneBox& box : from.m_pins)
     {

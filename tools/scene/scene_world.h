@@ -10,10 +10,14 @@
 #include "btBulletDynamicsCommon.h"
 #include "bullet_fem/btFemConstraintSolver.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/fem/mesh/element_materials.h"
+#include "tools/scene/scene_actuators.h"
 #include "tools/scene/scene_description.h"
 
 namespace bullet_fem
 {
+
+struct BakedBody;
 
 /// The plug-in's form of a material.
 btFemMaterial materialOf(const Material& material);
@@ -22,9 +26,9 @@ btFemMaterial materialOf(const Material& material);
 class SceneWorld
 {
 public:
-    /// Makes bodies, joints and anchors, and factors. The description must live longer. Throws std::runtime_error, or
-    /// std::invalid_argument, that begins with the body's name: a file that is bad, a mesh or material that no body can
-    /// have, a pin, anchor or force that holds no node.
+    /// Makes bodies, joints and anchors, and factors. Throws std::runtime_error, or std::invalid_argument, that begins
+    /// with the body's name: a file that is bad, a mesh or material that no body can have, a pin, anchor or force that
+    /// holds no node.
     explicit SceneWorld(const SceneDescription& description);
     ~SceneWorld();
     SceneWorld(const SceneWorld&) = delete;
@@ -32,7 +36,22 @@ public:
 
     /// Advances by the description's step.
     void step();
-    double time() const { return m_steps * m_description.m_step; }  ///< [s]
+    double time() const { return double(m_steps) * m_description.m_step; }  ///< [s]
+    long steps() const { return m_steps; }                                  ///< that were made
+
+    /// @name Changes of a scene in motion. They are between steps, and the description tells what is there now.
+    /// @{
+
+    /// Adds a body after the others.
+    void add(const SceneRigidBody& body);
+    /// The same of a body that was made ready: it has the mesh, material and pins of `baked`. Throws like the
+    /// constructor, and adds nothing then.
+    void add(const SceneSoftBody& body, const BakedBody& baked);
+    void setGravity(const Vec3& gravity);  ///< [m/s2]
+    void setPictures(const ScenePictures& pictures) { m_description.m_pictures = pictures; }
+    /// Sets the clock, for who restores a state of then: how many steps were made, >= 0.
+    void setSteps(long steps);
+    /// @}
 
     const SceneDescription& description() const { return m_description; }
     btSoftRigidDynamicsWorld& world() { return m_world; }
@@ -43,7 +62,11 @@ public:
     /// In the description's order.
     btSoftBody& soft(int i) { return *m_softBodies[i]; }
     const btSoftBody& soft(int i) const { return *m_softBodies[i]; }
+    btRigidBody& rigid(int i) { return *m_rigidBodies[i]; }
     const btRigidBody& rigid(int i) const { return *m_rigidBodies[i]; }
+    const ElementMaterials& materials(int i) const { return m_materials[i]; }  ///< that a soft body started with
+    /// Of a soft body's tetrahedra, as its file has them; empty if it has none.
+    const std::vector<int>& regionLabels(int i) const { return m_regionLabels[i]; }
 
 private:
     /// What a force of the scene acts on: a rigid body, or nodes with their shares of it.
@@ -54,18 +77,20 @@ private:
         std::vector<int> m_nodes;
         std::vector<double> m_shares;  // sum 1
     };
-    void addSoft(const SceneSoftBody& from);
+    void addSoft(const SceneSoftBody& from, std::unique_ptr<btSoftBody> body);
     void addRigid(const SceneRigidBody& from);
     void addConstraint(const SceneConstraint& from);
     void addAnchors(const SceneConstraint& from);
     std::unique_ptr<btSoftBody> makeSoft(const SceneSoftBody& from);
+    std::unique_ptr<btSoftBody> makeBaked(const BakedBody& baked);
+    void giveMaterials(btSoftBody& body, const SceneSoftBody& from);
     void addForce(const SceneForce& from);
     void applyForces();
     void moveKinematic();
     btRigidBody& rigidCalled(const std::string& name);
     btSoftBody& softCalled(const std::string& name);
 
-    const SceneDescription& m_description;
+    SceneDescription m_description;  // of what is there now
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
     btDbvtBroadphase m_broadphase;
@@ -74,10 +99,13 @@ private:
     std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
     std::vector<std::unique_ptr<btTypedConstraint>> m_joints;
     std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
+    std::vector<ElementMaterials> m_materials;     // of the soft bodies
+    std::vector<std::vector<int>> m_regionLabels;  // likewise
     btFemSoftBodySolver m_fem;
     std::unique_ptr<btConstraintSolver> m_rigidSolver;
     btSoftRigidDynamicsWorld m_world;
     std::vector<ForceNodes> m_forces;  // as in the description
+    SceneActuators m_actuators;
     long m_steps = 0;
 };
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
@@ -11,9 +12,9 @@ namespace bullet_fem
 /// the colour-blind. `share` is in [0, 1] of the highest value; values beyond have the colour of the nearer end, NaN
 /// that of 0. Red, green and blue in [0, 1], as screens take them (sRGB). By Smith and van der Walt, 2015, who
 /// dedicated it to the public domain (CC0).
-Vec3 viridis(double share);
+BULLETFEM_API Vec3 viridis(double share);
 
 /// The same as light (linear), which is what glTF calculates with.
-Vec3 linearColour(const Vec3& screenColour);
+BULLETFEM_API Vec3 linearColour(const Vec3& screenColour);
 
 }  // namespace bullet_fem

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/io/body_frame.h"
 
 namespace bullet_fem
@@ -25,6 +26,7 @@ struct GlbSettings
 {
     bool m_stepped = false;  ///< frames follow each other with a jump (STEP), not along straight lines (LINEAR)
     bool m_normals = true;   ///< smooth shading, at the price of half the size; else viewers shade every triangle flat
+    /// What vertices are coloured by.
     GlbColours m_colours = GlbColours::plain;
     bool m_zUp = false;     ///< the world's z is up: bodies are turned so that it is viewers' y
     double m_hottest = 0;   ///< von Mises' stress of the last colour [Pa], >= 0; 0: the highest in the film
@@ -35,13 +37,15 @@ struct GlbSettings
 /// A run as one animated binary glTF 2.0 file: every frame is a morph target of the bodies' surfaces, every body a
 /// node. Lengths are metres. Give it every k-th frame of the run: frames are kept, at 12
 /// bytes a vertex and 4 more with colours, until write(). Not for bodies that come, go, or change their triangles.
-class GlbFilm
+class BULLETFEM_API GlbFilm
 {
 public:
     /// Throws std::invalid_argument on a setting out of its range.
     explicit GlbFilm(const GlbSettings& settings = {});
     ~GlbFilm();
+    /// Moves: the other is not to be used then.
     GlbFilm(GlbFilm&&) noexcept;
+    /// Likewise.
     GlbFilm& operator=(GlbFilm&&) noexcept;
 
     /// A frame at `time` [s], after the one before. Of the bodies the positions and triangles are used, and with
@@ -55,6 +59,7 @@ public:
     /// std::runtime_error naming the path if it cannot be written, std::invalid_argument if there is no frame.
     void write(const std::string& path) const;
 
+    /// Frames so far.
     int frameCount() const;
     /// An upper bound of what write() would write now [B].
     std::size_t byteCount() const;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
@@ -27,8 +28,11 @@ struct TetMeshFile
 {
     std::vector<Vec3> m_positions;  ///< [m] of the nodes that tetrahedra use, in the file's order
     std::vector<std::uint64_t>
-        m_nodeNumbers;                ///< what the file calls each: a tag, or a count from 1 (Medit) or 0 (VTK)
-    std::vector<Tet> m_tets;          ///< indices into m_positions, in the file's order and orientation
+        m_nodeNumbers;        ///< what the file calls each: a tag, or a count from 1 (Medit) or 0 (VTK)
+    std::vector<Tet> m_tets;  ///< indices into m_positions, in the file's order and orientation
+    /// What the file calls the region of every tetrahedron: a Gmsh physical group, a Medit reference, TetGen's first
+    /// attribute, or the cells' array of a VTK file that docs/files.md names. Empty where it has none but 0.
+    std::vector<int> m_regions;
     std::size_t m_unusedNodes = 0;    ///< left out: nodes that no tetrahedron uses
     std::size_t m_skippedFaces = 0;   ///< left out: triangles and other polygons
     std::size_t m_skippedEdges = 0;   ///< left out: lines of any order
@@ -46,9 +50,9 @@ struct TetMeshFile
 /// is the metre). Memory grows with the file's size, not with a count that it claims. Throws std::runtime_error naming
 /// the file, the line (text) or byte (binary, from 0), and what was expected there; std::invalid_argument if scale is
 /// not positive and finite.
-TetMeshFile readTetMeshFile(const std::string& path, double scale = 1);
+BULLETFEM_API TetMeshFile readTetMeshFile(const std::string& path, double scale = 1);
 
 /// The same from memory; errors name no file. Any bytes may be given.
-TetMeshFile readTetMesh(const void* bytes, std::size_t size, TetMeshFormat format, double scale = 1);
+BULLETFEM_API TetMeshFile readTetMesh(const void* bytes, std::size_t size, TetMeshFormat format, double scale = 1);
 
 }  // namespace bullet_fem

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
@@ -13,9 +14,9 @@ namespace bullet_fem
 /// Bullet's own reader takes), Medit .mesh, or TetGen .node and .ele, both of which are written, counted from 1.
 /// Each file appears as a whole or not at all. Throws std::runtime_error naming the path if it cannot be written or its
 /// ending is another.
-void writeTetMeshFile(const std::string& path, const TetMesh& mesh);
+BULLETFEM_API void writeTetMeshFile(const std::string& path, const TetMesh& mesh);
 
 /// Throws what writeTetMeshFile would if it could not begin: before work whose result goes there. Nothing is left.
-void checkTetMeshOutput(const std::string& path);
+BULLETFEM_API void checkTetMeshOutput(const std::string& path);
 
 }  // namespace bullet_fem

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/mesh/material.h"
 
 namespace bullet_fem
@@ -12,6 +13,7 @@ namespace bullet_fem
 /// The `<deformable>` block of a URDF file, as pybullet reads it. What the file does not give is as in pybullet.
 struct UrdfDeformable
 {
+    /// Of the block; may be empty.
     std::string m_name;
     double m_mass = 1;                ///< of the whole body [kg], > 0
     double m_collisionMargin = 0.02;  ///< [m], >= 0
@@ -29,6 +31,6 @@ struct UrdfDeformable
 /// are ignored. Throws std::runtime_error naming file, line, what was found and what was expected: a file that is
 /// missing, unreadable or not XML; no `<deformable>`; an element or attribute missing; a number out of range; a mesh
 /// file that is not found.
-UrdfDeformable readUrdfDeformable(const std::string& path);
+BULLETFEM_API UrdfDeformable readUrdfDeformable(const std::string& path);
 
 }  // namespace bullet_fem

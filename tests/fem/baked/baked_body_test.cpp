@@ -91,7 +91,7 @@ TEST_P(BakedBodies, AreToldByTheirBeginning)
     writeBakedBody(m_path, m_baked);
     const BakedFileInfo info = inspectBakedBody(m_path);
     const BodyModel& model = *m_baked.m_model;
-    EXPECT_EQ(info.m_version, 1);
+    EXPECT_EQ(info.m_version, 2);
     EXPECT_EQ(info.m_fileBytes, std::filesystem::file_size(m_path));
     EXPECT_EQ(info.m_factorBytes, model.factorReport().m_bytes);
     EXPECT_EQ(info.m_nodes, model.nodeCount());
@@ -128,14 +128,66 @@ INSTANTIATE_TEST_SUITE_P(Of, BakedBodies,
                                     (c.m_choice == FactorChoice::full ? "" : "OfLowMemory");
                          });
 
+TEST(Baking, KeepsWhetherElementsShareTheirVolumeChange)
+{
+    const TemporaryFolder folder;
+    for (const MeanDilatation choice : {MeanDilatation::automatic, MeanDilatation::on, MeanDilatation::off})
+    {
+        BakeSettings settings;
+        settings.m_material.m_poissonRatio = 0.45;
+        settings.m_material.m_meanDilatation = choice;
+        const BakedBody baked = bakeBody(makeBox({1, 1, 1}, {2, 2, 2}), settings);
+        writeBakedBody(folder.path("body.bfem"), baked);
+        const BakedBody read = readBakedBody(folder.path("body.bfem"));
+        EXPECT_EQ(read.m_model->shape().m_material.m_meanDilatation, choice);
+        EXPECT_EQ(read.m_model->shape().m_patches.count(), choice == MeanDilatation::off ? 0 : 8);
+        EXPECT_EQ(coordinatesAfterFalling(read), coordinatesAfterFalling(baked));
+    }
+}
+
+TEST(Baking, KeepsThatTheMaterialBendsAccurately)
+{
+    const TemporaryFolder folder;
+    for (const bool isAccurate : {true, false})
+    {
+        BakeSettings settings;
+        settings.m_material.m_poissonRatio = 0.45;
+        settings.m_material.m_accurateBending = isAccurate;
+        const BakedBody baked = bakeBody(makeBox({1, 1, 1}, {2, 2, 2}), settings);
+        writeBakedBody(folder.path("body.bfem"), baked);
+        const BakedBody read = readBakedBody(folder.path("body.bfem"));
+        EXPECT_EQ(read.m_model->shape().m_material.m_accurateBending, isAccurate);
+        EXPECT_EQ(read.m_model->shape().m_material.m_meanDilatation, MeanDilatation::automatic);
+        EXPECT_EQ(read.m_model->shape().m_edgeDomains.empty(), !isAccurate);
+        EXPECT_EQ(coordinatesAfterFalling(read), coordinatesAfterFalling(baked));
+    }
+}
+
+TEST(Baking, KeepsHowTheMaterialYields)
+{
+    const TemporaryFolder folder;
+    for (const Material& material : {Material::lead(), Material::mildFoam(), Material::rubber()})
+    {
+        BakeSettings settings;
+        settings.m_material = material;
+        writeBakedBody(folder.path("body.bfem"), bakeBody(makeBox({1, 1, 1}, {2, 2, 2}), settings));
+        const Material read = readBakedBody(folder.path("body.bfem")).m_model->shape().m_material;
+        EXPECT_EQ(read.m_yieldStress, material.m_yieldStress);
+        EXPECT_EQ(read.m_hardeningModulus, material.m_hardeningModulus);
+        EXPECT_EQ(read.m_plasticCreep, material.m_plasticCreep);
+        EXPECT_EQ(read.m_mostPlasticStrain, material.m_mostPlasticStrain);
+        EXPECT_EQ(inspectBakedBody(folder.path("body.bfem")).m_material.m_yieldStress, material.m_yieldStress);
+    }
+}
+
 TEST(Baking, RoundsToSinglePrecisionUnlessToldOtherwise)
 {
     BakeSettings settings;
     settings.m_material.m_poissonRatio = 0.47;
     const TetMesh mesh = makeBox({1, 1, 1}, {3, 3, 3}, {0.1, 0, 0});
     const BakedBody single = bakeBody(mesh, settings);
-    settings.m_material.m_poissonRatio = 0.49;
-    EXPECT_EQ(bakeBody(mesh, settings).m_model->shape().m_material.m_poissonRatio, 0.49);
+    settings.m_material.m_poissonRatio = 0.499;
+    EXPECT_EQ(bakeBody(mesh, settings).m_model->shape().m_material.m_poissonRatio, 0.499);
     settings.m_material.m_poissonRatio = 0.47;
     settings.m_singlePrecision = false;
     const BakedBody twice = bakeBody(mesh, settings);

@@ -17,7 +17,7 @@ namespace
 std::vector<ThinPart> partsOf(const SurfaceMesh& surface)
 {
     const TriangleTree tree(surface.m_vertices, surface.m_triangles);
-    const WindingNumber winding(surface.m_vertices, surface.m_triangles);
+    const SurfaceWinding winding(surface.m_vertices, surface.m_triangles, true);
     return findThinParts(surface.m_vertices, surface.m_triangles, {tree, winding, 0.5, 0.1, 0.02, 1});
 }
 
@@ -123,7 +123,7 @@ TEST(ThinParts, OfAFinePlateAreNotItsRim)
     SurfaceMesh plate = boxSurface({0, 0, 0}, {1, 1, 0.02});
     for (int n = 0; n < 4; ++n) plate = split(plate);
     const TriangleTree tree(plate.m_vertices, plate.m_triangles);
-    const WindingNumber winding(plate.m_vertices, plate.m_triangles);
+    const SurfaceWinding winding(plate.m_vertices, plate.m_triangles, true);
     const std::vector<ThinPart> parts =
         findThinParts(plate.m_vertices, plate.m_triangles, {tree, winding, 0.5, 0.3, 0.15, 1});
     const Found solid = found(parts, false);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fem/cage/triangle_overlap.h"
 #include "fem/scenes/test_surfaces.h"
 
@@ -37,6 +39,30 @@ TEST(WindingNumber, OfAFarBoxVanishesByItsMoments)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 2, 3});
     EXPECT_NEAR(windingAt(box, {20, -10, 10}), 0, 1e-17);  // either term alone: 1e-4
+}
+
+// A tube of many long sides, all of which are near to its inside: the product of their complex numbers would come to 0.
+TEST(WindingNumber, OfManyThinTrianglesDoesNotUnderflow)
+{
+    constexpr int kSides = 600;
+    SurfaceMesh tube;
+    for (int k = 0; k < kSides; ++k)
+        for (const double z : {0.0, 10.0})
+            tube.m_vertices.push_back(
+                {0.5 * std::cos(6.283185307 * k / kSides), 0.5 * std::sin(6.283185307 * k / kSides), z});
+    tube.m_vertices.insert(tube.m_vertices.end(), {{0, 0, 0}, {0, 0, 10}});
+    for (int k = 0; k < kSides; ++k)
+    {
+        const int i = 2 * k, j = 2 * ((k + 1) % kSides);
+        for (const Triangle& t : {Triangle{i, j, j + 1}, Triangle{i, j + 1, i + 1}, Triangle{2 * kSides, j, i},
+                                  Triangle{2 * kSides + 1, i + 1, j + 1}})
+            tube.m_triangles.push_back(t);
+    }
+    const WindingNumber winding(tube.m_vertices, tube.m_triangles);
+    for (const double z : {0.5, 2.0, 5.0, 9.5})
+        for (const double r : {0.0, 0.2, 0.4, 0.49})
+            EXPECT_NEAR(winding.at({0.6 * r, 0.8 * r, z}), 1, 0.1) << r << " m, " << z << " m";
+    EXPECT_NEAR(winding.at({0.6, 0, 5}), 0, 0.1);
 }
 
 TEST(WindingNumber, OfNothingIsZero)

@@ -5,6 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/common/unfinished_files.h"
 #include "io/full_disk.h"
 #include "io/temporary_folder.h"
 
@@ -17,6 +22,8 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::IsSupersetOf;
+using testing::UnorderedElementsAre;
 
 std::string messageOfWriting(const std::string& path)
 {
@@ -69,6 +76,25 @@ TEST(OutputFile, OnAFullDiskTheOldFileStaysAndNoPartIsLeft)
         EXPECT_THAT(why, AllOf(HasSubstr("cannot write '" + path + "': File too large"), HasSubstr("disk not full")));
     EXPECT_EQ(folder.read("a"), "old");
     EXPECT_THAT(folder.names(), ElementsAre("a"));
+}
+
+TEST(OutputFile, ThatIsUnfinishedCanBeRemovedByASignalHandler)
+{
+    const TemporaryFolder folder;
+    writeOutputFile(folder.path("whole"), "kept");
+    std::vector<std::unique_ptr<OutputFile>> files;
+    for (int k = 0; k < 70; ++k)  // six more than are noted
+        files.push_back(std::make_unique<OutputFile>(folder.path(std::to_string(k))));
+    files.front()->commit();
+    removeUnfinishedFiles();
+    EXPECT_EQ(folder.names().size(), 2u + 6u);
+    EXPECT_THAT(folder.names(), IsSupersetOf({"0", "whole"}));
+    files.clear();
+    EXPECT_THAT(folder.names(), UnorderedElementsAre("0", "whole"));
+    for (int k = 0; k < 200; ++k) OutputFile(folder.path("often"));  // places are given back
+    const OutputFile last(folder.path("last"));
+    removeUnfinishedFiles();
+    EXPECT_THAT(folder.names(), UnorderedElementsAre("0", "whole"));
 }
 
 TEST(OutputFile, DevicesAreWrittenToAndStayDevices)

@@ -30,7 +30,9 @@ bool onEnd(const Vec3& X)
 
 RestShape bar(CellSplit split, int n, double poisson)
 {
-    return RestShape(makeBox({kLength, 1, 1}, {10 * n, n, n}, {}, split), elasticMaterial(kYoung, poisson));
+    Material material = elasticMaterial(kYoung, poisson);
+    material.m_meanDilatation = MeanDilatation::off;
+    return RestShape(makeBox({kLength, 1, 1}, {10 * n, n, n}, {}, split), material);
 }
 
 // F L^3 / (3 E I) + F L / (kappa G A) for F = 1 N.

@@ -79,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Strains, ElasticityPatch,
                                          Patch{"FiveTet20Percent", CellSplit::alternatingFive, .3, .2},
                                          Patch{"KuhnSmall", CellSplit::kuhnSix, .3, 1e-4},
                                          Patch{"Kuhn20Percent", CellSplit::kuhnSix, .3, .2},
-                                         Patch{"KuhnNearlyIncompressible", CellSplit::kuhnSix, .49, .2}),
+                                         Patch{"KuhnNearlyIncompressible", CellSplit::kuhnSix, .49, .2},
+                                         Patch{"FiveTetOfLargestRatio", CellSplit::alternatingFive, .499, 1e-3}),
                          patchName);
 
 constexpr double kPatchLength = 2, kSide = .5, kPatchYoung = 1e6;  // the bar [m], [m], [Pa]

@@ -20,7 +20,7 @@ bool atStart(const Vec3& X)
     return X.x == 0;
 }
 
-TetMesh bar()
+TetMesh swingingBar()
 {
     return makeBox({1, .1, .1}, {10, 1, 1});
 }
@@ -64,12 +64,12 @@ class SecondOrderVibration : public testing::TestWithParam<Swing>
 TEST_P(SecondOrderVibration, FollowsItsLaw)
 {
     const Swing& p = GetParam();
-    const Mode mode = LinearSystem(RestShape(bar(), elasticMaterial(1e6, .3)), atStart).lowestModes(1).front();
+    const Mode mode = LinearSystem(RestShape(swingingBar(), elasticMaterial(1e6, .3)), atStart).lowestModes(1).front();
     StepSettings settings;
     settings.m_step = p.m_phaseStep / mode.m_omega;
     settings.m_tolerance = 1e-9;
     settings.m_numericalDamping = p.m_damping;
-    Body body = bodyOf(bar(), 1e6, settings, atStart);
+    Body body = bodyOf(swingingBar(), 1e6, settings, atStart);
     BodyState& s = body.m_state;
     const std::vector<Vec3> X = s.m_x;
     const double amplitude = 1e-4;
@@ -114,11 +114,11 @@ INSTANTIATE_TEST_SUITE_P(Steps, SecondOrderVibration,
 // Of 1.7 Hz at 60 Hz: implicit Euler has lost half of it in .74 s.
 TEST(SecondOrder, SwingsForTenSeconds)
 {
-    const Mode mode = LinearSystem(RestShape(bar(), elasticMaterial(1e6, .3)), atStart).lowestModes(1).front();
+    const Mode mode = LinearSystem(RestShape(swingingBar(), elasticMaterial(1e6, .3)), atStart).lowestModes(1).front();
     StepSettings settings;
     settings.m_numericalDamping = 0;
     settings.m_step = 2 * 3.14159265358979 * 1.7 / mode.m_omega / 60;
-    Body body = bodyOf(bar(), 1e6, settings, atStart);
+    Body body = bodyOf(swingingBar(), 1e6, settings, atStart);
     BodyState& s = body.m_state;
     for (std::size_t i = 0; i < s.m_x.size(); ++i) s.m_x[i] += 0.02 * mode.m_shape[i];
     const double start = mechanicalEnergy(body);
@@ -140,10 +140,10 @@ std::vector<Vec3> after(double h, double stretch, double damping)
     const auto fixed = [stretch](const Vec3& X) { return X.x == 0 || (stretch > 1 && X.x == 1); };
     StepSettings toRest;
     toRest.m_tolerance = 1e-9;
-    Body resting = bodyOf(bar(), 1e5, toRest, fixed);
+    Body resting = bodyOf(swingingBar(), 1e5, toRest, fixed);
     for (Vec3& x : resting.m_state.m_x) x.x *= stretch;
     for (int k = 0; k < 600 && stretch > 1; ++k) bullet_fem::step(resting, toRest);
-    Body body = bodyOf(bar(), 1e5, settings, fixed);
+    Body body = bodyOf(swingingBar(), 1e5, settings, fixed);
     body.m_state.m_x = resting.m_state.m_x;
     setGravity(body, {0, 0, -1});
     const int n = static_cast<int>(std::lround(0.25 / h));
@@ -208,7 +208,7 @@ TEST(SecondOrder, ComesToRestWhereStepsWithoutDampingExplode)
     RandomVectors random(5);
     for (const double stretch : {1.5, 2.0})
     {
-        Body strip = bodyOf(bar(), 1e7, settings, [](const Vec3& X) { return X.x == 0 || X.x == 1; });
+        Body strip = bodyOf(swingingBar(), 1e7, settings, [](const Vec3& X) { return X.x == 0 || X.x == 1; });
         BodyState& s = strip.m_state;
         for (std::size_t i = 0; i < s.m_x.size(); ++i)
         {
@@ -248,7 +248,7 @@ TEST(SecondOrder, RestsWhereEulerRests)
         settings.m_numericalDamping = damping;
         Material material = elasticMaterial(1e6, .3);
         material.m_massDamping = 20;
-        Body body = makeBody(bar(), material, atStart, factorStep(settings.m_step, damping, material));
+        Body body = makeBody(swingingBar(), material, atStart, factorStep(settings.m_step, damping, material));
         setGravity(body, {0, 0, -9.81});
         for (int k = 0; k < 1000; ++k) step(body, settings);
         rest[static_cast<int>(damping)] = body.m_state.m_x;

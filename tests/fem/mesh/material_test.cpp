@@ -45,13 +45,14 @@ TEST(LameModuli, StayInWhatAMaterialMayHave)
     const LameModuli soft = {300, -150}, stiff = {1, 1e9};
     EXPECT_DOUBLE_EQ(soft.poissonRatio(), 0);
     EXPECT_DOUBLE_EQ(soft.youngModulus(), 600);  // 2 mu: the shear modulus stays
-    EXPECT_DOUBLE_EQ(stiff.poissonRatio(), 0.49);
+    EXPECT_DOUBLE_EQ(stiff.poissonRatio(), 0.499);
 }
 
 TEST(Material, DefaultAndPresetsAreValidAndDiffer)
 {
     const std::vector<Material> all = {Material(),        Material::rubber(), Material::foam(),
-                                       Material::jelly(), Material::flesh(),  Material::wood()};
+                                       Material::jelly(), Material::flesh(),  Material::wood(),
+                                       Material::clay(),  Material::lead(),   Material::mildFoam()};
     for (std::size_t i = 0; i < all.size(); ++i)
     {
         std::string why = "untouched";
@@ -77,6 +78,37 @@ TEST(Material, PresetsAreAsDocumented)
     is(Material::jelly(), 10e3, 0.45, 1000);
     is(Material::flesh(), 60e3, 0.45, 1060);
     is(Material::wood(), 9e9, 0.3, 500);
+    is(Material::clay(), 2.5e6, 0.45, 1800);
+    is(Material::lead(), 16e9, 0.44, 11340);
+    is(Material::mildFoam(), 50e3, 0.1, 40);
+}
+
+TEST(Material, PresetsYieldAsDocumented)
+{
+    for (const Material& elastic : {Material(), Material::rubber(), Material::foam(), Material::wood()})
+        EXPECT_FALSE(elastic.yields());
+    const auto yields = [](const Material& material, double stress, double hardening, double creep)
+    {
+        EXPECT_TRUE(material.yields());
+        EXPECT_EQ(material.m_yieldStress, stress);
+        EXPECT_EQ(material.m_hardeningModulus, hardening);
+        EXPECT_EQ(material.m_plasticCreep, creep);
+        EXPECT_EQ(material.m_mostPlasticStrain, 0.5);
+    };
+    yields(Material::clay(), 5e4, 0, kInf);
+    yields(Material::lead(), 5.5e6, 20e6, kInf);
+    yields(Material::mildFoam(), 2.5e3, 0, 2);
+}
+
+TEST(Material, WhatYieldsOtherwiseIsAnother)
+{
+    for (double Material::*member : {&Material::m_yieldStress, &Material::m_hardeningModulus, &Material::m_plasticCreep,
+                                     &Material::m_mostPlasticStrain})
+    {
+        Material material = Material::lead();
+        material.*member = 0.3;
+        EXPECT_NE(material, Material::lead());
+    }
 }
 
 struct Bound
@@ -124,7 +156,12 @@ TEST_P(MaterialRange, RejectsWhatIsOutsideNamingIt)
 
 const Bound kBounds[] = {
     {"YoungModulus", &Material::m_youngModulus, {1e-6, 1e13}, {0, -1e6, 1.01e13, kInf, kNaN}, "Young's", "(0, 1e+13]"},
-    {"PoissonRatio", &Material::m_poissonRatio, {0, 0.49}, {-0.01, 0.4901, 0.5, kInf, kNaN}, "Poisson's", "[0, 0.49]"},
+    {"PoissonRatio",
+     &Material::m_poissonRatio,
+     {0, 0.499},
+     {-0.01, 0.4991, 0.5, kInf, kNaN},
+     "Poisson's",
+     "[0, 0.499]"},
     {"Density", &Material::m_density, {0, 1e6}, {-1, 1.1e6, kInf, kNaN}, "density", "[0, 1000000]"},
     {"MassDamping", &Material::m_massDamping, {0, 1e4}, {-1e-9, 10001, kInf, kNaN}, "mass damping", "[0, 10000]"},
     {"StiffnessDamping",
@@ -132,7 +169,21 @@ const Bound kBounds[] = {
      {0, 10},
      {-1e-9, 10.5, kInf, kNaN},
      "stiffness damping",
-     "[0, 10]"}};
+     "[0, 10]"},
+    {"YieldStress", &Material::m_yieldStress, {1e-6, 1e13, kInf}, {0, -1, -kInf, kNaN}, "yield stress", "(0, inf]"},
+    {"HardeningModulus",
+     &Material::m_hardeningModulus,
+     {0, 1e13},
+     {-1, 1.1e13, kInf, kNaN},
+     "hardening modulus",
+     "[0, 1e+13]"},
+    {"PlasticCreep", &Material::m_plasticCreep, {1e-9, 1e9, kInf}, {0, -1, kNaN}, "plastic creep", "(0, inf]"},
+    {"MostPlasticStrain",
+     &Material::m_mostPlasticStrain,
+     {1e-9, 0.9},
+     {0, -0.1, 0.91, kInf, kNaN},
+     "largest plastic strain",
+     "(0, 0.9]"}};
 
 INSTANTIATE_TEST_SUITE_P(Material, MaterialRange, testing::ValuesIn(kBounds),
                          [](const auto& suite) { return std::string(suite.param.m_name); });

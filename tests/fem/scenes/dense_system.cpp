@@ -59,6 +59,43 @@ Eigen::MatrixXd textbookElementStiffness(const std::array<Vec3, 4>& X, const Mat
     return std::abs(P.determinant()) / 6 * B.transpose() * C * B;
 }
 
+namespace
+{
+
+// K V (G G^T - the mean of g g^T), K the bulk modulus, of every patch, where g p is an element's volume change and G
+// their mean.
+void averageDilatations(const TetMesh& mesh, const Material& material, const std::vector<Mat3>& R, Eigen::MatrixXd& K)
+{
+    const ElementPatches patches(mesh);
+    const double bulk = material.m_youngModulus / (3 * (1 - 2 * material.m_poissonRatio));
+    const std::vector<Vec3>& X = mesh.restPositions();
+    for (int p = 0; p < patches.count(); ++p)
+    {
+        Eigen::VectorXd G = Eigen::VectorXd::Zero(K.rows());
+        double volume = 0;
+        for (int k = patches.m_start[p]; k < patches.m_start[p + 1]; ++k)
+        {
+            const int e = patches.m_element[k];
+            Eigen::VectorXd g = Eigen::VectorXd::Zero(K.rows());
+            for (int a = 0; a < 4; ++a)
+            {
+                // The face opposite a, towards it, over three times the volume.
+                const Tet& t = mesh.tets()[e];
+                const Vec3 &b = X[t[(a + 1) % 4]], &c = X[t[(a + 2) % 4]], &d = X[t[(a + 3) % 4]];
+                const Vec3 normal = cross(c - b, d - b);
+                const Vec3 gradient = R[e] * ((1 / dot(normal, X[t[a]] - b)) * normal);
+                for (int i = 0; i < 3; ++i) g(3 * t[a] + i) = gradient[i];
+            }
+            G += mesh.tetVolume(e) * g;
+            volume += mesh.tetVolume(e);
+            K -= bulk * mesh.tetVolume(e) * g * g.transpose();
+        }
+        K += bulk / volume * G * G.transpose();
+    }
+}
+
+}  // namespace
+
 Eigen::MatrixXd denseStiffness(const TetMesh& mesh, const Material& material, const std::vector<Mat3>& R)
 {
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * mesh.nodeCount(), 3 * mesh.nodeCount());
@@ -72,6 +109,7 @@ Eigen::MatrixXd denseStiffness(const TetMesh& mesh, const Material& material, co
             for (int b = 0; b < 4; ++b)
                 K.block<3, 3>(3 * tet[a], 3 * tet[b]) += R_e * K_e.block<3, 3>(3 * a, 3 * b) * R_e.transpose();
     }
+    if (material.usesMeanDilatation()) averageDilatations(mesh, material, R, K);
     return K;
 }
 

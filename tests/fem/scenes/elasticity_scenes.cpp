@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "benchmarks/reference/warped_elements.h"
+#include "fem/elements/model_elements.h"
 #include "fem/factor/block_matrix.h"
 
 namespace bullet_fem
@@ -14,8 +15,8 @@ namespace bullet_fem
 std::vector<Mat3> elementRotations(const Body& body)
 {
     std::vector<Mat3> R;
-    for (std::size_t e = 0; e < body.m_model->shape().m_elements.size(); ++e)
-        R.push_back(toMatrix(body.m_state.m_elementRotation[e]));
+    for (const int lane : body.m_model->elements().m_lanes.m_lane)
+        R.push_back(toMatrix(body.m_state.m_elementRotation[lane]));
     updateElementRotations(body.m_model->shape(), body.m_state.m_x, R);
     return R;
 }
@@ -29,9 +30,9 @@ Material elasticMaterial(double young, double poisson, double density)
     return material;
 }
 
-Body makeBody(const TetMesh& mesh, const Material& material, const NodePredicate& fixed, double step)
+Body makeBody(const TetMesh& mesh, const ElementMaterials& materials, const NodePredicate& fixed, double step)
 {
-    const auto shape = std::make_shared<const RestShape>(mesh, material);
+    const auto shape = std::make_shared<const RestShape>(mesh, materials);
     FactorInput input;
     input.m_mass = shape->m_lumpedMass;
     input.m_step = step;

@@ -20,8 +20,9 @@ using NodePredicate = std::function<bool(const Vec3& X)>;
 /// A material of the given E [Pa], nu [-] and rho [kg/m3] without damping.
 Material elasticMaterial(double young, double poisson, double density = 1000);
 
-/// A body of the material's lumped masses whose chosen nodes are fixed (none by default); step [s] is its factor's.
-Body makeBody(const TetMesh& mesh, const Material& material, const NodePredicate& fixed = {}, double step = 1.0 / 60);
+/// A body of the materials' lumped masses whose chosen nodes are fixed (none by default); step [s] is its factor's.
+Body makeBody(const TetMesh& mesh, const ElementMaterials& materials, const NodePredicate& fixed = {},
+              double step = 1.0 / 60);
 
 /// Loads every node with its mass times g [m/s2].
 void setGravity(Body& body, const Vec3& g);

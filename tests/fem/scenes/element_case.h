@@ -91,6 +91,7 @@ struct ElementCase
 {
     ElementCase(const RestShape& shape, const std::vector<Vec3>& x, const std::vector<Vec3>& v)
         : m_shape(shape),
+          m_lanes(shape),
           m_elements(shape),
           m_nodes(shape),
           m_x(padded(x)),
@@ -112,7 +113,7 @@ struct ElementCase
         return {&m_elements, m_warped.data(), kStiffnessFactor, p.data(), m_corners.data()};
     }
 
-    Range blocks() const { return {0, m_elements.blockCount()}; }
+    Range blocks() const { return {0, m_elements.pieceCount()}; }
 
     std::vector<Vec3> cornerSums() const
     {
@@ -135,11 +136,12 @@ struct ElementCase
         return cornerSums();
     }
 
-    Mat3 rotation(int e) const { return toMatrix(m_rotation[e]); }
+    Mat3 rotation(int e) const { return toMatrix(m_rotation[m_lanes.m_lane[e]]); }
 
     static constexpr double kStiffnessFactor = 0.7, kTensionFactor = 0.3;
 
     const RestShape& m_shape;
+    ElementLanes m_lanes;
     ElementBlocks<Real> m_elements;
     NodeCorners m_nodes;
     std::vector<PaddedVec3> m_x, m_v;

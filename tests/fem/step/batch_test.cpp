@@ -165,9 +165,14 @@ class BatchOnTarget : public OnTarget
 
 TEST_P(BatchOnTarget, GivesEveryBodyItsOwnBits)
 {
-    const auto model = makeBody(makeBox({1, 0.8, 0.7}, {3, 3, 2}), dampedMaterial()).m_model;
-    Copies together(model, 40), alone(model, 40);
-    expectSameSteps(together, alone, 5);
+    for (const MeanDilatation choice : {MeanDilatation::off, MeanDilatation::on})
+    {
+        Material material = dampedMaterial();
+        material.m_meanDilatation = choice;
+        const auto model = makeBody(makeBox({1, 0.8, 0.7}, {3, 3, 2}), material).m_model;
+        Copies together(model, 40), alone(model, 40);
+        expectSameSteps(together, alone, 5);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, BatchOnTarget, testing::ValuesIn(availableTargets()), targetName);

@@ -147,6 +147,16 @@ TEST_P(BadSteps, AreFlaggedAndTheBodyStandsStill)
     }
 }
 
+TEST_P(BadSteps, AreNotThoseAtTheBounds)
+{
+    for (const btScalar allowed : {btScalar(1e-6), btScalar(1)})
+    {
+        Scene scene(GetParam());
+        scene.m_fem.predictMotion(allowed);
+        EXPECT_EQ(scene.flags() & BT_FEM_BAD_STEP, 0) << allowed;
+    }
+}
+
 TEST_P(BadSteps, OfTheWorldDoNotSpread)
 {
     for (const btScalar bad : {btScalar(0), kNaN, btScalar(5)})

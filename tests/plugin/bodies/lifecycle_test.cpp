@@ -171,6 +171,52 @@ TEST_P(Lifecycle, ABodyAddedTwiceIsSteppedOnceAndFlagged)
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
 }
 
+// Proxies of a body in a broad phase.
+struct ProxyCount : btBroadphaseAabbCallback
+{
+    explicit ProxyCount(const btSoftBody& body) : m_body(body) {}
+    bool process(const btBroadphaseProxy* proxy) override
+    {
+        m_count += proxy->m_clientObject == &m_body;
+        return true;
+    }
+    const btSoftBody& m_body;
+    int m_count = 0;
+};
+
+int proxiesOf(SoftWorld& world, const btSoftBody& body)
+{
+    ProxyCount count(body);
+    const btVector3 far(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
+    world.bullet().getBroadphase()->aabbTest(-far, far, count);
+    return count.m_count;
+}
+
+// Bullet gives such a body a second proxy; when the body is removed once it has none, and stays in the world.
+TEST_P(Lifecycle, ABodyAddedTwiceAndRemovedOnceStays)
+{
+    for (const int stepsBetween : {0, 1, 5})
+    {
+        FemWorld world(GetParam());
+        world.addPlane();
+        btSoftBody& cube = world.addSoft(makeCube(world, btVector3(0, 0, btScalar(0.5))));
+        world.put(cube);
+        world.step(stepsBetween);
+        world.take(cube);
+        world.step(60);
+        EXPECT_EQ(world.fem().stepReport(&cube).m_flags, 0);
+        EXPECT_EQ(proxiesOf(world, cube), 1) << stepsBetween;
+        const double weight = massOf(cube) * kGravity;
+        // In a deformable world a force belongs to bodies that were added, and goes with them.
+        if (GetParam() != WorldClass::deformable)
+        {
+            EXPECT_NEAR(impulseOn(world.fem(), cube).z / kStep, weight, 0.01 * weight);
+        }
+        world.deleteSoft(cube);
+        world.step(5);
+    }
+}
+
 TEST_P(LifecycleOfWorlds, ABodyInTwoWorldsOfOneSolverIsSteppedByOne)
 {
     btFemSoftBodySolver fem;

@@ -85,11 +85,11 @@ class DefaultMaterial : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, DefaultMaterial, eachWorld(), nameOfWorld);
 
-class Material : public EachWorld
+class ChangedMaterial : public EachWorld
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Worlds, Material, eachWorld(), nameOfWorld);
+INSTANTIATE_TEST_SUITE_P(Worlds, ChangedMaterial, eachWorld(), nameOfWorld);
 
 class Detail : public EachWorld
 {
@@ -213,7 +213,7 @@ TEST_P(DefaultMaterial, KeepsTheBodysOwnMasses)
     EXPECT_NEAR(velocityOf(body).x, 1 * kStep, 1e-6);
 }
 
-TEST_P(Material, ChangesOfItTakeEffectInTheNextStep)
+TEST_P(ChangedMaterial, ChangesOfItTakeEffectInTheNextStep)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();

@@ -77,6 +77,24 @@ TEST_F(NonThrowing, OfBodiesThatCannotBeFemTellWhy)
     expectRefused([&](std::string* why) { return m_fem.setInterest(nullptr, policy, why); }, "-1");
 }
 
+TEST_F(NonThrowing, OfWhatDrivesBodiesTellWhy)
+{
+    expectRefused([&](std::string* why) { return m_fem.addChamber(&m_cube, {}, why); }, "prepare");
+    m_fem.prepare(&m_cube, btScalar(0.01));
+    expectRefused([&](std::string* why) { return m_fem.addChamber(&m_cube, {}, why); }, "0 triangles");
+    expectRefused([&](std::string* why) { return m_fem.addCable(&m_cube, {}, why); }, "0 points");
+    expectRefused([&](std::string* why) { return m_fem.addFibres(&m_cube, {}, why); }, "0 directions");
+    btFemExpansion expansion;
+    expansion.m_strain = kNaN;
+    expectRefused([&](std::string* why) { return m_fem.addExpansion(&m_cube, expansion, why); }, "[-0.9, 9]");
+    expectRefused([&](std::string* why) { return m_fem.sealChamber(&m_cube, 7, why); }, "no chamber 7");
+    expectDone([&](std::string* why) { return m_fem.removeActuator(&m_cube, 7, why); });
+    std::vector<btFemChamber> cavities;
+    expectDone([&](std::string* why) { return btFemChamber::find(&m_cube, cavities, why); });
+    EXPECT_TRUE(cavities.empty());
+    expectRefused([&](std::string* why) { return btFemChamber::find(nullptr, cavities, why); }, "null");
+}
+
 TEST_F(NonThrowing, OfWhatHoldsNodesTellWhy)
 {
     btFemSpring spring;

@@ -61,13 +61,14 @@ TEST(RejectedMaterial, NamesValueAndRange)
 TEST(RejectedMaterial, LimitsAndPresetsAreAccepted)
 {
     btFemMaterial material;
-    material.m_poissonRatio = btScalar(0.49);
+    material.m_poissonRatio = btScalar(0.499);
     material.m_density = 0;
     material.m_stiffnessDamping = 0;
     std::string why;
     EXPECT_TRUE(material.valid(&why)) << why;
-    for (const btFemMaterial& preset : {btFemMaterial::rubber(), btFemMaterial::foam(), btFemMaterial::jelly(),
-                                        btFemMaterial::flesh(), btFemMaterial::wood()})
+    for (const btFemMaterial& preset :
+         {btFemMaterial::rubber(), btFemMaterial::foam(), btFemMaterial::jelly(), btFemMaterial::flesh(),
+          btFemMaterial::wood(), btFemMaterial::clay(), btFemMaterial::lead(), btFemMaterial::mildFoam()})
         EXPECT_TRUE(preset.valid(&why)) << why;
 }
 

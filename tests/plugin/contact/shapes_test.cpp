@@ -4,10 +4,16 @@
 
 #include <algorithm>
 
+#include "BulletCollision/CollisionShapes/btBox2dShape.h"
+#include "BulletCollision/CollisionShapes/btConvex2dShape.h"
+#include "BulletCollision/CollisionShapes/btUniformScalingShape.h"
+#include "bridge/concave_test_shapes.h"
+#include "bridge/sdf_test_shapes.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/btFemVectors.h"
 #include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/soft_boxes.h"
 #include "plugin/scenes/soft_world.h"
 
 namespace bullet_fem
@@ -128,6 +134,57 @@ btRigidBody& addHullWithMargin(SoftWorld& world)  // which Bullet adds to its si
     return addStatic(world, hull, at(0, 0, -1 - hull->getMargin()));
 }
 
+// Fields of a slab, and of a ball of 3 m, of which the domain has the upper part.
+btRigidBody& addSlabField(SoftWorld& world)
+{
+    return addStatic(world,
+                     makeSdf({[](const Vec3& x) {
+                                  return boxField(x, {1.5, 1.5, 0.5});
+                              },
+                              {2, 2, 1},
+                              8}),
+                     at(0, 0, btScalar(-0.5)));
+}
+btRigidBody& addBallField(SoftWorld& world)
+{
+    return addStatic(world,
+                     makeSdf({[](const Vec3& x) {
+                                  return norm(x - Vec3{0, 0, -2.5}) - 3;
+                              },
+                              {2, 2, 1},
+                              8}),
+                     at(0, 0, btScalar(-0.5)));
+}
+btRigidBody& addFieldInCompound(SoftWorld& world)
+{
+    auto* compound = new btCompoundShape;
+    compound->addChildShape(turned(btVector3(1, 0, 0), SIMD_PI, btVector3(0, 0, -2)),
+                            world.keep(makeSdf({[](const Vec3& x) {
+                                                    return boxField(x, {1.5, 1.5, 0.5});
+                                                },
+                                                {2, 2, 1},
+                                                8})));
+    return addStatic(world, compound, at(0, 0, btScalar(1.5)));
+}
+btRigidBody& addFlatHull(SoftWorld& world)  // in the plane, with Bullet's margin about it
+{
+    auto* hull = static_cast<btConvexHullShape*>(world.keep(new btConvexHullShape));
+    for (const btScalar sx : {-1, 1})
+        for (const btScalar sy : {-1, 1}) hull->addPoint(btVector3(2 * sx, 2 * sy, 0));
+    auto* flat = new btConvex2dShape(hull);
+    return addStatic(world, flat, at(0, 0, -flat->getMargin()));
+}
+btRigidBody& addFlatBox(SoftWorld& world)
+{
+    auto* flat = new btBox2dShape(btVector3(2, 2, btScalar(0.04)));
+    return addStatic(world, flat, at(0, 0, -btScalar(0.04)));
+}
+btRigidBody& addScaledBox(SoftWorld& world)
+{
+    auto* box = static_cast<btBoxShape*>(world.keep(new btBoxShape(btVector3(4, 4, 1))));
+    return addStatic(world, new btUniformScalingShape(box, btScalar(0.5)), at(0, 0, btScalar(-0.5)));
+}
+
 class RestOnShape : public testing::TestWithParam<GroundCase>
 {
 };
@@ -165,20 +222,97 @@ TEST_P(RestOnShape, IsCarriedToTheWeightAndNothingPasses)
     EXPECT_GT(center.z, 0.49 - GetParam().m_sag);  // the cube's own weight shortens it by 5 mm, its centre sinks by 3
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, RestOnShape,
-                         testing::Values(GroundCase{"box", addBox, 0}, GroundCase{"ridges", addTiltedBoxEdge, 0.06},
-                                         GroundCase{"sphere", addSphere, 0.08}, GroundCase{"capsule", addCapsule, 0.06},
-                                         GroundCase{"uprightCylinder", addUprightCylinder, 0},
-                                         GroundCase{"lyingCylinder", addLyingCylinder, 0.06},
-                                         GroundCase{"coneUpsideDown", addConeUpsideDown, 0},
-                                         GroundCase{"bluntCone", addBluntCone, 0.06}, GroundCase{"hull", addHull, 0},
-                                         GroundCase{"hullWithMargin", addHullWithMargin, 0},
-                                         GroundCase{"multiSphere", addMultiSphere, 0.08},
-                                         GroundCase{"plane", addPlane, 0}, GroundCase{"compound", addCompound, 0.02},
-                                         GroundCase{"nestedCompound", addNestedCompound, 0.02}),
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, RestOnShape,
+    testing::Values(GroundCase{"box", addBox, 0}, GroundCase{"ridges", addTiltedBoxEdge, 0.06},
+                    GroundCase{"sphere", addSphere, 0.08}, GroundCase{"capsule", addCapsule, 0.06},
+                    GroundCase{"uprightCylinder", addUprightCylinder, 0},
+                    GroundCase{"lyingCylinder", addLyingCylinder, 0.06},
+                    GroundCase{"coneUpsideDown", addConeUpsideDown, 0}, GroundCase{"bluntCone", addBluntCone, 0.06},
+                    GroundCase{"hull", addHull, 0}, GroundCase{"hullWithMargin", addHullWithMargin, 0},
+                    GroundCase{"multiSphere", addMultiSphere, 0.08}, GroundCase{"slabField", addSlabField, 0},
+                    GroundCase{"ballField", addBallField, 0.08}, GroundCase{"fieldInCompound", addFieldInCompound, 0},
+                    GroundCase{"flatHull", addFlatHull, 0}, GroundCase{"flatBox", addFlatBox, 0},
+                    GroundCase{"scaledBox", addScaledBox, 0}, GroundCase{"plane", addPlane, 0},
+                    GroundCase{"compound", addCompound, 0.02}, GroundCase{"nestedCompound", addNestedCompound, 0.02}),
+    [](const auto& scene) { return scene.param.m_name; });
+
+/// A rigid body of 8 kg that falls a centimetre on a soft slab of 0.2 m, clamped below.
+struct MovingShape
+{
+    const char* m_name;
+    btCollisionShape* (*m_make)(SoftWorld& world, btTriangleMesh& mesh);
+    double m_height;  // of its origin where it lies on z = 0 [m]
+};
+
+btCollisionShape* makeMovingField(SoftWorld&, btTriangleMesh&)
+{
+    return makeSdf({[](const Vec3& x) { return boxField(x, {0.2, 0.2, 0.15}); }, {0.25, 0.25, 0.25}, 10});
+}
+
+btCollisionShape* makeMovingSheet(SoftWorld&, btTriangleMesh& mesh)
+{
+    GridSettings grid;
+    grid.m_cells = 2;
+    grid.m_halfSize = btScalar(0.2);
+    addGrid(mesh, grid);
+    auto* sheet = new OwnSheet(mesh);
+    sheet->setMargin(0);
+    return sheet;
+}
+
+class MovingOnSoft : public testing::TestWithParam<MovingShape>
+{
+};
+
+TEST_P(MovingOnSoft, IsCarriedAtItsHeight)
+{
+    btTriangleMesh mesh;
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem, Coupling::coupled);
+    SoftBox box;
+    box.m_size = {0.8, 0.8, 0.2};
+    box.m_cells = {8, 8, 2};
+    box.m_center = {0, 0, -0.1};
+    btSoftBody& slab = addSoftBox(world, fem, box);
+    clampBelow(slab, -0.199);
+    RigidSettings settings;
+    settings.m_mass = 8;
+    settings.m_transform = at(btScalar(0.01), btScalar(0.02), btScalar(GetParam().m_height + 0.01));
+    btRigidBody& rigid = world.addRigid(GetParam().m_make(world, mesh), settings);
+    rigid.setMassProps(
+        8, btVector3(btScalar(0.2), btScalar(0.2), btScalar(0.2)));  // Bullet takes no inertia of such shapes
+    rigid.updateInertiaTensor();
+    world.step(240);
+    EXPECT_NEAR(fem.contactForce(&slab, &rigid).z(), -8 * kGravity, 1e-2 * 8 * kGravity);
+    const double height = rigid.getWorldTransform().getOrigin().z() - GetParam().m_height;
+    EXPECT_LT(height, 1e-4);
+    EXPECT_GT(height, -2e-3);
+    EXPECT_LT(rigid.getLinearVelocity().length(), 1e-3);
+    EXPECT_EQ(fem.stepReport(&slab).m_flags & BT_FEM_UNKNOWN_SHAPE, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, MovingOnSoft,
+                         testing::Values(MovingShape{"field", makeMovingField, 0.15},
+                                         MovingShape{"ownSheet", makeMovingSheet, 0}),
                          [](const auto& scene) { return scene.param.m_name; });
 
-/// A shape of the user's own, of a type that only he knows.
+// Half a metre above a field, at 20 m/s.
+TEST(FieldAtSpeed, StopsWhatFlies)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    world.addRigid(makeSdf({[](const Vec3& x) { return boxField(x, {1, 1, 0.1}); }, {1.5, 1.5, 0.3}, 10}));
+    btSoftBody& cube = addSmallCube(world, btScalar(0.6));
+    cube.setVelocity(btVector3(0, 0, -20));
+    for (int k = 0; k < 60; ++k)
+    {
+        world.step();
+        EXPECT_GT(centerOf(cube).z, 0.1) << k;
+    }
+}
+
+/// A shape of the user's own, which does not tell what it is made of.
 class OwnShape : public btConcaveShape
 {
 public:

@@ -246,6 +246,17 @@ TEST(AutomaticDetailInContact, IsFullWhileTheBodyTouchesSomething)
     EXPECT_LE(fem.stepReport(&cube).m_iterations, 1);
 }
 
+TEST(Detail, ThatIsNoneIsRefused)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
+    std::string why;
+    EXPECT_FALSE(fem.setDetail(&cube, static_cast<btFemDetail>(77), &why));
+    EXPECT_EQ(why, "setDetail: the detail is 77; it must be one of btFemDetail, 0 to 4");
+    EXPECT_THROW(fem.setDetail(&cube, static_cast<btFemDetail>(-1)), std::invalid_argument);
+}
+
 // --- The viewer ---
 
 TEST(ViewerInterest, FallsLinearlyWithTheDistanceToTheBox)

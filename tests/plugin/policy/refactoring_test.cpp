@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/fem/mesh/generators.h"
 #include "plugin/record/btFemFactorAccount.h"
 #include "plugin/record/btFemRealTime.h"
@@ -275,6 +276,38 @@ TEST(Refactoring, ThatFailsInContactKeepsTheOldFactor)
     }
     EXPECT_NE(std::string(fem.stepReport(&body).m_message).find("limit"), std::string::npos);
     EXPECT_TRUE(allFinite(body));
+}
+
+// With the factor of the long step what an anchor is to do in the short one was guessed 200 times too large.
+TEST(Refactoring, OfWhatAnAnchorHoldsComesAtOnceWhereTheStepIsFarOff)
+{
+    btFemSolverInfo info;
+    info.m_refactoring = btFemRefactoring::onRequest;
+    btFemSoftBodySolver fem(info);
+    SoftWorld world(fem, Coupling::coupled);
+    btSoftBody& ball = world.addSoft(btFemHelpers::createFromTetMesh(world.info(), makeSphere(0.2, 4)));
+    RigidSettings settings;
+    settings.m_mass = 1;
+    settings.m_transform = at(0, 0, -1);
+    btRigidBody& weight = world.addRigid(new btSphereShape(btScalar(0.1)), settings);
+    ball.appendAnchor(0, &weight, true, btScalar(0.3));
+    const double mass = massOf(ball) + 1;
+    world.step(30);
+    double time = 30 * kStep;
+    for (const double h : {1.0 / 900, 1.0 / 60, 1.0 / 900})
+    {
+        world.step(1, btScalar(h));
+        EXPECT_TRUE(fem.stepReport(&ball).m_flags & BT_FEM_REFACTORED) << h;
+        world.step(9, btScalar(h));
+        time += 10 * h;
+        EXPECT_FALSE(fem.stepReport(&ball).m_flags & (BT_FEM_BREAKDOWN | BT_FEM_NOT_CONVERGED)) << h;
+        const Motion motion = [&]
+        {
+            Motion sum = motionOf(ball);
+            return sum += motionOf(weight);
+        }();
+        EXPECT_NEAR(motion.m_linear.z, -kGravity * mass * time, 1e-3 * kGravity * mass * time) << h;
+    }
 }
 
 TEST(Refactoring, RejectsAWayThatThereIsNot)

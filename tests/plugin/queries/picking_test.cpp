@@ -271,7 +271,7 @@ TEST_P(Picking, BySpringWithALargestForceOutlastsATargetThatJumps)
         ASSERT_LE(m_fem.anchors(&m_body)[0].m_impulse.length(), 1.0001 * double(spring.m_maxForce * kStep));
         ASSERT_LT(fastestNode(m_body), 60);
     }
-    EXPECT_LT(norm(centerOf(m_body)), 3);
+    EXPECT_LT(norm(centerOf(m_body)), 3.5);
 }
 
 // What lies on the floor and is pulled aside.

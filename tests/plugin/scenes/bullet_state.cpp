@@ -30,6 +30,8 @@ BulletState::BulletState(SoftWorld& world)
     }
     const btBroadphasePairArray& pairs = broadphaseOf(world).getOverlappingPairCache()->getOverlappingPairArray();
     for (int k = 0; k < pairs.size(); ++k) m_pairs.push_back({pairs[k].m_pProxy0, pairs[k].m_pProxy1});
+    m_cleanUpAt = broadphaseOf(world).m_cid;
+    m_newPairs = broadphaseOf(world).m_newpairs;
 }
 
 void BulletState::restore(SoftWorld& world) const
@@ -58,6 +60,8 @@ void BulletState::restore(SoftWorld& world) const
         cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, dispatcher);
     }
     for (const Pair& pair : m_pairs) cache.addOverlappingPair(pair.m_first, pair.m_second);
+    broadphase.m_cid = m_cleanUpAt;
+    broadphase.m_newpairs = m_newPairs;
 }
 
 }  // namespace bullet_fem

@@ -41,7 +41,8 @@ private:
 
     std::vector<Rigid> m_rigid;
     std::vector<Bounds> m_bounds;
-    std::vector<Pair> m_pairs;  // in order
+    std::vector<Pair> m_pairs;    // in order
+    int m_cleanUpAt, m_newPairs;  // old pairs are taken out a few a step, from here on; the order of pairs follows
 };
 
 }  // namespace bullet_fem

@@ -11,7 +11,12 @@
 #include "BulletDynamics/Featherstone/btMultiBodyConstraint.h"
 #include "BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
+#include "BulletSoftBody/btDeformableMultiBodyConstraintSolver.h"
+#include "BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h"
 #include "BulletSoftBody/btSoftMultiBodyDynamicsWorld.h"
+#include "bullet_fem/btFemDeformableBodySolver.h"
+#include "bullet_fem/btFemDeformableConstraintSolver.h"
+#include "bullet_fem/btFemMultiBodyConstraintSolver.h"
 #include "plugin/scenes/soft_world.h"
 
 namespace bullet_fem
@@ -26,9 +31,13 @@ public:
     /// The solver must outlive the world.
     explicit LinkWorld(SoftSolver& solver, const btVector3& gravity = {0, 0, btScalar(-kGravity)})
     {
-        if constexpr (!std::is_same_v<RigidSolver, btMultiBodyConstraintSolver>)
-            m_rigidSolver.setDeformableSolver(&solver);
-        m_world = std::make_unique<World>(&m_dispatcher, &m_broadphase, &m_rigidSolver, &m_configuration, &solver);
+        if constexpr (std::is_constructible_v<RigidSolver, SoftSolver*>)
+            m_rigidSolver = std::make_unique<RigidSolver>(&solver);
+        else
+            m_rigidSolver = std::make_unique<RigidSolver>();
+        if constexpr (std::is_same_v<RigidSolver, btDeformableMultiBodyConstraintSolver>)
+            m_rigidSolver->setDeformableSolver(&solver);
+        m_world = std::make_unique<World>(&m_dispatcher, &m_broadphase, m_rigidSolver.get(), &m_configuration, &solver);
         m_world->setGravity(gravity);
         m_world->getWorldInfo().m_gravity = gravity;
     }
@@ -124,13 +133,14 @@ public:
     }
 
     World& world() { return *m_world; }
+    btRigidBody& rigid(int k) { return *m_rigid[k]; }
     btSoftBodyWorldInfo& info() { return m_world->getWorldInfo(); }
 
 private:
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
     btDbvtBroadphase m_broadphase;
-    RigidSolver m_rigidSolver;
+    std::unique_ptr<RigidSolver> m_rigidSolver;
     std::unique_ptr<World> m_world;
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<std::unique_ptr<btRigidBody>> m_rigid;
@@ -141,5 +151,8 @@ private:
 };
 
 using MultiBodyWorld = LinkWorld<btSoftMultiBodyDynamicsWorld, btMultiBodyConstraintSolver, btSoftBodySolver>;
+using CoupledDeformableWorld =
+    LinkWorld<btDeformableMultiBodyDynamicsWorld, btFemDeformableConstraintSolver, btFemDeformableBodySolver>;
+using CoupledLinkWorld = LinkWorld<btSoftMultiBodyDynamicsWorld, btFemMultiBodyConstraintSolver, btFemSoftBodySolver>;
 
 }  // namespace bullet_fem

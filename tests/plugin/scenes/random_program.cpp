@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,8 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/mesh/generators.h"
+#include "plugin/scenes/bullet_state.h"
+#include "plugin/scenes/scene_measures.h"
 
 namespace bullet_fem
 {
@@ -18,6 +21,14 @@ namespace
 {
 
 constexpr int kMostSoft = 5, kMostRigid = 8;
+// What a long step turns far is stretched by it, and springs back in a much shorter one (docs/reliability.md).
+constexpr double kShorterSteps = 4;  // at most so many times shorter is the next step of a gentle program
+constexpr double kThrown = 10;       // [m/s], [rad/s]: by a gentle program
+
+void addTo(std::vector<btScalar>& all, const std::vector<btScalar>& more)
+{
+    all.insert(all.end(), more.begin(), more.end());
+}
 
 btFemSolverInfo infoOf(std::mt19937& generator)
 {
@@ -33,8 +44,10 @@ btFemSolverInfo infoOf(std::mt19937& generator)
 
 }  // namespace
 
-RandomProgram::RandomProgram(WorldClass worldClass, Coupling coupling, unsigned number)
-    : m_generator(number),
+RandomProgram::RandomProgram(WorldClass worldClass, Coupling coupling, unsigned number, Manner manner)
+    : m_number(number),
+      m_manner(manner),
+      m_generator(number),
       m_world(worldClass, coupling, btVector3(0, 0, btScalar(-kGravity)), infoOf(m_generator)),
       m_fem(m_world.fem())
 {
@@ -44,63 +57,66 @@ RandomProgram::RandomProgram(WorldClass worldClass, Coupling coupling, unsigned 
 const std::vector<RandomProgram::Act>& RandomProgram::acts()
 {
     using P = RandomProgram;
-    static const std::vector<Act> all = {{"step", 60, &P::step},
-                                         {"addBox", 4, &P::addBox},
-                                         {"addBall", 2, &P::addBall},
-                                         {"addTets", 2, &P::addTets},
-                                         {"removeSoft", 2, &P::removeSoft},
-                                         {"readd", 2, &P::readd},
-                                         {"addRigid", 4, &P::addRigid},
-                                         {"addStatic", 2, &P::addStatic},
-                                         {"removeRigid", 2, &P::removeRigid},
-                                         {"throwRigid", 4, &P::throwRigid},
-                                         {"setMaterial", 4, &P::setMaterial},
-                                         {"setDetail", 2, &P::setDetail},
-                                         {"setFlags", 2, &P::setFlags},
-                                         {"setConfig", 2, &P::setConfig},
-                                         {"writeNodes", 3, &P::writeNodes},
-                                         {"writeBadNodes", 2, &P::writeBadNodes},
-                                         {"pin", 3, &P::pin},
-                                         {"setMasses", 2, &P::setMasses},
-                                         {"setTargets", 3, &P::setTargets},
-                                         {"clearTargets", 2, &P::clearTargets},
-                                         {"anchor", 3, &P::anchor},
-                                         {"attach", 3, &P::attach},
-                                         {"detach", 2, &P::detach},
-                                         {"spring", 3, &P::spring},
-                                         {"move", 3, &P::move},
-                                         {"scale", 2, &P::scale},
-                                         {"remember", 1, &P::remember},
-                                         {"append", 1, &P::append},
-                                         {"removeTets", 1, &P::removeTets},
-                                         {"prepare", 2, &P::prepare},
-                                         {"refactor", 2, &P::refactor},
-                                         {"save", 3, &P::save},
-                                         {"restore", 3, &P::restore},
-                                         {"define", 1, &P::define},
-                                         {"redefine", 1, &P::redefine},
-                                         {"query", 6, &P::query},
-                                         {"setGravity", 1, &P::setGravity},
-                                         {"makeClusters", 1, &P::makeClusters},
-                                         {"setPose", 1, &P::setPose},
-                                         {"setActivation", 2, &P::setActivation}};
+    static const std::vector<Act> all = {{"step", 60, 60, &P::step},
+                                         {"addBox", 4, 4, &P::addBox},
+                                         {"addBall", 2, 3, &P::addBall},
+                                         {"addTets", 2, 0, &P::addTets},
+                                         {"removeSoft", 2, 1, &P::removeSoft},
+                                         {"readd", 2, 1, &P::readd},
+                                         {"addRigid", 4, 4, &P::addRigid},
+                                         {"addStatic", 2, 1, &P::addStatic},
+                                         {"removeRigid", 2, 1, &P::removeRigid},
+                                         {"throwRigid", 4, 2, &P::throwRigid},
+                                         {"setMaterial", 4, 3, &P::setMaterial},
+                                         {"setDetail", 2, 1, &P::setDetail},
+                                         {"setFlags", 2, 0, &P::setFlags},
+                                         {"setConfig", 2, 0, &P::setConfig},
+                                         {"writeNodes", 3, 0, &P::writeNodes},
+                                         {"writeBadNodes", 2, 0, &P::writeBadNodes},
+                                         {"pin", 3, 1, &P::pin},
+                                         {"setMasses", 2, 0, &P::setMasses},
+                                         {"setTargets", 3, 0, &P::setTargets},
+                                         {"clearTargets", 2, 0, &P::clearTargets},
+                                         {"anchor", 3, 2, &P::anchor},
+                                         {"attach", 3, 0, &P::attach},
+                                         {"detach", 2, 0, &P::detach},
+                                         {"spring", 3, 0, &P::spring},
+                                         {"move", 3, 0, &P::move},
+                                         {"scale", 2, 0, &P::scale},
+                                         {"remember", 1, 0, &P::remember},
+                                         {"append", 1, 0, &P::append},
+                                         {"removeTets", 1, 0, &P::removeTets},
+                                         {"prepare", 2, 1, &P::prepare},
+                                         {"refactor", 2, 2, &P::refactor},
+                                         {"save", 3, 0, &P::save},
+                                         {"restore", 3, 0, &P::restore},
+                                         {"define", 1, 0, &P::define},
+                                         {"redefine", 1, 0, &P::redefine},
+                                         {"query", 6, 3, &P::query},
+                                         {"setGravity", 1, 0, &P::setGravity},
+                                         {"makeClusters", 1, 0, &P::makeClusters},
+                                         {"setPose", 1, 0, &P::setPose},
+                                         {"setActivation", 2, 1, &P::setActivation},
+                                         {"replay", 0, 3, &P::replay}};
     return all;
 }
 
-void RandomProgram::act()
+void RandomProgram::act(unsigned number)
 {
+    std::seed_seq seeds{m_number, number};
+    m_generator.seed(seeds);
     int sum = 0;
-    for (const Act& a : acts()) sum += a.m_weight;
+    for (const Act& a : acts()) sum += weight(a);
     int left = below(sum);
     const Act* chosen = &acts().front();
     for (const Act& a : acts())
     {
-        if (left < a.m_weight)
+        if (left < weight(a))
         {
             chosen = &a;
             break;
         }
-        left -= a.m_weight;
+        left -= weight(a);
     }
     m_last = chosen->m_name;
     try
@@ -141,6 +157,7 @@ btVector3 RandomProgram::vector(double size)
 
 btVector3 RandomProgram::place()
 {
+    if (m_manner == Manner::gentle) return vector(1) + btVector3(0, 0, btScalar(number(1.5, 4)));
     return vector(0.6) + btVector3(0, 0, btScalar(0.8));
 }
 
@@ -182,11 +199,20 @@ btScalar RandomProgram::badNumber()
 
 void RandomProgram::step()
 {
-    const double h = one(4) ? logarithmic(1e-3, 0.1) : 1.0 / 60;
+    const bool gentle = m_manner == Manner::gentle;
+    double h = one(4) ? logarithmic(1e-3, gentle ? 0.05 : 0.1) : 1.0 / 60;
+    if (gentle) h = std::max(h, m_step / kShorterSteps);
+    m_step = h;
     if (one(5)) m_world.bullet().stepSimulation(btScalar(number(0, 0.06)), 4, btScalar(h));
     removeRejected();
-    m_world.step(1 + below(4), btScalar(h));
+    stepWorld(1 + below(4), h);
     removeRejected();
+}
+
+void RandomProgram::stepWorld(int count, double h)
+{
+    m_world.step(count, btScalar(h));
+    m_steps += count;
 }
 
 // Bullet moves what is not FEM, with whatever was written to it, and what is anchored to it.
@@ -258,7 +284,7 @@ void RandomProgram::readd()
 {
     btSoftBody* body = anySoft();
     m_world.take(*body);
-    if (one(2)) m_world.step();
+    if (one(2)) stepWorld(1, 1.0 / 60);
     m_world.put(*body);
 }
 
@@ -298,6 +324,7 @@ void RandomProgram::addRigid()
     settings.m_transform.setOrigin(place());
     settings.m_friction = btScalar(number(0, 2));
     settings.m_velocity = vector(3);
+    if (m_manner == Manner::gentle) settings.m_mass = btScalar(number(0.1, 10));
     m_rigid.push_back(&m_world.addRigid(shape, settings));
     if (one(2)) m_rigid.back()->forceActivationState(ACTIVE_TAG);
     if (static_cast<int>(m_rigid.size()) > kMostRigid) removeRigid();
@@ -332,18 +359,20 @@ void RandomProgram::removeRigid()
 void RandomProgram::throwRigid()
 {
     btRigidBody* body = anyRigid();
-    body->setLinearVelocity(vector(logarithmic(0.1, 300)));
-    body->setAngularVelocity(vector(logarithmic(0.1, 100)));
-    if (one(4)) body->setWorldTransform(btTransform(btQuaternion::getIdentity(), place()));
+    const double fast = m_manner == Manner::gentle ? kThrown : 300;
+    body->setLinearVelocity(vector(logarithmic(0.1, fast)));
+    body->setAngularVelocity(vector(logarithmic(0.1, fast)));
+    if (bad(4)) body->setWorldTransform(btTransform(btQuaternion::getIdentity(), place()));
     body->activate(true);
 }
 
 void RandomProgram::setMaterial()
 {
     btFemMaterial material;
-    material.m_youngModulus = one(20) ? badNumber() : btScalar(logarithmic(1e2, 1e9));
-    material.m_poissonRatio = btScalar(number(0, one(10) ? 0.6 : 0.49));
-    material.m_density = one(4) ? 0 : btScalar(logarithmic(1, 2e4));
+    const bool gentle = m_manner == Manner::gentle;
+    material.m_youngModulus = bad(20) ? badNumber() : btScalar(logarithmic(gentle ? 3e4 : 1e2, 1e9));
+    material.m_poissonRatio = btScalar(number(0, bad(10) ? 0.6 : 0.49));
+    material.m_density = one(4) ? 0 : btScalar(logarithmic(gentle ? 50 : 1, gentle ? 5e3 : 2e4));
     material.m_stiffnessDamping = btScalar(logarithmic(1e-5, 1e-1));
     m_fem.setMaterial(anySoft(), material);
 }
@@ -351,7 +380,7 @@ void RandomProgram::setMaterial()
 void RandomProgram::setDetail()
 {
     m_fem.setDetail(anySoft(), static_cast<btFemDetail>(below(5)));
-    m_fem.setContactOffset(anySoft(), btScalar(one(2) ? 0 : number(-0.01, 0.05)));
+    m_fem.setContactOffset(anySoft(), btScalar(one(2) ? 0 : number(m_manner == Manner::gentle ? 0 : -0.01, 0.05)));
 }
 
 void RandomProgram::setFlags()
@@ -408,8 +437,8 @@ void RandomProgram::pin()
 {
     btSoftBody& body = *anySoft();
     const int node = below(body.m_nodes.size());
-    body.setMass(node, one(2) ? 0 : btScalar(logarithmic(1e-3, 10)));
-    if (one(20))
+    body.setMass(node, one(2) || m_manner == Manner::gentle ? 0 : btScalar(logarithmic(1e-3, 10)));
+    if (bad(20))
         for (int i = 0; i < body.m_nodes.size(); ++i) body.setMass(i, 0);
 }
 
@@ -623,6 +652,46 @@ void RandomProgram::setActivation()
         anySoft()->forceActivationState(states[below(5)]);
     else
         anyRigid()->forceActivationState(states[below(4)]);
+}
+
+// The same steps from the same state have the same bits, as long as Bullet's broad phase finds pairs in the same order,
+// which depends on the history of its trees.
+void RandomProgram::replay()
+{
+    if (m_soft.empty()) return;
+    stepWorld(1, 1.0 / 60);  // bodies that came since the last one are not saved before it
+    m_fem.saveState(m_state);
+    const BulletState state(m_world);
+    constexpr int kReplayed = 5;  // steps
+    std::vector<int> pairs[2][kReplayed];
+    std::vector<btScalar> bits[2][kReplayed];
+    for (int way = 0; way < 2; ++way)
+    {
+        m_fem.restoreState(m_state.data(), m_state.size());
+        state.restore(m_world);
+        for (int k = 0; k < kReplayed; ++k)
+        {
+            stepWorld(1, 1.0 / 60);
+            pairs[way][k] = pairOrder();
+            for (const btSoftBody* body : m_soft) addTo(bits[way][k], bitsOf(*body));
+        }
+    }
+    for (int k = 0; k < kReplayed && pairs[0][k] == pairs[1][k]; ++k)
+        m_replayed = m_replayed && bits[0][k].size() == bits[1][k].size() &&
+                     std::memcmp(bits[0][k].data(), bits[1][k].data(), bits[0][k].size() * sizeof(btScalar)) == 0;
+}
+
+std::vector<int> RandomProgram::pairOrder()
+{
+    std::vector<int> order;
+    const btBroadphasePairArray& pairs =
+        m_world.bullet().getBroadphase()->getOverlappingPairCache()->getOverlappingPairArray();
+    for (int k = 0; k < pairs.size(); ++k)
+    {
+        order.push_back(pairs[k].m_pProxy0->m_uniqueId);
+        order.push_back(pairs[k].m_pProxy1->m_uniqueId);
+    }
+    return order;
 }
 
 }  // namespace bullet_fem

@@ -11,19 +11,28 @@
 namespace bullet_fem
 {
 
-/// A program that calls what a program can call, in any order: bodies come and go, are pinned, scaled, torn and tied,
-/// bad values are written, states saved and restored. The same number gives the same program.
+/// What a random program does.
+enum class Manner
+{
+    hostile,  ///< what a program can call, in any order: bodies are torn and crushed, bad values are written
+    gentle    ///< what a game does: bodies come and go, are thrown, held, saved and restored; energy stays bounded
+};
+
+/// A program that calls what a program can call, in any order. The same number gives the same program, and what an act
+/// does depends on its own number alone, so that acts can be left out.
 class RandomProgram
 {
 public:
-    RandomProgram(WorldClass worldClass, Coupling coupling, unsigned number);
+    RandomProgram(WorldClass worldClass, Coupling coupling, unsigned number, Manner manner = Manner::hostile);
 
     /// Does something, or steps. A refusal (std::invalid_argument) is an answer like any other.
-    void act();
+    void act(unsigned number);
 
     /// What act() did last, for messages.
     const char* lastAct() const { return m_last; }
     int refusals() const { return m_refusals; }
+    long steps() const { return m_steps; }        ///< of the world, so far
+    bool replayed() const { return m_replayed; }  ///< false: a restored state went another way, once
     FemWorld& world() { return m_world; }
     const std::vector<btSoftBody*>& soft() const { return m_soft; }  ///< in the world, in the order in which they came
     const std::vector<btRigidBody*>& rigid() const { return m_rigid; }
@@ -32,15 +41,18 @@ private:
     struct Act
     {
         const char* m_name;
-        int m_weight;
+        int m_weight, m_gentleWeight;
         void (RandomProgram::*m_do)();
     };
     static const std::vector<Act>& acts();
+    int weight(const Act& act) const { return m_manner == Manner::gentle ? act.m_gentleWeight : act.m_weight; }
 
     double number(double from, double to);
     double logarithmic(double from, double to);
     int below(int count);
     bool one(int in) { return below(in) == 0; }
+    bool bad(int in) { return one(in) && m_manner == Manner::hostile; }  // now and then
+    void stepWorld(int count, double h);
     btVector3 vector(double size);
     btVector3 place();
     btTransform pose(double size);
@@ -94,7 +106,11 @@ private:
     void makeClusters();
     void setPose();
     void setActivation();
+    void replay();
+    std::vector<int> pairOrder();
 
+    const unsigned m_number;
+    const Manner m_manner;
     std::mt19937 m_generator;
     FemWorld m_world;
     btFemSoftBodySolver& m_fem;
@@ -104,6 +120,9 @@ private:
     std::vector<unsigned char> m_state, m_definition;
     const char* m_last = "";
     int m_refusals = 0;
+    long m_steps = 0;
+    double m_step = 0;  // the last one's length [s]
+    bool m_replayed = true;
 };
 
 }  // namespace bullet_fem

@@ -56,6 +56,7 @@ protected:
         btFemMaterial material;
         material.m_youngModulus = box.m_youngModulus;
         material.m_massDamping = 4;
+        material.m_meanDilatation = btFemMeanDilatation::on;
         m_scene.m_fem.setMaterial(m_beam, material);
         for (int i = 0; i < m_beam->m_nodes.size(); ++i)
             if (m_beam->m_nodes[i].m_x.x() < btScalar(-0.79)) m_beam->setMass(i, 0);

@@ -165,6 +165,29 @@ TEST_P(Snapshot, MakesTheFactorOfThenAgain)
     EXPECT_TRUE(m_scene.run(60, shorter) == bits);
 }
 
+TEST_P(Snapshot, OfABodyThatASpringHoldsContinuesBitForBit)
+{
+    m_scene.build();
+    m_scene.m_world.step(2);
+    btSoftBody* body = m_scene.m_soft[0];
+    btFemSpring spring;
+    spring.m_nodes[0] = 0;
+    spring.m_target = body->m_nodes[0].m_x + btVector3(0, 0, 1);
+    spring.m_stiffness = btScalar(500);
+    spring.m_maxForce = btScalar(1000);
+    const int handle = m_scene.m_fem.addSpring(body, spring);
+    m_scene.m_world.step(30);
+    const SnapshotScene::Saved saved = m_scene.saveAll();
+    const std::vector<double> state = m_scene.state(), bits = m_scene.run(40);
+    m_scene.restore(saved);
+    EXPECT_TRUE(m_scene.state() == state);
+    EXPECT_TRUE(m_scene.run(40) == bits);
+    m_scene.m_fem.removeSpring(body, handle);
+    m_scene.restore(saved);
+    EXPECT_TRUE(m_scene.state() == state) << "let go since";
+    EXPECT_FALSE(m_scene.run(40) == bits);
+}
+
 TEST_P(Snapshot, OfAWorldBuiltAnewContinuesBitForBit)
 {
     m_scene.build();

@@ -3,8 +3,10 @@
 // A program of its own: the counter replaces malloc.
 #include <gtest/gtest.h>
 
+#include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/fem/mesh/generators.h"
 #include "plugin/scenes/link_world.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/skin_bodies.h"
@@ -137,6 +139,39 @@ TEST(Allocations, NoneForBodiesWhoseDrawnSurfaceCollides)
     ball.setVelocity(btVector3(0, 0, btScalar(0.2)));
     EXPECT_GT(expectNoAllocations(fem, world, {&box, &ball}, 30), 10);
     EXPECT_GT(fem.contacts(&ball).size(), 0);
+}
+
+// What its nodes and faces touch goes to and fro. Bullet itself allocates for cloth, in every step the same.
+TEST(Allocations, NoneForClothOnABallButBulletsOwn)
+{
+    const auto run = [](bool touches)
+    {
+        CountingSolver fem;
+        SoftWorld world(fem);
+        btSoftBody* ball = btFemHelpers::createFromTetMesh(world.info(), makeSphere(0.3, 4));
+        for (int i = 0; i < ball->m_nodes.size(); ++i)
+            if (ball->m_nodes[i].m_x.z() < btScalar(-0.2)) ball->setMass(i, 0);
+        const btScalar a = btScalar(0.4);
+        btSoftBody* cloth = btSoftBodyHelpers::CreatePatch(world.info(), btVector3(-a, -a, a), btVector3(a, -a, a),
+                                                           btVector3(-a, a, a), btVector3(a, a, a), 9, 9, 0, true);
+        cloth->getCollisionShape()->setMargin(btScalar(0.02));
+        cloth->setTotalMass(btScalar(0.3));
+        for (btSoftBody* body : {ball, cloth})
+            if (touches) body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
+        world.addSoft(ball);
+        world.addSoft(cloth);
+        world.step(120);
+        long most = 0;
+        for (int k = 0; k < 60; ++k)
+        {
+            fem.m_allocations = 0;
+            world.step();
+            most = std::max(most, fem.m_allocations);
+        }
+        EXPECT_EQ(fem.contacts(ball).size() > 20, touches);
+        return most;
+    };
+    EXPECT_LE(run(true), run(false));
 }
 
 // Interest that goes up and down takes it through all levels; a stale factor is kept account of.

@@ -49,7 +49,7 @@ TEST_P(AnyProgram, NeitherCrashesNorSpreadsBadNumbers)
         RandomProgram program(std::get<0>(GetParam()), std::get<1>(GetParam()), seed);
         for (int a = 0; a < kActs; ++a)
         {
-            program.act();
+            program.act(static_cast<unsigned>(a));
             if (std::string("step") != program.lastAct()) continue;
             for (const btSoftBody* body : program.soft())
                 ASSERT_TRUE(allFinite(*body) || !body->isActive()) << "program " << seed << ", act " << a;

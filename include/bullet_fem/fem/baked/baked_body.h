@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bullet_fem/fem/cage/cage.h"
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/factor/body_model.h"
 
 namespace bullet_fem
@@ -32,9 +34,12 @@ struct BakedBody
 /// What a body is baked for.
 struct BakeSettings
 {
-    Material m_material;       ///< a density of 0 is taken for water's, 1000 kg/m3
-    double m_step = 1.0 / 60;  ///< the fixed step of the world [s], in [1e-6, 1]
-    std::vector<int> m_pins;   ///< nodes that are pinned, each in [0, n)
+    Material m_material;  ///< a density of 0 is taken for water's, 1000 kg/m3
+    /// Per element the label of its region, and the regions' materials, in place of m_material; empty: it is of all.
+    std::vector<int> m_labels;
+    std::map<int, Material> m_regionMaterials;  ///< by label
+    double m_step = 1.0 / 60;                   ///< the fixed step of the world [s], in [1e-6, 1]
+    std::vector<int> m_pins;                    ///< nodes that are pinned, each in [0, n)
     /// The precision of the Bullet that will move the body: numbers are rounded as its nodes and materials hold them,
     /// and the body moves bit for bit like one that was not baked. Read by the other one, it differs by rounding.
     bool m_singlePrecision = true;
@@ -47,14 +52,15 @@ struct BakeSettings
 
 /// Makes a body of a mesh ready, or of a cage with the surface that it was made of. Throws std::invalid_argument,
 /// naming the value, on bad settings or a mesh that rounding spoils, and what BodyModel::create throws.
-BakedBody bakeBody(const TetMesh& mesh, const BakeSettings& settings, std::string* why = nullptr);
-BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings,
-                   std::string* why = nullptr);
+BULLETFEM_API BakedBody bakeBody(const TetMesh& mesh, const BakeSettings& settings, std::string* why = nullptr);
+/// The same of a cage and its surface.
+BULLETFEM_API BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings,
+                                 std::string* why = nullptr);
 
 /// Writes it to a file, under a temporary name beside it at first, so that there is either the whole file or what was
 /// there before. The same body gives the same bytes. Throws std::runtime_error that names the file, what went wrong and
 /// what to do.
-bool writeBakedBody(const std::string& path, const BakedBody& body, std::string* why = nullptr);
+BULLETFEM_API bool writeBakedBody(const std::string& path, const BakedBody& body, std::string* why = nullptr);
 
 /// How a file gets into memory.
 enum class BakedLoading
@@ -69,12 +75,12 @@ enum class BakedLoading
 /// Reads one. Every byte is checked, and all that is an index: nothing in a file can make the program crash. Throws
 /// std::runtime_error that names the file, what is wrong with it and what to do: it is missing, cut off, damaged, not a
 /// baked body, of another byte order, of an older or newer version, or its numbers do not make a body.
-BakedBody readBakedBody(const std::string& path, BakedLoading loading = BakedLoading::mapped,
-                        std::string* why = nullptr);
+BULLETFEM_API BakedBody readBakedBody(const std::string& path, BakedLoading loading = BakedLoading::mapped,
+                                      std::string* why = nullptr);
 
 /// The same for a file that lies in memory already, as those of an archive do; it is copied. `name` is for messages.
-BakedBody readBakedBody(const unsigned char* data, std::size_t size, const std::string& name,
-                        std::string* why = nullptr);
+BULLETFEM_API BakedBody readBakedBody(const unsigned char* data, std::size_t size, const std::string& name,
+                                      std::string* why = nullptr);
 
 /// What stands at the beginning of a file.
 struct BakedFileInfo
@@ -82,36 +88,39 @@ struct BakedFileInfo
     int m_version = 0;                ///< of the format
     std::uint64_t m_fileBytes = 0;    ///< [B]
     std::uint64_t m_factorBytes = 0;  ///< of them the factor's panels [B]
-    int m_nodes = 0, m_tets = 0;
-    int m_freeNodes = 0;         ///< that are neither pinned nor loose
-    int m_embeddedVertices = 0;  ///< 0: there is no embedded surface
-    int m_embeddedTriangles = 0;
-    bool m_surfaceCollides = false;  ///< the embedded surface does, not the boundary
-    Material m_material;
-    double m_step = 0;              ///< that the factor was made for [s]
-    bool m_singlePrecision = true;  ///< see BakeSettings
-    FactorReport m_factor;          ///< as it was reported when the body was baked, without the time that it took
+    int m_nodes = 0;                  ///< of the mesh
+    int m_tets = 0;                   ///< likewise
+    int m_freeNodes = 0;              ///< that are neither pinned nor loose
+    int m_embeddedVertices = 0;       ///< 0: there is no embedded surface
+    int m_embeddedTriangles = 0;      ///< of that surface
+    bool m_surfaceCollides = false;   ///< the embedded surface does, not the boundary
+    Material m_material;              ///< that the body was baked with; of the first region, if there are several
+    int m_regions = 1;                ///< of different materials: the model has them, see RestShape::m_materials
+    double m_step = 0;                ///< that the factor was made for [s]
+    bool m_singlePrecision = true;    ///< see BakeSettings
+    FactorReport m_factor;            ///< as it was reported when the body was baked, without the time that it took
 };
 
 /// Reads the beginning alone, and whether the file is as long as it must be. Throws like readBakedBody.
-BakedFileInfo inspectBakedBody(const std::string& path, std::string* why = nullptr);
+BULLETFEM_API BakedFileInfo inspectBakedBody(const std::string& path, std::string* why = nullptr);
+
+/// @name Deprecated
+/// @{
 
 /// For engines without exceptions, forms of the functions above that go with the next version: give them `why`.
-[[deprecated("give `why` to bakeBody(mesh, settings, why)")]] bool bakeBody(const TetMesh& mesh,
-                                                                            const BakeSettings& settings,
-                                                                            BakedBody& body, std::string* why);
-[[deprecated("give `why` to bakeBody(cage, surface, settings, why)")]] bool bakeBody(const Cage& cage,
-                                                                                     const SurfaceMesh& surface,
-                                                                                     const BakeSettings& settings,
-                                                                                     BakedBody& body, std::string* why);
-[[deprecated("give `why` to readBakedBody(path, loading, why)")]] bool readBakedBody(const std::string& path,
-                                                                                     BakedBody& body, std::string* why);
-[[deprecated("give `why` to readBakedBody(data, size, name, why)")]] bool readBakedBody(const unsigned char* data,
-                                                                                        std::size_t size,
-                                                                                        BakedBody& body,
-                                                                                        std::string* why);
-[[deprecated("give `why` to inspectBakedBody(path, why)")]] bool inspectBakedBody(const std::string& path,
-                                                                                  BakedFileInfo& info,
-                                                                                  std::string* why);
+[[deprecated("give `why` to bakeBody(mesh, settings, why)")]] BULLETFEM_API bool bakeBody(const TetMesh& mesh,
+                                                                                          const BakeSettings& settings,
+                                                                                          BakedBody& body,
+                                                                                          std::string* why);
+[[deprecated("give `why` to bakeBody(cage, surface, settings, why)")]] BULLETFEM_API bool bakeBody(
+    const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings, BakedBody& body, std::string* why);
+[[deprecated("give `why` to readBakedBody(path, loading, why)")]] BULLETFEM_API bool readBakedBody(
+    const std::string& path, BakedBody& body, std::string* why);
+[[deprecated("give `why` to readBakedBody(data, size, name, why)")]] BULLETFEM_API bool readBakedBody(
+    const unsigned char* data, std::size_t size, BakedBody& body, std::string* why);
+[[deprecated("give `why` to inspectBakedBody(path, why)")]] BULLETFEM_API bool inspectBakedBody(const std::string& path,
+                                                                                                BakedFileInfo& info,
+                                                                                                std::string* why);
+/// @}
 
 }  // namespace bullet_fem

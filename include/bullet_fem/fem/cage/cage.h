@@ -7,6 +7,7 @@
 #include "bullet_fem/fem/cage/cage_report.h"
 #include "bullet_fem/fem/cage/cage_settings.h"
 #include "bullet_fem/fem/cage/surface_mesh.h"
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
@@ -15,11 +16,13 @@ namespace bullet_fem
 /// A tetrahedral mesh that encloses a surface, with what the surface is to the elements.
 struct Cage
 {
+    /// The tetrahedra.
     TetMesh m_mesh;
     std::vector<double> m_filled;        ///< per element: filled fraction [-], in [floor, 1]; scales mass and stiffness
     std::vector<Embedding> m_embedding;  ///< per surface vertex
     bool m_surfaceCollides = false;      ///< as CageSettings asked
     double m_massScale = 1;              ///< [-]: sum over e of m_massScale m_filled[e] V_e is m_report.m_surfaceVolume
+    /// What it is like.
     CageReport m_report;
 };
 
@@ -36,7 +39,7 @@ struct Cage
 /// triangles still disagree at more than 1/10 of the edges, because more than two meet there; a surface without inside
 /// (flat, wide open: |vector area| above 9/10 of the area, or volume below 1e-7 of area times length); a cell size that
 /// is longer than the surface, needs more than min(20 m_maxTets, 2e7) cubes for the bounding box, or gives more than
-/// m_maxTets elements.
-Cage makeCage(const SurfaceMesh& surface, const CageSettings& settings);
+/// m_maxTets elements. Throws CageCancelled if m_progress gives up.
+BULLETFEM_API Cage makeCage(const SurfaceMesh& surface, const CageSettings& settings);
 
 }  // namespace bullet_fem

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
@@ -12,12 +14,13 @@ namespace bullet_fem
 
 /// Mean ratio of a tet: 12 (3 V)^(2/3) over the sum of its squared edges [Liu and Joe 1994, eq. 11]. 1 for the regular
 /// tet, 0 for a flat one, negative for an inverted one. Corners in the order of positive orientation.
-double meanRatio(const std::array<Vec3, 4>& corners);
+BULLETFEM_API double meanRatio(const std::array<Vec3, 4>& corners);
 
 /// What a cage is like, and what its surface was like.
 struct CageReport
 {
-    int m_tets = 0, m_nodes = 0;
+    int m_tets = 0;                            ///< elements
+    int m_nodes = 0;                           ///< nodes
     double m_cellSize = 0;                     ///< edge of a lattice cube [m]
     double m_smallestCell = 0;                 ///< of an element: edge of a cube of six times its volume [m], or
     double m_largestCell = 0;                  ///< m_cellSize where cells are not graded
@@ -44,9 +47,12 @@ struct CageReport
     int m_duplicates = 0;             ///< triangles given twice (left out)
     int m_degenerate = 0;             ///< triangles without area (they count nothing)
     int m_turned = 0;                 ///< triangles that turned against their neighbours (turned over)
+
+    std::vector<int>
+        m_regions;  ///< per element, the label of its region: see paintedRegions(); empty if none is painted
 };
 
 /// The report in lines of text, for people.
-std::string describe(const CageReport& report);
+BULLETFEM_API std::string describe(const CageReport& report);
 
 }  // namespace bullet_fem

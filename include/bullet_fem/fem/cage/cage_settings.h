@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "bullet_fem/fem/cage/cage_progress.h"
+
 namespace bullet_fem
 {
 
@@ -30,6 +32,7 @@ struct CageSettings
     /// What collides: the surface, not the boundary of the cage, which stands up to a cell outside it. For the bodies
     /// that are made of the cage; the cage itself is the same.
     bool m_surfaceCollides = false;
+    CageProgress m_progress = {};  ///< is told how far it is, and may give up; empty: nobody is
 };
 
 /// A vertex of the surface as a fixed affine combination of four cage nodes.

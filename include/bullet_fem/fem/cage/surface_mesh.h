@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
@@ -14,9 +15,10 @@ struct SurfaceMesh
 {
     std::vector<Vec3> m_vertices;       ///< [m]
     std::vector<Triangle> m_triangles;  ///< vertex indices
+    std::vector<int> m_labels = {};     ///< per vertex, of the region that it is painted with; empty: of none
 };
 
 /// The volume enclosed, by the divergence theorem about the vertices' centroid [m3]; negative if inside out.
-double signedVolume(const SurfaceMesh& surface);
+BULLETFEM_API double signedVolume(const SurfaceMesh& surface);
 
 }  // namespace bullet_fem

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/cage/surface_mesh.h"
+#include "bullet_fem/fem/common/export.h"
 
 namespace bullet_fem
 {
@@ -23,6 +24,6 @@ struct RepairedSurface
 /// whose triangles agree stay as they are, be they inside out; in others triangles are turned until they agree, the
 /// smaller share of them if it is at most a quarter, else so that the patch encloses a positive volume. Indices must be
 /// in range, positions finite.
-RepairedSurface repairSurface(const SurfaceMesh& surface);
+BULLETFEM_API RepairedSurface repairSurface(const SurfaceMesh& surface);
 
 }  // namespace bullet_fem

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/mesh/tet_mesh.h"
 
 namespace bullet_fem
@@ -12,7 +13,7 @@ namespace bullet_fem
 /// Generalised winding number of a triangle soup: the solid angle it covers over 4 pi, signed. Far groups of triangles
 /// count by the first two moments of their vector area [Barill et al. 2018], near ones exactly. Immutable; the same
 /// bits on every call. Copies what it needs of the surface.
-class WindingNumber
+class BULLETFEM_API WindingNumber
 {
 public:
     /// The surface must be finite with indices in range. O(n log n).

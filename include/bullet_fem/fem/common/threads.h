@@ -4,26 +4,29 @@
 
 #include <memory>
 
+#include "bullet_fem/fem/common/export.h"
+
 namespace bullet_fem
 {
 
 /// Things that are worked on together, from m_begin up to, not including, m_end.
 struct Range
 {
-    int m_begin, m_end;
+    int m_begin;  ///< the first
+    int m_end;    ///< behind the last
 };
 
 /// The threads that share the work of steps. Results have the same bits for every count: work is divided by its own
 /// size, never by the number of threads. May be used by several threads at once, and from within its own tasks. With a
 /// count of 1 there is no thread besides the caller's, and nothing is ever allocated; with more the thread library
 /// (oneTBB) allocates small tasks, from pools of its own. Not to be deleted while in use.
-class Threads
+class BULLETFEM_API Threads
 {
 public:
-    static constexpr int kMost = 256;
+    static constexpr int kMost = 256;  ///< threads at most
 
     /// `count` threads, the caller's included, in [0, 256]; 0: as many as the machine has for this process. More than
-    /// that is granted, and slow. Throws std::invalid_argument.
+    /// that is granted, and slow. Always one where the library was built without oneTBB. Throws std::invalid_argument.
     explicit Threads(int count = 1);
     ~Threads();
     Threads(const Threads&) = delete;

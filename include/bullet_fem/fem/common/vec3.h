@@ -12,36 +12,49 @@ namespace bullet_fem
 /// A vector of three doubles. Tightly packed: an array of n of them is an array of 3n doubles.
 struct Vec3
 {
-    double x = 0, y = 0, z = 0;
+    double x = 0;  ///< first component
+    double y = 0;  ///< second component
+    double z = 0;  ///< third component
 
+    /// Component i in [0, 3).
     double& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+    /// Likewise, to read.
     double operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
 
+    /// Adds every component.
     Vec3& operator+=(const Vec3& b) { return x += b.x, y += b.y, z += b.z, *this; }
+    /// Subtracts every component.
     Vec3& operator-=(const Vec3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
+    /// Multiplies every component.
     Vec3& operator*=(double s) { return x *= s, y *= s, z *= s, *this; }
 };
 
+/// Sum.
 inline Vec3 operator+(Vec3 a, const Vec3& b)
 {
     return a += b;
 }
+/// Difference.
 inline Vec3 operator-(Vec3 a, const Vec3& b)
 {
     return a -= b;
 }
+/// The opposite vector.
 inline Vec3 operator-(const Vec3& a)
 {
     return {-a.x, -a.y, -a.z};
 }
+/// The vector s times as long.
 inline Vec3 operator*(Vec3 a, double s)
 {
     return a *= s;
 }
+/// Likewise.
 inline Vec3 operator*(double s, Vec3 a)
 {
     return a *= s;
 }
+/// Scalar product.
 inline double dot(const Vec3& a, const Vec3& b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -51,14 +64,17 @@ inline Vec3 scaled(const Vec3& a, const Vec3& b)
 {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
+/// Vector product.
 inline Vec3 cross(const Vec3& a, const Vec3& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// Euclidean length, >= 0.
 inline double norm(const Vec3& a)
 {
     return std::sqrt(dot(a, a));
 }
+/// True if every component is finite.
 inline bool isFinite(const Vec3& a)
 {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
@@ -67,12 +83,17 @@ inline bool isFinite(const Vec3& a)
 /// A 3x3 matrix, row-major: a(i, j) is row i, column j.
 struct Mat3
 {
+    /// Rows.
     double m[3][3] = {};
 
+    /// Row i, column j, both in [0, 3).
     double& operator()(int i, int j) { return m[i][j]; }
+    /// Likewise, to read.
     double operator()(int i, int j) const { return m[i][j]; }
 
+    /// Ones on the diagonal.
     static Mat3 identity() { return diagonal(1); }
+    /// s on the diagonal, zeros beside.
     static Mat3 diagonal(double s)
     {
         Mat3 a;
@@ -84,20 +105,24 @@ struct Mat3
     {
         return {{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}}};
     }
+    /// Column j in [0, 3).
     Vec3 column(int j) const { return {m[0][j], m[1][j], m[2][j]}; }
 
+    /// Adds every entry.
     Mat3& operator+=(const Mat3& b)
     {
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) m[i][j] += b.m[i][j];
         return *this;
     }
+    /// Subtracts every entry.
     Mat3& operator-=(const Mat3& b)
     {
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) m[i][j] -= b.m[i][j];
         return *this;
     }
+    /// Multiplies every entry.
     Mat3& operator*=(double s)
     {
         for (auto& row : m)
@@ -106,23 +131,28 @@ struct Mat3
     }
 };
 
+/// Sum.
 inline Mat3 operator+(Mat3 a, const Mat3& b)
 {
     return a += b;
 }
+/// Difference.
 inline Mat3 operator-(Mat3 a, const Mat3& b)
 {
     return a -= b;
 }
+/// Every entry times s.
 inline Mat3 operator*(Mat3 a, double s)
 {
     return a *= s;
 }
+/// Likewise.
 inline Mat3 operator*(double s, Mat3 a)
 {
     return a *= s;
 }
 
+/// Product a v.
 inline Vec3 operator*(const Mat3& a, const Vec3& v)
 {
     return {a.m[0][0] * v.x + a.m[0][1] * v.y + a.m[0][2] * v.z, a.m[1][0] * v.x + a.m[1][1] * v.y + a.m[1][2] * v.z,
@@ -134,6 +164,7 @@ inline Vec3 transposeTimes(const Mat3& a, const Vec3& v)
     return {a.m[0][0] * v.x + a.m[1][0] * v.y + a.m[2][0] * v.z, a.m[0][1] * v.x + a.m[1][1] * v.y + a.m[2][1] * v.z,
             a.m[0][2] * v.x + a.m[1][2] * v.y + a.m[2][2] * v.z};
 }
+/// Product a b.
 inline Mat3 operator*(const Mat3& a, const Mat3& b)
 {
     Mat3 c;
@@ -157,6 +188,7 @@ inline Mat3 timesTranspose(const Mat3& a, const Mat3& b)
         for (int j = 0; j < 3; ++j) c.m[i][j] = a.m[i][0] * b.m[j][0] + a.m[i][1] * b.m[j][1] + a.m[i][2] * b.m[j][2];
     return c;
 }
+/// a^T.
 inline Mat3 transpose(const Mat3& a)
 {
     return {{{a.m[0][0], a.m[1][0], a.m[2][0]}, {a.m[0][1], a.m[1][1], a.m[2][1]}, {a.m[0][2], a.m[1][2], a.m[2][2]}}};
@@ -171,10 +203,12 @@ inline Mat3 crossMatrix(const Vec3& w)
 {
     return {{{0, -w.z, w.y}, {w.z, 0, -w.x}, {-w.y, w.x, 0}}};
 }
+/// Sum of the diagonal.
 inline double trace(const Mat3& a)
 {
     return a.m[0][0] + a.m[1][1] + a.m[2][2];
 }
+/// det(a).
 inline double determinant(const Mat3& a)
 {
     return dot(a.column(0), cross(a.column(1), a.column(2)));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/step/body.h"
 
 namespace bullet_fem
@@ -15,10 +16,11 @@ class ComplianceCache;
 
 /// Cache of the surface compliance of a model, for ContactSolver::solve; bodies of one model may share it on one
 /// thread. `model` must not be null.
-std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model);
+BULLETFEM_API std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model);
 
 /// The same for contact points on other nodes than those of the mesh's surface: each once, in [0, n).
-std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model, std::vector<int> nodes);
+BULLETFEM_API std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model,
+                                                                   std::vector<int> nodes);
 
 /// A rigid body as the contact solver sees it.
 struct RigidProxy
@@ -36,9 +38,12 @@ struct RigidProxy
     int m_responseCount = 0;
     Vec3 m_pushImpulse;         ///< written by solve() if it has responses: what makes the push [N s]
     Vec3 m_pushAngularImpulse;  ///< likewise, about its centre [N m s]
+    Vec3 m_felt;         ///< written by the solver if it has responses: what contacts and joints gave it so far [N s]
+    Vec3 m_angularFelt;  ///< likewise, about its centre [N m s]
 
     /// True if an impulse moves or turns it.
     bool canMove() const { return dot(m_inverseMass, m_inverseMass) > 0 || squaredNorm(m_inverseInertia) > 0; }
+    /// Of the rigid motion at a point [m/s].
     Vec3 velocityAt(const Vec3& point) const { return m_linearVelocity + cross(m_angularVelocity, point - m_center); }
 };
 
@@ -54,8 +59,9 @@ struct RigidResponse
     Mat3 m_angular;          ///< [1/(kg m2)]
 };
 
-/// Names of these two before 0.2.
+/// Name of RigidProxy before 0.2.
 using Obstacle [[deprecated("is RigidProxy")]] = RigidProxy;
+/// Name of RigidResponse before 0.2.
 using ObstacleResponse [[deprecated("is RigidResponse")]] = RigidResponse;
 
 /// A point of a soft surface: a weighted sum of nodes of a body, of those that its compliance cache serves. An impulse
@@ -113,7 +119,8 @@ struct RigidTouch
 {
     int m_rigidProxy = -1;     ///< index into the rigid proxies of the solve
     int m_other = -1;          ///< likewise; -1: immovable
-    Vec3 m_arm, m_otherArm;    ///< from their centres to where they touch [m]
+    Vec3 m_arm;                ///< from its centre to where they touch [m]
+    Vec3 m_otherArm;           ///< likewise from the other's; not read where that is immovable
     Vec3 m_normal;             ///< unit [-], from the other to the rigid proxy
     double m_gap = 0;          ///< signed distance [m]; negative inside
     bool m_moves = true;       ///< the velocities of the solve will bring them together or apart from there
@@ -143,8 +150,9 @@ struct ContactSettings
     int m_maxRounds = 10;  ///< and at most, >= m_rounds, while the error exceeds m_tolerance; twice as many for joints
     int m_sweeps = 50;     ///< sweeps a round at most, in [1, 1000]
     /// Error of velocities at which contact ends, as a share of the speed that the loads give a body in a step, or of
-    /// what contact changes at first if that is more [-], > 0. 3e-5 keeps tall stacks still; from 1e-3 on they may
-    /// fall. Joints are solved to 1e-3 of the speed that loads give, and of the impulses on their bodies.
+    /// what contact changes at first if that is more [-], > 0. At most what a thousandth of
+    /// an element's edge a step is, where that is finer. Joints are solved to 1e-3 of the speed that loads give, and of
+    /// the impulses on their bodies.
     double m_tolerance = 3e-5;
     bool m_untilSolved = false;    ///< rounds go on to m_maxRounds even where one hardly lowers the error
     int m_denseLimit = 400;        ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
@@ -180,7 +188,8 @@ struct Joint
 {
     static constexpr double kUnlimited = 1e300;  ///< as m_limit: no limit [N s] or [N m s]
 
-    JointEnd m_a, m_b;  ///< what it joins; the impulse acts on a, its opposite on b
+    JointEnd m_a;  ///< what it joins; the impulse acts on it
+    JointEnd m_b;  ///< what it is joined to; the opposite impulse acts on it
     std::array<Vec3, 3> m_axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< orthonormal [-]
     Vec3 m_wanted;  ///< relative velocity along the axes [m/s] or [rad/s]: error correction, motor speed
     Vec3 m_limit = {kUnlimited, kUnlimited,
@@ -191,18 +200,37 @@ struct Joint
     Vec3 m_impulse;               ///< on end a, world axes [N s] or [N m s]: a guess before, the answer after
 };
 
+/// Rolling and spinning friction where a face of a rigid proxy lies on a patch of a soft surface: a couple between the
+/// two against their relative spin, Coulomb's law with coefficients that are lengths. The patch spins as its nodes do
+/// in the mean of least squares, and feels the couple by the transpose of that: its forces have no sum.
+struct TorsionalFriction
+{
+    int m_body = 0;        ///< soft side: index into the bodies of the solve
+    int m_first = 0;       ///< its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
+    int m_count = 0;       ///< and its spin is the sum of m_handleBlocks [1/m] times their velocities
+    int m_rigidProxy = 0;  ///< the other side: index into the rigid proxies
+    std::array<Vec3, 3> m_axes = {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};  ///< normal and tangents, unit [-]
+    /// About every axis [m], >= 0: spinning friction about the normal, rolling friction about the tangents; the largest
+    /// couple per newton that presses the two together. About tangents the two make an ellipse.
+    Vec3 m_friction;
+    double m_lever = 1;  ///< at which a spin counts as a speed, where errors are compared [m], > 0
+    Vec3 m_impulse;      ///< angular impulse on the patch [N m s]: the answer
+};
+
 /// All that is solved together: bodies, what they touch, and what holds them. Vectors are kept to be used again.
 /// Nothing is checked: indices must be in range, and all numbers finite.
-struct ContactProblem
+struct BULLETFEM_API ContactProblem
 {
-    std::vector<ContactBody> m_bodies;       ///< each once
-    std::vector<RigidProxy> m_rigidProxies;  ///< each once
-    std::vector<RigidResponse> m_responses;  ///< of the rigid proxies that have some
-    std::vector<ContactPoint> m_contacts;    ///< between them; their order decides
-    std::vector<Joint> m_joints;             ///< likewise
-    std::vector<RigidTouch> m_rigidTouches;  ///< likewise
-    std::vector<int> m_handleNodes;          ///< nodes of the joints' soft ends, one end's after another
-    std::vector<Mat3> m_handleBlocks;        ///< one a handle node [-]
+    std::vector<ContactBody> m_bodies;          ///< each once
+    std::vector<RigidProxy> m_rigidProxies;     ///< each once
+    std::vector<RigidResponse> m_responses;     ///< of the rigid proxies that have some
+    std::vector<ContactPoint> m_contacts;       ///< between them; their order decides
+    std::vector<Joint> m_joints;                ///< likewise
+    std::vector<RigidTouch> m_rigidTouches;     ///< likewise
+    std::vector<TorsionalFriction> m_torsions;  ///< likewise
+    std::vector<int> m_torsionOf;      ///< per contact: the one it presses on, or -1; of those beyond its end: none
+    std::vector<int> m_handleNodes;    ///< nodes of soft ends of joints and patches, one end's after another
+    std::vector<Mat3> m_handleBlocks;  ///< one a handle node [-]
 
     /// Empties all; nothing is freed.
     void clear();

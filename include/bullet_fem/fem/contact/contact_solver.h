@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/contact/contact_problem.h"
 
 namespace bullet_fem
@@ -11,7 +12,7 @@ namespace bullet_fem
 
 /// For solves to a tolerance: the share of the impulses on a body that residuals are measured against at least, so that
 /// what they leave of these is a share of what contact is solved to. Both > 0; [-], in [1e-3, 1].
-double residualFloor(double contactTolerance, double solveTolerance);
+BULLETFEM_API double residualFloor(double contactTolerance, double solveTolerance);
 
 /// Frictional contact and joints in compliance space. After solveFreeMotion of every body, finds impulses with
 ///     normal: lambda_n >= 0, n . v + max(gap, 0) / h >= 0, complementary
@@ -27,7 +28,7 @@ double residualFloor(double contactTolerance, double solveTolerance);
 /// begin, then while wantsRound sweep ... sweep, correct, then if wantsBack goBack, and at the end finish; it may read
 /// and write the rigid proxies' velocities between any two of them. The scratch grows with the number of contacts and
 /// never shrinks. Deterministic: the order of contacts decides.
-class ContactSolver
+class BULLETFEM_API ContactSolver
 {
 public:
     ContactSolver();

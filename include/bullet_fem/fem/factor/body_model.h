@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/mesh/rest_shape.h"
 
 namespace bullet_fem
@@ -43,6 +44,7 @@ struct FactorInput
     std::size_t m_maxBytes = 0;
     FactorChoice m_choice = FactorChoice::full;  ///< likewise not compared
 
+    /// Same step, masses and fixed nodes: one factor does for both.
     friend bool operator==(const FactorInput& a, const FactorInput& b)
     {
         return a.m_step == b.m_step && a.m_mass == b.m_mass && a.m_fixed == b.m_fixed;
@@ -66,15 +68,19 @@ struct FactorReport
 /// A factor with what it was made for.
 struct FactorOfModel
 {
+    /// Of A0; not null.
     std::shared_ptr<const RestFactor> m_factor;
+    /// Step, masses and fixed nodes.
     FactorInput m_input;
-    Material m_material;
+    /// The materials.
+    ElementMaterials m_materials;
+    /// Figures of the factorization.
     FactorReport m_report;
 };
 
 /// A body's const half: its rest shape and the factor of A0 = (1 + h alpha) M + (h^2 + h beta) K. Immutable, so it may
 /// be shared by bodies and threads.
-class BodyModel
+class BULLETFEM_API BodyModel
 {
 public:
     /// Builds the factor. May be called by several threads, which order one after another, because METIS seeds the
@@ -89,17 +95,26 @@ public:
     static std::shared_ptr<const BodyModel> withFactor(std::shared_ptr<const RestShape> shape, FactorOfModel factor);
     ~BodyModel();
 
+    /// Mesh, material, masses.
     const RestShape& shape() const { return *m_shape; }
+    /// The same, to be shared.
     const std::shared_ptr<const RestShape>& sharedShape() const { return m_shape; }
+    /// The mesh.
     const TetMesh& mesh() const { return m_shape->m_mesh; }
+    /// What the factor was made for.
     const FactorInput& factorInput() const { return m_factor.m_input; }
+    /// The factor of A0; its type is not public.
     const RestFactor& factor() const { return *m_factor.m_factor; }
+    /// The same with what it was made for, to be shared.
     const FactorOfModel& sharedFactor() const { return m_factor; }
+    /// Elements as kernels read them; their type is not public.
     const ModelElements& elements() const { return *m_elements; }
+    /// Figures of the factorization.
     const FactorReport& factorReport() const { return m_factor.m_report; }
     /// By how much the factor's material is off [-]: 1 if it is the shape's, else the ratio of steps that would be as
-    /// bad, > 1. Masses, and so the density, are not in it.
+    /// bad, > 1, at the worst of the elements. Masses, and so the density, are not in it.
     double materialMismatch() const { return m_materialMismatch; }
+    /// Nodes of the mesh, loose ones included.
     int nodeCount() const { return m_shape->m_mesh.nodeCount(); }
 
 private:

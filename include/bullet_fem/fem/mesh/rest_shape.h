@@ -4,6 +4,10 @@
 
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
+#include "bullet_fem/fem/mesh/edge_domains.h"
+#include "bullet_fem/fem/mesh/element_materials.h"
+#include "bullet_fem/fem/mesh/element_patches.h"
 #include "bullet_fem/fem/mesh/material.h"
 #include "bullet_fem/fem/mesh/tet_mesh.h"
 
@@ -22,19 +26,37 @@ struct RestElement
 
 /// Masses that a density gives the nodes: sum of rho V_e filled_e / 4 [kg]. `filled` is one fraction an element, or
 /// empty for all 1.
-std::vector<double> lumpedMasses(const TetMesh& mesh, const std::vector<double>& filled, double density);
+BULLETFEM_API std::vector<double> lumpedMasses(const TetMesh& mesh, const std::vector<double>& filled, double density);
+/// The same of the materials' densities, times a factor on all masses.
+BULLETFEM_API std::vector<double> lumpedMasses(const TetMesh& mesh, const std::vector<double>& filled,
+                                               const ElementMaterials& materials, double massScale);
 
-/// A mesh of a material, ready to be stepped: built once, then const; shared by all bodies that are made of it.
-struct RestShape
+/// A mesh of one or more materials, ready to be stepped: built once, then const; shared by all bodies that are made of
+/// it.
+struct BULLETFEM_API RestShape
 {
     /// `filled`: per element, the fraction in (0, 1] that its mass and stiffness are scaled by; empty for all 1.
-    /// `massScale`: factor on all masses, > 0. Throws std::invalid_argument on a bad material, fraction or scale.
-    RestShape(TetMesh mesh, const Material& material, const std::vector<double>& filled = {}, double massScale = 1);
+    /// `massScale`: factor on all masses, > 0. Throws std::invalid_argument on bad materials (see
+    /// ElementMaterials::validate), fractions or scale.
+    RestShape(TetMesh mesh, ElementMaterials materials, const std::vector<double>& filled = {}, double massScale = 1);
 
+    /// V_e over the volume of its patch, filled fractions in both [-]; 1 where there are no patches.
+    double shareOfPatch(int e) const;
+
+    /// Of an element.
+    const Material& materialOf(int e) const { return m_materials.of(e); }
+
+    /// The mesh.
     TetMesh m_mesh;
-    Material m_material;
+    /// What its elements are made of.
+    ElementMaterials m_materials;
+    Material m_material;  ///< of the first region: the only one of a uniform body, and dampings are those of all
+    /// What steps need of every element; the type is not public.
     std::vector<RestElement> m_elements;
-    std::vector<double> m_lumpedMass;  ///< per node, sum of rho V_e / 4 [kg]; of 1 kg/m3 where the density is 0
+    ElementPatches m_patches;   ///< of elements that share their volume change; none where every one has its own
+    EdgeDomains m_edgeDomains;  ///< over which strains are averaged; none where no material bends accurately
+    std::vector<double> m_patchVolume;  ///< of every patch, filled fractions in it [m3]
+    std::vector<double> m_lumpedMass;   ///< per node, sum of rho V_e / 4 [kg]; of 1 kg/m3 where the density is 0
 };
 
 }  // namespace bullet_fem

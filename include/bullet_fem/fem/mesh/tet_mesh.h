@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/common/vec3.h"
 
 namespace bullet_fem
@@ -21,7 +22,7 @@ enum class LooseNodes
 };
 
 /// A checked tetrahedral mesh in its rest shape. Immutable.
-class TetMesh
+class BULLETFEM_API TetMesh
 {
 public:
     TetMesh() = default;
@@ -44,14 +45,18 @@ public:
     std::vector<unsigned char> boundarySides() const;
 
     const std::vector<Vec3>& restPositions() const { return m_restPositions; }  ///< X [m], n entries
+    /// Nodes of every element, of positive orientation.
     const std::vector<Tet>& tets() const { return m_tets; }
     const std::vector<Triangle>& surface() const { return m_surface; }         ///< boundary triangles, oriented outward
     const std::vector<int>& surfaceNodes() const { return m_surfaceNodes; }    ///< nodes of the surface, ascending
     const std::vector<int>& nodeComponent() const { return m_nodeComponent; }  ///< connected piece of every node
+    /// Nodes, loose ones included.
     int nodeCount() const { return static_cast<int>(m_restPositions.size()); }
+    /// Elements, >= 1.
     int tetCount() const { return static_cast<int>(m_tets.size()); }
     int componentCount() const { return m_componentCount; }  ///< connected pieces (through shared nodes)
     int looseCount() const { return m_looseCount; }          ///< nodes that no element uses
+    /// True if no element uses the node; `node` in [0, nodeCount()).
     bool isLoose(int node) const { return m_looseCount > 0 && m_loose[static_cast<std::size_t>(node)]; }
     int turnedCount() const { return m_turnedCount; }  ///< elements whose orientation was mended
     int sliverCount() const

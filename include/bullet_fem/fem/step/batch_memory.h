@@ -6,13 +6,15 @@
 #include <mutex>
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
+
 namespace bullet_fem
 {
 
 /// What bodies that share a model work in while they are solved side by side, sixteen at a time: some 3 KB an element,
 /// once for every thread that solves so at the same time. Made when a model first needs it, kept as long as there is
 /// the model, and used again. May be shared by threads.
-class BatchMemory
+class BULLETFEM_API BatchMemory
 {
 public:
     BatchMemory();

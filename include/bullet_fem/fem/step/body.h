@@ -4,6 +4,8 @@
 
 #include <memory>
 
+#include "bullet_fem/fem/common/export.h"
+#include "bullet_fem/fem/step/actuators.h"
 #include "bullet_fem/fem/step/body_state.h"
 #include "bullet_fem/fem/step/step_types.h"
 
@@ -13,15 +15,20 @@ namespace bullet_fem
 struct StepScratch;
 
 /// The vectors that one body's step works in. Sized once for a mesh and a factor; a step never allocates.
-class Workspace
+class BULLETFEM_API Workspace
 {
 public:
+    /// For bodies of this model. Allocates.
     explicit Workspace(const BodyModel& model);
     ~Workspace();
+    /// Moves: the other is not to be used then.
     Workspace(Workspace&&) noexcept;
+    /// Likewise.
     Workspace& operator=(Workspace&&) noexcept;
 
+    /// What the step works in; its type is not public.
     StepScratch& scratch() { return *m_scratch; }
+    /// The same, to read.
     const StepScratch& scratch() const { return *m_scratch; }
 
 private:
@@ -29,8 +36,9 @@ private:
 };
 
 /// A deformable body: the const model that it may share, its state, what acts on it, and its scratch.
-struct Body
+struct BULLETFEM_API Body
 {
+    /// At rest in the rest shape. `model` is not null. Allocates.
     explicit Body(std::shared_ptr<const BodyModel> model)
         : m_model(std::move(model)), m_state(*m_model), m_loads(m_model->nodeCount()), m_workspace(*m_model)
     {
@@ -40,9 +48,14 @@ struct Body
     /// throws std::invalid_argument otherwise. Allocates.
     void setModel(std::shared_ptr<const BodyModel> model);
 
+    /// Mesh, material and factor; not null.
     std::shared_ptr<const BodyModel> m_model;
+    /// Positions, velocities, masses and pins.
     BodyState m_state;
+    /// What acts on the body in the next step.
     StepLoads m_loads;
+    Actuators m_actuators;  ///< validated by who adds them; not to be changed within a step
+    /// Scratch of its steps.
     Workspace m_workspace;
 };
 

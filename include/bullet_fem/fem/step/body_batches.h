@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/common/threads.h"
 #include "bullet_fem/fem/step/body.h"
 
@@ -13,7 +14,7 @@ namespace bullet_fem
 /// Bodies put in order so that those that share their model stand together, and divided into batches: what one thread
 /// solves, side by side as far as it can. Which bodies are together has no effect on the bits of what becomes of them.
 /// Allocates while it grows.
-class BodyBatches
+class BULLETFEM_API BodyBatches
 {
 public:
     /// `together`: false makes every body a batch of its own. Every body once, none null.

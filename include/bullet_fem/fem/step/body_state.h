@@ -3,9 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/common/quaternion.h"
+#include "bullet_fem/fem/common/symmetric.h"
 #include "bullet_fem/fem/factor/body_model.h"
 
 namespace bullet_fem
@@ -13,10 +16,14 @@ namespace bullet_fem
 
 /// What a step changes of one body: positions, velocities, and the rotations that the next step starts from. The arrays
 /// have one entry a node, or one an element.
-struct BodyState
+struct BULLETFEM_API BodyState
 {
     /// The model's rest shape at rest, with its masses and fixed nodes.
     explicit BodyState(const BodyModel& model);
+
+    /// Makes room for the plastic strain of a model whose material yields, unless there is some, and for what relaxes;
+    /// that starts anew where the number of terms is another.
+    void readyForLaws(const BodyModel& model);
 
     std::vector<Vec3> m_x;               ///< positions [m]
     std::vector<Vec3> m_v;               ///< velocities [m/s]
@@ -29,12 +36,23 @@ struct BodyState
     /// fill its block of kernel lanes up.
     std::vector<Quaternion> m_elementRotation;
     Mat3 m_bodyRotation = Mat3::identity();  ///< Q of Warp::global; of the last step that used it
+    /// As setInitialStress() has checked it, of every element in the mesh's order [Pa]; empty for none.
+    std::vector<SymmetricTensor> m_initialStress;
+    std::uint64_t m_initialStressChanges = 0;  ///< times that it was set to something else
+    /// eps_p of every element in the mesh's order, in the frame that turns with it, without trace [-]; empty, as the
+    /// next, for bodies that never had a material that yields.
+    std::vector<SymmetricTensor> m_plasticStrain;
+    std::vector<double> m_equivalentPlasticStrain;  ///< alpha, all that has flown [-], >= 0
+    /// alpha_i of every element's relaxation terms, one element's after another's, likewise; empty without terms.
+    std::vector<SymmetricTensor> m_relaxedStrain;
 };
 
 /// What acts on a body during one step.
 struct StepLoads
 {
+    /// None, for so many nodes, >= 0. Allocates.
     explicit StepLoads(int nodeCount) : StepLoads(static_cast<std::size_t>(nodeCount)) {}
+    /// Likewise.
     explicit StepLoads(std::size_t nodeCount)
         : m_force(nodeCount), m_targetVelocity(nodeCount), m_frameVelocity(nodeCount)
     {

@@ -24,6 +24,7 @@ struct StepSettings
     double m_numericalDamping = 1;
     double m_tolerance = 1e-3;  ///< of |r| / max(|b|, 1e-3 h |f_ext|) [-], in [1e-12, 1)
     int m_maxIterations = 100;  ///< conjugate gradient iterations a solve, >= 1
+    /// Which rotations turn the factor.
     Warp m_warp = Warp::nodal;
     bool m_direct = false;  ///< one iteration, whatever the residual: the paper's mode for unimportant bodies
     bool m_tension = true;  ///< keep the tensile geometric stiffness in A; off only to compare with references
@@ -50,6 +51,7 @@ struct SolveReport
     int m_iterations = 0;   ///< applications of the preconditioner that improved the answer
     double m_residual = 0;  ///< true |b - A dv| / |b| at the end [-]; 0 where b = 0. With expected impulses in b, which
                             ///< may cancel the loads, |b| is no less than the norm of these
+    /// Why it ended.
     SolveStop m_stop = SolveStop::converged;
 };
 

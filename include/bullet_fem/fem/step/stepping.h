@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/step/body.h"
 
 namespace bullet_fem
@@ -20,25 +21,25 @@ namespace bullet_fem
 
 /// Step of FactorInput [s] that A of a step of `step` and that numerical damping is factored with: c of its h^2 K are
 /// in that step's h^2.
-double factorStep(double step, double numericalDamping, const Material& material);
+BULLETFEM_API double factorStep(double step, double numericalDamping, const Material& material);
 
 /// Rotations, system and the free velocities v + dv, as if nothing touched the body. Nodes marked fixed get their
 /// target velocity. The result stands in velocity(body) and is not yet the state's.
-SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
+BULLETFEM_API SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
 
 /// Adds the response A^-1 J to velocity(body), for impulses J on the nodes [N s]; those on fixed nodes are ignored.
 /// What is left of other impulses since solveFreeMotion is solved for with them, so that no residual adds up; it is
 /// measured against what there is to solve or `floor`, whichever is larger [N s], >= 0. Where it is small enough from
 /// the start only the momentum changes. To be called after solveFreeMotion, any number of times.
-SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings,
-                          double floor = 0);
+BULLETFEM_API SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings,
+                                        double floor = 0);
 
 /// solveFreeMotion of one body of several.
 struct FreeMotion
 {
-    Body* m_body = nullptr;
-    StepSettings m_settings;
-    SolveReport m_report;  ///< out
+    Body* m_body = nullptr;   ///< not null
+    StepSettings m_settings;  ///< of its step
+    SolveReport m_report;     ///< out
     /// Impulses that contact is expected to make [N s], one a node: solved for with the loads, from the guess that the
     /// body goes on as it moves. ContactBody::m_predicted is to be the same then. Null: none.
     const std::vector<Vec3>* m_predicted = nullptr;
@@ -48,10 +49,10 @@ struct FreeMotion
 /// applyImpulses to one body of several.
 struct ImpulseResponse
 {
-    Body* m_body = nullptr;
+    Body* m_body = nullptr;                         ///< not null
     const std::vector<Vec3>* m_impulses = nullptr;  ///< [N s], one a node
-    StepSettings m_settings;
-    double m_floor = 0;     ///< [N s], >= 0
+    StepSettings m_settings;                        ///< of its step
+    double m_floor = 0;                             ///< [N s], >= 0
     bool m_steady = false;  ///< the guess: the body ends with the velocities that it began the step with
     SolveReport m_report;   ///< out
 };
@@ -60,50 +61,53 @@ struct ImpulseResponse
 /// together, each with its own state, fixed nodes, loads and settings: a pass over their factor serves several of them,
 /// and whoever has converged leaves. Every body gets the bits that it gets alone. Bodies that share their model must
 /// have the same StepSettings::m_threads.
-void solveFreeMotions(FreeMotion* motions, int count);
-void applyImpulses(ImpulseResponse* responses, int count);
+BULLETFEM_API void solveFreeMotions(FreeMotion* motions, int count);
+/// applyImpulses of several bodies, likewise.
+BULLETFEM_API void applyImpulses(ImpulseResponse* responses, int count);
 
 /// finishStep of one body of several.
 struct StepEnd
 {
-    Body* m_body = nullptr;
-    StepSettings m_settings;
-    bool m_isRough = false;  ///< written: the step changed the velocities by more than it resolves
+    Body* m_body = nullptr;   ///< not null
+    StepSettings m_settings;  ///< of its step
+    bool m_isRough = false;   ///< written: the step changed the velocities by more than it resolves
 };
 
 /// Adds to velocity(body), one change a node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
-void addVelocity(Body& body, const std::vector<Vec3>& change);
+BULLETFEM_API void addVelocity(Body& body, const std::vector<Vec3>& change);
 
 /// Adds h P J to the displacement of this step without a trace in the velocities: position correction, J [N s]. On the
 /// low-memory path A^-1 J, solved to 1e-3, stands for P J; settings.m_threads share the work. Returns the angular
 /// momentum about the origin that the body gains by being elsewhere with its velocities [kg m2/s].
-Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
+BULLETFEM_API Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
 
 /// x <- x+ and v <- velocity(body), and the pushes; with less than full numerical damping v goes without what the step
 /// does not resolve. To be called with the settings of solveFreeMotion; side by side as above.
-void finishStep(Body& body, const StepSettings& settings);
-void finishSteps(StepEnd* ends, int count);
+BULLETFEM_API void finishStep(Body& body, const StepSettings& settings);
+/// finishStep of several bodies, likewise.
+BULLETFEM_API void finishSteps(StepEnd* ends, int count);
 
 /// True if the velocities and pushes of the step are numbers, and below 1e6 m/s.
-bool canFinishStep(const Body& body);
+BULLETFEM_API bool canFinishStep(const Body& body);
 
 /// In place of finishStep: the body stands still where it is.
-void abandonStep(Body& body);
+BULLETFEM_API void abandonStep(Body& body);
 
 /// solveFreeMotion and finishStep: a step of a body that touches nothing.
-SolveReport step(Body& body, const StepSettings& settings);
+BULLETFEM_API SolveReport step(Body& body, const StepSettings& settings);
 
 /// Velocities during the step [m/s], one a node: valid from solveFreeMotion to finishStep.
-const std::vector<Vec3>& velocity(const Body& body);
+BULLETFEM_API const std::vector<Vec3>& velocity(const Body& body);
 
 /// With which nodes move in the step, as if nothing touched them [m/s]: (x+ - x) / h, valid likewise.
-const std::vector<Vec3>& freeMeanVelocity(const Body& body);
+BULLETFEM_API const std::vector<Vec3>& freeMeanVelocity(const Body& body);
 
-/// Linear and angular momentum about the origin [kg m/s, kg m2/s] of a state.
-Vec3 linearMomentum(const BodyState& state);
-Vec3 angularMomentum(const BodyState& state);
+/// Linear momentum of a state [kg m/s].
+BULLETFEM_API Vec3 linearMomentum(const BodyState& state);
+/// Angular momentum of a state about the origin [kg m2/s].
+BULLETFEM_API Vec3 angularMomentum(const BodyState& state);
 
 /// Kinetic energy plus the warped elastic energy 1/2 sum (x R - X)^T K_e (R^T x - X) [J].
-double mechanicalEnergy(const Body& body);
+BULLETFEM_API double mechanicalEnergy(const Body& body);
 
 }  // namespace bullet_fem

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "tools/bulletfem/mesh_input.h"
+#include "tools/bulletfem/cage_options.h"
 
-#include <stdexcept>
-
-#include "bullet_fem/io/surface_file.h"
-#include "bullet_fem/io/tet_mesh_file.h"
-#include "io/file_bytes.h"
 #include "tools/console/option_range.h"
 
 namespace bullet_fem
@@ -44,33 +39,6 @@ CageSettings CageOptions::settings() const
     settings.m_mostLevels = m_mostLevels;
     settings.m_surfaceCollides = m_surfaceCollides;
     return settings;
-}
-
-bool isSurfaceFile(const std::string& path)
-{
-    const std::string ending = lowerCaseEnding(path);
-    return ending == ".off" || ending == ".obj" || ending == ".stl" || ending == ".ply";
-}
-
-MeshInput MeshInput::read(const std::string& path, double scale, const CageOptions& options)
-{
-    MeshInput input;
-    if (isSurfaceFile(path)) input.m_surface = readSurfaceFile(path, scale);
-    try
-    {
-        if (isSurfaceFile(path))
-        {
-            input.m_cage = makeCage(input.m_surface, options.settings());
-            input.m_mesh = input.m_cage->m_mesh;
-        }
-        else
-            input.m_mesh = readTetMeshFile(path, scale).mesh();
-    }
-    catch (const std::invalid_argument& error)
-    {
-        throw std::runtime_error("'" + path + "': " + error.what());
-    }
-    return input;
 }
 
 }  // namespace bullet_fem

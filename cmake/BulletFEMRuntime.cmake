@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Zlib
+# BulletFEM::runtime: all that programs need which play baked bodies, in one library. It is the plug-in and what lies below
+# it, with Eigen's orders in place of AMD and METIS, and without the helpers that read files. It links Bullet, and Highway
+# and oneTBB if the project does.
+foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
+    set(_suffix "${BULLETFEM_SUFFIX_${_precision}}")
+    set(_objects "$<TARGET_OBJECTS:bulletfem_bullet_bridge${_suffix}>" "$<TARGET_OBJECTS:bulletfem_orderings_runtime>"
+        "$<FILTER:$<TARGET_OBJECTS:bulletfem_plugin${_suffix}>,EXCLUDE,btFemFileHelpers|btFemUrdf>")
+    foreach(_floor IN ITEMS common mesh elements factor step contact cage baked)
+        list(APPEND _objects "$<TARGET_OBJECTS:bulletfem_fem_${_floor}>")
+    endforeach()
+    bulletfem_library(runtime${_suffix} ${_objects})
+    set_target_properties(bulletfem_runtime${_suffix} PROPERTIES LINKER_LANGUAGE CXX UNITY_BUILD OFF
+        INTERFACE_BULLET_PRECISION ${_precision}
+        COMPATIBLE_INTERFACE_STRING "BULLET_PRECISION;BULLETFEM_LIBRARIES" INTERFACE_BULLETFEM_LIBRARIES runtime)
+    target_compile_definitions(bulletfem_runtime${_suffix} INTERFACE BULLETFEM_PRECISION_${_precision})
+    target_link_libraries(bulletfem_runtime${_suffix} PUBLIC Bullet::SoftBody${_suffix}
+        PRIVATE ${BULLETFEM_HWY} ${BULLETFEM_TBB} Threads::Threads)
+endforeach()
+# A program that linked both would have everything twice.
+set_target_properties(bulletfem_fem PROPERTIES COMPATIBLE_INTERFACE_STRING BULLETFEM_LIBRARIES
+    INTERFACE_BULLETFEM_LIBRARIES "plugin, io and fem")

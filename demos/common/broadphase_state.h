@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "BulletCollision/BroadphaseCollision/btDbvtBroadphase.h"
+#include "btBulletDynamicsCommon.h"
+
+namespace bullet_fem
+{
+
+/// What is Bullet's own in a world of soft and static bodies: the broad phase's boxes, and its pairs in their order.
+class BroadphaseState
+{
+public:
+    /// Takes it as it is. The world must have a btDbvtBroadphase, and keep its objects.
+    explicit BroadphaseState(btDynamicsWorld& world)
+        : m_world(world), m_broadphase(*static_cast<btDbvtBroadphase*>(world.getBroadphase()))
+    {
+        for (int k = 0; k < world.getNumCollisionObjects(); ++k)
+        {
+            auto* proxy = static_cast<btDbvtProxy*>(world.getCollisionObjectArray()[k]->getBroadphaseHandle());
+            m_boxes.push_back({proxy, proxy->leaf->volume.Mins(), proxy->leaf->volume.Maxs()});
+        }
+        const btBroadphasePairArray& pairs = world.getPairCache()->getOverlappingPairArray();
+        for (int k = 0; k < pairs.size(); ++k) m_pairs.push_back({pairs[k].m_pProxy0, pairs[k].m_pProxy1});
+        m_cleanUpAt = m_broadphase.m_cid;
+        m_newPairs = m_broadphase.m_newpairs;
+    }
+    /// Puts it back. Bullet's pairs begin anew then: restore it also when it is taken, so that both runs begin alike.
+    void restore() const
+    {
+        for (const Box& box : m_boxes)
+            m_broadphase.setAabbForceUpdate(box.m_proxy, box.m_low, box.m_high, m_world.getDispatcher());
+        btOverlappingPairCache& cache = *m_world.getPairCache();
+        while (cache.getNumOverlappingPairs() > 0)
+        {
+            const btBroadphasePair pair = cache.getOverlappingPairArray()[0];
+            cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, m_world.getDispatcher());
+        }
+        for (const auto& pair : m_pairs) cache.addOverlappingPair(pair.first, pair.second);
+        m_broadphase.m_cid = m_cleanUpAt;
+        m_broadphase.m_newpairs = m_newPairs;
+    }
+
+private:
+    struct Box
+    {
+        btDbvtProxy* m_proxy;
+        btVector3 m_low, m_high;
+    };
+    btDynamicsWorld& m_world;
+    btDbvtBroadphase& m_broadphase;
+    std::vector<Box> m_boxes;
+    std::vector<std::pair<btBroadphaseProxy*, btBroadphaseProxy*>> m_pairs;
+    int m_cleanUpAt, m_newPairs;  // old pairs are taken out a few a step, from here on; the order of pairs follows
+};
+
+}  // namespace bullet_fem

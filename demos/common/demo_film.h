@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_fem/io/vtu_writer.h"
+#include "demos/common/demo_surfaces.h"
+
+namespace bullet_fem
+{
+
+/// What a demo leaves in its folder: a ParaView series of all surfaces (surfaces.pvd), three pictures (first.png,
+/// middle.png, last.png) and, where ffmpeg is found, a film (film.mp4). A program that was built without the renderer
+/// writes the series alone.
+class DemoFilm
+{
+public:
+    DemoFilm();
+    ~DemoFilm();
+    DemoFilm(const DemoFilm&) = delete;
+    DemoFilm& operator=(const DemoFilm&) = delete;
+
+    /// From now on frames of a run of so many `seconds` are kept. Throws std::runtime_error if the folder cannot be
+    /// written.
+    void open(const std::string& folder, double seconds);
+
+    void look(const btVector3& eye, const btVector3& target, double fieldOfView);
+    void paint(const btCollisionObject& object, const Vec3& colour) { m_colours[&object] = colour; }
+
+    /// Draws the world at `time` [s], if the film is open and its next frame is due. Throws std::runtime_error.
+    void show(const btDynamicsWorld& world, double time);
+
+    /// Ends the film. Returns what was written.
+    std::vector<std::string> finish();
+
+private:
+    struct Pictures;
+    Vec3 colourOf(const btCollisionObject& object, int soft) const;
+    void draw();
+    std::string path(const char* name) const { return m_folder + "/" + name; }
+
+    std::string m_folder;
+    double m_seconds = 0, m_framesPerSecond = 0;
+    int m_frames = 0;
+    DemoSurfaces m_surfaces;
+    std::unique_ptr<VtuSeries> m_series;
+    std::map<const btCollisionObject*, Vec3> m_colours;
+    btVector3 m_eye{3, 2, 4}, m_target{0, 0, 0};
+    double m_fieldOfView = 0.6;
+    std::unique_ptr<Pictures> m_pictures;
+};
+
+}  // namespace bullet_fem

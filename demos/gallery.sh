@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Zlib
+# gallery.sh [--docs] [demo]...: installs what is missing (Debian 12, as root or with sudo), builds the demos of the
+# gallery, runs all of them or those that are named, and leaves figures, three pictures and a film of each in out/gallery/.
+# --docs: also puts the small films of docs/gallery.md into docs/gallery/.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$root/cmake/install_packages.sh"
+source "$root/cmake/mesh_package.sh"
+
+most_bytes=1000000 # of a film in docs/gallery
+mesh_in_archive=data/meshes/elephant.off
+build=$root/build/gallery # of its own, so that no other script changes its options
+into_docs=no
+demos=()
+for word in "$@"; do
+    case $word in
+    --docs) into_docs=yes ;;
+    -*) fail "gallery.sh: $word is not --docs" ;;
+    *) [ -f "$root/demos/$word/$word.cpp" ] || fail "there is no demo $word: see demos/*/"
+       demos+=("$word") ;;
+    esac
+done
+if [ ${#demos[@]} -eq 0 ]; then
+    for source in "$root"/demos/*/; do
+        name=$(basename "$source")
+        [ ! -f "$source/$name.cpp" ] || demos+=("$name")
+    done
+fi
+
+install_packages "${build_packages[@]}" "${picture_packages[@]}" ffmpeg
+if [ ! -s "$build/$mesh_in_archive" ]; then
+    say "extracting $mesh_in_archive from $mesh_package"
+    extract_meshes "$build" "$mesh_in_archive" || fail "cannot get $mesh_in_archive from the package $mesh_package"
+fi
+
+say "building in $build"
+(cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_UNITY=8 -DBULLETFEM_PRECISIONS=float \
+    -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
+cmake --build "$build" --target "${demos[@]/#/bulletfem_demo_}" --parallel "$(nproc)"
+
+# play <demo>: runs it, and makes a small film for documents of its large one.
+play()
+{
+    local demo=$1 out=$root/out/gallery/$1 options=()
+    [ "$demo" != squeeze ] || options=(--mesh "$build/$mesh_in_archive")
+    mkdir -p "$out"
+    "$build/demos/bulletfem_demo_$demo" --out "$out" "${options[@]}" >"$out/figures.txt" 2>&1 ||
+        { cat "$out/figures.txt"; return 1; }
+    ffmpeg -loglevel error -y -i "$out/film.mp4" -map_metadata -1 -vf "fps=10,hqdn3d=2:2:4:4,scale=320:240:flags=area,\
+split[a][b];[a]palettegen=max_colors=64:stats_mode=full[p];[b][p]paletteuse=dither=none" "$out/$demo.gif"
+    cat "$out/figures.txt"
+}
+
+failed=()
+for ((k = 0; k < ${#demos[@]}; k += 2)); do # two at a time
+    running=()
+    for demo in "${demos[@]:k:2}"; do
+        say "playing $demo"
+        play "$demo" &
+        running+=("$!:$demo")
+    done
+    for job in "${running[@]}"; do wait "${job%%:*}" || failed+=("${job#*:}"); done
+done
+[ ${#failed[@]} -eq 0 ] || fail "these failed, see above: ${failed[*]}"
+
+for demo in "${demos[@]}"; do
+    film=$root/out/gallery/$demo/$demo.gif
+    bytes=$(stat -c %s "$film")
+    [ "$bytes" -le "$most_bytes" ] || fail "$film has $bytes bytes, at most $most_bytes are allowed in documents"
+    [ $into_docs = no ] || cp "$film" "$root/docs/gallery/"
+done
+say "figures, pictures and films are in $root/out/gallery"

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "fem/contact/contact_rows.h"
+#include "fem/contact/envelope_factor.h"
+
+namespace bullet_fem
+{
+
+/// The coarse level of a two-level method [Nicolaides 1987]: the wrenches that pairs of bodies exert on each other,
+/// solved for all pairs at once. What hands on load from floor to floor of a tower takes sweeps the square of its
+/// height, and what they leave, though small at every point, leans it over; here it takes one solve. Of a pair, the
+/// points that carry load take shares of a force and a moment by what each carries; what slides takes the normal part
+/// alone. Grows with the problem, never shrinks.
+class CoarseCorrection
+{
+public:
+    /// The rows must outlive it.
+    explicit CoarseCorrection(ContactRows& rows) : m_rows(rows) {}
+
+    /// When the rows are assembled anew.
+    void begin();
+
+    /// Changes the impulses of these rows, whose ends are all in the working sets of their bodies, within their cones;
+    /// the velocities follow. Nothing where the factor would cost more than it saves: of piles, which are as wide as
+    /// they are high. Returns whether anything was changed.
+    bool correct(const std::vector<int>& working);
+
+private:
+    static constexpr int kUnknowns = 6;  // of a pair: force and moment
+
+    struct Pattern  // what the unknowns of its pair are on a row
+    {
+        Vec3 m_of[kUnknowns];
+        bool m_carries = false;
+    };
+    struct Pair
+    {
+        Range m_rows = {0, 0};       // of the working ones
+        int m_owners[2] = {-1, -1};  // bodies, then rigid proxies; -1: does not move
+        Vec3 m_center;
+    };
+    struct Side  // of a pair, at one of its owners
+    {
+        int m_owner, m_pair;
+        bool m_isB;
+    };
+
+    void listPairs(const std::vector<int>& working);
+    void addPair(const std::vector<int>& working, Range range);
+    int ownerOf(const RowEnd& end) const;
+    Vec3 pointOf(int row) const;
+    void sortPairs();
+    void listSides();
+    bool shapeFactor();
+    void form(const std::vector<int>& working);
+    void addYields(const std::vector<int>& working);
+    void addOwner(const std::vector<int>& working, Range sides);
+    void respond(const std::vector<int>& working, const Side& side, int unknown);
+    const RowEnd& endOf(int row, const Side& side) const;
+    Vec3 responseAt(int owner, const RowEnd& end);
+    void addColumn(int pair, int other, int unknown, const Pattern& pattern, const Vec3& v);
+    void addRow(int pair, int unknown, const Pattern& pattern, const Vec3& v);
+    void residual(const std::vector<int>& working);
+    Vec3 changeOf(std::size_t pair, int k) const;
+    bool isSmall(const std::vector<int>& working) const;
+    void apply(const std::vector<int>& working);
+
+    ContactRows& m_rows;
+    std::vector<Pattern> m_patterns;  // per working row
+    std::vector<Pair> m_pairs;
+    std::vector<Side> m_sides;  // by their owners
+    std::vector<int> m_first;   // per pair: the first one that shares an owner with it
+    EnvelopeFactor m_factor;
+    std::vector<unsigned char> m_held;
+    std::vector<double> m_unknowns;
+    std::vector<Response> m_responses;
+    std::vector<double> m_velocity;  // of the working set of one body
+    Vec3 m_linear, m_angular;        // of one rigid proxy
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Rows of rolling and spinning friction: couples between a patch of nodes and a rigid proxy, as large as the contacts
+// between the two allow. A contact tells every change of its normal impulse to the row that it presses on, so sweeps
+// see Coulomb's law with the loads of the moment.
+#include "fem/contact/contact_rows.h"
+
+namespace bullet_fem
+{
+
+void ContactRows::addTorsionRow(const TorsionalFriction& torsion)
+{
+    ContactRow row;
+    row.m_torsion = true;
+    row.m_a.m_body = torsion.m_body;
+    row.m_a.m_end =
+        m_bodies[torsion.m_body].addGroup(m_problem->m_handleNodes.data() + torsion.m_first,
+                                          m_problem->m_handleBlocks.data() + torsion.m_first, torsion.m_count);
+    row.m_b.m_rigidProxy = torsion.m_rigidProxy;
+    row.m_b.m_angular = true;
+    for (int i = 0; i < 3; ++i) row.m_axes[i] = torsion.m_axes[i];
+    row.m_limit = torsion.m_friction;
+    row.m_lever = torsion.m_lever;
+    m_rows.push_back(row);
+}
+
+void ContactRows::pressOnTorsions()
+{
+    if (m_problem->m_torsions.empty()) return;
+    const int first = static_cast<int>(m_rows.size() - m_problem->m_torsions.size());
+    for (std::size_t k = 0; k < m_problem->m_torsionOf.size(); ++k)
+    {
+        ContactRow& row = m_rows[k];
+        if (m_problem->m_torsionOf[k] >= 0) row.m_pressed = first + m_problem->m_torsionOf[k];
+        press(row, row.m_impulse);
+    }
+}
+
+}  // namespace bullet_fem

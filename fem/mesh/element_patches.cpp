@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_fem/fem/mesh/element_patches.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <numeric>
+#include <utility>
+
+#include "bullet_fem/fem/mesh/element_materials.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr int kFewestWanted = 4;  // of a patch: what is smaller is given to a neighbour that has room
+constexpr double kAlike = 1e-3;   // relative difference up to which patches are taken for equally compact
+constexpr int kNone = -1;
+constexpr int kCornerPairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+/// Which elements may be in one patch.
+struct PatchGroups
+{
+    const std::vector<int>& m_group;  // per element; empty: all are in one
+
+    bool joins(int e, int f) const
+    {
+        return e == f || m_group.empty() || (m_group[e] == m_group[f] && m_group[e] != ElementMaterials::kAlone);
+    }
+};
+
+/// Elements across the faces of every element, kNone on the boundary and where another group begins.
+std::vector<std::array<int, 4>> neighboursOf(const std::vector<Tet>& tets, const PatchGroups& groups)
+{
+    struct Side
+    {
+        Triangle m_nodes;
+        int m_tet, m_opposite;
+    };
+    std::vector<Side> sides;
+    sides.reserve(4 * tets.size());
+    for (std::size_t e = 0; e < tets.size(); ++e)
+        for (int a = 0; a < 4; ++a)
+        {
+            Triangle nodes = {tets[e][(a + 1) % 4], tets[e][(a + 2) % 4], tets[e][(a + 3) % 4]};
+            std::sort(nodes.begin(), nodes.end());
+            sides.push_back({nodes, static_cast<int>(e), a});
+        }
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& f, const Side& g)
+              { return f.m_nodes != g.m_nodes ? f.m_nodes < g.m_nodes : f.m_tet < g.m_tet; });
+    std::vector<std::array<int, 4>> neighbours(tets.size(), {kNone, kNone, kNone, kNone});
+    for (std::size_t k = 0; k + 1 < sides.size(); ++k)
+        if (sides[k].m_nodes == sides[k + 1].m_nodes && groups.joins(sides[k].m_tet, sides[k + 1].m_tet))
+        {
+            neighbours[sides[k].m_tet][sides[k].m_opposite] = sides[k + 1].m_tet;
+            neighbours[sides[k + 1].m_tet][sides[k + 1].m_opposite] = sides[k].m_tet;
+        }
+    return neighbours;
+}
+
+/// What could be a patch: the elements around an edge, and an element with all its neighbours.
+struct Candidates
+{
+    Candidates(const TetMesh& mesh, const PatchGroups& groups, const std::vector<std::array<int, 4>>& neighbours)
+        : m_of(mesh.tets().size())
+    {
+        addStars(mesh, groups);
+        for (int e = 0; e < mesh.tetCount(); ++e)
+        {
+            std::vector<int> elements = {e};
+            for (const int f : neighbours[e])
+                if (f != kNone) elements.push_back(f);
+            add(mesh, std::move(elements));
+        }
+    }
+
+    std::vector<std::vector<int>> m_elements;
+    std::vector<double> m_score;         ///< see compactness()
+    std::vector<std::vector<int>> m_of;  ///< of every element, the candidates that it is in
+
+private:
+    void addStars(const TetMesh& mesh, const PatchGroups& groups)
+    {
+        struct End
+        {
+            int m_low, m_high, m_tet;
+        };
+        std::vector<End> ends;
+        ends.reserve(6 * mesh.tets().size());
+        for (int e = 0; e < mesh.tetCount(); ++e)
+            for (const auto& pair : kCornerPairs)
+            {
+                const auto [low, high] = std::minmax(mesh.tets()[e][pair[0]], mesh.tets()[e][pair[1]]);
+                ends.push_back({low, high, e});
+            }
+        std::sort(ends.begin(), ends.end(),
+                  [](const End& a, const End& b)
+                  {
+                      if (a.m_low != b.m_low) return a.m_low < b.m_low;
+                      return a.m_high != b.m_high ? a.m_high < b.m_high : a.m_tet < b.m_tet;
+                  });
+        for (std::size_t k = 0; k < ends.size();)
+        {
+            std::vector<int> elements;
+            const End first = ends[k];
+            for (; k < ends.size() && ends[k].m_low == first.m_low && ends[k].m_high == first.m_high; ++k)
+                elements.push_back(ends[k].m_tet);
+            const auto joins = [&](int e) { return groups.joins(elements.front(), e); };
+            if (std::all_of(elements.begin(), elements.end(), joins)) add(mesh, std::move(elements));
+        }
+    }
+
+    void add(const TetMesh& mesh, std::vector<int> elements)
+    {
+        const int size = static_cast<int>(elements.size());
+        if (size < kFewestWanted || size > ElementPatches::kMost) return;
+        for (const int e : elements) m_of[e].push_back(static_cast<int>(m_elements.size()));
+        m_score.push_back(compactness(mesh, elements));
+        m_elements.push_back(std::move(elements));
+    }
+
+    // Volume over the cube of the mean distance of the nodes from their middle: 1.54 for a cube, 1.24 for the
+    // octahedron of a lattice.
+    static double compactness(const TetMesh& mesh, const std::vector<int>& elements)
+    {
+        std::array<int, 4 * ElementPatches::kMost> nodes;
+        auto end = nodes.begin();
+        double volume = 0;
+        for (const int e : elements)
+        {
+            volume += mesh.tetVolume(e);
+            end = std::copy(mesh.tets()[e].begin(), mesh.tets()[e].end(), end);
+        }
+        std::sort(nodes.begin(), end);
+        end = std::unique(nodes.begin(), end);
+        const double share = 1.0 / static_cast<double>(end - nodes.begin());
+        Vec3 middle;
+        for (auto node = nodes.begin(); node != end; ++node) middle += share * mesh.restPositions()[*node];
+        double square = 0;
+        for (auto node = nodes.begin(); node != end; ++node)
+        {
+            const Vec3 r = mesh.restPositions()[*node] - middle;
+            square += share * dot(r, r);
+        }
+        return volume / (square * std::sqrt(square));
+    }
+};
+
+class PatchMaker
+{
+public:
+    PatchMaker(const TetMesh& mesh, const std::vector<int>& group)
+        : m_mesh(mesh),
+          m_groups{group},
+          m_neighbours(neighboursOf(mesh.tets(), m_groups)),
+          m_patch(mesh.tets().size(), kNone)
+    {
+    }
+
+    std::vector<int> make()
+    {
+        takeCandidates();
+        takeRest();
+        giveAwaySmallOnes();
+        return std::move(m_patch);
+    }
+
+private:
+    bool isFree(int e) const { return m_patch[e] == kNone; }
+    bool areFree(const std::vector<int>& elements) const
+    {
+        return std::all_of(elements.begin(), elements.end(), [this](int e) { return isFree(e); });
+    }
+
+    void take(const std::vector<int>& elements)
+    {
+        for (const int e : elements) m_patch[e] = static_cast<int>(m_members.size());
+        m_members.push_back(elements);
+    }
+
+    // The most compact ones first, those that are alike together.
+    void takeCandidates()
+    {
+        const Candidates all(m_mesh, m_groups, m_neighbours);
+        std::vector<int> order(all.m_elements.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::sort(order.begin(), order.end(),
+                  [&all](int a, int b)
+                  { return all.m_score[a] != all.m_score[b] ? all.m_score[a] > all.m_score[b] : a < b; });
+        std::vector<char> isAlike(order.size(), 0);
+        for (std::size_t k = 0; k < order.size();)
+        {
+            const double least = (1 - kAlike) * all.m_score[order[k]];
+            std::vector<int> alike;
+            for (; k < order.size() && all.m_score[order[k]] >= least; ++k)
+                if (areFree(all.m_elements[order[k]])) alike.push_back(order[k]);
+            for (const int c : alike) isAlike[c] = 1;
+            takeAlike(all, isAlike, alike);
+            for (const int c : alike) isAlike[c] = 0;
+        }
+    }
+
+    // From one to its neighbours, so that they fit together in a lattice: of the octahedra around the axes between the
+    // middles of cubes and those around the cubes' edges, every element is in one of each. First those with an element
+    // that is in few others, for which there is no choice.
+    void takeAlike(const Candidates& all, const std::vector<char>& isAlike, std::vector<int>& alike)
+    {
+        const auto choices = [&](int c)
+        {
+            std::ptrdiff_t fewest = ElementPatches::kMost * ElementPatches::kMost;
+            for (const int e : all.m_elements[c])
+                fewest = std::min(fewest, std::count_if(all.m_of[e].begin(), all.m_of[e].end(),
+                                                        [&](int other) { return isAlike[other] != 0; }));
+            return fewest;
+        };
+        std::vector<std::pair<std::ptrdiff_t, int>> seeds;
+        for (const int c : alike) seeds.emplace_back(choices(c), c);
+        std::sort(seeds.begin(), seeds.end());
+        for (const auto& [fewest, seed] : seeds)
+        {
+            if (!areFree(all.m_elements[seed])) continue;
+            std::deque<int> front = {seed};
+            while (!front.empty())
+            {
+                const std::vector<int>& elements = all.m_elements[front.front()];
+                front.pop_front();
+                if (!areFree(elements)) continue;
+                take(elements);
+                for (const int e : elements)
+                    for (const int f : m_neighbours[e])
+                        if (f != kNone && isFree(f))
+                            for (const int c : all.m_of[f])
+                                if (isAlike[c]) front.push_back(c);
+            }
+        }
+    }
+
+    // Neighbours of neighbours that are left, up to as many as a patch may have.
+    void takeRest()
+    {
+        for (int seed = 0; seed < m_mesh.tetCount(); ++seed)
+        {
+            if (!isFree(seed)) continue;
+            std::vector<int> elements = {seed};
+            for (std::size_t k = 0; k < elements.size(); ++k)
+                for (const int f : m_neighbours[elements[k]])
+                    if (f != kNone && isFree(f) && static_cast<int>(elements.size()) < ElementPatches::kMost &&
+                        std::find(elements.begin(), elements.end(), f) == elements.end())
+                        elements.push_back(f);
+            take(elements);
+        }
+    }
+
+    // To the neighbour with which it shares most faces; of those, to the smallest.
+    void giveAwaySmallOnes()
+    {
+        for (std::size_t p = 0; p < m_members.size(); ++p)
+        {
+            const int size = static_cast<int>(m_members[p].size());
+            if (size == 0 || size >= kFewestWanted) continue;
+            std::vector<int> around;  // patches, once a face
+            for (const int e : m_members[p])
+                for (const int f : m_neighbours[e])
+                    if (f != kNone && m_patch[f] != static_cast<int>(p)) around.push_back(m_patch[f]);
+            std::sort(around.begin(), around.end());
+            int best = kNone;
+            std::ptrdiff_t mostFaces = 0;
+            for (const int q : around)
+            {
+                const std::ptrdiff_t faces = std::count(around.begin(), around.end(), q);
+                if (static_cast<int>(m_members[q].size()) + size > ElementPatches::kMost || q == best) continue;
+                if (faces < mostFaces) continue;
+                if (faces == mostFaces && m_members[q].size() >= m_members[best].size()) continue;
+                best = q, mostFaces = faces;
+            }
+            if (best == kNone) continue;
+            for (const int e : m_members[p])
+            {
+                m_patch[e] = best;
+                m_members[best].push_back(e);
+            }
+            m_members[p].clear();
+        }
+    }
+
+    const TetMesh& m_mesh;
+    PatchGroups m_groups;
+    std::vector<std::array<int, 4>> m_neighbours;
+    std::vector<int> m_patch;
+    std::vector<std::vector<int>> m_members;
+};
+
+}  // namespace
+
+ElementPatches::ElementPatches(const TetMesh& mesh, const std::vector<int>& group)
+    : m_patch(PatchMaker(mesh, group).make())
+{
+    // Numbered by their first elements.
+    std::vector<int> number(m_patch.size(), kNone), size;
+    for (int& p : m_patch)
+    {
+        if (number[p] == kNone)
+        {
+            number[p] = static_cast<int>(size.size());
+            size.push_back(0);
+        }
+        p = number[p];
+        ++size[p];
+    }
+    for (const int s : size) m_start.push_back(m_start.back() + s);
+    m_element.resize(m_patch.size());
+    std::vector<int> next(m_start.begin(), m_start.end() - 1);
+    for (std::size_t e = 0; e < m_patch.size(); ++e) m_element[next[m_patch[e]]++] = static_cast<int>(e);
+}
+
+int ElementPatches::size(int patch) const
+{
+    return m_start[patch + 1] - m_start[patch];
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h"
+
+/// The rows of Bullet's solvers of multibodies: those between rigid bodies, then those of links. A view.
+struct btFemLinkRows
+{
+    btAlignedObjectArray<btSolverBody>& m_pool;
+    std::array<btConstraintArray*, 4> m_rigid;
+    std::array<btMultiBodyConstraintArray*, 5> m_links;
+    btMultiBodyJacobianData& m_data;
+
+    /// Writes their impulses [N s].
+    void note(std::vector<btScalar>& noted) const;
+
+    /// Gives them these impulses; the velocities of solver bodies and multibodies follow, as in Bullet's own rows.
+    void goBack(const std::vector<btScalar>& noted) const;
+
+private:
+    void change(btSolverConstraint& row, btScalar impulse) const;
+    void change(btMultiBodySolverConstraint& row, btScalar impulse) const;
+    void changeBody(int body, const btVector3& linear, const btVector3& angular, btScalar impulse) const;
+    void changeLinks(const btMultiBody& body, int jacobian, int first, btScalar impulse) const;
+    template <class Visit>
+    void forEach(const Visit& visit) const;
+};

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "bullet_fem/fem/step/actuators.h"
+
+struct btFemCable;
+struct btFemChamber;
+struct btFemExpansion;
+struct btFemFibres;
+
+// What the user gives, in the terms of fem; not validated, but for a list of triangles' nodes that is not one: that
+// throws std::invalid_argument.
+bullet_fem::Chamber coreChamber(const btFemChamber& given);
+bullet_fem::Cable coreCable(const btFemCable& given);
+bullet_fem::Fibres coreFibres(const btFemFibres& given);
+bullet_fem::Expansion coreExpansion(const btFemExpansion& given);

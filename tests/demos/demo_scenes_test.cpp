@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// The scenes of the gallery, demos/<name>/<name>.json, have the main figure of their programs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "bullet_fem/btFemVectors.h"
+#include "tools/program_run.h"
+#include "tools/scene/scene_reader.h"
+#include "tools/scene/scene_world.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// What a program prints beside the name of a figure or check; not a number where it prints none.
+double figureOf(const std::string& name, double seconds, const std::string& figure)
+{
+    const ProgramRun run =
+        runShell("'" BULLETFEM_DEMO_PROGRAMS "/bulletfem_demo_" + name + "' --seconds " + std::to_string(seconds));
+    EXPECT_EQ(run.m_code, 0) << run.m_output;
+    const std::size_t at = run.m_output.find("\n  " + figure + " ");
+    if (at == std::string::npos) return NAN;
+    std::string value = run.m_output.substr(at + 3 + figure.size(), 60);
+    value.erase(0, value.find_first_not_of(' '));
+    if (value.rfind("ok: ", 0) == 0) value.erase(0, 4);
+    char* end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    return end == value.c_str() ? NAN : number;
+}
+
+struct DemoScene
+{
+    explicit DemoScene(const std::string& name)
+        : m_scene(readScene(BULLETFEM_DEMO_SOURCES "/" + name + "/" + name + ".json")), m_world(m_scene)
+    {
+    }
+    void until(double seconds)
+    {
+        while (m_world.time() < seconds - 1e-9) m_world.step();
+    }
+    Vec3 rigid(const std::string& name) const
+    {
+        for (int i = 0; i < m_world.rigidCount(); ++i)
+            if (m_scene.m_rigidBodies[i].m_name == name) return vec3(m_world.rigid(i).getCenterOfMassPosition());
+        ADD_FAILURE() << "no rigid body " << name;
+        return {};
+    }
+    const btSoftBody& soft(const std::string& name) const
+    {
+        for (int i = 0; i < m_world.softCount(); ++i)
+            if (m_scene.m_softBodies[i].m_name == name) return m_world.soft(i);
+        throw std::runtime_error("no soft body " + name);
+    }
+    /// Mean of the nodes' positions or velocities, by mass.
+    Vec3 mean(const std::string& name, btVector3 btSoftBody::Node::*vector) const
+    {
+        const btSoftBody& body = soft(name);
+        Vec3 sum;
+        double mass = 0;
+        for (int i = 0; i < body.m_nodes.size(); ++i)
+        {
+            if (body.m_nodes[i].m_im <= 0) continue;
+            mass += 1 / double(body.m_nodes[i].m_im);
+            sum += (1 / double(body.m_nodes[i].m_im)) * vec3(body.m_nodes[i].*vector);
+        }
+        return (1 / mass) * sum;
+    }
+    Vec3 centre(const std::string& name) const { return mean(name, &btSoftBody::Node::m_x); }
+    double gasOf(const std::string& name) const
+    {
+        btAlignedObjectArray<btFemActuatorReport> air;
+        m_world.fem().getActuators(&soft(name), air);
+        return air.size() == 1 ? double(air[0].m_volume) : NAN;
+    }
+
+    SceneDescription m_scene;
+    SceneWorld m_world;
+};
+
+// 1e-3 of each is what four printed digits leave; the rest is said at each.
+TEST(DemoScenes, BallsRollAsFast)
+{
+    DemoScene scene("balls");
+    scene.until(2);
+    const double angle = 8 * SIMD_RADS_PER_DEG;
+    for (const char* name : {"soft", "medium", "hard"})
+    {
+        const Vec3 velocity = scene.mean(name, &btSoftBody::Node::m_v);
+        const double speed = velocity.x * std::cos(angle) - velocity.y * std::sin(angle);
+        EXPECT_NEAR(speed / figureOf("balls", 2, std::string(name) + " ball: speed"), 1, 0.02) << name;
+    }
+}
+
+// The crates settle where they fall, and a rounded position moves them a little.
+TEST(DemoScenes, TheBridgeSagsAsDeep)
+{
+    DemoScene scene("bridge");
+    scene.until(7);
+    const double span = 5 * 0.4 + 6 * 0.2, sag = (1.5 - scene.rigid("plank2").y) / span;
+    EXPECT_NEAR(sag / figureOf("bridge", 7, "sag / span"), 1, 0.02);
+}
+
+TEST(DemoScenes, TheClayKeepsAsDeepADent)
+{
+    DemoScene scene("dents");
+    const btSoftBody& clay = scene.soft("clay");
+    std::vector<int> top;
+    for (int i = 0; i < clay.m_nodes.size(); ++i)
+        if (clay.m_nodes[i].m_x.y() > 0.149) top.push_back(i);
+    scene.until(1.7);
+    double depth = 0;
+    for (const int i : top)
+    {
+        const Vec3 x = vec3(clay.m_nodes[i].m_x);
+        if (std::hypot(x.x + 0.08, x.z + 0.13) < 0.05625) depth = std::max(depth, 0.15 - x.y);
+    }
+    const double radius = 0.12, weight = 7850 * 4. / 3 * SIMD_PI * std::pow(radius, 3) * 9.81;
+    const double formula = radius - std::sqrt(radius * radius - weight / (3 * 5e3 * SIMD_PI));
+    EXPECT_GT(depth, 0.02);
+    EXPECT_NEAR(depth / formula / figureOf("dents", 1.75, "dent 3: depth / formula"), 1, 0.05);
+}
+
+TEST(DemoScenes, TheFingersFillAsFarAndHoldTheBall)
+{
+    DemoScene scene("finger");
+    const double empty = scene.gasOf("finger0");
+    scene.until(1.5);
+    EXPECT_NEAR(scene.gasOf("finger0") / empty / figureOf("finger", 1.5, "volume of the air / empty"), 1, 0.01);
+    scene.until(3);
+    EXPECT_GT(std::hypot(scene.rigid("stand").x, scene.rigid("stand").z), 0.1) << "pulled away";
+    EXPECT_GT(scene.centre("ball").y, 0.1) << "on the ground it has .035";
+}
+
+TEST(DemoScenes, TheTowerStandsAsHigh)
+{
+    DemoScene scene("tower");
+    scene.until(2.5);
+    EXPECT_NEAR((scene.rigid("board3").y + 0.06) / 1.48 / figureOf("tower", 2.5, "height at rest / at the start"), 1,
+                0.002);
+    scene.until(4.5);
+    EXPECT_LT(scene.rigid("board3").y, 0.74) << "knocked down";
+}
+
+TEST(DemoScenes, TheDogWalksAsFar)
+{
+    DemoScene scene("walker");
+    const double step = scene.m_scene.m_step;
+    scene.until(1.5 - step);
+    const double from = scene.centre("dog").x;
+    scene.until(3);
+    const double period = 0.5, way = (scene.centre("dog").x - from) / (1.5 + step) * period;
+    EXPECT_NEAR(way / figureOf("walker", 3, "way of a period"), 1, 0.05);
+}
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Elements whose shear is smoothed around edges: that they bend as much as they should, and do no harm.
+#include <gtest/gtest.h>
+
+#include <Eigen/SparseCholesky>
+#include <array>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/step/body_snapshot.h"
+#include "bullet_fem/fem/step/initial_stress.h"
+#include "bullet_fem/fem/step/stress.h"
+#include "fem/scenes/elasticity_scenes.h"
+#include "fem/scenes/lattice_box.h"
+#include "fem/scenes/smoothed_stiffness.h"
+#include "support/allocation_counter.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kBendYoung = 1e6;  // [Pa]
+
+Material accurate(double nu, double density = 1000)
+{
+    Material material = elasticMaterial(kBendYoung, nu, density);
+    material.m_accurateBending = true;
+    return material;
+}
+
+TetMesh bendingBar(const std::string& kind, int n)
+{
+    if (kind == "lattice") return makeLatticeBox({10 * n, n, n}, 1.0 / n);
+    return makeBox({10, 1, 1}, {10 * n, n, n}, {}, kind == "kuhn" ? CellSplit::kuhnSix : CellSplit::alternatingFive);
+}
+
+bool isClampedEnd(const Vec3& X)
+{
+    return X.x == 0;
+}
+bool atEnd(const Vec3& X)
+{
+    return std::fabs(X.x - 10) < 1e-9;
+}
+
+// u of K u = force with the nodes at x = 0 isClampedEnd.
+std::vector<Vec3> displacement(const RestShape& shape, const std::vector<Vec3>& force)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    const Eigen::SparseMatrix<double> K = smoothedStiffness(shape);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(K.rows());
+    const auto isFree = [&](Eigen::Index k) { return !isClampedEnd(shape.m_mesh.restPositions()[k / 3]); };
+    for (int column = 0; column < K.outerSize(); ++column)
+        for (Eigen::SparseMatrix<double>::InnerIterator k(K, column); k; ++k)
+            if (isFree(k.row()) && isFree(k.col())) entries.emplace_back(k.row(), k.col(), k.value());
+    for (Eigen::Index k = 0; k < b.size(); ++k)
+        if (isFree(k))
+            b[k] = force[k / 3][static_cast<int>(k % 3)];
+        else
+            entries.emplace_back(k, k, 1);
+    Eigen::SparseMatrix<double> A(K.rows(), K.cols());
+    A.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(A);
+    const Eigen::VectorXd u = factor.solve(b);
+    std::vector<Vec3> result(force.size());
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = {u[3 * i], u[3 * i + 1], u[3 * i + 2]};
+    return result;
+}
+
+// Tip deflection over Timoshenko's F L^3 / (3 E I) + F L / (kappa G A).
+double tipOverTimoshenko(const TetMesh& mesh, const Material& material)
+{
+    const std::vector<double> area = faceAreas(mesh, atEnd);
+    std::vector<Vec3> force(area.size());
+    for (std::size_t i = 0; i < area.size(); ++i) force[i].z = -area[i];
+    const double nu = material.m_poissonRatio, kappa = 10 * (1 + nu) / (12 + 11 * nu);
+    const double exact = 4 * 1e3 / kBendYoung + 10 / (kappa * material.lameMu());
+    return -weightedMean(area, displacement(RestShape(mesh, material), force)).z / exact;
+}
+
+TEST(ElasticityAccurateBending, TipDeflectsAsTimoshenkoSays)
+{
+    for (const std::string kind : {"kuhn", "five", "lattice"})
+        for (const double nu : {.3, .45, .49, .499})
+        {
+            SCOPED_TRACE(kind + ", nu " + std::to_string(nu));
+            EXPECT_NEAR(tipOverTimoshenko(bendingBar(kind, 4), accurate(nu)), 1, .03);
+            EXPECT_NEAR(tipOverTimoshenko(bendingBar(kind, 3), accurate(nu)), 1, .04);
+            EXPECT_NEAR(tipOverTimoshenko(bendingBar(kind, 2), accurate(nu)), 1, .06);
+            EXPECT_NEAR(tipOverTimoshenko(bendingBar(kind, 1), accurate(nu)), 1, .16);
+        }
+}
+
+// What steps find is what the assembled matrix says: small loads, all of the body's forces and A in it.
+TEST(ElasticityAccurateBending, StepsFindTheSameDeflection)
+{
+    const TetMesh mesh = shuffledMesh(makeBox({10, 1, 1}, {20, 2, 2}, {}, CellSplit::kuhnSix), .1, 1);
+    const std::vector<double> area = faceAreas(mesh, atEnd);
+    Body body = makeBody(mesh, accurate(.45, 1), isClampedEnd, 1);
+    for (std::size_t i = 0; i < area.size(); ++i) body.m_loads.m_force[i].z = -1e-3 * area[i];
+    EXPECT_LE(relax(body, 1e-12), 1e-12);
+    const std::vector<Vec3> exact = displacement(body.m_model->shape(), body.m_loads.m_force);
+    std::vector<Vec3> u = body.m_state.m_x;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] -= mesh.restPositions()[i];
+    double largest = 0;
+    for (const Vec3& ui : exact) largest = std::max(largest, norm(ui));
+    EXPECT_LE(largestDistance(u, exact), 1e-4 * largest);
+}
+
+// w / L = .60325, u / L = .25442 at P L^2 / (E I) = 3 [Mattiasson 1981]. Four cells across, and two across the width,
+// where nothing varies at nu 0; shear adds .5 % to w.
+TEST(ElasticityAccurateBending, FollowsTheElastica)
+{
+    const double L = 10, I = 1.0 / 12;
+    for (const CellSplit split : {CellSplit::kuhnSix, CellSplit::alternatingFive})
+    {
+        const TetMesh mesh = makeBox({L, 1, 1}, {40, 4, 4}, {}, split);
+        const std::vector<double> area = faceAreas(mesh, atEnd);
+        Body body = makeBody(mesh, accurate(0, 1), isClampedEnd, 1);
+        for (std::size_t i = 0; i < area.size(); ++i)
+            body.m_loads.m_force[i].z = -3 * kBendYoung * I / (L * L) * area[i];
+        EXPECT_LE(relax(body, 1e-6 * L), 1e-6 * L);
+        std::vector<Vec3> u = body.m_state.m_x;
+        for (std::size_t i = 0; i < u.size(); ++i) u[i] -= mesh.restPositions()[i];
+        const Vec3 end = weightedMean(area, u);
+        EXPECT_NEAR(-end.z / L, .60325, .02 * .60325);
+        EXPECT_NEAR(-end.x / L, .25442, .02 * .25442);
+        EXPECT_GT(smallestVolumeRatio(body), .5);
+    }
+}
+
+// G J / L: plain elements have 1.30 and 1.37 with four cells across.
+TEST(ElasticityAccurateBending, TwistsAsSaintVenantSays)
+{
+    for (const std::string kind : {"kuhn", "five", "lattice"})
+        for (const double nu : {.3, .49})
+        {
+            const TetMesh mesh = bendingBar(kind, 4);
+            const std::vector<double> area = faceAreas(mesh, atEnd);
+            std::vector<Vec3> force(area.size());
+            double torque = 0, work = 0;
+            for (std::size_t i = 0; i < area.size(); ++i)
+            {
+                const Vec3 r = mesh.restPositions()[i] - Vec3{10, .5, .5};
+                force[i] = area[i] * cross({1, 0, 0}, r);
+                torque += dot(cross(r, force[i]), {1, 0, 0});
+            }
+            const Material material = accurate(nu);
+            const std::vector<Vec3> u = displacement(RestShape(mesh, material), force);
+            for (std::size_t i = 0; i < u.size(); ++i) work += dot(force[i], u[i]);
+            EXPECT_NEAR(torque * torque / work / (material.lameMu() * .1406 / 10), 1, .12) << kind << " " << nu;
+        }
+}
+
+// The number of eigenvalues of K below those of `shift` M [1/s2], by the signs of the pivots of K - shift M.
+int modesOfSmoothedBelow(const RestShape& shape, double shift)
+{
+    Eigen::SparseMatrix<double> A = smoothedStiffness(shape);
+    for (int i = 0; i < shape.m_mesh.nodeCount(); ++i)
+        for (int c = 0; c < 3; ++c) A.coeffRef(3 * i + c, 3 * i + c) -= shift * shape.m_lumpedMass[i];
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(A);
+    EXPECT_EQ(factor.info(), Eigen::Success);
+    return static_cast<int>((factor.vectorD().array() < 0).count());
+}
+
+// As of mean dilatation, a free block moves without strain in six ways, and no seventh is near.
+TEST(ElasticityAccurateBending, HasSixModesWithoutStrainAndNoSpuriousOnes)
+{
+    const TetMesh five = makeBox({1, 1, 1}, {4, 4, 4}), kuhn = makeBox({1, 1, 1}, {4, 4, 4}, {}, CellSplit::kuhnSix);
+    for (const TetMesh& mesh :
+         {five, kuhn, makeLatticeBox({4, 4, 4}, .25), shuffledMesh(kuhn, .15, 1), shuffledMesh(five, .12, 2),
+          shuffledMesh(makeLatticeBox({4, 4, 4}, .25), .15, 3), makeSphere(.5, 5), makeCylinder(.5, 1, 4, 5),
+          makeBox({1, 1, 1}, {1, 1, 1}), makeBox({1, 1, .2}, {5, 5, 1}),
+          TetMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}})})
+        for (const double nu : {0., .3, .49, .499})
+        {
+            SCOPED_TRACE(std::to_string(mesh.tetCount()) + " elements, nu " + std::to_string(nu));
+            const RestShape shape(mesh, accurate(nu));
+            const double scale = shape.m_material.lameMu() / shape.m_material.m_density;
+            EXPECT_EQ(modesOfSmoothedBelow(shape, -1e-6 * scale), 0);
+            EXPECT_EQ(modesOfSmoothedBelow(shape, 1e-6 * scale), 6);
+            EXPECT_EQ(modesOfSmoothedBelow(shape, .1 * scale), 6);
+        }
+}
+
+// The boundary is moved by u = G X; the inner nodes find u = G X, too.
+TEST(ElasticityAccurateBending, PassesThePatchTest)
+{
+    for (const double strain : {1e-4, .2})
+    {
+        const Mat3 G = strain * Mat3{{{1, .5, -.3}, {-.2, -.7, .6}, {.4, .1, .8}}};
+        const TetMesh mesh = shuffledMesh(makeBox({1, 1, 1}, {4, 4, 4}, {}, CellSplit::kuhnSix), .15, 2);
+        const auto outside = [](const Vec3& X)
+        { return X.x == 0 || X.x == 1 || X.y == 0 || X.y == 1 || X.z == 0 || X.z == 1; };
+        Body body = makeBody(mesh, accurate(.45, 1), outside, 1);
+        std::vector<Vec3> exact = mesh.restPositions();
+        for (Vec3& x : exact) x += G * x;
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            if (body.m_state.m_fixed[i]) body.m_state.m_x[i] = exact[i];
+        EXPECT_LE(relax(body, 1e-11 * strain), 1e-11 * strain);
+        EXPECT_LE(largestDistance(body.m_state.m_x, exact), 1e-10 * strain);
+        std::vector<Stress> stress;
+        elementStresses(body, stress);
+        for (const Stress& s : stress) EXPECT_NEAR(s.xy, stress[0].xy, 1e-6 * kBendYoung * strain);
+    }
+}
+
+// A sum of squares, from small strains to elements that are inside out.
+TEST(ElasticityAccurateBending, EnergyIsNeverNegative)
+{
+    Body body = makeBody(shuffledMesh(makeBox({1, 1, 1}, {3, 3, 3}, {}, CellSplit::kuhnSix), .1, 1), accurate(.499));
+    const std::vector<Vec3> rest = body.m_state.m_x;
+    EXPECT_NEAR(mechanicalEnergy(body), 0, 1e-15 * kBendYoung);
+    RandomVectors random(4);
+    for (const double size : {1e-4, .01, .1, 1., 10.})
+    {
+        for (std::size_t i = 0; i < rest.size(); ++i) body.m_state.m_x[i] = rest[i] + size * random.next();
+        EXPECT_GT(mechanicalEnergy(body), 1e-3 * kBendYoung * size * size) << size;
+    }
+}
+
+// Elastic forces of a step from rest, M dv / h, are minus the gradient of the energy: also where elements are strained
+// by 20 % and turned by different angles, and with initial stress. A step of 1e-6 s makes A the mass.
+TEST(ElasticityAccurateBending, ForcesAreTheEnergysGradient)
+{
+    const TetMesh mesh = shuffledMesh(makeBox({1, 1, 1}, {3, 2, 2}, {}, CellSplit::kuhnSix), .1, 1);
+    for (const bool isStressed : {false, true})
+    {
+        Body body = makeBody(mesh, accurate(.45), {}, 1e-6);
+        std::vector<SymmetricTensor> stress(mesh.tets().size(), SymmetricTensor{1e4, -2e4, 3e4, 1e4, -1e4, 2e4});
+        if (isStressed) setInitialStress(body, stress);
+        RandomVectors random(4);
+        for (Vec3& x : body.m_state.m_x)
+            x = rotationAbout({1, 2, -1}, .7 + .5 * x.x) *
+                (x + Vec3{.2 * x.y, 0, .1 * x.x * x.x} + .03 * random.next());
+        const std::vector<Vec3> x = body.m_state.m_x;
+        StepSettings settings;
+        settings.m_step = 1e-6;
+        settings.m_tolerance = 1e-10;
+        settings.m_momentumCorrection = false;
+        settings.m_numericalDamping = 1;
+        step(body, settings);
+        std::vector<Vec3> force = body.m_state.m_v;
+        double largest = 0;
+        for (std::size_t i = 0; i < x.size(); ++i)
+        {
+            force[i] = (body.m_state.m_mass[i] / settings.m_step) * force[i];
+            largest = std::max(largest, norm(force[i]));
+        }
+        body.m_state.m_x = x;
+        for (Vec3& v : body.m_state.m_v) v = {};
+        for (int node = 0; node < mesh.nodeCount(); node += 3)
+            for (int c = 0; c < 3; ++c)
+            {
+                constexpr double kStep = 1e-5;
+                double& at = body.m_state.m_x[node][c];
+                at = x[node][c] + kStep;
+                const double above = mechanicalEnergy(body);
+                at = x[node][c] - kStep;
+                const double below = mechanicalEnergy(body);
+                at = x[node][c];
+                EXPECT_NEAR(force[node][c], -(above - below) / (2 * kStep), 2e-5 * largest) << node << " " << c;
+            }
+    }
+}
+
+// Bending stress M z / I at the surface in the middle of the bar: plain elements show a fifth less.
+TEST(ElasticityAccurateBending, StressIsThatOfTheBeam)
+{
+    const TetMesh mesh = bendingBar("five", 4);
+    const std::vector<double> area = faceAreas(mesh, atEnd);
+    Body body = makeBody(mesh, accurate(.3, 1), isClampedEnd, 1);
+    for (std::size_t i = 0; i < area.size(); ++i) body.m_loads.m_force[i].z = -area[i];
+    EXPECT_LE(relax(body, 1e-9), 1e-9);
+    std::vector<Stress> perElement;
+    elementStresses(body, perElement);
+    double moment = 0;  // of sigma_xx about the middle, over the slice 4.5 < x < 5.5
+    for (int e = 0; e < mesh.tetCount(); ++e)
+    {
+        Vec3 middle;
+        for (const int node : mesh.tets()[e]) middle += .25 * mesh.restPositions()[node];
+        EXPECT_EQ(elementStress(body, e).xx, perElement[e].xx);
+        if (middle.x > 4.5 && middle.x < 5.5) moment += mesh.tetVolume(e) * perElement[e].xx * (middle.z - .5);
+    }
+    EXPECT_NEAR(moment, 5, .1 * 5);  // F (L - x); what is linear within elements is not in it
+}
+
+TEST(ElasticityAccurateBending, KeepsMomentumAndTurnsFreely)
+{
+    Body body = makeBody(makeBox({1, .5, .5}, {4, 2, 2}), accurate(.49));
+    for (std::size_t i = 0; i < body.m_state.m_x.size(); ++i)
+        body.m_state.m_v[i] = cross({1, 2, 3}, body.m_state.m_x[i]) + Vec3{.1, .2, 0};
+    const Vec3 p = linearMomentum(body.m_state), L = angularMomentum(body.m_state);
+    const double energy = mechanicalEnergy(body);
+    StepSettings settings;
+    settings.m_numericalDamping = 0;
+    for (int k = 0; k < 240; ++k) step(body, settings);
+    EXPECT_LE(norm(linearMomentum(body.m_state) - p), 1e-10 * norm(p));
+    EXPECT_LE(norm(angularMomentum(body.m_state) - L), 1e-10 * norm(L));
+    EXPECT_NEAR(mechanicalEnergy(body), energy, .01 * energy);
+}
+
+double bendingIterations(double nu, bool isAccurate, double tolerance)
+{
+    Material material = accurate(nu);
+    material.m_accurateBending = isAccurate;
+    Body body = makeBody(makeBox({4, 1, 1}, {16, 4, 4}), material, isClampedEnd);
+    setGravity(body, {0, 0, -9.81});
+    StepSettings settings;
+    settings.m_tolerance = tolerance;
+    int sum = 0;
+    for (int k = 0; k < 60; ++k) sum += step(body, settings).m_iterations;
+    EXPECT_GT(smallestVolumeRatio(body), 0);
+    return sum / 60.0;
+}
+
+// The factor is that of the patches' elements: it knows the volume changes, so that nu does not matter.
+TEST(ElasticityAccurateBending, TakesFewIterationsWhateverPoissonsRatio)
+{
+    for (const double nu : {.3, .45, .49, .499})
+    {
+        const double coarse = bendingIterations(nu, true, 1e-3), fine = bendingIterations(nu, true, 1e-6);
+        RecordProperty("nu" + std::to_string(nu), std::to_string(coarse) + " / " + std::to_string(fine));
+        EXPECT_LE(coarse, nu < .495 ? 3 : 4.5) << nu;
+        EXPECT_LE(fine, 16) << nu;
+    }
+}
+
+Body turningBeam(const TetMesh& mesh)
+{
+    Body body = makeBody(mesh, accurate(.45));
+    for (std::size_t i = 0; i < body.m_state.m_x.size(); ++i)
+    {
+        const Vec3& X = body.m_state.m_x[i];
+        body.m_state.m_v[i] = cross({0, 2, 1}, X) + Vec3{0, 0, X.x * X.x};
+    }
+    return body;
+}
+
+TEST(ElasticityAccurateBending, HasTheSameBitsOnAnyThreads)
+{
+    const TetMesh mesh = makeBox({8, 2, 2}, {24, 8, 8});
+    for (const double tolerance : {1e-3, 1e-6})
+    {
+        std::vector<Vec3> first;
+        for (const int count : {1, 2, 3, 8})
+        {
+            const Threads threads(count);
+            Body body = turningBeam(mesh);
+            StepSettings settings;
+            settings.m_tolerance = tolerance;
+            settings.m_threads = &threads;
+            for (int k = 0; k < 5; ++k) step(body, settings);
+            if (first.empty()) first = body.m_state.m_x;
+            EXPECT_EQ(largestDistance(body.m_state.m_x, first), 0) << count;
+        }
+    }
+}
+
+TEST(ElasticityAccurateBending, GoesOnFromASnapshotToTheBit)
+{
+    Body body = turningBeam(makeBox({4, 1, 1}, {8, 2, 2}));
+    for (int k = 0; k < 10; ++k) step(body, StepSettings());
+    const BodySnapshot snapshot = snapshotOf(body);
+    Body other = turningBeam(makeBox({4, 1, 1}, {8, 2, 2}));
+    check(snapshot, *other.m_model);
+    restore(snapshot, other);
+    for (int k = 0; k < 10; ++k) step(body, StepSettings()), step(other, StepSettings());
+    EXPECT_EQ(largestDistance(body.m_state.m_x, other.m_state.m_x), 0);
+    Material plain = accurate(.45);
+    plain.m_accurateBending = false;
+    EXPECT_NE(markOf(ElementMaterials(plain)), markOf(ElementMaterials(accurate(.45))));
+}
+
+TEST(ElasticityAccurateBending, StepsDoNotAllocate)
+{
+    Body body = turningBeam(makeBox({4, 1, 1}, {8, 2, 2}));
+    step(body, StepSettings());
+    const AllocationCounter counter;
+    for (int k = 0; k < 5; ++k) step(body, StepSettings());
+    EXPECT_EQ(counter.count(), 0);
+}
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Bodies that bend accurately in a Bullet world: contact, copies, saved states, baked files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/mesh/generators.h"
+#include "plugin/scenes/bullet_state.h"
+#include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/soft_boxes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+using testing::HasSubstr;
+
+btFemMaterial bendingMaterial(btScalar young, btScalar nu, bool isAccurate = true)
+{
+    btFemMaterial material;
+    material.m_youngModulus = young;
+    material.m_poissonRatio = nu;
+    material.m_accurateBending = isAccurate;
+    return material;
+}
+
+class BendingScene
+{
+public:
+    explicit BendingScene(Coupling coupling = Coupling::coupled, const btFemSolverInfo& info = {})
+        : m_fem(info), m_world(m_fem, coupling)
+    {
+    }
+
+    btSoftBody& add(const SoftBox& box, const btFemMaterial& material)
+    {
+        btSoftBody* body = makeSoftBox(m_world, m_fem, box);
+        m_fem.setMaterial(body, material);
+        return m_world.addSoft(body);
+    }
+
+    // A plank that falls on a step, and a cube on the plank.
+    void addPile()
+    {
+        m_world.addFloorBox();
+        RigidSettings step;
+        step.m_transform.setOrigin({btScalar(.2), 0, btScalar(.1)});
+        addRigidBox(m_world, {.2, .6, .2}, step);
+        SoftBox plank;
+        plank.m_size = {1.2, .3, .1};
+        plank.m_cells = {12, 3, 2};
+        plank.m_center = {0, 0, .27};
+        add(plank, bendingMaterial(btScalar(3e6), btScalar(.45)));
+        SoftBox cube;
+        cube.m_size = {.2, .2, .2};
+        cube.m_cells = {3, 3, 3};
+        cube.m_center = {-.3, 0, .45};
+        add(cube, bendingMaterial(btScalar(1e6), btScalar(.3)));
+    }
+
+    std::vector<btScalar> run(int steps)
+    {
+        std::vector<btScalar> bits;
+        for (int k = 0; k < steps; ++k)
+        {
+            m_world.step();
+            for (int b = 0; b < m_world.softBodies().size(); ++b)
+                for (const btScalar bit : bitsOf(*m_world.softBodies()[b])) bits.push_back(bit);
+        }
+        return bits;
+    }
+
+    btFemSoftBodySolver m_fem;
+    SoftWorld m_world;
+};
+
+// Under its own weight, w = rho g A L^4 / (8 E I) + rho g L^2 / (2 kappa G), as long as that is small.
+TEST(AccurateBendingBodies, SagAsBeamsDo)
+{
+    BendingScene scene;
+    SoftBox box;
+    box.m_size = {4, .4, .4};
+    box.m_cells = {40, 4, 4};
+    btSoftBody* body = makeSoftBox(scene.m_world, scene.m_fem, box);
+    for (int i = 0; i < body->m_nodes.size(); ++i)
+        if (body->m_nodes[i].m_x.x() < btScalar(-1.9999)) body->setMass(i, 0);
+    btFemMaterial material = bendingMaterial(btScalar(3e8), btScalar(.3));
+    material.m_massDamping = 4;
+    scene.m_fem.setMaterial(body, material);
+    scene.m_world.addSoft(body);
+    scene.m_world.step(240);
+    double tip = 0;
+    int count = 0;
+    for (int i = 0; i < body->m_nodes.size(); ++i)
+        if (body->m_nodes[i].m_x.x() > btScalar(1.99)) tip -= double(body->m_nodes[i].m_x.z()), ++count;
+    const double L = 4, h = .4, G = 3e8 / 2.6, kappa = 13. / 15.3;
+    const double exact = 1000 * kGravity * (12 * std::pow(L, 4) / (8 * 3e8 * h * h) + L * L / (2 * kappa * G));
+    EXPECT_NEAR(tip / count, exact, .03 * exact);
+}
+
+// The weight to 1e-5, without creeping and without sinking in.
+TEST(AccurateBendingBodies, RestOnTheFloor)
+{
+    for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
+        for (const double nu : {.3, .49})
+        {
+            SCOPED_TRACE(std::string(couplingName(coupling)) + ", nu " + std::to_string(nu));
+            BendingScene scene(coupling);
+            btRigidBody& floor = scene.m_world.addFloorBox();
+            SoftBox box;
+            box.m_center = {0, 0, .505};
+            btSoftBody& body = scene.add(box, bendingMaterial(btScalar(1e6), btScalar(nu)));
+            scene.m_world.step(300);
+            const double weight = massOf(body) * kGravity;
+            EXPECT_NEAR(double(scene.m_fem.contactForce(&body, &floor).z()), weight, 1e-5 * weight);
+            EXPECT_LT(fastestNode(body), 3e-4);
+            EXPECT_GT(lowestHeight(body), -1e-4);
+            const Vec3 before = centerOf(body);
+            scene.m_world.step(120);
+            EXPECT_LT(norm(centerOf(body) - before), 1e-5);
+        }
+}
+
+// Coulomb: it sticks below tan^-1 mu, and slides above with g (sin - mu cos).
+TEST(AccurateBendingBodies, SlideAsCoulombSays)
+{
+    for (const double angle : {25., 28.})
+    {
+        BendingScene scene;
+        const double a = angle * M_PI / 180, mu = .5;
+        const btVector3 down(btScalar(std::cos(a)), 0, btScalar(-std::sin(a)));
+        RigidSettings ramp;
+        ramp.m_transform.setRotation(btQuaternion({0, 1, 0}, btScalar(a)));
+        ramp.m_transform.setOrigin(ramp.m_transform.getBasis() * btVector3(0, 0, -1));
+        addRigidBox(scene.m_world, {100, 100, 2}, ramp);
+        SoftBox box;
+        box.m_friction = btScalar(mu);
+        btSoftBody* body = makeSoftBox(scene.m_world, scene.m_fem, box);
+        scene.m_fem.setMaterial(body, bendingMaterial(btScalar(1e6), btScalar(.3)));
+        body->transform(
+            btTransform(ramp.m_transform.getRotation(), ramp.m_transform.getBasis() * btVector3(0, 0, btScalar(.501))));
+        scene.m_world.addSoft(body);
+        scene.m_world.step(60);
+        const double before = velocityOf(*body).x * double(down.x()) + velocityOf(*body).z * double(down.z());
+        scene.m_world.step(60);
+        const double after = velocityOf(*body).x * double(down.x()) + velocityOf(*body).z * double(down.z());
+        const double exact = std::max(0., kGravity * (std::sin(a) - mu * std::cos(a)));
+        EXPECT_NEAR(after - before, exact, .01) << angle;
+    }
+}
+
+TEST(AccurateBendingBodies, HaveTheSameBitsOnAnyThreads)
+{
+    std::vector<btScalar> bits;
+    for (const int threads : {1, 2, 3, 8})
+    {
+        btFemSolverInfo info;
+        info.m_threads = threads;
+        BendingScene scene(Coupling::coupled, info);
+        scene.addPile();
+        const std::vector<btScalar> own = scene.run(40);
+        if (bits.empty()) bits = own;
+        EXPECT_TRUE(own == bits) << threads;
+        EXPECT_GT(scene.m_fem.contacts(scene.m_world.softBodies()[0]).size(), 4);
+    }
+}
+
+// They are solved one by one, though others of one model are not.
+TEST(AccurateBendingBodies, HaveTheSameBitsBesideCopies)
+{
+    std::vector<btScalar> bits;
+    for (const bool batches : {false, true})
+    {
+        btFemSolverInfo info;
+        info.m_batchBodies = batches;
+        BendingScene scene(Coupling::coupled, info);
+        scene.m_world.addFloorBox();
+        for (int k = 0; k < 6; ++k)
+        {
+            SoftBox box;
+            box.m_size = {.2, .2, .2};
+            box.m_cells = {3, 3, 3};
+            box.m_center = {.4 * k, 0, .15 + .02 * k};
+            box.m_turn = .3 * k;
+            scene.add(box, bendingMaterial(btScalar(1e5), btScalar(.3)));
+        }
+        const std::vector<btScalar> own = scene.run(30);
+        if (bits.empty()) bits = own;
+        EXPECT_TRUE(own == bits) << batches;
+    }
+}
+
+TEST(AccurateBendingBodies, GoOnToTheBitAfterASnapshot)
+{
+    BendingScene scene;
+    scene.addPile();
+    scene.run(20);
+    std::vector<unsigned char> state, definition;
+    ASSERT_TRUE(scene.m_fem.saveState(state));
+    const BulletState bullet(scene.m_world);
+    bullet.restore(scene.m_world);
+    const std::vector<btScalar> bits = scene.run(20);
+    bullet.restore(scene.m_world);
+    ASSERT_TRUE(scene.m_fem.restoreState(state.data(), state.size()));
+    EXPECT_TRUE(scene.run(20) == bits);
+
+    // Another body gets the same material from a definition; without it states are refused.
+    btSoftBody* plank = scene.m_world.softBodies()[0];
+    ASSERT_TRUE(scene.m_fem.saveDefinition(plank, definition));
+    scene.m_fem.setMaterial(plank, bendingMaterial(btScalar(3e6), btScalar(.45), false));
+    std::string why;
+    EXPECT_FALSE(scene.m_fem.restoreState(state.data(), state.size(), &why));
+    EXPECT_THAT(why, HasSubstr("its material is another"));
+    ASSERT_TRUE(scene.m_fem.applyDefinition(plank, definition.data(), definition.size(), &why)) << why;
+    scene.run(1);
+    bullet.restore(scene.m_world);
+    ASSERT_TRUE(scene.m_fem.restoreState(state.data(), state.size(), &why)) << why;
+    EXPECT_TRUE(scene.run(20) == bits);
+}
+
+TEST(AccurateBendingBodies, RefuseWhatDoesNotGoWithThem)
+{
+    BendingScene scene;
+    SoftBox box;
+    btSoftBody* body = makeSoftBox(scene.m_world, scene.m_fem, box);
+    const auto expectRefused = [&](btFemMaterial material, const char* what)
+    {
+        std::string why;
+        EXPECT_FALSE(material.valid(&why));
+        EXPECT_THAT(why, HasSubstr(what));
+        EXPECT_THROW(scene.m_fem.setMaterial(body, material), std::invalid_argument);
+    };
+    btFemMaterial material = btFemMaterial::clay();
+    material.m_accurateBending = true;
+    expectRefused(material, "accurate bending does not go with a yield stress");
+    material = bendingMaterial(btScalar(1e6), btScalar(.3));
+    material.m_relaxation[0] = {btScalar(.3), 1};
+    expectRefused(material, "accurate bending does not go with relaxation");
+    material = bendingMaterial(btScalar(1e6), btScalar(.3));
+    material.m_meanDilatation = btFemMeanDilatation::off;
+    expectRefused(material, "accurate bending does not go with mean dilatation off");
+    scene.m_world.addSoft(body);
+}
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Bodies that keep their dents, in Bullet's worlds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bullet_fem/btFemHelpers.h"
+#include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemCoupling.h"
+#include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/snapshot_scene.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+btFemMaterial softClay()
+{
+    btFemMaterial clay = btFemMaterial::clay();
+    clay.m_stiffnessDamping = btScalar(0.005);
+    return clay;
+}
+
+// A panel of 1 x 1 x 0.2 m that lies on the ground, and a ball of 400 kg that falls on its middle from 0.1 m above.
+class DentedPanel
+{
+public:
+    DentedPanel(Coupling coupling, const btFemMaterial& material) : m_scene(coupling)
+    {
+        m_scene.m_world.addPlane();
+        m_panel = &m_scene.add({{1, 1, 0.2}, {10, 10, 2}, {0, 0, 0.1}});
+        m_scene.m_fem.setMaterial(m_panel, material);
+        m_ball = &m_scene.m_world.addRigid(new btSphereShape(btScalar(0.3)), {400, at(0, 0, btScalar(0.6))});
+        m_scene.m_rigid.push_back(m_ball);
+    }
+
+    void takeBallAway()
+    {
+        m_scene.m_rigid.clear();
+        m_scene.m_world.deleteRigid(*m_ball);
+    }
+
+    // How far the middle of the upper face is below the middles of its edges [m], which are half the length away.
+    double dent(double length = 1) const
+    {
+        const double x = length / 2;
+        return (height(x, 0) + height(-x, 0) + height(0, x) + height(0, -x)) / 4 - height(0, 0);
+    }
+
+    double largestPlasticStrain() const
+    {
+        btAlignedObjectArray<btScalar> strain;
+        if (!m_scene.m_fem.getPlasticStrain(m_panel, strain)) return 0;
+        EXPECT_EQ(strain.size(), m_panel->m_tetras.size());
+        btScalar largest = 0;
+        for (int e = 0; e < strain.size(); ++e) largest = std::max(largest, strain[e]);
+        return double(largest);
+    }
+
+    SnapshotScene m_scene;
+    btSoftBody* m_panel;
+    btRigidBody* m_ball;
+
+private:
+    // Of the uppermost node near a place.
+    double height(double x, double y) const
+    {
+        double highest = -1;
+        for (int i = 0; i < m_panel->m_nodes.size(); ++i)
+        {
+            const btVector3& at = m_panel->m_nodes[i].m_x;
+            if (std::hypot(double(at.x()) - x, double(at.y()) - y) < 0.05) highest = std::max(highest, double(at.z()));
+        }
+        return highest;
+    }
+};
+
+class PlasticityOfABody : public testing::TestWithParam<Coupling>
+{
+};
+
+TEST_P(PlasticityOfABody, APanelStaysDented)
+{
+    btFemMaterial elastic = softClay();
+    elastic.m_yieldStress = std::numeric_limits<btScalar>::infinity();
+    DentedPanel clay(GetParam(), softClay()), rubber(GetParam(), elastic);
+    for (DentedPanel* panel : {&clay, &rubber})
+    {
+        panel->m_scene.m_world.step(60);
+        panel->takeBallAway();
+        panel->m_scene.m_world.step(60);
+    }
+    // Clay carries some 3 sigma_y under a ball (Tabor 1951), on the area 2 pi R d: d is at least that of the ball's
+    // weight, 14 mm, and at most that which takes up all of its fall, 68 mm.
+    EXPECT_GT(clay.dent(), 0.014);
+    EXPECT_LT(clay.dent(), 0.068);
+    EXPECT_GT(clay.largestPlasticStrain(), 0.05);
+    EXPECT_LT(std::fabs(rubber.dent()), 0.001);
+    EXPECT_EQ(rubber.largestPlasticStrain(), 0);
+    const double dent = clay.dent();
+    clay.m_scene.m_world.step(60);
+    EXPECT_NEAR(clay.dent(), dent, 1e-4);
+}
+
+// Neither the weight alone nor a turn makes it yield.
+TEST_P(PlasticityOfABody, APanelThatLiesThereDoesNotYield)
+{
+    DentedPanel clay(GetParam(), softClay());
+    clay.takeBallAway();
+    clay.m_scene.m_world.step(60);
+    EXPECT_EQ(clay.largestPlasticStrain(), 0);
+}
+
+// While the ball sinks in: restored, the same bits follow, and the panel is dented as it was.
+TEST_P(PlasticityOfABody, ADentIsRestored)
+{
+    DentedPanel clay(GetParam(), softClay());
+    SnapshotScene& scene = clay.m_scene;
+    scene.m_world.step(10);
+    ASSERT_GT(scene.contacts(), 0);
+    ASSERT_GT(clay.largestPlasticStrain(), 0.01);
+    const double strain = clay.largestPlasticStrain();
+    const SnapshotScene::Saved saved = scene.saveAll();
+    const std::vector<double> bits = scene.run(50);
+    const double dent = clay.dent();
+    ASSERT_NE(clay.largestPlasticStrain(), strain);
+    scene.restore(saved);
+    EXPECT_EQ(clay.largestPlasticStrain(), strain);
+    EXPECT_TRUE(scene.save() == saved.m_fem);
+    EXPECT_TRUE(scene.run(50) == bits);
+    EXPECT_EQ(clay.dent(), dent);
+}
+
+// Bullet's scale() makes the shape that it has then the rest shape: a dent of twice the depth is in that, and does not
+// grow by itself.
+TEST_P(PlasticityOfABody, ADentIsScaled)
+{
+    DentedPanel clay(GetParam(), softClay());
+    clay.m_scene.m_world.step(60);
+    clay.takeBallAway();
+    clay.m_scene.m_world.step(60);
+    const double dent = clay.dent(), strain = clay.largestPlasticStrain();
+    clay.m_panel->scale(btVector3(2, 2, 2));
+    clay.m_scene.m_world.step(60);
+    EXPECT_NEAR(clay.dent(2), 2 * dent, 0.1 * dent);
+    EXPECT_EQ(clay.largestPlasticStrain(), strain);
+}
+
+// Who gets another material, by a new factor, keeps the dent.
+TEST_P(PlasticityOfABody, ADentOutlivesTheMaterial)
+{
+    DentedPanel clay(GetParam(), softClay());
+    clay.m_scene.m_world.step(60);
+    clay.takeBallAway();
+    clay.m_scene.m_world.step(60);
+    const double dent = clay.dent();
+    btFemMaterial fired = softClay();
+    fired.m_youngModulus *= 2;
+    fired.m_yieldStress = std::numeric_limits<btScalar>::infinity();
+    clay.m_scene.m_fem.setMaterial(clay.m_panel, fired);
+    clay.m_scene.m_world.step(60);
+    EXPECT_NEAR(clay.dent(), dent, 0.05 * dent);
+}
+
+INSTANTIATE_TEST_SUITE_P(Couplings, PlasticityOfABody, testing::Values(Coupling::swap, Coupling::coupled),
+                         [](const auto& suite) { return couplingName(suite.param); });
+
+TEST(PlasticityOfBodies, BadMaterialsAreRefused)
+{
+    const auto why = [](btScalar btFemMaterial::*member, double value)
+    {
+        btFemMaterial material;
+        material.*member = btScalar(value);
+        std::string text;
+        EXPECT_FALSE(material.valid(&text));
+        return text;
+    };
+    EXPECT_NE(why(&btFemMaterial::m_yieldStress, 0).find("yield stress [Pa] is 0, outside (0, inf]"),
+              std::string::npos);
+    EXPECT_NE(why(&btFemMaterial::m_plasticCreep, 0).find("plastic creep [1/s] is 0"), std::string::npos);
+    EXPECT_NE(why(&btFemMaterial::m_hardeningModulus, -1).find("hardening modulus [Pa] is -1"), std::string::npos);
+    EXPECT_NE(why(&btFemMaterial::m_mostPlasticStrain, 1).find("largest plastic strain [-] is 1"), std::string::npos);
+}
+
+// A body's model has all that its material says; the largest share is no binary number.
+TEST(PlasticityOfBodies, MaterialsComeWhole)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addUnitCube(world, {0, 0, 3});
+    btFemMaterial material = btFemMaterial::lead();
+    material.m_plasticCreep = 3;
+    material.m_mostPlasticStrain = btScalar(0.25);
+    material.m_relaxation[0] = {btScalar(0.99), 2};
+    fem.setMaterial(&cube, material);
+    world.step();
+    const Material& own = btFemCoupling::record(fem, cube)->fem().m_body.m_model->shape().m_material;
+    EXPECT_EQ(own.m_yieldStress, 5.5e6);
+    EXPECT_EQ(own.m_hardeningModulus, 20e6);
+    EXPECT_EQ(own.m_plasticCreep, 3);
+    EXPECT_EQ(own.m_mostPlasticStrain, 0.25);
+    EXPECT_EQ(own.relaxationTerms(), 1);
+    EXPECT_EQ(own.m_relaxation[0].m_share, 0.99);
+    EXPECT_EQ(own.m_relaxation[0].m_time, 2);
+}
+
+// A cube that rests on the ground sinks as its modulus goes: half of it gone, twice as far.
+TEST(RelaxationOfBodies, ACubeSinksSlowly)
+{
+    btFemSoftBodySolver fem(implicitEuler());
+    SoftWorld world(fem);
+    world.addPlane();
+    btSoftBody& cube = addSoftBox(world, fem, {{1, 1, 1}, {3, 3, 3}, {0, 0, 0.5}});
+    cube.m_cfg.kDF = 0;  // it grows wider, too
+    btFemMaterial material;
+    material.m_youngModulus = btScalar(2e5);
+    material.m_poissonRatio = 0;
+    material.m_massDamping = 2;
+    material.m_relaxation[0] = {btScalar(0.5), 2};
+    fem.setMaterial(&cube, material);
+    const auto top = [&cube]
+    {
+        double sum = 0;
+        int count = 0;
+        for (int i = 0; i < cube.m_nodes.size(); ++i)
+        {
+            if (cube.m_nodes[i].m_q.z() < btScalar(0.9)) continue;
+            sum += double(cube.m_nodes[i].m_x.z());
+            ++count;
+        }
+        return sum / count;
+    };
+    // nu = 0: rho g L^2 / 2 E at first; the shear modulus is 2/3 of the stiffness of a column then, and the bulk
+    // modulus E / 3 stays: E(t) = 9 K G / (3 K + G) with G half of what it was, .6 E.
+    const double fast = 1000 * kGravity / 2 / 2e5;
+    world.step(1200);
+    EXPECT_NEAR(1 - top(), fast / 0.6, 0.05 * fast);
+}
+
+TEST(PlasticityOfBodies, OfNoneThereIsNothingToRead)
+{
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem);
+    btAlignedObjectArray<btScalar> strain;
+    strain.push_back(3);
+    EXPECT_FALSE(fem.getPlasticStrain(nullptr, strain));
+    EXPECT_EQ(strain.size(), 0);
+    btSoftBody& cube = addUnitCube(world, {0, 0, 3});
+    EXPECT_FALSE(fem.getPlasticStrain(&cube, strain));
+    world.step();
+    EXPECT_FALSE(fem.getPlasticStrain(&cube, strain));
+    fem.setMaterial(&cube, softClay());
+    world.step();
+    ASSERT_TRUE(fem.getPlasticStrain(&cube, strain));
+    EXPECT_EQ(strain.size(), cube.m_tetras.size());
+    for (int e = 0; e < strain.size(); ++e) EXPECT_EQ(strain[e], 0);
+}
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/generators.h"
+#include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/soft_world.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+enum class Hold
+{
+    pin,   // one node
+    hinge  // the nodes of an edge along y
+};
+
+// A bar that hangs on one end, let go where it is level; bodies that swing have a step of second order.
+class Swinging : public testing::TestWithParam<std::tuple<Hold, double, double>>  // Young's modulus [Pa], step [s]
+{
+protected:
+    Swinging()
+    {
+        m_bar = btFemHelpers::createFromTetMesh(m_world.info(), makeBox({1, 0.2, 0.2}, {5, 1, 1}, {0, -0.1, 0}));
+        btFemMaterial material;
+        material.m_youngModulus = static_cast<btScalar>(std::get<1>(GetParam()));
+        material.m_stiffnessDamping = 0;
+        material.m_massDamping = 0;
+        m_fem.setMaterial(m_bar, material);
+        const bool isPin = std::get<0>(GetParam()) == Hold::pin;
+        for (int i = 0; i < m_bar->m_nodes.size(); ++i)
+        {
+            const btVector3 x = m_bar->m_nodes[i].m_x;
+            if (x.x() == 0 && x.z() == 0 && (!isPin || x.y() < 0)) m_bar->setMass(i, 0);
+        }
+        m_world.addSoft(m_bar);
+        for (int i = 0; i < m_bar->m_nodes.size(); ++i)
+        {
+            if (m_bar->m_nodes[i].m_im == 0) continue;
+            const double mass = 1 / double(m_bar->m_nodes[i].m_im);
+            const Vec3 x = vec3(m_bar->m_nodes[i].m_x);
+            m_inertia += mass * (x.x * x.x + x.z * x.z);
+        }
+        m_mass = massOf(*m_bar);
+        m_start = centerOf(*m_bar);
+    }
+
+    // That can be had again at the start's height, over what falling to the lowest point gives.
+    double energy() const
+    {
+        const double fall = m_start.z + std::hypot(m_start.x, m_start.z);
+        return 1 + (motionOf(*m_bar).m_energy / (m_mass * kGravity) + centerOf(*m_bar).z - m_start.z) / fall;
+    }
+
+    // Of a rigid bar about its hinge [s]: 4 K(sin(angle / 2)) sqrt(I / (m g d)), K by the arithmetic-geometric mean.
+    double period() const
+    {
+        const double d = std::hypot(m_start.x, m_start.z), angle = std::atan2(m_start.x, -m_start.z);
+        double a = 1, b = std::cos(angle / 2);
+        for (int k = 0; k < 20; ++k) std::tie(a, b) = std::make_tuple((a + b) / 2, std::sqrt(a * b));
+        return 2 * kPi / a * std::sqrt(m_inertia / (m_mass * kGravity * d));
+    }
+
+    btFemSoftBodySolver m_fem;
+    SoftWorld m_world{m_fem};
+    btSoftBody* m_bar = nullptr;
+    double m_mass = 0, m_inertia = 0;
+    Vec3 m_start;
+};
+
+TEST_P(Swinging, GoesOnForTenSeconds)
+{
+    const double h = std::get<2>(GetParam());
+    const bool isFine = h < 0.02;
+    double x = centerOf(*m_bar).x, first = 0, last = 0, most = 0;
+    int passes = 0;
+    for (double t = h; t < 10; t += h)
+    {
+        m_world.step(1, btScalar(h));
+        const double before = x;
+        x = centerOf(*m_bar).x;
+        most = std::max(most, energy());
+        if (before * x > 0) continue;
+        last = t - h * std::fabs(x) / std::fabs(x - before);
+        if (passes++ == 0) first = last;
+    }
+    EXPECT_LT(most, 1.03);
+    EXPECT_GT(energy(), isFine ? 0.93 : 0.78);
+    if (std::get<0>(GetParam()) == Hold::pin) return;  // it swings in all directions
+    EXPECT_GE(passes, 8);
+    EXPECT_NEAR(2 * (last - first) / (passes - 1), period(), (isFine ? 0.015 : 0.035) * period());
+}
+INSTANTIATE_TEST_SUITE_P(Bars, Swinging,
+                         testing::Combine(testing::Values(Hold::pin, Hold::hinge), testing::Values(1e6, 1e8),
+                                          testing::Values(1.0 / 60, 1.0 / 25)),
+                         [](const auto& suite)
+                         {
+                             return std::string(std::get<0>(suite.param) == Hold::pin ? "pin" : "hinge") +
+                                    (std::get<1>(suite.param) < 1e7 ? "_1e6_Pa" : "_1e8_Pa") +
+                                    (std::get<2>(suite.param) < 0.02 ? "_60_Hz" : "_25_Hz");
+                         });
+
+}  // namespace
+}  // namespace bullet_fem

@@ -1,0 +1,109 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Zlib
+# debs.sh [--quick]: Debian packages in build/debs: the libraries, what programs are built with, and the tools. Lintian must
+# find no error. Then installs them in a Debian 12 that has nothing else (mmdebstrap, as root, from the mirror), and there
+# builds and runs the README's program. With --quick in single precision only.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+source "$root/tools/ci/stages.sh"
+build=$root/build/debs
+precisions="float;float64"
+case ${1-} in
+"") ;;
+--quick) precisions=float ;;
+*) fail "debs.sh: $1 is not --quick" ;;
+esac
+install_for_build lintian mmdebstrap dpkg-dev file
+
+# first_block <language>: the README's code in that language.
+first_block() { awk -v fence='```' -v language="$1" '$0 == fence {on = 0} on {print} $0 == fence language {on = 1}' "$root/README.md"; }
+
+say "building the packages in $build"
+mkdir -p "$build"
+cmake -S "$root" -B "$build" -DBULLETFEM_BUILD_DEBS=ON -DBUILD_SHARED_LIBS=ON -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR="lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)" \
+    -DCMAKE_INSTALL_DOCDIR=share/doc/libbulletfem-dev -DBULLETFEM_PRECISIONS="$precisions" -DBULLETFEM_UNITY=8 \
+    -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_DEMOS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF \
+    -DBULLETFEM_BUILD_PICTURES=OFF >"$build.log" 2>&1 || { cat "$build.log"; fail "cannot configure"; }
+cmake --build "$build" --parallel "${JOBS:-$(nproc)}" >>"$build.log" 2>&1 || { tail -40 "$build.log"; fail "see $build.log"; }
+rm -f "$build"/*.deb
+(cd "$build" && cpack >>"$build.log" 2>&1) || { tail -40 "$build.log"; fail "cpack: see $build.log"; }
+packages=("$build"/*.deb)
+for package in "${packages[@]}"; do
+    say "$(basename "$package"), $(($(stat -c %s "$package") / 1024)) KiB: $(dpkg-deb -f "$package" Depends)"
+done
+lintian --allow-root --fail-on error "${packages[@]}"
+
+# The README's program, with what it takes for granted: a world around it, and bunny.obj.
+program=$build/program
+rm -rf "$program"
+mkdir -p "$program"
+first_block cpp >"$program/readme.txt"
+{
+    grep '^#include' "$program/readme.txt"
+    cat <<'CPP'
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+#include <cstdio>
+int main()
+{
+btSoftBodyRigidBodyCollisionConfiguration config;
+btCollisionDispatcher dispatcher(&config);
+btDbvtBroadphase broadphase;
+CPP
+    grep -v '^#include' "$program/readme.txt"
+    cat <<'CPP'
+for (int i = 0; i < 60; ++i) world.stepSimulation(btScalar(1) / 60, 1, btScalar(1) / 60);
+const btScalar speed = bunny->m_nodes[0].m_v.y();
+std::printf("%d elements fall at %g m/s\n", bunny->m_tetras.size(), double(speed));
+world.removeSoftBody(bunny);
+delete bunny;
+return speed < -9.9 && speed > -10.1 ? 0 : 1;  // after a second of Bullet's own gravity, 10 m/s2
+}
+CPP
+} >"$program/main.cpp"
+{
+    echo 'cmake_minimum_required(VERSION 3.25)'
+    echo 'project(Readme CXX)'
+    first_block cmake
+} >"$program/CMakeLists.txt"
+cat >"$program/bunny.obj" <<'OBJ'
+v 1 0 0
+v -1 0 0
+v 0 1 0
+v 0 -1 0
+v 0 0 1
+v 0 0 -1
+f 1 3 5
+f 3 2 5
+f 2 4 5
+f 4 1 5
+f 3 1 6
+f 2 3 6
+f 4 2 6
+f 1 4 6
+OBJ
+
+if [ "$(id -u)" -ne 0 ]; then
+    say "left out: only root can install the packages in a Debian of its own"
+    exit 0
+fi
+say "installing them in a Debian 12 of its own"
+cp "${packages[@]}" "$program"
+chroot_log=$build/chroot.log
+# shellcheck disable=SC2016
+install_inside='chroot "$1" sh -ec "apt-get install --yes --no-install-recommends /program/*.deb"'
+# shellcheck disable=SC2016
+run_inside='chroot "$1" sh -ec "cd /program && cmake -B build . && cmake --build build && build/game && bulletfem --version"'
+# What runs inside prints a line that is looked for, so that nothing passes by not having run.
+if ! mmdebstrap --variant=minbase --mode=root --include=g++,cmake,make \
+    --customize-hook="mkdir \"\$1/program\" && cp -r '$program/.' \"\$1/program\"" \
+    --customize-hook="$install_inside" --customize-hook="$run_inside" \
+    bookworm /dev/null >"$chroot_log" 2>&1; then
+    tail -30 "$chroot_log"
+    fail "see $chroot_log"
+fi
+grep -E 'elements fall at' "$chroot_log" || fail "the program did not run: see $chroot_log"
+built "GCC $(g++ -dumpfullversion)" C++17 "$(bullet_version /usr/include/bullet)" "${precisions/;/, }" "$(system_of_build)" \
+    "Debian packages; the README's program runs with them"

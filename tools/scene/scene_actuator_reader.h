@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "tools/scene/json_cursor.h"
+#include "tools/scene/scene_description.h"
+
+namespace bullet_fem
+{
+
+/// An item of 'actuators', but for its body's name, which is not looked at. Throws as JsonCursor does.
+SceneActuator readActuator(const JsonCursor& at);
+
+}  // namespace bullet_fem

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "tools/scene/scene_materials.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// With the plug-in's own damping where a scene has none.
+Material damped(Material material)
+{
+    material.m_stiffnessDamping = 0.005;
+    return material;
+}
+
+void readRelaxation(const JsonCursor& at, Material& material)
+{
+    const std::vector<JsonCursor> terms = at.items();
+    if (terms.size() > material.m_relaxation.size()) at.expected("an array of at most 3 terms");
+    double sum = 0;
+    material.m_relaxation.fill({});
+    for (std::size_t i = 0; i < terms.size(); ++i)
+    {
+        terms[i].onlyMembers({"share", "time"});
+        PronyTerm& term = material.m_relaxation[i];
+        term.m_share = terms[i]["share"].number({0, Material::kMostRelaxedShare, true});
+        term.m_time = terms[i]["time"].number({1e-6, 1e9});
+        sum += term.m_share;
+    }
+    if (!(sum <= Material::kMostRelaxedShare)) at.fail("has shares whose sum is more than 0.99; a solid keeps some");
+}
+
+}  // namespace
+
+Material defaultMaterial()
+{
+    return damped({});
+}
+
+SceneMaterials presetMaterials()
+{
+    return {{"rubber", damped(Material::rubber())}, {"foam", damped(Material::foam())},
+            {"jelly", damped(Material::jelly())},   {"flesh", damped(Material::flesh())},
+            {"wood", damped(Material::wood())},     {"clay", damped(Material::clay())},
+            {"lead", damped(Material::lead())},     {"mildFoam", damped(Material::mildFoam())}};
+}
+
+const Material& materialCalled(const JsonCursor& at, const SceneMaterials& known)
+{
+    const auto found = known.find(at.text());
+    if (found != known.end()) return found->second;
+    std::string names;
+    for (const auto& [name, value] : known) names += (names.empty() ? "" : ", ") + name.substr(0, 40);
+    at.expected("the name of a material: " + names);
+}
+
+Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
+{
+    at.onlyMembers({"like", "young", "poisson", "density", "massDamping", "stiffnessDamping", "meanDilatation",
+                    "accurateBending", "yieldStress", "hardening", "plasticCreep", "mostPlasticStrain", "relaxation",
+                    "law"});
+    Material material = at.has("like") ? materialCalled(at["like"], known) : defaultMaterial();
+    at.read("young", {0, 1e13, true}, material.m_youngModulus);
+    at.read("poisson", {0, Material::kMostPoissonRatio}, material.m_poissonRatio);
+    at.read("density", {0, 1e6, true}, material.m_density);
+    at.read("massDamping", {0, 1e4}, material.m_massDamping);
+    at.read("stiffnessDamping", {0, 10}, material.m_stiffnessDamping);
+    if (at.has("meanDilatation"))
+        material.m_meanDilatation = static_cast<MeanDilatation>(at["meanDilatation"].choice({"auto", "on", "off"}));
+    at.read("accurateBending", material.m_accurateBending);
+    at.read("yieldStress", {0, 1e13, true}, material.m_yieldStress);
+    at.read("hardening", {0, 1e13}, material.m_hardeningModulus);
+    at.read("plasticCreep", {0, 1e9, true}, material.m_plasticCreep);
+    at.read("mostPlasticStrain", {0, 0.9, true}, material.m_mostPlasticStrain);
+    if (at.has("relaxation")) readRelaxation(at["relaxation"], material);
+    if (at.has("law")) material.m_law = static_cast<ElasticLaw>(at["law"].choice({"hooke", "neoHooke"}));
+    std::string why;
+    if (!material.valid(&why)) at.fail("is no material: " + why);
+    return material;
+}
+
+}  // namespace bullet_fem
