@@ -112,6 +112,22 @@ HWY_INLINE Matrix<Real> edgesMinusRotated(const Elements& elements, const Quater
     return roundedMatrix<Real>(D);
 }
 
+/// The edges of a block's elements from `lane` on, as many as a vector has lanes.
+template <class Real>
+struct DeformedLanes
+{
+    const ElementBlock<Real>& m_block;
+    const StagedEdges<double, width<Real>()>& m_x;
+    int m_lane;
+
+    HWY_INLINE Matrix<Real> DmInverse() const { return loadMatrix(m_block.m_DmInverse, m_lane); }
+    HWY_INLINE Matrix<double> edges(int part) const { return m_x.load(part * width<double>()); }
+    HWY_INLINE Matrix<double> restEdges(int part) const
+    {
+        return loadMatrix(m_block.m_Dm, m_lane + part * width<double>());
+    }
+};
+
 HWY_INLINE Quaternions<float> loadQuaternions(const Quaternion* q, float)
 {
     Quaternions<float> result;

@@ -96,7 +96,7 @@ EdgeSmoothing<Real>::EdgeSmoothing(const RestShape& shape, const ElementLanes& l
     for (int lane = 0; lane < lanes.blockCount() * kLanes; ++lane)
     {
         const int e = lanes.m_element[lane];
-        Lanes& to = m_lanes[lane / kLanes];
+        BlockShares& to = m_lanes[lane / kLanes];
         to.m_own[lane % kLanes] = static_cast<Real>(1 - domains.m_share[e]);
         to.m_ofDomain[lane % kLanes] = static_cast<Real>(domains.m_share[e] / 6);
         for (int k = 0; k < 6; ++k) to.m_domain[lane % kLanes][k] = domains.m_domain[e][k];

@@ -34,6 +34,20 @@ HWY_INLINE Symmetric<Real> strainOf(const Matrix<Real>& A, const Matrix<Real>& B
             entry(0, 1) + entry(1, 0)};
 }
 
+/// sym(R^T A), shears doubled.
+template <class Real>
+HWY_INLINE Symmetric<Real> strainInFrameOf(const Matrix<Real>& R, const Matrix<Real>& A)
+{
+    const auto entry = [&](int i, int j)
+    { return dot3(R.m[0][i], A.m[0][j], R.m[1][i], A.m[1][j], R.m[2][i], A.m[2][j]); };
+    return {entry(0, 0),
+            entry(1, 1),
+            entry(2, 2),
+            entry(1, 2) + entry(2, 1),
+            entry(0, 2) + entry(2, 0),
+            entry(0, 1) + entry(1, 0)};
+}
+
 /// 2 mu E + pressure I of a strain with doubled shears; mu times the volume.
 template <class Real>
 HWY_INLINE Symmetric<Real> hookeUnder(Vector<Real> pressure, Vector<Real> mu, const Symmetric<Real>& E)

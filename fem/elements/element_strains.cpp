@@ -32,38 +32,6 @@ void strainBlocks(const ElementStrains<Real>& strains, Range blocks)
 
 #else
 
-/// The elements of a block from `lane` on, as many as a vector has lanes.
-template <class Real>
-struct StrainLanes
-{
-    const ElementBlock<Real>& m_block;
-    const StagedEdges<double, width<Real>()>& m_x;
-    int m_lane;
-
-    HWY_INLINE Matrix<Real> DmInverse() const { return loadMatrix(m_block.m_DmInverse, m_lane); }
-    HWY_INLINE Matrix<double> edges(int part) const { return m_x.load(part * width<double>()); }
-    HWY_INLINE Matrix<double> restEdges(int part) const
-    {
-        return loadMatrix(m_block.m_Dm, m_lane + part * width<double>());
-    }
-};
-
-/// sym(R^T A B).
-template <class Real>
-HWY_INLINE Symmetric<Real> strainInFrame(const Matrix<Real>& R, const Matrix<Real>& A, const Matrix<Real>& B)
-{
-    const Matrix<Real> H = times(A, B);
-    const auto entry = [&](int i, int j)
-    { return dot3(R.m[0][i], H.m[0][j], R.m[1][i], H.m[1][j], R.m[2][i], H.m[2][j]); };
-    const Vector<Real> half = number<Real>(0.5);
-    return {entry(0, 0),
-            entry(1, 1),
-            entry(2, 2),
-            half * (entry(1, 2) + entry(2, 1)),
-            half * (entry(0, 2) + entry(2, 0)),
-            half * (entry(0, 1) + entry(1, 0))};
-}
-
 template <class Real>
 void strainBlocks(const ElementStrains<Real>& strains, Range blocks)
 {
@@ -75,15 +43,16 @@ void strainBlocks(const ElementStrains<Real>& strains, Range blocks)
             const ElementBlock<Real>& block = strains.m_elements->m_blocks[b];
             StagedEdges<double, kN> staged;
             staged.stage(block.m_node + lane, strains.m_x);
-            const StrainLanes<Real> elements = {block, staged, lane};
+            const DeformedLanes<Real> elements = {block, staged, lane};
             Quaternion* rotation = strains.m_rotation + b * kLanes + lane;
             const Matrix<Real> F = times(roundedEdges<Real>(elements), elements.DmInverse());
             Quaternions<Real> q = loadQuaternions(rotation, Real());
             polarRotations(&F, 1, &q);
             storeQuaternions(q, rotation);
-            const Symmetric<Real> E =
-                strainInFrame(toMatrix(q, number<Real>(2)), edgesMinusRotated(elements, q), elements.DmInverse());
-            const Vector<Real> entries[6] = {E.xx, E.yy, E.zz, E.yz, E.xz, E.xy};
+            const Symmetric<Real> E = strainInFrameOf(toMatrix(q, number<Real>(2)),
+                                                      times(edgesMinusRotated(elements, q), elements.DmInverse()));
+            const Vector<Real> half = number<Real>(0.5);
+            const Vector<Real> entries[6] = {E.xx, E.yy, E.zz, half * E.yz, half * E.xz, half * E.xy};
             HWY_UNROLL(6)
             for (int k = 0; k < 6; ++k) hn::Store(entries[k], d, strains.m_strain[b].m_entry[k] + lane);
         }

@@ -49,7 +49,7 @@ ReadStrain ownStrain(const SmoothedStrain<Real>& strain, int b, int lane)
 template <class Real>
 ReadStrain smoothedStrain(const EdgeSmoothing<Real>& smoothing, const SmoothedStrain<Real>& strain, int b, int lane)
 {
-    const typename EdgeSmoothing<Real>::Lanes& lanes = smoothing.m_lanes[b];
+    const typename EdgeSmoothing<Real>::BlockShares& lanes = smoothing.m_lanes[b];
     double s[2][4];
     for (int k = 0; k < 8; ++k)
     {

@@ -49,17 +49,17 @@ struct EdgeSmoothing
     int domainCount() const { return static_cast<int>(m_start.size()) - 1; }
 
     /// Of kLanes elements.
-    struct alignas(64) Lanes
+    struct alignas(64) BlockShares
     {
         Real m_own[kLanes];                ///< 1 - b [-]
         Real m_ofDomain[kLanes];           ///< b / 6 [-]
         std::int32_t m_domain[kLanes][6];  ///< of the six edges
     };
 
-    std::vector<Lanes> m_lanes;      ///< one a block
-    std::vector<int> m_start = {0};  ///< of every domain and of the end, into the next two
-    std::vector<int> m_place;        ///< of an element's first quad in an array of StrainQuads, taken as quads
-    std::vector<Real> m_weight;      ///< of the element in the domain's mean [-]
+    std::vector<BlockShares> m_lanes;  ///< one a block
+    std::vector<int> m_start = {0};    ///< of every domain and of the end, into the next two
+    std::vector<int> m_place;          ///< of an element's first quad in an array of StrainQuads, taken as quads
+    std::vector<Real> m_weight;        ///< of the element in the domain's mean [-]
 };
 
 /// An array of StrainQuads and the domains' means.

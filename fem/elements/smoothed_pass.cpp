@@ -36,22 +36,6 @@ void passForces(const SmoothedPass<Real>& pass, Range blocks)
 
 #else
 
-/// The elements of a block from `lane` on, as many as a vector has lanes.
-template <class Real>
-struct SmoothedLanes
-{
-    const ElementBlock<Real>& m_block;
-    const StagedEdges<double, width<Real>()>& m_x;
-    int m_lane;
-
-    HWY_INLINE Matrix<Real> DmInverse() const { return loadMatrix(m_block.m_DmInverse, m_lane); }
-    HWY_INLINE Matrix<double> edges(int part) const { return m_x.load(part * width<double>()); }
-    HWY_INLINE Matrix<double> restEdges(int part) const
-    {
-        return loadMatrix(m_block.m_Dm, m_lane + part * width<double>());
-    }
-};
-
 /// The strain and what damping makes of it, and rotations.
 template <class Real>
 HWY_INLINE void strainsOf(const ElementPass<Real>& pass, int b, int lane, Symmetric<Real>& elastic,
@@ -62,7 +46,7 @@ HWY_INLINE void strainsOf(const ElementPass<Real>& pass, int b, int lane, Symmet
     StagedEdges<Real> v;
     x.stage(block.m_node + lane, pass.m_x);
     v.stage(block.m_node + lane, pass.m_v);
-    const SmoothedLanes<Real> elements = {block, x, lane};
+    const DeformedLanes<Real> elements = {block, x, lane};
     const Matrix<Real> DmInverse = elements.DmInverse(), F = times(roundedEdges<Real>(elements), DmInverse);
     Quaternion* rotation = pass.m_rotation + b * kLanes + lane;
     Quaternions<Real> q = loadQuaternions(rotation, Real());

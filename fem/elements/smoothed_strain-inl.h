@@ -19,20 +19,6 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-/// sym(R^T A), shears doubled.
-template <class Real>
-HWY_INLINE Symmetric<Real> strainInFrameOf(const Matrix<Real>& R, const Matrix<Real>& A)
-{
-    const auto entry = [&](int i, int j)
-    { return dot3(R.m[0][i], A.m[0][j], R.m[1][i], A.m[1][j], R.m[2][i], A.m[2][j]); };
-    return {entry(0, 0),
-            entry(1, 1),
-            entry(2, 2),
-            entry(1, 2) + entry(2, 1),
-            entry(0, 2) + entry(2, 0),
-            entry(0, 1) + entry(1, 0)};
-}
-
 /// As quads of the elements from `lane` on.
 template <class Real>
 HWY_INLINE void storeQuads(const Symmetric<Real>& E, Vector<Real> theta, StrainQuads<Real>& out, int lane)
@@ -77,7 +63,7 @@ private:
                               int i)
     {
         const hn::CappedTag<Real, 4> d;
-        const typename EdgeSmoothing<Real>::Lanes& lanes = smoothing.m_lanes[b];
+        const typename EdgeSmoothing<Real>::BlockShares& lanes = smoothing.m_lanes[b];
         const std::int32_t* domain = lanes.m_domain[lane + i];
         const auto own = hn::Set(d, lanes.m_own[lane + i]), share = hn::Set(d, lanes.m_ofDomain[lane + i]);
         HWY_UNROLL(2)

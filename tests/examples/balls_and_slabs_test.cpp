@@ -48,7 +48,7 @@ TEST_F(DeformableBalls, ballBouncesWithLittleLoss)
         addBall(makeSphere(1, 6), block, std::make_unique<btDeformableNeoHookeanForce>(400, 600, btScalar(0.001)));
     btRigidBody& box = addRigidBox({btScalar(0.5), btScalar(0.5), btScalar(0.5)}, {3, 2, 0}, 1, 1);
     EnergyBook book(fem(), m_gravity);
-    book.addSoft(ball, 1040, 0.3);
+    book.addSoft(ball, 1040, 0.3, btFemElasticLaw::neoHooke);
     book.addRigid(box);
     book.open();
     // It falls half a metre, until t = sqrt(2 s / g).
@@ -83,7 +83,7 @@ TEST_F(DeformableBalls, toriFallOnEachOtherAndLieDown)
     {
         tori.push_back(&addBall(exampleTorus(), {{1, 1, 1}, center, 3, btScalar(0.5)},
                                 std::make_unique<btDeformableNeoHookeanForce>(180, 600, btScalar(0.01))));
-        book.addSoft(*tori.back(), young, poisson);
+        book.addSoft(*tori.back(), young, poisson, btFemElasticLaw::neoHooke);
     }
     book.open();
     bool touched = false;

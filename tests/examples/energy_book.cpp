@@ -16,9 +16,9 @@ namespace bullet_fem
 
 EnergyBook::EnergyBook(const btFemSoftBodySolver& fem, const Vec3& gravity) : m_fem(&fem), m_gravity(gravity) {}
 
-void EnergyBook::addSoft(const btSoftBody& body, double young, double poisson)
+void EnergyBook::addSoft(const btSoftBody& body, double young, double poisson, btFemElasticLaw law)
 {
-    m_soft.push_back({&body, young, poisson});
+    m_soft.push_back({&body, young, poisson, law});
 }
 
 void EnergyBook::addRigid(const btRigidBody& body)
@@ -51,7 +51,7 @@ double EnergyBook::potential() const
 double EnergyBook::elastic() const
 {
     double sum = 0;
-    for (const Soft& soft : m_soft) sum += elasticEnergy(*soft.m_body, soft.m_young, soft.m_poisson);
+    for (const Soft& soft : m_soft) sum += elasticEnergy(*soft.m_body, soft.m_young, soft.m_poisson, soft.m_law);
     return sum;
 }
 

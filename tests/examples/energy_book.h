@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "LinearMath/btTransform.h"
+#include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/fem/common/vec3.h"
 
 class btCollisionObject;
@@ -23,7 +24,7 @@ public:
     EnergyBook(const btFemSoftBodySolver& fem, const Vec3& gravity);
 
     /// With E [Pa] and nu [-].
-    void addSoft(const btSoftBody& body, double young, double poisson);
+    void addSoft(const btSoftBody& body, double young, double poisson, btFemElasticLaw law = btFemElasticLaw::hooke);
     void addRigid(const btRigidBody& body);
     /// What is led by the user or a motor: it works by the impulses that it gives to soft bodies along its way.
     void addLed(const btCollisionObject& object);
@@ -53,6 +54,7 @@ private:
     {
         const btSoftBody* m_body;
         double m_young, m_poisson;
+        btFemElasticLaw m_law;
     };
     struct Led
     {

@@ -121,16 +121,35 @@ double smallestVolumeRatio(const btSoftBody& body)
     return smallest;
 }
 
-double elasticEnergy(const btSoftBody& body, double young, double poisson)
+namespace
+{
+
+// [J/m3]
+double corotatedDensity(const Mat3& F, double lambda, double mu)
+{
+    const Mat3 S = transposeTimes(polarRotation(F, Mat3::identity()), F);
+    const Mat3 strain = 0.5 * (S + transpose(S)) - Mat3::identity();
+    return mu * squaredNorm(strain) + 0.5 * lambda * trace(strain) * trace(strain);
+}
+
+// Ciarlet's, where J is above 0.1 [J/m3]
+double neoHookeDensity(const Mat3& F, double lambda, double mu)
+{
+    const double J = determinant(F);
+    return 0.5 * mu * (squaredNorm(F) - 3) + 0.25 * lambda * (J * J - 1) - (0.5 * lambda + mu) * std::log(J);
+}
+
+}  // namespace
+
+double elasticEnergy(const btSoftBody& body, double young, double poisson, btFemElasticLaw law)
 {
     const double mu = young / (2 * (1 + poisson)), lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
     double sum = 0;
     for (int e = 0; e < body.m_tetras.size(); ++e)
     {
         const Deformation d = deformationOf(body.m_tetras[e]);
-        const Mat3 S = transposeTimes(polarRotation(d.m_F, Mat3::identity()), d.m_F);
-        const Mat3 strain = 0.5 * (S + transpose(S)) - Mat3::identity();
-        sum += d.m_restVolume * (mu * squaredNorm(strain) + 0.5 * lambda * trace(strain) * trace(strain));
+        sum += d.m_restVolume * (law == btFemElasticLaw::neoHooke ? neoHookeDensity(d.m_F, lambda, mu)
+                                                                  : corotatedDensity(d.m_F, lambda, mu));
     }
     return sum;
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/fem/cage/surface_mesh.h"
 #include "bullet_fem/fem/mesh/tet_mesh.h"
 
@@ -27,6 +28,6 @@ btSoftBody* createFromTetGenText(btSoftBodyWorldInfo& info, const TetMesh& mesh)
 double smallestVolumeRatio(const btSoftBody& body);
 
 /// Of the isotropic corotated linear material, sum of V (mu |S - I|^2 + lambda / 2 tr(S - I)^2) with F = R S [J].
-double elasticEnergy(const btSoftBody& body, double young, double poisson);
+double elasticEnergy(const btSoftBody& body, double young, double poisson, btFemElasticLaw law);
 
 }  // namespace bullet_fem

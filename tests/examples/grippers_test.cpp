@@ -93,7 +93,7 @@ TEST_F(Plates, pinchHoldsACubeThroughLiftAndShift)
     addForce(m_world, cube, std::move(elastic));
     cube.m_cfg.drag = btScalar(0.001);
     EnergyBook book(fem(), m_gravity);
-    book.addSoft(cube, 25, 0.3);
+    book.addSoft(cube, 25, 0.3, btFemElasticLaw::neoHooke);
     addPlates(book);
     book.open();
 
@@ -132,7 +132,7 @@ TEST_F(Plates, pinchFrictionLiftsThreeBlocks)
         blocks[k] = &addHeld(mesh, {{2, 2, 1}, {0, btScalar(2.1), z}, btScalar(0.6), 2});
         blocks[k]->m_cfg.collisions |= btSoftBody::fCollision::VF_DD;
         addForce(m_world, *blocks[k], std::make_unique<btDeformableNeoHookeanForce>(6, 6, btScalar(0.003)));
-        book.addSoft(*blocks[k], 15, 0.25);
+        book.addSoft(*blocks[k], 15, 0.25, btFemElasticLaw::neoHooke);
     }
     addPlates(book);
     book.open();
@@ -228,7 +228,7 @@ TEST_F(GraspDeformable, graspHoldsAndLiftsTheCubeAndLetsItGo)
     addGravity(cube);
     addForce(m_world, cube, std::make_unique<btDeformableNeoHookeanForce>(20, 80, btScalar(0.01)));
     EnergyBook book(fem(), m_gravity);
-    book.addSoft(cube, 56, 0.4);
+    book.addSoft(cube, 56, 0.4, btFemElasticLaw::neoHooke);
     for (const btMultiBodyLinkCollider* finger : m_fingers) book.addLed(*finger);
     book.open();
     const double weight = 0.1 * 9.81;
