@@ -118,6 +118,7 @@ protected:
         const bool valid = isValid(scene);
         ++(valid ? m_valid : m_invalid);
         if (valid == said.empty()) return;
+        // Of these, what a material is `like` may have the yield stress.
         static const char* const kMeanings[] = {"a name that no other body has",
                                                 "must be the name of a",
                                                 "which is no file",
@@ -126,6 +127,7 @@ protected:
                                                 "is where 'eye' is",
                                                 "must have a length",
                                                 "weld it to another body",
+                                                "accurate bending does not go with a yield stress",
                                                 "only soft bodies have nodes"};
         const bool isMeaning =
             std::any_of(std::begin(kMeanings), std::end(kMeanings),
