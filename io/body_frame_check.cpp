@@ -92,6 +92,10 @@ void checkFrame(const char* caller, const std::vector<BodyFrame>& bodies)
             blame(body.m_tetPlasticStrain.size(), " plastic strains for ", body.m_tets.size(),
                   " tetrahedra; give as many, or none");
         checkValues(blame, "plastic strain", "tetrahedron", body.m_tetPlasticStrain);
+        if (!body.m_tetActivation.empty() && body.m_tetActivation.size() != body.m_tets.size())
+            blame(body.m_tetActivation.size(), " activations for ", body.m_tets.size(),
+                  " tetrahedra; give as many, or none");
+        checkValues(blame, "activation", "tetrahedron", body.m_tetActivation);
         if (!body.m_tetRegion.empty() && body.m_tetRegion.size() != body.m_tets.size())
             blame(body.m_tetRegion.size(), " regions for ", body.m_tets.size(), " tetrahedra; give as many, or none");
     }

@@ -152,6 +152,7 @@ void appendCellData(const FrameText& text, const std::vector<BodyFrame>& bodies,
         appendArray(text.m_xml, text.m_encoding, {"region", 1, {}}, regions);
     text.appendStress(joined(bodies, &BodyFrame::m_tetStress, cellCount));
     text.append({"plastic_strain", 1, {}}, joined(bodies, &BodyFrame::m_tetPlasticStrain, cellCount));
+    text.append({"activation", 1, {}}, joined(bodies, &BodyFrame::m_tetActivation, cellCount));
     text.m_xml += "</CellData>\n";
 }
 

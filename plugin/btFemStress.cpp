@@ -83,3 +83,18 @@ bool btFemSoftBodySolver::getPlasticStrain(const btSoftBody* body, btAlignedObje
     for (int e = 0; e < perElement.size(); ++e) perElement[e] = static_cast<btScalar>((*strain)[e]);
     return perElement.size() > 0;
 }
+
+bool btFemSoftBodySolver::getActivation(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const
+{
+    perElement.resize(0);
+    const btFemBodyRecord* record = femRecordOf(*this, body);
+    if (!record || record->fem().m_body.m_actuators.m_fibres.empty()) return false;
+    perElement.resize(body->m_tetras.size(), btScalar(0));
+    for (const Fibres& fibres : record->fem().m_body.m_actuators.m_fibres)
+    {
+        const auto activation = static_cast<btScalar>(fibres.m_activation);
+        for (const int e : fibres.m_elements) perElement[e] += activation;
+        for (int e = 0; e < perElement.size() && fibres.m_elements.empty(); ++e) perElement[e] += activation;
+    }
+    return true;
+}

@@ -262,6 +262,10 @@ public:
     /// otherwise.
     bool getPlasticStrain(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const;
 
+    /// Activation of every tetrahedron's fibres [Pa], in the order of m_tetras: the sum of those that run through it,
+    /// whatever their directions. False, and an empty array, of bodies without fibres, too. Likewise otherwise.
+    bool getActivation(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const;
+
     /// Saves what the next steps of the FEM bodies of the world stepped last depend on, so that restoreState continues
     /// to the bit, in the midst of contact, too: motion, rotations, warm starts, contacts, joints, pins, targets,
     /// attachments, sleep, factors, reports. The same state gives the same bytes, but on machines of another byte order

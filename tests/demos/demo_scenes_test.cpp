@@ -3,6 +3,7 @@
 // The scenes of the gallery, demos/<name>/<name>.json, have the main figure of their programs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -133,6 +134,33 @@ TEST(DemoScenes, TheFingersFillAsFarAndHoldTheBall)
     scene.until(3);
     EXPECT_GT(std::hypot(scene.rigid("stand").x, scene.rigid("stand").z), 0.1) << "pulled away";
     EXPECT_GT(scene.centre("ball").y, 0.1) << "on the ground it has .035";
+}
+
+// Its hands pull at once, where the program's let it come to rest before.
+TEST(DemoScenes, TheLoafTearsAtTheSamePull)
+{
+    DemoScene scene("tearing");
+    double mass = 0, pull = 0;
+    for (int i = 0; i < scene.m_world.softCount(); ++i) mass += double(scene.m_world.soft(i).getTotalMass());
+    const btRigidBody* hand = &scene.m_world.rigid(2);
+    while (scene.m_world.time() < scene.m_scene.m_seconds - 1e-9)
+    {
+        scene.m_world.step();
+        double force = 0;
+        for (int i = 0; i < scene.m_world.softCount(); ++i)
+        {
+            const auto& anchors = scene.m_world.fem().anchors(&scene.m_world.soft(i));
+            for (int k = 0; k < anchors.size(); ++k)
+                if (anchors[k].m_object == hand) force += double(anchors[k].m_impulse.x()) / scene.m_scene.m_step;
+        }
+        pull = std::max(pull, force);
+    }
+    const double bears = 4e3 * mass / 250 / 0.36;
+    EXPECT_NEAR(pull / bears / figureOf("tearing", 2, "largest pull / what a section bears"), 1, 0.05);
+    double torn = 0;
+    for (int k = 0; k < btFemWelds::breaks(scene.m_world.fem()).size(); ++k)
+        torn += btFemWelds::breaks(scene.m_world.fem())[k].m_left == 0 ? 1 : 0;
+    EXPECT_GT(torn, 3) << "welds";
 }
 
 TEST(DemoScenes, TheTowerStandsAsHigh)

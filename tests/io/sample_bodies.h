@@ -33,6 +33,7 @@ inline BodyFrame sampleBox(int id, double lift = 0)
         const double s = static_cast<double>(e);
         body.m_tetStress.push_back({s, s + 1, s + 2, s + 3, s + 4, s + 5});
         body.m_tetPlasticStrain.push_back(0.01 * s);
+        body.m_tetActivation.push_back(-100 * s);
     }
     return body;
 }

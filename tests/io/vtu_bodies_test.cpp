@@ -200,6 +200,18 @@ TEST_P(VtuBodies, CellsHaveTheirPlasticStrain)
     EXPECT_EQ(strain[40], 0);
 }
 
+TEST_P(VtuBodies, CellsHaveTheActivationOfTheirFibres)
+{
+    const std::vector<double> activation = numbersOf(m_xml, "CellData", "activation");
+    ASSERT_EQ(activation.size(), 81u);
+    EXPECT_EQ(activation[3], -300);
+    EXPECT_EQ(activation[40], 0);
+    EXPECT_EQ(activation[80], -3900);
+    std::vector<BodyFrame> bodies = m_bodies;
+    for (BodyFrame& body : bodies) body.m_tetActivation.clear();
+    EXPECT_THAT(written(bodies, GetParam()), Not(HasSubstr("activation")));
+}
+
 TEST_P(VtuBodies, MayHaveNothingAtAll)
 {
     const std::string xml = written({}, GetParam());
@@ -255,6 +267,10 @@ TEST(VtuBodiesRejects, ArraysThatDoNotFit)
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetPlasticStrain.pop_back(); }), HasSubstr("plastic strains for"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetPlasticStrain[4] = NAN; }),
                 HasSubstr("plastic strain of tetrahedron 4"));
+    EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetActivation.pop_back(); }),
+                HasSubstr("39 activations for 40 tetrahedra; give as many, or none"));
+    EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetActivation[6] = INFINITY; }),
+                HasSubstr("activation of tetrahedron 6"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetStress[5].yz = NAN; }), HasSubstr("stress of tetrahedron 5"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tets[4][2] = 27; }),
                 HasSubstr("tetrahedron 4 uses vertex 27, which is not in [0, 27)"));

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "bullet_fem/fem/cage/surface_mesh.h"
+#include "bullet_fem/io/vtu_writer.h"
 #include "tools/scene/scene_reader.h"
 #include "tools/scene_samples.h"
 
@@ -183,6 +186,49 @@ TEST(SceneFrames, ASurfaceHasOnlyWhatIsSeen)
         ASSERT_NE(node, all.end()) << v;
         EXPECT_EQ(vonMises(surface.m_nodeStress[v]), vonMises(volume.m_nodeStress[std::size_t(node - all.begin())]));
     }
+}
+
+/// The numbers of a text file's cell data.
+std::vector<double> cellDataOf(const std::string& xml, const std::string& name)
+{
+    const std::size_t array = xml.find("Name=\"" + name + "\"", xml.find("<CellData"));
+    if (array == std::string::npos) return {};
+    std::istringstream stream(xml.substr(xml.find('>', array) + 1));
+    return {std::istream_iterator<double>(stream), {}};
+}
+
+// The lower half, label 1, yields under the weight of the upper one, label -2, a part of which has fibres.
+TEST(SceneFrames, ParaViewsFileHasRegionsPlasticStrainAndActivation)
+{
+    const TemporaryFolder folder;
+    writeSampleMeshes(folder);
+    const SceneDescription scene = parseScene(
+        R"({ "step": 0.01, "softBodies": [{ "name": "layers", "mesh": { "tetrahedra": "regions.msh" },
+          "materials": { "1": { "young": 4e5, "poisson": 0.3, "yieldStress": 5e3, "stiffnessDamping": 0.1 },
+                         "-2": { "young": 1e7, "poisson": 0.3, "density": 3000, "stiffnessDamping": 0.1 } } }],
+          "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }],
+          "actuators": [{ "kind": "fibres", "body": "layers", "direction": [1, 0, 0], "activation": 700,
+                          "region": { "low": [0, 0.5, 0], "high": [0.5, 1, 1] } }] })",
+        folder.path(""));
+    SceneWorld world(scene);
+    while (world.time() < 0.5) world.step();
+    const SceneFrames frames(world);
+    VtuSeries(folder.path("out"), "run").writeBodies(world.time(), frames.volumes());
+    const std::string xml = folder.read("out/run_000000.vtu");
+    const std::vector<double> region = cellDataOf(xml, "region"), strain = cellDataOf(xml, "plastic_strain"),
+                              activation = cellDataOf(xml, "activation");
+    ASSERT_EQ(region.size(), 40u);
+    ASSERT_EQ(strain.size(), 40u);
+    ASSERT_EQ(activation.size(), 40u);
+    int active = 0;
+    for (std::size_t e = 0; e < 40; ++e)
+    {
+        EXPECT_EQ(region[e], world.regionLabels(0)[e]);
+        EXPECT_EQ(strain[e] > 1e-3, region[e] == 1) << strain[e] << " of tetrahedron " << e;
+        EXPECT_TRUE(activation[e] == 0 || (activation[e] == 700 && region[e] == -2)) << activation[e];
+        active += activation[e] == 700 ? 1 : 0;
+    }
+    EXPECT_EQ(active, 10) << "two cells of five tetrahedra";
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ TEST_P(RejectedScene, SaysWhereWhatAndWhy)
 const BadValue kUnknown[] = {
     {"InTheDocument", true, "/gravitation", "1",
      "the document has a member 'gravitation', which is not known; those that are: $schema, title, gravity, step, "
-     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, forces, actuators, camera, "
-     "pictures"},
+     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, welds, forces, actuators, "
+     "camera, pictures"},
     {"InSolver", true, "/solver/iterations", "1",
      "solver has a member 'iterations', which is not known; those that are: coupled, tolerance, contactTolerance, "
      "threads"},
@@ -68,7 +68,7 @@ const BadValue kUnknown[] = {
      "mostPlasticStrain, relaxation, law"},
     {"InASoftBody", true, "/softBodies/1/mass", "1",
      "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "
-     "material, materials, friction, restitution, selfContact, colour, pins"},
+     "material, materials, friction, restitution, selfContact, colour, pins, pieces"},
     {"InAMesh", true, "/softBodies/0/mesh/boxes", "1",
      "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, sphere, surface, tetrahedra, "
      "baked, holes, cell, tets, grade, levels, scale, surfaceCollides"},
@@ -90,6 +90,12 @@ const BadValue kUnknown[] = {
     {"InAHinge", true, "/constraints/1/soft", "1",
      "constraints[1] has a member 'soft', which is not known; those that are: kind, body, to, pivot, axis, speed, "
      "torque"},
+    {"InPieces", false, "/softBodies/3/pieces/count", "3",
+     "softBodies[3].pieces has a member 'count', which is not known; those that are: cells, seed, breakForce, "
+     "breakStress, breakStretch, compliance"},
+    {"InAWeld", true, "/welds/0/strength", "1",
+     "welds[0] has a member 'strength', which is not known; those that are: a, b, reach, breakForce, breakStress, "
+     "breakStretch, compliance"},
     {"InAForce", true, "/forces/0/until", "1",
      "forces[0] has a member 'until', which is not known; those that are: body, nodes, force, from, to"},
     {"InTheCamera", true, "/camera/zoom", "1",
@@ -121,7 +127,7 @@ const BadValue kWrongKind[] = {
     {"ArrayForMaterials", true, "/materials", "[]", "materials is []; it must be an object, in {}"},
     {"NumberInAnArrayOfBodies", true, "/softBodies/1", "3",
      "softBodies[1] is 3; it must be an object with name, mesh, position, rotation, velocity, material, materials, "
-     "friction, restitution, selfContact, colour, pins"},
+     "friction, restitution, selfContact, colour, pins, pieces"},
     {"FractionForAWholeNumber", true, "/solver/threads", "1.5",
      "solver.threads is 1.5; it must be a whole number in [1, 64]"},
     {"KindThatIsNone", true, "/constraints/0/kind", R"("glue")",
@@ -178,6 +184,17 @@ const BadValue kOutOfRange[] = {
     {"Torque", true, "/constraints/1/torque", "-1", "constraints[1].torque is -1; it must be a number of at least 0"},
     {"FieldOfView", true, "/camera/fieldOfView", "180", "camera.fieldOfView is 180; it must be a number in [1, 150]"},
     {"Width", true, "/pictures/width", "9000", "pictures.width is 9000; it must be a whole number in [16, 8192]"},
+    {"Cells", false, "/softBodies/3/pieces/cells", "1",
+     "softBodies[3].pieces.cells is 1; it must be a whole number in [2, 100000]"},
+    {"Seed", false, "/softBodies/3/pieces/seed", "-1",
+     "softBodies[3].pieces.seed is -1; it must be a whole number in [0, 2147483647]"},
+    {"BreakForce", true, "/welds/0/breakForce", "0", "welds[0].breakForce is 0; it must be a number in (0, 1e+12]"},
+    {"BreakStress", true, "/welds/0/breakStress", "-1",
+     "welds[0].breakStress is -1; it must be a number in (0, 1e+13]"},
+    {"BreakStretch", true, "/welds/0/breakStretch", "2e6",
+     "welds[0].breakStretch is 2000000.0; it must be a number in (0, 1000000]"},
+    {"Compliance", true, "/welds/0/compliance", "1.5", "welds[0].compliance is 1.5; it must be a number in [0, 1]"},
+    {"Reach", true, "/welds/0/reach", "0", "welds[0].reach is 0; it must be a number in (0, 1000]"},
     {"LowAboveHigh", true, "/softBodies/0/pins/0/low", "[0,10,0]",
      "softBodies[0].pins[0] has a 'low' above its 'high'"},
     {"ToBeforeFrom", true, "/forces/0/to", "0.25", "forces[0].to is before 'from'"},
@@ -250,6 +267,14 @@ const BadValue kMeaning[] = {
      "rigidBodies[0].mass is given for a plane, which stands still; leave it out"},
     {"TorqueOfAPoint", false, "/constraints/0/torque", "1",
      "constraints[0].torque is given, but only a hinge has one; leave it out"},
+    {"NoCells", false, "/softBodies/3/pieces/cells", "", "softBodies[3].pieces lacks 'cells'"},
+    {"PiecesOfASurface", true, "/softBodies/1/pieces", R"({ "cells": 3 })",
+     "softBodies[1].pieces are given, but what is embedded or baked is not cut; take a box, sphere or tetrahedra"},
+    {"ActuatorOfABodyInPieces", true, "/softBodies/0/pieces", R"({ "cells": 3 })",
+     "actuators[0].body is a body in pieces; actuators are in bodies that are in one"},
+    {"WeldOfARigidBody", true, "/welds/0/a", R"("hammer")",
+     "welds[0].a is \"hammer\"; it must be the name of a soft body"},
+    {"WeldToItself", true, "/welds/0/b", R"("block")", "welds[0].b is 'a', too; weld it to another body"},
     {"EyeWithoutTarget", true, "/camera/target", "", "camera needs both 'eye' and 'target', or 'direction'"},
     {"EyeAndDirection", true, "/camera/direction", "[1,0,0]", "camera has 'eye' and 'direction'; give one of them"},
 };

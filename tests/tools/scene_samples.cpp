@@ -96,6 +96,7 @@ std::string fullScene()
     { "kind": "anchor", "soft": "block", "rigid": "hammer", "nodes": { "low": [-9, -9, -9], "high": [9, 9, 9] } },
     { "kind": "hinge", "body": "hammer", "to": "anvil", "pivot": [1, 1, 1], "axis": [0, 0, 1], "speed": 2, "torque": 7 }
   ],
+  "welds": [{ "a": "block", "b": "scan", "reach": 0.5, "breakForce": 7, "breakStress": 8e3, "breakStretch": 0.25, "compliance": 1e-6 }],
   "forces": [
     { "body": "block", "nodes": { "low": [-9, -9, -9], "high": [9, 9, 9] }, "force": [1, 0, -1], "from": 0.5, "to": 1.5 }
   ],
@@ -117,7 +118,8 @@ std::string otherScene()
     { "name": "tets", "mesh": { "tetrahedra": "two.node" }, "material": "jelly" },
     { "name": "baked", "mesh": { "baked": "body.bfem" } },
     { "name": "layers", "mesh": { "tetrahedra": "regions.msh" }, "materials": { "1": "rubber", "-2": { "like": "rubber", "young": 3e7, "density": 2000 } } },
-    { "name": "bubble", "mesh": { "sphere": 0.3, "cell": 0.1 } }
+    { "name": "bubble", "mesh": { "sphere": 0.3, "cell": 0.1 },
+      "pieces": { "cells": 7, "seed": 3, "breakForce": 10, "breakStress": 2e3, "breakStretch": 0.01, "compliance": 1e-7 } }
   ],
   "rigidBodies": [
     { "name": "ground", "shape": { "plane": [0, 1, 0] } },

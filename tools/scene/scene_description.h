@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -58,6 +59,24 @@ struct SceneMesh
     bool m_surfaceCollides = false;  ///< of a surface: what collides, in place of its cage
 };
 
+/// When a weld breaks, and how stiff it is (docs/materials.md, Breaking).
+struct SceneWeldStrength
+{
+    static constexpr double kNever = std::numeric_limits<double>::infinity();  ///< a limit that nothing reaches
+    double m_breakForce = kNever;                                              ///< of all of the weld [N], > 0
+    double m_breakStress = kNever;   ///< tension and shear at a node [Pa], > 0
+    double m_breakStretch = kNever;  ///< distance of a node from its partner [m], > 0
+    double m_compliance = 0;         ///< of a layer of glue [m/Pa], in [0, 1]
+};
+
+/// Whether a soft body is cut into Voronoi cells, which are welded to each other.
+struct ScenePieces
+{
+    int m_cells = 0;  ///< 0: it is not cut
+    int m_seed = 1;   ///< of where they are
+    SceneWeldStrength m_strength;
+};
+
 struct SceneSoftBody
 {
     std::string m_name;
@@ -71,6 +90,16 @@ struct SceneSoftBody
     bool m_selfContact = false;
     Vec3 m_colour{0.86, 0.64, 0.42};  ///< sRGB
     std::vector<SceneBox> m_pins;     ///< nodes that stand still
+    ScenePieces m_pieces;
+    std::string m_whole;  ///< of a piece in a SceneWorld: the name of the body that was cut, by which scenes call it
+};
+
+/// Ties two soft bodies by the faces that they have in common at the start.
+struct SceneWeld
+{
+    std::string m_a, m_b;  ///< names; of bodies in pieces each piece is meant
+    SceneWeldStrength m_strength;
+    double m_reach = 0;  ///< how far apart corners of faces in common are at most [m]; 0: .001 of the shorter mean edge
 };
 
 struct SceneShape
@@ -197,6 +226,7 @@ struct SceneDescription
     std::vector<SceneSoftBody> m_softBodies;
     std::vector<SceneRigidBody> m_rigidBodies;
     std::vector<SceneConstraint> m_constraints;
+    std::vector<SceneWeld> m_welds;
     std::vector<SceneForce> m_forces;
     std::vector<SceneActuator> m_actuators;
     SceneCamera m_camera;

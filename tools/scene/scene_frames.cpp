@@ -68,6 +68,12 @@ void take(const btAlignedObjectArray<btFemStress>& from, std::vector<Stress>& to
     for (int i = 0; i < from.size(); ++i) to[i] = stressOf(from[i]);
 }
 
+void take(const btAlignedObjectArray<btScalar>& from, std::vector<double>& to)
+{
+    to.resize(from.size());
+    for (int i = 0; i < from.size(); ++i) to[i] = double(from[i]);
+}
+
 }  // namespace
 
 SceneFrames::SceneFrames(const SceneWorld& world) : m_world(world)
@@ -126,9 +132,10 @@ void SceneFrames::updateVolume(int i)
         for (int n = 0; n < count; ++n) frame.m_contactForce[n] = vec3(m_forces[n]);
     if (m_world.fem().getStress(&body, m_stress)) take(m_stress, frame.m_tetStress);
     if (m_world.fem().getNodeStress(&body, m_stress)) take(m_stress, frame.m_nodeStress);
-    frame.m_tetPlasticStrain.clear();
-    m_world.fem().getPlasticStrain(&body, m_plasticStrain);
-    for (int e = 0; e < m_plasticStrain.size(); ++e) frame.m_tetPlasticStrain.push_back(double(m_plasticStrain[e]));
+    m_world.fem().getPlasticStrain(&body, m_perElement);
+    take(m_perElement, frame.m_tetPlasticStrain);
+    m_world.fem().getActivation(&body, m_perElement);
+    take(m_perElement, frame.m_tetActivation);
 }
 
 void SceneFrames::updateSoftSurface(int i)

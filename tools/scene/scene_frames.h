@@ -42,7 +42,7 @@ private:
     std::vector<std::vector<Vec3>> m_rest;       // a soft body: nodes at the start
     std::vector<std::vector<Vec3>> m_rigidRest;  // a surface of a rigid body: in its own frame
     btAlignedObjectArray<btFemStress> m_stress;
-    btAlignedObjectArray<btScalar> m_plasticStrain;
+    btAlignedObjectArray<btScalar> m_perElement;
     btAlignedObjectArray<btVector3> m_forces;
 };
 

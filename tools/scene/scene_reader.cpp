@@ -17,6 +17,7 @@
 #include "tools/scene/scene_materials.h"
 #include "tools/scene/scene_place_reader.h"
 #include "tools/scene/scene_regions.h"
+#include "tools/scene/scene_weld_reader.h"
 
 namespace bullet_fem
 {
@@ -36,7 +37,8 @@ public:
     SceneDescription read(const JsonCursor& at)
     {
         at.onlyMembers({"$schema", "title", "gravity", "step", "seconds", "framesPerSecond", "solver", "materials",
-                        "softBodies", "rigidBodies", "constraints", "forces", "actuators", "camera", "pictures"});
+                        "softBodies", "rigidBodies", "constraints", "welds", "forces", "actuators", "camera",
+                        "pictures"});
         std::string schema;  // for editors
         at.read("$schema", schema);
         at.read("title", m_scene.m_title);
@@ -49,6 +51,7 @@ public:
         at.forEach("softBodies", [&](const JsonCursor& item) { readSoftBody(item); });
         at.forEach("rigidBodies", [&](const JsonCursor& item) { readRigidBody(item); });
         at.forEach("constraints", [&](const JsonCursor& item) { readConstraint(item); });
+        at.forEach("welds", [&](const JsonCursor& item) { addWeld(item); });
         at.forEach("forces", [&](const JsonCursor& item) { readForce(item); });
         at.forEach("actuators", [&](const JsonCursor& item) { addActuator(item); });
         if (at.has("camera")) readCamera(at["camera"]);
@@ -169,7 +172,7 @@ private:
     void readSoftBody(const JsonCursor& at)
     {
         at.onlyMembers({"name", "mesh", "position", "rotation", "velocity", "material", "materials", "friction",
-                        "restitution", "selfContact", "colour", "pins"});
+                        "restitution", "selfContact", "colour", "pins", "pieces"});
         SceneSoftBody body;
         body.m_name = name(at);
         body.m_material = defaultMaterial();
@@ -191,6 +194,7 @@ private:
         at.read("selfContact", body.m_selfContact);
         at.read("colour", kShare, body.m_colour);
         at.forEach("pins", [&](const JsonCursor& item) { body.m_pins.push_back(readBox(item)); });
+        if (at.has("pieces")) body.m_pieces = readPieces(at["pieces"], body.m_mesh.m_kind);
         m_scene.m_softBodies.push_back(std::move(body));
     }
 
@@ -269,6 +273,12 @@ private:
         m_scene.m_constraints.push_back(std::move(constraint));
     }
 
+    void addWeld(const JsonCursor& at)
+    {
+        m_scene.m_welds.push_back(readWeld(at));
+        if (softName(at["a"]) == softName(at["b"])) at["b"].fail("is 'a', too; weld it to another body");
+    }
+
     void readForce(const JsonCursor& at)
     {
         at.onlyMembers({"body", "nodes", "force", "from", "to"});
@@ -291,7 +301,10 @@ private:
     void addActuator(const JsonCursor& at)
     {
         m_scene.m_actuators.push_back(readActuator(at));
-        softName(at["body"]);
+        const std::string name = softName(at["body"]);
+        for (const SceneSoftBody& body : m_scene.m_softBodies)
+            if (body.m_name == name && body.m_pieces.m_cells > 0)
+                at["body"].fail("is a body in pieces; actuators are in bodies that are in one");
     }
 
     void readCamera(const JsonCursor& at)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btTransformUtil.h"
@@ -47,6 +48,22 @@ std::vector<int> nodesIn(const btSoftBody& body, const SceneBox& box)
     for (int i = 0; i < body.m_nodes.size(); ++i)
         if (box.contains(vec3(body.m_nodes[i].m_x))) nodes.push_back(i);
     return nodes;
+}
+
+// Puts it where it starts, with what its scene says of it besides the material.
+void place(btSoftBody& body, const SceneSoftBody& from)
+{
+    body.transform(transformOf(from.m_pose));
+    body.m_cfg.kDF = btScalar(from.m_friction);
+    body.setRestitution(btScalar(from.m_restitution));
+    if (from.m_selfContact) body.m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
+    for (const SceneBox& box : from.m_pins)
+    {
+        const std::vector<int> nodes = nodesIn(body, box);
+        if (nodes.empty()) throw std::runtime_error("a box of its pins holds no node at the start; move or enlarge it");
+        for (const int node : nodes) body.setMass(node, 0);
+    }
+    body.setVelocity(bulletVector(from.m_velocity));
 }
 
 // Calls what makes a body; what goes wrong then names it.
@@ -96,14 +113,14 @@ SceneWorld::SceneWorld(const SceneDescription& description)
     m_world.setGravity(bulletVector(description.m_gravity));
     m_world.getWorldInfo().m_gravity = bulletVector(description.m_gravity);
     for (const SceneRigidBody& body : m_description.m_rigidBodies) addRigid(body);
-    for (const SceneSoftBody& body : m_description.m_softBodies)
-        named(body.m_name, [&] { addSoft(body, makeSoft(body)); });
+    addSoftBodies(std::exchange(m_description.m_softBodies, {}));
     for (const SceneConstraint& constraint : m_description.m_constraints) addConstraint(constraint);
     for (const SceneForce& force : m_description.m_forces) addForce(force);
     for (int i = 0; i < softCount(); ++i)
-        named(description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
+        named(m_description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
+    weldBodies();
     for (const SceneActuator& actuator : m_description.m_actuators)
-        named(actuator.m_body, [&] { m_actuators.add(m_fem, softCalled(actuator.m_body), actuator); });
+        named(actuator.m_body, [&] { m_actuators.add(m_fem, *softCalled(actuator.m_body).front(), actuator); });
 }
 
 SceneWorld::~SceneWorld()
@@ -157,7 +174,7 @@ void SceneWorld::setSteps(long steps)
 
 void SceneWorld::step()
 {
-    applyForces();
+    m_forces.apply(time(), m_description.m_step);
     m_actuators.apply(m_fem, time());
     moveKinematic();
     m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of just this size
@@ -235,20 +252,54 @@ void SceneWorld::giveMaterials(btSoftBody& body, const SceneSoftBody& from)
     m_fem.setMaterials(&body, labels, materials);
 }
 
+void SceneWorld::addSoftBodies(const std::vector<SceneSoftBody>& bodies)
+{
+    for (const SceneSoftBody& body : bodies)
+        named(body.m_name,
+              [&]
+              {
+                  if (body.m_pieces.m_cells > 0) return addPieces(body);
+                  addSoft(body, makeSoft(body));
+                  m_description.m_softBodies.push_back(body);
+              });
+}
+
+void SceneWorld::addPieces(const SceneSoftBody& from)
+{
+    const std::unique_ptr<btSoftBody> whole = makeSoft(from);
+    const std::vector<int> labels = std::move(m_regionLabels.back());
+    m_materials.pop_back();
+    m_regionLabels.pop_back();
+    place(*whole, from);
+    CutSceneBody cut = cutBody(*whole, from.m_pieces);
+    for (std::size_t k = 0; k < cut.m_bodies.size(); ++k)
+    {
+        m_materials.emplace_back();
+        m_regionLabels.emplace_back();
+        for (const int e : cut.m_pieces[k].m_tets)
+            if (!labels.empty()) m_regionLabels.back().push_back(labels[e]);
+        giveMaterials(*cut.m_bodies[k], from);
+        m_world.addSoftBody(cut.m_bodies[k].get());
+        m_softBodies.push_back(std::move(cut.m_bodies[k]));
+        m_description.m_softBodies.push_back(from);
+        m_description.m_softBodies.back().m_whole = from.m_name;
+        m_description.m_softBodies.back().m_name += "." + std::to_string(k);
+    }
+    m_cutBodies.push_back({from.m_name, std::move(cut.m_pieces), from.m_pieces.m_strength});
+}
+
+void SceneWorld::weldBodies()
+{
+    for (const CutBody& body : m_cutBodies)
+        named(body.m_name, [&] { weldPieces(m_fem, body.m_pieces, body.m_strength); });
+    for (const SceneWeld& weld : m_description.m_welds)
+        addWeld(m_fem, softCalled(weld.m_a), softCalled(weld.m_b), weld);
+}
+
 void SceneWorld::addSoft(const SceneSoftBody& from, std::unique_ptr<btSoftBody> body)
 {
     if (from.m_mesh.m_kind != SceneMesh::Kind::baked) giveMaterials(*body, from);
-    body->transform(transformOf(from.m_pose));
-    body->m_cfg.kDF = btScalar(from.m_friction);
-    body->setRestitution(btScalar(from.m_restitution));
-    if (from.m_selfContact) body->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
-    for (const SceneBox& box : from.m_pins)
-    {
-        const std::vector<int> nodes = nodesIn(*body, box);
-        if (nodes.empty()) throw std::runtime_error("a box of its pins holds no node at the start; move or enlarge it");
-        for (const int node : nodes) body->setMass(node, 0);
-    }
-    body->setVelocity(bulletVector(from.m_velocity));
+    place(*body, from);
     m_world.addSoftBody(body.get());
     m_softBodies.push_back(std::move(body));
 }
@@ -282,22 +333,31 @@ btRigidBody& SceneWorld::rigidCalled(const std::string& name)
     throw std::runtime_error("there is no rigid body '" + name + "'");
 }
 
-btSoftBody& SceneWorld::softCalled(const std::string& name)
+std::vector<btSoftBody*> SceneWorld::softCalled(const std::string& name)
 {
+    std::vector<btSoftBody*> bodies;
     for (int i = 0; i < softCount(); ++i)
-        if (m_description.m_softBodies[i].m_name == name) return *m_softBodies[i];
-    throw std::runtime_error("there is no soft body '" + name + "'");
+    {
+        const SceneSoftBody& body = m_description.m_softBodies[i];
+        if ((body.m_whole.empty() ? body.m_name : body.m_whole) == name) bodies.push_back(m_softBodies[i].get());
+    }
+    if (bodies.empty()) throw std::runtime_error("there is no soft body '" + name + "'");
+    return bodies;
 }
 
 void SceneWorld::addAnchors(const SceneConstraint& from)
 {
-    btSoftBody& soft = softCalled(from.m_a);
     btRigidBody& rigid = rigidCalled(from.m_b);
-    const std::vector<int> nodes = nodesIn(soft, from.m_box);
-    if (nodes.empty())
+    bool some = false;
+    for (btSoftBody* soft : softCalled(from.m_a))
+        for (const int node : nodesIn(*soft, from.m_box))
+        {
+            soft->appendAnchor(node, &rigid, true);
+            some = true;
+        }
+    if (!some)
         throw std::runtime_error("'" + from.m_a + "': the box of its anchors to '" + from.m_b +
                                  "' holds no node at the start; move or enlarge it");
-    for (const int node : nodes) soft.appendAnchor(node, &rigid, true);
 }
 
 void SceneWorld::addConstraint(const SceneConstraint& from)
@@ -323,45 +383,9 @@ void SceneWorld::addConstraint(const SceneConstraint& from)
 
 void SceneWorld::addForce(const SceneForce& from)
 {
-    m_forces.emplace_back();
-    ForceNodes& target = m_forces.back();
     for (int i = 0; i < rigidCount(); ++i)
-        if (m_description.m_rigidBodies[i].m_name == from.m_body) target.m_rigid = m_rigidBodies[i].get();
-    if (target.m_rigid) return;
-    target.m_soft = &softCalled(from.m_body);
-    double sum = 0;
-    for (int i = 0; i < target.m_soft->m_nodes.size(); ++i)
-    {
-        const btSoftBody::Node& node = target.m_soft->m_nodes[i];
-        if (node.m_im <= 0 || !(from.m_everywhere || from.m_box.contains(vec3(node.m_x)))) continue;
-        target.m_nodes.push_back(i);
-        target.m_shares.push_back(from.m_everywhere ? 1 / double(node.m_im) : 1.0);
-        sum += target.m_shares.back();
-    }
-    if (target.m_nodes.empty())
-        throw std::runtime_error("'" + from.m_body +
-                                 "': the box of a force holds no free node at the start; move or enlarge it");
-    for (double& share : target.m_shares) share /= sum;
-}
-
-void SceneWorld::applyForces()
-{
-    const double now = time() + 1e-6 * m_description.m_step;  // steps that begin at a force's end are after it
-    for (std::size_t f = 0; f < m_forces.size(); ++f)
-    {
-        const SceneForce& force = m_description.m_forces[f];
-        const ForceNodes& target = m_forces[f];
-        if (now < force.m_from || now >= force.m_to) continue;
-        if (target.m_rigid)
-        {
-            target.m_rigid->activate();
-            target.m_rigid->applyCentralForce(bulletVector(force.m_force));
-            continue;
-        }
-        target.m_soft->activate();
-        for (std::size_t i = 0; i < target.m_nodes.size(); ++i)
-            target.m_soft->addForce(bulletVector(target.m_shares[i] * force.m_force), target.m_nodes[i]);
-    }
+        if (m_description.m_rigidBodies[i].m_name == from.m_body) return m_forces.add(from, *m_rigidBodies[i]);
+    m_forces.add(from, softCalled(from.m_body));
 }
 
 }  // namespace bullet_fem

@@ -13,6 +13,8 @@
 #include "bullet_fem/fem/mesh/element_materials.h"
 #include "tools/scene/scene_actuators.h"
 #include "tools/scene/scene_description.h"
+#include "tools/scene/scene_forces.h"
+#include "tools/scene/scene_welds.h"
 
 namespace bullet_fem
 {
@@ -26,7 +28,8 @@ btFemMaterial materialOf(const Material& material);
 class SceneWorld
 {
 public:
-    /// Makes bodies, joints and anchors, and factors. Throws std::runtime_error, or std::invalid_argument, that begins
+    /// Makes bodies, joints, anchors and welds, and factors. A body in pieces becomes as many soft bodies, also in
+    /// description(). Throws std::runtime_error, or std::invalid_argument, that begins
     /// with the body's name: a file that is bad, a mesh or material that no body can have, a pin, anchor or force that
     /// holds no node.
     explicit SceneWorld(const SceneDescription& description);
@@ -69,15 +72,17 @@ public:
     const std::vector<int>& regionLabels(int i) const { return m_regionLabels[i]; }
 
 private:
-    /// What a force of the scene acts on: a rigid body, or nodes with their shares of it.
-    struct ForceNodes
+    /// A body that was cut.
+    struct CutBody
     {
-        btRigidBody* m_rigid = nullptr;
-        btSoftBody* m_soft = nullptr;
-        std::vector<int> m_nodes;
-        std::vector<double> m_shares;  // sum 1
+        std::string m_name;
+        std::vector<btFemPiece> m_pieces;
+        SceneWeldStrength m_strength;
     };
+    void addSoftBodies(const std::vector<SceneSoftBody>& bodies);
     void addSoft(const SceneSoftBody& from, std::unique_ptr<btSoftBody> body);
+    void addPieces(const SceneSoftBody& from);
+    void weldBodies();
     void addRigid(const SceneRigidBody& from);
     void addConstraint(const SceneConstraint& from);
     void addAnchors(const SceneConstraint& from);
@@ -85,10 +90,10 @@ private:
     std::unique_ptr<btSoftBody> makeBaked(const BakedBody& baked);
     void giveMaterials(btSoftBody& body, const SceneSoftBody& from);
     void addForce(const SceneForce& from);
-    void applyForces();
     void moveKinematic();
     btRigidBody& rigidCalled(const std::string& name);
-    btSoftBody& softCalled(const std::string& name);
+    /// The soft body that the scene calls so, or its pieces.
+    std::vector<btSoftBody*> softCalled(const std::string& name);
 
     SceneDescription m_description;  // of what is there now
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
@@ -104,7 +109,8 @@ private:
     btFemSoftBodySolver m_fem;
     std::unique_ptr<btConstraintSolver> m_rigidSolver;
     btSoftRigidDynamicsWorld m_world;
-    std::vector<ForceNodes> m_forces;  // as in the description
+    std::vector<CutBody> m_cutBodies;
+    SceneForces m_forces;
     SceneActuators m_actuators;
     long m_steps = 0;
 };

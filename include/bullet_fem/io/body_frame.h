@@ -24,6 +24,7 @@ struct BodyFrame
     std::vector<Stress> m_tetStress;         ///< a tetrahedron [Pa]
     std::vector<double> m_tetPlasticStrain;  ///< a tetrahedron, equivalent [-]
     std::vector<int> m_tetRegion;            ///< a tetrahedron: the label of its region, as TetMeshFile::m_regions
+    std::vector<double> m_tetActivation;     ///< a tetrahedron: the stress along its fibres [Pa]
 };
 
 }  // namespace bullet_fem

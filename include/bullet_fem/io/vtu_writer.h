@@ -31,11 +31,10 @@ public:
 
     /// A frame of bodies at `time` [s]: their tetrahedra or, where they have none, their triangles, with every field
     /// that one of them has, as point data displacement, velocity, contact_force, stress and von_mises, and as cell
-    /// data body, region, stress, von_mises and plastic_strain. A field that a body lacks is zero there. Each file
-    /// appears as a whole or not at all. Throws std::runtime_error naming the file if it cannot be written,
-    /// std::invalid_argument on
-    /// arrays of different length, an index out of range, or a value that single precision does not hold; neither
-    /// counts as a frame.
+    /// data body, region, stress, von_mises, plastic_strain and activation. A field that a body lacks is zero there.
+    /// Each file appears as a whole or not at all. Throws std::runtime_error naming the file if it cannot be written,
+    /// std::invalid_argument on arrays of different length, an index out of range, or a value that single precision
+    /// does not hold; neither counts as a frame.
     void writeBodies(double time, const std::vector<BodyFrame>& bodies);
 
     /// The same for triangles alone, without body ids. Optional node vectors (e.g. displacement [m]) must be as many as

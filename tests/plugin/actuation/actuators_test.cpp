@@ -227,6 +227,32 @@ TEST_F(ActuatorsOfABody, AddToTheInitialStress)
     expect(3000, 0);
 }
 
+TEST_F(ActuatorsOfABody, SumTheirActivationInEveryTetrahedron)
+{
+    btSoftBody& body = addCube();
+    btAlignedObjectArray<btScalar> activation;
+    activation.push_back(3);
+    EXPECT_FALSE(m_fem.getActivation(nullptr, activation));
+    EXPECT_EQ(activation.size(), 0);
+    m_world.step(1);
+    EXPECT_FALSE(m_fem.getActivation(&body, activation)) << "without fibres";
+    btFemFibres all, some;
+    all.m_directions = {{0, 0, 1}};
+    all.m_activation = 500;
+    some.m_directions = {{1, 0, 0}};
+    some.m_activation = -200;
+    some.m_tets = {2, 7};
+    const int everywhere = m_fem.addFibres(&body, all);
+    m_fem.addFibres(&body, some);
+    ASSERT_TRUE(m_fem.getActivation(&body, activation));
+    ASSERT_EQ(activation.size(), body.m_tetras.size());
+    for (int e = 0; e < activation.size(); ++e) EXPECT_EQ(activation[e], e == 2 || e == 7 ? 300 : 500) << e;
+    m_fem.removeActuator(&body, everywhere);
+    ASSERT_TRUE(m_fem.getActivation(&body, activation));
+    EXPECT_EQ(activation[1], 0);
+    EXPECT_EQ(activation[7], -200);
+}
+
 TEST_F(ActuatorsOfABody, OutOfRangeAreRefused)
 {
     btSoftBody& body = addHollowCube(m_world, m_fem, {0, 0, btScalar(0.001)});
