@@ -13,6 +13,8 @@
 #include "bullet_fem/fem/mesh/element_materials.h"
 #include "tools/scene/scene_actuators.h"
 #include "tools/scene/scene_description.h"
+#include "tools/scene/scene_joints.h"
+#include "tools/scene/scene_springs.h"
 
 namespace bullet_fem
 {
@@ -86,7 +88,7 @@ private:
     void giveMaterials(btSoftBody& body, const SceneSoftBody& from);
     void addForce(const SceneForce& from);
     void applyForces();
-    void moveKinematic();
+    void moveKinematic(double middle);
     btRigidBody& rigidCalled(const std::string& name);
     btSoftBody& softCalled(const std::string& name);
 
@@ -97,7 +99,7 @@ private:
     // Before the world, which looks at them when it goes, also where the constructor throws.
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
-    std::vector<std::unique_ptr<btTypedConstraint>> m_joints;
+    SceneJoints m_joints;
     std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
     std::vector<ElementMaterials> m_materials;     // of the soft bodies
     std::vector<std::vector<int>> m_regionLabels;  // likewise
@@ -105,6 +107,7 @@ private:
     std::unique_ptr<btConstraintSolver> m_rigidSolver;
     btSoftRigidDynamicsWorld m_world;
     std::vector<ForceNodes> m_forces;  // as in the description
+    SceneSprings m_springs;
     SceneActuators m_actuators;
     long m_steps = 0;
 };
