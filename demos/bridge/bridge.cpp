@@ -65,7 +65,7 @@ void play(Demo& demo, double young, double crateMass, double aside)
     for (int k = 0; k < kCrates; ++k)
         crates.push_back(&world.addRigid(new btBoxShape(at(0.15, 0.15, 0.15)), crateMass,
                                          at(0.5 * (k - 1), kDeck + 0.5 + 0.3 * k, 0.1 * k + aside)));
-    demo.look(at(1.3, 2.5, 5.8), at(0, 1.2, 0));
+    demo.look(at(1.3, 2.5, 6.5), at(0.13, 1.1, 0));
 
     double carried = 0, apart = 0;
     int samples = 0;

@@ -80,7 +80,7 @@ void play(Demo& demo, double count, double young, double wall, double drop)
         toys.push_back(&world.addSoft(toy, foam, 0.5));
         weight += massOf(*toy) * kGravity;
     }
-    demo.look(at(2.9, 4.5, 5.2), at(0, 0.95, 0));
+    demo.look(at(3.1, 4.8, 5.6), at(0, 0.9, 0));
 
     double carried = 0, lowest = 0, farthest = 0, fastest = 0;
     int samples = 0;

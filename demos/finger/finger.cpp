@@ -81,7 +81,7 @@ void play(Demo& demo, double pressure, double young, double friction)
     world.addSoft(ball, foam, friction);
     demo.paint(*ball, {0.80, 0.25, 0.20});
     weight += massOf(*ball) * kGravity;
-    demo.look(at(0.24, 0.26, 0.56), at(0, 0.165, 0), 0.56);
+    demo.look(at(0.24, 0.26, 0.56), at(0, 0.168, 0));
 
     btAlignedObjectArray<btFemActuatorReport> air;
     world.fem().getActuators(fingers[0].first, air);

@@ -95,7 +95,7 @@ TEST_F(SceneReader, ReadsSoftBodies)
     EXPECT_TRUE(std::filesystem::equivalent(scan.m_path, m_folder.path("cube.off")));
 }
 
-TEST_F(SceneReader, ReadsRigidBodiesConstraintsAndForces)
+TEST_F(SceneReader, ReadsRigidBodiesConstraintsForcesAndSprings)
 {
     const SceneDescription scene = parse(fullScene());
     ASSERT_EQ(scene.m_rigidBodies.size(), 2u);
@@ -108,13 +108,20 @@ TEST_F(SceneReader, ReadsRigidBodiesConstraintsAndForces)
     EXPECT_TRUE(hammer.m_pose.m_position == Vec3({4, 5, 6}));
     EXPECT_TRUE(hammer.m_pose.m_axis == Vec3({1, 0, 0}));
     EXPECT_NEAR(hammer.m_pose.m_angle, -kPi / 4, 1e-12);
-    EXPECT_TRUE(hammer.m_velocity == Vec3({0, 1, 0}));
-    EXPECT_TRUE(hammer.m_spin == Vec3({0, 0, 2}));
+    for (const double time : {0, 9})
+    {
+        EXPECT_TRUE(hammer.m_velocity.at(time) == Vec3({0, 1, 0}));
+        EXPECT_TRUE(hammer.m_spin.at(time) == Vec3({0, 0, 2}));
+    }
     EXPECT_EQ(hammer.m_friction, 0.4);
     EXPECT_EQ(hammer.m_restitution, 0.6);
     EXPECT_TRUE(hammer.m_colour == Vec3({1, 0, 0.5}));
     EXPECT_EQ(scene.m_rigidBodies[1].m_shape.m_kind, SceneShape::Kind::box);
     EXPECT_TRUE(scene.m_rigidBodies[1].m_shape.m_size == Vec3({0.1, 0.2, 0.3}));
+    EXPECT_TRUE(scene.m_rigidBodies[1].m_velocity.at(0) == Vec3({0.25, 0, 0}));
+    EXPECT_TRUE(scene.m_rigidBodies[1].m_velocity.at(1.5) == Vec3({0.125, 0.25, 0}));
+    EXPECT_TRUE(scene.m_rigidBodies[1].m_velocity.at(9) == Vec3({0, 0.5, 0}));
+    EXPECT_TRUE(scene.m_rigidBodies[1].m_spin.at(0) == Vec3({1, 2, 3}));
 
     ASSERT_EQ(scene.m_constraints.size(), 2u);
     const SceneConstraint &anchor = scene.m_constraints[0], &hinge = scene.m_constraints[1];
@@ -125,8 +132,9 @@ TEST_F(SceneReader, ReadsRigidBodiesConstraintsAndForces)
     EXPECT_EQ(hinge.m_a + hinge.m_b, "hammeranvil");
     EXPECT_TRUE(hinge.m_pivot == Vec3({1, 1, 1}));
     EXPECT_TRUE(hinge.m_axis == Vec3({0, 0, 1}));
-    EXPECT_EQ(hinge.m_speed, 2);
-    EXPECT_EQ(hinge.m_torque, 7);
+    EXPECT_EQ(hinge.m_speed.at(0), 2);
+    EXPECT_EQ(hinge.m_speed.at(9), 2);
+    EXPECT_EQ(hinge.m_most, 7);
 
     ASSERT_EQ(scene.m_forces.size(), 1u);
     EXPECT_EQ(scene.m_forces[0].m_body, "block");
@@ -135,6 +143,17 @@ TEST_F(SceneReader, ReadsRigidBodiesConstraintsAndForces)
     EXPECT_TRUE(scene.m_forces[0].m_force == Vec3({1, 0, -1}));
     EXPECT_EQ(scene.m_forces[0].m_from, 0.5);
     EXPECT_EQ(scene.m_forces[0].m_to, 1.5);
+
+    ASSERT_EQ(scene.m_springs.size(), 1u);
+    const SceneSpring& spring = scene.m_springs[0];
+    EXPECT_EQ(spring.m_body, "scan");
+    EXPECT_TRUE(spring.m_at == Vec3({1, 1, 1}));
+    EXPECT_TRUE(spring.m_target.at(1) == Vec3({2, 2, 2}));
+    EXPECT_EQ(spring.m_stiffness, 400);
+    EXPECT_EQ(spring.m_damping, 5);
+    EXPECT_EQ(spring.m_most, 60);
+    EXPECT_EQ(spring.m_from, 0.25);
+    EXPECT_EQ(spring.m_to, 2);
 }
 
 TEST_F(SceneReader, ReadsWhetherElementsShareTheirVolumeChange)
@@ -207,6 +226,9 @@ TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
     EXPECT_EQ(scene.m_softBodies[1].m_mesh.m_kind, SceneMesh::Kind::baked);
     EXPECT_EQ(scene.m_softBodies[3].m_mesh.m_kind, SceneMesh::Kind::sphere);
     EXPECT_EQ(scene.m_softBodies[3].m_mesh.m_radius, 0.3);
+    EXPECT_EQ(scene.m_softBodies[4].m_mesh.m_kind, SceneMesh::Kind::cylinder);
+    EXPECT_EQ(scene.m_softBodies[4].m_mesh.m_radius, 0.3);
+    EXPECT_EQ(scene.m_softBodies[4].m_mesh.m_height, 0.2);
     const std::map<int, Material>& regions = scene.m_softBodies[2].m_regionMaterials;
     ASSERT_EQ(regions.size(), 2u);
     EXPECT_EQ(regions.at(1).m_youngModulus, Material::rubber().m_youngModulus);
@@ -219,6 +241,11 @@ TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
     EXPECT_EQ(scene.m_rigidBodies[1].m_shape.m_radius, 0.3);
     EXPECT_EQ(scene.m_rigidBodies[2].m_shape.m_kind, SceneShape::Kind::cylinder);
     EXPECT_EQ(scene.m_constraints[0].m_kind, SceneConstraint::Kind::point);
+    EXPECT_EQ(scene.m_constraints[1].m_kind, SceneConstraint::Kind::slider);
+    EXPECT_TRUE(scene.m_constraints[1].m_b.empty());
+    EXPECT_TRUE(scene.m_constraints[1].m_axis == Vec3({0, 0, 2}));
+    EXPECT_NEAR(scene.m_constraints[1].m_speed.at(1.25), 0.2, 1e-12);
+    EXPECT_EQ(scene.m_constraints[1].m_most, 9);
     EXPECT_TRUE(scene.m_forces[0].m_everywhere);
     EXPECT_FALSE(scene.m_camera.m_placed);
     EXPECT_TRUE(scene.m_camera.m_direction == Vec3({1, 2, 3}));

@@ -57,7 +57,7 @@ TEST_P(RejectedScene, SaysWhereWhatAndWhy)
 const BadValue kUnknown[] = {
     {"InTheDocument", true, "/gravitation", "1",
      "the document has a member 'gravitation', which is not known; those that are: $schema, title, gravity, step, "
-     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, welds, forces, actuators, "
+     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, forces, springs, actuators, "
      "camera, pictures"},
     {"InSolver", true, "/solver/iterations", "1",
      "solver has a member 'iterations', which is not known; those that are: coupled, tolerance, contactTolerance, "
@@ -70,8 +70,8 @@ const BadValue kUnknown[] = {
      "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "
      "material, materials, friction, restitution, selfContact, colour, pins, pieces"},
     {"InAMesh", true, "/softBodies/0/mesh/boxes", "1",
-     "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, sphere, surface, tetrahedra, "
-     "baked, holes, cell, tets, grade, levels, scale, surfaceCollides"},
+     "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, sphere, cylinder, surface, "
+     "tetrahedra, baked, holes, cell, tets, grade, levels, scale, surfaceCollides"},
     {"InARotation", true, "/softBodies/0/rotation/angle", "1",
      "softBodies[0].rotation has a member 'angle', which is not known; those that are: axis, degrees"},
     {"InAPin", true, "/softBodies/0/pins/1/middle", "1",
@@ -89,7 +89,7 @@ const BadValue kUnknown[] = {
      "constraints[0] has a member 'pivot', which is not known; those that are: kind, soft, rigid, nodes"},
     {"InAHinge", true, "/constraints/1/soft", "1",
      "constraints[1] has a member 'soft', which is not known; those that are: kind, body, to, pivot, axis, speed, "
-     "torque"},
+     "torque, force"},
     {"InPieces", false, "/softBodies/3/pieces/count", "3",
      "softBodies[3].pieces has a member 'count', which is not known; those that are: cells, seed, breakForce, "
      "breakStress, breakStretch, compliance"},
@@ -98,6 +98,9 @@ const BadValue kUnknown[] = {
      "breakStretch, compliance"},
     {"InAForce", true, "/forces/0/until", "1",
      "forces[0] has a member 'until', which is not known; those that are: body, nodes, force, from, to"},
+    {"InASpring", true, "/springs/0/node", "1",
+     "springs[0] has a member 'node', which is not known; those that are: body, at, target, stiffness, damping, force, "
+     "from, to"},
     {"InTheCamera", true, "/camera/zoom", "1",
      "camera has a member 'zoom', which is not known; those that are: direction, eye, target, fieldOfView"},
     {"InPictures", true, "/pictures/size", "1",
@@ -131,7 +134,7 @@ const BadValue kWrongKind[] = {
     {"FractionForAWholeNumber", true, "/solver/threads", "1.5",
      "solver.threads is 1.5; it must be a whole number in [1, 64]"},
     {"KindThatIsNone", true, "/constraints/0/kind", R"("glue")",
-     "constraints[0].kind is \"glue\"; it must be one of: anchor, point, hinge"},
+     "constraints[0].kind is \"glue\"; it must be one of: anchor, point, hinge, slider"},
     {"LongTextsAreCut", true, "/step", R"("0123456789012345678901234567890123456789012345678901234567890")",
      "step is \"012345678901234567890123456789012345...; it must be a number in [1e-06, 1]"},
 };
@@ -198,6 +201,11 @@ const BadValue kOutOfRange[] = {
     {"LowAboveHigh", true, "/softBodies/0/pins/0/low", "[0,10,0]",
      "softBodies[0].pins[0] has a 'low' above its 'high'"},
     {"ToBeforeFrom", true, "/forces/0/to", "0.25", "forces[0].to is before 'from'"},
+    {"SpringToBeforeFrom", true, "/springs/0/to", "0.125", "springs[0].to is before 'from'"},
+    {"SpringStiffness", true, "/springs/0/stiffness", "-1",
+     "springs[0].stiffness is -1; it must be a number in [0, 1e+12]"},
+    {"SpringTarget", true, "/springs/0/target/1/1/2", "1e7",
+     "springs[0].target[1][1][2] is 10000000.0; it must be a number in [-1000000, 1000000]"},
     {"EyeInTheTarget", true, "/camera/eye", "[0,1,0]", "camera.target is where 'eye' is; they must differ"},
 };
 
@@ -222,6 +230,9 @@ const BadValue kMeaning[] = {
      "constraints[1].to is \"block\"; it must be the name of a rigid body"},
     {"UnknownBody", true, "/forces/0/body", R"("nobody")",
      "forces[0].body is \"nobody\"; it must be the name of a body"},
+    {"SpringOfARigidBody", true, "/springs/0/body", R"("hammer")",
+     "springs[0].body is \"hammer\"; it must be the name of a soft body"},
+    {"SpringWithoutATarget", true, "/springs/0/target", "", "springs[0] lacks 'target'"},
     {"NodesOfARigidBody", true, "/forces/0/body", R"("hammer")",
      "forces[0].nodes is given, but only soft bodies have nodes"},
     {"MissingFile", true, "/softBodies/1/mesh/surface", R"("bunny.off")",
@@ -229,9 +240,9 @@ const BadValue kMeaning[] = {
     {"FolderForAFile", true, "/softBodies/1/mesh/surface", R"("..")",
      "softBodies[1].mesh.surface names 'FOLDER/..', which is no file"},
     {"TwoMeshes", true, "/softBodies/0/mesh/surface", R"("cube.off")",
-     "softBodies[0].mesh must have one of: box, sphere, surface, tetrahedra, baked"},
+     "softBodies[0].mesh must have one of: box, sphere, cylinder, surface, tetrahedra, baked"},
     {"NoMeshKind", true, "/softBodies/0/mesh/box", "",
-     "softBodies[0].mesh must have one of: box, sphere, surface, tetrahedra, baked"},
+     "softBodies[0].mesh must have one of: box, sphere, cylinder, surface, tetrahedra, baked"},
     {"CellAndTets", true, "/softBodies/0/mesh/tets", "500",
      "softBodies[0].mesh has 'cell' and 'tets'; give one of them"},
     {"Grade", true, "/softBodies/1/mesh/grade", "0.4",
@@ -263,18 +274,36 @@ const BadValue kMeaning[] = {
      "softBodies[1].material is given for a baked body, which has its own; leave it out, or bake it anew"},
     {"TwoShapes", true, "/rigidBodies/1/shape/sphere", "1",
      "rigidBodies[1].shape must have one of: plane, box, sphere, cylinder, capsule"},
+    {"RoundWithoutHeight", false, "/softBodies/4/mesh/cylinder/height", "",
+     "softBodies[4].mesh.cylinder lacks 'height'"},
+    {"GradeOfACylinder", false, "/softBodies/4/mesh/grade", "2",
+     "softBodies[4].mesh.grade is given, but only cages around a surface are graded; leave it out"},
+    {"MotionOverTimeOfAMass", true, "/rigidBodies/1/mass", "1",
+     "rigidBodies[1].velocity is given over time for a body with a 'mass', which forces move; give what it starts "
+     "with"},
+    {"MotionAtATimeBefore", true, "/rigidBodies/1/spin/0/0", "-1",
+     "rigidBodies[1].spin[0][0] is -1; it must be a number of at least 0"},
+    {"MotionWithoutATime", true, "/rigidBodies/1/spin/0", "[[1,2,3]]",
+     "rigidBodies[1].spin[0] is [[1,2,3]]; it must be a pair [seconds, value]"},
     {"HeavyPlane", false, "/rigidBodies/0/mass", "1",
      "rigidBodies[0].mass is given for a plane, which stands still; leave it out"},
     {"TorqueOfAPoint", false, "/constraints/0/torque", "1",
      "constraints[0].torque is given, but only a hinge has one; leave it out"},
     {"NoCells", false, "/softBodies/3/pieces/cells", "", "softBodies[3].pieces lacks 'cells'"},
     {"PiecesOfASurface", true, "/softBodies/1/pieces", R"({ "cells": 3 })",
-     "softBodies[1].pieces are given, but what is embedded or baked is not cut; take a box, sphere or tetrahedra"},
+     "softBodies[1].pieces are given, but what is embedded or baked is not cut; take a box, sphere, cylinder or "
+     "tetrahedra"},
     {"ActuatorOfABodyInPieces", true, "/softBodies/0/pieces", R"({ "cells": 3 })",
      "actuators[0].body is a body in pieces; actuators are in bodies that are in one"},
     {"WeldOfARigidBody", true, "/welds/0/a", R"("hammer")",
      "welds[0].a is \"hammer\"; it must be the name of a soft body"},
     {"WeldToItself", true, "/welds/0/b", R"("block")", "welds[0].b is 'a', too; weld it to another body"},
+    {"TorqueOfASlider", false, "/constraints/1/torque", "1",
+     "constraints[1].torque is given, but only a hinge has one; leave it out"},
+    {"ForceOfAHinge", true, "/constraints/1/force", "1",
+     "constraints[1].force is given, but only a slider has one; leave it out"},
+    {"SpeedOfAPoint", false, "/constraints/0/speed", "1",
+     "constraints[0].speed is given, but only a hinge or slider has one; leave it out"},
     {"EyeWithoutTarget", true, "/camera/target", "", "camera needs both 'eye' and 'target', or 'direction'"},
     {"EyeAndDirection", true, "/camera/direction", "[1,0,0]", "camera has 'eye' and 'direction'; give one of them"},
 };

@@ -90,7 +90,7 @@ std::string fullScene()
       "restitution": 0.6,
       "colour": [1, 0, 0.5]
     },
-    { "name": "anvil", "shape": { "box": [0.1, 0.2, 0.3] } }
+    { "name": "anvil", "shape": { "box": [0.1, 0.2, 0.3] }, "velocity": [[2, [0, 0.5, 0]], [1, [0.25, 0, 0]]], "spin": [[0.5, [1, 2, 3]]] }
   ],
   "constraints": [
     { "kind": "anchor", "soft": "block", "rigid": "hammer", "nodes": { "low": [-9, -9, -9], "high": [9, 9, 9] } },
@@ -99,6 +99,9 @@ std::string fullScene()
   "welds": [{ "a": "block", "b": "scan", "reach": 0.5, "breakForce": 7, "breakStress": 8e3, "breakStretch": 0.25, "compliance": 1e-6 }],
   "forces": [
     { "body": "block", "nodes": { "low": [-9, -9, -9], "high": [9, 9, 9] }, "force": [1, 0, -1], "from": 0.5, "to": 1.5 }
+  ],
+  "springs": [
+    { "body": "scan", "at": [1, 1, 1], "target": [[0.5, [1, 2, 3]], [1.5, [3, 2, 1]]], "stiffness": 400, "damping": 5, "force": 60, "from": 0.25, "to": 2 }
   ],
   "actuators": [
     { "kind": "chamber", "body": "block", "cavity": 1, "pressure": [[0.5, 0], [1.5, 20000]], "sealedFrom": 2 },
@@ -119,14 +122,18 @@ std::string otherScene()
     { "name": "baked", "mesh": { "baked": "body.bfem" } },
     { "name": "layers", "mesh": { "tetrahedra": "regions.msh" }, "materials": { "1": "rubber", "-2": { "like": "rubber", "young": 3e7, "density": 2000 } } },
     { "name": "bubble", "mesh": { "sphere": 0.3, "cell": 0.1 },
-      "pieces": { "cells": 7, "seed": 3, "breakForce": 10, "breakStress": 2e3, "breakStretch": 0.01, "compliance": 1e-7 } }
+      "pieces": { "cells": 7, "seed": 3, "breakForce": 10, "breakStress": 2e3, "breakStretch": 0.01, "compliance": 1e-7 } },
+    { "name": "drum", "mesh": { "cylinder": { "radius": 0.3, "height": 0.2 }, "tets": 400 } }
   ],
   "rigidBodies": [
     { "name": "ground", "shape": { "plane": [0, 1, 0] } },
     { "name": "ball", "shape": { "sphere": 0.3 }, "mass": 2 },
     { "name": "rod", "shape": { "cylinder": { "radius": 0.1, "height": 2 } }, "mass": 1 }
   ],
-  "constraints": [{ "kind": "point", "body": "ball", "to": "rod", "pivot": [0, 1, 0] }],
+  "constraints": [
+    { "kind": "point", "body": "ball", "to": "rod", "pivot": [0, 1, 0] },
+    { "kind": "slider", "body": "rod", "pivot": [0, 0, 1], "axis": [0, 0, 2], "speed": [[0.5, 0.1], [2, 0.3]], "force": 9 }
+  ],
   "forces": [{ "body": "ball", "force": [0, 5, 0] }],
   "actuators": [{ "kind": "cable", "body": "tets", "through": [[0, 0, 0], [0, 1, 0]], "tension": [[0, 5]] }],
   "camera": { "direction": [1, 2, 3] }

@@ -2,31 +2,13 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/scene/scene_actuator_reader.h"
 
-#include <algorithm>
-
+#include "tools/scene/scene_curve_reader.h"
 #include "tools/scene/scene_place_reader.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-// A number, or pairs of time [s] and number.
-SceneCurve readCurve(const JsonCursor& at, const JsonRange& range)
-{
-    SceneCurve curve;
-    if (!at.isArray()) return {{{0, at.number(range)}}};
-    for (const JsonCursor& item : at.items())
-    {
-        const std::vector<JsonCursor> pair = item.items();
-        if (pair.size() != 2) item.expected("a pair [seconds, value]");
-        curve.m_points.push_back({pair[0].number({0, 1e30}), pair[1].number(range)});
-    }
-    if (curve.m_points.empty()) at.expected("a number, or pairs [seconds, value]");
-    std::stable_sort(curve.m_points.begin(), curve.m_points.end(),
-                     [](const SceneCurve::Point& a, const SceneCurve::Point& b) { return a.m_time < b.m_time; });
-    return curve;
-}
 
 void readChamber(const JsonCursor& at, SceneActuator& actuator)
 {

@@ -22,6 +22,29 @@ struct ScenePose
     double m_angle = 0;    ///< [rad]
 };
 
+/// A value over time, straight between its points.
+template <class Value>
+struct SceneCurveOf
+{
+    struct Point
+    {
+        double m_time;  ///< [s]
+        Value m_value;  ///< in the unit of what it is
+    };
+    std::vector<Point> m_points;  ///< by time, at least one
+
+    Value at(double time) const
+    {
+        std::size_t k = 0;  // the first point after it
+        while (k < m_points.size() && m_points[k].m_time <= time) ++k;
+        if (k == 0 || k == m_points.size()) return m_points[k == 0 ? 0 : k - 1].m_value;
+        const Point &a = m_points[k - 1], &b = m_points[k];
+        return a.m_value + (time - a.m_time) / (b.m_time - a.m_time) * (b.m_value - a.m_value);
+    }
+};
+using SceneCurve = SceneCurveOf<double>;
+using SceneVectorCurve = SceneCurveOf<Vec3>;
+
 /// Picks the nodes of a soft body that start in it.
 struct SceneBox
 {
@@ -42,6 +65,7 @@ struct SceneMesh
     {
         box,         ///< a block, centred on its origin
         sphere,      ///< a ball, likewise
+        cylinder,    ///< about y, likewise
         surface,     ///< a cage around a surface file
         tetrahedra,  ///< a mesh file
         baked        ///< a .bfem file, with its material and pins
@@ -49,9 +73,10 @@ struct SceneMesh
     Kind m_kind = Kind::box;
     std::string m_path;              ///< of a file, found beside the scene
     Vec3 m_size{1, 1, 1};            ///< of a box [m], > 0
-    double m_radius = 0.5;           ///< of a sphere [m], > 0
+    double m_radius = 0.5;           ///< of a sphere or cylinder [m], > 0
+    double m_height = 1;             ///< of a cylinder [m], > 0
     std::vector<SceneBox> m_holes;   ///< in it, about its middle: elements whose middle is in one are left out
-    double m_cellSize = 0;           ///< of a box, sphere or cage [m]; 0: by m_tets
+    double m_cellSize = 0;           ///< of a box, sphere, cylinder or cage [m]; 0: by m_tets
     int m_tets = 2000;               ///< about so many elements in these
     double m_cellsAcross = 0;        ///< of thin parts of a cage [-], in [0.5, 8]; 0: cells are alike
     int m_mostLevels = 3;            ///< most halvings of a graded cage's cells
@@ -123,9 +148,9 @@ struct SceneRigidBody
     SceneShape m_shape;
     double m_mass = 0;  ///< [kg]; 0: it stands still, or moves as m_velocity and m_spin say
     ScenePose m_pose;
-    Vec3 m_velocity, m_spin;                   ///< [m/s], [rad/s]
-    double m_friction = 1, m_restitution = 0;  ///< [-]
-    Vec3 m_colour{0.55, 0.60, 0.68};           ///< sRGB
+    SceneVectorCurve m_velocity{{{0, {}}}}, m_spin{{{0, {}}}};  ///< [m/s], [rad/s]; with a mass: at the start
+    double m_friction = 1, m_restitution = 0;                   ///< [-]
+    Vec3 m_colour{0.55, 0.60, 0.68};                            ///< sRGB
 };
 
 struct SceneConstraint
@@ -134,13 +159,15 @@ struct SceneConstraint
     {
         anchor,  ///< nodes of a soft body in m_box, to a rigid one
         point,   ///< a ball joint at m_pivot, between two rigid bodies or one and the world
-        hinge    ///< likewise, about m_axis, with a motor if m_torque > 0
+        hinge,   ///< likewise, about m_axis, with a motor if m_most > 0
+        slider   ///< likewise, along m_axis
     };
     Kind m_kind = Kind::anchor;
     std::string m_a, m_b;  ///< names; of joints m_b may be empty: the world
     SceneBox m_box;
-    Vec3 m_pivot, m_axis{0, 1, 0};     ///< in the world at the start [m]
-    double m_speed = 0, m_torque = 0;  ///< of the motor [rad/s], [N m]
+    Vec3 m_pivot, m_axis{0, 1, 0};  ///< in the world at the start [m]
+    SceneCurve m_speed{{{0, 0}}};   ///< of the motor [rad/s], of a slider's [m/s]
+    double m_most = 0;              ///< torque of the motor at most [N m], of a slider's its force [N]
 };
 
 /// A force on a body while time is in [m_from, m_to).
@@ -153,23 +180,15 @@ struct SceneForce
     double m_from = 0, m_to = 1e30;  ///< [s]
 };
 
-/// A value over time, straight between its points.
-struct SceneCurve
+/// Pulls a soft body to a place while time is in [m_from, m_to), as a hand does.
+struct SceneSpring
 {
-    struct Point
-    {
-        double m_time, m_value;  ///< [s], in the unit of what it is
-    };
-    std::vector<Point> m_points;  ///< by time, at least one
-
-    double at(double time) const
-    {
-        std::size_t k = 0;  // the first point after it
-        while (k < m_points.size() && m_points[k].m_time <= time) ++k;
-        if (k == 0 || k == m_points.size()) return m_points[k == 0 ? 0 : k - 1].m_value;
-        const Point &a = m_points[k - 1], &b = m_points[k];
-        return a.m_value + (time - a.m_time) / (b.m_time - a.m_time) * (b.m_value - a.m_value);
-    }
+    std::string m_body;
+    Vec3 m_at;                              ///< it holds the point of the surface that starts nearest to this [m]
+    SceneVectorCurve m_target;              ///< [m]
+    double m_stiffness = 0, m_damping = 0;  ///< [N/m], [N s/m]
+    double m_most = 0;                      ///< force at most [N]; 0: no limit
+    double m_from = 0, m_to = 1e30;         ///< [s]
 };
 
 /// What drives a soft body from within (docs/actuation.md).
@@ -228,6 +247,7 @@ struct SceneDescription
     std::vector<SceneConstraint> m_constraints;
     std::vector<SceneWeld> m_welds;
     std::vector<SceneForce> m_forces;
+    std::vector<SceneSpring> m_springs;
     std::vector<SceneActuator> m_actuators;
     SceneCamera m_camera;
     ScenePictures m_pictures;

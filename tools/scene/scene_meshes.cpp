@@ -86,6 +86,20 @@ TetMesh ballOf(const SceneMesh& mesh)
     return makeSphere(radius, static_cast<int>(std::clamp(std::round(cells), 2.0, kMostCells)));
 }
 
+// Six elements a cell of the square that is mapped to the disc. The generator's z becomes y.
+TetMesh cylinderOf(const SceneMesh& mesh)
+{
+    const double radius = mesh.m_scale * mesh.m_radius, height = mesh.m_scale * mesh.m_height;
+    // Cells as long as wide: 6 (2 r / cell)^2 (h / cell) = tets.
+    const double cell =
+        mesh.m_cellSize > 0 ? mesh.m_cellSize : std::cbrt(24 * radius * radius * height / double(mesh.m_tets));
+    const auto halfAcross = static_cast<int>(cellsAlong(radius, cell));
+    const TetMesh upright = makeCylinder(radius, height, 2 * halfAcross, static_cast<int>(cellsAlong(height, cell)));
+    std::vector<Vec3> X = upright.restPositions();
+    for (Vec3& x : X) x = {x.x, x.z, -x.y};
+    return TetMesh(std::move(X), upright.tets());
+}
+
 CageSettings cageOf(const SceneMesh& mesh)
 {
     CageSettings settings;

@@ -13,6 +13,8 @@ namespace bullet_fem
 TetMesh blockOf(const SceneMesh& mesh);
 /// Those of a sphere.
 TetMesh ballOf(const SceneMesh& mesh);
+/// Those of a cylinder.
+TetMesh cylinderOf(const SceneMesh& mesh);
 
 /// How the cage of a surface is made.
 CageSettings cageOf(const SceneMesh& mesh);

@@ -18,6 +18,15 @@ inline SceneBox readBox(const JsonCursor& at)
     return box;
 }
 
+/// Of a cylinder or capsule, in [m].
+inline void readRound(const JsonCursor& at, double& radius, double& height)
+{
+    const JsonRange length = {0, 1e6, true};
+    at.onlyMembers({"radius", "height"});
+    radius = at["radius"].number(length);
+    height = at["height"].number(length);
+}
+
 inline void readPose(const JsonCursor& at, ScenePose& pose)
 {
     at.read("position", {-1e6, 1e6}, pose.m_position);

@@ -14,7 +14,9 @@
 #include "fem/common/reason.h"
 #include "tools/scene/json_cursor.h"
 #include "tools/scene/scene_actuator_reader.h"
+#include "tools/scene/scene_curve_reader.h"
 #include "tools/scene/scene_materials.h"
+#include "tools/scene/scene_mesh_reader.h"
 #include "tools/scene/scene_place_reader.h"
 #include "tools/scene/scene_regions.h"
 #include "tools/scene/scene_weld_reader.h"
@@ -26,7 +28,7 @@ namespace
 
 constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr JsonRange kLength = {0, 1e6, true}, kPlace = {-1e6, 1e6}, kSpeed = {-1e4, 1e4}, kShare = {0, 1},
-                    kNotNegative = {0, 1e30}, kAnyForce = {-1e12, 1e12}, kTime = {0, 1e30};
+                    kNotNegative = {0, 1e30}, kAnyForce = {-1e12, 1e12}, kTime = {0, 1e30}, kSpringRange = {0, 1e12};
 
 /// Reads the document that lies in one folder.
 class SceneReader
@@ -37,7 +39,7 @@ public:
     SceneDescription read(const JsonCursor& at)
     {
         at.onlyMembers({"$schema", "title", "gravity", "step", "seconds", "framesPerSecond", "solver", "materials",
-                        "softBodies", "rigidBodies", "constraints", "welds", "forces", "actuators", "camera",
+                        "softBodies", "rigidBodies", "constraints", "welds", "forces", "springs", "actuators", "camera",
                         "pictures"});
         std::string schema;  // for editors
         at.read("$schema", schema);
@@ -53,6 +55,7 @@ public:
         at.forEach("constraints", [&](const JsonCursor& item) { readConstraint(item); });
         at.forEach("welds", [&](const JsonCursor& item) { addWeld(item); });
         at.forEach("forces", [&](const JsonCursor& item) { readForce(item); });
+        at.forEach("springs", [&](const JsonCursor& item) { readSpring(item); });
         at.forEach("actuators", [&](const JsonCursor& item) { addActuator(item); });
         if (at.has("camera")) readCamera(at["camera"]);
         if (at.has("pictures")) readPictures(at["pictures"]);
@@ -82,15 +85,6 @@ private:
     Material material(const JsonCursor& at) const
     {
         return at.isObject() ? readMaterial(at, m_materials) : materialCalled(at, m_materials);
-    }
-
-    std::string file(const JsonCursor& at) const
-    {
-        const std::filesystem::path path = std::filesystem::path(m_scene.m_folder) / at.text();
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(path, ignored))
-            at.fail("names '" + path.string() + "', which is no file");
-        return path.string();
     }
 
     // A name that no other body has.
@@ -123,52 +117,6 @@ private:
         return name;
     }
 
-    SceneMesh mesh(const JsonCursor& at) const
-    {
-        at.onlyMembers({"box", "sphere", "surface", "tetrahedra", "baked", "holes", "cell", "tets", "grade", "levels",
-                        "scale", "surfaceCollides"});
-        SceneMesh mesh;
-        const int kinds = at.has("box") + at.has("sphere") + at.has("surface") + at.has("tetrahedra") + at.has("baked");
-        if (kinds != 1) at.fail("must have one of: box, sphere, surface, tetrahedra, baked");
-        if (at.has("box"))
-            mesh.m_size = at["box"].vector(kLength);
-        else if (at.has("sphere"))
-        {
-            mesh.m_kind = SceneMesh::Kind::sphere;
-            mesh.m_radius = at["sphere"].number(kLength);
-        }
-        else
-        {
-            const bool surface = at.has("surface"), baked = at.has("baked");
-            mesh.m_kind = surface ? SceneMesh::Kind::surface
-                          : baked ? SceneMesh::Kind::baked
-                                  : SceneMesh::Kind::tetrahedra;
-            mesh.m_path = file(at[surface ? "surface" : baked ? "baked" : "tetrahedra"]);
-        }
-        if (mesh.m_kind != SceneMesh::Kind::box && at.has("holes"))
-            at["holes"].fail("are given, but only a 'box' has some; leave them out");
-        at.forEach("holes", [&](const JsonCursor& item) { mesh.m_holes.push_back(readBox(item)); });
-        const bool hasElements = mesh.m_kind == SceneMesh::Kind::tetrahedra || mesh.m_kind == SceneMesh::Kind::baked;
-        for (const char* name : {"cell", "tets"})
-            if (hasElements && at.has(name)) at[name].fail("is given, but the file has its elements; leave it out");
-        for (const char* name : {"grade", "levels"})
-            if (mesh.m_kind != SceneMesh::Kind::surface && at.has(name))
-                at[name].fail("is given, but only cages around a surface are graded; leave it out");
-        if (at.has("levels") && !at.has("grade")) at["levels"].fail("is given without 'grade'; give that, too");
-        if (mesh.m_kind == SceneMesh::Kind::baked && at.has("scale"))
-            at["scale"].fail("is given, but a baked body has its size; leave it out, or bake it anew");
-        if (at.has("cell") && at.has("tets")) at.fail("has 'cell' and 'tets'; give one of them");
-        at.read("cell", kLength, mesh.m_cellSize);
-        at.read("tets", 5, 5000000, mesh.m_tets);
-        at.read("grade", {0.5, 8}, mesh.m_cellsAcross);
-        at.read("levels", 1, 6, mesh.m_mostLevels);
-        at.read("scale", {0, 1e9, true}, mesh.m_scale);
-        if (mesh.m_kind != SceneMesh::Kind::surface && at.has("surfaceCollides"))
-            at["surfaceCollides"].fail("is for a 'surface' with a cage around it; a baked body has it from baking");
-        at.read("surfaceCollides", mesh.m_surfaceCollides);
-        return mesh;
-    }
-
     void readSoftBody(const JsonCursor& at)
     {
         at.onlyMembers({"name", "mesh", "position", "rotation", "velocity", "material", "materials", "friction",
@@ -176,7 +124,7 @@ private:
         SceneSoftBody body;
         body.m_name = name(at);
         body.m_material = defaultMaterial();
-        body.m_mesh = mesh(at["mesh"]);
+        body.m_mesh = readMesh(at["mesh"], m_scene.m_folder);
         readPose(at, body.m_pose);
         at.read("velocity", kSpeed, body.m_velocity);
         if (at.has("material") && body.m_mesh.m_kind == SceneMesh::Kind::baked)
@@ -219,10 +167,7 @@ private:
         else
         {
             shape.m_kind = at.has("cylinder") ? SceneShape::Kind::cylinder : SceneShape::Kind::capsule;
-            const JsonCursor round = at[at.has("cylinder") ? "cylinder" : "capsule"];
-            round.onlyMembers({"radius", "height"});
-            shape.m_radius = round["radius"].number(kLength);
-            shape.m_height = round["height"].number(kLength);
+            readRound(at[at.has("cylinder") ? "cylinder" : "capsule"], shape.m_radius, shape.m_height);
         }
         return shape;
     }
@@ -238,18 +183,27 @@ private:
         if (body.m_shape.m_kind == SceneShape::Kind::plane && body.m_mass > 0)
             at["mass"].fail("is given for a plane, which stands still; leave it out");
         readPose(at, body.m_pose);
-        at.read("velocity", kSpeed, body.m_velocity);
-        at.read("spin", kSpeed, body.m_spin);
+        readMotion(at, "velocity", body, body.m_velocity);
+        readMotion(at, "spin", body, body.m_spin);
         at.read("friction", {0, 10}, body.m_friction);
         at.read("restitution", kShare, body.m_restitution);
         at.read("colour", kShare, body.m_colour);
         m_scene.m_rigidBodies.push_back(std::move(body));
     }
 
+    static void readMotion(const JsonCursor& at, const char* name, const SceneRigidBody& body, SceneVectorCurve& motion)
+    {
+        if (!at.has(name)) return;
+        if (body.m_mass > 0 && isVectorCurve(at[name]))
+            at[name].fail("is given over time for a body with a 'mass', which forces move; give what it starts with");
+        motion = readVectorCurve(at[name], kSpeed);
+    }
+
     void readConstraint(const JsonCursor& at)
     {
         SceneConstraint constraint;
-        constraint.m_kind = static_cast<SceneConstraint::Kind>(at["kind"].choice({"anchor", "point", "hinge"}));
+        constraint.m_kind =
+            static_cast<SceneConstraint::Kind>(at["kind"].choice({"anchor", "point", "hinge", "slider"}));
         if (constraint.m_kind == SceneConstraint::Kind::anchor)
         {
             at.onlyMembers({"kind", "soft", "rigid", "nodes"});
@@ -259,16 +213,20 @@ private:
         }
         else
         {
-            at.onlyMembers({"kind", "body", "to", "pivot", "axis", "speed", "torque"});
+            at.onlyMembers({"kind", "body", "to", "pivot", "axis", "speed", "torque", "force"});
             constraint.m_a = rigidName(at["body"]);
             if (at.has("to")) constraint.m_b = rigidName(at["to"]);
             constraint.m_pivot = at["pivot"].vector(kPlace);
-            for (const char* name : {"axis", "speed", "torque"})
-                if (constraint.m_kind == SceneConstraint::Kind::point && at.has(name))
-                    at[name].fail("is given, but only a hinge has one; leave it out");
+            const bool turns = constraint.m_kind == SceneConstraint::Kind::hinge;
+            const bool slides = constraint.m_kind == SceneConstraint::Kind::slider;
+            for (const char* name : {"axis", "speed"})
+                if (!turns && !slides && at.has(name))
+                    at[name].fail("is given, but only a hinge or slider has one; leave it out");
+            if (!turns && at.has("torque")) at["torque"].fail("is given, but only a hinge has one; leave it out");
+            if (!slides && at.has("force")) at["force"].fail("is given, but only a slider has one; leave it out");
             at.readDirection("axis", constraint.m_axis);
-            at.read("speed", kSpeed, constraint.m_speed);
-            at.read("torque", kNotNegative, constraint.m_torque);
+            if (at.has("speed")) constraint.m_speed = readCurve(at["speed"], kSpeed);
+            at.read(turns ? "torque" : "force", kNotNegative, constraint.m_most);
         }
         m_scene.m_constraints.push_back(std::move(constraint));
     }
@@ -292,10 +250,29 @@ private:
             force.m_box = readBox(at["nodes"]);
         }
         force.m_force = at["force"].vector(kAnyForce);
-        at.read("from", kTime, force.m_from);
-        at.read("to", kTime, force.m_to);
-        if (force.m_from > force.m_to) at["to"].fail("is before 'from'");
+        readTimes(at, force.m_from, force.m_to);
         m_scene.m_forces.push_back(std::move(force));
+    }
+
+    static void readTimes(const JsonCursor& at, double& from, double& to)
+    {
+        at.read("from", kTime, from);
+        at.read("to", kTime, to);
+        if (from > to) at["to"].fail("is before 'from'");
+    }
+
+    void readSpring(const JsonCursor& at)
+    {
+        at.onlyMembers({"body", "at", "target", "stiffness", "damping", "force", "from", "to"});
+        SceneSpring spring;
+        spring.m_body = softName(at["body"]);
+        spring.m_at = at["at"].vector(kPlace);
+        spring.m_target = readVectorCurve(at["target"], kPlace);
+        spring.m_stiffness = at["stiffness"].number(kSpringRange);
+        at.read("damping", kSpringRange, spring.m_damping);
+        at.read("force", kSpringRange, spring.m_most);
+        readTimes(at, spring.m_from, spring.m_to);
+        m_scene.m_springs.push_back(std::move(spring));
     }
 
     void addActuator(const JsonCursor& at)

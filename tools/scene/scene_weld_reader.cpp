@@ -22,7 +22,7 @@ void readStrength(const JsonCursor& at, SceneWeldStrength& strength)
 ScenePieces readPieces(const JsonCursor& at, SceneMesh::Kind mesh)
 {
     if (mesh == SceneMesh::Kind::surface || mesh == SceneMesh::Kind::baked)
-        at.fail("are given, but what is embedded or baked is not cut; take a box, sphere or tetrahedra");
+        at.fail("are given, but what is embedded or baked is not cut; take a box, sphere, cylinder or tetrahedra");
     at.onlyMembers({"cells", "seed", "breakForce", "breakStress", "breakStretch", "compliance"});
     ScenePieces pieces;
     pieces.m_cells = at["cells"].integer(2, 100000);

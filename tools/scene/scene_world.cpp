@@ -66,6 +66,12 @@ void place(btSoftBody& body, const SceneSoftBody& from)
     body.setVelocity(bulletVector(from.m_velocity));
 }
 
+bool moves(const SceneVectorCurve& velocity)
+{
+    return std::any_of(velocity.m_points.begin(), velocity.m_points.end(),
+                       [](const SceneVectorCurve::Point& point) { return norm(point.m_value) > 0; });
+}
+
 // Calls what makes a body; what goes wrong then names it.
 template <class Make>
 void named(const std::string& name, const Make& make)
@@ -117,15 +123,16 @@ SceneWorld::SceneWorld(const SceneDescription& description)
     for (const SceneConstraint& constraint : m_description.m_constraints) addConstraint(constraint);
     for (const SceneForce& force : m_description.m_forces) addForce(force);
     for (int i = 0; i < softCount(); ++i)
-        named(m_description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
+        named(description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
     weldBodies();
+    for (const SceneSpring& spring : m_description.m_springs) m_springs.add(softCalled(spring.m_body), spring);
     for (const SceneActuator& actuator : m_description.m_actuators)
         named(actuator.m_body, [&] { m_actuators.add(m_fem, *softCalled(actuator.m_body).front(), actuator); });
 }
 
 SceneWorld::~SceneWorld()
 {
-    for (const auto& joint : m_joints) m_world.removeConstraint(joint.get());
+    m_joints.removeFrom(m_world);
     for (const auto& body : m_softBodies) m_world.removeSoftBody(body.get());
     for (const auto& body : m_rigidBodies) m_world.removeRigidBody(body.get());
 }
@@ -176,13 +183,15 @@ void SceneWorld::step()
 {
     m_forces.apply(time(), m_description.m_step);
     m_actuators.apply(m_fem, time());
-    moveKinematic();
+    m_springs.apply(m_fem, time() + 1e-6 * m_description.m_step);  // steps that begin at its end are after it
+    m_joints.apply(time() + m_description.m_step / 2);
+    moveKinematic(time() + m_description.m_step / 2);
     m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of just this size
     ++m_steps;
 }
 
 // Bullet takes a kinematic body's velocity from where it is put.
-void SceneWorld::moveKinematic()
+void SceneWorld::moveKinematic(double middle)
 {
     for (int i = 0; i < rigidCount(); ++i)
     {
@@ -190,8 +199,8 @@ void SceneWorld::moveKinematic()
         if (!body.isKinematicObject()) continue;
         const SceneRigidBody& from = m_description.m_rigidBodies[i];
         btTransform next;
-        btTransformUtil::integrateTransform(body.getWorldTransform(), bulletVector(from.m_velocity),
-                                            bulletVector(from.m_spin), btScalar(m_description.m_step), next);
+        btTransformUtil::integrateTransform(body.getWorldTransform(), bulletVector(from.m_velocity.at(middle)),
+                                            bulletVector(from.m_spin.at(middle)), btScalar(m_description.m_step), next);
         body.setWorldTransform(next);
     }
 }
@@ -208,6 +217,8 @@ std::unique_ptr<btSoftBody> SceneWorld::makeSoft(const SceneSoftBody& from)
             return std::unique_ptr<btSoftBody>(btFemHelpers::createFromTetMesh(info, blockOf(mesh)));
         case SceneMesh::Kind::sphere:
             return std::unique_ptr<btSoftBody>(btFemHelpers::createFromTetMesh(info, ballOf(mesh)));
+        case SceneMesh::Kind::cylinder:
+            return std::unique_ptr<btSoftBody>(btFemHelpers::createFromTetMesh(info, cylinderOf(mesh)));
         case SceneMesh::Kind::surface:
         {
             CageReport report;
@@ -315,15 +326,14 @@ void SceneWorld::addRigid(const SceneRigidBody& from)
     info.m_restitution = btScalar(from.m_restitution);
     m_rigidBodies.push_back(std::make_unique<btRigidBody>(info));
     btRigidBody& body = *m_rigidBodies.back();
-    const bool moves = norm(from.m_velocity) > 0 || norm(from.m_spin) > 0;
-    if (from.m_mass == 0 && moves)
+    if (from.m_mass == 0 && (moves(from.m_velocity) || moves(from.m_spin)))
     {
         body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
         body.setActivationState(DISABLE_DEACTIVATION);
     }
     m_world.addRigidBody(&body);
-    body.setLinearVelocity(bulletVector(from.m_velocity));
-    body.setAngularVelocity(bulletVector(from.m_spin));
+    body.setLinearVelocity(bulletVector(from.m_velocity.at(0)));
+    body.setAngularVelocity(bulletVector(from.m_spin.at(0)));
 }
 
 btRigidBody& SceneWorld::rigidCalled(const std::string& name)
@@ -363,22 +373,8 @@ void SceneWorld::addAnchors(const SceneConstraint& from)
 void SceneWorld::addConstraint(const SceneConstraint& from)
 {
     if (from.m_kind == SceneConstraint::Kind::anchor) return addAnchors(from);
-    btRigidBody& a = rigidCalled(from.m_a);
-    btRigidBody& b = from.m_b.empty() ? btTypedConstraint::getFixedBody() : rigidCalled(from.m_b);
-    const btTransform intoA = a.getWorldTransform().inverse(), intoB = b.getWorldTransform().inverse();
-    const btVector3 pivot = bulletVector(from.m_pivot), axis = bulletVector(from.m_axis).normalized();
-    if (from.m_kind == SceneConstraint::Kind::point)
-        m_joints.push_back(std::make_unique<btPoint2PointConstraint>(a, b, intoA * pivot, intoB * pivot));
-    else
-    {
-        btVector3 axisInA = intoA.getBasis() * axis, axisInB = intoB.getBasis() * axis;
-        auto hinge = std::make_unique<btHingeConstraint>(a, b, intoA * pivot, intoB * pivot, axisInA, axisInB);
-        if (from.m_torque > 0)
-            hinge->enableAngularMotor(true, btScalar(from.m_speed),
-                                      btScalar(from.m_torque * m_description.m_step));  // an impulse
-        m_joints.push_back(std::move(hinge));
-    }
-    m_world.addConstraint(m_joints.back().get(), true);
+    btRigidBody& to = from.m_b.empty() ? btTypedConstraint::getFixedBody() : rigidCalled(from.m_b);
+    m_joints.add(m_world, from, rigidCalled(from.m_a), to, m_description.m_step);
 }
 
 void SceneWorld::addForce(const SceneForce& from)

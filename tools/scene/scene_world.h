@@ -14,6 +14,8 @@
 #include "tools/scene/scene_actuators.h"
 #include "tools/scene/scene_description.h"
 #include "tools/scene/scene_forces.h"
+#include "tools/scene/scene_joints.h"
+#include "tools/scene/scene_springs.h"
 #include "tools/scene/scene_welds.h"
 
 namespace bullet_fem
@@ -90,7 +92,7 @@ private:
     std::unique_ptr<btSoftBody> makeBaked(const BakedBody& baked);
     void giveMaterials(btSoftBody& body, const SceneSoftBody& from);
     void addForce(const SceneForce& from);
-    void moveKinematic();
+    void moveKinematic(double middle);
     btRigidBody& rigidCalled(const std::string& name);
     /// The soft body that the scene calls so, or its pieces.
     std::vector<btSoftBody*> softCalled(const std::string& name);
@@ -102,7 +104,7 @@ private:
     // Before the world, which looks at them when it goes, also where the constructor throws.
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
-    std::vector<std::unique_ptr<btTypedConstraint>> m_joints;
+    SceneJoints m_joints;
     std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
     std::vector<ElementMaterials> m_materials;     // of the soft bodies
     std::vector<std::vector<int>> m_regionLabels;  // likewise
@@ -111,6 +113,7 @@ private:
     btSoftRigidDynamicsWorld m_world;
     std::vector<CutBody> m_cutBodies;
     SceneForces m_forces;
+    SceneSprings m_springs;
     SceneActuators m_actuators;
     long m_steps = 0;
 };
