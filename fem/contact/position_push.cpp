@@ -3,6 +3,7 @@
 #include "fem/contact/position_push.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace bullet_fem
 {
@@ -32,8 +33,7 @@ double pushSpeed(const ContactPoint& contact, const ContactSettings& settings)
 void PositionPush::begin()
 {
     const ContactProblem& problem = m_rows.problem();
-    for (std::vector<Vec3>* own : {&m_linear, &m_angular, &m_felt, &m_angularFelt})
-        own->reserve(problem.m_rigidProxies.size());
+    m_own.reserve(problem.m_rigidProxies.size());
     m_base.reserve(m_rows.rows().size());
     m_step = m_rows.settings().m_step.m_step;
     m_pushed.reserve(problem.m_bodies.size());
@@ -113,15 +113,8 @@ void PositionPush::prepare()
         });
     prepareTouches();
     std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
-    for (std::vector<Vec3>* own : {&m_linear, &m_angular, &m_felt, &m_angularFelt}) own->clear();
-    for (RigidProxy& rigidProxy : rigidProxies)
-    {
-        m_linear.push_back(rigidProxy.m_linearVelocity);
-        m_angular.push_back(rigidProxy.m_angularVelocity);
-        m_felt.push_back(rigidProxy.m_felt);
-        m_angularFelt.push_back(rigidProxy.m_angularFelt);
-        rigidProxy.m_linearVelocity = rigidProxy.m_angularVelocity = {};
-    }
+    m_own.assign(rigidProxies.begin(), rigidProxies.end());
+    for (RigidProxy& rigidProxy : rigidProxies) rigidProxy.m_linearVelocity = rigidProxy.m_angularVelocity = {};
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(), [this](int b) { m_rows.body(b).beginPush(); });
     m_sweeps.reset();
 }
@@ -190,17 +183,14 @@ int PositionPush::push()
     const double tolerance = pushTolerance(m_rows.settings().m_tolerance);
     for (; m_sweeps.sweep(tolerance) && sweeps < kMaxSweepsOfPush; ++sweeps)
         if (m_sweeps.runsAway()) m_sweeps.letGo();
-    sumImpulses();
     std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
     for (std::size_t k = 0; k < rigidProxies.size(); ++k)
     {
-        rigidProxies[k].m_pushLinear = rigidProxies[k].m_linearVelocity;
-        rigidProxies[k].m_pushAngular = rigidProxies[k].m_angularVelocity;
-        rigidProxies[k].m_linearVelocity = m_linear[k];
-        rigidProxies[k].m_angularVelocity = m_angular[k];
-        rigidProxies[k].m_felt = m_felt[k];
-        rigidProxies[k].m_angularFelt = m_angularFelt[k];
+        std::swap(rigidProxies[k], m_own[k]);
+        rigidProxies[k].m_pushLinear = m_own[k].m_linearVelocity;
+        rigidProxies[k].m_pushAngular = m_own[k].m_angularVelocity;
     }
+    sumImpulses();
     const StepSettings& step = m_rows.settings().m_step;
     m_pushed.assign(m_rows.problem().m_bodies.size(), {});
     m_rows.forEachTouchedBody(step.m_threads, [&](int b) { m_pushed[b].m_gained = m_rows.body(b).applyPush(step); });

@@ -45,10 +45,9 @@ private:
 
     ContactRows& m_rows;
     ContactSweeps& m_sweeps;
-    std::vector<Vec3> m_linear, m_angular;    // the rigid proxies' own velocities
-    std::vector<Vec3> m_felt, m_angularFelt;  // and what they felt for these
-    std::vector<Pushed> m_pushed;             // one a body
-    std::vector<Vec3> m_base;  // one a row: the share of its impulse that has not moved the nodes yet [N s]
+    std::vector<RigidProxy> m_own;  // the problem's, with their own velocities and what they felt for these
+    std::vector<Pushed> m_pushed;   // one a body
+    std::vector<Vec3> m_base;       // one a row: the share of its impulse that has not moved the nodes yet [N s]
     double m_step = 0;         // [s]
 };
 
