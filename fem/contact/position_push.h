@@ -37,7 +37,7 @@ private:
     Vec3 lagOf(const ContactRow& row, const Joint& joint) const;
     Vec3 pushOf(std::size_t row) const { return m_rows.rows()[row].m_impulse - m_base[row]; }
     void prepare();
-    void prepareContacts(Range rows);
+    void prepareContact(const ContactPoint& contact, ContactRow& row) const;
     void prepareJoints();
     void prepareTouches();
     void sumImpulses();
