@@ -16,7 +16,6 @@ namespace
 constexpr double kTooStiff = 1.1;        // W may be too stiff by this factor before it is scaled
 constexpr double kTooSoft = 0.7;         // and may promise so much more than comes
 constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
-constexpr double kLargestScaling = 100;  // in one round
 constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
 constexpr double kRounding = 1e-9;       // share of the body's speed below which changes of velocity teach nothing
 
@@ -135,7 +134,7 @@ void BodyEnds::learn(const Lesson& lesson)
     if (!(softer || stiffer) || !isAboveRounding(lesson)) return;
     m_tooSoft = m_tooSoft || softer;
     if (!stiffer) return;
-    const double factor = std::min(kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork, kLargestScaling);
+    const double factor = kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork;
     m_learnt = factor != 1;
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
