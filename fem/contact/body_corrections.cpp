@@ -135,7 +135,7 @@ void BodyEnds::learn(const Lesson& lesson)
     m_tooSoft = m_tooSoft || softer;
     if (!stiffer) return;
     const double factor = kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork;
-    m_learnt = factor != 1;
+    m_learnt = true;
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
     if (m_points.points() > 0) m_points.scale(factor);

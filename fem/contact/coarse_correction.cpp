@@ -17,8 +17,6 @@ namespace
 // good there.
 constexpr double kMostWork = 1e6;
 
-constexpr double kMostChange = 0.1;  // of an impulse, as a share of its normal part
-
 // Of the cone, what has the same normal part, or none.
 Vec3 nearestInCone(const ContactRow& row, const Vec3& impulse)
 {
@@ -54,19 +52,17 @@ void CoarseCorrection::begin()
     m_factor.reserve(2 * pairs, std::min(2 * pairs * (pairs + 1), static_cast<std::size_t>(4 * widths)));
 }
 
-bool CoarseCorrection::correct(const std::vector<int>& working)
+void CoarseCorrection::correct(const std::vector<int>& working)
 {
     listPairs(working);
-    if (m_pairs.empty()) return false;
+    if (m_pairs.empty()) return;
     sortPairs();
     listSides();
-    if (!shapeFactor()) return false;
+    if (!shapeFactor()) return;
     form(working);
     residual(working);
     m_factor.solve(m_unknowns.data());
-    if (!isSmall(working)) return false;
     apply(working);
-    return true;
 }
 
 // Rows of one pair follow each other.
@@ -317,19 +313,6 @@ Vec3 CoarseCorrection::changeOf(int pair, int k) const
     Vec3 change;
     for (int c = 0; c < kUnknowns; ++c) change += m_unknowns[kUnknowns * pair + c] * m_patterns[k].m_of[c];
     return change;
-}
-
-// Not where pairs contradict each other, as in a jam: what is all but singular answers anything.
-bool CoarseCorrection::isSmall(const std::vector<int>& working)
-{
-    bool small = true;
-    forEachCarrying(working,
-                    [&](int p, int k, const ContactRow& row)
-                    {
-                        const double most = kMostChange * dot(row.m_impulse, row.m_axes[0]);
-                        small = small && norm(changeOf(p, k)) <= most;
-                    });
-    return small;
 }
 
 void CoarseCorrection::apply(const std::vector<int>& working)

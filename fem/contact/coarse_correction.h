@@ -26,8 +26,8 @@ public:
 
     /// Changes the impulses of these rows, whose ends are all in the working sets of their bodies, within their cones;
     /// the velocities follow. Nothing where the factor would cost more than it saves: of piles, which are as wide as
-    /// they are high. Returns whether anything was changed.
-    bool correct(const std::vector<int>& working);
+    /// they are high.
+    void correct(const std::vector<int>& working);
 
 private:
     static constexpr int kUnknowns = 6;  // of a pair: force and moment
@@ -64,7 +64,6 @@ private:
     void addRow(int pair, int unknown, const Pattern& pattern, const Vec3& v);
     void residual(const std::vector<int>& working);
     Vec3 changeOf(int pair, int k) const;
-    bool isSmall(const std::vector<int>& working);
     void apply(const std::vector<int>& working);
 
     // Calls use(pair, k, row) for working row k of every pair that carries something.
