@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostCorners = 32;      // of a shape: features have numbers for as many on every triangle
+constexpr int kMostCorners = 32;  // of a shape: features have numbers for as many on every triangle
 
 // Corners of boxes include the margin, others are as far within the shape as that is wide.
 double marginOf(const btCollisionShape& shape)

@@ -13,11 +13,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTooStiff = 1.1;        // W may be too stiff by this factor before it is scaled
-constexpr double kTooSoft = 0.7;         // and may promise so much more than comes
-constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
-constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
-constexpr double kRounding = 1e-9;       // share of the body's speed below which changes of velocity teach nothing
+constexpr double kTooStiff = 1.1;     // W may be too stiff by this factor before it is scaled
+constexpr double kTooSoft = 0.7;      // and may promise so much more than comes
+constexpr double kScaleMargin = 1.2;  // for directions that the impulses did not show
+constexpr double kNoise = 1e-4;       // share of all work below which a round's work teaches nothing
+constexpr double kRounding = 1e-9;    // share of the body's speed below which changes of velocity teach nothing
 
 }  // namespace
 

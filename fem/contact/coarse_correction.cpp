@@ -76,9 +76,7 @@ void CoarseCorrection::listPairs(const std::vector<int>& working)
     {
         const ContactRow& first = rows[working[range.m_begin]];
         const auto isOther = [&](const ContactRow& row)
-        {
-            return row.m_joint != first.m_joint || row.m_torsion != first.m_torsion || !sharesOwners(row, first);
-        };
+        { return row.m_joint != first.m_joint || row.m_torsion != first.m_torsion || !sharesOwners(row, first); };
         range.m_end = range.m_begin + 1;
         while (range.m_end < count && !isOther(rows[working[range.m_end]])) ++range.m_end;
         const auto isLink = [&](const RowEnd& end)

@@ -48,7 +48,7 @@ private:
     std::vector<RigidProxy> m_own;  // the problem's, with their own velocities and what they felt for these
     std::vector<Pushed> m_pushed;   // one a body
     std::vector<Vec3> m_base;       // one a row: the share of its impulse that has not moved the nodes yet [N s]
-    double m_step = 0;         // [s]
+    double m_step = 0;              // [s]
 };
 
 }  // namespace bullet_fem
