@@ -190,7 +190,6 @@ ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const bt
 // the side wall of a box that lies on the surface is near that wall, but the surface does not face it.
 bool ContactFinder::faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
 {
-    constexpr double kOpposedCosine = -0.5;  // cosine
     const std::vector<Triangle>& triangles = fem.m_surface.triangles();
     const std::vector<Vec3>& x = fem.surfacePosition();
     const SurfaceFeatures& features = fem.m_surface.features();

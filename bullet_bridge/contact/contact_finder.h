@@ -118,6 +118,8 @@ private:
         std::size_t m_firstSide, m_endSide;  // of sheets, in m_sheetSides
     };
     using Weights = std::array<double, 3>;
+    static constexpr double kFeatureDepth = 0.3;    // of a mean edge: what is deeper came from elsewhere
+    static constexpr double kOpposedCosine = -0.5;  // of normals that look against each other
 
     static Surface surfaceOf(const btSoftBody& soft, const btCollisionObject& object);
     /// A search for contacts with a leaf along the paths.

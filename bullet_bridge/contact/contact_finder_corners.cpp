@@ -11,8 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostCorners = 32;      // of a shape: features have numbers for as many on every triangle
-constexpr double kCornerDepth = 0.3;  // of a mean edge: corners that are deeper are inside from elsewhere
+constexpr int kMostCorners = 32;  // of a shape: features have numbers for as many on every triangle
 
 // Corners of boxes include the margin, others are as far within the shape as that is wide.
 double marginOf(const btCollisionShape& shape)
@@ -52,7 +51,7 @@ void ContactFinder::forEachCornerOver(const FemSoftBody& fem, const Target& targ
         polyhedron.getVertex(k, vertex);
         const Vec3 corner = target.m_shape->m_pose.toWorld(vec3(vertex));
         SurfaceDistance d = {dot(normal, corner - corners[0]) - distance, -normal, {}};
-        if (!(d.m_gap <= target.m_reach && d.m_gap > -kCornerDepth * m_edge)) continue;
+        if (!(d.m_gap <= target.m_reach && d.m_gap > -kFeatureDepth * m_edge)) continue;
         if (!projectOnPlane(corners, corner, d.m_barycentric)) return;
         if (std::min({d.m_barycentric[0], d.m_barycentric[1], d.m_barycentric[2]}) >= 0) use(k, d);
     }

@@ -17,7 +17,6 @@ constexpr double kFlushReach = 4;          // lifts from a lifted point within w
 constexpr double kSunk = 0.2;              // of a mean edge: what soft bodies carry sinks in less
 constexpr double kAlikeCosine = 0.7;       // of normals of surfaces that carry together
 constexpr double kParallelCosine = 0.999;  // of normals of what is one surface
-constexpr double kOpposedCosine = -0.5;    // of normals between which a body is squeezed
 
 }  // namespace
 

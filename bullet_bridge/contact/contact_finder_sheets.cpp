@@ -21,9 +21,6 @@ double alongCone(const Vec3& way, const Vec3& axis, double cosine)
     return std::max(0.0, along * cosine + across * sine);
 }
 
-constexpr double kFeatureDepth =
-    0.3;  // share of a mean edge that corners and edges of sheets are looked for inside the body
-
 Vec3 normalOf(const std::vector<Vec3>& x, const Triangle& t)
 {
     return unit(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
@@ -44,21 +41,10 @@ void ContactFinder::findOnSheets(FemSoftBody& fem, const Target& target)
 // Into m_soup; false if none is near.
 bool ContactFinder::collectSheets(const FemSoftBody& fem, const Target& target)
 {
-    const std::vector<Vec3>& x = fem.surfacePosition();
-    const std::vector<int>& nodes = fem.m_surface.nodes();
-    Vec3 low = x[nodes.front()], high = low;
-    for (int i : nodes)
-        for (int c = 0; c < 3; ++c)
-        {
-            low[c] = std::min(low[c], x[i][c]);
-            high[c] = std::max(high[c], x[i][c]);
-        }
     const double reach = target.m_reach + target.m_shape->m_shape->getMargin() + fem.m_contactOffset;
     const Vec3 box = {reach, reach, reach};
-    for (int c = 0; c < 3; ++c)
-        if (!(low[c] - reach <= target.m_shape->m_boundsMax[c] && high[c] + reach >= target.m_shape->m_boundsMin[c]))
-            return false;
-    m_soup.collect(*target.m_shape, low - box, high + box);
+    if (!m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, reach})) return false;
+    m_soup.collect(*target.m_shape, m_culling.low() - box, m_culling.high() + box);
     return !m_soup.triangles().empty();
 }
 
@@ -123,12 +109,8 @@ void ContactFinder::findOnSheetNodes(const SheetSearch& search)
     const int objectId = broadphaseId(*target.m_object);
     for (int i : fem.m_surface.nodes())
     {
-        SheetProbe probe;
-        probe.m_position = fem.surfacePosition()[i];
-        probe.m_path = wayOf(search, i);
-        probe.m_band = m_band;
-        probe.m_thickness = search.m_thickness;
-        probe.m_rightSide = rightSideOf(search, i, probe.m_position);
+        const Vec3& x = fem.surfacePosition()[i];
+        const SheetProbe probe = {x, rightSideOf(search, i, x), wayOf(search, i), m_band, search.m_thickness};
         findPointTouches(m_soup, probe, m_touches);
         considerTouches(search, i, {i, i, i});
         const Pose& pose = target.m_shape->m_pose;
@@ -173,12 +155,8 @@ void ContactFinder::findOnSheetPaths(FemSoftBody& fem, const Target& target)
 void ContactFinder::considerSheetPath(const SheetSearch& search, int node, const Vec3& way, const Vec3& rightSide)
 {
     const Vec3 lift = m_carried.liftOf(node);
-    SheetProbe probe;
-    probe.m_position = search.m_fem.surfacePosition()[node] + lift;
-    probe.m_rightSide = onRightSide(m_soup, rightSide, rightSide + lift);
-    probe.m_path = way;
-    probe.m_band = m_band;
-    probe.m_thickness = search.m_thickness;
+    const SheetProbe probe = {search.m_fem.surfacePosition()[node] + lift,
+                              onRightSide(m_soup, rightSide, rightSide + lift), way, m_band, search.m_thickness};
     findPointTouches(m_soup, probe, m_touches);
     for (SheetTouch& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
     const auto isNear = [this](const SheetTouch& touch) { return touch.m_surface.m_gap <= m_band; };

@@ -19,6 +19,10 @@ public:
     /// Takes a surface with its vertices at x [m], which must stay where they are.
     void begin(const SoftSurface& surface, const std::vector<Vec3>& x);
 
+    /// The corners of the box around all of it [m].
+    const Vec3& low() const { return m_low; }
+    const Vec3& high() const { return m_high; }
+
     /// No two points of a triangle are farther apart [m].
     double longestEdge() const { return m_longestEdge; }
 

@@ -13,12 +13,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTooStiff = 1.1;        // W may be too stiff by this factor before it is scaled
-constexpr double kTooSoft = 0.7;         // and may promise so much more than comes
-constexpr double kScaleMargin = 1.2;     // for directions that the impulses did not show
-constexpr double kLargestScaling = 100;  // in one round
-constexpr double kNoise = 1e-4;          // share of all work below which a round's work teaches nothing
-constexpr double kRounding = 1e-9;       // share of the body's speed below which changes of velocity teach nothing
+constexpr double kTooStiff = 1.1;     // W may be too stiff by this factor before it is scaled
+constexpr double kTooSoft = 0.7;      // and may promise so much more than comes
+constexpr double kScaleMargin = 1.2;  // for directions that the impulses did not show
+constexpr double kNoise = 1e-4;       // share of all work below which a round's work teaches nothing
+constexpr double kRounding = 1e-9;    // share of the body's speed below which changes of velocity teach nothing
 
 }  // namespace
 
@@ -135,8 +134,8 @@ void BodyEnds::learn(const Lesson& lesson)
     if (!(softer || stiffer) || !isAboveRounding(lesson)) return;
     m_tooSoft = m_tooSoft || softer;
     if (!stiffer) return;
-    const double factor = std::min(kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork, kLargestScaling);
-    m_learnt = factor != 1;
+    const double factor = kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork;
+    m_learnt = true;
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
     if (m_points.points() > 0) m_points.scale(factor);

@@ -17,8 +17,6 @@ namespace
 // good there.
 constexpr double kMostWork = 1e6;
 
-constexpr double kMostChange = 0.1;  // of an impulse, as a share of its normal part
-
 // Of the cone, what has the same normal part, or none.
 Vec3 nearestInCone(const ContactRow& row, const Vec3& impulse)
 {
@@ -37,7 +35,7 @@ void CoarseCorrection::begin()
     const std::size_t rows = all.size();
     std::size_t pairs = 0, longest = 0;
     for (std::size_t k = 0; k < rows; ++k)
-        if (k == 0 || !all[k].m_a.sharesOwner(all[k - 1].m_a) || !all[k].m_b.sharesOwner(all[k - 1].m_b)) ++pairs;
+        if (k == 0 || !sharesOwners(all[k], all[k - 1])) ++pairs;
     for (std::size_t b = 0; b < m_rows.problem().m_bodies.size(); ++b)
         longest = std::max(longest, static_cast<std::size_t>(m_rows.body(static_cast<int>(b)).size()));
     m_patterns.reserve(rows);
@@ -54,19 +52,17 @@ void CoarseCorrection::begin()
     m_factor.reserve(2 * pairs, std::min(2 * pairs * (pairs + 1), static_cast<std::size_t>(4 * widths)));
 }
 
-bool CoarseCorrection::correct(const std::vector<int>& working)
+void CoarseCorrection::correct(const std::vector<int>& working)
 {
     listPairs(working);
-    if (m_pairs.empty()) return false;
+    if (m_pairs.empty()) return;
     sortPairs();
     listSides();
-    if (!shapeFactor()) return false;
+    if (!shapeFactor()) return;
     form(working);
     residual(working);
     m_factor.solve(m_unknowns.data());
-    if (!isSmall(working)) return false;
     apply(working);
-    return true;
 }
 
 // Rows of one pair follow each other.
@@ -80,10 +76,7 @@ void CoarseCorrection::listPairs(const std::vector<int>& working)
     {
         const ContactRow& first = rows[working[range.m_begin]];
         const auto isOther = [&](const ContactRow& row)
-        {
-            return row.m_joint != first.m_joint || row.m_torsion != first.m_torsion ||
-                   !row.m_a.sharesOwner(first.m_a) || !row.m_b.sharesOwner(first.m_b);
-        };
+        { return row.m_joint != first.m_joint || row.m_torsion != first.m_torsion || !sharesOwners(row, first); };
         range.m_end = range.m_begin + 1;
         while (range.m_end < count && !isOther(rows[working[range.m_end]])) ++range.m_end;
         const auto isLink = [&](const RowEnd& end)
@@ -105,17 +98,17 @@ void CoarseCorrection::addPair(const std::vector<int>& working, Range range)
     for (int k = range.m_begin; k < range.m_end; ++k)
     {
         load += normalOf(k);
-        moment += normalOf(k) * pointOf(working[k]);
+        moment += normalOf(k) * m_rows.pointOf(working[k]);
     }
     if (!(load > 0)) return;
     Pair pair;
     pair.m_rows = range;
-    pair.m_owners[0] = ownerOf(rows[working[range.m_begin]].m_a);
-    pair.m_owners[1] = ownerOf(rows[working[range.m_begin]].m_b);
+    pair.m_owners[0] = m_rows.mover(rows[working[range.m_begin]].m_a);
+    pair.m_owners[1] = m_rows.mover(rows[working[range.m_begin]].m_b);
     pair.m_center = (1 / load) * moment;
     for (int k = range.m_begin; k < range.m_end; ++k)
     {
-        const Vec3 offset = pointOf(working[k]) - pair.m_center;
+        const Vec3 offset = m_rows.pointOf(working[k]) - pair.m_center;
         square += normalOf(k) / load * dot(offset, offset);
     }
     const double perLength = square > 0 ? 1 / std::sqrt(square) : 0;  // moments are told as forces at that distance
@@ -126,7 +119,7 @@ void CoarseCorrection::addPair(const std::vector<int>& working, Range range)
         Pattern& pattern = m_patterns[k];
         pattern.m_carries = normal > 0;
         const bool slides = !sticks(row);
-        const Vec3 offset = perLength * (pointOf(working[k]) - pair.m_center);
+        const Vec3 offset = perLength * (m_rows.pointOf(working[k]) - pair.m_center);
         for (int c = 0; c < kUnknowns; ++c)
         {
             Vec3 unit;
@@ -137,22 +130,6 @@ void CoarseCorrection::addPair(const std::vector<int>& working, Range range)
         }
     }
     m_pairs.push_back(pair);
-}
-
-int CoarseCorrection::ownerOf(const RowEnd& end) const
-{
-    const ContactProblem& problem = m_rows.problem();
-    if (end.m_body >= 0) return end.m_body;
-    if (end.m_rigidProxy < 0 || !problem.m_rigidProxies[end.m_rigidProxy].canMove()) return -1;
-    return static_cast<int>(problem.m_bodies.size()) + end.m_rigidProxy;
-}
-
-Vec3 CoarseCorrection::pointOf(int row) const
-{
-    const ContactProblem& problem = m_rows.problem();
-    if (row < static_cast<int>(problem.m_contacts.size())) return problem.m_contacts[row].m_point;
-    const RowEnd& end = m_rows.rows()[row].m_a;
-    return problem.m_rigidProxies[end.m_rigidProxy].m_center + end.m_arm;
 }
 
 // Along the longest extent: of a tower the factor is narrow then.
@@ -224,14 +201,13 @@ void CoarseCorrection::form(const std::vector<int>& working)
 
 void CoarseCorrection::addYields(const std::vector<int>& working)
 {
-    for (int p = 0; p < static_cast<int>(m_pairs.size()); ++p)
-        for (int k = m_pairs[p].m_rows.m_begin; k < m_pairs[p].m_rows.m_end; ++k)
-        {
-            const ContactRow& row = m_rows.rows()[working[k]];
-            for (int c = 0; c < kUnknowns; ++c)
-                addColumn(p, p, c, m_patterns[k],
-                          row.m_yield.x * dot(m_patterns[k].m_of[c], row.m_axes[0]) * row.m_axes[0]);
-        }
+    forEachCarrying(working,
+                    [this](int p, int k, const ContactRow& row)
+                    {
+                        const Vec3& n = row.m_axes[0];
+                        for (int c = 0; c < kUnknowns; ++c)
+                            addColumn(p, p, c, m_patterns[k], row.m_yield.x * dot(m_patterns[k].m_of[c], n) * n);
+                    });
 }
 
 // What the unknowns of its pairs do to each other through one body.
@@ -317,48 +293,30 @@ void CoarseCorrection::addRow(int pair, int unknown, const Pattern& pattern, con
 void CoarseCorrection::residual(const std::vector<int>& working)
 {
     m_unknowns.assign(kUnknowns * m_pairs.size(), 0);
-    for (std::size_t p = 0; p < m_pairs.size(); ++p)
-        for (int k = m_pairs[p].m_rows.m_begin; k < m_pairs[p].m_rows.m_end; ++k)
-        {
-            if (!m_patterns[k].m_carries) continue;
-            const ContactRow& row = m_rows.rows()[working[k]];
-            const Vec3 v = m_rows.velocity(row);
-            Vec3 missing;
-            for (int i = 0; i < 3; ++i) missing += (row.m_target[i] - dot(row.m_axes[i], v)) * row.m_axes[i];
-            missing -= row.m_yield.x * dot(row.m_axes[0], row.m_impulse) * row.m_axes[0];
-            for (int c = 0; c < kUnknowns; ++c) m_unknowns[kUnknowns * p + c] += dot(m_patterns[k].m_of[c], missing);
-        }
+    forEachCarrying(working,
+                    [this](int p, int k, const ContactRow& row)
+                    {
+                        const Vec3 v = m_rows.velocity(row);
+                        Vec3 missing;
+                        for (int i = 0; i < 3; ++i)
+                            missing += (row.m_target[i] - dot(row.m_axes[i], v)) * row.m_axes[i];
+                        missing -= row.m_yield.x * dot(row.m_axes[0], row.m_impulse) * row.m_axes[0];
+                        for (int c = 0; c < kUnknowns; ++c)
+                            m_unknowns[kUnknowns * p + c] += dot(m_patterns[k].m_of[c], missing);
+                    });
 }
 
-Vec3 CoarseCorrection::changeOf(std::size_t pair, int k) const
+Vec3 CoarseCorrection::changeOf(int pair, int k) const
 {
     Vec3 change;
     for (int c = 0; c < kUnknowns; ++c) change += m_unknowns[kUnknowns * pair + c] * m_patterns[k].m_of[c];
     return change;
 }
 
-// Not where pairs contradict each other, as in a jam: what is all but singular answers anything.
-bool CoarseCorrection::isSmall(const std::vector<int>& working) const
-{
-    for (std::size_t p = 0; p < m_pairs.size(); ++p)
-        for (int k = m_pairs[p].m_rows.m_begin; k < m_pairs[p].m_rows.m_end; ++k)
-        {
-            if (!m_patterns[k].m_carries) continue;
-            const ContactRow& row = m_rows.rows()[working[k]];
-            if (!(norm(changeOf(p, k)) <= kMostChange * dot(row.m_impulse, row.m_axes[0]))) return false;
-        }
-    return true;
-}
-
 void CoarseCorrection::apply(const std::vector<int>& working)
 {
-    for (std::size_t p = 0; p < m_pairs.size(); ++p)
-        for (int k = m_pairs[p].m_rows.m_begin; k < m_pairs[p].m_rows.m_end; ++k)
-        {
-            if (!m_patterns[k].m_carries) continue;
-            ContactRow& row = m_rows.rows()[working[k]];
-            m_rows.change(row, nearestInCone(row, row.m_impulse + changeOf(p, k)));
-        }
+    forEachCarrying(working, [this](int p, int k, ContactRow& row)
+                    { m_rows.change(row, nearestInCone(row, row.m_impulse + changeOf(p, k))); });
 }
 
 }  // namespace bullet_fem

@@ -26,8 +26,8 @@ public:
 
     /// Changes the impulses of these rows, whose ends are all in the working sets of their bodies, within their cones;
     /// the velocities follow. Nothing where the factor would cost more than it saves: of piles, which are as wide as
-    /// they are high. Returns whether anything was changed.
-    bool correct(const std::vector<int>& working);
+    /// they are high.
+    void correct(const std::vector<int>& working);
 
 private:
     static constexpr int kUnknowns = 6;  // of a pair: force and moment
@@ -40,7 +40,7 @@ private:
     struct Pair
     {
         Range m_rows = {0, 0};       // of the working ones
-        int m_owners[2] = {-1, -1};  // bodies, then rigid proxies; -1: does not move
+        int m_owners[2] = {-1, -1};  // movers of the rows
         Vec3 m_center;
     };
     struct Side  // of a pair, at one of its owners
@@ -51,8 +51,6 @@ private:
 
     void listPairs(const std::vector<int>& working);
     void addPair(const std::vector<int>& working, Range range);
-    int ownerOf(const RowEnd& end) const;
-    Vec3 pointOf(int row) const;
     void sortPairs();
     void listSides();
     bool shapeFactor();
@@ -65,9 +63,17 @@ private:
     void addColumn(int pair, int other, int unknown, const Pattern& pattern, const Vec3& v);
     void addRow(int pair, int unknown, const Pattern& pattern, const Vec3& v);
     void residual(const std::vector<int>& working);
-    Vec3 changeOf(std::size_t pair, int k) const;
-    bool isSmall(const std::vector<int>& working) const;
+    Vec3 changeOf(int pair, int k) const;
     void apply(const std::vector<int>& working);
+
+    // Calls use(pair, k, row) for working row k of every pair that carries something.
+    template <class Use>
+    void forEachCarrying(const std::vector<int>& working, const Use& use)
+    {
+        for (int p = 0; p < static_cast<int>(m_pairs.size()); ++p)
+            for (int k = m_pairs[p].m_rows.m_begin; k < m_pairs[p].m_rows.m_end; ++k)
+                if (m_patterns[k].m_carries) use(p, k, m_rows.rows()[working[k]]);
+    }
 
     ContactRows& m_rows;
     std::vector<Pattern> m_patterns;  // per working row

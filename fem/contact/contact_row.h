@@ -45,6 +45,12 @@ struct ContactRow
     double m_lever = 1;     ///< of a torsional friction: a spin times it counts as a speed [m]
 };
 
+/// True if both pull at the same two owners.
+inline bool sharesOwners(const ContactRow& a, const ContactRow& b)
+{
+    return a.m_a.sharesOwner(b.m_a) && a.m_b.sharesOwner(b.m_b);
+}
+
 /// True of a joint within its limits.
 inline bool isSolvedAtOnce(const ContactRow& row)
 {

@@ -70,6 +70,20 @@ void ContactRows::pushAlong(ContactRow& row, const Vec3& impulse)
     push(row.m_b, -impulse);
 }
 
+int ContactRows::mover(const RowEnd& end) const
+{
+    if (end.m_body >= 0) return end.m_body;
+    if (end.m_rigidProxy < 0 || !m_problem->m_rigidProxies[end.m_rigidProxy].canMove()) return -1;
+    return static_cast<int>(m_problem->m_bodies.size()) + end.m_rigidProxy;
+}
+
+Vec3 ContactRows::pointOf(std::size_t row) const
+{
+    if (row < m_problem->m_contacts.size()) return m_problem->m_contacts[row].m_point;
+    const RowEnd& end = m_rows[row].m_torsion ? m_rows[row].m_b : m_rows[row].m_a;
+    return m_problem->m_rigidProxies[end.m_rigidProxy].m_center + end.m_arm;
+}
+
 // A dense compliance is over before other threads have woken up.
 const Threads* ContactRows::threadsForCompliance() const
 {

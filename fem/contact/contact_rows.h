@@ -64,6 +64,13 @@ public:
     /// spins and angular impulses.
     Mat3 compliance(const RowEnd& of, const RowEnd& from) const;
 
+    /// What impulses on an end move, by number: bodies, then rigid proxies. -1: nothing.
+    int mover(const RowEnd& end) const;
+    std::size_t movers() const { return m_problem->m_bodies.size() + m_problem->m_rigidProxies.size(); }
+
+    /// Where a row other than a joint acts [m].
+    Vec3 pointOf(std::size_t row) const;
+
     /// Relative velocity of a row's ends, as predicted [m/s].
     Vec3 velocity(const ContactRow& row) const { return velocity(row.m_a) - velocity(row.m_b); }
 

@@ -10,7 +10,7 @@ void ContactSweeps::begin()
     m_joints.begin();
     m_inTurn.begin();
     m_atOnce.begin();
-    m_runaways.reserve(m_rows.problem().m_bodies.size() + m_rows.problem().m_rigidProxies.size());
+    m_runaways.reserve(m_rows.movers());
 }
 
 void ContactSweeps::measure()
@@ -44,17 +44,11 @@ bool ContactSweeps::runsAway() const
 
 void ContactSweeps::letGo()
 {
-    const ContactProblem& problem = m_rows.problem();
-    const std::size_t bodies = problem.m_bodies.size();
-    m_runaways.assign(bodies + problem.m_rigidProxies.size(), 0);
-    const auto forMovableEnds = [&](const ContactRow& row, const auto& visit)
+    m_runaways.assign(m_rows.movers(), 0);
+    const auto forMovableEnds = [this](const ContactRow& row, const auto& visit)
     {
         for (const RowEnd* end : {&row.m_a, &row.m_b})
-        {
-            if (end->m_body >= 0) visit(m_runaways[end->m_body]);
-            if (end->m_rigidProxy >= 0 && problem.m_rigidProxies[end->m_rigidProxy].canMove())
-                visit(m_runaways[bodies + end->m_rigidProxy]);
-        }
+            if (const int mover = m_rows.mover(*end); mover >= 0) visit(m_runaways[mover]);
     };
     for (const ContactRow& row : m_rows.rows())
         if (!row.m_joint && m_rows.share(speedOf(row, row.m_impulse)) > 1)

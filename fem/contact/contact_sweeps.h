@@ -61,7 +61,7 @@ private:
     JointSystem m_joints;
     SweepsInTurn m_inTurn;
     SweepsAtOnce m_atOnce;
-    std::vector<unsigned char> m_runaways;  // per body, then per rigid proxy: is being let go
+    std::vector<unsigned char> m_runaways;  // per mover of the rows: is being let go
 };
 
 }  // namespace bullet_fem

@@ -78,21 +78,15 @@ void JointRounds::look(bool othersMoved)
 // From the best so far to the last round, made orthogonal to the others; the best goes along it as far as that helps.
 void JointRounds::noteDirection()
 {
-    const auto copy = [](const Vectors& from, Vectors& to)
-    {
-        std::copy(from.m_impulse.begin(), from.m_impulse.end(), to.m_impulse.begin());
-        std::copy(from.m_left.begin(), from.m_left.end(), to.m_left.begin());
-        std::copy(from.m_answer.begin(), from.m_answer.end(), to.m_answer.begin());
-    };
     if (!m_hasBest)
     {
-        copy(m_now, m_best);
+        m_best = m_now;
         m_hasBest = true;
         m_count = m_next = 0;
         return;
     }
     Vectors& direction = m_directions[m_next];
-    copy(m_now, direction);
+    direction = m_now;
     direction.add(-1, m_best);
     const double whole = direction.square();
     for (int k = 0; k < m_count; ++k)

@@ -23,6 +23,22 @@ double along(const ContactRow& row, int axis)
     return dot(row.m_impulse, row.m_axes[axis]);
 }
 
+// What a joint may have of an impulse; notes along which axes that is at a limit.
+Vec3 withinLimits(const ContactRow& joint, Vec3 impulse, unsigned char* held)
+{
+    for (int i = 0; i < 3; ++i)
+    {
+        const double component = dot(impulse, joint.m_axes[i]);
+        if (!(std::fabs(component) > joint.m_limit[i])) continue;
+        impulse += (std::copysign(joint.m_limit[i], component) - component) * joint.m_axes[i];
+        held[i] = 1;
+    }
+    const double length = norm(impulse);
+    if (!(length > joint.m_most)) return impulse;
+    std::fill_n(held, 3, static_cast<unsigned char>(1));
+    return (joint.m_most / length) * impulse;
+}
+
 }  // namespace
 
 void JointSystem::begin()
@@ -260,22 +276,10 @@ bool JointSystem::holdBeyondLimits(Part& part, double& largest)
     {
         ContactRow& r = row(k);
         Vec3 impulse = r.m_impulse + changeOf(k);
-        const unsigned char* held = &m_isHeld[3 * static_cast<std::size_t>(k)];
+        unsigned char* held = &m_isHeld[3 * static_cast<std::size_t>(k)];
         if ((held[0] && held[1] && held[2]) || !isBeyondLimits(r, impulse)) continue;
         any = r.m_held = true;
-        for (int i = 0; i < 3; ++i)
-        {
-            const double component = dot(impulse, r.m_axes[i]);
-            if (!(std::fabs(component) > r.m_limit[i])) continue;
-            impulse += (std::copysign(r.m_limit[i], component) - component) * r.m_axes[i];
-            m_isHeld[3 * k + i] = 1;
-        }
-        const double length = norm(impulse);
-        if (length > r.m_most)
-        {
-            impulse *= r.m_most / length;
-            std::fill_n(m_isHeld.begin() + 3 * k, 3, 1);
-        }
+        impulse = withinLimits(r, impulse, held);
         largest = std::max(largest, speedOf(r, impulse - r.m_impulse));
         m_rows.change(r, impulse);
         --m_patience;
@@ -292,14 +296,8 @@ double JointSystem::takeChanges(const Part& part)
     for (int k = part.m_begin; k < part.m_end; ++k)
     {
         ContactRow& r = row(k);
-        Vec3 impulse = r.m_impulse + changeOf(k);
-        for (int i = 0; i < 3; ++i)
-        {
-            const double component = dot(impulse, r.m_axes[i]);
-            impulse += (std::clamp(component, -r.m_limit[i], r.m_limit[i]) - component) * r.m_axes[i];
-        }
-        const double length = norm(impulse);
-        if (length > r.m_most) impulse *= r.m_most / length;
+        unsigned char held[3];
+        const Vec3 impulse = withinLimits(r, r.m_impulse + changeOf(k), held);
         if (!isFinite(impulse)) continue;
         largest = std::max(largest, speedOf(r, impulse - r.m_impulse));
         m_rows.change(r, impulse);

@@ -3,6 +3,7 @@
 #include "fem/contact/position_push.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace bullet_fem
 {
@@ -32,8 +33,7 @@ double pushSpeed(const ContactPoint& contact, const ContactSettings& settings)
 void PositionPush::begin()
 {
     const ContactProblem& problem = m_rows.problem();
-    for (std::vector<Vec3>* own : {&m_linear, &m_angular, &m_felt, &m_angularFelt})
-        own->reserve(problem.m_rigidProxies.size());
+    m_own.reserve(problem.m_rigidProxies.size());
     m_base.reserve(m_rows.rows().size());
     m_step = m_rows.settings().m_step.m_step;
     m_pushed.reserve(problem.m_bodies.size());
@@ -90,15 +90,7 @@ Vec3 PositionPush::lagOf(const ContactRow& row, const Joint& joint) const
 // anyway.
 void PositionPush::prepare()
 {
-    const std::size_t contacts = m_rows.problem().m_contacts.size();
-    m_rows.forEachPiece(
-        [&](int, Range rows)
-        {
-            prepareContacts(rows);
-            for (int k = std::max(rows.m_begin, static_cast<int>(contacts)); k < rows.m_end; ++k)
-                m_rows.rows()[k].m_target = {};
-        });
-    prepareJoints();
+    const std::vector<ContactPoint>& contacts = m_rows.problem().m_contacts;
     m_base.assign(m_rows.rows().size(), Vec3());
     m_rows.forEachPiece(
         [&](int, Range rows)
@@ -106,53 +98,43 @@ void PositionPush::prepare()
             for (int k = rows.m_begin; k < rows.m_end; ++k)
             {
                 ContactRow& row = m_rows.rows()[k];
+                const bool isContact = k < static_cast<int>(contacts.size());
+                if (isContact)
+                    prepareContact(contacts[k], row);
+                else
+                    row.m_target = {};
                 row.m_idle = row.m_idle || row.m_torsion;  // it has no part in displacements
-                if (!row.m_joint && !row.m_touch && !row.m_torsion) m_base[k] = (1 - m_rows.theta(row)) * row.m_impulse;
+                if (isContact) m_base[k] = (1 - m_rows.theta(row)) * row.m_impulse;
                 row.m_impulse = m_base[k];
             }
         });
+    prepareJoints();
     prepareTouches();
     std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
-    for (std::vector<Vec3>* own : {&m_linear, &m_angular, &m_felt, &m_angularFelt}) own->clear();
-    for (RigidProxy& rigidProxy : rigidProxies)
-    {
-        m_linear.push_back(rigidProxy.m_linearVelocity);
-        m_angular.push_back(rigidProxy.m_angularVelocity);
-        m_felt.push_back(rigidProxy.m_felt);
-        m_angularFelt.push_back(rigidProxy.m_angularFelt);
-        rigidProxy.m_linearVelocity = rigidProxy.m_angularVelocity = {};
-    }
+    m_own.assign(rigidProxies.begin(), rigidProxies.end());
+    for (RigidProxy& rigidProxy : rigidProxies) rigidProxy.m_linearVelocity = rigidProxy.m_angularVelocity = {};
     m_rows.forEachTouchedBody(m_rows.threadsForCompliance(), [this](int b) { m_rows.body(b).beginPush(); });
     m_sweeps.reset();
 }
 
 // Penetrating points shall separate at a share of their depth a step, unless they do so already; the others shall not
 // close their gap, and joints hold.
-void PositionPush::prepareContacts(Range rows)
+void PositionPush::prepareContact(const ContactPoint& c, ContactRow& row) const
 {
-    const ContactSettings& settings = m_rows.settings();
-    const std::vector<ContactPoint>& contacts = m_rows.problem().m_contacts;
-    const double h = settings.m_step.m_step;
-    const int end = std::min(rows.m_end, static_cast<int>(contacts.size()));
-    for (int k = rows.m_begin; k < end; ++k)
+    const double h = m_step;
+    const Vec3 mean = m_rows.meanVelocity(row);
+    const double moving = dot(c.m_normal, mean);
+    const double theta = m_rows.theta(row);
+    const double left = theta * std::min(dot(c.m_normal, m_rows.velocity(row)), 0.0);  // to the rows
+    row.m_target.x = c.m_gap < 0 ? pushSpeed(c, m_rows.settings()) - (moving - left) : -(moving + c.m_gap / h);
+    if (theta < 1)
     {
-        ContactRow& row = m_rows.rows()[k];
-        const ContactPoint& c = contacts[k];
-        const Vec3 mean = m_rows.meanVelocity(row);
-        const double moving = dot(c.m_normal, mean);
-        const double theta = m_rows.theta(row);
-        const double left = theta * std::min(dot(c.m_normal, m_rows.velocity(row)), 0.0);  // to the rows
-        const double parting = moving - left;
-        row.m_target.x = c.m_gap < 0 ? pushSpeed(c, settings) - parting : -(moving + c.m_gap / h);
-        if (theta < 1)
-        {
-            const Vec3 moves = mean + (1 / h) * (m_rows.arcOf(row) - m_rows.arcOfMean(row));
-            for (int i = 1; i < 3; ++i) row.m_target[i] -= dot(row.m_axes[i], moves);
-        }
-        else
-            row.m_target.y = row.m_target.z = row.m_friction = 0;
-        row.m_idle = row.m_idle || row.m_yield.x > 0;
+        const Vec3 moves = mean + (1 / h) * (m_rows.arcOf(row) - m_rows.arcOfMean(row));
+        for (int i = 1; i < 3; ++i) row.m_target[i] -= dot(row.m_axes[i], moves);
     }
+    else
+        row.m_target.y = row.m_target.z = row.m_friction = 0;
+    row.m_idle = row.m_idle || row.m_yield.x > 0;
 }
 
 void PositionPush::prepareJoints()
@@ -190,17 +172,14 @@ int PositionPush::push()
     const double tolerance = pushTolerance(m_rows.settings().m_tolerance);
     for (; m_sweeps.sweep(tolerance) && sweeps < kMaxSweepsOfPush; ++sweeps)
         if (m_sweeps.runsAway()) m_sweeps.letGo();
-    sumImpulses();
     std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
     for (std::size_t k = 0; k < rigidProxies.size(); ++k)
     {
-        rigidProxies[k].m_pushLinear = rigidProxies[k].m_linearVelocity;
-        rigidProxies[k].m_pushAngular = rigidProxies[k].m_angularVelocity;
-        rigidProxies[k].m_linearVelocity = m_linear[k];
-        rigidProxies[k].m_angularVelocity = m_angular[k];
-        rigidProxies[k].m_felt = m_felt[k];
-        rigidProxies[k].m_angularFelt = m_angularFelt[k];
+        std::swap(rigidProxies[k], m_own[k]);
+        rigidProxies[k].m_pushLinear = m_own[k].m_linearVelocity;
+        rigidProxies[k].m_pushAngular = m_own[k].m_angularVelocity;
     }
+    sumImpulses();
     const StepSettings& step = m_rows.settings().m_step;
     m_pushed.assign(m_rows.problem().m_bodies.size(), {});
     m_rows.forEachTouchedBody(step.m_threads, [&](int b) { m_pushed[b].m_gained = m_rows.body(b).applyPush(step); });

@@ -37,7 +37,7 @@ private:
     Vec3 lagOf(const ContactRow& row, const Joint& joint) const;
     Vec3 pushOf(std::size_t row) const { return m_rows.rows()[row].m_impulse - m_base[row]; }
     void prepare();
-    void prepareContacts(Range rows);
+    void prepareContact(const ContactPoint& contact, ContactRow& row) const;
     void prepareJoints();
     void prepareTouches();
     void sumImpulses();
@@ -45,11 +45,10 @@ private:
 
     ContactRows& m_rows;
     ContactSweeps& m_sweeps;
-    std::vector<Vec3> m_linear, m_angular;    // the rigid proxies' own velocities
-    std::vector<Vec3> m_felt, m_angularFelt;  // and what they felt for these
-    std::vector<Pushed> m_pushed;             // one a body
-    std::vector<Vec3> m_base;  // one a row: the share of its impulse that has not moved the nodes yet [N s]
-    double m_step = 0;         // [s]
+    std::vector<RigidProxy> m_own;  // the problem's, with their own velocities and what they felt for these
+    std::vector<Pushed> m_pushed;   // one a body
+    std::vector<Vec3> m_base;       // one a row: the share of its impulse that has not moved the nodes yet [N s]
+    double m_step = 0;              // [s]
 };
 
 }  // namespace bullet_fem

@@ -13,8 +13,7 @@ namespace
 constexpr int kMixed = WorkingSet::kMixed;
 
 // Shares of differences that are all but parallel are large and opposite, and follow rounding.
-constexpr double kParallel = 1e-4;  // determinant, as a share of the product of squares
-constexpr double kFar = 300;        // share that is no longer believed
+constexpr double kFar = 300;  // share that is no longer believed
 
 // The first forgets all differences.
 void noteDelta(const Vec3& value, int slot, bool first, Vec3& last, Vec3* deltas)
@@ -117,7 +116,7 @@ void SweepMixing::noteRows(const std::vector<int>& working, bool first)
 }
 
 // Least squares: the last change less shares of its differences from those before, each row by its compliance. Where
-// the two are parallel, the newest alone.
+// there is one alone, that.
 void SweepMixing::chooseShares(const std::vector<int>& working)
 {
     static_assert(kMixed == 2, "two equations are solved here");
@@ -137,7 +136,7 @@ void SweepMixing::chooseShares(const std::vector<int>& working)
     m_shares = {};
     if (!m_trusted) return;
     const double determinant = own[0] * own[1] - both * both;
-    if (determinant > kParallel * own[0] * own[1])
+    if (determinant > 0)
         m_shares = {(change[0] * own[1] - change[1] * both) / determinant,
                     (change[1] * own[0] - change[0] * both) / determinant};
     else if (own[m_slot] > 0)

@@ -49,31 +49,17 @@ void SweepsInTurn::begin()
     divideRows();
 }
 
-// Joints are swept in their order, and links of one multibody move each other.
+// Joints are swept in their order, and links of one multibody move each other: then there is one part.
 void SweepsInTurn::divideRows()
 {
     const ContactProblem& problem = m_rows.problem();
     const std::vector<ContactRow>& rows = m_rows.rows();
-    const std::vector<RigidProxy>& rigidProxies = problem.m_rigidProxies;
-    const int bodies = static_cast<int>(problem.m_bodies.size());
-    const auto mover = [&](const RowEnd& end)
-    {
-        if (end.m_body >= 0) return end.m_body;
-        return end.m_rigidProxy >= 0 && rigidProxies[end.m_rigidProxy].canMove() ? bodies + end.m_rigidProxy : -1;
-    };
     const auto isLink = [](const RigidProxy& rigidProxy) { return rigidProxy.m_responseCount > 0; };
-    m_parts.clear(bodies + static_cast<int>(rigidProxies.size()));
-    for (std::size_t k = 0; k < problem.m_contacts.size(); ++k)
-        m_parts.add(mover(rows[k].m_a), mover(rows[k].m_b), problem.m_contacts[k].m_point);
-    std::size_t k = problem.m_contacts.size() + problem.m_joints.size();  // with joints there is one part
-    for (const RigidTouch& touch : problem.m_rigidTouches)
-    {
-        const ContactRow& row = rows[k++];
-        m_parts.add(mover(row.m_a), mover(row.m_b), rigidProxies[touch.m_rigidProxy].m_center + touch.m_arm);
-    }
-    for (std::size_t t = 0; t < problem.m_torsions.size(); ++t, ++k)  // in the part of the contacts that press on it
-        m_parts.add(mover(rows[k].m_a), mover(rows[k].m_b), rigidProxies[problem.m_torsions[t].m_rigidProxy].m_center);
-    m_parts.divide(problem.m_joints.empty() && std::none_of(rigidProxies.begin(), rigidProxies.end(), isLink));
+    m_parts.clear(static_cast<int>(m_rows.movers()));
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        if (!rows[k].m_joint) m_parts.add(m_rows.mover(rows[k].m_a), m_rows.mover(rows[k].m_b), m_rows.pointOf(k));
+    m_parts.divide(problem.m_joints.empty() &&
+                   std::none_of(problem.m_rigidProxies.begin(), problem.m_rigidProxies.end(), isLink));
 }
 
 void SweepsInTurn::restart()
@@ -185,10 +171,8 @@ double SweepsInTurn::sweepRows(Range rows)
 int SweepsInTurn::endOfPair(int begin, int end) const
 {
     const std::vector<ContactRow>& rows = m_rows.rows();
-    const ContactRow& first = rows[m_working[begin]];
     int k = begin + 1;
-    while (k < end && rows[m_working[k]].m_a.sharesOwner(first.m_a) && rows[m_working[k]].m_b.sharesOwner(first.m_b))
-        ++k;
+    while (k < end && sharesOwners(rows[m_working[k]], rows[m_working[begin]])) ++k;
     return k;
 }
 
