@@ -189,6 +189,20 @@ Mat3 BodyEnds::compliance(int e, int f) const
     return e == f ? m_scale * m_meanDiagonal : Mat3();
 }
 
+int BodyEnds::nodeOf(int e) const
+{
+    const SurfacePoint& point = m_ends[e].m_point;
+    if (isGroup(m_ends[e]) || e < m_firstPoint || point.m_count != 1 || point.m_weights[0] != 1) return -1;
+    const int node = point.m_nodes[0];
+    const bool moves = !m_body.m_body->m_state.m_fixed[node] && m_body.m_body->m_model->factor().position(node) >= 0;
+    return moves ? node : -1;
+}
+
+Mat3 BodyEnds::rotation(int node) const
+{
+    return WarpedPreconditioner(*m_body.m_body).rotation(node);
+}
+
 Vec3 BodyEnds::trueVelocity(int e) const
 {
     return read(m_ends[e], bullet_fem::velocity(*m_body.m_body));

@@ -40,6 +40,17 @@ public:
     /// True if the body has the columns of A0^-1 at a node: joints at such nodes may be points.
     bool serves(int node) const { return m_body.m_compliance->serves(node); }
 
+    /// The node that an end is, if it is one that can move and whose W is s R (A0^-1) R^T; else -1. After form().
+    int nodeOf(int e) const;
+
+    /// R of a node, s, and a factor of the blocks (A0^-1) between nodes, three rows a node.
+    Mat3 rotation(int node) const;
+    double scale() const { return m_scale; }
+    std::shared_ptr<const EnvelopeFactor> restFactorOf(const std::vector<int>& nodes) const
+    {
+        return m_body.m_compliance->factorOf(nodes);
+    }
+
     /// Sets it: its impulse counts as acting at `at` [m]. May be called by several threads at once, for different ones.
     void setPoint(int e, const SurfacePoint& point, const Vec3& at);
 

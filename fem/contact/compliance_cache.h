@@ -8,6 +8,7 @@
 #include "bullet_fem/fem/factor/body_model.h"
 #include "fem/common/aligned_array.h"
 #include "fem/contact/column_solver.h"
+#include "fem/contact/node_set_factors.h"
 
 namespace bullet_fem
 {
@@ -50,6 +51,12 @@ public:
     const float* column(int j) const { return m_columns[m_slotOfNode[j]].get(); }
     int offset(int i) const { return 9 * m_placeOfNode[i]; }
 
+    /// See NodeSetFactors; requests the columns of these nodes where the set is new.
+    std::shared_ptr<const EnvelopeFactor> factorOf(const std::vector<int>& nodes)
+    {
+        return m_setFactors.of(nodes, *this);
+    }
+
     /// True if a request may drop columns that an earlier one asked for.
     bool forgets() const { return m_columns.size() < m_nodes.size(); }
 
@@ -72,6 +79,7 @@ private:
     std::vector<int> m_newNodes;
     std::vector<ColumnSolver::Column> m_newColumns;
     std::vector<std::unique_ptr<ColumnSolver>> m_solvers;  // as many as threads have been of use
+    NodeSetFactors m_setFactors;
     unsigned long m_requestCount = 0;
     long m_solvedColumns = 0;
 };

@@ -9,6 +9,22 @@
 
 namespace bullet_fem
 {
+namespace
+{
+
+// Sums that do not wait for each other.
+double rowProduct(const double* a, const double* b, std::size_t count)
+{
+    constexpr std::size_t kSums = 8;
+    double sums[kSums] = {};
+    std::size_t k = 0;
+    for (; k + kSums <= count; k += kSums)
+        for (std::size_t s = 0; s < kSums; ++s) sums[s] += a[k + s] * b[k + s];
+    for (; k < count; ++k) sums[0] += a[k] * b[k];
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+}  // namespace
 
 void EnvelopeFactor::reserve(std::size_t rows, std::size_t blocks)
 {
@@ -111,13 +127,8 @@ void EnvelopeFactor::solve(double* x) const
         {
             const double *row = rowOf(i, c), *known = x + 3 * static_cast<std::size_t>(m_first[i]);
             const std::size_t count = length(i) - 3 + c;
-            double sums[2] = {};
-            std::size_t k = 0;
-            for (; k + 1 < count; k += 2)
-                for (int half = 0; half < 2; ++half) sums[half] += row[k + half] * known[k + half];
-            if (k < count) sums[0] += row[k] * known[k];
             double& value = x[3 * static_cast<std::size_t>(i) + c];
-            value = (value - sums[0] - sums[1]) * m_inverse[3 * static_cast<std::size_t>(i) + c];
+            value = (value - rowProduct(row, known, count)) * m_inverse[3 * static_cast<std::size_t>(i) + c];
         }
     for (int i = rows() - 1; i >= 0; --i)
         for (int c = 2; c >= 0; --c)

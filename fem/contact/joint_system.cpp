@@ -18,6 +18,10 @@ constexpr int kPatience = 30;          // changes of what is held, a step: each 
 constexpr double kNothing = 1e-7;      // share of the speed scale that is not worth an answer
 constexpr double kAtLimit = 1 - 1e-9;  // share of a limit that counts as all of it
 
+// Of what was missed, shares that a factor of another step's W may leave: below the first nothing is refined, above the
+// second it is the factor of another system.
+constexpr double kRefined = 1e-4, kMisleads = 0.1;
+
 double along(const ContactRow& row, int axis)
 {
     return dot(row.m_impulse, row.m_axes[axis]);
@@ -46,6 +50,8 @@ void JointSystem::begin()
     m_first = static_cast<int>(m_rows.problem().m_contacts.size());
     m_count = static_cast<int>(m_rows.problem().m_joints.size());
     m_partCount = 0;
+    m_work = false;
+    m_turned.dropAll();
     if (isEmpty()) return;
     for (std::vector<double>* values : {&m_shift, &m_change}) values->assign(unknowns(), 0);
     m_isHeld.assign(unknowns(), 0);
@@ -65,6 +71,7 @@ void JointSystem::begin()
             joint.m_held = joint.m_held || (m_isHeld[3 * k + i] && !m_isIdle[3 * k + i]);
         }
     }
+    m_turned.find(m_first, m_isHeld);
     chooseParts();
     reform();
 }
@@ -103,8 +110,9 @@ void JointSystem::chooseParts()
     for (int k = 0; k < m_count; ++k)
     {
         m_profile[k] = std::min(firstWithOwner(row(k).m_a, k), firstWithOwner(row(k).m_b, k));
-        work += EnvelopeFactor::work(k - m_profile[k] + 1);
+        if (!m_turned.has(k)) work += EnvelopeFactor::work(k - m_profile[k] + 1);
     }
+    if (work > kMostWork) m_turned.dropAll();
     const int length = work > kMostWork ? kJointsOfPart : m_count;
     for (int k = 0; k < m_count; k += length) addPart(k, std::min(k + length, m_count));
 }
@@ -115,8 +123,23 @@ void JointSystem::addPart(int begin, int end)
     Part& part = m_parts[m_partCount++];
     part.m_begin = begin;
     part.m_end = end;
+    addRows(part);
+}
+
+void JointSystem::addRows(Part& part)
+{
     part.m_factor.clear();
-    for (int k = begin; k < end; ++k) part.m_factor.addRow(std::max(m_profile[k] - begin, 0));
+    for (int k = part.m_begin; k < part.m_end; ++k)
+        part.m_factor.addRow(m_turned.has(k) ? k - part.m_begin : std::max(m_profile[k] - part.m_begin, 0));
+}
+
+// The others of its body go with it: what was noted of the system before is of another one.
+void JointSystem::dropTurned(Part& part, int joint)
+{
+    m_turned.drop(joint);
+    ++m_changes;
+    addRows(part);
+    form(part);
 }
 
 Mat3 JointSystem::between(const ContactRow& a, const ContactRow& b) const
@@ -130,9 +153,14 @@ void JointSystem::form(Part& part)
     for (int k = part.m_begin; k < part.m_end; ++k)
         for (int j = part.m_begin + part.m_factor.first(k - part.m_begin); j <= k; ++j)
         {
+            Mat3 block = Mat3::identity();
+            if (m_turned.has(k))
+            {
+                part.m_factor.set(k - part.m_begin, j - part.m_begin, block);
+                continue;
+            }
             const ContactRow &a = row(k), &b = row(j);
             const Mat3 w = between(a, b);
-            Mat3 block;
             for (int i = 0; i < 3; ++i)
                 for (int l = 0; l < 3; ++l) block(i, l) = dot(a.m_axes[i], w * b.m_axes[l]);
             for (int i = 0; j == k && i < 3; ++i) block(i, i) += a.m_yield[i];
@@ -168,6 +196,7 @@ void JointSystem::answer(Part& part, std::vector<double>& x)
     if (part.m_stale) part.m_factor.factor(&m_isHeld[first]);
     part.m_stale = false;
     part.m_factor.solve(&x[first]);
+    if (m_turned.hasAny()) m_turned.solve(x);
 }
 
 void JointSystem::shift(const std::vector<double>* by)
@@ -188,16 +217,18 @@ double JointSystem::solve()
 // What is held once more by what it wants, then the others at once: again where one of them then exceeds its limit.
 double JointSystem::solvePart(Part& part)
 {
-    double held = 0;
+    double held = 0, missed = 0;
     for (int k = part.m_begin; k < part.m_end; ++k) held = std::max(held, sweepHeld(part, k));
     do
     {
         follow();
-        if (!(missBy(part) > kNothing * m_rows.speedScale())) return held;
+        missed = missBy(part);
+        if (!(missed > kNothing * m_rows.speedScale())) return held;
         answer(part, m_change);
     } while (holdBeyondLimits(part, held));
-    const double largest = takeChanges(part);
+    double largest = takeChanges(part);
     follow();
+    if (m_turned.hasAny()) largest = std::max(largest, refine(part, missed));
     return m_partCount > 1 ? std::max(held, largest) : held;
 }
 
@@ -217,31 +248,41 @@ double JointSystem::missBy(const Part& part)
     return largest;
 }
 
-// Velocities of dense bodies follow at once.
+// A factor that is not of this step's W leaves what W in single precision makes of the rotations; where it leaves more,
+// as of a system that is all but singular, it is not used again in this step.
+double JointSystem::refine(Part& part, double missed)
+{
+    const double left = missBy(part);
+    if (!(left > std::max(kNothing * m_rows.speedScale(), kRefined * missed))) return 0;
+    for (int k = part.m_begin; k < part.m_end && !(left <= kMisleads * missed); ++k)
+        if (m_turned.has(k)) dropTurned(part, k);
+    answer(part, m_change);
+    const double largest = takeChanges(part);
+    follow();
+    return largest;
+}
+
+// Velocities of dense bodies follow at once where their ends work.
 void JointSystem::follow()
 {
-    if (!m_rows.isDense()) m_rows.flush();
+    if (!m_rows.isDense() || !m_work) m_rows.flush();
 }
 
 double JointSystem::sweepHeld(Part& part, int joint)
 {
+    const auto isSwept = [&](int i) { return m_isHeld[3 * joint + i] && !m_isIdle[3 * joint + i]; };
+    if (!isSwept(0) && !isSwept(1) && !isSwept(2)) return 0;
     ContactRow& r = row(joint);
     const Vec3 wanted = wantedImpulse(r, r.m_impulse, m_rows.velocity(r), 1);
     Vec3 impulse = r.m_impulse;
-    bool any = false;
     for (int i = 0; i < 3; ++i)
-    {
-        if (m_isIdle[3 * joint + i] || !m_isHeld[3 * joint + i]) continue;
-        any = true;
-        impulse += (dot(wanted, r.m_axes[i]) - along(r, i)) * r.m_axes[i];
-    }
-    if (!any) return 0;
+        if (isSwept(i)) impulse += (dot(wanted, r.m_axes[i]) - along(r, i)) * r.m_axes[i];
     const double change = speedOf(r, impulse - r.m_impulse);
     m_rows.change(r, impulse);
     const bool isWithin = norm(impulse) < kAtLimit * r.m_most;
     for (int i = 0; i < 3; ++i)
     {
-        if (m_isIdle[3 * joint + i] || !m_isHeld[3 * joint + i] || m_patience == 0) continue;
+        if (!isSwept(i) || m_patience == 0) continue;
         if (!isWithin || !(std::fabs(along(r, i)) < kAtLimit * r.m_limit[i])) continue;
         m_isHeld[3 * joint + i] = 0;
         part.m_stale = true;
@@ -282,6 +323,7 @@ bool JointSystem::holdBeyondLimits(Part& part, double& largest)
         impulse = withinLimits(r, impulse, held);
         largest = std::max(largest, speedOf(r, impulse - r.m_impulse));
         m_rows.change(r, impulse);
+        if (m_turned.has(k)) dropTurned(part, k);
         --m_patience;
         ++m_changes;
     }

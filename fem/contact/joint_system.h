@@ -6,6 +6,7 @@
 
 #include "fem/contact/contact_rows.h"
 #include "fem/contact/envelope_factor.h"
+#include "fem/contact/turned_joints.h"
 
 namespace bullet_fem
 {
@@ -13,12 +14,13 @@ namespace bullet_fem
 /// All joints of a problem as one linear system, (W + yield) d = target - v - yield lambda, solved at once by a factor:
 /// what heavy bodies that hang on light ones take no sweep ever hands on. What would exceed its limit is held at it,
 /// and is swept like a contact until it wants less; the others are solved as if it were not there. Joints that are too
-/// many for one factor are solved in parts, in turn. Grows with the problem, never shrinks.
+/// many for one factor are solved in parts, in turn. Those whose factor is a constant take that. Grows with the
+/// problem, never shrinks.
 class JointSystem
 {
 public:
     /// The rows must outlive it.
-    explicit JointSystem(ContactRows& rows) : m_rows(rows) {}
+    explicit JointSystem(ContactRows& rows) : m_rows(rows), m_turned(rows) {}
 
     /// When the rows are assembled anew.
     void begin();
@@ -27,6 +29,11 @@ public:
     void reform();
 
     bool isEmpty() const { return m_count == 0; }
+
+    /// True if all joints are told what their ends' velocities lack, and change their impulses, at once: no working set
+    /// need have them. `work`: whether the ends are in working sets of dense bodies.
+    bool goAtOnce() const { return !isEmpty() && m_turned.hasAll(); }
+    void work(bool work) { m_work = work; }
 
     /// Gives all joints the impulses that their ends' velocities want; the velocities follow. Returns what is left to
     /// do for another call, as the speed that a change gives a row's own point [m/s]: 0 where all are solved at once.
@@ -58,7 +65,10 @@ private:
 
     void chooseParts();
     void addPart(int begin, int end);
+    void addRows(Part& part);
     void form(Part& part);
+    void dropTurned(Part& part, int joint);
+    double refine(Part& part, double missed);
     int firstWithOwner(const RowEnd& end, int joint);
     Mat3 between(const ContactRow& a, const ContactRow& b) const;
     const ContactRow& row(int joint) const { return m_rows.rows()[m_first + joint]; }
@@ -79,6 +89,8 @@ private:
     std::vector<int> m_profile;       // per joint: the first that it moves
     std::vector<Part> m_parts;        // of which the first m_partCount are used
     int m_partCount = 0;
+    TurnedJoints m_turned;                  // of which parts have empty rows; none where there is more than one part
+    bool m_work = false;                    // working sets have the ends
     std::vector<unsigned char> m_isHeld;    // per unknown: at its limit, or nothing to solve for
     std::vector<unsigned char> m_isIdle;    // per unknown: nothing to solve for
     std::vector<double> m_shift, m_change;  // per unknown

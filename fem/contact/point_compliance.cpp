@@ -113,6 +113,9 @@ Vec3 PointCompliance::read(int point, const std::vector<double>& slotValues) con
 
 const float* PointCompliance::columns(int point)
 {
+    const int only = m_first[point];  // of a point that is a node or a slot of its own
+    if (m_first[point + 1] == only + 1 && m_weight[only] == 1)
+        return column(3 * static_cast<std::size_t>(m_slot[only]));
     if (m_columnsOf[point] < 0)
     {
         m_columnsOf[point] = m_columnsFormed++;

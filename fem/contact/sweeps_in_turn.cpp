@@ -77,8 +77,10 @@ void SweepsInTurn::chooseWorkingSet()
     m_looked = false;
     m_working.clear();
     const std::vector<ContactRow>& rows = m_rows.rows();
+    m_needsNone = needsNone();
+    m_joints.work(!m_needsNone);
     int joined = 0;
-    for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t k = 0; k < rows.size() && !m_needsNone; ++k)
     {
         if (m_rows.wants(k)) m_working.push_back(static_cast<int>(k));
         if (m_rows.wants(k) && !m_works[k]) ++joined;
@@ -94,6 +96,11 @@ void SweepsInTurn::chooseWorkingSet()
     m_lifeOfSet = joined > kNews * static_cast<double>(m_working.size()) ? kShortLife : kLongLife;
 }
 
+bool SweepsInTurn::needsNone() const
+{
+    return m_joints.goAtOnce() && m_rows.rows().size() == m_rows.problem().m_joints.size();
+}
+
 void SweepsInTurn::lookForWork()
 {
     m_rows.flush();
@@ -105,7 +112,7 @@ void SweepsInTurn::lookForWork()
 bool SweepsInTurn::restIsDone(double tolerance)
 {
     const std::vector<ContactRow>& rows = m_rows.rows();
-    if (m_working.size() == rows.size()) return true;
+    if (m_needsNone || m_working.size() == rows.size()) return true;
     lookForWork();
     m_lifeOfSet = -1;
     double largest = 0;
@@ -122,7 +129,7 @@ void SweepsInTurn::end()
 
 bool SweepsInTurn::sweep(double tolerance)
 {
-    if (m_lifeOfSet <= 0) chooseWorkingSet();
+    if (m_lifeOfSet <= 0 || m_needsNone != needsNone()) chooseWorkingSet();
     --m_lifeOfSet;
     m_hasSwept = true;
     const bool mixes = m_rows.rows().size() > m_rows.problem().m_joints.size();

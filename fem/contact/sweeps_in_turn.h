@@ -50,6 +50,7 @@ public:
 private:
     void divideRows();
     void chooseWorkingSet();
+    bool needsNone() const;
     void lookForWork();
     bool restIsDone(double tolerance);
     void sweepAll();
@@ -64,6 +65,7 @@ private:
     SweepParts m_parts;                  // of the rows
     std::vector<int> m_working;          // rows that the sweeps are over, part by part
     std::vector<unsigned char> m_works;  // per row: belongs to them
+    bool m_needsNone = false;            // no row is swept by itself
     bool m_looked = false;               // the rows have noted what they want, and nothing has changed since
     int m_lifeOfSet = -1;                // sweeps until another is chosen; -1: there is none
     bool m_hasSwept = false;             // since the restart

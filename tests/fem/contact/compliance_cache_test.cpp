@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "fem/factor/rest_factor.h"
@@ -71,6 +73,49 @@ TEST_P(ComplianceCacheTest, HoldsTheInverseOfA0)
             ++compared;
         }
     EXPECT_EQ(compared, 40 * 40);  // 56 of 64 nodes on the surface, 16 of them clamped
+}
+
+TEST_P(ComplianceCacheTest, FactorsWhatItHoldsBetweenNodes)
+{
+    ComplianceCache cache(m_model);
+    std::vector<int> nodes;
+    for (int node : m_surface)
+        if (!m_model->factorInput().m_fixed[node]) nodes.insert(nodes.begin(), node);
+    const std::shared_ptr<const EnvelopeFactor> factor = cache.factorOf(nodes);
+    ASSERT_EQ(factor->rows(), static_cast<int>(nodes.size()));
+    std::vector<double> right(3 * nodes.size()), x;
+    for (std::size_t i = 0; i < right.size(); ++i) right[i] = std::sin(1.0 + static_cast<double>(i));
+    x = right;
+    factor->solve(x.data());
+    cache.request(nodes);
+    double impulses = 0, size = 0;
+    for (double value : x) impulses += std::fabs(value);
+    for (int node : nodes) size = std::max(size, std::sqrt(squaredNorm(cache.block(node, node))));
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+    {
+        Vec3 v;
+        for (std::size_t j = 0; j < nodes.size(); ++j)
+            v += cache.block(nodes[k], nodes[j]) * Vec3{x[3 * j], x[3 * j + 1], x[3 * j + 2]};
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(v[i], right[3 * k + i], m_error * size * impulses);
+    }
+}
+
+// Of one set, the same for all who ask, until there is no room for it.
+TEST_P(ComplianceCacheTest, KeepsFactorsWithinItsBudget)
+{
+    ComplianceCache cache(m_model);
+    std::vector<int> nodes(m_surface.begin(), m_surface.begin() + 40);
+    const std::weak_ptr<const EnvelopeFactor> first = cache.factorOf(nodes);
+    EXPECT_EQ(cache.factorOf(nodes), first.lock());
+    const std::size_t each = 2 * 9 * sizeof(double) * 40 * 41 / 2, most = NodeSetFactors::kBudget / each;
+    std::size_t others = 0;
+    while (!first.expired() && others < 2 * most)
+    {
+        std::next_permutation(nodes.begin(), nodes.end());
+        cache.factorOf(nodes);
+        ++others;
+    }
+    EXPECT_EQ(others, most);
 }
 
 TEST_P(ComplianceCacheTest, ServesTheNodesThatItIsMadeFor)

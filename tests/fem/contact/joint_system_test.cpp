@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "bullet_fem/fem/step/stepping.h"
+#include "fem/contact/compliance_cache.h"
+#include "fem/contact/turned_joints.h"
 #include "fem/scenes/contact_scene.h"
 
 namespace bullet_fem
@@ -21,15 +24,17 @@ class JointSystemTest : public testing::Test
 protected:
     static constexpr int kWorld = -1;
 
-    Joint& hold(int node, int rigidProxy = kWorld)
+    Joint& hold(int node, int rigidProxy = kWorld) { return hold(m_scene, node, rigidProxy); }
+
+    static Joint& hold(ContactScene& scene, int node, int rigidProxy = kWorld)
     {
-        ContactProblem& problem = m_scene.m_problem;
+        ContactProblem& problem = scene.m_problem;
         Joint joint;
         joint.m_a.m_body = 0;
         joint.m_a.m_first = static_cast<int>(problem.m_handleNodes.size());
         joint.m_a.m_count = 1;
         joint.m_b.m_rigidProxy = rigidProxy;
-        joint.m_b.m_point = m_scene.m_body.m_state.m_x[node];
+        joint.m_b.m_point = scene.m_body.m_state.m_x[node];
         problem.m_handleNodes.push_back(node);
         problem.m_handleBlocks.push_back(Mat3::identity());
         problem.m_joints.push_back(joint);
@@ -140,6 +145,148 @@ TEST_F(JointSystemTest, AddsCompliance)
     const Vec3 v = velocity(m_scene.m_body)[4];
     EXPECT_LT(norm(v + 0.02 * m_joints[0].m_impulse), 1e-5);
     EXPECT_GT(norm(v), 0.01);
+}
+
+/// All nodes of the cube's surface, held by a joint each. The cube is turned and strained.
+class ManyHeldNodesTest : public JointSystemTest
+{
+protected:
+    static constexpr int kNodes = 27, kInside = 13;
+
+    ManyHeldNodesTest() { holdSurface(m_scene); }
+
+    void holdSurface(ContactScene& scene) const
+    {
+        for (int node = 0; node < kNodes; ++node)
+        {
+            Vec3& x = scene.m_body.m_state.m_x[node];
+            const Vec3 X = x;
+            x = m_turn * Vec3{X.x * (1 + 0.2 * X.z), X.y - 0.1 * X.x * X.x, 1.1 * X.z};
+            if (node == kInside) continue;
+            Joint& joint = hold(scene, node);
+            joint.m_wanted = 0.1 * X;
+            for (int i = 0; i < 3; ++i) joint.m_axes[i] = {m_axes(0, i), m_axes(1, i), m_axes(2, i)};
+        }
+        scene.setVelocity({0.3, -0.5, -1});
+        scene.m_settings.m_sweeps = 50;
+        scene.m_settings.m_rounds = 10;  // W is that of the shape at rest, and the cube is strained by a fifth
+    }
+
+    /// Of a joint's node, beyond what the joint wants along its axes [m/s].
+    double missAlongAxes(const Joint& joint) const
+    {
+        const Vec3 v = velocity(m_scene.m_body)[m_scene.m_problem.m_handleNodes[joint.m_a.m_first]];
+        return norm(v - m_axes * joint.m_wanted);
+    }
+
+    /// Rows of the scene, as they are after the free motion.
+    void assemble(ContactRows& rows)
+    {
+        m_scene.m_problem.m_bodies = {{&m_scene.m_body, m_scene.m_cache.get()}};
+        rows.assemble(m_scene.m_problem, m_scene.m_settings, {});
+    }
+
+    const Mat3 m_turn = rotationAbout({0.3, -0.5, 0.8}, 0.7), m_axes = rotationAbout({1, 2, 0}, 1.1);
+};
+
+// The factor of A0^-1 between the nodes, which is a constant, answers what W asks, though the body has turned.
+TEST_F(ManyHeldNodesTest, TurnedJointsInvertTheirCompliance)
+{
+    solveFreeMotion(m_scene.m_body, m_scene.m_settings.m_step);
+    ContactRows rows;
+    assemble(rows);
+    TurnedJoints turned(rows);
+    const std::size_t unknowns = 3 * m_joints.size();
+    turned.find(0, std::vector<unsigned char>(unknowns, 0));
+    ASSERT_TRUE(turned.hasAll());
+
+    std::mt19937 random(3);
+    std::vector<double> right(unknowns);
+    for (double& value : right) value = static_cast<double>(random()) / 4294967296.0 - 0.5;
+    std::vector<double> x = right;
+    turned.solve(x);
+    for (std::size_t k = 0; k < m_joints.size(); ++k)
+    {
+        const ContactRow& row = rows.rows()[k];
+        Vec3 v;
+        for (std::size_t j = 0; j < m_joints.size(); ++j)
+            for (int i = 0; i < 3; ++i)
+                v += rows.compliance(row.m_a, rows.rows()[j].m_a) * (x[3 * j + i] * rows.rows()[j].m_axes[i]);
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(dot(row.m_axes[i], v), right[3 * k + i], 1e-4);
+    }
+}
+
+TEST_F(ManyHeldNodesTest, AreNotTurnedWhereAnythingElseCounts)
+{
+    solveFreeMotion(m_scene.m_body, m_scene.m_settings.m_step);
+    makeBall(m_scene.m_rigidProxies[0], 10, 0.5);
+    ContactRows rows;
+    TurnedJoints turned(rows);
+    const auto isTurned = [&](const std::vector<unsigned char>& held)
+    {
+        assemble(rows);
+        turned.find(0, held);
+        return turned.hasAny();
+    };
+    std::vector<unsigned char> none(3 * m_joints.size(), 0), one = none;
+    one[7] = 1;
+    EXPECT_TRUE(isTurned(none));
+    EXPECT_FALSE(isTurned(one));
+    m_joints[5].m_compliance = 1e-3;
+    EXPECT_FALSE(isTurned(none));
+    m_joints[5].m_compliance = 0;
+    m_joints[20].m_b.m_rigidProxy = 0;
+    EXPECT_FALSE(isTurned(none));
+    m_joints[20].m_b.m_rigidProxy = kWorld;
+    EXPECT_TRUE(isTurned(none));
+}
+
+TEST_F(ManyHeldNodesTest, TakeOneSweepARound)
+{
+    const ContactReport report = m_scene.solve();
+    EXPECT_TRUE(report.m_converged);
+    EXPECT_LE(report.m_sweeps, report.m_rounds);
+    for (const Joint& joint : m_joints) EXPECT_LT(missAlongAxes(joint), 1e-6);
+}
+
+// A compliance that is nothing beside W takes them to the factor of the step's own W.
+TEST_F(ManyHeldNodesTest, FeelWhatTheStepsOwnFactorGivesThem)
+{
+    ContactScene other;
+    holdSurface(other);
+    other.m_problem.m_joints[0].m_compliance = 1e-12;
+    m_scene.solve();
+    other.solve();
+    for (std::size_t k = 0; k < m_joints.size(); ++k)
+    {
+        const Vec3& impulse = m_joints[k].m_impulse;
+        EXPECT_LT(norm(other.m_problem.m_joints[k].m_impulse - impulse), 1e-5 * norm(impulse));
+    }
+}
+
+// One of them, and the others go on by the step's own factor.
+TEST_F(ManyHeldNodesTest, HoldAnImpulseAtItsLimit)
+{
+    m_joints[4].m_most = 1;
+    m_scene.solve();
+    EXPECT_NEAR(norm(m_joints[4].m_impulse), 1, 1e-6);
+    EXPECT_GT(missAlongAxes(m_joints[4]), 1e-3);
+    m_joints.erase(m_joints.begin() + 4);
+    for (const Joint& joint : m_joints) EXPECT_LT(missAlongAxes(joint), 1e-4);
+}
+
+// Whatever the cache was asked for before, as in a run from which a state was saved.
+TEST_F(ManyHeldNodesTest, HaveTheSameBitsWithAnyHistoryOfTheCache)
+{
+    ContactScene other;
+    holdSurface(other);
+    other.m_cache->factorOf({3, 1, 0});
+    const std::vector<int>& nodes = other.m_problem.m_handleNodes;
+    other.m_cache->factorOf({nodes.rbegin(), nodes.rend()});
+    m_scene.solve();
+    other.solve();
+    for (int node = 0; node < kNodes; ++node)
+        EXPECT_EQ(norm(velocity(m_scene.m_body)[node] - velocity(other.m_body)[node]), 0) << node;
 }
 
 // Beside contacts both hold.
