@@ -35,8 +35,10 @@ std::string faultOf(const btRigidBody& body)
     return finite ? "" : "a rigid body is not finite";
 }
 
+// What is put to sleep keeps the velocity that it had, but not the flags that told why.
 std::string gentleFaultOf(const btFemSoftBodySolver& fem, const btSoftBody& body)
 {
+    if (!body.isActive()) return "";
     const int flags = fem.stepReport(&body).m_flags;
     if (flags & ~(kTellsOfWork | kTellsOfCrushing)) return message("flags 0x", std::hex, flags, " want a reason");
     if (flags & kTellsOfCrushing) return "";
