@@ -9,7 +9,7 @@ programs=(fem_threads actuation elasticity threads policy accurate_bending break
 programs=("${programs[@]/#/bulletfem_}")
 programs=("${programs[@]/%/_test}")
 # Allocations are not counted: threads are made anew for every run of tasks here (fem/common/threads.cpp).
-filter='*hread*:*Shared*:*Batch*:*Concurrent*:*FactorJobs*:*BackgroundRefactoring*-*llocat*'
+filter='*hread*:*Shared*:*BatchMemory*:*Concurrent*:*FactorJobs*:*BackgroundRefactoring*-*llocat*'
 
 install_for_build "${test_packages[@]}"
 
