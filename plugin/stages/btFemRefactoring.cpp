@@ -19,6 +19,16 @@ namespace
 // compliance.
 constexpr double kRefactorInContact = 1.5;
 
+// It touched or was held in the last step, or is to be held in this one.
+bool meetsOthers(const btFemBodyRecord& record)
+{
+    const btSoftBody& soft = *record.m_softBody;
+    const HeldJoints& joints = record.fem().m_joints;
+    return record.m_reports.m_contacts.size() > 0 || record.m_reports.m_anchors.size() > 0 ||
+           soft.m_anchors.size() > 0 || soft.m_deformableAnchors.size() > 0 || soft.m_joints.size() > 0 ||
+           !joints.m_attachments.empty() || !joints.m_springs.empty() || !joints.m_welds.empty();
+}
+
 double priceFor(const btFemBodyRecord& record)
 {
     return refactorPrice(*record.fem().m_body.m_model);
@@ -70,8 +80,8 @@ void btFemRefactorPolicy::takeOver(btFemBodySetUp& setUp, btFemBodyRecord& recor
 
 void btFemRefactorPolicy::renew(btFemBodySetUp& setUp, btFemBodyRecord& record, double step)
 {
-    const bool touches = record.m_reports.m_contacts.size() > 0 || record.m_reports.m_anchors.size() > 0;
-    if (!touches || record.m_work.m_factorMismatch <= kRefactorInContact) return refresh(setUp, record, step);
+    if (record.m_work.m_factorMismatch <= kRefactorInContact || !meetsOthers(record))
+        return refresh(setUp, record, step);
     setUp.tryRefactor(record, step);
     record.m_work.m_factorAccount.clear();
 }

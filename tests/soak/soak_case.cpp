@@ -35,12 +35,15 @@ std::string faultOf(const btRigidBody& body)
     return finite ? "" : "a rigid body is not finite";
 }
 
+// What is put to sleep keeps the velocity that it had, but not the flags that told why.
 std::string gentleFaultOf(const btFemSoftBodySolver& fem, const btSoftBody& body)
 {
+    if (!body.isActive()) return "";
     const int flags = fem.stepReport(&body).m_flags;
     if (flags & ~(kTellsOfWork | kTellsOfCrushing)) return message("flags 0x", std::hex, flags, " want a reason");
     if (flags & kTellsOfCrushing) return "";
     if (fastestNode(body) > kFastest) return message("a node is as fast as ", fastestNode(body), " m/s");
+    if (flags & BT_FEM_CONTACT_LIMIT) return "";  // what it has no contacts for goes into the floor
     if (massOf(body) > 0 && centerOf(body).z < 0) return message("its centre is at z = ", centerOf(body).z, " m");
     return "";
 }

@@ -12,6 +12,16 @@ namespace bullet_fem
 namespace
 {
 
+void print(const btSoftBody& body, const btSoftBody::Anchor& anchor)
+{
+    const btVector3 arm = anchor.m_body->getWorldTransform().getBasis() * anchor.m_local;
+    const btVector3 point = anchor.m_body->getWorldTransform().getOrigin() + arm;
+    std::printf("    node %d, anchored %.4g m from a rigid body's centre, where it moves at %.4g m/s; %.4g m off\n",
+                int(anchor.m_node - &body.m_nodes[0]), double(arm.length()),
+                double(anchor.m_body->getVelocityInLocalPoint(arm).length()),
+                double((anchor.m_node->m_x - point).length()));
+}
+
 void print(std::size_t k, const btSoftBody& body, const btFemStepReport& report)
 {
     int fastest = 0, pinned = 0;
@@ -27,6 +37,7 @@ void print(std::size_t k, const btSoftBody& body, const btFemStepReport& report)
         k, massOf(body), center.x, center.y, center.z, fastest, body.m_nodes.size(), fastestNode(body),
         motionOf(body).m_energy, pinned, body.m_anchors.size() + body.m_deformableAnchors.size(), report.m_flags,
         report.m_iterations);
+    for (int a = 0; a < body.m_anchors.size(); ++a) print(body, body.m_anchors[a]);
 }
 
 void print(std::size_t k, const btRigidBody& body)

@@ -29,7 +29,9 @@ version=$(qemu-aarch64 --version | sed -n 's/.*version \([0-9.]*\).*/\1/p')
 row=("GCC $(aarch64-linux-gnu-g++ -dumpfullversion)" C++17 "$(bullet_version "$1/src")" float "Debian 12, AArch64")
 built "${row[@]}" "libraries and a client run under QEMU $version"
 say "tests of fem under QEMU"
-cross "$root" tests -t bulletfem_fem_test "${options[@]}" -DBULLETFEM_BUILD_TESTS=ON
+cross "$root" tests -t bulletfem_fem_test -t bulletfem_fem_threads_test "${options[@]}" -DBULLETFEM_BUILD_TESTS=ON
 filter=${FILTER:-'*Element*:*Kernel*:*Packed*:*NumericFactor*:*LaneGradients*:WorkingSet*:*Step*:*Batch*:*BodyModel*'}
-"${qemu[@]}" "$build/tests/tests/fem/bulletfem_fem_test" --gtest_brief=1 --gtest_filter="$filter"
+for program in fem fem_threads; do
+    "${qemu[@]}" "$build/tests/tests/fem/bulletfem_${program}_test" --gtest_brief=1 --gtest_filter="$filter"
+done
 built "${row[@]}" "libraries, a client and tests of kernels, factor and steps run under QEMU $version"

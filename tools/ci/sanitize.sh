@@ -5,8 +5,8 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
 build=$root/build/sanitized # of its own, so that no script changes the options of another's
-programs=(bulletfem_fem_test bulletfem_elasticity_test bulletfem_baked_test bulletfem_bridge_test
-    bulletfem_bridge_allocation_test bulletfem_bridge_pair_allocation_test)
+programs=(bulletfem_fem_test bulletfem_fem_threads_test bulletfem_elasticity_test bulletfem_baked_test
+    bulletfem_bridge_test bulletfem_bridge_allocation_test bulletfem_bridge_pair_allocation_test)
 
 install_for_build "${test_packages[@]}"
 

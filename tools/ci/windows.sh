@@ -70,8 +70,10 @@ if [ $tests = ON ]; then
     "$wine" "$build/client/player.exe" "$build/client/body"
     built "${row[@]}" "libraries and a client run under $("$wine" --version)"
     say "the tests of fem under Wine"
-    cross "$root" tests -t bulletfem_fem_test "${options[@]}" -DBULLETFEM_BUILD_TESTS=ON
-    "$wine" "$build/tests/tests/fem/bulletfem_fem_test.exe" --gtest_brief=1
+    cross "$root" tests -t bulletfem_fem_test -t bulletfem_fem_threads_test "${options[@]}" -DBULLETFEM_BUILD_TESTS=ON
+    for program in fem fem_threads; do
+        "$wine" "$build/tests/tests/fem/bulletfem_${program}_test.exe" --gtest_brief=1
+    done
     result="libraries, a client and tests of fem run under $("$wine" --version)"
 fi
 built "${row[@]}" "$result"

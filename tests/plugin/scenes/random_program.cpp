@@ -205,8 +205,11 @@ void RandomProgram::step()
     m_step = h;
     if (one(5)) m_world.bullet().stepSimulation(btScalar(number(0, 0.06)), 4, btScalar(h));
     removeRejected();
-    stepWorld(1 + below(4), h);
-    removeRejected();
+    for (int left = 1 + below(4); left > 0; --left)
+    {
+        stepWorld(1, h);
+        removeRejected();
+    }
 }
 
 void RandomProgram::stepWorld(int count, double h)
@@ -215,12 +218,35 @@ void RandomProgram::stepWorld(int count, double h)
     m_steps += count;
 }
 
-// Bullet moves what is not FEM, with whatever was written to it, and what is anchored to it.
+// Bullet moves what is not FEM, with whatever was written to it, and what is anchored to it, from the step on that
+// refuses it.
 void RandomProgram::removeRejected()
 {
     const std::vector<btSoftBody*> all = m_soft;
     for (btSoftBody* body : all)
-        if (m_fem.stepReport(body).m_flags & BT_FEM_REJECTED) remove(body);
+    {
+        if (!(m_fem.stepReport(body).m_flags & BT_FEM_REJECTED)) continue;
+        removeLost(*body);
+        remove(body);
+    }
+}
+
+// Bullet's anchors of a body far away overflow single precision.
+void RandomProgram::removeLost(const btSoftBody& rejected)
+{
+    std::vector<btRigidBody*> lost;
+    for (btRigidBody* body : m_rigid)
+    {
+        if (isFinite(vec3(body->getWorldTransform().getOrigin())) && isFinite(vec3(body->getLinearVelocity())))
+            continue;
+        for (int k = 0; k < rejected.m_anchors.size(); ++k)
+            if (rejected.m_anchors[k].m_body == body)
+            {
+                lost.push_back(body);
+                break;
+            }
+    }
+    for (btRigidBody* body : lost) remove(body);
 }
 
 void RandomProgram::addSoft(btSoftBody* body)
@@ -344,7 +370,11 @@ void RandomProgram::addStatic()
 
 void RandomProgram::removeRigid()
 {
-    btRigidBody* body = anyRigid();
+    remove(anyRigid());
+}
+
+void RandomProgram::remove(btRigidBody* body)
+{
     m_rigid.erase(std::find(m_rigid.begin(), m_rigid.end(), body));
     for (btSoftBody* soft : m_soft)  // Bullet's anchors hold addresses
         for (int k = soft->m_anchors.size() - 1; k >= 0; --k)

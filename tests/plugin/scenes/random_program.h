@@ -64,7 +64,9 @@ private:
     void addSoft(btSoftBody* body);
     void forgetJoints();
     void remove(btSoftBody* body);
+    void remove(btRigidBody* body);
     void removeRejected();
+    void removeLost(const btSoftBody& rejected);
 
     void step();
     void addBox();

@@ -9,6 +9,7 @@
 
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"
+#include "support/thread_sanitizer.h"
 
 namespace bullet_fem
 {
@@ -84,11 +85,11 @@ class BatchedWorld : public testing::TestWithParam<Coupling>
 TEST_P(BatchedWorld, GivesTheBitsOfBodiesOneByOneForEveryNumberOfThreads)
 {
     FallingCopies alone(false, 1, GetParam());
-    const std::vector<btScalar> bits = alone.run(60);
+    const std::vector<btScalar> bits = alone.run(stepsOnThreads(60));
     EXPECT_GT(alone.m_mostContacts, 10);
     EXPECT_GE(alone.m_iterations.size(), 3u);
     for (const int threads : {1, 2, 3, 8})
-        EXPECT_TRUE(FallingCopies(true, threads, GetParam()).run(60) == bits) << threads;
+        EXPECT_TRUE(FallingCopies(true, threads, GetParam()).run(stepsOnThreads(60)) == bits) << threads;
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, BatchedWorld, testing::Values(Coupling::swap, Coupling::coupled),

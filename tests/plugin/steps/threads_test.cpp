@@ -11,6 +11,7 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"
+#include "support/thread_sanitizer.h"
 
 namespace bullet_fem
 {
@@ -96,9 +97,9 @@ class SharedWorld : public testing::TestWithParam<Coupling>
 TEST_P(SharedWorld, GivesTheSameBitsForEveryNumberOfThreads)
 {
     Heap alone(GetParam(), 1);
-    const std::vector<btScalar> bits = alone.run(60);
+    const std::vector<btScalar> bits = alone.run(stepsOnThreads(60));
     EXPECT_GT(alone.m_mostContacts, 20);
-    for (const int count : g_counts) EXPECT_TRUE(Heap(GetParam(), count).run(60) == bits) << count;
+    for (const int count : g_counts) EXPECT_TRUE(Heap(GetParam(), count).run(stepsOnThreads(60)) == bits) << count;
 }
 
 // One body's mesh is refused, another's velocity becomes NaN: the others move on, bit for bit as on one thread.
@@ -238,7 +239,7 @@ std::vector<btScalar> runSlab(int collisionThreads, bool manifolds)
     for (int k = 0; k < 4; ++k) addSoft(btVector3(0.45f * k - 0.65f, 0.2f, 0.8f), btVector3(0.1f, 0.1f, 0.1f), 0.1f);
 
     std::vector<btScalar> bits;
-    for (int k = 0; k < 40; ++k)
+    for (int k = 0; k < stepsOnThreads(40); ++k)
     {
         world.stepSimulation(kStep, 0);
         for (const auto& body : soft)
