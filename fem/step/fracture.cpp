@@ -23,6 +23,10 @@ namespace
 // across it. A cut of a regular mesh has 1, a zigzag of regular tetrahedra about .8.
 constexpr double kLeastAcross = 0.3;
 
+// Share of the strength that the tension in an element around a node has at least where a cut there may bear the
+// strength: nodes at the tip of a crack bear more than their elements.
+constexpr double kTense = 0.5;
+
 struct Principal
 {
     double m_stress;
@@ -111,12 +115,13 @@ Fracture::Fracture(std::shared_ptr<const RestShape> shape)
 
 bool Fracture::markTense(double strength)
 {
+    const double least = kTense * strength;
     bool any = false;
     for (std::size_t e = 0; e < m_stress.size(); ++e)
     {
         const Stress& s = m_stress[e];
-        const bool mayBe = contraction(s, s) > strength * strength;  // no eigenvalue is beyond the norm
-        if (!mayBe || !(largestTension(s).m_stress > strength)) continue;
+        const bool mayBe = contraction(s, s) > least * least;  // no eigenvalue is beyond the norm
+        if (!mayBe || !(largestTension(s).m_stress > least)) continue;
         if (!any) std::fill(m_isTense.begin(), m_isTense.end(), 0);
         any = true;
         for (int node : m_mesh.tets()[e]) m_isTense[node] = 1;
@@ -139,30 +144,33 @@ int Fracture::sideOf(const Body& body, int element, const Vec3& x, const Vec3& n
     return dot(normal, elementMiddle(body.m_state.m_x, m_mesh.tets()[element]) - x) > 0 ? 1 : -1;
 }
 
-// n . sum(A sigma n_f) / n . sum(A n_f) over the faces between the two sides, with the mean of the elements on both
-// sides of a face: in uniform stress n . sigma n, however the faces zigzag.
+// An element pulls a node with sigma A / 3, A the area of the side opposite the node times its normal. What the
+// elements on the two sides pull with, in the mean and along the normal, over a third of the area of the faces between
+// them as seen along the normal: in uniform stress n . sigma n, however the faces zigzag, and at the tip of a crack
+// what the node bears there.
 Fracture::Cut Fracture::cutAt(const Body& body, int node, const Vec3& along) const
 {
     Cut cut;
     cut.m_normal = tensionAt(node);
     if (dot(cut.m_normal, along) < 0) cut.m_normal = -cut.m_normal;
     const std::vector<Vec3>& x = body.m_state.m_x;
-    double force = 0, across = 0;
+    double force = 0, across = 0, area = 0;
     for (int k = m_first[node]; k < m_first[node + 1]; ++k)
     {
         const int e = m_around[k];
-        if (sideOf(body, e, x[node], cut.m_normal) < 0) continue;
-        for (int a = 0; a < 4; ++a)
+        const Tet& tet = m_mesh.tets()[e];
+        const int side = sideOf(body, e, x[node], cut.m_normal);
+        force += side * dot(cut.m_normal, toMatrix(m_stress[e]) * areaOf(x, tet, placeInTet(tet, node))) / 6;
+        for (int a = 0; side > 0 && a < 4; ++a)
         {
             const int f = m_neighbour[e][a];
-            if (f < 0 || m_mesh.tets()[e][a] == node || sideOf(body, f, x[node], cut.m_normal) > 0) continue;
-            const Vec3 area = -areaOf(x, m_mesh.tets()[e], a);
-            force += dot(cut.m_normal, toMatrix(0.5 * (m_stress[e] + m_stress[f])) * area);
-            across += dot(cut.m_normal, area);
-            cut.m_area += norm(area);
+            if (f < 0 || tet[a] == node || sideOf(body, f, x[node], cut.m_normal) > 0) continue;
+            const Vec3 face = areaOf(x, tet, a);
+            across -= dot(cut.m_normal, face) / 3;
+            area += norm(face) / 3;
         }
     }
-    cut.m_isThere = across > kLeastAcross * cut.m_area;
+    cut.m_isThere = across > kLeastAcross * area;
     if (cut.m_isThere) cut.m_stress = force / across;
     return cut;
 }

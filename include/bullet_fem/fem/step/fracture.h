@@ -57,7 +57,7 @@ private:
     struct Cut  // through the elements around a node
     {
         Vec3 m_normal;
-        double m_stress = 0, m_area = 0;
+        double m_stress = 0;  // [Pa]
         bool m_isThere = false;
     };
     struct Begin
@@ -81,7 +81,7 @@ private:
     std::vector<int> m_first, m_around;           // elements around every node, ascending
     std::vector<std::array<int, 4>> m_neighbour;  // behind the side opposite each node; -1: none
     std::vector<Stress> m_stress;                 // of every element [Pa]
-    std::vector<unsigned char> m_isTense;         // per node: of an element whose largest tension is beyond the strength
+    std::vector<unsigned char> m_isTense;         // per node: of an element that bears a good part of the strength
     std::vector<Begin> m_begins;
     std::vector<signed char> m_side;       // per element: of the cracks of this step, 1 or -1; 0: of none
     std::vector<unsigned char> m_isCut;    // per element: bit a of the side opposite its node a
