@@ -27,19 +27,23 @@ constexpr double kLeastAcross = 0.3;
 // strength: nodes at the tip of a crack bear more than their elements.
 constexpr double kTense = 0.5;
 
-struct Principal
+// True if no eigenvalue is beyond the limit: limit I - s has positive pivots.
+bool isTensionBelow(const Stress& s, double limit)
 {
-    double m_stress;
-    Vec3 m_direction;
-};
+    const double a = limit - s.xx;
+    if (!(a > 0)) return false;
+    const double b = limit - s.yy - s.xy * s.xy / a, c = s.yz + s.xy * s.xz / a;
+    return b > 0 && limit - s.zz - s.xz * s.xz / a - c * c / b > 0;
+}
 
-Principal largestTension(const Stress& s)
+Vec3 directionOfLargestTension(const Stress& s)
 {
     Eigen::Matrix3d S;
     S << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(S);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(S);
     const auto q = eigen.eigenvectors().col(2);
-    return {eigen.eigenvalues()(2), {q(0), q(1), q(2)}};
+    return {q(0), q(1), q(2)};
 }
 
 /// Area times normal of the side opposite node a, out of the element [m2].
@@ -110,6 +114,7 @@ Fracture::Fracture(std::shared_ptr<const RestShape> shape)
     m_isTense.resize(mesh.restPositions().size());
     m_isAtCut.resize(mesh.restPositions().size());
     m_side.resize(mesh.tets().size());
+    m_sideHere.resize(mesh.tets().size());
     m_isCut.resize(mesh.tets().size());
 }
 
@@ -119,9 +124,7 @@ bool Fracture::markTense(double strength)
     bool any = false;
     for (std::size_t e = 0; e < m_stress.size(); ++e)
     {
-        const Stress& s = m_stress[e];
-        const bool mayBe = contraction(s, s) > least * least;  // no eigenvalue is beyond the norm
-        if (!mayBe || !(largestTension(s).m_stress > least)) continue;
+        if (isTensionBelow(m_stress[e], least)) continue;
         if (!any) std::fill(m_isTense.begin(), m_isTense.end(), 0);
         any = true;
         for (int node : m_mesh.tets()[e]) m_isTense[node] = 1;
@@ -135,7 +138,7 @@ Vec3 Fracture::tensionAt(int node) const
     Stress mean;
     for (int k = m_first[node]; k < m_first[node + 1]; ++k)
         mean += m_mesh.tetVolume(m_around[k]) * m_stress[m_around[k]];
-    return largestTension(mean).m_direction;
+    return directionOfLargestTension(mean);
 }
 
 int Fracture::sideOf(const Body& body, int element, const Vec3& x, const Vec3& normal) const
@@ -148,7 +151,7 @@ int Fracture::sideOf(const Body& body, int element, const Vec3& x, const Vec3& n
 // elements on the two sides pull with, in the mean and along the normal, over a third of the area of the faces between
 // them as seen along the normal: in uniform stress n . sigma n, however the faces zigzag, and at the tip of a crack
 // what the node bears there.
-Fracture::Cut Fracture::cutAt(const Body& body, int node, const Vec3& along) const
+Fracture::Cut Fracture::cutAt(const Body& body, int node, const Vec3& along)
 {
     Cut cut;
     cut.m_normal = tensionAt(node);
@@ -156,15 +159,16 @@ Fracture::Cut Fracture::cutAt(const Body& body, int node, const Vec3& along) con
     const std::vector<Vec3>& x = body.m_state.m_x;
     double force = 0, across = 0, area = 0;
     for (int k = m_first[node]; k < m_first[node + 1]; ++k)
+        m_sideHere[m_around[k]] = static_cast<signed char>(sideOf(body, m_around[k], x[node], cut.m_normal));
+    for (int k = m_first[node]; k < m_first[node + 1]; ++k)
     {
-        const int e = m_around[k];
+        const int e = m_around[k], side = m_sideHere[e];
         const Tet& tet = m_mesh.tets()[e];
-        const int side = sideOf(body, e, x[node], cut.m_normal);
         force += side * dot(cut.m_normal, toMatrix(m_stress[e]) * areaOf(x, tet, placeInTet(tet, node))) / 6;
         for (int a = 0; side > 0 && a < 4; ++a)
         {
             const int f = m_neighbour[e][a];
-            if (f < 0 || tet[a] == node || sideOf(body, f, x[node], cut.m_normal) > 0) continue;
+            if (f < 0 || tet[a] == node || m_sideHere[f] > 0) continue;
             const Vec3 face = areaOf(x, tet, a);
             across -= dot(cut.m_normal, face) / 3;
             area += norm(face) / 3;
@@ -258,8 +262,7 @@ void Fracture::part(int node, SplitMesh& split) const
         {
             const int f = m_neighbour[e][a];
             if (f < 0 || m_mesh.tets()[e][a] == node || (m_isCut[e] >> a & 1)) continue;
-            const auto at =
-                std::lower_bound(m_around.begin() + m_first[node], m_around.begin() + m_first[node + 1], f);
+            const auto at = std::lower_bound(m_around.begin() + m_first[node], m_around.begin() + m_first[node + 1], f);
             sets.join(k, static_cast<int>(at - m_around.begin()) - m_first[node]);
         }
     }

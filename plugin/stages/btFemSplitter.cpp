@@ -70,9 +70,8 @@ void btFemSplitter::split(btFemBodySetUp& setUp, const btFemRecords& records, co
                 {
                     const btFemTensileStrength& strength = m_due[k]->m_asked.m_strength;
                     btFemCracks& cracks = *m_due[k]->m_model.m_cracks;
-                    cracks.m_found = cracks.m_fracture.find(m_due[k]->fem().m_body,
-                                                            {strength.m_tension, strength.m_mostCracks},
-                                                            cracks.m_split);
+                    cracks.m_found = cracks.m_fracture.find(
+                        m_due[k]->fem().m_body, {strength.m_tension, strength.m_mostCracks}, cracks.m_split);
                 });
     for (btFemBodyRecord* record : m_due)
         if (record->m_model.m_cracks->m_found) splitBody(setUp, *record, time);

@@ -33,7 +33,7 @@ struct Bar
     Vec3 m_size = {2, 0.5, 0.5};             ///< [m]
     std::array<int, 3> m_cells = {8, 2, 2};  ///< along every axis
     BarMesh m_mesh = BarMesh::regular;
-    double m_slit = 0;                       ///< x of a slit across the upper half, between cells; 0: none [m]
+    double m_slit = 0;  ///< x of a slit across the upper half, between cells; 0: none [m]
     btScalar m_youngModulus = btScalar(1e6);
     btScalar m_poissonRatio = 0;
     btScalar m_massDamping = 5;    ///< [1/s]
@@ -51,7 +51,8 @@ inline TetMesh meshOf(const Bar& bar)
         {
             const Vec3 move = {draw(), draw(), draw()};
             for (int c = 0; c < 3; ++c)
-                if (std::fabs(x[c]) < 0.5 * bar.m_size[c] - 1e-6) x[c] += 0.4 * bar.m_size[c] / bar.m_cells[c] * move[c];
+                if (std::fabs(x[c]) < 0.5 * bar.m_size[c] - 1e-6)
+                    x[c] += 0.4 * bar.m_size[c] / bar.m_cells[c] * move[c];
         }
     std::vector<Tet> tets = whole.tets();
     const auto isOnSlit = [&](const Vec3& x) { return std::fabs(x.x - bar.m_slit) < 1e-6 && x.z > 1e-6; };

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kBrittle = 2e4;  // [Pa]
+constexpr double kBrittle = 5e4;  // [Pa]
 
 Bar brittlePlate()
 {
@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, SplittingPlate, testing::Values(Coupling::swap
 TEST_P(SplittingPlate, keepsMassAndMomentaWithWhatBrokeIt)
 {
     BarScene scene(brittlePlate(), GetParam(), 0, {});
-    scene.setStrength(kBrittle, 20);
+    scene.setStrength(kBrittle / 2.5, 20);
     btRigidBody& ball = throwBall(scene.m_world);
     const auto total = [&]
     {
@@ -62,9 +62,8 @@ TEST_P(SplittingPlate, keepsMassAndMomentaWithWhatBrokeIt)
     EXPECT_TRUE(allFinite(*scene.m_bar));
     EXPECT_NEAR(massOf(*scene.m_bar), mass, 1e-5 * mass);
     EXPECT_LT(norm(total().m_linear - before.m_linear), 5e-5 * norm(before.m_linear));
-    EXPECT_LT(norm(total().m_angular - before.m_angular), 2e-4 * norm(before.m_linear));
+    EXPECT_LT(norm(total().m_angular - before.m_angular), 5e-5 * norm(before.m_linear));
     EXPECT_LT(total().m_energy, before.m_energy);
-    std::printf("DBG parts %d splits %d nodes %d lin %g ang %g\n", scene.parts(), scene.splits().size(), scene.m_bar->m_nodes.size(), norm(total().m_linear - before.m_linear)/norm(before.m_linear), norm(total().m_angular - before.m_angular)/norm(before.m_angular));
 }
 
 std::vector<btScalar> runSplittingPlate(Coupling coupling, int threads)
@@ -73,10 +72,10 @@ std::vector<btScalar> runSplittingPlate(Coupling coupling, int threads)
     info.m_threads = threads;
     BarScene scene(brittlePlate(), coupling, kGravity, info);
     scene.m_world.addPlane(-1);
-    scene.setStrength(kBrittle, 20);
+    scene.setStrength(kBrittle, 3);
     btRigidBody& ball = throwBall(scene.m_world);
-    scene.m_world.step(60);
-    EXPECT_GT(scene.parts(), 2);
+    scene.m_world.step(30);
+    EXPECT_GT(scene.splits().size(), 2);
     std::vector<btScalar> bits = scene.bits();
     const std::vector<btScalar> more = bitsOf(ball);
     bits.insert(bits.end(), more.begin(), more.end());
@@ -86,7 +85,7 @@ std::vector<btScalar> runSplittingPlate(Coupling coupling, int threads)
 TEST_P(SplittingPlate, hasTheSameBitsForEveryNumberOfThreads)
 {
     const std::vector<btScalar> alone = runSplittingPlate(GetParam(), 1);
-    for (const int threads : {2, 8}) EXPECT_TRUE(runSplittingPlate(GetParam(), threads) == alone) << threads;
+    for (const int threads : {2, 3}) EXPECT_TRUE(runSplittingPlate(GetParam(), threads) == alone) << threads;
 }
 
 // Saved before it splits, and refused afterwards; saved in the midst of it, and restored while nothing splits.
@@ -94,7 +93,7 @@ TEST_P(SplittingPlate, goesOnFromASavedStateAsLongAsItIsTheSameMesh)
 {
     BarScene scene(brittlePlate(), GetParam(), kGravity, {});
     scene.m_world.addPlane(-1);
-    scene.setStrength(kBrittle, 20);
+    scene.setStrength(kBrittle, 3);
     btRigidBody& ball = throwBall(scene.m_world);
     scene.m_world.step(1);
     std::vector<unsigned char> whole, saved;
@@ -134,14 +133,14 @@ TEST_P(SplittingPlate, comesToRestInParts)
 {
     BarScene scene(brittlePlate(), GetParam(), kGravity);
     scene.m_world.addPlane(-1);
-    scene.setStrength(kBrittle, 20);
+    scene.setStrength(kBrittle, 3);
     throwBall(scene.m_world);
     scene.m_world.step(240);
     EXPECT_GT(scene.parts(), 2);
     EXPECT_TRUE(allFinite(*scene.m_bar));
     EXPECT_GT(lowestHeight(*scene.m_bar), -1.02);
+    EXPECT_LT(fastestNode(*scene.m_bar), 0.05);
     EXPECT_EQ(scene.m_fem.stepReport(scene.m_bar).m_flags & (BT_FEM_NOT_SPLIT | BT_FEM_RESTORED), 0);
-    std::printf("DBG rest %g parts %d splits %d flags %x\n", fastestNode(*scene.m_bar), scene.parts(), scene.splits().size(), scene.m_fem.stepReport(scene.m_bar).m_flags);
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ public:
     /// Whose mesh it is.
     const std::shared_ptr<const RestShape>& shape() const { return m_shape; }
 
-    /// True if the body, which has this shape, splits as it is now; `split` is written then and not otherwise. Allocates
-    /// only then. The same for any number of threads.
+    /// True if the body, which has this shape, splits as it is now; `split` is written then and not otherwise.
+    /// Allocates only then. The same for any number of threads.
     bool find(const Body& body, const FractureLimits& limits, SplitMesh& split);
 
 private:
@@ -68,7 +68,7 @@ private:
 
     bool markTense(double strength);
     void listBegins(const Body& body, double strength);
-    Cut cutAt(const Body& body, int node, const Vec3& along) const;
+    Cut cutAt(const Body& body, int node, const Vec3& along);
     int sideOf(const Body& body, int element, const Vec3& x, const Vec3& normal) const;
     Vec3 tensionAt(int node) const;
     void open(const Body& body, int node, const Vec3& normal, Crack& crack);
@@ -84,6 +84,7 @@ private:
     std::vector<unsigned char> m_isTense;         // per node: of an element that bears a good part of the strength
     std::vector<Begin> m_begins;
     std::vector<signed char> m_side;       // per element: of the cracks of this step, 1 or -1; 0: of none
+    std::vector<signed char> m_sideHere;   // per element: likewise of the cut that is looked at
     std::vector<unsigned char> m_isCut;    // per element: bit a of the side opposite its node a
     std::vector<unsigned char> m_isAtCut;  // per node
     std::vector<int> m_front;              // nodes that a crack has come to
