@@ -14,6 +14,8 @@
 #include "plugin/btFemWorldStep.h"
 #include "plugin/record/btFemArrays.h"
 #include "plugin/record/btFemCoupling.h"
+#include "plugin/registry/btFemBodyRegistry.h"
+#include "plugin/setup/btFemBodySetUp.h"
 
 using namespace bullet_fem;
 
@@ -51,6 +53,16 @@ struct Aside
 };
 
 }  // namespace
+
+void btFemCoupling::reportRejection(btFemSoftBodySolver& fem, btSoftBody& body, const std::string& why)
+{
+    btFemBodyRecord& record = registry(fem).record(&body);
+    if (!record.m_model.m_rejected) btFemBodySetUp::reject(record);
+    record.m_model.m_message = why;
+    record.m_reports.m_step = {};
+    record.m_reports.m_step.m_flags = BT_FEM_REJECTED;
+    record.m_reports.m_step.m_message = record.m_model.m_message.c_str();
+}
 
 struct btFemDeformableBodySolver::Impl
 {

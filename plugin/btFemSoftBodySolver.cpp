@@ -292,19 +292,14 @@ btFemWeldBreaker& btFemCoupling::welds(const btFemSoftBodySolver& fem)
     return fem.m_impl->m_step.group().welds();
 }
 
+btFemSplitter& btFemCoupling::splitter(const btFemSoftBodySolver& fem)
+{
+    return fem.m_impl->m_step.splitter();
+}
+
 btFemBodyRegistry& btFemCoupling::registry(const btFemSoftBodySolver& fem)
 {
     return fem.m_impl->m_registry;
-}
-
-void btFemCoupling::reportRejection(btFemSoftBodySolver& fem, btSoftBody& body, const std::string& why)
-{
-    btFemBodyRecord& record = fem.m_impl->m_registry.record(&body);
-    if (!record.m_model.m_rejected) fem.m_impl->m_setUp.reject(record);
-    record.m_model.m_message = why;
-    record.m_reports.m_step = {};
-    record.m_reports.m_step.m_flags = BT_FEM_REJECTED;
-    record.m_reports.m_step.m_message = record.m_model.m_message.c_str();
 }
 
 void btFemCoupling::assumeForcesGiven(btFemSoftBodySolver& fem, const Vec3& gravity)
@@ -324,7 +319,8 @@ btFemStressScratch& btFemCoupling::stressScratch(const btFemSoftBodySolver& fem)
 
 btFemSnapshotScope btFemCoupling::snapshotScope(const btFemSoftBodySolver& fem)
 {
-    return {fem.m_impl->m_registry, fem.m_impl->m_setUp, fem.m_impl->m_step.group(), fem.m_impl->m_worldBodies};
+    return {fem.m_impl->m_registry, fem.m_impl->m_setUp, fem.m_impl->m_step.group(), fem.m_impl->m_step.splitter(),
+            fem.m_impl->m_worldBodies};
 }
 
 void btFemSoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate)
@@ -397,4 +393,5 @@ void btFemSoftBodySolver::updateSoftBodies()
     }
     m_impl->m_step.publish();
     if (m_impl->m_manifolds) m_impl->m_manifolds->update();
+    m_impl->m_step.split();
 }

@@ -118,6 +118,11 @@ void btFemWorldStep::publish()
     updateSleep(m_registry, m_world);
 }
 
+void btFemWorldStep::split()
+{
+    m_splitter.split(m_setUp, m_registry.records(), m_threads, m_group.welds().time());
+}
+
 // Bodies that are set up and awake.
 void btFemWorldStep::selectMoving(double step)
 {

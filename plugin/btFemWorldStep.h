@@ -13,6 +13,7 @@
 #include "plugin/stages/btFemDetailChooser.h"
 #include "plugin/stages/btFemFreeMotion.h"
 #include "plugin/stages/btFemRefactoring.h"
+#include "plugin/stages/btFemSplitter.h"
 
 /// One step of all FEM bodies of a world, in the places where Bullet calls its soft body solver: predict before
 /// collision detection, solve after the rigid bodies have moved, publish at the end; and, with a btFemConstraintSolver,
@@ -51,8 +52,12 @@ public:
     /// and who sleeps.
     void publish();
 
+    /// After all else: bodies split that have a strength.
+    void split();
+
     const bullet_fem::Threads& threads() const { return m_threads; }
     btFemContactGroup& group() { return m_group; }
+    btFemSplitter& splitter() { return m_splitter; }
 
 private:
     void selectMoving(double step);
@@ -74,6 +79,7 @@ private:
     btFemRefactorPolicy m_refactoring;
     btFemFreeMotion m_freeMotion;
     btFemContactGroup m_group;
+    btFemSplitter m_splitter;
     std::vector<btFemBodyRecord*> m_due;     // they are to be predicted, or their free motion is to be solved
     std::vector<btFemBodyRecord*> m_active;  // it is solved
     std::vector<bullet_fem::Vec3> m_change;  // scratch [m/s]

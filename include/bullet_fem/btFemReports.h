@@ -89,7 +89,10 @@ enum btFemFlags
     /// btFemConstraintSolver solved the body after Bullet's rigid solver, as without that line: one of the bodies
     /// solved with it is joined to something that Bullet did not hand over together with them, because it sleeps or
     /// there are more contacts than btContactSolverInfo::m_minimumSolverBatchSize, or to a multibody's link.
-    BT_FEM_SOLVED_AFTER = 1 << 25
+    BT_FEM_SOLVED_AFTER = 1 << 25,
+    /// The body had to split (see btFemFracture), and could not (see m_message). It has no strength from then on and is
+    /// whole: allow larger factors, take a coarser mesh, and set the strength again.
+    BT_FEM_NOT_SPLIT = 1 << 26
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.

@@ -4,12 +4,15 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_bridge/fem_soft_body.h"
 #include "bullet_fem/btFemAnchors.h"
+#include "bullet_fem/btFemFracture.h"
 #include "bullet_fem/btFemReports.h"
+#include "bullet_fem/fem/step/fracture.h"
 #include "plugin/record/btFemDetailLevel.h"
 #include "plugin/record/btFemFactorAccount.h"
 #include "plugin/record/btFemInsideOut.h"
@@ -55,6 +58,7 @@ struct btFemRequest
     double m_contactOffset = 0;                           ///< [m]
     std::shared_ptr<const btFemDefinition> m_definition;  ///< rest shape and masses, until it is set up
     std::shared_ptr<const btFemBaked> m_baked;            ///< rest shape and factor, likewise
+    btFemTensileStrength m_strength;                      ///< no tension: it does not split
 };
 
 /// Which of m_faces the triangles of a body's surface are.
@@ -63,6 +67,16 @@ struct btFemFaceIndex
     std::vector<int> m_faceOf;      ///< per surface triangle; -1: none of them
     const void* m_first = nullptr;  ///< where m_faces was when this was made
     int m_count = -1;               ///< and how many they were
+};
+
+/// Where a body splits.
+struct btFemCracks
+{
+    explicit btFemCracks(std::shared_ptr<const bullet_fem::RestShape> shape) : m_fracture(std::move(shape)) {}
+
+    bullet_fem::Fracture m_fracture;
+    bullet_fem::SplitMesh m_split;  ///< if it is found
+    bool m_found = false;           ///< in this step
 };
 
 /// What became of it.
@@ -77,6 +91,7 @@ struct btFemSetUpResult
     bool m_wasChanged = false;  ///< by the program, which appended, removed or rejoined nodes or tetrahedra
     int m_flags = 0;            ///< that hold until the body is set up anew
     btFemFaceIndex m_faceIndex;
+    std::unique_ptr<btFemCracks> m_cracks;  ///< of a body that has a strength, once a step has ended
 };
 
 /// What steps work with, and carry on to the next.

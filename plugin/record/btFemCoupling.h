@@ -14,6 +14,7 @@ class btFemBodyRegistry;
 class btFemContactGroup;
 class btFemManifolds;
 class btFemSoftBodySolver;
+class btFemSplitter;
 class btFemWeldBreaker;
 class btSoftBody;
 struct btFemBodyRecord;
@@ -39,6 +40,7 @@ struct btFemCoupling
     /// Of a body that is FEM; throws std::invalid_argument, in the name of `caller`, if it is not.
     static btFemBodyRecord& femRecord(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller);
     static btFemWeldBreaker& welds(const btFemSoftBodySolver& fem);
+    static btFemSplitter& splitter(const btFemSoftBodySolver& fem);
     static btFemBodyRegistry& registry(const btFemSoftBodySolver& fem);
     /// Shows in this step's report of a body that `fem` does not move why it is not FEM.
     static void reportRejection(btFemSoftBodySolver& fem, btSoftBody& body, const std::string& why);

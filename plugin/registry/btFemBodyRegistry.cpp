@@ -101,6 +101,7 @@ void btFemBodyRegistry::lookAgain(btFemBodyRecord& record, bool joinedAsBefore)
     changed.m_asked.m_materialGiven = record.m_asked.m_materialGiven;
     changed.m_asked.m_detail = record.m_asked.m_detail;
     changed.m_asked.m_contactOffset = record.m_asked.m_contactOffset;
+    changed.m_asked.m_strength = record.m_asked.m_strength;
     changed.m_model.m_wasChanged = true;
     record.m_softBody->activate();
     record = std::move(changed);

@@ -14,6 +14,7 @@
 #include "bullet_bridge/node_exchange.h"
 #include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/split_soft_body.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/step/active_stress.h"
@@ -199,6 +200,34 @@ bool btFemBodySetUp::readyForSelfContact(btFemBodyRecord& record)
     if (!fem.m_surface.hasRestNeighbours())
         fem.m_surface.setRestNeighbours(m_library.restNeighbours(fem.m_body.m_model->sharedShape(), fem.m_skin.get()));
     return true;
+}
+
+void btFemBodySetUp::split(btFemBodyRecord& record, const SplitMesh& split)
+{
+    FemSoftBody& fem = record.fem();
+    const TetMesh& before = fem.m_body.m_model->mesh();
+    std::vector<Vec3> X = before.restPositions();
+    FactorInput input = fem.m_body.m_model->factorInput();
+    input.m_fixed = fem.m_body.m_state.m_fixed;
+    for (int node : split.m_copyOf)
+    {
+        X.push_back(before.restPositions()[node]);
+        input.m_fixed.push_back(fem.m_body.m_state.m_fixed[node]);
+    }
+    const std::vector<double> filled = filledFractionsOf(*record.m_softBody);
+    input.m_mass = splitMasses(before, split, filled, fem.m_body.m_state.m_mass);
+    const TetMesh mesh(std::move(X), split.m_tets, LooseNodes::kept);
+    const auto model = m_library.model(m_library.restShape(mesh, materialsOf(record), filled), input);
+    splitSoftBody(fem, split, input.m_mass, model, m_library.compliance(model));
+    record.m_model.m_flags |= flagsOf(mesh);
+    record.m_model.m_hasAskedSurface = false;
+    record.m_model.m_formerModel.reset();
+    record.m_model.m_formerCompliance.reset();
+    record.m_model.m_faceIndex = {};
+    record.m_work.m_factorAccount = {};
+    record.m_work.m_factorJob.reset();
+    record.m_work.m_insideOut = {};
+    readyForSelfContact(record);
 }
 
 void btFemBodySetUp::chooseSurface(btFemBodyRecord& record)

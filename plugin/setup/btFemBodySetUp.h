@@ -48,6 +48,10 @@ public:
     /// chooseSurface for use within a step: a failure is written to the record.
     void tryChooseSurface(btFemBodyRecord& record);
 
+    /// Splits a FEM body between steps: gives it a model of the split mesh, with its material and a new factor for the
+    /// step that the old one is for. Throws what ModelLibrary::model throws, and changes nothing then.
+    void split(btFemBodyRecord& record, const bullet_fem::SplitMesh& split);
+
     /// Leaves a body that cannot be FEM to Bullet.
     static void reject(btFemBodyRecord& record);
 

@@ -121,7 +121,8 @@ void check(const btFemRecordSnapshot& s, const btFemBodyRecord& record, const Wo
     const btSoftBody& soft = *record.m_softBody;
     if (s.m_nodeCount != soft.m_nodes.size() || s.m_tetCount != soft.m_tetras.size())
         reject("it was saved with ", s.m_nodeCount, " nodes and ", s.m_tetCount, " tetrahedra, and now has ",
-               soft.m_nodes.size(), " and ", soft.m_tetras.size());
+               soft.m_nodes.size(), " and ", soft.m_tetras.size(),
+               "; what has split since stays so: save after it split, or restore to a world that is built anew");
     if (s.m_materialGiven != record.m_asked.m_materialGiven || s.m_materialMark != markOf(record.m_asked.m_materials))
         reject("its material is another than when the state was saved; set the old one before restoring");
     check(s.m_body, *fem.m_body.m_model);

@@ -173,4 +173,5 @@ void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data,
     scope.m_group.rigid().restore(snapshot.m_rigid);
     scope.m_group.welds().setTime(snapshot.m_time);
     scope.m_group.welds().clearBreaks();
+    scope.m_splitter.clearSplits();
 }

@@ -9,6 +9,7 @@
 #include "plugin/registry/btFemBodyRegistry.h"
 #include "plugin/setup/btFemBodySetUp.h"
 #include "plugin/stages/btFemContactGroup.h"
+#include "plugin/stages/btFemSplitter.h"
 
 class btSoftBody;
 
@@ -18,6 +19,7 @@ struct btFemSnapshotScope
     btFemBodyRegistry& m_registry;
     btFemBodySetUp& m_setUp;
     btFemContactGroup& m_group;
+    btFemSplitter& m_splitter;
     const btAlignedObjectArray<btSoftBody*>* m_worldBodies;  ///< of the world stepped last; null: none was stepped
 };
 

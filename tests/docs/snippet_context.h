@@ -14,6 +14,7 @@
 #include <bullet_fem/btFemCollision.h>
 #include <bullet_fem/btFemConstraintSolver.h>
 #include <bullet_fem/btFemDeformableBodySolver.h>
+#include <bullet_fem/btFemFracture.h>
 #include <bullet_fem/btFemHelpers.h>
 #include <bullet_fem/btFemRay.h>
 #include <bullet_fem/btFemSoftBodySolver.h>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
+#include "bullet_fem/btFemFracture.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/fem/mesh/generators.h"
@@ -105,6 +106,22 @@ TEST(Allocations, NoneForABodyInFlight)
     btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
     cube.setMass(0, 0);
     EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 60), 58);
+}
+
+// It hangs by one face, with tension that is close to what it bears.
+TEST(Allocations, NoneForABodyThatDoesNotSplit)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
+    for (int i = 0; i < cube.m_nodes.size(); ++i)
+        if (double(cube.m_nodes[i].m_x.z()) > 0.49) cube.setMass(i, 0);
+    fem.prepare(&cube, kStep);
+    btFemTensileStrength strength;
+    strength.m_tension = btScalar(3e4);
+    btFemFracture::setStrength(fem, &cube, strength);
+    EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 60), 58);
+    EXPECT_EQ(btFemFracture::splits(fem).size(), 0);
 }
 
 TEST(Allocations, NoneForABodyThatASpringDragsOverTheFloor)
