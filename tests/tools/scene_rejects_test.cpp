@@ -57,8 +57,8 @@ TEST_P(RejectedScene, SaysWhereWhatAndWhy)
 const BadValue kUnknown[] = {
     {"InTheDocument", true, "/gravitation", "1",
      "the document has a member 'gravitation', which is not known; those that are: $schema, title, gravity, step, "
-     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, forces, springs, actuators, "
-     "camera, pictures"},
+     "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, welds, forces, springs, "
+     "actuators, camera, pictures"},
     {"InSolver", true, "/solver/iterations", "1",
      "solver has a member 'iterations', which is not known; those that are: coupled, tolerance, contactTolerance, "
      "threads"},
