@@ -52,7 +52,8 @@ struct btFemSplit
 /// both after those that are there. What nodes weighed is shared out by volume, so that mass and momenta stay. The body
 /// remains one btSoftBody, in however many parts; btFemPieces::cut with equal labels makes bodies of these. Pointers to
 /// nodes and faces that a program keeps are invalid then, as after appendNode; Bullet's links, anchors and tetrahedra
-/// are not. Pins, targets, attachments and welds stay (pins and targets hold copies too), actuators are lost.
+/// are not. Pins, targets, attachments, welds, fibres and expansions stay (pins and targets hold copies too), cables
+/// and chambers are lost.
 struct BULLETFEM_API btFemFracture
 {
     /// Gives a body a strength, now and when its mesh changes. Throws std::invalid_argument (see btFemSoftBodySolver

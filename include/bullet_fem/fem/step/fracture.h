@@ -95,8 +95,8 @@ private:
 BULLETFEM_API std::vector<double> splitMasses(const TetMesh& mesh, const SplitMesh& split,
                                               const std::vector<double>& filled, const std::vector<double>& mass);
 
-/// The body with a model of the split mesh, in the motion that it is in. What drives it from within is not carried
-/// over. Allocates.
+/// The body with a model of the split mesh, in the motion that it is in. Fibres and expansions are carried over, cables
+/// and chambers are not. Allocates.
 BULLETFEM_API Body splitBody(const Body& body, std::shared_ptr<const BodyModel> model, const std::vector<int>& copyOf);
 
 }  // namespace bullet_fem
