@@ -10,6 +10,7 @@
 #include "bullet_fem/btFemVectors.h"
 #include "plugin/record/btFemTouches.h"
 #include "plugin/setup/btFemBodySetUp.h"
+#include "plugin/stages/btFemSleeping.h"
 
 using namespace bullet_fem;
 
@@ -60,14 +61,17 @@ bool beginBodyStep(btFemBodySetUp& setUp, btFemBodyRecord& record, double worldS
         record.fem().m_touching.clear();
         record.fem().m_touchingSoft.clear();
     }
-    if (record.isFem() && !record.m_softBody->isActive()) record.fem().m_impacts.clear();
-    if (!present || record.m_model.m_rejected || !record.m_softBody->isActive()) return false;
+    const bool isActive = record.m_softBody->isActive();
+    if (record.isFem() && !isActive) record.fem().m_impacts.clear();
+    if (!present || record.m_model.m_rejected || (record.isFem() && !isActive)) return false;
     const double step = bodyStep(record, worldStep);
     if (!isUsableStep(step)) return false;
     if (!record.isFem() || record.m_asked.m_materialChanged || restMatricesChanged(record.fem()))
-        setUp.trySetUp(record, step);
-    if (record.isFem()) setUp.tryChooseSurface(record);
-    return record.isFem();
+        setUp.trySetUp(record, step);  // of what came asleep, too: others touch it, and states have it
+    if (!record.isFem()) return false;
+    setUp.tryChooseSurface(record);
+    if (!isActive) markForces(record);
+    return isActive;
 }
 
 void predictBody(btFemBodyRecord& record, double step)

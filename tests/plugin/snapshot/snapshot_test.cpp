@@ -122,6 +122,24 @@ TEST_P(Snapshot, OfBodiesThatFallAsleepOrSleepContinuesBitForBit)
     EXPECT_NE(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
 }
 
+TEST_P(Snapshot, HasBodiesThatCameAsleep)
+{
+    m_scene.addTower();
+    btSoftBody& asleep = *m_scene.m_soft[0];
+    asleep.translate({50, 0, 0});  // nobody wakes it there
+    asleep.setVelocity({0, 0, 1});
+    asleep.forceActivationState(ISLAND_SLEEPING);
+    m_scene.m_world.step();
+    EXPECT_EQ(asleep.getActivationState(), ISLAND_SLEEPING);
+    const SnapshotScene::Saved saved = m_scene.saveAll();
+    asleep.activate();
+    m_scene.m_world.step(3);
+    ASSERT_TRUE(asleep.isActive());
+    m_scene.restore(saved);
+    EXPECT_EQ(asleep.getActivationState(), ISLAND_SLEEPING);
+    EXPECT_TRUE(m_scene.save() == saved.m_fem);
+}
+
 TEST_P(Snapshot, TakesBackWhatTheUserDidSince)
 {
     m_scene.build();
