@@ -6,6 +6,16 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#ifndef __cpp_lib_to_chars
+#include <cerrno>
+#include <clocale>
+#include <cmath>
+#include <cstdlib>
+#include <type_traits>
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
+#endif
 
 namespace bullet_fem
 {
@@ -35,15 +45,42 @@ inline std::string printable(std::string_view word)
     return text;
 }
 
+#ifndef __cpp_lib_to_chars  // libc++ before 20 reads integers alone by from_chars
+/// What std::from_chars makes of a whole word, by strtod in the locale "C".
+inline bool readReal(const std::string& digits, double& value)
+{
+    static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
+    if (digits.empty() || digits[0] == '+' || digits.find_first_of("xX") != std::string::npos) return false;
+    char* end = nullptr;
+    errno = 0;
+    value = strtod_l(digits.c_str(), &end, c);
+    const bool outOfRange = errno == ERANGE && (value == 0 || std::isinf(value));
+    return end == digits.c_str() + digits.size() && !outOfRange;
+}
+#endif
+
+/// Whether all of `digits` is a number, whatever the locale, which `value` is then.
+template <typename Number>
+bool readNumber(std::string_view digits, Number& value)
+{
+#ifndef __cpp_lib_to_chars
+    if constexpr (std::is_same_v<Number, double>)
+        return readReal(std::string(digits), value);
+    else
+#endif
+    {
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        return error == std::errc() && end == digits.data() + digits.size();
+    }
+}
+
 /// A whole word as a number, whatever the locale. Throws std::runtime_error naming the word and `what` it should be.
 template <typename Number>
 Number parseNumber(std::string_view word, const char* what)
 {
     Number value = 0;
     const std::string_view digits = word.substr(word.size() > 1 && word[0] == '+' ? 1 : 0);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || end != digits.data() + digits.size())
-        throw std::runtime_error("'" + printable(word) + "' is not " + what);
+    if (!readNumber(digits, value)) throw std::runtime_error("'" + printable(word) + "' is not " + what);
     return value;
 }
 

@@ -142,10 +142,10 @@ void btFemDeformableBodySolver::Impl::sort(btDeformableBodySolver& solver, const
     forgetRemoved(world);
     m_plainBefore.copyFromArray(m_plain);
     m_femBefore.copyFromArray(m_femBodies);
-    m_plain.resize(0);
-    m_femBodies.resize(0);
-    m_ours.resize(0);
-    m_reported.resize(0);
+    m_plain.resizeNoInitialize(0);
+    m_femBodies.resizeNoInitialize(0);
+    m_ours.resizeNoInitialize(0);
+    m_reported.resizeNoInitialize(0);
     for (int i = 0; i < world.size(); ++i)
     {
         btSoftBody* body = world[i];

@@ -26,6 +26,7 @@ public:
         Vec3 m_way;         ///< of the carrier within the step [m]
         int m_surface = 0;  ///< a number for what it is part of
         int m_next = -1;    ///< of the same vertex; -1: none
+        bool m_exists = true;
     };
 
     /// Forgets all. Vertices are lifted off their carriers by `lift` [m].
@@ -33,15 +34,20 @@ public:
 
     void reserve(std::size_t carriers) { m_carriers.reserve(carriers); }
 
-    void add(int vertex, const Carrier& carrier);
+    /// Returns the carrier's number, for drop().
+    int add(int vertex, const Carrier& carrier);
 
-    bool isCarried(int vertex) const { return m_first[vertex] >= 0; }
+    /// What turns out to be no wall carries nothing.
+    void drop(int carrier) { m_carriers[carrier].m_exists = false; }
+
+    bool isCarried(int vertex) const;
 
     /// Calls use(const Carrier&) for each carrier of the vertex.
     template <class Use>
     void forEach(int vertex, const Use& use) const
     {
-        for (int k = m_first[vertex]; k >= 0; k = m_carriers[k].m_next) use(m_carriers[k]);
+        for (int k = m_first[vertex]; k >= 0; k = m_carriers[k].m_next)
+            if (m_carriers[k].m_exists) use(m_carriers[k]);
     }
 
     /// A way [m] without what leads into carriers, but for those of one surface.

@@ -179,7 +179,8 @@ private:
     bool collectSheets(const FemSoftBody& fem, const Target& target);
     void findOnSheetPaths(FemSoftBody& fem, const Target& target);
     bool isTurned(const SheetSearch& search, int node, Vec3& way) const;
-    void considerSheetPath(const SheetSearch& search, int node, const Vec3& way, const Vec3& rightSide);
+    void considerSheetPath(const SheetSearch& search, int node, const Vec3& way, const Vec3& rightSide,
+                           std::size_t first);
     void keepNear(std::size_t k);
     void findOnSheetNodes(const SheetSearch& search);
     void findOnSheetEdges(const SheetSearch& search);
@@ -217,6 +218,7 @@ private:
     std::vector<ContactOrigin> m_nearOrigins;
     std::vector<Weights> m_nearWeights;
     std::vector<unsigned char> m_flush;  // one of each: it is no wall
+    std::vector<int> m_carrierOf;        // one of each: its number in m_carried, -1 if it carries nothing
     CarriedMotion m_carried;
     std::vector<Vec3> m_heldNormal;  // of the strongest contact that a vertex had in the last step; 0: of none
     std::vector<double> m_heldBy;    // its impulse [N s]

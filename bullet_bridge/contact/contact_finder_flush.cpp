@@ -30,15 +30,14 @@ void ContactFinder::markFlush(FemSoftBody& fem)
             m_flush[k] = isBesideCarryingPlane(target, m_near[k].m_point, m_near[k].m_normal, m_near[k].m_gap);
     addCarriers(fem);
     if (m_targets.empty() || (m_targets.size() == 1 && m_targets.front().m_kind != TargetKind::sheets)) return;
-    bool isAny = false;
     for (std::size_t t = 0; t < m_targets.size(); ++t)
         for (std::size_t k = m_targets[t].m_first; k < m_targets[t].m_end; ++k)
         {
             if (m_near[k].m_gap > m_band && m_targets[t].m_kind != TargetKind::sheets) continue;
-            if (!m_flush[k]) m_flush[k] = isFlush(fem, m_targets[t], k, surfaceOf(t, k));
-            isAny = isAny || m_flush[k];
+            if (m_flush[k] || !isFlush(fem, m_targets[t], k, surfaceOf(t, k))) continue;
+            m_flush[k] = 1;
+            if (m_carrierOf[k] >= 0) m_carried.drop(m_carrierOf[k]);
         }
-    if (isAny) addCarriers(fem);
 }
 
 // A number for what a contact is with: a convex shape, or one triangle of a sheet.
@@ -51,16 +50,16 @@ int ContactFinder::surfaceOf(std::size_t target, std::size_t k) const
 void ContactFinder::addCarriers(const FemSoftBody& fem)
 {
     m_carried.begin(fem.m_surface.vertexCount(), m_band);
+    m_carrierOf.assign(m_near.size(), -1);
     for (std::size_t t = 0; t < m_targets.size(); ++t)
         for (std::size_t k = m_targets[t].m_first; k < m_targets[t].m_end; ++k)
         {
             const ContactPoint& contact = m_near[k];
             if (m_flush[k] || contact.m_gap > m_band || m_nearOrigins[k].m_feature >= fem.m_surface.vertexCount())
                 continue;
-            m_carried.add(
-                m_nearOrigins[k].m_feature,
-                {contact.m_normal, contact.m_gap,
-                 m_targets[t].m_step * m_targets[t].m_motion->velocityAt(contact.m_point), surfaceOf(t, k), -1});
+            const Vec3 way = m_targets[t].m_step * m_targets[t].m_motion->velocityAt(contact.m_point);
+            m_carrierOf[k] = m_carried.add(m_nearOrigins[k].m_feature,
+                                           {contact.m_normal, contact.m_gap, way, surfaceOf(t, k), -1, true});
         }
 }
 

@@ -12,6 +12,8 @@ namespace bullet_fem
 namespace
 {
 
+constexpr double kOneNormal = 1 - 1e-6;  // cosine of the angle between normals that count as one
+
 // Largest component of a way along the unit vectors around an axis up to the angle of this cosine.
 double alongCone(const Vec3& way, const Vec3& axis, double cosine)
 {
@@ -141,27 +143,41 @@ void ContactFinder::findOnSheetPaths(FemSoftBody& fem, const Target& target)
         if (side == target.m_endSide) break;
         Vec3 way;
         const bool turned = isTurned(search, i, way);
+        const std::size_t first = m_contacts.size();
         for (; k < target.m_end && m_nearOrigins[k].m_feature == i; ++k)
             if (!turned || m_near[k].m_gap <= m_band) keepNear(k);
         const Vec3 rightSide = target.m_shape->m_pose.toWorld(m_sheetSides[side++].m_safe);
         if (!turned) continue;
         if (!isCollected) collectSheets(fem, target);
         isCollected = true;
-        considerSheetPath(search, i, way, rightSide);
+        considerSheetPath(search, i, way, rightSide, first);
     }
     for (; k < target.m_end; ++k) keepNear(k);
 }
 
-void ContactFinder::considerSheetPath(const SheetSearch& search, int node, const Vec3& way, const Vec3& rightSide)
+// `first`: of the node's contacts.
+void ContactFinder::considerSheetPath(const SheetSearch& search, int node, const Vec3& way, const Vec3& rightSide,
+                                      std::size_t first)
 {
     const Vec3 lift = m_carried.liftOf(node);
     const SheetProbe probe = {search.m_fem.surfacePosition()[node] + lift,
                               onRightSide(m_soup, rightSide, rightSide + lift), way, m_band, search.m_thickness};
+    const auto considerBut = [&](const auto& isKnown)
+    {
+        for (SheetTouch& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
+        m_touches.erase(std::remove_if(m_touches.begin(), m_touches.end(), isKnown), m_touches.end());
+        considerTouches(search, node, {node, node, node});
+    };
     findPointTouches(m_soup, probe, m_touches);
-    for (SheetTouch& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
-    const auto isNear = [this](const SheetTouch& touch) { return touch.m_surface.m_gap <= m_band; };
-    m_touches.erase(std::remove_if(m_touches.begin(), m_touches.end(), isNear), m_touches.end());
-    considerTouches(search, node, {node, node, node});
+    considerBut([this](const SheetTouch& touch) { return touch.m_surface.m_gap <= m_band; });
+    findTouchesAtEnd(m_soup, probe, m_touches);
+    considerBut(
+        [&](const SheetTouch& touch)
+        {
+            return std::any_of(m_contacts.begin() + static_cast<std::ptrdiff_t>(first), m_contacts.end(),
+                               [&](const ContactPoint& known)
+                               { return dot(known.m_normal, touch.m_surface.m_normal) > kOneNormal; });
+        });
 }
 
 void ContactFinder::findOnSheetTriangles(const SheetSearch& search)

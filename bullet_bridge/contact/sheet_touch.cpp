@@ -121,4 +121,26 @@ void findPointTouches(const TriangleSoup& soup, const SheetProbe& probe, std::ve
     addFirstOnPath(soup, probe, touches);
 }
 
+void findTouchesAtEnd(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetTouch>& touches)
+{
+    touches.clear();
+    const Vec3& p = probe.m_rightSide;
+    const Vec3 end = p + probe.m_path;
+    const double reach = norm(probe.m_path) + probe.m_band + probe.m_thickness;
+    const Vec3 box = {reach, reach, reach};
+    soup.forEachIn(end - box, end + box,
+                   [&](int t)
+                   {
+                       const SoupTriangle& triangle = soup.triangles()[t];
+                       const double height = dot(triangle.m_normal, p - triangle.m_corners[0]);
+                       const Vec3 normal = height < 0 ? -triangle.m_normal : triangle.m_normal;
+                       const SheetTouch touch = planeTouch(soup, probe, t, normal);
+                       if (touch.m_surface.m_gap + dot(normal, probe.m_path) > probe.m_band) return;
+                       const SoupPoint foot = nearestOn(triangle, end);
+                       if (!foot.m_onFace) return;
+                       const Vec3 above = foot.m_point + 10 * soup.tolerance() * normal;
+                       if (soup.firstCrossing(p, above).m_triangle < 0) addPointTouch(touches, touch);
+                   });
+}
+
 }  // namespace bullet_fem

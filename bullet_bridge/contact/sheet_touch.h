@@ -39,6 +39,10 @@ Vec3 onRightSide(const TriangleSoup& soup, const Vec3& safe, const Vec3& positio
 ///  - the face that its path meets first.
 void findPointTouches(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetTouch>& touches);
 
+/// Replaces `touches` by the faces that a point lies over where its path ends, that it is not beyond the plane of where
+/// it begins, and that nothing hides: past a concave edge, the next face.
+void findTouchesAtEnd(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetTouch>& touches);
+
 /// A triangle or edge (its second corner twice) of a soft surface, and how far to look from it.
 struct SheetFeature
 {

@@ -133,7 +133,8 @@ struct btFemContact
     btVector3 m_point;             ///< on the soft surface at the start of the step, world [m]; between soft bodies the
                                    ///< middle of both surfaces
     btVector3 m_normal;            ///< unit [-], from the other body to this one
-    btScalar m_gap = 0;            ///< signed distance at the start of the step [m]; negative inside
+    btScalar m_gap = 0;            ///< signed distance at the start of the step [m]; negative inside. Of a kinematic
+                                   ///< object that turns, less what its arc closes beyond its velocity
     btVector3 m_impulse;           ///< on this body: normal and friction [N s]; the other body got the opposite
     btScalar m_normalImpulse = 0;  ///< its part along m_normal [N s], >= 0
     btVector3 m_frictionImpulse;   ///< its other part, in the tangent plane [N s]

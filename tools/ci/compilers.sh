@@ -1,20 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# compilers.sh [--quick]: the libraries compile without a warning with GCC 11 and 12 and clang 14 to 16, as C++17, 20 and 23,
-# Debug and Release, and so does a client without exceptions and run-time types, with warnings that the libraries' own
-# sources do not ask for. Prints a table of what was built. With --quick: clang and C++20 once each, Release. Compilers that
-# are not there are told and left out.
+# compilers.sh [--quick | --only <compiler> <standard> <build type>]: the libraries compile without a warning with GCC 11 and 12
+# and clang 14 to 16, as C++17, 20 and 23, Debug and Release, and so does a client without exceptions and run-time types, with
+# warnings that the libraries' own sources do not ask for. Prints a table of what was built. With --quick: clang and C++20
+# once each, Release; --only: e.g. clang++-16 20 Debug. clang++-16:libc++ takes the standard library of LLVM (libc++-16-dev,
+# which excludes those of other versions). Compilers that are not there are told and left out.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
-compilers=(g++-11 g++-12 clang++-14 clang++-15 clang++-16)
+compilers=(g++-11 g++-12 clang++-14 clang++-15 clang++-16 clang++-16:libc++)
 standards=(17 20 23)
 build_types=(Release Debug)
-quick=0
+chosen=all
 case ${1-} in
 "") ;;
---quick) quick=1 ;;
-*) fail "compilers.sh: $1 is not --quick" ;;
+--quick) chosen=quick ;;
+--only)
+    [ $# -eq 4 ] || fail "compilers.sh: --only takes a compiler, a standard and a build type"
+    chosen=only
+    ;;
+*) fail "compilers.sh: $1 is neither --quick nor --only" ;;
 esac
 install_for_build clang-14
 
@@ -26,14 +31,15 @@ rows=()
 # compile <compiler> <standard> <build type>
 compile()
 {
-    local compiler=$1 standard=$2 type=$3 began=$SECONDS
-    local build=$root/build/compilers/$compiler-$standard-$type
-    if ! command -v "$compiler" >/dev/null; then
-        rows+=("$(printf '%-12s C++%s  %-8s not tried: there is no %s' "$compiler" "$standard" "$type" "$compiler")")
+    local compiler=${1%:libc++} standard=$2 type=$3 began=$SECONDS library=() name
+    local build=$root/build/compilers/$1-$standard-$type
+    [ "$compiler" = "$1" ] || library=(-stdlib=libc++)
+    if ! is_there "$compiler" "${library[@]}"; then
+        rows+=("$(printf '%-12s C++%s  %-8s not tried: it is not there' "$1" "$standard" "$type")")
         return
     fi
     cmake -S "$root" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_STANDARD="$standard" \
-        -DCMAKE_BUILD_TYPE="$type" -DCMAKE_CXX_FLAGS="$warnings" -DBULLETFEM_PRECISIONS=float -DBULLETFEM_UNITY=8 \
+        -DCMAKE_BUILD_TYPE="$type" -DCMAKE_CXX_FLAGS="$warnings ${library[*]-}" -DBULLETFEM_PRECISIONS=float -DBULLETFEM_UNITY=8 \
         -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_DEMOS=OFF -DBULLETFEM_BUILD_TOOLS=OFF \
         -DBULLETFEM_BUILD_BENCHMARKS=OFF -DBULLETFEM_BUILD_PICTURES=OFF >"$build.log" 2>&1 ||
         { cat "$build.log"; fail "$compiler, C++$standard, $type: cannot configure"; }
@@ -44,10 +50,17 @@ compile()
         echo "#include \"${header#include/}\""
     done < <(cd "$root" && find include -name '*.h' | sort) >"$build/client.cpp"
     # shellcheck disable=SC2086
-    "$compiler" -std="c++$(draft_of "$compiler" "$standard")" $client_warnings -Wno-deprecated-declarations -I"$root/include" \
+    "$compiler" -std="c++$(draft_of "$compiler" "$standard")" "${library[@]}" $client_warnings -Wno-deprecated-declarations -I"$root/include" \
         -isystem /usr/include/bullet -fsyntax-only "$build/client.cpp" || fail "$compiler, C++$standard: a client has warnings"
-    rows+=("$(built "$(name_of "$compiler"), $type" "C++$standard" "$(bullet_version /usr/include/bullet)" float \
+    name="$(name_of "$compiler"), ${library:+libc++, }$type"
+    rows+=("$(built "$name" "C++$standard" "$(bullet_version /usr/include/bullet)" float \
         "$(system_of_build)" "libraries and a client compile without a warning"), in $((SECONDS - began)) s")
+}
+
+# is_there <compiler> [-stdlib=<library>]: whether it finds its standard library, too.
+is_there()
+{
+    command -v "$1" >/dev/null && echo '#include <vector>' | "$@" -x c++ -fsyntax-only - 2>/dev/null
 }
 
 # name_of <compiler>: e.g. GCC 12.2.0
@@ -69,14 +82,18 @@ draft_of()
 }
 
 mkdir -p "$root/build/compilers"
-if [ $quick = 1 ]; then
+case $chosen in
+quick)
     compile clang++-14 17 Release
     compile "${CXX:-g++}" 20 Release
-else
+    ;;
+only) compile "${@:2}" ;;
+all)
     for compiler in "${compilers[@]}"; do
         for standard in "${standards[@]}"; do
             for type in "${build_types[@]}"; do compile "$compiler" "$standard" "$type"; done
         done
     done
-fi
+    ;;
+esac
 printf '%s\n' "${rows[@]}"

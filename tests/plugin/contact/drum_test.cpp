@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "bridge/concave_test_shapes.h"
+#include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemSoftBodySolver.h"
+#include "plugin/scenes/soft_world.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kDrumRadius = 1, kDrumHalfLength = 0.6;  // of the drum [m]
+constexpr double kDrumSpin = 1.5;                         // of it [rad/s]
+
+double facetAngle(int facets)
+{
+    return 2 * SIMD_PI / facets;
+}
+
+// A closed drum around the y axis.
+ConcaveShape makeDrum(int facets)
+{
+    const auto corner = [&](int k, double y)
+    {
+        const double angle = k * facetAngle(facets);
+        return btVector3(btScalar(kDrumRadius * std::cos(angle)), btScalar(y), btScalar(kDrumRadius * std::sin(angle)));
+    };
+    ConcaveShape shape;
+    for (int k = 0; k < facets; ++k)
+    {
+        const btVector3 a = corner(k, -kDrumHalfLength), b = corner(k + 1, -kDrumHalfLength);
+        const btVector3 c = corner(k + 1, kDrumHalfLength), d = corner(k, kDrumHalfLength);
+        shape.m_mesh->addTriangle(a, b, c);
+        shape.m_mesh->addTriangle(a, c, d);
+        shape.m_mesh->addTriangle({0, btScalar(-kDrumHalfLength), 0}, a, b);
+        shape.m_mesh->addTriangle({0, btScalar(kDrumHalfLength), 0}, d, c);
+    }
+    shape.make<btBvhTriangleMeshShape>(shape.m_mesh.get(), true);
+    return shape;
+}
+
+// How far a point is beyond the wall of a drum that has turned by an angle [m].
+double beyond(const btVector3& point, int facets, double turned)
+{
+    const double facet = facetAngle(facets);
+    const double share = (std::atan2(double(point.z()), double(point.x())) - turned) / facet;
+    const double fromMiddle = (share - std::floor(share) - 0.5) * facet;
+    const double along = std::hypot(double(point.x()), double(point.z())) * std::cos(fromMiddle);
+    return std::max(along - kDrumRadius * std::cos(facet / 2), std::abs(double(point.y())) - kDrumHalfLength);
+}
+
+using DrumParameters = std::tuple<Coupling, int>;
+
+class Drum : public testing::TestWithParam<DrumParameters>
+{
+};
+
+// What tumbles in a drum slides over its edges by 2 to 3 cm a step.
+TEST_P(Drum, KeepsWhatTumblesInIt)
+{
+    const auto [coupling, facets] = GetParam();
+    ConcaveShape shape = makeDrum(facets);  // outlives the world
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem, coupling);
+    btRigidBody& drum = world.addRigid(shape.m_parts.back().release());
+    drum.setCollisionFlags(drum.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    btFemMaterial jelly;
+    jelly.m_youngModulus = 1e5;
+    jelly.m_density = 1000;
+    std::vector<btSoftBody*> bodies;
+    for (int k = 0; k < 4; ++k)
+    {
+        const btVector3 place(btScalar(k % 2 - 0.5) * btScalar(0.5), btScalar(k % 2) * btScalar(0.4) - btScalar(0.2),
+                              btScalar(k / 2) * btScalar(0.45) - btScalar(0.3));
+        bodies.push_back(btFemHelpers::createBox(world.info(), place, {btScalar(0.18), btScalar(0.18), btScalar(0.15)},
+                                                 btScalar(0.09)));
+        fem.setMaterial(bodies.back(), jelly);
+        world.addSoft(bodies.back());
+    }
+    double deepest = 0, turned = 0;
+    for (int k = 0; k < 360; ++k)
+    {
+        turned += kDrumSpin * std::min(1.0, k / 60.0) / 60;
+        const btQuaternion turn(btVector3(0, -1, 0), btScalar(turned));
+        drum.getMotionState()->setWorldTransform(btTransform(turn, btVector3(0, 0, 0)));
+        world.step();
+        for (const btSoftBody* body : bodies)
+            for (int i = 0; i < body->m_nodes.size(); ++i)
+                deepest = std::max(deepest, beyond(body->m_nodes[i].m_x, facets, turned));
+    }
+    EXPECT_LT(deepest, facets < 24 ? 0.004 : 0.0025);
+    EXPECT_GT(deepest, 0) << "nothing touched the wall";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Facets, Drum, testing::Combine(testing::Values(Coupling::swap, Coupling::coupled), testing::Values(8, 24, 60)),
+    [](const testing::TestParamInfo<DrumParameters>& test)
+    { return couplingName(std::get<0>(test.param)) + std::string("Of") + std::to_string(std::get<1>(test.param)); });
+
+}  // namespace
+}  // namespace bullet_fem
