@@ -14,28 +14,34 @@ constexpr double kFlattest = 0.5;  // curvature times size (cube root of the vol
 constexpr double kSizePower = 4;   // of two flat sides the patch is with the smaller, of equal ones between them
 constexpr double kLeastInertia = 1e-9;  // share of the whole that is added, so that a line has a spin
 
+// Of its curvature, as fast as the patch may go.
 Vec3 velocityOfCentre(const TouchingSide& side, const Vec3& inward)
 {
-    return side.m_curvature > 0 ? side.m_velocity + cross(side.m_spin, inward * (1 / side.m_curvature))
-                                : side.m_velocity;
+    if (!(side.m_curvature > 0)) return side.m_velocity;
+    const Vec3 ahead = cross(side.m_spin, inward * (1 / side.m_curvature));
+    const double square = dot(ahead, ahead);
+    if (!side.m_ofMass || square == 0) return side.m_velocity + ahead;
+    return side.m_velocity + std::clamp(dot(*side.m_ofMass - side.m_velocity, ahead) / square, 0.0, 1.0) * ahead;
 }
 
 }  // namespace
 
-Vec3 meanSpin(const Body& body)
+MeanMotion meanMotion(const Body& body)
 {
     const BodyState& s = body.m_state;
     const std::size_t n = s.m_x.size();
     if (body.m_model->mesh().componentCount() != 1) return {};
     if (std::find(s.m_fixed.begin(), s.m_fixed.end(), 1) != s.m_fixed.end()) return {};
     double mass = 0;
-    Vec3 center;
+    Vec3 center, velocity;
     for (std::size_t i = 0; i < n; ++i)
     {
         mass += s.m_mass[i];
         center += s.m_mass[i] * s.m_x[i];
+        velocity += s.m_mass[i] * s.m_v[i];
     }
     center *= 1 / mass;
+    velocity *= 1 / mass;
     Vec3 angular;
     Mat3 inertia;
     for (std::size_t i = 0; i < n; ++i)
@@ -45,7 +51,8 @@ Vec3 meanSpin(const Body& body)
         inertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
     }
     const double size = trace(inertia);
-    return size > 0 ? inverse(inertia + Mat3::diagonal(kLeastInertia * size)) * angular : Vec3();
+    if (!(size > 0)) return {velocity, {}};
+    return {velocity, inverse(inertia + Mat3::diagonal(kLeastInertia * size)) * angular};
 }
 
 Vec3 patchLag(const TouchingSide& a, const TouchingSide& b, const Vec3& normal, double h)

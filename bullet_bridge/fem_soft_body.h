@@ -10,6 +10,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btMatrix3x3.h"
 #include "bullet_bridge/collision_skin.h"
+#include "bullet_bridge/contact_patch.h"
 #include "bullet_bridge/joints/held_joint.h"
 #include "bullet_bridge/model_library.h"
 #include "bullet_bridge/soft_pairs/soft_surface.h"
@@ -147,7 +148,7 @@ struct FemSoftBody
 
     std::vector<Vec3> m_predicted;  ///< impulses of contact in the free motion [N s], one a node; empty: SteadyBodies
 
-    Vec3 m_meanSpin;  ///< as the step begins, see contact_patch.h; of a body that may touch something [rad/s]
+    MeanMotion m_meanMotion;                           ///< as the step begins; of a body that may touch something
     std::vector<ContactPoint> m_contacts;              ///< of the last step
     std::vector<ContactOrigin> m_origins;              ///< one a contact, ascending
     std::vector<SheetSide> m_sheetSides;               ///< of the last step, ascending

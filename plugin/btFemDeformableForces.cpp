@@ -113,7 +113,7 @@ Vec3 btFemDeformableForces::gravityOf(const btSoftBody& body) const
 
 void btFemDeformableForces::hide(const Bodies& bodies, btAlignedObjectArray<Force*>& left)
 {
-    left.resize(0);
+    left.resizeNoInitialize(0);
     for (int k = 0; k < m_all.size(); ++k)
     {
         Bodies& all = m_all[k]->m_softBodies;

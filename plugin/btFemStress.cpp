@@ -86,7 +86,7 @@ bool btFemSoftBodySolver::getPlasticStrain(const btSoftBody* body, btAlignedObje
 
 bool btFemSoftBodySolver::getActivation(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const
 {
-    perElement.resize(0);
+    perElement.resizeNoInitialize(0);
     const btFemBodyRecord* record = femRecordOf(*this, body);
     if (!record || record->fem().m_body.m_actuators.m_fibres.empty()) return false;
     perElement.resize(body->m_tetras.size(), btScalar(0));

@@ -236,11 +236,12 @@ Vec3 ContactFinder::patchOf(const FemSoftBody& fem, const Target& target, int no
     const double infinite = std::numeric_limits<double>::infinity();
     const bool canMove = !target.m_object->isStaticOrKinematicObject();
     const SurfacePoint point = fem.pointOn(m_bodyIndex, {node, node, node}, {1, 0, 0});
-    const TouchingSide soft = {point.of(fem.m_body.m_state.m_v), fem.m_meanSpin,
-                               roundness(fem.m_surface.curvature(node), m_size), m_size};
-    const TouchingSide rigid = {target.m_motion->velocityAt(x), target.m_motion->m_angularVelocity,
-                                curvatureOf(*target.m_shape),
-                                canMove ? norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) : infinite};
+    TouchingSide soft = {point.of(fem.m_body.m_state.m_v), fem.m_meanMotion.m_spin,
+                         roundness(fem.m_surface.curvature(node), m_size), m_size, std::nullopt};
+    if (fem.m_surface.hasFewFacets(node)) soft.m_ofMass = fem.m_meanMotion.m_velocity;
+    const TouchingSide rigid = {
+        target.m_motion->velocityAt(x), target.m_motion->m_angularVelocity, curvatureOf(*target.m_shape),
+        canMove ? norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) : infinite, std::nullopt};
     return patchLag(soft, rigid, normal, time);
 }
 

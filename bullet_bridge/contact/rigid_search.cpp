@@ -91,7 +91,7 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
     {
         const Touching& touching = m_touching[b];
         FemSoftBody& fem = *bodies[b];
-        if (touching.m_count > 0) fem.m_meanSpin = meanSpin(fem.m_body);
+        if (touching.m_count > 0) fem.m_meanMotion = meanMotion(fem.m_body);
         m_reports[b] = finder.find(*bodies[b], static_cast<int>(b),
                                    {m_touched.data() + touching.m_first, touching.m_count, m_leaves,
                                     rigidProxies.rigidProxies(), step, maxContacts});

@@ -148,8 +148,13 @@ Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceTouch& touch, cons
     const auto sideOf = [](const FemSoftBody& fem, const SurfacePoint& point, const Triangle& nodes,
                            const std::array<double, 3>& weights)
     {
-        TouchingSide side = {point.of(fem.m_body.m_state.m_v), fem.m_meanSpin, 0, fem.m_surface.size()};
-        for (int a = 0; a < 3; ++a) side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
+        TouchingSide side = {point.of(fem.m_body.m_state.m_v), fem.m_meanMotion.m_spin, 0, fem.m_surface.size(),
+                             std::nullopt};
+        for (int a = 0; a < 3; ++a)
+        {
+            side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
+            if (fem.m_surface.hasFewFacets(nodes[a])) side.m_ofMass = fem.m_meanMotion.m_velocity;
+        }
         side.m_curvature = roundness(side.m_curvature, side.m_size);
         return side;
     };

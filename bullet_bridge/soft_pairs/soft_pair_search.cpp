@@ -45,7 +45,7 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       FemSoftBody& fem = *bodies[b];
                       if (!m_isSearched[b]) return;
                       fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
-                      fem.m_meanSpin = meanSpin(fem.m_body);
+                      fem.m_meanMotion = meanMotion(fem.m_body);
                   });
     m_moved.clear();
     for (int b : m_paired)

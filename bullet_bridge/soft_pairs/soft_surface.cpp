@@ -14,6 +14,7 @@ namespace
 constexpr double kFlatSurfaceCosine = 0.99;  // cosine of the angle between normals that count as one
 constexpr double kCreaseCosine = 0.64;       // of 50 degrees, from which on triangles meet in a crease
 constexpr double kRoundShare = 0.1;          // of a vertex's curvature that must be left without creases
+constexpr double kFewFacets = 0.65;          // change of the normal from corner to corner: ten facets around [-]
 
 double angleBetween(const Vec3& a, const Vec3& b)
 {
@@ -90,6 +91,7 @@ void SoftSurface::measureCurvature(const std::vector<Vec3>& x)
         return norm(sum) > 0 ? unit(sum) : sum;
     };
     std::vector<double> smooth(x.size(), 0);
+    m_fewFacets.assign(x.size(), 0);
     m_curvature.assign(x.size(), 0);
     for (std::size_t k = 0; k < m_triangles.size(); ++k)
         for (int i = 0; i < 3; ++i)
@@ -104,6 +106,7 @@ void SoftSurface::measureCurvature(const std::vector<Vec3>& x)
             {
                 m_curvature[end] = std::max(m_curvature[end], whole);
                 smooth[end] = std::max(smooth[end], part);
+                if (whole * norm(edge) > kFewFacets) m_fewFacets[end] = 1;
             }
         }
     for (std::size_t i = 0; i < x.size(); ++i)

@@ -95,6 +95,9 @@ public:
     double meanEdge() const { return m_meanEdge; }  ///< of the tetrahedra at rest, or of finer triangles [m]
     /// Largest curvature of the surface at a vertex at rest, of its edges there [1/m]; 0 where it is flat or hollow.
     double curvature(int vertex) const { return m_curvature[vertex]; }
+
+    /// True if that is of a few facets, so that what rolls goes from corner to corner.
+    bool hasFewFacets(int vertex) const { return m_fewFacets[vertex]; }
     double size() const { return m_size; }  ///< cube root of the volume at rest [m]
     const SurfaceTree& tree() const { return m_tree; }
     const SurfaceRidges& ridges() const { return m_ridges; }
@@ -142,7 +145,8 @@ private:
     std::vector<int> m_nodes;
     SurfaceFeatures m_features;
     double m_meanEdge, m_size, m_step = 0;
-    std::vector<double> m_curvature;  // of every vertex
+    std::vector<double> m_curvature;         // of every vertex
+    std::vector<unsigned char> m_fewFacets;  // one a vertex
     SurfaceTree m_tree;
     SurfaceRidges m_ridges;
     std::shared_ptr<const RestNeighbours> m_restNeighbours;
