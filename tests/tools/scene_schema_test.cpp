@@ -45,6 +45,7 @@ const SchemaPlace kObjects[] = {{true, "", ""},
                                 {true, "/solver", "/properties/solver"},
                                 {true, "/materials/gum", "/definitions/material"},
                                 {true, "/materials/gum/relaxation/0", "/definitions/relaxationTerm"},
+                                {true, "/materials/timber/orthotropic", "/definitions/orthotropic"},
                                 {true, "/softBodies/0", "/definitions/softBody"},
                                 {true, "/softBodies/0/material", "/definitions/material"},
                                 {true, "/softBodies/0/mesh", "/definitions/mesh"},
@@ -133,6 +134,8 @@ protected:
                                                 "must have a length",
                                                 "weld it to another body",
                                                 "accurate bending does not go with",  // of what is `like` another, too
+                                                "is no material: orthotropic",        // numbers that do not go together
+                                                "with the orthotropic law",           // which may be that of `like`
                                                 "only soft bodies have nodes"};
         const bool isMeaning =
             std::any_of(std::begin(kMeanings), std::end(kMeanings),
