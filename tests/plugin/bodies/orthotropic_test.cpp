@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -176,7 +177,10 @@ TEST(OrthotropicBodies, DefinitionsKeepTheLaw)
             scene.m_world.step(30);
             moved[copied] = bitsOf(cube);
         }
-        EXPECT_TRUE(moved[0] == moved[1]) << static_cast<int>(material.m_law);
+        double farthest = 0;  // masses go through 1 / m and back
+        for (std::size_t k = 0; k < moved[0].size(); ++k)
+            farthest = std::max(farthest, std::fabs(double(moved[0][k] - moved[1][k])));
+        EXPECT_LT(farthest, 1e-5) << static_cast<int>(material.m_law);  // Hooke's law would be some millimetres off
     }
 }
 
