@@ -170,7 +170,7 @@ ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& array
     {
         if (!material.isOrthotropic()) return material;
         if (region >= arrays.m_constants.size()) reject("region ", region, " has no orthotropic constants");
-        return withConstants(std::move(material), arrays.m_constants[region]);
+        return withConstants(material, arrays.m_constants[region]);
     };
     if (header.m_regions == 0) return with(materialOf(header), 0);
     std::vector<MaterialRegion> regions;

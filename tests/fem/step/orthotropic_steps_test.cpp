@@ -109,6 +109,7 @@ TEST_P(OrthotropicSteps, GoOnFromASavedState)
     ElementMaterials turned = windingFibres(mesh);
     turned.m_regions[7].m_material.m_orthotropic.m_across = {0, 0, 1};
     EXPECT_NE(saved.m_shapeMark, markOf(RestShape(mesh, turned)));
+    EXPECT_NE(markOf(windingFibres(mesh)), markOf(turned));
 }
 
 TEST_P(OrthotropicSteps, TakeNoMemory)
