@@ -38,6 +38,10 @@ struct Rounding
                               &m.m_yieldStress, &m.m_hardeningModulus, &m.m_plasticCreep, &m.m_mostPlasticStrain})
             *value = (*this)(*value);
         for (PronyTerm& term : m.m_relaxation) term = {(*this)(term.m_share), (*this)(term.m_time)};
+        Orthotropic& orthotropic = m.m_orthotropic;
+        for (auto* constants : {&orthotropic.m_young, &orthotropic.m_poisson, &orthotropic.m_shear})
+            for (double& value : *constants) value = (*this)(value);
+        for (Vec3* direction : {&orthotropic.m_along, &orthotropic.m_across}) *direction = (*this)(*direction);
         return m;
     }
     ElementMaterials operator()(ElementMaterials materials) const

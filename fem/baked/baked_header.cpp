@@ -53,6 +53,7 @@ Material materialOf(const Numbers& h)
     material.m_stiffnessDamping = h.m_stiffnessDamping;
     material.m_meanDilatation = static_cast<MeanDilatation>(h.m_meanDilatation & ~kBakedFlags);
     if (h.m_meanDilatation & kBakedNeoHooke) material.m_law = ElasticLaw::neoHooke;
+    if (h.m_meanDilatation & kBakedOrthotropic) material.m_law = ElasticLaw::orthotropic;
     material.m_accurateBending = (h.m_meanDilatation & kBakedAccurateBending) != 0;
     return yielding(material, h.m_plasticity);
 }
@@ -74,10 +75,10 @@ void checkVersion(const BakedHeader& header)
     if (header.m_byteOrder != kByteOrder) reject("its byte order mark is damaged", kDamaged);
     if (header.m_version < kBakedVersion)
         reject("its format has the older version ", header.m_version, ", and this program reads versions ",
-               kBakedVersion, " and ", kBakedRegionsVersion, " alone; bake it anew");
-    if (header.m_version > kBakedRegionsVersion)
+               kBakedVersion, " to ", kBakedOrthotropicVersion, " alone; bake it anew");
+    if (header.m_version > kBakedOrthotropicVersion)
         reject("its format has the newer version ", header.m_version, ", and this program reads versions ",
-               kBakedVersion, " and ", kBakedRegionsVersion,
+               kBakedVersion, " to ", kBakedOrthotropicVersion,
                " alone; build the program with a newer BulletFEM, or bake it with this one");
     if (header.m_headerChecksum != headerChecksum(header)) reject("its header is damaged", kDamaged);
 }
@@ -96,7 +97,9 @@ void checkCounts(const BakedHeader& h)
     if (h.m_panelFloats > h.m_fileBytes / sizeof(float) || h.m_entries > kMostEntries || h.m_fullBytes > kMostEntries)
         reject("its factor has ", h.m_panelFloats, " floats of ", h.m_fullBytes, " bytes and ", h.m_entries, " entries",
                kDamaged);
-    if (h.m_regions > h.m_tets || (h.m_regions > 0) != (h.m_version == kBakedRegionsVersion))
+    const bool asVersion =
+        h.m_version == kBakedOrthotropicVersion || (h.m_regions > 0) == (h.m_version == kBakedRegionsVersion);
+    if (h.m_regions > h.m_tets || !asVersion)
         reject("it has ", h.m_regions, " regions of ", h.m_tets, " elements in version ", h.m_version, kDamaged);
     if (h.m_surfaceCollides > (h.m_triangles > 0 ? 1 : 0))
         reject("its header says that a surface of ", h.m_triangles, " triangles collides", kDamaged);
@@ -108,6 +111,8 @@ void checkValues(const BakedHeader& h)
 {
     if ((h.m_meanDilatation & ~kBakedFlags) > static_cast<std::uint32_t>(MeanDilatation::off))
         reject("its mean dilatation is ", h.m_meanDilatation, ", not in [0, 2]", kDamaged);
+    if ((h.m_meanDilatation & kBakedOrthotropic) && h.m_version != kBakedOrthotropicVersion)
+        reject("its material is orthotropic in version ", h.m_version, kDamaged);
     materialOf(h).validate();
     if (!(h.m_step >= 1e-6 && h.m_step <= 1)) reject("its step is ", h.m_step, " s, not in [1e-6, 1]", kDamaged);
     if (!(h.m_massScale > 0) || !std::isfinite(h.m_massScale))
@@ -136,7 +141,8 @@ void sealHeader(BakedHeader& header, const unsigned char* body, std::size_t body
 {
     header.m_magic = kMagic;
     header.m_byteOrder = kByteOrder;
-    header.m_version = header.m_regions > 0 ? kBakedRegionsVersion : kBakedVersion;
+    if (header.m_version != kBakedOrthotropicVersion)
+        header.m_version = header.m_regions > 0 ? kBakedRegionsVersion : kBakedVersion;
     header.m_fileBytes = sizeof header + bodyBytes;
     header.m_bodyChecksum = checksumOf(body, bodyBytes);
     header.m_headerChecksum = headerChecksum(header);
@@ -160,10 +166,30 @@ BakedHeader openHeader(const unsigned char* data, std::size_t size, std::uint64_
 
 ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& arrays)
 {
-    if (header.m_regions == 0) return materialOf(header);
+    const auto with = [&arrays](Material material, std::size_t region)
+    {
+        if (!material.isOrthotropic()) return material;
+        if (region >= arrays.m_constants.size()) reject("region ", region, " has no orthotropic constants");
+        return withConstants(material, arrays.m_constants[region]);
+    };
+    if (header.m_regions == 0) return with(materialOf(header), 0);
     std::vector<MaterialRegion> regions;
-    for (const BakedRegion& r : arrays.m_regions) regions.push_back({r.m_label, materialOf(r)});
+    for (const BakedRegion& r : arrays.m_regions) regions.push_back({r.m_label, with(materialOf(r), regions.size())});
     return {std::move(regions), arrays.m_regionOf};
+}
+
+Material withConstants(Material material, const BakedConstants& constants)
+{
+    material.m_orthotropic = {constants.m_young, constants.m_poisson, constants.m_shear, constants.m_along,
+                              constants.m_across};
+    material.validate();
+    return material;
+}
+
+std::uint64_t constantsOffset(const BakedHeader& header)
+{
+    const std::uint64_t count = header.m_regions > 0 ? header.m_regions : 1;
+    return bakedFileBytes(header) - alignedBytes(count * sizeof(BakedConstants));
 }
 
 BakedFileInfo infoOf(const BakedHeader& h)

@@ -17,6 +17,8 @@ constexpr std::uint32_t kBakedVersion = 2;
 
 /// That of bodies whose elements are in regions of several materials, which readers of before refuse.
 constexpr std::uint32_t kBakedRegionsVersion = 3;
+/// That of bodies of which a region is orthotropic, the only one or one of several.
+constexpr std::uint32_t kBakedOrthotropicVersion = 4;
 
 /// Sections, and with them the panels, start at multiples of this.
 constexpr std::size_t kBakedAlignment = 64;
@@ -52,14 +54,17 @@ static_assert(sizeof(BakedHeader) == 256 && sizeof(BakedHeader) % kBakedAlignmen
 
 /// Added to the mean dilatation of a material that bends accurately.
 constexpr std::uint32_t kBakedAccurateBending = 8;
-constexpr std::uint32_t kBakedFlags = kBakedNeoHooke | kBakedAccurateBending;
+/// Added to it where the law is orthotropic.
+constexpr std::uint32_t kBakedOrthotropic = 16;
+constexpr std::uint32_t kBakedFlags = kBakedNeoHooke | kBakedAccurateBending | kBakedOrthotropic;
 
 /// Mean dilatation and accurate bending of a material in one number.
 inline std::uint32_t averagingOf(const Material& material)
 {
     return static_cast<std::uint32_t>(material.m_meanDilatation) |
            (material.m_accurateBending ? kBakedAccurateBending : 0) |
-           (material.m_law == ElasticLaw::neoHooke ? kBakedNeoHooke : 0);
+           (material.m_law == ElasticLaw::neoHooke ? kBakedNeoHooke : 0) |
+           (material.isOrthotropic() ? kBakedOrthotropic : 0);
 }
 
 /// A supernode as it stands in a file; columns and rows lie one after the other.
@@ -78,6 +83,14 @@ struct BakedRegion
 };
 static_assert(sizeof(BakedRegion) == 64);
 
+/// The constants and directions of an orthotropic region, as they stand in a file: as in Orthotropic; 0 of others.
+struct BakedConstants
+{
+    std::array<double, 3> m_young, m_poisson, m_shear;
+    Vec3 m_along, m_across;
+};
+static_assert(sizeof(BakedConstants) == 120);
+
 /// All that follows the panels.
 struct BakedArrays
 {
@@ -92,6 +105,7 @@ struct BakedArrays
     std::vector<unsigned char> m_sides, m_fixed;
     std::vector<BakedRegion> m_regions;  // with m_regionOf: none of a body of one material
     std::vector<std::int32_t> m_regionOf;
+    std::vector<BakedConstants> m_constants;  // one a region; none where no region is orthotropic
 };
 
 /// Calls section(array, length) for each of them, in the order of the file.
@@ -117,6 +131,7 @@ void forEachSection(Arrays& a, const BakedHeader& h, const Section& section)
     section(a.m_fixed, h.m_nodes);
     section(a.m_regions, h.m_regions);
     section(a.m_regionOf, h.m_regions > 0 ? h.m_tets : 0);
+    section(a.m_constants, h.m_version != kBakedOrthotropicVersion ? 0 : h.m_regions > 0 ? h.m_regions : 1);
 }
 
 /// Where the next section starts after so many bytes.
@@ -131,7 +146,8 @@ std::uint64_t bakedFileBytes(const BakedHeader& header);
 /// XXH3 of some bytes, 64 bits.
 std::uint64_t checksumOf(const void* data, std::size_t size);
 
-/// Makes the header one of this format, of which the counts and values stand; `body` is all that follows it.
+/// Makes the header one of this format, of which the counts and values stand, and kBakedOrthotropicVersion; `body` is
+/// all that follows it.
 void sealHeader(BakedHeader& header, const unsigned char* body, std::size_t bodyBytes);
 
 /// The header of a file of `fileBytes`, of which the first `size` are at hand. Throws std::invalid_argument with what
@@ -142,7 +158,13 @@ BakedHeader openHeader(const unsigned char* data, std::size_t size, std::uint64_
 /// The materials that a file's arrays and header tell, unchecked.
 ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& arrays);
 
-/// What a header tells.
+/// What a header tells: of an orthotropic material not its constants.
 BakedFileInfo infoOf(const BakedHeader& header);
+
+/// The constants of the first region, which are the last section but for regions that follow it: from where on they
+/// stand in a file of version kBakedOrthotropicVersion.
+std::uint64_t constantsOffset(const BakedHeader& header);
+/// The material with them. Throws std::invalid_argument if it is none.
+Material withConstants(Material material, const BakedConstants& constants);
 
 }  // namespace bullet_fem

@@ -153,7 +153,15 @@ BakedFileInfo inspectBakedBody(const std::string& path, std::string* why)
         std::ifstream file(path, std::ios::binary);
         if (!file) throw std::runtime_error("it cannot be opened; check its permissions");
         file.read(reinterpret_cast<char*>(begin), sizeof begin);
-        return infoOf(openHeader(begin, static_cast<std::size_t>(file.gcount()), length));
+        const BakedHeader header = openHeader(begin, static_cast<std::size_t>(file.gcount()), length);
+        BakedFileInfo info = infoOf(header);
+        if (!info.m_material.isOrthotropic()) return info;
+        BakedConstants constants;
+        file.seekg(static_cast<std::streamoff>(constantsOffset(header)));
+        file.read(reinterpret_cast<char*>(&constants), sizeof constants);
+        if (!file) reject("its orthotropic constants cannot be read; copy or bake it anew");
+        info.m_material = withConstants(info.m_material, constants);
+        return info;
     };
     return attemptValue(why, [&] { return readNamed(path, inspect); });
 }

@@ -37,6 +37,13 @@ BakedPlasticity plasticityOf(const Material& material)
             static_cast<float>(material.m_plasticCreep), static_cast<float>(material.m_mostPlasticStrain)};
 }
 
+BakedConstants constantsOf(const Material& material)
+{
+    if (!material.isOrthotropic()) return {};
+    const Orthotropic& m = material.m_orthotropic;
+    return {m.m_young, m.m_poisson, m.m_shear, m.m_along, m.m_across};
+}
+
 BakedHeader headerOf(const BakedBody& body, const BakedArrays& arrays)
 {
     const BodyModel& model = *body.m_model;
@@ -56,6 +63,7 @@ BakedHeader headerOf(const BakedBody& body, const BakedArrays& arrays)
     h.m_rows = countOf(arrays.m_row.size());
     h.m_restBlocks = countOf(arrays.m_restColumn.size());
     h.m_regions = countOf(arrays.m_regions.size());
+    if (!arrays.m_constants.empty()) h.m_version = kBakedOrthotropicVersion;
     h.m_lowMemory = h.m_restBlocks > 0;
     h.m_surfaceCollides = body.m_surfaceCollides;
     h.m_singlePrecision = body.m_singlePrecision;
@@ -106,6 +114,8 @@ BakedArrays arraysOf(const BakedBody& body)
         a.m_restValues = factor.rest().m_values;
     }
     const ElementMaterials& materials = model.shape().m_materials;
+    if (materials.isOrthotropic())
+        for (const auto& [label, m] : materials.m_regions) a.m_constants.push_back(constantsOf(m));
     if (materials.isUniform()) return a;
     a.m_regionOf = materials.m_regionOf;
     for (const auto& [label, m] : materials.m_regions)

@@ -7,12 +7,29 @@
 namespace bullet_fem
 {
 
+namespace
+{
+
+// V C less V times that of lambda and mu.
+template <class Real>
+void storeStiffness(const ElasticMatrix& C, const RestElement& element, int lane, StiffnessBlock<Real>& block)
+{
+    const ElasticMatrix isotropic = isotropicStiffness({element.m_muVolume, element.m_lambdaVolume});
+    int entry = 0;
+    for (int i = 0; i < 6; ++i)
+        for (int j = i; j < 6; ++j)
+            block.m_entry[entry++][lane] = static_cast<Real>(element.m_volume * C(i, j) - isotropic(i, j));
+}
+
+}  // namespace
+
 template <class Real>
 ElementBlocks<Real>::ElementBlocks(const RestShape& shape, const ElementLanes& lanes)
     : m_blocks(lanes.blockCount()),
       m_groups(lanes.m_groups),
       m_law(shape.m_materials.isNonlinear() ? lanes.blockCount() : 0),
-      m_share(hasPatches() ? lanes.blockCount() : 0)
+      m_share(hasPatches() ? lanes.blockCount() : 0),
+      m_stiffness(shape.isOrthotropic() ? lanes.blockCount() : 0)
 {
     for (int k = 0; k < blockCount() * kLanes; ++k)
     {
@@ -33,6 +50,8 @@ ElementBlocks<Real>::ElementBlocks(const RestShape& shape, const ElementLanes& l
         for (int a = 0; a < 4; ++a) block.m_node[lane][a] = tet[a];
         if (!m_law.empty())
             m_law[k / kLanes].m_lane[lane] = shape.materialOf(e).m_law == ElasticLaw::neoHooke ? Real(1) : Real(0);
+        if (shape.isOrthotropic() && !lanes.isCopy(k))
+            storeStiffness(shape.stiffnessOf(e), element, lane, m_stiffness[k / kLanes]);
         if (hasPatches()) m_share[k / kLanes].m_lane[lane] = static_cast<Real>(stiffness * shape.shareOfPatch(e));
     }
 }

@@ -52,6 +52,15 @@ struct alignas(64) LawLanes
     Real m_lane[kLanes];
 };
 
+constexpr int kStiffnessEntries = 21;  ///< of a symmetric C
+
+/// Of a block's elements V times what C has besides lambda and mu, the upper triangle row by row [J].
+template <class Real>
+struct alignas(64) StiffnessBlock
+{
+    Real m_entry[kStiffnessEntries][kLanes];
+};
+
 /// The elements of a RestShape in blocks, as ElementLanes puts them. Real: float or double. Const after construction.
 template <class Real>
 struct ElementBlocks
@@ -67,9 +76,10 @@ struct ElementBlocks
     int piecesPerChunk() const;
 
     std::vector<ElementBlock<Real>> m_blocks;
-    std::vector<PatchGroup> m_groups;        ///< none without patches
-    std::vector<LawLanes<Real>> m_law;       ///< one a block; none where all elements have Hooke's law
-    std::vector<PatchShares<Real>> m_share;  ///< likewise; a block: of every element in its patch's volume [-]
+    std::vector<PatchGroup> m_groups;               ///< none without patches
+    std::vector<LawLanes<Real>> m_law;              ///< one a block; none where all elements have Hooke's law
+    std::vector<PatchShares<Real>> m_share;         ///< likewise; a block: of every element in its patch's volume [-]
+    std::vector<StiffnessBlock<Real>> m_stiffness;  ///< likewise where an element is orthotropic; of all elements
 };
 
 /// Which corners a node gathers from. Const after construction.

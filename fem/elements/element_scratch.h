@@ -7,6 +7,7 @@
 #include "fem/elements/element_pass.h"
 #include "fem/elements/element_strains.h"
 #include "fem/elements/node_rotations.h"
+#include "fem/elements/orthotropic_elements.h"
 #include "fem/elements/smoothed_elements.h"
 
 namespace bullet_fem
@@ -44,9 +45,10 @@ struct ElementScratch
 
     std::vector<CornerBlock<Real>> m_corners;
     std::vector<WarpedBlock<Real>> m_warped;
-    std::vector<StressBlock<Real>> m_initialStress;  ///< empty until there is some
-    std::vector<StressBlock<Real>> m_cofactor;       ///< likewise of laws that are not linear
-    std::vector<StrainBlock<Real>> m_strain;         ///< likewise of strains
+    std::vector<StressBlock<Real>> m_initialStress;     ///< empty until there is some
+    std::vector<StressBlock<Real>> m_cofactor;          ///< likewise of laws that are not linear
+    std::vector<StrainBlock<Real>> m_strain;            ///< likewise of strains
+    std::vector<OrthotropicBlock<Real>> m_orthotropic;  ///< likewise of orthotropic elements
     SmoothedScratch<Real> m_smoothed;
 };
 

@@ -106,6 +106,19 @@ Mat3 elementStiffnessBlock(const RestElement& element, int a, int b)
            Mat3::diagonal(element.m_muVolume * dot(ga, gb));
 }
 
+Mat3 elementStiffnessBlock(const RestElement& element, const ElasticMatrix& C, int a, int b)
+{
+    // (K_ab)_ij = V sum over k, l of g_ak C_kilj g_bl
+    constexpr int kVoigt[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
+    const Vec3 ga = shapeGradient(element, a), gb = shapeGradient(element, b);
+    Mat3 K;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 3; ++k)
+                for (int l = 0; l < 3; ++l) K(i, j) += element.m_volume * ga[k] * C(kVoigt[k][i], kVoigt[l][j]) * gb[l];
+    return K;
+}
+
 BlockMatrix assembleRestStiffness(const RestShape& shape)
 {
     BlockMatrix K = emptyMatrix(shape);
@@ -115,7 +128,10 @@ BlockMatrix assembleRestStiffness(const RestShape& shape)
         RestElement element = shape.m_elements[e];
         if (!shape.m_patches.empty()) element.m_lambdaVolume -= bulkVolumeOf(element);
         for (int a = 0; a < 4; ++a)
-            for (int b = 0; b < 4; ++b) K.at(tet[a], tet[b]) += elementStiffnessBlock(element, a, b);
+            for (int b = 0; b < 4; ++b)
+                K.at(tet[a], tet[b]) += shape.isOrthotropic()
+                                            ? elementStiffnessBlock(element, shape.stiffnessOf(e), a, b)
+                                            : elementStiffnessBlock(element, a, b);
     }
     addPatches(shape, K);
     return K;

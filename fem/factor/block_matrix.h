@@ -28,6 +28,9 @@ Vec3 shapeGradient(const RestElement& element, int a);
 /// K_e = V B^T C B [N/m], nodes a, b in 0..3.
 Mat3 elementStiffnessBlock(const RestElement& element, int a, int b);
 
+/// The same of any C: K_ab = V B_a^T C B_b.
+Mat3 elementStiffnessBlock(const RestElement& element, const ElasticMatrix& C, int a, int b);
+
 /// The rest stiffness K [N/m], assembled over all nodes; where elements share their volume changes, with G_i = sum of
 /// V_e / V g_a over the elements of a patch of volume V at node i, with (lambda + 2/3 mu) V G_i G_j^T in place of what
 /// their own volume changes make.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/factor/body_model.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -56,13 +57,32 @@ double mismatch(const Material& a, const Material& b, double h)
     return std::sqrt(most);
 }
 
+// The same where one of them is orthotropic, by the eigenvalues of C of the one beside C of the other.
+double orthotropicMismatch(const Material& a, const Material& b, double h)
+{
+    if (a == b) return 1;
+    using Matrix6 = Eigen::Matrix<double, 6, 6>;
+    const auto stiff = [h](const Material& m) -> Matrix6
+    {
+        const ElasticMatrix C = m.stiffness();
+        return (h * h + h * m.m_stiffnessDamping) * Eigen::Map<const Matrix6>(&C.m[0][0]);
+    };
+    const auto mass = [h](const Material& m) { return 1 + h * m.m_massDamping; };
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> eigen(stiff(a), stiff(b), Eigen::EigenvaluesOnly);
+    const double least = eigen.eigenvalues()(0), largest = eigen.eigenvalues()(5);
+    return std::sqrt(std::max({1.0, mass(a) / mass(b), mass(b) / mass(a), largest, 1 / least}));
+}
+
 // Both matrices are sums over elements: none of their eigenvalues is farther off than the worst element's.
 double mismatch(const RestShape& shape, const ElementMaterials& factored, double h)
 {
-    if (shape.m_materials.isUniform() && factored.isUniform()) return mismatch(shape.m_material, factored.first(), h);
+    const bool orthotropic = shape.isOrthotropic() || factored.isOrthotropic();
+    const auto ofPair = [&](const Material& a, const Material& b)
+    { return orthotropic ? orthotropicMismatch(a, b, h) : mismatch(a, b, h); };
+    if (shape.m_materials.isUniform() && factored.isUniform()) return ofPair(shape.m_material, factored.first());
     double most = 1;
     for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
-        most = std::max(most, mismatch(shape.materialOf(e), factored.of(e), h));
+        most = std::max(most, ofPair(shape.materialOf(e), factored.of(e)));
     return most;
 }
 

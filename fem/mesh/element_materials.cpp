@@ -83,7 +83,13 @@ ElementMaterials ElementMaterials::ofElements(const std::vector<Material>& perEl
         std::size_t operator()(const Material& m) const
         {
             const std::hash<double> hash;
-            return hash(m.m_youngModulus) ^ 3 * hash(m.m_poissonRatio) ^ 7 * hash(m.m_density);
+            std::size_t sum = hash(m.m_youngModulus) ^ 3 * hash(m.m_poissonRatio) ^ 7 * hash(m.m_density);
+            if (!m.isOrthotropic()) return sum;
+            const Orthotropic& o = m.m_orthotropic;  // of a field of directions they alone differ
+            for (const double value :
+                 {o.m_young[0], o.m_along.x, o.m_along.y, o.m_along.z, o.m_across.x, o.m_across.y, o.m_across.z})
+                sum = 31 * sum + hash(value);
+            return sum;
         }
     };
     if (perElement.empty()) reject("there are no materials; give one for every element");
@@ -103,15 +109,20 @@ ElementMaterials ElementMaterials::ofElements(const std::vector<Material>& perEl
 void ElementMaterials::validate(int elementCount) const
 {
     if (m_regions.empty()) reject("there is no material; give one");
+    const bool nonlinear = isNonlinear(), orthotropic = isOrthotropic();
     for (const MaterialRegion& region : m_regions)
     {
         std::string why;
         if (!region.m_material.valid(&why))
             reject(m_regions.size() > 1 ? message("region ", region.m_label, ": ") : "", why);
         checkWithFirst(m_regions.front(), region);
-        if (isNonlinear() && region.m_material.usesMeanDilatation())
+        if ((nonlinear || orthotropic) && region.m_material.usesMeanDilatation())
             reject("region ", region.m_label, " has mean dilatation (nu ", region.m_material.m_poissonRatio,
-                   ") beside a Neo-Hookean region; switch it off in all regions of such a body");
+                   ") beside ", nonlinear ? "a Neo-Hookean" : "an orthotropic",
+                   " region; switch it off in all regions of such a body");
+        if (orthotropic && region.m_material.m_law == ElasticLaw::neoHooke)
+            reject("region ", region.m_label,
+                   " is Neo-Hookean beside an orthotropic region; give one of them the law hooke");
     }
     if (isUniform() && m_regions.size() > 1)
         reject("there are ", m_regions.size(), " regions and no element is in one; give every element its region");
@@ -132,7 +143,13 @@ bool ElementMaterials::usesMeanDilatation() const
 bool ElementMaterials::isNonlinear() const
 {
     return std::any_of(m_regions.begin(), m_regions.end(),
-                       [](const MaterialRegion& region) { return region.m_material.m_law != ElasticLaw::hooke; });
+                       [](const MaterialRegion& region) { return region.m_material.m_law == ElasticLaw::neoHooke; });
+}
+
+bool ElementMaterials::isOrthotropic() const
+{
+    return std::any_of(m_regions.begin(), m_regions.end(),
+                       [](const MaterialRegion& region) { return region.m_material.isOrthotropic(); });
 }
 
 bool ElementMaterials::bendsAccurately() const

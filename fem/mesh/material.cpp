@@ -72,6 +72,11 @@ bool validRelaxation(const std::array<PronyTerm, Material::kMostRelaxationTerms>
     return all.contains();
 }
 
+const char* lawName(const Material& material)
+{
+    return material.isOrthotropic() ? "orthotropic law" : "Neo-Hookean law";
+}
+
 // False, and why, if the law is none, or does not go with the rest of the material.
 bool validLaw(const Material& material, std::string* why)
 {
@@ -80,21 +85,22 @@ bool validLaw(const Material& material, std::string* why)
         if (why) *why = text;
         return false;
     };
-    if (material.m_law != ElasticLaw::hooke && material.m_law != ElasticLaw::neoHooke)
-        return refuse(
-            message("elastic law is ", static_cast<int>(material.m_law), ", outside [0, 1]; choose hooke or neoHooke"));
+    if (material.m_law < ElasticLaw::hooke || material.m_law > ElasticLaw::orthotropic)
+        return refuse(message("elastic law is ", static_cast<int>(material.m_law),
+                              ", outside [0, 2]; choose hooke, neoHooke or orthotropic"));
     if (material.m_law == ElasticLaw::hooke) return true;
+    const char* const law = lawName(material);
     if (material.yields())
-        return refuse(message("yield stress [Pa] is ", material.m_yieldStress,
-                              " with the Neo-Hookean law, which does not yield; use infinity, or the law hooke"));
+        return refuse(message("yield stress [Pa] is ", material.m_yieldStress, " with the ", law,
+                              ", which does not yield; use infinity, or the law hooke"));
     if (material.m_relaxation[0].m_share > 0)
-        return refuse(message("relaxation term 0: its share is ", material.m_relaxation[0].m_share,
-                              " with the Neo-Hookean law, which does not relax; use none, or the law hooke"));
+        return refuse(message("relaxation term 0: its share is ", material.m_relaxation[0].m_share, " with the ", law,
+                              ", which does not relax; use none, or the law hooke"));
     if (material.m_meanDilatation == MeanDilatation::on)
-        return refuse(
-            "mean dilatation is on with the Neo-Hookean law, whose elements have their own volume change "
-            "each; use automatic or off, or the law hooke");
-    return true;
+        return refuse(message("mean dilatation is on with the ", law,
+                              ", whose elements have their own volume change each; use automatic or off, or the law "
+                              "hooke"));
+    return !material.isOrthotropic() || material.m_orthotropic.valid(why);
 }
 
 // False, and why, where strains would have to be averaged that are not.
@@ -102,6 +108,7 @@ bool validBending(const Material& material, std::string* why)
 {
     if (!material.m_accurateBending) return true;
     const char* without = material.m_meanDilatation == MeanDilatation::off ? "mean dilatation off; take automatic or on"
+                          : material.isOrthotropic()                       ? "the orthotropic law; take the law hooke"
                           : material.m_law != ElasticLaw::hooke            ? "the Neo-Hookean law; take the law hooke"
                           : material.yields() ? "a yield stress; take infinity, or another material"
                           : material.relaxationTerms() > 0
@@ -134,17 +141,24 @@ double LameModuli::poissonRatio() const
 
 double Material::lameLambda() const
 {
+    if (isOrthotropic()) return m_orthotropic.isotropicPart().m_lambda;
     return m_youngModulus * m_poissonRatio / ((1 + m_poissonRatio) * (1 - 2 * m_poissonRatio));
 }
 
 double Material::lameMu() const
 {
+    if (isOrthotropic()) return m_orthotropic.isotropicPart().m_mu;
     return m_youngModulus / (2 * (1 + m_poissonRatio));
+}
+
+ElasticMatrix Material::stiffness() const
+{
+    return isOrthotropic() ? m_orthotropic.stiffness() : isotropicStiffness({lameMu(), lameLambda()});
 }
 
 bool Material::usesMeanDilatation() const
 {
-    if (m_law == ElasticLaw::neoHooke) return false;
+    if (m_law != ElasticLaw::hooke) return false;
     if (m_meanDilatation != MeanDilatation::automatic) return m_meanDilatation == MeanDilatation::on;
     return m_accurateBending || static_cast<float>(m_poissonRatio) > static_cast<float>(kLeastAveragedRatio);
 }

@@ -51,6 +51,12 @@ RestShape::RestShape(TetMesh mesh, ElementMaterials materials, const std::vector
     m_materials.validate(m_mesh.tetCount());
     m_material = m_materials.first();
     validateScales(m_mesh, filled, massScale);
+    std::vector<LameModuli> moduli;  // of every region
+    for (const auto& [label, material] : m_materials.m_regions)
+    {
+        moduli.push_back({material.lameMu(), material.lameLambda()});
+        if (m_materials.isOrthotropic()) m_regionStiffness.push_back(material.stiffness());
+    }
     const std::vector<Vec3>& X = m_mesh.restPositions();
     m_elements.resize(m_mesh.tets().size());
     m_lumpedMass.assign(X.size(), 0.0);
@@ -63,8 +69,8 @@ RestShape::RestShape(TetMesh mesh, ElementMaterials materials, const std::vector
         RestElement& element = m_elements[e];
         element.m_DmInverse = inverse(Mat3::fromColumns(X[tet[1]] - X0, X[tet[2]] - X0, X[tet[3]] - X0));
         element.m_volume = m_mesh.tetVolume(e) * (filled.empty() ? 1.0 : filled[e]);
-        element.m_lambdaVolume = material.lameLambda() * element.m_volume;
-        element.m_muVolume = material.lameMu() * element.m_volume;
+        element.m_lambdaVolume = moduli[m_materials.regionOf(e)].m_lambda * element.m_volume;
+        element.m_muVolume = moduli[m_materials.regionOf(e)].m_mu * element.m_volume;
         for (int node : tet) m_lumpedMass[node] += density * massScale * element.m_volume / 4;
     }
     if (!m_materials.usesMeanDilatation()) return;

@@ -32,14 +32,20 @@ void addFibreStress(const Body& body, const Fibres& fibres, std::vector<Symmetri
                    });
 }
 
-// -3 K strain I, with the material of the element.
+// -C (strain I), which of an isotropic element is -3 K strain I.
 void addExpansionStress(const Body& body, const Expansion& expansion, std::vector<SymmetricTensor>& stress)
 {
-    const std::vector<RestElement>& elements = body.m_model->shape().m_elements;
+    const RestShape& shape = body.m_model->shape();
     forEachElement(body, expansion.m_elements,
                    [&](int, int e)
                    {
-                       const RestElement& element = elements[e];
+                       if (shape.isOrthotropic())
+                       {
+                           const double s = -expansion.m_strain;
+                           stress[e] += stressOf(shape.stiffnessOf(e), {s, s, s, 0, 0, 0});
+                           return;
+                       }
+                       const RestElement& element = shape.m_elements[e];
                        const double bulk = (element.m_lambdaVolume + 2.0 / 3 * element.m_muVolume) / element.m_volume;
                        const double pressure = -3 * bulk * expansion.m_strain;
                        stress[e] += {pressure, pressure, pressure, 0, 0, 0};

@@ -14,7 +14,7 @@ namespace bullet_fem
 {
 
 /// True if bodies of this model can be solved side by side: of one piece and not too large, with all nodes in a factor
-/// of blocks, and elements that are not smoothed.
+/// of blocks, and elements that are neither smoothed nor orthotropic.
 bool canBeBatched(const BodyModel& model);
 
 /// What kBatchWidth bodies of one model are solved in side by side: scratch, interleaved, a lane a body.

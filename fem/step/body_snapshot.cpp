@@ -92,12 +92,21 @@ void checkRelaxedStrain(const BodySnapshot& s, const BodyModel& model)
 namespace
 {
 
+void addOrthotropic(std::uint64_t& mark, const Orthotropic& orthotropic)
+{
+    for (const auto* constants : {&orthotropic.m_young, &orthotropic.m_poisson, &orthotropic.m_shear})
+        for (const double value : *constants) addToMark(mark, value);
+    for (const Vec3* direction : {&orthotropic.m_along, &orthotropic.m_across})
+        for (int c = 0; c < 3; ++c) addToMark(mark, (*direction)[c]);
+}
+
 void addMaterial(std::uint64_t& mark, const Material& material)
 {
     for (double value : {material.m_youngModulus, material.m_poissonRatio, material.m_density, material.m_massDamping,
                          material.m_stiffnessDamping})
         addToMark(mark, value);
     if (material.m_law != ElasticLaw::hooke) addToMark(mark, static_cast<int>(material.m_law));
+    if (material.isOrthotropic()) addOrthotropic(mark, material.m_orthotropic);
     if (material.yields())
         for (double value : {material.m_yieldStress, material.m_hardeningModulus, material.m_plasticCreep,
                              material.m_mostPlasticStrain})

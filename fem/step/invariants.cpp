@@ -49,10 +49,10 @@ double energyOfDomains(const RestShape& shape, const std::vector<SymmetricTensor
 
 }  // namespace
 
-// Element energy: V (mu E:E + lambda/2 tr(E)^2), E = sym(R^T F) - I, and in place of tr(E) its mean where elements are
-// in patches; of a smoothed deviator the share that is not, and that of its edge domains; besides, V sigma_0 : E of an
-// initial stress. The state's rotations are those of the last step's
-// start, which a spinning body has left behind: R is found anew.
+// Element energy: V (mu E:E + lambda/2 tr(E)^2) or V/2 E:C:E, E = sym(R^T F) - I, and in place of tr(E) its mean where
+// elements are in patches; of a smoothed deviator the share that is not, and that of its edge domains; besides, V
+// sigma_0 : E of an initial stress. The state's rotations are those of the last step's start, which a spinning body has
+// left behind: R is found anew.
 double mechanicalEnergy(const Body& body)
 {
     const BodyState& s = body.m_state;
@@ -82,7 +82,10 @@ double mechanicalEnergy(const Body& body)
         const bool isSmoothed = !shape.m_edgeDomains.empty();
         const double share = isSmoothed ? 1 - shape.m_edgeDomains.m_share[e] : 1;
         if (isSmoothed) strain.push_back(symmetricPart(E));
-        if (shape.materialOf(static_cast<int>(e)).m_law == ElasticLaw::neoHooke)
+        if (shape.isOrthotropic())
+            energy += 0.5 * element.m_volume *
+                      contraction(stressOf(shape.stiffnessOf(static_cast<int>(e)), symmetricPart(E)), symmetricPart(E));
+        else if (shape.materialOf(static_cast<int>(e)).m_law == ElasticLaw::neoHooke)
             energy += neoHooke(symmetric, lambda, element.m_muVolume).m_energy;
         else
             energy += share * (element.m_muVolume * squaredNorm(symmetric) + 0.5 * lambda * own * own);

@@ -80,9 +80,18 @@ Stress smoothedStress(const Body& body, int e, const Mat3& R, double theta, cons
     return symmetricPart(R * timesTranspose(toMatrix(s), R));
 }
 
+// sigma = R (C (S - I) + sigma_0) R^T
+Stress orthotropicStress(const Body& body, int e, const LeftStretch& found)
+{
+    Stress s = stressOf(body.m_model->shape().stiffnessOf(e), strainOf(found));
+    if (hasInitialStress(body)) s += initialStress(body, e);
+    return symmetricPart(found.m_R * timesTranspose(toMatrix(s), found.m_R));
+}
+
 // sigma = R Hooke(S - I) R^T = Hooke(F R^T - I), because R turns nothing in an isotropic law, and R sigma_0 R^T.
 Stress stressOf(const Body& body, int e, const LeftStretch& found, double dilatation)
 {
+    if (body.m_model->shape().isOrthotropic()) return orthotropicStress(body, e, found);
     const Material& material = body.m_model->shape().materialOf(e);
     const Mat3& left = found.m_stretch;
     const double mu = material.lameMu();

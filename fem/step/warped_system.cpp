@@ -10,6 +10,7 @@
 #include "fem/elements/element_product.h"
 #include "fem/elements/model_elements.h"
 #include "fem/elements/node_sums.h"
+#include "fem/elements/orthotropic_elements.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/step/internal_stress.h"
 #include "fem/step/step_coefficients.h"
@@ -101,12 +102,24 @@ void runSmoothedPass(Body& body, const ElementPass<Real>& pass, const Threads* t
                 strain, 2, threads);
 }
 
+template <class Real>
+void runOrthotropic(Body& body, const ElementPass<Real>& pass, const Threads* threads)
+{
+    auto& warped = body.m_workspace.scratch().m_elements.scratch<Real>().m_orthotropic;
+    warped.resize(pass.m_elements->blockCount());
+    const OrthotropicPass<Real> orthotropic = {pass, warped.data()};
+    runRanges(threads, {pass.m_elements->blockCount(), kBlocksPerChunk},
+              [&](Range blocks) { runOrthotropicPass(orthotropic, blocks); });
+}
+
 // The forces are added to `force` [N].
 template <class Real>
 void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
 {
     const ElementPass<Real> pass = passOver<Real>(body, settings);
-    if (body.m_model->elements().smoothing<Real>().empty())
+    if (!pass.m_elements->m_stiffness.empty())
+        runOrthotropic(body, pass, settings.m_threads);
+    else if (body.m_model->elements().smoothing<Real>().empty())
         runPass(pass, settings.m_threads);
     else
         runSmoothedPass(body, pass, settings.m_threads);
@@ -127,7 +140,13 @@ void product(const Body& body, const Threads* threads, bool withMass, const std:
         &blocks,         scratch.m_warped.data(),  work.m_stiffnessFactor,
         work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_cofactor.data()};
     const EdgeSmoothing<Real>& smoothing = elements.smoothing<Real>();
-    if (smoothing.empty())
+    if (!blocks.m_stiffness.empty())
+    {
+        const OrthotropicProduct<Real> orthotropic = {forces, scratch.m_orthotropic.data()};
+        runRanges(threads, {blocks.blockCount(), kBlocksPerChunk},
+                  [&](Range range) { runOrthotropicProduct(orthotropic, range); });
+    }
+    else if (smoothing.empty())
         runRanges(threads, {forces.m_elements->pieceCount(), forces.m_elements->piecesPerChunk()},
                   [&](Range pieces) { runElementProduct(forces, pieces); });
     else

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "LinearMath/btScalar.h"
+#include "LinearMath/btVector3.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/common/export.h"
 
@@ -21,8 +22,9 @@ enum class btFemMeanDilatation
 /// How stress follows from strain (docs/materials.md, Large strain).
 enum class btFemElasticLaw
 {
-    hooke,    ///< linear in the strain of the rotated frame
-    neoHooke  ///< the same at small strain; stiffens as it is stretched, and without bound as it is crushed
+    hooke,       ///< linear in the strain of the rotated frame
+    neoHooke,    ///< the same at small strain; stiffens as it is stretched, and without bound as it is crushed
+    orthotropic  ///< linear as hooke, with the constants and axes of m_orthotropic in place of E and nu
 };
 
 /// A part of the shear modulus that relaxes, g_i exp(-t / tau_i) of a Prony series.
@@ -32,9 +34,24 @@ struct BULLETFEM_API btFemRelaxation
     btScalar m_time = btScalar(1);   ///< tau_i [s], in [1e-6, 1e9]
 };
 
-/// An isotropic elastic material with Rayleigh damping D = alpha M + beta K: linear, where it may yield and relax, or
-/// Neo-Hookean (docs/materials.md). SI units whatever the scene's scale: a Bullet unit of length is a metre, of mass a
-/// kilogram.
+/// The constants of a material with three planes of symmetry, such as wood or what fibres reinforce, and where its axes
+/// 1, 2, 3 point. nu_ij is the contraction along j over the extension along i of a bar that is pulled along i;
+/// nu_ij / E_i = nu_ji / E_j. What makes the stiffness indefinite is refused (docs/materials.md, Orthotropic).
+struct BULLETFEM_API btFemOrthotropic
+{
+    btScalar m_young[3] = {btScalar(1e6), btScalar(1e6), btScalar(1e6)};    ///< E_1, E_2, E_3 [Pa], in (0, 1e13]
+    btScalar m_poisson[3] = {btScalar(0.3), btScalar(0.3), btScalar(0.3)};  ///< nu_12, nu_13, nu_23 [-]
+    btScalar m_shear[3] = {btScalar(4e5), btScalar(4e5), btScalar(4e5)};    ///< G_12, G_13, G_23 [Pa], in (0, 1e13]
+    /// Axis 1, in the axes of the rest shape: of the world as the body lies when it is first stepped or prepared. It
+    /// has any length but 0, and turns with the body from then on.
+    btVector3 m_along = btVector3(1, 0, 0);
+    /// Axis 2 is what of this is perpendicular to axis 1; not parallel to it. Axis 3 is their vector product.
+    btVector3 m_across = btVector3(0, 1, 0);
+};
+
+/// An elastic material with Rayleigh damping D = alpha M + beta K: isotropic and linear, where it may yield and relax,
+/// Neo-Hookean, or orthotropic (docs/materials.md). SI units whatever the scene's scale: a Bullet unit of length is a
+/// metre, of mass a kilogram.
 struct BULLETFEM_API btFemMaterial
 {
     btScalar m_youngModulus = btScalar(1e6);        ///< E [Pa], in (0, 1e13]
@@ -61,6 +78,17 @@ struct BULLETFEM_API btFemMaterial
     /// two cells across and more bend as they should within 6 %; a step takes two to three times as long. Not with mean
     /// dilatation off, and not for materials that yield or relax (docs/materials.md).
     bool m_accurateBending = false;
+    /// Read with btFemElasticLaw::orthotropic alone, where E and nu are not. Such a material does not yield or relax,
+    /// does not bend accurately, and its elements have their own volume change each. For directions that change from
+    /// place to place, give setMaterials a function of the place.
+    btFemOrthotropic m_orthotropic;
+
+    /// An orthotropic material of which all directions across its fibres, m_orthotropic.m_along, are alike: Young's
+    /// modulus [Pa] and Poisson's ratio [-] of a bar that is pulled along its fibres, and across them in the plane in
+    /// which all is alike, and the modulus of shear along the fibres [Pa]. The rest is as of btFemMaterial(). Checked
+    /// as all materials are, where it is given to a body.
+    static btFemMaterial transverselyIsotropic(btScalar youngAlong, btScalar youngAcross, btScalar poissonAlong,
+                                               btScalar poissonAcross, btScalar shearAlong);
 
     static btFemMaterial rubber();    ///< soft natural rubber: 2 MPa, nu .47, 1100 kg/m3
     static btFemMaterial foam();      ///< upholstery foam: 50 kPa, nu .1, 40 kg/m3

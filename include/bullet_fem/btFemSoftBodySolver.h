@@ -92,7 +92,8 @@ public:
     /// By place: `materialAt` is called now, once for every tetrahedron with its centroid [m] in the rest shape, where
     /// that lay when the body was first stepped or prepared, or lies now. Where nu is above .4 a few materials, in
     /// steps, serve better than one that changes from each tetrahedron to the next: those that share a volume change
-    /// are of one material (docs/materials.md). Throws likewise, and what the function throws.
+    /// are of one material (docs/materials.md). So fibres get a direction that changes from place to place. Throws
+    /// likewise, and what the function throws.
     bool setMaterials(btSoftBody* body, const std::function<btFemMaterial(const btVector3& centroid)>& materialAt,
                       std::string* why = nullptr);
 
@@ -245,9 +246,9 @@ public:
 
     /// Elastic stress of every tetrahedron [Pa] where the last step left the nodes (or where prepare found them), in
     /// the order of m_tetras: R (2 mu eps + lambda tr(eps) I) R^T, Hooke's law in the frame that turns with the
-    /// element, without viscous stress; of an element of a cage that is partly filled, the stress of what fills it.
-    /// Never throws: false, and an empty array, if the body is not FEM, or its arrays were changed since. Allocates
-    /// only when an array grows, here or in the solver. From the thread that steps the world.
+    /// element, or that of its material, without viscous stress; of an element of a cage that is partly filled, the
+    /// stress of what fills it. Never throws: false, and an empty array, if the body is not FEM, or its arrays were
+    /// changed since. Allocates only when an array grows, here or in the solver. From the thread that steps the world.
     bool getStress(const btSoftBody* body, btAlignedObjectArray<btFemStress>& perElement) const;
     /// The mean of the elements at every node by their (filled) volumes, in the order of m_nodes: smooth for drawing,
     /// and lower than the elements' peaks. Zero at nodes that no element uses. Likewise otherwise.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/btFemMaterial.h"
 
+#include "bullet_fem/btFemVectors.h"
 #include "plugin/setup/btFemMaterialConversion.h"
 
 namespace
@@ -25,6 +26,7 @@ btFemMaterial fromCore(const bullet_fem::Material& material)
 static_assert(static_cast<int>(btFemMeanDilatation::off) == static_cast<int>(bullet_fem::MeanDilatation::off));
 
 static_assert(static_cast<int>(btFemElasticLaw::neoHooke) == static_cast<int>(bullet_fem::ElasticLaw::neoHooke));
+static_assert(static_cast<int>(btFemElasticLaw::orthotropic) == static_cast<int>(bullet_fem::ElasticLaw::orthotropic));
 static_assert(btFemMaterial::kMostRelaxationTerms == bullet_fem::Material::kMostRelaxationTerms);
 
 bullet_fem::Material coreMaterial(const btFemMaterial& material)
@@ -51,7 +53,32 @@ bullet_fem::Material coreMaterial(const btFemMaterial& material)
         core.m_relaxation[i].m_share = term.m_share == btScalar(kMostShare) ? kMostShare : double(term.m_share);
         core.m_relaxation[i].m_time = term.m_time;
     }
+    const btFemOrthotropic& orthotropic = material.m_orthotropic;
+    for (int i = 0; i < 3; ++i)
+    {
+        core.m_orthotropic.m_young[i] = orthotropic.m_young[i];
+        core.m_orthotropic.m_poisson[i] = orthotropic.m_poisson[i];
+        core.m_orthotropic.m_shear[i] = orthotropic.m_shear[i];
+    }
+    core.m_orthotropic.m_along = bullet_fem::vec3(orthotropic.m_along);
+    core.m_orthotropic.m_across = bullet_fem::vec3(orthotropic.m_across);
     return core;
+}
+
+btFemMaterial btFemMaterial::transverselyIsotropic(btScalar youngAlong, btScalar youngAcross, btScalar poissonAlong,
+                                                   btScalar poissonAcross, btScalar shearAlong)
+{
+    const bullet_fem::Orthotropic constants = bullet_fem::Orthotropic::transverselyIsotropic(
+        youngAlong, youngAcross, poissonAlong, poissonAcross, shearAlong);
+    btFemMaterial material;
+    material.m_law = btFemElasticLaw::orthotropic;
+    for (int i = 0; i < 3; ++i)
+    {
+        material.m_orthotropic.m_young[i] = static_cast<btScalar>(constants.m_young[i]);
+        material.m_orthotropic.m_poisson[i] = static_cast<btScalar>(constants.m_poisson[i]);
+        material.m_orthotropic.m_shear[i] = static_cast<btScalar>(constants.m_shear[i]);
+    }
+    return material;
 }
 
 btFemMaterial btFemMaterial::rubber()

@@ -217,6 +217,37 @@ TEST_F(SceneReader, ReadsHowAMaterialYields)
     EXPECT_TRUE(material(R"("like": "mildFoam")").yields());
 }
 
+TEST_F(SceneReader, ReadsOrthotropicConstants)
+{
+    const auto material = [this](const std::string& members)
+    {
+        return parse(R"({ "materials": { "oak": { "orthotropic":
+                     { "young": [9e9, 2e9, 1e9], "poisson": [0.3, 0.4, 0.5], "shear": [7e8, 6e8, 5e8] } } },
+                     "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1] }, "material": {)" +
+                     members + "} }] }")
+            .m_softBodies[0]
+            .m_material;
+    };
+    EXPECT_FALSE(material("").isOrthotropic());
+    const Material oak = material(R"("like": "oak", "density": 700)");
+    ASSERT_TRUE(oak.isOrthotropic());
+    EXPECT_EQ(oak.m_orthotropic.m_young, (std::array<double, 3>{9e9, 2e9, 1e9}));
+    EXPECT_EQ(oak.m_orthotropic.m_poisson, (std::array<double, 3>{0.3, 0.4, 0.5}));
+    EXPECT_EQ(oak.m_orthotropic.m_shear, (std::array<double, 3>{7e8, 6e8, 5e8}));
+    EXPECT_EQ(oak.m_orthotropic.m_along.x, 1);
+    EXPECT_EQ(oak.m_orthotropic.m_across.y, 1);
+    EXPECT_FALSE(material(R"("like": "oak", "law": "hooke")").isOrthotropic());
+    const Material turned = material(R"("orthotropic": { "young": [9e9, 2e9, 1e9], "poisson": [0.3, 0.4, 0.5],
+                                        "shear": [7e8, 6e8, 5e8], "axes": [[0, 0, 3], [1, 0, 1]] })");
+    const btFemMaterial given = materialOf(turned);
+    EXPECT_EQ(given.m_law, btFemElasticLaw::orthotropic);
+    EXPECT_EQ(given.m_orthotropic.m_young[2], btScalar(1e9));
+    EXPECT_EQ(given.m_orthotropic.m_poisson[1], btScalar(0.4));
+    EXPECT_EQ(given.m_orthotropic.m_shear[0], btScalar(7e8));
+    EXPECT_EQ(given.m_orthotropic.m_along, btVector3(0, 0, 3));
+    EXPECT_EQ(given.m_orthotropic.m_across, btVector3(1, 0, 1));
+}
+
 TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
 {
     const SceneDescription scene = parse(otherScene());

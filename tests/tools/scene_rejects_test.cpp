@@ -65,7 +65,7 @@ const BadValue kUnknown[] = {
     {"InAMaterial", true, "/materials/gum/nu", "1",
      "materials.gum has a member 'nu', which is not known; those that are: like, young, poisson, density, massDamping, "
      "stiffnessDamping, meanDilatation, accurateBending, yieldStress, hardening, plasticCreep, "
-     "mostPlasticStrain, relaxation, law"},
+     "mostPlasticStrain, relaxation, law, orthotropic"},
     {"InASoftBody", true, "/softBodies/1/mass", "1",
      "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "
      "material, materials, friction, restitution, selfContact, colour, pins, pieces"},
@@ -160,6 +160,20 @@ const BadValue kOutOfRange[] = {
     {"RelaxationTerms", true, "/materials/gum/relaxation",
      R"([{ "share": 0.1, "time": 1 }, { "share": 0.1, "time": 2 }, { "share": 0.1, "time": 3 }, { "share": 0.1, "time": 4 }])",
      R"(materials.gum.relaxation is [{"share":0.1,"time":1},{"share":0.1,...; it must be an array of at most 3 terms)"},
+    {"OrthotropicYoung", true, "/materials/timber/orthotropic/young/1", "0",
+     "materials.timber.orthotropic.young[1] is 0; it must be a number in (0, 1e+13]"},
+    {"OrthotropicPoisson", true, "/materials/timber/orthotropic/poisson/0", "3",
+     "materials.timber is no material: orthotropic nu12 [-] is 3, outside (-2.236067977, 2.236067977), which |nu12| < "
+     "sqrt(E1 / E2) asks for; is it nu21 = nu12 E2 / E1 of your table?"},
+    {"OrthotropicAxes", true, "/materials/timber/orthotropic/axes", "[[1, 0, 0]]",
+     "materials.timber.orthotropic.axes is [[1,0,0]]; it must be an array of two directions, of axis 1 and of axis 2"},
+    {"OrthotropicAxisOfNoLength", true, "/materials/timber/orthotropic/axes/1", "[0, 0, 0]",
+     "materials.timber.orthotropic.axes[1] is [0,0,0]; it must have a length"},
+    {"OrthotropicParallelAxes", true, "/materials/timber/orthotropic/axes/1", "[0, 0, -1]",
+     "materials.timber is no material: orthotropic directions of axes 1 and 2 are (0, 0, 2) and (0, 0, -1), parallel; "
+     "give for axis 2 one across axis 1"},
+    {"OrthotropicAndALaw", true, "/materials/timber/law", "\"hooke\"",
+     "materials.timber has both 'law' and 'orthotropic', which is a law; give one"},
     {"Young", true, "/materials/gum/young", "0", "materials.gum.young is 0; it must be a number in (0, 1e+13]"},
     {"Poisson", true, "/softBodies/0/material/poisson", "0.5",
      "softBodies[0].material.poisson is 0.5; it must be a number in [0, 0.499]"},
@@ -223,7 +237,7 @@ const BadValue kMeaning[] = {
      "mildFoam, rubber, wood"},
     {"UnknownMaterialAsKind", true, "/softBodies/0/material/like", R"("gold")",
      "softBodies[0].material.like is \"gold\"; it must be the name of a material: clay, flesh, foam, gum, jelly, "
-     "lead, mildFoam, rubber, wood"},
+     "lead, mildFoam, rubber, timber, wood"},
     {"UnknownSoftBody", true, "/constraints/0/soft", R"("hammer")",
      "constraints[0].soft is \"hammer\"; it must be the name of a soft body"},
     {"UnknownRigidBody", true, "/constraints/1/to", R"("block")",

@@ -69,6 +69,23 @@ TEST(SceneWorld, APressedBlockPushesBackByItsStiffness)
     EXPECT_NEAR(run.m_world.fem().contactForce(&block, &run.m_world.rigid(0)).y(), expected, 0.03 * expected);
 }
 
+// The axes of a scene are those of the mesh: the body's rotation turns its fibres upright.
+TEST(SceneWorld, AnOrthotropicBlockPushesBackByItsFibres)
+{
+    SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01, "solver": { "tolerance": 1e-5 },
+      "softBodies": [{ "name": "block", "mesh": { "box": [0.4, 0.4, 0.5], "tets": 600 }, "position": [0, 0.2, 0], "friction": 0,
+        "rotation": { "axis": [0, 0, 1], "degrees": 90 },
+        "material": { "density": 40, "stiffnessDamping": 0.0001,
+          "orthotropic": { "young": [1e5, 1e4, 2e4], "poisson": [0, 0, 0], "shear": [2e4, 2e4, 5e3] } } }],
+      "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } },
+        { "name": "plate", "shape": { "box": [0.7, 0.06, 0.7] }, "position": [0, 0.43, 0], "velocity": [0, -0.05, 0] }] })");
+    run.until(0.4);
+    const double expected = 1e5 * 0.4 * 0.5 * 0.02 / 0.4;  // E1 A strain
+    const btSoftBody& block = run.m_world.soft(0);
+    EXPECT_NEAR(run.m_world.fem().contactForce(&block, &run.m_world.rigid(1)).y(), -expected, 0.03 * expected);
+    EXPECT_NEAR(run.m_world.materials(0).first().m_orthotropic.m_along.y, 1, 1e-6);
+}
+
 TEST(SceneWorld, AnchorsFollowWhatTheyAreFixedTo)
 {
     SceneRun run(

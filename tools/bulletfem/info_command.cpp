@@ -59,12 +59,13 @@ struct InfoCommand
         m_figures.add("pinned", info.m_nodes - info.m_freeNodes, "nodes");
         m_figures.add("embeddedVertices", info.m_embeddedVertices);
         if (info.m_embeddedVertices > 0) m_figures.add("collides", info.m_surfaceCollides ? "surface" : "cage");
-        if (info.m_regions == 1)
+        if (info.m_regions == 1 && info.m_material.isOrthotropic()) tellOrthotropic(info.m_material.m_orthotropic);
+        if (info.m_regions == 1 && !info.m_material.isOrthotropic())
         {
             m_figures.add("young", info.m_material.m_youngModulus, "Pa");
             m_figures.add("poisson", info.m_material.m_poissonRatio);
-            m_figures.add("density", info.m_material.m_density, "kg/m3");
         }
+        if (info.m_regions == 1) m_figures.add("density", info.m_material.m_density, "kg/m3");
         m_figures.add("massDamping", info.m_material.m_massDamping, "1/s");
         m_figures.add("stiffnessDamping", info.m_material.m_stiffnessDamping, "s");
         if (info.m_regions == 1) m_figures.add("meanDilatation", info.m_material.usesMeanDilatation() ? "on" : "off");
@@ -77,10 +78,30 @@ struct InfoCommand
         if (info.m_regions > 1) tellRegions(readBakedBody(m_file));
     }
 
+    void tellOrthotropic(const Orthotropic& m)
+    {
+        m_figures.add("law", "orthotropic");
+        m_figures.add("young", {m.m_young[0], m.m_young[1], m.m_young[2]}, "Pa, along axes 1, 2, 3");
+        m_figures.add("poisson", {m.m_poisson[0], m.m_poisson[1], m.m_poisson[2]}, "12, 13, 23");
+        m_figures.add("shear", {m.m_shear[0], m.m_shear[1], m.m_shear[2]}, "Pa, 12, 13, 23");
+        const Mat3 axes = m.axes();
+        m_figures.add("axis 1", {axes(0, 0), axes(1, 0), axes(2, 0)});
+        m_figures.add("axis 2", {axes(0, 1), axes(1, 1), axes(2, 1)});
+    }
+
+    // Of a field of directions every element is a region.
+    static constexpr std::size_t kMostRegions = 20;
+
     // Volumes are those that are filled.
     void tellRegions(const BakedBody& body)
     {
         const RestShape& shape = body.m_model->shape();
+        if (shape.isOrthotropic() && shape.m_materials.m_regions.size() > kMostRegions)
+        {
+            m_figures.add("law", "orthotropic");
+            m_figures.add("regions", shape.m_materials.m_regions.size());
+            return;
+        }
         for (std::size_t r = 0; r < shape.m_materials.m_regions.size(); ++r)
         {
             const auto& [label, material] = shape.m_materials.m_regions[r];
@@ -96,13 +117,25 @@ struct InfoCommand
             m_figures.add("region " + std::to_string(label),
                           {{"tets", tets},
                            {"volume", volume},
-                           {"young", material.m_youngModulus},
-                           {"poisson", material.m_poissonRatio},
+                           {"young", youngOf(material)},
+                           {"poisson", poissonOf(material)},
                            {"density", material.m_density},
                            {"mass", density * body.m_massScale * volume},
                            {"meanDilatation", material.usesMeanDilatation() ? "on" : "off"}},
                           "m3, Pa, kg/m3, kg");
         }
+    }
+
+    static nlohmann::json youngOf(const Material& material)
+    {
+        return material.isOrthotropic() ? nlohmann::json(material.m_orthotropic.m_young)
+                                        : nlohmann::json(material.m_youngModulus);
+    }
+
+    static nlohmann::json poissonOf(const Material& material)
+    {
+        return material.isOrthotropic() ? nlohmann::json(material.m_orthotropic.m_poisson)
+                                        : nlohmann::json(material.m_poissonRatio);
     }
 
     void tellLabels(const TetMesh& mesh, const std::vector<int>& labels)

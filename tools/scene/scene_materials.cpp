@@ -31,6 +31,32 @@ void readRelaxation(const JsonCursor& at, Material& material)
     if (!(sum <= Material::kMostRelaxedShare)) at.fail("has shares whose sum is more than 0.99; a solid keeps some");
 }
 
+// Young's modulus of axis 1 is the material's, too: what shows one number shows that.
+void readOrthotropic(const JsonCursor& at, Material& material)
+{
+    at.onlyMembers({"young", "poisson", "shear", "axes"});
+    Orthotropic& constants = material.m_orthotropic;
+    const auto read = [&](const char* name, const JsonRange& range, std::array<double, 3>& values)
+    {
+        const Vec3 given = at[name].vector(range);
+        values = {given.x, given.y, given.z};
+    };
+    read("young", {0, Orthotropic::kMostModulus, true}, constants.m_young);
+    read("poisson", {-100, 100}, constants.m_poisson);  // the material knows what goes together
+    read("shear", {0, Orthotropic::kMostModulus, true}, constants.m_shear);
+    constants.m_along = Orthotropic().m_along;
+    constants.m_across = Orthotropic().m_across;
+    if (at.has("axes"))
+    {
+        const std::vector<JsonCursor> axes = at["axes"].items();
+        if (axes.size() != 2) at["axes"].expected("an array of two directions, of axis 1 and of axis 2");
+        constants.m_along = axes[0].direction();
+        constants.m_across = axes[1].direction();
+    }
+    material.m_law = ElasticLaw::orthotropic;
+    material.m_youngModulus = constants.m_young[0];
+}
+
 }  // namespace
 
 Material defaultMaterial()
@@ -59,7 +85,8 @@ Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
 {
     at.onlyMembers({"like", "young", "poisson", "density", "massDamping", "stiffnessDamping", "meanDilatation",
                     "accurateBending", "yieldStress", "hardening", "plasticCreep", "mostPlasticStrain", "relaxation",
-                    "law"});
+                    "law", "orthotropic"});
+    if (at.has("law") && at.has("orthotropic")) at.fail("has both 'law' and 'orthotropic', which is a law; give one");
     Material material = at.has("like") ? materialCalled(at["like"], known) : defaultMaterial();
     at.read("young", {0, 1e13, true}, material.m_youngModulus);
     at.read("poisson", {0, Material::kMostPoissonRatio}, material.m_poissonRatio);
@@ -75,6 +102,7 @@ Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
     at.read("mostPlasticStrain", {0, 0.9, true}, material.m_mostPlasticStrain);
     if (at.has("relaxation")) readRelaxation(at["relaxation"], material);
     if (at.has("law")) material.m_law = static_cast<ElasticLaw>(at["law"].choice({"hooke", "neoHooke"}));
+    if (at.has("orthotropic")) readOrthotropic(at["orthotropic"], material);
     std::string why;
     if (!material.valid(&why)) at.fail("is no material: " + why);
     return material;

@@ -25,6 +25,13 @@ Vec3 downOf(const Vec3& gravity)
     return length > 0 ? (1 / length) * gravity : Vec3{0, -1, 0};
 }
 
+// Of an orthotropic material, whose Young's modulus stands for that of axis 1.
+void scaleStiffness(Material& material, double factor)
+{
+    for (auto* constants : {&material.m_orthotropic.m_young, &material.m_orthotropic.m_shear})
+        for (double& value : *constants) value = std::clamp(factor * value, 1e-3, Orthotropic::kMostModulus);
+}
+
 }  // namespace
 
 SceneSliders::SceneSliders(SceneWorld& world) : m_world(world), m_down(downOf(world.description().m_gravity))
@@ -80,7 +87,9 @@ void SceneSliders::setMaterials(double Material::*member, double value)
         {
             double& changed = region.m_material.*member;
             const bool keepsRatio = member == &Material::m_youngModulus && &region != &m_materials[i].m_regions.front();
+            const double before = changed;
             changed = keepsRatio ? std::clamp(ratio * changed, 1e-3, 1e13) : value;
+            if (member == &Material::m_youngModulus) scaleStiffness(region.m_material, changed / before);
             ofRegion.push_back(materialOf(region.m_material));
             ofRegion.back().m_density = 0;  // masses stay
         }

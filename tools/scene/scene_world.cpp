@@ -88,27 +88,6 @@ void named(const std::string& name, const Make& make)
 
 }  // namespace
 
-btFemMaterial materialOf(const Material& material)
-{
-    btFemMaterial result;
-    result.m_youngModulus = btScalar(material.m_youngModulus);
-    result.m_poissonRatio = btScalar(material.m_poissonRatio);
-    result.m_density = btScalar(material.m_density);
-    result.m_massDamping = btScalar(material.m_massDamping);
-    result.m_stiffnessDamping = btScalar(material.m_stiffnessDamping);
-    result.m_meanDilatation = static_cast<btFemMeanDilatation>(material.m_meanDilatation);
-    result.m_law = static_cast<btFemElasticLaw>(material.m_law);
-    result.m_accurateBending = material.m_accurateBending;
-    result.m_yieldStress = btScalar(material.m_yieldStress);
-    result.m_hardeningModulus = btScalar(material.m_hardeningModulus);
-    result.m_plasticCreep = btScalar(material.m_plasticCreep);
-    result.m_mostPlasticStrain = btScalar(material.m_mostPlasticStrain);
-    for (std::size_t i = 0; i < material.m_relaxation.size(); ++i)
-        result.m_relaxation[i] = {btScalar(material.m_relaxation[i].m_share),
-                                  btScalar(material.m_relaxation[i].m_time)};
-    return result;
-}
-
 SceneWorld::SceneWorld(const SceneDescription& description)
     : m_description(description),
       m_fem(solverInfo(description)),
@@ -249,17 +228,21 @@ std::unique_ptr<btSoftBody> SceneWorld::makeBaked(const BakedBody& baked)
 
 void SceneWorld::giveMaterials(btSoftBody& body, const SceneSoftBody& from)
 {
+    const btMatrix3x3 turn = transformOf(from.m_pose).getBasis();
     if (from.m_regionMaterials.empty())
     {
-        m_materials.back() = from.m_material;
-        m_fem.setMaterial(&body, materialOf(from.m_material));
+        const Material material = turned(from.m_material, turn);
+        m_materials.back() = material;
+        m_fem.setMaterial(&body, materialOf(material));
         return;
     }
+    std::map<int, Material> ofRegion;
+    for (const auto& [label, material] : from.m_regionMaterials) ofRegion[label] = turned(material, turn);
     const std::vector<int>& labels = m_regionLabels.back();
     if (labels.empty()) throw std::runtime_error("its file has no regions and is not painted; give it one material");
-    m_materials.back() = ElementMaterials::ofLabels(labels, from.m_regionMaterials);
+    m_materials.back() = ElementMaterials::ofLabels(labels, ofRegion);
     std::map<int, btFemMaterial> materials;
-    for (const auto& [label, material] : from.m_regionMaterials) materials[label] = materialOf(material);
+    for (const auto& [label, material] : ofRegion) materials[label] = materialOf(material);
     m_fem.setMaterials(&body, labels, materials);
 }
 

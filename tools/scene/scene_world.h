@@ -17,14 +17,12 @@
 #include "tools/scene/scene_joints.h"
 #include "tools/scene/scene_springs.h"
 #include "tools/scene/scene_welds.h"
+#include "tools/scene/scene_world_materials.h"
 
 namespace bullet_fem
 {
 
 struct BakedBody;
-
-/// The plug-in's form of a material.
-btFemMaterial materialOf(const Material& material);
 
 /// A scene as Bullet's world, in motion. It owns all that it makes.
 class SceneWorld

@@ -67,6 +67,8 @@ struct BULLETFEM_API ElementMaterials
     bool usesMeanDilatation() const;
     /// Whether any region has a law that is not linear; regions that share volume changes are refused beside it.
     bool isNonlinear() const;
+    /// Whether any region is orthotropic; regions that share volume changes or are Neo-Hookean are refused beside it.
+    bool isOrthotropic() const;
     /// Whether any region bends accurately.
     bool bendsAccurately() const;
     /// Whether any region yields.

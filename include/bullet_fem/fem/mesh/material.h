@@ -7,24 +7,10 @@
 #include <string>
 
 #include "bullet_fem/fem/common/export.h"
+#include "bullet_fem/fem/mesh/orthotropic.h"
 
 namespace bullet_fem
 {
-
-/// The moduli of small strain: stress = 2 mu strain + lambda tr(strain) I.
-struct BULLETFEM_API LameModuli
-{
-    double m_mu = 0;      ///< [Pa]
-    double m_lambda = 0;  ///< [Pa]
-
-    /// Adds both moduli.
-    LameModuli& operator+=(const LameModuli& b);
-
-    /// E = mu (3 lambda + 2 mu) / (lambda + mu) [Pa]; a lambda below 0 counts as 0, which keeps mu.
-    double youngModulus() const;
-    /// nu = lambda / (2 (lambda + mu)) [-], at least 0 and at most Material::kMostPoissonRatio.
-    double poissonRatio() const;
-};
 
 /// Whether the elements of a patch share one volume change (docs/materials.md): linear tetrahedra that each keep their
 /// own volume are too stiff where the material is nearly incompressible.
@@ -38,8 +24,9 @@ enum class MeanDilatation
 /// How stress follows from strain (docs/materials.md, Large strain).
 enum class ElasticLaw
 {
-    hooke,    ///< linear in the strain of the rotated frame
-    neoHooke  ///< the same at small strain; stiffens as it is stretched, and without bound as it is crushed
+    hooke,       ///< linear in the strain of the rotated frame
+    neoHooke,    ///< the same at small strain; stiffens as it is stretched, and without bound as it is crushed
+    orthotropic  ///< linear as hooke, with the constants and axes of Material::m_orthotropic in place of E and nu
 };
 
 /// A part of the shear modulus that relaxes: g_i exp(-t / tau_i) of a Prony series.
@@ -55,8 +42,8 @@ struct PronyTerm
     }
 };
 
-/// An isotropic elastic material with Rayleigh damping, in SI units: linear, where it may yield and relax, or
-/// Neo-Hookean (docs/materials.md).
+/// An elastic material with Rayleigh damping, in SI units: isotropic and linear, where it may yield and relax,
+/// Neo-Hookean, or orthotropic (docs/materials.md).
 struct BULLETFEM_API Material
 {
     static constexpr double kInfinite = std::numeric_limits<double>::infinity();  ///< a stress that nothing reaches
@@ -87,11 +74,19 @@ struct BULLETFEM_API Material
     bool m_accurateBending = false;
     /// The law; E and nu are those of small strain.
     ElasticLaw m_law = ElasticLaw::hooke;
+    /// Read with ElasticLaw::orthotropic alone: E and nu are not, then. Such a material does not yield or relax, does
+    /// not bend accurately, and its elements have their own volume change each.
+    Orthotropic m_orthotropic = {};
 
-    /// First Lame constant lambda = E nu / ((1 + nu)(1 - 2 nu)) [Pa].
+    /// First Lame constant lambda = E nu / ((1 + nu)(1 - 2 nu)) [Pa]; of an orthotropic material that of
+    /// Orthotropic::isotropicPart().
     double lameLambda() const;
-    /// Shear modulus mu = E / (2 (1 + nu)) [Pa].
+    /// Shear modulus mu = E / (2 (1 + nu)) [Pa], likewise.
     double lameMu() const;
+    /// Whether stress depends on the direction of the strain.
+    bool isOrthotropic() const { return m_law == ElasticLaw::orthotropic; }
+    /// C in the axes of the rest shape, of Hooke's law or an orthotropic one.
+    ElasticMatrix stiffness() const;
     /// Whether elements share their volume change; nu is compared in single precision, so that what Bullet rounds and
     /// what is not rounded choose alike.
     bool usesMeanDilatation() const;
@@ -122,7 +117,8 @@ struct BULLETFEM_API Material
                a.m_stiffnessDamping == b.m_stiffnessDamping && a.m_meanDilatation == b.m_meanDilatation &&
                a.m_accurateBending == b.m_accurateBending && a.m_yieldStress == b.m_yieldStress &&
                a.m_hardeningModulus == b.m_hardeningModulus && a.m_plasticCreep == b.m_plasticCreep &&
-               a.m_mostPlasticStrain == b.m_mostPlasticStrain && a.m_relaxation == b.m_relaxation;
+               a.m_mostPlasticStrain == b.m_mostPlasticStrain && a.m_relaxation == b.m_relaxation &&
+               (!a.isOrthotropic() || a.m_orthotropic == b.m_orthotropic);
     }
     /// Not so.
     friend bool operator!=(const Material& a, const Material& b) { return !(a == b); }

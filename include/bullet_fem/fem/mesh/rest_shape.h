@@ -46,6 +46,11 @@ struct BULLETFEM_API RestShape
     /// Of an element.
     const Material& materialOf(int e) const { return m_materials.of(e); }
 
+    /// Whether stresses are those of stiffnessOf().
+    bool isOrthotropic() const { return !m_regionStiffness.empty(); }
+    /// C of an element, in the axes of the rest shape; of a shape that isOrthotropic().
+    const ElasticMatrix& stiffnessOf(int e) const { return m_regionStiffness[m_materials.regionOf(e)]; }
+
     /// The mesh.
     TetMesh m_mesh;
     /// What its elements are made of.
@@ -55,6 +60,8 @@ struct BULLETFEM_API RestShape
     std::vector<RestElement> m_elements;
     ElementPatches m_patches;   ///< of elements that share their volume change; none where every one has its own
     EdgeDomains m_edgeDomains;  ///< over which strains are averaged; none where no material bends accurately
+    /// C of every region, of those with Hooke's law, too; none where no region is orthotropic.
+    std::vector<ElasticMatrix> m_regionStiffness;
     std::vector<double> m_patchVolume;  ///< of every patch, filled fractions in it [m3]
     std::vector<double> m_lumpedMass;   ///< per node, sum of rho V_e / 4 [kg]; of 1 kg/m3 where the density is 0
 };

@@ -58,13 +58,21 @@ void transfer(Bytes& bytes, FactorInput& input)
     bytes(input.m_step, input.m_mass, input.m_fixed);
 }
 
+/// Likewise the constants and directions of an orthotropic material.
+template <class Bytes>
+void transfer(Bytes& bytes, Orthotropic& orthotropic)
+{
+    bytes(orthotropic.m_young, orthotropic.m_poisson, orthotropic.m_shear, orthotropic.m_along, orthotropic.m_across);
+}
+
 /// Likewise a material.
 template <class Bytes>
 void transfer(Bytes& bytes, Material& m)
 {
     bytes(m.m_youngModulus, m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping, m.m_meanDilatation,
-          m.m_accurateBending, m.m_yieldStress, m.m_hardeningModulus, m.m_plasticCreep, m.m_mostPlasticStrain);
+          m.m_accurateBending, m.m_yieldStress, m.m_hardeningModulus, m.m_plasticCreep, m.m_mostPlasticStrain, m.m_law);
     for (PronyTerm& term : m.m_relaxation) bytes(term.m_share, term.m_time);
+    if (m.isOrthotropic()) bytes(m.m_orthotropic);
 }
 
 /// Likewise.

@@ -22,6 +22,7 @@ BULLETFEM_API double vonMises(const Stress& stress);
 ///
 ///     sigma = R (2 mu eps + lambda tr(eps) I + sigma_0) R^T,   eps = sym(R^T F) - I
 ///
+/// with C eps of an orthotropic material, or a Neo-Hookean one's stress, in place of Hooke's.
 /// It is what the elastic forces of the step are made of, without the viscous part of Rayleigh's damping. Finite for
 /// every finite shape, also of flat and inverted elements. Of an element that is partly filled, it is the stress of
 /// what fills it: the forces are those of that share of the volume. Never allocates.
