@@ -32,6 +32,15 @@ GlbSettings glbSettings(const SceneDescription& scene)
     return settings;
 }
 
+void checkTrianglesStay(const SceneWorld& world)
+{
+    for (int i = 0; i < world.softCount(); ++i)
+        if (world.fractures().find(world.soft(i)))
+            throw std::runtime_error("'" + world.description().m_softBodies[i].m_name +
+                                     "' may split, and the triangles of run.glb stay those of the start; leave out "
+                                     "--glb, or the body's 'fracture'");
+}
+
 }  // namespace
 
 RunOutput::RunOutput(const RunOutputSettings& settings, const SceneWorld& world, const SceneFrames& frames)
@@ -41,6 +50,7 @@ RunOutput::RunOutput(const RunOutputSettings& settings, const SceneWorld& world,
     std::filesystem::create_directories(settings.m_folder, error);
     if (error) throw std::runtime_error("cannot make the folder '" + settings.m_folder + "': " + error.message());
     checkFiles();
+    if (settings.m_glb) checkTrianglesStay(world);
     if (settings.m_pvd)
     {
         m_elements = std::make_unique<VtuSeries>(settings.m_folder, "elements", VtuEncoding::compressed);
