@@ -386,7 +386,9 @@ std::string nameOf(const testing::TestParamInfo<const char*>& info)
     return info.param;
 }
 
-INSTANTIATE_TEST_SUITE_P(Demos, DemoScene, testing::Values("beam", "press", "hammer"), nameOf);
+INSTANTIATE_TEST_SUITE_P(Demos, DemoScene,
+                         testing::Values("beam", "press", "hammer", "locking", "bending", "relax", "crush", "plate"),
+                         nameOf);
 
 // The elephant is there only when demos/run.sh has fetched it; the rest of the scene is looked at without it.
 TEST_F(SceneSchema, TheMainDemosSceneIsRead)
