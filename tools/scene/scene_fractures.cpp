@@ -43,8 +43,7 @@ void SceneFractures::update(btFemSoftBodySolver& fem, SceneForces& forces)
             if (body.m_body != splits[k].m_body) continue;
             ++body.m_count;
             body.m_parts = splits[k].m_parts;
-            for (const int node : splits[k].m_copyOf)
-                body.m_from.push_back(node < body.m_nodes ? node : body.m_from[node - body.m_nodes]);
+            body.m_copyOf.insert(body.m_copyOf.end(), splits[k].m_copyOf.begin(), splits[k].m_copyOf.end());
             forces.follow(splits[k]);
         }
     btFemFracture::clearSplits(fem);

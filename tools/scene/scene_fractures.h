@@ -17,10 +17,10 @@ namespace bullet_fem
 struct SceneSplits
 {
     const btSoftBody* m_body = nullptr;
-    int m_nodes = 0;          ///< at the start
-    int m_count = 0;          ///< how often it has split, in as many steps
-    int m_parts = 1;          ///< that it hangs together in
-    std::vector<int> m_from;  ///< of every node that came since: the node of the start whose copy it is
+    int m_nodes = 0;            ///< at the start
+    int m_count = 0;            ///< how often it has split, in as many steps
+    int m_parts = 1;            ///< that it hangs together in
+    std::vector<int> m_copyOf;  ///< of every node that came since: the node before it that it was split from
 };
 
 /// The soft bodies of a scene that may split.

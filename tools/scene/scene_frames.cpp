@@ -121,7 +121,7 @@ void SceneFrames::followSplits(int i)
     m_drawn[i] = drawnPart(body, i);
     takeElements(i);
     for (int n = static_cast<int>(m_rest[i].size()); n < body.m_nodes.size(); ++n)
-        m_rest[i].push_back(m_rest[i][splits->m_from[n - splits->m_nodes]]);
+        m_rest[i].push_back(m_rest[i][splits->m_copyOf[n - splits->m_nodes]]);
 }
 
 void SceneFrames::update()
