@@ -312,7 +312,9 @@ TEST_F(Program, TellsHowManyPartsABodyHasSplitInto)
     {
         const std::string file = m_folder.read("run/run.glb");
         const json model = json::parse(file.substr(20, file.find("BIN") - 24));
-        return model["accessors"][model["meshes"][0]["primitives"][0]["indices"].get<int>()]["count"].get<int>() / 3;
+        const json mesh = model["meshes"][0]["primitives"][0], first = mesh["attributes"]["POSITION"];
+        EXPECT_NEAR(model["accessors"][first.get<int>()]["max"][0].get<double>(), 0.5, 1e-6) << "whole at first";
+        return model["accessors"][mesh["indices"].get<int>()]["count"].get<int>() / 3;
     };
     const int cracked = trianglesIn();
     ASSERT_EQ(run("", "--glb").m_code, 0);

@@ -118,13 +118,13 @@ TEST(SceneFractures, AForceStaysAsLargeWhereItsNodesSplit)
 TEST(SceneFractures, PartsTouchUnlessTheyAreNotTo)
 {
     SceneRun usual(pulledBar(strengthOf(1250)));
-    SceneRun not_(pulledBar(R"(, "fracture": { "tension": 1250, "partsTouch": false, "mostCracks": 3 })"));
+    SceneRun apart(pulledBar(R"(, "fracture": { "tension": 1250, "partsTouch": false, "mostCracks": 3 })"));
     ASSERT_GE(usual.until(1).m_world.fractures().bodies()[0].m_parts, 2);
-    ASSERT_GE(not_.until(1).m_world.fractures().bodies()[0].m_parts, 2);
+    ASSERT_GE(apart.until(1).m_world.fractures().bodies()[0].m_parts, 2);
     const auto touches = [](SceneRun& run)
     { return (run.m_world.soft(0).m_cfg.collisions & btSoftBody::fCollision::CL_SELF) != 0; };
     EXPECT_TRUE(touches(usual));
-    EXPECT_FALSE(touches(not_));
+    EXPECT_FALSE(touches(apart));
 }
 
 // Writers and pictures: elements with their present nodes, the sides of cracks, and displacements from where all began.
