@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# gallery.sh [--docs] [demo]...: installs what is missing (Debian 12, as root or with sudo), builds the demos of the
-# gallery, runs all of them or those that are named, and leaves figures, three pictures and a film of each in out/gallery/.
-# --docs: also puts the small films of docs/gallery.md into docs/gallery/.
+# gallery.sh [--docs] [demo | scene]...: installs what is missing (Debian 12, as root or with sudo), builds the demos of
+# the gallery, runs all of them and the scenes that show materials, or those that are named, and leaves figures, three
+# pictures and a film of each in out/gallery/.
+# --docs: also puts the small films of docs/gallery.md and docs/materials.md into docs/gallery/.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
@@ -12,12 +13,14 @@ most_bytes=1000000 # of a film in docs/gallery
 mesh_in_archive=data/meshes/elephant.off
 build=$root/build/gallery # of its own, so that no other script changes its options
 into_docs=no
+material_scenes=(bending crush locking plate relax) # demos/scenes/<name>.json, in docs/materials.md
 demos=()
 for word in "$@"; do
     case $word in
     --docs) into_docs=yes ;;
     -*) fail "gallery.sh: $word is not --docs" ;;
-    *) [ -f "$root/demos/$word/$word.cpp" ] || fail "there is no demo $word: see demos/*/"
+    *) [ -f "$root/demos/$word/$word.cpp" ] || [ -f "$root/demos/scenes/$word.json" ] ||
+        fail "there is no demo or scene $word: see demos/*/ and demos/scenes/"
        demos+=("$word") ;;
     esac
 done
@@ -26,7 +29,12 @@ if [ ${#demos[@]} -eq 0 ]; then
         name=$(basename "$source")
         [ ! -f "$source/$name.cpp" ] || demos+=("$name")
     done
+    demos+=("${material_scenes[@]}")
 fi
+targets=()
+for demo in "${demos[@]}"; do
+    if [ -f "$root/demos/$demo/$demo.cpp" ]; then targets+=("bulletfem_demo_$demo"); else targets+=(bulletfem); fi
+done
 
 install_packages "${build_packages[@]}" "${picture_packages[@]}" ffmpeg
 if [ ! -s "$build/$mesh_in_archive" ]; then
@@ -37,16 +45,20 @@ fi
 say "building in $build"
 (cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_UNITY=8 -DBULLETFEM_PRECISIONS=float \
     -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
-cmake --build "$build" --target "${demos[@]/#/bulletfem_demo_}" --parallel "$(nproc)"
+cmake --build "$build" --target "${targets[@]}" --parallel "$(nproc)"
 
-# play <demo>: runs it, and makes a small film for documents of its large one.
+# play <demo or scene>: runs it, and makes a small film for documents of its large one.
 play()
 {
     local demo=$1 out=$root/out/gallery/$1 options=()
     [ "$demo" != squeeze ] || options=(--mesh "$build/$mesh_in_archive")
     mkdir -p "$out"
-    "$build/demos/bulletfem_demo_$demo" --out "$out" "${options[@]}" >"$out/figures.txt" 2>&1 ||
-        { cat "$out/figures.txt"; return 1; }
+    local program=("$build/demos/bulletfem_demo_$demo" --out "$out" "${options[@]}")
+    if [ ! -f "$root/demos/$demo/$demo.cpp" ]; then
+        program=("$build/tools/bulletfem/bulletfem" simulate "$root/demos/scenes/$demo.json" --png --film film.mp4 \
+            --quiet --out "$out")
+    fi
+    "${program[@]}" >"$out/figures.txt" 2>&1 || { cat "$out/figures.txt"; return 1; }
     ffmpeg -loglevel error -y -i "$out/film.mp4" -map_metadata -1 -vf "fps=10,hqdn3d=2:2:4:4,scale=320:240:flags=area,\
 split[a][b];[a]palettegen=max_colors=64:stats_mode=full[p];[b][p]paletteuse=dither=none" "$out/$demo.gif"
     cat "$out/figures.txt"

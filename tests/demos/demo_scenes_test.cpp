@@ -229,6 +229,27 @@ TEST(DemoScenes, TheLoafTearsAtTheSamePull)
     EXPECT_GT(torn, 3) << "welds";
 }
 
+// Its specimens have no wide ends, so that the whole one parts above its middle, where more weight hangs.
+TEST(DemoScenes, TheSpecimensPartAtTheSamePull)
+{
+    DemoScene scene("tensile");
+    const btRigidBody* head = &scene.m_world.rigid(2);
+    double pull = 0, weight = double(scene.soft("whole").getTotalMass()) * 9.81;
+    while (scene.m_world.time() < scene.m_scene.m_seconds - 1e-9)
+    {
+        scene.m_world.step();
+        double force = 0;
+        const auto& anchors = scene.m_world.fem().anchors(&scene.soft("whole"));
+        for (int k = 0; k < anchors.size(); ++k)
+            if (anchors[k].m_object == head) force += double(anchors[k].m_impulse.y()) / scene.m_scene.m_step;
+        pull = std::max(pull, force - weight / 2);
+    }
+    ASSERT_EQ(scene.m_world.fractures().bodies().size(), 2u);
+    for (const SceneSplits& body : scene.m_world.fractures().bodies()) EXPECT_EQ(body.m_parts, 2);
+    const double bears = 2e4 * 0.14 * 0.05;
+    EXPECT_NEAR(pull / bears / figureOf("tensile", 2.2, "whole: pull / strength x area"), 1, 0.05);
+}
+
 TEST(DemoScenes, TheTowerStandsAsHigh)
 {
     DemoScene scene("tower");

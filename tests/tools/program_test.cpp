@@ -282,6 +282,45 @@ TEST_F(Program, TellsHowFarARunAndItsPicturesAre)
     EXPECT_THAT(bulletfem(simulate + " --quiet").m_output, testing::Not(HasSubstr("%")));
 }
 
+// A bar that a force pulls with twice what it bears.
+TEST_F(Program, TellsHowManyPartsABodyHasSplitInto)
+{
+    const std::string scene = R"({ "gravity": [0, 0, 0], "softBodies": [{ "name": "bar",
+      "mesh": { "box": [1, 0.2, 0.2], "cell": 0.1 }, "material": { "young": 1e5 }%,
+      "pins": [{ "low": [-1, -1, -1], "high": [-0.49, 1, 1] }] }], "forces": [{ "body": "bar", "force": [100, 0, 0] }] })";
+    const auto run = [&](const std::string& fracture, const std::string& options)
+    {
+        std::string text = scene;
+        text.replace(text.find('%'), 1, fracture);
+        m_folder.write("bar.json", text);
+        return bulletfem("simulate '" + m_folder.path("bar.json") + "' --json --seconds 1 -o '" + m_folder.path("run") +
+                         "' " + options);
+    };
+    const std::string fracture = R"(, "fracture": { "tension": 1000 })";
+    const ProgramRun splits = run(fracture, "--pvd");
+    ASSERT_EQ(splits.m_code, 0) << splits.m_output;
+    const json told = json::parse(splits.m_output);
+    EXPECT_GE(told["splits"].get<int>(), 1);
+    EXPECT_GE(told["parts"].get<int>(), 2);
+    EXPECT_FALSE(told["notSplit"].get<bool>());
+    const ProgramRun whole = run("", "--pvd");
+    ASSERT_EQ(whole.m_code, 0) << whole.m_output;
+    EXPECT_FALSE(json::parse(whole.m_output).contains("parts")) << "of bodies that do not split";
+    const ProgramRun film = run(fracture, "--glb");
+    ASSERT_EQ(film.m_code, 0) << film.m_output;
+    const auto trianglesIn = [&]
+    {
+        const std::string file = m_folder.read("run/run.glb");
+        const json model = json::parse(file.substr(20, file.find("BIN") - 24));
+        const json mesh = model["meshes"][0]["primitives"][0], first = mesh["attributes"]["POSITION"];
+        EXPECT_NEAR(model["accessors"][first.get<int>()]["max"][0].get<double>(), 0.5, 1e-6) << "whole at first";
+        return model["accessors"][mesh["indices"].get<int>()]["count"].get<int>() / 3;
+    };
+    const int cracked = trianglesIn();
+    ASSERT_EQ(run("", "--glb").m_code, 0);
+    EXPECT_GE(cracked, trianglesIn() + 16) << "both sides of a section of four cells, two triangles each";
+}
+
 TEST_F(Program, FiguresForPeopleHaveTheSameNames)
 {
     const json told = figures("info " + path("two.node"));

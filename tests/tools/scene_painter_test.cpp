@@ -153,6 +153,32 @@ TEST(SceneLegend, OfABarInTensionTellsForceByArea)
     EXPECT_GT(stress.back(), 1.1 * expected) << "the rim of the end, which the scale leaves out";
 }
 
+// A bar that splits under a force beyond its strength: films draw the sides of its cracks, and earlier pictures do not.
+TEST(SceneCracks, AreDrawnFromTheirTimeOn)
+{
+    PaintedRun bar(
+        R"({ "gravity": [0, 0, 0], "softBodies": [{ "name": "bar", "mesh": { "box": [1, 0.2, 0.2], "cell": 0.1 },
+        "material": { "young": 1e5 }, "fracture": { "tension": 1000 },
+        "pins": [{ "low": [-1, -1, -1], "high": [-0.49, 1, 1] }] },
+        { "name": "other", "mesh": { "box": [1, 1, 1], "tets": 40 }, "position": [0, 0, -3] }],
+        "forces": [{ "body": "bar", "force": [100, 0, 0] }], "pictures": { "stress": true } })",
+        0);
+    const SceneSnapshot before = bar.m_snapshot;
+    const std::size_t whole = bar.picture().m_meshes[0].m_triangles.size();
+    bar.m_run.until(1);
+    bar.m_frames.update();
+    bar.m_snapshot = snapshotOf(bar.m_run.m_world, bar.m_frames);
+    ASSERT_GE(bar.m_run.m_world.fractures().bodies()[0].m_parts, 2);
+    const PictureMesh cracked = bar.picture().m_meshes[0];
+    EXPECT_GE(cracked.m_triangles.size(), whole + 16) << "both sides of a section of four cells, two triangles each";
+    EXPECT_EQ(cracked.m_scalars.size(), cracked.m_positions.size());
+    for (const Triangle& t : cracked.m_triangles)
+        for (const int v : t) ASSERT_LT(v, int(cracked.m_positions.size()));
+    EXPECT_TRUE(bar.m_snapshot.m_triangles[1].empty()) << "of a body that does not split";
+    bar.m_snapshot = before;
+    EXPECT_EQ(bar.picture().m_meshes[0].m_triangles.size(), whole);
+}
+
 TEST(SceneArrows, AreTheContactForces)
 {
     PaintedRun block(

@@ -68,7 +68,7 @@ const BadValue kUnknown[] = {
      "mostPlasticStrain, relaxation, law, orthotropic"},
     {"InASoftBody", true, "/softBodies/1/mass", "1",
      "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "
-     "material, materials, friction, restitution, selfContact, colour, pins, pieces"},
+     "material, materials, friction, restitution, selfContact, colour, pins, pieces, fracture"},
     {"InAMesh", true, "/softBodies/0/mesh/boxes", "1",
      "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, sphere, cylinder, surface, "
      "tetrahedra, baked, holes, cell, tets, grade, levels, scale, surfaceCollides"},
@@ -90,6 +90,9 @@ const BadValue kUnknown[] = {
     {"InAHinge", true, "/constraints/1/soft", "1",
      "constraints[1] has a member 'soft', which is not known; those that are: kind, body, to, pivot, axis, speed, "
      "torque, force"},
+    {"InFracture", false, "/softBodies/4/fracture/strength", "3",
+     "softBodies[4].fracture has a member 'strength', which is not known; those that are: tension, mostCracks, "
+     "partsTouch"},
     {"InPieces", false, "/softBodies/3/pieces/count", "3",
      "softBodies[3].pieces has a member 'count', which is not known; those that are: cells, seed, breakForce, "
      "breakStress, breakStretch, compliance"},
@@ -130,7 +133,7 @@ const BadValue kWrongKind[] = {
     {"ArrayForMaterials", true, "/materials", "[]", "materials is []; it must be an object, in {}"},
     {"NumberInAnArrayOfBodies", true, "/softBodies/1", "3",
      "softBodies[1] is 3; it must be an object with name, mesh, position, rotation, velocity, material, materials, "
-     "friction, restitution, selfContact, colour, pins, pieces"},
+     "friction, restitution, selfContact, colour, pins, pieces, fracture"},
     {"FractionForAWholeNumber", true, "/solver/threads", "1.5",
      "solver.threads is 1.5; it must be a whole number in [1, 64]"},
     {"KindThatIsNone", true, "/constraints/0/kind", R"("glue")",
@@ -203,6 +206,10 @@ const BadValue kOutOfRange[] = {
     {"Width", true, "/pictures/width", "9000", "pictures.width is 9000; it must be a whole number in [16, 8192]"},
     {"Cells", false, "/softBodies/3/pieces/cells", "1",
      "softBodies[3].pieces.cells is 1; it must be a whole number in [2, 100000]"},
+    {"Tension", false, "/softBodies/4/fracture/tension", "0",
+     "softBodies[4].fracture.tension is 0; it must be a number in (0, 1e+13]"},
+    {"MostCracks", false, "/softBodies/4/fracture/mostCracks", "1001",
+     "softBodies[4].fracture.mostCracks is 1001; it must be a whole number in [1, 1000]"},
     {"Seed", false, "/softBodies/3/pieces/seed", "-1",
      "softBodies[3].pieces.seed is -1; it must be a whole number in [0, 2147483647]"},
     {"BreakForce", true, "/welds/0/breakForce", "0", "welds[0].breakForce is 0; it must be a number in (0, 1e+12]"},
@@ -309,6 +316,14 @@ const BadValue kMeaning[] = {
      "tetrahedra"},
     {"ActuatorOfABodyInPieces", true, "/softBodies/0/pieces", R"({ "cells": 3 })",
      "actuators[0].body is a body in pieces; actuators are in bodies that are in one"},
+    {"NoTension", false, "/softBodies/4/fracture/tension", "", "softBodies[4].fracture lacks 'tension'"},
+    {"FractureOfASurface", true, "/softBodies/1/fracture", R"({ "tension": 3 })",
+     "softBodies[1].fracture is given, but what is embedded does not split; take a box, sphere, cylinder or "
+     "tetrahedra"},
+    {"CableInABodyThatSplits", false, "/softBodies/0/fracture", R"({ "tension": 3 })",
+     "actuators[0].body is a body that splits, which loses chambers and cables; leave out its 'fracture'"},
+    {"ChamberInABodyThatSplits", true, "/softBodies/0/fracture", R"({ "tension": 3 })",
+     "actuators[0].body is a body that splits, which loses chambers and cables; leave out its 'fracture'"},
     {"WeldOfARigidBody", true, "/welds/0/a", R"("hammer")",
      "welds[0].a is \"hammer\"; it must be the name of a soft body"},
     {"WeldToItself", true, "/welds/0/b", R"("block")", "welds[0].b is 'a', too; weld it to another body"},

@@ -125,7 +125,7 @@ std::string otherScene()
     { "name": "layers", "mesh": { "tetrahedra": "regions.msh" }, "materials": { "1": "rubber", "-2": { "like": "rubber", "young": 3e7, "density": 2000 } } },
     { "name": "bubble", "mesh": { "sphere": 0.3, "cell": 0.1 },
       "pieces": { "cells": 7, "seed": 3, "breakForce": 10, "breakStress": 2e3, "breakStretch": 0.01, "compliance": 1e-7 } },
-    { "name": "drum", "mesh": { "cylinder": { "radius": 0.3, "height": 0.2 }, "tets": 400 } }
+    { "name": "drum", "mesh": { "cylinder": { "radius": 0.3, "height": 0.2 }, "tets": 400 }, "fracture": { "tension": 3e4, "mostCracks": 4, "partsTouch": false } }
   ],
   "rigidBodies": [
     { "name": "ground", "shape": { "plane": [0, 1, 0] } },

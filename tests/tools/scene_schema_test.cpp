@@ -71,6 +71,7 @@ const SchemaPlace kObjects[] = {{true, "", ""},
                                 {false, "/constraints/0", "/definitions/joint"},
                                 {true, "/welds/0", "/definitions/weld"},
                                 {false, "/softBodies/3/pieces", "/definitions/pieces"},
+                                {false, "/softBodies/4/fracture", "/definitions/fracture"},
                                 {false, "/constraints/1", "/definitions/joint"},
                                 {true, "/forces/0", "/definitions/force"},
                                 {true, "/forces/0/nodes", "/definitions/box"},
@@ -305,6 +306,7 @@ std::string written(const SceneDescription& scene)
                     body.m_restitution, double(body.m_selfContact), double(body.m_mesh.m_surfaceCollides)});
         for (const Vec3& x : {body.m_pose.m_position, body.m_velocity, body.m_colour}) add(x);
         all.insert(all.end(), {double(body.m_pieces.m_seed), body.m_pieces.m_strength.m_compliance});
+        all.insert(all.end(), {body.m_fracture.m_mostCracks, int(body.m_fracture.m_partsTouch)});
     }
     for (const SceneWeld& weld : scene.m_welds) all.push_back(weld.m_strength.m_compliance);
     for (const SceneRigidBody& body : scene.m_rigidBodies)
@@ -388,7 +390,9 @@ std::string nameOf(const testing::TestParamInfo<const char*>& info)
     return info.param;
 }
 
-INSTANTIATE_TEST_SUITE_P(Demos, DemoScene, testing::Values("beam", "press", "hammer"), nameOf);
+INSTANTIATE_TEST_SUITE_P(Demos, DemoScene,
+                         testing::Values("beam", "press", "hammer", "locking", "bending", "relax", "crush", "plate"),
+                         nameOf);
 
 // The elephant is there only when demos/run.sh has fetched it; the rest of the scene is looked at without it.
 TEST_F(SceneSchema, TheMainDemosSceneIsRead)

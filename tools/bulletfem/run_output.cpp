@@ -23,9 +23,11 @@ constexpr int kStripFrames = 4, kStripGap = 8;  // [pixels]
 const char* const kGlbName = "run.glb";
 const std::array<const char*, 3> kPngNames = {"first.png", "last.png", "strip.png"};
 
-GlbSettings glbSettings(const SceneDescription& scene)
+GlbSettings glbSettings(const SceneWorld& world)
 {
+    const SceneDescription& scene = world.description();
     GlbSettings settings;
+    settings.m_normals = !SplitFilm::isNeeded(world);  // they would show cracks before they open
     if (scene.m_pictures.m_stress) settings.m_colours = GlbColours::peakVonMises;
     settings.m_hottest = scene.m_pictures.m_hottest;
     settings.m_maxFrames = 65535;
@@ -46,7 +48,8 @@ RunOutput::RunOutput(const RunOutputSettings& settings, const SceneWorld& world,
         m_elements = std::make_unique<VtuSeries>(settings.m_folder, "elements", VtuEncoding::compressed);
         m_surfaces = std::make_unique<VtuSeries>(settings.m_folder, "surfaces", VtuEncoding::compressed);
     }
-    if (settings.m_glb) m_film = std::make_unique<GlbFilm>(glbSettings(world.description()));
+    if (settings.m_glb) m_film = std::make_unique<GlbFilm>(glbSettings(world));
+    if (settings.m_glb && SplitFilm::isNeeded(world)) m_splitFilm = std::make_unique<SplitFilm>(world, frames);
     if (!drawsPictures()) return;
 #ifdef BULLETFEM_HAS_PICTURES
     if (!settings.m_films.empty() && !FilmWriter::available())
@@ -75,7 +78,10 @@ void RunOutput::add()
     ++m_frameCount;
     if (m_elements && !m_frames.volumes().empty()) m_elements->writeBodies(m_world.time(), m_frames.volumes());
     if (m_surfaces && !m_frames.surfaces().empty()) m_surfaces->writeBodies(m_world.time(), m_frames.surfaces());
-    if (m_film && !m_frames.surfaces().empty()) m_film->addFrame(m_world.time(), m_frames.surfaces());
+    if (m_splitFilm)
+        m_splitFilm->add();
+    else if (m_film && !m_frames.surfaces().empty())
+        m_film->addFrame(m_world.time(), m_frames.surfaces());
 #ifdef BULLETFEM_HAS_PICTURES
     if (m_painter) m_snapshots.push_back(snapshotOf(m_world, m_frames));
 #endif
@@ -86,6 +92,7 @@ std::vector<std::string> RunOutput::finish(const std::function<void(double)>& pr
     std::vector<std::string> written;
     for (const auto* series : {&m_elements, &m_surfaces})
         if (*series && (*series)->frameCount() > 0) written.push_back((*series)->pvdPath());
+    if (m_splitFilm) m_splitFilm->give(*m_film);
     if (m_film && m_film->frameCount() > 0)
     {
         m_film->write(path(kGlbName));

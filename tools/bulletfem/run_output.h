@@ -9,6 +9,7 @@
 
 #include "bullet_fem/io/glb_film.h"
 #include "bullet_fem/io/vtu_writer.h"
+#include "tools/bulletfem/split_film.h"
 #include "tools/scene/scene_frames.h"
 #ifdef BULLETFEM_HAS_PICTURES
 #include "tools/scene/scene_painter.h"
@@ -58,6 +59,7 @@ private:
     const SceneFrames& m_frames;
     std::unique_ptr<VtuSeries> m_elements, m_surfaces;
     std::unique_ptr<GlbFilm> m_film;
+    std::unique_ptr<SplitFilm> m_splitFilm;  // before it, if a body may split
 #ifdef BULLETFEM_HAS_PICTURES
     std::unique_ptr<OffscreenRenderer> m_renderer;
     std::unique_ptr<ScenePainter> m_painter;

@@ -140,6 +140,14 @@ struct SimulateCommand
         m_figures.add("mostContacts", figures.m_mostContacts, "points");
         m_figures.add("medianStep", cost.empty() ? 0 : cost[cost.size() / 2], "ms");
         m_figures.add("worstStep", cost.empty() ? 0 : cost.back(), "ms");
+        if (!world.fractures().bodies().empty())
+        {
+            int parts = 0;
+            for (const SceneSplits& body : world.fractures().bodies()) parts += body.m_parts;
+            m_figures.add("splits", world.fractures().count());
+            m_figures.add("parts", parts);
+            m_figures.add("notSplit", (figures.m_flags & BT_FEM_NOT_SPLIT) != 0);
+        }
         m_figures.add("notConverged", (figures.m_flags & BT_FEM_NOT_CONVERGED) != 0);
         m_figures.add("restored", (figures.m_flags & BT_FEM_RESTORED) != 0);
     }

@@ -102,6 +102,14 @@ struct ScenePieces
     SceneWeldStrength m_strength;
 };
 
+/// Whether a soft body splits along faces of its elements (docs/materials.md, Splitting).
+struct SceneFracture
+{
+    double m_tension = 0;      ///< that it bears [Pa]; 0: it does not split
+    int m_mostCracks = 1;      ///< that begin or go on in a step, >= 1
+    bool m_partsTouch = true;  ///< each other, once it has fallen into parts
+};
+
 struct SceneSoftBody
 {
     std::string m_name;
@@ -116,6 +124,7 @@ struct SceneSoftBody
     Vec3 m_colour{0.86, 0.64, 0.42};  ///< sRGB
     std::vector<SceneBox> m_pins;     ///< nodes that stand still
     ScenePieces m_pieces;
+    SceneFracture m_fracture;
     std::string m_whole;  ///< of a piece in a SceneWorld: the name of the body that was cut, by which scenes call it
 };
 

@@ -7,6 +7,7 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_fem/btFemFracture.h"
 #include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem
@@ -34,6 +35,27 @@ void SceneForces::add(const SceneForce& from, const std::vector<btSoftBody*>& bo
                                  "': the box of a force holds no free node at the start; move or enlarge it");
     for (Share& node : force.m_nodes) node.m_share /= sum;
     m_forces.push_back(std::move(force));
+}
+
+void SceneForces::follow(const btFemSplit& split)
+{
+    for (Force& force : m_forces)
+        for (std::size_t k = 0, before = force.m_nodes.size(); k < before; ++k)
+        {
+            const Share bore = force.m_nodes[k];
+            if (bore.m_soft != split.m_body) continue;
+            const auto massOf = [&](int node) { return 1 / double(bore.m_soft->m_nodes[node].m_im); };
+            double whole = massOf(bore.m_node);
+            for (std::size_t c = 0; c < split.m_copyOf.size(); ++c)
+                if (split.m_copyOf[c] == bore.m_node) whole += massOf(split.m_firstNode + int(c));
+            force.m_nodes[k].m_share = bore.m_share * massOf(bore.m_node) / whole;
+            for (std::size_t c = 0; c < split.m_copyOf.size(); ++c)
+            {
+                const int copy = split.m_firstNode + int(c);
+                if (split.m_copyOf[c] == bore.m_node)
+                    force.m_nodes.push_back({bore.m_soft, copy, bore.m_share * massOf(copy) / whole});
+            }
+        }
 }
 
 void SceneForces::apply(double time, double step) const

@@ -8,6 +8,7 @@
 
 class btRigidBody;
 class btSoftBody;
+struct btFemSplit;
 
 namespace bullet_fem
 {
@@ -21,6 +22,9 @@ public:
     /// Of a body in one piece or in several, which stand where they start. Throws std::runtime_error, which names the
     /// body, where the force's box holds no free node.
     void add(const SceneForce& from, const std::vector<btSoftBody*>& bodies);
+
+    /// A body has split: copies of its nodes have a share of what these bore, by mass.
+    void follow(const btFemSplit& split);
 
     /// In a step of that length [s] that begins at that time [s].
     void apply(double time, double step) const;

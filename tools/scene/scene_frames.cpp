@@ -84,12 +84,13 @@ SceneFrames::SceneFrames(const SceneWorld& world) : m_world(world)
         m_rest.push_back(positionsOf(body));
         m_volumes.emplace_back();
         m_volumes.back().m_id = i;
-        m_volumes.back().m_tets = tetsOf(body);
         m_volumes.back().m_tetRegion = world.regionLabels(i);
         m_surfaces.emplace_back();
         m_surfaces.back().m_id = i;
         m_drawn.push_back(drawnPart(body, i));
-        m_surfaces.back().m_triangles = m_drawn.back().m_triangles;
+        const SceneSplits* splits = world.fractures().find(body);
+        m_splits.push_back(splits ? splits->m_count : 0);
+        takeElements(i);
     }
     for (int i = 0; i < world.rigidCount(); ++i)
     {
@@ -104,10 +105,30 @@ SceneFrames::SceneFrames(const SceneWorld& world) : m_world(world)
     update();
 }
 
+void SceneFrames::takeElements(int i)
+{
+    m_volumes[i].m_tets = tetsOf(m_world.soft(i));
+    m_surfaces[i].m_triangles = m_drawn[i].m_triangles;
+}
+
+// Copies of nodes rest where these did, and a crack has sides.
+void SceneFrames::followSplits(int i)
+{
+    const btSoftBody& body = m_world.soft(i);
+    const SceneSplits* splits = m_world.fractures().find(body);
+    if (!splits || splits->m_count == m_splits[i]) return;
+    m_splits[i] = splits->m_count;
+    m_drawn[i] = drawnPart(body, i);
+    takeElements(i);
+    for (int n = static_cast<int>(m_rest[i].size()); n < body.m_nodes.size(); ++n)
+        m_rest[i].push_back(m_rest[i][splits->m_copyOf[n - splits->m_nodes]]);
+}
+
 void SceneFrames::update()
 {
     for (int i = 0; i < m_world.softCount(); ++i)
     {
+        followSplits(i);
         updateVolume(i);
         updateSoftSurface(i);
     }

@@ -32,6 +32,8 @@ public:
     int bodyOf(int surface) const { return m_surfaces[surface].m_id; }
 
 private:
+    void takeElements(int i);
+    void followSplits(int i);
     void updateVolume(int i);
     void updateSoftSurface(int i);
     void updateRigidSurface(int surface);
@@ -40,6 +42,7 @@ private:
     std::vector<BodyFrame> m_volumes, m_surfaces;
     std::vector<SurfacePart> m_drawn;            // a soft body: its surface's nodes or embedded vertices
     std::vector<std::vector<Vec3>> m_rest;       // a soft body: nodes at the start
+    std::vector<int> m_splits;                   // a soft body: how often it had split when its elements were taken
     std::vector<std::vector<Vec3>> m_rigidRest;  // a surface of a rigid body: in its own frame
     btAlignedObjectArray<btFemStress> m_stress;
     btAlignedObjectArray<btScalar> m_perElement;

@@ -25,7 +25,9 @@ void SceneHistory::clear()
 void SceneHistory::step()
 {
     for (; isPast(); m_states.pop_back()) m_bytes -= m_states.back().bytes();
+    const int splits = m_world.fractures().count();
     m_world.step();
+    if (m_world.fractures().count() > splits) return clear();
     if (m_world.steps() % m_settings.m_stepsBetween == 0) keep();
 }
 

@@ -22,7 +22,8 @@ public:
     /// The world must live longer.
     explicit SceneHistory(SceneWorld& world, const SceneHistorySettings& settings = {});
 
-    /// Makes a step of the world. If it was put back, what came later is forgotten.
+    /// Makes a step of the world. If it was put back, what came later is forgotten, and what came before if a body
+    /// splits, which cannot be whole again.
     void step();
     /// Puts the world back to the state before, or to the next one. False, and nothing changes, if there is none.
     bool earlier();

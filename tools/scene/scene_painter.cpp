@@ -56,7 +56,11 @@ SceneSnapshot snapshotOf(const SceneWorld& world, const SceneFrames& frames)
         const BodyFrame& surface = frames.surfaces()[s];
         snapshot.m_positions.push_back(surface.m_positions);
         snapshot.m_vonMises.emplace_back();
-        if (!pictures.m_stress || frames.bodyOf(int(s)) >= world.softCount()) continue;
+        snapshot.m_triangles.emplace_back();
+        const int body = frames.bodyOf(int(s));
+        if (body < world.softCount() && world.fractures().find(world.soft(body)))
+            snapshot.m_triangles.back() = surface.m_triangles;
+        if (!pictures.m_stress || body >= world.softCount()) continue;
         for (const Stress& stress : surface.m_nodeStress) snapshot.m_vonMises.back().push_back(vonMises(stress));
     }
     if (!pictures.m_forces) return snapshot;
@@ -161,6 +165,7 @@ const PictureScene& ScenePainter::paint(const SceneSnapshot& snapshot)
     {
         m_picture.m_meshes[s].m_positions = snapshot.m_positions[s];
         m_picture.m_meshes[s].m_scalars = snapshot.m_vonMises[s];
+        if (!snapshot.m_triangles[s].empty()) m_picture.m_meshes[s].m_triangles = snapshot.m_triangles[s];
     }
     for (PictureArrows& arrows : m_picture.m_arrows) arrows.m_arrows = snapshot.m_forces;
     char time[32];

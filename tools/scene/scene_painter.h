@@ -13,8 +13,10 @@ namespace bullet_fem
 /// What changes from picture to picture, kept so that a film can be drawn when its colour scale is known.
 struct SceneSnapshot
 {
-    double m_time = 0;                            ///< [s]
-    std::vector<std::vector<Vec3>> m_positions;   ///< a surface of SceneFrames, a vertex [m]
+    double m_time = 0;                           ///< [s]
+    std::vector<std::vector<Vec3>> m_positions;  ///< a surface of SceneFrames, a vertex [m]
+    /// Likewise of bodies that may split; empty for others, whose triangles are those of the start.
+    std::vector<std::vector<Triangle>> m_triangles;
     std::vector<std::vector<double>> m_vonMises;  ///< likewise [Pa]; empty for rigid bodies, or if not shown
     std::vector<PictureArrow> m_forces;           ///< of contact [N]; empty if not shown
 };

@@ -120,7 +120,7 @@ private:
     void readSoftBody(const JsonCursor& at)
     {
         at.onlyMembers({"name", "mesh", "position", "rotation", "velocity", "material", "materials", "friction",
-                        "restitution", "selfContact", "colour", "pins", "pieces"});
+                        "restitution", "selfContact", "colour", "pins", "pieces", "fracture"});
         SceneSoftBody body;
         body.m_name = name(at);
         body.m_material = defaultMaterial();
@@ -143,6 +143,7 @@ private:
         at.read("colour", kShare, body.m_colour);
         at.forEach("pins", [&](const JsonCursor& item) { body.m_pins.push_back(readBox(item)); });
         if (at.has("pieces")) body.m_pieces = readPieces(at["pieces"], body.m_mesh.m_kind);
+        if (at.has("fracture")) body.m_fracture = readFracture(at["fracture"], body.m_mesh.m_kind);
         m_scene.m_softBodies.push_back(std::move(body));
     }
 
@@ -279,9 +280,16 @@ private:
     {
         m_scene.m_actuators.push_back(readActuator(at));
         const std::string name = softName(at["body"]);
+        const SceneActuator::Kind kind = m_scene.m_actuators.back().m_kind;
+        const bool isOfNodes = kind == SceneActuator::Kind::chamber || kind == SceneActuator::Kind::cable;
         for (const SceneSoftBody& body : m_scene.m_softBodies)
-            if (body.m_name == name && body.m_pieces.m_cells > 0)
+        {
+            if (body.m_name != name) continue;
+            if (body.m_pieces.m_cells > 0)
                 at["body"].fail("is a body in pieces; actuators are in bodies that are in one");
+            if (isOfNodes && body.m_fracture.m_tension > 0)
+                at["body"].fail("is a body that splits, which loses chambers and cables; leave out its 'fracture'");
+        }
     }
 
     void readCamera(const JsonCursor& at)

@@ -31,6 +31,18 @@ ScenePieces readPieces(const JsonCursor& at, SceneMesh::Kind mesh)
     return pieces;
 }
 
+SceneFracture readFracture(const JsonCursor& at, SceneMesh::Kind mesh)
+{
+    if (mesh == SceneMesh::Kind::surface)
+        at.fail("is given, but what is embedded does not split; take a box, sphere, cylinder or tetrahedra");
+    at.onlyMembers({"tension", "mostCracks", "partsTouch"});
+    SceneFracture fracture;
+    fracture.m_tension = at["tension"].number({0, 1e13, true});
+    at.read("mostCracks", 1, 1000, fracture.m_mostCracks);
+    at.read("partsTouch", fracture.m_partsTouch);
+    return fracture;
+}
+
 SceneWeld readWeld(const JsonCursor& at)
 {
     at.onlyMembers({"a", "b", "reach", "breakForce", "breakStress", "breakStretch", "compliance"});

@@ -102,8 +102,11 @@ SceneWorld::SceneWorld(const SceneDescription& description)
     for (const SceneConstraint& constraint : m_description.m_constraints) addConstraint(constraint);
     for (const SceneForce& force : m_description.m_forces) addForce(force);
     for (int i = 0; i < softCount(); ++i)
-        named(description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
+        named(m_description.m_softBodies[i].m_name, [&] { m_fem.prepare(&soft(i), btScalar(description.m_step)); });
     weldBodies();
+    for (int i = 0; i < softCount(); ++i)
+        named(m_description.m_softBodies[i].m_name,
+              [&] { m_fractures.add(m_fem, soft(i), m_description.m_softBodies[i].m_fracture); });
     for (const SceneSpring& spring : m_description.m_springs) m_springs.add(softCalled(spring.m_body), spring);
     for (const SceneActuator& actuator : m_description.m_actuators)
         named(actuator.m_body, [&] { m_actuators.add(m_fem, *softCalled(actuator.m_body).front(), actuator); });
@@ -166,6 +169,7 @@ void SceneWorld::step()
     m_joints.apply(time() + m_description.m_step / 2);
     moveKinematic(time() + m_description.m_step / 2);
     m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of just this size
+    m_fractures.update(m_fem, m_forces);
     ++m_steps;
 }
 

@@ -14,6 +14,7 @@
 #include "tools/scene/scene_actuators.h"
 #include "tools/scene/scene_description.h"
 #include "tools/scene/scene_forces.h"
+#include "tools/scene/scene_fractures.h"
 #include "tools/scene/scene_joints.h"
 #include "tools/scene/scene_springs.h"
 #include "tools/scene/scene_welds.h"
@@ -70,6 +71,7 @@ public:
     const ElementMaterials& materials(int i) const { return m_materials[i]; }  ///< that a soft body started with
     /// Of a soft body's tetrahedra, as its file has them; empty if it has none.
     const std::vector<int>& regionLabels(int i) const { return m_regionLabels[i]; }
+    const SceneFractures& fractures() const { return m_fractures; }  ///< what has split
 
 private:
     /// A body that was cut.
@@ -113,6 +115,7 @@ private:
     SceneForces m_forces;
     SceneSprings m_springs;
     SceneActuators m_actuators;
+    SceneFractures m_fractures;
     long m_steps = 0;
 };
 
