@@ -75,7 +75,7 @@ btFemSolverInfo solverInfo(const CrowdSettings& settings)
 CrowdWorld::CrowdWorld(const CrowdSettings& settings)
     : m_settings(settings),
       m_threadCount(Threads(settings.m_threads).count()),
-      m_world(solverInfo(settings), settings.m_coupled, kGravity)
+      m_world(solverInfo(settings), settings.m_coupled ? BenchmarkLine::coupled : BenchmarkLine::swap, kGravity)
 {
     const int all = settings.m_bodies + settings.m_balls;
     const int columns = std::max(1, static_cast<int>(std::lround(std::sqrt(double(all) / kLayers))));
