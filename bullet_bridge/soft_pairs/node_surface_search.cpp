@@ -119,7 +119,7 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     if (!bounds.meets(point, m_reach.within())) return false;
     const double travel = largestTravel(point, bounds);
     const bool self = m_nodes == m_faces;
-    if (!self && ++m_looks == 1 && m_near.size() > kLeastNodesForProof)
+    if (!self && ++m_looks == 1 && m_near.size() > kLeastNodesForProof && m_faces->isPrepared())
         m_outside = OutsideProof(*m_faces, unit(m_nodes->middle() - m_faces->middle()));
     if (m_outside.isFarOutside(visit.m_x, m_reach.within() + travel)) return false;
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;

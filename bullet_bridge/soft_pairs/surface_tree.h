@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -44,6 +45,31 @@ public:
             for (int k = 0; k < node.m_count; ++k) visit(m_order[node.m_next + k]);
             if (node.isLeaf()) continue;
             stack[size++] = node.m_next;
+            stack[size++] = at + 1;
+        }
+    }
+
+    /// Calls visit(node) for all nodes of the tree that a box may come within its reach of, parents first, by ascending
+    /// number.
+    struct Nearby
+    {
+        CoarseBox m_box;
+        double m_reach;  ///< [m]
+    };
+    template <class Visit>
+    void visitNearNodes(const std::vector<Nearby>& boxes, Visit visit) const
+    {
+        int stack[kDepth], size = 0;
+        stack[size++] = 0;
+        while (size > 0)
+        {
+            const int at = stack[--size];
+            const auto isNear = [&](const Nearby& nearby)
+            { return m_boxes[at].meets(nearby.m_box, coarse(nearby.m_reach)); };
+            if (std::none_of(boxes.begin(), boxes.end(), isNear)) continue;
+            visit(at);
+            if (m_nodes[at].isLeaf()) continue;
+            stack[size++] = m_nodes[at].m_next;
             stack[size++] = at + 1;
         }
     }
