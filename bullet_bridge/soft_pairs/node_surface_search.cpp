@@ -44,6 +44,7 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
     listNear();
     m_outside = OutsideProof();
     m_looks = 0;
+    m_guess = -1;
     for (int i : m_near) findNode(i);
 }
 
@@ -125,8 +126,9 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
     const double most = maybeInside ? kInfinity : std::max(m_reach.within(), m_reach.depth()) + travel;
     visit.m_nearestTriangle = m_faces->tree().nearestTriangle(
-        visit.m_x, most, [&](int t) { return isClose(visit.m_node, t); }, visit.m_nearest);
+        visit.m_x, most, [&](int t) { return isClose(visit.m_node, t); }, visit.m_nearest, m_guess);
     if (visit.m_nearestTriangle < 0) return false;
+    m_guess = visit.m_nearestTriangle;
     const Vec3 r = visit.m_x - visit.m_nearest.m_point;
     visit.m_distance = norm(r);
     visit.m_inside = dot(r, m_faces->normalAt(visit.m_nearestTriangle, visit.m_nearest)) < 0;

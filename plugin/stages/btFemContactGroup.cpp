@@ -88,9 +88,11 @@ void btFemContactGroup::collect(const Scope& scope)
             {&fem.m_body, fem.m_compliance.get(), fem.m_predicted.empty() ? nullptr : &fem.m_predicted});
     }
     collectJoints(scope);  // first: they decide whether the rigid bodies that they hold are rewound
+    for (FemSoftBody* fem : m_bodies) fem->holdForSearches(true);
     findRigid();
     findSoft();
     findCloth();
+    for (FemSoftBody* fem : m_bodies) fem->holdForSearches(false);
     collectContacts();
     m_torsionalPatches.append(m_bodies, m_problem);
     m_rigid.connectLinks(m_problem.m_responses);
