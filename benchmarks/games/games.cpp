@@ -137,6 +137,7 @@ int main(int argc, char** argv)
     app.add_option("--bullet-source", options.m_bulletSource,
                    "a checkout of Bullet: its folder examples has the meshes of PinchFriction and TetraBunny, which "
                    "are left out without")
+        ->envname("BULLETFEM_BULLET_SOURCE")
         ->capture_default_str();
     app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
     CLI11_PARSE(app, argc, argv);
