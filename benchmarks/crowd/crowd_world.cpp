@@ -132,8 +132,8 @@ CrowdStep CrowdWorld::step()
 {
     const Stopwatch watch;
     m_world.bullet().stepSimulation(kStep, 0);
-    const double seconds = watch.seconds();
-    CrowdStep result{m_world.report(), 1e3 * seconds};
+    const double seconds = watch.seconds(), cpuSeconds = watch.cpuSeconds();
+    CrowdStep result{m_world.report(), 1e3 * seconds, 1e3 * cpuSeconds};
     result.m_freeMilliseconds /= m_threadCount;  // of bodies that were solved at the same time
     return result;
 }
