@@ -43,11 +43,8 @@ double heldIn(const btFemSoftBodySolver& fem, const std::vector<std::unique_ptr<
 
 double massOf(const std::vector<std::unique_ptr<btSoftBody>>& bodies);  ///< [kg]
 
-class Stopwatch;
-
-/// Adds a step that has just ended to its frame. Reports are of wall time: they are taken times the share of it in
-/// which the step had a processor.
-void add(const BenchmarkReport& step, const Stopwatch& watch, GameFrame& frame);
+/// Adds a step's reports to those of its frame.
+void add(const BenchmarkReport& step, GameFrame& frame);
 
 /// A game's btSoftRigidDynamicsWorld; gravity along -y.
 class GameWorld : public Game
