@@ -13,18 +13,20 @@ namespace bullet_fem
 namespace
 {
 
-std::unique_ptr<btSequentialImpulseConstraintSolver> makeRigidSolver(btFemSoftBodySolver& fem, bool coupled)
+std::unique_ptr<btSequentialImpulseConstraintSolver> makeRigidSolver(btFemSoftBodySolver& fem, BenchmarkLine line)
 {
-    if (coupled) return std::make_unique<btFemConstraintSolver>(&fem);
+    if (line == BenchmarkLine::coupled) return std::make_unique<btFemConstraintSolver>(&fem);
     return std::make_unique<btSequentialImpulseConstraintSolver>();
 }
 
 }  // namespace
 
-BenchmarkWorld::BenchmarkWorld(const btFemSolverInfo& info, bool coupled, const btVector3& gravity)
-    : m_fem(info),
-      m_rigidSolver(makeRigidSolver(m_fem, coupled)),
-      m_world(&m_dispatcher, &m_broadphase, m_rigidSolver.get(), &m_configuration, &m_fem)
+BenchmarkWorld::BenchmarkWorld(const btFemSolverInfo& info, BenchmarkLine line, const btVector3& gravity)
+    : m_line(line),
+      m_fem(info),
+      m_rigidSolver(makeRigidSolver(m_fem, line)),
+      m_world(&m_dispatcher, &m_broadphase, m_rigidSolver.get(), &m_configuration,
+              line == BenchmarkLine::bullet ? nullptr : &m_fem)
 {
     m_world.setGravity(gravity);
     m_world.getWorldInfo().m_gravity = gravity;
@@ -32,6 +34,7 @@ BenchmarkWorld::BenchmarkWorld(const btFemSolverInfo& info, bool coupled, const 
 
 BenchmarkWorld::~BenchmarkWorld()
 {
+    for (const auto& joint : m_joints) m_world.removeConstraint(joint.get());
     for (const auto& body : m_soft) m_world.removeSoftBody(body.get());
     for (const auto& body : m_rigid) m_world.removeRigidBody(body.get());
 }
@@ -55,22 +58,40 @@ btSoftBody& BenchmarkWorld::addSoft(btSoftBody* body, const btFemMaterial& mater
     m_soft.emplace_back(body);
     body->m_cfg.kDF = btScalar(friction);
     body->setFriction(btScalar(friction));
-    const Stopwatch watch;
     m_fem.setMaterial(body, material);
-    m_fem.prepare(body, btScalar(step));
-    m_setupSeconds += watch.seconds();
-    m_world.addSoftBody(body);
+    prepare(*body, step);
     return *body;
 }
 
+btSoftBody& BenchmarkWorld::addSoft(btSoftBody* body, double step)
+{
+    m_soft.emplace_back(body);
+    prepare(*body, step);
+    return *body;
+}
+
+void BenchmarkWorld::prepare(btSoftBody& body, double step)
+{
+    const Stopwatch watch;
+    if (m_line != BenchmarkLine::bullet) m_fem.prepare(&body, btScalar(step));
+    m_setupSeconds += watch.seconds();
+    m_world.addSoftBody(&body);
+}
+
+void BenchmarkWorld::addJoint(btTypedConstraint* joint)
+{
+    m_joints.emplace_back(joint);
+    m_world.addConstraint(joint, true);
+}
+
 // All bodies of a group report its time, so every group is counted once.
-BenchmarkReport BenchmarkWorld::report() const
+BenchmarkReport sumReports(const btFemSoftBodySolver& fem, const std::vector<std::unique_ptr<btSoftBody>>& bodies)
 {
     BenchmarkReport sum;
     std::vector<double> groups;
-    for (const auto& body : m_soft)
+    for (const auto& body : bodies)
     {
-        const btFemStepReport& report = m_fem.stepReport(body.get());
+        const btFemStepReport& report = fem.stepReport(body.get());
         sum.m_freeMilliseconds += double(report.m_freeMotionMs);
         sum.m_contacts += report.m_contacts;
         sum.m_sweeps = std::max(sum.m_sweeps, report.m_contactSweeps);

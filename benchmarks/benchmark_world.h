@@ -8,6 +8,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
@@ -29,12 +30,22 @@ struct BenchmarkReport
     int m_flags = 0;                   ///< btFemFlags of all bodies
 };
 
-/// A btSoftRigidDynamicsWorld whose soft bodies are FEM, and which owns its bodies and their shapes.
+/// Who moves the bodies of a world.
+enum class BenchmarkLine
+{
+    swap,     ///< BulletFEM the soft bodies, Bullet's rigid solver the rigid ones
+    coupled,  ///< BulletFEM's constraint solver both together
+    bullet    ///< Bullet all of them: there are no reports then
+};
+
+/// The sum of the reports of these bodies' last step.
+BenchmarkReport sumReports(const btFemSoftBodySolver& fem, const std::vector<std::unique_ptr<btSoftBody>>& bodies);
+
+/// A btSoftRigidDynamicsWorld whose soft bodies are FEM, and which owns its bodies, their shapes and joints.
 class BenchmarkWorld
 {
 public:
-    /// `coupled` puts btFemConstraintSolver in place of Bullet's rigid solver.
-    BenchmarkWorld(const btFemSolverInfo& info, bool coupled, const btVector3& gravity);
+    BenchmarkWorld(const btFemSolverInfo& info, BenchmarkLine line, const btVector3& gravity);
     ~BenchmarkWorld();
     BenchmarkWorld(const BenchmarkWorld&) = delete;
     BenchmarkWorld& operator=(const BenchmarkWorld&) = delete;
@@ -43,8 +54,14 @@ public:
     btRigidBody& addRigid(btCollisionShape* shape, double mass, const btVector3& position, double friction);
     /// Takes the body over, and factors it for steps of `step` [s].
     btSoftBody& addSoft(btSoftBody* body, const btFemMaterial& material, double friction, double step);
+    /// The same with the material and friction that Bullet's program gave it.
+    btSoftBody& addSoft(btSoftBody* body, double step);
+    /// Takes the joint over; its bodies do not touch each other.
+    void addJoint(btTypedConstraint* joint);
+    /// Holds what the world's shapes need for as long as they do.
+    void keep(std::shared_ptr<void> object) { m_kept.push_back(std::move(object)); }
 
-    BenchmarkReport report() const;
+    BenchmarkReport report() const { return sumReports(m_fem, m_soft); }
 
     btSoftRigidDynamicsWorld& bullet() { return m_world; }
     const btFemSoftBodySolver& fem() const { return m_fem; }
@@ -54,6 +71,10 @@ public:
     double setupSeconds() const { return m_setupSeconds; }  ///< of all soft bodies [s]
 
 private:
+    void prepare(btSoftBody& body, double step);
+
+    const BenchmarkLine m_line;
+    std::vector<std::shared_ptr<void>> m_kept;
     btFemSoftBodySolver m_fem;
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
@@ -63,6 +84,7 @@ private:
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<std::unique_ptr<btRigidBody>> m_rigid;
     std::vector<std::unique_ptr<btSoftBody>> m_soft;
+    std::vector<std::unique_ptr<btTypedConstraint>> m_joints;
     double m_setupSeconds = 0;
 };
 

@@ -68,6 +68,7 @@ run_benchmark()
             run crowd crowd_games "$small $games" "$rest $games"
             run crowd crowd_swap "$small" "$rest"
             run crowd crowd_400 "--bodies 20 ${small#--bodies 10} $games" "--bodies 400 --balls 80 $rest $games"
+            run crowd crowd_400_default "--bodies 20 ${small#--bodies 10}" "--bodies 400 --balls 80 $rest"
             run crowd crowd_different "$small $games --different" "$rest $games --different"
             run crowd crowd_cubes "$small $games --cubes" "$rest $games --cubes"
             run crowd crowd_coupled "$small --coupled" "--bodies 30 --balls 6 $rest --coupled"

@@ -86,9 +86,16 @@ void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared
 
 void FemSoftBody::updateSkin()
 {
-    if (!m_skin) return;
+    if (!m_skin || (m_isHeldForSearches && m_isSkinUpdated)) return;
     m_skin->follow(m_body.m_state.m_x, m_skinPosition);
     m_skin->follow(freeMeanVelocity(m_body), m_skinVelocity);
+    m_isSkinUpdated = true;
+}
+
+void FemSoftBody::holdForSearches(bool held)
+{
+    m_isHeldForSearches = held;
+    m_isSkinUpdated = false;
 }
 
 const std::vector<Vec3>& FemSoftBody::surfaceVelocity() const

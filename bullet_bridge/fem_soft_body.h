@@ -110,6 +110,8 @@ struct FemSoftBody
 
     /// Takes a skin to where the nodes are: in every step, after solveFreeMotion, before contacts are searched.
     void updateSkin();
+    /// While it is held nothing moves the body: of several searches one updates the skin.
+    void holdForSearches(bool held);
 
     /// Of the vertices of what collides, which are the nodes if there is no skin [m], [m/s].
     const std::vector<Vec3>& surfacePosition() const { return m_skin ? m_skinPosition : m_body.m_state.m_x; }
@@ -162,6 +164,8 @@ struct FemSoftBody
 
 private:
     void sizeScratch();
+
+    bool m_isHeldForSearches = false, m_isSkinUpdated = false;
 };
 
 /// True if the user called initializeDmInverse, or scaled the body, since noteRestMatrices, and that changed a matrix.

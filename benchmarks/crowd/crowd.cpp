@@ -22,6 +22,7 @@ Wall times of stepSimulation; all bodies factored before the first step.
 falling    from the first step on: the bodies fall into the pit and pile up
 awake      after that, sleeping disabled
 sleeping   after that, sleeping allowed: the first steps are needed to fall asleep and are not timed
+CPU ms     processor time of the calling thread: of one thread that of the step, whatever runs beside it
 free       elastic solves without contact: of all bodies, over the number of threads
 contact    search of surfaces, sweeps, corrective solves; of all groups of bodies that touch
 rest       Bullet's broadphase and rigid solver, and the exchange with its nodes

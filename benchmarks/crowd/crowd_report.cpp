@@ -16,10 +16,11 @@ CrowdFigures summarise(const std::string& phase, const std::vector<CrowdStep>& s
     CrowdFigures row;
     row.m_phase = phase;
     row.m_steps = static_cast<int>(steps.size());
-    std::vector<double> total, free, contact, rest;
+    std::vector<double> total, cpu, free, contact, rest;
     for (const CrowdStep& step : steps)
     {
         total.push_back(step.m_milliseconds);
+        cpu.push_back(step.m_cpuMilliseconds);
         free.push_back(step.m_freeMilliseconds);
         contact.push_back(step.m_contactMilliseconds);
         rest.push_back(step.m_milliseconds - step.m_freeMilliseconds - step.m_contactMilliseconds);
@@ -33,6 +34,7 @@ CrowdFigures summarise(const std::string& phase, const std::vector<CrowdStep>& s
     row.m_asleep = steps.back().m_asleep;
     row.m_medianMilliseconds = median(total);
     row.m_worstMilliseconds = largest(total);
+    row.m_cpuMilliseconds = median(cpu);
     row.m_freeMilliseconds = median(free);
     row.m_contactMilliseconds = median(contact);
     row.m_restMilliseconds = median(rest);
@@ -41,15 +43,16 @@ CrowdFigures summarise(const std::string& phase, const std::vector<CrowdStep>& s
 
 void printTable(std::ostream& out, const std::vector<CrowdFigures>& rows)
 {
-    print(out, "%-15s %5s  %9s %9s %8s %10s %8s  %7s %6s %7s  %6s  %11s %10s\n", "phase", "steps", "median ms",
-          "worst ms", "free ms", "contact ms", "rest ms", "points", "sweeps", "corr.it", "asleep", "closing m/s",
-          "deepest mm");
+    print(out, "%-15s %5s  %9s %9s %8s %8s %10s %8s  %7s %6s %7s  %6s  %11s %10s\n", "phase", "steps", "median ms",
+          "worst ms", "CPU ms", "free ms", "contact ms", "rest ms", "points", "sweeps", "corr.it", "asleep",
+          "closing m/s", "deepest mm");
     for (const CrowdFigures& row : rows)
     {
-        print(out, "%-15s %5d  %9.2f %9.2f %8.2f %10.2f %8.2f  %7.0f %6.0f %7.0f  %6d  %11.1e %10.3f\n",
+        print(out, "%-15s %5d  %9.2f %9.2f %8.2f %8.2f %10.2f %8.2f  %7.0f %6.0f %7.0f  %6d  %11.1e %10.3f\n",
               row.m_phase.c_str(), row.m_steps, row.m_medianMilliseconds, row.m_worstMilliseconds,
-              row.m_freeMilliseconds, row.m_contactMilliseconds, row.m_restMilliseconds, row.m_contacts, row.m_sweeps,
-              row.m_correctiveIterations, row.m_asleep, row.m_closingSpeed, 1e3 * row.m_deepest);
+              row.m_cpuMilliseconds, row.m_freeMilliseconds, row.m_contactMilliseconds, row.m_restMilliseconds,
+              row.m_contacts, row.m_sweeps, row.m_correctiveIterations, row.m_asleep, row.m_closingSpeed,
+              1e3 * row.m_deepest);
         if (row.m_flags & BT_FEM_NOT_CONVERGED) out << "                ^ a solve hit its iteration cap in a step\n";
         if (row.m_flags & BT_FEM_BREAKDOWN) out << "                ^ a solve broke down in a step\n";
         if (row.m_flags & BT_FEM_CONTACT_LIMIT) out << "                ^ more contact points than a body's limit\n";
@@ -64,6 +67,7 @@ nlohmann::json toJson(const std::vector<CrowdFigures>& rows)
                            {"steps", row.m_steps},
                            {"ms_median", row.m_medianMilliseconds},
                            {"ms_worst", row.m_worstMilliseconds},
+                           {"ms_cpu_median", row.m_cpuMilliseconds},
                            {"ms_free_median", row.m_freeMilliseconds},
                            {"ms_contact_median", row.m_contactMilliseconds},
                            {"ms_rest_median", row.m_restMilliseconds},

@@ -18,6 +18,7 @@ struct CrowdFigures
     std::string m_phase;
     int m_steps = 0;
     double m_medianMilliseconds = 0, m_worstMilliseconds = 0;
+    double m_cpuMilliseconds = 0;      ///< median of the processor time of the calling thread
     double m_freeMilliseconds = 0;     ///< median
     double m_contactMilliseconds = 0;  ///< median
     double m_restMilliseconds = 0;  ///< median of what remains: Bullet's broadphase, rigid solver, its exchange with us

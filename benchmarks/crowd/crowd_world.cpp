@@ -75,7 +75,7 @@ btFemSolverInfo solverInfo(const CrowdSettings& settings)
 CrowdWorld::CrowdWorld(const CrowdSettings& settings)
     : m_settings(settings),
       m_threadCount(Threads(settings.m_threads).count()),
-      m_world(solverInfo(settings), settings.m_coupled, kGravity)
+      m_world(solverInfo(settings), settings.m_coupled ? BenchmarkLine::coupled : BenchmarkLine::swap, kGravity)
 {
     const int all = settings.m_bodies + settings.m_balls;
     const int columns = std::max(1, static_cast<int>(std::lround(std::sqrt(double(all) / kLayers))));
@@ -132,8 +132,8 @@ CrowdStep CrowdWorld::step()
 {
     const Stopwatch watch;
     m_world.bullet().stepSimulation(kStep, 0);
-    const double seconds = watch.seconds();
-    CrowdStep result{m_world.report(), 1e3 * seconds};
+    const double seconds = watch.seconds(), cpuSeconds = watch.cpuSeconds();
+    CrowdStep result{m_world.report(), 1e3 * seconds, 1e3 * cpuSeconds};
     result.m_freeMilliseconds /= m_threadCount;  // of bodies that were solved at the same time
     return result;
 }

@@ -22,7 +22,8 @@ struct CrowdSettings
 /// What one step of a crowd took and did.
 struct CrowdStep : BenchmarkReport
 {
-    double m_milliseconds = 0;  ///< wall time of the whole step [ms]; free motion is over the threads
+    double m_milliseconds = 0;     ///< wall time of the whole step [ms]; free motion is over the threads
+    double m_cpuMilliseconds = 0;  ///< what the calling thread had of a processor in it [ms]
 };
 
 /// Soft balls or cubes of about 0.2 m and rigid balls of 0.18 m, on a lattice above a pit of static boxes. All is

@@ -89,6 +89,19 @@ void buildMat(GameWorld& world, int cells)
     world.addSoft(sheet, 1e6, 1000, 0.5).setVelocity(at(1, 0, 0.3));
 }
 
+// Together by 3 cm each within a second, then up by 0.3 m.
+void drivePinch(GameWorld& world, double time)
+{
+    const double in = 0.09 * std::min(time, 1.0), up = 0.3 * std::clamp(time - 1, 0.0, 1.0);
+    for (int k = 0; k < 2; ++k)
+    {
+        btRigidBody& plate = *world.world().rigid()[static_cast<std::size_t>(k) + 1];
+        const double side = k == 0 ? -1 : 1;
+        plate.setWorldTransform(btTransform(btQuaternion::getIdentity(), at((0.36 - in) * side, 0.35 + up, 0)));
+        plate.setLinearVelocity(at(time < 1 ? -0.09 * side : 0, time >= 1 && time < 2 ? 0.3 : 0, 0));
+    }
+}
+
 void buildPinch(GameWorld& world)
 {
     btSoftBody* block = makeBlock(world, {0.5, 0.5, 0.5}, {10, 8, 10});
@@ -101,19 +114,7 @@ void buildPinch(GameWorld& world)
         plate.setCollisionFlags(plate.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
         plate.setActivationState(DISABLE_DEACTIVATION);
     }
-}
-
-// Together by 3 cm each within a second, then up by 0.3 m.
-void drivePinch(GameWorld& world, double time)
-{
-    const double in = 0.09 * std::min(time, 1.0), up = 0.3 * std::clamp(time - 1, 0.0, 1.0);
-    for (int k = 0; k < 2; ++k)
-    {
-        btRigidBody& plate = *world.world().rigid()[static_cast<std::size_t>(k) + 1];
-        const double side = k == 0 ? -1 : 1;
-        plate.setWorldTransform(btTransform(btQuaternion::getIdentity(), at((0.36 - in) * side, 0.35 + up, 0)));
-        plate.setLinearVelocity(at(time < 1 ? -0.09 * side : 0, time >= 1 && time < 2 ? 0.3 : 0, 0));
-    }
+    world.setDrive(drivePinch);
 }
 
 void buildTower(GameWorld& world)
@@ -129,36 +130,64 @@ void buildTower(GameWorld& world)
 
 }  // namespace
 
+GameScene sceneOf(const std::string& name, int frames, int subSteps, bool carriesItsWeight,
+                  const std::function<void(GameWorld&)>& build)
+{
+    GameScene scene;
+    scene.m_name = name;
+    scene.m_frames = frames;
+    scene.m_subSteps = subSteps;
+    scene.m_carriesItsWeight = carriesItsWeight;
+    scene.m_start = [build](const GameSettings& settings)
+    {
+        auto world = std::make_unique<GameWorld>(settings);
+        build(*world);
+        return world;
+    };
+    return scene;
+}
+
 GameScene pit()
 {
-    return {"pit", 480, 1, false, buildPit, {}};
+    return sceneOf("pit", 480, 1, false, buildPit);
 }
 
 GameScene anchored(int anchors)
 {
     const auto build = [anchors](GameWorld& world) { buildAnchored(world, anchors); };
-    return {"anchored by " + std::to_string(anchors), 120, 1, true, build, {}};
+    return sceneOf("anchored by " + std::to_string(anchors), 120, 1, true, build);
 }
 
 GameScene mat(int cells)
 {
     const auto build = [cells](GameWorld& world) { buildMat(world, cells); };
-    return {"mat of " + std::to_string((cells + 1) * (cells + 1)), 60, 1, true, build, {}};
+    return sceneOf("mat of " + std::to_string((cells + 1) * (cells + 1)), 60, 1, true, build);
 }
 
 GameScene pinch()
 {
-    return {"pinch", 150, 4, true, buildPinch, drivePinch};
+    return sceneOf("pinch", 150, 4, true, buildPinch);
 }
 
 GameScene tower()
 {
-    return {"tower of 20", 600, 1, true, buildTower, {}};
+    return sceneOf("tower of 20", 600, 1, true, buildTower);
 }
 
-std::vector<GameScene> gameScenes()
+std::vector<GameScene> gameScenes(const std::string& bulletSource)
 {
-    return {pit(), anchored(9), anchored(121), mat(20), mat(39), pinch(), tower()};
+    return {pit(),
+            anchored(9),
+            anchored(121),
+            mat(20),
+            mat(39),
+            pinch(),
+            tower(),
+            car(),
+            balls(false),
+            balls(true),
+            pinchFriction(bulletSource),
+            tetraBunny(bulletSource)};
 }
 
 }  // namespace bullet_fem

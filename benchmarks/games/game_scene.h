@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,14 @@ struct GameScene
     int m_frames = 240;
     int m_subSteps = 1;
     bool m_carriesItsWeight = false;  ///< at its end all soft bodies rest on what is not soft: the force has a law
-    std::function<void(GameWorld&)> m_build;
-    std::function<void(GameWorld&, double time)> m_drive;  ///< before every frame [s]; may be empty
+    std::function<std::unique_ptr<Game>(const GameSettings&)> m_start;
+    bool m_isOfBullet = false;  ///< it is run by Bullet alone, too
+    std::string m_missing;      ///< what it cannot run without, and how to give it; empty where it can
 };
+
+/// One whose world is a GameWorld that `build` fills.
+GameScene sceneOf(const std::string& name, int frames, int subSteps, bool carriesItsWeight,
+                  const std::function<void(GameWorld&)>& build);
 
 /// Ten soft bodies (9,150 elements) and fifty rigid ones fall into a pit.
 GameScene pit();
@@ -37,7 +43,22 @@ GameScene pinch();
 /// Twenty soft cubes on each other.
 GameScene tower();
 
+/// A car on Bullet's hinges drives over bumps on four soft tyres, which are anchored to their hubs by 36 nodes each.
+GameScene car();
+
+/// A soft ball falls onto another, which lies on a plane. Drawn: surfaces of 20,480 triangles collide; else their
+/// cages, of the same 1,360 elements each, do.
+GameScene balls(bool drawn);
+
+/// PinchFriction of Bullet's deformable examples: two plates lift three soft blocks of 1,580 elements, the middle one
+/// by the friction between blocks. `bulletSource`: a checkout of Bullet, which has the mesh; the scene is missing
+/// without.
+GameScene pinchFriction(const std::string& bulletSource);
+
+/// TetraBunny of Bullet's soft demo falls onto waves of triangles: 1,374 elements, of which many are slivers.
+GameScene tetraBunny(const std::string& bulletSource);
+
 /// All of them.
-std::vector<GameScene> gameScenes();
+std::vector<GameScene> gameScenes(const std::string& bulletSource);
 
 }  // namespace bullet_fem

@@ -11,7 +11,6 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kGravity = 9.81;              // [m/s2]
 constexpr btScalar kFrame = btScalar(1) / 60;  // [s]
 
 btFemSolverInfo infoOf(const GameSettings& settings)
@@ -20,6 +19,8 @@ btFemSolverInfo infoOf(const GameSettings& settings)
     info.m_contactTolerance = btScalar(settings.m_contactTolerance);
     return info;
 }
+
+}  // namespace
 
 void add(const BenchmarkReport& step, GameFrame& frame)
 {
@@ -34,10 +35,33 @@ void add(const BenchmarkReport& step, GameFrame& frame)
     frame.m_flags |= step.m_flags;
 }
 
-}  // namespace
+double heldIn(const btFemSoftBodySolver& fem, const std::vector<std::unique_ptr<btSoftBody>>& bodies, double h)
+{
+    double impulse = 0;
+    for (const auto& body : bodies)
+    {
+        const auto& contacts = fem.contacts(body.get());
+        for (int k = 0; k < contacts.size(); ++k)
+            if (!btSoftBody::upcast(contacts[k].m_other)) impulse += double(contacts[k].m_impulse.y());
+        const auto& anchors = fem.anchors(body.get());
+        for (int k = 0; k < anchors.size(); ++k) impulse += double(anchors[k].m_impulse.y());
+    }
+    return impulse / h;
+}
 
-GameWorld::GameWorld(const GameSettings& settings)
-    : m_settings(settings), m_world(infoOf(settings), settings.m_coupled, btVector3(0, btScalar(-kGravity), 0))
+double massOf(const std::vector<std::unique_ptr<btSoftBody>>& bodies)
+{
+    double mass = 0;
+    for (const auto& body : bodies)
+        for (int i = 0; i < body->m_nodes.size(); ++i)
+            if (body->m_nodes[i].m_im > 0) mass += 1 / double(body->m_nodes[i].m_im);
+    return mass;
+}
+
+GameWorld::GameWorld(const GameSettings& settings, double gravity)
+    : m_settings(settings),
+      m_gravity(gravity),
+      m_world(infoOf(settings), settings.m_line, btVector3(0, btScalar(-gravity), 0))
 {
 }
 
@@ -49,41 +73,31 @@ btSoftBody& GameWorld::addSoft(btSoftBody* body, double youngModulus, double den
     return m_world.addSoft(body, material, friction, double(kFrame) / m_settings.m_subSteps);
 }
 
+btSoftBody& GameWorld::addSoft(btSoftBody* body)
+{
+    return m_world.addSoft(body, double(kFrame) / m_settings.m_subSteps);
+}
+
 GameFrame GameWorld::step()
 {
+    if (m_drive) m_drive(*this, m_frames * double(kFrame));
+    ++m_frames;
     GameFrame frame;
+    const btScalar h = kFrame / btScalar(m_settings.m_subSteps);
     for (int k = 0; k < m_settings.m_subSteps; ++k)
     {
         const Stopwatch watch;
-        m_world.bullet().stepSimulation(kFrame / btScalar(m_settings.m_subSteps), 0);
+        m_world.bullet().stepSimulation(h, 0);
         frame.m_milliseconds += 1e3 * watch.cpuSeconds();
         add(m_world.report(), frame);
-        frame.m_held += heldNow() / m_settings.m_subSteps;
+        frame.m_held += heldIn(m_world.fem(), m_world.soft(), double(h)) / m_settings.m_subSteps;
     }
     return frame;
 }
 
-double GameWorld::heldNow() const
-{
-    double impulse = 0;
-    for (const auto& body : m_world.soft())
-    {
-        const auto& contacts = m_world.fem().contacts(body.get());
-        for (int k = 0; k < contacts.size(); ++k)
-            if (!btSoftBody::upcast(contacts[k].m_other)) impulse += double(contacts[k].m_impulse.y());
-        const auto& anchors = m_world.fem().anchors(body.get());
-        for (int k = 0; k < anchors.size(); ++k) impulse += double(anchors[k].m_impulse.y());
-    }
-    return impulse * m_settings.m_subSteps / double(kFrame);
-}
-
 double GameWorld::softWeight() const
 {
-    double mass = 0;
-    for (const auto& body : m_world.soft())
-        for (int i = 0; i < body->m_nodes.size(); ++i)
-            if (body->m_nodes[i].m_im > 0) mass += 1 / double(body->m_nodes[i].m_im);
-    return mass * kGravity;
+    return massOf(m_world.soft()) * m_gravity;
 }
 
 }  // namespace bullet_fem

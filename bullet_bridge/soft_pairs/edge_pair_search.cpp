@@ -63,7 +63,7 @@ bool isCrossed(const SoftSurface& surface, int edge, const Vec3& from, const Vec
                                  const Triangle& nodes = surface.triangles()[t];
                                  if (hasNode(nodes, ends[0]) && hasNode(nodes, ends[1])) return;
                                  const Corners c = surface.tree().corners(t);
-                                 const Vec3& n = surface.faceNormal(t);
+                                 const Vec3 n = surface.faceNormal(t);
                                  const double s = dot(n, c[0] - from) / dot(n, way);
                                  std::array<double, 3> w;
                                  if (!(s > kWayEnd && s < 1 - kWayEnd) || !projectOnPlane(c, from + s * way, w)) return;
@@ -104,7 +104,7 @@ bool EdgePairSearch::areClose(const Pair& pair) const
 // Ridges of either surface that are near what the other has near.
 void EdgePairSearch::listNear()
 {
-    const double near = m_reach.within() + m_reach.depth(), band = m_reach.within();
+    const double near = m_reach.near(), band = m_reach.within();
     m_ridgesA.clear();
     m_ridgesB.clear();
     const CoarseBox boxA = NearRidges::bounds(*m_first, m_second->tree().coarseBounds(), near);

@@ -44,6 +44,7 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
     listNear();
     m_outside = OutsideProof();
     m_looks = 0;
+    m_guess = -1;
     for (int i : m_near) findNode(i);
 }
 
@@ -119,14 +120,15 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     if (!bounds.meets(point, m_reach.within())) return false;
     const double travel = largestTravel(point, bounds);
     const bool self = m_nodes == m_faces;
-    if (!self && ++m_looks == 1 && m_near.size() > kLeastNodesForProof)
+    if (!self && ++m_looks == 1 && m_near.size() > kLeastNodesForProof && m_faces->isPrepared())
         m_outside = OutsideProof(*m_faces, unit(m_nodes->middle() - m_faces->middle()));
     if (m_outside.isFarOutside(visit.m_x, m_reach.within() + travel)) return false;
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
     const double most = maybeInside ? kInfinity : std::max(m_reach.within(), m_reach.depth()) + travel;
     visit.m_nearestTriangle = m_faces->tree().nearestTriangle(
-        visit.m_x, most, [&](int t) { return isClose(visit.m_node, t); }, visit.m_nearest);
+        visit.m_x, most, [&](int t) { return isClose(visit.m_node, t); }, visit.m_nearest, m_guess);
     if (visit.m_nearestTriangle < 0) return false;
+    m_guess = visit.m_nearestTriangle;
     const Vec3 r = visit.m_x - visit.m_nearest.m_point;
     visit.m_distance = norm(r);
     visit.m_inside = dot(r, m_faces->normalAt(visit.m_nearestTriangle, visit.m_nearest)) < 0;

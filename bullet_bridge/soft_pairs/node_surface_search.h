@@ -83,6 +83,7 @@ private:
     TouchReach m_reach;
     OutsideProof m_outside;  // of the faces, once it is worth it
     int m_looks = 0;
+    int m_guess = -1;  // what was nearest to the node before: numbers that follow each other are often neighbours
     std::vector<SurfaceTouch>* m_touches = nullptr;
     std::vector<Hit> m_hits;
     std::vector<int> m_near;      // nodes that were asked, ascending

@@ -39,6 +39,12 @@ double fallBetween(const FemSoftBody& first, const FemSoftBody& second, double e
 
 }  // namespace
 
+TouchReach reachBetween(const FemSoftBody& first, const FemSoftBody& second)
+{
+    const double edge = std::min(first.m_surface.meanEdge(), second.m_surface.meanEdge());
+    return {kPairBand * edge + offsetBetween(first, second), edge, fallBetween(first, second, edge)};
+}
+
 SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
                                     std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins)
 {
@@ -47,8 +53,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     const bool self = &first.m_fem == &second.m_fem;
     const SoftSurface &a = first.m_fem.m_surface, &b = second.m_fem.m_surface;
     const double offset = offsetBetween(first.m_fem, second.m_fem);
-    const double edge = std::min(a.meanEdge(), b.meanEdge());
-    const TouchReach reach = {kPairBand * edge + offset, edge, fallBetween(first.m_fem, second.m_fem, edge)};
+    const TouchReach reach = reachBetween(first.m_fem, second.m_fem);
     Roles roles = {first, second, {}};
     roles.m_origin.m_firstId = broadphaseId(*first.m_fem.m_softBody);
     roles.m_origin.m_secondId = broadphaseId(*second.m_fem.m_softBody);

@@ -26,6 +26,9 @@ struct SoftPairReport
     bool m_thinned = false;  ///< a skin is too fine for all its points to be kept: see ContactReduction
 };
 
+/// How far two bodies look for each other; after SoftSurface::place of both.
+TouchReach reachBetween(const FemSoftBody& first, const FemSoftBody& second);
+
 /// Finds where the surfaces of two FEM bodies, or of one with itself, touch or may do so within the step: nodes against
 /// faces both ways (NodeSurfaceSearch) and ridges against ridges (EdgePairSearch). Gaps are those at the start of the
 /// step, less both contact offsets (not for self contact); what closes to less than 5 % of the smaller mean edge

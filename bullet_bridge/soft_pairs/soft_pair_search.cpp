@@ -44,9 +44,13 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       const int b = m_paired[k];
                       FemSoftBody& fem = *bodies[b];
                       if (!m_isSearched[b]) return;
-                      fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
+                      fem.m_surface.place(fem.surfacePosition(), fem.surfaceVelocity(), step);
+                      if (!fem.m_surface.isFine()) fem.m_surface.prepareAll();
                       fem.m_meanMotion = meanMotion(fem.m_body);
                   });
+    listNearby(bodies);
+    m_threads.run(static_cast<int>(m_fine.size()),
+                  [&](int k) { bodies[m_fine[k]]->m_surface.prepareNear(m_nearby[m_fine[k]]); });
     m_moved.clear();
     for (int b : m_paired)
         if (!m_isStill[b]) m_moved.push_back(bodies[b]);
@@ -80,6 +84,25 @@ void SoftPairSearch::choosePairs()
     {
         pair.m_searched = !(m_isStill[pair.m_first] && m_isStill[pair.m_second] && m_memory.isComplete(pair.m_ids));
         if (pair.m_searched) m_isSearched[pair.m_first] = m_isSearched[pair.m_second] = 1;
+    }
+}
+
+// What fine surfaces have around them: all of themselves if they touch themselves.
+void SoftPairSearch::listNearby(const std::vector<FemSoftBody*>& bodies)
+{
+    if (m_nearby.size() < bodies.size()) m_nearby.resize(bodies.size());
+    m_fine.clear();
+    for (int b : m_paired)
+        if (m_isSearched[b] && bodies[b]->m_surface.isFine()) m_fine.push_back(b);
+    if (m_fine.empty()) return;
+    for (int b : m_fine) m_nearby[b].clear();
+    for (const Pair& pair : m_pairs)
+    {
+        if (!pair.m_searched) continue;
+        const FemSoftBody &first = *bodies[pair.m_first], &second = *bodies[pair.m_second];
+        const double reach = reachBetween(first, second).near();
+        m_nearby[pair.m_first].push_back({second.m_surface.tree().coarseBounds(), reach});
+        m_nearby[pair.m_second].push_back({first.m_surface.tree().coarseBounds(), reach});
     }
 }
 

@@ -64,6 +64,7 @@ private:
     void listPairs(const std::vector<FemSoftBody*>& bodies);
     void listTouching(const std::vector<FemSoftBody*>& bodies);
     void choosePairs();
+    void listNearby(const std::vector<FemSoftBody*>& bodies);
     void collectParts();
     void findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part);
 
@@ -76,10 +77,12 @@ private:
     std::vector<SoftPairIds> m_complete;  // pairs, scratch
     std::vector<int> m_paired;            // bodies that are in a pair
     std::vector<double> m_smallestEdge;   // per body: of those that it is paired with, and its own [m]; 0: with none
-    std::vector<unsigned char> m_isStill, m_isSearched;  // per body; searched: in a pair that is
-    std::vector<FemSoftBody*> m_moved;                   // of those in a pair, the ones that are not still
-    std::vector<unsigned char> m_limited;                // per body
-    std::vector<std::size_t> m_firstOfPart;              // and the end, in these:
+    std::vector<unsigned char> m_isStill, m_isSearched;      // per body; searched: in a pair that is
+    std::vector<FemSoftBody*> m_moved;                       // of those in a pair, the ones that are not still
+    std::vector<int> m_fine;                                 // bodies with fine surfaces that are searched
+    std::vector<std::vector<SurfaceTree::Nearby>> m_nearby;  // per body; of those in m_fine
+    std::vector<unsigned char> m_limited;                    // per body
+    std::vector<std::size_t> m_firstOfPart;                  // and the end, in these:
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;
 };

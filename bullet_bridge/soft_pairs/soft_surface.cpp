@@ -46,8 +46,11 @@ SoftSurface::SoftSurface(const RestSurface& rest)
       m_change(rest.m_positions.size()),
       m_faceNormal(rest.m_triangles.size()),
       m_place(rest.m_vertices.size()),
-      m_bend(m_features.m_edges.size())
+      m_bend(m_features.m_edges.size()),
+      m_preparedFace(rest.m_triangles.size(), 0),
+      m_preparedEdge(m_features.m_edges.size(), 0)
 {
+    m_nearNodes.reserve(m_tree.nodeCount());
     listEdgeTriangles();
     measureCurvature(rest.m_positions);
     std::vector<std::vector<int>> around(rest.m_positions.size());
@@ -138,12 +141,56 @@ void SoftSurface::setRestNeighbours(std::shared_ptr<const RestNeighbours> neighb
 
 void SoftSurface::update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h)
 {
+    place(x, v, h);
+    prepareAll();
+}
+
+void SoftSurface::place(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h)
+{
     m_step = h;
     for (std::size_t i = 0; i < v.size(); ++i) m_change[i] = h * v[i];
     m_tree.refit(x, m_change);
-    updateFaces();
-    updateEdges();
+}
+
+void SoftSurface::prepareAll()
+{
+    for (std::size_t t = 0; t < m_faceNormal.size(); ++t) m_faceNormal[t] = normalOf(static_cast<int>(t));
+    m_prepared = true;
+    for (std::size_t k = 0; k < m_bend.size(); ++k) m_bend[k] = bendOf(static_cast<int>(k));
     m_ridges.update(m_tree, m_bend);
+}
+
+void SoftSurface::prepareNear(const std::vector<SurfaceTree::Nearby>& boxes)
+{
+    m_prepared = false;
+    std::fill(m_preparedFace.begin(), m_preparedFace.end(), static_cast<unsigned char>(0));
+    std::fill(m_preparedEdge.begin(), m_preparedEdge.end(), static_cast<unsigned char>(0));
+    m_nearNodes.clear();
+    m_tree.visitNearNodes(boxes, [this](int node) { m_nearNodes.push_back(node); });
+    const auto visitTriangles = [this](auto visit)
+    {
+        for (int node : m_nearNodes)
+            if (m_tree.isLeaf(node))
+                for (int place = m_tree.leaf(node).m_first; place < m_tree.leaf(node).m_end; ++place)
+                    visit(m_tree.triangleAt(place));
+    };
+    visitTriangles(
+        [this](int t)
+        {
+            m_faceNormal[t] = normalOf(t);
+            m_preparedFace[t] = 1;
+        });
+    visitTriangles(
+        [this](int t)
+        {
+            for (int edge : m_features.m_triangleEdges[t])
+            {
+                if (m_preparedEdge[edge]) continue;
+                m_bend[edge] = bendOf(edge);
+                m_preparedEdge[edge] = 1;
+            }
+        });
+    m_ridges.update(m_tree, m_bend, m_nearNodes);
 }
 
 void SoftSurface::notePlace()
@@ -169,24 +216,18 @@ void SoftSurface::restorePlace(const std::vector<Vec3>& place)
     if (m_placeNoted) m_place.assign(place.begin(), place.end());
 }
 
-void SoftSurface::updateFaces()
+Vec3 SoftSurface::normalOf(int triangle) const
 {
-    for (std::size_t t = 0; t < m_faceNormal.size(); ++t)
-    {
-        const Corners c = m_tree.corners(static_cast<int>(t));
-        m_faceNormal[t] = unit(cross(c[1] - c[0], c[2] - c[0]));
-    }
+    const Corners c = m_tree.corners(triangle);
+    return unit(cross(c[1] - c[0], c[2] - c[0]));
 }
 
-void SoftSurface::updateEdges()
+// Where more than two faces meet, none may take the edge for a ridge; a rim is neither ridge nor groove.
+double SoftSurface::bendOf(int edge) const
 {
-    for (std::size_t k = 0; k < m_bend.size(); ++k)
-    {
-        const auto [first, second] = m_edgeTriangles[k];
-        // Where more than two faces meet, none may take the edge for a ridge; a rim is neither ridge nor groove.
-        const double single = first == second ? 0 : 1;
-        m_bend[k] = m_manifoldEdge[k] ? dot(m_faceNormal[first], intoFace(static_cast<int>(k), second)) : single;
-    }
+    const auto [first, second] = m_edgeTriangles[edge];
+    if (!m_manifoldEdge[edge]) return first == second ? 0 : 1;
+    return dot(faceNormal(first), intoFace(edge, second));
 }
 
 // The unit vector from an edge into one of its triangles, perpendicular to the edge.
@@ -234,7 +275,7 @@ void SoftSurface::visitTrianglesAt(int edge, Visit visit) const
 Vec3 SoftSurface::edgeNormal(int edge) const
 {
     Vec3 sum;
-    visitTrianglesAt(edge, [&](int t) { sum += m_faceNormal[t]; });
+    visitTrianglesAt(edge, [&](int t) { sum += faceNormal(t); });
     return unit(sum);
 }
 
@@ -248,7 +289,7 @@ Vec3 SoftSurface::nodeNormal(int node) const
         const Triangle& nodes = m_triangles[t];
         const int at = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
         const Vec3 next = x[nodes[(at + 1) % 3]] - x[node], last = x[nodes[(at + 2) % 3]] - x[node];
-        sum += angleBetween(next, last) * m_faceNormal[t];
+        sum += angleBetween(next, last) * faceNormal(t);
     }
     return unit(sum);
 }
@@ -262,7 +303,7 @@ Vec3 SoftSurface::normalAt(int triangle, const TrianglePoint& point) const
         case TriangleFeature::corner:
             return nodeNormal(m_triangles[triangle][point.m_number]);
         default:
-            return m_faceNormal[triangle];
+            return faceNormal(triangle);
     }
 }
 
@@ -270,7 +311,7 @@ bool SoftSurface::isFlatEdge(int edge) const
 {
     const Vec3 normal = edgeNormal(edge);
     bool flat = true;
-    visitTrianglesAt(edge, [&](int t) { flat = flat && !(dot(m_faceNormal[t], normal) < kFlatSurfaceCosine); });
+    visitTrianglesAt(edge, [&](int t) { flat = flat && !(dot(faceNormal(t), normal) < kFlatSurfaceCosine); });
     return flat;
 }
 
@@ -279,7 +320,7 @@ bool SoftSurface::isFlatNode(int node) const
     const Vec3 normal = nodeNormal(node);
     const int* const around = m_features.m_around.data();
     return std::none_of(around + m_features.m_firstAround[node], around + m_features.m_firstAround[node + 1],
-                        [&](int t) { return dot(m_faceNormal[t], normal) < kFlatSurfaceCosine; });
+                        [&](int t) { return dot(faceNormal(t), normal) < kFlatSurfaceCosine; });
 }
 
 double SoftSurface::leastAlongEdges(int node, const Vec3& direction) const

@@ -75,6 +75,17 @@ public:
     /// Takes the positions at the start of a step of h [s] and the velocities that are expected in it: once a step.
     void update(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
 
+    /// The same in two parts: place() takes them, and one of the others says where normals and bends are looked up
+    /// fast. These are the same everywhere; ridges() has those alone that are near.
+    void place(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
+    void prepareAll();
+    /// Near boxes that hold for the step.
+    void prepareNear(const std::vector<SurfaceTree::Nearby>& boxes);
+    /// True if prepareAll() was the last of them.
+    bool isPrepared() const { return m_prepared; }
+    /// True if it is so fine that what is near another body is much less than all of it.
+    bool isFine() const { return m_triangles.size() >= kFine; }
+
     /// Notes where the vertices of the surface were at the last update(). Never allocates.
     void notePlace();
     void forgetPlace() { m_placeNoted = false; }
@@ -110,7 +121,10 @@ public:
 
     /// Outward unit normals; zero where triangles have no area. Those of edges and nodes are calculated when asked for:
     /// few are near another body.
-    const Vec3& faceNormal(int triangle) const { return m_faceNormal[triangle]; }
+    Vec3 faceNormal(int triangle) const
+    {
+        return m_prepared || m_preparedFace[triangle] ? m_faceNormal[triangle] : normalOf(triangle);
+    }
     Vec3 edgeNormal(int edge) const;  ///< mean of its faces'
     Vec3 nodeNormal(int node) const;  ///< weighted with the faces' angles
     /// The normal of a feature of a triangle: says on which side of a closed surface a point lies to which this feature
@@ -118,7 +132,7 @@ public:
     Vec3 normalAt(int triangle, const TrianglePoint& point) const;
 
     /// Sine of the angle by which the surface is bent at an edge: > 0 in a groove, < 0 on a ridge [-].
-    double bend(int edge) const { return m_bend[edge]; }
+    double bend(int edge) const { return m_prepared || m_preparedEdge[edge] ? m_bend[edge] : bendOf(edge); }
     /// One of the triangles at a node.
     int nodeOwner(int node) const { return m_features.m_around[m_features.m_firstAround[node]]; }
     /// Unit vectors from an edge into its two faces, perpendicular to it.
@@ -132,10 +146,12 @@ public:
     double leastAlongEdges(int node, const Vec3& direction) const;
 
 private:
+    static constexpr std::size_t kFine = 2000;  // triangles: two or three thousand elements have as many
+
     void listEdgeTriangles();
     void measureCurvature(const std::vector<Vec3>& x);
-    void updateFaces();
-    void updateEdges();
+    Vec3 normalOf(int triangle) const;
+    double bendOf(int edge) const;
     template <class Visit>
     void visitTrianglesAt(int edge, Visit visit) const;
     int nodeAt(int vertex) const { return m_nearestNode.empty() ? vertex : m_nearestNode[vertex]; }
@@ -159,6 +175,9 @@ private:
     std::vector<Vec3> m_place;  // noted, one a vertex of m_nodes
     bool m_placeNoted = false;
     std::vector<double> m_bend;
+    bool m_prepared = false;                                    // all faces and edges are
+    std::vector<unsigned char> m_preparedFace, m_preparedEdge;  // not 0: m_faceNormal and m_bend have its
+    std::vector<int> m_nearNodes;                               // of the tree, scratch
 };
 
 }  // namespace bullet_fem

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/soft_pairs/surface_ridges.h"
 
+#include <algorithm>
+
 namespace bullet_fem
 {
 
@@ -24,31 +26,37 @@ SurfaceRidges::SurfaceRidges(const SurfaceFeatures& features, const SurfaceTree&
         }
         m_firstEdge.push_back(static_cast<int>(m_edges.size()));
     }
-    m_first.resize(m_firstEdge.size());
-    m_ridges.reserve(m_edges.size());
+    m_end = m_firstEdge;
+    m_ridges.resize(m_edges.size());
     m_has.resize(tree.nodeCount());
 }
 
 void SurfaceRidges::update(const SurfaceTree& tree, const std::vector<double>& bend)
 {
-    m_ridges.clear();
-    for (std::size_t place = 0; place + 1 < m_firstEdge.size(); ++place)
+    for (int node = tree.nodeCount() - 1; node >= 0; --node) updateNode(tree, bend, node);
+}
+
+void SurfaceRidges::update(const SurfaceTree& tree, const std::vector<double>& bend, const std::vector<int>& nodes)
+{
+    std::fill(m_has.begin(), m_has.end(), static_cast<unsigned char>(0));
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) updateNode(tree, bend, *node);
+}
+
+// After its children.
+void SurfaceRidges::updateNode(const SurfaceTree& tree, const std::vector<double>& bend, int node)
+{
+    if (!tree.isLeaf(node))
     {
-        m_first[place] = static_cast<int>(m_ridges.size());
-        for (int k = m_firstEdge[place]; k < m_firstEdge[place + 1]; ++k)
-            if (isRidge(bend[m_edges[k].m_edge])) m_ridges.push_back(m_edges[k]);
-    }
-    m_first.back() = static_cast<int>(m_ridges.size());
-    for (int node = tree.nodeCount() - 1; node >= 0; --node)
-    {
-        if (tree.isLeaf(node))
-        {
-            m_has[node] = begin(tree.leaf(node)) != end(tree.leaf(node));
-            continue;
-        }
         const auto [left, right] = tree.children(node);
         m_has[node] = m_has[left] | m_has[right];
+        return;
     }
+    const SurfaceTree::Leaf leaf = tree.leaf(node);
+    int end = m_firstEdge[leaf.m_first];
+    for (int k = end; k < m_firstEdge[leaf.m_end]; ++k)
+        if (isRidge(bend[m_edges[k].m_edge])) m_ridges[end++] = m_edges[k];
+    m_end[leaf.m_first] = end;
+    m_has[node] = begin(leaf) != SurfaceRidges::end(leaf);
 }
 
 }  // namespace bullet_fem

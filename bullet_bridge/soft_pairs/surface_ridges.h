@@ -27,10 +27,13 @@ public:
 
     /// For the tree as it was refitted; `bend` of all edges as in SoftSurface.
     void update(const SurfaceTree& tree, const std::vector<double>& bend);
+    /// The same for these nodes of the tree alone, ascending and with all above each; no other has a ridge then. `bend`
+    /// of the edges of triangles in their leaves.
+    void update(const SurfaceTree& tree, const std::vector<double>& bend, const std::vector<int>& nodes);
 
     /// Those of a leaf.
-    const Ridge* begin(const SurfaceTree::Leaf& leaf) const { return m_ridges.data() + m_first[leaf.m_first]; }
-    const Ridge* end(const SurfaceTree::Leaf& leaf) const { return m_ridges.data() + m_first[leaf.m_end]; }
+    const Ridge* begin(const SurfaceTree::Leaf& leaf) const { return m_ridges.data() + m_firstEdge[leaf.m_first]; }
+    const Ridge* end(const SurfaceTree::Leaf& leaf) const { return m_ridges.data() + m_end[leaf.m_first]; }
 
     /// Not 0 for nodes of the tree that have any in a leaf below.
     const unsigned char* has() const { return m_has.data(); }
@@ -47,10 +50,12 @@ public:
 private:
     static constexpr double kRidge = -0.03;  // sine of the angle from which an edge is a ridge
 
-    std::vector<Ridge> m_edges;    // as their triangles lie in the tree
-    std::vector<int> m_firstEdge;  // per place in the tree; one more
-    std::vector<int> m_first;      // likewise, of the ridges
-    std::vector<Ridge> m_ridges;
+    void updateNode(const SurfaceTree& tree, const std::vector<double>& bend, int node);
+
+    std::vector<Ridge> m_edges;        // as their triangles lie in the tree
+    std::vector<int> m_firstEdge;      // per place in the tree; one more
+    std::vector<int> m_end;            // likewise, of the ridges of the leaf that begins there
+    std::vector<Ridge> m_ridges;       // of a leaf from its first edge's place on
     std::vector<unsigned char> m_has;  // per node of the tree
 };
 

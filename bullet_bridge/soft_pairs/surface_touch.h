@@ -23,8 +23,9 @@ struct TouchReach
     double m_band = 0;  ///< gaps below this are contacts though nothing closes them [m]
     double m_edge = 0;  ///< the smaller mean edge of the two [m]
     double m_fall = 0;  ///< by which they may come nearer than they would freely, if one does not fall [m]
-    double depth() const { return 0.5 * m_edge; }      ///< to which one may always have sunk into the other [m]
-    double within() const { return m_band + m_fall; }  ///< gaps above this do not close [m]
+    double depth() const { return 0.5 * m_edge; }       ///< to which one may always have sunk into the other [m]
+    double within() const { return m_band + m_fall; }   ///< gaps above this do not close [m]
+    double near() const { return within() + depth(); }  ///< what is farther apart at the start is no edges' affair [m]
 };
 
 }  // namespace bullet_fem

@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "bullet_bridge/soft_pairs/box_pair.h"
@@ -48,6 +50,31 @@ public:
         }
     }
 
+    /// Calls visit(node) for all nodes of the tree that a box may come within its reach of, parents first, by ascending
+    /// number.
+    struct Nearby
+    {
+        CoarseBox m_box;
+        double m_reach;  ///< [m]
+    };
+    template <class Visit>
+    void visitNearNodes(const std::vector<Nearby>& boxes, Visit visit) const
+    {
+        int stack[kDepth], size = 0;
+        stack[size++] = 0;
+        while (size > 0)
+        {
+            const int at = stack[--size];
+            const auto isNear = [&](const Nearby& nearby)
+            { return m_boxes[at].meets(nearby.m_box, coarse(nearby.m_reach)); };
+            if (std::none_of(boxes.begin(), boxes.end(), isNear)) continue;
+            visit(at);
+            if (m_nodes[at].isLeaf()) continue;
+            stack[size++] = m_nodes[at].m_next;
+            stack[size++] = at + 1;
+        }
+    }
+
     /// A few triangles that lie beside each other: range of triangleAt().
     struct Leaf
     {
@@ -85,11 +112,13 @@ public:
     }
 
     /// The triangle that is nearest to p at the start and not `skip`ped; -1 if none is nearer than `most` [m], which
-    /// may be infinite. `nearest` is its point.
+    /// may be infinite. `nearest` is its point. The same for any `guess`, a triangle that may be near; -1: none.
     template <class Skip>
-    int nearestTriangle(const Vec3& p, double most, Skip skip, TrianglePoint& nearest) const
+    int nearestTriangle(const Vec3& p, double most, Skip skip, TrianglePoint& nearest, int guess = -1) const
     {
-        double least = most * most, farther = surelyFarther(p, least);
+        double least = most * most;
+        if (guess >= 0 && !skip(guess)) least = std::min(least, notNearer(p, guess));
+        double farther = surelyFarther(p, least);
         int found = -1;
         Ahead stack[kDepth];
         int size = 0;
@@ -150,6 +179,13 @@ private:
         const double distance = std::sqrt(least), size = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
         const double farther = distance + 1e-12 * (distance + size);
         return farther * farther;
+    }
+
+    // A squared distance from p that is more than that of a triangle, and than rounding can take for it.
+    double notNearer(const Vec3& p, int triangle) const
+    {
+        const Vec3 r = p - nearestOnTriangle(corners(triangle), p).m_point;
+        return surelyFarther(p, dot(r, r)) + std::numeric_limits<double>::min();
     }
 
     int build(int first, int count, std::vector<Vec3>& middles);

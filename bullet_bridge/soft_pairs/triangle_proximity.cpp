@@ -11,11 +11,14 @@ namespace bullet_fem
 namespace
 {
 
+constexpr double kTimeRounding = 4e-16;  // share of a time that is no more than what rounding takes
+
 // a + b t + c t^2 + d t^3
 struct Cubic
 {
     double a, b, c, d;
     double at(double t) const { return a + t * (b + t * (c + t * d)); }
+    double slopeAt(double t) const { return b + t * (2 * c + t * 3 * d); }
 };
 
 double triple(const Vec3& u, const Vec3& v, const Vec3& w)
@@ -38,16 +41,24 @@ bool hasNoRoot(const Cubic& f, double T)
     return std::min({b0, b1, b2, b3}) > 0 || std::max({b0, b1, b2, b3}) < 0;
 }
 
-// Between two times of different sign, by bisection: 52 halvings are all that a double holds.
+// Between two times of different sign: Newton's method, and a halving wherever that leads out of the interval, of which
+// 52 are all that a double holds.
 double rootBetween(const Cubic& f, double low, double high)
 {
     const bool rises = f.at(high) > 0;
+    const double rounding = kTimeRounding * high;
+    double time = 0.5 * (low + high);
     for (int k = 0; k < 52; ++k)
     {
-        const double middle = 0.5 * (low + high);
-        ((f.at(middle) > 0) == rises ? high : low) = middle;
+        const double value = f.at(time);
+        ((value > 0) == rises ? high : low) = time;
+        double next = time - value / f.slopeAt(time);
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        const double change = std::fabs(next - time);
+        time = next;
+        if (change <= rounding) break;
     }
-    return high;
+    return time;
 }
 
 TrianglePoint pointOf(const Corners& t, const std::array<double, 3>& w, TriangleFeature feature, int number)

@@ -48,9 +48,11 @@ void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
     }
 }
 
-void deepen(btFemStepReport& report, const ContactPoint& point)
+void noteContact(btFemBodyReports& reports, const btFemContact& contact, const ContactPoint& point)
 {
-    report.m_deepestPenetration = std::max(report.m_deepestPenetration, static_cast<btScalar>(-point.m_gap));
+    reports.m_contacts.push_back(contact);
+    btScalar& deepest = reports.m_step.m_deepestPenetration;
+    deepest = std::max(deepest, static_cast<btScalar>(-point.m_gap));
 }
 
 }  // namespace
@@ -88,9 +90,11 @@ void btFemContactGroup::collect(const Scope& scope)
             {&fem.m_body, fem.m_compliance.get(), fem.m_predicted.empty() ? nullptr : &fem.m_predicted});
     }
     collectJoints(scope);  // first: they decide whether the rigid bodies that they hold are rewound
+    for (FemSoftBody* fem : m_bodies) fem->holdForSearches(true);
     findRigid();
     findSoft();
     findCloth();
+    for (FemSoftBody* fem : m_bodies) fem->holdForSearches(false);
     collectContacts();
     m_torsionalPatches.append(m_bodies, m_problem);
     m_rigid.connectLinks(m_problem.m_responses);
@@ -363,8 +367,7 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
         contact.m_other = fem.m_origins[k].m_object;
         contact.m_part = fem.m_origins[k].m_part;
         contact.m_index = fem.m_origins[k].m_triangle;
-        record.m_reports.m_contacts.push_back(contact);
-        deepen(record.m_reports.m_step, fem.m_contacts[k]);
+        noteContact(record.m_reports, contact, fem.m_contacts[k]);
     }
     // Both bodies see a contact between them, each from its side; self contact is one contact.
     for (std::size_t k = m_firstSoft[b]; k < m_firstSoft[b + 1]; ++k)
@@ -374,8 +377,7 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
         btFemContact contact;
         fill(contact, point, otherSide);
         contact.m_other = m_records[otherSide ? point.m_soft.m_body : point.m_other.m_body]->m_softBody;
-        record.m_reports.m_contacts.push_back(contact);
-        deepen(record.m_reports.m_step, point);
+        noteContact(record.m_reports, contact, point);
     }
     reportCloth(b);
     record.m_reports.m_step.m_contacts = record.m_reports.m_contacts.size();
@@ -385,7 +387,6 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
 // Contact points lie on the body's surface, as with rigid objects.
 void btFemContactGroup::reportCloth(std::size_t b)
 {
-    btFemBodyReports& reports = m_records[b]->m_reports;
     for (std::size_t k = 0; k < m_cloth.size(); ++k)
     {
         const ContactPoint& point = m_problem.m_contacts[m_cloth.first() + k];
@@ -394,7 +395,6 @@ void btFemContactGroup::reportCloth(std::size_t b)
         fill(contact, point, false);
         contact.m_point = bulletVector(m_cloth.onBody(k));
         contact.m_other = &m_cloth.cloth(k);
-        reports.m_contacts.push_back(contact);
-        deepen(reports.m_step, point);
+        noteContact(m_records[b]->m_reports, contact, point);
     }
 }

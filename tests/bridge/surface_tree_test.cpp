@@ -198,6 +198,16 @@ TEST(CoarseBox, NothingMeetsNothing)
     EXPECT_TRUE(point.meets(point, 0));
 }
 
+std::vector<SurfaceRidges::Ridge> ridgesOf(const SoftSurface& surface)
+{
+    std::vector<SurfaceRidges::Ridge> all;
+    const SurfaceTree& tree = surface.tree();
+    for (int node = 0; node < tree.nodeCount(); ++node)
+        if (tree.isLeaf(node))
+            all.insert(all.end(), surface.ridges().begin(tree.leaf(node)), surface.ridges().end(tree.leaf(node)));
+    return all;
+}
+
 // The twelve edges of a cube, and none of the diagonals that its flat faces have.
 TEST(SurfaceRidges, AreListedOnceEach)
 {
@@ -206,19 +216,86 @@ TEST(SurfaceRidges, AreListedOnceEach)
     std::vector<Vec3> v(mesh.restPositions().size(), Vec3{6, 0, 0});
     surface.update(mesh.restPositions(), v, 1.0 / 60);
     std::set<int> edges;
-    const SurfaceTree::Leaf all = {0, static_cast<int>(mesh.surface().size())};
-    for (const auto* ridge = surface.ridges().begin(all); ridge != surface.ridges().end(all); ++ridge)
+    for (const SurfaceRidges::Ridge& ridge : ridgesOf(surface))
     {
-        const auto [a, b] = surface.features().m_edges[ridge->m_edge];
+        const auto [a, b] = surface.features().m_edges[ridge.m_edge];
         EXPECT_NEAR(norm(mesh.restPositions()[b] - mesh.restPositions()[a]), 1, 1e-12);
-        EXPECT_TRUE(edges.insert(ridge->m_edge).second);
+        EXPECT_TRUE(edges.insert(ridge.m_edge).second);
         // It moves 0.2 m in two steps.
         const Vec3 later = mesh.restPositions()[a] + Vec3{0.199, 0, 0};
-        const CoarseBox box = SurfaceRidges::boxOf(*ridge, surface.tree());
+        const CoarseBox box = SurfaceRidges::boxOf(ridge, surface.tree());
         EXPECT_TRUE(box.meets(CoarseBox::of(later, {}), 0));
         EXPECT_FALSE(box.meets(CoarseBox::of(mesh.restPositions()[a] + Vec3{1.21, 0, 0}, {}), 0));
     }
     EXPECT_EQ(edges.size(), 12u);
+}
+
+// A ball whose vertices are shaken, and a box beside it.
+TEST(SoftSurface, PreparedNearABoxSaysTheSameAsPreparedEverywhere)
+{
+    const TetMesh mesh = makeSphere(1, 6);
+    SoftSurface whole(mesh), part(mesh);
+    Random random;
+    std::vector<Vec3> x = mesh.restPositions(), v(x.size());
+    const std::vector<SurfaceTree::Nearby> boxes = {{CoarseBox::of({1.1, 0.3, 0}, {-0.1, 0, 0}), 0.2}};
+    std::size_t listed = 0;
+    for (int step = 0; step < 3; ++step)
+    {
+        for (std::size_t i = 0; i < x.size(); ++i)
+        {
+            x[i] += 0.02 * random.point();
+            v[i] = 0.5 * random.point();
+        }
+        whole.update(x, v, 0.01);
+        part.place(x, v, 0.01);
+        part.prepareNear(boxes);
+        for (int t = 0; t < static_cast<int>(mesh.surface().size()); ++t)
+            EXPECT_EQ(norm(whole.faceNormal(t) - part.faceNormal(t)), 0);
+        for (int k = 0; k < static_cast<int>(whole.features().m_edges.size()); ++k)
+            EXPECT_EQ(whole.bend(k), part.bend(k));
+        const auto near = [&](const SoftSurface& surface)
+        {
+            std::vector<int> edges;
+            const auto visit = [&](int leaf)
+            {
+                const SurfaceTree::Leaf places = surface.tree().leaf(leaf);
+                for (const auto* at = surface.ridges().begin(places); at != surface.ridges().end(places); ++at)
+                    edges.push_back(at->m_edge);
+            };
+            surface.tree().visitNearLeaves(boxes[0].m_box, boxes[0].m_reach, surface.ridges().has(), visit);
+            return edges;
+        };
+        EXPECT_EQ(near(whole), near(part));
+        listed = near(part).size();
+        EXPECT_GT(listed, 10u);
+        EXPECT_LT(ridgesOf(part).size(), ridgesOf(whole).size() / 2) << "those near alone";
+    }
+    part.prepareAll();
+    EXPECT_EQ(ridgesOf(part).size(), ridgesOf(whole).size());
+}
+
+// Wherever the search begins.
+TEST(SurfaceTree, FindsTheSameNearestTriangleForAnyGuess)
+{
+    const TetMesh mesh = makeSphere(1, 5);
+    const std::vector<Triangle> triangles = mesh.surface();
+    const SurfaceTree tree(mesh.restPositions(), triangles);
+    const auto none = [](int) { return false; };
+    Random random;
+    for (int k = 0; k < 200; ++k)
+    {
+        // Every other one on a corner, where several triangles are as near.
+        const Vec3 p = k % 2 == 0 ? 2 * random.point() : mesh.restPositions()[triangles[k % triangles.size()][0]];
+        TrianglePoint alone, guessed;
+        const int found = tree.nearestTriangle(p, HUGE_VAL, none, alone);
+        for (std::size_t guess = k % 7; guess < triangles.size(); guess += 7)
+        {
+            EXPECT_EQ(tree.nearestTriangle(p, HUGE_VAL, none, guessed, static_cast<int>(guess)), found);
+            EXPECT_EQ(norm(alone.m_point - guessed.m_point), 0);
+        }
+        TrianglePoint best;
+        EXPECT_EQ(tree.nearestTriangle(p, HUGE_VAL, none, best, found), found);
+    }
 }
 
 }  // namespace
