@@ -168,6 +168,22 @@ TEST_P(FlatSheetTest, aKinematicSheetIsSeenWhereItWasAsTheStepBegan)
     expectFlat({0, 0, 1}, 0);
 }
 
+TEST_F(SheetContactTest, aKinematicSheetThatTurnsComesAlongAnArc)
+{
+    constexpr double turn = 0.05, height = 2;  // in the step [rad], and of the axis [m]
+    GridSettings below;
+    below.m_height = [](btScalar, btScalar) { return -btScalar(height); };
+    const ConcaveShape shape = makeTriangleMesh(below);
+    m_ground.setCollisionShape(&shape.shape());
+    m_ground.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    m_ground.setInterpolationAngularVelocity({btScalar(turn / kStep), 0, 0});
+    m_ground.setWorldTransform(
+        btTransform(btQuaternion(btVector3(1, 0, 0), btScalar(turn)), btVector3(0, 0, btScalar(height))));
+    find(m_ground);
+    ASSERT_EQ(m_fem.m_contacts.size(), 9u);
+    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_NEAR(c.m_gap, -height * (1 - std::cos(turn)), 5e-5);
+}
+
 TEST_F(SheetContactTest, aCornerHasOneContactAFace)
 {
     ConcaveShape shape;
