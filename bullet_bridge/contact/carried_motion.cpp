@@ -20,19 +20,11 @@ void CarriedMotion::begin(int vertexCount, double lift)
     m_carriers.clear();
 }
 
-int CarriedMotion::add(int vertex, const Carrier& carrier)
+void CarriedMotion::add(int vertex, const Carrier& carrier)
 {
     m_carriers.push_back(carrier);
     m_carriers.back().m_next = m_first[vertex];
     m_first[vertex] = static_cast<int>(m_carriers.size()) - 1;
-    return m_first[vertex];
-}
-
-bool CarriedMotion::isCarried(int vertex) const
-{
-    bool carried = false;
-    forEach(vertex, [&carried](const Carrier&) { carried = true; });
-    return carried;
 }
 
 Vec3 CarriedMotion::allowed(int vertex, const Vec3& way, int exceptSurface) const

@@ -25,8 +25,8 @@ public:
         double m_gap = 0;   ///< as the step begins [m]
         Vec3 m_way;         ///< of the carrier within the step [m]
         int m_surface = 0;  ///< a number for what it is part of
+        int m_contact = 0;  ///< the number of the contact that it is of
         int m_next = -1;    ///< of the same vertex; -1: none
-        bool m_exists = true;
     };
 
     /// Forgets all. Vertices are lifted off their carriers by `lift` [m].
@@ -34,20 +34,15 @@ public:
 
     void reserve(std::size_t carriers) { m_carriers.reserve(carriers); }
 
-    /// Returns the carrier's number, for drop().
-    int add(int vertex, const Carrier& carrier);
+    void add(int vertex, const Carrier& carrier);
 
-    /// What turns out to be no wall carries nothing.
-    void drop(int carrier) { m_carriers[carrier].m_exists = false; }
-
-    bool isCarried(int vertex) const;
+    bool isCarried(int vertex) const { return m_first[vertex] >= 0; }
 
     /// Calls use(const Carrier&) for each carrier of the vertex.
     template <class Use>
     void forEach(int vertex, const Use& use) const
     {
-        for (int k = m_first[vertex]; k >= 0; k = m_carriers[k].m_next)
-            if (m_carriers[k].m_exists) use(m_carriers[k]);
+        for (int k = m_first[vertex]; k >= 0; k = m_carriers[k].m_next) use(m_carriers[k]);
     }
 
     /// A way [m] without what leads into carriers, but for those of one surface.

@@ -25,19 +25,21 @@ constexpr double kParallelCosine = 0.999;  // of normals of what is one surface
 void ContactFinder::markFlush(FemSoftBody& fem)
 {
     m_flush.assign(m_near.size(), 0);
+    m_passed.assign(m_near.size(), 0);
     for (const Target& target : m_targets)
         for (std::size_t k = target.m_first; k < target.m_end; ++k)
             m_flush[k] = isBesideCarryingPlane(target, m_near[k].m_point, m_near[k].m_normal, m_near[k].m_gap);
     addCarriers(fem);
     if (m_targets.empty() || (m_targets.size() == 1 && m_targets.front().m_kind != TargetKind::sheets)) return;
+    bool isAny = false;
     for (std::size_t t = 0; t < m_targets.size(); ++t)
         for (std::size_t k = m_targets[t].m_first; k < m_targets[t].m_end; ++k)
         {
             if (m_near[k].m_gap > m_band && m_targets[t].m_kind != TargetKind::sheets) continue;
-            if (m_flush[k] || !isFlush(fem, m_targets[t], k, surfaceOf(t, k))) continue;
-            m_flush[k] = 1;
-            if (m_carrierOf[k] >= 0) m_carried.drop(m_carrierOf[k]);
+            if (!m_flush[k]) m_flush[k] = isFlush(fem, m_targets[t], k, surfaceOf(t, k));
+            isAny = isAny || m_flush[k];
         }
+    if (isAny) addCarriers(fem);
 }
 
 // A number for what a contact is with: a convex shape, or one triangle of a sheet.
@@ -50,16 +52,16 @@ int ContactFinder::surfaceOf(std::size_t target, std::size_t k) const
 void ContactFinder::addCarriers(const FemSoftBody& fem)
 {
     m_carried.begin(fem.m_surface.vertexCount(), m_band);
-    m_carrierOf.assign(m_near.size(), -1);
     for (std::size_t t = 0; t < m_targets.size(); ++t)
         for (std::size_t k = m_targets[t].m_first; k < m_targets[t].m_end; ++k)
         {
             const ContactPoint& contact = m_near[k];
             if (m_flush[k] || contact.m_gap > m_band || m_nearOrigins[k].m_feature >= fem.m_surface.vertexCount())
                 continue;
-            const Vec3 way = m_targets[t].m_step * m_targets[t].m_motion->velocityAt(contact.m_point);
-            m_carrierOf[k] = m_carried.add(m_nearOrigins[k].m_feature,
-                                           {contact.m_normal, contact.m_gap, way, surfaceOf(t, k), -1, true});
+            m_carried.add(m_nearOrigins[k].m_feature,
+                          {contact.m_normal, contact.m_gap,
+                           m_targets[t].m_step * m_targets[t].m_motion->velocityAt(contact.m_point), surfaceOf(t, k),
+                           static_cast<int>(k), -1});
         }
 }
 
@@ -78,6 +80,7 @@ Triangle ContactFinder::cornersOf(const FemSoftBody& fem, const Target& target, 
     return surface.triangles()[areSheets ? k : k - edgeCount];
 }
 
+// Of two faces of sheets only one is passed, or each would drop the other; convex shapes are met again on the way.
 bool ContactFinder::isFlush(FemSoftBody& fem, const Target& target, std::size_t k, int surface)
 {
     const ContactPoint& contact = m_near[k];
@@ -90,8 +93,11 @@ bool ContactFinder::isFlush(FemSoftBody& fem, const Target& target, std::size_t 
         {
             const double cosine = dot(contact.m_normal, c.m_normal);
             if (flush || c.m_surface == surface || cosine < kOpposedCosine || cosine > kParallelCosine) return;
-            flush = cosine < kAlikeCosine ? isFlushWith(target, contact, x - c.m_gap * c.m_normal, c.m_normal)
-                                          : isPassed(fem, target, k, surface);
+            if (cosine < kAlikeCosine)
+                flush = isFlushWith(target, contact, x - c.m_gap * c.m_normal, c.m_normal);
+            else if (!m_passed[c.m_contact])
+                flush = isPassed(fem, target, k, surface);
+            m_passed[k] = flush && cosine >= kAlikeCosine && target.m_kind == TargetKind::sheets;
         };
         m_carried.forEach(corners[a], check);
     }
