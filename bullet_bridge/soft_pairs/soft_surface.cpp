@@ -113,7 +113,11 @@ void SoftSurface::measureCurvature(const std::vector<Vec3>& x)
             }
         }
     for (std::size_t i = 0; i < x.size(); ++i)
-        if (smooth[i] > kRoundShare * m_curvature[i]) m_curvature[i] = smooth[i];
+    {
+        const bool round = smooth[i] > kRoundShare * m_curvature[i];
+        if (round) m_curvature[i] = smooth[i];
+        m_fewFacets[i] = m_fewFacets[i] && round;
+    }
 }
 
 void SoftSurface::listEdgeTriangles()
