@@ -25,7 +25,6 @@ public:
         double m_gap = 0;   ///< as the step begins [m]
         Vec3 m_way;         ///< of the carrier within the step [m]
         int m_surface = 0;  ///< a number for what it is part of
-        int m_contact = 0;  ///< the number of the contact that it is of
         int m_next = -1;    ///< of the same vertex; -1: none
     };
 

@@ -99,7 +99,6 @@ void ContactFinder::makeRoom()
     for (std::vector<ContactOrigin>* origins : {&m_origins, &m_nearOrigins}) origins->reserve(room);
     for (std::vector<Weights>* weights : {&m_weights, &m_nearWeights}) weights->reserve(room);
     m_flush.reserve(room);
-    m_passed.reserve(room);
     m_targets.reserve(kLeast);
     m_carried.reserve(room);
     m_lainOn.reserve(kLeast);

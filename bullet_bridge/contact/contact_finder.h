@@ -217,8 +217,7 @@ private:
     std::vector<ContactPoint> m_near;  // as the step begins: what touches, and what may within the step
     std::vector<ContactOrigin> m_nearOrigins;
     std::vector<Weights> m_nearWeights;
-    std::vector<unsigned char> m_flush;   // one of each: it is no wall
-    std::vector<unsigned char> m_passed;  // one of each: it is none because others lead the point off it
+    std::vector<unsigned char> m_flush;  // one of each: it is no wall
     CarriedMotion m_carried;
     std::vector<Vec3> m_heldNormal;  // of the strongest contact that a vertex had in the last step; 0: of none
     std::vector<double> m_heldBy;    // its impulse [N s]

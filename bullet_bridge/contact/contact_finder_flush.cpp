@@ -25,7 +25,6 @@ constexpr double kParallelCosine = 0.999;  // of normals of what is one surface
 void ContactFinder::markFlush(FemSoftBody& fem)
 {
     m_flush.assign(m_near.size(), 0);
-    m_passed.assign(m_near.size(), 0);
     for (const Target& target : m_targets)
         for (std::size_t k = target.m_first; k < target.m_end; ++k)
             m_flush[k] = isBesideCarryingPlane(target, m_near[k].m_point, m_near[k].m_normal, m_near[k].m_gap);
@@ -58,10 +57,10 @@ void ContactFinder::addCarriers(const FemSoftBody& fem)
             const ContactPoint& contact = m_near[k];
             if (m_flush[k] || contact.m_gap > m_band || m_nearOrigins[k].m_feature >= fem.m_surface.vertexCount())
                 continue;
-            m_carried.add(m_nearOrigins[k].m_feature,
-                          {contact.m_normal, contact.m_gap,
-                           m_targets[t].m_step * m_targets[t].m_motion->velocityAt(contact.m_point), surfaceOf(t, k),
-                           static_cast<int>(k), -1});
+            m_carried.add(
+                m_nearOrigins[k].m_feature,
+                {contact.m_normal, contact.m_gap,
+                 m_targets[t].m_step * m_targets[t].m_motion->velocityAt(contact.m_point), surfaceOf(t, k), -1});
         }
 }
 
@@ -80,7 +79,6 @@ Triangle ContactFinder::cornersOf(const FemSoftBody& fem, const Target& target, 
     return surface.triangles()[areSheets ? k : k - edgeCount];
 }
 
-// Of two faces of sheets only one is passed, or each would drop the other; convex shapes are met again on the way.
 bool ContactFinder::isFlush(FemSoftBody& fem, const Target& target, std::size_t k, int surface)
 {
     const ContactPoint& contact = m_near[k];
@@ -93,11 +91,8 @@ bool ContactFinder::isFlush(FemSoftBody& fem, const Target& target, std::size_t 
         {
             const double cosine = dot(contact.m_normal, c.m_normal);
             if (flush || c.m_surface == surface || cosine < kOpposedCosine || cosine > kParallelCosine) return;
-            if (cosine < kAlikeCosine)
-                flush = isFlushWith(target, contact, x - c.m_gap * c.m_normal, c.m_normal);
-            else if (!m_passed[c.m_contact])
-                flush = isPassed(fem, target, k, surface);
-            m_passed[k] = flush && cosine >= kAlikeCosine && target.m_kind == TargetKind::sheets;
+            flush = cosine < kAlikeCosine ? isFlushWith(target, contact, x - c.m_gap * c.m_normal, c.m_normal)
+                                          : isPassed(fem, target, k, surface);
         };
         m_carried.forEach(corners[a], check);
     }

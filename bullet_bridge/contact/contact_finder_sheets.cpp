@@ -143,11 +143,14 @@ void ContactFinder::findOnSheetPaths(FemSoftBody& fem, const Target& target)
         if (side == target.m_endSide) break;
         Vec3 way;
         const bool turned = isTurned(search, i, way);
-        const std::size_t first = m_contacts.size();
+        const std::size_t first = m_contacts.size(), firstNear = k;
         for (; k < target.m_end && m_nearOrigins[k].m_feature == i; ++k)
             if (!turned || m_near[k].m_gap <= m_band) keepNear(k);
         const Vec3 rightSide = target.m_shape->m_pose.toWorld(m_sheetSides[side++].m_safe);
-        if (!turned) continue;
+        // Faces that would each have passed the other: it meets the one over which its way ends.
+        const bool dropped = k > firstNear && m_contacts.size() == first && !m_carried.isCarried(i);
+        if (!turned && !dropped) continue;
+        if (dropped) way = wayOf(search, i);
         if (!isCollected) collectSheets(fem, target);
         isCollected = true;
         considerSheetPath(search, i, way, rightSide, first);
