@@ -12,8 +12,6 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kOneNormal = 1 - 1e-6;  // cosine of the angle between normals that count as one
-
 // Largest component of a way along the unit vectors around an axis up to the angle of this cosine.
 double alongCone(const Vec3& way, const Vec3& axis, double cosine)
 {
@@ -179,7 +177,7 @@ void ContactFinder::considerSheetPath(const SheetSearch& search, int node, const
         {
             return std::any_of(m_contacts.begin() + static_cast<std::ptrdiff_t>(first), m_contacts.end(),
                                [&](const ContactPoint& known)
-                               { return dot(known.m_normal, touch.m_surface.m_normal) > kOneNormal; });
+                               { return dot(known.m_normal, touch.m_surface.m_normal) > kParallelNormals; });
         });
 }
 

@@ -10,8 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kParallelNormals = 1 - 1e-6;  // cosine of the angle between normals that count as one
-constexpr int kMostCrossings = 4;              // sheets that a point is moved back through
+constexpr int kMostCrossings = 4;  // sheets that a point is moved back through
 
 void addPointTouch(std::vector<SheetTouch>& touches, const SheetTouch& touch)
 {
@@ -29,6 +28,14 @@ SheetTouch planeTouch(const TriangleSoup& soup, const SheetProbe& probe, int tri
     const Vec3& onPlane = soup.triangles()[triangle].m_corners[0];
     const double gap = dot(normal, probe.m_position - onPlane) - probe.m_thickness;
     return {{gap, normal, {1, 0, 0}}, triangle};
+}
+
+// With the normal to the side of the plane that the point is on.
+SheetTouch touchOnItsSide(const TriangleSoup& soup, const SheetProbe& probe, int t)
+{
+    const SoupTriangle& triangle = soup.triangles()[t];
+    const double height = dot(triangle.m_normal, probe.m_rightSide - triangle.m_corners[0]);
+    return planeTouch(soup, probe, t, height < 0 ? -triangle.m_normal : triangle.m_normal);
 }
 
 // What the plane of a triangle is to a point above another triangle that hides it is no constraint.
@@ -56,12 +63,10 @@ void addFaces(const TriangleSoup& soup, const SheetProbe& probe, std::vector<She
     soup.forEachIn(middle - box, middle + box,
                    [&](int t)
                    {
-                       const SoupTriangle& triangle = soup.triangles()[t];
-                       const double height = dot(triangle.m_normal, p - triangle.m_corners[0]);
-                       const Vec3 normal = height < 0 ? -triangle.m_normal : triangle.m_normal;
-                       const SheetTouch touch = planeTouch(soup, probe, t, normal);
+                       const SheetTouch touch = touchOnItsSide(soup, probe, t);
+                       const Vec3& normal = touch.m_surface.m_normal;
                        if (touch.m_surface.m_gap + std::min(0.0, dot(normal, probe.m_path)) > probe.m_band) return;
-                       if (nearestOn(triangle, p).m_onFace) addPointTouch(touches, touch);
+                       if (nearestOn(soup.triangles()[t], p).m_onFace) addPointTouch(touches, touch);
                    });
 }
 
@@ -131,12 +136,10 @@ void findTouchesAtEnd(const TriangleSoup& soup, const SheetProbe& probe, std::ve
     soup.forEachIn(end - box, end + box,
                    [&](int t)
                    {
-                       const SoupTriangle& triangle = soup.triangles()[t];
-                       const double height = dot(triangle.m_normal, p - triangle.m_corners[0]);
-                       const Vec3 normal = height < 0 ? -triangle.m_normal : triangle.m_normal;
-                       const SheetTouch touch = planeTouch(soup, probe, t, normal);
+                       const SheetTouch touch = touchOnItsSide(soup, probe, t);
+                       const Vec3& normal = touch.m_surface.m_normal;
                        if (touch.m_surface.m_gap + dot(normal, probe.m_path) > probe.m_band) return;
-                       const SoupPoint foot = nearestOn(triangle, end);
+                       const SoupPoint foot = nearestOn(soup.triangles()[t], end);
                        if (!foot.m_onFace) return;
                        const Vec3 above = foot.m_point + 10 * soup.tolerance() * normal;
                        if (soup.firstCrossing(p, above).m_triangle < 0) addPointTouch(touches, touch);

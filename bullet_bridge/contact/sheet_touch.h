@@ -12,6 +12,8 @@
 namespace bullet_fem
 {
 
+constexpr double kParallelNormals = 1 - 1e-6;  ///< cosine of the angle between normals that count as one
+
 /// A half space that a point of the soft surface must not leave.
 struct SheetTouch
 {
