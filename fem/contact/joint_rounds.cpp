@@ -65,14 +65,26 @@ void JointRounds::look(bool othersMoved)
     m_joints.residual(m_now.m_left);
     m_now.m_answer.assign(m_now.m_left.begin(), m_now.m_left.end());
     m_joints.answer(m_now.m_answer);
-    // Contacts that came or went, or rows of others, make another system of it.
-    const double square = m_now.square();
-    const bool alone = !othersMoved && m_rows.rows().size() == m_rows.problem().m_joints.size();
-    if (m_changes != m_joints.changes() || (!alone && square > m_square)) m_hasBest = false;
-    m_square = square;
+    // Contacts that came or went, joints that are held or released, and rows of others make another system of it.
+    if (noteActing() || othersMoved || m_changes != m_joints.changes()) m_hasBest = false;
     m_changes = m_joints.changes();
     noteDirection();
     noteLargest();
+}
+
+// True if other contacts act than after the last round.
+bool JointRounds::noteActing()
+{
+    const std::vector<ContactRow>& rows = m_rows.rows();
+    bool changed = m_acting.size() != rows.size();
+    m_acting.resize(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+    {
+        const unsigned char acts = !rows[k].m_joint && dot(rows[k].m_impulse, rows[k].m_impulse) > 0;
+        changed = changed || m_acting[k] != acts;
+        m_acting[k] = acts;
+    }
+    return changed;
 }
 
 // From the best so far to the last round, made orthogonal to the others; the best goes along it as far as that helps.
@@ -136,7 +148,7 @@ double JointRounds::largestShare(double negligible) const
 double JointRounds::largestSpeed() const
 {
     double largest = 0;
-    for (int i = 0; i < m_joints.unknowns(); ++i) largest = std::max(largest, std::fabs(m_now.m_left[i]));
+    for (double left : m_now.m_left) largest = std::max(largest, std::fabs(left));
     return largest;
 }
 

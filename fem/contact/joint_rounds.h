@@ -54,6 +54,7 @@ private:
         void add(double share, const Vectors& other);
     };
 
+    bool noteActing();
     void noteDirection();
     void noteLargest();
     template <class Visit>
@@ -65,8 +66,8 @@ private:
     std::array<Vectors, kDirections> m_directions;
     int m_count = 0, m_next = 0;  // of these, and where the next one goes
     bool m_hasBest = false;
-    int m_changes = 0;    // JointSystem::changes() that all this belongs to
-    double m_square = 0;  // of what the last round left
+    int m_changes = 0;                    // JointSystem::changes() that all this belongs to
+    std::vector<unsigned char> m_acting;  // per row: a contact that acted after the last round
     std::vector<double> m_before, m_shift;
     std::vector<double> m_largest;  // impulse per body, of the last round [N s]
 };
