@@ -302,8 +302,9 @@ public:
 
     /// Gives it to a body with the same nodes and tetrahedra that was restored by other means: its nodes keep their
     /// positions and velocities, and get their masses and pins at once; the rest is used when it is stepped or prepared
-    /// next. All that was known of the body is forgotten, its targets and attachments too. In place of setMaterial, and
-    /// before addSoftBody or after. Throws std::invalid_argument with the reason, and changes nothing then.
+    /// next, or forgotten if nodes or tetrahedra come or go until then. All that was known of the body is forgotten,
+    /// its targets and attachments too. In place of setMaterial, and before addSoftBody or after. Throws
+    /// std::invalid_argument with the reason, and changes nothing then.
     bool applyDefinition(btSoftBody* body, const unsigned char* data, std::size_t size, std::string* why = nullptr);
 
     /// @name Called by the world

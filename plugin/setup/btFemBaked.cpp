@@ -51,6 +51,12 @@ void useBaked(btFemBodyRegistry& registry, btSoftBody* body, const BakedBody& ba
     record = std::move(ready);
 }
 
+bool isDefinedBy(const btSoftBody& body, const btFemDefinition& definition)
+{
+    return static_cast<std::size_t>(body.m_nodes.size()) == definition.m_restPositions.size() &&
+           tetsOf(body) == definition.m_tets;
+}
+
 bool isAsBaked(const btSoftBody& body, const btFemBaked& baked)
 {
     return hasElementsOf(body, *baked.m_model) && markOfRestMatrices(body) == baked.m_restMark;

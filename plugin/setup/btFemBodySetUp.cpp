@@ -123,6 +123,11 @@ std::shared_ptr<const RestShape> btFemBodySetUp::bakedShape(const btFemBodyRecor
 void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
 {
     btSoftBody& soft = *record.m_softBody;
+    if (record.m_asked.m_definition && !isDefinedBy(soft, *record.m_asked.m_definition))  // it was cut since
+    {
+        record.m_asked.m_definition.reset();
+        record.m_model.m_wasChanged = true;
+    }
     const std::shared_ptr<const btFemDefinition> defined = record.m_asked.m_definition;
     const bool baked = canUseBaked(record);
     const std::vector<double> filled = filledFractionsOf(soft);

@@ -32,7 +32,9 @@ btFemDefinition definitionOf(const btFemBodyRegistry& registry, const btSoftBody
 {
     const btFemBodyRecord* record = registry.find(&soft);
     if (record && record->isFem() && !btFemBodyRegistry::isAsBuilt(*record)) record = nullptr;  // it was cut
-    if (record && !record->isFem() && record->m_asked.m_definition) return *record->m_asked.m_definition;
+    const std::shared_ptr<const btFemDefinition> asked =
+        record && !record->isFem() ? record->m_asked.m_definition : nullptr;
+    if (asked && isDefinedBy(soft, *asked)) return *asked;
     btFemDefinition d;
     d.m_tets = tetsOf(soft);
     d.m_filled = filledFractionsOf(soft);
