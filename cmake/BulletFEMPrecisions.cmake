@@ -77,14 +77,19 @@ function(bulletfem_bullet_library name)
     endforeach()
 endfunction()
 
-# bulletfem_bullet_test(<name> <source>...  LIBS <target>...  LABEL <label>  [COST <seconds>]): bulletfem_test for each
-# precision. Those of float64 have the program's and the tests' names with "-float64" behind.
+# bulletfem_bullet_test(<name> <source>...  LIBS <target>...  LABEL <label>  [COST <seconds>]  [SLOW_IN_DOUBLE]):
+# bulletfem_test for each precision. Those of float64 have the program's and the tests' names with "-float64" behind;
+# SLOW_IN_DOUBLE labels them slow.
 function(bulletfem_bullet_test name)
-    cmake_parse_arguments(ARG "" "LABEL;COST" "LIBS" ${ARGN})
+    cmake_parse_arguments(ARG "SLOW_IN_DOUBLE" "LABEL;COST" "LIBS" ${ARGN})
     foreach(precision IN LISTS BULLETFEM_PRECISIONS)
         set(suffix "${BULLETFEM_SUFFIX_${precision}}")
         bulletfem_in_precision(libs "${suffix}" ${ARG_LIBS})
-        bulletfem_test(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS} LIBS ${libs} LABEL ${ARG_LABEL} COST ${ARG_COST}
+        set(label ${ARG_LABEL})
+        if(ARG_SLOW_IN_DOUBLE AND precision STREQUAL float64)
+            set(label slow)
+        endif()
+        bulletfem_test(${name}${suffix} ${ARG_UNPARSED_ARGUMENTS} LIBS ${libs} LABEL ${label} COST ${ARG_COST}
             SUFFIX "${suffix}" KIND -bullet
             PRECOMPILE <BulletSoftBody/btSoftBody.h> <BulletSoftBody/btSoftRigidDynamicsWorld.h>
                 <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h> <btBulletDynamicsCommon.h>)

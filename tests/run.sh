@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs what is missing (Debian 12, as root or with sudo), builds everything and runs all tests.
-# Further arguments go to ctest: tests/run.sh -R SurfaceFile
+# Installs what is missing (Debian 12, as root or with sudo), builds everything and runs all tests but the slow ones, which
+# take as long again: tests/run.sh -L slow. Arguments go to ctest, in place of that: tests/run.sh -R SurfaceFile
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
@@ -35,5 +35,10 @@ case " $* " in
 *\ -[RE]* | *--tests-regex* | *--exclude-regex*) ;;
 *) export BULLETFEM_TEST_SUITES=1 ;;
 esac
-say "running the tests"
+if [ $# -eq 0 ]; then
+    say "running all tests but the slow ones, which tests/run.sh -L slow runs"
+    set -- -LE slow
+else
+    say "running the tests: ctest $*"
+fi
 ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)" "$@"
