@@ -310,8 +310,10 @@ void RandomProgram::readd()
 {
     btSoftBody* body = anySoft();
     m_world.take(*body);
-    if (one(2)) stepWorld(1, 1.0 / 60);
+    const bool away = one(2);  // in a step
+    if (away) stepWorld(1, 1.0 / 60);
     m_world.put(*body);
+    if (away) stepWorld(1, 1.0 / 60);  // puts back what was written to it
 }
 
 void RandomProgram::addRigid()
