@@ -328,5 +328,17 @@ TEST_F(Program, FiguresForPeopleHaveTheSameNames)
     for (const auto& [name, value] : told.items()) EXPECT_THAT(run.m_output, HasSubstr(name + " ")) << value;
 }
 
+TEST_F(Program, TellsHowManyThingsOfEachKindASceneHas)
+{
+    const auto scene = [this](const std::string& demo)
+    { return figures("info '" + std::string(BULLETFEM_SCENES) + "/../" + demo + "/" + demo + ".json'"); };
+    const json finger = scene("finger"), thrown = scene("throw");
+    EXPECT_GE(finger["actuators"], 1);
+    EXPECT_EQ(finger["springs"], 0);
+    EXPECT_GE(thrown["springs"], 1);
+    EXPECT_EQ(thrown["actuators"], 0);
+    EXPECT_EQ(finger["welds"], 0);
+}
+
 }  // namespace
 }  // namespace bullet_fem

@@ -159,7 +159,10 @@ struct InfoCommand
         m_figures.add("softBodies", scene.m_softBodies.size());
         m_figures.add("rigidBodies", scene.m_rigidBodies.size());
         m_figures.add("constraints", scene.m_constraints.size());
+        m_figures.add("welds", scene.m_welds.size());
         m_figures.add("forces", scene.m_forces.size());
+        m_figures.add("springs", scene.m_springs.size());
+        m_figures.add("actuators", scene.m_actuators.size());
     }
 
     void tellSurface(const SurfaceMesh& surface)
