@@ -313,7 +313,9 @@ void RandomProgram::readd()
     const bool away = one(2);  // in a step
     if (away) stepWorld(1, 1.0 / 60);
     m_world.put(*body);
-    if (away) stepWorld(1, 1.0 / 60);  // puts back what was written to it
+    if (!away) return;
+    stepWorld(1, 1.0 / 60);  // puts back what was written to it
+    removeRejected();
 }
 
 void RandomProgram::addRigid()
