@@ -3,7 +3,7 @@
 //
 // Compiled once for every instruction set; the processor chooses when the program runs. Every sum is taken in the order
 // of panel_kernels.cpp: along a row of M column by column; along a column of the panel one sum for every kN-th row, and
-// these as SumOfLanes adds them.
+// these as sumOfLanes() adds them.
 #include "fem/factor/batch_panel_kernels.h"
 
 #include <cstddef>

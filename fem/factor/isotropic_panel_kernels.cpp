@@ -88,7 +88,7 @@ struct IsotropicMultiplyTransposed
                 }
             }
         HWY_UNROLL(12)
-        for (int k = 0; k < 3 * C; ++k) m_out[3 * firstColumn + k] = hn::GetLane(hn::SumOfLanes(d, sum[k]));
+        for (int k = 0; k < 3 * C; ++k) m_out[3 * firstColumn + k] = sumOfLanes(sum[k]);
     }
 };
 

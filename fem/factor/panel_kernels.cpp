@@ -68,7 +68,7 @@ struct MultiplyTransposed
                 for (int c = 0; c < C; ++c) sum[c] = hn::MulAdd(hn::Load(d, values + c * kPanelLanes + h), row, sum[c]);
             }
         HWY_UNROLL(12)
-        for (int c = 0; c < C; ++c) m_out[firstColumn + c] = hn::GetLane(hn::SumOfLanes(d, sum[c]));
+        for (int c = 0; c < C; ++c) m_out[firstColumn + c] = sumOfLanes(sum[c]);
     }
 };
 

@@ -31,6 +31,20 @@ using V = hn::Vec<D>;
 constexpr int kN = static_cast<int>(hn::MaxLanes(D()));
 constexpr int kNodeLanes = 3 * kPanelLanes;  // of a node in a batch
 
+/// Sum of all lanes, the upper half added to the lower until one is left: (0 + 2) + (1 + 3), as batches add them. So
+/// does Highway's SumOfLanes, but for NEON, where neighbours come first.
+HWY_INLINE float sumOfLanes(V v)
+{
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (kN == 4)
+    {
+        v = hn::Add(v, hn::Shuffle1032(v));
+        return hn::GetLane(hn::Add(v, hn::Shuffle2301(v)));
+    }
+#endif
+    return hn::GetLane(hn::SumOfLanes(D(), v));
+}
+
 /// Calls run for the last chunk, of `width` columns: less than a whole one.
 template <int Width, int Unit, class Run>
 HWY_INLINE void runLastChunk(int width, int column, const float* values, const Run& run)
