@@ -197,6 +197,11 @@ std::vector<Tet> tetsOf(const btSoftBody& body)
     return tets;
 }
 
+bool hasElements(const btSoftBody& body, std::size_t nodes, const std::vector<Tet>& tets)
+{
+    return static_cast<std::size_t>(body.m_nodes.size()) == nodes && tetsOf(body) == tets;
+}
+
 RestPositions restPositionsOf(const btSoftBody& body, const std::vector<Tet>& tets)
 {
     RestPositions rest;

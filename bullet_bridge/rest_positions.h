@@ -23,6 +23,9 @@ struct RestPositions
 /// move the nodes, and leaves the tetrahedra's pointers behind.
 std::vector<Tet> tetsOf(const btSoftBody& body);
 
+/// True if the body has so many nodes, and these tetrahedra of them. Throws as tetsOf().
+bool hasElements(const btSoftBody& body, std::size_t nodes, const std::vector<Tet>& tets);
+
 /// The shape at the last initializeDmInverse, as far as it can be told from btSoftBody::Tetra::m_Dm_inverse: if all of
 /// these are finite and regular, in keeping with the elements' rest volumes (m_element_measure), and, walking from
 /// element to element, put every node in one place. Every connected piece is laid over its present place and turn, so

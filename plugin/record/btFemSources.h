@@ -11,8 +11,6 @@
 #include "bullet_fem/btFemReports.h"
 #include "bullet_fem/fem/factor/body_model.h"
 
-class btSoftBody;
-
 /// What a body that was baked is made of when it is set up.
 struct btFemBaked
 {
@@ -34,6 +32,3 @@ struct btFemDefinition
     double m_contactOffset = 0;           ///< [m]
     btFemDetail m_detail = btFemDetail::automatic;
 };
-
-/// True if the body still has the nodes and tetrahedra of the definition. Throws as tetsOf().
-bool isDefinedBy(const btSoftBody& body, const btFemDefinition& definition);

@@ -27,7 +27,7 @@ std::uint64_t markOfRestMatrices(const btSoftBody& body)
 
 bool hasElementsOf(const btSoftBody& body, const BodyModel& model)
 {
-    return body.m_nodes.size() == model.nodeCount() && tetsOf(body) == model.mesh().tets();
+    return hasElements(body, model.nodeCount(), model.mesh().tets());
 }
 
 }  // namespace
@@ -49,12 +49,6 @@ void useBaked(btFemBodyRegistry& registry, btSoftBody* body, const BakedBody& ba
     ready.m_asked.m_materialGiven = true;
     ready.m_asked.m_baked = std::make_shared<const btFemBaked>(btFemBaked{baked.m_model, markOfRestMatrices(*body)});
     record = std::move(ready);
-}
-
-bool isDefinedBy(const btSoftBody& body, const btFemDefinition& definition)
-{
-    return static_cast<std::size_t>(body.m_nodes.size()) == definition.m_restPositions.size() &&
-           tetsOf(body) == definition.m_tets;
 }
 
 bool isAsBaked(const btSoftBody& body, const btFemBaked& baked)

@@ -12,6 +12,7 @@
 #include "bullet_bridge/collision_skin.h"
 #include "bullet_bridge/face_tree.h"
 #include "bullet_bridge/node_exchange.h"
+#include "bullet_bridge/rest_positions.h"
 #include "bullet_bridge/shapes/rigid_dispatch.h"
 #include "bullet_bridge/soft_body_mesh.h"
 #include "bullet_bridge/split_soft_body.h"
@@ -123,12 +124,12 @@ std::shared_ptr<const RestShape> btFemBodySetUp::bakedShape(const btFemBodyRecor
 void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
 {
     btSoftBody& soft = *record.m_softBody;
-    if (record.m_asked.m_definition && !isDefinedBy(soft, *record.m_asked.m_definition))  // it was cut since
+    std::shared_ptr<const btFemDefinition>& defined = record.m_asked.m_definition;
+    if (defined && !hasElements(soft, defined->m_restPositions.size(), defined->m_tets))  // it was cut since
     {
-        record.m_asked.m_definition.reset();
+        defined.reset();
         record.m_model.m_wasChanged = true;
     }
-    const std::shared_ptr<const btFemDefinition> defined = record.m_asked.m_definition;
     const bool baked = canUseBaked(record);
     const std::vector<double> filled = filledFractionsOf(soft);
     const RestMesh rest = baked ? RestMesh{TetMesh(), vec3(soft.m_nodes[0].m_x), true} : restOf(record);

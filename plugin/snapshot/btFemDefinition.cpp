@@ -34,7 +34,7 @@ btFemDefinition definitionOf(const btFemBodyRegistry& registry, const btSoftBody
     if (record && record->isFem() && !btFemBodyRegistry::isAsBuilt(*record)) record = nullptr;  // it was cut
     const std::shared_ptr<const btFemDefinition> asked =
         record && !record->isFem() ? record->m_asked.m_definition : nullptr;
-    if (asked && isDefinedBy(soft, *asked)) return *asked;
+    if (asked && hasElements(soft, asked->m_restPositions.size(), asked->m_tets)) return *asked;
     btFemDefinition d;
     d.m_tets = tetsOf(soft);
     d.m_filled = filledFractionsOf(soft);
