@@ -93,9 +93,6 @@ function(bulletfem_test_flags program)
     # Tests call what is measured, they are not it: half the time to compile.
     target_compile_options(${program} PRIVATE
         $<$<AND:$<CONFIG:Release,RelWithDebInfo>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>)
-    if(BULLETFEM_SANITIZE MATCHES undefined) # likewise
-        target_compile_options(${program} PRIVATE -fno-sanitize=undefined)
-    endif()
     target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
     target_link_libraries(${program} PRIVATE ${ARGN} GTest::gtest GTest::gmock GTest::gtest_main)
 endfunction()

@@ -507,26 +507,7 @@ void RandomProgram::anchor()
     if (one(4) && body.m_anchors.size() > 0)
         body.removeAnchor(static_cast<int>(body.m_anchors[0].m_node - &body.m_nodes[0]));
     else if (m_fem.isFem(&body))
-    {
-        const int node = below(body.m_nodes.size());
-        btRigidBody* rigid = m_manner == Manner::gentle ? rigidNear(body.m_nodes[node].m_x) : anyRigid();
-        if (rigid) body.appendAnchor(node, rigid, one(2), btScalar(number(0, 1)));
-    }
-}
-
-// A game ties a body to what it touches, or nearly; in the air a lever without mass would hold it. Null: none is near.
-btRigidBody* RandomProgram::rigidNear(const btVector3& place)
-{
-    constexpr btScalar kReach = 1.5;  // of its bounding radius, from its centre
-    const auto near = [&place](const btRigidBody* rigid)
-    {
-        btVector3 center;
-        btScalar radius = 0;
-        rigid->getCollisionShape()->getBoundingSphere(center, radius);
-        return (rigid->getWorldTransform() * center).distance(place) < kReach * radius;
-    };
-    const auto found = std::find_if(m_rigid.begin(), m_rigid.end(), near);
-    return found == m_rigid.end() ? nullptr : *found;
+        body.appendAnchor(below(body.m_nodes.size()), anyRigid(), one(2), btScalar(number(0, 1)));
 }
 
 void RandomProgram::attach()

@@ -58,7 +58,6 @@ private:
     btTransform pose(double size);
     btSoftBody* anySoft();
     btRigidBody* anyRigid();
-    btRigidBody* rigidNear(const btVector3& place);
     btSoftBody::Node& anyNode(btSoftBody& body);
     int nodeOf(const btSoftBody& body);
     btScalar badNumber();
