@@ -132,9 +132,9 @@ constexpr double kFinestRest = 3e-6;  // but never finer than this [-]
 // stacks over. What falls, slides and tips finds other points in every step, and would take more sweeps for it.
 constexpr double kCalmGuess = 2e-2;
 
-// A guess that makes points close this many times faster than they do without it, or than loads make them, is none. So
-// is one that throws them apart so fast: what a heavy body pressed together in an impact is light.
-constexpr double kBadGuess = 5, kThrowingGuess = 50;
+// A guess that makes points close, or throws them apart, this many times faster than they close without it or than
+// loads make them is none.
+constexpr double kBadGuess = 5;
 
 // A step does not end with impulses that leave a larger error than there was to begin with, some 1, and this many times
 // that of its best round. A smaller one may be that of rounds in which the rows of others have come nearer.
@@ -262,7 +262,7 @@ void ContactSolver::guess()
     s.m_guessing = true;
     correct();
     s.m_guessing = false;
-    if (!(s.m_found.m_closing > kBadGuess * without || s.m_found.m_wanted > kThrowingGuess * without)) return;
+    if (!(std::max(s.m_found.m_closing, s.m_found.m_wanted) > kBadGuess * without)) return;
     s.m_rows.takeBack();
     s.m_error = 0;  // no loose solve
     correct();
