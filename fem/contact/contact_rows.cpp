@@ -77,6 +77,11 @@ int ContactRows::mover(const RowEnd& end) const
     return static_cast<int>(m_problem->m_bodies.size()) + end.m_rigidProxy;
 }
 
+bool ContactRows::movesRigid(const ContactRow& row) const
+{
+    return std::max(mover(row.m_a), mover(row.m_b)) >= static_cast<int>(m_problem->m_bodies.size());
+}
+
 Vec3 ContactRows::pointOf(std::size_t row) const
 {
     if (row < m_problem->m_contacts.size()) return m_problem->m_contacts[row].m_point;
@@ -189,16 +194,18 @@ RowSurvey ContactRows::survey()
                 const ContactRow& row = m_rows[k];
                 m_wants[k] = !rests(row);
                 if (!m_wants[k]) continue;
+                const double wanted = wantedSpeed(row);
                 double& largest = isSolvedAtOnce(row) ? ofPiece.m_joints : ofPiece.m_wanted;
-                largest = std::max(largest, wantedSpeed(row));
+                largest = std::max(largest, wanted);
+                if (!isSolvedAtOnce(row) && !movesRigid(row)) ofPiece.m_guessed = std::max(ofPiece.m_guessed, wanted);
                 ofPiece.m_closing = std::max(ofPiece.m_closing, violation(row, trueVelocity(row)));
             }
             found[p] = ofPiece;
         });
     RowSurvey all;
     for (const RowSurvey& piece : found)
-        all = {std::max(all.m_wanted, piece.m_wanted), std::max(all.m_joints, piece.m_joints),
-               std::max(all.m_closing, piece.m_closing)};
+        all = {std::max(all.m_wanted, piece.m_wanted), std::max(all.m_guessed, piece.m_guessed),
+               std::max(all.m_joints, piece.m_joints), std::max(all.m_closing, piece.m_closing)};
     return all;
 }
 

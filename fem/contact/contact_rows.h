@@ -19,6 +19,7 @@ namespace bullet_fem
 struct RowSurvey
 {
     double m_wanted = 0;   ///< by how much a contact alone wants to change the velocity of its point, at most
+    double m_guessed = 0;  ///< and one without a rigid proxy that can move
     double m_joints = 0;   ///< and a joint within its limits
     double m_closing = 0;  ///< how much faster than allowed a contact closes, at most
 };
@@ -67,6 +68,9 @@ public:
     /// What impulses on an end move, by number: bodies, then rigid proxies. -1: nothing.
     int mover(const RowEnd& end) const;
     std::size_t movers() const { return m_problem->m_bodies.size() + m_problem->m_rigidProxies.size(); }
+
+    /// True if a rigid proxy that can move is at one of its ends.
+    bool movesRigid(const ContactRow& row) const;
 
     /// Where a row other than a joint acts [m].
     Vec3 pointOf(std::size_t row) const;

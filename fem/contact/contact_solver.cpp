@@ -133,7 +133,8 @@ constexpr double kFinestRest = 3e-6;  // but never finer than this [-]
 constexpr double kCalmGuess = 2e-2;
 
 // A guess that makes points close, or throws them apart, this many times faster than they close without it or than
-// loads make them is none.
+// loads make them is none. Of points of rigid proxies that can move nothing is known yet: what they touch, which has no
+// guess, may hold them against it.
 constexpr double kBadGuess = 5;
 
 // A step does not end with impulses that leave a larger error than there was to begin with, some 1, and this many times
@@ -262,7 +263,7 @@ void ContactSolver::guess()
     s.m_guessing = true;
     correct();
     s.m_guessing = false;
-    if (!(std::max(s.m_found.m_closing, s.m_found.m_wanted) > kBadGuess * without)) return;
+    if (!(std::max(s.m_found.m_closing, s.m_found.m_guessed) > kBadGuess * without)) return;
     s.m_rows.takeBack();
     s.m_error = 0;  // no loose solve
     correct();
