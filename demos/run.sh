@@ -9,7 +9,7 @@ source "$root/cmake/install_packages.sh"
 source "$root/cmake/mesh_package.sh"
 
 mesh_in_archive=data/meshes/elephant.off
-build=$root/build/demo # of its own, so that neither script changes the options of the other's
+build=$root/build/release # as tests/run.sh has, which builds the rest
 mesh=$build/$mesh_in_archive
 
 install_packages "${build_packages[@]}" "${picture_packages[@]}"
@@ -20,8 +20,9 @@ if [ ! -s "$mesh" ]; then
 fi
 
 say "building in $build"
-(cd "$root" && cmake --preset release -B "$build" -DBULLETFEM_UNITY=8 -DBULLETFEM_BUILD_TESTS=OFF \
-    -DBULLETFEM_BUILD_BENCHMARKS=OFF)
+if [ ! -f "$build/build.ninja" ]; then # else with the options that it has
+    (cd "$root" && cmake --preset release -DBULLETFEM_UNITY=8 -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
+fi
 cmake --build "$build" --target bulletfem_drop bulletfem --parallel "$(nproc)"
 
 say "running the demo; its frames go to $root/out/drop unless --out says otherwise"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs what is missing (Debian 12, as root or with sudo), builds everything and runs all tests but the slow ones, which
-# take as long again: tests/run.sh -L slow. Arguments go to ctest, in place of that: tests/run.sh -R SurfaceFile
+# Installs what is missing (Debian 12, as root or with sudo), builds and runs all tests but the slow ones, which take longer:
+# tests/run.sh -L slow. Arguments go to ctest, in place of that, and everything is built: tests/run.sh -R SurfaceFile
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
@@ -20,8 +20,11 @@ if [ ! -d "$build/meshes/$meshes" ]; then
     extract_meshes "$build/meshes" "$meshes" || say "cannot get them: the test of cages of them will be skipped"
 fi
 
+everything=OFF
+[ $# -eq 0 ] || everything=ON
 say "building in $build"
-(cd "$root" && cmake --preset release -DBULLETFEM_UNITY=8)
+(cd "$root" && cmake --preset release -DBULLETFEM_UNITY=8 -DBULLETFEM_BUILD_TESTS=ON \
+    -DBULLETFEM_BUILD_SLOW_TESTS="$everything" -DBULLETFEM_BUILD_BENCHMARKS="$everything")
 cmake --build "$build" --parallel "$(nproc)"
 
 # One test asks the Khronos validator, which npm has; it is skipped, and says so, where that cannot be had.

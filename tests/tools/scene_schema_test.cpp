@@ -401,7 +401,7 @@ TEST_F(SceneSchema, TheMainDemosSceneIsRead)
     json scene = json::parse(file, nullptr, true, true);
     EXPECT_TRUE(isValid(scene));
     std::string& surface = scene["softBodies"][0]["mesh"]["surface"].get_ref<std::string&>();
-    EXPECT_EQ(surface, "../../build/demo/data/meshes/elephant.off");
+    EXPECT_EQ(surface, "../../build/release/data/meshes/elephant.off");
     surface = "cube.off";
     EXPECT_EQ(refusal(scene), "");
 }
