@@ -8,6 +8,7 @@
 #include "bullet_fem/fem/factor/body_model.h"
 #include "fem/common/aligned_array.h"
 #include "fem/factor/lane_gradients.h"
+#include "fem/factor/rigid_lanes.h"
 
 namespace bullet_fem
 {
@@ -41,6 +42,8 @@ private:
     std::vector<unsigned char> m_marked;         // per supernode
     AlignedFloats m_rightSide, m_scratch;        // kPanelLanes interleaved
     std::unique_ptr<LaneGradients> m_gradients;  // on the low-memory path, from the first solve on
+    std::unique_ptr<RigidLanes> m_rigid;         // where A0 has scaled masses: what rigid motions lack by that
+    double m_rigidShare = 0;                     // of them [-]
 };
 
 }  // namespace bullet_fem

@@ -14,8 +14,12 @@
 namespace bullet_fem
 {
 
-/// A0 = (1 + h alpha) M + (h^2 + h beta) K over all nodes [kg].
+/// A0 = s M + (h^2 + h beta) K over all nodes [kg]. s is 1 + h alpha, and more where K is so much larger that single
+/// precision would lose the masses: what the factor makes of rigid motions is then smaller by that.
 BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input);
+
+/// s of a model's A0 [-].
+double massScale(const BodyModel& model);
 
 /// The lower triangle of A's pattern over some nodes, ascending; position is a node's place among them, or -1.
 SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, const std::vector<int>& position);

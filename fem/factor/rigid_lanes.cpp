@@ -164,9 +164,9 @@ void RigidLanes::takeOut(float* velocities) const
     addMotions(m_found, -1, false, velocities);
 }
 
-void RigidLanes::add(float* velocities) const
+void RigidLanes::add(float* velocities, double share) const
 {
-    addMotions(m_taken, 1 / m_damped, false, velocities);
+    addMotions(m_taken, share / m_damped, false, velocities);
 }
 
 }  // namespace bullet_fem

@@ -13,10 +13,10 @@ namespace bullet_fem
 
 /// The rigid motions in A0^-1 in closed form, for kPanelLanes vectors over the factor's rows at a time. K does not see
 /// the rigid motions R of a connected piece that its fixed nodes allow: all, or where these are in one point or on one
-/// line, turns about that. So A0 R = (1 + h alpha) M R, and a right-hand side b makes R (R^T M R)^-1 R^T b / (1 + h
-/// alpha) of them. Beside the little that a stiff, light body yields that is so
-/// much that an iteration in single precision finds neither; and whatever it rounds off, a rigid motion makes much of.
-/// Allocates when it is made, never else.
+/// line, turns about that. So A0 R = (1 + h alpha) M R, its masses not scaled, and a right-hand side b makes
+/// R (R^T M R)^-1 R^T b / (1 + h alpha) of them. Beside the little that a stiff, light body yields that is so much that
+/// an iteration in single precision finds neither; and whatever it rounds off, a rigid motion makes much of. Allocates
+/// when it is made, never else.
 class RigidLanes
 {
 public:
@@ -29,8 +29,11 @@ public:
     /// Takes the rigid motions out of velocities.
     void takeOut(float* velocities) const;
 
-    /// Adds those that takeOff() has remembered to velocities that have none.
-    void add(float* velocities) const;
+    /// Remembers them alone.
+    void remember(const float* rightSides) { sum(rightSides, false, m_taken); }
+
+    /// Adds a share of those that are remembered to velocities that lack it.
+    void add(float* velocities, double share = 1) const;
 
 private:
     struct Piece
