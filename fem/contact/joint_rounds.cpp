@@ -104,7 +104,8 @@ void JointRounds::noteDirection()
     for (int k = 0; k < m_count; ++k)
         if (k != m_next) direction.add(-product(direction.m_left, m_directions[k].m_answer), m_directions[k]);
     const double square = direction.square();
-    const double unit = square > kSameDirection * whole ? 1 / std::sqrt(square) : 0;
+    // Between rounds that leave the same, rounding may make both negative.
+    const double unit = square > kSameDirection * std::fabs(whole) ? 1 / std::sqrt(square) : 0;
     for (std::vector<double>* values : {&direction.m_impulse, &direction.m_left, &direction.m_answer})
         for (double& value : *values) value *= unit;
     m_best.add(-product(m_best.m_left, direction.m_answer), direction);
