@@ -3,6 +3,7 @@
 #include "fem/factor/rest_factor.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -14,8 +15,9 @@ namespace bullet_fem
 namespace
 {
 
-// Of s times the masses to the stiffness of the same nodes. The node rotations, which differ a little, mix stiffness
-// into rigid motions, and rounding, 6e-8, does: the preconditioner must not make more of that than this allows.
+// Of s times the mass of the node with the least stiffness for its mass to that, so that no sliver decides. The node
+// rotations, which differ a little, mix stiffness into rigid motions, and rounding, 6e-8, does: the preconditioner must
+// not make more of that than this allows.
 constexpr double kLeastMass = 1e-6;  // [-]
 
 double dampedMass(const RestShape& shape, const FactorInput& input)
@@ -30,21 +32,20 @@ BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input)
     const double h = input.m_step, beta = shape.m_material.m_stiffnessDamping;
     BlockMatrix A0 = assembleRestStiffness(shape);
     for (Mat3& block : A0.m_block) block *= h * h + h * beta;
-    double scale = dampedMass(shape, input);
-    for (int i = 0; i < A0.nodeCount(); ++i)
-        scale = std::max(scale, kLeastMass * trace(A0.at(i, i)) / 3 / input.m_mass[i]);
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < A0.nodeCount(); ++i) least = std::min(least, trace(A0.at(i, i)) / 3 / input.m_mass[i]);
+    const double scale = std::max(dampedMass(shape, input), kLeastMass * least);
     for (int i = 0; i < A0.nodeCount(); ++i) A0.at(i, i) += Mat3::diagonal(scale * input.m_mass[i]);
     return A0;
 }
 
-// The largest entry on the diagonal over its mass is s and s / kLeastMass, if that is where s comes from.
+// The least entry on the diagonal over its mass is s and s / kLeastMass, if that is where s comes from.
 double massScale(const BodyModel& model)
 {
     const FactorInput& input = model.factorInput();
-    double largest = 0;
-    for (int i = 0; i < model.nodeCount(); ++i)
-        largest = std::max(largest, model.factor().diagonal(i) / input.m_mass[i]);
-    return std::max(dampedMass(model.shape(), input), largest * kLeastMass / (1 + kLeastMass));
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < model.nodeCount(); ++i) least = std::min(least, model.factor().diagonal(i) / input.m_mass[i]);
+    return std::max(dampedMass(model.shape(), input), least * kLeastMass / (1 + kLeastMass));
 }
 
 SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, const std::vector<int>& position)
