@@ -15,14 +15,14 @@ struct PullFactors
 {
     double m_step = 0;        ///< h [s]
     double m_ofVelocity = 0;  ///< s h [s]
-    double m_ofTurning = 0;   ///< (1 - s) c h [s]
+    double m_ofTurning = 0;   ///< e h [s], e = StepCoefficients::turningOfLength()
     double m_inMatrix = 0;    ///< c h^2 [s2]
 };
 
 /// What a body's actuators are in one step: linearized about the kick positions y. An actuator of the scalar q(x), with
 /// the gradient g = dq/dx, does to the nodes the force
 ///
-///     Q g,   Q = Q(q(y)) - kappa (s h g . v + c h g . dv - (1 - s) c h g . turning),   kappa = -dQ/dq >= 0
+///     Q g,   Q = Q(q(y)) - kappa (s h g . v + c h g . dv - e h g . turning),   kappa = -dQ/dq >= 0
 ///
 /// Q is the gauge pressure of a chamber, with kappa = p_absolute / V of a sealed gas, or minus the tension of a cable,
 /// with kappa its stiffness. So A gets c h^2 kappa g g^T, a positive semidefinite matrix of rank one, as the

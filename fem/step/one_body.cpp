@@ -243,8 +243,8 @@ private:
         for (Vec3& bi : b) bi *= m_settings.m_step;
     }
 
-    // w = (s h + beta) v, less (1 - s) (c h + beta) h w x (w x r): velocities that turn with the body are no strain.
-    // Actuators see them likewise, and add their forces to b.
+    // w = (s h + beta) v, less a share of h w x (w x r): velocities that turn with the body are no strain. Actuators
+    // see them likewise, and add their forces to b.
     void findViscous()
     {
         const double h = m_settings.m_step, beta = m_body.m_model->shape().m_material.m_stiffnessDamping;

@@ -23,6 +23,8 @@ constexpr double kInexact = 0.1;
 
 constexpr double kGentleStrain = 0.2;
 
+// By more than kGentleStrain: with L = G F^-1 of the path G, the change of Green's strain, sym(L) + L^T L / 2 in the
+// present shape, times F. To turn is no strain.
 bool isStrained(const Body& body, int e, double time, const std::vector<Vec3>& v, const std::vector<Vec3>* dv)
 {
     const Tet& tet = body.m_model->mesh().tets()[e];
@@ -31,9 +33,12 @@ bool isStrained(const Body& body, int e, double time, const std::vector<Vec3>& v
     const auto edge = [&tet](const std::vector<Vec3>& u, int a) { return u[tet[a]] - u[tet[0]]; };
     const auto change = [&](int a) { return dv ? edge(v, a) + edge(*dv, a) : edge(v, a); };
     const Mat3 F = Mat3::fromColumns(edge(x, 1), edge(x, 2), edge(x, 3)) * DmInverse;
-    const Mat3 G = time * (Mat3::fromColumns(change(1), change(2), change(3)) * DmInverse);
     const double most = kGentleStrain * std::min(1.0, determinant(F));
-    return !(most > 0 && squaredNorm(G) <= most * most);
+    if (!(most > 0)) return true;
+    const Mat3 G = time * (Mat3::fromColumns(change(1), change(2), change(3)) * DmInverse);
+    const Mat3 L = G * inverse(F);
+    const Mat3 strain = 0.5 * (L + transpose(L) + transpose(L) * L) * F;
+    return !(squaredNorm(strain) <= most * most);
 }
 
 }  // namespace
@@ -83,16 +88,14 @@ void QuasiNewton::correct(const ConjugateGradientStop& stop, SolveReport& report
     }
 }
 
-// (1 - s) h w x (w x r): velocities that turn with the body are no strain.
+// h w x (w x r): velocities that turn with the body are no strain.
 void QuasiNewton::findTurning()
 {
     StepScratch& scratch = m_body.m_workspace.scratch();
     std::vector<Vec3>& turning = scratch.m_newton.m_turning;
     std::fill(turning.begin(), turning.end(), Vec3());
-    const double share = 1 - StepCoefficients(m_settings, m_body).m_damping;
-    if (!(share > 0)) return;
-    scratch.m_momentum.addTurning(m_body, m_settings.m_step, turning);
-    for (Vec3& t : turning) t *= share;
+    if (StepCoefficients(m_settings, m_body).turningOfVelocity() > 0)
+        scratch.m_momentum.addTurning(m_body, m_settings.m_step, turning);
 }
 
 // r of the equation above, and A, at z.
@@ -106,9 +109,10 @@ double QuasiNewton::findResidual()
     std::vector<Vec3>&z = newton.m_position, &r = newton.m_residual, &w = newton.m_viscous;
     for (std::size_t i = 0; i < z.size(); ++i)
     {
-        const Vec3 dv = scratch.m_increment[i] - newton.m_turning[i];
-        z[i] = scratch.m_kickPosition[i] + h * (c.m_damping * state.m_v[i] + c.stiffness() * dv);
-        w[i] = beta * (state.m_v[i] + dv);
+        const Vec3 &dv = scratch.m_increment[i], &turning = newton.m_turning[i];
+        z[i] = scratch.m_kickPosition[i] +
+               h * (c.m_damping * state.m_v[i] + c.stiffness() * dv - c.turningOfLength() * turning);
+        w[i] = beta * (state.m_v[i] + dv - c.turningOfVelocity() * turning);
         r[i] = {};
     }
     prepareWarpedSystem(m_body, m_settings, z, w, r);

@@ -16,13 +16,14 @@ bool isViolent(const Body& body, double time, const std::vector<Vec3>& v, const 
 
 /// Where elements have a law that is not linear, the step's one linear solve is the first quasi-Newton iteration on
 ///
-///     (1 + h alpha) M dv = b_0 + h f(z) - h beta K' (v + dv - (1 - s) h w x (w x r)),
-///     z = y + h (s v + c dv - (1 - s) c h w x (w x r)),    b_0: loads, damping by mass, predicted impulses
+///     (1 + h alpha) M dv = b_0 + h f(z) - h beta K' (v + dv - t h w x (w x r)),
+///     z = y + h (s v + c dv - e h w x (w x r)),    b_0: loads, damping by mass, predicted impulses
 ///
-/// and this adds at most kMostCorrections more, each A d = r with A taken at z, over the same factor. They end when |r|
-/// is at most kLeftShare of |b|. Each is followed by a line search on the energy [Bonet & Wood 2008, 9.6.2]: d . r is
-/// minus the slope of kinetic, elastic and load's energy along d, and where it has turned to less than minus half of
-/// what it was, a secant step goes back to where it is zero.
+/// with e and t of StepCoefficients, turningOfLength() and turningOfVelocity(). This adds at most kMostCorrections
+/// more, each A d = r with A taken at z, over the same factor. They end when |r| is at most kLeftShare of |b|. Each is
+/// followed by a line search on the energy [Bonet & Wood 2008, 9.6.2]: d . r is minus the slope of kinetic, elastic and
+/// load's energy along d, and where it has turned to less than minus half of what it was, a secant step goes back to
+/// where it is zero.
 class QuasiNewton
 {
 public:

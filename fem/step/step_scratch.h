@@ -33,7 +33,7 @@ struct QuasiNewtonScratch
     /// 1 in a step that would carry elements too far before their forces are known, else 0: as of the loads [-].
     double m_leastDamping = 0;
     std::vector<Vec3> m_loads;      ///< b_0, written by the free motion [kg m/s]
-    std::vector<Vec3> m_turning;    ///< (1 - s) h w x (w x r) [m/s]
+    std::vector<Vec3> m_turning;    ///< h w x (w x r) [m/s]
     std::vector<Vec3> m_position;   ///< z [m]
     std::vector<Vec3> m_viscous;    ///< what K' acts on besides [m]
     std::vector<Vec3> m_residual;   ///< r [kg m/s]
