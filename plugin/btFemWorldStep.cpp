@@ -22,10 +22,7 @@ btFemWorldStep::btFemWorldStep(const btFemSolverInfo& info, btFemBodyRegistry& r
       m_refactoring(info),
       m_freeMotion(info, m_threads, m_batchMemory.get(),
                    [this](btFemBodyRecord& record, const FreeMotion& motion)
-                   {
-                       btFemDetailChooser::judge(record, motion.m_report);
-                       if (!motion.m_settings.m_direct) m_refactoring.note(record, motion.m_report.m_iterations);
-                   }),
+                   { m_refactoring.note(record, motion.m_report.m_iterations); }),
       m_group(info, m_threads, m_batchMemory.get())
 {
 }

@@ -26,12 +26,12 @@ public:
 
 /// From interest to detail: nodalWarp, oneIteration or direct. A body rises as soon as its interest reaches a level. It
 /// sinks when its interest is below the level's lower bound and it has been there for m_dwell: once in that time at
-/// most, whatever its interest does. Bodies that bend so much that one iteration leaves a residual above 5 % rise a
-/// level for m_dwell, too, and so do those whose factor is stale: details do not show when they change.
+/// most, whatever its interest does. On every level no step leaves a residual above 5 %, whatever iterations that takes
+/// of bodies that bend far or whose factor is stale: details do not show when they change.
 struct BULLETFEM_API btFemDetailPolicy
 {
     btScalar m_fullFrom = btScalar(0.5);      ///< interest from which on a body is iterated to the tolerance [-]
-    btScalar m_fullUntil = btScalar(0.4);     ///< below it one iteration is enough [-], in [0, m_fullFrom]
+    btScalar m_fullUntil = btScalar(0.4);     ///< below it a residual of 5 % is enough [-], in [0, m_fullFrom]
     btScalar m_reducedFrom = btScalar(0.2);   ///< interest from which on it is worth one rotation a node [-]
     btScalar m_reducedUntil = btScalar(0.1);  ///< below it direct mode is enough [-], in [0, m_reducedFrom]
     btScalar m_dwell = btScalar(0.5);         ///< simulated time in a level before a body sinks [s], in [0, 3600]

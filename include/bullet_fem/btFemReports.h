@@ -14,8 +14,8 @@ enum class btFemDetail
 {
     nodalWarp,     ///< one rotation a node
     globalWarp,    ///< the body's one rotation, as in the paper; for nearly rigid bodies
-    direct,        ///< the body's one rotation and one iteration a step, for bodies nobody looks at
-    oneIteration,  ///< one rotation a node and one iteration a step, for bodies that few look at
+    direct,        ///< globalWarp to a residual of 5 %: mostly one iteration, for bodies nobody looks at
+    oneIteration,  ///< nodalWarp to a residual of 5 %: mostly one iteration, for bodies that few look at
     automatic      ///< by btFemSoftBodySolver::setInterest, nodalWarp without that; the default. Never in a report
 };
 

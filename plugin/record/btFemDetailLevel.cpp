@@ -27,13 +27,6 @@ void btFemDetailLevel::update(double interest, double step, const btFemDetailPol
     m_begun = true;
 }
 
-void btFemDetailLevel::raise()
-{
-    if (m_level == 2) return;
-    ++m_level;
-    m_seconds = 0;
-}
-
 btFemDetail btFemDetailLevel::detail() const
 {
     return m_level == 2 ? btFemDetail::nodalWarp : m_level == 1 ? btFemDetail::oneIteration : btFemDetail::direct;

@@ -13,9 +13,6 @@ public:
     /// sets the level as it stands.
     void update(double interest, double step, const btFemDetailPolicy& policy);
 
-    /// A level up, for a dwell at least: the present one was not good enough.
-    void raise();
-
     /// nodalWarp, oneIteration or direct; nodalWarp before the first interest.
     btFemDetail detail() const;
 

@@ -20,10 +20,6 @@ public:
     /// report.
     void choose(btFemBodyRecord& record, double step) const;
 
-    /// After its free motion was solved so: raises a body that is too far from the solution. Different bodies may be
-    /// judged by different threads.
-    static void judge(btFemBodyRecord& record, const bullet_fem::SolveReport& solved);
-
 private:
     btFemInterest* m_interest = nullptr;
     btFemDetailPolicy m_policy;

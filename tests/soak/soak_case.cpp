@@ -41,8 +41,8 @@ std::string gentleFaultOf(const btFemSoftBodySolver& fem, const btSoftBody& body
     if (!body.isActive()) return "";
     const int flags = fem.stepReport(&body).m_flags;
     if (flags & ~(kTellsOfWork | kTellsOfCrushing)) return message("flags 0x", std::hex, flags, " want a reason");
-    if (flags & kTellsOfCrushing) return "";
     if (fastestNode(body) > kFastest) return message("a node is as fast as ", fastestNode(body), " m/s");
+    if (flags & kTellsOfCrushing) return "";
     if (flags & BT_FEM_CONTACT_LIMIT) return "";  // what it has no contacts for goes into the floor
     if (massOf(body) > 0 && centerOf(body).z < 0) return message("its centre is at z = ", centerOf(body).z, " m");
     return "";

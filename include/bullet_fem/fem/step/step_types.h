@@ -26,7 +26,7 @@ struct StepSettings
     int m_maxIterations = 100;  ///< conjugate gradient iterations a solve, >= 1
     /// Which rotations turn the factor.
     Warp m_warp = Warp::nodal;
-    bool m_direct = false;  ///< one iteration, whatever the residual: the paper's mode for unimportant bodies
+    bool m_direct = false;  ///< one iteration, whatever the residual: the paper's mode. Stiff bodies can gain energy
     bool m_tension = true;  ///< keep the tensile geometric stiffness in A; off only to compare with references
     bool m_momentumCorrection = true;  ///< restore the momentum that the impulses prescribe on unpinned pieces
     /// Who shares the work on a body of some thousand elements; null: the caller's thread alone. The bits of the result
