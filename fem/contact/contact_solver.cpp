@@ -369,6 +369,7 @@ ContactReport ContactSolver::finish()
     {
         s.m_jointRounds.takeBest();
         correct();
+        goBack();  // what they were to leave was told by rounds in which contacts had other impulses
     }
     s.m_report.m_converged = s.m_report.m_converged && errorOfJoints() <= kUnsolvedJoints;
     s.m_report.m_violation = s.m_rows.store();
