@@ -37,7 +37,7 @@ void btFemBodyRegistry::numberRecords()
 btFemBodyRecord* btFemBodyRegistry::find(const btSoftBody* body) const
 {
     const std::size_t k = indexOf(body);
-    return k < m_records.size() ? m_records[k].get() : nullptr;
+    return k < m_records.size() && !isAnother(k, *body) ? m_records[k].get() : nullptr;
 }
 
 btFemBodyRecord& btFemBodyRegistry::record(btSoftBody* body)

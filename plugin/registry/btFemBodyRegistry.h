@@ -20,7 +20,7 @@ class Threads;
 class btFemBodyRegistry
 {
 public:
-    /// Null if it is not known.
+    /// Null if it is not known, be it that a body which is known had its address before.
     btFemBodyRecord* find(const btSoftBody* body) const;
 
     /// The record of a body, made if there is none. Throws std::invalid_argument on null.

@@ -130,6 +130,26 @@ TEST_P(Lifecycle, ABodyAtTheAddressOfADeletedOneComesLastAsAtAnyOther)
     EXPECT_TRUE(bits[0] == bits[1]);
 }
 
+TEST_P(Lifecycle, ABodyAtTheAddressOfADeletedOneHasNoneOfItsReports)
+{
+    FemWorld world(GetParam());
+    const btFemSoftBodySolver& fem = world.fem();
+    world.addPlane();
+    const std::unique_ptr<btSoftBody> below(makeCube(world, btVector3(0, 0, btScalar(0.51))));
+    btSoftBody* brief = makeInPlace(world, *below, 1);
+    world.step(30);
+    ASSERT_GT(fem.contacts(brief).size(), 0);
+    world.take(*brief);
+    brief->~btSoftBody();
+    btSoftBody* late = makeInPlace(world, *below, 1);
+    ASSERT_EQ(late, brief);
+    EXPECT_FALSE(fem.isFem(late));
+    EXPECT_EQ(fem.contacts(late).size(), 0);
+    EXPECT_EQ(fem.stepReport(late).m_nodes, 0);
+    world.take(*late);
+    late->~btSoftBody();
+}
+
 // The next world gives out the same broadphase ids, and may itself be at the address of the last.
 TEST_P(LifecycleOfWorlds, AnotherBodyAtTheSameAddressInTheNextWorldIsKnownAsAnother)
 {
