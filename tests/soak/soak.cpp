@@ -4,6 +4,7 @@
 // Random programs in all worlds, couplings and manners, for as long as one likes. What fails is made small and told
 // with the command that repeats it.
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <map>
 #include <sstream>
@@ -20,6 +21,14 @@
 namespace
 {
 using namespace bullet_fem;
+
+// By SIGINT or SIGTERM: the program that runs is the last one.
+volatile std::sig_atomic_t isEnding = 0;
+
+void endSoon(int)
+{
+    isEnding = 1;
+}
 
 struct Options
 {
@@ -80,7 +89,7 @@ void tell(SoakCase soak, const SoakOutcome& outcome, const Options& options)
         soak.m_acts = acts;
         return !runCase(soak, options).m_fault.empty();
     };
-    const std::vector<int> few = minimise(soak.m_acts, fails, kMostRuns);
+    const std::vector<int> few = isEnding ? soak.m_acts : minimise(soak.m_acts, fails, kMostRuns);
     soak.m_acts = few;
     std::printf("  with %zu acts: %s\n  bulletfem_soak --program %u --only %s\n", few.size(),
                 runCase(soak, options).m_fault.c_str(), soak.m_number, listed(few).c_str());
@@ -92,7 +101,10 @@ bool soakAll(const Options& options)
     const auto begin = std::chrono::steady_clock::now();
     Sums all;
     std::map<std::string, Sums> kinds;
-    for (unsigned k = options.m_first; secondsSince(begin) < options.m_seconds && all.m_steps < options.m_steps; ++k)
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, endSoon);
+    const auto goesOn = [&]
+    { return !isEnding && secondsSince(begin) < options.m_seconds && all.m_steps < options.m_steps; };
+    for (unsigned k = options.m_first; goesOn(); ++k)
     {
         const SoakCase soak = soakCase(k, options.m_acts);
         const SoakOutcome outcome = runCase(soak, options);
@@ -142,7 +154,9 @@ int main(int argc, char** argv)
     app.add_option("--limit", options.m_mostSeconds, "a program that takes more processor time is a fault [s]")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    app.footer("Exit code 0 if no program failed, 1 if one did, 2 on bad usage.");
+    app.footer(
+        "SIGINT (Ctrl-C) and SIGTERM end it after the program that runs, with its sums.\n"
+        "Exit code 0 if no program failed, 1 if one did, 2 on bad usage.");
     try
     {
         app.parse(argc, argv);

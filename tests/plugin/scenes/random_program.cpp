@@ -393,9 +393,13 @@ void RandomProgram::remove(btRigidBody* body)
 void RandomProgram::throwRigid()
 {
     btRigidBody* body = anyRigid();
-    const double fast = m_manner == Manner::gentle ? kThrown : 300;
-    body->setLinearVelocity(vector(logarithmic(0.1, fast)));
-    body->setAngularVelocity(vector(logarithmic(0.1, fast)));
+    const bool gentle = m_manner == Manner::gentle;
+    const double fast = gentle ? kThrown : 300;
+    const btVector3 velocity = vector(logarithmic(0.1, fast)), spin = vector(logarithmic(0.1, fast));
+    // A static one stays, and pushes what it touches without end.
+    const bool stays = gentle && body->isStaticObject();
+    body->setLinearVelocity(stays ? btVector3(0, 0, 0) : velocity);
+    body->setAngularVelocity(stays ? btVector3(0, 0, 0) : spin);
     if (bad(4)) body->setWorldTransform(btTransform(btQuaternion::getIdentity(), place()));
     body->activate(true);
 }
