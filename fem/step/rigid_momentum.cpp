@@ -129,6 +129,8 @@ void RigidMomentum::prescribe(const Body& body, double step)
                     Vec3 force = body.m_loads.m_force[i] - alpha * p;
                     if (toFrame > 0) force += toFrame * (s.m_mass[i] * body.m_loads.m_frameVelocity[i] - p);
                     const Vec3 prescribed = p + share * force - s.m_mass[i] * component.m_carried;
+                    if (component.m_pivot >= 0)
+                        component.m_angularBefore += cross(r, p - s.m_mass[i] * component.m_carried);
                     component.m_linear += prescribed;
                     component.m_angular += cross(r, prescribed);
                     component.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
@@ -230,7 +232,8 @@ void RigidMomentum::addTurning(const Body& body, double step, std::vector<Vec3>&
     {
         const Component& component = m_components[componentOf[i]];
         if (!component.m_isMovable) continue;
-        const Vec3 w = component.m_inverseInertia * component.m_angular;
+        const Vec3 mean = 0.5 * (component.m_angularBefore + component.m_angular);
+        const Vec3 w = component.m_inverseInertia * (component.m_pivot < 0 ? component.m_angular : mean);
         change[i] += step * cross(w, cross(w, x[i] - component.m_center));
     }
 }

@@ -34,7 +34,8 @@ public:
     void restore(const Body& body, std::vector<Vec3>& velocity);
 
     /// Adds h w x (w x r) to the nodes of movable components: how their velocities turn in a step, with the angular
-    /// velocity w that the prescription makes.
+    /// velocity w that the prescription makes; of what hangs on fixed nodes, and so gets faster and slower by its
+    /// weight, with that of the middle of the step.
     void addTurning(const Body& body, double step, std::vector<Vec3>& change) const;
 
     /// Takes the rigid motion out of a change of velocities, so that no movable component gets momentum by it at the
@@ -71,6 +72,7 @@ private:
         Vec3 m_axis;               // to the farthest fixed node [m]
         Vec3 m_carried;            // velocity of the fixed nodes, which its momenta are relative to [m/s]
         Vec3 m_linear, m_angular;  // prescribed [kg m/s], [kg m2/s]
+        Vec3 m_angularBefore;      // before the loads, of what hangs on fixed nodes
         Mat3 m_inverseInertia;     // [1/(kg m2)]; zero where the component has collapsed to a point
         Vec3 m_linearVelocity, m_angularVelocity;
     };

@@ -112,5 +112,43 @@ INSTANTIATE_TEST_SUITE_P(Bars, Swinging,
                                     (std::get<2>(suite.param) < 0.02 ? "_60_Hz" : "_25_Hz");
                          });
 
+// A stiff, light box of some centimetres on one pin, which turns by up to half a radian in a step.
+class Pendulum : public testing::TestWithParam<std::tuple<double, double>>  // size [m], stiffness damping [s]
+{
+};
+
+// What the material's damping, or the step, takes for strain while it gets faster makes it shorter below and longer
+// above, as a swing is pumped: from .1 m and .02 s on, it got without bound faster.
+TEST_P(Pendulum, IsNotPumped)
+{
+    const auto& [size, damping] = GetParam();
+    for (const int pin : {0, 3, 5, 10})
+    {
+        btFemSoftBodySolver fem;
+        SoftWorld world(fem);
+        btSoftBody* box = btFemHelpers::createBox(world.info(), btVector3(0, 0, 0),
+                                                  btScalar(size) * btVector3(1, btScalar(0.6), btScalar(0.35)),
+                                                  btScalar(0.34 * size));
+        btFemMaterial material;
+        material.m_youngModulus = btScalar(3.3e7);
+        material.m_poissonRatio = btScalar(0.39);
+        material.m_density = 72;
+        material.m_stiffnessDamping = btScalar(damping);
+        fem.setMaterial(box, material);
+        ASSERT_LT(pin, box->m_nodes.size());
+        box->setMass(pin, 0);
+        world.addSoft(box);
+        const double weight = massOf(*box) * kGravity, height = centerOf(*box).z;
+        for (int k = 0; k < 900; ++k)
+        {
+            world.step();
+            const double gained = motionOf(*box).m_energy + weight * (centerOf(*box).z - height);
+            ASSERT_LT(gained, 0.05 * weight * size) << "pin " << pin << ", step " << k;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, Pendulum, testing::Combine(testing::Values(0.05, 0.1), testing::Values(0, 0.02, 0.08)));
+
 }  // namespace
 }  // namespace bullet_fem
