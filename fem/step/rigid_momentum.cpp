@@ -232,8 +232,9 @@ void RigidMomentum::addTurning(const Body& body, double step, std::vector<Vec3>&
     {
         const Component& component = m_components[componentOf[i]];
         if (!component.m_isMovable) continue;
-        const Vec3 mean = 0.5 * (component.m_angularBefore + component.m_angular);
-        const Vec3 w = component.m_inverseInertia * (component.m_pivot < 0 ? component.m_angular : mean);
+        const bool hangs = component.m_pivot >= 0;
+        const Vec3 L = hangs ? 0.5 * (component.m_angularBefore + component.m_angular) : component.m_angular;
+        const Vec3 w = component.m_inverseInertia * L;
         change[i] += step * cross(w, cross(w, x[i] - component.m_center));
     }
 }

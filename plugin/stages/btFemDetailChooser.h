@@ -3,8 +3,6 @@
 #pragma once
 
 #include "bullet_fem/btFemInterest.h"
-#include "bullet_fem/btFemReports.h"
-#include "bullet_fem/fem/step/step_types.h"
 
 struct btFemBodyRecord;
 

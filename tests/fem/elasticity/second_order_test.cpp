@@ -212,7 +212,6 @@ TEST_P(SecondOrderSpin, KeepsTheLengthOfStiffBars)
     for (const double spin : {6.0, 11.0, 20.0})
         for (const ElasticLaw law : {ElasticLaw::hooke, ElasticLaw::neoHooke})
         {
-            continue;  // turns by more than a fifth: s = 1 (docs/theory.md)
             StepSettings settings;
             settings.m_numericalDamping = 0;
             Material material = elasticMaterial(1e9, .3);
@@ -223,14 +222,15 @@ TEST_P(SecondOrderSpin, KeepsTheLengthOfStiffBars)
             BodyState& s = body.m_state;
             for (std::size_t i = 0; i < s.m_x.size(); ++i) s.m_v[i] = cross({0, 0, spin}, s.m_x[i]);
             const double start = kineticEnergy(s), length = norm(s.m_x.back() - s.m_x.front());
-            const double turned = spin * settings.m_step;
+            // What is left is of fourth order in the angle of a step, and grows with the damping.
+            const double left = std::pow(spin * settings.m_step, 4) * (1 + GetParam() / settings.m_step);
             for (int k = 0; k < 600; ++k)
             {
                 step(body, settings);
-                ASSERT_NEAR(norm(s.m_x.back() - s.m_x.front()) / length, 1, 0.06 * turned * turned)
-                    << spin << " rad/s, step " << k;
+                ASSERT_NEAR(norm(s.m_x.back() - s.m_x.front()) / length, 1, 1.2 * left) << spin << " rad/s, step " << k;
+                ASSERT_LE(kineticEnergy(s), (1 + 1e-6) * start) << spin << " rad/s, step " << k;
             }
-            EXPECT_NEAR(kineticEnergy(s) / start, 1, 0.12 * turned * turned) << spin << " rad/s";
+            EXPECT_GE(kineticEnergy(s) / start, 1 - 2.4 * left) << spin << " rad/s";
         }
 }
 
