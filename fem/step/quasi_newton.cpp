@@ -94,8 +94,7 @@ void QuasiNewton::findTurning()
     StepScratch& scratch = m_body.m_workspace.scratch();
     std::vector<Vec3>& turning = scratch.m_newton.m_turning;
     std::fill(turning.begin(), turning.end(), Vec3());
-    if (StepCoefficients(m_settings, m_body).turningOfVelocity() > 0)
-        scratch.m_momentum.addTurning(m_body, m_settings.m_step, turning);
+    scratch.m_momentum.addTurning(m_body, m_settings.m_step, turning);
 }
 
 // r of the equation above, and A, at z.
@@ -112,7 +111,7 @@ double QuasiNewton::findResidual()
         const Vec3 &dv = scratch.m_increment[i], &turning = newton.m_turning[i];
         z[i] = scratch.m_kickPosition[i] +
                h * (c.m_damping * state.m_v[i] + c.stiffness() * dv - c.turningOfLength() * turning);
-        w[i] = beta * (state.m_v[i] + dv - c.turningOfVelocity() * turning);
+        w[i] = beta * (state.m_v[i] + dv - StepCoefficients::kTurningOfVelocity * turning);
         r[i] = {};
     }
     prepareWarpedSystem(m_body, m_settings, z, w, r);

@@ -19,7 +19,7 @@ bool isViolent(const Body& body, double time, const std::vector<Vec3>& v, const 
 ///     (1 + h alpha) M dv = b_0 + h f(z) - h beta K' (v + dv - t h w x (w x r)),
 ///     z = y + h (s v + c dv - e h w x (w x r)),    b_0: loads, damping by mass, predicted impulses
 ///
-/// with e and t of StepCoefficients, turningOfLength() and turningOfVelocity(). This adds at most kMostCorrections
+/// with e and t of StepCoefficients, turningOfLength() and kTurningOfVelocity. This adds at most kMostCorrections
 /// more, each A d = r with A taken at z, over the same factor. They end when |r| is at most kLeftShare of |b|. Each is
 /// followed by a line search on the energy [Bonet & Wood 2008, 9.6.2]: d . r is minus the slope of kinetic, elastic and
 /// load's energy along d, and where it has turned to less than minus half of what it was, a secant step goes back to

@@ -34,10 +34,11 @@ struct StepCoefficients
     double smoothing() const { return 2 * kLeast * (1 - m_damping); }       ///< d, of what the step does not resolve
 
     /// What a body that turns by phi = h w a step does with K' although it keeps its shape, in shares of h w x (w x r):
-    /// its nodes go along chords. With s = 0, y is longer than x by phi^2 / 8, v grows by h w^2 / 2 as y sees it, and
-    /// dv is -h w^2: so c - 1/8 of the length and 1 - 1/2 of the velocity v + dv are no strain. Euler goes without.
+    /// its nodes go along chords. v grows by h w^2 / 2 as y sees it, and dv is -h w^2: so 1 - 1/2 of the velocity
+    /// v + dv is no strain. With s = 0, y is longer than x by phi^2 / 8, and c - 1/8 of the length is none; Euler's
+    /// step goes without the latter.
     double turningOfLength() const { return (1 - m_damping) * (kLeast - 0.125); }
-    double turningOfVelocity() const { return (1 - m_damping) * 0.5; }
+    static constexpr double kTurningOfVelocity = 0.5;
 
     static constexpr double kLeast = 0.375;
 };
@@ -48,7 +49,7 @@ struct ViscousShares
 {
     ViscousShares(const StepCoefficients& step, double h, double beta)
         : m_ofVelocity(step.m_damping * h + beta),
-          m_ofTurning(step.turningOfLength() * h + step.turningOfVelocity() * beta)
+          m_ofTurning(step.turningOfLength() * h + StepCoefficients::kTurningOfVelocity * beta)
     {
     }
 

@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <numeric>
 
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/stepping_scenes.h"
@@ -97,8 +99,31 @@ protected:
                 textbookElementStiffness(corners, material) * flat({corners.begin(), corners.end()});
             for (int a = 0; a < 4; ++a) elastic.segment<3>(3 * t[a]) += dense(R[e]) * f.segment<3>(3 * a);
         }
-        const Eigen::VectorXd v = flat(m_body.m_state.m_v);
-        m_b = h * (flat(m_body.m_loads.m_force) + elastic - alpha * M.cwiseProduct(v) - (h + beta) * (K * v));
+        const Eigen::VectorXd v = flat(m_body.m_state.m_v), w = (h + beta) * v - 0.5 * beta * h * turning(alpha);
+        m_b = h * (flat(m_body.m_loads.m_force) + elastic - alpha * M.cwiseProduct(v) - K * w);
+    }
+
+    // omega x (omega x r) with the angular velocity that the loads leave a body that turns freely.
+    Eigen::VectorXd turning(double alpha) const
+    {
+        const BodyState& s = m_body.m_state;
+        const double mass = std::accumulate(s.m_mass.begin(), s.m_mass.end(), 0.0);
+        std::vector<Vec3> turned(s.m_x.size());
+        if (GetParam().m_clamped) return flat(turned);
+        Vec3 center, momentum;
+        for (std::size_t i = 0; i < s.m_x.size(); ++i) center += (s.m_mass[i] / mass) * s.m_x[i];
+        Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+        for (std::size_t i = 0; i < s.m_x.size(); ++i)
+        {
+            const Vec3 r = s.m_x[i] - center;
+            const double h = m_settings.m_step;
+            momentum += (1 / (1 + h * alpha)) * cross(r, s.m_mass[i] * s.m_v[i] + h * m_body.m_loads.m_force[i]);
+            inertia += s.m_mass[i] * dense(Mat3::diagonal(dot(r, r)) - outer(r, r));
+        }
+        const Eigen::Vector3d spin = inertia.inverse() * Eigen::Vector3d(momentum.x, momentum.y, momentum.z);
+        const Vec3 omega = {spin(0), spin(1), spin(2)};
+        for (std::size_t i = 0; i < s.m_x.size(); ++i) turned[i] = cross(omega, cross(omega, s.m_x[i] - center));
+        return flat(turned);
     }
 
     Body m_body = GetParam().m_clamped ? clampedBeam() : freeBlock();

@@ -114,7 +114,9 @@ TEST_P(CubeAtRest, GoesOnWithFewIterationsAndFallsOnceItsGroundIsGone)
     EXPECT_LT(iterations, 60);  // two a step where it is not expected
     world.world().removeRigidBody(&ground);
     world.step(1, h);
-    EXPECT_NEAR(velocityOf(cube).z, -kGravity * double(h), 1e-6);
+    // [m/s]; in single precision cubes that fell from 96 heights missed by 5e-7 (root mean square), the worst by 2.2e-6
+    const double rounding = sizeof(btScalar) == 4 ? 3e-6 : 1e-6;
+    EXPECT_NEAR(velocityOf(cube).z, -kGravity * double(h), rounding);
 }
 
 class CubeFarFromTheOrigin : public testing::TestWithParam<Ground>
