@@ -250,6 +250,32 @@ TEST(DemoScenes, TheSpecimensPartAtTheSamePull)
     EXPECT_NEAR(pull / bears / figureOf("tensile", 2.2, "whole: pull / strength x area"), 1, 0.05);
 }
 
+// Which toy lies where hangs on how each is turned.
+TEST(DemoScenes, TheCrowdFillsThePit)
+{
+    DemoScene scene("crowd");
+    ASSERT_EQ(scene.m_world.softCount(), 100);
+    scene.until(4);
+    double carried = 0, weight = 0, farthest = 0;
+    const int samples = 60;
+    for (int k = 0; k < samples; ++k)
+    {
+        scene.m_world.step();
+        for (int i = 0; i < scene.m_world.softCount(); ++i)
+            for (int j = 0; j < scene.m_world.rigidCount(); ++j)
+                carried +=
+                    double(scene.m_world.fem().contactForce(&scene.m_world.soft(i), &scene.m_world.rigid(j)).y());
+    }
+    for (int i = 0; i < scene.m_world.softCount(); ++i)
+    {
+        const Vec3 centre = scene.centre("bear." + std::to_string(i));
+        weight += double(scene.m_world.soft(i).getTotalMass()) * 9.81;
+        farthest = std::max({farthest, std::abs(centre.x), std::abs(centre.z)});
+    }
+    EXPECT_NEAR(carried / samples / weight, 1, 0.03);
+    EXPECT_NEAR(farthest / figureOf("crowd", 5, "farthest centre from the middle"), 1, 0.05);
+}
+
 TEST(DemoScenes, TheTowerStandsAsHigh)
 {
     DemoScene scene("tower");

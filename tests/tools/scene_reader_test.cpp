@@ -284,6 +284,28 @@ TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
     EXPECT_TRUE(scene.m_coupled);
 }
 
+TEST_F(SceneReader, MakesCopiesOnAGridThatAreTurnedAlikeInEveryRun)
+{
+    const SceneDescription scene = parse(otherScene()), again = parse(otherScene());
+    ASSERT_EQ(scene.m_softBodies.size(), 11u);
+    ASSERT_EQ(scene.m_rigidBodies.size(), 5u);
+    Vec3 ways;  // that the copies' y axes point
+    for (int k = 0; k < 6; ++k)
+    {
+        const SceneSoftBody &copy = scene.m_softBodies[5 + k], &same = again.m_softBodies[5 + k];
+        EXPECT_EQ(copy.m_name, "toy." + std::to_string(k));
+        EXPECT_LT(norm(copy.m_pose.m_position - Vec3{0.5 * (k % 2), 1, -0.4 * (k / 2)}), 1e-12);
+        EXPECT_TRUE(copy.m_pose.m_axis == same.m_pose.m_axis && copy.m_pose.m_angle == same.m_pose.m_angle);
+        const Vec3 axis = (1 / norm(copy.m_pose.m_axis)) * copy.m_pose.m_axis;
+        const double c = std::cos(copy.m_pose.m_angle), s = std::sin(copy.m_pose.m_angle);
+        ways += c * Vec3{0, 1, 0} + s * cross(axis, Vec3{0, 1, 0}) + ((1 - c) * axis.y) * axis;  // [Rodrigues]
+    }
+    EXPECT_LT(norm(ways), 0.7 * 6) << "they lie as at random";
+    EXPECT_EQ(scene.m_rigidBodies[4].m_name, "crate.1");
+    EXPECT_LT(norm(scene.m_rigidBodies[4].m_pose.m_position - Vec3{0.5, 0, 0}), 1e-12);
+    EXPECT_EQ(scene.m_rigidBodies[4].m_pose.m_angle, 0);
+}
+
 TEST_F(SceneReader, CommentsAreWelcomeAndOrderIsFree)
 {
     const SceneDescription scene = parse(R"(// a scene

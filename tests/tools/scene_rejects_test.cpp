@@ -68,7 +68,7 @@ const BadValue kUnknown[] = {
      "mostPlasticStrain, relaxation, law, orthotropic"},
     {"InASoftBody", true, "/softBodies/1/mass", "1",
      "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "
-     "material, materials, friction, restitution, selfContact, colour, pins, pieces, fracture"},
+     "material, materials, friction, restitution, selfContact, colour, pins, pieces, fracture, copies"},
     {"InAMesh", true, "/softBodies/0/mesh/boxes", "1",
      "softBodies[0].mesh has a member 'boxes', which is not known; those that are: box, sphere, cylinder, surface, "
      "tetrahedra, baked, holes, cell, tets, grade, levels, scale, surfaceCollides"},
@@ -79,7 +79,7 @@ const BadValue kUnknown[] = {
     {"InARigidBody", true, "/rigidBodies/0/density", "1",
      "rigidBodies[0] has a member 'density', which is not known; those that are: name, shape, mass, position, "
      "rotation, "
-     "velocity, spin, friction, restitution, colour"},
+     "velocity, spin, friction, restitution, colour, copies"},
     {"InAShape", true, "/rigidBodies/1/shape/cone", "1",
      "rigidBodies[1].shape has a member 'cone', which is not known; those that are: plane, box, sphere, cylinder, "
      "capsule"},
@@ -133,7 +133,7 @@ const BadValue kWrongKind[] = {
     {"ArrayForMaterials", true, "/materials", "[]", "materials is []; it must be an object, in {}"},
     {"NumberInAnArrayOfBodies", true, "/softBodies/1", "3",
      "softBodies[1] is 3; it must be an object with name, mesh, position, rotation, velocity, material, materials, "
-     "friction, restitution, selfContact, colour, pins, pieces, fracture"},
+     "friction, restitution, selfContact, colour, pins, pieces, fracture, copies"},
     {"FractionForAWholeNumber", true, "/solver/threads", "1.5",
      "solver.threads is 1.5; it must be a whole number in [1, 64]"},
     {"KindThatIsNone", true, "/constraints/0/kind", R"("glue")",
@@ -333,6 +333,16 @@ const BadValue kMeaning[] = {
      "constraints[1].force is given, but only a slider has one; leave it out"},
     {"SpeedOfAPoint", false, "/constraints/0/speed", "1",
      "constraints[0].speed is given, but only a hinge or slider has one; leave it out"},
+    {"CopiesInAPlane", false, "/softBodies/5/copies/count", "[2,3]",
+     "softBodies[5].copies.count is [2,3]; it must be an array of three whole numbers"},
+    {"HalfACopy", false, "/softBodies/5/copies/count/1", "1.5",
+     "softBodies[5].copies.count[1] is 1.5; it must be a whole number in [1, 100]"},
+    {"TooManyCopies", false, "/softBodies/5/copies/count", "[100,100,100]",
+     "softBodies[5].copies.count makes 1000000 bodies; at most 10000 are allowed"},
+    {"CopyOfAName", false, "/rigidBodies/2/name", R"("toy.4")",
+     "rigidBodies[2].name is \"toy.4\"; it must be a name that no other body has"},
+    {"NameOfACopy", false, "/rigidBodies/3/name", R"("toy")",
+     "rigidBodies[3].name gives a copy the name 'toy.0', which another body has"},
     {"EyeWithoutTarget", true, "/camera/target", "", "camera needs both 'eye' and 'target', or 'direction'"},
     {"EyeAndDirection", true, "/camera/direction", "[1,0,0]", "camera has 'eye' and 'direction'; give one of them"},
 };

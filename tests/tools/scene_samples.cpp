@@ -125,12 +125,15 @@ std::string otherScene()
     { "name": "layers", "mesh": { "tetrahedra": "regions.msh" }, "materials": { "1": "rubber", "-2": { "like": "rubber", "young": 3e7, "density": 2000 } } },
     { "name": "bubble", "mesh": { "sphere": 0.3, "cell": 0.1 },
       "pieces": { "cells": 7, "seed": 3, "breakForce": 10, "breakStress": 2e3, "breakStretch": 0.01, "compliance": 1e-7 } },
-    { "name": "drum", "mesh": { "cylinder": { "radius": 0.3, "height": 0.2 }, "tets": 400 }, "fracture": { "tension": 3e4, "mostCracks": 4, "partsTouch": false } }
+    { "name": "drum", "mesh": { "cylinder": { "radius": 0.3, "height": 0.2 }, "tets": 400 }, "fracture": { "tension": 3e4, "mostCracks": 4, "partsTouch": false } },
+    { "name": "toy", "mesh": { "box": [0.1, 0.1, 0.1], "tets": 5 }, "position": [0, 1, 0],
+      "copies": { "count": [2, 1, 3], "spacing": [0.5, 2, -0.4], "turned": true } }
   ],
   "rigidBodies": [
     { "name": "ground", "shape": { "plane": [0, 1, 0] } },
     { "name": "ball", "shape": { "sphere": 0.3 }, "mass": 2 },
-    { "name": "rod", "shape": { "cylinder": { "radius": 0.1, "height": 2 } }, "mass": 1 }
+    { "name": "rod", "shape": { "cylinder": { "radius": 0.1, "height": 2 } }, "mass": 1 },
+    { "name": "crate", "shape": { "box": [0.1, 0.1, 0.1] }, "mass": 1, "copies": { "count": [2, 1, 1], "spacing": [0.5, 0, 0] } }
   ],
   "constraints": [
     { "kind": "point", "body": "ball", "to": "rod", "pivot": [0, 1, 0] },

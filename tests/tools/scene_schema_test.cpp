@@ -72,6 +72,7 @@ const SchemaPlace kObjects[] = {{true, "", ""},
                                 {true, "/welds/0", "/definitions/weld"},
                                 {false, "/softBodies/3/pieces", "/definitions/pieces"},
                                 {false, "/softBodies/4/fracture", "/definitions/fracture"},
+                                {false, "/softBodies/5/copies", "/definitions/copies"},
                                 {false, "/constraints/1", "/definitions/joint"},
                                 {true, "/forces/0", "/definitions/force"},
                                 {true, "/forces/0/nodes", "/definitions/box"},
@@ -304,7 +305,7 @@ std::string written(const SceneDescription& scene)
                     double(m.m_meanDilatation), double(m.m_accurateBending), body.m_mesh.m_cellSize,
                     double(body.m_mesh.m_tets), double(body.m_mesh.m_mostLevels), body.m_mesh.m_scale, body.m_friction,
                     body.m_restitution, double(body.m_selfContact), double(body.m_mesh.m_surfaceCollides)});
-        for (const Vec3& x : {body.m_pose.m_position, body.m_velocity, body.m_colour}) add(x);
+        for (const Vec3& x : {body.m_pose.m_position, body.m_pose.m_axis, body.m_velocity, body.m_colour}) add(x);
         all.insert(all.end(), {double(body.m_pieces.m_seed), body.m_pieces.m_strength.m_compliance});
         all.insert(all.end(), {body.m_fracture.m_mostCracks, int(body.m_fracture.m_partsTouch)});
     }
@@ -408,9 +409,10 @@ TEST_F(SceneSchema, TheMainDemosSceneIsRead)
 
 TEST_F(SceneSchema, TakesTheDemosScenes)
 {
-    for (const char* name : {"beam", "press", "hammer", "../balls/balls", "../bridge/bridge", "../car/car",
-                             "../dents/dents", "../finger/finger", "../gripper/gripper", "../squeeze/squeeze",
-                             "../tearing/tearing", "../throw/throw", "../tower/tower", "../walker/walker"})
+    for (const char* name :
+         {"beam", "press", "hammer", "../balls/balls", "../bridge/bridge", "../car/car", "../crowd/crowd",
+          "../dents/dents", "../finger/finger", "../gripper/gripper", "../squeeze/squeeze", "../tearing/tearing",
+          "../throw/throw", "../tower/tower", "../walker/walker"})
     {
         std::ifstream file(BULLETFEM_SCENES "/" + std::string(name) + ".json");
         EXPECT_TRUE(isValid(json::parse(file, nullptr, true, true))) << name;

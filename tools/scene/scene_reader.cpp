@@ -14,6 +14,7 @@
 #include "fem/common/reason.h"
 #include "tools/scene/json_cursor.h"
 #include "tools/scene/scene_actuator_reader.h"
+#include "tools/scene/scene_copies.h"
 #include "tools/scene/scene_curve_reader.h"
 #include "tools/scene/scene_materials.h"
 #include "tools/scene/scene_mesh_reader.h"
@@ -120,7 +121,7 @@ private:
     void readSoftBody(const JsonCursor& at)
     {
         at.onlyMembers({"name", "mesh", "position", "rotation", "velocity", "material", "materials", "friction",
-                        "restitution", "selfContact", "colour", "pins", "pieces", "fracture"});
+                        "restitution", "selfContact", "colour", "pins", "pieces", "fracture", "copies"});
         SceneSoftBody body;
         body.m_name = name(at);
         body.m_material = defaultMaterial();
@@ -144,7 +145,24 @@ private:
         at.forEach("pins", [&](const JsonCursor& item) { body.m_pins.push_back(readBox(item)); });
         if (at.has("pieces")) body.m_pieces = readPieces(at["pieces"], body.m_mesh.m_kind);
         if (at.has("fracture")) body.m_fracture = readFracture(at["fracture"], body.m_mesh.m_kind);
-        m_scene.m_softBodies.push_back(std::move(body));
+        addBodies(at, body, m_scene.m_softBodies);
+    }
+
+    // The body, or its copies, which are called by its name and their number.
+    template <class Body>
+    void addBodies(const JsonCursor& at, Body& body, std::vector<Body>& bodies) const
+    {
+        if (!at.has("copies")) return bodies.push_back(body);
+        const std::string name = body.m_name;
+        int count = 0;
+        for (const ScenePose& pose : readCopies(at["copies"], body.m_pose))
+        {
+            body.m_name = name + "." + std::to_string(count++);
+            if (isSoft(body.m_name) || isRigid(body.m_name))
+                at["name"].fail("gives a copy the name '" + body.m_name + "', which another body has");
+            body.m_pose = pose;
+            bodies.push_back(body);
+        }
     }
 
     static SceneShape shape(const JsonCursor& at)
@@ -175,8 +193,8 @@ private:
 
     void readRigidBody(const JsonCursor& at)
     {
-        at.onlyMembers(
-            {"name", "shape", "mass", "position", "rotation", "velocity", "spin", "friction", "restitution", "colour"});
+        at.onlyMembers({"name", "shape", "mass", "position", "rotation", "velocity", "spin", "friction", "restitution",
+                        "colour", "copies"});
         SceneRigidBody body;
         body.m_name = name(at);
         body.m_shape = shape(at["shape"]);
@@ -189,7 +207,7 @@ private:
         at.read("friction", {0, 10}, body.m_friction);
         at.read("restitution", kShare, body.m_restitution);
         at.read("colour", kShare, body.m_colour);
-        m_scene.m_rigidBodies.push_back(std::move(body));
+        addBodies(at, body, m_scene.m_rigidBodies);
     }
 
     static void readMotion(const JsonCursor& at, const char* name, const SceneRigidBody& body, SceneVectorCurve& motion)
