@@ -184,6 +184,18 @@ double meanEdge(const std::vector<Vec3>& X, const std::vector<Tet>& tets)
     return sum / (6.0 * static_cast<double>(tets.size()));
 }
 
+double largestFace(const std::vector<Vec3>& X, const Tet& tet)
+{
+    double most = 0;  // of twice the area, squared
+    for (int a = 0; a < 4; ++a)
+    {
+        const Vec3 &p = X[tet[a]], &q = X[tet[(a + 1) % 4]], &r = X[tet[(a + 2) % 4]];
+        const Vec3 normal = cross(q - p, r - p);
+        most = std::max(most, dot(normal, normal));
+    }
+    return 0.5 * std::sqrt(most);
+}
+
 }  // namespace
 
 TetMesh::TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose)
@@ -257,7 +269,13 @@ void TetMesh::measure()
     m_nodeComponent.resize(m_restPositions.size());
     m_componentCount = labelComponents(m_tets, m_nodeComponent);
     m_meanEdgeLength = meanEdge(m_restPositions, m_tets);
-    for (int e = 0; e < tetCount(); ++e) m_volume += tetVolume(e);
+    m_shortestHeight = std::numeric_limits<double>::infinity();
+    for (int e = 0; e < tetCount(); ++e)
+    {
+        const double volume = tetVolume(e);
+        m_volume += volume;
+        m_shortestHeight = std::min(m_shortestHeight, 3 * volume / largestFace(m_restPositions, m_tets[e]));
+    }
 }
 
 double TetMesh::tetVolume(int e) const

@@ -12,6 +12,7 @@
 #include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
 #include "fem/step/step_stages.h"
+#include "fem/step/violent_step.h"
 #include "fem/step/warped_system.h"
 
 namespace bullet_fem
@@ -103,7 +104,6 @@ public:
         m_stop = stopOf(m_settings, kLoadFloor * loadImpulseNorm(), m_motion.m_predicted != nullptr);
         for (std::size_t i = 0; i < m_scratch.m_velocity.size(); ++i)
             m_scratch.m_velocity[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] : m_state.m_v[i];
-        chooseDamping();
         beginDrift(m_body, m_settings);
         if (isActuated())
         {
@@ -184,7 +184,8 @@ public:
     {
         if (!m_scratch.m_newton.isUsed() || m_settings.m_direct || isActuated() || !m_loads.m_priorVelocity.empty())
             return;
-        if (!isViolent(m_body, m_settings.m_step, m_scratch.m_velocity, &m_scratch.m_increment, m_settings.m_threads))
+        if (!isViolent(m_body, m_settings.m_step, m_scratch.m_velocity, &m_scratch.m_increment, kGentleStrain,
+                       m_settings.m_threads))
             return;
         QuasiNewton(m_body, m_settings, m_A).correct(m_stop, m_report);
     }
@@ -205,19 +206,6 @@ public:
     }
 
 private:
-    // Elements of a law that is not linear are not carried far before their forces are known.
-    void chooseDamping()
-    {
-        if (!m_scratch.m_newton.isUsed()) return;
-        double& least = m_scratch.m_newton.m_leastDamping;
-        least = 0;
-        m_coefficients = StepCoefficients(m_settings, m_body);
-        const double before = (1 - m_coefficients.theta()) * m_settings.m_step;
-        if (!(before > 0) || !isViolent(m_body, before, m_state.m_v, nullptr, m_settings.m_threads)) return;
-        least = 1;
-        m_coefficients = StepCoefficients(m_settings, m_body);
-    }
-
     // h |f_ext| over the free nodes.
     double loadImpulseNorm() const
     {

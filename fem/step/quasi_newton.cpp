@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "bullet_fem/fem/common/threads.h"
-#include "fem/common/chunks.h"
 #include "fem/elements/model_elements.h"
 #include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
@@ -21,41 +20,7 @@ constexpr double kMostTurned = 0.5;  // of the slope, in a step that is taken as
 /// Of |r|, left by a correction: the next one, or the next step, sees it [Dembo et al. 1982].
 constexpr double kInexact = 0.1;
 
-constexpr double kGentleStrain = 0.2;
-
-// By more than kGentleStrain: with L = G F^-1 of the path G, the change of Green's strain, sym(L) + L^T L / 2 in the
-// present shape, times F. To turn is no strain.
-bool isStrained(const Body& body, int e, double time, const std::vector<Vec3>& v, const std::vector<Vec3>* dv)
-{
-    const Tet& tet = body.m_model->mesh().tets()[e];
-    const Mat3& DmInverse = body.m_model->shape().m_elements[e].m_DmInverse;
-    const std::vector<Vec3>& x = body.m_state.m_x;
-    const auto edge = [&tet](const std::vector<Vec3>& u, int a) { return u[tet[a]] - u[tet[0]]; };
-    const auto change = [&](int a) { return dv ? edge(v, a) + edge(*dv, a) : edge(v, a); };
-    const Mat3 F = Mat3::fromColumns(edge(x, 1), edge(x, 2), edge(x, 3)) * DmInverse;
-    const double most = kGentleStrain * std::min(1.0, determinant(F));
-    if (!(most > 0)) return true;
-    const Mat3 G = time * (Mat3::fromColumns(change(1), change(2), change(3)) * DmInverse);
-    const Mat3 L = G * inverse(F);
-    const Mat3 strain = 0.5 * (L + transpose(L) + transpose(L) * L) * F;
-    return !(squaredNorm(strain) <= most * most);
-}
-
 }  // namespace
-
-bool isViolent(const Body& body, double time, const std::vector<Vec3>& v, const std::vector<Vec3>* dv,
-               const Threads* threads)
-{
-    const Chunks chunks(body.m_model->mesh().tetCount(), kEntriesPerChunk);
-    bool isAny[Chunks::kMost] = {};
-    runTasks(threads, chunks.count(),
-             [&](int k)
-             {
-                 for (int e = chunks[k].m_begin; e < chunks[k].m_end && !isAny[k]; ++e)
-                     isAny[k] = isStrained(body, e, time, v, dv);
-             });
-    return std::any_of(isAny, isAny + chunks.count(), [](bool is) { return is; });
-}
 
 QuasiNewton::QuasiNewton(Body& body, const StepSettings& settings, const WarpedSystem& A)
     : m_body(body), m_settings(settings), m_A(A)

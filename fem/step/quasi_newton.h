@@ -8,12 +8,6 @@
 namespace bullet_fem
 {
 
-/// True if nodes that move by time (v + dv) strain an element by more than kGentleStrain, or by more than this share of
-/// its present volume ratio, or if it is inside out: what is linear in a step is no answer then. `dv` may be null. Any
-/// number of threads gives the same answer.
-bool isViolent(const Body& body, double time, const std::vector<Vec3>& v, const std::vector<Vec3>* dv,
-               const Threads* threads);
-
 /// Where elements have a law that is not linear, the step's one linear solve is the first quasi-Newton iteration on
 ///
 ///     (1 + h alpha) M dv = b_0 + h f(z) - h beta K' (v + dv - t h w x (w x r)),

@@ -23,8 +23,8 @@ struct StepCoefficients
 {
     explicit StepCoefficients(double numericalDamping) : m_damping(numericalDamping) {}
     StepCoefficients(const StepSettings& settings, const Body& body)
-        : m_damping(std::max({settings.m_numericalDamping, body.m_loads.m_leastDamping,
-                              body.m_workspace.scratch().m_newton.m_leastDamping}))
+        : m_damping(std::max(
+              {settings.m_numericalDamping, body.m_loads.m_leastDamping, body.m_workspace.scratch().m_leastDamping}))
     {
     }
 

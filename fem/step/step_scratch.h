@@ -30,8 +30,6 @@ struct QuasiNewtonScratch
 
     bool isUsed() const { return !m_loads.empty(); }
 
-    /// 1 in a step that would carry elements too far before their forces are known, else 0: as of the loads [-].
-    double m_leastDamping = 0;
     std::vector<Vec3> m_loads;      ///< b_0, written by the free motion [kg m/s]
     std::vector<Vec3> m_turning;    ///< h w x (w x r) [m/s]
     std::vector<Vec3> m_position;   ///< z [m]
@@ -63,6 +61,8 @@ struct StepScratch
     double m_complianceScale =
         1;  ///< what contact has learnt: A^-1 is about this times the warped A0^-1 at the surface
     ConjugateGradientScratch m_solver;
+    /// 1 in a step that would carry elements too far before their forces are known, else 0: as of the loads [-].
+    double m_leastDamping = 0;
     QuasiNewtonScratch m_newton;
     mutable ElementWork m_elements;
     mutable FactorWork m_factor;

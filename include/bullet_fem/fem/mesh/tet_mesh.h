@@ -66,6 +66,7 @@ public:
     double tetVolume(int e) const;              ///< V_e [m3], > 0
     double volume() const { return m_volume; }  ///< sum of V_e [m3]
     double meanEdgeLength() const { return m_meanEdgeLength; }  ///< mean over the elements' edges [m]
+    double shortestHeight() const { return m_shortestHeight; }  ///< of an element, from a face to its corner [m], > 0
 
 private:
     void takeElements(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose);
@@ -82,6 +83,7 @@ private:
     int m_turnedCount = 0;
     int m_sliverCount = 0;
     double m_meanEdgeLength = 0;
+    double m_shortestHeight = 0;
     double m_volume = 0;
 };
 
