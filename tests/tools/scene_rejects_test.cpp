@@ -339,6 +339,8 @@ const BadValue kMeaning[] = {
      "softBodies[5].copies.count[1] is 1.5; it must be a whole number in [1, 100]"},
     {"TooManyCopies", false, "/softBodies/5/copies/count", "[100,100,100]",
      "softBodies[5].copies.count makes 1000000 bodies; at most 10000 are allowed"},
+    {"FarCopies", false, "/softBodies/5/copies/spacing", "[1e6,0,6e5]",
+     "softBodies[5].copies.spacing puts the last copy beyond 1e6 m; make it or 'count' smaller"},
     {"CopyOfAName", false, "/rigidBodies/2/name", R"("toy.4")",
      "rigidBodies[2].name is \"toy.4\"; it must be a name that no other body has"},
     {"NameOfACopy", false, "/rigidBodies/3/name", R"("toy")",

@@ -135,6 +135,7 @@ protected:
                                                 "is where 'eye' is",
                                                 "must have a length",
                                                 "weld it to another body",
+                                                "puts the last copy beyond",
                                                 "accurate bending does not go with",  // of what is `like` another, too
                                                 "is no material: orthotropic",        // numbers that do not go together
                                                 "with the orthotropic law",           // which may be that of `like`

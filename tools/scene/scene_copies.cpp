@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/scene/scene_copies.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -13,6 +12,7 @@ namespace
 {
 
 constexpr int kMostAlongAnAxis = 100, kMostCopies = 10000;  // of a grid [-]
+constexpr double kFarthest = 1e6;                           // coordinate of a place, as of all bodies [m]
 
 std::array<int, 3> readCount(const JsonCursor& at)
 {
@@ -43,7 +43,10 @@ std::vector<ScenePose> readCopies(const JsonCursor& at, const ScenePose& first)
 {
     at.onlyMembers({"count", "spacing", "turned"});
     const std::array<int, 3> count = readCount(at["count"]);
-    const Vec3 spacing = at["spacing"].vector({-1e6, 1e6});
+    const Vec3 spacing = at["spacing"].vector({-kFarthest, kFarthest});
+    for (int i = 0; i < 3; ++i)
+        if (std::abs(first.m_position[i] + (count[i] - 1) * spacing[i]) > kFarthest)
+            at["spacing"].fail("puts the last copy beyond 1e6 m; make it or 'count' smaller");
     bool turned = false;
     at.read("turned", turned);
     std::mt19937 random;

@@ -35,6 +35,7 @@ TEST(TetMesh, MeasuresOneElement)
     EXPECT_EQ(mesh.componentCount(), 1);
     EXPECT_DOUBLE_EQ(mesh.tetVolume(0), 1);
     EXPECT_DOUBLE_EQ(mesh.volume(), 1);
+    EXPECT_NEAR(mesh.shortestHeight(), 6. / 7, 1e-14);  // of the corner over the plane x + y / 2 + z / 3 = 1
     EXPECT_EQ(mesh.surface().size(), 4u);
     EXPECT_EQ(mesh.surfaceNodes(), (std::vector<int>{0, 1, 2, 3}));
     EXPECT_NEAR(volumeOfSurface(mesh), 1, 1e-14);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
@@ -97,26 +99,31 @@ INSTANTIATE_TEST_SUITE_P(Grounds, CubeAtRest,
 // touches, it is taken back in the same step.
 TEST_P(CubeAtRest, GoesOnWithFewIterationsAndFallsOnceItsGroundIsGone)
 {
-    btFemSoftBodySolver fem;
-    SoftWorld world(fem);
-    btRigidBody& ground = GetParam().m_ground == Ground::plane ? world.addPlane() : world.addFloorBox();
-    btSoftBody& cube = addCube(world, fem, btVector3(0, 0, btScalar(0.51)));
-    cube.forceActivationState(DISABLE_DEACTIVATION);
     const btScalar h = GetParam().m_step;
-    world.step(static_cast<int>(6 / h), h);
-    int iterations = 0;
-    for (int frame = 0; frame < 60; ++frame)
+    std::vector<double>
+        missed;  // [m/s]; in single precision by chance: of 16 starts at 30 Hz two or three by more than 1e-6
+    for (const double height : {0.51, 0.512, 0.514, 0.516, 0.518})
     {
+        btFemSoftBodySolver fem;
+        SoftWorld world(fem);
+        btRigidBody& ground = GetParam().m_ground == Ground::plane ? world.addPlane() : world.addFloorBox();
+        btSoftBody& cube = addCube(world, fem, btVector3(0, 0, btScalar(height)));
+        cube.forceActivationState(DISABLE_DEACTIVATION);
+        world.step(static_cast<int>(6 / h), h);
+        int iterations = 0;
+        for (int frame = 0; frame < 60; ++frame)
+        {
+            world.step(1, h);
+            iterations += fem.stepReport(&cube).m_iterations + fem.stepReport(&cube).m_contactIterations;
+            EXPECT_LE(fem.stepReport(&cube).m_residual, 1e-3);
+        }
+        EXPECT_LT(iterations, 60);  // two a step where it is not expected
+        world.world().removeRigidBody(&ground);
         world.step(1, h);
-        iterations += fem.stepReport(&cube).m_iterations + fem.stepReport(&cube).m_contactIterations;
-        EXPECT_LE(fem.stepReport(&cube).m_residual, 1e-3);
+        missed.push_back(std::fabs(velocityOf(cube).z + kGravity * double(h)));
     }
-    EXPECT_LT(iterations, 60);  // two a step where it is not expected
-    world.world().removeRigidBody(&ground);
-    world.step(1, h);
-    // [m/s]; in single precision cubes that fell from 96 heights missed by 5e-7 (root mean square), the worst by 2.2e-6
-    const double rounding = sizeof(btScalar) == 4 ? 3e-6 : 1e-6;
-    EXPECT_NEAR(velocityOf(cube).z, -kGravity * double(h), rounding);
+    std::sort(missed.begin(), missed.end());
+    EXPECT_LT(missed[2], 1e-6);
 }
 
 class CubeFarFromTheOrigin : public testing::TestWithParam<Ground>
