@@ -13,11 +13,12 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTooStiff = 1.1;     // W may be too stiff by this factor before it is scaled
-constexpr double kTooSoft = 0.7;      // and may promise so much more than comes
-constexpr double kScaleMargin = 1.2;  // for directions that the impulses did not show
-constexpr double kNoise = 1e-4;       // share of all work below which a round's work teaches nothing
-constexpr double kRounding = 1e-9;    // share of the body's speed below which changes of velocity teach nothing
+constexpr double kTooStiff = 1.1;      // W may be too stiff by this factor before it is scaled
+constexpr double kMuchTooStiff = 2.5;  // of joints alone: by so much only where the rigid answer is missing
+constexpr double kTooSoft = 0.7;       // and may promise so much more than comes
+constexpr double kScaleMargin = 1.2;   // for directions that the impulses did not show
+constexpr double kNoise = 1e-4;        // share of all work below which a round's work teaches nothing
+constexpr double kRounding = 1e-9;     // share of the body's speed below which changes of velocity teach nothing
 
 }  // namespace
 
@@ -114,7 +115,7 @@ void BodyEnds::endCorrection()
         trueWork += dot(impulse, trueVelocity(e) - before(e));
         predictedWork += dot(impulse, known(e) - before(e));
     }
-    if (m_firstJoint > 0 && !m_mixed && predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
+    if (!m_mixed && predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
     m_mixed = false;
 }
 
@@ -132,6 +133,7 @@ void BodyEnds::learn(const Lesson& lesson)
     const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
     const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
     if (!(softer || stiffer) || !isAboveRounding(lesson)) return;
+    if (!hasContacts()) return learnRigid(lesson);
     m_tooSoft = m_tooSoft || softer;
     if (!stiffer) return;
     const double factor = kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork;
@@ -142,6 +144,42 @@ void BodyEnds::learn(const Lesson& lesson)
     if (!m_dense) return;
     formOwn();
     m_working.reset(size());
+}
+
+// A strained body moves as one more easily than P tells: the momentum of impulses is seen to, whatever withstands it.
+// Of joints alone that is all there is to learn: their rounds combine what they have tried, and a factor does no harm.
+void BodyEnds::learnRigid(const Lesson& lesson)
+{
+    if (!m_dense || m_rigid >= 1 || !(lesson.m_trueWork > kMuchTooStiff * lesson.m_predictedWork)) return;
+    RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
+    const double work = m_scale * momentum.rigidWork(*m_body.m_body, m_nodeIn);
+    if (!(work > 0)) return;
+    const double lacks = kScaleMargin * (lesson.m_trueWork - lesson.m_predictedWork);
+    const double share = std::min(lacks / work, 1 - m_rigid);
+    m_rigid += share;
+    m_learnt = true;
+    addRigid(m_scale * share);
+    formOwn();
+    m_working.reset(size());
+}
+
+void BodyEnds::addRigid(double share)
+{
+    const RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
+    const Mat3 whole = Mat3::identity();
+    m_shares.clear();
+    for (int node : m_points.nodes()) m_shares.push_back(momentum.shareOf(*m_body.m_body, &node, &whole, 1));
+    for (const End& end : m_ends)
+        if (isGroup(end)) m_shares.push_back(momentum.shareOf(*m_body.m_body, end.m_nodes, end.m_blocks, end.m_count));
+    for (std::size_t t = 0; t < m_shares.size(); ++t)
+        for (std::size_t u = 0; u <= t; ++u)
+        {
+            const Mat3 answer = share * momentum.answer(m_shares[t], m_shares[u]);
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j)
+                    if (u < t || i >= j) m_points.add(3 * t + i, 3 * u + j, answer(i, j));
+        }
+    m_points.forgetColumns();
 }
 
 }  // namespace bullet_fem

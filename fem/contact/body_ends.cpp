@@ -96,6 +96,7 @@ void BodyEnds::assemble(int denseLimit, double step)
     m_loadSpeed = speedByLoads(*m_body.m_body, step);
     m_formed = m_tooSoft = m_leftMuch = m_mixed = false;
     m_firstJoint = std::min(m_firstJoint, size());
+    m_rigid = 0;
     m_firstPoint = m_dense ? 0 : m_firstJoint;
     m_points.clear(nodes);
     for (int e = m_firstPoint; e < size(); ++e)
@@ -112,6 +113,7 @@ void BodyEnds::assemble(int denseLimit, double step)
     }
     m_working.reset(size());
     m_responses.reserve(m_ends.size());
+    m_shares.reserve(m_points.slots());
     m_own.resize(m_ends.size());
     m_slotVelocity.assign(m_points.order(), 0);
     m_slotBefore.assign(m_points.order(), 0);
@@ -192,7 +194,8 @@ Mat3 BodyEnds::compliance(int e, int f) const
 int BodyEnds::nodeOf(int e) const
 {
     const SurfacePoint& point = m_ends[e].m_point;
-    if (isGroup(m_ends[e]) || e < m_firstPoint || point.m_count != 1 || point.m_weights[0] != 1) return -1;
+    if (m_rigid > 0 || isGroup(m_ends[e]) || e < m_firstPoint || point.m_count != 1 || point.m_weights[0] != 1)
+        return -1;
     const int node = point.m_nodes[0];
     const bool moves = !m_body.m_body->m_state.m_fixed[node] && m_body.m_body->m_model->factor().position(node) >= 0;
     return moves ? node : -1;

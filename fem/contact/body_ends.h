@@ -9,6 +9,7 @@
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/point_compliance.h"
 #include "fem/contact/working_set.h"
+#include "fem/step/rigid_momentum.h"
 
 namespace bullet_fem
 {
@@ -160,6 +161,7 @@ private:
         double m_trueWork, m_predictedWork, m_impulses;
     };
 
+    bool hasContacts() const { return m_firstJoint > 0; }
     bool isGroup(const End& end) const { return end.m_nodes != nullptr; }
     Vec3 read(const End& end, const std::vector<Vec3>& nodeValues) const;
     void scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& nodeImpulses) const;
@@ -177,6 +179,8 @@ private:
     void see(int e);
     bool isAboveRounding(const Lesson& lesson) const;
     void learn(const Lesson& lesson);
+    void learnRigid(const Lesson& lesson);
+    void addRigid(double share);
 
     ContactBody m_body;
     bool m_dense = true;
@@ -198,14 +202,16 @@ private:
     std::vector<Mat3> m_own;            // dense: W_ee
     bool m_pushedAtRest = false;        // dense: an end outside the working set has an impulse that that has not seen
     std::vector<Response> m_responses;  // of a refresh
-    std::vector<Vec3> m_nodeIn, m_nodeOut;  // impulses and velocities of all nodes
-    Mat3 m_meanDiagonal;                    // not dense: estimate of W_ee, without the learnt scale
-    double m_scale = 1;                     // learnt
-    bool m_learnt = false;                  // in the last correction
-    bool m_tooSoft = false;                 // in any of this problem
-    bool m_leftMuch = false;                // the last correction did, of its right-hand side
-    bool m_mixed = false;                   // the next one also solves for what was expected in vain: W learns nothing
-    double m_allWork = 0;                   // of the impulses so far, roughly [J]
+    std::vector<Vec3> m_nodeIn, m_nodeOut;       // impulses and velocities of all nodes
+    Mat3 m_meanDiagonal;                         // not dense: estimate of W_ee, without the learnt scale
+    double m_scale = 1;                          // learnt
+    double m_rigid = 0;                          // learnt: share of the rigid answer in W, in [0, 1]
+    std::vector<RigidMomentum::Share> m_shares;  // per slot
+    bool m_learnt = false;                       // in the last correction
+    bool m_tooSoft = false;                      // in any of this problem
+    bool m_leftMuch = false;                     // the last correction did, of its right-hand side
+    bool m_mixed = false;  // the next one also solves for what was expected in vain: W learns nothing
+    double m_allWork = 0;  // of the impulses so far, roughly [J]
 };
 
 }  // namespace bullet_fem

@@ -78,7 +78,13 @@ void JointSystem::begin()
 
 void JointSystem::reform()
 {
-    for (int p = 0; p < m_partCount; ++p) form(m_parts[p]);
+    ++m_changes;  // what was noted of the system before is of another one
+    for (int p = 0; p < m_partCount; ++p)
+    {
+        for (int k = m_parts[p].m_begin; k < m_parts[p].m_end; ++k)
+            if (m_turned.has(k) && !m_turned.isStillOne(k)) dropTurned(m_parts[p], k);
+        form(m_parts[p]);
+    }
 }
 
 // The first joint that has the same owner: a body, or a rigid proxy that can move, with all that moves with it.

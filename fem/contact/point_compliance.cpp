@@ -82,8 +82,7 @@ void PointCompliance::form(const ContactBody& body, double scale)
     mirrorNodeColumns();
     if (m_own > 0) std::fill(column(3 * m_nodes.size()), column(3 * slots()), 0.f);
     m_floatWeight.assign(m_weight.begin(), m_weight.end());
-    m_columnsOf.assign(points(), -1);
-    m_columnsFormed = 0;
+    forgetColumns();
     m_columns.reserve(3 * m_rows * points());
     m_terms.reserve(SurfacePoint::kMostNodes);
 }
@@ -91,8 +90,19 @@ void PointCompliance::form(const ContactBody& body, double scale)
 void PointCompliance::scale(double factor)
 {
     for (std::size_t i = 0; i < m_rows * 3 * slots(); ++i) m_N[i] *= static_cast<float>(factor);
+    forgetColumns();
+}
+
+void PointCompliance::forgetColumns()
+{
     m_columnsOf.assign(points(), -1);
     m_columnsFormed = 0;
+}
+
+void PointCompliance::add(std::size_t i, std::size_t j, double value)
+{
+    column(j)[i] += static_cast<float>(value);
+    if (i != j) column(i)[j] = column(j)[i];
 }
 
 void PointCompliance::set(std::size_t i, std::size_t j, double value)

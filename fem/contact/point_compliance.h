@@ -56,6 +56,10 @@ public:
     /// N, for what form() leaves out: set(i, j) sets (j, i) as well; i and j are three times a slot plus an axis.
     void set(std::size_t i, std::size_t j, double value);
 
+    /// Adds to N likewise; and when all of that is done.
+    void add(std::size_t i, std::size_t j, double value);
+    void forgetColumns();
+
     /// What slots have, at a point.
     Vec3 read(int point, const std::vector<double>& slotValues) const;
 

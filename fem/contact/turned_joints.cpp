@@ -51,6 +51,12 @@ int TurnedJoints::nodeOf(int joint, const std::vector<unsigned char>& isHeld) co
     return m_rows.body(r.m_a.m_body).nodeOf(r.m_a.m_end);
 }
 
+bool TurnedJoints::isStillOne(int joint) const
+{
+    const RowEnd& end = row(joint).m_a;
+    return m_rows.body(end.m_body).nodeOf(end.m_end) >= 0;
+}
+
 bool TurnedJoints::standsStill(const RowEnd& end) const
 {
     if (end.m_body >= 0) return false;

@@ -27,6 +27,9 @@ public:
     /// True of a joint that was found.
     bool has(int joint) const { return m_runOf[joint] >= 0; }
 
+    /// True if W of its body is still of the form that the factor is for.
+    bool isStillOne(int joint) const;
+
     bool hasAny() const { return m_left > 0; }
     bool hasAll() const { return m_left == static_cast<int>(m_runOf.size()); }
 

@@ -223,6 +223,51 @@ void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, std::
                 });
 }
 
+RigidMomentum::Share RigidMomentum::shareOf(const Body& body, const int* nodes, const Mat3* blocks, int count) const
+{
+    Share share;
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (int k = 0; k < count; ++k)
+    {
+        const int i = nodes[k];
+        if (body.m_state.m_fixed[i]) continue;
+        share.m_component = body.m_model->mesh().nodeComponent()[i];
+        const Mat3 impulses = transpose(blocks[k]);
+        share.m_linear += impulses;
+        share.m_angular += crossMatrix(x[i] - m_components[share.m_component].m_center) * impulses;
+    }
+    return share;
+}
+
+Mat3 RigidMomentum::answer(const Share& of, const Share& to) const
+{
+    if (of.m_component < 0 || of.m_component != to.m_component) return {};
+    const Component& component = m_components[of.m_component];
+    if (!component.m_isMovable) return {};
+    return (1 / component.m_mass) * (transpose(of.m_linear) * to.m_linear) +
+           transpose(of.m_angular) * (component.m_inverseInertia * to.m_angular);
+}
+
+double RigidMomentum::rigidWork(const Body& body, const std::vector<Vec3>& impulses)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (Component& component : m_components) component.m_linearVelocity = component.m_angularVelocity = {};
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
+                {
+                    if (body.m_state.m_fixed[i]) return;
+                    component.m_linearVelocity += impulses[i];
+                    component.m_angularVelocity += cross(x[i] - component.m_center, impulses[i]);
+                });
+    double work = 0;
+    for (const Component& component : m_components)
+        if (component.m_isMovable)
+            work += dot(component.m_linearVelocity, component.m_linearVelocity) / component.m_mass +
+                    dot(component.m_angularVelocity, component.m_inverseInertia * component.m_angularVelocity);
+    return work;
+}
+
 void RigidMomentum::addTurning(const Body& body, double step, std::vector<Vec3>& change) const
 {
     if (!m_anyMovable) return;

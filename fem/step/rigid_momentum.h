@@ -38,6 +38,23 @@ public:
     /// weight, with that of the middle of the step.
     void addTurning(const Body& body, double step, std::vector<Vec3>& change) const;
 
+    /// What a unit impulse along every axis of an end makes of the momentum of the component that it is on.
+    struct Share
+    {
+        int m_component = -1;
+        Mat3 m_linear, m_angular;  ///< [-], about the centre [m]
+    };
+
+    /// Of an end that is nodes, whose velocity is the sum of blocks times theirs.
+    Share shareOf(const Body& body, const int* nodes, const Mat3* blocks, int count) const;
+
+    /// What impulses on `to` do to the velocity of `of`, as far as the component that was prescribed moves as one
+    /// [1/kg].
+    Mat3 answer(const Share& of, const Share& to) const;
+
+    /// The work of node impulses J [N s] on the rigid velocities that they make [J].
+    double rigidWork(const Body& body, const std::vector<Vec3>& impulses);
+
     /// Takes the rigid motion out of a change of velocities, so that no movable component gets momentum by it at the
     /// positions x. Leaves no prescription.
     void removeMomentum(const Body& body, double step, const std::vector<Vec3>& x, std::vector<Vec3>& change);

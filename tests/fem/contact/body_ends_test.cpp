@@ -141,5 +141,49 @@ TEST(BodyEnds, LearnNothingFromImpulsesThatWereExpectedInVain)
     EXPECT_FALSE(ends.isTooSoft());
 }
 
+// What hangs on a pin turns about it by the momentum of an impulse, whatever its shape; P has the arms of the body at
+// rest, along which this one pulls: it tells a thirtieth. To scale W would make it soft in every other direction, too.
+TEST(BodyEnds, LearnTheRigidAnswerOfWhatIsStrained)
+{
+    const auto isPinned = [](const Vec3& X) { return norm(X) < 1e-6; };
+    Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e9, 0.3), isPinned);
+    for (Vec3& x : body.m_state.m_x)
+        x = {1.6 * x.x + 0.3 * x.y * x.z, x.y + 0.5 * x.x * x.x, 0.7 * x.z - 0.5 * x.x * x.y};
+    StepSettings settings;
+    settings.m_tolerance = 1e-6;
+    solveFreeMotion(body, settings);
+    const auto cache = makeComplianceCache(body.m_model);
+    BodyEnds ends;
+    ends.clear({&body, cache.get()}, StepSettings());
+    ends.beginJoints();
+    const int last = static_cast<int>(body.m_state.m_x.size()) - 1;
+    for (int node : {last, last - 1}) addNode(ends, body, node);
+    ends.assemble(400, settings.m_step);
+    ends.request();
+    ends.form();
+    ends.measure();
+    const Mat3 before = ends.compliance(0, 0);
+    const Vec3 impulse = ends.rotation(last) * Vec3{10, 10, 10};
+    // What W tells of the speed that the end gets, as a share of what it gets.
+    const auto toldShare = [&]
+    {
+        const Vec3 v = ends.trueVelocity(0);
+        ends.push(0, impulse);
+        ends.refresh();
+        const double told = norm(ends.velocity(0) - v);
+        ImpulseResponse response = ends.beginCorrection(settings, {});
+        applyImpulses(&response, 1);
+        ends.endCorrection();
+        ends.measure();
+        return told / norm(ends.trueVelocity(0) - v);
+    };
+    EXPECT_LT(toldShare(), 0.1);
+    EXPECT_TRUE(ends.hasLearnt());
+    const double told = toldShare();
+    EXPECT_GT(told, 0.7);
+    EXPECT_LT(told, 2.2);
+    EXPECT_LT(trace(ends.compliance(0, 0)), 3 * trace(before));
+}
+
 }  // namespace
 }  // namespace bullet_fem
