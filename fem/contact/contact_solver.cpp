@@ -73,7 +73,8 @@ struct ContactSolver::Scratch
     ContactReport m_report;
     RowSurvey m_found;        // after the last round
     double m_error = 1;       // likewise
-    double m_best = 0;        // the smallest so far
+    double m_left = 0;        // speedLeft() likewise
+    double m_best = 0;        // the smallest of these so far
     bool m_isBest = false;    // it is the last
     bool m_isCalm = false;    // the guess was good
     double m_goal = 0;        // error at which rounds end
@@ -137,7 +138,7 @@ constexpr double kCalmGuess = 2e-2;
 // guess, may hold them against it.
 constexpr double kBadGuess = 5;
 
-// A step does not end with impulses that leave a larger error than there was to begin with, some 1, and this many times
+// A step does not end with impulses that leave more speed than there was to begin with, some 1, and this many times
 // that of its best round. A smaller one may be that of rounds in which the rows of others have come nearer.
 constexpr double kWorse = 1, kMuchWorse = 2;
 
@@ -246,6 +247,14 @@ double ContactSolver::errorNow() const
     return std::max(s.m_rows.share(s.m_found.m_wanted), s.m_settings.m_tolerance / kJointTolerance * errorOfJoints());
 }
 
+// The same, in which joints count like contacts: their share of the error is nothing where the tolerance is that of
+// something fast, and a round that leaves a node a hundred times as fast would be the best.
+double ContactSolver::speedLeft() const
+{
+    const Scratch& s = *m_scratch;
+    return s.m_rows.share(std::max(s.m_found.m_wanted, s.m_jointRounds.largestSpeed()));
+}
+
 double ContactSolver::errorOfJoints() const
 {
     const Scratch& s = *m_scratch;
@@ -274,9 +283,10 @@ void ContactSolver::guess()
 void ContactSolver::noteBest()
 {
     Scratch& s = *m_scratch;
-    s.m_isBest = s.m_error <= s.m_best;
+    s.m_left = speedLeft();
+    s.m_isBest = s.m_left <= s.m_best;
     if (!s.m_isBest) return;
-    s.m_best = s.m_error;
+    s.m_best = s.m_left;
     s.m_rows.keep();
 }
 
@@ -288,7 +298,7 @@ bool ContactSolver::isBest() const
 bool ContactSolver::wantsBack() const
 {
     const Scratch& s = *m_scratch;
-    return !s.m_empty && s.m_error > std::max(kMuchWorse * s.m_best, kWorse);
+    return !s.m_empty && s.m_left > std::max(kMuchWorse * s.m_best, kWorse);
 }
 
 void ContactSolver::goBack()

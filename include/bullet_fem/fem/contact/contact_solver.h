@@ -72,6 +72,7 @@ private:
     void noteBest();
     double errorNow() const;
     double errorOfJoints() const;
+    double speedLeft() const;
 
     struct Scratch;
     std::unique_ptr<Scratch> m_scratch;
