@@ -263,7 +263,7 @@ void ClothContacts::appendJoints(const Search& search, double step, ContactProbl
         const Vec3 target = cloth.position()[node];
         held.m_error = norm(target - held.m_point);
         held.m_row = static_cast<int>(problem.m_joints.size());
-        joint.m_wanted = (1 / step) * shortened(kErp * (target - held.m_point), longestCorrection(fem));
+        joint.m_wanted = (1 / step) * shortened(kErp * (target - held.m_point), longestCorrection(fem, step));
         joint.m_b.m_point = target;
         joint.m_b.m_rigidProxy = appendProxy(
             {search.m_surface, {node, node, node}, {1, 0, 0}, held.m_point, problem.m_joints.size()}, target, problem);

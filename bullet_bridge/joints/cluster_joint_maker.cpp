@@ -157,7 +157,7 @@ void ClusterJointMaker::appendLinear(const btSoftBody::LJoint& linear, const End
     joint.m_a = pointEnd(ends[0], a, at);
     joint.m_b = pointEnd(ends[1], b, at);
     joint.m_softness = softnessOf(linear);
-    const double longest = longestCorrection(m_fem, joint.m_softness);
+    const double longest = longestCorrection(m_fem, m_scene.m_step, joint.m_softness);
     const Vec3 correction = shortened(erpOf(linear) * (b.m_start - a.m_start), longest);
     joint.m_wanted = b.m_pivot.wantedVelocity(at, correction, m_scene.m_step);
     hold(held, ends[1], joint);

@@ -82,7 +82,8 @@ JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& 
             joint.m_compliance = attachment.m_compliance / (scene.m_step * scene.m_step);
         }
         else
-            joint.m_wanted = (1 / scene.m_step) * shortened(kErp * (target - held.m_point), longestCorrection(fem));
+            joint.m_wanted =
+                (1 / scene.m_step) * shortened(kErp * (target - held.m_point), longestCorrection(fem, scene.m_step));
         joint.m_impulse = held.m_impulse;
         held.m_row = static_cast<int>(problem.m_joints.size());
         problem.m_joints.push_back(joint);

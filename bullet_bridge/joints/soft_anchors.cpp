@@ -14,7 +14,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLongestCorrection = 0.25;  // of a mean edge, a step: a far pivot pulls its node in, not through
+// A far pivot pulls its node in, not through: by this share of a mean edge in a step at most. Nor any faster in short
+// steps than in those of 1/60 s: nodes would get as fast as a distance is closed in them.
+constexpr double kLongestCorrection = 0.25;
+constexpr double kFastestCorrection = 60 * kLongestCorrection;  // [1/s]
 
 // Both kinds of anchors.
 struct AnchorView
@@ -117,7 +120,7 @@ void AnchorHolder::append(const AnchorView& anchor, const RigidPivot& pivot, Hel
     joint.m_b.m_rigidProxy = pivot.m_rigidProxy;
     const double erp = std::min(1.0, std::max(0.0, double(m_fem.m_softBody->m_cfg.kAHR)));
     joint.m_softness = anchor.m_influence < 1 ? 1 / anchor.m_influence - 1 : 0;
-    const double longest = longestCorrection(m_fem, joint.m_softness);
+    const double longest = longestCorrection(m_fem, m_scene.m_step, joint.m_softness);
     const Vec3 correction = shortened(erp * (pivot.m_start - held.m_point), longest);
     // Both sides feel the impulse at one point, or it would turn the pair. A far pivot feels it where it is: a lever of
     // that length would be a strange one, and what turned as it is drawn in would turn faster and faster.
@@ -157,9 +160,10 @@ JointEnd nodeEnd(int body, int node, ContactProblem& problem)
     return end;
 }
 
-double longestCorrection(const FemSoftBody& fem, double softness)
+double longestCorrection(const FemSoftBody& fem, double step, double softness)
 {
-    return (1 + softness) * kLongestCorrection * fem.m_body.m_model->mesh().meanEdgeLength();
+    const double share = std::min(kLongestCorrection, step * kFastestCorrection);
+    return (1 + softness) * share * fem.m_body.m_model->mesh().meanEdgeLength();
 }
 
 const HeldJoint* continuedBy(const HeldJoint& now, const std::vector<HeldJoint>& before, std::size_t nth)

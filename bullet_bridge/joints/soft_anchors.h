@@ -16,9 +16,9 @@ JointFlags appendAnchors(int body, const JointScene& scene, ContactProblem& prob
 /// End of a joint at one node.
 JointEnd nodeEnd(int body, int node, ContactProblem& problem);
 
-/// Largest way that a joint of this softness is asked to go in a step to correct its error [m]: a rigid one goes it
+/// Largest way that a joint of this softness is asked to go in a step [s] to correct its error [m]: a rigid one goes it
 /// all.
-double longestCorrection(const FemSoftBody& fem, double softness = 0);
+double longestCorrection(const FemSoftBody& fem, double step, double softness = 0);
 
 /// The joint of the last step that `now` goes on with; null if it is new. `nth`: where it probably is.
 const HeldJoint* continuedBy(const HeldJoint& now, const std::vector<HeldJoint>& before, std::size_t nth);

@@ -125,6 +125,24 @@ TEST_P(AnchorsTest, aFarPivotDrawsItsNodeInWithoutAnExplosion)
     EXPECT_LT(largestError(cube), 0.1);
 }
 
+// By 15 mean edges a second, which would be 250 in steps of 1/1000 s if these took a quarter of an edge, too.
+TEST_P(FloatingAnchorsTest, aFarPivotDrawsItsNodeInNoFasterInShortSteps)
+{
+    btSoftBody& cube = addCube({0, 0, 0});
+    btRigidBody& ceiling = addBox(0, {0, 0, 3});
+    for (int i : nodesAt(cube, kHalf))
+        cube.appendAnchor(i, &ceiling, btVector3(cube.m_nodes[i].m_x.x(), cube.m_nodes[i].m_x.y(), 0), true);
+    const double fastestPull = 15 * kHalf * std::sqrt(3.0), height = centerOf(cube).z;  // no edge is longer
+    double fastest = 0;
+    for (int k = 0; k < 500; ++k)
+    {
+        m_world.bullet().stepSimulation(btScalar(1e-3), 0);
+        fastest = std::max(fastest, fastestNode(cube));
+    }
+    EXPECT_LT(fastest, 2 * fastestPull);  // what is pulled springs after
+    EXPECT_GT(centerOf(cube).z - height, 0.2);
+}
+
 TEST_P(AnchorsTest, anchoredNodesMayBeInsideTheirObject)
 {
     btSoftBody& cube = addCube({0, 0, 0});
