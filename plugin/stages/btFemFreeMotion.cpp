@@ -67,7 +67,7 @@ StepSettings btFemFreeMotion::settingsOf(const btFemBodyRecord& record) const
     settings.m_numericalDamping = m_info.m_numericalDamping;
     const btFemDetail detail = detailInUse(record);
     if (detail == btFemDetail::direct || detail == btFemDetail::oneIteration)
-        settings.m_tolerance = std::max(settings.m_tolerance, kCoarseTolerance);
+        settings.m_tolerance = std::max(settings.m_tolerance, kCoarseTolerance / record.m_work.m_staleness);
     settings.m_warp =
         detail == btFemDetail::nodalWarp || detail == btFemDetail::oneIteration ? Warp::nodal : Warp::global;
     settings.m_threads = &m_threads;
