@@ -56,7 +56,7 @@ public:
     /// N, for what form() leaves out: set(i, j) sets (j, i) as well; i and j are three times a slot plus an axis.
     void set(std::size_t i, std::size_t j, double value);
 
-    /// Adds to N likewise; and when all of that is done.
+    /// Adds to N likewise. After the last call forgetColumns() is due, for columns of points were formed from N before.
     void add(std::size_t i, std::size_t j, double value);
     void forgetColumns();
 
