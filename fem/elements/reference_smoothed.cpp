@@ -77,6 +77,14 @@ Mat3 stressOf(const ElementBlocks<Real>& elements, int b, int lane, const ReadSt
 }
 
 template <class Real>
+Mat3 matrixOf(const Real (*entries)[kLanes], int lane)
+{
+    Mat3 A;
+    for (int k = 0; k < 9; ++k) A(k / 3, k % 3) = entries[k][lane];
+    return A;
+}
+
+template <class Real>
 void passElement(const SmoothedPass<Real>& pass, int b, int lane)
 {
     const ElementPass<Real>& plain = pass.m_elements;
@@ -86,21 +94,12 @@ void passElement(const SmoothedPass<Real>& pass, int b, int lane)
     const Mat3 damped = stressOf(elements, b, lane, smoothedStrain(*pass.m_smoothing, pass.m_damped, b, lane));
     const Mat3 S = Mat3::identity() + ownStrain(pass.m_elastic, b, lane).m_strain;
     const Mat3 P = damped + initial + torqueBalance(S, elastic + initial);
-    const Mat3 R = toMatrix(plain.m_rotation[b * kLanes + lane]);
+    const Mat3 R = matrixOf(pass.m_warped[b].m_rotation, lane);
     const ReferenceElement<Real> element = {elements.m_blocks[b], lane};
     storeCorners(-1.0 * (R * timesTranspose(P, element.DmInverse())), lane, plain.m_force[b]);
     const Mat3 T = plain.m_tensionFactor * positivePart(elastic + initial);
     const double entries[6] = {T(0, 0), T(1, 1), T(2, 2), T(1, 2), T(0, 2), T(0, 1)};
     for (int k = 0; k < 6; ++k) pass.m_warped[b].m_tension[k][lane] = static_cast<Real>(entries[k]);
-    for (int k = 0; k < 9; ++k) pass.m_warped[b].m_rotation[k][lane] = static_cast<Real>(R(k / 3, k % 3));
-}
-
-template <class Real>
-Mat3 matrixOf(const Real (*entries)[kLanes], int lane)
-{
-    Mat3 A;
-    for (int k = 0; k < 9; ++k) A(k / 3, k % 3) = entries[k][lane];
-    return A;
 }
 
 }  // namespace
@@ -118,6 +117,8 @@ void findStrains(const SmoothedPass<Real>& pass, Range pieces)
                        [&](int k, int b, double share)
                        {
                            const Strains s = strainsOf(pass.m_elements, b, lane);
+                           for (int i = 0; i < 9; ++i)
+                               pass.m_warped[b].m_rotation[i][lane] = static_cast<Real>(s.m_R(i / 3, i % 3));
                            elastic[k] = s.m_elastic;
                            damped[k] = s.m_elastic + pass.m_elements.m_damping * s.m_viscous;
                            theta += share * trace(elastic[k]);

@@ -38,9 +38,10 @@ void passForces(const SmoothedPass<Real>& pass, Range blocks)
 
 /// The strain and what damping makes of it, and rotations.
 template <class Real>
-HWY_INLINE void strainsOf(const ElementPass<Real>& pass, int b, int lane, Symmetric<Real>& elastic,
+HWY_INLINE void strainsOf(const SmoothedPass<Real>& smoothed, int b, int lane, Symmetric<Real>& elastic,
                           Symmetric<Real>& damped)
 {
+    const ElementPass<Real>& pass = smoothed.m_elements;
     const ElementBlock<Real>& block = pass.m_elements->m_blocks[b];
     StagedEdges<double, width<Real>()> x;
     StagedEdges<Real> v;
@@ -53,6 +54,7 @@ HWY_INLINE void strainsOf(const ElementPass<Real>& pass, int b, int lane, Symmet
     polarRotations(&F, 1, &q);
     storeQuaternions(q, rotation);
     const Matrix<Real> R = toMatrix(q, number<Real>(2));
+    storeMatrix(R, smoothed.m_warped[b].m_rotation, lane);
     elastic = strainInFrameOf(R, times(edgesMinusRotated(elements, q), DmInverse));
     const Symmetric<Real> rate = strainInFrameOf(R, times(v.load(), DmInverse));
     damped = combined<Real>(number<Real>(pass.m_damping), rate, number<Real>(1), elastic);
@@ -71,7 +73,7 @@ void passStrains(const SmoothedPass<Real>& pass, Range pieces)
         for (int k = 0; k < column.m_size; ++k)
         {
             const int b = column.m_block + k;
-            strainsOf(pass.m_elements, b, column.m_lane, elastic[k], damped[k]);
+            strainsOf(pass, b, column.m_lane, elastic[k], damped[k]);
             const Vector<Real> share = hn::Load(Lanes<Real>(), elements.m_share[b].m_lane + column.m_lane);
             theta = hn::MulAdd(share, trace(elastic[k]), theta);
             dampedTheta = hn::MulAdd(share, trace(damped[k]), dampedTheta);
@@ -119,15 +121,13 @@ HWY_INLINE void passForces(const SmoothedPass<Real>& pass, int b, int lane)
     const Matrix<Real> P = {{{damped.xx, damped.xy - w[2], damped.xz + w[1]},
                              {damped.xy + w[2], damped.yy, damped.yz - w[0]},
                              {damped.xz - w[1], damped.yz + w[0], damped.zz}}};
-    const Matrix<Real> R =
-        toMatrix(loadQuaternions(pass.m_elements.m_rotation + b * kLanes + lane, Real()), number<Real>(2));
+    const Matrix<Real> R = loadMatrix(pass.m_warped[b].m_rotation, lane);
     const Matrix<Real> minusGradients = timesTranspose(P, loadMatrix(elements.m_blocks[b].m_DmInverse, lane));
     Matrix<Real> f = times(R, minusGradients);
     HWY_UNROLL(9)
     for (int k = 0; k < 9; ++k) f.m[k / 3][k % 3] = hn::Neg(f.m[k / 3][k % 3]);
     storeCorners(f, pass.m_elements.m_force[b], lane);
 
-    storeMatrix(R, pass.m_warped[b].m_rotation, lane);
     const Symmetric<Real> T = tensionOf(pass.m_elements.m_tensionFactor, stress);
     const Vector<Real> entries[6] = {T.xx, T.yy, T.zz, T.yz, T.xz, T.xy};
     HWY_UNROLL(6)

@@ -163,7 +163,7 @@ protected:
 TEST_P(SmoothedElements, AreThoseOfPlainCode)
 {
     expectReference<float>(2e-5);
-    expectReference<double>(1e-6);  // rotations are kept in single precision
+    expectReference<double>(1e-12);
 }
 
 TEST_P(SmoothedElements, HaveTheSameBitsInAnyRanges)
@@ -202,12 +202,12 @@ TEST_P(SmoothedElements, TurnWithTheBody)
     std::vector<Vec3> f = kernels.forces(kAllAtOnce), y = kernels.times(m_p, kAllAtOnce);
     for (Vec3& a : f) a = Q * a;
     for (Vec3& a : y) a = Q * a;
-    EXPECT_LE(largestDistance(other.forces(kAllAtOnce), f), 1e-6 * largest(f));
-    EXPECT_LE(largestDistance(other.times(p, kAllAtOnce), y), 1e-6 * largest(y));
+    EXPECT_LE(largestDistance(other.forces(kAllAtOnce), f), 1e-12 * largest(f));
+    EXPECT_LE(largestDistance(other.times(p, kAllAtOnce), y), 1e-12 * largest(y));
 
     for (std::size_t i = 0; i < m_x.size(); ++i) turned[i] = Q * m_mesh.restPositions()[i] + Vec3{5, -2, 1};
     SmoothedCase<double> still(m_shape, turned, std::vector<Vec3>(m_x.size()));
-    EXPECT_LE(largest(still.forces(kAllAtOnce)), 1e-6 * largest(f));
+    EXPECT_LE(largest(still.forces(kAllAtOnce)), 1e-12 * largest(f));
 }
 
 // Of the elastic forces; damping by K' has a torque about positions that are deformed.
@@ -221,7 +221,7 @@ TEST_P(SmoothedElements, HaveNoTorqueAndNoSum)
         Vec3 sum, torque;
         for (std::size_t i = 0; i < f.size(); ++i) sum += f[i], torque += cross(m_x[i], f[i]);
         EXPECT_LE(norm(sum), 1e-12 * largest(f));
-        EXPECT_LE(norm(torque), 1e-6 * largest(f));  // rotations are kept in single precision
+        EXPECT_LE(norm(torque), 1e-12 * largest(f));
     }
 }
 
