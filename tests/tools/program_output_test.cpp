@@ -40,7 +40,7 @@ protected:
         writeSampleMeshes(m_samples);
         m_samples.write("scene.json",
                         R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1], "tets": 40 } }],
-                             "pictures": { "width": 64, "height": 48 } })");
+                             "framesPerSecond": 1, "pictures": { "width": 64, "height": 48 } })");
     }
 
     bool isScene() const { return std::string(GetParam().m_command).find("simulate") == 0; }
