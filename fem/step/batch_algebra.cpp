@@ -139,6 +139,17 @@ void AddForces(const BatchInertia& inertia, const PerBatch& alpha, double step, 
                  });
 }
 
+void SubtractSums(const BatchInertia& inertia, double share, BodyVectors b, PerBatch& squares)
+{
+    const V s = hn::Set(D(), share);
+    sumOverNodes(inertia.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     return storeMeasured(load3(b + at) - takeSum(inertia.m_sums, node, lane) * s, b + at);
+                 });
+}
+
 /// A p of a node, which is stored, too.
 HWY_INLINE V3 applyAt(const BatchInertia& inertia, const PerBatch& factor, const V3& p, BodyVectors Ap, int node,
                       int lane)
@@ -191,6 +202,7 @@ HWY_EXPORT(ScaleGuess);
 HWY_EXPORT(TurnDirection);
 HWY_EXPORT(AdvanceAlong);
 HWY_EXPORT(AddForces);
+HWY_EXPORT(SubtractSums);
 HWY_EXPORT(AddInertia);
 HWY_EXPORT(MeasureGuess);
 
@@ -246,6 +258,13 @@ PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double st
 {
     PerBatch squares;
     HWY_DYNAMIC_DISPATCH(AddForces)(inertia, alpha, step, v, b, squares);
+    return squares;
+}
+
+PerBatch subtractSums(const BatchInertia& inertia, double share, BodyVectors b)
+{
+    PerBatch squares;
+    HWY_DYNAMIC_DISPATCH(SubtractSums)(inertia, share, b, squares);
     return squares;
 }
 

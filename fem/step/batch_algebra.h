@@ -52,6 +52,8 @@ struct BatchInertia
 
 /// b = h (f - alpha m v + sums) in place of f; returns |b|^2.
 PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b);
+/// b -= share sums; returns |b|^2.
+PerBatch subtractSums(const BatchInertia& inertia, double share, BodyVectors b);
 /// Ap = factor m p + sums; returns p . Ap.
 PerBatch addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap);
 

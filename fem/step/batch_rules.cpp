@@ -56,7 +56,9 @@ bool canBeBatched(const StepEnd& end)
 
 bool areAlike(const FreeMotion& a, const FreeMotion& b)
 {
-    return areJobsAlike(a, b);
+    const auto variation = [](const FreeMotion& motion)
+    { return motion.m_body->m_workspace.scratch().m_stepVariation; };
+    return areJobsAlike(a, b) && variation(a) == variation(b);
 }
 bool areAlike(const ImpulseResponse& a, const ImpulseResponse& b)
 {

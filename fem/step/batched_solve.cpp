@@ -93,6 +93,16 @@ public:
             const auto end = rotation.begin() + m_arrays.elementCount();
             std::fill(end, rotation.end(), *(end - 1));
         }
+        dampByTension();
+    }
+
+    // See OneFreeMotion; areAlike() sees to it that the steps of all have varied alike.
+    void dampByTension()
+    {
+        const double r = scratch(0).m_stepVariation;
+        if (!(r > 0) || !m_settings.m_tension) return;
+        runElementProduct(m_arrays.elements(), 0, m_arrays.m_v.get());
+        m_bSquares = subtractSums(m_arrays.inertia(), r, m_arrays.m_rightSide.get());
     }
 
     void averageRotations()

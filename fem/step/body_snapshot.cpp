@@ -170,6 +170,8 @@ BodySnapshot snapshotOf(const Body& body)
     s.m_equivalentPlasticStrain = state.m_equivalentPlasticStrain;
     s.m_relaxedStrain = state.m_relaxedStrain;
     s.m_actuators = body.m_actuators;
+    s.m_leastStep = state.m_leastStep;
+    s.m_mostStep = state.m_mostStep;
     return s;
 }
 
@@ -190,6 +192,8 @@ void check(const BodySnapshot& s, const BodyModel& model)
     checkFlags(s.m_factor.m_fixed, "the factor's fixed flag");
     if (!(s.m_factor.m_step >= 1e-6 && s.m_factor.m_step <= 1))
         reject("the factor's step is ", s.m_factor.m_step, " s, not in [1e-6, 1]");
+    if (!(s.m_leastStep >= 0 && s.m_leastStep <= s.m_mostStep && s.m_mostStep <= 1))
+        reject("the recent steps are from ", s.m_leastStep, " s to ", s.m_mostStep, " s, not in [0, 1]");
     if (s.m_path != FactorPath::full && s.m_path != FactorPath::lowMemory)
         reject("the kind of the factor is ", static_cast<int>(s.m_path), ", not 0 or 1");
     checkSize(s.m_elementRotation, rotations, "element rotations");
@@ -230,6 +234,8 @@ void restore(const BodySnapshot& s, Body& body)
     state.m_equivalentPlasticStrain = s.m_equivalentPlasticStrain;
     state.m_relaxedStrain = s.m_relaxedStrain;
     body.m_actuators = s.m_actuators;
+    state.m_leastStep = s.m_leastStep;
+    state.m_mostStep = s.m_mostStep;
     StepScratch& scratch = body.m_workspace.scratch();
     scratch.m_complianceScale = s.m_complianceScale;
     scratch.m_velocity = s.m_v;

@@ -347,6 +347,8 @@ Body splitBody(const Body& body, std::shared_ptr<const BodyModel> model, const s
     to.m_plasticStrain = from.m_plasticStrain;
     to.m_equivalentPlasticStrain = from.m_equivalentPlasticStrain;
     to.m_relaxedStrain = from.m_relaxedStrain;
+    to.m_leastStep = from.m_leastStep;
+    to.m_mostStep = from.m_mostStep;
     // Of elements, which keep their numbers; nodes of cables and chambers may have parted.
     after.m_actuators.m_fibres = body.m_actuators.m_fibres;
     after.m_actuators.m_expansions = body.m_actuators.m_expansions;

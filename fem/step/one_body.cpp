@@ -229,6 +229,17 @@ private:
         for (std::size_t i = 0; i < loads.size(); ++i) loads[i] = m_settings.m_step * b[i];
         prepareWarpedSystem(m_body, m_settings, m_scratch.m_kickPosition, m_scratch.m_increment, b);
         for (Vec3& bi : b) bi *= m_settings.m_step;
+        dampByTension();
+    }
+
+    // b -= r c h^2 T v.
+    void dampByTension()
+    {
+        const double r = m_scratch.m_stepVariation;
+        if (!(r > 0) || !m_settings.m_tension) return;
+        std::vector<Vec3>&b = m_scratch.m_rightSide, &Tv = m_scratch.m_solver.m_Ap;
+        m_A.applyTension(m_state.m_v, Tv);
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] -= r * Tv[i];
     }
 
     // w = (s h + beta) v, less a share of h w x (w x r): velocities that turn with the body are no strain. Actuators

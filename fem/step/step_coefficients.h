@@ -13,8 +13,8 @@ namespace bullet_fem
 
 /// What a step of numerical damping s multiplies with what [-] (docs/theory.md):
 ///
-///     y = x + (1 - theta) h v          A (v* - v) = h f(y) - h (s h + beta) K' v     A = M + c h^2 (K' + T) + h beta
-///     K' x+ = y + theta h v*              v+ = v* - d A^-1 (A - M) (v* - v)
+///     y = x + (1 - theta) h v          A (v* - v) = h f(y) - h (s h + beta) K' v - r c h^2 T v
+///     x+ = y + theta h v*              v+ = v* - d A^-1 (A - M) (v* - v)          A = M + c h^2 (K' + T) + h beta K'
 ///
 /// s = 1 is implicit Euler, s = 0 of second order. A mode of (omega h)^2 = k keeps the share 1 - d c k^2 / (2 (1 + c
 /// k)^2) of its amplitude's square then; c = 3/8 and d = 2 c are the pair of which that tends to zero as k grows while

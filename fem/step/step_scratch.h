@@ -63,6 +63,7 @@ struct StepScratch
     ConjugateGradientScratch m_solver;
     /// 1 in a step that would carry elements too far before their forces are known, else 0: as of the loads [-].
     double m_leastDamping = 0;
+    double m_stepVariation = 0;  ///< r, of the recent steps: 1 - (the shortest / the longest)^2, in [0, 1)
     QuasiNewtonScratch m_newton;
     mutable ElementWork m_elements;
     mutable FactorWork m_factor;

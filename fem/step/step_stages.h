@@ -14,10 +14,10 @@ namespace bullet_fem
 /// The free motion, as if nothing touched the body [docs/theory.md]:
 ///
 ///     A dv = b        A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T        K' = sum R_e K_e R_e^T
-///                     b = h (f_ext + f_el(y) - alpha M v - K' w)                  y = x + (1 - theta) h v
+///                     b = h (f_ext + f_el(y) - alpha M v - K' w) - r c h^2 T v    y = x + (1 - theta) h v
 ///
-/// with w = (s h + beta) v but for what turns with the body, and c, theta and s of StepCoefficients: implicit Euler
-/// with c = theta = s = 1.
+/// with w = (s h + beta) v but for what turns with the body, c, theta and s of StepCoefficients: implicit Euler with
+/// c = theta = s = 1; and r of how the recent steps vary.
 template <class Width>
 void solveFreeMotion(Width& width)
 {

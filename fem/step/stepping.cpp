@@ -14,6 +14,7 @@
 #include "fem/step/smoothing.h"
 #include "fem/step/step_coefficients.h"
 #include "fem/step/step_scratch.h"
+#include "fem/step/step_variation.h"
 #include "fem/step/violent_step.h"
 #include "fem/step/warped_compliance.h"
 
@@ -94,7 +95,11 @@ double factorStep(double step, double numericalDamping, const Material& material
 
 void solveFreeMotions(FreeMotion* motions, int count)
 {
-    for (int k = 0; k < count; ++k) chooseDamping(*motions[k].m_body, motions[k].m_settings);
+    for (int k = 0; k < count; ++k)
+    {
+        noteStep(*motions[k].m_body, motions[k].m_settings.m_step);
+        chooseDamping(*motions[k].m_body, motions[k].m_settings);
+    }
     solveAll(motions, count);
 }
 

@@ -128,8 +128,8 @@ void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3
 }
 
 template <class Real>
-void product(const Body& body, const Threads* threads, bool withMass, const std::vector<Vec3>& in,
-             std::vector<Vec3>& out)
+void product(const Body& body, const Threads* threads, double stiffnessFactor, bool withMass,
+             const std::vector<Vec3>& in, std::vector<Vec3>& out)
 {
     const ModelElements& elements = body.m_model->elements();
     ElementWork& work = body.m_workspace.scratch().m_elements;
@@ -137,7 +137,7 @@ void product(const Body& body, const Threads* threads, bool withMass, const std:
     pad(threads, in, work.m_x);
     const ElementBlocks<Real>& blocks = elements.blocks<Real>();
     const ElementProduct<Real> forces = {
-        &blocks,         scratch.m_warped.data(),  work.m_stiffnessFactor,
+        &blocks,         scratch.m_warped.data(),  stiffnessFactor,
         work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_cofactor.data()};
     const EdgeSmoothing<Real>& smoothing = elements.smoothing<Real>();
     if (!blocks.m_stiffness.empty())
@@ -226,22 +226,30 @@ void completeWarpedSystem(Body& body, const StepSettings& settings)
     runPass(pass, settings.m_threads);
 }
 
-void WarpedSystem::applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+void WarpedSystem::multiply(double stiffnessFactor, bool withMass, const std::vector<Vec3>& in,
+                            std::vector<Vec3>& out) const
 {
     if (m_body.m_workspace.scratch().m_elements.m_isDouble)
-        product<double>(m_body, m_threads, true, in, out);
+        product<double>(m_body, m_threads, stiffnessFactor, withMass, in, out);
     else
-        product<float>(m_body, m_threads, true, in, out);
+        product<float>(m_body, m_threads, stiffnessFactor, withMass, in, out);
+}
+
+void WarpedSystem::applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    multiply(m_body.m_workspace.scratch().m_elements.m_stiffnessFactor, true, in, out);
 }
 
 void WarpedSystem::applyStiffness(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
-    if (m_body.m_workspace.scratch().m_elements.m_isDouble)
-        product<double>(m_body, m_threads, false, in, out);
-    else
-        product<float>(m_body, m_threads, false, in, out);
+    multiply(m_body.m_workspace.scratch().m_elements.m_stiffnessFactor, false, in, out);
     addActuators(in, out);
     clearFixed(out);
+}
+
+void WarpedSystem::applyTension(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    multiply(0, false, in, out);
 }
 
 void WarpedSystem::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const

@@ -43,7 +43,11 @@ public:
     /// A without its masses, over the free nodes.
     void applyStiffness(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
+    /// c h^2 T alone, of the elements, with the rows and columns of fixed nodes.
+    void applyTension(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
+
 private:
+    void multiply(double stiffnessFactor, bool withMass, const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
     void addActuators(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
     void clearFixed(std::vector<Vec3>& out) const;
 

@@ -255,6 +255,29 @@ TEST(BatchOfCopies, TakesStepsOfSecondOrder)
     }
 }
 
+// Tension damps what turns then, in one product more. A body that comes later knows other steps.
+TEST(BatchOfCopies, TakesStepsThatVary)
+{
+    const auto model = freeBlock().m_model;
+    for (const double damping : {0.0, 1.0})
+    {
+        Copies together(model, 40), alone(model, 40);
+        for (int k = 0; k < 12; ++k)
+        {
+            for (Copies* copies : {&together, &alone})
+            {
+                if (k == 6) copies->add(model, 3);
+                for (StepSettings& settings : copies->m_settings)
+                {
+                    settings.m_numericalDamping = damping;
+                    settings.m_step = 1 / (k % 3 == 2 ? 240.0 : 60.0);
+                }
+            }
+            expectSameSteps(together, alone, 1);
+        }
+    }
+}
+
 TEST(BatchOfCopies, MayGoWithoutMomentumCorrection)
 {
     const auto model = freeBlock().m_model;

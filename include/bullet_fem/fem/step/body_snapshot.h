@@ -30,6 +30,8 @@ struct BodySnapshot
     std::vector<double> m_equivalentPlasticStrain;     ///< [-]
     std::vector<SymmetricTensor> m_relaxedStrain;      ///< [-]
     Actuators m_actuators;                             ///< chambers, cables, fibres
+    double m_leastStep = 0;                            ///< [s]
+    double m_mostStep = 0;                             ///< [s]
 };
 
 /// The same for the same elements at the same rest positions, to the bit, of the same material.
@@ -95,7 +97,8 @@ void transfer(Bytes& bytes, BodySnapshot& s)
 {
     bytes(s.m_shapeMark, s.m_path, s.m_factor, s.m_complianceScale, s.m_x, s.m_v, s.m_mass, s.m_fixed,
           s.m_lastIncrement, s.m_elementRotation, s.m_bodyRotation, s.m_initialStress, s.m_initialStressChanges,
-          s.m_plasticStrain, s.m_equivalentPlasticStrain, s.m_relaxedStrain, s.m_actuators);
+          s.m_plasticStrain, s.m_equivalentPlasticStrain, s.m_relaxedStrain, s.m_actuators, s.m_leastStep,
+          s.m_mostStep);
 }
 
 }  // namespace bullet_fem

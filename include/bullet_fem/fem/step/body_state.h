@@ -45,6 +45,8 @@ struct BULLETFEM_API BodyState
     std::vector<double> m_equivalentPlasticStrain;  ///< alpha, all that has flown [-], >= 0
     /// alpha_i of every element's relaxation terms, one element's after another's, likewise; empty without terms.
     std::vector<SymmetricTensor> m_relaxedStrain;
+    double m_leastStep = 0;  ///< of the recent steps [s], >= 0; 0 before the first
+    double m_mostStep = 0;   ///< likewise
 };
 
 /// What acts on a body during one step.

@@ -13,11 +13,11 @@ namespace bullet_fem
 ///
 ///     y = x + (1 - theta) h v
 ///     A dv = b        A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T
-///                     b = h (f_ext + f_el(y) - alpha M v - (s h + beta) K' v)
+///                     b = h (f_ext + f_el(y) - alpha M v - (s h + beta) K' v) - r c h^2 T v
 ///     x+ = y + theta h (v + dv)
 ///
 /// with K' = sum R_e K_e R_e^T and the tensile geometric stiffness T (docs/theory.md). s is the numerical damping of
-/// the settings; implicit Euler with s = 1, for which theta = c = 1.
+/// the settings; implicit Euler with s = 1, for which theta = c = 1. r is 0 unless the recent steps vary.
 
 /// Step of FactorInput [s] that A of a step of `step` and that numerical damping is factored with: c of its h^2 K are
 /// in that step's h^2.
