@@ -222,7 +222,10 @@ void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature
         interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_motion->velocityAt(point);
     const double closest = d.m_gap + target.m_step * dot(d.m_normal, relative) - norm(target.m_fall);
     if (d.m_gap > m_band && closest > m_band) return;
-    if (d.m_gap > -m_band && !faces(fem, nodes, d.m_normal)) return;
+    // Nothing comes from the side of a plane: what is on its way into one is a contact whichever way it looks, or the
+    // middle of a body that is crushed in one step goes past what touches.
+    const double nearest = isPlane(*target.m_shape) ? std::min(d.m_gap, closest) : d.m_gap;
+    if (nearest > -m_band && !faces(fem, nodes, d.m_normal)) return;
     keep(fem, target, feature, nodes, d);
 }
 

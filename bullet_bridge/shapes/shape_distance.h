@@ -33,6 +33,9 @@ struct ShapeLeaf
     Vec3 m_boundsMin, m_boundsMax;  ///< world bounds with the shape's margin [m]; a plane's are infinite
 };
 
+/// True for Bullet's static planes, which fill the half of space below them.
+bool isPlane(const ShapeLeaf& leaf);
+
 /// Appends the leaves of an object's shape, through compounds of any depth, Bullet's and GImpact's; allocates only when
 /// `leaves` must grow. Returns the number of leaves of a kind that is not known (they are left out): empty shapes,
 /// signed distance fields that were not loaded, convex hulls and multi-spheres without points, triangle meshes whose

@@ -56,7 +56,7 @@ bool hasUsableTree(const btCollisionShape& shape)
 /// Bullet's bounds are floats: asked for about the leaf's own origin, they keep their precision far from the world's.
 void setBounds(ShapeLeaf& leaf)
 {
-    if (leaf.m_shape->getShapeType() == STATIC_PLANE_PROXYTYPE)
+    if (isPlane(leaf))
     {
         const double infinity = std::numeric_limits<double>::infinity();
         leaf.m_boundsMin = {-infinity, -infinity, -infinity};
@@ -153,6 +153,11 @@ bool isKnownShape(const btCollisionShape& shape)
         default:
             return shape.isConvex() || dynamic_cast<const btConcaveShape*>(&shape);
     }
+}
+
+bool isPlane(const ShapeLeaf& leaf)
+{
+    return leaf.m_shape->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
 int collectShapeLeaves(const btCollisionObject& object, btAlignedObjectArray<ShapeLeaf>& leaves)

@@ -23,11 +23,6 @@ constexpr double kFastFraction = 0.5;  // travel, relative to an edge or the thi
 constexpr double kThinnest = 0.2;      // edges; shapes count as no thinner
 constexpr double kSlowSpeed = 2;       // times what gravity gives in a step: up to it bodies at rest are not fast [-]
 
-bool isPlane(const ShapeLeaf& leaf)
-{
-    return leaf.m_shape->getShapeType() == STATIC_PLANE_PROXYTYPE;
-}
-
 /// Rodrigues' formula: the rotation by the vector w, about it, by its length [rad].
 Mat3 rotationBy(const Vec3& w)
 {
