@@ -60,8 +60,9 @@ void play(Demo& demo, const std::string& file, double young, double gapShare, do
     btFemHelpers::updateEmbeddedSurface(body);
     world.addSoft(body, material, friction);
 
-    // The lower roller stands a little above the tables; the gap is a share of the body's height.
-    const double gap = gapShare * double(size.y()), low = kTable + 0.02;
+    // The lower roller is above the tables where they end, too, or what it carries is caught there; the gap is a share
+    // of the body's height.
+    const double gap = gapShare * double(size.y()), low = kTable + 0.03;
     btRigidBody* rollers[2];
     for (const int upper : {0, 1}) rollers[upper] = &addRoller(world, upper ? low + gap + kRoller : low - kRoller);
     for (const double side : {-1.0, 1.0})
