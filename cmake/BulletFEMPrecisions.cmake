@@ -3,7 +3,8 @@
 # for float, "-float64" for float64. Source lists are written once.
 set(BULLETFEM_BULLET "" CACHE STRING "Which Bullet: targets (of this build), system, or the folder that it is installed in; \
 empty: targets where there are some, else system")
-find_package(BulletPrecisions REQUIRED OPTIONAL_COMPONENTS float float64)
+set(BULLETFEM_BULLET_MINIMUM 3.23) # docs/compatibility.md, Which Bullet
+find_package(BulletPrecisions ${BULLETFEM_BULLET_MINIMUM} REQUIRED OPTIONAL_COMPONENTS float float64)
 
 set(_found "")
 foreach(_precision float float64)

@@ -4,6 +4,7 @@
 #   component float    Bullet::SoftBody, Bullet::Dynamics, Bullet::Collision, Bullet::LinearMath
 #   component float64  Bullet::SoftBody-float64 and so on, with BT_USE_DOUBLE_PRECISION in their interface
 # Each tells its precision as BULLET_PRECISION. CMake stops with an error where a target would have two of them.
+# BulletPrecisions_VERSION is that of the headers, e.g. 3.24; find_package(BulletPrecisions 3.23) asks for one.
 #
 # BULLETFEM_BULLET says which Bullet:
 #   targets    that of this build: the targets BulletSoftBody and so on of Bullet's own CMakeLists.txt, made before
@@ -86,11 +87,13 @@ endif()
 if(BulletPrecisions_INCLUDE_DIR)
     file(STRINGS "${BulletPrecisions_INCLUDE_DIR}/LinearMath/btScalar.h" BulletPrecisions_VERSION
         REGEX "^#define BT_BULLET_VERSION [0-9]+")
-    string(REGEX MATCH "[0-9]+" BulletPrecisions_VERSION "${BulletPrecisions_VERSION}")
+    # 324 stands for 3.24.
+    string(REGEX REPLACE "^.* ([0-9])([0-9]+)$" "\\1.\\2" BulletPrecisions_VERSION "${BulletPrecisions_VERSION}")
 endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(BulletPrecisions REQUIRED_VARS BulletPrecisions_INCLUDE_DIR HANDLE_COMPONENTS
+    VERSION_VAR BulletPrecisions_VERSION
     REASON_FAILURE_MESSAGE "install libbullet-dev, or set BULLETFEM_BULLET to the folder of your own Bullet")
 
 foreach(_precision float float64)
