@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs what is missing (Debian 12, as root or with sudo), builds the drop demo, runs it on a scanned elephant and
-# draws it.
+# Installs what is missing (Debian 12, as root or with sudo), builds and runs README's first program and the drop demo, on a
+# scanned elephant, and draws it.
 # Further arguments go to the demo: demos/run.sh --young 2e5 --seconds 2
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -23,7 +23,10 @@ say "building in $build"
 if [ ! -f "$build/build.ninja" ]; then # else with the options that it has
     (cd "$root" && cmake --preset release -DBULLETFEM_UNITY=8 -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
 fi
-cmake --build "$build" --target bulletfem_drop bulletfem --parallel "$(nproc)"
+cmake --build "$build" --target bulletfem_hello bulletfem_drop bulletfem --parallel "$(nproc)"
+
+say "running README's first program, demos/hello/hello.cpp"
+"$build/demos/bulletfem_hello"
 
 say "running the demo; its frames go to $root/out/drop unless --out says otherwise"
 "$build/demos/bulletfem_drop" --mesh "$mesh" --out "$root/out/drop" "$@"

@@ -31,6 +31,14 @@ std::string anchorOf(const std::string& heading)
     return anchor;
 }
 
+/// The path in a line <!-- file: path -->; empty in others.
+std::string fileOf(const std::string& line)
+{
+    static const std::regex mark(R"(<!-- file: (\S+) -->)");
+    std::smatch match;
+    return std::regex_match(line, match, mark) ? match[1].str() : std::string();
+}
+
 void readLine(const std::string& line, Document& document)
 {
     static const std::regex link(R"(\]\(([^)]+)\))");
@@ -48,19 +56,21 @@ Document readDocument(const std::string& path)
     Document document;
     document.m_path = path;
     bool inSnippet = false, isFragment = false;
+    std::string file;
     for (std::string line; std::getline(in, line);)
     {
         document.m_bytes += line.size() + 1;
         ++document.m_lines;
         const bool isFence = startsWith(line, kFence);
         if (isFence && !inSnippet)
-            document.m_snippets.push_back({line.substr(kFence.size()), document.m_lines + 1, {}, isFragment});
+            document.m_snippets.push_back({line.substr(kFence.size()), document.m_lines + 1, {}, isFragment, file});
         else if (inSnippet && !isFence)
             document.m_snippets.back().m_code.push_back(line);
         else if (!isFence)
             readLine(line, document);
         if (isFence) inSnippet = !inSnippet;
         isFragment = line == "<!-- snippet: fragment -->";
+        file = fileOf(line);
     }
     if (inSnippet) throw std::runtime_error(path + ": the last snippet is not closed");
     return document;

@@ -15,6 +15,7 @@ struct Snippet
     std::size_t m_line = 0;           ///< of its first line of code, from 1
     std::vector<std::string> m_code;  ///< line by line
     bool m_isFragment = false;        ///< a line <!-- snippet: fragment --> stands above it: it does not compile alone
+    std::string m_file;               ///< path of the line <!-- file: path --> above it: it is that file, whole
 };
 
 /// A document in Markdown, as far as tests need it.
