@@ -142,8 +142,7 @@ class Amalgam:
         lines = ["// SPDX-License-Identifier: Zlib", "// BulletFEM::runtime in one header; made by tools/amalgamate.py.",
                  "#pragma once", ""]
         for path in files_below("include/bullet_fem", ".h"):
-            # Headers with old names, which only forward, stand in the folder of fem itself.
-            if path.startswith(HEADERS) and os.path.dirname(path) != "include/bullet_fem/fem" and path not in self.m_done:
+            if path.startswith(HEADERS) and path not in self.m_done:
                 self.expand(path, lines)
         return "\n".join(lines) + "\n"
 

@@ -16,7 +16,7 @@ struct btSoftBodyWorldInfo;
 
 namespace bullet_fem
 {
-struct BakedBody;  // bullet_fem/fem/baked_body.h
+struct BakedBody;  // bullet_fem/fem/baked/baked_body.h
 }
 
 /// Makes tetrahedral soft bodies. All have water's density (1000 kg/m3) until setMaterial says otherwise, outward

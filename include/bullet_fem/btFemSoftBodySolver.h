@@ -24,7 +24,7 @@ struct btFemCoupling;
 
 namespace bullet_fem
 {
-struct BakedBody;  // bullet_fem/fem/baked_body.h
+struct BakedBody;  // bullet_fem/fem/baked/baked_body.h
 }
 
 /// Makes every tetrahedral btSoftBody of a btSoftRigidDynamicsWorld a corotational finite-element body: give it to the

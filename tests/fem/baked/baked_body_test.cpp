@@ -244,23 +244,6 @@ TEST(Baking, RejectsWhatCannotBe)
     EXPECT_TRUE(bakeBody(mesh, settings, &why).m_model);
 }
 
-// The forms of an earlier version, which need no reason.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
-TEST(BakeRejects, InItsFormerFormsToo)
-{
-    const BakeSettings settings;
-    BakedBody body;
-    std::string why;
-    EXPECT_FALSE(bakeBody(TetMesh(), settings, body, nullptr));
-    EXPECT_FALSE(readBakedBody("missing.bfem", body, &why));
-    EXPECT_NE(why.find("missing.bfem"), std::string::npos) << why;
-    EXPECT_FALSE(body.m_model);
-    EXPECT_TRUE(bakeBody(makeBox({1, 1, 1}, {2, 2, 2}), settings, body, &why)) << why;
-    EXPECT_TRUE(body.m_model);
-}
-#pragma GCC diagnostic pop
-
 TEST(BakedFactor, OfAnotherMaterialPreconditionsAndIsCalledStale)
 {
     const BakedBody baked = bakeCase({{6, 3, 3}, FactorChoice::full, false});

@@ -104,23 +104,4 @@ struct BakedFileInfo
 /// Reads the beginning alone, and whether the file is as long as it must be. Throws like readBakedBody.
 BULLETFEM_API BakedFileInfo inspectBakedBody(const std::string& path, std::string* why = nullptr);
 
-/// @name Deprecated
-/// @{
-
-/// For engines without exceptions, forms of the functions above that go with the next version: give them `why`.
-[[deprecated("give `why` to bakeBody(mesh, settings, why)")]] BULLETFEM_API bool bakeBody(const TetMesh& mesh,
-                                                                                          const BakeSettings& settings,
-                                                                                          BakedBody& body,
-                                                                                          std::string* why);
-[[deprecated("give `why` to bakeBody(cage, surface, settings, why)")]] BULLETFEM_API bool bakeBody(
-    const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings, BakedBody& body, std::string* why);
-[[deprecated("give `why` to readBakedBody(path, loading, why)")]] BULLETFEM_API bool readBakedBody(
-    const std::string& path, BakedBody& body, std::string* why);
-[[deprecated("give `why` to readBakedBody(data, size, name, why)")]] BULLETFEM_API bool readBakedBody(
-    const unsigned char* data, std::size_t size, BakedBody& body, std::string* why);
-[[deprecated("give `why` to inspectBakedBody(path, why)")]] BULLETFEM_API bool inspectBakedBody(const std::string& path,
-                                                                                                BakedFileInfo& info,
-                                                                                                std::string* why);
-/// @}
-
 }  // namespace bullet_fem

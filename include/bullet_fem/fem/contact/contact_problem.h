@@ -59,11 +59,6 @@ struct RigidResponse
     Mat3 m_angular;          ///< [1/(kg m2)]
 };
 
-/// Name of RigidProxy before 0.2.
-using Obstacle [[deprecated("is RigidProxy")]] = RigidProxy;
-/// Name of RigidResponse before 0.2.
-using ObstacleResponse [[deprecated("is RigidResponse")]] = RigidResponse;
-
 /// A point of a soft surface: a weighted sum of nodes of a body, of those that its compliance cache serves. An impulse
 /// on it is shared out by the same weights, and so has no other moment than that of the impulse at the point.
 struct SurfacePoint

@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: Zlib
-// Copyright (c) 2026 The BulletFEM authors
-#pragma once
-
-// Moved; this name goes with the next version.
-#include "bullet_fem/fem/step/body.h"
