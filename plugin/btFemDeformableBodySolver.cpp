@@ -6,8 +6,8 @@
 #include <string>
 
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
-#include "bullet_bridge/body_arrays.h"
-#include "bullet_bridge/rigid_proxies.h"
+#include "bullet_bridge/body/body_arrays.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
 #include "bullet_fem/btFemVectors.h"
 #include "fem/common/reason.h"
 #include "plugin/btFemDeformableForces.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "BulletSoftBody/btDeformableBodySolver.h"
-#include "bullet_bridge/joints/held_joint.h"
+#include "bullet_bridge/body/held_joint.h"
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/fem/common/vec3.h"
 

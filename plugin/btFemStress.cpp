@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/body_arrays.h"
+#include "bullet_bridge/body/body_arrays.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemCoupling.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_bridge/joints/world_objects.h"
+#include "bullet_bridge/rigid/world_objects.h"
 #include "bullet_fem/fem/step/batch_memory.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 #include "plugin/setup/btFemBodySetUp.h"

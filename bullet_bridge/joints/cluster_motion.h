@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/body/fem_soft_body.h"
 
 namespace bullet_fem
 {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "bullet_bridge/fem_soft_body.h"
-#include "bullet_bridge/joints/world_objects.h"
-#include "bullet_bridge/rigid_proxies.h"
+#include "bullet_bridge/body/fem_soft_body.h"
+#include "bullet_bridge/rigid/world_objects.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
 
 namespace bullet_fem
 {

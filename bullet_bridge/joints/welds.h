@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/body/fem_soft_body.h"
 
 namespace bullet_fem
 {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/body/fem_soft_body.h"
 
 namespace bullet_fem
 {

@@ -3,7 +3,7 @@
 #include "plugin/dispatch/btFemDispatch.h"
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/shapes/rigid_dispatch.h"
+#include "bullet_bridge/body/rigid_dispatch.h"
 #include "plugin/dispatch/btFemContactTest.h"
 #include "plugin/dispatch/btFemManifolds.h"
 

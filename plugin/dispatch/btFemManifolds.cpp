@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "BulletCollision/CollisionDispatch/btCollisionDispatcher.h"
-#include "bullet_bridge/shapes/rigid_dispatch.h"
+#include "bullet_bridge/body/rigid_dispatch.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/dispatch/btFemPair.h"
 #include "plugin/dispatch/btFemPairAlgorithm.h"

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/face_tree.h"
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/face_tree.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/btFemWelds.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/btFemActuators.h"
 #include "bullet_fem/btFemVectors.h"
 #include "fem/common/attempt.h"

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/limits.h"
-#include "bullet_bridge/rigid_proxies.h"
+#include "bullet_bridge/geometry/limits.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
 #include "bullet_fem/btFemVectors.h"
 
 using namespace bullet_fem;

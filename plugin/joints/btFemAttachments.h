@@ -5,7 +5,7 @@
 #include <array>
 
 #include "LinearMath/btAlignedObjectArray.h"
-#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/body/fem_soft_body.h"
 #include "bullet_fem/btFemAnchors.h"
 #include "bullet_fem/btFemSpring.h"
 

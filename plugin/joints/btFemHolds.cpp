@@ -6,7 +6,7 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/cloth/cloth_surface.h"
+#include "bullet_bridge/contact/cloth/cloth_surface.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "fem/common/attempt.h"
 #include "plugin/joints/btFemAttachments.h"

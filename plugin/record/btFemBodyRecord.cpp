@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/node_exchange.h"
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/node_exchange.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 
 using namespace bullet_fem;
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "LinearMath/btAlignedObjectArray.h"
-#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/body/fem_soft_body.h"
 #include "bullet_fem/btFemAnchors.h"
 #include "bullet_fem/btFemFracture.h"
 #include "bullet_fem/btFemReports.h"

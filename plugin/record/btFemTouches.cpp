@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bullet_bridge/rigid_proxies.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
 #include "plugin/record/btFemBodyRecord.h"
 
 using namespace bullet_fem;

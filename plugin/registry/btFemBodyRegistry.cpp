@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/body_arrays.h"
-#include "bullet_bridge/body_mark.h"
+#include "bullet_bridge/body/body_arrays.h"
+#include "bullet_bridge/body/body_mark.h"
 #include "bullet_fem/fem/common/threads.h"
 #include "plugin/registry/btFemBroadphaseProxy.h"
 

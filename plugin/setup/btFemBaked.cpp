@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/rest_positions.h"
+#include "bullet_bridge/body/rest_positions.h"
 #include "bullet_fem/fem/baked/baked_body.h"
 #include "fem/common/byte_stream.h"
 #include "plugin/registry/btFemBodyRegistry.h"

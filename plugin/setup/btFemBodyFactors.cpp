@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/fem/step/body_snapshot.h"
 #include "fem/common/reason.h"
 #include "plugin/setup/btFemBodySetUp.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/face_tree.h"
+#include "bullet_bridge/body/face_tree.h"
 #include "bullet_fem/btFemVectors.h"
 #include "fem/common/message.h"
 #include "plugin/registry/btFemBodyRegistry.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "LinearMath/btVector3.h"
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/fem/mesh/element_materials.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bullet_bridge/model_library.h"
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/model_library.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "plugin/record/btFemBodyRecord.h"

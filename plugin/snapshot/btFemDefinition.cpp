@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/rest_positions.h"
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/rest_positions.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/fem/step/body_snapshot.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 #include "plugin/setup/btFemBodySetUp.h"

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "plugin/stages/btFemCloth.h"
 
-#include "bullet_bridge/face_tree.h"
-#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/body/face_tree.h"
+#include "bullet_bridge/body/fem_soft_body.h"
 
 using namespace bullet_fem;
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_bridge/cloth/cloth_contacts.h"
+#include "bullet_bridge/contact/cloth/cloth_contacts.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 
 /// Forgets cloth that is none of `bodies`, and pairs the others with the FEM bodies that they are attached to. Before

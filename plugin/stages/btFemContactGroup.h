@@ -4,14 +4,14 @@
 
 #include <vector>
 
-#include "bullet_bridge/cloth/cloth_contacts.h"
-#include "bullet_bridge/contact/rigid_search.h"
-#include "bullet_bridge/contact/torsional_patches.h"
+#include "bullet_bridge/contact/cloth/cloth_contacts.h"
+#include "bullet_bridge/contact/rigid/rigid_search.h"
+#include "bullet_bridge/contact/rigid/torsional_patches.h"
 #include "bullet_bridge/joints/soft_joints.h"
-#include "bullet_bridge/rebounds.h"
-#include "bullet_bridge/rigid_touches.h"
-#include "bullet_bridge/soft_pairs/soft_pair_search.h"
-#include "bullet_bridge/solver_bodies.h"
+#include "bullet_bridge/rigid/rebounds.h"
+#include "bullet_bridge/rigid/rigid_touches.h"
+#include "bullet_bridge/contact/soft/soft_pair_search.h"
+#include "bullet_bridge/rigid/solver_bodies.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "plugin/joints/btFemWeldBreaker.h"
 #include "plugin/record/btFemBodyRecord.h"

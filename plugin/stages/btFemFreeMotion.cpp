@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/body_arrays.h"
-#include "bullet_bridge/node_exchange.h"
+#include "bullet_bridge/body/body_arrays.h"
+#include "bullet_bridge/body/node_exchange.h"
 #include "bullet_fem/fem/contact/contact_solver.h"
 #include "plugin/record/btFemModelReport.h"
 #include "plugin/record/btFemStopwatch.h"

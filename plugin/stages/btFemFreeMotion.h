@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_bridge/soft_pairs/soft_pair_memory.h"
-#include "bullet_bridge/steady_bodies.h"
+#include "bullet_bridge/contact/soft/soft_pair_memory.h"
+#include "bullet_bridge/contact/soft/steady_bodies.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/fem/common/threads.h"
 #include "bullet_fem/fem/step/body_batches.h"

@@ -3,7 +3,7 @@
 #include "plugin/stages/btFemPublishing.h"
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/node_exchange.h"
+#include "bullet_bridge/body/node_exchange.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 using namespace bullet_fem;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/articulated_bodies.h"
+#include "bullet_bridge/rigid/articulated_bodies.h"
 
 #include <gtest/gtest.h>
 

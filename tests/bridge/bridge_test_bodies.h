@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/fem_soft_body.h"
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/fem_soft_body.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/mesh/generators.h"
 

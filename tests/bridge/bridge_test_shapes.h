@@ -19,7 +19,7 @@
 #include "BulletCollision/CollisionShapes/btMultiSphereShape.h"
 #include "BulletCollision/CollisionShapes/btSphereShape.h"
 #include "BulletCollision/CollisionShapes/btStaticPlaneShape.h"
-#include "bullet_bridge/shapes/shape_distance.h"
+#include "bullet_bridge/geometry/shapes/shape_distance.h"
 #include "bullet_fem/btFemVectors.h"
 
 namespace bullet_fem

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/collision_skin.h"
+#include "bullet_bridge/body/collision_skin.h"
 
 #include <gtest/gtest.h>
 
 #include "bridge/bridge_test_bodies.h"
-#include "bullet_bridge/contact_reduction.h"
+#include "bullet_bridge/contact/contact_reduction.h"
 
 namespace bullet_fem
 {

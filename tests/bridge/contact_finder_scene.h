@@ -8,7 +8,7 @@
 
 #include "bridge/bridge_test_bodies.h"
 #include "btBulletDynamicsCommon.h"
-#include "bullet_bridge/contact/rigid_search.h"
+#include "bullet_bridge/contact/rigid/rigid_search.h"
 #include "bullet_fem/fem/common/threads.h"
 #include "bullet_fem/fem/step/stepping.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/contact/contact_finder.h"
+#include "bullet_bridge/contact/rigid/contact_finder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_pairs/edge_pair_search.h"
+#include "bullet_bridge/contact/soft/edge_pair_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/shapes/field_distance.h"
+#include "bullet_bridge/geometry/shapes/field_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/model_library.h"
+#include "bullet_bridge/body/model_library.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_pairs/near_ridges.h"
+#include "bullet_bridge/geometry/surface/near_ridges.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/node_exchange.h"
+#include "bullet_bridge/body/node_exchange.h"
 
 #include <gtest/gtest.h>
 

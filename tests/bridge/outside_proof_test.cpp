@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_pairs/outside_proof.h"
+#include "bullet_bridge/geometry/surface/outside_proof.h"
 
 #include <gtest/gtest.h>
 

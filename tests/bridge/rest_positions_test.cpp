@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/rest_positions.h"
+#include "bullet_bridge/body/rest_positions.h"
 
 #include <gtest/gtest.h>
 

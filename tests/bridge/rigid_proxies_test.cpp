@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/rigid_proxies.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "LinearMath/btAlignedAllocator.h"
 #include "bridge/bridge_test_shapes.h"
 #include "bridge/concave_test_shapes.h"
-#include "bullet_bridge/contact/sheet_touch.h"
+#include "bullet_bridge/contact/rigid/sheet_touch.h"
 
 namespace
 {

@@ -9,7 +9,7 @@
 #include "bridge/bridge_test_shapes.h"
 #include "bridge/concave_test_shapes.h"
 #include "bridge/contact_finder_scene.h"
-#include "bullet_bridge/shapes/triangle_soup.h"
+#include "bullet_bridge/geometry/shapes/triangle_soup.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "bridge/bridge_test_bodies.h"
-#include "bullet_bridge/soft_pairs/soft_pair_finder.h"
+#include "bullet_bridge/contact/soft/soft_pair_finder.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_pairs/soft_pair_finder.h"
+#include "bullet_bridge/contact/soft/soft_pair_finder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/steady_bodies.h"
+#include "bullet_bridge/contact/soft/steady_bodies.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "bridge/bridge_test_bodies.h"
-#include "bullet_bridge/rigid_proxies.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
 #include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem

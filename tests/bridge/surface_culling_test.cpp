@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/contact/surface_culling.h"
+#include "bullet_bridge/contact/rigid/surface_culling.h"
 
 #include <gtest/gtest.h>
 

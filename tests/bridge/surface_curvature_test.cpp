@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "bullet_bridge/soft_pairs/soft_surface.h"
+#include "bullet_bridge/geometry/surface/soft_surface.h"
 #include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem

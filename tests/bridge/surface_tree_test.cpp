@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_pairs/surface_tree.h"
+#include "bullet_bridge/geometry/surface/surface_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bridge/random_vectors.h"
-#include "bullet_bridge/soft_pairs/soft_surface.h"
+#include "bullet_bridge/geometry/surface/soft_surface.h"
 #include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/topology_marks.h"
+#include "bullet_bridge/body/topology_marks.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "bridge/bridge_test_shapes.h"
-#include "bullet_bridge/shapes/convex_core.h"
+#include "bullet_bridge/geometry/shapes/convex_core.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/soft_pairs/triangle_proximity.h"
+#include "bullet_bridge/geometry/surface/triangle_proximity.h"
 
 #include <gtest/gtest.h>
 

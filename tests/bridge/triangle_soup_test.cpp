@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/shapes/triangle_soup.h"
+#include "bullet_bridge/geometry/shapes/triangle_soup.h"
 
 #include <gtest/gtest.h>
 

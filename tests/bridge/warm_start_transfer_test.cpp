@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_bridge/warm_start_transfer.h"
+#include "bullet_bridge/contact/warm_start_transfer.h"
 
 #include <gtest/gtest.h>
 

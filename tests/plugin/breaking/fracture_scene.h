@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "bullet_bridge/rest_positions.h"
+#include "bullet_bridge/body/rest_positions.h"
 #include "bullet_fem/btFemFracture.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemVectors.h"

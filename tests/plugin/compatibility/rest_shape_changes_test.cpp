@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/btFemVectors.h"

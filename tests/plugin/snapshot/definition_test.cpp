@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "bullet_bridge/soft_body_mesh.h"
+#include "bullet_bridge/body/soft_body_mesh.h"
 #include "plugin/scenes/each_world.h"
 #include "plugin/scenes/snapshot_scene.h"
 #include "plugin/snapshot/btFemEnvelope.h"

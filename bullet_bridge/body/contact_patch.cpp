@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/body/contact_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kFlattest = 0.5;  // curvature times size (cube root of the volume) from which it is round; a ball: 1.6
+constexpr double kSizePower = 4;   // of two flat sides the patch is with the smaller, of equal ones between them
+constexpr double kLeastInertia = 1e-9;  // share of the whole that is added, so that a line has a spin
+
+// Of its curvature, as fast as the patch may go.
+Vec3 velocityOfCentre(const TouchingSide& side, const Vec3& inward)
+{
+    if (!(side.m_curvature > 0)) return side.m_velocity;
+    const Vec3 ahead = cross(side.m_spin, inward * (1 / side.m_curvature));
+    const double square = dot(ahead, ahead);
+    if (!side.m_ofMass || square == 0) return side.m_velocity + ahead;
+    return side.m_velocity + std::clamp(dot(*side.m_ofMass - side.m_velocity, ahead) / square, 0.0, 1.0) * ahead;
+}
+
+}  // namespace
+
+MeanMotion meanMotion(const Body& body)
+{
+    const BodyState& s = body.m_state;
+    const std::size_t n = s.m_x.size();
+    if (body.m_model->mesh().componentCount() != 1) return {};
+    if (std::find(s.m_fixed.begin(), s.m_fixed.end(), 1) != s.m_fixed.end()) return {};
+    double mass = 0;
+    Vec3 center, velocity;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        mass += s.m_mass[i];
+        center += s.m_mass[i] * s.m_x[i];
+        velocity += s.m_mass[i] * s.m_v[i];
+    }
+    center *= 1 / mass;
+    velocity *= 1 / mass;
+    Vec3 angular;
+    Mat3 inertia;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        const Vec3 r = s.m_x[i] - center;
+        angular += s.m_mass[i] * cross(r, s.m_v[i]);
+        inertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+    }
+    const double size = trace(inertia);
+    if (!(size > 0)) return {velocity, {}};
+    return {velocity, inverse(inertia + Mat3::diagonal(kLeastInertia * size)) * angular};
+}
+
+Vec3 patchLag(const TouchingSide& a, const TouchingSide& b, const Vec3& normal, double h)
+{
+    const double sum = a.m_curvature + b.m_curvature;
+    const double share = sum > 0 ? a.m_curvature / sum : 1 / (1 + std::pow(a.m_size / b.m_size, kSizePower));  // of a
+    const Vec3 patch = share * velocityOfCentre(a, normal) + (1 - share) * velocityOfCentre(b, -normal);
+    const Vec3 lag = h * (a.m_velocity - patch);
+    return lag - dot(lag, normal) * normal;
+}
+
+double roundness(double curvature, double size)
+{
+    return curvature * size < kFlattest ? 0 : curvature;
+}
+
+}  // namespace bullet_fem

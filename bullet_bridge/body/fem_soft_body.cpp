@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/body/fem_soft_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body/body_mark.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
+#include "bullet_fem/fem/step/stepping.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Looking through all matrices takes a tenth of a step's time. Bullet zeroes the fourth component of a row, which means
+// nothing, when it sets a matrix, and initializeDmInverse sets all: what stands there says whether it was called.
+constexpr btScalar kSeen = 1;
+
+btScalar& seenMark(btAlignedObjectArray<btSoftBody::Tetra>& tetras)
+{
+    return tetras[0].m_Dm_inverse[0][3];
+}
+
+}  // namespace
+
+FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
+                         std::shared_ptr<ComplianceCache> compliance)
+    : m_softBody(&softBody),
+      m_firstNode(&softBody.m_nodes[0]),
+      m_mark(markBody(softBody)),
+      m_topology(softBody),
+      m_body(std::move(model)),
+      m_compliance(std::move(compliance)),
+      m_surface(m_body.m_model->mesh())
+{
+    const int n = softBody.m_nodes.size();
+    m_restOrigin = vec3(softBody.m_nodes[0].m_x);
+    m_pins.m_velocity.resize(n);
+    m_pins.m_position.resize(n);
+    m_pins.m_hasTarget.assign(n, 0);
+    m_pins.m_moved.assign(n, 0);
+    m_predicted.reserve(n);
+    sizeScratch();
+    noteRestMatrices(*this);
+    for (int i = 0; i < n; ++i)
+    {
+        btSoftBody::Node& node = softBody.m_nodes[i];
+        if (!isFinite(vec3(node.m_v))) node.m_v.setZero();
+        m_body.m_state.m_x[i] = vec3(node.m_x);
+        m_body.m_state.m_v[i] = vec3(node.m_v);
+        m_written.m_x.push_back(node.m_x);
+        m_written.m_v.push_back(node.m_v);
+        // Masses that were not usable were given their share of the volume.
+        if (!(node.m_im >= 0) || !std::isfinite(node.m_im) || (node.m_im > 0 && !std::isfinite(1 / node.m_im)))
+            node.m_im = static_cast<btScalar>(1 / m_body.m_state.m_mass[i]);
+        m_written.m_inverseMass.push_back(node.m_im);
+        if (node.m_im == 0) m_pins.m_velocity[i] = m_body.m_state.m_v[i];
+    }
+}
+
+void FemSoftBody::sizeScratch()
+{
+    m_nodeGap.resize(m_surface.vertexCount());
+    m_nodeNormal.resize(m_surface.vertexCount());
+    m_edgeGap.resize(m_surface.features().m_edges.size());
+    m_contacts.clear();
+    m_origins.clear();
+    m_impacts.clear();
+}
+
+void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
+{
+    m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(m_body.m_model->mesh());
+    if (skin || m_skin) m_sheetSides.clear();
+    m_skin = std::move(skin);
+    m_skinPosition.resize(m_skin ? m_surface.vertexCount() : 0);
+    m_skinVelocity.resize(m_skinPosition.size());
+    m_compliance = std::move(compliance);
+    sizeScratch();
+}
+
+void FemSoftBody::updateSkin()
+{
+    if (!m_skin || (m_isHeldForSearches && m_isSkinUpdated)) return;
+    m_skin->follow(m_body.m_state.m_x, m_skinPosition);
+    m_skin->follow(freeMeanVelocity(m_body), m_skinVelocity);
+    m_isSkinUpdated = true;
+}
+
+void FemSoftBody::holdForSearches(bool held)
+{
+    m_isHeldForSearches = held;
+    m_isSkinUpdated = false;
+}
+
+const std::vector<Vec3>& FemSoftBody::surfaceVelocity() const
+{
+    return m_skin ? m_skinVelocity : freeMeanVelocity(m_body);
+}
+
+bool restMatricesChanged(const FemSoftBody& fem)
+{
+    btAlignedObjectArray<btSoftBody::Tetra>& tetras = fem.m_softBody->m_tetras;
+    if (seenMark(tetras) == kSeen) return false;
+    const auto sameBits = [](const btMatrix3x3& a, const btMatrix3x3& b)  // matrices that nobody set may be NaN
+    {
+        for (int r = 0; r < 3; ++r)
+            if (std::memcmp(&a[r], &b[r], 3 * sizeof(btScalar)) != 0) return false;
+        return true;
+    };
+    for (int e = 0; e < tetras.size(); ++e)
+        if (!sameBits(tetras[e].m_Dm_inverse, fem.m_restMatrices[e])) return true;
+    seenMark(tetras) = kSeen;
+    return false;
+}
+
+void noteRestMatrices(FemSoftBody& fem)
+{
+    btAlignedObjectArray<btSoftBody::Tetra>& tetras = fem.m_softBody->m_tetras;
+    fem.m_restMatrices.clear();
+    for (int e = 0; e < tetras.size(); ++e) fem.m_restMatrices.push_back(tetras[e].m_Dm_inverse);
+    seenMark(tetras) = kSeen;
+}
+
+void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
+                     std::shared_ptr<ComplianceCache> compliance)
+{
+    Body body(std::move(model));
+    BodyState &now = body.m_state, &before = fem.m_body.m_state;
+    now.m_x.swap(before.m_x);
+    now.m_v.swap(before.m_v);
+    now.m_mass.swap(before.m_mass);
+    now.m_fixed.swap(before.m_fixed);
+    body.m_actuators = std::move(fem.m_body.m_actuators);
+    now.m_initialStress.swap(before.m_initialStress);
+    now.m_initialStressChanges = before.m_initialStressChanges;
+    // Bullet makes the present shape the rest shape: dents are in it, but how hard they made the material is not.
+    if (!now.m_plasticStrain.empty() && !before.m_plasticStrain.empty())
+        now.m_equivalentPlasticStrain.swap(before.m_equivalentPlasticStrain);
+    fem.m_body = std::move(body);
+    fem.setSkin(nullptr, std::move(compliance));
+}
+
+double fastestNode(const Body& body, const Vec3& relativeTo)
+{
+    const std::vector<Vec3>& v = freeMeanVelocity(body);
+    double fastest = 0;  // squares
+    for (int i : body.m_model->mesh().surfaceNodes())
+        fastest = std::max(fastest, dot(v[i] - relativeTo, v[i] - relativeTo));
+    return std::sqrt(fastest);
+}
+
+double fastestVertex(const FemSoftBody& fem, const Vec3& relativeTo)
+{
+    if (!fem.m_skin) return fastestNode(fem.m_body, relativeTo);
+    double fastest = 0;
+    for (const Vec3& v : fem.m_skinVelocity) fastest = std::max(fastest, norm(v - relativeTo));
+    return fastest;
+}
+
+Vec3 FemSoftBody::gravity() const
+{
+    if (m_hasOwnGravity) return m_ownGravity;
+    return m_softBody->m_worldInfo ? vec3(m_softBody->m_worldInfo->m_gravity) : Vec3();
+}
+
+}  // namespace bullet_fem

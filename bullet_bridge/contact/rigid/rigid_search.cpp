@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact/rigid/rigid_search.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
+#include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
+#include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "BulletCollision/CollisionShapes/btTriangleCallback.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body/contact_patch.h"
+#include "bullet_bridge/geometry/shapes/field_distance.h"
+#include "bullet_bridge/geometry/shapes/triangle_soup.h"
+#include "bullet_fem/fem/common/threads.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kOneFaceCosine = 0.9999;  // of the normals of contacts with one flat face
+constexpr int kFewest = 3;                 // contacts on it
+constexpr double kCarriedShare = 0.8;      // of all normal impulses that those have of what a flat face carries
+
+// Null if that cannot be known.
+btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
+{
+    const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
+    btBroadphaseInterface* broadphase = world ? world->m_broadphase : nullptr;
+    return broadphase && broadphase->getOverlappingPairCache() ? broadphase : nullptr;
+}
+
+// To where the object was before Bullet moved it; `present` is where its centre is.
+void moveBack(ShapeLeaf& leaf, const RigidProxy& rigidProxy, const Vec3& present, double step)
+{
+    leaf = movedBack(leaf, {present, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity}, step);
+}
+
+// True for shapes whose distances are closed forms or come of our own search over their corners. Others ask Bullet,
+// which locks meshes and counts in globals, or a program's own code.
+bool bearsThreads(const btCollisionShape& shape)
+{
+    switch (shape.getShapeType())
+    {
+        case BOX_SHAPE_PROXYTYPE:
+        case SPHERE_SHAPE_PROXYTYPE:
+        case CAPSULE_SHAPE_PROXYTYPE:
+        case CYLINDER_SHAPE_PROXYTYPE:
+        case CONE_SHAPE_PROXYTYPE:
+        case STATIC_PLANE_PROXYTYPE:
+        case CONVEX_HULL_SHAPE_PROXYTYPE:
+        case MULTI_SPHERE_SHAPE_PROXYTYPE:
+            return true;
+        default:
+            return false;
+    }
+}
+
+// Of a program's own class.
+bool isOwnSheet(const btCollisionShape& shape)
+{
+    return shape.getShapeType() == CUSTOM_CONCAVE_SHAPE_TYPE && isSheet(shape);
+}
+
+}  // namespace
+
+RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts)
+{
+    m_carried.reserve(kParts);
+}
+
+void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts,
+                       RigidProxies& rigidProxies)
+{
+    m_touching.clear();
+    m_touched.clear();
+    m_shapes.clear();
+    m_leaves.resizeNoInitialize(0);
+    listOverlapping(bodies);
+    listCarrying(bodies);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+    {
+        removeGone(*bodies[b], static_cast<int>(b));
+        listTouched(*bodies[b], step, rigidProxies);
+    }
+    m_reports.assign(bodies.size(), {});
+
+    const auto findOf = [&](ContactFinder& finder, std::size_t b)
+    {
+        const Touching& touching = m_touching[b];
+        FemSoftBody& fem = *bodies[b];
+        if (touching.m_count > 0) fem.m_meanMotion = meanMotion(fem.m_body);
+        m_reports[b] = finder.find(*bodies[b], static_cast<int>(b),
+                                   {m_touched.data() + touching.m_first, touching.m_count, m_leaves,
+                                    rigidProxies.rigidProxies(), step, maxContacts});
+    };
+    m_threads.run(kParts,
+                  [&](int part)
+                  {
+                      const std::size_t end = bodies.size() * (part + 1) / kParts;
+                      for (std::size_t b = bodies.size() * part / kParts; b < end; ++b)
+                          if (!m_touching[b].m_alone) findOf(m_finders[part], b);
+                  });
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (m_touching[b].m_alone) findOf(m_finders.front(), b);
+}
+
+// What else the bodies overlap in Bullet's broad phase. Pairs are compared by address: what left the world since it was
+// recorded may be deleted.
+void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
+{
+    m_byAddress.clear();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
+    std::sort(m_byAddress.begin(), m_byAddress.end());
+    const auto indexOf = [this](const void* object)
+    {
+        const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(object, 0));
+        return at != m_byAddress.end() && at->first == object ? at->second : -1;
+    };
+    m_overlapping.clear();
+    m_broadphases.clear();
+    for (const FemSoftBody* fem : bodies)
+    {
+        btBroadphaseInterface* broadphase = fem->m_touching.empty() ? nullptr : broadphaseOf(*fem);
+        if (!broadphase || std::find(m_broadphases.begin(), m_broadphases.end(), broadphase) != m_broadphases.end())
+            continue;
+        m_broadphases.push_back(broadphase);
+        const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
+        for (int i = 0; i < pairs.size(); ++i)
+        {
+            const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
+            const int first = indexOf(a), second = indexOf(b);
+            if (first >= 0 && second < 0) m_overlapping.emplace_back(first, b);
+            if (second >= 0 && first < 0) m_overlapping.emplace_back(second, a);
+        }
+    }
+    std::sort(m_overlapping.begin(), m_overlapping.end());
+}
+
+// How the soft bodies carried the objects in the last step.
+void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
+{
+    const auto before = [](const Carried& a, const Carried& b) { return a.m_objectId < b.m_objectId; };
+    const auto forEachPush = [&](const auto& use)
+    {
+        for (const FemSoftBody* fem : bodies)
+            for (std::size_t k = 0; k < fem->m_contacts.size(); ++k)
+            {
+                const ContactPoint& contact = fem->m_contacts[k];
+                const double size = dot(contact.m_impulse, contact.m_normal);
+                const Carried key = {fem->m_origins[k].m_objectId, 0, 0, 0, 0, Vec3(), Vec3()};
+                if (size > 0)
+                    use(std::lower_bound(m_carried.begin(), m_carried.end(), key, before), key, size, contact);
+            }
+    };
+    m_carried.clear();
+    forEachPush(
+        [&](auto at, const Carried& key, double size, const ContactPoint& contact)
+        {
+            if (at == m_carried.end() || at->m_objectId != key.m_objectId) at = m_carried.insert(at, key);
+            at->m_sum += size;
+            if (size <= at->m_largest) return;
+            at->m_largest = size;
+            at->m_normal = contact.m_normal;
+        });
+    forEachPush(
+        [&](auto at, const Carried&, double size, const ContactPoint& contact)
+        {
+            if (dot(contact.m_normal, at->m_normal) < kOneFaceCosine) return;
+            ++at->m_count;
+            at->m_onFace += size;
+            at->m_foot += size * (contact.m_point - contact.m_gap * contact.m_normal);
+        });
+}
+
+// The plane of a moving object that lay on soft bodies in the last step, as this one begins.
+CarryingPlane RigidSearch::carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy,
+                                           double step) const
+{
+    CarryingPlane plane;
+    if (norm(rigidProxy.m_linearVelocity) == 0) return plane;
+    const int id = broadphaseId(object);
+    const auto at = std::lower_bound(m_carried.begin(), m_carried.end(), id,
+                                     [](const Carried& carried, int other) { return carried.m_objectId < other; });
+    if (at == m_carried.end() || at->m_objectId != id) return plane;
+    if (at->m_count < kFewest || at->m_onFace < kCarriedShare * at->m_sum) return plane;
+    plane.m_exists = true;
+    plane.m_normal = at->m_normal;
+    plane.m_distance = dot(plane.m_normal, at->m_foot * (1 / at->m_onFace) + step * rigidProxy.m_linearVelocity);
+    return plane;
+}
+
+void RigidSearch::removeGone(FemSoftBody& fem, int body) const
+{
+    if (!broadphaseOf(fem)) return;
+    const auto isGone = [&](const void* object)
+    { return !std::binary_search(m_overlapping.begin(), m_overlapping.end(), std::make_pair(body, object)); };
+    fem.m_touching.erase(std::remove_if(fem.m_touching.begin(), fem.m_touching.end(), isGone), fem.m_touching.end());
+}
+
+void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidProxies& rigidProxies)
+{
+    std::sort(fem.m_touching.begin(), fem.m_touching.end(),
+              [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
+    Touching touching = {static_cast<int>(m_touched.size()), static_cast<int>(fem.m_touching.size()), false};
+    for (const btCollisionObject* object : fem.m_touching)
+    {
+        const int rigidProxy = rigidProxies.indexForContact(*object, step, fem.m_body);
+        const ShapeRange& shape = shapeOf(*object, rigidProxy, step, rigidProxies);
+        touching.m_alone = touching.m_alone || shape.m_alone;
+        m_touched.push_back({object, rigidProxy, shape.m_first, shape.m_count, shape.m_unknown,
+                             carryingPlaneOf(*object, rigidProxies.rigidProxies()[rigidProxy], step)});
+    }
+    m_touching.push_back(touching);
+}
+
+// A program's own shape need not tell its triangles, as Bullet's fields do not. One that has told some is not asked
+// again, as long as it is where it was.
+bool RigidSearch::givesTriangles(const ShapeLeaf& leaf)
+{
+    struct Any : btTriangleCallback
+    {
+        bool m_any = false;
+        void processTriangle(btVector3*, int, int) override { m_any = true; }
+    } any;
+    const auto place = std::lower_bound(m_giving.begin(), m_giving.end(), leaf.m_shape, std::less<const void*>());
+    if (place != m_giving.end() && *place == leaf.m_shape) return true;
+    btVector3 low, high;
+    leaf.m_shape->getAabb(btTransform::getIdentity(), low, high);
+    forEachTriangle(*leaf.m_shape, low, high, any);
+    if (any.m_any) m_giving.insert(place, leaf.m_shape);
+    return any.m_any;
+}
+
+// The leaves of an object's shape, collected when first asked for.
+const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& object, int rigidProxy, double step,
+                                                    const RigidProxies& rigidProxies)
+{
+    if (m_shapes.size() < rigidProxies.rigidProxies().size()) m_shapes.resize(rigidProxies.rigidProxies().size());
+    ShapeRange& range = m_shapes[rigidProxy];
+    if (range.m_first >= 0) return range;
+    range.m_first = m_leaves.size();
+    range.m_unknown = collectShapeLeaves(object, m_leaves) > 0;
+    range.m_count = m_leaves.size() - range.m_first;
+    for (int l = range.m_first; l < m_leaves.size(); ++l)
+        range.m_unknown = range.m_unknown || (isOwnSheet(*m_leaves[l].m_shape) && !givesTriangles(m_leaves[l]));
+    const RigidProxy& proxy = rigidProxies.rigidProxies()[rigidProxy];
+    for (int l = range.m_first; l < m_leaves.size(); ++l)
+    {
+        if (rigidProxies.isRewound(rigidProxy))
+            moveBack(m_leaves[l], proxy, proxy.m_center + step * proxy.m_linearVelocity, step);
+        else if (object.isKinematicObject())
+            moveBack(m_leaves[l], proxy, proxy.m_center, step);
+        range.m_alone = range.m_alone || !bearsThreads(*m_leaves[l].m_shape);
+    }
+    return range;
+}
+
+}  // namespace bullet_fem

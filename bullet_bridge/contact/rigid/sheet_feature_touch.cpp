@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_bridge/contact/rigid/sheet_touch.h"
+
+namespace bullet_fem
+{
+
+namespace
+{
+
+constexpr double kSharpFeatureSine = 1e-3;  // sine by which a corner or edge must stand out to be one [-]
+constexpr double kParallelEdges = 1e-3;     // sine of the angle below which edges do not cross [-]
+constexpr double kOutsideOfCone = 0.05;     // by which a normal may miss the cone of a soft edge's normals [-]
+
+/// Calls visit(index) for the triangles that a feature's corners may meet on their way outward, and inside. `spread` is
+/// the sine of the angle by which they may stray.
+template <class Visit>
+void forEachNear(const TriangleSoup& soup, const SheetFeature& feature, double spread, Visit visit)
+{
+    const double outside = feature.m_reach + feature.m_thickness;
+    const Vec3 ways[2] = {outside * feature.m_outward, -feature.m_depth * feature.m_outward};
+    Vec3 low = feature.m_corners[0] + ways[0], high = low;
+    for (const Vec3& corner : feature.m_corners)
+        for (const Vec3& way : ways)
+            for (int c = 0; c < 3; ++c)
+            {
+                low[c] = std::min(low[c], corner[c] + way[c]);
+                high[c] = std::max(high[c], corner[c] + way[c]);
+            }
+    const double pad = spread * std::max(outside, feature.m_depth);
+    soup.forEachIn(low - Vec3{pad, pad, pad}, high + Vec3{pad, pad, pad}, visit);
+}
+
+bool isWithin(const SheetFeature& feature, double gap)
+{
+    return gap - feature.m_thickness <= feature.m_reach && gap >= -feature.m_depth;
+}
+
+/// True if the soup around corner a of a triangle lies beyond it in a direction, so that it is a tip, and no triangle
+/// of a lower number has the same corner.
+bool isTip(const TriangleSoup& soup, int triangle, const Vec3& q, const Vec3& direction)
+{
+    bool tip = true;
+    const auto check = [&](int t)
+    {
+        for (const Vec3& corner : soup.triangles()[t].m_corners)
+        {
+            const Vec3 way = corner - q;
+            const double length = norm(way);
+            if (length <= soup.tolerance())
+                tip = tip && t >= triangle;
+            else
+                tip = tip && dot(way, direction) > kSharpFeatureSine * length;
+        }
+    };
+    check(triangle);
+    if (tip) soup.forEachAround(q, check);
+    return tip;
+}
+
+/// Where a soft edge and an edge of the soup cross.
+struct EdgeCrossing
+{
+    Vec3 m_point;   ///< of the soup's edge [m]
+    Vec3 m_along;   ///< unit, of it
+    Vec3 m_normal;  ///< unit, to the soft edge
+    double m_gap = 0;
+    double m_softShare = 0;  ///< of the soft edge's second corner [-]
+};
+
+/// False if they do not, if the normal is none that the soft edge has, or if edge e of the triangle does not stand out.
+bool crossEdges(const SheetFeature& soft, const Corners& triangle, int e, EdgeCrossing& crossing)
+{
+    const Vec3 &from = triangle[e], &to = triangle[(e + 1) % 3];
+    const Vec3 softWay = soft.m_corners[1] - soft.m_corners[0], way = to - from;
+    Vec3 n = cross(softWay, way);
+    const double length = norm(n), outward = dot(n, soft.m_outward);
+    if (!(std::abs(outward) >= widestNormal(soft) * length) || length == 0) return false;
+    n *= (outward > 0 ? -1 : 1) / length;
+    const Vec3 beside = triangle[(e + 2) % 3] - from;
+    if (!(dot(n, beside) < 0)) return false;  // as most: before anything that takes longer
+
+    LineParameters at;
+    if (!nearestOfLines({soft.m_corners[0], soft.m_corners[1], from, to}, kParallelEdges, at)) return false;
+    if (!(at.m_a > 0 && at.m_a < 1 && at.m_b > 0 && at.m_b < 1)) return false;
+    crossing.m_normal = n;
+    crossing.m_point = from + at.m_b * way;
+    crossing.m_along = way * (1 / norm(way));
+    crossing.m_gap = dot(n, soft.m_corners[0] + at.m_a * softWay - crossing.m_point);
+    crossing.m_softShare = at.m_a;
+    return isWithin(soft, crossing.m_gap);
+}
+
+/// True if the soup around a point of an edge falls off on both sides of the edge, and no triangle of a lower number
+/// has the same edge.
+bool isRidge(const TriangleSoup& soup, int triangle, const EdgeCrossing& crossing)
+{
+    bool ridge = true;
+    const auto check = [&](int t)
+    {
+        int onEdge = 0;
+        for (const Vec3& corner : soup.triangles()[t].m_corners)
+        {
+            const Vec3 way = corner - crossing.m_point;
+            if (norm(cross(way, crossing.m_along)) <= soup.tolerance())
+                ++onEdge;
+            else
+                ridge = ridge && dot(way, crossing.m_normal) < -kSharpFeatureSine * norm(way);
+        }
+        ridge = ridge && (onEdge < 2 || t >= triangle);
+    };
+    check(triangle);
+    if (ridge) soup.forEachAround(crossing.m_point, check);
+    return ridge;
+}
+
+}  // namespace
+
+double widestNormal(const SheetFeature& edge)
+{
+    return std::max(0.2, edge.m_halfAngle - kOutsideOfCone);
+}
+
+void findCornerTouches(const TriangleSoup& soup, const SheetFeature& soft, std::vector<SheetTouch>& touches)
+{
+    touches.clear();
+    const auto consider = [&](int t, const Vec3& q)
+    {
+        const double gap = dot(soft.m_outward, q - soft.m_corners[0]);
+        std::array<double, 3> w;
+        if (!isWithin(soft, gap) || !projectOnPlane(soft.m_corners, q, w) || !(std::min({w[0], w[1], w[2]}) > 0))
+            return;
+        if (isTip(soup, t, q, soft.m_outward)) touches.push_back({{gap - soft.m_thickness, -soft.m_outward, w}, t});
+    };
+    forEachNear(soup, soft, 0,
+                [&](int t)
+                {
+                    for (const Vec3& corner : soup.triangles()[t].m_corners) consider(t, corner);
+                });
+}
+
+void findEdgeTouches(const TriangleSoup& soup, const SheetFeature& soft, std::vector<SheetTouch>& touches)
+{
+    touches.clear();
+    const auto consider = [&](int t, int e)
+    {
+        EdgeCrossing crossing;
+        if (!crossEdges(soft, soup.triangles()[t].m_corners, e, crossing) || !isRidge(soup, t, crossing)) return;
+        const double b = crossing.m_softShare;
+        touches.push_back({{crossing.m_gap - soft.m_thickness, crossing.m_normal, {1 - b, b, 0}}, t});
+    };
+    const double cosine = widestNormal(soft);
+    forEachNear(soup, soft, std::sqrt(1 - cosine * cosine),
+                [&](int t)
+                {
+                    for (int e = 0; e < 3; ++e) consider(t, e);
+                });
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact/soft/soft_pair_search.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body/contact_patch.h"
+#include "bullet_bridge/joints/welds.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
+#include "bullet_fem/fem/common/threads.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Mean edges by which the nodes of a body may be away from where they were noted: two bodies come closer by four times
+// as much since they were searched, half the contact band.
+constexpr double kStillShare = 0.00625;
+
+}  // namespace
+
+SoftPairSearch::SoftPairSearch(const Threads& threads) : m_threads(threads), m_parts(kParts, Part(m_memory)) {}
+
+void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts)
+{
+    listPairs(bodies);
+    const int paired = static_cast<int>(m_paired.size());
+    m_threads.run(paired,
+                  [&](int k)
+                  {
+                      const int b = m_paired[k];
+                      FemSoftBody& fem = *bodies[b];
+                      fem.updateSkin();
+                      m_isStill[b] = fem.m_surface.isStill(fem.surfacePosition(), fem.surfaceVelocity(), step,
+                                                           kStillShare * m_smallestEdge[b]);
+                  });
+    choosePairs();
+    m_threads.run(paired,
+                  [&](int k)
+                  {
+                      const int b = m_paired[k];
+                      FemSoftBody& fem = *bodies[b];
+                      if (!m_isSearched[b]) return;
+                      fem.m_surface.place(fem.surfacePosition(), fem.surfaceVelocity(), step);
+                      if (!fem.m_surface.isFine()) fem.m_surface.prepareAll();
+                      fem.m_meanMotion = meanMotion(fem.m_body);
+                  });
+    listNearby(bodies);
+    m_threads.run(static_cast<int>(m_fine.size()),
+                  [&](int k) { bodies[m_fine[k]]->m_surface.prepareNear(m_nearby[m_fine[k]]); });
+    m_moved.clear();
+    for (int b : m_paired)
+        if (!m_isStill[b]) m_moved.push_back(bodies[b]);
+    m_threads.run(kParts, [&](int part) { findPairs(bodies, maxContacts, part); });
+    collectParts();
+    m_limited.assign(bodies.size(), 0);
+    for (const Pair& pair : m_pairs)
+        if (pair.m_limited) m_limited[pair.m_first] = 1;
+}
+
+void SoftPairSearch::collectParts()
+{
+    m_firstOfPart.assign(1, 0);
+    for (const Part& part : m_parts) m_firstOfPart.push_back(m_firstOfPart.back() + part.m_contacts.size());
+    m_contacts.resize(m_firstOfPart.back());
+    m_origins.resize(m_firstOfPart.back());
+    m_threads.run(kParts,
+                  [this](int k)
+                  {
+                      const auto first = static_cast<std::ptrdiff_t>(m_firstOfPart[k]);
+                      const Part& part = m_parts[k];
+                      std::copy(part.m_contacts.begin(), part.m_contacts.end(), m_contacts.begin() + first);
+                      std::copy(part.m_origins.begin(), part.m_origins.end(), m_origins.begin() + first);
+                  });
+}
+
+// The surfaces of the others need no update.
+void SoftPairSearch::choosePairs()
+{
+    for (Pair& pair : m_pairs)
+    {
+        pair.m_searched = !(m_isStill[pair.m_first] && m_isStill[pair.m_second] && m_memory.isComplete(pair.m_ids));
+        if (pair.m_searched) m_isSearched[pair.m_first] = m_isSearched[pair.m_second] = 1;
+    }
+}
+
+// What fine surfaces have around them: all of themselves if they touch themselves.
+void SoftPairSearch::listNearby(const std::vector<FemSoftBody*>& bodies)
+{
+    if (m_nearby.size() < bodies.size()) m_nearby.resize(bodies.size());
+    m_fine.clear();
+    for (int b : m_paired)
+        if (m_isSearched[b] && bodies[b]->m_surface.isFine()) m_fine.push_back(b);
+    if (m_fine.empty()) return;
+    for (int b : m_fine) m_nearby[b].clear();
+    for (const Pair& pair : m_pairs)
+    {
+        if (!pair.m_searched) continue;
+        const FemSoftBody &first = *bodies[pair.m_first], &second = *bodies[pair.m_second];
+        const double reach = reachBetween(first, second).near();
+        m_nearby[pair.m_first].push_back({second.m_surface.tree().coarseBounds(), reach});
+        m_nearby[pair.m_second].push_back({first.m_surface.tree().coarseBounds(), reach});
+    }
+}
+
+// The first of a pair is the one that came into the world first.
+void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
+{
+    for (std::vector<unsigned char>* flags : {&m_isStill, &m_isSearched}) flags->assign(bodies.size(), 0);
+    m_smallestEdge.assign(bodies.size(), 0);
+    const auto pairWith = [&](int b, double edge)
+    { m_smallestEdge[b] = m_smallestEdge[b] > 0 ? std::min(m_smallestEdge[b], edge) : edge; };
+    listTouching(bodies);
+    m_pairs.clear();
+    for (const auto& [a, b] : m_touching)
+    {
+        const double edge = std::min(bodies[a]->m_surface.meanEdge(), bodies[b]->m_surface.meanEdge());
+        pairWith(a, edge);
+        pairWith(b, edge);
+        const int idA = broadphaseId(*bodies[a]->m_softBody), idB = broadphaseId(*bodies[b]->m_softBody);
+        if (idA <= idB)
+            m_pairs.push_back({a, b, {idA, idB}, false, false, false});
+        else
+            m_pairs.push_back({b, a, {idB, idA}, false, false, false});
+    }
+    m_paired.clear();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (m_smallestEdge[b] > 0) m_paired.push_back(static_cast<int>(b));
+}
+
+// Either body of a pair may have recorded it, or both.
+void SoftPairSearch::listTouching(const std::vector<FemSoftBody*>& bodies)
+{
+    m_byAddress.clear();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
+    std::sort(m_byAddress.begin(), m_byAddress.end());
+    m_touching.clear();
+    for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
+        for (const btSoftBody* other : bodies[a]->m_touchingSoft)
+        {
+            const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(other, 0));
+            if (at != m_byAddress.end() && at->first == other && mayTouch(*bodies[a], *bodies[at->second]))
+                m_touching.emplace_back(std::min(a, at->second), std::max(a, at->second));
+        }
+    std::sort(m_touching.begin(), m_touching.end());
+    m_touching.erase(std::unique(m_touching.begin(), m_touching.end()), m_touching.end());
+}
+
+void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part)
+{
+    Part& p = m_parts[part];
+    p.m_contacts.clear();
+    p.m_origins.clear();
+    const std::size_t begin = m_pairs.size() * part / kParts, end = m_pairs.size() * (part + 1) / kParts;
+    for (std::size_t k = begin; k < end; ++k)
+    {
+        Pair& pair = m_pairs[k];
+        const SoftPairSide first = {*bodies[pair.m_first], pair.m_first},
+                           second = {*bodies[pair.m_second], pair.m_second};
+        const SoftPairReport found = pair.m_searched
+                                         ? p.m_finder.find(first, second, maxContacts, p.m_contacts, p.m_origins)
+                                         : p.m_finder.keep(first, second, maxContacts, p.m_contacts, p.m_origins);
+        pair.m_limited = found.m_limited;
+        pair.m_complete = !found.m_limited && !found.m_thinned;
+    }
+}
+
+// Places are noted with what was found there: a step may search twice, and use the second search alone.
+void SoftPairSearch::remember(const ContactPoint* solved)
+{
+    m_complete.clear();
+    for (const Pair& pair : m_pairs)
+        if (pair.m_complete) m_complete.push_back(pair.m_ids);
+    m_memory.remember({solved, m_origins.data(), m_origins.size()}, m_complete);
+    for (FemSoftBody* fem : m_moved) fem->m_surface.notePlace();
+}
+
+int SoftPairSearch::searchedPairs() const
+{
+    return static_cast<int>(
+        std::count_if(m_pairs.begin(), m_pairs.end(), [](const Pair& pair) { return pair.m_searched; }));
+}
+
+}  // namespace bullet_fem

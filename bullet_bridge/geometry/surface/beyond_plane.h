@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_bridge/geometry/surface/soft_surface.h"
+
+namespace bullet_fem
+{
+
+/// A plane across the way between two surfaces, which one of them lies behind: what of the other stays in front of it
+/// by more than is looked for touches nothing. Boxes along the axes cannot tell where surfaces meet at an angle.
+class BeyondPlane
+{
+public:
+    /// The plane through the point of `surface` that is farthest in a direction (unit). `steps`: how long things move.
+    BeyondPlane(const SoftSurface& surface, const Vec3& direction, int steps) : m_direction(direction), m_steps(steps)
+    {
+        for (int i : surface.nodes())
+        {
+            m_most = std::max(m_most, dot(direction, surface.position()[i]));
+            m_mostChange = std::max(m_mostChange, dot(direction, surface.change()[i]));
+        }
+    }
+
+    /// Signed distance of a point [m].
+    double distance(const Vec3& x) const { return dot(m_direction, x) - m_most; }
+
+    /// True if points at x and y that move by dx and dy in a step, and all between them, stay farther than `near` [m]
+    /// at the start, and than `band` [m] on their way.
+    bool isBeyond(const Vec3& x, const Vec3& dx, const Vec3& y, const Vec3& dy, double near, double band) const
+    {
+        const double start = std::min(distance(x), distance(y)) - 1e-12 * (std::fabs(m_most) + near);
+        const double closing = m_mostChange - std::min(dot(m_direction, dx), dot(m_direction, dy));
+        return start > near && start - m_steps * std::max(0.0, closing) > band;
+    }
+
+private:
+    Vec3 m_direction;
+    int m_steps;
+    double m_most = -VectorBounds::kInfinity, m_mostChange = -VectorBounds::kInfinity;
+};
+
+}  // namespace bullet_fem

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/rigid/solver_bodies.h"
+
+#include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "bullet_bridge/geometry/limits.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
+
+namespace bullet_fem
+{
+
+void SolverBodies::begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool,
+                         btAlignedObjectArray<btScalar>* linkDeltas)
+{
+    m_pool = &pool;
+    m_multiBodies = linkDeltas && rigid.holdsLinks() ? &rigid : nullptr;
+    if (m_multiBodies) rigid.beginLinks(*linkDeltas);
+    m_links.assign(rigid.rigidProxies().size(), Link());
+    for (std::size_t k = 0; k < m_links.size(); ++k)
+    {
+        const btRigidBody* body = rigid.movableBody(static_cast<int>(k));
+        if (!body || body->getCompanionId() < 0 || body->getCompanionId() >= pool.size()) continue;
+        const RigidProxies::Remainder& remainder = rigid.remainder(static_cast<int>(k));
+        m_links[k].m_solverBody = body->getCompanionId();
+        m_links[k].m_linearRemainder = remainder.m_linear;
+        m_links[k].m_angularRemainder = remainder.m_angular;
+    }
+}
+
+void SolverBodies::read(std::vector<RigidProxy>& rigidProxies)
+{
+    for (std::size_t k = 0; k < m_links.size(); ++k)
+    {
+        Link& link = m_links[k];
+        if (link.m_solverBody < 0) continue;
+        const btSolverBody& body = (*m_pool)[link.m_solverBody];
+        link.m_linear = vec3(body.m_linearVelocity) + vec3(body.m_deltaLinearVelocity) +
+                        vec3(body.m_externalForceImpulse) + link.m_linearRemainder;
+        link.m_angular = vec3(body.m_angularVelocity) + vec3(body.m_deltaAngularVelocity) +
+                         vec3(body.m_externalTorqueImpulse) + link.m_angularRemainder;
+        rigidProxies[k].m_linearVelocity = link.m_linear;
+        rigidProxies[k].m_angularVelocity = link.m_angular;
+    }
+    if (m_multiBodies) m_multiBodies->readLinks(rigidProxies);
+}
+
+void SolverBodies::write(const std::vector<RigidProxy>& rigidProxies)
+{
+    for (std::size_t k = 0; k < m_links.size(); ++k)
+    {
+        Link& link = m_links[k];
+        if (link.m_solverBody < 0) continue;
+        btSolverBody& body = (*m_pool)[link.m_solverBody];
+        body.m_deltaLinearVelocity = addedExactly(
+            body.m_deltaLinearVelocity, rigidProxies[k].m_linearVelocity - link.m_linear, link.m_linearRemainder);
+        body.m_deltaAngularVelocity = addedExactly(
+            body.m_deltaAngularVelocity, rigidProxies[k].m_angularVelocity - link.m_angular, link.m_angularRemainder);
+    }
+    if (m_multiBodies) m_multiBodies->writeLinks(rigidProxies);
+}
+
+void SolverBodies::end(RigidProxies& rigid)
+{
+    for (std::size_t k = 0; k < m_links.size(); ++k)
+    {
+        if (m_links[k].m_solverBody < 0) continue;
+        btSolverBody& body = (*m_pool)[m_links[k].m_solverBody];
+        if (!isBelow(kFastest, vec3(body.m_deltaLinearVelocity)) ||
+            !isBelow(kFastest, vec3(body.m_deltaAngularVelocity)))
+        {
+            body.m_deltaLinearVelocity.setZero();
+            body.m_deltaAngularVelocity.setZero();
+            m_links[k].m_linearRemainder = m_links[k].m_angularRemainder = {};
+        }
+        RigidProxies::Remainder& remainder = rigid.remainder(static_cast<int>(k));
+        remainder.m_linear = m_links[k].m_linearRemainder;
+        remainder.m_angular = m_links[k].m_angularRemainder;
+        remainder.m_used = true;
+    }
+}
+
+}  // namespace bullet_fem
