@@ -13,8 +13,8 @@
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/body/held_joint.h"
 #include "bullet_bridge/body/model_library.h"
-#include "bullet_bridge/geometry/surface/soft_surface.h"
 #include "bullet_bridge/body/topology_marks.h"
+#include "bullet_bridge/geometry/surface/soft_surface.h"
 #include "bullet_fem/fem/contact/contact_solver.h"
 
 class btCollisionObject;

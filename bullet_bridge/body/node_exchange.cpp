@@ -8,9 +8,9 @@
 #include <numeric>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/geometry/limits.h"
 #include "bullet_bridge/body/pose_matching.h"
 #include "bullet_bridge/body/soft_body_mesh.h"
+#include "bullet_bridge/geometry/limits.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/step/stepping.h"
 

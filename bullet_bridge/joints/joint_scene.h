@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bullet_bridge/body/fem_soft_body.h"
-#include "bullet_bridge/rigid/world_objects.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
+#include "bullet_bridge/rigid/world_objects.h"
 
 namespace bullet_fem
 {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "bullet_bridge/contact/soft/soft_pair_memory.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
 #include "bullet_bridge/snapshot/world_ids.h"
-#include "bullet_bridge/contact/soft/soft_pair_memory.h"
 
 namespace bullet_fem
 {

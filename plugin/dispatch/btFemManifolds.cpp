@@ -6,7 +6,6 @@
 
 #include "BulletCollision/CollisionDispatch/btCollisionDispatcher.h"
 #include "bullet_bridge/body/rigid_dispatch.h"
-#include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/dispatch/btFemPair.h"
 #include "plugin/dispatch/btFemPairAlgorithm.h"
 #include "plugin/record/btFemBodyRecord.h"
@@ -18,8 +17,7 @@ namespace
 /// Null unless the pair has a FEM body whose solver shows manifolds.
 std::shared_ptr<btFemManifolds> shownBy(const btFemPair& pair)
 {
-    if (!pair.m_record) return nullptr;
-    return btFemCoupling::manifolds(*static_cast<btFemSoftBodySolver*>(pair.m_record->m_softBody->getSoftBodySolver()));
+    return pair.m_record ? btFemCoupling::manifoldsOf(*pair.m_record->m_softBody) : nullptr;
 }
 
 /// Other pairs keep Bullet's algorithms. It has no state, so one serves all dispatchers.

@@ -3,7 +3,6 @@
 #include "plugin/dispatch/btFemPair.h"
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_fem/btFemSoftBodySolver.h"
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemCoupling.h"
 
@@ -13,8 +12,7 @@ namespace
 const btFemBodyRecord* recordOf(const btCollisionObject& object)
 {
     const btSoftBody* soft = btSoftBody::upcast(&object);
-    const auto* solver = soft ? dynamic_cast<const btFemSoftBodySolver*>(soft->getSoftBodySolver()) : nullptr;
-    const btFemBodyRecord* record = solver ? btFemCoupling::record(*solver, *soft) : nullptr;
+    const btFemBodyRecord* record = soft ? btFemCoupling::recordOf(*soft) : nullptr;
     return record && record->isFem() ? record : nullptr;
 }
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/rigid/world_objects.h"
 #include "bullet_bridge/body/rigid_dispatch.h"
+#include "bullet_bridge/rigid/world_objects.h"
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemTouches.h"
 

@@ -4,9 +4,9 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/face_tree.h"
-#include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_bridge/body/node_exchange.h"
 #include "bullet_bridge/body/rigid_dispatch.h"
+#include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_fem/btFemVectors.h"
 #include "plugin/record/btFemTouches.h"
 #include "plugin/setup/btFemBodySetUp.h"

@@ -67,3 +67,21 @@ system_of_build()
 {
     printf '%s, %s\n' "$(. /etc/os-release && printf '%s %s' "${NAME%% *}" "${VERSION_ID-}")" "$(uname -m | tr _ -)"
 }
+
+# The commit that a change is compared with: where this branch left origin/main, or the last commit but one; nothing in a
+# clone of one commit.
+base_commit()
+{
+    local head base
+    head=$(in_git rev-parse --verify --quiet HEAD) || return 0
+    base=$(in_git merge-base HEAD origin/main 2>/dev/null || true)
+    [ -n "$base" ] && [ "$base" != "$head" ] || base=$(in_git rev-parse --verify --quiet HEAD~1 || true)
+    printf '%s' "$base"
+}
+
+# changed_files <commit>: paths that differ from it, new ones too.
+changed_files()
+{
+    in_git diff --name-only --diff-filter=d "$1"
+    in_git ls-files --others --exclude-standard
+}

@@ -23,22 +23,11 @@ mapfile -t all < <(grep -oP '"file": "\K[^"]+' "$build/compile_commands.json" | 
     grep -E "^$root/(fem|bullet_bridge|plugin|io)/")
 [ ${#all[@]} -gt 0 ] || fail "build/tidy/compile_commands.json has no source files"
 
-# The commit that --changed compares with; nothing if there is none, as in a clone of one commit.
-base_commit()
-{
-    local head base
-    head=$(in_git rev-parse --verify --quiet HEAD) || return 0
-    base=$(in_git merge-base HEAD origin/main 2>/dev/null || true)
-    [ -n "$base" ] && [ "$base" != "$head" ] || base=$(in_git rev-parse --verify --quiet HEAD~1 || true)
-    printf '%s' "$base"
-}
-
 # folder_of <header>: that of its source files.
 folder_of()
 {
     case $1 in
     include/bullet_fem/fem/*/*) dirname "${1#include/bullet_fem/}" ;;
-    include/bullet_fem/fem/*) echo fem ;;
     include/bullet_fem/io/*) echo io ;;
     include/bullet_fem/*) echo plugin ;;
     *) dirname "$1" ;;
@@ -49,10 +38,7 @@ folder_of()
 changed_sources()
 {
     local path
-    {
-        in_git diff --name-only --diff-filter=d "$1"
-        in_git ls-files --others --exclude-standard
-    } | while IFS= read -r path; do
+    changed_files "$1" | while IFS= read -r path; do
         case $path in
         .clang-tidy) printf '%s\n' "${all[@]}" ;;
         *.cpp) printf '%s\n' "${all[@]}" | grep -Fx "$root/$path" ;;

@@ -10,8 +10,8 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/contact/friction.h"
-#include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
+#include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem

@@ -3,15 +3,15 @@
 #pragma once
 
 #include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/body/fem_soft_body.h"
+#include "bullet_bridge/contact/contact_reduction.h"
 #include "bullet_bridge/contact/rigid/carried_motion.h"
 #include "bullet_bridge/contact/rigid/sheet_touch.h"
 #include "bullet_bridge/contact/rigid/surface_culling.h"
-#include "bullet_bridge/contact/contact_reduction.h"
-#include "bullet_bridge/body/fem_soft_body.h"
-#include "bullet_bridge/rigid/rigid_proxies.h"
+#include "bullet_bridge/contact/warm_start_transfer.h"
 #include "bullet_bridge/geometry/shapes/shape_distance.h"
 #include "bullet_bridge/geometry/shapes/swept_distance.h"
-#include "bullet_bridge/contact/warm_start_transfer.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
 
 namespace bullet_fem
 {

@@ -6,8 +6,8 @@
 
 #include "BulletCollision/CollisionDispatch/btCollisionObject.h"
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/contact/rigid/contact_finder.h"
 #include "bullet_bridge/body/contact_patch.h"
+#include "bullet_bridge/contact/rigid/contact_finder.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/step/stepping.h"

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_bridge/geometry/surface/near_ridges.h"
 #include "bullet_bridge/contact/soft/node_surface_search.h"
+#include "bullet_bridge/geometry/surface/near_ridges.h"
 
 namespace bullet_fem
 {

@@ -8,9 +8,9 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/contact/friction.h"
+#include "bullet_bridge/contact/nearest_contacts.h"
 #include "bullet_bridge/joints/node_attachments.h"
 #include "bullet_bridge/joints/welds.h"
-#include "bullet_bridge/contact/nearest_contacts.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
 
 namespace bullet_fem

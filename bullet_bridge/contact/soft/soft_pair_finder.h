@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_bridge/contact/contact_reduction.h"
 #include "bullet_bridge/body/fem_soft_body.h"
+#include "bullet_bridge/contact/contact_reduction.h"
 #include "bullet_bridge/contact/soft/edge_pair_search.h"
 #include "bullet_bridge/contact/soft/soft_pair_memory.h"
 #include "bullet_bridge/contact/warm_start_transfer.h"

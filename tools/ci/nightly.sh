@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Zlib
+# nightly.sh [<hours>]: everything, in some four hours of two cores: what a commit must pass, all slow tests, all compilers,
+# threads under ThreadSanitizer, clang-tidy of all sources, shared libraries, packages, the least runtime, random programs
+# for <hours> in each precision (1 unless given), and ports to Arm and Windows if BULLETFEM_BULLET_SOURCE is a checkout of
+# Bullet. A stage that fails does not end the run.
+#
+# The log, out/nightly/<date>.tsv, has a line a stage: begin (UTC), seconds, passed | failed | left out, name; beside it
+# <date>/<name>.log has what the stage printed. Exit code 0 if none failed.
+set -uo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+source "$root/tools/ci/stages.sh"
+hours=${1-1}
+[[ $hours =~ ^[0-9]+$ ]] || fail "nightly.sh: $hours is no whole number of hours"
+date=$(date -u +%Y-%m-%d)
+log=$root/out/nightly/$date.tsv
+mkdir -p "$root/out/nightly/$date"
+printf 'begin\tseconds\tresult\tstage\n' >"$log"
+failures=0
+
+# note <begin> <seconds> <result> <stage>
+note() { printf '%s\t%s\t%s\t%s\n' "$@" | tee -a "$log"; }
+
+# stage <name> <command>...
+stage()
+{
+    local name=$1 begin began=$SECONDS result=passed
+    shift
+    begin=$(date -u +%H:%M:%S)
+    "$@" >"$root/out/nightly/$date/$name.log" 2>&1 </dev/null || result=failed
+    [ $result = passed ] || failures=$((failures + 1))
+    note "$begin" $((SECONDS - began)) $result "$name"
+}
+
+stage commit bash "$root/.ci/run"
+stage slow-tests "$root/tests/run.sh" -L slow
+stage compilers "$root/tools/ci/compilers.sh"
+stage threads "$root/tools/ci/threads.sh"
+stage clang-tidy "$root/tools/ci/tidy.sh"
+stage runtime "$root/tools/ci/runtime.sh"
+stage debian-packages "$root/tools/ci/debs.sh"
+if in_git describe --tags --abbrev=0 >/dev/null 2>&1; then
+    stage abi "$root/tools/ci/abi.sh"
+else
+    note - 0 "left out" "abi (there is no tag to compare with)"
+fi
+for port in arm windows; do
+    if [ -d "${BULLETFEM_BULLET_SOURCE-}" ]; then
+        stage $port "$root/tools/ci/$port.sh" "$BULLETFEM_BULLET_SOURCE"
+    else
+        note - 0 "left out" "$port (BULLETFEM_BULLET_SOURCE is no checkout of Bullet)"
+    fi
+done
+for precision in "" -float64; do
+    stage "random-programs$precision" "$root/build/release/tests/soak/bulletfem_soak$precision" --seconds $((hours * 3600))
+done
+
+say "$failures stages failed: $log"
+[ "$failures" -eq 0 ]
