@@ -3,11 +3,12 @@
 
 # bulletfem_floor(<name> <source>...  [SEES <room>...]): the object library bulletfem_fem_<name> of the folder fem/<name>.
 # It sees that folder, the public headers include/bullet_fem/fem/<name>, and the rooms of the floors below it. Others see
-# it by the room fem-<name>.
+# it by the room fem-<name>. The global property BULLETFEM_FLOOR_OBJECTS has the objects of all.
 function(bulletfem_floor name)
     cmake_parse_arguments(ARG "" "" "SEES" ${ARGN})
     bulletfem_room(fem-${name} fem/${name} include/bullet_fem/fem/${name})
     add_library(bulletfem_fem_${name} OBJECT ${ARG_UNPARSED_ARGUMENTS})
+    set_property(GLOBAL APPEND PROPERTY BULLETFEM_FLOOR_OBJECTS $<TARGET_OBJECTS:bulletfem_fem_${name}>)
     bulletfem_defaults(bulletfem_fem_${name})
     bulletfem_sees(bulletfem_fem_${name} fem-${name} ${ARG_SEES})
     # Bodies that are solved in a batch get the bits that they get alone only if the compiler rounds alike in both.

@@ -2,13 +2,12 @@
 # BulletFEM::runtime: all that programs need which play baked bodies, in one library. It is the plug-in and what lies below
 # it, with Eigen's orders in place of AMD and METIS, and without the helpers that read files. It links Bullet, and Highway
 # and oneTBB if the project does.
+get_property(_floor_objects GLOBAL PROPERTY BULLETFEM_FLOOR_OBJECTS)
 foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
     set(_suffix "${BULLETFEM_SUFFIX_${_precision}}")
     set(_objects "$<TARGET_OBJECTS:bulletfem_bullet_bridge${_suffix}>" "$<TARGET_OBJECTS:bulletfem_orderings_runtime>"
         "$<FILTER:$<TARGET_OBJECTS:bulletfem_plugin${_suffix}>,EXCLUDE,btFemFileHelpers|btFemUrdf>")
-    foreach(_floor IN ITEMS common mesh elements factor step contact cage baked)
-        list(APPEND _objects "$<TARGET_OBJECTS:bulletfem_fem_${_floor}>")
-    endforeach()
+    list(APPEND _objects ${_floor_objects})
     bulletfem_library(runtime${_suffix} ${_objects})
     set_target_properties(bulletfem_runtime${_suffix} PROPERTIES LINKER_LANGUAGE CXX UNITY_BUILD OFF
         INTERFACE_BULLET_PRECISION ${_precision}

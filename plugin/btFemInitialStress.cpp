@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/step/initial_stress.h"
+#include "bullet_fem/fem/body/initial_stress.h"
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/step/active_stress.h"
+#include "bullet_fem/fem/body/active_stress.h"
 #include "fem/common/attempt.h"
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemCoupling.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_bridge/rigid/world_objects.h"
-#include "bullet_fem/fem/step/batch_memory.h"
+#include "bullet_fem/fem/batch/batch_memory.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 #include "plugin/setup/btFemBodySetUp.h"
 #include "plugin/stages/btFemContactGroup.h"

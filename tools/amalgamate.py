@@ -19,7 +19,7 @@ import re
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-FLOORS = ("common", "mesh", "elements", "factor", "step", "contact", "cage", "baked")
+FLOORS = ("common", "mesh", "elements", "factor", "body", "solve", "batch", "step", "contact", "cage", "baked")
 FOLDERS = [os.path.join("fem", floor) for floor in FLOORS] + ["bullet_bridge", "plugin"]
 # What BulletFEM::runtime does without: AMD and METIS, and readers of files.
 LEFT_OUT = {"ordering_libraries.cpp", "btFemFileHelpers.cpp", "btFemUrdf.cpp"}

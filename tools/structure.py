@@ -29,13 +29,7 @@ def ladder(top, rooms):
 
 
 # Rooms from the ground up; a room may include from those before it on its line, and from what is named behind the colon.
-FLOORS = [
-    ("fem/common", []),
-    ("fem/mesh", ["fem/common"]),
-    ("fem/elements", ["fem/mesh", "fem/common"]),
-    ("fem/factor", ["fem/elements", "fem/mesh", "fem/common"]),
-    ("fem/step", ["fem/factor", "fem/elements", "fem/mesh", "fem/common"]),
-    ("fem/contact", ["fem/step", "fem/factor", "fem/elements", "fem/mesh", "fem/common"]),
+FLOORS = ladder("fem", ["common", "mesh", "elements", "factor", "body", "solve", "batch", "step", "contact"]) + [
     ("fem/cage", ["fem/mesh", "fem/common"]),
     ("fem/baked", ["fem/cage", "fem/factor", "fem/elements", "fem/mesh", "fem/common"]),
 ] + ladder("bullet_bridge", ["geometry", "geometry/surface", "geometry/shapes", "body", "rigid", "joints", "contact",

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "benchmarks/beam/beam_case.h"
+#include "bullet_fem/fem/body/step_types.h"
 #include "bullet_fem/fem/factor/body_model.h"
-#include "bullet_fem/fem/step/step_types.h"
 
 namespace bullet_fem
 {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/figures.h"
+#include "bullet_fem/fem/batch/batch_memory.h"
 #include "bullet_fem/fem/mesh/generators.h"
-#include "bullet_fem/fem/step/batch_memory.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem

@@ -6,10 +6,10 @@
 
 #include "benchmarks/beam/fem_beam.h"
 #include "bullet_fem/fem/step/stepping.h"
+#include "fem/body/step_scratch.h"
 #include "fem/elements/model_elements.h"
 #include "fem/factor/rest_factor.h"
-#include "fem/step/step_scratch.h"
-#include "fem/step/warped_system.h"
+#include "fem/solve/warped_system.h"
 
 namespace bullet_fem
 {

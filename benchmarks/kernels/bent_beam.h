@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/step/body.h"
-#include "bullet_fem/fem/step/step_types.h"
+#include "bullet_fem/fem/body/body.h"
+#include "bullet_fem/fem/body/step_types.h"
 #include "fem/common/aligned_array.h"
 
 namespace bullet_fem

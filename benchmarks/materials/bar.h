@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "bullet_fem/fem/body/body.h"
 #include "bullet_fem/fem/mesh/generators.h"
-#include "bullet_fem/fem/step/body.h"
 
 namespace bullet_fem
 {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "bullet_fem/fem/step/body.h"
+#include "bullet_fem/fem/body/body.h"
 
 namespace bullet_fem
 {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/body/step_scratch.h"
 #include "fem/contact/body_ends.h"
-#include "fem/step/step_scratch.h"
 
 namespace bullet_fem
 {

@@ -7,11 +7,11 @@
 #include <limits>
 #include <numeric>
 
+#include "fem/body/step_coefficients.h"
+#include "fem/body/step_scratch.h"
 #include "fem/factor/rest_factor.h"
-#include "fem/step/step_coefficients.h"
-#include "fem/step/step_scratch.h"
-#include "fem/step/warped_compliance.h"
-#include "fem/step/warped_system.h"
+#include "fem/solve/warped_compliance.h"
+#include "fem/solve/warped_system.h"
 
 namespace bullet_fem
 {

@@ -6,10 +6,10 @@
 
 #include "bullet_fem/fem/contact/contact_problem.h"
 #include "bullet_fem/fem/step/stepping.h"
+#include "fem/body/rigid_momentum.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/point_compliance.h"
 #include "fem/contact/working_set.h"
-#include "fem/step/rigid_momentum.h"
 
 namespace bullet_fem
 {

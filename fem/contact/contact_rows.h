@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "bullet_fem/fem/batch/body_batches.h"
 #include "bullet_fem/fem/contact/contact_problem.h"
-#include "bullet_fem/fem/step/body_batches.h"
 #include "fem/common/chunks.h"
 #include "fem/contact/body_ends.h"
 #include "fem/contact/contact_row.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/body/rigid_momentum.h"
 #include "fem/contact/rigid_response.h"
-#include "fem/step/rigid_momentum.h"
 
 namespace bullet_fem
 {

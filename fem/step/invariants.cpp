@@ -2,10 +2,10 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/step/stepping.h"
 
+#include "fem/body/internal_stress.h"
 #include "fem/common/rotation.h"
 #include "fem/elements/model_elements.h"
 #include "fem/elements/neo_hooke.h"
-#include "fem/step/internal_stress.h"
 
 namespace bullet_fem
 {

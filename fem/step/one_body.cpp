@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/step/actuated_solve.h"
-#include "fem/step/drift.h"
-#include "fem/step/quasi_newton.h"
-#include "fem/step/smoothing.h"
-#include "fem/step/step_coefficients.h"
-#include "fem/step/step_scratch.h"
-#include "fem/step/step_stages.h"
-#include "fem/step/violent_step.h"
-#include "fem/step/warped_system.h"
+#include "fem/body/step_coefficients.h"
+#include "fem/body/step_scratch.h"
+#include "fem/solve/actuated_solve.h"
+#include "fem/solve/drift.h"
+#include "fem/solve/quasi_newton.h"
+#include "fem/solve/smoothing.h"
+#include "fem/solve/step_stages.h"
+#include "fem/solve/violent_step.h"
+#include "fem/solve/warped_system.h"
 
 namespace bullet_fem
 {

@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "bullet_fem/fem/common/threads.h"
-#include "fem/step/batched_solve.h"
-#include "fem/step/drift.h"
-#include "fem/step/inelastic_strain.h"
+#include "fem/batch/batched_solve.h"
+#include "fem/body/inelastic_strain.h"
+#include "fem/body/step_coefficients.h"
+#include "fem/body/step_scratch.h"
+#include "fem/solve/drift.h"
+#include "fem/solve/smoothing.h"
+#include "fem/solve/step_variation.h"
+#include "fem/solve/violent_step.h"
+#include "fem/solve/warped_compliance.h"
 #include "fem/step/one_body.h"
-#include "fem/step/smoothing.h"
-#include "fem/step/step_coefficients.h"
-#include "fem/step/step_scratch.h"
-#include "fem/step/step_variation.h"
-#include "fem/step/violent_step.h"
-#include "fem/step/warped_compliance.h"
 
 namespace bullet_fem
 {

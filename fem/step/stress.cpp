@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "fem/body/internal_stress.h"
 #include "fem/common/rotation.h"
 #include "fem/elements/model_elements.h"
 #include "fem/elements/neo_hooke.h"
-#include "fem/step/internal_stress.h"
 
 namespace bullet_fem
 {

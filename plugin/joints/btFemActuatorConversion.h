@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/step/actuators.h"
+#include "bullet_fem/fem/body/actuators.h"
 
 struct btFemCable;
 struct btFemChamber;

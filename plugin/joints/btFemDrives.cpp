@@ -10,7 +10,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "bullet_fem/fem/step/active_stress.h"
+#include "bullet_fem/fem/body/active_stress.h"
 #include "fem/common/attempt.h"
 #include "plugin/joints/btFemActuatorConversion.h"
 #include "plugin/record/btFemBodyRecord.h"

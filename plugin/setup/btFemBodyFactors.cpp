@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bullet_bridge/body/soft_body_mesh.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
+#include "bullet_fem/fem/body/body_snapshot.h"
 #include "fem/common/reason.h"
 #include "plugin/setup/btFemBodySetUp.h"
 

@@ -18,7 +18,7 @@
 #include "bullet_bridge/body/split_soft_body.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemVectors.h"
-#include "bullet_fem/fem/step/active_stress.h"
+#include "bullet_fem/fem/body/active_stress.h"
 #include "fem/common/attempt.h"
 #include "fem/common/reason.h"
 #include "plugin/setup/btFemBaked.h"

@@ -10,7 +10,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/rest_positions.h"
 #include "bullet_bridge/body/soft_body_mesh.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
+#include "bullet_fem/fem/body/body_snapshot.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 #include "plugin/setup/btFemBodySetUp.h"
 #include "plugin/snapshot/btFemEnvelope.h"

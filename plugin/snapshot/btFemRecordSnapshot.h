@@ -8,7 +8,7 @@
 
 #include "bullet_bridge/snapshot/contact_snapshot.h"
 #include "bullet_bridge/snapshot/node_snapshot.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
+#include "bullet_fem/fem/body/body_snapshot.h"
 #include "plugin/record/btFemBodyRecord.h"
 
 /// Something that points to another object, with that object's id instead: see WorldIds.

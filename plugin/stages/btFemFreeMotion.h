@@ -9,8 +9,8 @@
 #include "bullet_bridge/contact/soft/soft_pair_memory.h"
 #include "bullet_bridge/contact/soft/steady_bodies.h"
 #include "bullet_fem/btFemSolverInfo.h"
+#include "bullet_fem/fem/batch/body_batches.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "bullet_fem/fem/step/body_batches.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "plugin/record/btFemBodyRecord.h"
 

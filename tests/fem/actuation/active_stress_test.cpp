@@ -2,13 +2,13 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // Fibres that are activated and elements that expand.
-#include "bullet_fem/fem/step/active_stress.h"
+#include "bullet_fem/fem/body/active_stress.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bullet_fem/fem/step/initial_stress.h"
+#include "bullet_fem/fem/body/initial_stress.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/expect_rejected.h"

@@ -4,9 +4,9 @@
 // What the step promises to all bodies, of bodies with actuators.
 #include <gtest/gtest.h>
 
+#include "bullet_fem/fem/batch/batch_memory.h"
+#include "bullet_fem/fem/body/body_snapshot.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "bullet_fem/fem/step/batch_memory.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/hollow_meshes.h"

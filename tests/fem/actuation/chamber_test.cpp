@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "bullet_fem/fem/step/actuators.h"
+#include "bullet_fem/fem/body/actuators.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/expect_rejected.h"

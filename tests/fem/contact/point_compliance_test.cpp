@@ -8,7 +8,7 @@
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/compliance_kernel.h"
 #include "fem/scenes/element_case.h"
-#include "fem/step/warped_system.h"
+#include "fem/solve/warped_system.h"
 
 namespace bullet_fem
 {

@@ -10,9 +10,9 @@
 #include <string>
 #include <tuple>
 
+#include "bullet_fem/fem/body/body_snapshot.h"
+#include "bullet_fem/fem/body/initial_stress.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
-#include "bullet_fem/fem/step/initial_stress.h"
 #include "bullet_fem/fem/step/stress.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/lattice_box.h"

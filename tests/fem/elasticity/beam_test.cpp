@@ -11,7 +11,7 @@
 
 #include "benchmarks/reference/warped_elements.h"
 #include "fem/scenes/elasticity_scenes.h"
-#include "fem/step/warped_system.h"
+#include "fem/solve/warped_system.h"
 
 namespace bullet_fem
 {

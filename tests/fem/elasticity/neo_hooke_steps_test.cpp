@@ -12,9 +12,9 @@
 #include <string>
 
 #include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/batch/batch_memory.h"
+#include "bullet_fem/fem/body/body_snapshot.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "bullet_fem/fem/step/batch_memory.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
 #include "fem/scenes/stepping_scenes.h"
 #include "support/allocation_counter.h"
 

@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "bullet_fem/fem/step/active_stress.h"
+#include "bullet_fem/fem/body/active_stress.h"
 #include "bullet_fem/fem/step/stress.h"
 #include "fem/common/rotation.h"
 #include "fem/factor/block_matrix.h"

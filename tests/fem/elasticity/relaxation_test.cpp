@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "bullet_fem/fem/body/body_snapshot.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
 #include "bullet_fem/fem/step/stress.h"
 #include "fem/scenes/expect_rejected.h"
 #include "fem/scenes/stepping_scenes.h"

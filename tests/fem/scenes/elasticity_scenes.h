@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "bullet_fem/fem/body/body.h"
 #include "bullet_fem/fem/mesh/generators.h"
-#include "bullet_fem/fem/step/body.h"
 #include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem

@@ -2,13 +2,13 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // The element kernels of bodies side by side give every body the bits of the kernels of a single one.
-#include "fem/step/batch_elements.h"
+#include "fem/batch/batch_elements.h"
 
 #include <algorithm>
 #include <cstring>
 
+#include "fem/batch/batch_arrays.h"
 #include "fem/scenes/element_case.h"
-#include "fem/step/batch_arrays.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/step/batch_exchange.h"
+#include "fem/batch/batch_exchange.h"
 
 #include "fem/common/aligned_array.h"
 #include "fem/scenes/element_case.h"

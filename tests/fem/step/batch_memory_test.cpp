@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/step/batch_memory.h"
+#include "bullet_fem/fem/batch/batch_memory.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
+#include "fem/batch/batch_loan.h"
 #include "fem/scenes/stepping_scenes.h"
-#include "fem/step/batch_loan.h"
 #include "support/allocation_counter.h"
 
 namespace bullet_fem

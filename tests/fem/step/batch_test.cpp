@@ -9,11 +9,11 @@
 #include <limits>
 #include <set>
 
+#include "bullet_fem/fem/batch/batch_memory.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "bullet_fem/fem/step/batch_memory.h"
+#include "fem/batch/batched_solve.h"
 #include "fem/scenes/element_case.h"
 #include "fem/scenes/stepping_scenes.h"
-#include "fem/step/batched_solve.h"
 
 namespace bullet_fem
 {

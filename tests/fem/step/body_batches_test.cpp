@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/step/body_batches.h"
+#include "bullet_fem/fem/batch/body_batches.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
+#include "fem/batch/batch_arrays.h"
 #include "fem/scenes/stepping_scenes.h"
-#include "fem/step/batch_arrays.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/step/conjugate_gradients.h"
+#include "fem/body/conjugate_gradients.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // Bodies whose elements have a stress besides that of their strain.
-#include "bullet_fem/fem/step/initial_stress.h"
+#include "bullet_fem/fem/body/initial_stress.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "bullet_fem/fem/batch/batch_memory.h"
+#include "bullet_fem/fem/body/body_snapshot.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "bullet_fem/fem/step/batch_memory.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
 #include "bullet_fem/fem/step/stress.h"
 #include "fem/scenes/expect_rejected.h"
 #include "fem/scenes/stepping_scenes.h"

@@ -7,11 +7,11 @@
 
 #include <cstring>
 
+#include "bullet_fem/fem/batch/batch_memory.h"
+#include "bullet_fem/fem/body/body_snapshot.h"
 #include "bullet_fem/fem/common/threads.h"
-#include "bullet_fem/fem/step/batch_memory.h"
-#include "bullet_fem/fem/step/body_snapshot.h"
+#include "fem/batch/batched_solve.h"
 #include "fem/scenes/elasticity_scenes.h"
-#include "fem/step/batched_solve.h"
 #include "support/allocation_counter.h"
 
 namespace bullet_fem

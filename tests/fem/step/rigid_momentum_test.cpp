@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/step/rigid_momentum.h"
+#include "fem/body/rigid_momentum.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "fem/scenes/elasticity_scenes.h"
-#include "fem/step/drift.h"
+#include "fem/solve/drift.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 
 #include <tuple>
 
-#include "bullet_fem/fem/step/batch_memory.h"
+#include "bullet_fem/fem/batch/batch_memory.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/contact_scene.h"
 #include "support/allocation_counter.h"

@@ -2,14 +2,14 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // How the recent steps of a body varied. What tension does with it: elasticity/tension_test.cpp.
-#include "fem/step/step_variation.h"
+#include "fem/solve/step_variation.h"
 
 #include <gtest/gtest.h>
 
-#include "bullet_fem/fem/step/body_snapshot.h"
+#include "bullet_fem/fem/body/body_snapshot.h"
+#include "fem/body/step_scratch.h"
 #include "fem/scenes/expect_rejected.h"
 #include "fem/scenes/stepping_scenes.h"
-#include "fem/step/step_scratch.h"
 
 namespace bullet_fem
 {

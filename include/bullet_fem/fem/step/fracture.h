@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_fem/fem/body/body.h"
 #include "bullet_fem/fem/common/export.h"
-#include "bullet_fem/fem/step/body.h"
 #include "bullet_fem/fem/step/stress.h"
 
 namespace bullet_fem

@@ -2,8 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include "bullet_fem/fem/body/body.h"
+#include "bullet_fem/fem/body/step_types.h"
 #include "bullet_fem/fem/common/export.h"
-#include "bullet_fem/fem/step/body.h"
 
 namespace bullet_fem
 {
@@ -34,29 +35,6 @@ BULLETFEM_API SolveReport solveFreeMotion(Body& body, const StepSettings& settin
 BULLETFEM_API SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings,
                                         double floor = 0);
 
-/// solveFreeMotion of one body of several.
-struct FreeMotion
-{
-    Body* m_body = nullptr;   ///< not null
-    StepSettings m_settings;  ///< of its step
-    SolveReport m_report;     ///< out
-    /// Impulses that contact is expected to make [N s], one a node: solved for with the loads, from the guess that the
-    /// body goes on as it moves. ContactBody::m_predicted is to be the same then. Null: none.
-    const std::vector<Vec3>* m_predicted = nullptr;
-    double m_predictedFloor = 1;  ///< share of their norm that |b| counts as at least, for the tolerance [-], in [0, 1]
-};
-
-/// applyImpulses to one body of several.
-struct ImpulseResponse
-{
-    Body* m_body = nullptr;                         ///< not null
-    const std::vector<Vec3>* m_impulses = nullptr;  ///< [N s], one a node
-    StepSettings m_settings;                        ///< of its step
-    double m_floor = 0;                             ///< [N s], >= 0
-    bool m_steady = false;  ///< the guess: the body ends with the velocities that it began the step with
-    SolveReport m_report;   ///< out
-};
-
 /// The same for `count` different bodies. Those that share their model and come one after the other are solved
 /// together, each with its own state, fixed nodes, loads and settings: a pass over their factor serves several of them,
 /// and whoever has converged leaves. Every body gets the bits that it gets alone. Bodies that share their model must
@@ -64,14 +42,6 @@ struct ImpulseResponse
 BULLETFEM_API void solveFreeMotions(FreeMotion* motions, int count);
 /// applyImpulses of several bodies, likewise.
 BULLETFEM_API void applyImpulses(ImpulseResponse* responses, int count);
-
-/// finishStep of one body of several.
-struct StepEnd
-{
-    Body* m_body = nullptr;   ///< not null
-    StepSettings m_settings;  ///< of its step
-    bool m_isRough = false;   ///< written: the step changed the velocities by more than it resolves
-};
 
 /// Adds to velocity(body), one change a node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
 BULLETFEM_API void addVelocity(Body& body, const std::vector<Vec3>& change);

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "bullet_fem/fem/body/body.h"
 #include "bullet_fem/fem/common/export.h"
-#include "bullet_fem/fem/step/body.h"
 
 namespace bullet_fem
 {

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Compiled once for every instruction set; the processor chooses when the program runs.
+#include "fem/batch/batch_algebra.h"
+
+#include <cstddef>
+
+#include "fem/common/vector_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fem/batch/batch_algebra.cpp"
+#include <hwy/foreach_target.h>
+// after foreach_target.h
+#include "fem/batch/batch_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+
+void SubtractLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
+{
+    forEachNumber(nodes, [&](std::size_t at, int) { hn::Store(loadOne(a + at) - loadOne(b + at), D(), out + at); });
+}
+
+void ContinueLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
+{
+    const V two = hn::Set(D(), 2.0);
+    forEachNumber(nodes,
+                  [&](std::size_t at, int) { hn::Store(loadOne(a + at) * two - loadOne(b + at), D(), out + at); });
+}
+
+/// Returns |v|^2.
+HWY_INLINE V storeMeasured(const V3& v, double* to)
+{
+    store3(v, to);
+    return dot(v, v);
+}
+
+void AddLanes(ConstBodyVectors b, BodyVectors a, int nodes, PerBatch& squares)
+{
+    sumOverNodes(nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     return storeMeasured(load3(a + at) + load3(b + at), a + at);
+                 });
+}
+
+HWY_INLINE V3 choose(hn::Mask<D> yes, const V3& a, const V3& b)
+{
+    return {hn::IfThenElse(yes, a.x, b.x), hn::IfThenElse(yes, a.y, b.y), hn::IfThenElse(yes, a.z, b.z)};
+}
+
+/// Writes where the body is active.
+HWY_INLINE void storeActive(const BatchRecurrence& v, const V3& value, int lane, double* to)
+{
+    const auto active = valuesOf(v.m_active, lane) > hn::Zero(D());
+    store3(choose(active, value, load3(to)), to);
+}
+
+/// Writes r where the body is active; returns |r|^2.
+HWY_INLINE V storeResidual(const BatchRecurrence& v, const V3& r, int lane, std::size_t at)
+{
+    storeActive(v, r, lane, v.m_r + at);
+    return dot(r, r);
+}
+
+void SubtractProduct(const BatchRecurrence& v, PerBatch& squares)
+{
+    sumOverNodes(v.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     return storeResidual(v, load3(v.m_b + at) - load3(v.m_Ap + at), lane, at);
+                 });
+}
+
+void ClearOthers(const PerBatch& kept, BodyVectors a, int nodes)
+{
+    forEachNumber(nodes,
+                  [&](std::size_t at, int lane)
+                  {
+                      const auto keeps = valuesOf(kept, lane) > hn::Zero(D());
+                      hn::Store(hn::IfThenElseZero(keeps, loadOne(a + at)), D(), a + at);
+                  });
+}
+
+void ScaleGuess(const BatchRecurrence& v, const PerBatch& scale, PerBatch& squares)
+{
+    sumOverNodes(v.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     const V s = valuesOf(scale, lane);
+                     const V3 b = load3(v.m_b + at);
+                     storeActive(v, load3(v.m_x + at) * s, lane, v.m_x + at);
+                     return storeResidual(v, choose(s > hn::Zero(D()), b - load3(v.m_Ap + at) * s, b), lane, at);
+                 });
+}
+
+void TurnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch& beta)
+{
+    forEachNode(v.m_nodes,
+                [&](int node, int lane)
+                {
+                    const std::size_t at = place(node, lane);
+                    const V b = valuesOf(beta, lane);
+                    const V3 zi = load3(z + at), turned = zi + load3(v.m_p + at) * b;
+                    storeActive(v, choose(b > hn::Zero(D()), turned, zi), lane, v.m_p + at);
+                });
+}
+
+void AdvanceAlong(const BatchRecurrence& v, const PerBatch& step, PerBatch& squares)
+{
+    sumOverNodes(v.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     const V s = valuesOf(step, lane);
+                     storeActive(v, load3(v.m_x + at) + load3(v.m_p + at) * s, lane, v.m_x + at);
+                     return storeResidual(v, load3(v.m_r + at) + load3(v.m_Ap + at) * hn::Neg(s), lane, at);
+                 });
+}
+
+void AddForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b,
+               PerBatch& squares)
+{
+    const V h = hn::Set(D(), step);
+    sumOverNodes(inertia.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const V alphaMass = valuesOf(alpha, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
+                     const std::size_t at = place(node, lane);
+                     const V3 damped = load3(b + at) - load3(v + at) * alphaMass;
+                     return storeMeasured((damped + takeSum(inertia.m_sums, node, lane)) * h, b + at);
+                 });
+}
+
+void SubtractSums(const BatchInertia& inertia, double share, BodyVectors b, PerBatch& squares)
+{
+    const V s = hn::Set(D(), share);
+    sumOverNodes(inertia.m_nodes, squares,
+                 [&](int node, int lane)
+                 {
+                     const std::size_t at = place(node, lane);
+                     return storeMeasured(load3(b + at) - takeSum(inertia.m_sums, node, lane) * s, b + at);
+                 });
+}
+
+/// A p of a node, which is stored, too.
+HWY_INLINE V3 applyAt(const BatchInertia& inertia, const PerBatch& factor, const V3& p, BodyVectors Ap, int node,
+                      int lane)
+{
+    const V scaledMass = valuesOf(factor, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
+    const V3 sum = takeSum(inertia.m_sums, node, lane);
+    const V3 product = {hn::MulAdd(scaledMass, p.x, sum.x), hn::MulAdd(scaledMass, p.y, sum.y),
+                        hn::MulAdd(scaledMass, p.z, sum.z)};
+    store3(product, Ap + place(node, lane));
+    return product;
+}
+
+void AddInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap,
+                PerBatch& products)
+{
+    sumOverNodes(inertia.m_nodes, products,
+                 [&](int node, int lane)
+                 {
+                     const V3 pi = load3(p + place(node, lane));
+                     return dot(pi, applyAt(inertia, factor, pi, Ap, node, lane));
+                 });
+}
+
+void MeasureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess, BatchGuessMeasure& out)
+{
+    sumsOverNodes<4>(inertia.m_nodes, {&out.m_xx, &out.m_bx, &out.m_xAx, &out.m_residual},
+                     [&](int node, int lane)
+                     {
+                         const std::size_t at = place(node, lane);
+                         const V3 x = load3(guess.m_x + at), b = load3(guess.m_b + at);
+                         const V3 Ax = applyAt(inertia, factor, x, guess.m_Ax, node, lane), r = b - Ax;
+                         return Terms<4>{{dot(x, x), dot(b, x), dot(x, Ax), dot(r, r)}};
+                     });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bullet_fem
+{
+
+HWY_EXPORT(SubtractLanes);
+HWY_EXPORT(ContinueLanes);
+HWY_EXPORT(AddLanes);
+HWY_EXPORT(SubtractProduct);
+HWY_EXPORT(ClearOthers);
+HWY_EXPORT(ScaleGuess);
+HWY_EXPORT(TurnDirection);
+HWY_EXPORT(AdvanceAlong);
+HWY_EXPORT(AddForces);
+HWY_EXPORT(SubtractSums);
+HWY_EXPORT(AddInertia);
+HWY_EXPORT(MeasureGuess);
+
+void subtract(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
+{
+    HWY_DYNAMIC_DISPATCH(SubtractLanes)(a, b, out, nodes);
+}
+
+void extrapolate(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
+{
+    HWY_DYNAMIC_DISPATCH(ContinueLanes)(a, b, out, nodes);
+}
+
+PerBatch addAndMeasure(ConstBodyVectors b, BodyVectors a, int nodes)
+{
+    PerBatch squares;
+    HWY_DYNAMIC_DISPATCH(AddLanes)(b, a, nodes, squares);
+    return squares;
+}
+
+PerBatch subtractProduct(const BatchRecurrence& v)
+{
+    PerBatch squares;
+    HWY_DYNAMIC_DISPATCH(SubtractProduct)(v, squares);
+    return squares;
+}
+
+void clearOthers(const PerBatch& kept, BodyVectors a, int nodes)
+{
+    HWY_DYNAMIC_DISPATCH(ClearOthers)(kept, a, nodes);
+}
+
+PerBatch scaleGuess(const BatchRecurrence& v, const PerBatch& scale)
+{
+    PerBatch squares;
+    HWY_DYNAMIC_DISPATCH(ScaleGuess)(v, scale, squares);
+    return squares;
+}
+
+void turnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch& beta)
+{
+    HWY_DYNAMIC_DISPATCH(TurnDirection)(v, z, beta);
+}
+
+PerBatch advanceAlong(const BatchRecurrence& v, const PerBatch& step)
+{
+    PerBatch squares;
+    HWY_DYNAMIC_DISPATCH(AdvanceAlong)(v, step, squares);
+    return squares;
+}
+
+PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b)
+{
+    PerBatch squares;
+    HWY_DYNAMIC_DISPATCH(AddForces)(inertia, alpha, step, v, b, squares);
+    return squares;
+}
+
+PerBatch subtractSums(const BatchInertia& inertia, double share, BodyVectors b)
+{
+    PerBatch squares;
+    HWY_DYNAMIC_DISPATCH(SubtractSums)(inertia, share, b, squares);
+    return squares;
+}
+
+PerBatch addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap)
+{
+    PerBatch products;
+    HWY_DYNAMIC_DISPATCH(AddInertia)(inertia, factor, p, Ap, products);
+    return products;
+}
+
+BatchGuessMeasure measureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess)
+{
+    BatchGuessMeasure measure;
+    HWY_DYNAMIC_DISPATCH(MeasureGuess)(inertia, factor, guess, measure);
+    return measure;
+}
+
+}  // namespace bullet_fem
+#endif

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Compiled once for every instruction set; the processor chooses when the program runs.
+#include "fem/batch/batch_elements.h"
+
+#include <cstddef>
+
+#include "fem/common/vector_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fem/batch/batch_elements.cpp"
+#include <hwy/foreach_target.h>
+// after foreach_target.h
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include "fem/batch/batch_exchange-inl.h"
+#include "fem/batch/lane_element-inl.h"
+#include "fem/elements/element_math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bullet_fem
+{
+namespace HWY_NAMESPACE
+{
+#if HWY_TARGET == HWY_SCALAR
+
+// Processors with nothing that Highway knows.
+void passLanes(const BatchElements&, const BatchElementPass&) {}
+void multiply(const BatchElements&, double, const double*) {}
+
+#else
+
+constexpr int kVectors = kBatchWidth / width<float>();  // of an element
+
+/// Elements of a block, and the bodies' arrays of theirs.
+struct LaneBlock
+{
+    const BatchElements& m_all;
+    const BatchElementPass& m_pass;
+    int m_first, m_count;
+
+    HWY_INLINE int vectors() const { return m_count * kVectors; }
+    HWY_INLINE LaneElement element(int vector) const
+    {
+        return {m_all, &m_pass, m_first + vector / kVectors, vector % kVectors * width<float>()};
+    }
+};
+
+// Each kind of work is a loop of its own over a block: larger loops leave no registers, and what they wait for is too
+// far away for the processor to see it.
+
+// What is written in the end is asked for while there is much to compute.
+HWY_NOINLINE void prefetchBodies(const LaneBlock& block)
+{
+    constexpr int kLine = 64 / sizeof(float);
+    for (WarpedBlock<float>* warped : block.m_pass.m_warped)
+    {
+        if (!warped) continue;
+        const float* rows = warped[block.m_first / kLanes].rows();
+        for (int k = 0; k < kWarpedRows * kLanes; k += kLine) hwy::Prefetch(rows + k);
+    }
+}
+
+HWY_NOINLINE void rotate(const LaneBlock& block)
+{
+    const float* before[kBatchWidth];
+    for (int b = 0; b < kBatchWidth; ++b) before[b] = &block.m_pass.m_rotationBefore[b][block.m_first].x;
+    for (int e = 0; e < block.m_count; ++e)  // a quaternion is a block of exchanges
+        gatherBlocks(before, 4 * e, block.element(e * kVectors).rotations(), kBatchWidth);
+    for (int k = 0; k < block.vectors(); ++k)
+    {
+        const LaneElement element = block.element(k);
+        const Matrix<float> A = times(roundedEdges<float>(element), element.DmInverse());
+        Quaternions<float> q = element.loadRotations();
+        polarRotations(&A, 1, &q);
+        element.storeRotations(q);
+    }
+}
+
+// Leaves elastic stresses where tensions are to be.
+HWY_NOINLINE void addForces(const LaneBlock& block)
+{
+    for (int k = 0; k < block.vectors(); ++k)
+    {
+        const LaneElement element = block.element(k);
+        element.storeTension(passElements(element, element.loadRotations(), [](int) {}));
+    }
+}
+
+// The elements of column `lane` of a group, one after the other: the order in which a single body's nodes sum them.
+template <class Visit>
+HWY_INLINE void forEachPatch(const BatchElements& all, const PatchGroup& group, const Visit& visit)
+{
+    for (int column = 0; column < kLanes; ++column)
+    {
+        const int first = group.m_firstBlock * kLanes + column;
+        if (!all.m_lanes->isCopy(first)) visit(first);
+    }
+}
+
+// Leaves elastic stresses where tensions are to be.
+HWY_NOINLINE void addPatchForces(const BatchElements& all, const BatchElementPass& pass, const PatchGroup& group)
+{
+    PatchStrains<float> patch;
+    forEachPatch(all, group,
+                 [&](int first)
+                 {
+                     for (int body = 0; body < kBatchWidth; body += width<float>())
+                     {
+                         for (int k = 0; k < group.m_blocks; ++k)
+                         {
+                             const LaneElement element = {all, &pass, first + k * kLanes, body};
+                             patch.add(k, element, element.loadRotations());
+                         }
+                         for (int k = 0; k < group.m_blocks; ++k)
+                         {
+                             const int e = first + k * kLanes;
+                             const LaneElement element = {all, &pass, e, body, all.m_lanes->isCopy(e)};
+                             element.storeTension(patch.finish(k, element));
+                         }
+                     }
+                 });
+}
+
+// Half of tensionOf() at a time: so much of it waits for roots and quotients that the processor needs several at once.
+HWY_NOINLINE void makeTensions(const LaneBlock& block)
+{
+    FarEigenvalue<float> far[kLanes * kVectors];
+    for (int k = 0; k < block.vectors(); ++k) far[k] = farEigenvalue(block.element(k).loadTension());
+    const F factor = number<float>(block.m_pass.m_tensionFactor);
+    for (int k = 0; k < block.vectors(); ++k)
+    {
+        const LaneElement element = block.element(k);
+        element.storeTension(positivePart(factor, element.loadTension(), far[k]));
+    }
+}
+
+HWY_NOINLINE void clearTensions(const LaneBlock& block)
+{
+    for (int k = 0; k < block.vectors(); ++k) block.element(k).storeTension(tensionOf(0, Symmetric<float>()));
+}
+
+HWY_NOINLINE void tellBodies(const LaneBlock& block)
+{
+    float *rotation[kBatchWidth], *warped[kBatchWidth];
+    bool anyWarped = false;
+    for (int b = 0; b < kBatchWidth; ++b)
+    {
+        Quaternion* q = block.m_pass.m_rotation[b];
+        WarpedBlock<float>* w = block.m_pass.m_warped[b];
+        rotation[b] = q ? &q[block.m_first].x : nullptr;
+        warped[b] = w ? w[block.m_first / kLanes].rows() : nullptr;
+        anyWarped = anyWarped || w;
+    }
+    constexpr int kSome = kBlock<float>, kStride = kWarpedRows * kBatchWidth;
+    for (int e = 0; e < block.m_count; ++e)
+        scatterBlocks(rotation, 4 * e, block.element(e * kVectors).rotations(), kBatchWidth);
+    for (int row = 0; row < kWarpedRows && anyWarped; ++row)
+        for (int e = 0; e < block.m_count; e += kSome)  // the last ones take what fills the block along
+            scatterBlocks(warped, row * kLanes + e, block.element(e * kVectors).gradients() + row * kBatchWidth,
+                          kStride);
+}
+
+HWY_INLINE void finishBlock(const LaneBlock& block)
+{
+    if (block.m_pass.m_tensionFactor == 0)
+        clearTensions(block);
+    else
+        makeTensions(block);
+    tellBodies(block);
+}
+
+HWY_INLINE void passPatches(const BatchElements& all, const BatchElementPass& pass)
+{
+    for (const PatchGroup& group : all.m_rest->m_groups)
+    {
+        const auto block = [&](int k) { return LaneBlock{all, pass, (group.m_firstBlock + k) * kLanes, kLanes}; };
+        for (int k = 0; k < group.m_blocks; ++k)
+        {
+            prefetchBodies(block(k));
+            rotate(block(k));
+        }
+        addPatchForces(all, pass, group);
+        for (int k = 0; k < group.m_blocks; ++k) finishBlock(block(k));
+    }
+}
+
+HWY_INLINE void passLanes(const BatchElements& all, const BatchElementPass& pass)
+{
+    if (all.m_rest->hasPatches()) return passPatches(all, pass);
+    for (int first = 0; first < all.m_count; first += kLanes)
+    {
+        const LaneBlock block = {all, pass, first, HWY_MIN(kLanes, all.m_count - first)};
+        prefetchBodies(block);
+        rotate(block);
+        addForces(block);
+        finishBlock(block);
+    }
+}
+
+HWY_INLINE void multiplyPatches(const BatchElements& all, double stiffnessFactor, const double* p)
+{
+    const F factor = number<float>(stiffnessFactor);
+    Matrix<float> H[ElementPatches::kMost];
+    for (const PatchGroup& group : all.m_rest->m_groups)
+        forEachPatch(all, group,
+                     [&](int first)
+                     {
+                         for (int body = 0; body < kBatchWidth; body += width<float>())
+                         {
+                             F dilatation = hn::Zero(Lanes<float>());
+                             for (int k = 0; k < group.m_blocks; ++k)
+                             {
+                                 const LaneElement element = {all, nullptr, first + k * kLanes, body};
+                                 H[k] = times(element.roundedEdgesOf(p), element.loadGradients());
+                                 dilatation = hn::MulAdd(element.share(), trace(H[k]), dilatation);
+                             }
+                             for (int k = 0; k < group.m_blocks; ++k)
+                             {
+                                 const LaneElement element = {all, nullptr, first + k * kLanes, body};
+                                 if (all.m_lanes->isCopy(element.m_element)) continue;
+                                 const F lambda = factor * element.lambda(), mu = factor * element.mu();
+                                 const F pressure = pressureInPatch<float>(lambda, mu, trace(H[k]), dilatation);
+                                 const Matrix<float> P = warpedStress<float>(pressure, mu, element.loadTension(), H[k]);
+                                 element.storeForces(timesTranspose(P, element.loadGradients()));
+                             }
+                         }
+                     });
+}
+
+HWY_INLINE void multiply(const BatchElements& all, double stiffnessFactor, const double* p)
+{
+    if (all.m_rest->hasPatches()) return multiplyPatches(all, stiffnessFactor, p);
+    const F factor = number<float>(stiffnessFactor);
+    for (int e = 0; e < all.m_count; ++e)
+        for (int lane = 0; lane < kBatchWidth; lane += width<float>())
+        {
+            const LaneElement element = {all, nullptr, e, lane};
+            const Matrix<float> g = element.loadGradients();
+            const Matrix<float> H = times(element.roundedEdgesOf(p), g);
+            const Matrix<float> P = warpedStress<float>(factor * element.lambda() * trace(H), factor * element.mu(),
+                                                        element.loadTension(), H);
+            element.storeForces(timesTranspose(P, g));
+        }
+}
+
+#endif
+
+bool HasLaneKernels()
+{
+    return HWY_TARGET != HWY_SCALAR;
+}
+
+void PassOverLanes(const BatchElements& elements, const BatchElementPass& pass)
+{
+    passLanes(elements, pass);
+}
+
+void MultiplyLanes(const BatchElements& elements, double stiffnessFactor, const double* p)
+{
+    multiply(elements, stiffnessFactor, p);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bullet_fem
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bullet_fem
+{
+
+HWY_EXPORT(HasLaneKernels);
+HWY_EXPORT(PassOverLanes);
+HWY_EXPORT(MultiplyLanes);
+
+bool hasBatchKernels()
+{
+    return HWY_DYNAMIC_DISPATCH(HasLaneKernels)();
+}
+
+void runElementPass(const BatchElements& elements, const BatchElementPass& pass)
+{
+    HWY_DYNAMIC_DISPATCH(PassOverLanes)(elements, pass);
+}
+
+void runElementProduct(const BatchElements& elements, double stiffnessFactor, const double* p)
+{
+    HWY_DYNAMIC_DISPATCH(MultiplyLanes)(elements, stiffnessFactor, p);
+}
+
+}  // namespace bullet_fem
+#endif

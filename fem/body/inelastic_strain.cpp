@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/body/inelastic_strain.h"
+
+#include <cmath>
+
+#include "fem/body/internal_stress.h"
+#include "fem/body/step_scratch.h"
+#include "fem/common/chunks.h"
+#include "fem/elements/model_elements.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+/// Plastic strain is uniaxial strain times sqrt(3/2) if it keeps the volume, and stress likewise.
+const double kOfUniaxial = std::sqrt(2.0 / 3);
+
+/// A material in a step.
+struct InelasticLaw
+{
+    InelasticLaw(const Material& material, double step)
+        : m_material(material),
+          m_flow(-std::expm1(-step * material.m_plasticCreep)),
+          m_terms(material.relaxationTerms())
+    {
+        for (int i = 0; i < m_terms; ++i) m_relaxed[i] = -std::expm1(-step / material.m_relaxation[i].m_time);
+    }
+
+    const Material& m_material;
+    double m_flow;  // of the stress beyond the yield stress, what goes in the step [-]
+    int m_terms;
+    double m_relaxed[Material::kMostRelaxationTerms];  // of e - alpha_i, likewise [-]
+};
+
+class InelasticStrain
+{
+public:
+    InelasticStrain(Body& body, double step)
+        : m_body(body),
+          m_step(step),
+          m_first(body.m_model->shape().m_material, step),
+          m_mostTerms(body.m_state.m_relaxedStrain.size() / body.m_model->shape().m_elements.size())
+    {
+    }
+
+    // Of an element with such a strain.
+    void advance(int e, const SymmetricTensor& strain) const
+    {
+        const SymmetricTensor total = deviator(strain);
+        if (!std::isfinite(contraction(total, total))) return;  // of a sliver, in single precision
+        const ElementMaterials& materials = m_body.m_model->shape().m_materials;
+        if (materials.isUniform()) return advance(e, total, m_first);
+        advance(e, total, InelasticLaw(materials.of(e), m_step));
+    }
+
+private:
+    void advance(int e, const SymmetricTensor& total, const InelasticLaw& law) const
+    {
+        if (law.m_terms > 0) relax(e, total, law);
+        if (law.m_material.yields()) flow(e, total, law);
+    }
+
+    void relax(int e, SymmetricTensor elastic, const InelasticLaw& law) const
+    {
+        BodyState& state = m_body.m_state;
+        if (!state.m_plasticStrain.empty()) elastic += -1.0 * state.m_plasticStrain[e];
+        SymmetricTensor* alpha = &state.m_relaxedStrain[e * m_mostTerms];
+        for (int i = 0; i < law.m_terms; ++i)
+        {
+            alpha[i] *= 1 - law.m_relaxed[i];
+            alpha[i] += law.m_relaxed[i] * elastic;
+        }
+    }
+
+    void flow(int e, SymmetricTensor elastic, const InelasticLaw& law) const
+    {
+        const Material& material = law.m_material;
+        BodyState& state = m_body.m_state;
+        const RestElement& element = m_body.m_model->shape().m_elements[e];
+        const double mu = element.m_muVolume / element.m_volume, hardening = material.m_hardeningModulus;
+        SymmetricTensor& plastic = state.m_plasticStrain[e];
+        elastic += -1.0 * plastic;
+        elastic += -1.0 * relaxedStrain(m_body, e);
+        SymmetricTensor s = 2 * mu * elastic;
+        if (!state.m_initialStress.empty()) s += deviator(state.m_initialStress[e]);
+        double& equivalent = state.m_equivalentPlasticStrain[e];
+        const double size = std::sqrt(contraction(s, s));
+        const double beyond = size - kOfUniaxial * (material.m_yieldStress + hardening * equivalent);
+        if (!(beyond > 0)) return;
+        const SymmetricTensor before = plastic;
+        const double gamma = law.m_flow * beyond / (2 * mu + 2.0 / 3 * hardening);
+        plastic += (gamma / size) * s;
+        const double norm = kOfUniaxial * std::sqrt(contraction(plastic, plastic));
+        if (norm > material.m_mostPlasticStrain) plastic *= material.m_mostPlasticStrain / norm;
+        const SymmetricTensor flown = plastic + -1.0 * before;
+        equivalent += kOfUniaxial * std::sqrt(contraction(flown, flown));
+    }
+
+    Body& m_body;
+    double m_step;            // [s]
+    InelasticLaw m_first;     // of a uniform body
+    std::size_t m_mostTerms;  // of m_relaxedStrain, an element
+};
+
+template <class Real>
+void advanceAll(Body& body, const StepSettings& settings)
+{
+    const ModelElements& elements = body.m_model->elements();
+    ElementWork& work = body.m_workspace.scratch().m_elements;
+    ElementScratch<Real>& scratch = work.scratch<Real>();
+    scratch.m_strain.resize(elements.blockCount());
+    const ElementStrains<Real> strains = {&elements.blocks<Real>(), work.m_x.data(),
+                                          body.m_state.m_elementRotation.data(), scratch.m_strain.data()};
+    const InelasticStrain inelastic(body, settings.m_step);
+    const ElementLanes& lanes = elements.m_lanes;
+    runRanges(settings.m_threads, {elements.blockCount(), kBlocksPerChunk},
+              [&](Range blocks)
+              {
+                  runElementStrains(strains, blocks);
+                  for (int lane = blocks.m_begin * kLanes; lane < blocks.m_end * kLanes; ++lane)
+                  {
+                      if (lanes.isCopy(lane)) continue;
+                      const auto& E = scratch.m_strain[lane / kLanes].m_entry;
+                      const int k = lane % kLanes;
+                      inelastic.advance(lanes.m_element[lane], {E[0][k], E[1][k], E[2][k], E[5][k], E[3][k], E[4][k]});
+                  }
+              });
+}
+
+}  // namespace
+
+void advanceInelasticStrain(Body& body, const StepSettings& settings)
+{
+    const ElementMaterials& materials = body.m_model->shape().m_materials;
+    if (!materials.yields() && materials.relaxationTerms() == 0) return;
+    ElementWork& work = body.m_workspace.scratch().m_elements;
+    const std::vector<Vec3>& x = body.m_state.m_x;
+    for (std::size_t i = 0; i < x.size(); ++i) work.m_x[i] = {x[i].x, x[i].y, x[i].z, 0};
+    if (work.m_isDouble)
+        advanceAll<double>(body, settings);
+    else
+        advanceAll<float>(body, settings);
+}
+
+}  // namespace bullet_fem

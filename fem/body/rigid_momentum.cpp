@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/body/rigid_momentum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fem/body/step_scratch.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Inverse of an inertia tensor; along axes without inertia (a component collapsed to a point or a line) it stays
+// bounded. What is below `rounding` [kg m2] is none.
+Mat3 boundedInverse(const Mat3& inertia, double rounding)
+{
+    const double size = trace(inertia);
+    if (!(size > rounding)) return {};
+    return inverse(inertia + Mat3::diagonal(1e-14 * size));
+}
+
+// Share of a component's size by which fixed nodes may lie beside a point or a line.
+constexpr double kCollinearShare = 1e-4;
+
+// Calls add(component, i) for every node, in order. Nodes of a component mostly follow each other: what is summed up
+// for such a run stays in registers, for additions to memory would wait for one another.
+template <class Component, class Add>
+void forEachNode(const std::vector<int>& componentOf, std::vector<Component>& components, const Add& add)
+{
+    const int n = static_cast<int>(componentOf.size());
+    for (int i = 0; i < n;)
+    {
+        const int c = componentOf[i];
+        Component component = components[c];
+        for (; i < n && componentOf[i] == c; ++i) add(component, i);
+        components[c] = component;
+    }
+}
+
+// From where levers are measured: x+ is this and h theta v+, so that of the angular momentum of the step's end only the
+// part with these positions depends on the end velocities.
+const std::vector<Vec3>& leverPositions(const Body& body)
+{
+    return body.m_workspace.scratch().m_kickPosition;
+}
+
+}  // namespace
+
+// Mass and centre of every component: that of mass, or the first of its fixed nodes, and the fixed node farthest from
+// it.
+void RigidMomentum::findCenters(const Body& body, const std::vector<Vec3>& x)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    for (Component& component : m_components) component = Component();
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        Component& component = m_components[componentOf[i]];
+        if (!s.m_fixed[i]) continue;
+        if (component.m_pivot < 0) component.m_pivot = static_cast<int>(i);
+        const Vec3 r = x[i] - x[component.m_pivot];
+        if (dot(r, r) > dot(component.m_axis, component.m_axis)) component.m_axis = r;
+    }
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
+                {
+                    component.m_mass += s.m_mass[i];
+                    component.m_center += s.m_mass[i] * x[i];
+                });
+    for (Component& component : m_components)
+        component.m_center = component.m_pivot < 0 ? (1 / component.m_mass) * component.m_center : x[component.m_pivot];
+}
+
+// Which components move as one, of those whose inertia stands in the place of its inverse, and then that. A component
+// with fixed nodes is clamped if one of them lies beside the point or line of the others, or is moved otherwise.
+void RigidMomentum::findMovable(const Body& body, double step, const std::vector<Vec3>& x)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const auto slack = [](const Component& component)
+    { return kCollinearShare * std::sqrt(trace(component.m_inverseInertia) / component.m_mass); };
+    for (Component& component : m_components)
+        if (norm(component.m_axis) <= slack(component)) component.m_axis = {};
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        Component& component = m_components[componentOf[i]];
+        if (!body.m_state.m_fixed[i]) continue;
+        const Vec3 r = x[i] - component.m_center;
+        const double length2 = dot(component.m_axis, component.m_axis);
+        const Vec3 beside = length2 > 0 ? r - (dot(r, component.m_axis) / length2) * component.m_axis : r;
+        const std::vector<Vec3>& target = body.m_loads.m_targetVelocity;
+        const double apart = step * norm(target[i] - target[component.m_pivot]);
+        if (std::max(norm(beside), apart) > slack(component)) component.m_isMovable = false;
+    }
+    m_anyMovable = false;
+    for (Component& component : m_components)
+    {
+        if (!component.m_isMovable) continue;
+        m_anyMovable = true;
+        if (component.m_pivot < 0)
+        {
+            component.m_inverseInertia =
+                inverseInertia(component.m_inverseInertia, component.m_mass, component.m_center);
+            continue;
+        }
+        const double aboutAxis = dot(component.m_axis, component.m_inverseInertia * component.m_axis);
+        component.m_inverseInertia = aboutAxis > 0 ? (1 / aboutAxis) * outer(component.m_axis, component.m_axis)
+                                                   : boundedInverse(component.m_inverseInertia, 0);
+        component.m_mass = std::numeric_limits<double>::infinity();
+    }
+}
+
+void RigidMomentum::prescribe(const Body& body, double step)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    const std::vector<Vec3>& x = leverPositions(body);
+    findCenters(body, x);
+    const double alpha = damping(body), toFrame = body.m_loads.m_frameDamping;
+    const double share = step / (1 + step * (alpha + toFrame));
+    for (Component& component : m_components)
+        if (component.m_pivot >= 0) component.m_carried = body.m_loads.m_targetVelocity[component.m_pivot];
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
+                {
+                    const Vec3 r = x[i] - component.m_center, p = s.m_mass[i] * s.m_v[i];
+                    Vec3 force = body.m_loads.m_force[i] - alpha * p;
+                    if (toFrame > 0) force += toFrame * (s.m_mass[i] * body.m_loads.m_frameVelocity[i] - p);
+                    const Vec3 prescribed = p + share * force - s.m_mass[i] * component.m_carried;
+                    if (component.m_pivot >= 0)
+                        component.m_angularBefore += cross(r, p - s.m_mass[i] * component.m_carried);
+                    component.m_linear += prescribed;
+                    component.m_angular += cross(r, prescribed);
+                    component.m_inverseInertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+                });
+    findMovable(body, step, x);
+}
+
+double RigidMomentum::damping(const Body& body)
+{
+    return body.m_model->shape().m_material.m_massDamping + body.m_loads.m_massDamping;
+}
+
+Mat3 RigidMomentum::inverseInertia(const Mat3& inertia, double mass, const Vec3& center)
+{
+    return boundedInverse(inertia, 1e-24 * mass * dot(center, center));
+}
+
+RigidMomentum::FreeComponent RigidMomentum::onlyComponent() const
+{
+    const Component& component = m_components.front();
+    return {component.m_mass, component.m_center, component.m_linear, component.m_angular, component.m_inverseInertia};
+}
+
+void RigidMomentum::setOnlyComponent(const FreeComponent& free)
+{
+    m_anyMovable = true;
+    Component& component = m_components.front();
+    component = Component();
+    component.m_mass = free.m_mass;
+    component.m_center = free.m_center;
+    component.m_linear = free.m_linear;
+    component.m_angular = free.m_angular;
+    component.m_inverseInertia = free.m_inverseInertia;
+}
+
+void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impulses, double step)
+{
+    if (!m_anyMovable) return;
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const std::vector<Vec3>& x = leverPositions(body);
+    const double share = 1 / (1 + step * damping(body));
+    for (std::size_t i = 0; i < impulses.size(); ++i)
+    {
+        Component& component = m_components[componentOf[i]];
+        component.m_linear += share * impulses[i];
+        component.m_angular += cross(x[i] - component.m_center, share * impulses[i]);
+    }
+}
+
+void RigidMomentum::addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step)
+{
+    m_components[body.m_model->mesh().nodeComponent()[node]].m_angular += (1 / (1 + step * damping(body))) * impulse;
+}
+
+void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
+{
+    if (!m_anyMovable) return;
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (Component& component : m_components)
+    {
+        component.m_linearVelocity = component.m_linear;
+        component.m_angularVelocity = component.m_angular;
+    }
+    addRigid(body, x, velocity);
+}
+
+// Of momenta that are to be had, in place of the velocities: adds what is missing to them.
+void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& velocity)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const BodyState& s = body.m_state;
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
+                {
+                    const Vec3 p = s.m_mass[i] * (velocity[i] - component.m_carried);
+                    component.m_linearVelocity -= p;
+                    component.m_angularVelocity -= cross(x[i] - component.m_center, p);
+                });
+    for (Component& component : m_components)
+    {
+        component.m_linearVelocity *= 1 / component.m_mass;
+        component.m_angularVelocity = component.m_inverseInertia * component.m_angularVelocity;
+    }
+    forEachNode(componentOf, m_components,
+                [&](const Component& component, int i)
+                {
+                    if (component.m_isMovable && !s.m_fixed[i])
+                        velocity[i] +=
+                            component.m_linearVelocity + cross(component.m_angularVelocity, x[i] - component.m_center);
+                });
+}
+
+RigidMomentum::Share RigidMomentum::shareOf(const Body& body, const int* nodes, const Mat3* blocks, int count) const
+{
+    Share share;
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (int k = 0; k < count; ++k)
+    {
+        const int i = nodes[k];
+        if (body.m_state.m_fixed[i]) continue;
+        share.m_component = body.m_model->mesh().nodeComponent()[i];
+        const Mat3 impulses = transpose(blocks[k]);
+        share.m_linear += impulses;
+        share.m_angular += crossMatrix(x[i] - m_components[share.m_component].m_center) * impulses;
+    }
+    return share;
+}
+
+Mat3 RigidMomentum::answer(const Share& of, const Share& to) const
+{
+    if (of.m_component < 0 || of.m_component != to.m_component) return {};
+    const Component& component = m_components[of.m_component];
+    if (!component.m_isMovable) return {};
+    return (1 / component.m_mass) * (transpose(of.m_linear) * to.m_linear) +
+           transpose(of.m_angular) * (component.m_inverseInertia * to.m_angular);
+}
+
+double RigidMomentum::rigidWork(const Body& body, const std::vector<Vec3>& impulses)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (Component& component : m_components) component.m_linearVelocity = component.m_angularVelocity = {};
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
+                {
+                    if (body.m_state.m_fixed[i]) return;
+                    component.m_linearVelocity += impulses[i];
+                    component.m_angularVelocity += cross(x[i] - component.m_center, impulses[i]);
+                });
+    double work = 0;
+    for (const Component& component : m_components)
+        if (component.m_isMovable)
+            work += dot(component.m_linearVelocity, component.m_linearVelocity) / component.m_mass +
+                    dot(component.m_angularVelocity, component.m_inverseInertia * component.m_angularVelocity);
+    return work;
+}
+
+void RigidMomentum::addTurning(const Body& body, double step, std::vector<Vec3>& change) const
+{
+    if (!m_anyMovable) return;
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const Component& component = m_components[componentOf[i]];
+        if (!component.m_isMovable) continue;
+        const bool hangs = component.m_pivot >= 0;
+        const Vec3 L = hangs ? 0.5 * (component.m_angularBefore + component.m_angular) : component.m_angular;
+        const Vec3 w = component.m_inverseInertia * L;
+        change[i] += step * cross(w, cross(w, x[i] - component.m_center));
+    }
+}
+
+void RigidMomentum::removeMomentum(const Body& body, double step, const std::vector<Vec3>& x, std::vector<Vec3>& change)
+{
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    findCenters(body, x);
+    forEachNode(componentOf, m_components,
+                [&](Component& component, int i)
+                {
+                    const Vec3 r = x[i] - component.m_center;
+                    component.m_inverseInertia += body.m_state.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+                });
+    findMovable(body, step, x);
+    if (m_anyMovable) addRigid(body, x, change);
+}
+
+}  // namespace bullet_fem

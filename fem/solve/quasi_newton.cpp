@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/solve/quasi_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_fem/fem/common/threads.h"
+#include "fem/body/step_coefficients.h"
+#include "fem/body/step_scratch.h"
+#include "fem/elements/model_elements.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kMostTurned = 0.5;  // of the slope, in a step that is taken as it is [Bonet & Wood 2008, 9.6.2]
+
+/// Of |r|, left by a correction: the next one, or the next step, sees it [Dembo et al. 1982].
+constexpr double kInexact = 0.1;
+
+}  // namespace
+
+QuasiNewton::QuasiNewton(Body& body, const StepSettings& settings, const WarpedSystem& A)
+    : m_body(body), m_settings(settings), m_A(A)
+{
+}
+
+void QuasiNewton::correct(const ConjugateGradientStop& stop, SolveReport& report)
+{
+    StepScratch& scratch = m_body.m_workspace.scratch();
+    QuasiNewtonScratch& newton = scratch.m_newton;
+    const double scale = std::max(std::sqrt(dot(scratch.m_rightSide, scratch.m_rightSide)), stop.m_floor);
+    ConjugateGradientStop corrections = stop;
+    corrections.m_tolerance = std::max(stop.m_tolerance, kInexact);
+    corrections.m_steady = false;
+    findTurning();
+    double left = findResidual();
+    for (int k = 0; k < kMostCorrections && left > kLeftShare * scale && std::isfinite(left); ++k)
+    {
+        const WarpedPreconditioner P(m_body, m_settings.m_threads);
+        const SolveReport found = solveConjugateGradients(
+            {m_A, P, newton.m_residual, newton.m_direction, scratch.m_solver, m_settings.m_threads}, corrections,
+            false);
+        report.m_iterations += found.m_iterations;
+        if (found.m_stop != SolveStop::converged) report.m_stop = found.m_stop;
+        const double slope = dot(newton.m_direction, newton.m_residual);
+        if (!(slope > 0)) return;  // rounding is all that there is
+        move(1);
+        left = findResidual();
+        searchLine(slope);
+    }
+}
+
+// h w x (w x r): velocities that turn with the body are no strain.
+void QuasiNewton::findTurning()
+{
+    StepScratch& scratch = m_body.m_workspace.scratch();
+    std::vector<Vec3>& turning = scratch.m_newton.m_turning;
+    std::fill(turning.begin(), turning.end(), Vec3());
+    scratch.m_momentum.addTurning(m_body, m_settings.m_step, turning);
+}
+
+// r of the equation above, and A, at z.
+double QuasiNewton::findResidual()
+{
+    StepScratch& scratch = m_body.m_workspace.scratch();
+    QuasiNewtonScratch& newton = scratch.m_newton;
+    const BodyState& state = m_body.m_state;
+    const StepCoefficients c(m_settings, m_body);
+    const double h = m_settings.m_step, beta = m_body.m_model->shape().m_material.m_stiffnessDamping;
+    std::vector<Vec3>&z = newton.m_position, &r = newton.m_residual, &w = newton.m_viscous;
+    for (std::size_t i = 0; i < z.size(); ++i)
+    {
+        const Vec3 &dv = scratch.m_increment[i], &turning = newton.m_turning[i];
+        z[i] = scratch.m_kickPosition[i] +
+               h * (c.m_damping * state.m_v[i] + c.stiffness() * dv - c.turningOfLength() * turning);
+        w[i] = beta * (state.m_v[i] + dv - StepCoefficients::kTurningOfVelocity * turning);
+        r[i] = {};
+    }
+    prepareWarpedSystem(m_body, m_settings, z, w, r);
+    const std::vector<double>& mass = scratch.m_elements.m_scaledMass;
+    for (std::size_t i = 0; i < r.size(); ++i)
+        r[i] = state.m_fixed[i] ? Vec3() : newton.m_loads[i] + h * r[i] - mass[i] * scratch.m_increment[i];
+    return std::sqrt(dot(r, r));
+}
+
+void QuasiNewton::searchLine(double slope)
+{
+    const QuasiNewtonScratch& newton = m_body.m_workspace.scratch().m_newton;
+    double length = 1;
+    for (int k = 0; k < kMostLineSearches; ++k)
+    {
+        const double turned = dot(newton.m_direction, newton.m_residual);
+        if (turned >= -kMostTurned * slope) return;
+        const double back = std::isfinite(turned) ? slope / (slope - turned) * length : 0.25 * length;
+        move(back - length);
+        length = back;
+        findResidual();
+    }
+}
+
+void QuasiNewton::move(double length)
+{
+    StepScratch& scratch = m_body.m_workspace.scratch();
+    std::vector<Vec3>& dv = scratch.m_increment;
+    for (std::size_t i = 0; i < dv.size(); ++i)
+        if (!m_body.m_state.m_fixed[i]) dv[i] += length * scratch.m_newton.m_direction[i];
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/solve/smoothing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/body/step_coefficients.h"
+#include "fem/body/step_scratch.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Of the change of momenta in a step: what (A - M) makes of the change may be this share of it and stay. Modes of
+// (omega h)^2 below some times this are not damped at all.
+constexpr double kUnresolved = 0.03;
+
+double squaredLoads(const Body& body)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < body.m_loads.m_force.size(); ++i)
+        if (!body.m_state.m_fixed[i]) sum += dot(body.m_loads.m_force[i], body.m_loads.m_force[i]);
+    return sum;
+}
+
+double squaredMomenta(const Body& body, const std::vector<Vec3>& v)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) sum += body.m_state.m_mass[i] * body.m_state.m_mass[i] * dot(v[i], v[i]);
+    return sum;
+}
+
+// What conjugate gradients leave of the loads' impulse anyway.
+double noise(const Body& body, const StepSettings& settings)
+{
+    return settings.m_tolerance * settings.m_step * std::sqrt(squaredLoads(body));
+}
+
+}  // namespace
+
+bool findChange(Body& body, const StepSettings& settings)
+{
+    const StepCoefficients coefficients(settings, body);
+    if (!(coefficients.smoothing() > 0)) return false;
+    StepScratch& scratch = body.m_workspace.scratch();
+    const BodyState& s = body.m_state;
+    std::vector<Vec3>& d = scratch.m_increment;
+    std::fill(d.begin(), d.end(), Vec3());
+    scratch.m_momentum.addTurning(body, settings.m_step, d);
+    const std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;  // an outside change is one of the step's
+    const std::vector<Vec3>& before = prior.empty() ? s.m_v : prior;
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] = s.m_fixed[i] ? Vec3() : scratch.m_velocity[i] - before[i] - d[i];
+    scratch.m_momentum.removeMomentum(body, settings.m_step, scratch.m_kickPosition, d);
+    return std::sqrt(squaredMomenta(body, d)) > noise(body, settings);
+}
+
+ConjugateGradientStop smoothingStop(const Body& body, const StepSettings& settings)
+{
+    ConjugateGradientStop stop;
+    stop.m_tolerance = kUnresolved;
+    stop.m_floor = std::max(std::sqrt(squaredMomenta(body, body.m_workspace.scratch().m_increment)),
+                            noise(body, settings) / kUnresolved);
+    stop.m_maxIterations = settings.m_direct ? 1 : settings.m_maxIterations;
+    return stop;
+}
+
+void subtractUnresolved(Body& body, const StepSettings& settings)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    const double share = StepCoefficients(settings, body).smoothing();
+    scratch.m_momentum.removeMomentum(body, settings.m_step, body.m_state.m_x, scratch.m_increment);
+    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i) scratch.m_velocity[i] -= share * scratch.m_increment[i];
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/solve/warped_compliance.h"
+
+#include <algorithm>
+
+#include "fem/body/step_scratch.h"
+#include "fem/solve/warped_system.h"
+
+namespace bullet_fem
+{
+
+void WarpedCompliance::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    const WarpedPreconditioner P(m_body, m_threads);
+    if (m_body.m_model->factorReport().m_path == FactorPath::full) return P.apply(in, out);
+    StepScratch& scratch = m_body.m_workspace.scratch();
+    for (std::size_t i = 0; i < in.size(); ++i) scratch.m_rightSide[i] = m_body.m_state.m_fixed[i] ? Vec3() : in[i];
+    std::fill(out.begin(), out.end(), Vec3());
+    ConjugateGradientStop stop;
+    stop.m_tolerance = 1e-3;
+    const WarpedSystem A(m_body, m_threads);
+    solveConjugateGradients({A, P, scratch.m_rightSide, out, scratch.m_solver, m_threads}, stop);
+}
+
+}  // namespace bullet_fem
