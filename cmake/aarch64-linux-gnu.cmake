@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
 # Toolchain: Debian's cross compiler for 64-bit Arm, and QEMU to run what it makes. CMAKE_SYSROOT has the libraries, as
-# docs/performance.md tells to get them, or CMAKE_FIND_ROOT_PATH, where tools/ci/arm.sh puts them.
+# docs/notes/arm.md tells to get them, or CMAKE_FIND_ROOT_PATH, where tools/ci/arm.sh puts them.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
