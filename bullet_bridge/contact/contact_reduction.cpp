@@ -11,10 +11,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFine = 0.6;        // mean edge over that of the tetrahedra, below which a skin is fine
-constexpr double kCell = 0.5;        // mean edges of the tetrahedra that a cell is wide
-constexpr int kMostAlike = 8;        // of a cell that held something and are alike
-constexpr double kSameNormal = 0.9;  // cosine of the angle between normals that count as one
+constexpr double kFine = 0.6;        // a skin is fine if its mean edge over the tetrahedra's is smaller [-]
+constexpr double kCell = 0.5;        // width of a cell over the tetrahedra's mean edge [-]
+constexpr int kMostAlike = 8;        // contacts kept in a cell that pushed in the last step and have similar normals
+constexpr double kSameNormal = 0.9;  // cosine up to which normals count as different
 
 }  // namespace
 

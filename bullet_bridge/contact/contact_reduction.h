@@ -10,27 +10,28 @@
 namespace bullet_fem
 {
 
-/// True if the surfaces pushed each other there.
+/// True if the contact's normal impulse is positive.
 inline bool isPushing(const ContactPoint& contact)
 {
     return dot(contact.m_impulse, contact.m_normal) > 0;
 }
 
-/// Thins the contacts of a surface that is much finer than the tetrahedra that it follows: these deform linearly, and a
-/// few points of each say what hundreds would, which make the solution slow and no better. Of contacts with one object
-/// in one cell of the rest shape, half an edge of the tetrahedra wide, those are kept that held something in the last
-/// step (they are a set of active constraints), and the one that comes deepest by the end of this step, if it is deeper
-/// than these by the slop, or if their normals differ. Scratch grows, never shrinks.
+/// Thins the contacts of a surface that is much finer than its tetrahedra: a tetrahedron deforms linearly, so a few
+/// points of it represent hundreds, which would only slow down the solver. A cell is half a mean tetrahedron edge wide
+/// in the rest shape. Of the contacts of a cell with one object, it keeps those that pushed in the last step (an active
+/// set), and the deepest one at the end of this step if it is deeper than those by the slop or differs in its normal.
+/// Scratch grows, never shrinks.
 class ContactReduction
 {
 public:
-    /// Width of the cells for a body [m]; 0 if its contacts need no thinning.
+    /// Width of the cells for a body [m]; 0 if its contacts are not thinned.
     static double cellOf(const FemSoftBody& fem);
 
-    /// Forgets all.
+    /// Forgets all contacts. `cell`: width of a cell [m], > 0.
     void clear(double cell);
 
-    /// A contact, where it is in the rest shape [m], its gap as the step ends [m], and whether it pushed in the last.
+    /// A contact, its point in the rest shape [m], its gap as the step ends [m], and whether it pushed in the last
+    /// step.
     struct Given
     {
         int m_objectId;
@@ -41,7 +42,8 @@ public:
     };
     void add(const Given& given);
 
-    /// Drops contacts, one for each that was added, and what belongs to them.
+    /// Removes the contacts that are not kept, and their origins. Both arrays have one entry for each add(), in its
+    /// order.
     template <class Origin>
     void thin(std::vector<ContactPoint>& contacts, std::vector<Origin>& origins)
     {
@@ -62,7 +64,7 @@ private:
     {
         int m_objectId;
         std::array<int, 3> m_cell;
-        bool m_isNew;  // did not hold anything
+        bool m_isNew;  // did not push in the last step
         double m_gap, m_slop;
         int m_index;
         Vec3 m_normal;

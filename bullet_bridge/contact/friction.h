@@ -9,12 +9,12 @@
 namespace bullet_fem
 {
 
-/// No contact of Bullet's own has more [-]. Far above it, a touch that is about to end throws nodes: what little it
-/// presses with would still hold them.
+/// Largest friction coefficient [-], as in Bullet's own contacts. Far larger values throw nodes: a contact that is
+/// about to separate would still hold them with its small normal force.
 constexpr double kLargestFriction = 10;
 
-/// Coulomb's coefficient between a soft body and another object [-], in [0, kLargestFriction]: kDF times its
-/// getFriction(), or the larger kDF where that is a soft body, too. What is no number counts as 0.
+/// Coulomb's friction coefficient between a soft body and another object [-], in [0, kLargestFriction]: kDF times the
+/// object's getFriction(), or the larger kDF of two soft bodies. NaN counts as 0.
 inline double frictionBetween(const btSoftBody& body, const btCollisionObject& other)
 {
     const btSoftBody* soft = btSoftBody::upcast(&other);

@@ -11,8 +11,8 @@
 namespace bullet_fem
 {
 
-/// Keeps the `most` (>= 0) contacts of smallest gap, and what belongs to them, in their order. False if there are no
-/// more. `order` is scratch.
+/// Keeps the `most` (>= 0) contacts of smallest gap, with their origins, in their present order. Returns false if there
+/// are no more than that. `order` is scratch.
 template <class Origin>
 bool keepNearest(int most, std::vector<ContactPoint>& contacts, std::vector<Origin>& origins, std::vector<int>& order)
 {

@@ -9,8 +9,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kAlikeNormals = 0.7;  // cosine between the normals
-constexpr double kFarPerGap = 30;      // a gap counts as so many times its width: who has one carries nothing yet
+constexpr double kAlikeNormals = 0.7;  // smallest cosine between the normals
+constexpr double kFarPerGap = 30;  // distance that counts for a gap, over the gap: an open contact carries no load yet
 
 bool isZero(const Vec3& v)
 {
@@ -39,7 +39,7 @@ void WarmStartTransfer::addHeir(ContactPoint& contact, double sign)
 WarmStartTransfer::Heir* WarmStartTransfer::nearestHeir(const Lost& lost, double reach)
 {
     Heir* nearest = nullptr;
-    double best = 2 * reach;  // one that has an impulse already counts as farther than all that have none
+    double best = 2 * reach;  // contacts that have an impulse count as farther than all that have none
     for (Heir& heir : m_transfer)
     {
         const double distance = norm(heir.m_contact->m_point - lost.m_point);

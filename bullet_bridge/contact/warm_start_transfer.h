@@ -9,25 +9,26 @@
 namespace bullet_fem
 {
 
-/// Hands the impulses of contacts that are gone to contacts near them between the same two surfaces, as guesses: where
-/// round surfaces rest on each other, the points that touch change all the time, and the force between the two does
-/// not. Scratch grows, never shrinks.
+/// Hands the impulses of contacts that are gone to nearby contacts between the same two surfaces, as their warm start.
+/// Where round surfaces rest on each other, contact points change all the time while the total force does not. Scratch
+/// grows, never shrinks.
 class WarmStartTransfer
 {
 public:
-    /// Forgets all; `lost` are expected at most.
+    /// Forgets all contacts. `lost`: expected number of addLost() calls.
     void clear(std::size_t lost);
 
-    /// A contact of the last step that none of this step continues: where its point is now [m], the normal, and the
-    /// impulse on the surface that the normal points to [N s]. One without an impulse has nothing to leave.
+    /// Adds a contact of the last step that none of this step continues: the present position of its point [m], its
+    /// normal (unit), and its impulse on the surface that the normal points to [N s]. A zero impulse is ignored.
     void addLost(const Vec3& point, const Vec3& normal, const Vec3& impulse);
 
-    /// A contact of this step; sign -1 if its normal points to the other of the two surfaces. It must live until
-    /// settle.
+    /// Adds a contact of this step as a receiver; `sign` is -1 if its normal points to the other surface. The contact
+    /// must live until settle().
     void addHeir(ContactPoint& contact, double sign);
 
-    /// Gives every lost impulse to the nearest heir of a similar normal within reach [m], first to those that have
-    /// inherited none and have no gap to close; without one it is lost. In the order in which both were added.
+    /// Adds each lost impulse to the nearest contact of a similar normal within `reach` [m]; contacts that have no
+    /// impulse and no gap come first. Without such a contact the impulse is lost. Both lists are processed in the order
+    /// of addition.
     void settle(double reach);
 
 private:

@@ -19,11 +19,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kErp = 0.5;         // share of a distance between what is attached that is taken back a step
-constexpr double kClothBand = 0.05;  // share of the body's mean edge that the contact band is wide
-constexpr double kClothSlop = 5e-4;  // share of the body's size by which surfaces may sink in
+constexpr double kErp = 0.5;         // share of an attachment's error that a step corrects (Baumgarte) [-]
+constexpr double kClothBand = 0.05;  // width of the contact band over the body's mean edge [-]
+constexpr double kClothSlop = 5e-4;  // permitted penetration over the body's size [-]
 
-// No more than the nearest, in their order.
+// Keeps the `most` contacts of smallest gap, in the order in which they were found.
 void keepNearestTouches(int most, std::vector<ClothTouch>& touches, std::vector<int>& order)
 {
     order.resize(touches.size());
@@ -80,7 +80,7 @@ void ClothContacts::beginStep()
 
 void ClothContacts::keepOnly(const btAlignedObjectArray<btSoftBody*>& bodies)
 {
-    const auto isGone = [&](const btSoftBody* cloth, int id)  // what is gone is only compared
+    const auto isGone = [&](const btSoftBody* cloth, int id)  // dangling pointers are compared, never followed
     { return bodies.findLinearSearch(const_cast<btSoftBody*>(cloth)) >= bodies.size() || broadphaseId(*cloth) != id; };
     m_pairs.erase(std::remove_if(m_pairs.begin(), m_pairs.end(),
                                  [&](const Pair& pair) { return isGone(pair.m_cloth, pair.m_clothId); }),
@@ -109,7 +109,7 @@ bool ClothContacts::areSpringsSolved(const btSoftBody& cloth) const
     return std::find(m_solved.begin(), m_solved.end(), &cloth) != m_solved.end();
 }
 
-// Cloth that touched FEM bodies before, and is in no pair, may be gone: it is only compared.
+// Cloth of earlier steps that is in no pair now may be deleted: its pointer is compared, never followed.
 int ClothContacts::surfaceOf(const Pair& pair)
 {
     for (std::size_t k = 0; k < m_surfaces.size(); ++k)
@@ -118,7 +118,7 @@ int ClothContacts::surfaceOf(const Pair& pair)
     return static_cast<int>(m_surfaces.size()) - 1;
 }
 
-// By body, then by id of the cloth: no addresses, and no order in which threads found them.
+// Sorts by body, then by the cloth's broadphase id: the order depends neither on addresses nor on threads.
 void ClothContacts::listSearches(const std::vector<FemSoftBody*>& bodies)
 {
     std::sort(m_pairs.begin(), m_pairs.end(), [](const Pair& a, const Pair& b) { return a.m_clothId < b.m_clothId; });
@@ -211,7 +211,8 @@ int ClothContacts::appendProxy(const Hold& hold, const Vec3& at, ContactProblem&
     return static_cast<int>(problem.m_rigidProxies.size()) - 1;
 }
 
-// Both sides feel the impulse where the cloth is, which has no other moment. What is attached touches nothing there.
+// The impulse acts on both sides at the cloth's point, since the cloth's proxy has no other moment arm. Cloth nodes
+// that are attached to the body have no contact with it.
 void ClothContacts::appendContact(const Search& search, const FemSoftBody& fem, const ClothTouch& touch,
                                   ContactProblem& problem)
 {
@@ -285,7 +286,7 @@ void ClothContacts::listUses()
     std::sort(m_uses.begin(), m_uses.end());
 }
 
-// An impulse on one proxy moves all that have nodes with it: by the sum of w w' / m over these.
+// An impulse on one proxy moves every proxy that shares nodes with it, by the sum of w w' / m over the shared nodes.
 void ClothContacts::connect(ContactProblem& problem)
 {
     m_answer.assign(m_holds.size(), 0);

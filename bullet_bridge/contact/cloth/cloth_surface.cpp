@@ -21,7 +21,7 @@ bool isCloth(const btSoftBody& body)
 
 ClothSurface::ClothSurface(btSoftBody& cloth) : m_cloth(&cloth), m_id(broadphaseId(cloth)) {}
 
-// Where a node is and how fast it is tells where it comes from, in all of Bullet's worlds; m_q does not.
+// The start position is x - h v of the present node: this holds in all of Bullet's worlds, unlike m_q.
 bool ClothSurface::update(double worldStep)
 {
     const btSoftBody& cloth = *m_cloth;
@@ -50,7 +50,7 @@ bool ClothSurface::update(double worldStep)
     return true;
 }
 
-// Programs cut cloth: the tree is built again when its faces join other nodes.
+// Programs may cut cloth: the tree is rebuilt when the faces' node indices have changed.
 void ClothSurface::readTriangles()
 {
     const btSoftBody& cloth = *m_cloth;

@@ -11,11 +11,12 @@ namespace
 {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFacingCosine = -0.1;  // cosine up to which a vertex's normal and the way to the cloth are one
-constexpr double kFlatCosine = 0.5;     // and its normal and a face's, at least, if it has gone through the face
-constexpr double kDeepest = 0.5;        // mean edges that a vertex may have gone through a face
-constexpr double kOnIt = 1e-9;          // mean edges from which on two points give a direction
-constexpr int kMostAdvances = 32;       // each leaves a share of the distance, at a slant
+constexpr double kFacingCosine = -0.1;  // largest cosine between a vertex's normal and the direction away from the
+                                        // cloth, outside
+constexpr double kFlatCosine = 0.5;     // smallest |cosine| between a vertex's normal and a face's that it has passed
+constexpr double kDeepest = 0.5;        // largest penetration of a face by a vertex, in mean edges
+constexpr double kOnIt = 1e-9;          // smallest distance that gives a direction, in mean edges
+constexpr int kMostAdvances = 32;       // of conservative advancement
 
 const auto kNone = [](int) { return false; };
 
@@ -28,8 +29,8 @@ void ClothTouchSearch::find(std::vector<ClothTouch>& touches)
     for (int vertex : m_surface.nodes()) findVertex(vertex, touches);
 }
 
-// Goes along the way of a mover, relative to what is nearest to it as the step begins, until it is in the band. False
-// if that is later than in this step.
+// Conservative advancement of a node or vertex along its path relative to the nearest triangle, until it is within the
+// band. Returns false if it does not get there in this step.
 template <class Look>
 bool ClothTouchSearch::arrive(const Mover& mover, const std::vector<Vec3>& change,
                               const std::vector<Triangle>& triangles, const Look& look, Place& place) const
@@ -47,7 +48,7 @@ bool ClothTouchSearch::arrive(const Mover& mover, const std::vector<Vec3>& chang
     return false;
 }
 
-// The nearest point of the surface. False if it is farther than `most`.
+// Finds the nearest point of the surface. Returns false if it is farther than `most`.
 bool ClothTouchSearch::lookAtSurface(const Vec3& x, double most, Place& place) const
 {
     place.m_triangle = m_surface.tree().nearestTriangle(x, most, kNone, place.m_nearest);
@@ -86,7 +87,8 @@ void ClothTouchSearch::findNode(int node, std::vector<ClothTouch>& touches) cons
     if (std::isfinite(touch.m_gap) && isFinite(touch.m_normal)) touches.push_back(touch);
 }
 
-// The nearest point of the cloth, if the vertex's surface is turned to it, or has gone through it a little.
+// Finds the nearest point of the cloth if the vertex faces it, or has passed it by less than kDeepest. Returns false
+// otherwise.
 bool ClothTouchSearch::lookAtCloth(const Mover& mover, const Vec3& x, double most, Place& place) const
 {
     place.m_triangle = m_cloth.tree()->nearestTriangle(x, most, kNone, place.m_nearest);

@@ -10,41 +10,44 @@
 namespace bullet_fem
 {
 
-/// A point of a FEM body's surface and one of a cloth that touch, or may do so within the step.
+/// A contact between a FEM body's surface and a cloth, present or possible within the step.
 struct ClothTouch
 {
     Triangle m_nodes, m_clothNodes;                   ///< unused ones repeat the first
-    std::array<double, 3> m_weights, m_clothWeights;  ///< sum 1 [-]
-    Vec3 m_point, m_onBody;                           ///< of the cloth, and of the body, as the step begins [m]
+    std::array<double, 3> m_weights, m_clothWeights;  ///< barycentric, sum 1 [-]
+    Vec3 m_point, m_onBody;                           ///< points on the cloth and on the body as the step begins [m]
     Vec3 m_normal;                                    ///< unit, from the cloth to the body
-    double m_gap = 0;                                 ///< at the start, between body and margin [m]; negative inside
+    double m_gap = 0;  ///< as the step begins, less the cloth's margin and the contact offset [m]; negative:
+                       ///< penetration
 };
 
-/// Finds where a cloth touches the surface of a FEM body:
-///  - a node of the cloth, the nearest point of the surface; from inside the body the nearest face leads out;
-///  - a vertex of the surface, the nearest point of the cloth's faces, which have two sides: the cloth is on that which
-///    the surface is turned to, as a body is solid;
-///  - what comes from farther than the band, where it arrives first on its straight way, by conservative advancement
-///    [Mirtich 1996], with the deformation of that step left out.
+/// Finds the contacts of a cloth with the surface of a FEM body:
+///   - each cloth node against the nearest point of the body's surface; a node inside the body is led out through the
+///     nearest face;
+///   - each vertex of the body against the nearest point of the cloth. A cloth face has two sides: the vertex belongs
+///     to the side that its own surface faces, as the body is solid;
+///   - a node or vertex beyond the contact band at the point where it first arrives on its straight path, by
+///     conservative advancement [Mirtich 1996]; deformation during the step is neglected.
 class ClothTouchSearch
 {
 public:
-    /// `thickness` [m] is kept between the two, from `band` [m] more on they touch though nothing closes them.
+    /// `thickness` [m] is the distance kept between the two. Pairs that are closer than thickness + band [m] are
+    /// contacts whether or not they approach.
     ClothTouchSearch(const SoftSurface& surface, const ClothSurface& cloth, double thickness, double band)
         : m_surface(surface), m_cloth(cloth), m_thickness(thickness), m_band(band)
     {
     }
 
-    /// Appends the touches of the cloth's nodes, then those of the surface's vertices, by ascending number.
+    /// Appends the contacts of the cloth's nodes, then those of the surface's vertices, both by ascending index.
     void find(std::vector<ClothTouch>& touches);
 
 private:
-    struct Mover  // a node or a vertex
+    struct Mover  // a cloth node or a surface vertex
     {
         int m_index;
         Vec3 m_x, m_change, m_normal;
     };
-    struct Place  // of the other side
+    struct Place  // nearest point of the other side
     {
         int m_triangle = -1;
         TrianglePoint m_nearest;

@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kRounds = 3;  // over the carriers of a vertex: what one gives, another may take
+constexpr int kRounds = 3;  // sweeps over a vertex's carriers: enforcing one may violate another
 
 }  // namespace
 

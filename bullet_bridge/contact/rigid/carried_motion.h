@@ -10,25 +10,25 @@
 namespace bullet_fem
 {
 
-/// How far the vertices of a surface can go within a step past what they touch as it begins. What slides over a surface
-/// does not fly through it: the way that it would take if nothing carried it meets side walls, of what lies flush in
-/// the surface, that it will never come to.
+/// Limits the paths of surface vertices by the planes that they touch as the step begins (carriers). A sliding vertex
+/// does not move into its carrier: its unconstrained path would hit side walls below the carrier's surface that it
+/// never reaches.
 class CarriedMotion
 {
 public:
     static constexpr int kNoSurface = std::numeric_limits<int>::min();
 
-    /// Half of space that a vertex must stay in.
+    /// Half space that a vertex must stay in.
     struct Carrier
     {
         Vec3 m_normal;      ///< unit
         double m_gap = 0;   ///< as the step begins [m]
-        Vec3 m_way;         ///< of the carrier within the step [m]
-        int m_surface = 0;  ///< a number for what it is part of
-        int m_next = -1;    ///< of the same vertex; -1: none
+        Vec3 m_way;         ///< displacement of the carrier within the step [m]
+        int m_surface = 0;  ///< identifies the surface that the plane belongs to
+        int m_next = -1;    ///< next carrier of the vertex; -1: none
     };
 
-    /// Forgets all. Vertices are lifted off their carriers by `lift` [m].
+    /// Forgets all carriers. `lift`: distance by which liftOf() takes vertices off their carriers [m].
     void begin(int vertexCount, double lift);
 
     void reserve(std::size_t carriers) { m_carriers.reserve(carriers); }
@@ -44,17 +44,17 @@ public:
         for (int k = m_first[vertex]; k >= 0; k = m_carriers[k].m_next) use(m_carriers[k]);
     }
 
-    /// A way [m] without what leads into carriers, but for those of one surface.
+    /// Projects a path [m] onto the half spaces of the vertex's carriers, without those of `exceptSurface`.
     Vec3 allowed(int vertex, const Vec3& way, int exceptSurface = kNoSurface) const;
 
-    /// Takes a vertex as far off all of its carriers as begin() says [m].
+    /// Displacement that takes a vertex begin()'s `lift` away from all of its carriers [m].
     Vec3 liftOf(int vertex) const;
 
     double lift() const { return m_lift; }
 
 private:
     double m_lift = 0;
-    std::vector<int> m_first;  // of every vertex; -1: none
+    std::vector<int> m_first;  // first carrier per vertex; -1: none
     std::vector<Carrier> m_carriers;
 };
 

@@ -19,15 +19,16 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kContactBand = 0.05;     // share of a mean edge that the contact band is wide
-constexpr double kAdvantage = 0.003;      // share of a mean edge by which a nearest point must beat the fixed ones
-constexpr double kSlop = 5e-5;            // share of the body's size by which it may sink in
-constexpr double kMovableSlop = 1e-4;     // the same for movable objects: position corrections spend angular momentum
-constexpr double kRigidStiffness = 1e17;  // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
-constexpr double kUsualKineticHardness = 0.1;  // Bullet's value of kKHR; those of kCHR and kSHR are 1
-constexpr double kLeastLikeness = -2;          // of a contact and the one that it was in the last step; 1 is the same
+constexpr double kContactBand = 0.05;  // width of the contact band over the mean edge [-]
+constexpr double kAdvantage = 0.003;   // by which a nearest point must be closer than the fixed points, over the mean
+                                       // edge [-]
+constexpr double kSlop = 5e-5;         // permitted penetration over the body's size, for objects that cannot move [-]
+constexpr double kMovableSlop = 1e-4;  // and for movable objects: position corrections cost angular momentum [-]
+constexpr double kRigidStiffness = 1e17;       // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
+constexpr double kUsualKineticHardness = 0.1;  // Bullet's default of kKHR; those of kCHR and kSHR are 1
+constexpr double kLeastLikeness = -2;          // smallest similarity of a contact to one of the last step; 1: equal
 
-// Bound on the speed of any of an object's points near the body: its centre's, and its spin over the distance.
+// Curvature of a shape [1/m]: that of a sphere; 0 for all other shapes.
 double curvatureOf(const ShapeLeaf& leaf)
 {
     if (leaf.m_shape->getShapeType() != SPHERE_SHAPE_PROXYTYPE) return 0;
@@ -35,14 +36,16 @@ double curvatureOf(const ShapeLeaf& leaf)
     return radius > 0 ? 1 / radius : 0;
 }
 
+// Upper bound on the speed of an object's points near the body [m/s]: linear velocity plus spin times the leaf's size.
 double fastestPoint(const RigidProxy& rigidProxy, const ShapeLeaf& shape)
 {
     const double spin = norm(rigidProxy.m_angularVelocity);
-    const double size = spin > 0 ? norm(shape.m_boundsMax - shape.m_boundsMin) : 0;  // a plane has none
+    const double size = spin > 0 ? norm(shape.m_boundsMax - shape.m_boundsMin) : 0;  // a plane's would be infinite
     return norm(rigidProxy.m_linearVelocity) + spin * size;
 }
 
-// How much nearer a point of an object that turns comes than its velocity says, for it goes along an arc [m].
+// Correction of the gap for rotation [m]: a point of a rotating object moves along an arc, so it comes closer than its
+// velocity predicts.
 double closedByArc(const RigidProxy& motion, const Vec3& point, const Vec3& normal, double step)
 {
     const Vec3 turn = step * motion.m_angularVelocity;
@@ -90,7 +93,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     return report;
 }
 
-// For what comes near without touching: steps in which no more touches than before shall not allocate.
+// Reserves for contacts that may come, so that steps with no more contacts than before do not allocate.
 void ContactFinder::makeRoom()
 {
     constexpr std::size_t kLeast = 64;  // contacts
@@ -104,7 +107,7 @@ void ContactFinder::makeRoom()
     m_lainOn.reserve(kLeast);
 }
 
-// Kinematic objects have moved already; their leaves are where they were.
+// Bullet has moved kinematic objects already, while their leaves are at the start of the step: moves the proxy back.
 const RigidProxy& ContactFinder::asTheStepBegan(const TouchedObject& touched, const RigidSurroundings& around)
 {
     const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
@@ -114,12 +117,12 @@ const RigidProxy& ContactFinder::asTheStepBegan(const TouchedObject& touched, co
     return m_starts.back();
 }
 
-// All leaves of all objects near the body.
+// Lists all leaves of all objects near the body.
 void ContactFinder::listTargets(FemSoftBody& fem, const RigidSurroundings& around)
 {
     m_targets.clear();
     m_starts.clear();
-    m_starts.reserve(around.m_count);  // targets point into it
+    m_starts.reserve(around.m_count);  // m_targets points into it
     if (around.m_count == 0) return;
     fem.updateSkin();
     m_culling.begin(fem.m_surface, fem.surfacePosition());
@@ -160,7 +163,7 @@ void ContactFinder::begin(const FemSoftBody& fem, int bodyIndex)
     noteHeld(fem);
 }
 
-// What pushed vertices in the last step, by the strongest.
+// Per vertex, the normal of the strongest contact of the last step.
 void ContactFinder::noteHeld(const FemSoftBody& fem)
 {
     const int vertexCount = fem.m_surface.vertexCount();
@@ -176,8 +179,8 @@ void ContactFinder::noteHeld(const FemSoftBody& fem)
     }
 }
 
-// What Bullet's contacts take of both sides, with the soft body's friction coefficient. Values that are no numbers
-// count as 0.
+// Contact parameters from both sides, as Bullet combines them, with the soft body's friction coefficient. NaN counts as
+// 0.
 ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const btCollisionObject& object)
 {
     const auto atLeastZero = [](double value) { return value > 0 ? value : 0; };
@@ -193,8 +196,8 @@ ContactFinder::Surface ContactFinder::surfaceOf(const btSoftBody& soft, const bt
     return surface;
 }
 
-// True if the surface looks against the normal at a feature: one of its triangles does, or their mean. A point next to
-// the side wall of a box that lies on the surface is near that wall, but the surface does not face it.
+// True if the surface at a feature faces against the normal: one of its triangles does, or their mean. A point beside a
+// box that lies on the surface is near the box's side wall, but its surface does not face that wall.
 bool ContactFinder::faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
 {
     const std::vector<Triangle>& triangles = fem.m_surface.triangles();
@@ -213,7 +216,7 @@ bool ContactFinder::faces(const FemSoftBody& fem, const Triangle& nodes, const V
     return dot(mean, normal) <= kOpposedCosine * norm(mean);
 }
 
-// Keeps a point that touches, or would if nothing pushed until the end of the step.
+// Keeps a point if it is within the band, or comes within it by the end of the step in free motion.
 void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                              const SurfaceDistance& d)
 {
@@ -222,15 +225,15 @@ void ContactFinder::consider(FemSoftBody& fem, const Target& target, int feature
         interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_motion->velocityAt(point);
     const double closest = d.m_gap + target.m_step * dot(d.m_normal, relative) - norm(target.m_fall);
     if (d.m_gap > m_band && closest > m_band) return;
-    // Nothing comes from the side of a plane: what is on its way into one is a contact whichever way it looks, or the
-    // middle of a body that is crushed in one step goes past what touches.
+    // A plane fills all of its half space: a point on its way into one is a contact whatever its normal. Otherwise the
+    // core of a body that is crushed within one step would pass the contacts on its surface.
     const double nearest = isPlane(*target.m_shape) ? std::min(d.m_gap, closest) : d.m_gap;
     if (nearest > -m_band && !faces(fem, nodes, d.m_normal)) return;
     keep(fem, target, feature, nodes, d);
 }
 
-// Of a node, which touches where it will be after a time. The nearest point of an edge or triangle goes with the
-// patch.
+// Offset from a node's contact point to the contact patch after `time`. Nearest points of edges and triangles move with
+// the patch and have none.
 Vec3 ContactFinder::patchOf(const FemSoftBody& fem, const Target& target, int node, const Vec3& normal,
                             double time) const
 {
@@ -247,7 +250,7 @@ Vec3 ContactFinder::patchOf(const FemSoftBody& fem, const Target& target, int no
     return patchLag(soft, rigid, normal, time);
 }
 
-// Null where the surface is anchored to the object.
+// Appends a contact. Returns null, and appends nothing, where the surface is anchored to the object.
 ContactPoint* ContactFinder::keep(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                                   const SurfaceDistance& d)
 {
@@ -283,7 +286,7 @@ ContactOrigin ContactFinder::originOf(const Target& target, int feature)
     return {object, broadphaseId(*object), target.m_leaf, feature};
 }
 
-// The body's contact from there that pushed in the last step, or null.
+// The body's contact of this origin that pushed in the last step, or null.
 const ContactPoint* ContactFinder::pushing(const FemSoftBody& fem, const ContactOrigin& origin)
 {
     const auto [first, last] = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), origin);
@@ -292,7 +295,8 @@ const ContactPoint* ContactFinder::pushing(const FemSoftBody& fem, const Contact
     return found == last ? nullptr : contactOf(*found);
 }
 
-// By the motion of the last step: the free one is not slowed down by what the body lies on.
+// Thins the contacts by their gaps at the end of the step, predicted with the last step's velocities: the free motion
+// ignores the support of contacts.
 void ContactFinder::thin(const FemSoftBody& fem, const RigidSurroundings& around)
 {
     const double cell = ContactReduction::cellOf(fem);
@@ -311,8 +315,8 @@ void ContactFinder::thin(const FemSoftBody& fem, const RigidSurroundings& around
     m_reduction.thin(m_contacts, m_origins);
 }
 
-// Both lists ascend, as the features were searched. Of several contacts of a feature with a leaf, the one before is
-// that of the most similar normal and place.
+// Warm start: takes over the impulses of the last step's contacts. Both lists are sorted by origin. If a feature has
+// several contacts with a leaf, the one of most similar normal and position is taken.
 void ContactFinder::takeOverImpulses(const FemSoftBody& fem)
 {
     m_continued.assign(fem.m_origins.size(), 0);
@@ -339,7 +343,7 @@ void ContactFinder::takeOverImpulses(const FemSoftBody& fem)
     inheritImpulses(fem);
 }
 
-// What pushed where nothing touches any more, object by object.
+// Hands the impulses of contacts that are gone to new contacts nearby, object by object.
 void ContactFinder::inheritImpulses(const FemSoftBody& fem)
 {
     const auto idOf = [](const ContactOrigin& origin) { return origin.m_objectId; };

@@ -16,126 +16,126 @@
 namespace bullet_fem
 {
 
-/// What a search for contacts found besides them.
+/// Flags of a contact search.
 struct ContactSearchReport
 {
     bool m_unknownShape = false;  ///< a shape without contact support was left out
-    bool m_limited = false;       ///< more points than allowed were found; those with the smallest gaps were kept
+    bool m_limited = false;       ///< more contacts than permitted were found; those of smallest gap were kept
 };
 
-/// A flat face of a moving object, by which soft bodies carry it.
+/// A flat face of a moving object that slides on soft bodies.
 struct CarryingPlane
 {
     bool m_exists = false;
     Vec3 m_normal;          ///< unit, out of the object
-    double m_distance = 0;  ///< of the plane from the origin, along the normal [m]
+    double m_distance = 0;  ///< of the plane from the origin, along the normal, as the step begins [m]
 };
 
-/// An object that a body may touch.
+/// An object near a body, as input of the contact search.
 struct TouchedObject
 {
     const btCollisionObject* m_object;
-    int m_rigidProxy;              ///< its index
-    int m_firstLeaf, m_leafCount;  ///< of its shape, where its rigid proxy is
-    bool m_unknownShape;           ///< some of its shape has no contact support
+    int m_rigidProxy;              ///< index of its rigid proxy
+    int m_firstLeaf, m_leafCount;  ///< leaves of its shape, posed as its rigid proxy is
+    bool m_unknownShape;           ///< a part of its shape has no contact support
     CarryingPlane m_carrying;
 };
 
-/// What a body's contacts are searched among.
+/// Input of a body's contact search.
 struct RigidSurroundings
 {
-    const TouchedObject* m_touched;  ///< objects near the body, by ascending broadphase id
+    const TouchedObject* m_touched;  ///< objects near the body, by ascending broadphase id, m_count of them
     int m_count;
     const btAlignedObjectArray<ShapeLeaf>& m_leaves;
     const std::vector<RigidProxy>& m_rigidProxies;
-    double m_step;      ///< [s]
-    int m_maxContacts;  ///< of the body
+    double m_step;      ///< time step [s]
+    int m_maxContacts;  ///< largest number of contacts of the body
 };
 
-/// Remembers that Bullet's broad phase found the two overlapping. May be called by several threads at once.
+/// Records that Bullet's broad phase found the two overlapping, once. May be called by several threads at once.
 void recordTouching(FemSoftBody& fem, const btCollisionObject& object);
-/// The same for a FEM body; recorded with one of the two.
+/// Records an overlap with another FEM body, on one body of the pair, once. May be called by several threads at once.
 void recordTouching(FemSoftBody& fem, const btSoftBody& other);
 
-/// Finds where a FEM body's surface touches the objects recorded, or may do so within the step. Against every shape:
-/// surface nodes. Against convex shapes, where the nodes do not lie over one flat face: the middles of edges and
-/// triangles, and, where the shape lies between all of these, the nearest points of edges and triangles. Points that
-/// are fixed in the surface come first because the nearest point wanders where edges or faces are parallel, and contact
-/// forces with it; on triangles below the corners of a polyhedron that is no larger than they are, these take the
-/// nearest point's place. Gaps are measured from the positions at the start of the step to the objects' present poses;
-/// what separates faster than it could close within the step is left out (speculative contact). Impulses of the last
-/// step are taken over as guesses.
+/// Finds the contacts of a FEM body's surface with the recorded objects, present or possible within the step.
+/// Features: every shape is tested with surface nodes. Convex shapes are also tested with midpoints of edges and
+/// triangles where the nodes do not all lie over one flat face, and with the nearest points of edges and triangles
+/// where these are closer than all fixed points. Fixed points come first because the nearest point, and the contact
+/// force with it, wanders where edges or faces are parallel. On triangles below the corners of a small polyhedron, the
+/// corners replace the nearest point.
+/// Gaps are measured between the surface as the step begins and the objects' poses; pairs that separate faster than
+/// they could close within the step are left out (speculative contact). Impulses of the last step are the warm start.
 ///
-/// Where the two move farther within the step than half of an edge or of the shape's thickness, these gaps and normals
-/// mean little: there a feature is a contact if the paths meet, with the normal of that time (swept_distance.h). What
-/// does not touch yet is a contact only if the paths meet, too.
+/// Fast motion: if surface and shape move farther within the step than half a mesh edge or half the shape's thickness,
+/// gaps and normals of its beginning are meaningless. Then a feature is a contact if the paths meet, with the normal at
+/// that time (swept_distance.h). Pairs that do not touch yet are contacts only if the paths meet.
 ///
-/// Paths are those that contacts allow (carried_motion.h): a vertex that slides goes along what carries it, a contact
-/// band above, and not into the side of the next box. Of what touches, a side wall that does not rise above a surface
-/// that carries the point is dropped: it lies flush in it. Objects that slide over soft bodies sink in, and what stands
-/// before their side a little above the face that they lie on is dropped likewise (CarryingPlane).
+/// Flush surfaces: paths are limited by present contacts (carried_motion.h), so a sliding vertex moves along its
+/// carrier, a contact band above it, and does not hit the side of the next box. A side wall that does not rise above a
+/// surface that carries the point is dropped. Objects that slide over soft bodies sink in; walls in front of their side
+/// that rise little above the face that they lie on are dropped as well (CarryingPlane).
 ///
-/// Concave shapes are sheets of triangles with two sides (sheet_touch.h): a node keeps off them on the side that it
-/// came from, which is remembered as long as it is near. One that is seen for the first time is on the side where it
-/// is; if it is less than the contact band beyond, on that of its body.
+/// Concave shapes are sheets of two-sided triangles (sheet_touch.h). A node stays on the side that it came from, which
+/// is remembered while it is near. A node without a history is on its present side; if it is less than the contact band
+/// beyond a sheet, it is on the side of its body.
 ///
 /// Scratch grows with the surface and the number of triangles, never shrinks.
 class ContactFinder
 {
 public:
-    /// After solveFreeMotion: fem.m_contacts and fem.m_origins become those of this step, with m_soft.m_body =
-    /// bodyIndex, at most m_maxContacts. Only `fem` is written to.
+    /// Call after solveFreeMotion. Replaces fem.m_contacts and fem.m_origins by those of this step, at most
+    /// m_maxContacts, with m_soft.m_body = bodyIndex. Writes to `fem` only. Returns the search's flags.
     ContactSearchReport find(FemSoftBody& fem, int bodyIndex, const RigidSurroundings& around);
 
 private:
-    /// How a pair of surfaces touches; as in ContactPoint.
+    /// Contact parameters of a pair of surfaces; see ContactPoint for the units.
     struct Surface
     {
         double m_hardness = 1, m_friction = 0, m_restitution = 0, m_stiffness = 0, m_damping = 0;
     };
     enum class TargetKind
     {
-        slow,   // convex, and neither it nor the body moves far within the step
-        fast,   // convex: contacts are looked for on the paths
-        sheets  // of triangles
+        slow,   // convex; neither shape nor body moves far within the step
+        fast,   // convex; contacts are searched on the paths
+        sheets  // two-sided triangles
     };
-    /// What is tested against: one shape of an object, its motion, the step.
+    /// One leaf of an object's shape to be tested, with its motion and the step.
     struct Target
     {
         const ShapeLeaf* m_shape;
         const btCollisionObject* m_object;
-        int m_leaf;                  // among the object's
-        int m_rigidProxy;            // its index
+        int m_leaf;                  // index among the object's leaves
+        int m_rigidProxy;            // index of the object's rigid proxy
         const RigidProxy* m_motion;  // as the step begins
-        Vec3 m_moved;                // how far its centre has gone already: that of a kinematic object [m]
+        Vec3 m_moved;  // displacement of its centre that Bullet has applied already, of kinematic objects [m]
         Surface m_surface;
-        double m_reach;  // distance at which it may be touched within the step [m]
-        Vec3 m_fall;     // by which the two may come nearer than they would freely, if one does not fall [m]
-        double m_step;   // [s]
+        double m_reach;  // distance up to which contact is possible within the step [m]
+        Vec3 m_fall;  // displacement by gravity that is missing in the free approach if one of the two is supported [m]
+        double m_step;  // [s]
         const CarryingPlane* m_carrying;
         TargetKind m_kind;
-        std::size_t m_first, m_end;          // what touches it as the step begins, or may soon, in m_near
-        std::size_t m_firstSide, m_endSide;  // of sheets, in m_sheetSides
+        std::size_t m_first, m_end;          // range of its contacts in m_near
+        std::size_t m_firstSide, m_endSide;  // range in m_sheetSides, of sheets
     };
     using Weights = std::array<double, 3>;
-    static constexpr double kFeatureDepth = 0.3;    // of a mean edge: what is deeper came from elsewhere
-    static constexpr double kOpposedCosine = -0.5;  // of normals that look against each other
+    static constexpr double kFeatureDepth = 0.3;    // largest depth of edge and triangle contacts, over the mean edge
+    static constexpr double kOpposedCosine = -0.5;  // cosine between opposed normals, at most
 
     static Surface surfaceOf(const btSoftBody& soft, const btCollisionObject& object);
-    /// A search for contacts with a leaf along the paths.
+    /// Input of a search for contacts with a leaf along the paths.
     struct PathSearch
     {
         const Target& m_target;
         const SweptShape& m_swept;
-        double m_speed;      // of the surface relative to the leaf, at most [m/s]
-        double m_clearance;  // what comes nearer meets it [m]
+        double m_speed;      // largest speed of the surface relative to the leaf [m/s]
+        double m_clearance;  // distance that still counts as meeting [m]
     };
-    /// A search for contacts with the sheets of one leaf.
+    /// Input of a search for contacts with the sheets of one leaf.
     struct SheetSearch
     {
         FemSoftBody& m_fem;
         const Target& m_target;
-        double m_thickness;  // of the sheet, with the contact offset [m]
+        double m_thickness;  // of the sheet, plus the contact offset [m]
     };
 
     void findOnNodes(FemSoftBody& fem, const Target& target);
@@ -210,34 +210,34 @@ private:
     void inheritImpulses(const FemSoftBody& fem);
 
     std::vector<Target> m_targets;
-    std::vector<RigidProxy> m_starts;  // of kinematic objects, which have moved already
+    std::vector<RigidProxy> m_starts;  // proxies of kinematic objects as the step begins
     std::vector<ContactPoint> m_contacts;
     std::vector<ContactOrigin> m_origins;
-    std::vector<Weights> m_weights;    // of m_contacts' features' corners, as found near
-    std::vector<ContactPoint> m_near;  // as the step begins: what touches, and what may within the step
+    std::vector<Weights> m_weights;    // barycentric weights of m_contacts on their features' corners
+    std::vector<ContactPoint> m_near;  // contacts as the step begins, and candidates within the step
     std::vector<ContactOrigin> m_nearOrigins;
     std::vector<Weights> m_nearWeights;
-    std::vector<unsigned char> m_flush;  // one of each: it is no wall
+    std::vector<unsigned char> m_flush;  // per entry of m_near: it is dropped as flush
     CarriedMotion m_carried;
-    std::vector<Vec3> m_heldNormal;  // of the strongest contact that a vertex had in the last step; 0: of none
-    std::vector<double> m_heldBy;    // its impulse [N s]
+    std::vector<Vec3> m_heldNormal;  // per vertex, normal of its strongest contact in the last step; 0: none
+    std::vector<double> m_heldBy;    // impulse of that contact [N s]
     std::vector<int> m_lainOn;       // triangles below corners of the present target
     std::vector<int> m_order;
-    std::vector<unsigned char> m_continued;  // contacts of the last step
+    std::vector<unsigned char> m_continued;  // per contact of the last step: its impulse was taken over
     WarmStartTransfer m_transfer;
     ContactReduction m_reduction;
     SurfaceCulling m_culling;
     TriangleSoup m_soup;
     std::vector<SheetTouch> m_touches;
     std::vector<SheetSide> m_sheetSides;
-    std::vector<Vec3> m_outward;      // of the nodes, unit
-    std::vector<Vec3> m_edgeOutward;  // sum of the unit normals of both triangles
-    bool m_measured = false;          // m_outward and m_edgeOutward are of this body and step
-    double m_edge = 0;                // mean length [m]
+    std::vector<Vec3> m_outward;      // unit normals of the nodes
+    std::vector<Vec3> m_edgeOutward;  // per edge, sum of the unit normals of both triangles
+    bool m_measured = false;          // m_outward and m_edgeOutward are up to date
+    double m_edge = 0;                // mean edge length [m]
     double m_size = 0;                // cube root of the body's volume [m]
-    double m_advantage = 0;           // by which a nearest point must beat the fixed ones [m]
-    double m_fastest = 0;             // node of the body [m/s]
-    double m_band = 0;                // gaps below this are contacts though nothing closes them [m]
+    double m_advantage = 0;           // by which a nearest point must be closer than the fixed ones [m]
+    double m_fastest = 0;             // fastest node of the body [m/s]
+    double m_band = 0;                // gaps below this are contacts whether or not they close [m]
     int m_bodyIndex = 0;
 };
 

@@ -11,9 +11,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostCorners = 32;  // of a shape: features have numbers for as many on every triangle
+constexpr int kMostCorners = 32;  // largest number of corners of a shape: each triangle has as many feature numbers
 
-// Corners of boxes include the margin, others are as far within the shape as that is wide.
+// Distance between a polyhedron's vertices and its surface: the vertices of boxes include the margin, others do not.
 double marginOf(const btCollisionShape& shape)
 {
     return shape.getShapeType() == BOX_SHAPE_PROXYTYPE ? 0 : double(shape.getMargin());
@@ -32,7 +32,7 @@ int ContactFinder::triangleOfCorner(const FemSoftBody& fem, int feature)
     return (feature - firstCornerFeature(fem)) / kMostCorners;
 }
 
-// Calls use(corner, distance) for the corners of a polyhedral shape that are over a triangle and within reach.
+// Calls use(corner, distance) for the corners of a polyhedral shape that lie over a triangle and within reach.
 template <class Use>
 void ContactFinder::forEachCornerOver(const FemSoftBody& fem, const Target& target, const Triangle& t,
                                       const Use& use) const
@@ -64,8 +64,8 @@ bool ContactFinder::isUnderCorner(const FemSoftBody& fem, const Target& target, 
     return isUnder;
 }
 
-// A face of a small shape lies between all points that are fixed in the surface. One nearest point would wander between
-// its corners, and tip the shape over.
+// Contacts at the corners of a small shape whose face lies between all fixed points of the surface. A single nearest
+// point would jump between the corners and tip the shape over.
 void ContactFinder::findOnCorners(FemSoftBody& fem, const Target& target)
 {
     const int firstFeature = firstCornerFeature(fem);

@@ -14,13 +14,14 @@ namespace
 {
 
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
-constexpr double kGradientSlack = 1e-3;  // of a mean edge: gaps that are bounded by gradients; those may be off as much
-constexpr double kHeldAdvantage = 0.1;   // of what a nearest point must be nearer by, if it pushed in the last step
-constexpr double kSlowestWander = 0.02;  // mean edges that a nearest point that pushed moves in a step, at most,
-constexpr double kFollowedShare = 0.1;   // where the nodes' shares go but this share of their way
-constexpr double kFarthestBehind = 0.1;  // mean edges that it may stay behind
-constexpr double kSmallShape = 2;        // mean edges: bounds of shapes that may lie on one triangle with a face
-constexpr double kGapRounding = 1e-9;    // of a mean edge, of gaps
+constexpr double kGradientSlack = 1e-3;  // tolerance of gaps bounded by gradients, over the mean edge
+constexpr double kHeldAdvantage = 0.1;   // share of the advantage that a nearest point needs if it pushed in the last
+                                         // step
+constexpr double kSlowestWander = 0.02;  // largest displacement of a steady nearest point in a step, over the mean edge
+constexpr double kFollowedShare = 0.1;   // share of the nearest point's displacement that the node weights follow
+constexpr double kFarthestBehind = 0.1;  // largest lag of the node weights, over the mean edge
+constexpr double kSmallShape = 2;        // size of a small shape, which a single triangle may carry, over the mean edge
+constexpr double kGapRounding = 1e-9;    // rounding of gaps, over the mean edge
 
 bool overlaps(const Vec3& point, const ShapeLeaf& shape, double reach)
 {
@@ -29,7 +30,7 @@ bool overlaps(const Vec3& point, const ShapeLeaf& shape, double reach)
     return true;
 }
 
-// Barycentric coordinates of a point near a triangle, or near an edge: one whose first and last corners are the same.
+// Barycentric coordinates of a point near a triangle, or near an edge, whose first and last corners are equal.
 bool weightsOf(const Corners& t, const Vec3& p, std::array<double, 3>& weights)
 {
     const Vec3 edge = t[1] - t[0];
@@ -43,7 +44,7 @@ bool weightsOf(const Corners& t, const Vec3& p, std::array<double, 3>& weights)
 
 }  // namespace
 
-// What touches a target as the step begins, or may within it.
+// Finds the contacts of a target as the step begins, and the candidates within the step.
 void ContactFinder::findNear(FemSoftBody& fem, Target& target)
 {
     target.m_first = m_contacts.size();
@@ -75,7 +76,7 @@ void ContactFinder::findNear(FemSoftBody& fem, Target& target)
 void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
 {
     const double reach = target.m_reach;
-    const double farthest = reach + m_culling.longestEdge();  // of what culling asks for
+    const double farthest = reach + m_culling.longestEdge();  // gaps up to this are noted for culling
     for (int i : fem.m_surface.nodes())
     {
         const Vec3& x = fem.surfacePosition()[i];
@@ -95,14 +96,14 @@ void ContactFinder::findOnNodes(FemSoftBody& fem, const Target& target)
     }
 }
 
-// The nodes say all where they lie over one flat face: their normals agree.
+// True if both nodes lie over one flat face of the shape: their normals agree, so their contacts suffice.
 bool ContactFinder::overOneFace(const FemSoftBody& fem, int a, int b) const
 {
     return fem.m_nodeGap[a] < kNotNear && fem.m_nodeGap[b] < kNotNear &&
            dot(fem.m_nodeNormal[a], fem.m_nodeNormal[b]) > 1 - 1e-9;
 }
 
-// True if no point of an edge or triangle is within reach.
+// True if no point of the edge or triangle is within reach.
 bool ContactFinder::isFar(const Target& target, const Triangle& nodes) const
 {
     return m_culling.leastGap(nodes) > target.m_reach + kGradientSlack * m_edge;
@@ -152,9 +153,10 @@ void ContactFinder::findOnTriangles(FemSoftBody& fem, const Target& target)
     findOnCorners(fem, target);
 }
 
-// The point of an edge (first and last node equal) or triangle that is nearest to the shape, if it is nearer than the
-// fixed points known, `nearest`; near contact by a margin, because there it wanders: a smaller one if it pushed in the
-// last step, or what rests on it would sink by the margin and be pushed out again. Returns the smaller of the two gaps.
+// Tests the point of an edge (first and last node equal) or triangle that is nearest to the shape. It becomes a contact
+// if it is closer than `nearest`, the gap of the known fixed points. Within the contact band it must be closer by a
+// margin, because it wanders there; the margin is smaller if the point pushed in the last step, otherwise a resting
+// object would sink by the margin and be pushed out again. Returns the smaller of the two gaps.
 double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, int feature, const Triangle& nodes,
                                       double nearest)
 {
@@ -173,23 +175,24 @@ double ContactFinder::considerNearest(FemSoftBody& fem, const Target& target, in
     return gap;
 }
 
-// The nearest point to a round shape moves far while its triangle turns little; which nodes bear the load moves with
-// it, and turns the triangle back: from step to step both would go to and fro. So the share of the nodes follows
-// slowly. The impulse itself acts where the two are nearest: a ball would be driven on by one that stayed behind.
+// Damps the node weights of a nearest point. The nearest point to a round shape moves far while its triangle rotates
+// little; the load moves with it to other nodes and rotates the triangle back, so both would oscillate from step to
+// step. Only the node weights lag: the impulse acts at the true nearest point, since a lagging one would drive a ball
+// on.
 void ContactFinder::holdBack(const FemSoftBody& fem, const Triangle& nodes, const ContactPoint& last,
                              const Weights& nearest, double step)
 {
     const std::vector<Vec3>& x = fem.surfacePosition();
-    if (step * norm(last.m_soft.of(fem.m_body.m_state.m_v)) > kSlowestWander * m_edge) return;  // as in an impact
+    if (step * norm(last.m_soft.of(fem.m_body.m_state.m_v)) > kSlowestWander * m_edge) return;  // an impact
     Weights weights;
     if (!weightsOf({x[nodes[0]], x[nodes[1]], x[nodes[2]]}, last.m_soft.of(fem.m_body.m_state.m_x), weights)) return;
     for (int k = 0; k < 3; ++k) weights[k] += kFollowedShare * (nearest[k] - weights[k]);
-    if (!(std::min({weights[0], weights[1], weights[2]}) >= 0)) return;  // on a skin, the point may have left it
+    if (!(std::min({weights[0], weights[1], weights[2]}) >= 0)) return;  // a skin's point may have left it
     if (norm(interpolated(x, nodes, weights) - interpolated(x, nodes, nearest)) > kFarthestBehind * m_edge) return;
     m_contacts.back().m_soft = fem.pointOn(m_bodyIndex, nodes, weights);
 }
 
-// Gap at a point of the surface; infinite if out of reach.
+// Gap at a point of the surface; infinite if it is out of reach.
 double ContactFinder::gapAt(const FemSoftBody& fem, const Target& target, const Triangle& nodes, const Weights& weights,
                             SurfaceDistance& d) const
 {

@@ -11,17 +11,17 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastStep = 0.25;        // of the lift: what rises less above a carrying surface is flush with it
-constexpr double kApart = 0.05;            // of the lift: a gap that is more than what resting surfaces have
-constexpr double kFlushReach = 4;          // lifts from a lifted point within which a wall is looked for
-constexpr double kSunk = 0.2;              // of a mean edge: what soft bodies carry sinks in less
-constexpr double kAlikeCosine = 0.7;       // of normals of surfaces that carry together
-constexpr double kParallelCosine = 0.999;  // of normals of what is one surface
+constexpr double kLeastStep = 0.25;  // smallest height of a step above a carrier, over the lift; lower ones are flush
+constexpr double kApart = 0.05;      // gap of separated surfaces, over the lift; resting ones have less
+constexpr double kFlushReach = 4;    // radius of the search for a wall near a lifted point, over the lift
+constexpr double kSunk = 0.2;        // depth to which objects sink into soft bodies that carry them, over the mean edge
+constexpr double kAlikeCosine = 0.7;       // smallest cosine of normals of surfaces that carry together
+constexpr double kParallelCosine = 0.999;  // smallest cosine of normals of one surface
 
 }  // namespace
 
-// A side wall of what lies flush in the surface that carries a point is no wall for it: it is dropped. Those of convex
-// shapes that do not touch yet are judged by their paths.
+// Drops side walls that are flush with a surface that carries the point: they do not obstruct it. Convex shapes beyond
+// the contact band are judged by their paths instead.
 void ContactFinder::markFlush(FemSoftBody& fem)
 {
     m_flush.assign(m_near.size(), 0);
@@ -41,13 +41,13 @@ void ContactFinder::markFlush(FemSoftBody& fem)
     if (isAny) addCarriers(fem);
 }
 
-// A number for what a contact is with: a convex shape, or one triangle of a sheet.
+// Number of the surface of a contact: a convex shape, or one triangle of a sheet.
 int ContactFinder::surfaceOf(std::size_t target, std::size_t k) const
 {
     return m_targets[target].m_kind == TargetKind::sheets ? -1 - static_cast<int>(k) : static_cast<int>(target);
 }
 
-// Of the vertices that touch.
+// Adds the contacts of vertices that touch as carriers.
 void ContactFinder::addCarriers(const FemSoftBody& fem)
 {
     m_carried.begin(fem.m_surface.vertexCount(), m_band);
@@ -99,8 +99,8 @@ bool ContactFinder::isFlush(FemSoftBody& fem, const Target& target, std::size_t 
     return flush;
 }
 
-// The same for what carries an object that slides over soft bodies: they sink in below it, so a little of the next one
-// rises above the plane on which it slides.
+// True if a point is beside the plane on which an object slides over soft bodies: the object sinks in, so the
+// neighbouring surface rises a little above that plane.
 bool ContactFinder::isBesideCarryingPlane(const Target& target, const Vec3& point, const Vec3& normal, double gap) const
 {
     const CarryingPlane& plane = *target.m_carrying;
@@ -110,7 +110,7 @@ bool ContactFinder::isBesideCarryingPlane(const Target& target, const Vec3& poin
            plane.m_distance - dot(plane.m_normal, point) < kSunk * m_edge;
 }
 
-// True if what the target has near a contact does not rise above a plane that carries the point.
+// True if the target does not rise near the contact above the plane that carries the point.
 bool ContactFinder::isFlushWith(const Target& target, const ContactPoint& contact, const Vec3& onPlane,
                                 const Vec3& normal)
 {
@@ -121,7 +121,7 @@ bool ContactFinder::isFlushWith(const Target& target, const ContactPoint& contac
     return dot(normal, nearest - onPlane) < kLeastStep * m_carried.lift();
 }
 
-// True if a contact is apart, and will be where the others lead the point.
+// True if a contact is separated now, and will be at the point to which the other carriers lead.
 bool ContactFinder::isPassed(const FemSoftBody& fem, const Target& target, std::size_t k, int surface)
 {
     const double apart = kApart * m_carried.lift();
@@ -139,7 +139,7 @@ bool ContactFinder::isPassed(const FemSoftBody& fem, const Target& target, std::
     return dot(off, contact.m_normal) > 0 && norm(off) - fem.m_contactOffset > apart;
 }
 
-// The point of a target that is nearest to that of a contact, lifted; of sheets, of those that face as it does.
+// The point of a target that is nearest to `point`; of sheets, only triangles of about the contact's normal count.
 bool ContactFinder::nearestOn(const Target& target, const Vec3& point, const ContactPoint& contact, Vec3& nearest)
 {
     const double reach = kFlushReach * m_carried.lift() + std::fabs(contact.m_gap);

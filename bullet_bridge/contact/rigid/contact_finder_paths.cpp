@@ -17,12 +17,14 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kRollingGap = 0.1;      // of the body's size: what rolls closes less within a step
-constexpr double kGrazing = 1e-3;        // of a mean edge: what passes nearer, meets, as along the rim of a face
-constexpr double kSameSideCosine = 0.9;  // of a nearest point's normal and that of where the paths meet
+constexpr double kRollingGap = 0.1;  // largest approach of a rolling contact within a step, over the body's size
+constexpr double kGrazing = 1e-3;  // clearance up to which paths still meet, as along the rim of a face, over the mean
+                                   // edge
+constexpr double kSameSideCosine = 0.9;  // smallest cosine between the normal of the nearest point and that of the
+                                         // meeting point
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// What gravity gives in a step is not speed: resting bodies have it as well.
+/// Speed that gravity adds in a step [m/s]. It does not count as motion: resting bodies have it as well.
 double fallingSpeed(const FemSoftBody& fem, double step)
 {
     return step * norm(fem.gravity());
@@ -40,13 +42,14 @@ SweptShape ContactFinder::sweptShapeOf(const Target& target)
 bool ContactFinder::isFastTarget(const FemSoftBody& fem, const Target& target) const
 {
     const SweptShape swept = sweptShapeOf(target);
-    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as RigidProxies decides
+    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as in RigidProxies
     const double falling = 2 * fallingSpeed(fem, target.m_step);
-    return isFast(swept, m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge) &&  // at most
+    // cheap upper bound first
+    return isFast(swept, m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge) &&
            isFast(swept, fastestNode(fem.m_body, swept.m_motion.m_linearVelocity) - falling, edge);
 }
 
-// Of a fast target: nodes alone, as edges and triangles are looked for on their paths.
+// Contacts of a fast target as the step begins: nodes only; edges and triangles are searched on their paths.
 void ContactFinder::findTouchingNodes(FemSoftBody& fem, const Target& target)
 {
     const double reach = m_band + fem.m_contactOffset;
@@ -64,8 +67,8 @@ void ContactFinder::findTouchingNodes(FemSoftBody& fem, const Target& target)
     }
 }
 
-// The contacts of a target: those near it that are walls, and of what is not touched yet, what the surface meets on its
-// way, which the carriers turn.
+// Appends the contacts of a target: those near it that are not flush, and those that the surface meets on its path,
+// which its carriers limit.
 void ContactFinder::findWithinStep(FemSoftBody& fem, const Target& target)
 {
     if (target.m_kind == TargetKind::fast) return findOnPaths(fem, target);
@@ -91,7 +94,7 @@ void ContactFinder::findWithinStep(FemSoftBody& fem, const Target& target)
     }
 }
 
-// Keeps what was found near, unless it lies flush.
+// Keeps a contact found near, unless it is flush.
 void ContactFinder::keepNear(std::size_t k)
 {
     if (m_flush[k]) return;
@@ -99,17 +102,17 @@ void ContactFinder::keepNear(std::size_t k)
     m_origins.push_back(m_nearOrigins[k]);
 }
 
-// What cannot move does not fall either.
+// Displacement by gravity within the step, 0 for objects that cannot move or fall little.
 Vec3 ContactFinder::fallOf(const FemSoftBody& fem, const Target& target)
 {
     const Vec3 gravity = fem.gravity();
     if (!target.m_motion->canMove() || !isFinite(gravity)) return {};
-    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as RigidProxies decides
+    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as in RigidProxies
     return fallsFar(sweptShapeOf(target), norm(gravity), edge) ? target.m_step * target.m_step * gravity : Vec3();
 }
 
-// What touches a vertex turns its way, and it is as far off as m_carried says. `held`: a velocity that the free one
-// lacks [m/s].
+// Path of a feature within the step: a vertex with carriers starts lifted off them, and does not enter them. `held`:
+// velocity to be added to the free one [m/s].
 SweptFeature ContactFinder::pathOf(const FemSoftBody& fem, const Triangle& nodes, const Vec3& held, double step) const
 {
     SweptFeature path;
@@ -125,7 +128,8 @@ SweptFeature ContactFinder::pathOf(const FemSoftBody& fem, const Triangle& nodes
     return path;
 }
 
-// Nodes first; of edges and triangles only those points that are met before all their corners and edges.
+// Finds contacts on paths. Nodes come first; a point of an edge or triangle counts only if it is met before all of the
+// feature's corners and edges.
 void ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
 {
     const SweptShape swept = sweptShapeOf(target);
@@ -155,7 +159,7 @@ void ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
         if (!m_culling.isOutside({i, i, i})) fem.m_nodeGap[i] = considerPath(fem, search, i, {i, i, i}, kNever);
     }
     const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
-    int firstFeature = fem.m_surface.vertexCount() + 1;  // ids are those of nearest points
+    int firstFeature = fem.m_surface.vertexCount() + 1;  // the features of nearest points have odd numbers
     for (int k = 0; k < edgeCount; ++k)
     {
         const auto [a, b] = fem.m_surface.features().m_edges[k];
@@ -177,8 +181,8 @@ void ContactFinder::findOnPaths(FemSoftBody& fem, const Target& target)
     }
 }
 
-// True if a node (all three the same), edge (first and last the same) or triangle meets a target within the step, or
-// would if one of the two did not fall; what overlaps was met before the step.
+// True if a node (three equal indices), edge (first and last equal) or triangle meets a target within the step, in free
+// motion or with the fall of one side removed. Pairs that overlap as the step begins met before it.
 bool ContactFinder::meets(const FemSoftBody& fem, const PathSearch& search, const Triangle& nodes,
                           SweptContact& contact) const
 {
@@ -206,8 +210,8 @@ bool ContactFinder::meetsIfHeld(const FemSoftBody& fem, const PathSearch& search
     return true;
 }
 
-// Keeps the first point of a feature that is met, if this is before `earliest` [s]; what overlaps already was met the
-// sooner the deeper. Returns the earlier of the two times.
+// Keeps the first point of a feature that is met, if that is before `earliest` [s]. Overlapping points count as met
+// earlier the deeper they are. Returns the earlier of the two times.
 double ContactFinder::considerPath(FemSoftBody& fem, const PathSearch& search, int feature, const Triangle& nodes,
                                    double earliest)
 {
@@ -221,8 +225,8 @@ double ContactFinder::considerPath(FemSoftBody& fem, const PathSearch& search, i
     return std::min(time, earliest);
 }
 
-// Of what is met later in the step, to where it is then. What rolls and is near has one lever for both sides, so that
-// no angular momentum is lost; what flies far within the step has its own.
+// Sets the levers of a contact that is met later in the step to its place at that time. A nearby rolling contact has
+// one lever for both sides, which conserves angular momentum; a contact of far motion has one for each side.
 void ContactFinder::setLevers(const FemSoftBody& fem, const Target& target, int feature, const SweptContact& met,
                               ContactPoint& contact) const
 {

@@ -12,7 +12,8 @@ namespace bullet_fem
 namespace
 {
 
-// Largest component of a way along the unit vectors around an axis up to the angle of this cosine.
+// Largest component of a vector along the unit vectors within a cone, given by its axis (unit) and the cosine of its
+// half angle.
 double alongCone(const Vec3& way, const Vec3& axis, double cosine)
 {
     const double along = dot(way, axis), across = norm(way - along * axis);
@@ -38,7 +39,7 @@ void ContactFinder::findOnSheets(FemSoftBody& fem, const Target& target)
     findOnSheetEdges(search);
 }
 
-// Into m_soup; false if none is near.
+// Collects triangles near the surface in m_soup; false if there are none.
 bool ContactFinder::collectSheets(const FemSoftBody& fem, const Target& target)
 {
     const double reach = target.m_reach + target.m_shape->m_shape->getMargin() + fem.m_contactOffset;
@@ -48,7 +49,7 @@ bool ContactFinder::collectSheets(const FemSoftBody& fem, const Target& target)
     return !m_soup.triangles().empty();
 }
 
-// Where the surface's nodes and edges face.
+// Computes the normals of the surface's nodes and edges, once a step.
 void ContactFinder::measureSurface(const FemSoftBody& fem)
 {
     if (m_measured) return;
@@ -69,7 +70,7 @@ void ContactFinder::measureSurface(const FemSoftBody& fem)
     for (int i : fem.m_surface.nodes()) m_outward[i] = unit(m_outward[i]);
 }
 
-// The free motion of a node in the step relative to the object.
+// Displacement of a node in free motion relative to the object [m].
 Vec3 ContactFinder::wayOf(const SheetSearch& search, int node) const
 {
     const FemSoftBody& fem = search.m_fem;
@@ -77,8 +78,8 @@ Vec3 ContactFinder::wayOf(const SheetSearch& search, int node) const
            (fem.surfaceVelocity()[node] - search.m_target.m_motion->velocityAt(fem.surfacePosition()[node]));
 }
 
-// Where the node was on the right side of the sheets: remembered if the leaf was near in the last step. A node that has
-// moved farther since than it could have in a step was put there.
+// A point on the right side of the sheets: the remembered one if the leaf was near in the last step. A node that has
+// moved farther since than a step permits was placed anew by the program, and has no history.
 Vec3 ContactFinder::safePosition(const SheetSearch& search, int node, const Vec3& position) const
 {
     const Target& target = search.m_target;
@@ -93,8 +94,8 @@ Vec3 ContactFinder::safePosition(const SheetSearch& search, int node, const Vec3
     return position - m_band * m_outward[node];
 }
 
-// A node that slides may go past what lies flush in the surface that held it, a little below: so it is led to its
-// position from above.
+// The node's position on the right side of the sheets. A sliding node may pass flush walls a little below the surface
+// that carried it, so it approaches its position from above.
 Vec3 ContactFinder::rightSideOf(const SheetSearch& search, int node, const Vec3& position) const
 {
     const Vec3 safe = safePosition(search, node, position);
@@ -119,8 +120,7 @@ void ContactFinder::findOnSheetNodes(const SheetSearch& search)
     }
 }
 
-// What carries a vertex turns its way: then it does not meet what it would on the free one, and may meet what is
-// behind.
+// True if carriers turn the path of a node, so that it differs from the free path: it may meet other triangles.
 bool ContactFinder::isTurned(const SheetSearch& search, int node, Vec3& way) const
 {
     if (!m_carried.isCarried(node)) return false;
@@ -130,7 +130,7 @@ bool ContactFinder::isTurned(const SheetSearch& search, int node, Vec3& way) con
     return norm(way) > m_band;
 }
 
-// Of sheets: what is near and no wall, and for vertices whose way is turned, what they meet on it.
+// Contacts with sheets: those near that are not flush, and for vertices with a turned path, those on the path.
 void ContactFinder::findOnSheetPaths(FemSoftBody& fem, const Target& target)
 {
     const SheetSearch search = {fem, target, target.m_shape->m_shape->getMargin() + fem.m_contactOffset};
@@ -145,7 +145,7 @@ void ContactFinder::findOnSheetPaths(FemSoftBody& fem, const Target& target)
         for (; k < target.m_end && m_nearOrigins[k].m_feature == i; ++k)
             if (!turned || m_near[k].m_gap <= m_band) keepNear(k);
         const Vec3 rightSide = target.m_shape->m_pose.toWorld(m_sheetSides[side++].m_safe);
-        // Faces that would each have passed the other: it meets the one over which its way ends.
+        // All contacts of the node were dropped as flush with each other: it meets the face below the end of its path.
         const bool dropped = k > firstNear && m_contacts.size() == first && !m_carried.isCarried(i);
         if (!turned && !dropped) continue;
         if (dropped) way = wayOf(search, i);
@@ -156,7 +156,7 @@ void ContactFinder::findOnSheetPaths(FemSoftBody& fem, const Target& target)
     for (; k < target.m_end; ++k) keepNear(k);
 }
 
-// `first`: of the node's contacts.
+// `first`: index of the node's first contact.
 void ContactFinder::considerSheetPath(const SheetSearch& search, int node, const Vec3& way, const Vec3& rightSide,
                                       std::size_t first)
 {

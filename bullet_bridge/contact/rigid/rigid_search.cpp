@@ -20,11 +20,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kOneFaceCosine = 0.9999;  // of the normals of contacts with one flat face
-constexpr int kFewest = 3;                 // contacts on it
-constexpr double kCarriedShare = 0.8;      // of all normal impulses that those have of what a flat face carries
+constexpr double kOneFaceCosine = 0.9999;  // smallest cosine of the normals of contacts with one flat face
+constexpr int kFewest = 3;                 // smallest number of contacts on the face
+constexpr double kCarriedShare = 0.8;      // smallest share of the normal impulses that the face carries
 
-// Null if that cannot be known.
+// Null if the body's broad phase is not known.
 btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
 {
     const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
@@ -32,14 +32,14 @@ btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
     return broadphase && broadphase->getOverlappingPairCache() ? broadphase : nullptr;
 }
 
-// To where the object was before Bullet moved it; `present` is where its centre is.
+// Moves a leaf back to the start of the step; `present` is the present centre of the object.
 void moveBack(ShapeLeaf& leaf, const RigidProxy& rigidProxy, const Vec3& present, double step)
 {
     leaf = movedBack(leaf, {present, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity}, step);
 }
 
-// True for shapes whose distances are closed forms or come of our own search over their corners. Others ask Bullet,
-// which locks meshes and counts in globals, or a program's own code.
+// True if distances to a shape may be computed on several threads: closed forms, and this library's own search over
+// corners. Other shapes call Bullet, which locks meshes and has global counters, or a program's own code.
 bool bearsThreads(const btCollisionShape& shape)
 {
     switch (shape.getShapeType())
@@ -58,7 +58,7 @@ bool bearsThreads(const btCollisionShape& shape)
     }
 }
 
-// Of a program's own class.
+// True for a concave shape of a program's own class.
 bool isOwnSheet(const btCollisionShape& shape)
 {
     return shape.getShapeType() == CUSTOM_CONCAVE_SHAPE_TYPE && isSheet(shape);
@@ -107,8 +107,8 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
         if (m_touching[b].m_alone) findOf(m_finders.front(), b);
 }
 
-// What else the bodies overlap in Bullet's broad phase. Pairs are compared by address: what left the world since it was
-// recorded may be deleted.
+// Lists the bodies' overlaps in Bullet's broad phase with other objects. Pairs are compared by address: objects that
+// have left the world since they were recorded may be deleted.
 void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
 {
     m_byAddress.clear();
@@ -140,7 +140,7 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
     std::sort(m_overlapping.begin(), m_overlapping.end());
 }
 
-// How the soft bodies carried the objects in the last step.
+// Sums up the impulses by which soft bodies carried each object in the last step.
 void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
 {
     const auto before = [](const Carried& a, const Carried& b) { return a.m_objectId < b.m_objectId; };
@@ -176,7 +176,7 @@ void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
         });
 }
 
-// The plane of a moving object that lay on soft bodies in the last step, as this one begins.
+// The plane by which a moving object lay on soft bodies in the last step, moved on to the start of this one.
 CarryingPlane RigidSearch::carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy,
                                            double step) const
 {
@@ -217,8 +217,8 @@ void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidProxies& rigid
     m_touching.push_back(touching);
 }
 
-// A program's own shape need not tell its triangles, as Bullet's fields do not. One that has told some is not asked
-// again, as long as it is where it was.
+// True if a program's own concave shape reports triangles: it need not, as Bullet's height fields do not. A shape that
+// has reported some is not asked again while it has that address.
 bool RigidSearch::givesTriangles(const ShapeLeaf& leaf)
 {
     struct Any : btTriangleCallback
@@ -235,7 +235,7 @@ bool RigidSearch::givesTriangles(const ShapeLeaf& leaf)
     return any.m_any;
 }
 
-// The leaves of an object's shape, collected when first asked for.
+// The leaves of an object's shape, collected at the first call in a step.
 const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& object, int rigidProxy, double step,
                                                     const RigidProxies& rigidProxies)
 {

@@ -13,8 +13,8 @@ namespace bullet_fem
 
 class Threads;
 
-/// Finds the contacts of FEM bodies with the rigid objects that the broad phase recorded, on the given threads. The
-/// same contacts in the same order for any number of them. Grows, never shrinks.
+/// Finds the contacts of FEM bodies with the rigid objects that the broad phase recorded, on the given threads.
+/// Contacts and their order do not depend on the number of threads. Memory grows, never shrinks.
 class RigidSearch
 {
 public:
@@ -23,25 +23,26 @@ public:
     RigidSearch(const RigidSearch&) = delete;
     RigidSearch& operator=(const RigidSearch&) = delete;
 
-    /// Bodies in an order that does not depend on addresses, after solveFreeMotion: m_contacts and m_origins of each
-    /// become those of this step, with m_soft.m_body = its place. At most maxContacts a body are kept; `step` [s].
+    /// Call after solveFreeMotion, with `bodies` in an order that does not depend on addresses. Replaces m_contacts and
+    /// m_origins of each body by those of this step, with m_soft.m_body = its index. Keeps at most maxContacts a body;
+    /// `step` [s].
     void find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts, RigidProxies& rigidProxies);
 
-    /// What find() found besides contacts, one a body.
+    /// Flags of the last find(), one entry a body.
     const std::vector<ContactSearchReport>& reports() const { return m_reports; }
 
 private:
-    static constexpr int kParts = 32;  // of the bodies, whatever the number of threads
+    static constexpr int kParts = 32;  // chunks of the bodies, whatever the number of threads
 
-    /// What bodies touch is looked up on one thread: rigid proxies are made when first asked for.
+    /// The objects near a body, listed on one thread: rigid proxies are made at their first use.
     struct Touching
     {
-        int m_first, m_count;  // among m_touched
-        bool m_alone;          // Bullet's shapes are asked that may not bear several threads
+        int m_first, m_count;  // range of m_touched
+        bool m_alone;          // a shape must be asked on one thread only
     };
     struct ShapeRange
     {
-        int m_first = -1, m_count = 0;  // among m_leaves
+        int m_first = -1, m_count = 0;  // range of m_leaves
         bool m_unknown = false, m_alone = false;
     };
 
@@ -53,32 +54,32 @@ private:
     const ShapeRange& shapeOf(const btCollisionObject& object, int rigidProxy, double step,
                               const RigidProxies& rigidProxies);
 
-    /// What the soft bodies gave an object in the last step.
+    /// Impulses by which the soft bodies pushed an object in the last step.
     struct Carried
     {
         int m_objectId;
-        double m_sum;      // of the sizes of the normal impulses [N s]
-        double m_largest;  // of these [N s], and its normal:
-        int m_count;       // contacts that have this one, too
-        double m_onFace;   // the sum of their sizes [N s]
+        double m_sum;      // sum of the normal impulses [N s]
+        double m_largest;  // largest normal impulse [N s], whose normal is m_normal
+        int m_count;       // contacts of about that normal
+        double m_onFace;   // sum of their normal impulses [N s]
         Vec3 m_normal;     // unit, from the object to the soft bodies
-        Vec3 m_foot;       // of their points on the object, times the sizes [N s m]
+        Vec3 m_foot;       // sum of their points on the object times their normal impulses [N s m]
     };
 
     bool givesTriangles(const ShapeLeaf& leaf);
 
     const Threads& m_threads;
     std::vector<ContactFinder> m_finders;
-    std::vector<Touching> m_touching;      // one a body
+    std::vector<Touching> m_touching;      // one per body
     std::vector<TouchedObject> m_touched;  // body by body
-    std::vector<ShapeRange> m_shapes;      // one a rigid proxy
+    std::vector<ShapeRange> m_shapes;      // one per rigid proxy
     btAlignedObjectArray<ShapeLeaf> m_leaves;
-    std::vector<const btCollisionShape*> m_giving;  // of a program's own shapes those that gave triangles, ascending
+    std::vector<const btCollisionShape*> m_giving;  // a program's own shapes that have reported triangles, ascending
     std::vector<Carried> m_carried;                 // by object, ascending
     std::vector<ContactSearchReport> m_reports;
-    std::vector<std::pair<const void*, int>> m_byAddress;     // bodies, ascending
-    std::vector<const btBroadphaseInterface*> m_broadphases;  // of theirs, each once
-    std::vector<std::pair<int, const void*>> m_overlapping;   // bodies and what they overlap there, ascending
+    std::vector<std::pair<const void*, int>> m_byAddress;     // bodies by address, ascending
+    std::vector<const btBroadphaseInterface*> m_broadphases;  // the bodies' broad phases, each once
+    std::vector<std::pair<int, const void*>> m_overlapping;   // bodies and the objects that they overlap, ascending
 };
 
 }  // namespace bullet_fem

@@ -11,12 +11,12 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSharpFeatureSine = 1e-3;  // sine by which a corner or edge must stand out to be one [-]
-constexpr double kParallelEdges = 1e-3;     // sine of the angle below which edges do not cross [-]
-constexpr double kOutsideOfCone = 0.05;     // by which a normal may miss the cone of a soft edge's normals [-]
+constexpr double kSharpFeatureSine = 1e-3;  // smallest sine by which a corner or edge stands out [-]
+constexpr double kParallelEdges = 1e-3;     // sine of the angle between edges that count as parallel [-]
+constexpr double kOutsideOfCone = 0.05;     // tolerance of a normal outside the cone of a soft edge's normals [-]
 
-/// Calls visit(index) for the triangles that a feature's corners may meet on their way outward, and inside. `spread` is
-/// the sine of the angle by which they may stray.
+/// Calls visit(index) for the triangles near a feature's corners, along their outward direction by the reach and inward
+/// by the depth. `spread`: sine of the largest deviation from that direction.
 template <class Visit>
 void forEachNear(const TriangleSoup& soup, const SheetFeature& feature, double spread, Visit visit)
 {
@@ -39,8 +39,8 @@ bool isWithin(const SheetFeature& feature, double gap)
     return gap - feature.m_thickness <= feature.m_reach && gap >= -feature.m_depth;
 }
 
-/// True if the soup around corner a of a triangle lies beyond it in a direction, so that it is a tip, and no triangle
-/// of a lower number has the same corner.
+/// True if corner q of a triangle is a tip: all triangles around it lie beyond it in `direction`. Of the triangles that
+/// share the corner, only that of the smallest index returns true.
 bool isTip(const TriangleSoup& soup, int triangle, const Vec3& q, const Vec3& direction)
 {
     bool tip = true;
@@ -61,17 +61,18 @@ bool isTip(const TriangleSoup& soup, int triangle, const Vec3& q, const Vec3& di
     return tip;
 }
 
-/// Where a soft edge and an edge of the soup cross.
+/// The crossing of a soft edge and an edge of the soup.
 struct EdgeCrossing
 {
-    Vec3 m_point;   ///< of the soup's edge [m]
-    Vec3 m_along;   ///< unit, of it
-    Vec3 m_normal;  ///< unit, to the soft edge
+    Vec3 m_point;   ///< on the soup's edge [m]
+    Vec3 m_along;   ///< unit, along the soup's edge
+    Vec3 m_normal;  ///< unit, towards the soft edge
     double m_gap = 0;
-    double m_softShare = 0;  ///< of the soft edge's second corner [-]
+    double m_softShare = 0;  ///< barycentric weight of the soft edge's second corner [-]
 };
 
-/// False if they do not, if the normal is none that the soft edge has, or if edge e of the triangle does not stand out.
+/// False if the edges do not cross, if the normal is outside the soft edge's cone, or if edge e of the triangle does
+/// not stand out.
 bool crossEdges(const SheetFeature& soft, const Corners& triangle, int e, EdgeCrossing& crossing)
 {
     const Vec3 &from = triangle[e], &to = triangle[(e + 1) % 3];
@@ -81,7 +82,7 @@ bool crossEdges(const SheetFeature& soft, const Corners& triangle, int e, EdgeCr
     if (!(std::abs(outward) >= widestNormal(soft) * length) || length == 0) return false;
     n *= (outward > 0 ? -1 : 1) / length;
     const Vec3 beside = triangle[(e + 2) % 3] - from;
-    if (!(dot(n, beside) < 0)) return false;  // as most: before anything that takes longer
+    if (!(dot(n, beside) < 0)) return false;  // rejects most candidates, so it comes before costlier tests
 
     LineParameters at;
     if (!nearestOfLines({soft.m_corners[0], soft.m_corners[1], from, to}, kParallelEdges, at)) return false;
@@ -94,8 +95,8 @@ bool crossEdges(const SheetFeature& soft, const Corners& triangle, int e, EdgeCr
     return isWithin(soft, crossing.m_gap);
 }
 
-/// True if the soup around a point of an edge falls off on both sides of the edge, and no triangle of a lower number
-/// has the same edge.
+/// True if the soup falls off on both sides of the edge at the crossing. Of the triangles that share the edge, only
+/// that of the smallest index returns true.
 bool isRidge(const TriangleSoup& soup, int triangle, const EdgeCrossing& crossing)
 {
     bool ridge = true;

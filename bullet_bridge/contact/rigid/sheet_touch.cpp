@@ -10,7 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostCrossings = 4;  // sheets that a point is moved back through
+constexpr int kMostCrossings = 4;  // largest number of sheets that a point is moved back through
 
 void addPointTouch(std::vector<SheetTouch>& touches, const SheetTouch& touch)
 {
@@ -30,7 +30,7 @@ SheetTouch planeTouch(const TriangleSoup& soup, const SheetProbe& probe, int tri
     return {{gap, normal, {1, 0, 0}}, triangle};
 }
 
-// With the normal to the side of the plane that the point is on.
+// The contact with a triangle's plane, with the normal to the side on which the point is.
 SheetTouch touchOnItsSide(const TriangleSoup& soup, const SheetProbe& probe, int t)
 {
     const SoupTriangle& triangle = soup.triangles()[t];
@@ -38,7 +38,7 @@ SheetTouch touchOnItsSide(const TriangleSoup& soup, const SheetProbe& probe, int
     return planeTouch(soup, probe, t, height < 0 ? -triangle.m_normal : triangle.m_normal);
 }
 
-// What the plane of a triangle is to a point above another triangle that hides it is no constraint.
+// Removes triangles that are hidden behind another one: their planes do not constrain the point.
 void removeHiddenFaces(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetTouch>& touches)
 {
     if (touches.size() < 2) return;
@@ -54,8 +54,7 @@ void removeHiddenFaces(const TriangleSoup& soup, const SheetProbe& probe, std::v
 
 void addFaces(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetTouch>& touches)
 {
-    // A plane at the angle a to the path is touched below it at no more than the cosine of a times the path: its foot
-    // is in the ball over the path.
+    // The foot of the point on a plane that its path reaches lies within the ball whose diameter is the path.
     const Vec3& p = probe.m_rightSide;
     const Vec3 middle = p + 0.5 * probe.m_path;
     const double reach = 0.5 * norm(probe.m_path) + probe.m_band + probe.m_thickness + norm(p - probe.m_position);
@@ -89,7 +88,7 @@ void addEdgesAndCorners(const TriangleSoup& soup, const SheetProbe& probe, std::
                    });
 }
 
-// The path is made longer by what the surfaces are thick.
+// Extends the path by the thickness and the band.
 void addFirstOnPath(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetTouch>& touches)
 {
     const double length = norm(probe.m_path);
@@ -104,7 +103,7 @@ void addFirstOnPath(const TriangleSoup& soup, const SheetProbe& probe, std::vect
 
 Vec3 onRightSide(const TriangleSoup& soup, const Vec3& safe, const Vec3& position)
 {
-    // With a clearance that rounding cannot take for the other side.
+    // The clearance keeps rounding from crossing the sheet again.
     const double clearance = soup.tolerance();
     Vec3 p = position;
     for (int k = 0; k < kMostCrossings; ++k)

@@ -50,8 +50,8 @@ bool SurfaceCulling::noteVertex(int vertex, const Vec3& start, const Vec3& end)
     return outside == 0;
 }
 
-// The gap to a convex shape is a convex function f of the place: f(p) >= f(x) + grad f(x) . (p - x), and the right side
-// is least in a corner.
+// Lower bound of the gap on a triangle. The gap f to a convex shape is convex: f(p) >= f(x) + grad f(x) . (p - x), and
+// the right side is smallest in a corner.
 double SurfaceCulling::leastGap(int vertex, const Triangle& t) const
 {
     double least = 0;

@@ -10,46 +10,46 @@
 namespace bullet_fem
 {
 
-/// Tells cheaply which vertices, edges and triangles of a surface cannot come near a shape: by the shape's bounds, and
-/// by its distances from the vertices. What it does not rule out may be far all the same. Scratch grows with the
+/// Cheap conservative tests of which vertices, edges and triangles of a surface cannot come near a shape, by the
+/// shape's bounds and by its distances from the vertices. Features that pass may still be far. Scratch grows with the
 /// surface, never shrinks.
 class SurfaceCulling
 {
 public:
-    /// Takes a surface with its vertices at x [m], which must stay where they are.
+    /// Starts with a surface whose vertices are at x [m]; x must outlive the queries, unchanged.
     void begin(const SoftSurface& surface, const std::vector<Vec3>& x);
 
-    /// The corners of the box around all of it [m].
+    /// Corners of the bounding box of the surface [m].
     const Vec3& low() const { return m_low; }
     const Vec3& high() const { return m_high; }
 
-    /// No two points of a triangle are farther apart [m].
+    /// Length of the longest edge [m].
     double longestEdge() const { return m_longestEdge; }
 
-    /// A box around a shape; forgets what was noted.
+    /// Bounding box of a shape.
     struct Bounds
     {
         Vec3 m_low, m_high;  ///< [m]
-        double m_reach;      ///< distance from it at which features count [m]
+        double m_reach;      ///< distance from the box up to which features count [m]
     };
-    /// False if all of the surface is out of reach; then nothing more may be asked.
+    /// Sets the bounds of the next queries. False if all of the surface is out of reach; then no query may follow.
     bool meets(const Bounds& bounds);
 
-    /// Notes where a vertex is, and where else a straight way takes it. True if that can be within reach.
+    /// Notes where a vertex is, and the end of its straight path. True if the path's bounding box is within reach.
     bool noteVertex(int vertex, const Vec3& start, const Vec3& end);
 
-    /// Notes the gap between a vertex and a convex shape [m] and its gradient; of a vertex that is farther than reach
-    /// and longestEdge() the gap is infinite.
+    /// Notes the gap between a vertex and a convex shape [m] and the gap's gradient. The gap is infinite for a vertex
+    /// that is farther away than reach + longestEdge().
     void noteGap(int vertex, double gap, const Vec3& normal) { m_gaps[vertex] = {gap, normal}; }
     /// Notes that the gap is not known.
     void noteNoGap(int vertex) { m_gaps[vertex] = {-std::numeric_limits<double>::infinity(), {}}; }
 
-    /// True if no point of a triangle, or of an edge (two vertices the same), or of their ways, can be within reach of
-    /// the bounds. All vertices must have been noted.
+    /// True if no point of a triangle, or of an edge (two equal vertices), comes within reach of the bounds on its
+    /// path. All vertices must have been noted.
     bool isOutside(const Triangle& t) const { return (m_outside[t[0]] & m_outside[t[1]] & m_outside[t[2]]) != 0; }
 
-    /// What the gaps noted say of a triangle or edge: none of its points is nearer to the shape [m], but for what
-    /// gradients are off.
+    /// Lower bound of the gap between a triangle or edge and the shape [m] from the noted gaps, up to errors of their
+    /// gradients.
     double leastGap(const Triangle& t) const;
 
 private:
@@ -64,7 +64,7 @@ private:
     Vec3 m_low, m_high;  // of the surface
     double m_longestEdge = 0;
     Bounds m_bounds = {};
-    std::vector<unsigned char> m_outside;  // a bit for every side of the bounds that a vertex is beyond
+    std::vector<unsigned char> m_outside;  // one bit for each side of the bounds that the vertex is beyond
     std::vector<Gap> m_gaps;
 };
 

@@ -13,9 +13,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSameFace = 0.5;       // cosine of the angle between normals of one patch at most
-constexpr double kTouches = 0.01;       // of a mean edge: what is farther and carries nothing does not touch
-constexpr double kLeastInertia = 1e-9;  // share of the whole that is added, so that a line has a spin
+constexpr double kSameFace = 0.5;       // smallest cosine of the angle between normals of one patch
+constexpr double kTouches = 0.01;       // largest gap of a touching point without an impulse, over the mean edge
+constexpr double kLeastInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
+                                        // spin
 
 double coefficient(double ofObject, double ofBody, const FemSoftBody& fem, const btCollisionObject& object)
 {
@@ -28,8 +29,8 @@ bool touches(const ContactPoint& contact, const FemSoftBody& fem)
     return contact.m_gap < kTouches * fem.m_surface.meanEdge() || dot(contact.m_impulse, contact.m_normal) > 0;
 }
 
-// The scales of rolling friction about two tangents: where the object has some of its own, they become the principal
-// axes of what these leave in the tangent plane.
+// Scales of rolling friction along two tangents. If the object has anisotropic rolling friction, the tangents become
+// the principal axes of its projection on the tangent plane.
 Vec3 turnToPrincipal(const btCollisionObject& object, std::array<Vec3, 3>& axes)
 {
     if (!object.hasAnisotropicFriction(btCollisionObject::CF_ANISOTROPIC_ROLLING_FRICTION)) return {1, 1, 1};
@@ -48,7 +49,7 @@ Vec3 turnToPrincipal(const btCollisionObject& object, std::array<Vec3, 3>& axes)
     const double angle = 0.5 * std::atan2(2 * product(t, u), product(t, t) - product(u, u));
     axes[1] = std::cos(angle) * t + std::sin(angle) * u;
     axes[2] = std::cos(angle) * u - std::sin(angle) * t;
-    constexpr double kNone = 1e-3;  // as Bullet has it
+    constexpr double kNone = 1e-3;  // as in Bullet
     const auto scale = [&](const Vec3& axis) { return product(axis, axis) > kNone ? product(axis, axis) : 0; };
     return {1, scale(axes[1]), scale(axes[2])};
 }
@@ -110,7 +111,7 @@ void TorsionalPatches::gather(const Pair& pair, const ContactProblem& problem)
     }
 }
 
-// The spin of its nodes x_j about their centre, w = I^-1 sum d_j x v_j: rigid rotations give it exactly.
+// The spin of the patch is that of its nodes x_j about their centre, w = I^-1 sum d_j x v_j, exact for rigid rotation.
 void TorsionalPatches::appendPatch(int body, const Pair& pair, int patch, ContactProblem& problem)
 {
     collectNodes(pair, patch, problem);
@@ -159,8 +160,8 @@ void TorsionalPatches::collectNodes(const Pair& pair, int patch, const ContactPr
     m_nodes.erase(std::unique(m_nodes.begin(), m_nodes.end()), m_nodes.end());
 }
 
-// Those that move the point; one node alone has no spin, but the triangles around it have. What a skin's points hang on
-// are tetrahedra.
+// Adds the nodes that carry a point. A single node has no spin, so the triangles around it are added; a skin's points
+// hang on tetrahedra, whose nodes suffice.
 void TorsionalPatches::addNodes(const FemSoftBody& fem, const SurfacePoint& point)
 {
     const SurfaceFeatures& features = fem.m_surface.features();

@@ -9,27 +9,27 @@
 namespace bullet_fem
 {
 
-/// Rolling and spinning friction between FEM bodies and rigid objects: gathers the contacts of each two that look in
-/// about one direction, as the faces of a box do, in patches. The coefficients are Bullet's, with kDF for the friction
-/// of the soft body [m]:
-///     kDF times the object's getRollingFriction(), plus the body's own times the object's getFriction(),
-/// and likewise for spinning. CF_ANISOTROPIC_ROLLING_FRICTION of the object scales rolling friction along its axes.
-/// Grows, never shrinks.
+/// Rolling and spinning friction between FEM bodies and rigid objects. The contacts of a pair with similar normals, as
+/// those on one face of a box, form a patch. Coefficients are Bullet's, with kDF for the friction of the soft body [m]:
+///     kDF times the object's getRollingFriction(), plus the body's getRollingFriction() times the object's
+///     getFriction();
+/// spinning friction uses getSpinningFriction() in that formula. CF_ANISOTROPIC_ROLLING_FRICTION of the object scales
+/// rolling friction along its axes. Memory grows, never shrinks.
 class TorsionalPatches
 {
 public:
-    /// Adds those of all bodies to a problem whose first contacts are the bodies', one body after another, with the
-    /// indices of rigid proxies set.
+    /// Appends the patches of all bodies to a problem whose first contacts are those of `bodies`, in their order, with
+    /// the indices of rigid proxies set.
     void append(const std::vector<FemSoftBody*>& bodies, ContactProblem& problem);
 
 private:
     struct Patch
     {
         Vec3 m_first;            // normal of its first contact [-]
-        Vec3 m_normal;           // sum of normals, by their impulses [N s]
-        Vec3 m_touchingNormal;   // sum of those of points that touch [-]
-        bool m_touches = false;  // it has such
-        int m_torsion = -1;      // its index in the problem
+        Vec3 m_normal;           // sum of normals, weighted by impulse [N s]
+        Vec3 m_touchingNormal;   // sum of the normals of touching points [-]
+        bool m_touches = false;  // some point touches
+        int m_torsion = -1;      // index in the problem
     };
 
     /// Contacts of a body with one object.
@@ -37,8 +37,8 @@ private:
     {
         const FemSoftBody& m_fem;
         const btCollisionObject& m_object;
-        std::size_t m_begin, m_end;  // among the body's
-        std::size_t m_offset;        // of the body's contacts in the problem
+        std::size_t m_begin, m_end;  // range among the body's contacts
+        std::size_t m_offset;        // of the body's first contact in the problem
         double m_rolling, m_spinning;
     };
 
@@ -48,9 +48,9 @@ private:
     void collectNodes(const Pair& pair, int patch, const ContactProblem& problem);
     void addNodes(const FemSoftBody& fem, const SurfacePoint& point);
 
-    std::vector<Patch> m_patches;  // of a pair
+    std::vector<Patch> m_patches;  // of one pair
     std::vector<int> m_patchOf;    // per contact of the pair
-    std::vector<int> m_nodes;      // of a patch, ascending
+    std::vector<int> m_nodes;      // of one patch, ascending
 };
 
 }  // namespace bullet_fem

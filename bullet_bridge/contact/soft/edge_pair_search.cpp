@@ -12,22 +12,23 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kNormalArcSine = 0.03;         // sine by which a normal may leave the arc between two faces' normals
-constexpr double kNormalArcSineAtImpact = 0.2;  // the same at an impact: the faces have turned since the start
-constexpr double kHeldBend = 0.03;              // sine of the angle at which what was a ridge is a groove
-constexpr double kParallel = 0.05;              // sine of the angle below which the nearest points wander
-constexpr double kEdgeEndShare = 1e-3;          // share of an edge that belongs to its ends
-constexpr double kUnprovenDepth = 1e-3;         // edges up to which a depth needs no proof
-constexpr double kWayAsideShare = 1e-3;         // share of the depth that the way out runs beside the edges
-constexpr double kPositionRounding = 3e-7;      // of positions in single precision: what two may be off in all
-constexpr double kWayEnd = 0.01;                // share of the way that belongs to its ends, which lie on the surfaces
+constexpr double kNormalArcSine = 0.03;  // tolerance (sine) of a normal outside the arc between two faces' normals
+constexpr double kNormalArcSineAtImpact = 0.2;  // that tolerance at an impact, as the faces have rotated since the
+                                                // start of the step
+constexpr double kHeldBend = 0.03;       // sine of the dihedral angle from which on a former ridge counts as a groove
+constexpr double kParallel = 0.05;       // sine of the angle between edges below which nearest points are not reliable
+constexpr double kEdgeEndShare = 1e-3;   // share of an edge's length that belongs to each of its nodes
+constexpr double kUnprovenDepth = 1e-3;  // largest depth that needs no proof, in edges
+constexpr double kWayAsideShare = 1e-3;  // distance of the way out from the edges, over the depth
+constexpr double kPositionRounding = 3e-7;  // relative rounding of positions in single precision
+constexpr double kWayEnd = 0.01;            // share of the way at each side that lies on the surfaces
 
 Vec3 along(const std::array<Vec3, 4>& ends, int first, double s)
 {
     return (1 - s) * ends[first] + s * ends[first + 1];
 }
 
-// From the second edge's point to the first's.
+// Vector from the second edge's point to the first edge's.
 Vec3 between(const std::array<Vec3, 4>& ends, const LineParameters& at)
 {
     return along(ends, 0, at.m_a) - along(ends, 2, at.m_b);
@@ -49,8 +50,8 @@ bool hasNode(const Triangle& triangle, int node)
     return std::find(triangle.begin(), triangle.end(), node) != triangle.end();
 }
 
-// True if a triangle lies across the way between its ends, besides those at the edge near which it begins or ends: they
-// may slope away there.
+// True if a triangle intersects the segment from `from` to `from + way`. Triangles at the edge where the segment starts
+// or ends do not count: they may slope away there.
 bool isCrossed(const SoftSurface& surface, int edge, const Vec3& from, const Vec3& way)
 {
     const std::array<int, 2>& ends = surface.features().m_edges[edge];
@@ -101,7 +102,7 @@ bool EdgePairSearch::areClose(const Pair& pair) const
     return areClose(n[0], n[2]) || areClose(n[0], n[3]) || areClose(n[1], n[2]) || areClose(n[1], n[3]);
 }
 
-// Ridges of either surface that are near what the other has near.
+// Lists the ridges of either surface that are near the other surface.
 void EdgePairSearch::listNear()
 {
     const double near = m_reach.near(), band = m_reach.within();
@@ -119,7 +120,7 @@ void EdgePairSearch::listNear()
     m_ridgeReach = {coarse(near), coarse(band), coarse(kPositionRounding * extent)};
 }
 
-// Of boxes that are swept over SurfaceRidges::kSteps steps.
+// True if boxes that are swept over SurfaceRidges::kSteps steps come within reach.
 bool EdgePairSearch::mayTouch(const CoarseBox& a, const CoarseBox& b) const
 {
     return a.startsWithin(b, m_ridgeReach.m_near) || a.meets(b, m_ridgeReach.m_band);
@@ -152,7 +153,7 @@ void EdgePairSearch::tryPair(const NearRidges::Item& a, const NearRidges::Item& 
     if (areClose(pair)) return;
     Crossing crossing;
     if (!(mayCross && tryNear(pair, nodes, crossing)) && !(mayMeet && tryImpact(pair, crossing))) return;
-    // Of impacts after the step, only those between what is near within it.
+    // Impacts are searched beyond the end of the step, but count only between leaves that come close within it.
     if (m_first->tree().box(a.m_leaf).meets(m_second->tree().box(b.m_leaf), m_ridgeReach.m_near)) emit(pair, crossing);
 }
 
@@ -167,8 +168,9 @@ EdgePairSearch::Pair EdgePairSearch::pairOf(const SurfaceRidges::Ridge& a, const
             {dA[a.m_a], dA[a.m_b], dB[b.m_a], dB[b.m_b]}};
 }
 
-// Edges that push each other flatten each other. Were they no pair any more as soon as one is no ridge, they would bend
-// back, and push again: a pile of soft balls would never come to rest. A surface may be another one since.
+// Tests an edge pair that pushed in the last step. Edges that press on each other flatten each other. If a flattened
+// pair were dropped, the edges would bend back and push again, and a pile of soft balls would never come to rest. The
+// surface may have changed since, so indices are checked.
 void EdgePairSearch::tryHeld(const EdgePair& held, const NodesFound& nodes)
 {
     const auto hasEdge = [](const SoftSurface& surface, int edge)
@@ -187,7 +189,7 @@ void EdgePairSearch::tryHeld(const EdgePair& held, const NodesFound& nodes)
     if (tryNear(pair, nodes, crossing)) emit(pair, crossing);
 }
 
-// True if the normal, from B to A, lies between those of either edge's faces.
+// True if the normal, from B to A, lies between the normals of both faces at either edge, up to the tolerance.
 bool EdgePairSearch::separates(const Pair& pair, const Vec3& normal, double tolerance) const
 {
     if (!(dot(normal, m_first->edgeNormal(pair.m_edgeA)) < 0 && dot(normal, m_second->edgeNormal(pair.m_edgeB)) > 0))
@@ -199,7 +201,7 @@ bool EdgePairSearch::separates(const Pair& pair, const Vec3& normal, double tole
     return true;
 }
 
-// A crossing at the start: touching, or closing within the step without moving far.
+// Tests for a crossing as the step begins: within the band, or closing within the step without far motion.
 bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing& crossing) const
 {
     if (!nearestOfLines(pair.m_x, kParallel, crossing.m_at) || !isInterior(crossing.m_at)) return false;
@@ -213,7 +215,7 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
         return crossing.m_gap + dot(crossing.m_normal, travel) < m_reach.within() &&
                norm(travel) < m_reach.depth() + m_reach.m_fall;
     }
-    // Ends that have a much shorter way out in another direction lead the edges out there.
+    // If an edge's node has a much shorter way out in another direction, that contact resolves the penetration.
     const auto ofFirst = [&](int k) { return nodes.m_ofFirst.depthAside(pair.m_nodes[k], crossing.m_normal); };
     const auto ofSecond = [&](int k) { return nodes.m_ofSecond.depthAside(pair.m_nodes[k], -crossing.m_normal); };
     const double shortest = std::min({ofFirst(0), ofFirst(1), ofSecond(2), ofSecond(3)});
@@ -221,9 +223,9 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
     return crossing.m_gap >= -kUnprovenDepth * m_reach.m_edge || isFreeWayOut(pair, crossing);
 }
 
-// True if nothing lies between edges that have passed each other: those on the far sides of two bars have both bars
-// between them, and these may not overlap at all. The way begins near the surfaces and runs inside of the edges, and of
-// faces that lean over it.
+// True if nothing lies between edges that have passed each other. Edges on the far sides of two bars have both bars
+// between them, and the bars need not overlap at all. The tested segment starts near the surfaces, inside of the edges
+// and of faces that lean over it.
 bool EdgePairSearch::isFreeWayOut(const Pair& pair, const Crossing& crossing) const
 {
     const Vec3& n = crossing.m_normal;
@@ -242,8 +244,8 @@ bool EdgePairSearch::isFreeWayOut(const Pair& pair, const Crossing& crossing) co
     return !isCrossed(*m_first, pair.m_edgeA, from, way) && !isCrossed(*m_second, pair.m_edgeB, from, way);
 }
 
-// True if all of the first edge is on one side of the second along a direction, from the start to kSteps later: their
-// ends move in straight lines.
+// True if the first edge stays on one side of the second along a direction, from the start to kSteps steps later. Nodes
+// move on straight lines, so both times suffice.
 bool EdgePairSearch::stayApart(const Pair& pair, const Vec3& direction)
 {
     double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -258,15 +260,15 @@ bool EdgePairSearch::stayApart(const Pair& pair, const Vec3& direction)
     return least > 0 || most < 0;
 }
 
-// Quick proofs that edges cannot meet: they are apart along their common normal, or pass each other by, seen along
-// their way.
+// Cheap sufficient tests that edges cannot meet: they stay apart along their common normal, or across their relative
+// path.
 bool EdgePairSearch::cannotMeet(const Pair& pair, const Vec3& travel)
 {
     const Vec3 a = pair.m_x[1] - pair.m_x[0], b = pair.m_x[3] - pair.m_x[2];
     return stayApart(pair, cross(a, b)) || stayApart(pair, cross(a, travel)) || stayApart(pair, cross(b, travel));
 }
 
-// Edges that meet on their way.
+// Tests whether the edges meet on their paths (continuous collision detection).
 bool EdgePairSearch::tryImpact(const Pair& pair, Crossing& crossing) const
 {
     const std::array<Vec3, 4>&x = pair.m_x, &change = pair.m_change;

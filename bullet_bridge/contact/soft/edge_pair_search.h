@@ -8,30 +8,30 @@
 namespace bullet_fem
 {
 
-/// What the nodes of two surfaces have found, for the edges to agree with.
+/// Results of the node searches of two surfaces, as input of the edge search.
 struct NodesFound
 {
     const NodeSurfaceSearch& m_ofFirst;
     const NodeSurfaceSearch& m_ofSecond;
 };
 
-/// An edge of either surface.
+/// Edge indices, one of each surface.
 struct EdgePair
 {
     int m_first, m_second;
 };
 
-/// Finds where ridges of two surfaces, or of one with itself, cross each other. A pair touches if the nearest points
-/// lie between the ends of both edges, and the direction between them separates the surfaces: it lies between the
-/// normals of the faces at either edge (their arcs cross on the sphere of directions). Edges that are not bent need no
-/// contacts of their own: the nodes at the ends of flat regions, and crossings of rims, carry all that these can; but
-/// edges that pushed each other remain a pair until one is a groove, however flat they have become. What comes from
-/// farther than the band is tested at the time when the edges meet. Scratch grows, never shrinks.
+/// Finds the crossings of ridges of two surfaces, or of one surface with itself. A pair is a contact if the nearest
+/// points lie in the interior of both edges, and the direction between them lies between the normals of the faces at
+/// either edge (their arcs cross on the Gauss sphere), so that it separates the surfaces. Flat edges need no contacts
+/// of their own: nodes at the border of flat regions, and crossings of rims, carry their load. Edges that pushed each
+/// other remain a pair, however flat, until one is a groove. Pairs beyond the contact band are tested by continuous
+/// collision detection. Scratch grows, never shrinks.
 class EdgePairSearch
 {
 public:
-    /// Appends touches by ascending edges of `first`, then of `second` (the same: self contact). `held`: those that
-    /// pushed each other in the last step.
+    /// Appends contacts, ascending by edge of `first`, then of `second`; equal surfaces mean self contact. `held`:
+    /// pairs that pushed in the last step.
     void find(const SoftSurface& first, const SoftSurface& second, const TouchReach& reach, const NodesFound& nodes,
               const std::vector<EdgePair>& held, std::vector<SurfaceTouch>& touches);
 
@@ -39,7 +39,7 @@ private:
     struct Pair
     {
         int m_edgeA, m_edgeB;
-        std::array<int, 4> m_nodes;  // of A, of B
+        std::array<int, 4> m_nodes;  // two of A, two of B
         std::array<Vec3, 4> m_x, m_change;
     };
     struct Crossing

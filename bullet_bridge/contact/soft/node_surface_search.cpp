@@ -12,17 +12,18 @@ namespace
 {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRimReach = 1e-3;      // edges that a face reaches beyond its rim
-constexpr double kGrooveReach = 0.05;   // and beyond an edge where the next face rises
-constexpr double kGrooveSine = 0.03;    // sine of the angle at which an edge is a groove
-constexpr double kFacingCosine = -0.1;  // cosine up to which a node's normal and a face's are turned to each other
-constexpr double kFacingCosineAtImpact = -0.25;  // the same at an impact: grazing ones follow others that come first
-constexpr double kSeparatingSine = -0.05;        // sine up to which the body may lie beyond a separating plane
-constexpr double kSameNormalCosine = 0.99;       // cosine of the angle between normals that count as one
-constexpr double kSameWayOutCosine = 0.9;        // cosine of the angle between ways out that count as one
-constexpr double kCornerWeight = 2e-3;           // weight that lies on a corner or an edge
-constexpr std::size_t kLeastNodesForProof = 8;  // nodes near the other body from which a proof costs less than it saves
-constexpr double kDeepest = 3;                  // times its distance from the surface that a node may be led out
+constexpr double kRimReach = 1e-3;      // how far a face extends beyond its rim, in edges
+constexpr double kGrooveReach = 0.05;   // how far it extends beyond a concave edge, in edges
+constexpr double kGrooveSine = 0.03;    // sine of the dihedral angle from which on an edge is a groove
+constexpr double kFacingCosine = -0.1;  // largest cosine between a node's normal and a face's that oppose each other
+constexpr double kFacingCosineAtImpact = -0.25;  // that cosine at an impact: grazing faces follow others that are met
+                                                 // first
+constexpr double kSeparatingSine = -0.05;        // smallest sine of a body's edges above a separating plane
+constexpr double kSameNormalCosine = 0.99;       // smallest cosine of normals that count as one
+constexpr double kSameWayOutCosine = 0.9;        // smallest cosine of ways out that count as one
+constexpr double kCornerWeight = 2e-3;          // largest barycentric weight that counts as zero, near a corner or edge
+constexpr std::size_t kLeastNodesForProof = 8;  // nodes near the other body from which on the proof pays off
+constexpr double kDeepest = 3;                  // largest depth along a way out over the distance from the surface
 
 double height(const Corners& t, int corner)
 {
@@ -69,7 +70,7 @@ void NodeSurfaceSearch::forget()
     m_partner.resize(count, -1);
 }
 
-// The nodes that may reach the bounds of the faces, and some others.
+// Lists the nodes that may reach the bounds of the faces, conservatively.
 void NodeSurfaceSearch::listNear()
 {
     m_nodes->tree().visitNear(m_faces->tree().coarseBounds(), m_reach.within(),
@@ -112,7 +113,7 @@ void NodeSurfaceSearch::findNode(int node)
         tryNearestFeature(visit);
 }
 
-// Finds the nearest point of the surface, and on which side the node lies. False if it can reach nothing.
+// Finds the nearest point of the surface, and whether the node is inside. False if nothing is within reach.
 bool NodeSurfaceSearch::lookAround(Visit& visit)
 {
     const SweptBox point = SweptBox::of(visit.m_x, visit.m_change);
@@ -132,16 +133,16 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     const Vec3 r = visit.m_x - visit.m_nearest.m_point;
     visit.m_distance = norm(r);
     visit.m_inside = dot(r, m_faces->normalAt(visit.m_nearestTriangle, visit.m_nearest)) < 0;
-    if (self)  // its own far side has the node behind it, too: only shallow depths are believed
+    if (self)  // its own far side is behind the node, too: only shallow depths count
         visit.m_limit = m_reach.depth();
     else if (visit.m_inside)
         visit.m_limit = std::max(kDeepest * visit.m_distance, m_reach.depth());
-    else if (visit.m_distance < kRimReach * m_reach.m_edge)  // on a rim rounding decides between inside and outside
+    else if (visit.m_distance < kRimReach * m_reach.m_edge)  // on a rim, rounding decides between inside and outside
         visit.m_limit = kGrooveReach * m_reach.m_edge;
     return visit.m_inside || self || visit.m_distance <= m_reach.within() + travel;
 }
 
-// Where a projection lies: over the face, or a little beyond one of its edges. False if farther.
+// Classifies a projection: over the face, or beyond an edge by less than that edge permits. False if farther.
 bool NodeSurfaceSearch::placeOf(int triangle, const std::array<double, 3>& weights, Place& place) const
 {
     place = Place::over;
@@ -170,7 +171,7 @@ void NodeSurfaceSearch::tryFace(const Visit& visit, int triangle)
         tryImpact(visit, triangle);
 }
 
-// From deeper than one may sink in within a step: the nearest face that the node is turned to.
+// For a node deeper than a step permits: tests the nearest face that opposes its normal.
 void NodeSurfaceSearch::tryDeepFace(const Visit& visit)
 {
     const auto isTurnedAway = [&](int t) { return !isFacing(visit, t); };
@@ -185,7 +186,7 @@ bool NodeSurfaceSearch::isFacing(const Visit& visit, int triangle) const
     return dot(visit.m_normal, m_faces->faceNormal(triangle)) < kFacingCosine;
 }
 
-// Touches at the start, or closes within the step without moving far along the face.
+// True if the node is within the band as the step begins, or closes within the step without moving far along the face.
 bool NodeSurfaceSearch::isNear(const Visit& visit, const Hit& hit) const
 {
     if (hit.m_gap < m_reach.m_band) return true;
@@ -194,8 +195,8 @@ bool NodeSurfaceSearch::isNear(const Visit& visit, const Hit& hit) const
     return hit.m_gap + dot(hit.m_normal, travel) < m_reach.within() && norm(travel) < m_reach.depth() + m_reach.m_fall;
 }
 
-// Quick proof that a node cannot meet a face: it is in front of all corners, or beyond them seen along its way, before
-// and after the step, and all move in straight lines.
+// Cheap sufficient test that a node does not meet a face: before and after the step it lies in front of all corners, or
+// beyond them across its path. Nodes move on straight lines, so both times suffice.
 bool NodeSurfaceSearch::staysAside(const Visit& visit, const Hit& hit) const
 {
     const Triangle& t = m_faces->triangles()[hit.m_triangle];
@@ -218,7 +219,7 @@ bool NodeSurfaceSearch::staysAside(const Visit& visit, const Hit& hit) const
     return false;
 }
 
-// A node in front of a face that meets it on its way.
+// Tests whether a node in front of a face meets it on its path (continuous collision detection).
 void NodeSurfaceSearch::tryImpact(const Visit& visit, int triangle)
 {
     const Triangle& t = m_faces->triangles()[triangle];
@@ -257,7 +258,8 @@ void NodeSurfaceSearch::choose(const Visit& visit)
     dropContinuations();
 }
 
-// A face beyond its rim is only asked where the node lies over no other; then that which faces it most.
+// Keeps a face beyond its rim only if the node lies over no other face; of several, the one that opposes the node's
+// normal most.
 void NodeSurfaceSearch::dropRims(const Visit& visit)
 {
     Hit* best = nullptr;
@@ -274,7 +276,7 @@ void NodeSurfaceSearch::dropRims(const Visit& visit)
     for (Hit& hit : m_hits) hit.m_dropped = hit.m_place == Place::rim && (over || &hit != best);
 }
 
-// Out of the body leads one face; where it ends in a groove, two.
+// Keeps one face to lead a node out of the body, or two where the first ends in a groove.
 void NodeSurfaceSearch::dropDeeper()
 {
     double least = -kInfinity;
@@ -293,7 +295,7 @@ void NodeSurfaceSearch::dropLaterImpacts()
         if (hit.m_time > first) hit.m_dropped = true;
 }
 
-// Of faces that continue each other, the nearest.
+// Of faces that continue each other, keeps the nearest.
 void NodeSurfaceSearch::dropContinuations()
 {
     for (Hit& a : m_hits)
@@ -304,7 +306,7 @@ void NodeSurfaceSearch::dropContinuations()
         }
 }
 
-// The nearest edge or corner of a surface that the node lies over no face of.
+// Tests the nearest edge or corner, for a node that lies over no face.
 void NodeSurfaceSearch::tryNearestFeature(const Visit& visit)
 {
     if (visit.m_inside || visit.m_nearest.m_feature == TriangleFeature::face) return;
@@ -319,7 +321,7 @@ void NodeSurfaceSearch::tryNearestFeature(const Visit& visit)
     if (m_touches->size() > count) m_touches->back().m_otherFeature = -1;
 }
 
-// The other surface has found this node on its own already.
+// True if the search with exchanged surfaces has found this pair of nodes already.
 bool NodeSurfaceSearch::isPairedAlready(int node, int corner) const
 {
     if (m_nodes == m_faces) return m_partner[corner] == node;
@@ -332,7 +334,7 @@ void NodeSurfaceSearch::emit(const Visit& visit, const Hit& hit)
     const int node = visit.m_node;
     SurfaceTouch touch = {{node, node, node}, t,         {1, 0, 0}, hit.m_weights,
                           hit.m_normal,       hit.m_gap, node,      hit.m_triangle};
-    // On a flat corner or edge no face comes before another: their mean normal keeps forces steady.
+    // On a nearly flat corner or edge all faces are equal: their mean normal keeps forces steady.
     const auto useNormal = [&](const Vec3& normal)
     {
         touch.m_normal = normal;

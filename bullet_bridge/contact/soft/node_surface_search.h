@@ -8,33 +8,32 @@
 namespace bullet_fem
 {
 
-/// Finds where the nodes of a surface touch the faces of another, or of itself. The nearest point of the whole closed
-/// surface says whether a node is inside; then every face that it lies over is a contact:
-///  - outside, the faces in front of it: several of them in a groove or corner, one of those that continue each other;
-///  - inside, the nearest face that its own surface is turned to, and where this ends in a groove, the next one;
-///  - if it lies over no face, the nearest edge or corner, if their connection separates the two surfaces there;
-///  - what comes from farther than the band hits the face that it first meets on its straight way.
-/// Faces reach a thousandth of an edge beyond their rims, so that surfaces with flush rims hold each other. A body is
-/// never asked against neighbours at rest of itself. Scratch grows, never shrinks.
+/// Finds the contacts of a surface's nodes with the faces of another surface, or of the same one. The nearest point of
+/// the closed surface tells whether a node is inside. Then the contacts are:
+///   - outside: the faces in front of the node; several in a groove or corner, one of those that continue each other;
+///   - inside: the nearest face that opposes the node's normal, and the next face where that one ends in a groove;
+///   - over no face: the nearest edge or corner, if the direction to it separates the two surfaces there;
+///   - beyond the contact band: the face that the node meets first on its straight path.
+/// Faces extend a thousandth of an edge beyond their rims, so that surfaces with flush rims support each other. Self
+/// contact skips pairs that are neighbours at rest. Scratch grows, never shrinks.
 class NodeSurfaceSearch
 {
 public:
-    /// Appends the touches of `nodes`' nodes with `faces` (the same: self contact), by ascending node and triangle; the
-    /// feature of a nearest edge or corner is -1. `done`, if given, are the results for the two exchanged: pairs of
-    /// nodes that they have are left out.
+    /// Appends the contacts of `nodes`' nodes with `faces`, ascending by node and triangle; equal surfaces mean self
+    /// contact. The feature of a nearest edge or corner is -1. `done`, if not null, is the finished search with
+    /// exchanged surfaces: pairs of nodes that it found are left out.
     void find(const SoftSurface& nodes, const SoftSurface& faces, const TouchReach& reach,
               const NodeSurfaceSearch* done, std::vector<SurfaceTouch>& touches);
 
-    /// How deep a node was found inside, where it has another way out than along a direction (unit) [m]; infinite if it
-    /// was not, or has not.
+    /// Depth of a node that was found inside, if its way out differs from `direction` (unit) [m]; infinity otherwise.
     double depthAside(int node, const Vec3& direction) const;
 
 private:
     enum class Place
     {
-        over,    // the face
-        groove,  // beyond its edge, where the next face rises
-        rim      // beyond its edge, where the next face falls away
+        over,    // over the face
+        groove,  // beyond an edge, where the next face rises
+        rim      // beyond an edge, where the next face falls away
     };
     struct Hit
     {
@@ -42,11 +41,11 @@ private:
         std::array<double, 3> m_weights;
         Vec3 m_normal;
         double m_gap;
-        double m_time;  // of the impact, in steps; 0: measured at the start
+        double m_time;  // of the impact, in steps; 0: the gap is that at the start
         Place m_place;
         bool m_dropped;
     };
-    struct Visit  // of one node
+    struct Visit  // state of one node's search
     {
         int m_node = 0;
         Vec3 m_x, m_change, m_normal;
@@ -54,7 +53,7 @@ private:
         TrianglePoint m_nearest;
         double m_distance = 0;
         bool m_inside = false;
-        double m_limit = 0;  // depth that is believed
+        double m_limit = 0;  // largest credible depth [m]
     };
 
     void forget();
@@ -81,15 +80,15 @@ private:
     const SoftSurface *m_nodes = nullptr, *m_faces = nullptr;
     const NodeSurfaceSearch* m_done = nullptr;
     TouchReach m_reach;
-    OutsideProof m_outside;  // of the faces, once it is worth it
+    OutsideProof m_outside;  // of the faces; made once it pays off
     int m_looks = 0;
-    int m_guess = -1;  // what was nearest to the node before: numbers that follow each other are often neighbours
+    int m_guess = -1;  // triangle nearest to the last node: consecutive nodes are often neighbours
     std::vector<SurfaceTouch>* m_touches = nullptr;
     std::vector<Hit> m_hits;
-    std::vector<int> m_near;      // nodes that were asked, ascending
-    std::vector<double> m_depth;  // infinite for all others
-    std::vector<Vec3> m_wayOut;   // unit; of those with a depth
-    std::vector<int> m_partner;   // the corner that a node lies on; -1: none, and for all others
+    std::vector<int> m_near;      // tested nodes, ascending
+    std::vector<double> m_depth;  // per node [m]; infinity for nodes that are not inside
+    std::vector<Vec3> m_wayOut;   // per node, unit; valid with a finite depth
+    std::vector<int> m_partner;   // per node, the corner that it lies on; -1: none
 };
 
 }  // namespace bullet_fem

@@ -18,19 +18,19 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPairBand = 0.05;    // share of the smaller mean edge that the contact band is wide
-constexpr double kLittleFall = 0.25;  // of that edge: what gravity moves less in a step is little, as in fallsFar()
-constexpr double kPairSlop = 5e-4;    // share of the smaller body's size by which surfaces may sink in
-constexpr double kSameContact = 0.9;  // cosine between the normals of a node's contact in two steps
+constexpr double kPairBand = 0.05;    // width of the contact band over the smaller mean edge [-]
+constexpr double kLittleFall = 0.25;  // largest negligible fall in a step over that edge [-]; see fallsFar()
+constexpr double kPairSlop = 5e-4;    // permitted penetration over the smaller body's size [-]
+constexpr double kSameContact = 0.9;  // smallest cosine between the normals of a contact in consecutive steps
 
-// What the contact offsets widen both surfaces by [m].
+// Sum of both contact offsets [m]; 0 for self contact.
 double offsetBetween(const FemSoftBody& first, const FemSoftBody& second)
 {
     return &first == &second ? 0 : first.m_contactOffset + second.m_contactOffset;
 }
 
-// What gravity moves either within the step, unless that is little [m]: freely both fall, but what one of them lies on
-// may hold it.
+// Displacement by gravity within the step [m], or 0 if it is negligible. In free motion both bodies fall; contact may
+// support the lower one.
 double fallBetween(const FemSoftBody& first, const FemSoftBody& second, double edge)
 {
     const double step = first.m_surface.step(), fall = step * step * norm(first.gravity());
@@ -135,7 +135,7 @@ void SoftPairFinder::listHeldEdges()
     }
 }
 
-// What all contacts of two bodies have.
+// The contact parameters that all contacts of two bodies share.
 ContactPoint SoftPairFinder::commonOf(const FemSoftBody& first, const FemSoftBody& second)
 {
     const btSoftBody &a = *first.m_softBody, &b = *second.m_softBody;
@@ -147,7 +147,7 @@ ContactPoint SoftPairFinder::commonOf(const FemSoftBody& first, const FemSoftBod
     return common;
 }
 
-// Of a node on a face, which touches where it will be as the step ends.
+// Offset from a node's contact point to the contact patch at the end of the step.
 Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceTouch& touch, const ContactPoint& contact)
 {
     const auto sideOf = [](const FemSoftBody& fem, const SurfacePoint& point, const Triangle& nodes,
@@ -194,7 +194,7 @@ void SoftPairFinder::append(const Roles& roles, double offset)
     }
 }
 
-// False if there is nothing to thin.
+// Thins the contacts of a fine surface. False if neither surface is fine.
 bool SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
 {
     const double cells[2] = {ContactReduction::cellOf(first.m_fem), ContactReduction::cellOf(second.m_fem)};
@@ -230,8 +230,8 @@ void SoftPairFinder::takeOverImpulses()
     }
 }
 
-// The same pair of edges, or the node's contact with the same or the next face: one with nearly the same normal. The
-// index of the contact of the last step, or -1.
+// The contact of the last step that this one continues: that of the pair of edges, or of the node with any face, with a
+// similar normal. Returns its index, or -1.
 int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal) const
 {
     SoftPairOrigin from = origin;
@@ -254,7 +254,7 @@ int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal)
     return found;
 }
 
-// What pushed where the two touch no more.
+// Hands impulses of contacts that are gone to new contacts nearby.
 void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSide& second)
 {
     const auto isSecond = [](const SoftPairOrigin& origin) { return origin.m_kind == SoftPairKind::nodeOfSecond; };

@@ -18,42 +18,42 @@ struct SoftPairSide
     int m_index;
 };
 
-/// What a search between soft bodies found besides contacts.
+/// Results of a search between soft bodies, besides the contacts.
 struct SoftPairReport
 {
-    int m_contacts = 0;      ///< appended
-    bool m_limited = false;  ///< more points than allowed were found; those with the smallest gaps were kept
-    bool m_thinned = false;  ///< a skin is too fine for all its points to be kept: see ContactReduction
+    int m_contacts = 0;      ///< number of contacts appended
+    bool m_limited = false;  ///< more contacts than permitted were found; those of smallest gap were kept
+    bool m_thinned = false;  ///< contacts of a fine skin were thinned: see ContactReduction
 };
 
-/// How far two bodies look for each other; after SoftSurface::place of both.
+/// Search distances for two bodies; call after SoftSurface::place of both.
 TouchReach reachBetween(const FemSoftBody& first, const FemSoftBody& second);
 
-/// Finds where the surfaces of two FEM bodies, or of one with itself, touch or may do so within the step: nodes against
-/// faces both ways (NodeSurfaceSearch) and ridges against ridges (EdgePairSearch). Gaps are those at the start of the
-/// step, less both contact offsets (not for self contact); what closes to less than 5 % of the smaller mean edge
-/// within the step, as the surfaces are expected to move, is a contact. Between two bodies, what is inside is led out
-/// the short way at any depth up to half a body; self contact believes depths up to half an edge. Friction is the
-/// larger kDF, restitution the product of both. Scratch grows, never shrinks; one finder a thread.
+/// Finds the contacts between the surfaces of two FEM bodies, or of one with itself, present or possible within the
+/// step: nodes against faces both ways (NodeSurfaceSearch) and ridges against ridges (EdgePairSearch). Gaps are those
+/// as the step begins, less both contact offsets (except for self contact). A pair whose predicted gap falls below 5 %
+/// of the smaller mean edge within the step is a contact. Penetrations are resolved along the shortest way out at any
+/// depth up to half a body, in self contact up to half an edge. Friction is the larger kDF, restitution the product of
+/// both. Scratch grows, never shrinks; one finder per thread.
 class SoftPairFinder
 {
 public:
-    /// `memory` holds the contacts whose impulses are taken over, and must live as long as the finder.
+    /// `memory` holds the contacts whose impulses are the warm start; it must outlive the finder.
     explicit SoftPairFinder(const SoftPairMemory& memory) : m_memory(&memory) {}
 
-    /// After solveFreeMotion and SoftSurface::update of both. Appends at most maxContacts, ascending by origin; the
-    /// first body's point is m_soft of edge pairs, and the node's of the others. Exchanging first and second changes
-    /// the order and the roles in edge pairs, not the points. Impulses of remembered contacts are taken over.
+    /// Call after solveFreeMotion and SoftSurface::update of both. Appends at most maxContacts contacts with warm
+    /// start, ascending by origin. m_soft is the node of node contacts, and the first body's point of edge contacts.
+    /// Exchanging first and second changes the order, and the roles in edge contacts, but not the points.
     SoftPairReport find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
                         std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins);
 
-    /// In place of find() where both have hardly moved since the search that found the last step's contacts: appends
-    /// these, with the gaps that they have now between the points and along the normals of then.
+    /// Replaces find() for bodies that have hardly moved since the search of the last step's contacts: appends those
+    /// contacts with their old normals, and the present gaps of their points along them.
     SoftPairReport keep(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
                         std::vector<ContactPoint>& contacts, std::vector<SoftPairOrigin>& origins);
 
 private:
-    struct Roles  // of touches
+    struct Roles  // the bodies in the roles of a contact's sides
     {
         const SoftPairSide& m_soft;
         const SoftPairSide& m_other;
@@ -77,9 +77,9 @@ private:
     std::vector<SoftPairOrigin> m_foundOrigins;
     std::vector<int> m_order;
     const SoftPairMemory* m_memory;
-    SoftPairMemory::Last m_last;             // of the pair
-    std::vector<EdgePair> m_heldEdges;       // of these, that pushed
-    std::vector<unsigned char> m_continued;  // of these
+    SoftPairMemory::Last m_last;             // contacts of the pair in the last step
+    std::vector<EdgePair> m_heldEdges;       // edge pairs of these that pushed
+    std::vector<unsigned char> m_continued;  // per contact of these: its impulse was taken over
     WarmStartTransfer m_transfer;
     ContactReduction m_reduction;
 };

@@ -18,14 +18,14 @@ void SoftPairMemory::beginStep()
     m_nextOrigins.clear();
 }
 
-// They come in order but for those of pairs that were thinned out.
+// The contacts are sorted already unless a pair was thinned.
 void SoftPairMemory::takeOverContacts()
 {
     if (std::is_sorted(m_nextOrigins.begin(), m_nextOrigins.end()))
     {
         m_last.swap(m_next);
         m_lastOrigins.swap(m_nextOrigins);
-        m_next.reserve(m_last.capacity());  // as if they had been copied
+        m_next.reserve(m_last.capacity());  // keeps capacity, as a copy would
         m_nextOrigins.reserve(m_lastOrigins.capacity());
         return;
     }

@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// Which features of two soft bodies make a contact.
+/// The features of two soft bodies that make a contact.
 enum class SoftPairKind
 {
     nodeOfFirst,   ///< with a face of the second body
@@ -18,14 +18,14 @@ enum class SoftPairKind
     edges
 };
 
-/// Where a contact point between soft bodies came from: how it is recognised in the next step.
+/// Identifies a contact point between soft bodies from step to step.
 struct SoftPairOrigin
 {
-    int m_firstId = 0;   ///< broadphase id of the body that was given first
-    int m_secondId = 0;  ///< and of the other; the same for self contact
+    int m_firstId = 0;   ///< broadphase id of the first body
+    int m_secondId = 0;  ///< broadphase id of the second body, equal to m_firstId in self contact
     SoftPairKind m_kind = SoftPairKind::nodeOfFirst;
     int m_feature = 0;       ///< the node, or the edge of the first body
-    int m_otherFeature = 0;  ///< the triangle, -1 for a nearest edge or corner, or the edge of the second body
+    int m_otherFeature = 0;  ///< the triangle (-1: a nearest edge or corner), or the edge of the second body
 
     bool operator<(const SoftPairOrigin& b) const
     {
@@ -35,7 +35,7 @@ struct SoftPairOrigin
     bool isOfPair(int firstId, int secondId) const { return m_firstId == firstId && m_secondId == secondId; }
 };
 
-/// Two bodies by their broadphase ids, the first as in SoftPairOrigin.
+/// Two bodies by their broadphase ids, in the order of SoftPairOrigin.
 struct SoftPairIds
 {
     int m_firstId = 0, m_secondId = 0;
@@ -46,42 +46,43 @@ struct SoftPairIds
     }
 };
 
-/// The contacts between soft bodies of the last step, for those of this one to continue; and those of this one, for the
+/// The contacts between soft bodies of the last step, as the warm start of this one, and those of this step for the
 /// next. Grows, never shrinks. May be read by several threads at once.
 class SoftPairMemory
 {
 public:
-    /// Contacts, and where they come from.
+    /// An array of contacts and one of their origins, both of m_count entries.
     struct Contacts
     {
         const ContactPoint* m_contacts = nullptr;
         const SoftPairOrigin* m_origins = nullptr;
         std::size_t m_count = 0;
     };
-    using Last = Contacts;  ///< some of the last step, the origins ascending
+    using Last = Contacts;  ///< contacts of the last step, ascending by origin
 
-    /// What was remembered becomes the last step: at the start of a step.
+    /// Call at the start of a step: the contacts remembered so far become those of the last step.
     void beginStep();
 
-    /// Keeps solved contacts for the next step: one origin a contact, each once; and the pairs of which these are all.
+    /// Keeps solved contacts for the next step, with one origin per contact, without duplicates. `completePairs`: pairs
+    /// all of whose contacts are among these.
     void remember(const Contacts& contacts, const std::vector<SoftPairIds>& completePairs = {});
 
-    /// What was remembered since the step began: what the next one depends on.
+    /// A copy of the contacts remembered since the step began: the state on which the next step depends.
     struct Kept
     {
         std::vector<ContactPoint> m_contacts;
-        std::vector<SoftPairOrigin> m_origins;  ///< one a contact
+        std::vector<SoftPairOrigin> m_origins;  ///< one per contact
         std::vector<SoftPairIds> m_completePairs;
     };
     Kept kept() const { return {m_next, m_nextOrigins, m_nextComplete}; }
 
-    /// Remembers this and nothing else.
+    /// Replaces all remembered contacts by these.
     void restore(const Kept& kept);
 
-    /// All contacts of the last step, or those of a pair of broadphase ids.
+    /// All contacts of the last step, or those of one pair of broadphase ids.
     Last last() const { return {m_last.data(), m_lastOrigins.data(), m_last.size()}; }
     Last lastOf(int firstId, int secondId) const;
-    /// True if these are all contacts that the pair had in the last step, be they none.
+    /// True if the contacts of the last step include all contacts of the pair, of which there may be none.
     bool isComplete(const SoftPairIds& pair) const;
 
 private:
@@ -89,7 +90,7 @@ private:
 
     std::vector<ContactPoint> m_last, m_next;
     std::vector<SoftPairOrigin> m_lastOrigins, m_nextOrigins;
-    std::vector<SoftPairIds> m_lastComplete, m_nextComplete;  // the last ascending
+    std::vector<SoftPairIds> m_lastComplete, m_nextComplete;  // m_lastComplete is sorted
     std::vector<int> m_order;
 };
 

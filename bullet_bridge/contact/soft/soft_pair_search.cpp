@@ -16,8 +16,8 @@ namespace bullet_fem
 namespace
 {
 
-// Mean edges by which the nodes of a body may be away from where they were noted: two bodies come closer by four times
-// as much since they were searched, half the contact band.
+// Largest displacement of a still body's nodes since they were noted, in mean edges. Two still bodies approach each
+// other by up to four times as much since they were searched: half the contact band.
 constexpr double kStillShare = 0.00625;
 
 }  // namespace
@@ -77,7 +77,8 @@ void SoftPairSearch::collectParts()
                   });
 }
 
-// The surfaces of the others need no update.
+// A pair is searched unless both bodies are still and its remembered contacts are complete. Only surfaces of searched
+// pairs are updated.
 void SoftPairSearch::choosePairs()
 {
     for (Pair& pair : m_pairs)
@@ -87,7 +88,7 @@ void SoftPairSearch::choosePairs()
     }
 }
 
-// What fine surfaces have around them: all of themselves if they touch themselves.
+// Lists the bounds of the bodies near each fine surface; with self contact, its own.
 void SoftPairSearch::listNearby(const std::vector<FemSoftBody*>& bodies)
 {
     if (m_nearby.size() < bodies.size()) m_nearby.resize(bodies.size());
@@ -106,7 +107,7 @@ void SoftPairSearch::listNearby(const std::vector<FemSoftBody*>& bodies)
     }
 }
 
-// The first of a pair is the one that came into the world first.
+// The first body of a pair is the one of smaller broadphase id.
 void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
 {
     for (std::vector<unsigned char>* flags : {&m_isStill, &m_isSearched}) flags->assign(bodies.size(), 0);
@@ -131,7 +132,7 @@ void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
         if (m_smallestEdge[b] > 0) m_paired.push_back(static_cast<int>(b));
 }
 
-// Either body of a pair may have recorded it, or both.
+// A pair may be recorded by either body, or by both.
 void SoftPairSearch::listTouching(const std::vector<FemSoftBody*>& bodies)
 {
     m_byAddress.clear();
@@ -169,7 +170,7 @@ void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxC
     }
 }
 
-// Places are noted with what was found there: a step may search twice, and use the second search alone.
+// Positions are noted together with the contacts found there: a step may search twice and use the second search only.
 void SoftPairSearch::remember(const ContactPoint* solved)
 {
     m_complete.clear();

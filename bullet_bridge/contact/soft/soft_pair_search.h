@@ -9,9 +9,9 @@
 namespace bullet_fem
 {
 
-/// Finds the contacts of all pairs of FEM bodies that the broad phase recorded, on the given threads; pairs that have
-/// hardly moved since they were searched keep those of the last step. The same contacts in the same order for any
-/// number of threads. Grows, never shrinks.
+/// Finds the contacts of all pairs of FEM bodies that the broad phase recorded, on the given threads. Pairs that have
+/// hardly moved since they were searched keep the contacts of the last step. Contacts and their order do not depend on
+/// the number of threads. Memory grows, never shrinks.
 class SoftPairSearch
 {
 public:
@@ -20,36 +20,36 @@ public:
     SoftPairSearch(const SoftPairSearch&) = delete;
     SoftPairSearch& operator=(const SoftPairSearch&) = delete;
 
-    /// What was remembered becomes what is taken over from: at the start of a step.
+    /// Call at the start of a step: the contacts remembered so far become the warm start.
     void beginStep() { m_memory.beginStep(); }
 
-    /// Bodies in an order that does not depend on addresses, after solveFreeMotion; `step` [s]. At most maxContacts a
-    /// pair are kept.
+    /// Call after solveFreeMotion, with `bodies` in an order that does not depend on addresses; `step` [s]. Keeps at
+    /// most maxContacts a pair.
     void find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts);
 
-    /// What find() found: one origin a contact.
+    /// Results of find(), one origin per contact.
     const std::vector<ContactPoint>& contacts() const { return m_contacts; }
     const std::vector<SoftPairOrigin>& origins() const { return m_origins; }
 
-    /// True if a pair of body b had more contacts than are kept, and b came first in it.
+    /// True if a pair whose first body is b had more contacts than find() keeps.
     bool isLimited(std::size_t b) const { return m_limited[b] != 0; }
 
-    /// Keeps what find() found, solved: one contact for each of contacts().
+    /// Remembers the solved contacts for the next step: one for each of contacts(), in that order.
     void remember(const ContactPoint* solved);
 
-    /// Pairs in which find() searched; of the others it kept the contacts of the last step.
+    /// Number of pairs in which the last find() searched; the others kept the contacts of the last step.
     int searchedPairs() const;
 
-    /// What is known of earlier steps.
+    /// The contacts of earlier steps.
     SoftPairMemory& memory() { return m_memory; }
     const SoftPairMemory& memory() const { return m_memory; }
 
 private:
-    static constexpr int kParts = 32;  // of the pairs, whatever the number of threads
+    static constexpr int kParts = 32;  // chunks of the pairs, whatever the number of threads
 
     struct Pair
     {
-        int m_first, m_second;  // bodies
+        int m_first, m_second;  // body indices
         SoftPairIds m_ids;
         bool m_searched, m_limited, m_complete;
     };
@@ -71,18 +71,18 @@ private:
     const Threads& m_threads;
     SoftPairMemory m_memory;
     std::vector<Part> m_parts;
-    std::vector<std::pair<const btSoftBody*, int>> m_byAddress;  // bodies, ascending
-    std::vector<std::pair<int, int>> m_touching;                 // bodies, the first not after the second; ascending
+    std::vector<std::pair<const btSoftBody*, int>> m_byAddress;  // bodies by address, ascending
+    std::vector<std::pair<int, int>> m_touching;                 // pairs of bodies, the smaller index first; ascending
     std::vector<Pair> m_pairs;
-    std::vector<SoftPairIds> m_complete;  // pairs, scratch
-    std::vector<int> m_paired;            // bodies that are in a pair
-    std::vector<double> m_smallestEdge;   // per body: of those that it is paired with, and its own [m]; 0: with none
-    std::vector<unsigned char> m_isStill, m_isSearched;      // per body; searched: in a pair that is
-    std::vector<FemSoftBody*> m_moved;                       // of those in a pair, the ones that are not still
-    std::vector<int> m_fine;                                 // bodies with fine surfaces that are searched
-    std::vector<std::vector<SurfaceTree::Nearby>> m_nearby;  // per body; of those in m_fine
-    std::vector<unsigned char> m_limited;                    // per body
-    std::vector<std::size_t> m_firstOfPart;                  // and the end, in these:
+    std::vector<SoftPairIds> m_complete;  // scratch: pairs with all of their contacts
+    std::vector<int> m_paired;            // bodies that are in some pair
+    std::vector<double> m_smallestEdge;   // per body: smallest mean edge of it and its partners [m]; 0: it has none
+    std::vector<unsigned char> m_isStill, m_isSearched;      // per body; searched: it is in a pair that is searched
+    std::vector<FemSoftBody*> m_moved;                       // bodies of some pair that are not still
+    std::vector<int> m_fine;                                 // searched bodies with fine surfaces
+    std::vector<std::vector<SurfaceTree::Nearby>> m_nearby;  // per body; filled for those in m_fine
+    std::vector<unsigned char> m_limited;                    // per body: a pair was limited
+    std::vector<std::size_t> m_firstOfPart;                  // first contact of each chunk, and the total count
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;
 };

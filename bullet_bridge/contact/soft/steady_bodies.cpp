@@ -13,10 +13,12 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSteady = 0.0125;  // of a mean edge, in a step: a quarter of the contact band
+constexpr double kSteady = 0.0125;  // largest velocity error of a steady body times the step, over the mean edge: a
+                                    // quarter of the contact band
 
-// Impulses are solved for to a share of their own, which must be little beside what the loads do: a body may carry so
-// many times its loads. Of one that is jammed, or deep in another, those of the last step say little anyway.
+// Largest sum of contact impulses over that of the load impulses. The solver's tolerance is relative to the impulses,
+// so its error must remain small against the loads. For jammed or deeply overlapping bodies, the last step's impulses
+// predict little anyway.
 constexpr double kMostCarried = 30;
 
 void spread(const SurfacePoint& point, const Vec3& impulse, std::vector<Vec3>& nodeImpulses)
@@ -39,7 +41,7 @@ bool isSteady(const FemSoftBody& fem, double step)
         momentum += state.m_mass[i] * state.m_v[i];
         mass += state.m_mass[i];
     }
-    const double most = kSteady * fem.m_surface.meanEdge() / step;  // [m/s]
+    const double most = kSteady * fem.m_surface.meanEdge() / step;  // largest velocity error [m/s]
     if (!(allPushed > 0 && allPushed <= kMostCarried * allLoads)) return false;
     if (!(norm(pushed + loads) <= most * mass)) return false;
     const Vec3 mean = (1 / mass) * momentum;
@@ -49,7 +51,7 @@ bool isSteady(const FemSoftBody& fem, double step)
 
 }  // namespace
 
-// Contacts of a body that has become another one since, or is attached in another way, are not told by its nodes.
+// Bodies whose nodes or attachments have changed since have no noted positions, and get no impulses of soft pairs.
 void SteadyBodies::sumImpulses(const std::vector<FemSoftBody*>& bodies, const SoftPairMemory& memory,
                                const Threads& threads)
 {

@@ -12,20 +12,19 @@ namespace bullet_fem
 
 class Threads;
 
-/// Which bodies will go on as they move, rather than as they would freely: their nodes move as one, and what contact
-/// pushed in the last step balances their loads. The impulses of that are expected again, and are part of their free
-/// motion: without them, what is pressed together springs apart by up to half an edge a step, and nothing of it comes
-/// true. Grows, never shrinks.
+/// Predicts which bodies keep their motion: their nodes move at one velocity, and the contact impulses of the last step
+/// balance their loads. These impulses become part of the free motion. Without them the predicted free motion of a
+/// pressed stack springs apart by up to half an edge a step, which does not happen. Grows, never shrinks.
 class SteadyBodies
 {
 public:
-    /// Before solveFreeMotion: sums up in m_predicted what contact pushed every body with in the last step. `memory`
-    /// has the contacts between soft bodies of that. Each body once.
+    /// Call before solveFreeMotion: sums up in m_predicted, per node [N s], the contact impulses of the last step on
+    /// each body. `memory` has the contacts between soft bodies. `bodies` has each body once.
     void sumImpulses(const std::vector<FemSoftBody*>& bodies, const SoftPairMemory& memory, const Threads& threads);
 
-    /// Empties m_predicted unless contact pushed the body, and it will be within a quarter of the contact band of where
-    /// its velocities take it in a step [s], if contact pushes as it did. Loads must have been read. May be called by
-    /// several threads at once, for different bodies.
+    /// Empties m_predicted unless contact pushed the body and, pushing as before, keeps it within a quarter of the
+    /// contact band of where its velocities take it within `step` [s]. Loads must be up to date. May be called by
+    /// several threads at once for different bodies.
     static void judge(FemSoftBody& fem, double step);
 
 private:
