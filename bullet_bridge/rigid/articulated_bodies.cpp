@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kBase = 6;  // coordinates of the base
+constexpr int kBase = 6;  // generalized velocities of the base
 
 void addGravity(btMultiBody& body, const Vec3& gravity)
 {
@@ -128,7 +128,7 @@ int ArticulatedBodies::treeOf(btMultiBody& body)
     return static_cast<int>(m_trees.size()) - 1;
 }
 
-// What a later step may need.
+// Reserves memory that a later step may need.
 void ArticulatedBodies::reserve(const Tree& tree)
 {
     for (auto* values : {&m_rounded, &m_change}) values->reserve(tree.m_coordinates);
@@ -139,9 +139,9 @@ void ArticulatedBodies::reserve(const Tree& tree)
     memoryOf(*tree.m_body, tree.m_coordinates);
 }
 
-// Bullet's own pass with no step: it changes no velocity, leaves what impulses are answered with for the present pose,
-// and tells the accelerations. It must not overwrite what the user reads of the joints' forces, and says nothing of
-// joints that it does not move.
+// Computes accelerations and the factors for impulse responses at the present pose by Bullet's articulated body
+// algorithm with a time step of 0, which changes no velocity. Joint feedback is detached meanwhile, because the user
+// reads it. Accelerations of kinematic joints are set to 0: Bullet does not compute them.
 void ArticulatedBodies::factor(btMultiBody& body)
 {
     m_feedback.resize(body.getNumLinks());
@@ -167,7 +167,8 @@ void ArticulatedBodies::predict(const Tree& tree, double step)
     addSupport(tree, step);
 }
 
-// As RigidProxies does with rigid bodies, in the coordinates of the joints.
+// Adds the support by contacts, motors and limits in joint coordinates, as RigidProxies::supportOf does for rigid
+// bodies.
 void ArticulatedBodies::addSupport(const Tree& tree, double step)
 {
     const auto before =
@@ -195,7 +196,8 @@ void ArticulatedBodies::support(const Tree& tree, int first, int count, const do
     for (int k = first; k < first + count; ++k) m_freeVelocity[tree.m_first + k] += share * needed(k);
 }
 
-// Bullet leaves out what it does not move, and forgets that impulses can turn planar joints.
+// Fills six rows of J and of J M^-1 for a link. Bullet omits joints that it does not move, and the rotation of planar
+// joints, which is added here.
 void ArticulatedBodies::fillRows(const Link& link, const Vec3& center)
 {
     const Tree& tree = m_trees[link.m_tree];

@@ -15,93 +15,96 @@ struct btMultiBodyJointFeedback;
 namespace bullet_fem
 {
 
-/// Velocities of a rigid thing.
+/// Velocity of a rigid body.
 struct LinkMotion
 {
-    Vec3 m_linear;   ///< of its centre of mass [m/s]
+    Vec3 m_linear;   ///< of the centre of mass [m/s]
     Vec3 m_angular;  ///< [rad/s]
 };
 
-/// Bullet's multibodies, of which soft bodies touch or hold links. In joint coordinates q an impulse f and an angular
-/// impulse t on link a change the velocities by
+/// Bullet's multibodies with links that are in contact with soft bodies or held by them. In joint coordinates q an
+/// impulse f and an angular impulse t on link a change the velocities by
 ///     dq' = M^-1 J_a^T (t, f)        and link b moves by J_b dq'
-/// with M from Bullet's articulated body algorithm at the present pose. So links answer as what hangs on their joints
-/// makes them, and all links of a multibody feel what one of them gets [Featherstone 2008, chapters 7, 11].
+/// with M from Bullet's articulated body algorithm at the present pose. An impulse on one link thus moves all links of
+/// its multibody [Featherstone 2008, chapters 7, 11].
 class ArticulatedBodies
 {
 public:
-    /// True if impulses move the link: neither it nor all that it hangs on is static, kinematic or asleep for good.
+    /// True if impulses move the link. False if it is static or kinematic, if it is a base that is fixed, or if its
+    /// multibody sleeps and must not wake up.
     static bool canMove(const btMultiBodyLinkCollider& link);
 
-    /// True if Bullet does not step the multibody, because one of its islands sleeps.
+    /// True if Bullet does not step the multibody because a collider of it sleeps.
     static bool sleeps(const btMultiBody& body);
 
-    /// Forgets velocities from before the rigid solver, and what was given to multibodies not touched in the last step.
+    /// Forgets velocities noted before the rigid solver, and the memory of multibodies that felt no impulse in the last
+    /// step.
     void beginStep();
 
-    /// From now on for Bullet's deformable world: it adds forces and gravity to velocities before noteBeforeSolve, and
-    /// takes gravity [m/s2], which is that of the world, from the forces then.
+    /// Call for Bullet's deformable world. It adds forces and gravity to velocities before noteBeforeSolve(), and then
+    /// subtracts the world's `gravity` [m/s2] from the forces.
     void assumeForcesGiven(const Vec3& gravity);
 
-    /// Remembers how fast a multibody is before Bullet's rigid solver. One thread at a time.
+    /// Notes the velocity of a multibody before Bullet's rigid solver. Not thread-safe.
     void noteBeforeSolve(const btMultiBody& body);
 
     /// Forgets all links.
     void clear();
 
-    /// The same where Bullet's rigid solver is about to solve the multibody: its velocity is the present one, which has
-    /// all forces in it.
+    /// Like add(), for a multibody that Bullet's rigid solver is about to solve: the proxy's velocity is the present
+    /// one, which contains all forces.
     LinkMotion addBeforeSolve(int index, const btMultiBodyLinkCollider& link, RigidProxy& rigidProxy);
 
-    /// Within Bullet's rigid solver, once it has set its rows up: `deltas` are what these change of the multibodies'
-    /// velocities, at their companion ids. What soft bodies give is added to them, so that Bullet's rows see it; the
-    /// multibodies get that by apply().
+    /// Call within Bullet's rigid solver once its rows are set up. `deltas` are the changes of the multibodies'
+    /// velocities by the rows, indexed by companion id. Impulses of soft bodies are added to them, so that Bullet's
+    /// rows see these; apply() hands them to the multibodies.
     void beginSolve(btAlignedObjectArray<btScalar>& deltas);
-    /// The rigid proxies' velocities become those of the links at present.
+    /// Sets the rigid proxies' velocities to the present ones of the links.
     void readSolved(std::vector<RigidProxy>& rigidProxies) const;
-    /// Adds what the rigid proxies have felt since beginSolve() or the last call.
+    /// Adds the impulses that the rigid proxies got since beginSolve() or the last call.
     void writeSolved(const std::vector<RigidProxy>& rigidProxies);
 
-    /// Makes rigid proxy number `index` that of a link which can move. Its velocity is the one that it has next without
-    /// soft bodies: with what forces, gravity and Coriolis' ones add in `step` [s], and with what contacts, motors and
-    /// limits hold it with: in every joint what they did in this step, as far as it withstands the forces and what soft
-    /// bodies gave before. Returns the velocity that it has now. The order of calls decides the order of responses.
+    /// Makes rigid proxy `index` that of a movable link, and returns the link's present velocity. The proxy's velocity
+    /// is the predicted one without soft bodies: forces, gravity and Coriolis terms act for `step` [s], and contacts,
+    /// motors and limits support each joint as in this step, as far as they balance the forces and the last impulses of
+    /// soft bodies. The order of calls is that of the responses.
     LinkMotion add(int index, const btMultiBodyLinkCollider& link, double step, RigidProxy& rigidProxy);
 
-    /// From now on velocities and impulses of rigid proxy number `index` are about a point at `center` [m] that goes
-    /// with the link.
+    /// Moves the reference point of velocities and impulses of rigid proxy `index` to `center` [m]; it moves with the
+    /// link.
     void setCenter(int index, const Vec3& center);
 
-    /// Writes how links answer impulses. Once all links are known; it may be called again when there are more.
+    /// Writes the links' responses to impulses. Call after all links are added, and again after more are added.
     void connect(std::vector<RigidProxy>& rigidProxies, std::vector<RigidResponse>& responses) const;
 
     bool isEmpty() const { return m_links.empty(); }
 
-    /// Adds to what rigid proxy number `index` gets, about its centre [N s], [N m s]; nothing if it is no link.
+    /// Adds an impulse [N s] and an angular impulse [N m s] about the centre of rigid proxy `index`. Ignored if that is
+    /// no link.
     void addImpulse(int index, const Vec3& impulse, const Vec3& angular);
 
-    /// Gives the multibodies their impulses, once each and rounded once, moves them by the position corrections of the
-    /// rigid proxies in `step` [s], and wakes those that felt something.
+    /// Applies the impulses to the multibodies' velocities with a single rounding, moves the multibodies by the
+    /// position corrections of the rigid proxies in `step` [s], and wakes those that felt an impulse.
     void apply(const std::vector<RigidProxy>& rigidProxies, double step);
 
 private:
     struct Before
     {
         const btMultiBody* m_body;
-        std::size_t m_first;  // in m_beforeVelocity
+        std::size_t m_first;  // index in m_beforeVelocity
     };
-    // What lasts from step to step.
+    // State that persists from step to step.
     struct Memory
     {
-        const btMultiBody* m_body = nullptr;  // only compared; null: free
-        bool m_used = false;                  // in this step
-        std::vector<double> m_given;          // by soft bodies, in the last step, per coordinate [m/s], [rad/s]
-        std::vector<double> m_remainder;      // cut off its velocity by rounding, likewise
+        const btMultiBody* m_body = nullptr;  // compared, never followed; null: free
+        bool m_used = false;                  // an impulse was applied in this step
+        std::vector<double> m_given;  // velocity change by soft bodies in the last step, per coordinate [m/s], [rad/s]
+        std::vector<double> m_remainder;  // rounding error of the velocity, per coordinate [m/s], [rad/s]
     };
     struct Tree
     {
         btMultiBody* m_body;
-        int m_coordinates;    // base: three of spin, three of velocity; then those of the joints
+        int m_coordinates;    // base: three angular, three linear; then the joints
         std::size_t m_first;  // in m_velocity, m_freeVelocity
     };
     struct Link
@@ -137,23 +140,24 @@ private:
     Momentum momentum(const btMultiBody& body);
     Memory& memoryOf(const btMultiBody& body, int coordinates);
 
-    bool m_forcesGiven = false;  // before noteBeforeSolve
-    Vec3 m_takenGravity;         // that forces lack then
+    bool m_forcesGiven = false;  // forces are in the velocities of noteBeforeSolve()
+    Vec3 m_takenGravity;         // gravity that the forces lack then
     std::vector<Before> m_before;
     std::vector<double> m_beforeVelocity;
     std::vector<Memory> m_memories;
     std::vector<Tree> m_trees;
     std::vector<Link> m_links;
-    std::vector<double> m_velocity, m_freeVelocity;      // per tree, of its coordinates
-    btAlignedObjectArray<btScalar>* m_deltas = nullptr;  // Bullet's
-    std::vector<double> m_beyondDeltas;          // per tree, of its coordinates: what is not in them, but was given
+    std::vector<double> m_velocity, m_freeVelocity;      // per tree, per coordinate
+    btAlignedObjectArray<btScalar>* m_deltas = nullptr;  // Bullet's array
+    std::vector<double> m_beyondDeltas;          // per tree, per coordinate: part of the applied change that is not in
+                                                 // *m_deltas
     mutable std::vector<double> m_solved;        // scratch of readSolved
     std::vector<double> m_acceleration;          // of one tree
     std::vector<btScalar> m_jacobian, m_answer;  // J, and J M^-1
-    std::vector<double> m_force;                 // of one tree
-    std::vector<btScalar> m_rounded, m_change;   // likewise
+    std::vector<double> m_force;                 // generalized force on one tree
+    std::vector<btScalar> m_rounded, m_change;   // scratch per coordinate of one tree
     std::vector<btMultiBodyJointFeedback*> m_feedback;
-    btAlignedObjectArray<btScalar> m_scalars;  // scratch of Bullet's functions
+    btAlignedObjectArray<btScalar> m_scalars;  // scratch of Bullet's functions, as the next three
     btAlignedObjectArray<btVector3> m_vectors;
     btAlignedObjectArray<btMatrix3x3> m_matrices;
     btAlignedObjectArray<btQuaternion> m_turns;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// What impulses do to multibodies: the last part of ArticulatedBodies.
+//
+// ArticulatedBodies: applies impulses and position corrections to multibodies.
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +26,7 @@ void setVelocity(btMultiBody& body, const std::vector<btScalar>& velocity)
     }
 }
 
-// One that is only about to sleep knows by its own motion whether it may.
+// A multibody that is only about to sleep decides by its own motion.
 void wakeIfAsleep(btMultiBody& body)
 {
     if (!ArticulatedBodies::sleeps(body)) return;
@@ -66,7 +67,8 @@ void ArticulatedBodies::apply(const std::vector<RigidProxy>& rigidProxies, doubl
     }
 }
 
-// What the impulses on all links of a tree, or those behind their push, change in its coordinates. False if nothing.
+// Solves for the change of a tree's coordinates by the impulses on its links, or by their position corrections if
+// `pushed` is given. False if all are 0.
 bool ArticulatedBodies::solve(const Tree& tree, int number, const std::vector<RigidProxy>* pushed)
 {
     const int n = tree.m_coordinates;
@@ -104,8 +106,9 @@ void ArticulatedBodies::addVelocity(const Tree& tree)
     setVelocity(*tree.m_body, m_rounded);
 }
 
-// With velocities of its own: Bullet's step ignores those that are given to it in planar joints. Other angles make
-// other momenta of the same joint velocities: what is free in space gets the difference back at its base.
+// Moves the joints by m_change as their velocity for one step. It is set as the multibody's own velocity meanwhile,
+// because stepPositionsMultiDof() ignores velocities passed to it in planar joints. Momentum depends on the pose, so a
+// multibody with a free base gets the lost momentum back at the base.
 void ArticulatedBodies::displace(const Tree& tree, double step)
 {
     btMultiBody& body = *tree.m_body;
@@ -132,7 +135,7 @@ void ArticulatedBodies::displace(const Tree& tree, double step)
     addVelocity(tree);
 }
 
-// Of base and links: linear [kg m/s], and angular about the world's origin [kg m2/s].
+// Momentum of base and links: linear [kg m/s], and angular about the world's origin [kg m2/s].
 ArticulatedBodies::Momentum ArticulatedBodies::momentum(const btMultiBody& body)
 {
     const int count = body.getNumLinks() + 1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Multibodies within Bullet's rigid solver: its rows change joint velocities in an array of their own, in single
-// precision, and soft bodies change them in the same.
+// ArticulatedBodies within Bullet's rigid solver: its rows and the impulses of soft bodies change joint velocities in
+// one single-precision array.
 #include "BulletDynamics/Featherstone/btMultiBody.h"
 #include "bullet_bridge/rigid/articulated_bodies.h"
 
@@ -17,7 +17,7 @@ void ArticulatedBodies::beginSolve(btAlignedObjectArray<btScalar>& deltas)
     for (Link& link : m_links) link.m_felt = link.m_angularFelt = {};
 }
 
-// Bullet's rows do not know multibodies that none of them is of.
+// Total change of coordinate k. A multibody without rows in Bullet's solver has no entry in *m_deltas.
 double ArticulatedBodies::changeIn(const Tree& tree, int k) const
 {
     const int first = tree.m_body->getCompanionId();

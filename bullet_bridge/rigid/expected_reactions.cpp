@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What soft bodies are expected to do to rigid bodies that Bullet's joints hold: see docs/contact.md.
+// RigidProxies: expected reactions of soft bodies on rigid bodies with Bullet's joints; see docs/contact.md.
 #include <algorithm>
 #include <utility>
 
@@ -15,9 +15,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kExpected = 0.5;  // share of what is new in a reaction that is expected again; from 2/3 on it swings
+constexpr double kExpected = 0.5;  // relaxation factor of the expected reaction [-]; it oscillates from 2/3 on
 
-// What has lasted from the step before is expected to go on.
+// Relaxes the expected reaction towards the part of the present one that has persisted since the step before.
 void lasting(const Vec3& now, const Vec3& before, Vec3& expected)
 {
     const double square = dot(now, now), lasts = square > 0 ? std::clamp(dot(now, before) / square, 0.0, 1.0) : 0;
@@ -38,7 +38,7 @@ void RigidProxies::noteBeforeSolve(const btCollisionObject& object)
     if (body->getNumConstraintRefs() > 0 && body->isActive()) expect(*body, m_before.back());
 }
 
-// As a force: dampers of joints would take a change of velocity for motion.
+// Applies the expected reaction as a force: joint dampers would react to a jump of the velocity.
 void RigidProxies::expect(btRigidBody& body, Before& before)
 {
     const int id = broadphaseId(body);
@@ -55,7 +55,8 @@ void RigidProxies::expect(btRigidBody& body, Before& before)
     body.applyTorque(turned * (body.getLocalInertia() * spin / btScalar(m_step)));
 }
 
-// What an object was given beforehand, for the first who asks: nothing if Bullet has put it to sleep since.
+// Returns the velocity change that an object got in advance, and resets it: 0 at the second call, or if Bullet has put
+// the object to sleep since.
 LinkMotion RigidProxies::takeExpected(const btCollisionObject& object)
 {
     for (Before& b : m_before)
@@ -67,7 +68,7 @@ LinkMotion RigidProxies::takeExpected(const btCollisionObject& object)
     return {};
 }
 
-// Before Bullet's rigid solver has seen it.
+// Takes the expected reaction back before Bullet's rigid solver sees it.
 void RigidProxies::takeBack(const btCollisionObject& object)
 {
     for (Before& b : m_before)
@@ -84,7 +85,8 @@ void RigidProxies::clearPush(Before& before)
     before.m_expected = {};
 }
 
-// Of bodies that nothing gave anything in the end; and the forces, which Bullet's sub-steps have in common.
+// Takes back the expected reactions of bodies that felt none in the end, and restores the forces, which all of Bullet's
+// sub-steps share.
 void RigidProxies::returnExpected()
 {
     for (Before& b : m_before)

@@ -15,36 +15,35 @@ namespace bullet_fem
 namespace
 {
 
-// Bodies are driven apart as long as a step makes them part faster by this share of what it did at most in this
-// contact [-]. That does not depend on the step, as a force would; by half a wave of force only its last third of a
-// tenth is cut off.
+// Contact drives two bodies apart while the gain of separation speed in a step exceeds this share of the largest gain
+// of this impact [-]. Unlike a threshold of force, it does not depend on the time step; it cuts off the last 3 % of a
+// half-sine pulse.
 constexpr double kSpent = 0.1;
 
-// Of the speed that they met with: what still closes faster than this is being stopped [-]. Overdamped bodies only
-// creep up to rest.
+// Approach faster than this share of the impact speed is still being stopped [-]. Overdamped bodies only creep to rest.
 constexpr double kStopped = 0.05;
 
-// Where an impact leaves its energy in the springs of a body, it may be given back as long as this times the time that
-// stopping took [-].
+// An impact stores energy in the elasticity of a body. The rebound may wait for it up to this multiple of the stopping
+// time [-].
 constexpr double kPatience = 2;
 
-// What holds a body back pushes against this cosine of the direction at least [-]: 60 degrees.
+// Smallest cosine between a support's normal and the direction that it holds against: 60 degrees [-].
 constexpr double kHolds = 0.5;
 
-// Rigid bodies lie on each other up to this gap [m]: Bullet lets them tremble by less.
+// Largest gap of rigid bodies that rest on each other [m]: Bullet lets them tremble by less.
 constexpr double kTouching = 2e-3;
 
-// Indices in the problem of two.
+// Indices of the two sides in the problem.
 constexpr int kOther = 0, kBody = 1;
 
-// In a frame that moves with a velocity [m/s], for that long [s]; there what is led along does no work.
+// A frame that moves with a velocity [m/s] for a time [s]. In it, a moving support does no work.
 struct Frame
 {
     Vec3 m_velocity;
     double m_time;
 };
 
-// Elastic, of motion, and by gravity [J].
+// Elastic, kinetic and gravitational energy in a frame [J].
 double energyOf(const FemSoftBody& fem, const Frame& frame)
 {
     const BodyState& s = fem.m_body.m_state;
@@ -57,8 +56,8 @@ double energyOf(const FemSoftBody& fem, const Frame& frame)
     return mechanicalEnergy(fem.m_body) - dot(momentum, frame.m_velocity) - dot(moment, fem.gravity());
 }
 
-// Links of multibodies have none of their own: what they take counts as lost, and energies as far as the two of a
-// contact tell them.
+// Kinetic and gravitational energy of a rigid body [J]. Links of multibodies are not counted: energy that goes into
+// them counts as lost.
 double energyOf(const btRigidBody& body)
 {
     const Vec3 v = vec3(body.getLinearVelocity());
@@ -77,7 +76,6 @@ double energyOf(const btCollisionObject& object)
     return body && !body->isStaticOrKinematicObject() && body->getInvMass() > 0 ? energyOf(*body) : 0;
 }
 
-// As it moves between steps; of a rigid body before its forces act.
 void setMotion(const LinkMotion& motion, RigidProxy& proxy)
 {
     proxy.m_linearVelocity = motion.m_linear;
@@ -87,6 +85,7 @@ void setMotion(const LinkMotion& motion, RigidProxy& proxy)
 RigidProxy proxyBefore(const RigidProxies& rigid, int index)
 {
     RigidProxy proxy = rigid.rigidProxies()[index];
+    // The rigid proxy with the object's velocity as the step begins; a rigid body's forces are not in it yet.
     const btRigidBody* body = rigid.movableBody(index);
     if (body)
         setMotion({vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())}, proxy);
@@ -102,7 +101,7 @@ int pieceOf(const FemSoftBody& fem, const SurfacePoint& point)
 
 }  // namespace
 
-// Of two soft bodies the one with the smaller id remembers.
+// Collects contact patches by pair of bodies. Of two soft bodies, the one of smaller broadphase id keeps the impact.
 void Rebounds::gather(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies)
 {
     m_patches.clear();
@@ -180,7 +179,7 @@ void Rebounds::notePatch(const Scene& scene, const Patch& patch, double least)
     known->m_normal = now.m_normal;
 }
 
-// How two meet; false if it is too slow to give anything back.
+// Starts an impact. False if the approach is too slow for a rebound.
 bool Rebounds::meet(const Scene& scene, const Patch& patch, double least, Impact& impact)
 {
     const FemSoftBody& fem = *scene.m_bodies[patch.m_body];
@@ -208,7 +207,7 @@ bool Rebounds::meet(const Scene& scene, const Patch& patch, double least, Impact
     return true;
 }
 
-// What keeps a piece of a body from going against a direction, if that is immovable; null if nothing does.
+// The immovable proxy that supports a component of a body against a direction; null if there is none.
 const RigidProxy* Rebounds::supportOf(const Scene& scene, int body, int piece, const Vec3& against)
 {
     for (const ContactPoint& c : scene.m_problem.m_contacts)
@@ -248,7 +247,7 @@ void Rebounds::give(const std::vector<FemSoftBody*>& bodies, WorldObjects& world
     rigid.clear();
 }
 
-// What is gone or sleeps is none.
+// Finds the other side of an impact. Empty if it is gone or asleep.
 Rebounds::Other Rebounds::otherOf(const FemSoftBody& fem, const Impact& impact, const std::vector<FemSoftBody*>& bodies,
                                   WorldObjects& world) const
 {
@@ -267,7 +266,7 @@ Rebounds::Other Rebounds::otherOf(const FemSoftBody& fem, const Impact& impact, 
     return other;
 }
 
-// The two as they move now.
+// Sets up the problem of both sides with their present motion.
 void Rebounds::setPair(const FemSoftBody& fem, const Impact& impact, const Other& other, RigidProxies& rigid,
                        double step)
 {
@@ -292,8 +291,8 @@ void Rebounds::setPair(const FemSoftBody& fem, const Impact& impact, const Other
     }
 }
 
-// True if the impact is over. Where energy is still in the springs of a body that has been stopped, there is as much
-// time again for it to be lost.
+// Follows an impact; true if it is over. After the body has been stopped, energy that is still in its elasticity may
+// return for kPatience times the stopping time.
 bool Rebounds::follow(FemSoftBody& fem, Impact& impact, const Other& other, RigidProxies& rigid, double step)
 {
     setPair(fem, impact, other, rigid, step);
@@ -310,7 +309,7 @@ bool Rebounds::follow(FemSoftBody& fem, Impact& impact, const Other& other, Rigi
            !(impact.m_time < kPatience * impact.m_stopTime);
 }
 
-// True if there was something to give, or nothing is wanted.
+// Applies the rebound impulse. True if it was applied or none is due; false if no energy is available yet.
 bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, RigidProxies& rigid, double step)
 {
     Rebound rebound;

@@ -11,37 +11,37 @@
 namespace bullet_fem
 {
 
-/// ContactSettings::m_tolerance of a problem with restitution, at most [-]: what contact leaves of an impact would be
-/// missing where it is given back. Stiff cubes came back with half of what is set at 3e-3.
+/// Largest ContactSettings::m_tolerance of a problem with restitution [-]: the solver's error would be missing in the
+/// rebound. With 3e-3, stiff cubes rebounded at half of the set restitution.
 constexpr double kReboundTolerance = 3e-5;
 
-/// True if a contact has restitution.
+/// True if some contact has a coefficient of restitution above 0.
 bool mayRebound(const ContactProblem& problem);
 
-/// Restitution. Contact itself gives nothing back: what bodies return with is their elasticity. When two bodies that
-/// ran into each other are no longer driven apart by it, and part more slowly than the share set of the speed that they
-/// met with, one impulse on both makes up for it, with no more energy than their contact has lost. Speeds are those of
-/// the bodies' motions as wholes, at the middle of where they touch. What lasts is FemSoftBody::m_impacts.
+/// Restitution. The contact solve itself has none: bodies rebound by their elasticity. When contact no longer drives
+/// two colliding bodies apart, and they separate more slowly than the coefficient of restitution demands, one impulse
+/// on both adds the missing speed, with at most the energy that the contact has lost. Speeds are those of the bodies'
+/// rigid motions at the centre of the contact patch. State is kept in FemSoftBody::m_impacts.
 class Rebounds
 {
 public:
-    /// After contact is solved and before anybody has moved or felt it: notes which bodies begin to touch at more than
-    /// `least` [m/s], and which still do. `bodies` are those of the problem, `rigid` has its rigid proxies.
+    /// Call after contact is solved, before its impulses are applied. Notes impacts that begin with an approach faster
+    /// than `least` [m/s], and those that still last. `bodies` are those of the problem; `rigid` has its rigid proxies.
     void note(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies, const RigidProxies& rigid,
               double least);
 
-    /// As the step ends, when bodies have moved: gives what is due, and forgets what is over. `bodies` are all that
-    /// were noted in this step. Afterwards `rigid` is without rigid proxies.
+    /// Call at the end of the step, after bodies have moved. Applies due rebounds and forgets impacts that are over.
+    /// `bodies` are all bodies of note() in this step; `step` [s]. Clears the rigid proxies of `rigid`.
     void give(const std::vector<FemSoftBody*>& bodies, WorldObjects& world, RigidProxies& rigid, double step);
 
 private:
-    // The contact points of a piece of a body and what it touches.
+    // The contact points between a connected component of a body and one other object.
     struct Patch
     {
         int m_body = 0, m_piece = 0, m_otherBody = -1, m_otherPiece = -1, m_rigidProxy = -1;
         double m_restitution = 0;  // [-]
         double m_push = 0;         // sum of the normal impulses [N s]
-        Vec3 m_point, m_normal;    // sums, by normal impulses
+        Vec3 m_point, m_normal;    // sums weighted by normal impulse
 
         bool isOf(const Patch& b) const
         {
@@ -50,7 +50,7 @@ private:
         }
     };
 
-    // What a body has run into, if it is still there.
+    // The other side of an impact, if it still exists.
     struct Other
     {
         FemSoftBody* m_soft = nullptr;
@@ -58,7 +58,7 @@ private:
     };
 
     void gather(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies);
-    // The rigid proxies of a problem, and how the step began.
+    // Context of a contact problem.
     struct Scene
     {
         const ContactProblem& m_problem;
@@ -77,7 +77,7 @@ private:
     bool part(FemSoftBody& fem, const Impact& impact, const Other& other, RigidProxies& rigid, double step);
 
     std::vector<Patch> m_patches;
-    ContactProblem m_problem;  // of two: the other, and the body
+    ContactProblem m_problem;  // of both sides: the other, then the body
 };
 
 }  // namespace bullet_fem

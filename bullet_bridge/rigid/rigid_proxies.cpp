@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kRounding = 1e-5;  // share of velocities that their differences may be off
+constexpr double kRounding = 1e-5;  // relative rounding error of velocity differences
 
 Mat3 mat3(const btMatrix3x3& m)
 {
@@ -32,7 +32,7 @@ RigidProxy immovable(const btCollisionObject& object)
 {
     RigidProxy rigidProxy;
     rigidProxy.m_center = vec3(object.getWorldTransform().getOrigin());
-    if (object.isKinematicObject() && object.isActive())  // Bullet no longer moves one that fell asleep
+    if (object.isKinematicObject() && object.isActive())  // Bullet does not move sleeping ones
     {
         rigidProxy.m_linearVelocity = vec3(object.getInterpolationLinearVelocity());
         rigidProxy.m_angularVelocity = vec3(object.getInterpolationAngularVelocity());
@@ -40,7 +40,7 @@ RigidProxy immovable(const btCollisionObject& object)
     return rigidProxy;
 }
 
-// The motion of a multibody's link that impulses do not reach. `scratch` grows with the number of links.
+// Sets the motion of a multibody's link that impulses do not move. `scratch` grows with the number of links.
 void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>& scratch, RigidProxy& rigidProxy)
 {
     const std::size_t count = link.m_multiBody->getNumLinks() + 1, k = link.m_link + 1;
@@ -51,7 +51,7 @@ void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>
     rigidProxy.m_linearVelocity = vec3(fromLink * scratch[count + k]);
 }
 
-// A change of velocity without what goes against the direction in which something holds a body.
+// Removes from a velocity change its component against the direction in which a body is held.
 Vec3 heldBack(const Vec3& change, const Vec3& holding)
 {
     const double against = dot(change, holding);
@@ -72,8 +72,8 @@ const btMultiBodyLinkCollider* linkOf(const btCollisionObject& object)
     return link && link->m_multiBody && link->m_link < link->m_multiBody->getNumLinks() ? link : nullptr;
 }
 
-// A component at a time, through memory: GCC 12 vectorises the narrowing of three components and the widening that
-// follows into nothing.
+// Component by component through a volatile: GCC 12 otherwise vectorises and drops the conversion to single precision
+// and back, so that no remainder would be left.
 btVector3 addedExactly(const btVector3& velocity, const Vec3& change, Vec3& remainder)
 {
     btVector3 result(0, 0, 0);
@@ -168,7 +168,7 @@ int RigidProxies::indexOf(const btCollisionObject& object, double step)
     return index;
 }
 
-// What Bullet's contacts and joints changed in this step.
+// Velocity change by Bullet's contacts and joints in this step.
 LinkMotion RigidProxies::doneByBullet(const btRigidBody& body, double step, const RigidProxy& rigidProxy) const
 {
     const auto before =
@@ -183,9 +183,9 @@ LinkMotion RigidProxies::doneByBullet(const btRigidBody& body, double step, cons
     return done;
 }
 
-// A body on a floor does not fall in the next step, and gives no way to what presses on it. What Bullet's contacts and
-// joints did to it in this step is what they will do in the next, as far as it withstands gravity and what soft bodies
-// gave it before; the rest, such as an impact, is over. A rewound one is where it was before they did it.
+// Predicts the support of a body in the next step: a body on a floor neither falls nor yields to a soft body's push. It
+// is the change by Bullet's contacts and joints in this step, as far as that balances gravity and the last impulses of
+// soft bodies; any further change, as of an impact, will not recur. A rewound body is at its place before that change.
 LinkMotion RigidProxies::supportOf(const btRigidBody& body, double step, const RigidProxy& rigidProxy, bool rewound)
 {
     const LinkMotion done = doneByBullet(body, step, rigidProxy);
@@ -199,10 +199,10 @@ LinkMotion RigidProxies::supportOf(const btRigidBody& body, double step, const R
     return {part(done.m_linear, -(gravity + memory.m_linearGiven)), part(done.m_angular, -memory.m_angularGiven)};
 }
 
-// What gravity gives in a step is not speed: resting bodies have it as well; but small ones fall far by it. Bullet
-// clears the hit fraction of those that its own continuous collision has stopped on their way. What is not rewound is
-// seen one step ahead: a body that changed over near a surface would skip a step, and may be thinner than its way in
-// it.
+// True if the relative motion is so fast that the body must be rewound. Speed that gravity adds in a step does not
+// count, as resting bodies have it as well, except for small bodies that fall far by it. Bullet resets the hit fraction
+// of bodies that its own continuous collision detection has stopped. A body that was rewound remains so: otherwise it
+// is seen one step ahead, so a change near a surface would skip a step, in which it may pass the surface.
 bool RigidProxies::mustRewind(int rigidProxy, double step, const Body& soft) const
 {
     const btCollisionObject& object = *m_sources[rigidProxy].m_object;
@@ -251,14 +251,16 @@ bool RigidProxies::holdsRewound() const
 int RigidProxies::indexBeside(const btCollisionObject& object, double step, int neighbour)
 {
     const int index = indexOf(object, step);
-    const bool asMoved = movableBody(index) && object.getHitFraction() != 0;  // what Bullet stopped on its way was not
+    // Bullet's continuous collision detection did not stop it
+    const bool asMoved = movableBody(index) && object.getHitFraction() != 0;
     if (!asMoved || !isRewound(neighbour) || isRewound(index)) return index;
     rewind(index, step);
     m_rewound.push_back(m_sources[index].m_objectId);
     return index;
 }
 
-// Bullet's contacts are touches of the solve; its joints are known by what they did.
+// Puts a rigid proxy back to the start of the step. Bullet's contacts are rows of the problem; its joints are known by
+// the change that they made.
 void RigidProxies::rewind(int index, double step)
 {
     Source& source = m_sources[index];
@@ -342,10 +344,10 @@ void RigidProxies::applyReactions(const ContactProblem& problem, double step, bo
         if (felt || (throughOthers && isAny(change.m_linear, change.m_angular)))
         {
             if (m_phase == RigidPhase::moved) addToVelocity(*body, source, change, lasts);
-            if (!body->isActive()) body->activate();  // islands know when one that is awake may rest
+            if (!body->isActive()) body->activate();  // Bullet's islands handle active bodies
         }
         Vec3 linear = rigidProxy.m_pushLinear, angular = rigidProxy.m_pushAngular;
-        if (source.m_rewound)  // it went with the old velocity where it should have gone with the new
+        if (source.m_rewound)  // it moved with the old velocity instead of the new one
         {
             linear += heldBack(change.m_linear, source.m_held);
             angular += change.m_angular;

@@ -16,44 +16,44 @@ class btRigidBody;
 namespace bullet_fem
 {
 
-/// When the rigid side is looked at.
+/// When the rigid bodies are coupled with the soft ones.
 enum class RigidPhase
 {
-    moved,   ///< Bullet has solved and moved the rigid bodies; they feel the soft ones after that
-    solving  ///< Bullet's rigid solver is about to solve them, together with the soft ones
+    moved,   ///< after Bullet has solved and moved the rigid bodies (staggered)
+    solving  ///< within Bullet's rigid solver, simultaneously (monolithic)
 };
 
-/// The rigid side of a step's contacts and joints: turns Bullet's collision objects into rigid proxies, and hands the
-/// reactions back. Links of multibodies answer as parts of their multibody. What single precision cuts off a rigid
-/// body's velocity is carried to the next step.
+/// The rigid side of a step's contacts and joints: makes rigid proxies of Bullet's collision objects and applies the
+/// reactions to them. Links of multibodies respond as parts of their multibody. The rounding error of a rigid body's
+/// velocity in single precision is carried to the next step.
 class RigidProxies
 {
 public:
-    /// What single precision cut off a body's velocity.
+    /// State of a rigid body from step to step.
     struct Remainder
     {
         int m_objectId = -1;
-        Vec3 m_linear, m_angular;                  ///< [m/s], [rad/s]
-        bool m_used = false;                       ///< in this step
-        Vec3 m_linearGiven, m_angularGiven;        ///< what soft bodies gave it in the last step [m/s], [rad/s]
-        Vec3 m_linearExpected, m_angularExpected;  ///< and what of it they are expected to give again
+        Vec3 m_linear, m_angular;                  ///< rounding error of its velocity [m/s], [rad/s]
+        bool m_used = false;                       ///< it felt an impulse in this step
+        Vec3 m_linearGiven, m_angularGiven;        ///< velocity change by soft bodies in the last step [m/s], [rad/s]
+        Vec3 m_linearExpected, m_angularExpected;  ///< part of it that is expected again [m/s], [rad/s]
     };
 
-    /// What the next step depends on.
+    /// The state on which the next step depends.
     struct Memory
     {
         std::vector<Remainder> m_remainders;
-        std::vector<int> m_rewound;  ///< broadphase ids
+        std::vector<int> m_rewound;  ///< broadphase ids of rewound objects
     };
     Memory memory() const { return {m_remainders, m_rewound}; }
     void restore(const Memory& memory);
 
-    /// Forgets the remainders of bodies that were not touched in the last step. `step` of the world [s].
+    /// Forgets the state of bodies that felt no impulse in the last step. `step` is the world's [s].
     void beginStep(double step);
 
-    /// Remembers how fast a body is before Bullet's rigid solver. One that Bullet's joints hold gets what soft bodies
-    /// are expected to give it, so that the joints withstand it; the reactions are less by that. May be called by
-    /// several threads at once.
+    /// Notes a body's velocity before Bullet's rigid solver. A body with Bullet's joints gets the expected reaction of
+    /// soft bodies in advance, so that its joints withstand it; the reaction to apply is smaller by that. May be called
+    /// by several threads at once.
     void noteBeforeSolve(const btCollisionObject& object);
 
     /// See ArticulatedBodies::assumeForcesGiven.
@@ -62,64 +62,65 @@ public:
     /// Forgets all rigid proxies.
     void clear(RigidPhase phase = RigidPhase::moved);
 
-    /// Index of an object's rigid proxy, made when first asked for. `step` [s] is the world's. Rows use the velocity
-    /// that a dynamic body will have next without soft bodies: in phase `moved` v + h g, and what other rigid bodies
-    /// hold it with (see supportOf); else v and what all its forces add.
+    /// Index of an object's rigid proxy, which is made at the first call. `step` is the world's [s]. A dynamic body's
+    /// proxy has the predicted velocity without soft bodies: in phase `moved` v + h g plus its support by other rigid
+    /// bodies (see supportOf), in phase `solving` v plus the effect of all its forces.
     int indexOf(const btCollisionObject& object, double step);
 
-    /// The same for contacts with a soft body, after its free motion. Where the two move fast relative to each other
-    /// (as isFast() has it) in phase `moved`, the rigid one is rewound: its rigid proxy is where Bullet moved it from,
-    /// with the velocity that it moved with; what Bullet's joints did to it holds it. It stays so as long as it is
-    /// asked for in every step. One that was asked for before in this step stays as it is.
+    /// indexOf() for contacts with a soft body, after its free motion. In phase `moved`, an object with fast relative
+    /// motion (see isFast) is rewound: its proxy is at the position before Bullet moved it, with the velocity of that
+    /// motion and the support by Bullet's joints. It remains rewound while it is requested in every step. A proxy that
+    /// exists already in this step is returned unchanged.
     int indexForContact(const btCollisionObject& object, double step, const Body& soft);
 
-    /// The same for joints. In phase `moved` a rigid body that Bullet's own joints do not hold is rewound: where it is
-    /// as the step ends is what the joint is about, and a stiff link that were told a step late would shake it off.
+    /// indexOf() for joints. In phase `moved`, a rigid body without Bullet's own joints is rewound: the joint
+    /// constrains the position at the end of the step, and a stiff joint that reacts one step late becomes unstable.
     int indexForJoint(const btCollisionObject& object, double step);
 
-    /// The same for what Bullet's contacts keep apart from a rigid proxy, and which is rewound if that is.
+    /// indexOf() for an object in contact with rigid proxy `neighbour` by Bullet; it is rewound if the neighbour is.
     int indexBeside(const btCollisionObject& object, double step, int neighbour);
 
     RigidPhase phase() const { return m_phase; }
 
-    /// True if Bullet has moved the object already, but its rigid proxy is as the step began.
+    /// True if Bullet has moved the object already, while its proxy is at the start of the step.
     bool isRewound(int rigidProxy) const { return m_sources[rigidProxy].m_rewound; }
 
-    /// Writes how links of multibodies answer impulses, for ContactProblem. Once all rigid proxies are known.
+    /// Writes the links' responses to impulses for ContactProblem. Call after all rigid proxies are made.
     void connectLinks(std::vector<RigidResponse>& responses) { m_articulated.connect(m_rigidProxies, responses); }
 
-    /// True if the rigid proxy is a multibody's link that impulses can move.
+    /// True if the rigid proxy is a movable link of a multibody.
     bool isMovableLink(int rigidProxy) const
     {
         return m_rigidProxies[rigidProxy].canMove() && !movableBody(rigidProxy);
     }
 
-    /// True if a rigid proxy is rewound.
+    /// True if some rigid proxy is rewound.
     bool holdsRewound() const;
 
-    /// True if links of multibodies that can move are among the rigid proxies.
+    /// True if some rigid proxy is a movable link of a multibody.
     bool holdsLinks() const { return !m_articulated.isEmpty(); }
 
-    /// Of the links, within Bullet's rigid solver: see ArticulatedBodies.
+    /// Links within Bullet's rigid solver: see beginSolve(), readSolved() and writeSolved() of ArticulatedBodies.
     void beginLinks(btAlignedObjectArray<btScalar>& deltas) { m_articulated.beginSolve(deltas); }
     void readLinks(std::vector<RigidProxy>& rigidProxies) const { m_articulated.readSolved(rigidProxies); }
     void writeLinks(const std::vector<RigidProxy>& rigidProxies) { m_articulated.writeSolved(rigidProxies); }
 
-    /// The velocity that the object moves with, or moved with: without what gravity will add to it in the next step.
+    /// The velocity with which the object moves, or moved, in this step, without the gravity of the next step.
     LinkMotion motionNow(int rigidProxy) const;
 
     std::vector<RigidProxy>& rigidProxies() { return m_rigidProxies; }
     const std::vector<RigidProxy>& rigidProxies() const { return m_rigidProxies; }
     const btCollisionObject& object(int rigidProxy) const { return *m_sources[rigidProxy].m_object; }
 
-    /// The rigid body of a rigid proxy that impulses can move; null for others.
+    /// The movable rigid body of a rigid proxy; null for other objects.
     btRigidBody* movableBody(int rigidProxy) const;
     Remainder& remainder(int rigidProxy) { return remainderOf(m_sources[rigidProxy].m_objectId); }
 
-    /// Moves the bodies by the position corrections, and rewound ones by what their change of velocity makes (touches
-    /// included, so that a floor stays a floor; but for what goes against Bullet's joints), and wakes those that felt
-    /// impulses; in phase `moved` also adds the changes to their velocities, in double and once. `problem` is the one
-    /// solved, with these rigid proxies. `lasts`: soft bodies will give the like in the next step.
+    /// Applies the solution of `problem`, which has these rigid proxies: moves bodies by position corrections, and
+    /// rewound ones by their change of velocity too, without its component against Bullet's joints (rigid-rigid
+    /// contacts count, so that a floor stays solid); wakes bodies that felt impulses; in phase `moved` adds the
+    /// velocity changes, in double precision with one rounding. `step` [s]. `lasts`: soft bodies are expected to push
+    /// alike in the next step.
     void applyReactions(const ContactProblem& problem, double step, bool lasts = true);
 
 private:
@@ -127,22 +128,23 @@ private:
     {
         const btCollisionObject* m_object = nullptr;
         int m_objectId = -1;
-        Vec3 m_linearImpulse, m_angularImpulse;  // of all contacts and joints, on the rigid body
+        Vec3 m_linearImpulse, m_angularImpulse;  // sum over contacts and joints, on the rigid body
         bool m_rewound = false;
-        Vec3 m_held;  // of a rewound body that Bullet's joints hold: what they and contacts gave it in this step [m/s]
-        LinkMotion m_now = {};  // as the solve began; of rigid bodies and links that can move
+        Vec3 m_held;  // of a rewound body with Bullet's joints: velocity change by joints and contacts in this step
+                      // [m/s]
+        LinkMotion m_now = {};  // velocity as the solve began, of movable objects
     };
 
     struct Before
     {
         const btCollisionObject* m_object;
         Vec3 m_linear, m_angular;
-        LinkMotion m_expected = {};   // what forces in place of soft bodies give; 0 once it is accounted for
-        btVector3 m_force, m_torque;  // without these [N], [N m]
-        bool m_pushed = false;        // these forces are on it
+        LinkMotion m_expected = {};   // velocity change by the expected reaction; 0 once it is accounted for
+        btVector3 m_force, m_torque;  // total force and torque without it [N], [N m]
+        bool m_pushed = false;        // its force is on the body
     };
 
-    // Proxies of the problem behind these are cloth's; -1 is none.
+    // Rigid proxies beyond these belong to cloth; -1 is none.
     bool isOurs(int rigidProxy) const { return rigidProxy >= 0 && rigidProxy < static_cast<int>(m_sources.size()); }
     void addReaction(int rigidProxy, const Vec3& impulse, const Vec3& arm);
     void addJointReaction(const JointEnd& end, const Vec3& impulse);
@@ -164,28 +166,29 @@ private:
     std::vector<Remainder> m_remainders;
     double m_step = 0;  // [s]
     std::mutex m_beforeMutex;
-    std::vector<Before> m_before;               // velocities before Bullet's rigid solver
-    std::vector<int> m_rewound, m_lastRewound;  // ids of the objects in this step and in the last
+    std::vector<Before> m_before;               // velocities noted before Bullet's rigid solver
+    std::vector<int> m_rewound, m_lastRewound;  // broadphase ids of rewound objects in this step and in the last
     std::vector<btVector3> m_linkVelocities;    // scratch
     ArticulatedBodies m_articulated;
 };
 
-/// A rigid body that impulses can move; null for static, kinematic and foreign objects.
+/// The movable rigid body of an object; null for static, kinematic and other objects.
 btRigidBody* movableBody(const btCollisionObject& object);
 
-/// A link of a multibody that is still there; null for other objects.
+/// The link of a multibody, if it still exists; null for other objects.
 const btMultiBodyLinkCollider* linkOf(const btCollisionObject& object);
 
-/// True if one of them is not 0.
+/// True if one of the vectors is not 0.
 inline bool isAny(const Vec3& linear, const Vec3& angular)
 {
     return dot(linear, linear) + dot(angular, angular) > 0;
 }
 
-/// Adds `change` to a Bullet velocity, with what rounding cut off before, and keeps what it cuts off now.
+/// Returns velocity + remainder + change rounded to Bullet's precision, and sets `remainder` to the rounding error.
+/// Units are those of the velocity.
 btVector3 addedExactly(const btVector3& velocity, const Vec3& change, Vec3& remainder);
 
-/// Bullet's id of an object in its broadphase: unique in a world and never reused; -1 outside a world.
+/// Bullet's broadphase id of an object, unique in a world and never reused; -1 outside a world.
 int broadphaseId(const btCollisionObject& object);
 
 }  // namespace bullet_fem

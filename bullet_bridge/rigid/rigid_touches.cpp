@@ -16,10 +16,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kRecovery = 0.2;  // share of a depth that Bullet takes back in a step
-constexpr int kFar = 6;            // bodies away from a soft one that rigid ones are thought of as giving way
+constexpr double kRecovery = 0.2;  // share of a penetration that Bullet corrects in a step [-]
+constexpr int kFar = 6;            // levels of neighbouring rigid bodies that count as movable
 
-// What Bullet's rigid solver keeps others out of. Links of multibodies answer for themselves.
+// True if Bullet's rigid solver resolves contacts of the object. Links of multibodies are left out: their multibody
+// responds for them.
 bool isSolid(const btCollisionObject& object)
 {
     return object.hasContactResponse() && object.getInternalType() != btCollisionObject::CO_SOFT_BODY &&
@@ -32,7 +33,7 @@ bool isMovable(const btCollisionObject& object)
     return body && !body->isStaticOrKinematicObject() && body->getInvMass() > 0;
 }
 
-// Of kinematic objects; others that are no rigid proxies stand still.
+// Velocity at a point of a kinematic object; 0 for other objects without a rigid proxy [m/s].
 Vec3 velocityOf(const btCollisionObject& object, const Vec3& point)
 {
     if (!object.isKinematicObject() || !object.isActive()) return {};
@@ -93,7 +94,7 @@ void RigidTouchFinder::lookUp()
     }
 }
 
-// In an order of their own: Bullet's depends on what came and went before.
+// Removes pairs without a rigid proxy. Sorts by ids, as Bullet's order depends on the history of its pairs.
 void RigidTouchFinder::keepTouching()
 {
     const auto isApart = [](const Pair& pair) { return pair.m_first < 0 && pair.m_second < 0; };
@@ -106,7 +107,7 @@ void RigidTouchFinder::keepTouching()
     std::sort(m_pairs.begin(), m_pairs.end(), [&](const Pair& a, const Pair& b) { return keyOf(a) < keyOf(b); });
 }
 
-// Makes rigid proxies of what rigid proxies touch. False if there is nothing new.
+// Makes rigid proxies of the neighbours of rigid proxies. False if there are no new ones.
 bool RigidTouchFinder::spread(double step, RigidProxies& rigidProxies)
 {
     const std::size_t before = rigidProxies.rigidProxies().size();
@@ -119,8 +120,9 @@ bool RigidTouchFinder::spread(double step, RigidProxies& rigidProxies)
     return rigidProxies.rigidProxies().size() > before;
 }
 
-// Bullet measured as the step began. Soft bodies must not close more of the gap than is left, nor undo what Bullet has
-// given two bodies to part; what closes or stays inside without them is Bullet's own affair.
+// Adds a contact point as a unilateral row. Bullet measured the gap as the step began. Soft bodies must neither close
+// more than the remaining gap nor cancel the separation that Bullet gave the two; Bullet itself resolves approach and
+// penetration that exist without soft bodies.
 void RigidTouchFinder::add(const Pair& pair, const btManifoldPoint& point, double step,
                            const RigidProxies& rigidProxies, std::vector<RigidTouch>& touches) const
 {

@@ -14,21 +14,22 @@ class btPersistentManifold;
 namespace bullet_fem
 {
 
-/// Finds where the rigid bodies of a step touch each other, and what does not move: Bullet's own contacts. In phase
-/// `moved` Bullet has solved them already, without knowing what soft bodies do to its bodies; in phase `solving` it is
-/// about to, and only position corrections need them. Scratch only.
+/// Finds the contacts of a step's rigid bodies with each other and with immovable objects, from Bullet's manifolds. In
+/// phase `moved` Bullet has solved them already, without the reactions of soft bodies; in phase `solving` Bullet is
+/// about to solve them, and only position corrections need them. Keeps no state but scratch.
 class RigidTouchFinder
 {
 public:
-    /// Once all that soft bodies touch are rigid proxies. In phase `moved`, what these touch become rigid proxies, too,
-    /// and so on, a few bodies far. `step` [s] is the world's.
+    /// Appends one RigidTouch per contact point. Call after all objects in contact with soft bodies have rigid proxies.
+    /// In phase `moved`, it makes rigid proxies of their neighbours, and of the neighbours' neighbours, a few levels
+    /// deep. `step` is the world's [s].
     void find(btDispatcher& dispatcher, double step, RigidProxies& rigidProxies, std::vector<RigidTouch>& touches);
 
 private:
     struct Pair
     {
         const btPersistentManifold* m_manifold;
-        int m_first, m_second;  // rigid proxies that can move; -1: none
+        int m_first, m_second;  // movable rigid proxies; -1: none
     };
 
     void listMovable(const RigidProxies& rigidProxies);
@@ -40,7 +41,7 @@ private:
              std::vector<RigidTouch>& touches) const;
 
     std::vector<Pair> m_pairs;
-    std::vector<std::pair<const btCollisionObject*, int>> m_byAddress;  // of all rigid proxies that are rigid bodies
+    std::vector<std::pair<const btCollisionObject*, int>> m_byAddress;  // all rigid proxies of movable rigid bodies
 };
 
 }  // namespace bullet_fem

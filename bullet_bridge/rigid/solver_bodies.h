@@ -11,37 +11,37 @@
 namespace bullet_fem
 {
 
-/// Carries velocities between the rigid proxies of a contact problem and the bodies of Bullet's rigid solver while it
-/// iterates, links of multibodies included. A solver body's velocity is m_linearVelocity + delta +
-/// m_externalForceImpulse in single precision; what it cannot hold is kept here and added again.
+/// Exchanges velocities between the rigid proxies of a contact problem and the bodies of Bullet's rigid solver during
+/// its iterations, links of multibodies included. The velocity of a solver body is m_linearVelocity + delta +
+/// m_externalForceImpulse in single precision; the rounding error is kept here and added again.
 class SolverBodies
 {
 public:
-    /// To be called when the solver has set its bodies up: from then on rigid proxy k is solver body
-    /// rigid.movableBody(k)->getCompanionId() of `pool`. Starts from what was cut off in the last step.
-    /// `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver that has no multibodies.
+    /// Call after the solver has set up its bodies: rigid proxy k is then solver body
+    /// rigid.movableBody(k)->getCompanionId() of `pool`. Starts with the rounding errors of the last step.
+    /// `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver without multibodies.
     void begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool,
                btAlignedObjectArray<btScalar>* linkDeltas);
 
-    /// The solver bodies' velocities become the rigid proxies'.
+    /// Sets the rigid proxies' velocities to those of the solver bodies.
     void read(std::vector<RigidProxy>& rigidProxies);
 
-    /// What was added to the rigid proxies' velocities since read() is added to the solver bodies'.
+    /// Adds the changes of the rigid proxies' velocities since read() to the solver bodies.
     void write(const std::vector<RigidProxy>& rigidProxies);
 
-    /// Keeps what was cut off for the next step.
+    /// Keeps the rounding errors for the next step. Resets changes that are not finite or too fast.
     void end(RigidProxies& rigid);
 
 private:
     struct Link
     {
         int m_solverBody = -1;                       // -1: immovable
-        Vec3 m_linear, m_angular;                    // as read
-        Vec3 m_linearRemainder, m_angularRemainder;  // cut off
+        Vec3 m_linear, m_angular;                    // velocity at the last read()
+        Vec3 m_linearRemainder, m_angularRemainder;  // rounding errors
     };
 
     btAlignedObjectArray<btSolverBody>* m_pool = nullptr;
-    RigidProxies* m_multiBodies = nullptr;  // null: none
+    RigidProxies* m_multiBodies = nullptr;  // null: there are none
     std::vector<Link> m_links;
 };
 

@@ -51,7 +51,7 @@ bool WorldObjects::contains(const void* object) const
     return std::binary_search(m_objects.begin(), m_objects.end(), object, std::less<const void*>());
 }
 
-// What knows the body itself is the broadphase of its world.
+// A broadphase that contains the body itself is that of the body's world.
 bool WorldObjects::knows(const btSoftBody& body) const
 {
     return contains(&body);

@@ -11,40 +11,40 @@ class btSoftBody;
 namespace bullet_fem
 {
 
-/// What a world holds, as its broadphase knows it: pointers to objects that were removed or deleted, which nothing in
-/// Bullet tells soft bodies of, are recognised without being followed. Allocates when the world has grown.
+/// The set of objects of a world, from its broadphase. It recognises pointers to removed or deleted objects without
+/// following them; Bullet does not notify soft bodies of removal. Allocates when the world has grown.
 class WorldObjects
 {
 public:
-    /// Reads the broadphase of the body's world info, unless it did since the last forget().
+    /// Reads the broadphase of the body's world info, unless it is the one read since the last forget().
     void read(const btSoftBody& body);
     void forget() { m_broadphase = nullptr; }
 
-    /// True if it is that broadphase that was read last.
+    /// True if the broadphase of the body's world info is the one that was read last.
     bool hasRead(const btSoftBody& body) const;
 
-    /// True if the world that was read last holds the body itself.
+    /// True if the world that was read last contains the body itself.
     bool knows(const btSoftBody& body) const;
 
-    /// True if the world that was read last holds the object; also where that cannot be known, because it does not hold
-    /// the body: its world info has no broadphase or not that of its world.
+    /// True if the world that was read last contains the object. Also true if that is unknown, because the world does
+    /// not contain the body: its world info has no broadphase, or another one.
     bool holds(const btSoftBody& body, const btCollisionObject* object) const;
 
-    /// read() and holds().
+    /// Calls read(), then returns holds().
     bool readAndHolds(const btSoftBody& body, const btCollisionObject* object)
     {
         read(body);
         return holds(body, object);
     }
 
-    /// True if `cluster` is one of a soft body that the world holds, or that cannot be known.
+    /// True if `cluster` belongs to a soft body of the world that was read last, or if that is unknown.
     bool holdsCluster(const btSoftBody& body, const void* cluster) const;
 
 private:
     bool contains(const void* object) const;
 
     const btBroadphaseInterface* m_broadphase = nullptr;
-    std::vector<const void*> m_objects;  // sorted by address, which decides nothing but membership
+    std::vector<const void*> m_objects;  // sorted by address, for membership tests only
 };
 
 }  // namespace bullet_fem
