@@ -10,10 +10,10 @@
 namespace bullet_fem
 {
 
-constexpr double kFarthest = 1e6;  ///< [m]; beyond it Bullet's broadphase gives a body up
-constexpr double kFastest = 1e6;   ///< [m/s] or [rad/s]; what would move faster is not moved
+constexpr double kFarthest = 1e6;  ///< largest coordinate [m]; Bullet's broadphase fails beyond it
+constexpr double kFastest = 1e6;   ///< largest velocity or change of it [m/s], [rad/s]; faster changes are ignored
 
-/// True if all components are finite and below the limit.
+/// True if all components are finite and their magnitudes are below the limit.
 inline bool isBelow(double limit, const Vec3& x)
 {
     return isFinite(x) && std::max({std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)}) < limit;

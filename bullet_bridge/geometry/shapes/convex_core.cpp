@@ -20,7 +20,7 @@ namespace bullet_fem
 namespace
 {
 
-/// The rim of a disc about an axis, farthest in a direction; its centre if the direction is the axis.
+/// Support point of a disc perpendicular to an axis; its centre if the direction is along the axis.
 Vec3 discSupport(const Vec3& direction, int axis, double radius)
 {
     Vec3 radial = direction;
@@ -156,7 +156,7 @@ Vec3 ConvexCore::multiSphereSupport(const Vec3& direction) const
     Vec3 farthest;
     for (int i = 0; i < spheres.getSphereCount(); ++i)
     {
-        // With a scaling that is not uniform this is Bullet's own support point, which is not an ellipsoid's.
+        // Bullet's own support point: with a non-uniform scaling it is not that of an ellipsoid.
         const Vec3 point =
             componentProduct(vec3(spheres.getSpherePosition(i)) + n * double(spheres.getSphereRadius(i)), scale) -
             n * m_rounding;

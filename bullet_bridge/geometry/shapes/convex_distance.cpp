@@ -11,9 +11,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int maxIterations = 100;          // shapes with corners need about 10, curved ones 20
-constexpr double relativeAccuracy = 1e-12;  // of the distance [-]
-constexpr double touchingDistance = 1e-9;   // relative to the size: below, the direction is lost to rounding [-]
+constexpr int maxIterations = 100;          // polyhedra need about 10, curved shapes 20
+constexpr double relativeAccuracy = 1e-12;  // relative to the distance [-]
+constexpr double touchingDistance = 1e-9;   // smallest distance with a reliable direction, relative to the size [-]
 
 bool hasPoint(const MinkowskiSimplex& simplex, const MinkowskiPoint& point)
 {
@@ -34,7 +34,7 @@ bool convexDistance(const MinkowskiDifference& difference, double maxDistance, S
     const Vec3& first = difference.m_soft[0];
     simplex.m_points[0] = difference.support(dot(first, first) > 0 ? -first : Vec3{1, 0, 0});
     simplex.m_count = 1;
-    Vec3 v = simplex.m_points[0].m_w;  // nearest point of the simplex to the origin
+    Vec3 v = simplex.m_points[0].m_w;  // point of the simplex nearest to the origin
     double size = norm(v);
     for (int iteration = 0; iteration < maxIterations; ++iteration)
     {

@@ -14,11 +14,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kGrid = 4;            // intervals along an axis of the grid that is asked whether there is a field
-constexpr double kInside = 1e-6;    // of the domain: how far within its sides a point is taken to be
-constexpr int kMostDescents = 24;   // queries of one triangle, beside its first seven
-constexpr double kFirstWay = 0.25;  // of the longest edge
-constexpr double kLastWay = 1e-3;   // likewise
+constexpr int kGrid = 4;            // intervals per axis of the grid that is sampled to see whether a field is loaded
+constexpr double kInside = 1e-6;    // how far queries stay within the domain, over its size
+constexpr int kMostDescents = 24;   // largest number of queries per triangle after the first seven
+constexpr double kFirstWay = 0.25;  // first step length over the longest edge
+constexpr double kLastWay = 1e-3;   // last step length over the longest edge
 
 struct FieldDomain
 {
@@ -39,7 +39,8 @@ struct FieldValue
     Vec3 m_normal;
 };
 
-// Bullet's query writes to nothing, though it is not const. Where the gradient vanishes, any direction is as good.
+// Value and normal at a point. Bullet's query is not const but does not write. A vanishing gradient gets a fixed
+// normal.
 bool valueAt(const btSdfCollisionShape& field, const Vec3& point, FieldValue& value)
 {
     btScalar distance;
@@ -131,7 +132,7 @@ bool triangleFieldDistance(const btSdfCollisionShape& field, const std::array<Ve
     for (int k = 0; k < kMostDescents && way > kLastWay * longest; ++k)
     {
         const TrianglePoint next = nearestOnTriangle(triangle, at - way * best.m_normal);
-        if (norm(next.m_point - at) < kLastWay * longest) break;  // the gradient is across
+        if (norm(next.m_point - at) < kLastWay * longest) break;  // the gradient is perpendicular to the triangle
         if (!take(next.m_point, next.m_weights)) way *= 0.5;
     }
     if (!(best.m_gap <= maxDistance)) return false;

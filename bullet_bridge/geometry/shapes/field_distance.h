@@ -9,27 +9,28 @@ class btSdfCollisionShape;
 namespace bullet_fem
 {
 
-/// The shape as Bullet's signed distance field, or null. Its type number is that of custom concave shapes, too.
+/// The shape as Bullet's signed distance field, or null. Other custom concave shapes have its type number, too.
 const btSdfCollisionShape* fieldOf(const btCollisionShape& shape);
 
-/// True if the field was loaded: somewhere on a coarse grid over its domain it has a value.
+/// True if the field is loaded: it has a value at some point of a coarse grid over its domain.
 bool isLoaded(const btSdfCollisionShape& field);
 
-/// True of shapes with an inside: convex ones and fields. Their distances are asked of points, edges and triangles.
+/// True for shapes with an inside: convex shapes and fields. They are tested with points, edges and triangles.
 bool isSolid(const btCollisionShape& shape);
 
-/// True of soups of two-sided triangles: concave shapes but planes and fields.
+/// True for sheets of two-sided triangles: concave shapes other than planes and fields.
 bool isSheet(const btCollisionShape& shape);
 
-/// Signed distance of a point in the field's frame, less its margin, with the normal in that frame. The field is the
-/// solid's distance in its domain, a box, and nothing of the solid is outside; beyond the box the gap is a lower bound,
-/// from what is known at its nearest point. Bullet ignores the scaling of fields, and so it is here. False, and
-/// `distance` untouched, where the field has no value, or it is farther than maxDistance [m].
+/// Signed distance between a point and a field less its margin, with the normal, both in the field's frame. The domain
+/// of the field is a box that contains the solid; outside of the box the gap is a lower bound from the value at the
+/// nearest point of the box. Scaling of the field is ignored, as Bullet does. False, with `distance` unchanged, where
+/// the field has no value, or if it exceeds maxDistance [m].
 bool pointFieldDistance(const btSdfCollisionShape& field, const Vec3& point, double maxDistance,
                         SurfaceDistance& distance);
 
-/// The point of a triangle, likewise in the field's frame, where the field is least nearby: down its gradient along the
-/// triangle from the best of corners, middles and centre [Macklin et al. 2020], to 1e-3 of the longest edge.
+/// The deepest point of a triangle, in the field's frame: gradient descent on the triangle from the best of corners,
+/// midpoints of edges and centroid [Macklin et al. 2020], to 1e-3 of the longest edge. Result and errors as for
+/// pointFieldDistance().
 bool triangleFieldDistance(const btSdfCollisionShape& field, const std::array<Vec3, 3>& triangle, double maxDistance,
                            SurfaceDistance& distance);
 

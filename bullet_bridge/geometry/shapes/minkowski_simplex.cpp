@@ -12,11 +12,11 @@ namespace bullet_fem
 namespace
 {
 
-/// The point of a face of the simplex nearest to the origin.
+/// The point of a face (sub-simplex) nearest to the origin.
 struct Nearest
 {
     Vec3 m_point;
-    std::array<double, 4> m_weights = {0, 0, 0, 0};  ///< by the simplex's numbering
+    std::array<double, 4> m_weights = {0, 0, 0, 0};  ///< of the simplex's points
 
     double squaredDistance() const { return dot(m_point, m_point); }
 };
@@ -50,7 +50,7 @@ Nearest nearestOnTriangle(const Points& p, int i, int j, int k)
     const double n2 = dot(n, n);
     if (n2 > 0)
     {
-        // Areas of the three triangles that the origin, projected on the plane, makes with the edges.
+        // Barycentric coordinates of the origin's projection on the plane, as ratios of areas.
         const double wa = dot(n, cross(b, c)) / n2, wb = dot(n, cross(c, a)) / n2, wc = dot(n, cross(a, b)) / n2;
         if (wa >= 0 && wb >= 0 && wc >= 0)
         {
@@ -59,7 +59,7 @@ Nearest nearestOnTriangle(const Points& p, int i, int j, int k)
             nearest.m_weights[j] = wb / (wa + wb + wc);
             nearest.m_weights[k] = wc / (wa + wb + wc);
             nearest.m_point =
-                n * (dot(n, a) / n2);  // exactly along the normal, where a sum of a, b, c is so to rounding
+                n * (dot(n, a) / n2);  // exactly along the normal, while a weighted sum of a, b, c has rounding errors
             return nearest;
         }
     }
@@ -69,10 +69,12 @@ Nearest nearestOnTriangle(const Points& p, int i, int j, int k)
                              { return e.squaredDistance() < f.squaredDistance(); });
 }
 
-/// Of the faces that the origin is outside of; a flat tetrahedron has the origin outside of all.
+/// The nearest point on the faces that have the origin on their outer side. A flat tetrahedron has it on the outer side
+/// of all.
 Nearest nearestOnTetrahedron(const Points& p, bool& inside)
 {
-    static const int faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};  // and the vertex opposite
+    // three corners and the opposite one
+    static const int faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
     Nearest nearest;
     double nearest2 = std::numeric_limits<double>::infinity();
     for (const auto& f : faces)

@@ -14,19 +14,21 @@ namespace
 
 constexpr int maxPoints = 96;
 constexpr int maxFaces = 2 * maxPoints;  // a closed surface of n points has 2 n - 4 triangles
-constexpr double flatness = 1e-11;       // relative to the size: what is nearer to a plane lies in it [-]
-constexpr double curvedAccuracy = 1e-6;  // relative to the size: finer polytopes of a round side are all slivers [-]
+constexpr double flatness = 1e-11;       // largest distance from a plane that counts as in it, relative to the size [-]
+constexpr double curvedAccuracy = 1e-6;  // relative to the size [-]: finer polytopes of curved cores consist of slivers
 
-/// The convex polytope that grows inside the difference until its face nearest to the origin lies on the boundary.
-/// A start that does not contain the origin is no harm: the faces that the origin is outside of are expanded first.
+/// The convex polytope of EPA: it grows inside the Minkowski difference until its face nearest to the origin lies on
+/// the boundary. A start polytope may exclude the origin: faces with the origin outside are expanded first.
 class Polytope
 {
 public:
     explicit Polytope(const MinkowskiDifference& difference) : m_difference(difference) {}
 
-    /// Takes four points of the difference that are well apart. False if it is flat: m_flatNormal is then across it.
+    /// Starts with a tetrahedron of well separated points. False if the difference is flat; m_flatNormal is then its
+    /// normal.
     bool start();
-    /// Expands the face nearest to the origin. False when that lies on the boundary, or nothing more can be gained.
+    /// Expands the face nearest to the origin. False if that face lies on the boundary, or rounding permits no
+    /// progress.
     bool expand();
     SurfaceDistance result() const;
 
@@ -37,7 +39,7 @@ private:
     {
         std::array<int, 3> m_points;  ///< counter-clockwise from outside
         Vec3 m_normal;                ///< unit, outward
-        double m_distance;            ///< of its plane from the origin [m]; negative if the origin is outside
+        double m_distance;  ///< signed distance of the origin below the face [m]; negative if the origin is outside
     };
     struct Edge
     {
@@ -64,7 +66,7 @@ void Polytope::addPoint(const MinkowskiPoint& point)
     m_size = std::max(m_size, norm(point.m_w));
 }
 
-/// False if the three points are on a line.
+/// False if the three points are collinear.
 bool Polytope::makeFace(int a, int b, int c, Face& face) const
 {
     const Vec3 ab = m_points[b].m_w - m_points[a].m_w, ac = m_points[c].m_w - m_points[a].m_w, n = cross(ab, ac);
@@ -75,7 +77,7 @@ bool Polytope::makeFace(int a, int b, int c, Face& face) const
     return true;
 }
 
-/// Index of the candidate whose projected distance from a point is largest.
+/// Index of the candidate with the largest projected distance from a point.
 int Polytope::farthestOf(const MinkowskiPoint* candidates, int count, const Vec3& from, const Mat3& projection) const
 {
     int farthest = 0;
@@ -97,7 +99,7 @@ bool Polytope::start()
     const Vec3 ab = m_points[1].m_w - a;
     if (!(norm(ab) > flatness * m_size)) return false;
 
-    // A direction across the line, from the axis that it is least along.
+    // A direction perpendicular to the line, from the axis that it is least parallel to.
     const Vec3 along = ab * (1 / norm(ab));
     int least = 0;
     for (int i = 1; i < 3; ++i)
@@ -120,7 +122,7 @@ bool Polytope::start()
     addPoint(tops[farthestOf(tops, 2, a, outer(n, n))]);
     const double top = dot(n, m_points[3].m_w - a);
     if (!(std::abs(top) > flatness * m_size)) return false;
-    if (top > 0) std::swap(m_points[1], m_points[2]);  // now the fourth point is below the first three
+    if (top > 0) std::swap(m_points[1], m_points[2]);  // the fourth point is now below the first three
 
     m_faceCount = 4;
     return makeFace(0, 1, 2, m_faces[0]) && makeFace(0, 3, 1, m_faces[1]) && makeFace(1, 3, 2, m_faces[2]) &&
@@ -133,8 +135,8 @@ int Polytope::nearestFace() const
     return int(std::min_element(m_faces.begin(), m_faces.begin() + m_faceCount, nearer) - m_faces.begin());
 }
 
-/// Removes the faces that see w, those in one plane with it included: a rim left in its plane would make slivers.
-/// Returns the number of edges around the hole.
+/// Removes the faces that are visible from w, coplanar ones included, which would leave slivers. Returns the number of
+/// edges of the horizon.
 int Polytope::openAround(const Vec3& w, std::array<Edge, 3 * maxFaces>& horizon)
 {
     int edges = 0, kept = 0;
@@ -178,8 +180,8 @@ bool Polytope::expand()
     bool closed = edges >= 3 && m_faceCount + edges <= maxFaces;
     for (int e = 0; closed && e < edges; ++e)
         closed = makeFace(horizon[e].m_from, horizon[e].m_to, m_pointCount - 1, m_faces[m_faceCount++]);
-    // Around the origin the nearest face of a growing convex polytope only moves outward. If not, rounding has broken
-    // it.
+    // With the origin inside, the nearest face of a growing convex polytope only moves outward. Otherwise rounding has
+    // broken the polytope.
     const bool isBroken =
         !closed || (best.m_distance > 0 && m_faces[nearestFace()].m_distance < best.m_distance - flatness * m_size);
     if (!isBroken) return true;
@@ -190,7 +192,7 @@ bool Polytope::expand()
 
 SurfaceDistance Polytope::result() const
 {
-    // A flat side of the difference is several triangles: take the one that the origin projects into.
+    // A flat side of the difference is several triangles: takes the one with the origin's projection.
     const Face& best = m_faces[nearestFace()];
     MinkowskiSimplex foot;
     double footDistance = -1;
@@ -210,7 +212,7 @@ SurfaceDistance Polytope::result() const
     return {-best.m_distance - m_difference.m_core.rounding(), -best.m_normal, foot.softBarycentric()};
 }
 
-/// Outward if the soft surface is: a rigid core in the very plane of a soft triangle came from outside.
+/// Orients the normal by the soft triangle: a core in its plane is taken to be outside of the soft body.
 Vec3 flatDirection(const MinkowskiDifference& difference, const Vec3& normal)
 {
     if (difference.m_softCount < 3) return normal;

@@ -18,13 +18,13 @@ Vec3 unitAxis(int axis)
     return e;
 }
 
-/// A distance in the half plane (r, y) of a solid of revolution.
+/// A signed distance and its gradient in the half plane (r, y) of a solid of revolution.
 struct ProfileDistance
 {
     double m_gap, m_normalR, m_normalY;
 };
 
-/// Distance and direction from (a, b) to (r, y); the fallback direction if they are one point.
+/// Distance and direction from (a, b) to (r, y); the fallback's direction if the points are equal.
 ProfileDistance fromPoint(double r, double y, double a, double b, const ProfileDistance& fallback)
 {
     const double d = std::hypot(r - a, y - b);
@@ -36,7 +36,7 @@ ProfileDistance fromPoint(double r, double y, double a, double b, const ProfileD
 struct Cylindrical
 {
     double m_r, m_y;
-    Vec3 m_radial;  ///< unit; a fixed one on the axis
+    Vec3 m_radial;  ///< unit; an arbitrary fixed one for points on the axis
 
     Cylindrical(const Vec3& p, int axis) : m_y(p[axis])
     {
@@ -93,8 +93,7 @@ PointDistance cylinderDistance(const Vec3& p, int axis, double radius, double ha
 PointDistance coneDistance(const Vec3& p, int axis, double radius, double halfHeight)
 {
     const Cylindrical c(p, axis);
-    // The profile is a triangle: the slant from the apex (0, halfHeight) to the rim (radius, -halfHeight), and the
-    // base.
+    // The profile is a triangle: base, and slant from the apex (0, halfHeight) to the rim (radius, -halfHeight).
     const double slant = std::hypot(radius, 2 * halfHeight);
     const double slantR = slant > 0 ? radius / slant : 0, slantY = slant > 0 ? -2 * halfHeight / slant : -1;
     const ProfileDistance side = {-slantY * c.m_r + slantR * (c.m_y - halfHeight), -slantY, slantR};
@@ -103,7 +102,7 @@ PointDistance coneDistance(const Vec3& p, int axis, double radius, double halfHe
     if (nearestFace.m_gap <= 0) return c.revolve(nearestFace, axis);
 
     if (base.m_gap > 0 && c.m_r <= radius) return c.revolve(base, axis);
-    const double along = slantR * c.m_r + slantY * (c.m_y - halfHeight);  // from the apex down the slant
+    const double along = slantR * c.m_r + slantY * (c.m_y - halfHeight);  // distance from the apex along the slant
     if (along <= 0) return c.revolve(fromPoint(c.m_r, c.m_y, 0, halfHeight, side), axis);
     if (along >= slant) return c.revolve(fromPoint(c.m_r, c.m_y, radius, -halfHeight, base), axis);
     return c.revolve(side, axis);

@@ -21,7 +21,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Closed-form distance to a shape in its frame; false for shapes that have none.
+/// Closed-form distance to a shape in its frame. False for shapes without one.
 bool primitiveDistance(const btCollisionShape& shape, const Vec3& p, PointDistance& d)
 {
     switch (shape.getShapeType())
@@ -63,7 +63,8 @@ bool primitiveDistance(const btCollisionShape& shape, const Vec3& p, PointDistan
     }
 }
 
-/// Distance of 1 or 3 local points to a convex shape or a field; the normal comes back in the world.
+/// Signed distance of a point (count 1) or triangle (count 3) in local coordinates to a convex shape or field; the
+/// normal is in world coordinates.
 bool solidShapeDistance(const ShapeLeaf& leaf, const Vec3* local, int count, double maxDistance,
                         SurfaceDistance& distance)
 {

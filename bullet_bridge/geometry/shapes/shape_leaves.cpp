@@ -19,8 +19,8 @@ namespace bullet_fem
 namespace
 {
 
-/// Bullet's rotations are orthonormal to float precision only. One Newton step of the polar decomposition,
-/// R <- R (3 I - R^T R) / 2, squares that error; a basis that is no rotation at all (scaled by a user) stays as it is.
+/// Bullet's rotations are orthonormal to float precision only. One Newton step of the polar decomposition, R <- R (3 I
+/// - R^T R) / 2, squares that error. A basis that is far from a rotation (scaled by a user) is left unchanged.
 Mat3 orthonormalised(const Mat3& R)
 {
     const Mat3 error = transposeTimes(R, R) - Mat3::identity();
@@ -35,13 +35,13 @@ Pose poseOf(const btTransform& transform)
             vec3(transform.getOrigin())};
 }
 
-/// A program's own class may have the type number of Bullet's: it is asked for its triangles.
+/// The mesh, if the class is Bullet's: a program's own class may use the type number of Bullet's.
 const btBvhTriangleMeshShape* bulletsMesh(const btCollisionShape& shape)
 {
     return dynamic_cast<const btBvhTriangleMeshShape*>(&shape);
 }
 
-/// Bullet divides by the scaling, and searches the tree without asking whether there is one.
+/// Bullet divides by the scaling, and searches the tree without checking that it exists.
 bool hasUsableTree(const btCollisionShape& shape)
 {
     if (shape.getShapeType() != SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE)
@@ -53,7 +53,8 @@ bool hasUsableTree(const btCollisionShape& shape)
     return scale.x * scale.y * scale.z != 0 && isFinite(scale) && hasUsableTree(*scaled->getChildShape());
 }
 
-/// Bullet's bounds are floats: asked for about the leaf's own origin, they keep their precision far from the world's.
+/// Bullet's bounds are floats. They are computed about the leaf's origin, so they stay precise far from the world's
+/// origin.
 void setBounds(ShapeLeaf& leaf)
 {
     if (isPlane(leaf))
@@ -69,7 +70,7 @@ void setBounds(ShapeLeaf& leaf)
                             btScalar(R(2, 2)));
     btVector3 boundsMin, boundsMax;
     leaf.m_shape->getAabb(btTransform(basis, btVector3(0, 0, 0)), boundsMin, boundsMax);
-    // Bullet forgets the margin of scaled and of GImpact meshes.
+    // Bullet omits the margin of scaled and of GImpact meshes.
     const double margin = leaf.m_shape->isConcave() ? double(leaf.m_shape->getMargin()) : 0;
     const double rounding = margin + 1e-6 * (norm(vec3(boundsMin)) + norm(vec3(boundsMax)));
     const Vec3 padding = {rounding, rounding, rounding};
@@ -79,7 +80,7 @@ void setBounds(ShapeLeaf& leaf)
 
 int collect(const btCollisionShape& shape, const Pose& pose, btAlignedObjectArray<ShapeLeaf>& leaves);
 
-/// A GImpact mesh is its parts, a GImpact compound its children. False if the shape is neither.
+/// A GImpact mesh consists of parts, a GImpact compound of children. False if the shape is neither.
 bool collectGImpact(const btCollisionShape& shape, const Pose& pose, btAlignedObjectArray<ShapeLeaf>& leaves,
                     int& unknown)
 {
@@ -147,7 +148,7 @@ bool isKnownShape(const btCollisionShape& shape)
             return static_cast<const btMultiSphereShape&>(shape).getSphereCount() > 0;
         case EMPTY_SHAPE_PROXYTYPE:
             return false;
-        case CUSTOM_CONCAVE_SHAPE_TYPE:  // and that of fields
+        case CUSTOM_CONCAVE_SHAPE_TYPE:  // the type number of fields, too
             if (const btSdfCollisionShape* field = fieldOf(shape)) return isLoaded(*field);
             [[fallthrough]];
         default:

@@ -28,7 +28,7 @@ struct MarkedBox
     btVector3 m_low, m_high;
 };
 
-// Bullet's trees bear no other.
+// True for finite boxes with ordered corners: Bullet's trees accept no others.
 bool isBox(const MarkedBox& box)
 {
     for (int c = 0; c < 3; ++c)
@@ -55,7 +55,7 @@ void addPlacement(std::uint64_t& mark, const btTransform& transform)
     addVector(mark, transform.getOrigin());
 }
 
-// In whatever order they come.
+// Sums the hashes of triangles, so that their order does not matter.
 class TriangleMarks : public btTriangleCallback
 {
 public:
@@ -79,7 +79,7 @@ std::uint64_t markOfSheet(const btCollisionShape& sheet, const MarkedBox& box)
     return marks.m_sum;
 }
 
-// Bounds alone do not tell a cylinder from one about another axis, nor a box from a wedge.
+// Adds extreme points: bounds alone do not distinguish cylinders of different axes, or a box from a wedge.
 void addExtremes(std::uint64_t& mark, const btConvexShape& shape)
 {
     constexpr int kDirections = 8;
@@ -102,7 +102,7 @@ void addConvex(std::uint64_t& mark, const btCollisionShape& shape)
     for (int i = 0; i < hull.getNumPoints(); ++i) addVector(mark, hull.getUnscaledPoints()[i]);
 }
 
-// By its domain, and by its values where the body is.
+// Hashes the domain and the values at the corners of the body's box.
 void addField(std::uint64_t& mark, const btSdfCollisionShape& field, const MarkedBox& box)
 {
     btVector3 low, high;
@@ -136,7 +136,7 @@ std::uint64_t markOfChildInside(const btCollisionShape& child, const btTransform
     return TestAabbAgainstAabb2(low, high, box.m_low, box.m_high) ? markOfChild(child, placement, box) : 0;
 }
 
-// Down the compound's own tree: of a level of thousands of pieces a body sees a few.
+// Traverses the compound's tree: a body is near a few children of possibly thousands.
 std::uint64_t markOfBranch(const btCompoundShape& compound, const btDbvtNode* node, const MarkedBox& box)
 {
     if (!node || !TestAabbAgainstAabb2(node->volume.Mins(), node->volume.Maxs(), box.m_low, box.m_high)) return 0;
@@ -146,7 +146,7 @@ std::uint64_t markOfBranch(const btCompoundShape& compound, const btDbvtNode* no
     return markOfChild(*compound.getChildShape(child), compound.getChildTransform(child), box);
 }
 
-// Sums: Bullet gives children other numbers when one goes.
+// Sums the hashes of children: their order changes when Bullet removes one.
 std::uint64_t markOfChildren(const btCompoundShape& compound, const MarkedBox& box)
 {
     if (const btDbvt* tree = compound.getDynamicAabbTree()) return markOfBranch(compound, tree->m_root, box);

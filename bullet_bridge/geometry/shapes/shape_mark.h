@@ -12,11 +12,11 @@ class btTransform;
 namespace bullet_fem
 {
 
-/// A number that another shape has not, for comparison: of what a body in the world box from `low` to `high` [m] can
-/// touch of a shape that stands at `transform`. Of convex shapes it is all, told by bounds, margin, scaling, and
-/// corners or eight extreme points; of compounds, children that reach into the box; of meshes and heightfields, the
-/// triangles there. It knows values, not addresses: an equal shape elsewhere has the same mark. Shapes that
-/// collectShapeLeaves leaves out are told by their type alone; a box that is none holds nothing. Never allocates.
+/// A hash of the part of a shape at `transform` that a body in the world box from `low` to `high` [m] can be in contact
+/// with; used to detect changes. Convex shapes are hashed completely, by bounds, margin, scaling, and corners or eight
+/// support points; compounds by the children that overlap the box; meshes and heightfields by the triangles in it. It
+/// depends on values, not on addresses: equal shapes have equal hashes. Shapes that collectShapeLeaves() omits are
+/// hashed by their type alone. An invalid box contains nothing. Never allocates.
 std::uint64_t markOfShape(const btCollisionShape& shape, const btTransform& transform, const Vec3& low,
                           const Vec3& high);
 

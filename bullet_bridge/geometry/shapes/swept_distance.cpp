@@ -15,13 +15,15 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kSafeAdvances = 24;      // by the bound; translation takes less than 10
-constexpr int kMaxAdvances = 40;       // the others go by the closing speed itself (Newton's method)
-constexpr double kAccuracy = 1e-6;     // gap that counts as touching, relative to the thickness [-]
-constexpr double kLeast = 1e-8;        // and to the greatest extent, for sheets; below, GJK loses the direction
-constexpr double kFastFraction = 0.5;  // travel, relative to an edge or the thickness, that is fast [-]
-constexpr double kThinnest = 0.2;      // edges; shapes count as no thinner
-constexpr double kSlowSpeed = 2;       // times what gravity gives in a step: up to it bodies at rest are not fast [-]
+constexpr int kSafeAdvances = 24;   // by the upper bound of the closing speed; pure translation takes less than 10
+constexpr int kMaxAdvances = 40;    // the others by the closing speed itself (Newton's method)
+constexpr double kAccuracy = 1e-6;  // gap that counts as zero, relative to the thickness [-]
+constexpr double kLeast = 1e-8;     // smallest such gap, relative to the largest extent [-]; below, GJK has no reliable
+                                    // direction
+constexpr double kFastFraction = 0.5;  // travel that counts as fast, relative to an edge or the thickness [-]
+constexpr double kThinnest = 0.2;      // smallest thickness of shapes here, in edges
+constexpr double kSlowSpeed = 2;       // multiple of the speed that gravity adds in a step up to which bodies count as
+                                       // resting [-]
 
 /// Rodrigues' formula: the rotation by the vector w, about it, by its length [rad].
 Mat3 rotationBy(const Vec3& w)
@@ -44,7 +46,8 @@ double axisDistance(const RigidMotion& motion, const Vec3& point)
     return spin > 0 ? norm(cross(motion.m_angularVelocity, point - motion.m_center)) / spin : 0;
 }
 
-/// Sets what depends on the shape's box in its own frame: its extents, and its farthest corner from the axis of spin.
+/// Sets the values that depend on the shape's local bounding box: extents, and the largest distance from the axis of
+/// rotation.
 void measure(SweptShape& swept)
 {
     btVector3 low, high;
@@ -53,7 +56,7 @@ void measure(SweptShape& swept)
     swept.m_thickness = std::min({extent.x, extent.y, extent.z});
     swept.m_accuracy = std::max(kAccuracy * swept.m_thickness, kLeast * std::max({extent.x, extent.y, extent.z}));
     swept.m_spinRadius = axisDistance(swept.m_motion, swept.m_leaf.m_pose.m_origin);
-    if (swept.m_leaf.m_shape->getShapeType() == SPHERE_SHAPE_PROXYTYPE) return;  // turns in itself
+    if (swept.m_leaf.m_shape->getShapeType() == SPHERE_SHAPE_PROXYTYPE) return;  // a sphere rotates in itself
     for (int corner = 0; corner < 8; ++corner)
     {
         const Vec3 local = {double(corner & 1 ? low.x() : high.x()), double(corner & 2 ? low.y() : high.y()),
@@ -63,7 +66,7 @@ void measure(SweptShape& swept)
     }
 }
 
-/// A feature's velocities relative to the rigid centre, in numbers that bound how fast a gap can close.
+/// Upper bounds of the speed at which the gap between a shape and a feature closes.
 class ClosingBound
 {
 public:
@@ -73,7 +76,7 @@ public:
         for (int i = 0; i < feature.m_count; ++i)
         {
             const double speed = norm(feature.m_velocity[i] - shape.m_motion.m_linearVelocity);
-            m_speed = std::max(m_speed, speed);  // what is not a number makes distanceAt() fail
+            m_speed = std::max(m_speed, speed);  // NaN makes distanceAt() fail
             reach = std::max(reach, norm(feature.m_position[i] - shape.m_motion.m_center) + shape.m_step * speed);
         }
         if (!isPlane(shape.m_leaf)) reach = shape.m_spinRadius;
@@ -81,11 +84,11 @@ public:
         if (spin != 0) m_speed += spin * reach;
     }
 
-    /// In any direction [m/s]; not finite if a number of the motion is not.
+    /// Bound for all directions [m/s]; not finite if the motion is not.
     double speed() const { return m_speed; }
 
-    /// Along a normal of the present, until the step ends [m/s]. A point of the shape moves along n with
-    /// n . (V + w x r) = n . V + r . (n x w), of which only the part of r across w counts. A plane has no farthest r.
+    /// Bound along a present normal until the end of the step [m/s]. A point of the shape moves along n with n . (V + w
+    /// x r) = n . V + r . (n x w), so only the part of r perpendicular to w counts. A plane has no largest r.
     double along(const Vec3& normal) const
     {
         const RigidMotion& motion = m_shape.m_motion;
@@ -103,7 +106,7 @@ private:
     double m_speed = 0;
 };
 
-/// Distance as it is at a time.
+/// Signed distance at a time.
 bool distanceAt(const SweptShape& shape, const SweptFeature& feature, double time, double reach, SurfaceDistance& d)
 {
     const ShapeLeaf leaf = {shape.m_leaf.m_shape, shape.poseAt(time), {}, {}};
@@ -132,13 +135,13 @@ bool distanceAt(const SweptShape& shape, const SweptFeature& feature, double tim
     return found;
 }
 
-/// What is known at a time of the advance.
+/// State of the advancement at a time.
 struct Approach
 {
     double m_time;
-    SurfaceDistance m_surface;  // its gap less the offset
+    SurfaceDistance m_surface;  // the gap is less the offset
     Vec3 m_arm;
-    double m_closing;  // speed at which the nearest points close [m/s]
+    double m_closing;  // closing speed of the nearest points [m/s]
 };
 
 Approach approachAt(const SweptShape& shape, const SweptFeature& feature, double time, const SurfaceDistance& d)
@@ -155,8 +158,8 @@ Approach approachAt(const SweptShape& shape, const SweptFeature& feature, double
     return {time, d, arm, dot(d.m_normal, rigidVelocity - velocity)};
 }
 
-/// The contact by the gap and closing speed reached: the row's gap is that which the step would have begun with, had
-/// the two closed at this speed all the time.
+/// The contact from the present gap and closing speed. The gap of its row is the one from which the pair, closing at
+/// this speed since the start of the step, would have reached the present gap.
 bool touchFrom(const Approach& at, double step, SweptContact& contact)
 {
     const double arrival = at.m_time + std::max(at.m_surface.m_gap, 0.0) / at.m_closing;
@@ -179,7 +182,8 @@ SweptShape::SweptShape(const ShapeLeaf& leaf, const RigidMotion& motion, double 
         return;
     }
     measure(*this);
-    m_spinReach = std::min(2.0, norm(motion.m_angularVelocity) * step) * m_spinRadius;  // the arc, or the diameter
+    // bounded by the arc and the diameter
+    m_spinReach = std::min(2.0, norm(motion.m_angularVelocity) * step) * m_spinRadius;
     const Vec3 travel = step * motion.m_linearVelocity;
     for (int c = 0; c < 3; ++c)
     {
@@ -232,7 +236,7 @@ bool mayMeet(const SweptShape& shape, const SweptFeature& feature, double reach)
         }
         if (low > shape.m_boundsMax[c] + reach || high < shape.m_boundsMin[c] - reach) return false;
     }
-    // Seen from the shape, the first corner goes along a segment, and the others stay within a radius of it.
+    // Relative to the shape, the first corner moves along a segment, and the other corners stay within a radius of it.
     const Vec3 way = h * (feature.m_velocity[0] - shape.m_motion.m_linearVelocity);
     double radius = 0;
     for (int i = 1; i < feature.m_count; ++i)
@@ -268,7 +272,7 @@ bool sweptDistance(const SweptShape& shape, const SweptFeature& feature, double 
         }
         const bool isSafe = advance < kSafeAdvances;
         const double closing = isSafe ? bound.along(d.m_normal) : now.m_closing;
-        if (!(closing > 0)) return false;  // by the bound: a plane across the normal parts them from now on
+        if (!(closing > 0)) return false;  // by the bound, the pair separates from now on
         if ((isSafe ? d.m_gap : std::fabs(d.m_gap)) <= accuracy && now.m_closing > 0)
             return touchFrom(now, step, contact);
         const double time = now.m_time + (isSafe ? std::max(d.m_gap, accuracy) : d.m_gap) / closing;

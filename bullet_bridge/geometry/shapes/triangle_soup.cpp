@@ -16,10 +16,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPrecision = 2e-7;   // of Bullet's coordinates, relative to their size [-]
-constexpr double kSliver = 1e-6;      // twice the area over the longest edge squared [-]
-constexpr double kOnFace = 1e-6;      // barycentric coordinates above minus this are within [-]
-constexpr double kNotNearer = 1e-12;  // relative difference of distances that is rounding [-]
+constexpr double kPrecision = 2e-7;   // of Bullet's coordinates, relative to their magnitude [-]
+constexpr double kSliver = 1e-6;      // smallest ratio of twice the area and the longest edge squared [-]
+constexpr double kOnFace = 1e-6;      // tolerance of barycentric coordinates inside a triangle [-]
+constexpr double kNotNearer = 1e-12;  // relative rounding error of distances [-]
 constexpr int kCellsPerTriangle = 4;
 
 struct Box
@@ -27,7 +27,7 @@ struct Box
     Vec3 m_low, m_high;
 };
 
-/// The bounds of a world box in a leaf's frame, enlarged by the precision of Bullet's single precision.
+/// The bounding box of a world box in a leaf's frame, enlarged by the rounding of Bullet's single precision.
 Box localBox(const Pose& pose, const Box& world)
 {
     const Vec3 center = pose.toLocal(0.5 * (world.m_low + world.m_high)), half = 0.5 * (world.m_high - world.m_low);
@@ -39,7 +39,7 @@ Box localBox(const Pose& pose, const Box& world)
     return {center - reach, center + reach};
 }
 
-/// A program's own shape may hand over all its triangles, whatever the box.
+/// True if the shape reports triangles in the box only. A program's own shape may report all of its triangles.
 bool looksAtBox(const btCollisionShape& sheet)
 {
     const int type = sheet.getShapeType();
@@ -56,7 +56,7 @@ bool overlaps(const Box& box, const btVector3* corners)
     return true;
 }
 
-/// Keeps the triangles that the shape says are in the box, if it looks at it.
+/// Collects the triangles in the box.
 class Collector : public btTriangleCallback
 {
 public:
@@ -88,7 +88,7 @@ private:
     std::vector<SoupTriangle>& m_triangles;
 };
 
-/// Like btGImpactMeshShapePart::processAllTriangles, which allocates: down the part's own box tree.
+/// Replaces btGImpactMeshShapePart::processAllTriangles, which allocates: traverses the part's own box tree.
 void processGImpactPart(const btGImpactMeshShapePart& part, const btAABB& box, btTriangleCallback& visitor)
 {
     const btGImpactBoxSet& tree = *part.getBoxSet();
@@ -135,7 +135,7 @@ void TriangleSoup::collect(const ShapeLeaf& leaf, const Vec3& low, const Vec3& h
     buildGrid();
 }
 
-// Counting sort of the triangles into cells.
+// Sorts the triangles into grid cells by a counting sort.
 void TriangleSoup::buildGrid()
 {
     m_bounds.clear();
@@ -161,7 +161,8 @@ void TriangleSoup::buildGrid()
     m_tolerance = kPrecision * largest;
     m_low = soupLow - Vec3{m_tolerance, m_tolerance, m_tolerance};
     m_high = soupHigh + Vec3{m_tolerance, m_tolerance, m_tolerance};
-    for (std::array<Vec3, 2>& b : m_bounds)  // else a flat one's bounds have no width, and its own corners may miss it
+    // otherwise the bounds of a flat triangle have no width and may miss its corners
+    for (std::array<Vec3, 2>& b : m_bounds)
     {
         b[0] -= {m_tolerance, m_tolerance, m_tolerance};
         b[1] += {m_tolerance, m_tolerance, m_tolerance};
@@ -185,7 +186,7 @@ void TriangleSoup::buildGrid()
         forCells(m_cells[t], [this, t](int cell) { m_cellTriangles[--m_cellStart[cell]] = t; });
 }
 
-// Cells as large as a usual triangle, but not many more than there are triangles.
+// Chooses cells of the size of an average triangle, at most about four per triangle.
 void TriangleSoup::chooseCells()
 {
     double sum = 0;

@@ -18,52 +18,52 @@ namespace bullet_fem
 struct SoupTriangle
 {
     Corners m_corners;  ///< world [m]
-    Vec3 m_normal;      ///< unit, by the winding, which says nothing about the side
-    int m_part = 0;     ///< Bullet's numbers of it
+    Vec3 m_normal;      ///< unit, by the order of corners, which does not tell the outside
+    int m_part = 0;     ///< Bullet's numbers of its part and of the triangle
     int m_index = 0;
 };
 
-/// Hands the visitor the triangles of a sheet (see ShapeLeaf) that overlap a box, both in the sheet's frame. The box
-/// must be finite. Never allocates.
+/// Calls the visitor for the triangles of a sheet (see ShapeLeaf) that overlap a box, both in the sheet's frame. The
+/// box must be finite. Never allocates.
 void forEachTriangle(const btCollisionShape& sheet, const btVector3& low, const btVector3& high,
                      btTriangleCallback& visitor);
 
-/// Where a straight path meets the soup first.
+/// The first intersection of a segment with the soup.
 struct SoupCrossing
 {
-    int m_triangle = -1;  ///< -1: nowhere
-    double m_along = 0;   ///< share of the path [-], in [0, 1]
-    Vec3 m_normal;        ///< unit, of the plane that is crossed, to the side where the path begins
+    int m_triangle = -1;  ///< -1: none
+    double m_along = 0;   ///< position on the segment [-], in [0, 1]
+    Vec3 m_normal;        ///< unit normal of the triangle's plane, to the side of the segment's start
 };
 
-/// The triangles of a concave leaf near a soft body, in a grid. A mesh is taken for a soup of two-sided sheets:
-/// Bullet's meshes need be neither closed nor wound alike. Slivers, whose normal is lost in single precision, and
-/// triangles that are not finite are left out. Scratch that grows with the number of triangles and never shrinks; not
-/// for several threads.
+/// The triangles of a concave leaf near a soft body, in a uniform grid. Bullet's meshes need be neither closed nor
+/// consistently oriented, so they are treated as soups of two-sided triangles. Slivers, whose normals are lost in
+/// single precision, and triangles that are not finite are omitted. Scratch grows with the number of triangles, never
+/// shrinks. Not thread-safe.
 class TriangleSoup
 {
 public:
-    /// Takes the leaf's triangles that overlap a world box; none if the leaf is not concave.
+    /// Collects the leaf's triangles that overlap a world box [m]; none if the leaf is not concave.
     void collect(const ShapeLeaf& leaf, const Vec3& low, const Vec3& high);
 
     const std::vector<SoupTriangle>& triangles() const { return m_triangles; }
 
-    /// Calls visit(index) once for every triangle whose bounds overlap a box, in an order that depends on the triangles
-    /// and the box alone. Visits may nest.
+    /// Calls visit(index) once for each triangle whose bounds overlap a box. The order depends only on the triangles
+    /// and the box. Calls may be nested.
     template <class Visit>
     void forEachIn(const Vec3& low, const Vec3& high, Visit visit) const;
 
-    /// Calls visit(index) for the triangles that a point of the soup lies on.
+    /// Calls visit(index) for the triangles that contain a point of the soup.
     template <class Visit>
     void forEachAround(const Vec3& q, Visit visit) const;
 
-    /// The first triangle between two points, or that the path comes nearer to than `clearance` [m] at its end.
+    /// The first triangle that the segment crosses, or that is closer than `clearance` [m] to its end.
     SoupCrossing firstCrossing(const Vec3& from, const Vec3& to, double clearance = 0) const;
 
-    /// True if no other triangle at q, a point of the soup at a distance from p, comes nearer to p.
+    /// True if no other triangle at q comes closer to p. q is a point of the soup at `distance` [m] from p.
     bool isNearestAround(const Vec3& q, const Vec3& p, double distance) const;
 
-    /// Length below which points are taken for one [m]: the precision of Bullet's coordinates.
+    /// Distance below which points count as equal [m]: the precision of Bullet's coordinates.
     double tolerance() const { return m_tolerance; }
 
 private:
@@ -78,16 +78,17 @@ private:
     int cellIndex(int i, int j, int k) const { return i + m_counts[0] * (j + m_counts[1] * k); }
 
     std::vector<SoupTriangle> m_triangles;
-    std::vector<Cells> m_cells;                     // of the triangles
-    std::vector<std::array<Vec3, 2>> m_bounds;      // of the triangles
-    std::vector<int> m_cellStart, m_cellTriangles;  // the triangles of cell c: m_cellStart[c] ... m_cellStart[c + 1]
-    Vec3 m_low, m_high;                             // of the triangles, within the box that was asked for
-    std::array<int, 3> m_counts = {1, 1, 1};        // cells along the axes
+    std::vector<Cells> m_cells;                     // per triangle
+    std::vector<std::array<Vec3, 2>> m_bounds;      // per triangle
+    std::vector<int> m_cellStart, m_cellTriangles;  // the triangles of cell c are those from m_cellStart[c] to
+                                                    // m_cellStart[c + 1]
+    Vec3 m_low, m_high;                             // bounds of the triangles within the collected box
+    std::array<int, 3> m_counts = {1, 1, 1};        // number of cells along the axes
     double m_cell = 1;                              // size of a cell [m]
     double m_tolerance = 0;
 };
 
-/// Nearest point of a triangle; projections that miss it by rounding count as within.
+/// Nearest point of a triangle; m_onFace is true if the projection is inside, up to rounding.
 struct SoupPoint
 {
     Vec3 m_point;
@@ -112,7 +113,7 @@ void TriangleSoup::forEachIn(const Vec3& low, const Vec3& high, Visit visit) con
                     bool overlap = true;
                     for (int c = 0; c < 3; ++c) overlap = overlap && low[c] <= tHigh[c] && high[c] >= tLow[c];
                     if (!overlap) continue;
-                    // Once: in the first cell that the triangle and the box share.
+                    // Visits it only in the first cell that triangle and box share.
                     const Cells& own = m_cells[t];
                     if (i == std::max(own.m_low[0], box.m_low[0]) && j == std::max(own.m_low[1], box.m_low[1]) &&
                         k == std::max(own.m_low[2], box.m_low[2]))

@@ -10,12 +10,14 @@
 namespace bullet_fem
 {
 
-/// A plane across the way between two surfaces, which one of them lies behind: what of the other stays in front of it
-/// by more than is looked for touches nothing. Boxes along the axes cannot tell where surfaces meet at an angle.
+/// A separating plane between two surfaces. Points of one surface that stay in front of the plane by more than the
+/// search distance have no contact with the surface behind it. Axis-aligned boxes cannot tell this where surfaces meet
+/// at an angle.
 class BeyondPlane
 {
 public:
-    /// The plane through the point of `surface` that is farthest in a direction (unit). `steps`: how long things move.
+    /// The plane through the point of `surface` that is farthest in a direction (unit). `steps`: time of the motion, in
+    /// steps.
     BeyondPlane(const SoftSurface& surface, const Vec3& direction, int steps) : m_direction(direction), m_steps(steps)
     {
         for (int i : surface.nodes())
@@ -25,11 +27,11 @@ public:
         }
     }
 
-    /// Signed distance of a point [m].
+    /// Signed distance of a point in front of the plane [m].
     double distance(const Vec3& x) const { return dot(m_direction, x) - m_most; }
 
-    /// True if points at x and y that move by dx and dy in a step, and all between them, stay farther than `near` [m]
-    /// at the start, and than `band` [m] on their way.
+    /// True if points at x and y with displacements dx and dy per step, and all points between them, stay farther than
+    /// `near` [m] at the start and farther than `band` [m] during the motion.
     bool isBeyond(const Vec3& x, const Vec3& dx, const Vec3& y, const Vec3& dy, double near, double band) const
     {
         const double start = std::min(distance(x), distance(y)) - 1e-12 * (std::fabs(m_most) + near);

@@ -11,11 +11,11 @@
 namespace bullet_fem
 {
 
-/// Two boxes beside each other, which are calculated with as one; at first around nothing.
+/// Two axis-aligned boxes that are processed together as SIMD lanes; initially empty.
 class BoxPair
 {
 public:
-    /// Those of two triangles with corners at x.
+    /// The bounding boxes of two triangles with corners at x.
     static BoxPair of(const std::vector<Vec3>& x, const Triangle& first, const Triangle& second)
     {
         BoxPair pair;
@@ -29,7 +29,7 @@ public:
         return pair;
     }
 
-    /// Those around two pairs.
+    /// The bounding boxes of two pairs.
     static BoxPair around(const BoxPair& first, const BoxPair& second)
     {
         BoxPair pair;
@@ -43,7 +43,7 @@ public:
         return pair;
     }
 
-    /// The same as VectorBounds::squaredDistance of each.
+    /// Squared distances of p to both boxes [m2], equal to VectorBounds::squaredDistance of each.
     DoubleLanes squaredDistances(const Vec3& p) const
     {
         const DoubleLanes none = {};

@@ -16,14 +16,14 @@ inline float coarse(double length)
     return static_cast<float>(length) * (1 + 1e-6f);
 }
 
-/// A SweptBox in single precision, rounded outward, for quick answers: these may be yes where the exact one is no,
-/// never the other way round, wherever in the world the box is.
-struct alignas(64) CoarseBox  // a cache line
+/// A SweptBox in single precision, rounded outward, for conservative tests: they may say yes where the exact test says
+/// no, but never the reverse, anywhere in the world.
+struct alignas(64) CoarseBox  // one cache line
 {
     FloatLanes m_low, m_high;              ///< at the start [m]; the fourth component is 0
-    FloatLanes m_changeLow, m_changeHigh;  ///< [m]
+    FloatLanes m_changeLow, m_changeHigh;  ///< displacement in a step [m]
 
-    /// Of nothing: meets nothing.
+    /// The empty box: it meets no other.
     static CoarseBox empty()
     {
         constexpr float kMost = std::numeric_limits<float>::max();
@@ -33,7 +33,7 @@ struct alignas(64) CoarseBox  // a cache line
 
     bool isEmpty() const { return m_low[0] > m_high[0]; }
 
-    /// A point that moves by `change`.
+    /// The box of a point with displacement `change`.
     static CoarseBox of(const Vec3& point, const Vec3& change)
     {
         const FloatLanes x = {static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z), 0};
@@ -50,22 +50,22 @@ struct alignas(64) CoarseBox  // a cache line
         m_changeHigh = laneMax(m_changeHigh, b.m_changeHigh);
     }
 
-    /// Makes it hold for so many steps of the same motion.
+    /// Extends the motion to a number of steps at constant velocity.
     void last(int steps)
     {
         m_changeLow *= static_cast<float>(steps);
         m_changeHigh *= static_cast<float>(steps);
     }
 
-    /// False only if no two points of this and the other are within `reach` [m] of each other at the start.
+    /// False only if all points of the boxes are farther than `reach` [m] apart at the start.
     bool startsWithin(const CoarseBox& b, float reach) const
     {
         const FloatLanes apart = laneMax(m_low - b.m_high, b.m_low - m_high);
         return !isAny(kShrink * apart > reach);
     }
 
-    /// False only if no two points of this and the other come within `reach` [m] of each other, moving relative to each
-    /// other in a straight line: what both have in common does not matter.
+    /// False only if no points of the two boxes come within `reach` [m] of each other in straight relative motion; a
+    /// common motion has no effect.
     bool meets(const CoarseBox& b, float reach) const
     {
         const FloatLanes none = {};
@@ -74,15 +74,15 @@ struct alignas(64) CoarseBox  // a cache line
         return !isAny(laneMax(above, below) > reach);
     }
 
-    /// Sum of the sides at the start [m].
+    /// Sum of the side lengths at the start [m].
     float extent() const { return (m_high[0] - m_low[0]) + (m_high[1] - m_low[1]) + (m_high[2] - m_low[2]); }
 
-    // More than what four operations round away. Where boxes are apart, all they take is a share of the distance at the
-    // start: of two values that are near each other the difference is exact.
+    // Covers the rounding of four operations. Rounding matters only where boxes are apart, and there it is relative to
+    // the distance at the start: the difference of close values is exact.
     static constexpr float kShrink = 1 - 1e-6f;
 
 private:
-    // More than what rounding to single precision can have changed.
+    // Upper bound of the error of rounding to single precision.
     static FloatLanes rounding(const FloatLanes& a)
     {
         constexpr FloatLanes kTiny = {std::numeric_limits<float>::min(), std::numeric_limits<float>::min(),

@@ -7,14 +7,15 @@
 namespace bullet_fem
 {
 
-/// Four floats that are calculated with as one: a vector of GCC and Clang, which is SSE2 or NEON.
+/// Four floats of a SIMD vector (vector extension of GCC and Clang: SSE2 or NEON).
 using FloatLanes = float __attribute__((vector_size(16)));
-using LaneMask = std::int32_t __attribute__((vector_size(16)));  ///< of comparisons: all bits set where they hold
+using LaneMask = std::int32_t __attribute__((vector_size(16)));  ///< result of comparisons: all bits of a lane are set
+                                                                 ///< where it is true
 
-/// Likewise, two doubles.
+/// Two doubles of a SIMD vector.
 using DoubleLanes = double __attribute__((vector_size(16)));
 
-// As std::min and std::max in every lane.
+// std::min and std::max per lane.
 template <class Lanes>
 Lanes laneMin(const Lanes& a, const Lanes& b)
 {

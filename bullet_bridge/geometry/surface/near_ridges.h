@@ -10,49 +10,49 @@
 namespace bullet_fem
 {
 
-/// The ridges of a surface that are near another one, beside each other in memory and four in a vector: most pairs of
-/// them are ruled out before anything else of the surfaces is read. Grows, never shrinks.
+/// The ridges of a surface that are near another surface, contiguous in memory, four per SIMD vector: most pairs are
+/// rejected without access to the surfaces. Grows, never shrinks.
 class NearRidges
 {
 public:
     struct Item
     {
         SurfaceRidges::Ridge m_ridge;
-        int m_leaf;       ///< node of the tree
+        int m_leaf;       ///< node of the surface's tree
         CoarseBox m_box;  ///< swept over SurfaceRidges::kSteps steps
     };
 
-    /// Some that follow each other in the tree.
+    /// Consecutive ridges with a common bounding box.
     struct Run
     {
-        CoarseBox m_box;  ///< around theirs
+        CoarseBox m_box;  ///< bounding box of their boxes
         int m_first, m_end;
     };
 
-    /// Around the leaves of a surface with ridges that come within a distance [m] of a box within the step.
+    /// Bounding box of the leaves with ridges that come within `reach` [m] of a box within the step.
     static CoarseBox bounds(const SoftSurface& surface, const CoarseBox& box, double reach);
 
-    /// Where the other surface is, and what of it is near.
+    /// The other surface as input of the search.
     struct Other
     {
-        CoarseBox m_box;      ///< around what may touch
-        BeyondPlane m_plane;  ///< all of it lies behind
-        double m_near;        ///< distance at the start [m]
-        double m_band;        ///< and on the way [m]
+        CoarseBox m_box;      ///< bounding box of its part that may be in contact
+        BeyondPlane m_plane;  ///< a plane that it lies behind
+        double m_near;        ///< search distance at the start [m]
+        double m_band;        ///< search distance during the motion [m]
     };
 
-    /// The ridges in these leaves, without what stays beyond the plane. Positions are kept relative to `origin`, so
-    /// that single precision holds them wherever in the world they are.
+    /// Lists the ridges near `other` that do not stay beyond its plane. Positions are stored relative to `origin`, so
+    /// that single precision suffices anywhere in the world.
     void list(const SoftSurface& surface, const Other& other, const Vec3& origin);
 
     void clear();
 
-    /// The largest component of a position [m].
+    /// Largest component of a stored position [m].
     double extent() const { return m_extent; }
 
     const Item& operator[](int k) const { return m_items[k]; }
     const std::vector<Run>& runs() const { return m_runs; }
-    /// Number k is in block k / 4; unused places of the last one meet nothing.
+    /// The block of ridge k, which is lane k % 4 of it. Unused lanes of the last block meet nothing.
     const RidgeLanes& block(int k) const { return m_blocks[k]; }
 
 private:

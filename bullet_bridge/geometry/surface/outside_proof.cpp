@@ -10,8 +10,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kProofFacingCosine = 0.01;  // cosine from which a triangle does
-constexpr double kRoundingShare = 1e-9;      // share of lengths that rounding may take
+constexpr double kProofFacingCosine = 0.01;  // largest cosine between a triangle's normal and the direction at which it
+                                             // faces away
+constexpr double kRoundingShare = 1e-9;      // relative rounding error of lengths
 
 }  // namespace
 

@@ -7,29 +7,29 @@
 namespace bullet_fem
 {
 
-/// A quick proof that points in front of a closed surface, seen along a direction, are outside of it and far from it,
-/// for those of which it would be found out by looking for the nearest triangle.
+/// A cheap sufficient test that points in front of a closed surface along a direction are outside of it and far from
+/// it, in agreement with the search for the nearest triangle.
 ///
-/// A point is as far from the surface as it is in front of all vertices. The nearest point of the surface is no farther
-/// than its foremost vertex; if no triangle that turns its back is so near, those at the nearest point all face
-/// forward, and so does the normal there that tells outside from inside: however the rest of the surface may be
-/// crumpled, the search for the nearest triangle would say the same.
+/// The distance of a point from the surface is at least its height in front of all vertices. The nearest point of the
+/// surface is at most as far as the foremost vertex. If no triangle that faces away is that close, all triangles at the
+/// nearest point face forward, and so does the normal there that tells inside from outside. The search for the nearest
+/// triangle would thus agree, even if other parts of the surface are crumpled.
 class OutsideProof
 {
 public:
-    /// No point is outside of this.
+    /// Proves nothing: isFarOutside() is always false.
     OutsideProof() = default;
 
-    /// Seen along a unit vector, from the surface to the points.
+    /// `direction` is a unit vector from the surface to the points.
     OutsideProof(const SoftSurface& surface, const Vec3& direction);
 
-    /// False wherever it cannot be proved that x [m] is outside and farther from the surface than `distance` [m].
+    /// True if x [m] is proved to be outside and farther from the surface than `distance` [m].
     bool isFarOutside(const Vec3& x, double distance) const;
 
 private:
     Vec3 m_direction, m_foremost;
-    double m_front = VectorBounds::kInfinity;  // of the foremost vertex, along the direction [m]
-    double m_back = -VectorBounds::kInfinity;  // likewise, of those of triangles that turn their backs
+    double m_front = VectorBounds::kInfinity;  // position of the foremost vertex along the direction [m]
+    double m_back = -VectorBounds::kInfinity;  // foremost vertex of triangles that face away, along the direction [m]
 };
 
 }  // namespace bullet_fem

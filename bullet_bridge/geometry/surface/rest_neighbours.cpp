@@ -13,8 +13,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kCloseInSpace = 2;     // mean edges
-constexpr double kCloseInMaterial = 3;  // mean edges, along the tetrahedra's edges
+constexpr double kCloseInSpace = 2;     // largest distance in space, in mean edges
+constexpr double kCloseInMaterial = 3;  // largest distance along edges of the tetrahedra, in mean edges
 
 std::vector<std::vector<int>> edgesAround(const TetMesh& mesh)
 {
@@ -33,8 +33,7 @@ std::vector<std::vector<int>> edgesAround(const TetMesh& mesh)
 
 }  // namespace
 
-// From every one of the nodes the shortest ways along the tetrahedra's edges (Dijkstra's algorithm), as far as they are
-// needed.
+// Shortest paths along edges of the tetrahedra from each of the nodes (Dijkstra's algorithm), up to kCloseInMaterial.
 RestNeighbours::RestNeighbours(const TetMesh& mesh, const std::vector<int>& nodes) : m_first(mesh.nodeCount() + 1)
 {
     const std::vector<std::vector<int>> around = edgesAround(mesh);

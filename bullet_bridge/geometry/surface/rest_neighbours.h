@@ -9,23 +9,22 @@
 namespace bullet_fem
 {
 
-/// Which features of a body's surface are close to each other already at rest: they share a tetrahedron's edge, or are
-/// within two mean edges of each other in the rest shape and connected through at most three of the material. They
-/// cannot touch each other, however the body is bent.
+/// Pairs of surface nodes that are close at rest: they share a tetrahedron's edge, or are within two mean edges in the
+/// rest shape and within three mean edges along the tetrahedra's edges. Such pairs are excluded from self contact.
 class RestNeighbours
 {
 public:
     explicit RestNeighbours(const TetMesh& mesh) : RestNeighbours(mesh, mesh.surfaceNodes()) {}
 
-    /// For other nodes than those of the mesh's surface, each in [0, n).
+    /// For the given nodes instead of those of the mesh's surface; indices in [0, n).
     RestNeighbours(const TetMesh& mesh, const std::vector<int>& nodes);
 
-    /// For these nodes; true for a node and itself.
+    /// True if two of these nodes are close at rest, or equal.
     bool areClose(int nodeA, int nodeB) const;
 
 private:
-    std::vector<int> m_first;  // per node: where its list starts; one entry more
-    std::vector<int> m_close;  // lists of nodes, ascending
+    std::vector<int> m_first;  // per node, start of its list in m_close; one more entry
+    std::vector<int> m_close;  // lists of nodes, each ascending
 };
 
 }  // namespace bullet_fem

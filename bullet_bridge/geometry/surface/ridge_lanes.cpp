@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr float kLaneRounding = 1e-6f;  // share of a product's factors that rounding can have changed it by
+constexpr float kLaneRounding = 1e-6f;  // relative rounding error of a product
 
 FloatLanes spreadLane(const FloatLanes& lanes, int lane)
 {
@@ -32,7 +32,8 @@ FloatLanes dotLanes(const FloatLanes a[3], const FloatLanes b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// As nearestOfLines in double precision, with what rounding can do added to either side.
+// nearestOfLines() in single precision, with tolerances for its rounding: false only where the nearest points are not
+// between the ends.
 LaneMask mayCrossBetweenEnds(const RidgeLanes& a, const RidgeLanes& b, float startRounding)
 {
     FloatLanes r[3], n[3], s[3];

@@ -7,36 +7,36 @@
 namespace bullet_fem
 {
 
-/// Ridges beside each other, in single precision: component by component, a lane each.
+/// Four ridges in single precision as SIMD lanes, component by component.
 struct RidgeLanes
 {
     static constexpr int kCount = 4;
 
     FloatLanes m_low[3], m_high[3], m_changeLow[3], m_changeHigh[3];  ///< as in CoarseBox [m]
-    FloatLanes m_start[3], m_along[3];                                ///< one end, and the way to the other [m]
-    FloatLanes m_length;                                              ///< sum of the latter's components [m]
+    FloatLanes m_start[3], m_along[3];                                ///< one end, and the vector to the other end [m]
+    FloatLanes m_length;  ///< sum of the magnitudes of m_along's components [m]
 
-    /// Lanes of nothing, which meet nothing.
+    /// Lanes without a ridge: they meet nothing.
     static RidgeLanes empty();
 
     void set(int lane, const CoarseBox& box, const Vec3& start, const Vec3& along);
 
-    /// One of the ridges in all lanes.
+    /// One of the ridges, copied to all lanes.
     RidgeLanes spread(int lane) const;
 };
 
-/// What is looked for between two ridges.
+/// Search distances between two ridges.
 struct RidgeReach
 {
-    float m_near, m_band;  ///< at the start, and within the steps that boxes are swept over [m]
-    float m_rounding;      ///< of differences between two starts [m]
+    float m_near, m_band;  ///< at the start, and during the motion that the boxes are swept over [m]
+    float m_rounding;      ///< rounding error of differences of m_start [m]
 };
 
-/// What may be between the ridges in a lane each: false only where it cannot be.
+/// Possible contacts per lane: false only where contact is excluded.
 struct RidgesMay
 {
-    LaneMask m_cross;  ///< near at the start, with the nearest points of their lines between their ends
-    LaneMask m_meet;   ///< they come within the band
+    LaneMask m_cross;  ///< near at the start, with the nearest points of the lines between the ends
+    LaneMask m_meet;   ///< they come within the band during the motion
 };
 
 RidgesMay ridgesMay(const RidgeLanes& a, const RidgeLanes& b, const RidgeReach& reach);

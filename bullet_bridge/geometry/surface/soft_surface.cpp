@@ -11,10 +11,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFlatSurfaceCosine = 0.99;  // cosine of the angle between normals that count as one
-constexpr double kCreaseCosine = 0.64;       // of 50 degrees, from which on triangles meet in a crease
-constexpr double kRoundShare = 0.1;          // of a vertex's curvature that must be left without creases
-constexpr double kFewFacets = 0.65;          // change of the normal from corner to corner: ten facets around [-]
+constexpr double kFlatSurfaceCosine = 0.99;  // smallest cosine of normals that count as one
+constexpr double kCreaseCosine = 0.64;       // cosine of 50 degrees: a larger dihedral angle is a crease
+constexpr double kRoundShare = 0.1;  // smallest share of a vertex's curvature without creases that makes it round
+constexpr double kFewFacets = 0.65;  // change of the normal along an edge with about ten facets around [-]
 
 double angleBetween(const Vec3& a, const Vec3& b)
 {
@@ -66,11 +66,11 @@ SoftSurface::SoftSurface(const RestSurface& rest)
     }
 }
 
-// By the normals of the vertices at the ends of edges: what a crease turns there counts only where nothing else does,
-// or the rim of a tyre would seem to roll on a radius of an element.
+// Curvature from the change of vertex normals along edges. The change across creases counts only where there is no
+// other; otherwise the rim of a tyre would have a radius of one element.
 void SoftSurface::measureCurvature(const std::vector<Vec3>& x)
 {
-    std::vector<Vec3> area, facing, normal(x.size());  // of triangles, their unit normals, those of vertices
+    std::vector<Vec3> area, facing, normal(x.size());  // area vectors of triangles, their unit normals, vertex normals
     std::vector<std::vector<int>> at(x.size());
     for (std::size_t k = 0; k < m_triangles.size(); ++k)
     {
@@ -85,7 +85,7 @@ void SoftSurface::measureCurvature(const std::vector<Vec3>& x)
     }
     for (Vec3& n : normal)
         if (norm(n) > 0) n = unit(n);
-    // Of the triangles at a vertex that no crease parts from that one.
+    // Normal from the triangles at a vertex that no crease separates from the given triangle.
     const auto smoothNormal = [&](int vertex, std::size_t triangle)
     {
         Vec3 sum;
@@ -226,7 +226,7 @@ Vec3 SoftSurface::normalOf(int triangle) const
     return unit(cross(c[1] - c[0], c[2] - c[0]));
 }
 
-// Where more than two faces meet, none may take the edge for a ridge; a rim is neither ridge nor groove.
+// An edge of more than two faces is never a ridge; an edge of the boundary is neither ridge nor groove.
 double SoftSurface::bendOf(int edge) const
 {
     const auto [first, second] = m_edgeTriangles[edge];
@@ -234,7 +234,7 @@ double SoftSurface::bendOf(int edge) const
     return dot(faceNormal(first), intoFace(edge, second));
 }
 
-// The unit vector from an edge into one of its triangles, perpendicular to the edge.
+// The unit vector in a triangle's plane, perpendicular to its edge, into the triangle.
 Vec3 SoftSurface::intoFace(int edge, int triangle) const
 {
     const auto [a, b] = m_features.m_edges[edge];
@@ -256,7 +256,7 @@ std::array<Vec3, 2> SoftSurface::intoFaces(int edge) const
     return {intoFace(edge, m_edgeTriangles[edge][0]), intoFace(edge, m_edgeTriangles[edge][1])};
 }
 
-// Ascending, so that sums do not depend on how the triangles were found.
+// Visits triangles in ascending order, so that sums do not depend on the order of construction.
 template <class Visit>
 void SoftSurface::visitTrianglesAt(int edge, Visit visit) const
 {

@@ -10,16 +10,17 @@
 namespace bullet_fem
 {
 
-/// The edges of a surface, each once, where they are in its triangles, and the triangles around its vertices.
+/// The unique edges of a surface, the edges of its triangles, and the triangles around its vertices.
 struct SurfaceFeatures
 {
-    /// Of triangles with vertices in [0, vertexCount).
+    /// Vertices of the triangles are in [0, vertexCount).
     SurfaceFeatures(const std::vector<Triangle>& triangles, int vertexCount);
 
-    std::vector<std::array<int, 2>> m_edges;          ///< vertices, lower one first
-    std::vector<std::array<int, 3>> m_triangleEdges;  ///< per surface triangle, indices of its edges
-    std::vector<int> m_firstAround;                   ///< per vertex: where its triangles start in m_around; one more
-    std::vector<int> m_around;                        ///< surface triangles at the vertices, ascending
+    std::vector<std::array<int, 2>> m_edges;          ///< vertex indices, the smaller one first
+    std::vector<std::array<int, 3>> m_triangleEdges;  ///< per triangle, indices of its edges; edge k is from corner k
+                                                      ///< to corner (k + 1) % 3
+    std::vector<int> m_firstAround;  ///< per vertex, start of its triangles in m_around; one more entry
+    std::vector<int> m_around;       ///< triangles at each vertex, ascending
 };
 
 }  // namespace bullet_fem

@@ -42,7 +42,7 @@ void SurfaceRidges::update(const SurfaceTree& tree, const std::vector<double>& b
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) updateNode(tree, bend, *node);
 }
 
-// After its children.
+// Updates a node of the tree; its children must be up to date.
 void SurfaceRidges::updateNode(const SurfaceTree& tree, const std::vector<double>& bend, int node)
 {
     if (!tree.isLeaf(node))

@@ -7,25 +7,26 @@
 namespace bullet_fem
 {
 
-/// Two points of soft surfaces that touch, or may do so within the step.
+/// A contact between points of two soft surfaces, present or possible within the step.
 struct SurfaceTouch
 {
     Triangle m_nodes, m_otherNodes;                   ///< unused ones repeat the first
-    std::array<double, 3> m_weights, m_otherWeights;  ///< sum 1; up to 1e-3 edges beyond a face's rim [-]
-    Vec3 m_normal;                                    ///< unit, from the other surface to this
-    double m_gap = 0;                                 ///< along the normal at the start [m]; negative inside
-    int m_feature = 0, m_otherFeature = 0;            ///< node, triangle or edge; see SoftPairOrigin
+    std::array<double, 3> m_weights, m_otherWeights;  ///< barycentric, sum 1 [-]; the point may be up to 1e-3 edges
+                                                      ///< beyond a face's rim
+    Vec3 m_normal;                                    ///< unit, from the other surface to this one
+    double m_gap = 0;                       ///< along the normal as the step begins [m]; negative: penetration
+    int m_feature = 0, m_otherFeature = 0;  ///< node, triangle or edge: see SoftPairOrigin
 };
 
-/// How far two surfaces look for each other.
+/// Search distances between two surfaces.
 struct TouchReach
 {
-    double m_band = 0;  ///< gaps below this are contacts though nothing closes them [m]
+    double m_band = 0;  ///< gaps below this are contacts whether or not they close [m]
     double m_edge = 0;  ///< the smaller mean edge of the two [m]
-    double m_fall = 0;  ///< by which they may come nearer than they would freely, if one does not fall [m]
-    double depth() const { return 0.5 * m_edge; }       ///< to which one may always have sunk into the other [m]
+    double m_fall = 0;  ///< displacement by gravity that is missing in the free approach if one body is supported [m]
+    double depth() const { return 0.5 * m_edge; }       ///< largest penetration that is always credible [m]
     double within() const { return m_band + m_fall; }   ///< gaps above this do not close [m]
-    double near() const { return within() + depth(); }  ///< what is farther apart at the start is no edges' affair [m]
+    double near() const { return within() + depth(); }  ///< largest distance at the start of edge pairs [m]
 };
 
 }  // namespace bullet_fem

@@ -17,21 +17,21 @@
 namespace bullet_fem
 {
 
-/// A tree of bounds over the triangles of a surface, built once from the rest shape (median splits along the longest
-/// side) and refitted every step. Lookups never allocate.
+/// A bounding volume tree over the triangles of a surface, built once from the rest shape by median splits along the
+/// longest side, and refitted every step. Queries never allocate.
 class SurfaceTree
 {
 public:
     SurfaceTree(const std::vector<Vec3>& restPositions, const std::vector<Triangle>& triangles);
 
-    /// For nodes at x [m] that move by `change` [m].
+    /// Refits to positions x [m] with displacements `change` [m], one per vertex.
     void refit(const std::vector<Vec3>& x, const std::vector<Vec3>& change);
 
-    /// All of it; empty if there are no triangles.
+    /// Bounds of all triangles; empty if there are none.
     const SweptBox& bounds() const { return m_bounds; }
     const CoarseBox& coarseBounds() const { return m_boxes.front(); }
 
-    /// Calls visit(triangle) for all triangles that `box` may come within `reach` [m] of; always in the same order.
+    /// Calls visit(triangle) for all triangles that may come within `reach` [m] of `box`, in a fixed order.
     template <class Visit>
     void visitNear(const CoarseBox& box, double reach, Visit visit) const
     {
@@ -50,8 +50,8 @@ public:
         }
     }
 
-    /// Calls visit(node) for all nodes of the tree that a box may come within its reach of, parents first, by ascending
-    /// number.
+    /// Calls visit(node) for all nodes of the tree that may come within reach of one of the boxes, parents first, in
+    /// ascending order.
     struct Nearby
     {
         CoarseBox m_box;
@@ -75,22 +75,22 @@ public:
         }
     }
 
-    /// A few triangles that lie beside each other: range of triangleAt().
+    /// A leaf's triangles: a range of arguments of triangleAt().
     struct Leaf
     {
         int m_first, m_end;
     };
     int triangleAt(int place) const { return m_order[place]; }
 
-    int nodeCount() const { return static_cast<int>(m_nodes.size()); }  ///< of the tree
+    int nodeCount() const { return static_cast<int>(m_nodes.size()); }  ///< number of the tree's nodes
     const CoarseBox& box(int node) const { return m_boxes[node]; }
     bool isLeaf(int node) const { return m_nodes[node].isLeaf(); }
     Leaf leaf(int node) const { return {m_nodes[node].m_next, m_nodes[node].m_next + m_nodes[node].m_count}; }
-    /// Of one that is no leaf; they come after it.
+    /// The children of an inner node; their indices are larger than its own.
     std::array<int, 2> children(int node) const { return {node + 1, m_nodes[node].m_next}; }
 
-    /// Calls visit(node) for all leaves that `box` may come within `reach` [m] of and that have what is looked for: per
-    /// node, not 0 if a leaf below it has.
+    /// Calls visit(node) for all leaves that may come within `reach` [m] of `box` and have the wanted property. `has`:
+    /// per node, not 0 if some leaf below it has that property.
     template <class Visit>
     void visitNearLeaves(const CoarseBox& box, double reach, const unsigned char* has, Visit visit) const
     {
@@ -111,8 +111,9 @@ public:
         }
     }
 
-    /// The triangle that is nearest to p at the start and not `skip`ped; -1 if none is nearer than `most` [m], which
-    /// may be infinite. `nearest` is its point. The same for any `guess`, a triangle that may be near; -1: none.
+    /// The triangle nearest to p at the start without those for which skip(triangle) is true; -1 if none is closer than
+    /// `most` [m], which may be infinite. `nearest` is its nearest point. `guess`, a triangle that may be near (-1:
+    /// none), affects the speed but not the result.
     template <class Skip>
     int nearestTriangle(const Vec3& p, double most, Skip skip, TrianglePoint& nearest, int guess = -1) const
     {
@@ -149,31 +150,31 @@ public:
         return found;
     }
 
-    /// Of the last refit.
+    /// Positions at the last refit [m].
     const std::vector<Vec3>& positions() const { return m_x; }
     /// Corners of a triangle [m].
     Corners corners(int triangle) const { return cornersOf(m_triangles[triangle]); }
-    /// The coarse box of a vertex alone.
+    /// The coarse box of one vertex.
     const CoarseBox& vertexBox(int vertex) const { return m_vertexBoxes[vertex]; }
 
-    static constexpr int kLeafTriangles = 2;  ///< at most
+    static constexpr int kLeafTriangles = 2;  ///< largest number of triangles in a leaf
 
 private:
     static constexpr int kDepth = 64;  // of the stacks: twice the depth of a tree over 2^31 triangles
     struct Node
     {
-        int m_next = 0;   // leaf: place of its first triangle; others: right child, the left one is the next node
-        int m_count = 0;  // of a leaf's triangles
+        int m_next = 0;   // leaf: place of its first triangle; inner node: right child (the left one is the next node)
+        int m_count = 0;  // number of a leaf's triangles
         bool isLeaf() const { return m_count > 0; }
     };
 
-    struct Ahead  // what a search has not visited yet
+    struct Ahead  // a node that the search has yet to visit
     {
         int m_node;
         double m_squaredDistance;
     };
 
-    // A squared distance from p to a box at which rounding cannot make any point in it as near as `least`.
+    // Smallest squared distance of a box from p from which on, despite rounding, no point in it is as close as `least`.
     static double surelyFarther(const Vec3& p, double least)
     {
         const double distance = std::sqrt(least), size = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
@@ -181,7 +182,7 @@ private:
         return farther * farther;
     }
 
-    // A squared distance from p that is more than that of a triangle, and than rounding can take for it.
+    // A squared distance larger than that of a triangle from p, despite rounding.
     double notNearer(const Vec3& p, int triangle) const
     {
         const Vec3 r = p - nearestOnTriangle(corners(triangle), p).m_point;
@@ -194,16 +195,16 @@ private:
     Corners cornersOf(const Triangle& t) const { return {m_x[t[0]], m_x[t[1]], m_x[t[2]]}; }
 
     std::vector<Triangle> m_triangles;
-    std::vector<int> m_order;              // triangles by their place in the tree
-    std::vector<Triangle> m_placed;        // in this order
-    std::vector<int> m_vertices;           // of the triangles
-    std::vector<Vec3> m_x;                 // of the vertices
-    std::vector<CoarseBox> m_vertexBoxes;  // likewise
+    std::vector<int> m_order;              // triangles in the order of the tree
+    std::vector<Triangle> m_placed;        // corners in that order
+    std::vector<int> m_vertices;           // vertices of the triangles
+    std::vector<Vec3> m_x;                 // positions of the vertices
+    std::vector<CoarseBox> m_vertexBoxes;  // boxes of the vertices
     SweptBox m_bounds;
-    // Of the nodes; searches wait for memory more than they calculate, and not all need all of it.
+    // Per node, in separate arrays: queries are bound by memory access, and not all of them need all data.
     std::vector<Node> m_nodes;
     std::vector<CoarseBox> m_boxes;
-    std::vector<BoxPair> m_parts;  // of children, or of triangles, at the start
+    std::vector<BoxPair> m_parts;  // boxes of the two children, or of a leaf's triangles, at the start
 };
 
 }  // namespace bullet_fem

@@ -11,7 +11,7 @@
 namespace bullet_fem
 {
 
-/// An axis-parallel box around vectors; at first around none.
+/// An axis-aligned bounding box of vectors; initially empty.
 struct VectorBounds
 {
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -26,7 +26,7 @@ struct VectorBounds
         }
     }
 
-    /// From p to the box.
+    /// Squared distance from p to the box; 0 inside.
     double squaredDistance(const Vec3& p) const
     {
         double sum = 0;
@@ -39,12 +39,12 @@ struct VectorBounds
     }
 };
 
-/// Bounds of points and of how far they move within a step.
+/// Bounds of points and of their displacements within a step.
 struct SweptBox
 {
     VectorBounds m_start, m_change;  ///< [m]
 
-    /// A point that moves by `change`.
+    /// The box of a point with displacement `change`.
     static SweptBox of(const Vec3& point, const Vec3& change) { return {{point, point}, {change, change}}; }
 
     void add(const SweptBox& b)
@@ -53,8 +53,8 @@ struct SweptBox
         m_change.add(b.m_change);
     }
 
-    /// False only if no two points of this and the other come within `reach` [m], moving relative to each other in a
-    /// straight line: what both have in common does not matter.
+    /// False only if no points of the two boxes come within `reach` [m] of each other in straight relative motion; a
+    /// common motion has no effect.
     bool meets(const SweptBox& b, double reach) const
     {
         const Vec3 &low = m_start.m_low, &high = m_start.m_high;
@@ -69,7 +69,7 @@ struct SweptBox
     }
 };
 
-/// Largest distance that points of the two boxes can move relative to each other [m].
+/// Upper bound of the relative displacement of points of the two boxes [m].
 inline double largestTravel(const SweptBox& a, const SweptBox& b)
 {
     Vec3 most;

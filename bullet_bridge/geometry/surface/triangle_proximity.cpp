@@ -11,9 +11,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTimeRounding = 4e-16;  // share of a time that is no more than what rounding takes
+constexpr double kTimeRounding = 4e-16;  // relative rounding error of times
 
-// a + b t + c t^2 + d t^3
+// The cubic a + b t + c t^2 + d t^3.
 struct Cubic
 {
     double a, b, c, d;
@@ -34,15 +34,15 @@ Cubic tripleProduct(const std::array<MovingVector, 3>& m)
             triple(u, dv, dw) + triple(du, v, dw) + triple(du, dv, w), triple(du, dv, dw)};
 }
 
-// The control values of the cubic over [0, T] enclose it: no root where all have one sign.
+// The Bernstein coefficients of the cubic on [0, T] enclose its values: there is no root if all have one sign.
 bool hasNoRoot(const Cubic& f, double T)
 {
     const double b0 = f.a, b1 = f.a + f.b * T / 3, b2 = f.a + (2 * f.b + f.c * T) * T / 3, b3 = f.at(T);
     return std::min({b0, b1, b2, b3}) > 0 || std::max({b0, b1, b2, b3}) < 0;
 }
 
-// Between two times of different sign: Newton's method, and a halving wherever that leads out of the interval, of which
-// 52 are all that a double holds.
+// Root between two times of different sign by Newton's method with bisection as a safeguard; 52 bisections exhaust a
+// double.
 double rootBetween(const Cubic& f, double low, double high)
 {
     const bool rises = f.at(high) > 0;
@@ -103,7 +103,7 @@ TrianglePoint nearestOnTriangle(const Corners& t, const Vec3& p)
     double least = 0;
     for (int k = 0; k < 3; ++k)
     {
-        if (hasArea && w[(k + 2) % 3] > 0) continue;  // the point is on the triangle's side of this edge
+        if (hasArea && w[(k + 2) % 3] > 0) continue;  // the point is on the inner side of this edge
         const TrianglePoint candidate = nearestOnEdge(t, k, p);
         const Vec3 r = p - candidate.m_point;
         if (least != 0 && dot(r, r) >= least) continue;
@@ -128,7 +128,7 @@ int timesInOnePlane(const std::array<MovingVector, 3>& vectors, double last, std
 {
     const Cubic f = tripleProduct(vectors);
     if (hasNoRoot(f, last)) return 0;
-    // Between its extrema the cubic is monotone.
+    // The cubic is monotone between its extrema.
     std::array<double, 4> ends = {0, last, last, last};
     int intervals = 1;
     const double discriminant = f.c * f.c - 3 * f.b * f.d;

@@ -9,12 +9,12 @@
 namespace bullet_fem
 {
 
-/// Which part of a triangle a point lies on.
+/// The feature of a triangle that a point lies on.
 enum class TriangleFeature
 {
     face,
-    edge,   ///< number k runs from corner k to corner (k + 1) % 3
-    corner  ///< number k
+    edge,   ///< edge k is from corner k to corner (k + 1) % 3
+    corner  ///< corner k
 };
 
 /// A point of a triangle.
@@ -26,22 +26,23 @@ struct TrianglePoint
     int m_number = 0;  ///< of the edge or corner, in [0, 3)
 };
 
-using Corners = std::array<Vec3, 3>;  ///< of a triangle [m]
+using Corners = std::array<Vec3, 3>;  ///< corners of a triangle [m]
 
-/// Where a triangle is nearest to a point; for triangles that are a line or a point, too.
+/// The point of a triangle that is nearest to p. The triangle may degenerate to a line or a point.
 TrianglePoint nearestOnTriangle(const Corners& t, const Vec3& p);
 
-/// Barycentric coordinates of a point's projection onto a triangle's plane, sum 1, negative outside. False if the
+/// Barycentric coordinates of the projection of a point onto a triangle's plane: sum 1, negative outside. False if the
 /// triangle has no area.
 bool projectOnPlane(const Corners& t, const Vec3& p, std::array<double, 3>& weights);
 
-/// Where two lines a0-a1 and b0-b1 are nearest to each other: a0 + m_a (a1 - a0) and b0 + m_b (b1 - b0).
+/// The nearest points of two lines a0-a1 and b0-b1: a0 + m_a (a1 - a0) and b0 + m_b (b1 - b0).
 struct LineParameters
 {
-    double m_a = 0, m_b = 0;  ///< [-]; in [0, 1] between the end points
+    double m_a = 0, m_b = 0;  ///< [-]; in [0, 1] between the ends
 };
 
-/// False if the lines are parallel within the angle of this sine, or one has no length.
+/// Finds the nearest points of the lines `ends` = a0, a1, b0, b1 [m]. False if the sine of the angle between them is at
+/// most `leastSine`, or one has no length.
 bool nearestOfLines(const std::array<Vec3, 4>& ends, double leastSine, LineParameters& at);
 
 /// A vector that changes linearly with time.
@@ -51,9 +52,9 @@ struct MovingVector
     Vec3 at(double t) const { return m_at + t * m_change; }
 };
 
-/// Times in (0, last] at which three moving vectors lie in a plane (their triple product changes its sign), ascending.
-/// Four moving points are coplanar where the vectors from one of them to the others are. Returns their number, at most
-/// 3.
+/// Times in (0, last] at which three linearly moving vectors are coplanar (their triple product changes sign),
+/// ascending. Four moving points are coplanar when the vectors from one of them to the others are. Returns the number
+/// of times, at most 3.
 int timesInOnePlane(const std::array<MovingVector, 3>& vectors, double last, std::array<double, 3>& times);
 
 }  // namespace bullet_fem
