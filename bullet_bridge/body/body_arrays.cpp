@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Turns pointers into one array to the same places in another.
+/// Maps pointers into one array to the same indices of another.
 class Shift
 {
 public:

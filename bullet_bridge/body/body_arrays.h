@@ -7,22 +7,23 @@
 namespace bullet_fem
 {
 
-/// appendNode of btSoftBody moves the nodes when their array is full. Links, faces and anchors are pointed to the new
-/// places; tetrahedra, the parents of render nodes, clusters and deformable anchors are left with the old ones. This
-/// mends what still points to where the nodes of a FEM body were when it was set up, or when this was last called.
+/// Repairs pointers after btSoftBody::appendNode has reallocated the nodes. Bullet updates links, faces and anchors
+/// only; this updates tetrahedra, parents of render nodes, clusters and deformable anchors that still point to the
+/// nodes' former array (at set-up, or at the last call).
 void followNodes(FemSoftBody& fem);
 
-/// False once the program has appended or removed nodes or tetrahedra, or moved the nodes' array, since the body was
-/// set up: its nodes must not be gone through then.
+/// False if the program has appended or removed nodes or tetrahedra, or moved the nodes' array, since the body was set
+/// up. The nodes must not be accessed then.
 bool arraysAsSetUp(const FemSoftBody& fem);
 
-/// True if there are as many nodes and tetrahedra, and these still join the nodes that they did.
+/// True if the numbers of nodes and tetrahedra are those of the set-up, and the tetrahedra have the same nodes.
 bool topologyAsSetUp(const FemSoftBody& fem);
 
-/// The same for every step, which looks at a part of the tetrahedra, in turn: see TopologyMarks.
+/// topologyAsSetUp() for every step, which checks a part of the tetrahedra each time: see TopologyMarks.
 bool topologyInTurnAsSetUp(FemSoftBody& fem);
 
-/// True if all nodes are within 1e6 m of the origin: Bullet's own collision reads beyond its arrays for others.
+/// True if all nodes are within 1e6 m of the origin. For others, Bullet's own collision detection reads beyond its
+/// arrays.
 bool hasUsableNodes(const btSoftBody& body);
 
 }  // namespace bullet_fem

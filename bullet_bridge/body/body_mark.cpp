@@ -13,7 +13,7 @@ namespace
 
 constexpr btScalar kIsMark = btScalar(0xFE3);
 
-// As two whole numbers that single precision holds exactly, and a third that says that this is a mark.
+// Encodes a mark as two integers that single precision represents exactly, and a third value that identifies a mark.
 btVector3 coded(std::uint64_t mark)
 {
     constexpr std::uint64_t kLow = (1u << 24) - 1;

@@ -9,18 +9,18 @@ class btSoftBody;
 namespace bullet_fem
 {
 
-/// Puts a mark on a body with tetrahedra that no other body of this process has, and returns it. Addresses and
-/// broadphase ids are used again for other bodies; the mark, in a field of the first tetrahedron that Bullet no longer
-/// uses (btSoftBody::Tetra::m_c0), dies with its body. Thread-safe for different bodies.
+/// Puts a mark on a body with tetrahedra, unique in this process, and returns it. Addresses and broadphase ids are
+/// reused for other bodies; the mark is in a field of the first tetrahedron that Bullet no longer uses
+/// (btSoftBody::Tetra::m_c0), so it is deleted with its body. Thread-safe for different bodies.
 std::uint64_t markBody(btSoftBody& body);
 
-/// Takes the mark off a body, if it bears one: finite elements move it no more.
+/// Removes the mark of a body, if it has one: it is no longer a FEM body.
 void unmarkBody(btSoftBody& body);
 
-/// True if the body bears any mark: finite elements move it, or did in a world that it has left.
+/// True if the body has any mark: it is a FEM body, or was one in a world that it has left.
 bool isMarked(const btSoftBody& body);
 
-/// True if the body bears this mark.
+/// True if the body has this mark.
 bool hasMark(const btSoftBody& body, std::uint64_t mark);
 
 }  // namespace bullet_fem

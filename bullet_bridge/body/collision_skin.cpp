@@ -18,10 +18,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kNoWeight = 1e-6;  // what single precision leaves of a weight that is none
-constexpr double kThin = 1e-10;     // twice a triangle's area over its longest edge squared, below which it has none
+constexpr double kNoWeight = 1e-6;  // weights below this are rounding errors of zero
+constexpr double kThin = 1e-10;     // smallest ratio of twice a triangle's area and its longest edge squared
 
-// Weights that are none are dropped, so that a vertex on a node is that node.
+// Sets rounding errors to zero, so that a vertex on a node depends on that node only, and normalizes the sum to 1.
 SkinVertex cleaned(SkinVertex vertex)
 {
     double sum = 0;
@@ -49,7 +49,7 @@ bool hasArea(const std::vector<Vec3>& x, const Triangle& t)
     return norm(cross(a, b)) > kThin * longest;
 }
 
-// A point just behind a triangle: outside, if it faces inward.
+// A point just behind a triangle: outside of the surface if the triangle faces inward.
 Vec3 behind(const std::vector<Vec3>& x, const Triangle& t)
 {
     const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
@@ -93,7 +93,7 @@ CollisionSkin::CollisionSkin(const TetMesh& mesh, const std::vector<SkinVertex>&
     measure(mesh);
 }
 
-// Those that triangles have, numbered anew.
+// Keeps the vertices that triangles use, and renumbers them.
 void CollisionSkin::takeVertices(const std::vector<SkinVertex>& vertices, const std::vector<int>& welded)
 {
     for (std::size_t v = 0; v < welded.size(); ++v) m_mended.m_welded += welded[v] != static_cast<int>(v);
@@ -123,8 +123,8 @@ void CollisionSkin::takeVertices(const std::vector<SkinVertex>& vertices, const 
     m_nodes.erase(std::unique(m_nodes.begin(), m_nodes.end()), m_nodes.end());
 }
 
-// A piece that encloses a negative volume and lies in no other is inside out; one in another may be the wall of a
-// hollow.
+// Orients connected components. A component of negative volume that is in no other one is inverted; inside of another
+// it may be the wall of a cavity.
 void CollisionSkin::turnOutward()
 {
     const std::vector<Vec3>& x = m_rest.m_positions;
@@ -166,7 +166,8 @@ void CollisionSkin::countEdges()
     }
 }
 
-// Bands and margins are shares of the tetrahedra's edges, or of what these would be if they were as fine as the skin.
+// Bands and margins are relative to the tetrahedra's mean edge, scaled down if the skin is finer than the mesh's
+// boundary.
 void CollisionSkin::measure(const TetMesh& mesh)
 {
     const SurfaceFeatures own(m_rest.m_triangles, static_cast<int>(m_vertices.size()));

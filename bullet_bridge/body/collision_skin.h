@@ -21,41 +21,41 @@ struct SkinVertex
     std::array<double, 4> m_weights;  ///< [-], sum 1; unused ones are 0
 };
 
-/// A surface that follows a body's elements, ready to be what of the body collides: each vertex once, without triangles
-/// that say nothing, all turned outward. Immutable; bodies may share it.
+/// A surface that is embedded in a body's elements, prepared for collision: unique vertices, no degenerate or duplicate
+/// triangles, outward orientation. Immutable; bodies may share it.
 class CollisionSkin
 {
 public:
-    /// What was mended to make it.
+    /// Counts of the repairs.
     struct Mended
     {
-        int m_welded = 0;      ///< vertices at the place of another
-        int m_degenerate = 0;  ///< triangles without area, left out
-        int m_duplicates = 0;  ///< triangles that were there already, left out
-        int m_turned = 0;      ///< triangles that were turned over, with those of pieces that were inside out
-        int m_openEdges = 0;   ///< of one triangle
+        int m_welded = 0;      ///< vertices merged with another at the same place
+        int m_degenerate = 0;  ///< removed triangles without area
+        int m_duplicates = 0;  ///< removed triangles with the vertices of another
+        int m_turned = 0;      ///< reoriented triangles, those of inverted components included
+        int m_openEdges = 0;   ///< edges of one triangle
         int m_crossings = 0;   ///< edges of more than two triangles
     };
 
-    /// A surface of these vertices. Nodes and corners must be in range, weights finite. Throws std::invalid_argument if
-    /// no triangle has an area at rest.
+    /// Builds the surface. Nodes and corners must be in range, weights finite. Throws std::invalid_argument if no
+    /// triangle has an area at rest.
     CollisionSkin(const TetMesh& mesh, const std::vector<SkinVertex>& vertices, std::vector<Triangle> triangles);
 
-    /// At rest: vertices that triangles have, in the order in which they were given.
+    /// The rest shape, with the vertices that triangles use, in their given order.
     const RestSurface& rest() const { return m_rest; }
     const Mended& mended() const { return m_mended; }
 
     /// The nodes that vertices depend on, ascending.
     const std::vector<int>& nodes() const { return m_nodes; }
 
-    /// The vertex that was given of one that is used here.
+    /// The index in the given vertices of a vertex of rest().
     int given(int vertex) const { return m_given[vertex]; }
 
-    /// What the vertices have, from what the nodes have. Allocates if `vertexValues` is of another size.
+    /// Interpolates nodal values to the vertices. Allocates if the size of `vertexValues` changes.
     void follow(const std::vector<Vec3>& nodeValues, std::vector<Vec3>& vertexValues) const;
 
-    /// The point of a triangle of vertices (an edge has its second corner, a vertex its first once more) as a sum of
-    /// nodes, each once.
+    /// A point of a triangle as a weighted sum of unique nodes. `vertices`: an edge repeats its second corner, a vertex
+    /// its first.
     SurfacePoint pointOf(int body, const Triangle& vertices, const std::array<double, 3>& weights) const;
 
 private:
@@ -70,9 +70,9 @@ private:
     Mended m_mended;
 };
 
-/// The skin of m_renderNodes and m_renderFaces. Throws std::invalid_argument naming the vertex or face, the value and
-/// the remedy: there are none; a vertex that does not follow four nodes of the body, or lies beyond its tetrahedron by
-/// more than 1 %; a face whose corner is none of m_renderNodes; no face has an area.
+/// The skin from m_renderNodes and m_renderFaces. Throws std::invalid_argument with the vertex or face, the value and
+/// the remedy if there are none, if a vertex does not depend on four nodes of the body or is outside of its tetrahedron
+/// by more than 1 %, if a corner of a face is not in m_renderNodes, or if no face has an area.
 std::shared_ptr<const CollisionSkin> skinOf(const btSoftBody& body, const TetMesh& mesh);
 
 }  // namespace bullet_fem

@@ -10,11 +10,14 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFlattest = 0.5;  // curvature times size (cube root of the volume) from which it is round; a ball: 1.6
-constexpr double kSizePower = 4;   // of two flat sides the patch is with the smaller, of equal ones between them
-constexpr double kLeastInertia = 1e-9;  // share of the whole that is added, so that a line has a spin
+constexpr double kFlattest = 0.5;  // smallest curvature times size (cube root of the volume) of a round body; a ball
+                                   // has 1.6
+constexpr double kSizePower = 4;   // between flat sides the patch moves with the smaller one; between equal ones at the
+                                   // mean velocity
+constexpr double kLeastInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
+                                        // spin
 
-// Of its curvature, as fast as the patch may go.
+// Velocity of the side's centre of curvature [m/s], limited for bodies with few facets.
 Vec3 velocityOfCentre(const TouchingSide& side, const Vec3& inward)
 {
     if (!(side.m_curvature > 0)) return side.m_velocity;
@@ -58,7 +61,8 @@ MeanMotion meanMotion(const Body& body)
 Vec3 patchLag(const TouchingSide& a, const TouchingSide& b, const Vec3& normal, double h)
 {
     const double sum = a.m_curvature + b.m_curvature;
-    const double share = sum > 0 ? a.m_curvature / sum : 1 / (1 + std::pow(a.m_size / b.m_size, kSizePower));  // of a
+    // weight of a
+    const double share = sum > 0 ? a.m_curvature / sum : 1 / (1 + std::pow(a.m_size / b.m_size, kSizePower));
     const Vec3 patch = share * velocityOfCentre(a, normal) + (1 - share) * velocityOfCentre(b, -normal);
     const Vec3 lag = h * (a.m_velocity - patch);
     return lag - dot(lag, normal) * normal;

@@ -9,11 +9,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr btScalar kEverywhere = btScalar(1e9);  // [m]; Bullet gives bodies up beyond 1e6
+constexpr btScalar kEverywhere = btScalar(1e9);  // [m]; Bullet's limit for bodies is 1e6
 
 bool isOurs(btSoftBody& body)
 {
-    // Bullet's own builder leaves m_leaves at 0; faces that were moved in memory keep the leaves of their old places.
+    // Bullet's own builder leaves m_leaves at 0. Faces that were reallocated keep the leaves of their former addresses.
     const int count = body.m_faces.size();
     return body.m_fdbvt.m_leaves == count && body.m_faces[0].m_leaf && body.m_faces[0].m_leaf->data == &body.m_faces[0];
 }

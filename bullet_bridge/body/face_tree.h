@@ -7,13 +7,14 @@ class btSoftBody;
 namespace bullet_fem
 {
 
-/// Gives a body a tree of its faces (m_fdbvt), unless it has ours for the faces that it has now. Bullet's rayTest and
-/// rayFaceTest make one where there is none, and never return if the faces or nodes are not connected. Ours holds every
-/// face in a box that nothing leaves: nobody has to keep it up to date, and what the user writes to m_x is found at
-/// once. That costs Bullet's rayTest little, since it looks at every tetrahedron as well. Allocates when it makes one.
+/// Gives a body a tree of its faces (m_fdbvt), unless it has ours for its present faces. Bullet's rayTest and
+/// rayFaceTest build one if there is none, and never return if the faces or nodes are not connected. Our tree has one
+/// unbounded box for every face, so it needs no updates and rays find positions that the user writes to m_x at once.
+/// This costs Bullet's rayTest little, since that tests every tetrahedron as well. Allocates when it builds the tree.
 void keepFaceTree(btSoftBody& body);
 
-/// The same with boxes as they are now, for a body that Bullet's springs move: Bullet keeps them from then on.
+/// Gives a body that Bullet's springs move a tree of its faces with their present boxes; Bullet updates them from then
+/// on. Allocates when it builds the tree.
 void giveFaceTreeToBullet(btSoftBody& body);
 
 }  // namespace bullet_fem

@@ -17,8 +17,8 @@ namespace bullet_fem
 namespace
 {
 
-// Looking through all matrices takes a tenth of a step's time. Bullet zeroes the fourth component of a row, which means
-// nothing, when it sets a matrix, and initializeDmInverse sets all: what stands there says whether it was called.
+// Comparing all matrices takes a tenth of a step's time. Bullet zeroes the unused fourth component of a row when it
+// sets a matrix, and initializeDmInverse sets all matrices. A value stored there is thus lost when it is called.
 constexpr btScalar kSeen = 1;
 
 btScalar& seenMark(btAlignedObjectArray<btSoftBody::Tetra>& tetras)
@@ -55,7 +55,7 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
         m_body.m_state.m_v[i] = vec3(node.m_v);
         m_written.m_x.push_back(node.m_x);
         m_written.m_v.push_back(node.m_v);
-        // Masses that were not usable were given their share of the volume.
+        // Unusable masses were replaced by shares of the volume.
         if (!(node.m_im >= 0) || !std::isfinite(node.m_im) || (node.m_im > 0 && !std::isfinite(1 / node.m_im)))
             node.m_im = static_cast<btScalar>(1 / m_body.m_state.m_mass[i]);
         m_written.m_inverseMass.push_back(node.m_im);
@@ -107,7 +107,7 @@ bool restMatricesChanged(const FemSoftBody& fem)
 {
     btAlignedObjectArray<btSoftBody::Tetra>& tetras = fem.m_softBody->m_tetras;
     if (seenMark(tetras) == kSeen) return false;
-    const auto sameBits = [](const btMatrix3x3& a, const btMatrix3x3& b)  // matrices that nobody set may be NaN
+    const auto sameBits = [](const btMatrix3x3& a, const btMatrix3x3& b)  // matrices that were never set may be NaN
     {
         for (int r = 0; r < 3; ++r)
             if (std::memcmp(&a[r], &b[r], 3 * sizeof(btScalar)) != 0) return false;
@@ -139,7 +139,7 @@ void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
     body.m_actuators = std::move(fem.m_body.m_actuators);
     now.m_initialStress.swap(before.m_initialStress);
     now.m_initialStressChanges = before.m_initialStressChanges;
-    // Bullet makes the present shape the rest shape: dents are in it, but how hard they made the material is not.
+    // Bullet makes the present shape the rest shape: plastic strain becomes part of it, but hardening remains.
     if (!now.m_plasticStrain.empty() && !before.m_plasticStrain.empty())
         now.m_equivalentPlasticStrain.swap(before.m_equivalentPlasticStrain);
     fem.m_body = std::move(body);
@@ -149,7 +149,7 @@ void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
 double fastestNode(const Body& body, const Vec3& relativeTo)
 {
     const std::vector<Vec3>& v = freeMeanVelocity(body);
-    double fastest = 0;  // squares
+    double fastest = 0;  // squared
     for (int i : body.m_model->mesh().surfaceNodes())
         fastest = std::max(fastest, dot(v[i] - relativeTo, v[i] - relativeTo));
     return std::sqrt(fastest);

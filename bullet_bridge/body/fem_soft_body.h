@@ -22,16 +22,17 @@ class btCollisionObject;
 namespace bullet_fem
 {
 
-/// Where a contact point came from: how it is recognised in the next step.
+/// Identifies a contact point from step to step.
 struct ContactOrigin
 {
     const btCollisionObject* m_object = nullptr;
-    int m_objectId = 0;  ///< broadphase id; orders the contacts
+    int m_objectId = 0;  ///< broadphase id; contacts are sorted by it
     int m_leaf = 0;      ///< leaf of the object's shape
     int m_feature =
-        0;  ///< vertex of what collides; then of every edge its middle and nearest point, then of every triangle
-    int m_part = -1;      ///< Bullet's number of a mesh's part; -1: not a mesh
-    int m_triangle = -1;  ///< and of a triangle in it
+        0;  ///< vertex; then midpoint and nearest point of each edge; then those of each triangle; then corners of the
+            ///< shape, a fixed number per triangle. With sheets: vertex, then triangle, then edge
+    int m_part = -1;      ///< Bullet's part number of a mesh; -1: not a mesh
+    int m_triangle = -1;  ///< Bullet's triangle number in that part
 
     bool operator<(const ContactOrigin& b) const
     {
@@ -40,12 +41,12 @@ struct ContactOrigin
     }
 };
 
-/// Where a vertex of what collides was seen last near a concave shape, whose sheets have two sides.
+/// Side of a vertex of the collision surface relative to a concave shape nearby, whose sheets have two sides.
 struct SheetSide
 {
     int m_objectId = 0, m_leaf = 0, m_node = 0;  ///< as in ContactOrigin
-    Vec3 m_position;                             ///< in the leaf's frame [m]
-    Vec3 m_safe;                                 ///< likewise, on the right side of all sheets [m]
+    Vec3 m_position;                             ///< last position in the leaf's frame [m]
+    Vec3 m_safe;  ///< that position, moved to the right side of all sheets, in the leaf's frame [m]
 
     bool operator<(const SheetSide& b) const
     {
@@ -54,42 +55,43 @@ struct SheetSide
     }
 };
 
-/// What was last written to the btSoftBody's nodes: a component that differs was written by the user since.
+/// The values last written to the btSoftBody's nodes: a component that differs was changed by the user since.
 struct WrittenNodes
 {
     std::vector<btVector3> m_x, m_v;
     std::vector<btScalar> m_inverseMass;
 };
 
-/// Nodes whose motion is prescribed.
+/// Nodes of prescribed motion.
 struct NodePins
 {
-    std::vector<Vec3> m_velocity;            ///< that the user gave a pinned node [m/s]
-    std::vector<Vec3> m_position;            ///< where a moved or targeted node shall be at the end of the step [m]
+    std::vector<Vec3> m_velocity;            ///< of a pinned node, as set by the user [m/s]
+    std::vector<Vec3> m_position;            ///< wanted position of a moved or targeted node at the end of the step [m]
     std::vector<unsigned char> m_hasTarget;  ///< 1: kinematic by setNodeTarget
     std::vector<unsigned char> m_moved;      ///< 1: pinned and moved by the user since the last step
 };
 
-/// Something that a body has run into, until they part or rest: see Rebounds.
+/// A collision of a body with another one, until they separate or rest: see Rebounds.
 struct Impact
 {
     const btCollisionObject* m_other = nullptr;
     int m_otherId = -1;          ///< broadphase id
-    int m_piece = 0;             ///< of the body that has hit it (TetMesh::nodeComponent)
-    int m_otherPiece = -1;       ///< likewise, if it is soft; -1: rigid
+    int m_piece = 0;             ///< connected component of the body (TetMesh::nodeComponent)
+    int m_otherPiece = -1;       ///< connected component of a soft other body; -1: rigid
     double m_restitution = 0;    ///< [-], in [0, 1]
-    double m_approach = 0;       ///< speed at which they met [m/s]
-    double m_energy = 0;         ///< of both as they met [J]
-    double m_speed = 0;          ///< at which they part, as the last step ended [m/s]
-    double m_gain = 0;           ///< the most that a step has added to it [m/s]
-    Vec3 m_point, m_normal;      ///< where they touched last [m], and from the other to the body [-]
-    Vec3 m_frame;                ///< velocity there of the one that cannot be moved, as they met [m/s]
-    double m_time = 0;           ///< since they met [s]
-    double m_stopTime = 0;       ///< since they met until nothing drove them apart any more; 0: it does [s]
-    bool m_isHeld = false;       ///< the body lies against something immovable, and counts as such
-    bool m_otherIsHeld = false;  ///< likewise
-    bool m_isNear = false;       ///< in this step they have contact points
-    bool m_isPressed = false;    ///< and impulses
+    double m_approach = 0;       ///< approach speed at the first contact [m/s]
+    double m_energy = 0;         ///< energy of both at the first contact [J]
+    double m_speed = 0;          ///< separation speed at the end of the last step [m/s]
+    double m_gain = 0;           ///< largest increase of m_speed in a step [m/s]
+    Vec3 m_point, m_normal;      ///< point of last contact [m]; unit normal from the other to the body
+    Vec3 m_frame;                ///< velocity at the contact of an immovable side at the first contact [m/s]
+    double m_time = 0;           ///< time since the first contact [s]
+    double m_stopTime = 0;       ///< time from the first contact until contact ceased to drive the two apart [s]; 0: it
+                                 ///< still does
+    bool m_isHeld = false;       ///< an immovable object supports the body, which then counts as immovable
+    bool m_otherIsHeld = false;  ///< an immovable object supports the other
+    bool m_isNear = false;       ///< the two have contact points in this step
+    bool m_isPressed = false;    ///< some of these have an impulse
 
     bool isOf(const Impact& b) const
     {
@@ -98,69 +100,72 @@ struct Impact
     }
 };
 
-/// A btSoftBody and the finite-element body that moves it.
+/// A btSoftBody and its finite-element body.
 struct FemSoftBody
 {
     FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
                 std::shared_ptr<ComplianceCache> compliance);
 
-    /// Makes a skin what collides, or the mesh's boundary again (null). `compliance` serves the nodes that this
-    /// depends on; contacts begin anew.
+    /// Sets a skin as collision surface, or the mesh's boundary (null). `compliance` is that of the nodes on which the
+    /// surface depends. Discards contacts and impacts.
     void setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance);
 
-    /// Takes a skin to where the nodes are: in every step, after solveFreeMotion, before contacts are searched.
+    /// Moves the skin to the present nodes. Call in every step after solveFreeMotion and before contact searches.
     void updateSkin();
-    /// While it is held nothing moves the body: of several searches one updates the skin.
+    /// While `held` is true, the body does not move, and only the first of several searches updates the skin.
     void holdForSearches(bool held);
 
-    /// Of the vertices of what collides, which are the nodes if there is no skin [m], [m/s].
+    /// Positions [m] and expected velocities [m/s] of the collision surface's vertices; without a skin, one per node.
     const std::vector<Vec3>& surfacePosition() const { return m_skin ? m_skinPosition : m_body.m_state.m_x; }
     const std::vector<Vec3>& surfaceVelocity() const;
 
-    /// A point of a triangle of it, for the solver.
+    /// A point of a triangle of the collision surface as the solver's SurfacePoint.
     SurfacePoint pointOn(int body, const Triangle& vertices, const std::array<double, 3>& weights) const
     {
         return m_skin ? m_skin->pointOf(body, vertices, weights) : pointOf(body, vertices, weights);
     }
 
     btSoftBody* m_softBody;
-    const btSoftBody::Node* m_firstNode;  ///< where the array of its nodes begins, as seen last
-    std::uint64_t m_mark;                 ///< on the btSoftBody: see body_mark.h
-    TopologyMarks m_topology;             ///< as it became FEM
+    const btSoftBody::Node* m_firstNode;  ///< start of the array of nodes at the last check
+    std::uint64_t m_mark;                 ///< mark of the btSoftBody: see body_mark.h
+    TopologyMarks m_topology;             ///< of the set-up
     Body m_body;
-    Vec3 m_restOrigin;  ///< node 0 of the rest shape, laid over the body as it became FEM (RestMesh) [m]
-    std::vector<btMatrix3x3> m_restMatrices;  ///< m_Dm_inverse of the elements, as seen last
+    Vec3 m_restOrigin;  ///< position of node 0 of the rest shape, aligned with the body at set-up (RestMesh) [m]
+    std::vector<btMatrix3x3> m_restMatrices;  ///< m_Dm_inverse of the elements at the last noteRestMatrices()
     std::shared_ptr<ComplianceCache> m_compliance;
     WrittenNodes m_written;
     NodePins m_pins;
-    double m_numericalDamping = 1;  ///< StepSettings has it: of the steps that factors are made for
+    double m_numericalDamping = 1;  ///< numerical damping of StepSettings that factors are made for
     double m_contactOffset = 0;     ///< [m]
     bool m_hasOwnGravity = false;
-    Vec3 m_ownGravity;  ///< in Bullet's deformable world: in place of the world info's [m/s2]; and m_cfg.drag of kDP
+    Vec3 m_ownGravity;  ///< replaces the world info's in Bullet's deformable world [m/s2]; there, m_cfg.drag replaces
+                        ///< kDP
 
-    /// What it falls with [m/s2]; not checked.
+    /// Gravity that acts on the body [m/s2]; not checked.
     Vec3 gravity() const;
 
-    std::mutex m_touchingMutex;                        ///< guards m_touching while Bullet's threads collide
-    std::vector<const btCollisionObject*> m_touching;  ///< overlapping rigid objects of this step
+    std::mutex m_touchingMutex;  ///< guards m_touching and m_touchingSoft while Bullet's threads collide
+    std::vector<const btCollisionObject*> m_touching;  ///< rigid objects whose bounds overlap in this step
 
-    std::vector<const btSoftBody*> m_touchingSoft;  ///< overlapping FEM bodies of this step; itself: self contact
+    std::vector<const btSoftBody*> m_touchingSoft;  ///< FEM bodies whose bounds overlap in this step; itself: self
+                                                    ///< contact
 
-    HeldJoints m_joints;  ///< what holds the body
+    HeldJoints m_joints;  ///< joints, attachments and springs of the body
 
-    std::vector<Vec3> m_predicted;  ///< impulses of contact in the free motion [N s], one a node; empty: SteadyBodies
+    std::vector<Vec3> m_predicted;  ///< contact impulses in the free motion [N s], one per node; empty: none
+                                    ///< (SteadyBodies)
 
-    MeanMotion m_meanMotion;                           ///< as the step begins; of a body that may touch something
-    std::vector<ContactPoint> m_contacts;              ///< of the last step
-    std::vector<ContactOrigin> m_origins;              ///< one a contact, ascending
-    std::vector<SheetSide> m_sheetSides;               ///< of the last step, ascending
-    std::vector<Impact> m_impacts;                     ///< that are not over
-    SoftSurface m_surface;                             ///< what collides; update() it before soft bodies are searched
-    std::shared_ptr<const CollisionSkin> m_skin;       ///< what collides follows the mesh; null: it is its boundary
+    MeanMotion m_meanMotion;                      ///< at the start of the step; valid if the body may have contact
+    std::vector<ContactPoint> m_contacts;         ///< contacts of the last step
+    std::vector<ContactOrigin> m_origins;         ///< one per contact, ascending
+    std::vector<SheetSide> m_sheetSides;          ///< of the last step, ascending
+    std::vector<Impact> m_impacts;                ///< collisions that are not over
+    SoftSurface m_surface;                        ///< collision surface; call its update() before soft contact searches
+    std::shared_ptr<const CollisionSkin> m_skin;  ///< collision surface embedded in the mesh; null: the mesh's boundary
     std::vector<Vec3> m_skinPosition, m_skinVelocity;  ///< see updateSkin
-    std::vector<double> m_nodeGap;                     ///< scratch of the contact search, one a vertex
-    std::vector<Vec3> m_nodeNormal;                    ///< likewise
-    std::vector<double> m_edgeGap;                     ///< likewise, one a surface edge: at its middle
+    std::vector<double> m_nodeGap;                     ///< scratch of the contact search, one per vertex
+    std::vector<Vec3> m_nodeNormal;                    ///< scratch, one per vertex
+    std::vector<double> m_edgeGap;                     ///< scratch, one per surface edge: gap at its midpoint
 
 private:
     void sizeScratch();
@@ -168,20 +173,20 @@ private:
     bool m_isHeldForSearches = false, m_isSkinUpdated = false;
 };
 
-/// True if the user called initializeDmInverse, or scaled the body, since noteRestMatrices, and that changed a matrix.
-/// Never allocates.
+/// True if a rest matrix has changed since noteRestMatrices(), as by initializeDmInverse or by scaling the body. Never
+/// allocates.
 bool restMatricesChanged(const FemSoftBody& fem);
 void noteRestMatrices(FemSoftBody& fem);
 
-/// Gives a body another rest shape of the same nodes, and keeps its motion and what holds it; contacts begin anew, with
-/// the boundary.
+/// Replaces the rest shape of a body by one with the same nodes. Keeps its motion and joints; discards contacts, and
+/// makes the mesh's boundary the collision surface.
 void changeRestShape(FemSoftBody& fem, std::shared_ptr<const BodyModel> model,
                      std::shared_ptr<ComplianceCache> compliance);
 
-/// Largest speed of a surface node relative to a velocity [m/s]; NaN counts as none.
+/// Largest speed of a surface node relative to a velocity [m/s]; nodes with NaN are ignored.
 double fastestNode(const Body& body, const Vec3& relativeTo);
 
-/// The same for the vertices of what collides.
+/// Largest speed of a vertex of the collision surface relative to a velocity [m/s].
 double fastestVertex(const FemSoftBody& fem, const Vec3& relativeTo);
 
 }  // namespace bullet_fem

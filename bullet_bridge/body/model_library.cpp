@@ -13,16 +13,18 @@ namespace bullet_fem
 namespace
 {
 
-// Share of an edge by which rest positions may differ: what single precision loses some hundred metres from the origin.
+// Largest difference of equal rest positions over the mean edge [-]: rounding in single precision some hundred metres
+// from the origin.
 constexpr double kSameShape = 1e-4;
 
-// Share by which masses may differ: they come from volumes, whose edges may differ as above.
+// Largest relative difference of equal masses [-]: they come from volumes of edges that differ as above.
 constexpr double kSameMass = 1e-3;
 
-// Share by which steps may differ: Bullet tells the step in single precision at first, in its own later.
+// Largest relative difference of equal time steps [-]: Bullet reports the step first in single precision, later in its
+// own.
 constexpr double kSameStep = 1e-6;
 
-// True if the factor is as good as new for the input.
+// True if the model's factor may be used for the input as if it were new.
 bool serves(const BodyModel& model, const FactorInput& input)
 {
     const FactorInput& factored = model.factorInput();

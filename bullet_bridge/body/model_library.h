@@ -14,61 +14,63 @@ namespace bullet_fem
 class CollisionSkin;
 class ComplianceCache;
 
-/// Finds the models that bodies can share: the same elements, materials, masses, pins and step, and rest positions that
-/// differ by a translation, up to the rounding of Bullet's single precision. Models live as long as a body uses them.
+/// Finds models that bodies can share: equal elements, materials, masses, pins and step, and rest positions that differ
+/// by a translation, up to the rounding of Bullet's single precision. Models live as long as a body uses them.
 class ModelLibrary
 {
 public:
-    /// Factors may take so much memory each [B], 0 for any amount, and are of the kind that was chosen.
+    /// `maxFactorBytes`: largest memory of a factor [B], 0 for no limit. `choice`: kind of the factors.
     explicit ModelLibrary(std::size_t maxFactorBytes = 0, FactorChoice choice = FactorChoice::full)
         : m_maxFactorBytes(maxFactorBytes), m_choice(choice)
     {
     }
 
-    /// A shape like this, an old one if there is one. Throws what RestShape's constructor throws.
+    /// A rest shape equal to this one: a known one if it exists, otherwise a new one. Throws like RestShape's
+    /// constructor.
     std::shared_ptr<const RestShape> restShape(const TetMesh& mesh, const ElementMaterials& materials,
                                                const std::vector<double>& filled);
 
-    /// A shape that was made elsewhere, or one like it that is here already.
+    /// A known shape equal to this one if it exists; otherwise registers the shape and returns it.
     std::shared_ptr<const RestShape> adoptShape(const std::shared_ptr<const RestShape>& shape,
                                                 const std::vector<double>& filled);
 
-    /// A model of that shape, for masses that differ by rounding at most; factors if there is none yet. Throws what
-    /// BodyModel::create throws.
+    /// A model of that shape for masses that are equal up to rounding. Factorizes if there is none. Throws like
+    /// BodyModel::create.
     std::shared_ptr<const BodyModel> model(const std::shared_ptr<const RestShape>& shape, const FactorInput& input);
 
-    /// The model of that shape, or null if there is none yet.
+    /// The model of that shape and input (masses equal up to rounding), or null.
     std::shared_ptr<const BodyModel> find(const std::shared_ptr<const RestShape>& shape,
                                           const FactorInput& input) const;
 
-    /// A model of that shape for exactly these masses; factors if there is none. Throws what BodyModel::create throws.
+    /// A model of that shape for exactly this input. Factorizes if there is none. Throws like BodyModel::create.
     std::shared_ptr<const BodyModel> exactModel(const std::shared_ptr<const RestShape>& shape,
                                                 const FactorInput& input);
-    /// Null if there is none.
+    /// The model of that shape for exactly this input, or null.
     std::shared_ptr<const BodyModel> findExact(const std::shared_ptr<const RestShape>& shape,
                                                const FactorInput& input) const;
 
-    /// A model that was made elsewhere, or one like it that is here already.
+    /// A known model equal to this one if it exists; otherwise registers the model and returns it.
     std::shared_ptr<const BodyModel> adopt(std::shared_ptr<const BodyModel> model);
 
-    /// A model of that shape with a factor that may be for another step, masses, pins or material. One that fits better
-    /// is taken if it is here.
+    /// A model of that shape with a given factor, which may be for another step, masses, pins or material. Returns a
+    /// known model with a fitting factor instead if it exists.
     std::shared_ptr<const BodyModel> modelWithFactor(const std::shared_ptr<const RestShape>& shape,
                                                      const FactorInput& input,
                                                      const std::shared_ptr<const BodyModel>& factored);
 
-    /// True if a factor of this size is within the library's limit [B].
+    /// True if a factor of this size [B] is within the library's limit.
     bool allows(std::size_t bytes) const { return m_maxFactorBytes == 0 || bytes <= m_maxFactorBytes; }
 
-    /// The input with the library's limit and choice of factors.
+    /// The input with the library's memory limit and kind of factors.
     FactorInput limited(FactorInput input) const;
 
-    /// The neighbours at rest that the surfaces of a shape's bodies share. A `skin` has those of the nodes that it
-    /// follows; null: the mesh's boundary collides.
+    /// The neighbours at rest that bodies of a shape share. `skin`: collision surface whose nodes are used; null: the
+    /// mesh's boundary.
     std::shared_ptr<const RestNeighbours> restNeighbours(const std::shared_ptr<const RestShape>& shape,
                                                          const CollisionSkin* skin = nullptr);
 
-    /// The compliance cache that the bodies of a model share which touch with the same nodes.
+    /// The compliance cache that bodies of a model share if their collision surfaces depend on the same nodes. `skin`:
+    /// collision surface; null: the mesh's boundary.
     std::shared_ptr<ComplianceCache> compliance(const std::shared_ptr<const BodyModel>& model,
                                                 const CollisionSkin* skin = nullptr);
 
@@ -76,7 +78,7 @@ private:
     template <class T>
     struct OfNodes
     {
-        std::vector<int> m_nodes;  // of a skin; empty: of the boundary
+        std::vector<int> m_nodes;  // nodes of a skin; empty: the mesh's boundary
         std::weak_ptr<T> m_shared;
     };
     template <class T>

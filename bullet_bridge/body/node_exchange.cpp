@@ -24,21 +24,21 @@ bool sameBits(const btVector3& a, const btVector3& b)
     return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
 }
 
-// Loads the components of `user` that differ from `written` into `value`.
+// Copies the components of `user` that differ from `written` to `value`.
 void loadChanged(const btVector3& user, const btVector3& written, Vec3& value)
 {
     for (int c = 0; c < 3; ++c)
         if (user[c] != written[c]) value[c] = user[c];
 }
 
-/// What reading found of the masses of nodes that are not pinned.
+/// Counts of changed masses of nodes that are not pinned.
 struct MassChanges
 {
-    int m_written = 0;   // good ones
-    int m_massless = 0;  // see shareOutMass
+    int m_written = 0;   // valid new masses
+    int m_massless = 0;  // infinite inverse masses, see shareOutMass
 };
 
-// True of a pinned node, one with a target, and one without elements.
+// True for a pinned node, one with a target, and one without elements.
 bool isPrescribed(const FemSoftBody& fem, std::size_t i, btScalar inverseMass)
 {
     return inverseMass == 0 || fem.m_pins.m_hasTarget[i] || fem.m_body.m_model->mesh().isLoose(static_cast<int>(i));
@@ -67,8 +67,9 @@ void readMass(FemSoftBody& fem, int i, MassChanges& changes, NodeReadReport& rep
     ++changes.m_written;
 }
 
-// As in sanitisedMasses: btSoftBody::setTotalMass by faces has given the whole mass to the nodes of the surface, if
-// theirs were written, too. Where a few nodes alone were made massless they keep their mass.
+// Handles btSoftBody::setTotalMass by faces, as sanitisedMasses does: if most masses were written, that call has given
+// the whole mass to the surface nodes, and it is distributed by volume. If only a few nodes became massless, they keep
+// their mass.
 void shareOutMass(FemSoftBody& fem, const MassChanges& changes)
 {
     const std::vector<double>& share = fem.m_body.m_model->shape().m_lumpedMass;
@@ -97,7 +98,7 @@ void shareOutMass(FemSoftBody& fem, const MassChanges& changes)
     }
 }
 
-// True if the user moved most of the free nodes: then the body was put elsewhere, and its pinned nodes jump with it.
+// True if the user moved most of the free nodes: the body was teleported, and its pinned nodes jump along.
 bool wasTeleported(const FemSoftBody& fem)
 {
     int freeNodes = 0, moved = 0;
@@ -147,7 +148,7 @@ void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report
     writtenV = node.m_v;
 }
 
-// True if the user wrote nothing, as in most steps: nodes are looked at once then.
+// True if the user wrote nothing, as in most steps: the nodes are then read only once.
 bool isAsWritten(const FemSoftBody& fem)
 {
     const WrittenNodes& written = fem.m_written;
@@ -163,7 +164,7 @@ bool isAsWritten(const FemSoftBody& fem)
     return true;
 }
 
-// Targets may have come or gone all the same.
+// Updates fixed nodes, as targets may have been set or removed.
 void readPins(FemSoftBody& fem)
 {
     std::vector<unsigned char>& fixed = fem.m_body.m_state.m_fixed;
@@ -241,8 +242,8 @@ bool readLoads(FemSoftBody& fem, double step)
             goes ? (1 / step) * (fem.m_pins.m_position[i] - state.m_x[i]) : fem.m_pins.m_velocity[i];
         fem.m_pins.m_moved[i] = 0;
     }
-    // Bullet multiplies velocities by 1 - kDP a step, in its deformable world by 1 - drag; the implicit rate alpha that
-    // does the same is kDP / (h (1 - kDP)).
+    // Bullet multiplies velocities by 1 - kDP per step, in its deformable world by 1 - drag. The equivalent implicit
+    // rate alpha is kDP / (h (1 - kDP)).
     const double kDP = fem.m_hasOwnGravity ? soft.m_cfg.drag : soft.m_cfg.kDP;
     loads.m_massDamping = kDP > 0 ? std::min(kDP, 0.999) / (step * (1 - std::min(kDP, 0.999))) : 0;
     matchPose(fem, step);

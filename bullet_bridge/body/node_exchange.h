@@ -7,35 +7,35 @@
 namespace bullet_fem
 {
 
-/// What reading the nodes found.
+/// Flags of readNodes().
 struct NodeReadReport
 {
-    bool m_restored = false;   ///< a value was not finite: the last good one was put back
-    bool m_badMass = false;    ///< an inverse mass was negative or NaN: the node kept its mass; or infinite: all
-                               ///< the body's mass was shared out by volume
-    bool m_stalePins = false;  ///< other nodes are fixed than those that the factor was built for
+    bool m_restored = false;   ///< a value was not finite or too large: the last valid one was restored
+    bool m_badMass = false;    ///< an inverse mass was negative or NaN: the node kept its mass; or infinite: see
+                               ///< shareOutMass
+    bool m_stalePins = false;  ///< the fixed nodes differ from those of the factor
 };
 
-/// By what factor (>= 1) the step [s] or a node's mass differs from those that the factor was built for: the more, the
-/// worse contact's picture of the body's compliance.
+/// Largest ratio (>= 1) between the step [s], the node masses or the material and those that the factor was built for.
+/// A larger value means a less accurate compliance of the body in contact.
 double factorMismatch(const FemSoftBody& fem, double step);
 
-/// Takes over what the user wrote to m_x, m_v and m_im since the last writeNodes, component by component: x and v are
-/// kept in double, and only components whose bits differ from those written are loaded. A pinned node's new position is
-/// its target within the step. Nodes without elements stand still where they are written. Never allocates.
+/// Takes over the user's changes of m_x, m_v and m_im since the last writeNodes. x and v are kept in double precision;
+/// only components whose value differs from the written one are read. The new position of a pinned node is its target
+/// within the step. Nodes without elements stay where they are written. Never allocates.
 NodeReadReport readNodes(FemSoftBody& fem);
 
-/// Collects the external forces of the step: gravity, m_f (to which Bullet's applyForces has added wind and pressure),
-/// and Bullet's per-step velocity damping kDP as a rate; the pull of a pose (matchPose); and the target velocities of
-/// pinned nodes. Zeroes m_f. Returns false if a force was not finite, or would give the whole body 1e6 m/s within the
-/// step (it is dropped).
+/// Collects the external loads of the step of `step` [s]: gravity, m_f (in which Bullet's applyForces has put wind and
+/// pressure), Bullet's velocity damping kDP per step as a rate, the force of pose matching (matchPose), and the target
+/// velocities of pinned nodes. Zeroes m_f. Returns false if a force was dropped because it was not finite or would give
+/// the whole body 1e6 m/s within the step.
 bool readLoads(FemSoftBody& fem, double step);
 
-/// Writes x to m_x (the old one to m_q), v to m_v (the old one to m_vn).
+/// Writes x to m_x (the former one to m_q) and v to m_v (the former one to m_vn).
 void writeNodes(FemSoftBody& fem);
 
-/// World bounds of the surface during the next step, for the broadphase: positions now and after `step` [s] with the
-/// present velocities and gravity, widened by the contact offset and `margin` [m].
+/// Sets the body's world bounds during the next step for the broadphase: positions now and after `step` [s] with
+/// present velocities and gravity, enlarged by the contact offset and `margin` [m].
 void setSweptBounds(FemSoftBody& fem, double step, double margin);
 
 }  // namespace bullet_fem

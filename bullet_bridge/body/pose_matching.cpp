@@ -14,9 +14,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLargestShare = 0.999;  // all of the way would need an infinite spring
+constexpr double kLargestShare = 0.999;  // a share of 1 would need an infinite spring
 
-/// The rigid motion that comes nearest to a field of vectors on the nodes, in the sense of least squares with weights.
+/// Weighted least-squares fit of a rigid motion to vectors at the nodes.
 class RigidFit
 {
 public:
@@ -43,7 +43,7 @@ public:
         Vec3 m_linear, m_angular;
     };
 
-    /// `value(i)` of every node i.
+    /// Fits the motion to value(i) at each node i.
     template <class Value>
     Motion fit(const Value& value) const
     {
@@ -59,7 +59,7 @@ public:
         return motion;
     }
 
-    /// The rotation that lays places X over the nodes; `X(i)` may be relative to anything.
+    /// The rotation that aligns positions X(i) with the nodes; X may have any origin.
     template <class Place>
     Mat3 rotationOf(const Place& X) const
     {
@@ -107,11 +107,11 @@ void matchPose(FemSoftBody& fem, double step)
     StepLoads& loads = fem.m_body.m_loads;
     loads.m_frameDamping = 0;
     if (!isUsable(soft)) return;
-    soft.updatePose();  // for those who read it
+    soft.updatePose();  // for programs that read the pose
     const double share = std::min<double>(soft.m_cfg.kMT, kLargestShare);
     if (!(share > 0)) return;
 
-    const double rate = share / (step * (1 - share));  // h c / m
+    const double rate = share / (step * (1 - share));  // h c / m [1/s]
     const double slowed = 1 / (1 + step * (fem.m_body.m_model->shape().m_material.m_massDamping + loads.m_massDamping));
     const RigidFit rigid(fem);
     const auto endVelocity = [&](std::size_t i)
@@ -119,7 +119,8 @@ void matchPose(FemSoftBody& fem, double step)
         return state.m_fixed[i] ? loads.m_targetVelocity[i]
                                 : slowed * (state.m_v[i] + (step / state.m_mass[i]) * loads.m_force[i]);
     };
-    // Not Bullet's rotation: with a pinned node it leans, by a term against singular matrices, to where it began.
+    // Bullet's own rotation is not used: a term against singular matrices biases it to the initial one if a node is
+    // pinned.
     const auto place = [&](std::size_t i) { return vec3(soft.m_pose.m_pos[static_cast<int>(i)]); };
     const Mat3 R = rigid.rotationOf(place);
     const auto way = [&](std::size_t i) { return R * place(i) - state.m_x[i]; };
@@ -130,7 +131,7 @@ void matchPose(FemSoftBody& fem, double step)
         loads.m_force[i] += (rate * state.m_mass[i] / step) * (way(i) - rigid.at(i, displacement));
     }
     loads.m_frameDamping = rate;
-    loads.m_leastDamping = 1;  // Bullet's law is that of its own steps, which are damped
+    loads.m_leastDamping = 1;  // Bullet's law holds for its own steps, which are damped
 }
 
 }  // namespace bullet_fem

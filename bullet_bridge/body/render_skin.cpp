@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The skin of Bullet's fields for a surface that follows a body.
+// Makes a CollisionSkin from Bullet's render nodes and faces.
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kOutside = 0.01;  // by which a vertex may lie beyond its tetrahedron, as a weight
+constexpr double kOutside = 0.01;  // largest weight by which a vertex may be outside of its tetrahedron
 
 constexpr const char* kRemedy =
     "; make the body with btFemHelpers::createFromSurface, or tie its surface with Bullet's "

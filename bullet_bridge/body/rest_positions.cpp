@@ -17,9 +17,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSingle = 1.2e-7;    // relative spacing of single precision
-constexpr double kSameVolume = 1e-2;  // share by which an element's volume and its matrix may disagree
-constexpr double kClosed = 1e-3;      // share of an element's longest edge by which two ways to a node may end apart
+constexpr double kSingle = 1.2e-7;    // relative precision of single precision
+constexpr double kSameVolume = 1e-2;  // largest relative difference between an element's volume and that of its matrix
+constexpr double kClosed = 1e-3;      // largest distance between two positions of a node by different paths, over an
+                                      // element's longest edge
 
 Mat3 edgesOf(const std::vector<Vec3>& x, const Tet& tet)
 {
@@ -39,7 +40,7 @@ Mat3 matrixOf(const btSoftBody::Tetra& tetra)
     return m;
 }
 
-/// D_m of every element, or none if one is unusable.
+/// D_m of each element; empty if one is unusable.
 std::vector<Mat3> restEdges(const btSoftBody& body)
 {
     std::vector<Mat3> Dm(body.m_tetras.size());
@@ -54,7 +55,7 @@ std::vector<Mat3> restEdges(const btSoftBody& body)
     return Dm;
 }
 
-/// True if F = R to the rounding of x and D_m.
+/// True if F = D_s D_m^-1 is a rotation up to the rounding of x and D_m.
 bool isRigid(const Mat3& Ds, const Mat3& Dm, double farthest)
 {
     const Mat3 inverted = inverse(Dm), F = Ds * inverted;
@@ -63,7 +64,7 @@ bool isRigid(const Mat3& Ds, const Mat3& Dm, double farthest)
     return determinant(F) > 0 && squaredNorm(transposeTimes(F, F) - Mat3::identity()) <= rounding * rounding;
 }
 
-/// The elements around every node, and walks over them.
+/// Breadth-first traversal of elements over common nodes, which reconstructs rest positions.
 class Walk
 {
 public:
@@ -79,7 +80,8 @@ public:
             for (int i : tets[e]) m_around[next[i]++] = static_cast<int>(e);
     }
 
-    /// Places the nodes of all pieces, each from its first element on; false if two ways to a node end apart.
+    /// Places the nodes of all connected components, each from its first element. False if two paths to a node
+    /// disagree.
     bool placeAll()
     {
         for (std::size_t e = 0; e < m_tets.size(); ++e)
@@ -98,7 +100,7 @@ public:
     }
 
     int pieces() const { return m_pieces; }
-    int piece(int node) const { return m_piece[node]; }  ///< -1: no element uses it
+    int piece(int node) const { return m_piece[node]; }  ///< connected component of a node; -1: no element uses it
     std::vector<Vec3>& positions() { return m_X; }
 
 private:
@@ -109,7 +111,7 @@ private:
         m_reached.push_back(node);
     }
 
-    // Puts the other nodes of an element beside one that has its place.
+    // Places the other nodes of an element relative to a placed one. False if a placed node disagrees.
     bool enter(int e, int node)
     {
         const Mat3& Dm = m_Dm[e];
@@ -131,23 +133,23 @@ private:
 
     const std::vector<Tet>& m_tets;
     const std::vector<Mat3>& m_Dm;
-    std::vector<int> m_first, m_around;  // elements around every node
+    std::vector<int> m_first, m_around;  // elements around each node
     std::vector<Vec3> m_X;
     std::vector<int> m_piece;
-    std::vector<int> m_reached;  // in the order of their places: the nearest first, so that rounding adds up least
+    std::vector<int> m_reached;  // in breadth-first order, which limits the accumulation of rounding errors
     std::size_t m_next = 0;
     int m_pieces = 0;
 };
 
-/// Turns and moves every piece of the rest shape to where it is now: by the rotation nearest to the mean deformation
-/// gradient, and the centres of volume.
+/// Aligns each connected component of the rest shape with its present position: by the rotation nearest to the mean
+/// deformation gradient, and by the centres of volume.
 void layOverPresent(Walk& walk, const std::vector<Vec3>& x, const std::vector<Tet>& tets, const std::vector<Mat3>& Dm)
 {
     struct Piece
     {
         Mat3 m_F;
         double m_volume = 0;
-        Vec3 m_rest, m_present;  // centres, times the volume
+        Vec3 m_rest, m_present;  // centres times the volume
     };
     std::vector<Piece> pieces(walk.pieces());
     std::vector<Vec3>& X = walk.positions();

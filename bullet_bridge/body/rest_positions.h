@@ -11,29 +11,29 @@ class btSoftBody;
 namespace bullet_fem
 {
 
-/// Where the nodes of a body are at rest.
+/// The rest positions of a body's nodes.
 struct RestPositions
 {
     std::vector<Vec3> m_X;        ///< relative to node 0 [m]
-    Vec3 m_origin;                ///< node 0 of the rest shape, laid over the present one [m]
-    bool m_fromMatrices = false;  ///< the elements' matrices say so; else nothing does, and it is the present shape
+    Vec3 m_origin;                ///< node 0 of the rest shape, aligned with the present one [m]
+    bool m_fromMatrices = false;  ///< reconstructed from the elements' matrices; otherwise the present shape
 };
 
-/// The nodes that the tetrahedra join. Throws std::invalid_argument where they point to anything else: appendNode may
-/// move the nodes, and leaves the tetrahedra's pointers behind.
+/// The node indices of the tetrahedra. Throws std::invalid_argument if a pointer is not to a node of the body:
+/// appendNode may reallocate the nodes and does not update the tetrahedra.
 std::vector<Tet> tetsOf(const btSoftBody& body);
 
-/// True if the body has so many nodes, and these tetrahedra of them. Throws as tetsOf().
+/// True if the body has that number of nodes, and these tetrahedra. Throws like tetsOf().
 bool hasElements(const btSoftBody& body, std::size_t nodes, const std::vector<Tet>& tets);
 
-/// The shape at the last initializeDmInverse, as far as it can be told from btSoftBody::Tetra::m_Dm_inverse: if all of
-/// these are finite and regular, in keeping with the elements' rest volumes (m_element_measure), and, walking from
-/// element to element, put every node in one place. Every connected piece is laid over its present place and turn, so
-/// that they differ by the deformation alone.
+/// Reconstructs the shape at the last initializeDmInverse from btSoftBody::Tetra::m_Dm_inverse. This requires that all
+/// matrices are finite, regular and consistent with the rest volumes (m_element_measure), and that the traversal of
+/// elements gives each node a single position. Each connected component is aligned with its present position and
+/// rotation, so that both shapes differ by the deformation alone.
 ///
-/// Present positions are returned, because they are more exact, if they differ from that shape by rigid motions of the
-/// elements only, to single precision; and also if the matrices are no good: bodies on which nobody called
-/// initializeDmInverse have zeros there.
+/// Returns the present positions, which are more precise, if these differ from that shape only by rigid motions of the
+/// elements, up to single precision; and also if the matrices are not usable: they are zero if initializeDmInverse was
+/// never called.
 RestPositions restPositionsOf(const btSoftBody& body, const std::vector<Tet>& tets);
 
 }  // namespace bullet_fem

@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Bullet's algorithm for convex shapes, which hands the whole shape to the soft body solver.
+/// Bullet's algorithm for convex shapes, which passes the whole shape to the soft body solver.
 class FemRigidAlgorithm : public btSoftRigidCollisionAlgorithm
 {
 public:
@@ -29,7 +29,7 @@ public:
           m_object((swapped ? a : b)->getCollisionObject())
     {
     }
-    // Bullet tells nobody that a soft body leaves its world, but takes its pairs apart then.
+    // Bullet does not notify anyone when a soft body leaves its world, but it destroys the body's pairs.
     ~FemRigidAlgorithm() override { removeContactsWith(m_object, *m_body); }
 
 private:
@@ -37,10 +37,11 @@ private:
     const btCollisionObject* m_object;
 };
 
-// Bullet's pool does not check what is put into its elements, which are made for Bullet's own algorithms.
+// Bullet's pool does not check the size of its elements, which is that of Bullet's own algorithms.
 static_assert(sizeof(FemRigidAlgorithm) <= sizeof(btSoftBodyConcaveCollisionAlgorithm));
 
-/// That for FEM bodies, Bullet's algorithms for others. It has no state, so one serves all dispatchers and threads.
+/// Creates FemRigidAlgorithm for FEM bodies, and Bullet's algorithms for others. It is stateless, so one instance
+/// serves all dispatchers and threads.
 class CreateForFem : public btCollisionAlgorithmCreateFunc
 {
 public:
@@ -58,7 +59,7 @@ public:
     }
 };
 
-// Contacts hold what is costly to copy, and most often all are with one object.
+// Removes contacts in place: they contain members that are costly to copy, and often all belong to one object.
 template <class Contact>
 void removeContactsWith(const btCollisionObject* object, btAlignedObjectArray<Contact>& contacts)
 {

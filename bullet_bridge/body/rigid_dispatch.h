@@ -12,26 +12,28 @@ class btSoftBody;
 namespace bullet_fem
 {
 
-/// Makes a dispatcher call the soft body solver once for a FEM body and a rigid shape, with that shape, also as a
-/// compound's child. Bullet's own algorithm for concave ones calls it once a triangle, with a hull that it makes and
-/// keeps for every triangle, and looks for the triangles of a compound's child where the compound is. When such a pair
-/// ends, because one of the two left the world or they parted, removeContactsWith is called. Bodies moved by Bullet's
-/// springs keep Bullet's algorithms. Does nothing if `dispatcher` is null or no btCollisionDispatcher.
+/// Makes a dispatcher call the soft body solver once per FEM body and rigid shape, with the whole shape, also for a
+/// child of a compound. Bullet's own algorithm for concave shapes calls it once per triangle with a hull that it
+/// creates and keeps for every triangle, and searches a compound's child at the position of the compound. When such a
+/// pair ends, because one of the two left the world or they separated, removeContactsWith() is called. Bodies moved by
+/// Bullet's springs keep Bullet's algorithms. No effect if `dispatcher` is null or not a btCollisionDispatcher.
 void dispatchRigidShapes(btDispatcher* dispatcher);
 
-/// What the dispatcher's configuration has for a pair: for create functions that took its place, and are not meant.
+/// Creates the algorithm of the dispatcher's configuration for a pair: for create functions that replaced it and do not
+/// handle the pair.
 btCollisionAlgorithm* createBulletsAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                              const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b);
 
-/// What a body overlaps gets new collision algorithms at the next collision detection. Its m_worldInfo is not null.
+/// Makes Bullet create new collision algorithms for the body's pairs at the next collision detection. m_worldInfo must
+/// not be null.
 void renewAlgorithms(btSoftBody& body);
 
-/// Empties m_rcontacts, m_scontacts and the deformable contacts: they have pointers to objects that may be gone by the
-/// next step.
+/// Empties m_rcontacts, m_scontacts and the deformable contacts: they contain pointers to objects that may be deleted
+/// before the next step.
 void clearBulletContacts(btSoftBody& body);
 
-/// Takes the contacts with an object out of m_rcontacts and m_faceRigidContacts: it may be deleted before anybody looks
-/// there again. Leaves it alone.
+/// Removes the contacts with an object from m_rcontacts and m_faceRigidContacts: it may be deleted before they are
+/// used. Does not access the object.
 void removeContactsWith(const btCollisionObject* object, btSoftBody& body);
 
 }  // namespace bullet_fem

@@ -48,8 +48,9 @@ double massScaleOf(const btSoftBody& body)
 namespace
 {
 
-// The surface as Bullet's rayTest likes it: it looks at the faces first and then at all sides of tetrahedra, which take
-// the hit over if they are nearer by a rounding error. The same corner first means the same bits.
+// Faces for Bullet's rayTest, which tests the faces first, and then all sides of tetrahedra, which replace a hit if
+// they are nearer by a rounding error. Starting a face with the first corner of the element's side makes both results
+// bitwise equal.
 std::vector<Triangle> facesOf(const TetMesh& mesh)
 {
     std::vector<Triangle> faces = mesh.surface();
@@ -59,7 +60,7 @@ std::vector<Triangle> facesOf(const TetMesh& mesh)
         for (int a = 0; a < 4; ++a)
         {
             if (!(sides[e] >> a & 1)) continue;
-            const int first = mesh.tets()[e][a == 0 ? 1 : 0];  // Bullet begins a side with the first node that it has
+            const int first = mesh.tets()[e][a == 0 ? 1 : 0];  // Bullet starts a side with its first node
             std::rotate(face->begin(), std::find(face->begin(), face->end(), first), face->end());
             ++face;
         }
@@ -108,7 +109,7 @@ bool isMassless(btScalar inverseMass)
 namespace
 {
 
-// True if the nodes without mass are those in no face: what btSoftBody::setTotalMass by faces makes.
+// True if the massless nodes are exactly those in no face, as after btSoftBody::setTotalMass by faces.
 bool hasMassesByFaces(const btSoftBody& body, const std::vector<double>& volumeShare)
 {
     std::vector<unsigned char> inFace(body.m_nodes.size(), 0);
@@ -142,7 +143,8 @@ std::vector<double> sanitisedMasses(const btSoftBody& body, const std::vector<do
     for (std::size_t i = 0; i < mass.size(); ++i)
     {
         if (masslessVolume > 0 && volumeShare[i] > 0) mass[i] = density * volumeShare[i];
-        if (!(mass[i] > 0)) mass[i] = volumeShare[i] > 0 ? density * volumeShare[i] : 1;  // a loose node's is not used
+        // the mass of a loose node is not used
+        if (!(mass[i] > 0)) mass[i] = volumeShare[i] > 0 ? density * volumeShare[i] : 1;
     }
     return mass;
 }

@@ -16,10 +16,10 @@ namespace bullet_fem
 namespace
 {
 
-/// A side of an element on the surface before it split.
+/// A side of an element on the surface before the split.
 struct BoundarySide
 {
-    Triangle m_sorted;  // its nodes then, ascending
+    Triangle m_sorted;  // its nodes before the split, ascending
     int m_tet;
     bool operator<(const BoundarySide& b) const { return m_sorted < b.m_sorted; }
 };
@@ -27,7 +27,7 @@ struct BoundarySide
 Triangle outwardSide(const Tet& tet, int a)
 {
     Triangle side = {tet[(a + 1) % 4], tet[(a + 2) % 4], tet[(a + 3) % 4]};
-    if (a % 2 != 0) std::swap(side[1], side[2]);  // outward
+    if (a % 2 != 0) std::swap(side[1], side[2]);  // orient outward
     return side;
 }
 
@@ -57,7 +57,7 @@ void appendCopies(btSoftBody& soft, const std::vector<int>& copyOf)
         btDbvtNode* leaf = copy.m_leaf;
         copy = soft.m_nodes[original];
         copy.m_leaf = leaf;
-        copy.m_battach = 0;  // Bullet's anchors hold the node that they held
+        copy.m_battach = 0;  // Bullet's anchors stay on the original node
         copy.index = soft.m_nodes.size() - 1;
     }
 }
@@ -69,7 +69,7 @@ void joinTetras(btSoftBody& soft, const TetMesh& before, const TetMesh& after)
             node = &soft.m_nodes[nodeAfter(before, after, e, nodeNumber(soft, node))];
 }
 
-// Those that the body had go with their elements; then come the sides of the cracks.
+// Attaches existing faces to their elements, then appends the crack surfaces.
 void joinFaces(btSoftBody& soft, const TetMesh& before, const TetMesh& after)
 {
     const std::vector<unsigned char> sidesBefore = before.boundarySides(), sides = after.boundarySides();
@@ -84,7 +84,7 @@ void joinFaces(btSoftBody& soft, const TetMesh& before, const TetMesh& after)
         const Triangle was = {nodeNumber(soft, nodes[0]), nodeNumber(soft, nodes[1]), nodeNumber(soft, nodes[2])};
         const BoundarySide side = {sortedSide(was), -1};
         const auto at = std::lower_bound(boundary.begin(), boundary.end(), side);
-        if (at == boundary.end() || side < *at) continue;  // a face of the user's own, within the body
+        if (at == boundary.end() || side < *at) continue;  // a user's face inside of the body
         for (int a = 0; a < 3; ++a) nodes[a] = &soft.m_nodes[nodeAfter(before, after, at->m_tet, was[a])];
     }
     for (int e = 0; e < after.tetCount(); ++e)
@@ -121,7 +121,7 @@ void splitSoftBody(FemSoftBody& fem, const SplitMesh& split, const std::vector<d
     joinTetras(soft, before, after);
     joinFaces(soft, before, after);
     fem.m_body = splitBody(fem.m_body, model, copyOf);
-    fem.m_body.m_state.m_mass = mass;  // the model's may be those of a copy elsewhere
+    fem.m_body.m_state.m_mass = mass;  // the model's masses may be those of a copy elsewhere
     appendCopies(fem.m_written.m_x, copyOf);
     appendCopies(fem.m_written.m_v, copyOf);
     appendCopies(fem.m_written.m_inverseMass, copyOf);

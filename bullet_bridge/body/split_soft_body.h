@@ -11,10 +11,10 @@
 namespace bullet_fem
 {
 
-/// Splits a FEM body between steps: its btSoftBody gets the copies of nodes, at their places and with their velocities,
-/// after the nodes that it has, and faces for the sides of the cracks after those that it has; `model` is that of the
-/// split mesh, `mass` [kg] of its nodes. What holds the body holds it on, with the nodes that were there before; pins
-/// and targets hold copies, too. Contacts begin anew, with the boundary.
+/// Splits a FEM body between steps. Its btSoftBody gets copies of nodes, with their positions and velocities, appended
+/// to its nodes, and the crack surfaces appended to its faces. `model` is that of the split mesh, `mass` [kg] has one
+/// entry per node of it. Joints and attachments keep the original nodes; pins and targets apply to copies, too.
+/// Discards contacts, and makes the mesh's boundary the collision surface.
 void splitSoftBody(FemSoftBody& fem, const SplitMesh& split, const std::vector<double>& mass,
                    const std::shared_ptr<const BodyModel>& model, std::shared_ptr<ComplianceCache> compliance);
 

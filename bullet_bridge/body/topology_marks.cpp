@@ -11,13 +11,13 @@ namespace bullet_fem
 namespace
 {
 
-// A number that changes with the nodes that tetrahedra of a part join, but not with the place of their array. Four
-// sums, so that a product need not wait for the one before it; and tetrahedra are asked for ahead, because each is in
-// some five lines of the cache, of which this needs one.
+// A hash of the node indices of a part of the tetrahedra, independent of the address of the nodes' array. Four
+// independent sums avoid the latency of dependent products. Tetrahedra are prefetched, because each covers some five
+// cache lines of which only one is needed.
 std::uint64_t markOf(const btSoftBody& body, int part)
 {
     constexpr int kAhead = 48;
-    constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15;  // odd, so that no node is lost
+    constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15;  // odd, so that the product loses no bits
     const auto first = reinterpret_cast<std::uintptr_t>(&body.m_nodes[0]);
     const auto bound = [&body](int k)
     { return static_cast<int>(std::int64_t{body.m_tetras.size()} * k / TopologyMarks::kTurns); };

@@ -10,29 +10,29 @@
 namespace bullet_fem
 {
 
-/// Tells whether the tetrahedra of a body still join the nodes that they did. Bullet says so (m_bUpdateRtCst) of what
-/// it appends; a program may write to m_tetras as well. To look at all of them in every step is a twentieth of its
-/// time, because each lies in lines of the cache of its own: parts take turns.
+/// Detects changes of the nodes of a body's tetrahedra. Bullet flags its own changes (m_bUpdateRtCst), but a program
+/// may write to m_tetras as well. Checking all tetrahedra in each step would take a twentieth of its time, because each
+/// is in cache lines of its own: so parts take turns.
 class TopologyMarks
 {
 public:
-    static constexpr int kTurns = 8;  ///< after so many steps all have been looked at
+    static constexpr int kTurns = 8;  ///< number of parts: all are checked after so many steps
 
-    /// Of a body with at least one node and one tetrahedron, as it is now.
+    /// Takes the present state of a body with at least one node and one tetrahedron.
     explicit TopologyMarks(const btSoftBody& body);
 
-    /// Of a body with as many nodes and tetrahedra: false if any joins other nodes, counted from the first.
+    /// False if a tetrahedron has other nodes, by index. The body must have the former numbers of nodes and tetrahedra.
     bool match(const btSoftBody& body) const;
 
-    /// The same of all tetrahedra if Bullet says that some are new, or their array has moved, and of the part whose
-    /// turn it is otherwise.
+    /// match() for all tetrahedra if Bullet has flagged a change or their array has moved; otherwise for the part whose
+    /// turn it is.
     bool matchInTurn(const btSoftBody& body);
 
 private:
     bool partMatches(const btSoftBody& body, int part) const;
 
     std::array<std::uint64_t, kTurns> m_marks;
-    const btSoftBody::Tetra* m_tetras;  // as seen last
+    const btSoftBody::Tetra* m_tetras;  // array at the last check
     int m_turn = 0;
 };
 
