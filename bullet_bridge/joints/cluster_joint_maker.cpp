@@ -20,7 +20,8 @@ namespace
 using BulletJoint = btSoftBody::Joint;
 using Control = btSoftBody::AJoint::IControl;
 
-constexpr double kLargestCorrection = 0.19634954084936207;  // of an angle, a step: pi / 16, as in Bullet [rad]
+constexpr double kLargestCorrection = 0.19634954084936207;  // largest correction of an angle in a step: pi / 16, as in
+                                                            // Bullet [rad]
 
 Control*& controlOf(BulletJoint& joint)
 {
@@ -149,7 +150,7 @@ void ClusterJointMaker::appendLinear(const btSoftBody::LJoint& linear, const End
 {
     const Place a = placeOf(ends[0], vec3(linear.m_refs[0]), false);
     const Place b = placeOf(ends[1], vec3(linear.m_refs[1]), false);
-    // Both ends feel the impulse at one point, or it would turn the pair.
+    // The impulse acts on both sides at one point, otherwise it would change the angular momentum of the pair.
     const Vec3 at = ends[1].m_cluster ? 0.5 * (a.m_start + b.m_start) : a.m_start;
     held.m_point = a.m_start;
     held.m_error = norm(b.m_start - a.m_start);
@@ -163,8 +164,8 @@ void ClusterJointMaker::appendLinear(const btSoftBody::LJoint& linear, const End
     hold(held, ends[1], joint);
 }
 
-// Finds the axes, and asks the joint's control for a speed about the first; NaN if there is no axis. The control may
-// look at the joint as it was made.
+// Finds the axes, and asks the joint's control for a speed about the first axis; NaN if there is none. The control sees
+// the joint in its original form.
 btScalar ClusterJointMaker::askControl(HiddenJoint& hidden, const End* ends, Place* places)
 {
     auto& angular = static_cast<btSoftBody::AJoint&>(*hidden.m_joint);
@@ -198,7 +199,7 @@ void ClusterJointMaker::appendAngular(HiddenJoint& hidden, const End* ends, Held
     joint.m_axes[2] = cross(a.m_start, joint.m_axes[1]);
     joint.m_a = spinEnd(ends[0], a);
     joint.m_b = spinEnd(ends[1], b);
-    const Vec3 turn = cross(a.m_start, b.m_start);  // from a to b; of opposite axes none
+    const Vec3 turn = cross(a.m_start, b.m_start);  // rotation from a to b; undefined for opposite axes
     held.m_error = std::atan2(norm(turn), dot(a.m_start, b.m_start));
     const double angle = std::min(erpOf(angular) * held.m_error, kLargestCorrection);
     const Vec3 correction = norm(turn) > 0 ? (angle / (m_scene.m_step * norm(turn))) * turn : Vec3();

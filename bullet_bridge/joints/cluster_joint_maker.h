@@ -8,13 +8,13 @@
 namespace bullet_fem
 {
 
-/// True if the cluster is one of the body's. It need not exist.
+/// True if the cluster belongs to the body. The pointer may dangle.
 bool holdsCluster(const btSoftBody& soft, const btSoftBody::Cluster* cluster);
 
-/// Exchanges the ends and the control of the joint with those that were set aside.
+/// Exchanges bodies and control of the joint with those that are hidden.
 void swapEnds(HiddenJoint& hidden);
 
-/// Turns one body's hidden cluster joints into Joints.
+/// Makes Joints of one body's hidden cluster joints.
 class ClusterJointMaker
 {
 public:
@@ -23,34 +23,34 @@ public:
     {
     }
 
-    /// Adds a joint to the problem; deletes it if its other end is gone.
+    /// Appends a joint to the problem. Deletes it if its other side is gone.
     JointFlags append(HiddenJoint& hidden);
 
 private:
-    /// One end of a cluster joint, resolved.
+    /// One side of a cluster joint.
     struct End
     {
         enum class Kind
         {
             rigid,
             cluster,
-            unmoved,  ///< a cluster of a body that stands still in this step
+            unmoved,  ///< cluster of a body that does not move in this step
             lost,
             bad
         };
         Kind m_kind = Kind::bad;
-        int m_body = -1;                                 ///< of a cluster
+        int m_body = -1;                                 ///< index of the cluster's body
         const btCollisionObject* m_object = nullptr;     ///< null: the world
         const btSoftBody::Cluster* m_cluster = nullptr;  ///< null: rigid
         FemSoftBody* m_fem = nullptr;
     };
 
-    /// Of a pivot, or of an axis.
+    /// The reference point or axis of one side.
     struct Place
     {
         Vec3 m_start;
-        RigidPivot m_pivot;  ///< of a rigid end
-        Vec3 m_spin;         ///< before the joint acts [rad/s]
+        RigidPivot m_pivot;  ///< of a rigid side
+        Vec3 m_spin;         ///< angular velocity before the joint acts [rad/s]
     };
 
     End resolve(const btSoftBody::Body& body) const;
@@ -65,7 +65,7 @@ private:
     FemSoftBody& m_fem;
     const JointScene& m_scene;
     ContactProblem& m_problem;
-    btScalar m_current = 0;  // speed about the axis that a control was asked for [rad/s]
+    btScalar m_current = 0;  // relative speed about the axis that the control was given [rad/s]
 };
 
 }  // namespace bullet_fem

@@ -10,7 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-// Callbacks may have deleted joints.
+// True if the joint still exists: callbacks may have deleted it.
 bool stillThere(const btSoftBody& soft, const HiddenJoint& hidden)
 {
     return hidden.m_joint && soft.m_joints.findLinearSearch2(hidden.m_joint) >= 0;
@@ -21,7 +21,7 @@ bool stillThere(const btSoftBody& soft, const HiddenJoint& hidden)
 void hideClusterJoints(FemSoftBody& fem)
 {
     btSoftBody& soft = *fem.m_softBody;
-    if (!fem.m_joints.m_hidden.empty()) showClusterJoints(fem);  // of a step that was not finished
+    if (!fem.m_joints.m_hidden.empty()) showClusterJoints(fem);  // left by an unfinished step
     int kept = 0;
     for (int k = 0; k < soft.m_joints.size(); ++k)
     {

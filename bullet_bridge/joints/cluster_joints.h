@@ -7,25 +7,25 @@
 namespace bullet_fem
 {
 
-/// Linear and angular joints (m_joints) of FEM bodies. Bullet's world solves them by itself, on rigid bodies and on
-/// clusters whose impulses nobody hands to the nodes. So from before collision detection until the step's end a joint
-/// has both its ends on one cluster of its own body, and Bullet's default control: there it moves nothing, needs no
-/// pointer that may dangle, and the body may be deleted at any time. Callbacks within a step see it like that; joints
-/// that they make act in Bullet's way once. A body that a callback takes out of its world and that is not back by the
-/// next step keeps its joints in that form: they hold nothing any more.
+/// Linear and angular cluster joints (m_joints) of FEM bodies. Bullet's world solves cluster joints itself, on rigid
+/// bodies and on clusters whose impulses do not reach FEM nodes. So from before collision detection until the end of
+/// the step, both sides of a joint are on one cluster of its own body, with Bullet's default control: it then has no
+/// effect and no pointer that may dangle, and the body may be deleted at any time. Callbacks within a step see joints
+/// in that form; joints that they create act in Bullet's way for that step. If a callback removes a body from its world
+/// and it is not back by the next step, its joints keep that form and no longer hold anything.
 
-/// Before collision detection, for every FEM body of the world, awake or not: hides the ends of its joints, and removes
-/// contact joints, which Bullet makes for bodies with the flag CL_SELF.
+/// Call before collision detection for each FEM body of the world, active or sleeping. Hides the sides of its joints,
+/// and removes contact joints, which Bullet creates for bodies with CL_SELF.
 void hideClusterJoints(FemSoftBody& fem);
 
-/// Makes Joints of them. A joint holds cluster points together (linear), or axes, leaving the spin about them to the
-/// joint's control (angular), with erp as share of the error that is taken back a step and a softness of
-/// (1 - cfm) / cfm for cfm < 1; split has no meaning here. A control is asked when the joints are collected, once or
-/// twice a step; a speed other than the current one is held. After solveFreeMotion, after hideClusterJoints.
+/// Appends Joints for them. A linear joint holds two points of the sides together. An angular joint aligns two axes;
+/// its control drives the rotation about them. erp is the share of the error that a step corrects; the softness is (1 -
+/// cfm) / cfm for cfm < 1; split has no effect. A control is called when joints are collected, once or twice a step; a
+/// speed other than the current one is enforced. Call after solveFreeMotion and hideClusterJoints.
 JointFlags appendClusterJoints(int body, const JointScene& scene, ContactProblem& problem);
 
-/// After the new state is known, for every FEM body of the world: gives the joints their ends back, and Bullet's
-/// clusters their frames and velocities.
+/// Call when the new state is known for each FEM body of the world. Restores the sides of the joints, and sets frames
+/// and velocities of Bullet's clusters.
 void showClusterJoints(FemSoftBody& fem);
 
 }  // namespace bullet_fem

@@ -13,9 +13,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPinnedMass = 1e6;  // mass of a pinned node, in sums of the free ones; Bullet's 1e18 leaves no digits
-constexpr double kPinnedBeyond = 1e17;     // [kg]
-constexpr double kThinnestInertia = 1e-9;  // share of the largest moment of inertia that a collinear cluster gets
+constexpr double kPinnedMass = 1e6;     // mass of a pinned node over the sum of the free ones; Bullet's 1e18 leaves no
+                                        // digits
+constexpr double kPinnedBeyond = 1e17;  // masses above this are pinned [kg]
+constexpr double kThinnestInertia = 1e-9;  // regularization of the inertia over its trace, for collinear clusters
 
 btMatrix3x3 bulletMatrix(const Mat3& m)
 {
@@ -60,7 +61,7 @@ ClusterMotion::ClusterMotion(const FemSoftBody& fem, const btSoftBody::Cluster& 
         inertia += mass(j) * (Mat3::diagonal(dot(d, d)) - outer(d, d));
         stretch += mass(j) * outer(d, vec3(cluster.m_framerefs[j]) - reference);
     }
-    // From the identity, each cluster of a body that has turned over would take a decomposition by singular values.
+    // Started from the identity, each cluster of an inverted body would need a singular value decomposition.
     m_rotation = polarRotation(stretch, toMatrix(fem.m_body.m_state.m_elementRotation[0]));
     if (trace(inertia) > 0) m_inverse = inverse(inertia + Mat3::diagonal(kThinnestInertia * trace(inertia)));
 }

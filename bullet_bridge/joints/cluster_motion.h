@@ -7,30 +7,30 @@
 namespace bullet_fem
 {
 
-/// How a cluster of a FEM body's nodes moves as a whole: as the rigid body with the momenta of its nodes,
-///     v_c = sum m_j v_j / m        w = I^-1 sum m_j d_j x v_j        d_j = x_j - c.
-/// An impulse on it acts on the nodes through the transpose, and so as on that rigid body.
+/// The rigid motion of a cluster of a FEM body's nodes, from the momenta of the nodes:
+///     v_c = sum m_j v_j / m,      w = I^-1 sum m_j d_j x v_j,      d_j = x_j - c.
+/// An impulse on the cluster acts on the nodes through the transpose, as on that rigid body.
 class ClusterMotion
 {
 public:
-    /// From the nodes as they are. The cluster's masses count; nodes that were pinned when it was made outweigh the
-    /// others. All nodes must be the body's.
+    /// Takes the present positions and the cluster's masses; nodes that were pinned when it was made outweigh the
+    /// others. All of its nodes must be the body's.
     ClusterMotion(const FemSoftBody& fem, const btSoftBody::Cluster& cluster);
 
-    const Vec3& center() const { return m_center; }           ///< c [m]
-    const Mat3& rotation() const { return m_rotation; }       ///< from the cluster's first shape
-    const Mat3& inverseInertia() const { return m_inverse; }  ///< of the nodes as they are [1/(kg m2)]
+    const Vec3& center() const { return m_center; }           ///< centre of mass c [m]
+    const Mat3& rotation() const { return m_rotation; }       ///< from the cluster's reference shape
+    const Mat3& inverseInertia() const { return m_inverse; }  ///< at the present positions [1/(kg m2)]
     Vec3 linearVelocity(const std::vector<Vec3>& v) const;    ///< for nodal velocities v [m/s]
-    Vec3 angularVelocity(const std::vector<Vec3>& v) const;   ///< likewise [rad/s]
+    Vec3 angularVelocity(const std::vector<Vec3>& v) const;   ///< for nodal velocities v [rad/s]
 
-    /// End of a joint at the material point that is at `point` [m]: v_c + w x (point - c).
+    /// Side of a joint at the material point that is at `point` [m]: v_c + w x (point - c).
     JointEnd pointEnd(int body, const Vec3& point, ContactProblem& problem) const;
 
-    /// End of a joint that is the cluster's spin w.
+    /// Side of a joint with the cluster's angular velocity w.
     JointEnd spinEnd(int body, ContactProblem& problem) const;
 
-    /// Writes centre, frame, inertia and velocities to Bullet's cluster, whose own update works in single precision
-    /// and turns small clusters towards the identity.
+    /// Writes centre, frame, inertia and velocities to Bullet's cluster. Bullet's own update works in single precision
+    /// and rotates small clusters towards the identity.
     void writeTo(btSoftBody::Cluster& cluster) const;
 
 private:
@@ -41,13 +41,13 @@ private:
 
     const FemSoftBody& m_fem;
     const btSoftBody::Cluster& m_cluster;
-    double m_heaviest = 0;  // mass that counts for a pinned node [kg]
+    double m_heaviest = 0;  // mass of a pinned node here [kg]
     double m_mass = 0;
     Vec3 m_center;
     Mat3 m_rotation, m_inverse;
 };
 
-/// True if all of the cluster's nodes are the body's.
+/// True if all nodes of the cluster belong to the body.
 bool isClusterOf(const FemSoftBody& fem, const btSoftBody::Cluster& cluster);
 
 }  // namespace bullet_fem

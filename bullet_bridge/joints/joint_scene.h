@@ -11,23 +11,24 @@
 namespace bullet_fem
 {
 
-/// What the joints of a step join, and when.
+/// The bodies and objects that the joints of a step may connect.
 struct JointScene
 {
-    const std::vector<FemSoftBody*>& m_bodies;   ///< solved together: an index is that of ContactProblem::m_bodies
-    const std::vector<FemSoftBody*>& m_outside;  ///< the others of the world
+    const std::vector<FemSoftBody*>& m_bodies;   ///< solved together, indexed as in ContactProblem::m_bodies
+    const std::vector<FemSoftBody*>& m_outside;  ///< the other FEM bodies of the world
     RigidProxies& m_rigid;
     const WorldObjects& m_world;
-    double m_step;       ///< of the world [s]
-    RigidPhase m_phase;  ///< that m_rigid was cleared for
+    double m_step;       ///< time step of the world [s]
+    RigidPhase m_phase;  ///< phase of m_rigid
 };
 
-/// What was found besides joints.
+/// Flags from collecting joints.
 struct JointFlags
 {
-    bool m_lost = false;  ///< the other end left the world: the anchor or joint was removed from the soft body
-    bool m_bad = false;  ///< a node of another body, a soft body that is not FEM, or a value that is no number: ignored
-    bool m_outside = false;  ///< a FEM body that is awake but not in this solve is joined: it was taken to stand still
+    bool m_lost = false;  ///< the other side left the world: the anchor or joint was removed from the soft body
+    bool m_bad = false;   ///< a node of another body, a soft body that is not FEM, or a value that is not finite: the
+                          ///< joint was ignored
+    bool m_outside = false;  ///< joint to an active FEM body outside of this solve, which was taken to be at rest
 
     JointFlags& operator|=(const JointFlags& b)
     {

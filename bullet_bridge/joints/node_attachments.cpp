@@ -12,9 +12,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kErp = 0.5;  // share of a distance that is taken back a step
+constexpr double kErp = 0.5;  // share of the error that a step corrects (Baumgarte) [-]
 
-// Index of the body an attachment goes to; -1 if it is not there.
+// Index of the attachment's other body; -1 if it is not in `bodies`.
 int indexOf(const NodeAttachment& attachment, const std::vector<FemSoftBody*>& bodies)
 {
     const auto isIt = [&](const FemSoftBody* fem)

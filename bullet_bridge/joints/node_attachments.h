@@ -7,12 +7,12 @@
 namespace bullet_fem
 {
 
-/// Makes a joint of every attachment of body number `body`: the node follows the point of the other body, and half of a
-/// distance between them is taken back a step. Attachments to bodies that are gone are removed. After solveFreeMotion.
+/// Appends a joint for each attachment of body `body`: the node follows a point of the other body, and a step corrects
+/// half of the distance between them. Removes attachments to bodies that are gone. Call after solveFreeMotion.
 JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& problem);
 
-/// True if one of the nodes is attached to the other body, or carries a point that a node of it is attached to: contact
-/// must not push there.
+/// True if one of the nodes is attached to the other body, or carries a point to which a node of the other body is
+/// attached. Contact must not act there.
 bool isAttached(const FemSoftBody& fem, const std::array<int, 3>& nodes, const FemSoftBody& other);
 bool isPointAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other);
 

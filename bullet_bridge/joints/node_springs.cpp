@@ -15,7 +15,7 @@ Vec3 pointOf(const NodeSpring& spring, const std::vector<Vec3>& x)
            spring.m_weights[2] * x[spring.m_nodes[2]];
 }
 
-// Handles of the nodes that can move.
+// A joint's side at the spring's point; without nodes if none of them can move.
 JointEnd pointEnd(const NodeSpring& spring, int body, const BodyState& state, ContactProblem& problem)
 {
     JointEnd end;
@@ -35,8 +35,8 @@ JointEnd pointEnd(const NodeSpring& spring, int body, const BodyState& state, Co
 
 }  // namespace
 
-// With v the velocity at the step's end, x + h v is where the point will be:
-//     lambda = h (k (target - x - h v) - d v)     or     v + lambda / (h s) = k (target - x) / s     with s = h k + d
+// An implicit spring. With v the velocity at the end of the step, x + h v is the new position of the point:
+//     lambda = h (k (target - x - h v) - d v)   or   v + lambda / (h s) = k (target - x) / s   with s = h k + d
 void appendSprings(int body, const JointScene& scene, ContactProblem& problem)
 {
     FemSoftBody& fem = *scene.m_bodies[body];

@@ -7,7 +7,7 @@
 namespace bullet_fem
 {
 
-/// Makes a joint of every spring of body number `body`. After solveFreeMotion.
+/// Appends a joint for each spring of body `body`. Call after solveFreeMotion.
 void appendSprings(int body, const JointScene& scene, ContactProblem& problem);
 
 }  // namespace bullet_fem

@@ -13,9 +13,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLargestTurn = 0.785398163397448;  // [rad] that Bullet turns a rigid body by in a step at most
+constexpr double kLargestTurn = 0.785398163397448;  // largest rotation of a rigid body in a step by Bullet [rad]
 
-// [Rodrigues]: v turned by the rotation vector w.
+// Rodrigues' formula: v rotated by the rotation vector w, at most by kLargestTurn.
 Vec3 turned(const Vec3& v, const Vec3& w)
 {
     const double angle = norm(w);
@@ -25,7 +25,7 @@ Vec3 turned(const Vec3& v, const Vec3& w)
     return std::cos(used) * v + std::sin(used) * cross(axis, v) + (1 - std::cos(used)) * dot(axis, v) * axis;
 }
 
-// The object has its pose of the step's end already: kinematic ones always have.
+// True if the object is at its pose of the end of the step; kinematic objects always are.
 bool hasMoved(const btCollisionObject& object, const JointScene& scene)
 {
     return scene.m_phase == RigidPhase::moved || object.isStaticOrKinematicObject();
@@ -48,7 +48,8 @@ RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const 
     const LinkMotion motion = scene.m_rigid.motionNow(pivot.m_rigidProxy);
     pivot.m_linearVelocity = motion.m_linear;
     pivot.m_angularVelocity = motion.m_angular;
-    // What torques of this step would make of a light body's spin alone is not the arc that it goes on.
+    // Uses the angular velocity before this step's torques: with them, a light body would be predicted to rotate much
+    // farther than it does.
     const btRigidBody* body = btRigidBody::upcast(object);
     if (body && !hasMoved(*object, scene)) pivot.m_angularVelocity = vec3(body->getAngularVelocity());
     const btTransform& pose = object->getWorldTransform();

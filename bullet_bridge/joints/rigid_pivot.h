@@ -9,26 +9,27 @@ class btCollisionObject;
 namespace bullet_fem
 {
 
-/// A place that is fixed in a rigid object, over a step: where it was as the step began and where it goes if the
-/// object's velocity stays. Along the arc of a spin, not its tangent, so nothing that is held there lags behind.
+/// A point that is fixed to a rigid object during a step: its position at the start of the step, and its displacement
+/// if the object's velocity is constant. The displacement is along the arc of the rotation, not its tangent, so that a
+/// node held there does not lag behind.
 struct RigidPivot
 {
-    int m_rigidProxy = -1;                               ///< index; -1: the place is fixed in the world
-    Mat3 m_rotation = Mat3::identity();                  ///< of the object as the step began
-    Vec3 m_start;                                        ///< [m]
-    Vec3 m_way;                                          ///< from there to where it ends [m]
-    Vec3 m_now;                                          ///< where it is on the rigid proxy [m]
-    Vec3 m_center, m_linearVelocity, m_angularVelocity;  ///< that the way was found with [m], [m/s], [rad/s]
+    int m_rigidProxy = -1;                               ///< index; -1: the point is fixed in the world
+    Mat3 m_rotation = Mat3::identity();                  ///< rotation of the object as the step began
+    Vec3 m_start;                                        ///< position as the step began [m]
+    Vec3 m_way;                                          ///< displacement in the step [m]
+    Vec3 m_now;                                          ///< position on the rigid proxy [m]
+    Vec3 m_center, m_linearVelocity, m_angularVelocity;  ///< motion from which m_way was computed [m], [m/s], [rad/s]
 
-    /// Velocity [m/s] that a point at `at` [m] shall have relative to the object's, so that within `step` [s] it goes
-    /// the pivot's way and `correction` [m] besides.
+    /// Velocity [m/s] relative to the object that moves a point at `at` [m] within `step` [s] by the pivot's
+    /// displacement plus `correction` [m].
     Vec3 wantedVelocity(const Vec3& at, const Vec3& correction, double step) const;
 };
 
-/// The pivot at `local` [m] in the frame of an object of the scene's world; null stands for the world itself.
+/// The pivot at `local` [m] in the frame of an object of the scene's world; null is the world itself.
 RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const JointScene& scene);
 
-/// a, or what is left of it with a length of at most `longest`.
+/// a, scaled down to the length `longest` if it is longer.
 Vec3 shortened(const Vec3& a, double longest);
 
 }  // namespace bullet_fem

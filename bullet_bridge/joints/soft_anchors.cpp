@@ -14,12 +14,12 @@ namespace bullet_fem
 namespace
 {
 
-// A far pivot pulls its node in, not through: by this share of a mean edge in a step at most. Nor any faster in short
-// steps than in those of 1/60 s: nodes would get as fast as a distance is closed in them.
+// Largest correction of a joint in a step, in mean edges: a distant pivot pulls its node in, not through it. Nor is the
+// correction faster than in steps of 1/60 s, as nodes would get a velocity proportional to 1/h in short steps.
 constexpr double kLongestCorrection = 0.25;
-constexpr double kFastestCorrection = 60 * kLongestCorrection;  // [1/s]
+constexpr double kFastestCorrection = 60 * kLongestCorrection;  // largest rate of correction, in mean edges [1/s]
 
-// Both kinds of anchors.
+// Common view of both kinds of anchors.
 struct AnchorView
 {
     HeldJoint::Kind m_kind;
@@ -73,7 +73,7 @@ private:
     ContactProblem& m_problem;
 };
 
-// False if the anchor is lost.
+// False if the anchor's object left the world.
 bool AnchorHolder::hold(const AnchorView& anchor)
 {
     const btAlignedObjectArray<btSoftBody::Node>& nodes = m_fem.m_softBody->m_nodes;
@@ -97,7 +97,7 @@ bool AnchorHolder::hold(const AnchorView& anchor)
     const HeldJoint* before = continuedBy(held, m_fem.m_joints.m_before, m_fem.m_joints.m_now.size());
     if (before)
     {
-        // What came to the world since is the same object if it is where the old one held the node.
+        // An object that was added since is the same one only if it is about where the former one held the node.
         const double jump = held.m_error - before->m_error;
         if (before->m_objectId != held.m_objectId && jump > m_fem.m_body.m_model->mesh().meanEdgeLength()) return false;
         held.m_impulse = before->m_impulse;
@@ -122,8 +122,9 @@ void AnchorHolder::append(const AnchorView& anchor, const RigidPivot& pivot, Hel
     joint.m_softness = anchor.m_influence < 1 ? 1 / anchor.m_influence - 1 : 0;
     const double longest = longestCorrection(m_fem, m_scene.m_step, joint.m_softness);
     const Vec3 correction = shortened(erp * (pivot.m_start - held.m_point), longest);
-    // Both sides feel the impulse at one point, or it would turn the pair. A far pivot feels it where it is: a lever of
-    // that length would be a strange one, and what turned as it is drawn in would turn faster and faster.
+    // The impulse acts on both sides at one point, otherwise it would change the angular momentum of the pair. For a
+    // distant pivot it acts at the pivot: with a lever of that length, the object would rotate ever faster while it is
+    // drawn in.
     joint.m_b.m_point = held.m_error > longest ? pivot.m_now : held.m_point;
     joint.m_wanted = pivot.wantedVelocity(joint.m_b.m_point, correction, m_scene.m_step);
     joint.m_impulse = held.m_impulse;
@@ -139,7 +140,7 @@ JointFlags appendAnchors(int body, const JointScene& scene, ContactProblem& prob
     AnchorHolder holder(body, scene, problem);
     holder.holdAll(fem.m_softBody->m_anchors);
     holder.holdAll(fem.m_softBody->m_deformableAnchors);
-    // Bullet never clears m_battach.
+    // Bullet never resets m_battach.
     const auto isAnchor = [](const HeldJoint& held)
     { return held.m_kind == HeldJoint::Kind::anchor || held.m_kind == HeldJoint::Kind::deformableAnchor; };
     for (const HeldJoint& held : fem.m_joints.m_before)

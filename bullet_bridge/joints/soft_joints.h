@@ -8,19 +8,19 @@
 namespace bullet_fem
 {
 
-/// All that holds FEM bodies besides contact: anchors, attachments to each other, cluster joints, springs. Everything
-/// is read anew in every step, so the user's arrays may be edited between steps in any way. A step calls
-///     hideClusterJoints      before collision detection, every FEM body of the world (cluster_joints.h)
+/// All joints of FEM bodies: anchors, attachments to each other, cluster joints, springs. All are read in every step,
+/// so the user may edit the arrays between steps in any way. A step calls
+///     hideClusterJoints      before collision detection, for each FEM body of the world (cluster_joints.h)
 ///     forgetWorld            once, when free motion begins
-///     append, takeBack       around the solve of every group of bodies
-///     showClusterJoints      with the new state, every FEM body of the world
+///     append, takeBack       before and after the solve of each group of bodies
+///     showClusterJoints      with the new state, for each FEM body of the world
 class SoftJoints
 {
 public:
-    /// What the world holds may have changed.
+    /// Call when objects may have been added to or removed from the world.
     void forgetWorld() { m_world.forget(); }
 
-    /// What is solved together, as in JointScene.
+    /// A group of bodies that is solved together, as in JointScene.
     struct Group
     {
         const std::vector<FemSoftBody*>& m_bodies;
@@ -30,11 +30,11 @@ public:
         RigidPhase m_phase;
     };
 
-    /// Adds the joints of all bodies to the problem, and their objects to the group's rigid proxies; `flags` gets one
-    /// entry a body. After solveFreeMotion. May be called anew for the same step.
+    /// Appends the joints of all bodies to the problem, and their objects to the group's rigid proxies. `flags` gets
+    /// one entry per body. Call after solveFreeMotion; may be called again in a step.
     void append(const Group& group, ContactProblem& problem, std::vector<JointFlags>& flags);
 
-    /// Hands a body the impulses of a solved problem that it was in.
+    /// Hands a body the impulses of the solved problem that it was in.
     static void takeBack(FemSoftBody& fem, const ContactProblem& problem);
 
 private:
@@ -42,12 +42,12 @@ private:
     WeldClusters m_clusters;
 };
 
-/// True if an attachment or a cluster joint of the body goes to one of the others. Between predictMotion and the step's
-/// end.
+/// True if an attachment or a cluster joint of the body connects it to one of the others. Valid between predictMotion
+/// and the end of the step.
 bool reachesInto(const FemSoftBody& fem, const std::vector<FemSoftBody*>& others);
 
-/// Calls visit(object) with the address of all rigid objects that anchors and cluster joints of the body hold, which
-/// may be gone. Between predictMotion and the step's end.
+/// Calls visit(object) with the addresses of all rigid objects of the body's anchors and cluster joints; the pointers
+/// may dangle. Valid between predictMotion and the end of the step.
 template <class Visit>
 void forEachRigidEnd(const FemSoftBody& fem, const Visit& visit)
 {
@@ -59,11 +59,11 @@ void forEachRigidEnd(const FemSoftBody& fem, const Visit& visit)
             if (!end.m_soft) visit(end.m_collisionObject ? end.m_collisionObject : end.m_rigid);
 }
 
-/// True if the two shall not collide: Bullet's switches setIgnoreCollisionCheck on either side, and anchors with
+/// True if the two must not collide: by setIgnoreCollisionCheck on either side, or by anchors with
 /// disableCollisionBetweenLinkedBodies. Does not allocate; may be called by several threads.
 bool ignoresCollision(const btSoftBody& body, const btCollisionObject& object);
 
-/// True if the node is anchored to the object: it may well be inside, and contact must not push it out.
+/// True if the node is anchored to the object. It may be inside of the object, and contact must not push it out.
 bool isAnchoredTo(const FemSoftBody& fem, int node, const btCollisionObject& object);
 
 }  // namespace bullet_fem

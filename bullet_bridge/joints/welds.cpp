@@ -17,7 +17,7 @@ std::array<int, 3> sorted(std::array<int, 3> face)
     return face;
 }
 
-/// The nodes of a body's surface along x.
+/// The surface nodes of a body, sorted by x coordinate.
 std::vector<std::pair<double, int>> alongX(const FemSoftBody& fem)
 {
     std::vector<std::pair<double, int>> nodes;
@@ -26,7 +26,7 @@ std::vector<std::pair<double, int>> alongX(const FemSoftBody& fem)
     return nodes;
 }
 
-/// For every node of `a` the nearest of b's surface within reach; -1: none.
+/// Per node of `a`, the nearest surface node of b within reach; -1: none.
 std::vector<int> partners(const FemSoftBody& a, const FemSoftBody& b, double reach)
 {
     const std::vector<std::pair<double, int>> others = alongX(b);
@@ -54,7 +54,8 @@ bool isTieOf(const Weld& weld, const HeldJoint& held, const NodeAttachment& tie)
            held.m_node == tie.m_node && held.m_object == weld.m_other;
 }
 
-// Tension and shear together; pressure breaks nothing. `force` is on the side that the normal leads out of.
+// Traction by tension and shear [Pa]; compression breaks nothing. `force` acts on the side that the normal points away
+// from.
 double tractionOf(const Vec3& force, const Vec3& normal, double area)
 {
     const double length = norm(normal);
@@ -112,7 +113,7 @@ int addWeld(FemSoftBody& a, const FemSoftBody& b, const CommonFaces& faces, Weld
         a.m_joints.m_attachments.push_back(tie);
     }
     a.m_joints.m_welds.push_back(std::move(weld));
-    a.m_surface.forgetPlace();  // what is tied touches no more
+    a.m_surface.forgetPlace();  // welded surfaces have no contact
     return a.m_joints.m_lastId;
 }
 
@@ -122,7 +123,7 @@ int WeldClusters::root(int body) const
     return body;
 }
 
-// Of the body that a tie goes to; -1 if it is not there.
+// Index of an attachment's other body; -1 if it is gone.
 int WeldClusters::indexOf(const NodeAttachment& tie) const
 {
     const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(tie.m_other, 0));
@@ -206,7 +207,7 @@ const WeldLoad& WeldLoads::load(const FemSoftBody& fem, const Weld& weld, double
     m_load = {};
     m_ties.clear();
     const std::vector<HeldJoint>& now = fem.m_joints.m_now;
-    std::size_t next = 0;  // both lists have the ties in one order
+    std::size_t next = 0;  // both lists have the attachments in one order
     const int count = static_cast<int>(fem.m_joints.m_attachments.size());
     for (int k = 0; k < count; ++k)
     {
@@ -215,7 +216,7 @@ const WeldLoad& WeldLoads::load(const FemSoftBody& fem, const Weld& weld, double
         std::size_t at = next;
         while (at < now.size() && !isTieOf(weld, now[at], tie)) ++at;
         Tie bears = {k, 0, 0};
-        if (at < now.size())  // else it is newer than the step
+        if (at < now.size())  // otherwise the attachment is newer than the step
         {
             next = at + 1;
             const Vec3 force = (1 / step) * now[at].m_impulse;

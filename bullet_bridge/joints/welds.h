@@ -11,22 +11,23 @@
 namespace bullet_fem
 {
 
-/// Faces that two bodies have in common: their corners lie in the same places.
+/// Matching faces of two bodies, with coincident corners.
 struct CommonFaces
 {
-    std::vector<std::pair<int, int>> m_nodes;  ///< of the first body and of the other, ascending
-    std::vector<double> m_area;                ///< of every such pair: a third of its faces, as they are now [m2]
-    std::vector<std::array<int, 3>> m_faces;   ///< nodes of the first body, counter-clockwise seen from outside of it
+    std::vector<std::pair<int, int>> m_nodes;  ///< pairs of nodes of the first body and of the other, ascending
+    std::vector<double> m_area;                ///< per pair: a third of the area of its faces at present [m2]
+    std::vector<std::array<int, 3>> m_faces;   ///< nodes of the first body, oriented outward
 };
 
-/// Those of the surfaces of two bodies as they lie, with corners at most `reach` [m] apart.
+/// The matching faces of two bodies at their present positions, with corners at most `reach` [m] apart.
 CommonFaces commonFaces(const FemSoftBody& a, const FemSoftBody& b, double reach);
 
-/// Ties the bodies by these faces: `weld` has the limits; its handle, faces and other body are given to it here.
-/// `compliance` is that of a layer between them [m/Pa], >= 0. Returns the handle.
+/// Welds the bodies at these faces by attachments. `weld` has the limits; its handle, faces and other body are set
+/// here. `compliance`: that of a layer between the bodies [m/Pa], >= 0. Returns the handle.
 int addWeld(FemSoftBody& a, const FemSoftBody& b, const CommonFaces& faces, Weld weld, double compliance);
 
-/// Finds the clusters of all bodies of a world and their welded nodes, in every step, before contacts are searched.
+/// Finds the groups of bodies that are connected by welds, and their welded nodes. Call find() in every step before
+/// contact searches; grows with the number of bodies.
 class WeldClusters
 {
 public:
@@ -41,51 +42,51 @@ private:
     std::vector<int> m_parent;
 };
 
-/// False for pieces that hang together by welds: as one body, they touch each other only if they have CL_SELF.
+/// False for bodies of one group of welds, unless both have CL_SELF: they count as one body.
 bool mayTouch(const FemSoftBody& a, const FemSoftBody& b);
 
-/// True if contact between these points would push on what welds hold: both have welded nodes, of one cluster. Pieces
-/// that have an edge or a corner in common lie there as close as those that are welded.
+/// True if both points have welded nodes of one group, where contact would act against welds. Bodies with a common edge
+/// or corner only are as close there as welded ones.
 bool areWelded(const FemSoftBody& a, const SurfacePoint& pointOfA, const FemSoftBody& b, const SurfacePoint& pointOfB);
 
-/// What a weld bore in the last step.
+/// The load of a weld in the last step.
 struct WeldLoad
 {
-    int m_nodes = 0;       ///< that it still ties
-    double m_area = 0;     ///< that it still holds [m2]
-    Vec3 m_force;          ///< on the body that has it [N]
-    double m_stress = 0;   ///< the largest of a node: tension and shear, see docs/materials.md [Pa], >= 0
-    double m_stretch = 0;  ///< the largest distance of two nodes, as the step began [m], >= 0
+    int m_nodes = 0;       ///< number of its attachments
+    double m_area = 0;     ///< their area [m2]
+    Vec3 m_force;          ///< force on the body with the weld [N]
+    double m_stress = 0;   ///< largest traction of a node by tension and shear, see docs/materials.md [Pa], >= 0
+    double m_stretch = 0;  ///< largest distance of a pair of nodes as the step began [m], >= 0
 };
 
-/// What broke in a step.
+/// A weld of which attachments broke in a step.
 struct WeldBreak
 {
     int m_weld = 0;                       ///< handle
-    const btSoftBody* m_other = nullptr;  ///< of the weld
-    int m_broken = 0;                     ///< ties that broke
-    WeldLoad m_load;                      ///< before they broke; its number of nodes is what is left
+    const btSoftBody* m_other = nullptr;  ///< the other body of the weld
+    int m_broken = 0;                     ///< number of attachments that broke
+    WeldLoad m_load;                      ///< load before the break; its m_nodes and m_area are those left
 };
 
-/// Welds of bodies whose step is solved. Scratch only; grows with the largest body.
+/// Loads of welds after the step is solved. Scratch grows with the largest body.
 class WeldLoads
 {
 public:
-    /// Of a step of `step` [s], after SoftJoints::takeBack.
+    /// The load in a step of `step` [s]. Call after SoftJoints::takeBack. The reference is valid until the next call.
     const WeldLoad& load(const FemSoftBody& fem, const Weld& weld, double step);
 
-    /// Unties what bears more than its limit, and appends it to `broken`.
+    /// Removes attachments beyond a weld's limits, and appends the weld to `broken`.
     void breakWelds(FemSoftBody& fem, double step, std::vector<WeldBreak>& broken);
 
 private:
     struct Tie
     {
-        int m_index;  // in HeldJoints::m_attachments
+        int m_index;  // index in HeldJoints::m_attachments
         double m_stress, m_stretch;
     };
     void findNormals(const FemSoftBody& fem, const Weld& weld);
 
-    std::vector<Vec3> m_normal;  // per node, of the faces at it, outward
+    std::vector<Vec3> m_normal;  // per node, sum of the outward area vectors of welded faces
     std::vector<Tie> m_ties;
     WeldLoad m_load;
 };
