@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-// Numbers that no scene has, but that single precision can still square.
+// Bound of values in a snapshot: no scene reaches it, and its square is finite in single precision.
 constexpr double kMost = 1e12;
 
 bool isSane(double value)
@@ -65,7 +65,7 @@ bool isOne(double value)
     return std::fabs(value - 1) <= kAlmost;
 }
 
-// Contacts between bodies may be used again as they are.
+// Checks the values that the next step may use unchanged.
 void checkKept(const ContactPoint& c)
 {
     if (!isOne(norm(c.m_normal)))
@@ -75,7 +75,7 @@ void checkKept(const ContactPoint& c)
             reject("the weights of a contact between bodies sum up to ", sumOfWeights(*point), ", not 1");
 }
 
-// `soft` feels the impulse; null for what has left the world.
+// `soft` is the body of m_soft; `other` is null for a rigid object, or a body that has left the world.
 void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBody* other)
 {
     checkSurfacePoint(c.m_soft, soft, "a contact");
@@ -84,7 +84,7 @@ void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBod
               c.m_approach, c.m_normal, c.m_impulse, c.m_slip);
 }
 
-// `other` is null for what is not soft, or has left the world.
+// `other` is null for a rigid object, or a body that has left the world.
 void checkImpact(const Impact& i, const FemSoftBody& fem, const FemSoftBody* other)
 {
     const auto checkPiece = [](int piece, int least, const FemSoftBody& of)
@@ -142,7 +142,7 @@ void checkWeld(const Weld& weld, const FemSoftBody& fem)
         if (!(limit > 0)) reject("a limit of a weld is ", limit, ", not above 0");
 }
 
-// Finds the user's joint among those of the bodies.
+// Finds the user's joint among those of the bodies, and stores its owner and index.
 void tellSource(const void* source, const WorldIds& world, HeldSnapshot& held)
 {
     if (!source) return;
@@ -152,7 +152,7 @@ void tellSource(const void* source, const WorldIds& world, HeldSnapshot& held)
             if (fem->m_softBody->m_joints[k] == source) held.m_owner = world.idOf(fem->m_softBody), held.m_source = k;
 }
 
-// Null if there is no such joint any more.
+// The user's joint; null if it no longer exists.
 const void* sourceOf(const HeldSnapshot& held, const WorldIds& world)
 {
     const FemSoftBody* fem = world.bodyOf(held.m_owner);
@@ -192,7 +192,7 @@ void restoreJoints(const ContactSnapshot& s, const WorldIds& world, HeldJoints& 
         joints.m_welds.back().m_other = other->m_softBody;
     }
     joints.m_lastId = s.m_lastAttachment;
-    for (const ClothAttachment& a : joints.m_clothAttachments)  // they stay as they are
+    for (const ClothAttachment& a : joints.m_clothAttachments)  // they are not part of a snapshot
         joints.m_lastId = std::max(joints.m_lastId, a.m_id);
 }
 

@@ -11,41 +11,41 @@
 namespace bullet_fem
 {
 
-/// A HeldJoint whose pointers are ids: see WorldIds.
+/// A HeldJoint with ids in place of pointers: see WorldIds.
 struct HeldSnapshot
 {
     HeldJoint m_joint;
-    int m_object = WorldIds::kNone;  ///< its other end
-    int m_owner = WorldIds::kNone;   ///< soft body that has its source among its joints
-    int m_source = 0;                ///< and the index there
+    int m_object = WorldIds::kNone;  ///< the other side
+    int m_owner = WorldIds::kNone;   ///< soft body whose m_joints contain the source
+    int m_source = 0;                ///< index in its m_joints
 };
 
-/// A NodeAttachment likewise.
+/// A NodeAttachment with an id in place of its pointer.
 struct AttachmentSnapshot
 {
     NodeAttachment m_attachment;
     int m_other = WorldIds::kGone;
 };
 
-/// A Weld likewise.
+/// A Weld with an id in place of its pointer.
 struct WeldSnapshot
 {
     Weld m_weld;
     int m_other = WorldIds::kGone;
 };
 
-/// An Impact likewise.
+/// An Impact with an id in place of its pointer.
 struct ImpactSnapshot
 {
     Impact m_impact;
     int m_other = WorldIds::kGone;
 };
 
-/// What a body touched and what held it in the last step: the guesses and memories of the next.
+/// Contacts, joints and impacts of a body in the last step: warm start and history of the next.
 struct ContactSnapshot
 {
     std::vector<ContactPoint> m_contacts;
-    std::vector<ContactOrigin> m_origins;  ///< without pointers
+    std::vector<ContactOrigin> m_origins;  ///< their pointers are not saved
     std::vector<SheetSide> m_sheetSides;
     std::vector<ImpactSnapshot> m_impacts;
     std::vector<HeldSnapshot> m_held;
@@ -57,20 +57,21 @@ struct ContactSnapshot
 
 ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world);
 
-/// Throws std::invalid_argument, naming the value, unless the snapshot can be that of this body.
+/// Throws std::invalid_argument, naming the value, unless the snapshot is consistent with this body.
 void check(const ContactSnapshot& snapshot, const FemSoftBody& fem, const WorldIds& world);
 
-/// Gives it to the body; what touched or held it and is no longer in the world is left out. After check().
+/// Restores the body's contacts, joints and impacts. Drops those with objects that are not in the world. Call after
+/// check().
 void restore(const ContactSnapshot& snapshot, const WorldIds& world, FemSoftBody& fem);
 
-/// Throws std::invalid_argument unless the points can be between the bodies of their origins. Leaves those out of which
-/// a body is gone.
+/// Throws std::invalid_argument unless the contacts are consistent with the bodies of their origins. Drops contacts
+/// with bodies that are gone.
 void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world);
 
-/// Throws std::invalid_argument unless all numbers are finite.
+/// Throws std::invalid_argument unless all numbers are in (-1e12, 1e12).
 void check(const RigidProxies::Memory& memory);
 
-/// Throws std::invalid_argument unless a SurfacePoint may have so many nodes.
+/// Throws std::invalid_argument unless `count` is a possible number of nodes of a SurfacePoint.
 void checkNodeCount(int count);
 
 template <class Bytes>

@@ -18,10 +18,10 @@ namespace
 using Components = NodeSnapshot::Components;
 using Node = btSoftBody::Node;
 
-constexpr double kFarthestSaved = 1e6;  // [m] and [m/s]; beyond it Bullet's broad phase gives a body up
+constexpr double kFarthestSaved = 1e6;  // [m] and [m/s]; Bullet's broadphase fails beyond it
 constexpr int kLastActivationState = FIXED_BASE_MULTI_BODY;
 
-// The fourth components are the user's, if anyone's.
+// Drops the fourth component, which has no meaning here.
 Components componentsOf(const btVector3& v)
 {
     return {v.x(), v.y(), v.z()};
@@ -54,7 +54,7 @@ std::vector<Components> rounded(const std::vector<Vec3>& vectors)
     return values;
 }
 
-// Bits, because 0 == -0.
+// Compares bits, because 0 == -0.
 template <class T>
 bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
 {
@@ -163,7 +163,7 @@ NodeSnapshot nodeSnapshotOf(const FemSoftBody& fem)
 void check(const NodeSnapshot& s, const FemSoftBody& fem)
 {
     const int n = fem.m_softBody->m_nodes.size(), faces = fem.m_softBody->m_faces.size();
-    // What the user wrote to nodes may be anything: the next step mends it.
+    // Values that the user wrote to nodes are not checked: the next step repairs them.
     checkSize(s.m_x, n, "node positions", true);
     checkSize(s.m_v, n, "node velocities", true);
     checkSize(s.m_q, n, "last positions");

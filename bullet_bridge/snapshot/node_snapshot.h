@@ -10,26 +10,26 @@
 namespace bullet_fem
 {
 
-/// What steps write to a btSoftBody besides its FEM state, and what FemSoftBody knows of its nodes. Arrays that follow
-/// from others are left empty: m_x and m_v where they are what was written last, that where it is the rounded state,
-/// the forces and pins where all are zero.
+/// The values that steps write to a btSoftBody besides the FEM state, and FemSoftBody's record of its nodes. Redundant
+/// arrays are empty: m_x and m_v if they equal the values last written, those if they equal the rounded state, forces
+/// and pins if all are zero.
 struct NodeSnapshot
 {
     using Components = std::array<btScalar, 3>;
 
     std::vector<Components> m_x, m_q, m_v, m_vn, m_f, m_n;  ///< as in btSoftBody::Node
     std::vector<btScalar> m_inverseMass, m_area;
-    std::vector<unsigned char> m_attached;  ///< 1 where m_battach is set; empty where nowhere
+    std::vector<unsigned char> m_attached;  ///< 1 where m_battach is set; empty if all are 0
     std::vector<Components> m_faceNormal;   ///< as in btSoftBody::Face
     std::vector<btScalar> m_faceArea;       ///< [m2]
-    std::array<Components, 2> m_bounds;     ///< of the broad phase [m]
+    std::array<Components, 2> m_bounds;     ///< bounds for the broad phase [m]
     bool m_constantsOutdated = false;       ///< btSoftBody::m_bUpdateRtCst
     int m_activation = 0;                   ///< activation state
     btScalar m_deactivationTime = 0;        ///< [s]
     btScalar m_maxSpeedSquared = 0;         ///< [m2/s2]
 
     std::vector<Components> m_writtenX, m_writtenV;  ///< as in WrittenNodes
-    std::vector<btScalar> m_writtenInverseMass;      ///< empty where it is m_inverseMass
+    std::vector<btScalar> m_writtenInverseMass;      ///< empty if equal to m_inverseMass
     std::vector<Vec3> m_pinVelocity, m_pinPosition;  ///< as in NodePins
     std::vector<unsigned char> m_hasTarget, m_moved;
     Vec3 m_restOrigin;  ///< as in FemSoftBody [m]
@@ -37,10 +37,10 @@ struct NodeSnapshot
 
 NodeSnapshot nodeSnapshotOf(const FemSoftBody& fem);
 
-/// Throws std::invalid_argument, naming the value, unless the snapshot can be that of this body.
+/// Throws std::invalid_argument, naming the value, unless the snapshot is consistent with this body.
 void check(const NodeSnapshot& snapshot, const FemSoftBody& fem);
 
-/// Writes it to the body, whose FEM state is restored already. After check().
+/// Restores the body's nodes. Call after check() and after restoring the FEM state.
 void restore(const NodeSnapshot& snapshot, FemSoftBody& fem);
 
 template <class Bytes>

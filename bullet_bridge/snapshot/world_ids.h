@@ -12,27 +12,27 @@ class btBroadphaseInterface;
 namespace bullet_fem
 {
 
-/// The objects of a world and their ids in its broad phase, which tell them from each other in a snapshot: addresses
-/// change from run to run, and come to other objects. Pointers to what is gone are recognised without being followed.
+/// The objects of a world and their ids in its broad phase, which identify them in a snapshot: addresses change from
+/// run to run and are reused. Pointers to objects that are gone are compared, never followed.
 class WorldIds
 {
 public:
-    static constexpr int kNone = -1;  ///< of a null pointer
-    static constexpr int kGone = -2;  ///< of an object that the world does not hold
+    static constexpr int kNone = -1;  ///< id of a null pointer
+    static constexpr int kGone = -2;  ///< id of an object that is not in the world
 
     WorldIds() = default;
     explicit WorldIds(btBroadphaseInterface& broadphase);
 
     int idOf(const btCollisionObject* object) const;
 
-    /// Null if the world does not hold it.
+    /// The object of an id; null if the world does not contain it.
     const btCollisionObject* objectOf(int id) const;
 
-    /// The FEM body that is this object; null if it is none of them. The object may be anything, or gone.
+    /// The FEM body at this address; null if there is none. The pointer may dangle.
     FemSoftBody* bodyAt(const btCollisionObject* object) const;
     FemSoftBody* bodyOf(int id) const { return id >= 0 ? bodyAt(objectOf(id)) : nullptr; }
 
-    /// FEM bodies of the world.
+    /// The FEM bodies of the world.
     std::vector<FemSoftBody*> m_bodies;
 
 private:
