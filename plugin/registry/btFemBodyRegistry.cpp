@@ -17,7 +17,7 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr int kInTwoWorlds = 2;  // claims of a body by its former world that two living worlds alone can make
+constexpr int kInTwoWorlds = 2;  // mutual claims of a body that only two living worlds can make
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
     return at == m_number.end() ? m_records.size() : at->second;
 }
 
-// After every change of their order.
+// Updates the index of records. Call after each change of their order.
 void btFemBodyRegistry::numberRecords()
 {
     m_number.clear();
@@ -72,15 +72,15 @@ bool btFemBodyRegistry::isAsBuilt(const btFemBodyRecord& record)
     return !record.isFem() || (hasMark(*record.m_softBody, record.fem().m_mark) && topologyAsSetUp(record.fem()));
 }
 
-// True if another body lives now at the address of one that is known.
+// True if another body is now at the address of a known one.
 bool btFemBodyRegistry::isAnother(std::size_t known, const btSoftBody& body) const
 {
     const btFemBodyRecord& record = *m_records[known];
     return record.isFem() && !hasMark(body, record.fem().m_mark);
 }
 
-// Bodies at such addresses are new, and come last, as they would at any others: the order of bodies decides about
-// rounding.
+// Forgets bodies whose address was reused. The new body gets a record at the end, as at any other address: the order of
+// bodies affects rounding.
 void btFemBodyRegistry::forgetTheDead(const btAlignedObjectArray<btSoftBody*>& softBodies)
 {
     for (int i = 0; i < softBodies.size(); ++i)
@@ -90,8 +90,7 @@ void btFemBodyRegistry::forgetTheDead(const btAlignedObjectArray<btSoftBody*>& s
     }
 }
 
-// Nodes or tetrahedra may have been appended, removed, or joined otherwise: then the body keeps what the user asked for
-// it.
+// Makes a body of changed nodes or tetrahedra a new record, which keeps the user's settings.
 void btFemBodyRegistry::lookAgain(btFemBodyRecord& record, bool joinedAsBefore)
 {
     if (!record.isFem() || joinedAsBefore) return;
@@ -107,8 +106,8 @@ void btFemBodyRegistry::lookAgain(btFemBodyRecord& record, bool joinedAsBefore)
     record = std::move(changed);
 }
 
-// A world that holds a body of another one takes it over. Worlds that take it from each other both hold it; once may be
-// a new world at the address of a deleted one.
+// A world takes over a body that another world had. A body that goes back and forth is in two worlds at once; a single
+// return may be a new world at the address of a deleted one.
 void btFemBodyRegistry::claim(btFemBodyRecord& record, const void* world, const btSoftBodySolver* solver)
 {
     if (record.m_membership.m_world && record.m_membership.m_world != world &&
@@ -126,7 +125,7 @@ void btFemBodyRegistry::claim(btFemBodyRecord& record, const void* world, const 
     record.m_membership.m_present = record.m_membership.m_world == world && !otherSolver;
 }
 
-// Every tetrahedron of every body is looked at, which takes longer than all else here.
+// Compares tetrahedra with the known topology on several threads: this is the costliest part of synchronise().
 void btFemBodyRegistry::compareTopologies(const btAlignedObjectArray<btSoftBody*>& softBodies, const Threads& threads)
 {
     m_joinedAsBefore.assign(m_records.size(), 0);
@@ -180,7 +179,7 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
         if (!soft->getBroadphaseHandle()) restoreBroadphaseProxy(*soft);
         claim(*m_records[known], world, solver);
     }
-    // What this world, or none, has and the world does not hold is gone, and must not be looked at.
+    // Drops records of bodies that this world no longer contains. They may be deleted, so they must not be accessed.
     std::size_t kept = 0;
     for (std::size_t k = 0; k < m_records.size(); ++k)
     {

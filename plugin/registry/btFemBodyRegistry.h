@@ -15,29 +15,29 @@ namespace bullet_fem
 class Threads;
 }
 
-/// The bodies of a solver, by address. Removal from a world is silent and addresses are reused, so every step compares
-/// what is known with what the world holds.
+/// The bodies of a solver, by address. Bullet does not report removal from a world, and addresses are reused, so each
+/// step compares the records with the world's bodies.
 class btFemBodyRegistry
 {
 public:
-    /// Null if it is not known, be it that a body which is known had its address before.
+    /// The record of a body; null if it is unknown, or if the known body of that address was another one.
     btFemBodyRecord* find(const btSoftBody* body) const;
 
-    /// The record of a body, made if there is none. Throws std::invalid_argument on null.
+    /// The record of a body, created if there is none. Throws std::invalid_argument if it is null.
     btFemBodyRecord& record(btSoftBody* body);
 
     void forget(const btSoftBody* body);
 
-    /// Makes the records those of the world's bodies: drops records of bodies that left it or never came, and those
-    /// whose address now holds another body; makes records for new ones with tetrahedra; flags bodies added twice or
-    /// elsewhere. `threads` compare their tetrahedra with what is known.
+    /// Updates the records to the world's bodies: drops records of bodies that are not in it, and of those whose
+    /// address now has another body; creates records for new bodies with tetrahedra; flags bodies that were added twice
+    /// or are in another world. `threads` compare the tetrahedra.
     void synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver,
                      const bullet_fem::Threads& threads);
 
-    /// True if the address still holds the body that the record was made for, uncut. The body must not be deleted.
+    /// True if the address still has the body of the record, with unchanged topology. The body must not be deleted.
     static bool isAsBuilt(const btFemBodyRecord& record);
 
-    /// Puts some of the records before all others, in this order.
+    /// Moves these records to the front, in this order.
     void putFirst(const std::vector<btFemBodyRecord*>& records);
 
     const btFemRecords& records() const { return m_records; }
@@ -51,9 +51,9 @@ private:
     void compareTopologies(const btAlignedObjectArray<btSoftBody*>& softBodies, const bullet_fem::Threads& threads);
     void claim(btFemBodyRecord& record, const void* world, const btSoftBodySolver* solver);
 
-    btFemRecords m_records;                                       // in the order in which they became known
-    std::unordered_map<const btSoftBody*, std::size_t> m_number;  // of every record
-    std::vector<unsigned char> m_held;                            // per record: the world being stepped holds it
-    std::vector<unsigned char> m_joinedAsBefore;  // likewise: its tetrahedra join the nodes that they did
-    std::vector<int> m_compared;                  // records
+    btFemRecords m_records;                                       // in the order of creation, except for putFirst()
+    std::unordered_map<const btSoftBody*, std::size_t> m_number;  // index of each record
+    std::vector<unsigned char> m_held;                            // per record: the world being stepped contains it
+    std::vector<unsigned char> m_joinedAsBefore;                  // per record: its tetrahedra have their former nodes
+    std::vector<int> m_compared;                                  // indices of records
 };

@@ -11,7 +11,7 @@
 namespace
 {
 
-// Those of a body in the broad phase that the body does not know.
+// Collects the proxies of a body in the broad phase that the body does not refer to.
 struct LostProxies : btBroadphaseAabbCallback
 {
     explicit LostProxies(btSoftBody& body) : m_body(body) {}

@@ -4,8 +4,8 @@
 
 class btSoftBody;
 
-/// A world to which a body is added twice gives it a second proxy in the broad phase and loses the first; removed once,
-/// it stays in the world without any, and Bullet's next step would follow a null pointer. This takes proxies that are
-/// lost out of the broad phase, and gives a body of a world that has none a new one, with the filters of addSoftBody's
-/// defaults. Needs the body's btSoftBodyWorldInfo with broad phase and dispatcher; without them nothing is done.
+/// Repairs the broad phase of a body that was added to a world twice: the world then gives it a second proxy and loses
+/// the first. Removed once, the body is still in the world without a proxy, and Bullet's next step would follow a null
+/// pointer. This destroys lost proxies, and gives a body without one a new proxy with the default filters of
+/// addSoftBody. Needs the body's btSoftBodyWorldInfo with broad phase and dispatcher; no effect without them.
 void restoreBroadphaseProxy(btSoftBody& body);
