@@ -51,17 +51,17 @@ void refresh(btFemFaceIndex& index, const btSoftBody& soft, const TetMesh& mesh)
     index.m_count = soft.m_faces.size();
 }
 
-// The node next to the point.
+// The node of largest weight.
 int nearestNode(const btFemContact& contact)
 {
     const btScalar* const weights = contact.m_weights;
     return contact.m_nodes[std::max_element(weights, weights + contact.m_nodeCount) - weights];
 }
 
-// A face that has the point, and its weights in the face's order; null if there is none.
+// A face that contains the contact point, with the weights in the order of its nodes; null if there is none.
 btSoftBody::Face* faceAt(const btFemContact& contact, const btFemBodyRecord& record, btVector3& weights)
 {
-    if (record.fem().m_skin) return nullptr;  // no face of the mesh has points of a skin
+    if (record.fem().m_skin) return nullptr;  // faces of the mesh do not contain a skin's points
     btSoftBody& soft = *record.m_softBody;
     const SurfaceFeatures& features = record.fem().m_surface.features();
     const int node = nearestNode(contact);
@@ -81,7 +81,8 @@ btSoftBody::Face* faceAt(const btFemContact& contact, const btFemBodyRecord& rec
     return nullptr;
 }
 
-// What both kinds of contact have. A zero impulse matrix, and an inverse mass of 0, keep solvers off.
+// Fills the members that both kinds of contact have. A zero impulse matrix and inverse mass keep solvers from acting on
+// them.
 template <class Contact>
 void fill(Contact& to, const btFemContact& contact)
 {
@@ -96,7 +97,7 @@ void fill(Contact& to, const btFemContact& contact)
     to.t1 = to.t2 = zero;
 }
 
-// Without copies of what a contact has for multibodies.
+// Appends in place, as copies of a contact would copy its multibody data.
 template <class Contact>
 Contact& append(btAlignedObjectArray<Contact>& contacts)
 {
@@ -119,7 +120,7 @@ void writeBulletContacts(btFemBodyRecord& record, WorldObjects& world)
     const int rigid = std::min(static_cast<int>(record.fem().m_contacts.size()), record.m_reports.m_contacts.size());
     if (rigid == 0) return;
     refresh(record.m_model.m_faceIndex, soft, record.fem().m_body.m_model->mesh());
-    for (int k = 0; k < rigid; ++k)  // those with soft bodies come after them
+    for (int k = 0; k < rigid; ++k)  // contacts with soft bodies follow
     {
         const btFemContact& contact = record.m_reports.m_contacts[k];
         if (!isTouch(contact, 0) || !world.readAndHolds(soft, contact.m_other)) continue;

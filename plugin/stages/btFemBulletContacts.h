@@ -9,12 +9,12 @@ namespace bullet_fem
 class WorldObjects;
 }
 
-// Bullet's own contact arrays, m_rcontacts and m_faceRigidContacts, are only for those who read them: btSoftBodyHelpers
-// draws them, others list them. Their solver constants are such that nobody would act on them.
+// Bullet's own contact arrays, m_rcontacts and m_faceRigidContacts, are filled for programs that read them, such as the
+// drawing of btSoftBodyHelpers. Their solver constants are zero, so that no solver acts on them.
 
-/// Before writeBulletContacts: allocates where there are more contacts than ever.
+/// Call before writeBulletContacts. Allocates if there are more contacts than ever before.
 void makeRoomForBulletContacts(const btFemBodyRecord& record);
 
-/// Fills them with what touches rigid objects that the world holds: as the step began, like btFemContact. May be called
-/// by several threads for different bodies once `world` has read the world of all of them.
+/// Writes the contacts with rigid objects that are in the world, as the step began, like btFemContact. May be called by
+/// several threads for different bodies once `world` has read the world of all of them.
 void writeBulletContacts(btFemBodyRecord& record, bullet_fem::WorldObjects& world);

@@ -5,11 +5,11 @@
 #include "bullet_bridge/contact/cloth/cloth_contacts.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 
-/// Forgets cloth that is none of `bodies`, and pairs the others with the FEM bodies that they are attached to. Before
-/// contact with cloth is looked for.
+/// Forgets cloth that is not in `bodies`, and pairs the others with the FEM bodies that they are attached to. Call
+/// before contact with cloth is searched.
 void listCloth(const btFemBodyRegistry& registry, const btAlignedObjectArray<btSoftBody*>& bodies,
                bullet_fem::ClothContacts& cloth);
 
-/// Bullet builds its tree of nodes along the links, and never ends without any: helpers' bodies have none. Makes one
-/// that finite elements do not move ready for Bullet.
+/// Prepares a body that is not FEM and has no links for Bullet: Bullet builds its tree of nodes along the links, and
+/// never returns if there are none, as in bodies made by helpers.
 void updateWithoutTree(btSoftBody& body);

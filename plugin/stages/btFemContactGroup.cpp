@@ -18,16 +18,16 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr int kContactsPerChunk = 256;  // copied at once
+constexpr int kContactsPerChunk = 256;  // contacts copied by one task
 
-// Slower impacts give nothing back, as of Bullet's rigid bodies: m_restitutionVelocityThreshold is the same [m/s].
+// Largest impact speed without restitution [m/s], as Bullet's m_restitutionVelocityThreshold.
 constexpr double kRestitutionVelocity = 0.2;
 
-// The user's defaults are the solver's own.
+// The defaults of the user's settings are those of the solver.
 static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
 static_assert(btFemSolverInfo().m_contactRounds == ContactSettings().m_rounds);
 
-// Sets the impulse on one side, and the point of that side.
+// Fills in the impulse on one side, and that side's point.
 void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
 {
     const SurfacePoint& side = otherSide ? point.m_other : point.m_soft;
@@ -65,7 +65,7 @@ void btFemContactGroup::beginStep(double step)
     m_joints.forgetWorld();
 }
 
-// But for the room of the contacts, which are as many and as large as all else that is written anew in a step.
+// Clears the problem, but keeps the capacity of the contact array, which is its largest part.
 void btFemContactGroup::clearProblem()
 {
     std::vector<ContactPoint> contacts;
@@ -89,7 +89,7 @@ void btFemContactGroup::collect(const Scope& scope)
         m_problem.m_bodies.push_back(
             {&fem.m_body, fem.m_compliance.get(), fem.m_predicted.empty() ? nullptr : &fem.m_predicted});
     }
-    collectJoints(scope);  // first: they decide whether the rigid bodies that they hold are rewound
+    collectJoints(scope);  // first: joints decide whether the rigid bodies that they hold are rewound
     for (FemSoftBody* fem : m_bodies) fem->holdForSearches(true);
     findRigid();
     findSoft();
@@ -110,7 +110,7 @@ void btFemContactGroup::collect(const Scope& scope)
     m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
     m_settings.m_rounds = m_info.m_contactRounds;
     m_settings.m_sweeps = m_info.m_contactSweeps;
-    m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the rounds, too
+    m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the outer iterations, too
     m_settings.m_tolerance = m_info.m_contactTolerance;
     if (m_settings.m_untilSolved) m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
     if (mayRebound(m_problem)) m_settings.m_tolerance = std::min(m_settings.m_tolerance, kReboundTolerance);
@@ -130,7 +130,7 @@ void btFemContactGroup::findRigid()
     }
 }
 
-// Bodies in the order of the problem, which does not depend on addresses.
+// The bodies are in the order of the problem, which does not depend on addresses.
 void btFemContactGroup::findSoft()
 {
     m_softPairs.find(m_bodies, m_step, m_info.m_maxContacts);
@@ -149,7 +149,7 @@ void btFemContactGroup::findCloth()
     }
 }
 
-// Those of every body with rigid ones, then those between soft bodies; those with cloth are appended later.
+// Copies contacts with rigid objects body by body, then those between soft bodies; cloth contacts are appended later.
 void btFemContactGroup::collectContacts()
 {
     m_firstRigid.assign(1, 0);
@@ -187,7 +187,7 @@ void btFemContactGroup::listTouching()
         if (m_touches[b] != 0) m_touching.push_back(m_records[b]);
 }
 
-// Links go on arcs: only one point in space for both keeps momenta.
+// Links move on arcs: momenta are conserved only if both sides share one contact point.
 void btFemContactGroup::alignLinks(std::vector<ContactPoint>& contacts) const
 {
     for (ContactPoint& contact : contacts)
@@ -234,7 +234,7 @@ void btFemContactGroup::solve()
     report(solved);
 }
 
-// A part of the solution, with the rigid proxies' velocities from the rigid solver's bodies and back to them.
+// Runs a part of the solve with the velocities of the rigid solver's bodies, and writes the result back to them.
 template <class Part>
 void btFemContactGroup::onSolverBodies(const Part& part)
 {
@@ -295,7 +295,7 @@ void btFemContactGroup::giveRebounds(const std::vector<btFemBodyRecord*>& record
     m_rebounds.give(m_bodies, world, m_rigid, step);
 }
 
-// Gives every body its share of contacts, joints and report.
+// Distributes contacts, joints and the report to the bodies.
 void btFemContactGroup::report(const ContactReport& report)
 {
     makeRoomForReports();
@@ -319,7 +319,7 @@ void btFemContactGroup::report(const ContactReport& report)
     m_welds.breakWelds(m_bodies, m_step);
 }
 
-// On one thread: Bullet's memory may not bear several.
+// On one thread: Bullet's allocator may not be thread-safe.
 void btFemContactGroup::makeRoomForReports()
 {
     const auto visitSides = [this](const auto& visit)
@@ -332,7 +332,7 @@ void btFemContactGroup::makeRoomForReports()
         }
     };
     std::vector<std::size_t>& first = m_firstSoft;
-    first.assign(m_records.size() + 2, 0);  // shifted by one until they are all there
+    first.assign(m_records.size() + 2, 0);  // shifted by one while the array is filled
     visitSides([&first](int b, std::size_t) { ++first[b + 2]; });
     for (std::size_t b = 2; b < first.size(); ++b) first[b] += first[b - 1];
     m_softContacts.resize(first.back());
@@ -369,7 +369,7 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
         contact.m_index = fem.m_origins[k].m_triangle;
         noteContact(record.m_reports, contact, fem.m_contacts[k]);
     }
-    // Both bodies see a contact between them, each from its side; self contact is one contact.
+    // Both bodies report a contact between them, each from its side; self contact is reported once.
     for (std::size_t k = m_firstSoft[b]; k < m_firstSoft[b + 1]; ++k)
     {
         const ContactPoint& point = m_problem.m_contacts[m_softContacts[k]];
@@ -384,7 +384,7 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
     record.m_reports.m_step.m_flags |= stateFlags(record) & BT_FEM_PENETRATING;
 }
 
-// Contact points lie on the body's surface, as with rigid objects.
+// Reports contact points on the body's surface, as for rigid objects.
 void btFemContactGroup::reportCloth(std::size_t b)
 {
     for (std::size_t k = 0; k < m_cloth.size(); ++k)

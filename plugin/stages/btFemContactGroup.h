@@ -17,11 +17,12 @@
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemTouches.h"
 
-/// FEM bodies that are solved together: what they touch, what holds them, and their reports. Scratch only.
+/// FEM bodies that are solved together: collects their contacts and joints, solves them, and writes the reports. Keeps
+/// scratch, and the contact state from step to step.
 class btFemContactGroup
 {
 public:
-    /// `threads` share the searches and the corrective solves, these in `memory`, if given; both must live as long as
+    /// `threads` share the searches and the corrective solves, which use `memory` if it is not null. Both must outlive
     /// the group.
     btFemContactGroup(const btFemSolverInfo& info, const bullet_fem::Threads& threads, bullet_fem::BatchMemory* memory)
         : m_info(info), m_rigidSearch(threads), m_softPairs(threads)
@@ -30,42 +31,42 @@ public:
         m_settings.m_step.m_batchMemory = memory;
     }
 
-    /// What is solved together, when, and all bodies that are known.
+    /// The bodies to be solved together, all known bodies, and the step.
     struct Scope
     {
         const std::vector<btFemBodyRecord*>& m_records;
         const btFemRecords& m_all;
-        double m_step;  ///< of the world [s]
+        double m_step;  ///< time step of the world [s]
         bullet_fem::RigidPhase m_phase;
     };
 
-    /// At the start of a step of the world [s].
+    /// Call at the start of a step of `step` [s].
     void beginStep(double step);
 
-    /// Remembers a rigid body as it is before Bullet's rigid solver. May be called by several threads at once.
+    /// Notes the velocity of a rigid body before Bullet's rigid solver. May be called by several threads at once.
     void noteBeforeSolve(const btCollisionObject& object) { m_rigid.noteBeforeSolve(object); }
 
     /// See ArticulatedBodies::assumeForcesGiven.
     void assumeForcesGiven(const bullet_fem::Vec3& gravity) { m_rigid.assumeForcesGiven(gravity); }
 
-    /// Finds contacts and joints of bodies that have had their free motion.
+    /// Finds contacts and joints of the bodies after their free motion.
     void collect(const Scope& scope);
 
-    /// True if there is nothing to solve.
+    /// True if there are neither contacts nor joints.
     bool isEmpty() const { return m_problem.m_contacts.empty() && m_problem.m_joints.empty(); }
 
-    /// The bodies that contacts were found of.
+    /// The bodies that have contacts.
     const std::vector<btFemBodyRecord*>& touching() const { return m_touching; }
 
-    /// True if every rigid body that the group can move is one of `bodies`, likewise every multibody's link, of which
-    /// there are none unless `linksToo`, and no joint joins it to other soft bodies that are awake.
+    /// True if every movable rigid body of the group is one of `bodies`, as is every movable link of a multibody (none
+    /// is permitted unless `linksToo`), and no joint connects the group to other active soft bodies.
     bool holdsOnly(btCollisionObject* const* bodies, int count, bool linksToo) const;
 
-    /// After Bullet's rigid solver: solves and hands the reactions to the rigid bodies.
+    /// Solves after Bullet's rigid solver, and applies the reactions to the rigid bodies.
     void solve();
 
-    /// Within Bullet's rigid solver, on its solver bodies: begin, then while wantsRound sweep ... sweep, correct, then
-    /// if wantsBack goBack, and at the end finish; after the rigid solver has written its bodies back, moveRigid.
+    /// Solves within Bullet's rigid solver, on its solver bodies. Call begin; while wantsRound: sweep (repeatedly),
+    /// correct; goBack if wantsBack; finally finish; and moveRigid after the rigid solver has written its bodies back.
     /// `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver without multibodies.
     void begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas = nullptr);
     bool sweep(double others);
@@ -77,15 +78,16 @@ public:
     void finish();
     void moveRigid();
 
-    /// As the step ends: what impacts have to give back. `records` are all whose contact was solved in this step.
+    /// Call at the end of the step: applies restitution. `records` are all bodies whose contact was solved in this
+    /// step; `step` [s].
     void giveRebounds(const std::vector<btFemBodyRecord*>& records, bullet_fem::WorldObjects& world, double step);
 
     const bullet_fem::ContactSettings& settings() const { return m_settings; }
 
-    /// What lasts from step to step.
+    /// State that persists from step to step.
     bullet_fem::RigidProxies& rigid() { return m_rigid; }
     const bullet_fem::RigidProxies& rigid() const { return m_rigid; }
-    /// Pairs with cloth are noted there.
+    /// The cloth contacts, in which pairs are noted.
     bullet_fem::ClothContacts& cloth() { return m_cloth; }
 
     btFemWeldBreaker& welds() { return m_welds; }
@@ -94,8 +96,8 @@ public:
     const bullet_fem::SoftPairMemory& softPairs() const { return m_softPairs.memory(); }
 
 private:
-    /// Beside Bullet's rows, which answer to what is left, at most [-]. At 3e-3 heavy soft bodies on light rigid ones
-    /// shook by 3 cm.
+    /// Largest tolerance together with Bullet's rows, which respond to the remaining error [-]. At 3e-3, heavy soft
+    /// bodies on light rigid ones shook by 3 cm.
     static constexpr double kToleranceWithRows = 1e-4;
 
     void clearProblem();
@@ -124,12 +126,12 @@ private:
     bullet_fem::SoftPairSearch m_softPairs;
     bullet_fem::ClothContacts m_cloth;
     std::vector<std::size_t>
-        m_firstRigid;  // per body and the end, in the problem; then come those between soft bodies, then cloth
-    std::vector<std::size_t> m_firstSoft;     // per body and the end, in m_softContacts
-    std::vector<std::size_t> m_softContacts;  // in the problem, body by body
+        m_firstRigid;  // per body, index in the problem, and the end; contacts of soft pairs and of cloth follow
+    std::vector<std::size_t> m_firstSoft;     // per body, start in m_softContacts, and the end
+    std::vector<std::size_t> m_softContacts;  // indices in the problem, body by body
     bullet_fem::SoftJoints m_joints;
     std::vector<bullet_fem::FemSoftBody*> m_bodies, m_outside;
-    bool m_reachesOut = false;  // joined to soft bodies that should be in the group
+    bool m_reachesOut = false;  // joined to active soft bodies outside of the group
     std::vector<bullet_fem::JointFlags> m_jointFlags;
     btFemWeldBreaker m_welds;
     bullet_fem::RigidProxies m_rigid;
@@ -139,6 +141,7 @@ private:
     bullet_fem::ContactSolver m_solver;
     btFemTogether m_together;
     std::vector<unsigned char> m_touches;       // per body: it has contacts
-    std::vector<unsigned char> m_touchesBegin;  // per body: it touches what it did not
-    double m_milliseconds = 0;                  // spent so far on the group
+    std::vector<unsigned char> m_touchesBegin;  // per body: it has a contact with an object that it had none with
+                                                // before
+    double m_milliseconds = 0;                  // time spent on the group so far
 };

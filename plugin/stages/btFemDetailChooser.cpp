@@ -26,6 +26,6 @@ void btFemDetailChooser::choose(btFemBodyRecord& record, double step) const
     }
     const double told = m_interest->interest(*record.m_softBody);
     if (!(told >= 0 && told <= 1)) record.m_reports.m_step.m_flags |= BT_FEM_BAD_INTEREST;
-    // Who cannot say how much a body matters must not see it get worse.
+    // NaN selects full detail.
     record.m_work.m_detailLevel.update(std::isnan(told) ? 1 : std::clamp(told, 0.0, 1.0), step, m_policy);
 }

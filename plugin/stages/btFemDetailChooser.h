@@ -6,16 +6,16 @@
 
 struct btFemBodyRecord;
 
-/// Chooses the details of bodies whose user left that to an interest function. Knows no more than the function and the
-/// policy; what lasts is in the records.
+/// Chooses the level of detail of bodies with btFemDetail::automatic by an interest function and a policy. State is
+/// kept in the records.
 class btFemDetailChooser
 {
 public:
-    /// Null: everything is worth nodalWarp. Throws std::invalid_argument on a bad policy.
+    /// Sets the interest function; null: all bodies get nodalWarp. Throws std::invalid_argument on an invalid policy.
     void setInterest(btFemInterest* interest, const btFemDetailPolicy& policy);
 
-    /// Asks for the interest of a body that is about to be stepped by `step` [s]. Writes its level, and a flag to its
-    /// report.
+    /// Gets the interest of a body that is about to be stepped by `step` [s]. Updates its level of detail, and flags an
+    /// invalid interest in its report.
     void choose(btFemBodyRecord& record, double step) const;
 
 private:

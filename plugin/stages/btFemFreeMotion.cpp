@@ -16,10 +16,10 @@ using namespace bullet_fem;
 namespace
 {
 
-// Residual that is good enough for bodies that few look at [-]. In a beam that swings by its own length and bends by
-// more than 90 degrees, steps below it moved the tip within .1 % of the full solution's way; the error then grows to
-// 2 mm a step in a 4 m beam at residuals of .6. What is left by one iteration, however much it is, makes stiff bodies
-// gain energy without bound (CoarseDetail).
+// Residual tolerance of bodies of low interest [-]. In a beam that swings by its own length and bends by more than 90
+// degrees, smaller residuals moved the tip within .1 % of the full solution's path; the error grows to 2 mm a step in a
+// 4 m beam at residuals of .6. A fixed single iteration, whatever its residual, would make stiff bodies gain energy
+// without bound (CoarseDetail).
 constexpr double kCoarseTolerance = 0.05;
 
 void clearReport(btFemBodyRecord& record)
@@ -32,7 +32,7 @@ void clearReport(btFemBodyRecord& record)
     record.m_reports.m_step = report;
 }
 
-// By contacts of the last step, or by anchors, joints and springs.
+// True if the body had contacts or joints in the last step, or has anchors or joints now.
 bool isHeld(const btFemBodyRecord& record)
 {
     return record.m_reports.m_contacts.size() > 0 || record.m_reports.m_anchors.size() > 0 ||
@@ -47,7 +47,7 @@ bool beginFreeMotion(btFemBodyRecord& record, double worldStep)
     const bool wasDeep = record.isFem() && (stateFlags(record) & BT_FEM_PENETRATING) != 0;
     if (!record.isFem() || record.m_softBody->isActive()) clearReport(record);
     if (!record.isFem() || !record.m_softBody->isActive() || !arraysAsSetUp(record.fem())) return false;
-    // What is pushed out of others shall not swing back from it.
+    // Full numerical damping while penetrating: a body that is pushed out must not swing back.
     record.fem().m_body.m_loads.m_leastDamping = wasDeep ? 1 : 0;
     record.m_work.m_lastStep = bodyStep(record, worldStep);
     if (!isUsableStep(record.m_work.m_lastStep))
@@ -84,8 +84,8 @@ void btFemFreeMotion::solve(const std::vector<btFemBodyRecord*>& due, const Soft
     solveDue(true);
 }
 
-// The step in which bodies meet would be the one that is damped least: they would swing back from what has stopped
-// them.
+// Solves again with contact damping in the step of an impact; otherwise that step would be the least damped, and bodies
+// would swing back from the contact.
 void btFemFreeMotion::dampTouching(const std::vector<btFemBodyRecord*>& touching)
 {
     m_due.clear();
@@ -109,7 +109,7 @@ void btFemFreeMotion::solveDue(bool isFirst)
     m_threads.run(static_cast<int>(batches.size()), [&](int k) { solveBatch(batches[k], isFirst); });
 }
 
-// Every body of the batch is charged the same time.
+// Charges each body of the batch an equal share of the time.
 void btFemFreeMotion::solveBatch(const Range& batch, bool isFirst)
 {
     for (int k = batch.m_begin; k < batch.m_end && isFirst; ++k) prepare(inBatches(k));
@@ -156,7 +156,7 @@ void btFemFreeMotion::finish(const std::vector<btFemBodyRecord*>& solved)
 
 void btFemFreeMotion::prepare(btFemBodyRecord& record) const
 {
-    readBody(record);  // once more: callbacks may have written since predict
+    readBody(record);  // again, as callbacks may have written since the prediction
     FemSoftBody& fem = record.fem();
     if (!readLoads(fem, record.m_work.m_lastStep)) record.m_reports.m_step.m_flags |= BT_FEM_RESTORED;
     double& damping = fem.m_body.m_loads.m_leastDamping;

@@ -14,34 +14,35 @@
 #include "bullet_fem/fem/step/stepping.h"
 #include "plugin/record/btFemBodyRecord.h"
 
-/// Clears the report of a body whose step is to be solved. True if its free motion is due; false, with a report, if it
-/// stands still.
+/// Clears the report of a body whose step is to be solved. True if its free motion is due. False if the body stands
+/// still; then the report is final.
 bool beginFreeMotion(btFemBodyRecord& record, double worldStep);
 
-/// The free motions of bodies, and the ends of their steps; they know nothing of each other here: on any thread, in
-/// batches of copies. Scratch only.
+/// Free motion and the end of steps of independent bodies, in batches of equal meshes, on several threads. Keeps
+/// scratch only.
 class btFemFreeMotion
 {
 public:
-    /// Told of every body whose free motion was solved, by any thread.
+    /// Called for each body whose free motion was solved, by any thread.
     using Note = std::function<void(btFemBodyRecord&, const bullet_fem::FreeMotion&)>;
 
-    /// `threads` share the work, `memory` is for batches, null: bodies one after another. Both must live as long.
+    /// `threads` share the work. `memory` is for batches; null: bodies are solved one by one. Both must outlive this
+    /// object.
     btFemFreeMotion(const btFemSolverInfo& info, const bullet_fem::Threads& threads, bullet_fem::BatchMemory* memory,
                     Note note)
         : m_info(info), m_threads(threads), m_batchMemory(memory), m_note(std::move(note))
     {
     }
 
-    /// Every body once, each of which beginFreeMotion() was true for.
+    /// Solves the free motion of bodies for which beginFreeMotion() returned true; each once.
     void solve(const std::vector<btFemBodyRecord*>& due, const bullet_fem::SoftPairMemory& softPairs);
 
-    /// Once more those of `touching`, bodies that were solved in this step and touch something by its end, as far as
-    /// they were not known to do so: by the damping of contact.
+    /// Solves again, with the damping of contact, those of `touching` that were solved without it. `touching`: bodies
+    /// of this step that have contacts.
     void dampTouching(const std::vector<btFemBodyRecord*>& touching);
 
-    /// Ends the steps of bodies whose contact is solved, in batches likewise: new positions and velocities of their
-    /// nodes, not yet written. What has no usable ones stands still, with a flag.
+    /// Ends the steps of bodies whose contact is solved, in batches: sets new positions and velocities, not yet written
+    /// to the btSoftBody. A body whose new state is not finite stands still, with a flag.
     void finish(const std::vector<btFemBodyRecord*>& solved);
 
 private:
@@ -58,11 +59,11 @@ private:
     bullet_fem::BatchMemory* m_batchMemory;
     Note m_note;
     std::vector<btFemBodyRecord*> m_due;
-    std::vector<const bullet_fem::Body*> m_bodies;  // of these
+    std::vector<const bullet_fem::Body*> m_bodies;  // bodies of m_due
     std::vector<bullet_fem::FemSoftBody*> m_fems;
     bullet_fem::BodyBatches m_batches;
     bullet_fem::SteadyBodies m_steady;
     std::vector<bullet_fem::FreeMotion> m_motions;  // in the order of the batches
-    std::vector<bullet_fem::StepEnd> m_ends;        // likewise
-    std::vector<unsigned char> m_isUsable;          // one a body that is to be finished
+    std::vector<bullet_fem::StepEnd> m_ends;        // in the order of the batches
+    std::vector<unsigned char> m_isUsable;          // per body of finish()
 };

@@ -24,10 +24,10 @@ namespace
 
 using Neighbours = std::vector<btFemNeighbour>;
 
-// What lies farther from a body at rest than its contact offset and this does not touch it [mean edges].
+// Objects that are farther from a resting body than its contact offset plus this have no contact with it [mean edges].
 constexpr double kReach = 0.25;
 
-// How a rigid object answers to contact.
+// Flags of a rigid object that affect its contacts.
 constexpr int kContactFlags = btCollisionObject::CF_STATIC_OBJECT | btCollisionObject::CF_KINEMATIC_OBJECT |
                               btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING;
 
@@ -43,7 +43,7 @@ btFemNeighbour* findNeighbour(Neighbours& neighbours, const btCollisionObject& o
     return nullptr;
 }
 
-// Bullet's islands do not join what joints of soft bodies hold.
+// True if the object moves or is not ready to sleep: Bullet's islands do not connect bodies by joints of soft bodies.
 bool isMoving(const btCollisionObject& object)
 {
     if (object.isStaticOrKinematicObject()) return false;
@@ -59,7 +59,7 @@ bool mayCollide(const btSoftBody& soft, const btCollisionObject& object)
     return soft.checkCollideWith(&object) && object.checkCollideWith(&soft);
 }
 
-// The weight that it may put on the body.
+// Hashes the weight by which the object may load the body.
 void addLoad(std::uint64_t& mark, const btCollisionObject& object)
 {
     const btRigidBody* rigid = btRigidBody::upcast(&object);
@@ -68,7 +68,8 @@ void addLoad(std::uint64_t& mark, const btCollisionObject& object)
     for (int c = 0; c < 3; ++c) addToMark(mark, rigid->getGravity()[c]);
 }
 
-// Of what the body feels of an object that stands at `transform`. Values, not addresses: a saved state has it, too.
+// Hash of all properties of an object at `transform` that affect the body. It uses values, not addresses, so that saved
+// states can contain it.
 std::uint64_t markOf(const btFemBodyRecord& record, const btCollisionObject& object, const btTransform& transform)
 {
     std::uint64_t mark = kEmptyMark;
@@ -116,7 +117,7 @@ void recordOverlapping(btFemBodyRecord& record, const btBroadphaseProxy& proxy)
 {
     const btCollisionObject& object = objectOf(proxy);
     if (!object.hasContactResponse()) return;
-    bool touches = btSoftBody::upcast(&object) != nullptr;  // may be at rest on it, too
+    bool touches = btSoftBody::upcast(&object) != nullptr;  // another soft body may rest on it
     for (int k = 0; k < record.m_reports.m_contacts.size() && !touches; ++k)
         touches = record.m_reports.m_contacts[k].m_other == &object;
     record.m_work.m_sleep.m_neighbours.push_back(neighbourOf(record, object, proxy.m_uniqueId));
@@ -135,7 +136,7 @@ void recordHeld(WorldObjects& world, btFemBodyRecord& record)
     }
 }
 
-// What moves on its own wakes the body through their island.
+// Wakes the body if a known neighbour has changed. Objects that move by themselves wake it through their island.
 void compare(btFemBodyRecord& record, btFemNeighbour& known)
 {
     const btCollisionObject& object = *known.m_object;
@@ -147,7 +148,7 @@ void compare(btFemBodyRecord& record, btFemNeighbour& known)
     if (moved || pulls || changed) record.m_softBody->activate();
 }
 
-// No island tells that it is new. A soft body that was moved by hand is awake.
+// True if no island reports the object as new. Soft bodies that were moved by hand are active.
 bool restsByItself(const btCollisionObject& object)
 {
     return object.isStaticOrKinematicObject() || (!object.isActive() && !btSoftBody::upcast(&object));
@@ -168,12 +169,12 @@ bool hasRecord(const btFemBodyRecord& record)
     return record.m_work.m_sleep.m_recorded;
 }
 
-// Of two soft bodies that a joint holds, one of which has its record from before.
+// Wakes soft bodies that a joint connects to this one if it moves: only one of the two has the joint in its record.
 void wakeHeldBodies(const btFemBodyRegistry& registry, const btFemBodyRecord& record)
 {
     if (!isMoving(*record.m_softBody)) return;
     for (const HeldJoint& joint : record.fem().m_joints.m_now)
-        for (const auto& other : registry.records())  // the object may be anything, or gone: only compared
+        for (const auto& other : registry.records())  // the pointer may dangle: it is only compared
             if (static_cast<const btCollisionObject*>(other->m_softBody) == joint.m_object &&
                 other->m_work.m_sleep.m_asleep)
                 other->m_softBody->activate();
@@ -184,7 +185,7 @@ void wakeHeldBodies(const btFemBodyRegistry& registry, const btFemBodyRecord& re
 void visitNeighbours(const btFemBodyRegistry& registry, btFemChoice chosen,
                      void (*visit)(btFemBodyRecord& record, const btBroadphaseProxy& other))
 {
-    // Any body knows the broad phase of all; where none does, there are no neighbours.
+    // Takes the broad phase of any body; without one there are no neighbours.
     btBroadphaseInterface* broadphase = nullptr;
     for (const auto& record : registry.records())
         if (!broadphase && record->isStepped() && chosen(*record) && record->m_softBody->m_worldInfo)

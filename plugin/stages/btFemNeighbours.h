@@ -14,18 +14,18 @@ class WorldObjects;
 
 using btFemChoice = bool (*)(const btFemBodyRecord& record);
 
-/// Calls a function of (record, proxy of the other) for all pairs of the chosen bodies that Bullet's broad phase knows:
-/// both are in the world.
+/// Calls visit(record, proxy of the other object) for all pairs of Bullet's broad phase that contain a chosen body;
+/// both objects are in the world.
 void visitNeighbours(const btFemBodyRegistry& registry, btFemChoice chosen,
                      void (*visit)(btFemBodyRecord& record, const btBroadphaseProxy& other));
 
-/// Appends to the chosen bodies' empty records all objects that their bounds overlap or their joints hold.
+/// Appends all objects that the chosen bodies overlap or are joined to, to their empty lists of neighbours.
 void recordNeighbours(const btFemBodyRegistry& registry, bullet_fem::WorldObjects& world, btFemChoice chosen);
 
-/// Wakes bodies with a record whose neighbours did what Bullet's islands do not tell: one that touched or was held is
-/// gone, one was moved by hand or has another shape or material, a rigid one at rest is new; or what a joint holds, in
-/// another island, moves.
+/// Wakes sleeping bodies for changes of neighbours that Bullet's islands do not report: one in contact or joined is
+/// gone; one was moved by hand or has changed its shape or material; a rigid one at rest is new; or a joined one in
+/// another island moves.
 void wakeByNeighbours(const btFemBodyRegistry& registry, bullet_fem::WorldObjects& world);
 
-/// True if an anchor or joint of the body holds something that is not ready to rest.
+/// True if an anchor or joint connects the body to an object that is not ready to sleep.
 bool holdsMovingObject(bullet_fem::WorldObjects& world, const btFemBodyRecord& record);

@@ -17,9 +17,10 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr double kBoundsMargin = 0.6;  // mean edges around a body: rigid ones go half of one ahead of their contacts
+constexpr double kBoundsMargin = 0.6;  // margin of a body's bounds, in mean edges: rigid bodies move up to half an edge
+                                       // before their contacts
 
-// What predictMotion of btSoftBody does besides moving nodes, without resetting the links' rest lengths.
+// Updates the constants that btSoftBody::predictMotion sets, but keeps the rest lengths of links and moves no nodes.
 void refreshBulletConstants(btSoftBody& soft, double step)
 {
     if (soft.m_bUpdateRtCst)
@@ -35,18 +36,18 @@ void refreshBulletConstants(btSoftBody& soft, double step)
     soft.m_sst.updmrg = soft.m_sst.radmrg * btScalar(0.25);
 }
 
-// Wind, pressure and volume conservation. Bullet's wind meets nodes to whose velocities gravity's has just been added.
+// Applies wind, pressure and volume conservation. Bullet's wind uses node velocities with gravity just added.
 void applyBulletForces(const FemSoftBody& fem, double step)
 {
     btSoftBody& soft = *fem.m_softBody;
     const btSoftBody::Config& cfg = soft.m_cfg;
     const bool inWind = cfg.kLF > 0 || cfg.kDG > 0;
-    if (!inWind && cfg.kPR == 0 && !(cfg.kVC > 0)) return;  // Bullet would look at every face all the same
+    if (!inWind && cfg.kPR == 0 && !(cfg.kVC > 0)) return;  // Bullet would visit every face nevertheless
     const btVector3 fall = bulletVector(step * fem.gravity());
     if (!inWind || !isFinite(vec3(fall))) return soft.applyForces();
-    soft.addVelocity(fall);  // of nodes that are not pinned
+    soft.addVelocity(fall);  // only of nodes that are not pinned
     soft.applyForces();
-    for (int i = 0; i < soft.m_nodes.size(); ++i) soft.m_nodes[i].m_v = fem.m_written.m_v[i];  // as has just been read
+    for (int i = 0; i < soft.m_nodes.size(); ++i) soft.m_nodes[i].m_v = fem.m_written.m_v[i];  // as just read
 }
 
 }  // namespace
@@ -67,7 +68,8 @@ bool beginBodyStep(btFemBodySetUp& setUp, btFemBodyRecord& record, double worldS
     const double step = bodyStep(record, worldStep);
     if (!isUsableStep(step)) return false;
     if (!record.isFem() || record.m_asked.m_materialChanged || restMatricesChanged(record.fem()))
-        setUp.trySetUp(record, step);  // of what came asleep, too: others touch it, and states have it
+        setUp.trySetUp(record, step);  // also bodies that are asleep on arrival: others have contact with them, and
+                                       // saved states contain them
     if (!record.isFem()) return false;
     setUp.tryChooseSurface(record);
     if (!isActive) markForces(record);

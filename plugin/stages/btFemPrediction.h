@@ -6,15 +6,16 @@
 
 class btFemBodySetUp;
 
-// Before collision detection.
+// Stages before collision detection.
 
-/// Begins a body's step, and sets it up if that is due. False if it is not a FEM body that moves.
+/// Begins a body's step of the world's `worldStep` [s], and sets the body up if that is due. True if it is an active
+/// FEM body.
 bool beginBodyStep(btFemBodySetUp& setUp, btFemBodyRecord& record, double worldStep);
 
-/// Takes over what the user wrote, lets Bullet add wind and pressure to m_f, and gives the broad phase the bounds of
-/// the motion to come. `step` [s] is the body's. May be called by several threads for different bodies.
+/// Reads the user's changes, lets Bullet add wind and pressure to m_f, and sets the bounds of the coming motion for the
+/// broad phase. `step` is the body's [s]. May be called by several threads for different bodies.
 void predictBody(btFemBodyRecord& record, double step);
 
-/// Of all bodies of the world, also of those that sleep or have just become FEM: leaves Bullet's own collision nothing
-/// to do.
+/// Prepares all FEM bodies of the world, sleeping and new ones included, so that Bullet's own soft body collision has
+/// no effect on them.
 void prepareForCollision(const btFemRecords& records);

@@ -4,8 +4,8 @@
 
 #include "plugin/record/btFemBodyRecord.h"
 
-/// When the step of a body is over: its nodes are written. May be called by several threads for different bodies.
+/// Writes a body's nodes at the end of its step. May be called by several threads for different bodies.
 void writeMotion(btFemBodyRecord& record);
 
-/// Normals of the nodes, while these are still in the cache.
+/// Updates the normals, while the nodes are still in the cache.
 void finishNodes(btFemBodyRecord& record);

@@ -14,12 +14,11 @@ using namespace bullet_fem;
 namespace
 {
 
-// Ratio of step or mass to the factor's beyond which a body that touches something, or is held, is factored anew.
-// Without that a stale factor costs iterations only; contacts and joints would rest on a wrong picture of the
-// compliance.
+// Largest ratio between the factor's step or masses and the present ones in contact or with joints; beyond it the body
+// is refactored. Otherwise a stale factor only costs iterations, but contacts and joints would use a wrong compliance.
 constexpr double kRefactorInContact = 1.5;
 
-// It touched or was held in the last step, or is to be held in this one.
+// True if the body had contacts or joints in the last step, or has joints now.
 bool meetsOthers(const btFemBodyRecord& record)
 {
     const btSoftBody& soft = *record.m_softBody;
@@ -61,7 +60,7 @@ void btFemRefactorPolicy::startJob(const btFemBodySetUp& setUp, btFemBodyRecord&
         record.m_work.m_factorJob =
             m_thread.start(record.fem().m_body.m_model->sharedShape(), setUp.factorInput(record, step));
     }
-    catch (const std::exception& error)  // no thread to be had
+    catch (const std::exception& error)  // no thread is available
     {
         record.m_model.m_message = reasonOf(error);
         record.m_work.m_factorAccount.spend(priceFor(record));
@@ -74,7 +73,7 @@ void btFemRefactorPolicy::takeOver(btFemBodySetUp& setUp, btFemBodyRecord& recor
     const std::shared_ptr<btFemFactorJob> job = std::move(record.m_work.m_factorJob);
     record.m_work.m_factorAccount.spend(priceFor(record));
     if (!job->m_model) record.m_model.m_message = job->m_error;
-    // Of no use after all if what was changed was changed back. (Another material drops the job.)
+    // Useless if the change was undone meanwhile. (A new material drops the job.)
     if (job->m_model && staleness(record, step) > 1) setUp.takeFactor(record, job->m_model);
 }
 

@@ -8,7 +8,7 @@
 class btFemBodySetUp;
 struct btFemBodyRecord;
 
-/// Tells, and if the user wants it arranges, that bodies get new factors where the old ones cost too many iterations.
+/// Detects bodies whose outdated factors cost too many iterations, and refactors them if the user's settings permit.
 class btFemRefactorPolicy
 {
 public:
@@ -17,13 +17,14 @@ public:
     {
     }
 
-    /// Before a body is stepped by `step` [s], when its nodes were read: gives it a new factor, or asks for one in the
-    /// background, or takes over the one that has become ready there. Flags a new one in the report. What touches
-    /// something gets one at once if the old one is far off.
+    /// Call before a body is stepped by `step` [s], after its nodes were read. Refactors it, or starts a background
+    /// job, or takes over the factor of a finished job; flags a new factor in the report. A body with contacts or
+    /// joints is refactored at once if its factor is far off.
     void renew(btFemBodySetUp& setUp, btFemBodyRecord& record, double step);
 
-    /// After its free motion has taken some iterations to the tolerance with the factor that it has: takes account
-    /// of them, and flags the report if a new one would pay. Different bodies may be noted by different threads.
+    /// Call after the free motion, with the iterations that it took to the tolerance with the present factor. Adds them
+    /// to the account, and flags the report if refactoring would pay off. Different bodies may be noted by different
+    /// threads.
     void note(btFemBodyRecord& record, int iterations) const;
 
 private:

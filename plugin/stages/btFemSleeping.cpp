@@ -19,14 +19,14 @@ using namespace bullet_fem;
 namespace
 {
 
-// In a pile a node slips off another body's edge now and then, and for a step is faster than the threshold. Such a
-// twitch costs some steps of the time at rest, motion all of it. Some time is put by, so that of many bodies all can
-// want to sleep at once.
-constexpr btScalar kTwitchSpeed = 4;                  // times the threshold; what is faster is motion
-constexpr btScalar kTwitchCostSteps = 4;              // steps
-constexpr btScalar kReserveTime = btScalar(1.0 / 4);  // of gDeactivationTime
+// In a pile, a node occasionally slips off another body's edge and is faster than the threshold for one step. Such a
+// twitch costs a few steps of the time at rest, while real motion resets it. Time at rest is accumulated beyond the
+// limit, so that all of many bodies can want to sleep at once.
+constexpr btScalar kTwitchSpeed = 4;                  // upper speed of a twitch over the threshold
+constexpr btScalar kTwitchCostSteps = 4;              // time that a twitch costs, in steps
+constexpr btScalar kReserveTime = btScalar(1.0 / 4);  // extra time at rest over gDeactivationTime
 
-// Sleeps, or waits for its island to do so.
+// True if the body sleeps or waits for its island to sleep.
 bool isQuiet(const btFemBodyRecord& record)
 {
     const int state = record.m_softBody->getActivationState();
@@ -49,7 +49,7 @@ bool nodesWritten(const FemSoftBody& fem)
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
     {
         const btSoftBody::Node& node = fem.m_softBody->m_nodes[i];
-        // Not btVector3's ==: the fourth components are the user's.
+        // Compares components, as btVector3's == includes the fourth, which has no meaning here.
         for (int c = 0; c < 3; ++c)
             if (node.m_x[c] != written.m_x[i][c] || node.m_v[c] != written.m_v[i][c]) return true;
         if (node.m_im != written.m_inverseMass[i]) return true;
@@ -131,7 +131,7 @@ btFemInfluences influencesOn(const FemSoftBody& fem)
             fem.m_contactOffset};
 }
 
-// Something that the body reacts to was changed since the end of the last step.
+// True if an influence on the body has changed since the end of the last step.
 bool isChanged(const btFemBodyRecord& record)
 {
     const FemSoftBody& fem = record.fem();
@@ -140,7 +140,8 @@ bool isChanged(const btFemBodyRecord& record)
            influencesOn(fem) != record.m_work.m_sleep.m_influences;
 }
 
-// Fastest node; way over step counts, too, because penetration is taken back without a velocity.
+// Squared speed of the fastest node. Displacement over step counts, too, because penetration is corrected without a
+// velocity.
 double fastestSquared(const btFemBodyRecord& record)
 {
     const FemSoftBody& fem = record.fem();
@@ -154,7 +155,7 @@ double fastestSquared(const btFemBodyRecord& record)
     return std::max(double(fastest), longest / (record.m_work.m_lastStep * record.m_work.m_lastStep));
 }
 
-// A pinned node that the user gave a velocity moves on, however slowly.
+// True if the user gave a pinned node a velocity: it moves, however slowly.
 bool isDriven(const FemSoftBody& fem)
 {
     for (std::size_t i = 0; i < fem.m_pins.m_velocity.size(); ++i)
@@ -165,7 +166,7 @@ bool isDriven(const FemSoftBody& fem)
     return false;
 }
 
-// Contacts are kept; what tells the cost of a step is zeroed.
+// Zeroes the costs of a step; contacts are kept.
 void clearCost(btFemStepReport& report)
 {
     report.m_iterations = report.m_contactIterations = report.m_contactSweeps = 0;
@@ -176,7 +177,7 @@ void clearCost(btFemStepReport& report)
 void fallAsleep(btFemBodyRecord& record)
 {
     FemSoftBody& fem = record.fem();
-    // Tick callbacks write after the step was prepared for a body that was awake.
+    // Tick callbacks may write after the step of an active body was prepared.
     if (nodesWritten(fem) || markOfForces(*fem.m_softBody) != record.m_work.m_sleep.m_forces)
     {
         fem.m_softBody->activate();
@@ -189,7 +190,7 @@ void fallAsleep(btFemBodyRecord& record)
     record.m_work.m_sleep.m_asleep = true;
 }
 
-// What btSoftBody::updateDeactivation does, but for twitches.
+// btSoftBody::updateDeactivation with a tolerance for twitches.
 void updateTimeAtRest(btSoftBody& soft, btScalar step)
 {
     if (soft.getActivationState() == DISABLE_DEACTIVATION) return;
@@ -206,7 +207,7 @@ void updateTimeAtRest(btSoftBody& soft, btScalar step)
     if (!(soft.getDeactivationTime() > gDeactivationTime)) soft.setActivationState(ACTIVE_TAG);
 }
 
-// What btDiscreteDynamicsWorld::updateActivationState does for rigid bodies.
+// btDiscreteDynamicsWorld::updateActivationState for FEM bodies.
 void updateActivation(WorldObjects& world, btFemBodyRecord& record)
 {
     btSoftBody& soft = *record.m_softBody;
@@ -303,7 +304,7 @@ void updateSleep(const btFemBodyRegistry& registry, WorldObjects& world)
         const bool sleeps = record.m_softBody->getActivationState() == ISLAND_SLEEPING;
         if (sleeps && !record.m_work.m_sleep.m_asleep) fallAsleep(record);
         if (sleeps) record.m_reports.m_step.m_flags |= record.m_model.m_flags | stateFlags(record);
-        // The record of a body that sleeps is that of its last step awake.
+        // A sleeping body keeps the record of its last active step.
         const bool keeps = isWatched(record) && record.m_work.m_sleep.m_asleep;
         record.m_work.m_sleep.m_recorded = keeps;
         if (!keeps) record.m_work.m_sleep.m_neighbours.clear();

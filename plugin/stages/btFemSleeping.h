@@ -11,27 +11,28 @@ namespace bullet_fem
 class WorldObjects;
 }
 
-// Bodies sleep as Bullet's rigid bodies do: after gDeactivationTime below m_sleepingThreshold they want to, and
-// Bullet's islands put them to sleep and wake them. The speed compared [m/s] is that of the fastest node, as velocity
-// or as way over step, whichever is more. In the order of the step:
+// Bodies sleep like Bullet's rigid bodies: after gDeactivationTime below m_sleepingThreshold they want to sleep, and
+// Bullet's islands put them to sleep and wake them. The compared speed [m/s] is that of the fastest node, as velocity
+// or displacement over step, whichever is larger. In the order of the step:
 
-/// Before anything of a step is read: wakes bodies whose nodes (m_x, m_v, m_im, m_f, targets), material, influences
+/// Call before a step reads anything. Wakes bodies whose nodes (m_x, m_v, m_im, m_f, targets), material, influences
 /// (gravity, wind, pressure, friction, restitution, hardness, contact offset, numbers of anchors and joints) or
-/// neighbours (see wakeByNeighbours) changed since the last step.
+/// neighbours (see wakeByNeighbours) have changed since the last step.
 void wakeDisturbedBodies(const btFemBodyRegistry& registry, bullet_fem::WorldObjects& world);
 
-/// After Bullet's forces were added to m_f: what differs later was written by the user.
+/// Call after Bullet's forces were added to m_f: later differences are the user's.
 void markForces(btFemBodyRecord& record);
 
-/// During collision detection: wakes a body that a kinematic object moves into. May be called by several threads.
+/// Call during collision detection: wakes a body that a moving kinematic object overlaps. May be called by several
+/// threads.
 void wakeIfPushed(const btFemBodyRecord& record, const btCollisionObject& other);
 
-/// Before contacts are searched: bodies that Bullet's islands woke within the step get their forces, and those pairs
-/// that Bullet left out because both slept.
+/// Call before contact searches. Bodies that Bullet's islands woke within the step get their forces, and the pairs that
+/// Bullet omitted because both objects slept.
 void completeWokenBodies(const btFemBodyRegistry& registry);
 
-/// After the step, before updateSleep: notes how fast a body that is awake was. May be called by several threads.
+/// Call after the step, before updateSleep: notes the speed of an active body. May be called by several threads.
 void noteSpeed(btFemBodyRecord& record);
 
-/// After the step: lets bodies at rest ask for sleep, and stills those that islands have put to sleep.
+/// Call after the step: lets resting bodies ask for sleep, and stops those that islands have put to sleep.
 void updateSleep(const btFemBodyRegistry& registry, bullet_fem::WorldObjects& world);

@@ -16,7 +16,7 @@ using namespace bullet_fem;
 namespace
 {
 
-// Before threads look for cracks.
+// Creates the crack search of a body. Call before threads use it.
 void readyForCracks(btFemBodyRecord& record)
 {
     std::unique_ptr<btFemCracks>& cracks = record.m_model.m_cracks;
@@ -24,7 +24,7 @@ void readyForCracks(btFemBodyRecord& record)
     if (!cracks || cracks->m_fracture.shape() != shape) cracks = std::make_unique<btFemCracks>(shape);
 }
 
-// Of elements, without nodes that none uses.
+// Number of connected components of elements, without loose nodes.
 int partsOfMesh(const TetMesh& mesh)
 {
     return mesh.componentCount() - mesh.looseCount();
@@ -81,7 +81,8 @@ void btFemSplitter::splitBody(btFemBodySetUp& setUp, btFemBodyRecord& record, do
 {
     try
     {
-        const std::unique_ptr<btFemCracks> cracks = std::move(record.m_model.m_cracks);  // another mesh has others
+        // indices are invalid after the split
+        const std::unique_ptr<btFemCracks> cracks = std::move(record.m_model.m_cracks);
         btFemSplit event = splitOf(record, cracks->m_split);
         setUp.split(record, cracks->m_split);
         event.m_parts = partsOfMesh(record.fem().m_body.m_model->mesh());
@@ -94,7 +95,7 @@ void btFemSplitter::splitBody(btFemBodySetUp& setUp, btFemBodyRecord& record, do
         record.m_softBody->activate();
         m_splits.push_back(event);
     }
-    catch (const std::exception& error)  // its factor would be too large
+    catch (const std::exception& error)  // the factor would be too large
     {
         record.m_model.m_message = reasonOf(error);
         record.m_model.m_flags |= BT_FEM_NOT_SPLIT;

@@ -15,13 +15,12 @@ namespace bullet_fem
 class Threads;
 }
 
-/// Splits bodies that have a strength as steps end, and keeps what split for the user. Allocates only when one splits,
-/// and when it looks at a body for the first time.
+/// Splits bodies with a tensile strength at the end of steps, and keeps the events for the user. Allocates only when a
+/// body splits, and at the first check of a body.
 class btFemSplitter
 {
 public:
-    /// Of the bodies that were stepped and are awake, at the `time` since the first step [s]. `threads` look for
-    /// cracks.
+    /// Checks the stepped active bodies at `time` since the first step [s]. `threads` search for cracks.
     void split(btFemBodySetUp& setUp, const btFemRecords& records, const bullet_fem::Threads& threads, double time);
 
     /// See btFemFracture.
