@@ -15,7 +15,7 @@ using namespace bullet_fem;
 namespace
 {
 
-// Of what initializeDmInverse and scale set.
+// Hash of the rest matrices, which initializeDmInverse and scale set.
 std::uint64_t markOfRestMatrices(const btSoftBody& body)
 {
     std::uint64_t mark = kEmptyMark;

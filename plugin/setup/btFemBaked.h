@@ -11,9 +11,9 @@ namespace bullet_fem
 struct BakedBody;
 }
 
-/// Makes a body one of that model when it is stepped or prepared next. Throws std::invalid_argument, before it has
-/// changed anything, if its nodes or elements are others.
+/// Makes a body use the baked model when it is next stepped or prepared. Throws std::invalid_argument, and changes
+/// nothing, if the body has other nodes or elements.
 void useBaked(btFemBodyRegistry& registry, btSoftBody* body, const bullet_fem::BakedBody& baked);
 
-/// True if the body still has the elements and the rest shape that it had then.
+/// True if the body still has the elements and the rest shape of useBaked().
 bool isAsBaked(const btSoftBody& body, const btFemBaked& baked);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The factors of bodies that are FEM.
+// btFemBodySetUp: factors of FEM bodies.
 #include <algorithm>
 #include <utility>
 

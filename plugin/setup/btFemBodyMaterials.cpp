@@ -19,7 +19,7 @@ using namespace bullet_fem;
 namespace
 {
 
-// `where` are the parts of a message that tell which of several it is.
+// `where` are the parts of a message that name one of several materials.
 template <class... Parts>
 Material checkedMaterial(const btFemMaterial& material, const Parts&... where)
 {
@@ -39,7 +39,7 @@ void checkCount(std::size_t given, const char* what, const RestMesh& rest)
 
 void giveMaterials(btFemBodyRegistry& registry, btSoftBody* body, const btFemMaterialMaker& make)
 {
-    if (registry.find(body)) registry.record(body);  // which notices what the program changed
+    if (registry.find(body)) registry.record(body);  // record() detects changes by the program
     std::string why;
     if (!canBecomeFem(body, why)) reject("setMaterial: ", why);
     const btFemBodyRecord* known = registry.find(body);

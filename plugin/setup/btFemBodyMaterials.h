@@ -14,15 +14,15 @@
 class btFemBodyRegistry;
 class btSoftBody;
 
-/// The materials of a mesh at rest.
+/// Makes the materials of a mesh at rest.
 using btFemMaterialMaker = std::function<bullet_fem::ElementMaterials(const bullet_fem::RestMesh& rest)>;
 
-/// Gives a body its materials; densities > 0 set the masses of nodes that are not pinned, now. Throws
-/// std::invalid_argument, and changes nothing then, if there are none to be had or the body cannot be FEM.
+/// Gives a body its materials. A density > 0 sets the masses of nodes that are not pinned at once. Throws
+/// std::invalid_argument, and changes nothing, if the materials are invalid or the body cannot be FEM.
 void giveMaterials(btFemBodyRegistry& registry, btSoftBody* body, const btFemMaterialMaker& make);
 
-// What btFemSoftBodySolver::setMaterial and setMaterials make them of. Throw std::invalid_argument when called with a
-// mesh that they do not fit, or now, on values that are bad for any mesh.
+// The materials of btFemSoftBodySolver::setMaterial and setMaterials. Values that are invalid for every mesh throw
+// std::invalid_argument here; a mesh that does not fit makes the returned function throw it.
 
 btFemMaterialMaker materialOfAll(const btFemMaterial& material);
 btFemMaterialMaker materialsOfTets(const std::vector<btFemMaterial>& perTet);

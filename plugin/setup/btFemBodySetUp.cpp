@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// How a body becomes FEM, and gets another material or rest shape.
+// btFemBodySetUp: makes bodies FEM, and changes their material or rest shape.
 #include "plugin/setup/btFemBodySetUp.h"
 
 #include <memory>
@@ -41,8 +41,8 @@ int flagsOf(const TetMesh& mesh)
            (mesh.looseCount() > 0 ? BT_FEM_UNUSED_NODES : 0) | (mesh.sliverCount() > 0 ? BT_FEM_SLIVERS : 0);
 }
 
-// A body that was FEM until it was cut or refined has its mark and a FEM body's algorithms; with those, Bullet's
-// springs would be given whole planes and meshes, which they take for nothing.
+// Returns a body to Bullet. A former FEM body has a mark and FEM collision algorithms, which would give Bullet's
+// springs whole planes and meshes that they cannot handle.
 void leaveToBullet(btSoftBody& body)
 {
     unmarkBody(body);
@@ -104,14 +104,14 @@ void btFemBodySetUp::setUp(btFemBodyRecord& record, double step)
     record.m_asked.m_materialChanged = false;
 }
 
-// True if it was baked, is still what was baked, and its factor is not too large for this solver.
+// True if the body is still as baked, and the baked factor is within the memory limit.
 bool btFemBodySetUp::canUseBaked(const btFemBodyRecord& record) const
 {
     return record.m_asked.m_baked && isAsBaked(*record.m_softBody, *record.m_asked.m_baked) &&
            m_library.allows(record.m_asked.m_baked->m_model->factorReport().m_bytes);
 }
 
-// The baked mesh, of the material that the body is to have.
+// The baked shape with the body's present materials.
 std::shared_ptr<const RestShape> btFemBodySetUp::bakedShape(const btFemBodyRecord& record,
                                                             const std::vector<double>& filled)
 {
@@ -125,7 +125,7 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
 {
     btSoftBody& soft = *record.m_softBody;
     std::shared_ptr<const btFemDefinition>& defined = record.m_asked.m_definition;
-    if (defined && !hasElements(soft, defined->m_restPositions.size(), defined->m_tets))  // it was cut since
+    if (defined && !hasElements(soft, defined->m_restPositions.size(), defined->m_tets))  // it was cut meanwhile
     {
         defined.reset();
         record.m_model.m_wasChanged = true;
@@ -152,7 +152,7 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
     record.m_model.m_fem = std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model));
     record.fem().m_numericalDamping = m_numericalDamping;
     record.fem().m_body.m_state.m_mass = input.m_mass;    // the model's may be those of a copy elsewhere,
-    record.fem().m_body.m_state.m_fixed = input.m_fixed;  // or of when it was baked
+    record.fem().m_body.m_state.m_fixed = input.m_fixed;  // or of the baking
     record.fem().m_restOrigin = rest.m_origin;
     record.m_asked.m_definition.reset();
     makeFaces(soft, mesh);
@@ -169,13 +169,13 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
 void btFemBodySetUp::renew(btFemBodyRecord& record, double step)
 {
     FemSoftBody& fem = record.fem();
-    // The factor is for the masses and pins of now; a new density has just changed the masses.
+    // The factor needs the present masses and pins; a new density has just changed the masses.
     const NodeReadReport read = readNodes(fem);
     record.m_reports.m_step.m_flags |= (read.m_restored ? BT_FEM_RESTORED : 0) | (read.m_badMass ? BT_FEM_BAD_MASS : 0);
     RestMesh rest;
     if (restMatricesChanged(fem))
     {
-        noteRestMatrices(fem);  // tried once, whatever comes of it
+        noteRestMatrices(fem);  // tried once, whether or not it succeeds
         rest = restMeshOf(*fem.m_softBody);
     }
     const TetMesh& mesh = rest.m_known ? rest.m_mesh : fem.m_body.m_model->mesh();
@@ -249,7 +249,7 @@ void btFemBodySetUp::chooseSurface(btFemBodyRecord& record)
     {
         fem.setSkin(skin, m_library.compliance(model, skin.get()));
         readyForSelfContact(record);
-        record.m_model.m_formerModel.reset();  // its compliance is for other nodes
+        record.m_model.m_formerModel.reset();  // their compliance is for other nodes
         record.m_model.m_formerCompliance.reset();
     };
     try
@@ -286,7 +286,7 @@ void btFemBodySetUp::trySetUp(btFemBodyRecord& record, double step)
     catch (const std::exception& error)
     {
         record.m_model.m_message = reasonOf(error);
-        if (!record.isFem()) reject(record);  // a body that moved already keeps its old material and rest shape
+        if (!record.isFem()) reject(record);  // a FEM body keeps its former material and rest shape
         record.m_asked.m_materialChanged = false;
     }
 }

@@ -60,7 +60,7 @@ std::shared_ptr<btFemFactorJob> btFemFactorThread::start(const std::shared_ptr<c
     return job;
 }
 
-// The next job that somebody still holds; null when the thread shall end.
+// Waits for the next job that is still held; null when the thread must end.
 std::shared_ptr<btFemFactorJob> btFemFactorThread::next()
 {
     std::unique_lock<std::mutex> lock(m_mutex);

@@ -33,7 +33,7 @@ bullet_fem::Material coreMaterial(const btFemMaterial& material)
 {
     bullet_fem::Material core;
     core.m_youngModulus = material.m_youngModulus;
-    // The largest ratio allowed is not a binary number; what single precision makes of it is meant to be in range.
+    // The largest permitted ratio has no exact binary form: its single-precision value counts as that ratio.
     constexpr double kMost = bullet_fem::Material::kMostPoissonRatio;
     core.m_poissonRatio = material.m_poissonRatio == btScalar(kMost) ? kMost : double(material.m_poissonRatio);
     core.m_density = material.m_density;
@@ -46,7 +46,7 @@ bullet_fem::Material coreMaterial(const btFemMaterial& material)
     core.m_hardeningModulus = material.m_hardeningModulus;
     core.m_plasticCreep = material.m_plasticCreep;
     core.m_mostPlasticStrain = material.m_mostPlasticStrain;
-    constexpr double kMostShare = bullet_fem::Material::kMostRelaxedShare;  // likewise
+    constexpr double kMostShare = bullet_fem::Material::kMostRelaxedShare;  // as for kMost
     for (int i = 0; i < btFemMaterial::kMostRelaxationTerms; ++i)
     {
         const btFemRelaxation& term = material.m_relaxation[i];

@@ -5,5 +5,5 @@
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/fem/mesh/material.h"
 
-/// The material as the core takes it; unchecked.
+/// Converts the material to that of the core, without validation.
 bullet_fem::Material coreMaterial(const btFemMaterial& material);
