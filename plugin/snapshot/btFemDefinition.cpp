@@ -27,7 +27,7 @@ void transfer(Bytes& bytes, btFemDefinition& d)
           d.m_inverseMass, d.m_contactOffset, d.m_detail);
 }
 
-// What the body has, or would get now.
+// The definition of a FEM body; of another body, that which it would get now.
 btFemDefinition definitionOf(const btFemBodyRegistry& registry, const btSoftBody& soft)
 {
     const btFemBodyRecord* record = registry.find(&soft);
@@ -89,7 +89,7 @@ void check(const btFemDefinition& d, const btSoftBody& soft)
                d.m_filled.size(), " filled fractions");
     checkNumbers(d);
     d.m_materials.validate(soft.m_tetras.size());
-    TetMesh(d.m_restPositions, d.m_tets, LooseNodes::kept);  // throws if it is no mesh
+    TetMesh(d.m_restPositions, d.m_tets, LooseNodes::kept);  // throws if it is not a valid mesh
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 class btFemBodyRegistry;
 class btSoftBody;
 
-/// Writes the definition of a body. One that is not FEM yet is what it would become now. Throws std::invalid_argument
-/// on null, or a body without usable tetrahedra.
+/// Writes the definition of a body to `buffer`; for a body that is not FEM yet, that which it would get now. Throws
+/// std::invalid_argument if it is null or has no usable tetrahedra.
 void saveDefinition(const btFemBodyRegistry& registry, const btSoftBody* body, std::vector<unsigned char>& buffer);
 
-/// Makes a body one of that definition when it is stepped or prepared next; its nodes stay where they are. Throws
-/// std::invalid_argument, before it has changed anything, if that cannot be.
+/// Gives a body the definition in `data`, used when it is next stepped or prepared; its nodes are not moved. Throws
+/// std::invalid_argument, and changes nothing, if the definition is invalid or does not fit the body.
 void applyDefinition(btFemBodyRegistry& registry, btSoftBody* body, const unsigned char* data, std::size_t size);

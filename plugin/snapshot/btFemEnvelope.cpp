@@ -9,7 +9,7 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr std::uint32_t kVersion = 12;  // raised with every change of what is written
+constexpr std::uint32_t kVersion = 12;  // raised at each change of the format
 constexpr std::uint32_t kByteOrder = 0x01020304, kOtherByteOrder = 0x04030201;
 constexpr std::array<char, 8> kMagic = {'B', 'u', 'l', 'l', 'F', 'E', 'M', '\n'};
 
@@ -20,8 +20,8 @@ struct Header
     std::uint32_t m_version = kVersion;
     std::uint32_t m_scalarBytes = sizeof(btScalar);
     btFemContents m_contents = btFemContents::state;
-    std::uint64_t m_size = 0;  // of the contents
-    std::uint64_t m_mark = 0;  // of the contents
+    std::uint64_t m_size = 0;  // size of the contents [B]
+    std::uint64_t m_mark = 0;  // checksum of the contents
 };
 static_assert(sizeof(Header) == 40, "no padding: it is copied as it is");
 

@@ -7,19 +7,20 @@
 
 #include "fem/common/byte_stream.h"
 
-/// What a buffer is said to hold.
+/// Kind of a buffer's contents.
 enum class btFemContents : unsigned int
 {
     state = 1,      ///< of btFemSoftBodySolver::saveState
     definition = 2  ///< of btFemSoftBodySolver::saveDefinition
 };
 
-// A header around contents of any kind: magic bytes, byte order, version, precision of btScalar, kind, size, checksum.
+// Header of a buffer: magic bytes, byte order, version, precision of btScalar, kind, size, checksum.
 
-/// Empties the buffer but for a header, which closeEnvelope completes.
+/// beginEnvelope() replaces the buffer's contents by a header; closeEnvelope() completes the header after the contents
+/// were appended.
 void beginEnvelope(std::vector<unsigned char>& buffer, btFemContents contents);
 void closeEnvelope(std::vector<unsigned char>& buffer);
 
-/// The contents of a buffer that may be anything. Throws std::invalid_argument, saying what is wrong, unless it is
-/// whole, unchanged, of this kind, and was written by this version in this precision and byte order.
+/// Returns a reader of the contents of an untrusted buffer. Throws std::invalid_argument with the reason unless the
+/// buffer is complete, undamaged, of this kind, and was written by this version in this precision and byte order.
 bullet_fem::ByteReader openEnvelope(const unsigned char* data, std::size_t size, btFemContents contents);

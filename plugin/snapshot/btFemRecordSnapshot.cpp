@@ -57,7 +57,7 @@ void restoreReports(const btFemRecordSnapshot& s, const WorldIds& world, btFemBo
     btFemStepReport report = s.m_report;
     report.m_message = record.m_model.m_message.c_str();
     reportModel(*record.fem().m_body.m_model, report);
-    report.m_tooSlow = record.m_reports.m_step.m_tooSlow;  // which the clock said
+    report.m_tooSlow = record.m_reports.m_step.m_tooSlow;  // depends on the clock, so it is not saved
     record.m_reports.m_step = report;
 }
 
@@ -68,7 +68,7 @@ void restoreSleep(const btFemRecordSnapshot& s, const WorldIds& world, btFemSlee
     {
         btFemNeighbour neighbour = item.m_value;
         neighbour.m_object = world.objectOf(item.m_other);
-        // What is gone is recognised by being nowhere, and wakes the body if it touched or held it.
+        // An object that is gone has no pointer; it wakes the body if it was in contact or joined.
         if (!neighbour.m_object)
         {
             neighbour.m_touches = neighbour.m_touches || neighbour.m_held;

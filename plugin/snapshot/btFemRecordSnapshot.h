@@ -11,7 +11,7 @@
 #include "bullet_fem/fem/body/body_snapshot.h"
 #include "plugin/record/btFemBodyRecord.h"
 
-/// Something that points to another object, with that object's id instead: see WorldIds.
+/// A value that refers to another object, with that object's id in place of its pointer: see WorldIds.
 template <class T>
 struct btFemWithOther
 {
@@ -19,14 +19,14 @@ struct btFemWithOther
     int m_other = bullet_fem::WorldIds::kGone;
 };
 
-/// All that the steps wrote to a btFemBodyRecord and that the next one reads or a user may ask for, but not what the
-/// clock said: the same state gives the same bytes.
+/// All of a btFemBodyRecord that steps write and that the next step or the user reads. Times are omitted, so that equal
+/// states give equal bytes.
 struct btFemRecordSnapshot
 {
-    int m_id = -1;  ///< in the broad phase
+    int m_id = -1;  ///< broadphase id
     int m_nodeCount = 0, m_tetCount = 0;
     bool m_materialGiven = false, m_materialChanged = false;
-    std::uint64_t m_materialMark = 0;  ///< of what was asked for
+    std::uint64_t m_materialMark = 0;  ///< hash of the materials asked for
     bullet_fem::BodySnapshot m_body;
     bool m_hasFormerFactor = false;
     bullet_fem::FactorInput m_formerFactor;
@@ -37,7 +37,7 @@ struct btFemRecordSnapshot
     btFemStepReport m_report;
     std::vector<btFemWithOther<btFemContact>> m_contacts;
     std::vector<btFemWithOther<btFemTouch>> m_touches;
-    btFemSleepRecord m_sleep;  ///< without neighbours
+    btFemSleepRecord m_sleep;  ///< its neighbours are in m_neighbours
     std::vector<btFemWithOther<btFemNeighbour>> m_neighbours;
     double m_lastStep = 0;
     btFemDetailLevel m_detailLevel;
@@ -45,15 +45,15 @@ struct btFemRecordSnapshot
     btFemInsideOut m_insideOut;
 };
 
-/// A body that is in the world.
+/// The snapshot of a body that is in the world.
 btFemRecordSnapshot snapshotOf(const btFemBodyRecord& record, const bullet_fem::WorldIds& world);
 
-/// Throws std::invalid_argument, naming the value, unless the snapshot can be that of this body, with the material that
-/// it has now.
+/// Throws std::invalid_argument, naming the value, unless the snapshot is consistent with this body and its present
+/// material.
 void check(const btFemRecordSnapshot& snapshot, const btFemBodyRecord& record, const bullet_fem::WorldIds& world);
 
-/// Gives it to the body, which has the factor that the snapshot tells; what is no longer in the world is left out.
-/// After check().
+/// Restores the body, which must have the factor of the snapshot. Drops references to objects that are not in the
+/// world. Call after check().
 void restore(const btFemRecordSnapshot& snapshot, const bullet_fem::WorldIds& world, btFemBodyRecord& record);
 
 template <class Bytes>

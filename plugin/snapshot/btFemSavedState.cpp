@@ -15,7 +15,7 @@ using namespace bullet_fem;
 namespace
 {
 
-// attempt(), and says who refused.
+// attempt() with the name of the caller in the message.
 template <class Call>
 bool attemptAs(const char* name, std::string* why, const Call& call)
 {

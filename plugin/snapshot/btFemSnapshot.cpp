@@ -16,13 +16,13 @@ using namespace bullet_fem;
 namespace
 {
 
-/// All that is written.
+/// The contents of a saved state.
 struct WorldSnapshot
 {
-    std::vector<btFemRecordSnapshot> m_bodies;  // in the order in which they became known, which is that of solving
+    std::vector<btFemRecordSnapshot> m_bodies;  // in the order of the registry, which is that of solving
     SoftPairMemory::Kept m_softPairs;
     RigidProxies::Memory m_rigid;
-    double m_time = 0;  // of all steps so far [s]
+    double m_time = 0;  // duration of all steps so far [s]
 };
 
 template <class Bytes>
@@ -31,7 +31,7 @@ void transfer(Bytes& bytes, WorldSnapshot& s)
     bytes(s.m_bodies, s.m_softPairs, s.m_rigid, s.m_time);
 }
 
-// FEM bodies that are in the world. Others may be deleted: they must not be looked at.
+// FEM bodies that are in the world. Other records may belong to deleted bodies, which must not be accessed.
 std::vector<btFemBodyRecord*> livingRecords(const btFemSnapshotScope& scope)
 {
     std::vector<btFemBodyRecord*> living;
@@ -80,7 +80,7 @@ std::string nameOf(const btFemRecordSnapshot& s)
     return message("the FEM body with broad phase id ", s.m_id);
 }
 
-// The records of the snapshot's bodies.
+// The records of the snapshot's bodies, in its order.
 std::vector<btFemBodyRecord*> matched(const WorldSnapshot& snapshot, const std::vector<btFemBodyRecord*>& records,
                                       const WorldIds& world)
 {
@@ -98,18 +98,18 @@ std::vector<btFemBodyRecord*> matched(const WorldSnapshot& snapshot, const std::
     return found;
 }
 
-/// The factors that a body had.
+/// The present and the former factor of a body.
 struct Models
 {
     std::shared_ptr<const BodyModel> m_model, m_former;
 };
 
-// One that is not at hand is made.
+// Finds the factors of a snapshot. Factorizes the present one if there is none.
 Models modelsOf(const btFemRecordSnapshot& s, const btFemBodyRecord& record, btFemBodySetUp& setUp)
 {
     Models models;
     models.m_model = record.fem().m_body.m_model;
-    if (s.m_materialChanged) return models;  // the next step makes another in any case
+    if (s.m_materialChanged) return models;  // the next step makes a new one in any case
     const std::shared_ptr<const RestShape> shape = setUp.shapeOf(record, s.m_body.m_shapeMark);
     if (!shape) reject("its rest shape is another than when the state was saved");
     models.m_model = setUp.exactModel(record, shape, factorInputOf(s.m_body));

@@ -13,20 +13,21 @@
 
 class btSoftBody;
 
-/// What a state is taken of, and put back to.
+/// The objects that a saved state consists of.
 struct btFemSnapshotScope
 {
     btFemBodyRegistry& m_registry;
     btFemBodySetUp& m_setUp;
     btFemContactGroup& m_group;
     btFemSplitter& m_splitter;
-    const btAlignedObjectArray<btSoftBody*>* m_worldBodies;  ///< of the world stepped last; null: none was stepped
+    const btAlignedObjectArray<btSoftBody*>* m_worldBodies;  ///< bodies of the world stepped last; null: none was
+                                                             ///< stepped
 };
 
-/// Writes all that the next step depends on, of the FEM bodies of the world stepped last. Throws std::invalid_argument
-/// within a step, or where no body knows the world's broad phase.
+/// Writes the complete state of the FEM bodies of the world stepped last to `buffer`. Throws std::invalid_argument
+/// within a step, or if no body refers to the world's broad phase.
 void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& buffer);
 
-/// Puts it back. Throws std::invalid_argument, saying why, before it has changed anything, unless it is whole and all
-/// of its bodies are in the world, made of the same elements and material.
+/// Restores a saved state. Throws std::invalid_argument with the reason, and changes nothing, unless the state is
+/// complete and all of its bodies are in the world with equal elements and material.
 void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data, std::size_t size);
