@@ -9,8 +9,8 @@ struct btFemChamber;
 struct btFemExpansion;
 struct btFemFibres;
 
-// What the user gives, in the terms of fem; not validated, but for a list of triangles' nodes that is not one: that
-// throws std::invalid_argument.
+// Convert the user's actuators to those of fem, without validation; only a list of triangle nodes whose length is not a
+// multiple of three throws std::invalid_argument.
 bullet_fem::Chamber coreChamber(const btFemChamber& given);
 bullet_fem::Cable coreCable(const btFemCable& given);
 bullet_fem::Fibres coreFibres(const btFemFibres& given);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What drives bodies from within: chambers, cables, fibres, expansions.
+// btFemSoftBodySolver: actuators, that is chambers, cables, fibres and expansions.
 #include "bullet_fem/btFemActuators.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const TetMesh& meshOf(const FemSoftBody& fem)
     return fem.m_body.m_model->mesh();
 }
 
-// The element of a list with this handle; throws if there is none.
+// The actuator with this handle. Throws std::invalid_argument if there is none.
 template <class T>
 T& find(std::vector<T>& all, int id, const char* kind)
 {
@@ -36,7 +36,7 @@ T& find(std::vector<T>& all, int id, const char* kind)
                                 "; give what the function that added it returned");
 }
 
-// Changes a copy of a chamber or cable, checks it, and puts it back.
+// Changes a copy of a chamber or cable, validates it, and assigns it.
 template <class T, class Change>
 void changePull(const FemSoftBody& fem, T& known, const Change& change)
 {
@@ -46,7 +46,7 @@ void changePull(const FemSoftBody& fem, T& known, const Change& change)
     known = std::move(changed);
 }
 
-// Appends a validated actuator; returns its handle.
+// Appends a validated actuator and returns its handle.
 template <class T>
 int append(FemSoftBody& fem, std::vector<T>& all, T added)
 {
@@ -55,7 +55,7 @@ int append(FemSoftBody& fem, std::vector<T>& all, T added)
     return all.back().m_id;
 }
 
-// As append(), or a change of one, of what makes stress: taken back if that is out of range.
+// Changes actuators that cause stress. Restores the former ones if the stress is out of range.
 template <class Change>
 void changeActiveStress(FemSoftBody& fem, const Change& change)
 {
@@ -76,7 +76,7 @@ void changeActiveStress(FemSoftBody& fem, const Change& change)
     }
 }
 
-// Calls call(FEM body) of a body that is FEM and not in the midst of a step; what is thrown names the caller.
+// Calls call(FEM body) unless the body is not FEM or is being stepped. Exceptions get the caller's name.
 template <class Call>
 void withFem(btFemSoftBodySolver& solver, const btSoftBody* body, const char* caller, const Call& call)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What leads and holds nodes: targets, attachments, springs.
+// btFemSoftBodySolver: node targets, attachments and springs.
 #include <stdexcept>
 #include <string>
 

@@ -8,18 +8,18 @@
 #include "bullet_bridge/joints/welds.h"
 #include "bullet_fem/btFemWelds.h"
 
-/// Breaks welds as steps end, and keeps what broke for the user.
+/// Breaks welds at the end of steps, and keeps the events for the user.
 class btFemWeldBreaker
 {
 public:
-    /// A step [s] of the world begins.
+    /// Call at the start of a step of `step` [s].
     void beginStep(double step) { m_time += step; }
 
-    /// Breaks what bore more than its limit in a step [s] of these bodies: it holds no more from the next one on. After
-    /// SoftJoints::takeBack.
+    /// Breaks welds of these bodies whose load in a step of `step` [s] exceeded a limit: they no longer hold from the
+    /// next step on. Call after SoftJoints::takeBack.
     void breakWelds(const std::vector<bullet_fem::FemSoftBody*>& bodies, double step);
 
-    /// So that no step allocates where so many more nodes tear off.
+    /// Reserves memory for the events of `nodes` more welded nodes, so that steps do not allocate.
     void makeRoom(int nodes);
 
     /// See btFemWelds.
@@ -27,15 +27,15 @@ public:
     void clearBreaks() { m_breaks.resize(0); }
     bullet_fem::WeldLoads& loads() { return m_loads; }
 
-    double time() const { return m_time; }  ///< of all steps so far [s]
+    double time() const { return m_time; }  ///< duration of all steps so far [s]
     void setTime(double time) { m_time = time; }
 
 private:
     void tell(const bullet_fem::FemSoftBody& fem, const bullet_fem::WeldBreak& broken);
 
     bullet_fem::WeldLoads m_loads;
-    std::vector<bullet_fem::WeldBreak> m_broken;  // of one body
+    std::vector<bullet_fem::WeldBreak> m_broken;  // scratch, of one body
     btAlignedObjectArray<btFemWeldBreak> m_breaks;
-    int m_most = 0;     // nodes of all welds that were made
+    int m_most = 0;     // number of nodes of all welds made
     double m_time = 0;  // [s]
 };

@@ -22,7 +22,7 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr double kReach = 1e-3;         // of the shorter mean edge: what corners of one place may be apart
+constexpr double kReach = 1e-3;         // largest distance of matching corners, over the shorter mean edge
 constexpr double kFarthestReach = 1e3;  // [m]
 
 bool areWelded(const FemSoftBody& a, const FemSoftBody& b)
@@ -131,7 +131,8 @@ bool btFemWelds::welds(const btFemSoftBodySolver& solver, const btSoftBody* body
     const btFemBodyRecord* record = body ? btFemCoupling::record(solver, *body) : nullptr;
     if (!record || !record->isFem()) return false;
     WeldLoads& loads = btFemCoupling::welds(solver).loads();
-    const double step = record->m_work.m_lastStep > 0 ? record->m_work.m_lastStep : 1;  // none: no impulses yet
+    // without a step there are no impulses yet
+    const double step = record->m_work.m_lastStep > 0 ? record->m_work.m_lastStep : 1;
     for (const Weld& weld : record->fem().m_joints.m_welds)
     {
         const WeldLoad& load = loads.load(record->fem(), weld, step);
