@@ -43,6 +43,8 @@ public:
 
     /// The rest shape, with the vertices that triangles use, in their given order.
     const RestSurface& rest() const { return m_rest; }
+
+    /// Counts of the repairs by the constructor.
     const Mended& mended() const { return m_mended; }
 
     /// The nodes that vertices depend on, ascending.

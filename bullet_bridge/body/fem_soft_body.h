@@ -93,6 +93,7 @@ struct Impact
     bool m_isNear = false;       ///< the two have contact points in this step
     bool m_isPressed = false;    ///< some of these have an impulse
 
+    /// True if the two are between equal bodies and connected components.
     bool isOf(const Impact& b) const
     {
         return m_other == b.m_other && m_otherId == b.m_otherId && m_piece == b.m_piece &&
@@ -176,6 +177,8 @@ private:
 /// True if a rest matrix has changed since noteRestMatrices(), as by initializeDmInverse or by scaling the body. Never
 /// allocates.
 bool restMatricesChanged(const FemSoftBody& fem);
+
+/// Notes the present rest matrices for restMatricesChanged().
 void noteRestMatrices(FemSoftBody& fem);
 
 /// Replaces the rest shape of a body by one with the same nodes. Keeps its motion and joints; discards contacts, and

@@ -45,7 +45,11 @@ public:
         std::vector<Remainder> m_remainders;
         std::vector<int> m_rewound;  ///< broadphase ids of rewound objects
     };
+
+    /// A copy of that state.
     Memory memory() const { return {m_remainders, m_rewound}; }
+
+    /// Replaces the state by that of a former memory().
     void restore(const Memory& memory);
 
     /// Forgets the state of bodies that felt no impulse in the last step. `step` is the world's [s].
@@ -108,12 +112,17 @@ public:
     /// The velocity with which the object moves, or moved, in this step, without the gravity of the next step.
     LinkMotion motionNow(int rigidProxy) const;
 
+    /// The rigid proxies made since clear(), by index.
     std::vector<RigidProxy>& rigidProxies() { return m_rigidProxies; }
     const std::vector<RigidProxy>& rigidProxies() const { return m_rigidProxies; }
+
+    /// The collision object of a rigid proxy.
     const btCollisionObject& object(int rigidProxy) const { return *m_sources[rigidProxy].m_object; }
 
     /// The movable rigid body of a rigid proxy; null for other objects.
     btRigidBody* movableBody(int rigidProxy) const;
+
+    /// The state of a rigid proxy's object, created if there is none.
     Remainder& remainder(int rigidProxy) { return remainderOf(m_sources[rigidProxy].m_objectId); }
 
     /// Applies the solution of `problem`, which has these rigid proxies: moves bodies by position corrections, and

@@ -18,6 +18,8 @@ class WorldObjects
 public:
     /// Reads the broadphase of the body's world info, unless it is the one read since the last forget().
     void read(const btSoftBody& body);
+
+    /// Call when the world may have changed: the next read() reads its broadphase again.
     void forget() { m_broadphase = nullptr; }
 
     /// True if the broadphase of the body's world info is the one that was read last.

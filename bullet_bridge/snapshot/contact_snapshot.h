@@ -55,6 +55,7 @@ struct ContactSnapshot
     std::vector<Vec3> m_place;  ///< see SoftSurface::notedPlace
 };
 
+/// Copies the contacts, joints and impacts of a body, with the ids of `world` in place of pointers.
 ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world);
 
 /// Throws std::invalid_argument, naming the value, unless the snapshot is consistent with this body.

@@ -35,6 +35,7 @@ struct NodeSnapshot
     Vec3 m_restOrigin;  ///< as in FemSoftBody [m]
 };
 
+/// Copies the state of a body's nodes.
 NodeSnapshot nodeSnapshotOf(const FemSoftBody& fem);
 
 /// Throws std::invalid_argument, naming the value, unless the snapshot is consistent with this body.

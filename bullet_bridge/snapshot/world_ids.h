@@ -21,8 +21,11 @@ public:
     static constexpr int kGone = -2;  ///< id of an object that is not in the world
 
     WorldIds() = default;
+
+    /// Reads all objects of a broad phase with their ids.
     explicit WorldIds(btBroadphaseInterface& broadphase);
 
+    /// The id of an object; kNone for null, kGone if it is not in the world. The pointer may dangle.
     int idOf(const btCollisionObject* object) const;
 
     /// The object of an id; null if the world does not contain it.

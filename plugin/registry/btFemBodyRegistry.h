@@ -26,6 +26,7 @@ public:
     /// The record of a body, created if there is none. Throws std::invalid_argument if it is null.
     btFemBodyRecord& record(btSoftBody* body);
 
+    /// Removes the record of a body, if there is one. The pointer may dangle.
     void forget(const btSoftBody* body);
 
     /// Updates the records to the world's bodies: drops records of bodies that are not in it, and of those whose

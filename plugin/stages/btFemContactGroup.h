@@ -65,9 +65,11 @@ public:
     /// Solves after Bullet's rigid solver, and applies the reactions to the rigid bodies.
     void solve();
 
-    /// Solves within Bullet's rigid solver, on its solver bodies. Call begin; while wantsRound: sweep (repeatedly),
-    /// correct; goBack if wantsBack; finally finish; and moveRigid after the rigid solver has written its bodies back.
-    /// `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver without multibodies.
+    /// Solves within Bullet's rigid solver, on its solver bodies, by the functions of ContactSolver: begin; while
+    /// wantsRound, one outer iteration of sweep (repeatedly) and correct; goBack if wantsBack; finally finish; and
+    /// moveRigid after the rigid solver has written its bodies back. `others`: largest velocity change by Bullet's rows
+    /// since the last sweep [m/s]. `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver without
+    /// multibodies.
     void begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas = nullptr);
     bool sweep(double others);
     bool wantsRound() const { return m_solver.wantsRound(); }

@@ -74,6 +74,8 @@ public:
         std::vector<SoftPairOrigin> m_origins;  ///< one per contact
         std::vector<SoftPairIds> m_completePairs;
     };
+
+    /// The contacts remembered since the step began.
     Kept kept() const { return {m_next, m_nextOrigins, m_nextComplete}; }
 
     /// Replaces all remembered contacts by these.

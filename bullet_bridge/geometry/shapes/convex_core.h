@@ -22,6 +22,7 @@ public:
     /// A larger value is faster, and moves the edges inward by up to sqrt(3) - 1 times the rounding.
     static constexpr double edgeRounding = 0.002;
 
+    /// Makes the core of a shape, which must outlive it.
     explicit ConvexCore(const btConvexShape& shape);
 
     /// The core's support point: farthest in a direction, which must not be zero.

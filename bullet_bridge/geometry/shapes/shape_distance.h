@@ -19,6 +19,7 @@ struct Pose
     Mat3 m_rotation = Mat3::identity();
     Vec3 m_origin;  ///< [m]
 
+    /// Transforms a point from local to world coordinates, and back [m].
     Vec3 toWorld(const Vec3& local) const { return m_rotation * local + m_origin; }
     Vec3 toLocal(const Vec3& world) const { return transposeTimes(m_rotation, world - m_origin); }
 };

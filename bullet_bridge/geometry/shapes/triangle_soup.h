@@ -46,6 +46,7 @@ public:
     /// Collects the leaf's triangles that overlap a world box [m]; none if the leaf is not concave.
     void collect(const ShapeLeaf& leaf, const Vec3& low, const Vec3& high);
 
+    /// The triangles of the last collect(), in world coordinates.
     const std::vector<SoupTriangle>& triangles() const { return m_triangles; }
 
     /// Calls visit(index) once for each triangle whose bounds overlap a box. The order depends only on the triangles

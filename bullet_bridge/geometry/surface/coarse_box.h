@@ -42,6 +42,7 @@ struct alignas(64) CoarseBox  // one cache line
         return {x - rounding(x), x + rounding(x), d - rounding(d), d + rounding(d)};
     }
 
+    /// Extends the box to contain b.
     void add(const CoarseBox& b)
     {
         m_low = laneMin(m_low, b.m_low);

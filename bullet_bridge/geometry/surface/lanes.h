@@ -27,6 +27,7 @@ Lanes laneMax(const Lanes& a, const Lanes& b)
     return a < b ? b : a;
 }
 
+// True if any lane is set.
 inline bool isAny(const LaneMask& mask)
 {
     using Halves = std::int64_t __attribute__((vector_size(16)));

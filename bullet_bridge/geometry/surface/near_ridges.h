@@ -15,6 +15,7 @@ namespace bullet_fem
 class NearRidges
 {
 public:
+    /// A ridge with its bounding box.
     struct Item
     {
         SurfaceRidges::Ridge m_ridge;

@@ -19,6 +19,7 @@ struct RidgeLanes
     /// Lanes without a ridge: they meet nothing.
     static RidgeLanes empty();
 
+    /// Sets the ridge of one lane: its box, its start, and the vector from there to its other end [m].
     void set(int lane, const CoarseBox& box, const Vec3& start, const Vec3& along);
 
     /// One of the ridges, copied to all lanes.
@@ -39,6 +40,7 @@ struct RidgesMay
     LaneMask m_meet;   ///< they come within the band during the motion
 };
 
+/// Tests the ridges of a and b lane by lane, conservatively.
 RidgesMay ridgesMay(const RidgeLanes& a, const RidgeLanes& b, const RidgeReach& reach);
 
 }  // namespace bullet_fem

@@ -89,6 +89,8 @@ public:
 
     /// Notes the present positions of the surface's vertices. Never allocates.
     void notePlace();
+
+    /// Discards the noted positions: isStill() is false until the next notePlace().
     void forgetPlace() { m_placeNoted = false; }
     bool isPlaceNoted() const { return m_placeNoted; }
     /// True if all vertices are and stay within `reach` [m] of their noted positions during the step. Arguments as for

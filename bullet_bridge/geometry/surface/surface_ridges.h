@@ -13,6 +13,7 @@ namespace bullet_fem
 class SurfaceRidges
 {
 public:
+    /// A convex edge.
     struct Ridge
     {
         int m_edge, m_a, m_b;  ///< edge and its vertices

@@ -17,6 +17,7 @@ struct VectorBounds
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Vec3 m_low = {kInfinity, kInfinity, kInfinity}, m_high = {-kInfinity, -kInfinity, -kInfinity};
 
+    /// Extends the box to contain b.
     void add(const VectorBounds& b)
     {
         for (int c = 0; c < 3; ++c)
@@ -47,6 +48,7 @@ struct SweptBox
     /// The box of a point with displacement `change`.
     static SweptBox of(const Vec3& point, const Vec3& change) { return {{point, point}, {change, change}}; }
 
+    /// Extends the bounds to contain b.
     void add(const SweptBox& b)
     {
         m_start.add(b.m_start);
