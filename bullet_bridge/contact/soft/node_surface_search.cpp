@@ -276,7 +276,7 @@ void NodeSurfaceSearch::dropRims(const Visit& visit)
     for (Hit& hit : m_hits) hit.m_dropped = hit.m_place == Place::rim && (over || &hit != best);
 }
 
-// Keeps one face to lead a node out of the body, or two where the first ends in a groove.
+// Keeps the nearest face as the way out of the body, and a second one where that ends in a groove.
 void NodeSurfaceSearch::dropDeeper()
 {
     double least = -kInfinity;
