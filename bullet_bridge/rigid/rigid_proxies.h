@@ -34,7 +34,7 @@ public:
     {
         int m_objectId = -1;
         Vec3 m_linear, m_angular;                  ///< rounding error of its velocity [m/s], [rad/s]
-        bool m_used = false;                       ///< it felt an impulse in this step
+        bool m_used = false;                       ///< it took part in this step: the next beginStep() keeps it
         Vec3 m_linearGiven, m_angularGiven;        ///< velocity change by soft bodies in the last step [m/s], [rad/s]
         Vec3 m_linearExpected, m_angularExpected;  ///< part of it that is expected again [m/s], [rad/s]
     };
@@ -52,7 +52,7 @@ public:
     /// Replaces the state by that of a former memory().
     void restore(const Memory& memory);
 
-    /// Forgets the state of bodies that felt no impulse in the last step. `step` is the world's [s].
+    /// Forgets the state of bodies that took no part in the last step. `step` is the world's [s].
     void beginStep(double step);
 
     /// Notes a body's velocity before Bullet's rigid solver. A body with Bullet's joints gets the expected reaction of
