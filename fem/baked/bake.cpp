@@ -16,12 +16,12 @@ namespace
 
 constexpr double kWaterDensity = 1000;  // [kg/m3]
 
-/// Numbers as Bullet holds them.
+/// Rounding to the precision of a Bullet build.
 struct Rounding
 {
     bool m_single;
 
-    // By way of memory: GCC 12.2 takes a vector's conversion there and back for none at all.
+    // Via memory: GCC 12.2 optimizes a vectorized conversion there and back away.
     double operator()(double value) const
     {
         if (!m_single) return value;
@@ -31,7 +31,7 @@ struct Rounding
     Vec3 operator()(const Vec3& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
     Material operator()(Material m) const
     {
-        // The plug-in, too, takes its rounded value for what is meant.
+        // The maximum is not rounded: the plug-in, too, maps its rounded value to it.
         constexpr double kMostPoisson = Material::kMostPoissonRatio;
         if (m.m_poissonRatio != kMostPoisson) m.m_poissonRatio = (*this)(m.m_poissonRatio);
         for (double* value : {&m.m_youngModulus, &m.m_density, &m.m_massDamping, &m.m_stiffnessDamping,
@@ -64,7 +64,7 @@ std::vector<unsigned char> fixedNodes(const TetMesh& mesh, const std::vector<int
     return fixed;
 }
 
-// As the bridge reads a body's nodes: relative to the first.
+// Relative to the first node, as the bridge reads a body's nodes.
 TetMesh meshAround(const std::vector<Vec3>& positions, const std::vector<Tet>& tets)
 {
     std::vector<Vec3> X = positions;
@@ -76,7 +76,7 @@ TetMesh meshAround(const std::vector<Vec3>& positions, const std::vector<Tet>& t
     return mesh;
 }
 
-/// What is baked, as it was given.
+/// The arguments of bakeBody().
 struct Given
 {
     const TetMesh& m_mesh;
@@ -84,8 +84,8 @@ struct Given
     double m_massScale = 1;
 };
 
-// The masses that the plug-in gives: with a density those of the rounded mesh, as setMaterial does; without one
-// water's, as btFemHelpers does.
+// Sets the masses as the plug-in does: with a density those of the rounded mesh, as setMaterial; without one water's,
+// as btFemHelpers.
 void setMasses(BakedBody& body, const Given& given, const RestShape& shape, const Rounding& round)
 {
     const bool own = shape.m_material.m_density > 0;

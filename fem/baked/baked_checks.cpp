@@ -19,7 +19,7 @@ bool isPositive(double value)
     return value > 0 && std::isfinite(value);
 }
 
-// Columns and rows lie one after the other; rows ascend, and come after the columns.
+// Columns and rows are stored consecutively; rows ascend, and follow the columns.
 SupernodeTree treeOf(const BakedHeader& header, const BakedArrays& a)
 {
     SupernodeTree tree;
@@ -64,7 +64,7 @@ void checkRowsOfParent(const SupernodeTree& tree, int s)
         reject("supernode ", s, " has rows that its parent ", child.m_parent, " has not");
 }
 
-// The descendants of a supernode are the ones just before it.
+// The descendants of a supernode directly precede it.
 void checkPostorder(const SupernodeTree& tree)
 {
     std::vector<int> first(tree.m_supernodes.size()), size(tree.m_supernodes.size(), 1);
@@ -152,7 +152,7 @@ void checkRestMatrix(const BakedHeader& header, const BakedArrays& a)
 
 void checkPanels(const float* panels, std::size_t count)
 {
-    constexpr std::uint32_t kExponent = 0x7F800000;  // all of it: infinite, or not a number
+    constexpr std::uint32_t kExponent = 0x7F800000;  // all bits set: infinite or NaN
     std::uint32_t bad = 0;
     for (std::size_t k = 0; k < count; ++k)
     {

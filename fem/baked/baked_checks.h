@@ -8,24 +8,24 @@
 namespace bullet_fem
 {
 
-// A checksum keeps out accidents; these keep out the rest: whatever numbers a file holds, nothing is read or written
-// outside of what there is. All throw std::invalid_argument that names the value.
+// A checksum excludes accidental damage; these checks exclude every other invalid value, so that nothing out of bounds
+// is read or written. All throw std::invalid_argument that names the value.
 
-/// The supernodes, if they are a postordered tree of the free nodes in which a supernode's rows are columns or rows of
-/// its parent.
+/// The supernodes, checked to be a postordered tree of the free nodes in which a supernode's rows are columns or rows
+/// of its parent.
 SupernodeTree checkedTree(const BakedHeader& header, const BakedArrays& arrays);
 
-/// Where every node stands in the order; -1 for fixed ones. The order must hold each of the others once.
+/// The position of every node in the order, -1 for fixed ones. The order must contain each free node once.
 std::vector<int> checkedPositions(const BakedArrays& arrays);
 
-/// Finite numbers in their ranges, flags that are 0 or 1, and embedded vertices and triangles that there are. What a
-/// TetMesh or a RestShape checks is left to them.
+/// Checks that numbers are finite and in their ranges, flags 0 or 1, and embedded vertices and triangles within bounds.
+/// Values that TetMesh or RestShape check are left to them.
 void checkValues(const BakedHeader& header, const BakedArrays& arrays);
 
-/// The rows of A0 in the low-memory path: lower halves, ascending, each with its diagonal at the end.
+/// Checks the rows of A0 of the low-memory path: lower halves, ascending, each with its diagonal at the end.
 void checkRestMatrix(const BakedHeader& header, const BakedArrays& arrays);
 
-/// All numbers of the factor are finite.
+/// Checks that all numbers of the factor are finite.
 void checkPanels(const float* panels, std::size_t count);
 
 }  // namespace bullet_fem

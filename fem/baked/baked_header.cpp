@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/baked/baked_header.h"
 
-#define XXH_INLINE_ALL  // nothing to link
+#define XXH_INLINE_ALL  // header-only, nothing to link
 #include <xxhash.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Material yielding(Material material, const BakedPlasticity& p)
     return material;
 }
 
-// Of a header, or of a region.
+// The material of a header or of a region.
 template <class Numbers>
 Material materialOf(const Numbers& h)
 {
@@ -58,7 +58,7 @@ Material materialOf(const Numbers& h)
     return yielding(material, h.m_plasticity);
 }
 
-// True if it is text that can be shown, with zeros behind.
+// True for printable text, padded with zeros.
 template <std::size_t size>
 bool isText(const std::array<char, size>& text)
 {

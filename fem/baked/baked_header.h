@@ -12,53 +12,53 @@
 namespace bullet_fem
 {
 
-/// The version of the format. A reader takes no other: files are made anew in seconds.
+/// Version of the format. A reader accepts only supported versions: files are recreated in seconds.
 constexpr std::uint32_t kBakedVersion = 2;
 
-/// That of bodies whose elements are in regions of several materials, which readers of before refuse.
+/// Version for bodies with several regions, so that older readers refuse them.
 constexpr std::uint32_t kBakedRegionsVersion = 3;
-/// That of bodies of which a region is orthotropic, the only one or one of several.
+/// Version for bodies with an orthotropic region.
 constexpr std::uint32_t kBakedOrthotropicVersion = 4;
 
-/// Sections, and with them the panels, start at multiples of this.
+/// Alignment of sections and panels in a file [B].
 constexpr std::size_t kBakedAlignment = 64;
 
-/// The bit of m_meanDilatation of a Neo-Hookean material; readers that do not know it refuse the value.
+/// Flag in m_meanDilatation of a Neo-Hookean material; older readers refuse the value.
 constexpr std::uint32_t kBakedNeoHooke = 4;
 
-/// How a material yields; all 0: the defaults, it does not.
+/// Plasticity of a material; all 0: the defaults, without yield.
 struct BakedPlasticity
 {
     float m_yieldStress, m_hardeningModulus, m_creep, m_mostStrain;
 };
 
-/// The first bytes of a file, as they lie there. What has no use is 0.
+/// The header of a file, byte by byte. Unused bytes are 0.
 struct BakedHeader
 {
     std::array<char, 8> m_magic;
     std::uint32_t m_byteOrder, m_version;
-    std::uint64_t m_fileBytes, m_headerChecksum, m_bodyChecksum;  // the first of the header with itself 0
+    std::uint64_t m_fileBytes, m_headerChecksum, m_bodyChecksum;  // m_headerChecksum is computed with itself 0
     std::uint64_t m_panelFloats, m_entries, m_fullBytes;
     std::uint32_t m_nodes, m_tets, m_filled, m_embedded, m_triangles;
     std::uint32_t m_freeNodes, m_supernodes, m_rows, m_restBlocks;
     std::uint32_t m_lowMemory, m_singlePrecision, m_meanDilatation;
     double m_step, m_massScale;
     double m_youngModulus, m_poissonRatio, m_density, m_massDamping, m_stiffnessDamping;
-    std::array<char, 48> m_backend;  // with zeros behind
+    std::array<char, 48> m_backend;  // padded with zeros
     std::array<char, 16> m_ordering;
     std::uint32_t m_surfaceCollides;
     BakedPlasticity m_plasticity;
-    std::uint32_t m_regions;  // 0: one material, which stands above
+    std::uint32_t m_regions;  // 0: one material, in the fields above
 };
 static_assert(sizeof(BakedHeader) == 256 && sizeof(BakedHeader) % kBakedAlignment == 0);
 
-/// Added to the mean dilatation of a material that bends accurately.
+/// Flag in m_meanDilatation of a material with accurate bending.
 constexpr std::uint32_t kBakedAccurateBending = 8;
-/// Added to it where the law is orthotropic.
+/// Flag in m_meanDilatation of an orthotropic material.
 constexpr std::uint32_t kBakedOrthotropic = 16;
 constexpr std::uint32_t kBakedFlags = kBakedNeoHooke | kBakedAccurateBending | kBakedOrthotropic;
 
-/// Mean dilatation and accurate bending of a material in one number.
+/// Mean dilatation, accurate bending and law of a material in one number.
 inline std::uint32_t averagingOf(const Material& material)
 {
     return static_cast<std::uint32_t>(material.m_meanDilatation) |
@@ -67,13 +67,13 @@ inline std::uint32_t averagingOf(const Material& material)
            (material.isOrthotropic() ? kBakedOrthotropic : 0);
 }
 
-/// A supernode as it stands in a file; columns and rows lie one after the other.
+/// A supernode in the file; columns and rows are stored consecutively.
 struct BakedSupernode
 {
     std::int32_t m_columns, m_rows, m_parent;
 };
 
-/// A region as it stands in a file.
+/// A region in the file.
 struct BakedRegion
 {
     std::int32_t m_label;
@@ -83,7 +83,7 @@ struct BakedRegion
 };
 static_assert(sizeof(BakedRegion) == 64);
 
-/// The constants and directions of an orthotropic region, as they stand in a file: as in Orthotropic; 0 of others.
+/// Constants and directions of a region in the file, as in Orthotropic; 0 for other laws.
 struct BakedConstants
 {
     std::array<double, 3> m_young, m_poisson, m_shear;
@@ -91,7 +91,7 @@ struct BakedConstants
 };
 static_assert(sizeof(BakedConstants) == 120);
 
-/// All that follows the panels.
+/// All arrays after the panels.
 struct BakedArrays
 {
     std::vector<Vec3> m_positions;
@@ -103,12 +103,12 @@ struct BakedArrays
     std::vector<int> m_vertexTet, m_order, m_row, m_restRowStart, m_restColumn;
     std::vector<BakedSupernode> m_supernodes;
     std::vector<unsigned char> m_sides, m_fixed;
-    std::vector<BakedRegion> m_regions;  // with m_regionOf: none of a body of one material
+    std::vector<BakedRegion> m_regions;  // m_regions, m_regionOf: empty for a body of one material
     std::vector<std::int32_t> m_regionOf;
-    std::vector<BakedConstants> m_constants;  // one a region; none where no region is orthotropic
+    std::vector<BakedConstants> m_constants;  // one a region; empty if no region is orthotropic
 };
 
-/// Calls section(array, length) for each of them, in the order of the file.
+/// Calls section(array, length) for each array, in the order of the file.
 template <class Arrays, class Section>
 void forEachSection(Arrays& a, const BakedHeader& h, const Section& section)
 {
@@ -134,37 +134,36 @@ void forEachSection(Arrays& a, const BakedHeader& h, const Section& section)
     section(a.m_constants, h.m_version != kBakedOrthotropicVersion ? 0 : h.m_regions > 0 ? h.m_regions : 1);
 }
 
-/// Where the next section starts after so many bytes.
+/// Offset of the next section after so many bytes.
 constexpr std::uint64_t alignedBytes(std::uint64_t bytes)
 {
     return (bytes + kBakedAlignment - 1) / kBakedAlignment * kBakedAlignment;
 }
 
-/// Bytes of the file that such a header belongs to.
+/// Size of the file that belongs to this header [B].
 std::uint64_t bakedFileBytes(const BakedHeader& header);
 
-/// XXH3 of some bytes, 64 bits.
+/// 64-bit XXH3 checksum.
 std::uint64_t checksumOf(const void* data, std::size_t size);
 
-/// Makes the header one of this format, of which the counts and values stand, and kBakedOrthotropicVersion; `body` is
-/// all that follows it.
+/// Completes a header whose counts and values are set: magic, byte order, version (unless it is
+/// kBakedOrthotropicVersion), file size and checksums; `body` is all that follows it.
 void sealHeader(BakedHeader& header, const unsigned char* body, std::size_t bodyBytes);
 
-/// The header of a file of `fileBytes`, of which the first `size` are at hand. Throws std::invalid_argument with what
-/// is wrong and what to do; the header that it returns has its counts in keeping with the file's length, and values in
-/// their ranges.
+/// Reads the header of a file of `fileBytes`, whose first `size` bytes are given. Throws std::invalid_argument with
+/// reason and remedy; the returned header has counts consistent with the file's length, and values in their ranges.
 BakedHeader openHeader(const unsigned char* data, std::size_t size, std::uint64_t fileBytes);
 
-/// The materials that a file's arrays and header tell, unchecked.
+/// The materials in the arrays and header of a file, unchecked.
 ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& arrays);
 
-/// What a header tells: of an orthotropic material not its constants.
+/// The information of a header, without the constants of orthotropic materials.
 BakedFileInfo infoOf(const BakedHeader& header);
 
-/// The constants of the first region, which are the last section but for regions that follow it: from where on they
-/// stand in a file of version kBakedOrthotropicVersion.
+/// Offset of the first region's constants in a file of version kBakedOrthotropicVersion, whose last section has the
+/// constants of all regions.
 std::uint64_t constantsOffset(const BakedHeader& header);
-/// The material with them. Throws std::invalid_argument if it is none.
+/// The material with these constants. Throws std::invalid_argument if it is invalid.
 Material withConstants(Material material, const BakedConstants& constants);
 
 }  // namespace bullet_fem

@@ -21,7 +21,7 @@ namespace bullet_fem
 namespace
 {
 
-// What is thrown names the file.
+// Adds the file's name to exceptions.
 template <class Read>
 auto readNamed(const std::string& name, const Read& read)
 {
@@ -50,7 +50,7 @@ BakedArrays readArrays(const BakedHeader& header, const unsigned char* data)
     return arrays;
 }
 
-// The tree of the factor's own node numbers; panels stay where they are.
+// The factor with its own node numbering; panels stay in the file's memory.
 std::shared_ptr<const RestFactor> factorOf(const BakedHeader& header, BakedArrays& arrays, const FileBytes& file)
 {
     SupernodeTree tree = checkedTree(header, arrays);

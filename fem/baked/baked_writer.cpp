@@ -124,7 +124,7 @@ BakedArrays arraysOf(const BakedBody& body)
     return a;
 }
 
-// The parts of a body that somebody put together may not fit.
+// A body assembled by the caller may be inconsistent.
 void check(const BakedBody& body)
 {
     if (!body.m_model) reject("it has no model; make it with bakeBody");
@@ -160,7 +160,7 @@ std::vector<unsigned char> bytesOf(const BakedBody& body)
     checkValues(header, arrays);
     sealHeader(header, bytes.data() + sizeof header, bytes.size() - sizeof header);
     std::memcpy(bytes.data(), &header, sizeof header);
-    openHeader(bytes.data(), bytes.size(), bytes.size());  // what could not be read is not written
+    openHeader(bytes.data(), bytes.size(), bytes.size());  // so that no unreadable file is written
     return bytes;
 }
 

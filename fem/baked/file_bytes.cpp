@@ -43,7 +43,7 @@ std::string systemReason()
 #endif
 }
 
-// Room for so many bytes.
+// Allocates aligned memory.
 std::shared_ptr<unsigned char> allocateBytes(std::size_t size)
 {
     const auto floats = std::make_shared<AlignedFloats>(allocateFloats(size / sizeof(float) + 1));
@@ -85,9 +85,9 @@ FileBytes mapFile(const std::string& path)
     const std::size_t size = GetFileSizeEx(file, &length) ? static_cast<std::size_t>(length.QuadPart) : 0;
     const HANDLE mapping = size > 0 ? CreateFileMappingA(file, nullptr, PAGE_READONLY, 0, 0, nullptr) : nullptr;
     void* const address = mapping ? MapViewOfFile(mapping, FILE_MAP_READ, 0, 0, 0) : nullptr;
-    if (mapping) CloseHandle(mapping);  // the view keeps both
+    if (mapping) CloseHandle(mapping);  // the view keeps file and mapping alive
     CloseHandle(file);
-    if (size > 0 && !address) return readFile(path);  // some file systems cannot
+    if (size > 0 && !address) return readFile(path);  // some file systems cannot map
     const auto unmap = [](const unsigned char* data)
     {
         if (data) UnmapViewOfFile(data);
@@ -103,13 +103,13 @@ FileBytes mapFile(const std::string& path)
     struct stat status = {};
     const std::size_t size = fstat(file, &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
 #ifdef MAP_POPULATE
-    constexpr int kFlags = MAP_PRIVATE | MAP_POPULATE;  // one call in place of a fault for every few pages
+    constexpr int kFlags = MAP_PRIVATE | MAP_POPULATE;  // one call instead of a page fault for every few pages
 #else
     constexpr int kFlags = MAP_PRIVATE;
 #endif
     void* const address = size > 0 ? mmap(nullptr, size, PROT_READ, kFlags, file, 0) : nullptr;
     close(file);
-    if (address == MAP_FAILED) return readFile(path);  // some file systems cannot
+    if (address == MAP_FAILED) return readFile(path);  // some file systems cannot map
     const auto unmap = [size](const unsigned char* data)
     {
         if (data) munmap(const_cast<unsigned char*>(data), size);

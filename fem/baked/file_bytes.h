@@ -10,21 +10,21 @@
 namespace bullet_fem
 {
 
-/// Bytes that start at a multiple of 64, and live as long as anybody has m_data.
+/// Bytes aligned to 64, alive as long as any copy of m_data.
 struct FileBytes
 {
     std::shared_ptr<const unsigned char> m_data;
     std::size_t m_size = 0;
 };
 
-/// A file's bytes: mapped into memory, or read. Throws std::runtime_error with the reason and what to do.
+/// The bytes of a file, mapped into memory or read. Throws std::runtime_error with reason and remedy.
 FileBytes mapFile(const std::string& path);
 FileBytes readFile(const std::string& path);
 
-/// A copy of bytes that lie somewhere. Throws std::bad_alloc.
+/// A copy of a byte array. Throws std::bad_alloc.
 FileBytes copyBytes(const unsigned char* data, std::size_t size);
 
-/// Length of a file; throws std::runtime_error if it is missing or no regular file.
+/// Length of a file [B]; throws std::runtime_error if it is missing or not a regular file.
 std::uint64_t fileLength(const std::string& path);
 
 }  // namespace bullet_fem

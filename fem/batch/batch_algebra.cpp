@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/batch/batch_algebra.h"
 
 #include <cstddef>
@@ -32,7 +32,7 @@ void ContinueLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int 
                   [&](std::size_t at, int) { hn::Store(loadOne(a + at) * two - loadOne(b + at), D(), out + at); });
 }
 
-/// Returns |v|^2.
+/// Stores v; returns |v|^2.
 HWY_INLINE V storeMeasured(const V3& v, double* to)
 {
     store3(v, to);
@@ -54,14 +54,14 @@ HWY_INLINE V3 choose(hn::Mask<D> yes, const V3& a, const V3& b)
     return {hn::IfThenElse(yes, a.x, b.x), hn::IfThenElse(yes, a.y, b.y), hn::IfThenElse(yes, a.z, b.z)};
 }
 
-/// Writes where the body is active.
+/// Stores the value in active bodies.
 HWY_INLINE void storeActive(const BatchRecurrence& v, const V3& value, int lane, double* to)
 {
     const auto active = valuesOf(v.m_active, lane) > hn::Zero(D());
     store3(choose(active, value, load3(to)), to);
 }
 
-/// Writes r where the body is active; returns |r|^2.
+/// Stores r in active bodies; returns |r|^2.
 HWY_INLINE V storeResidual(const BatchRecurrence& v, const V3& r, int lane, std::size_t at)
 {
     storeActive(v, r, lane, v.m_r + at);
@@ -150,7 +150,7 @@ void SubtractSums(const BatchInertia& inertia, double share, BodyVectors b, PerB
                  });
 }
 
-/// A p of a node, which is stored, too.
+/// Computes and stores A p at a node.
 HWY_INLINE V3 applyAt(const BatchInertia& inertia, const PerBatch& factor, const V3& p, BodyVectors Ap, int node,
                       int lane)
 {

@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-// Lanes of larger models would take more than some 50 MB.
+// Larger models would need more than about 50 MB of lanes.
 constexpr int kMostElements = 15000;
 
 std::vector<BatchCorners> cornersOf(const BodyModel& model)
@@ -30,7 +30,7 @@ std::vector<BatchCorners> cornersOf(const BodyModel& model)
     return corners;
 }
 
-/// Zeros: lanes of no body are computed with, too.
+/// Zero-initialized, because kernels also process unused lanes.
 template <class Real>
 AlignedArray<Real> zeros(std::size_t valuesOfBody)
 {

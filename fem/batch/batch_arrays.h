@@ -13,15 +13,15 @@
 namespace bullet_fem
 {
 
-/// True if bodies of this model can be solved side by side: of one piece and not too large, with all nodes in a factor
-/// of blocks, and elements that are neither smoothed nor orthotropic.
+/// True if bodies of this model can be solved side by side: a single connected component, not too large, all nodes in a
+/// full factor, and elements that are neither smoothed nor orthotropic.
 bool canBeBatched(const BodyModel& model);
 
-/// What kBatchWidth bodies of one model are solved in side by side: scratch, interleaved, a lane a body.
+/// Scratch arrays for solving kBatchWidth bodies of one model side by side: interleaved, one lane a body.
 class BatchArrays
 {
 public:
-    /// For a model that can be side by side, and must live as long as they are used. Allocates.
+    /// For a model with canBeBatched(), which must outlive the arrays. Allocates.
     explicit BatchArrays(const BodyModel& model);
 
     const BodyModel& model() const { return m_model; }
@@ -35,20 +35,20 @@ public:
     BatchWarp warp() const;
 
     AlignedDoubles m_x, m_v;                  ///< [node][3][body]: positions; velocities during the step [m], [m/s]
-    AlignedDoubles m_rightSide, m_increment;  ///< likewise: b, before that forces [N s], [N]; dv [m/s]
-    AlignedDoubles m_residual, m_direction, m_product;  ///< likewise, of conjugate gradients: r, p, A p
+    AlignedDoubles m_rightSide, m_increment;  ///< [node][3][body]: b, before that forces [N s], [N]; dv [m/s]
+    AlignedDoubles m_residual, m_direction, m_product;  ///< [node][3][body], conjugate gradients: r, p, A p
     AlignedDoubles m_mass;                              ///< [node][body] [kg]
     AlignedDoubles m_sums;                              ///< [node][2][3][body]; zero between the kernels that use it
     AlignedFloats m_rotation, m_warped;                 ///< see BatchElements
     AlignedFloats m_nodeRotation;                       ///< [node][9][body]
-    AlignedFloats m_factorVector, m_factorScratch;      ///< of PackedFactor::solveBatch()
+    AlignedFloats m_factorVector, m_factorScratch;      ///< arrays of PackedFactor::solveBatch()
     std::vector<unsigned> m_doubtful;                   ///< see BatchNodeRotations
     const std::vector<Vec3> m_zeros;
 
 private:
     const BodyModel& m_model;
     std::vector<BatchCorners> m_corners;
-    std::vector<int> m_position;  // of every node in the factor
+    std::vector<int> m_position;  // position of each node in the factor
 };
 
 }  // namespace bullet_fem

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/batch/batch_elements.h"
 
 #include <cstddef>
@@ -26,15 +26,15 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 
-// Processors with nothing that Highway knows.
+// For processors without vector instructions: empty.
 void passLanes(const BatchElements&, const BatchElementPass&) {}
 void multiply(const BatchElements&, double, const double*) {}
 
 #else
 
-constexpr int kVectors = kBatchWidth / width<float>();  // of an element
+constexpr int kVectors = kBatchWidth / width<float>();  // vectors per element
 
-/// Elements of a block, and the bodies' arrays of theirs.
+/// The elements of a block, with access to the bodies' arrays.
 struct LaneBlock
 {
     const BatchElements& m_all;
@@ -48,10 +48,10 @@ struct LaneBlock
     }
 };
 
-// Each kind of work is a loop of its own over a block: larger loops leave no registers, and what they wait for is too
-// far away for the processor to see it.
+// Each stage of the work is a separate loop over a block: a fused loop would spill registers, and its cache misses
+// would be too far apart for out-of-order execution.
 
-// What is written in the end is asked for while there is much to compute.
+// Prefetches the output.
 HWY_NOINLINE void prefetchBodies(const LaneBlock& block)
 {
     constexpr int kLine = 64 / sizeof(float);
@@ -67,7 +67,7 @@ HWY_NOINLINE void rotate(const LaneBlock& block)
 {
     const float* before[kBatchWidth];
     for (int b = 0; b < kBatchWidth; ++b) before[b] = &block.m_pass.m_rotationBefore[b][block.m_first].x;
-    for (int e = 0; e < block.m_count; ++e)  // a quaternion is a block of exchanges
+    for (int e = 0; e < block.m_count; ++e)  // one exchange block holds a quaternion
         gatherBlocks(before, 4 * e, block.element(e * kVectors).rotations(), kBatchWidth);
     for (int k = 0; k < block.vectors(); ++k)
     {
@@ -79,7 +79,7 @@ HWY_NOINLINE void rotate(const LaneBlock& block)
     }
 }
 
-// Leaves elastic stresses where tensions are to be.
+// Adds the elastic forces, and stores elastic stresses in place of tensions.
 HWY_NOINLINE void addForces(const LaneBlock& block)
 {
     for (int k = 0; k < block.vectors(); ++k)
@@ -89,7 +89,7 @@ HWY_NOINLINE void addForces(const LaneBlock& block)
     }
 }
 
-// The elements of column `lane` of a group, one after the other: the order in which a single body's nodes sum them.
+// Visits the elements of a patch group column by column: the order in which a single body's nodes sum them.
 template <class Visit>
 HWY_INLINE void forEachPatch(const BatchElements& all, const PatchGroup& group, const Visit& visit)
 {
@@ -100,7 +100,7 @@ HWY_INLINE void forEachPatch(const BatchElements& all, const PatchGroup& group, 
     }
 }
 
-// Leaves elastic stresses where tensions are to be.
+// Adds the elastic forces of patches, and stores elastic stresses in place of tensions.
 HWY_NOINLINE void addPatchForces(const BatchElements& all, const BatchElementPass& pass, const PatchGroup& group)
 {
     PatchStrains<float> patch;
@@ -124,7 +124,7 @@ HWY_NOINLINE void addPatchForces(const BatchElements& all, const BatchElementPas
                  });
 }
 
-// Half of tensionOf() at a time: so much of it waits for roots and quotients that the processor needs several at once.
+// Two halves of tensionOf(), because square roots and divisions have long latencies and need several independent lanes.
 HWY_NOINLINE void makeTensions(const LaneBlock& block)
 {
     FarEigenvalue<float> far[kLanes * kVectors];
@@ -158,7 +158,7 @@ HWY_NOINLINE void tellBodies(const LaneBlock& block)
     for (int e = 0; e < block.m_count; ++e)
         scatterBlocks(rotation, 4 * e, block.element(e * kVectors).rotations(), kBatchWidth);
     for (int row = 0; row < kWarpedRows && anyWarped; ++row)
-        for (int e = 0; e < block.m_count; e += kSome)  // the last ones take what fills the block along
+        for (int e = 0; e < block.m_count; e += kSome)  // the last exchange includes the block's padding
             scatterBlocks(warped, row * kLanes + e, block.element(e * kVectors).gradients() + row * kBatchWidth,
                           kStride);
 }

@@ -8,44 +8,44 @@
 namespace bullet_fem
 {
 
-/// Where the vectors of an element's nodes begin in [node][3][body], and what its corners add to in [node][2][3][body]:
-/// one of two sums, by NodeCorners::m_parity.
+/// Offsets of an element's node vectors in [node][3][body], and of the sums its corners add to in [node][2][3][body]:
+/// one of two sums a node, by NodeCorners::m_parity.
 struct BatchCorners
 {
     std::int32_t m_node[4], m_sum[4];
 };
 
-/// The elements of kBatchWidth bodies, and what their kernels hand on. All arrays are aligned to 64 bytes, and
+/// Element data of kBatchWidth bodies and the output of their kernels. All arrays are aligned to 64 bytes and
 /// interleaved: the last index is the body.
 struct BatchElements
 {
     const ElementBlocks<float>* m_rest;
     const BatchCorners* m_corners;  ///< one an element
-    int m_count;                    ///< elements; with patches, lanes of m_rest
+    int m_count;                    ///< elements; with patches, number of lanes of m_rest
     float* m_rotation;              ///< [element][x, y, z, w][body]
     float* m_warped;                ///< [element][kWarpedRows][body], as in WarpedBlock
-    double* m_sums;                 ///< [node][2][3][body]: of what corners hold
-    const ElementLanes* m_lanes;    ///< where elements stand, "element" e being that of lane e
+    double* m_sums;                 ///< [node][2][3][body]: sums of the corners' contributions
+    const ElementLanes* m_lanes;    ///< order of the elements: "element" e is that of lane e
 };
 
-/// ElementPass over them.
+/// Arguments of ElementPass for bodies side by side.
 struct BatchElementPass
 {
     const double* m_x;  ///< [node][3][body] [m]
-    const double* m_v;  ///< likewise [m/s]
+    const double* m_v;  ///< [node][3][body] [m/s]
     double m_damping, m_tensionFactor;
-    const Quaternion* m_rotationBefore[kBatchWidth];  ///< of every body's elements, in the last step
-    Quaternion* m_rotation[kBatchWidth];              ///< out; may be the same; null: of no body
-    WarpedBlock<float>* m_warped[kBatchWidth];        ///< out; null likewise
+    const Quaternion* m_rotationBefore[kBatchWidth];  ///< rotations of every body's elements in the last step
+    Quaternion* m_rotation[kBatchWidth];        ///< output; may alias m_rotationBefore; null: no output for this body
+    WarpedBlock<float>* m_warped[kBatchWidth];  ///< output; null: no output for this body
 };
 
-/// False on processors without vectors: then the functions here do nothing.
+/// False on processors without vectors; the other functions do nothing then.
 bool hasBatchKernels();
 
-/// Every body gets the bits that runElementPass gives it; corner forces are added to m_sums.
+/// Element pass of all bodies, each bitwise equal to runElementPass() of the body alone; adds corner forces to m_sums.
 void runElementPass(const BatchElements& elements, const BatchElementPass& pass);
 
-/// ElementProduct with p: [node][3][body]; adds to m_sums likewise.
+/// ElementProduct of all bodies with p: [node][3][body]; adds the corners' contributions to m_sums.
 void runElementProduct(const BatchElements& elements, double stiffnessFactor, const double* p);
 
 }  // namespace bullet_fem

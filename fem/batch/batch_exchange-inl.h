@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A few values of all bodies, from their arrays to lanes and back. Included once for every instruction set.
+// Transposition of small blocks between the bodies' arrays and the lanes. Included once for every instruction set.
 #if defined(BULLETFEM_LANE_EXCHANGE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_LANE_EXCHANGE_INL_H
 #undef BULLETFEM_LANE_EXCHANGE_INL_H
@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Values that are exchanged at a time: what a block of 128 bits holds.
+/// Number of values exchanged at a time: those of a block of 128 bits.
 template <class Real>
 constexpr int kBlock = 16 / sizeof(Real);
 
@@ -36,7 +36,7 @@ constexpr bool kHasBlocks = true;
 template <class Real>
 using BodyTag = hn::CappedTag<Real, kBatchWidth>;
 
-/// A block of each of some arrays, one after the other.
+/// Loads a block from each array and concatenates them.
 template <class D>
 HWY_INLINE hn::Vec<D> loadBlocks(D d, const hn::TFromD<D>* const* arrays, std::ptrdiff_t at)
 {
@@ -50,7 +50,7 @@ HWY_INLINE hn::Vec<D> loadBlocks(D d, const hn::TFromD<D>* const* arrays, std::p
     }
 }
 
-/// A block of each of some arrays; where there is no array, nothing.
+/// Splits a vector into blocks and stores one to each array that is not null.
 template <class D>
 HWY_INLINE void storeBlocks(D d, hn::Vec<D> v, hn::TFromD<D>* const* arrays, std::ptrdiff_t at)
 {
@@ -67,7 +67,7 @@ HWY_INLINE void storeBlocks(D d, hn::Vec<D> v, hn::TFromD<D>* const* arrays, std
     }
 }
 
-/// Rows become columns in every block of 128 bits.
+/// Transposes the rows in every block of 128 bits.
 HWY_INLINE void transposeBlocks(hn::Vec<BodyTag<float> > (&r)[4])
 {
     const BodyTag<float> d;
@@ -90,7 +90,7 @@ HWY_INLINE void transposeBlocks(hn::Vec<BodyTag<double> > (&r)[2])
     r[0] = low;
 }
 
-/// kBlock values of all bodies, from `at` in their arrays on.
+/// Reads kBlock values of all bodies, starting at index `at` of their arrays.
 template <class Real>
 HWY_INLINE void gatherBlocks(const Real* const* arrays, std::ptrdiff_t at, Real* lanes, int stride)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/batch/batch_exchange.h"
 
 #include "fem/common/vector_targets.h"
@@ -17,8 +17,8 @@ namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-/// Calls some(at, place) for blocks of values, `at` in a body's array and `place` in the lanes, and one(at, place) for
-/// what is left: in the order of the bodies' arrays, which are farther away.
+/// Calls some(at, place) for full exchange blocks, `at` in a body's array and `place` in the lanes, and one(at, place)
+/// for remaining values, in the order of the bodies' arrays, which are the farther memory.
 template <class Real, class Some, class One>
 HWY_INLINE void forEachBlock(const BatchLayout& layout, const Some& some, const One& one)
 {

@@ -10,16 +10,16 @@
 namespace bullet_fem
 {
 
-/// Values of kBatchWidth bodies: in lanes [value][row][body]; in an array of each body [value], or, of more than one
-/// row, [block of kLanes values][row][value of the block].
+/// Layout of values of kBatchWidth bodies: [value][row][body] in lanes; in each body's own array [value], or, with more
+/// than one row, [block of kLanes values][row][value in the block].
 struct BatchLayout
 {
     int m_count;     ///< values
     int m_rows = 1;  ///< >= 1
 };
 
-/// From kBatchWidth arrays, aligned as their numbers are, to lanes, aligned to 64 bytes; and back, but to arrays that
-/// are null. On the widest vectors that the processor has.
+/// Copies from kBatchWidth arrays, aligned to their number type, to lanes, aligned to 64 bytes (gather), or back,
+/// except to null arrays (scatter). Uses the widest vectors that the processor has.
 void gatherBatch(const float* const* arrays, float* lanes, const BatchLayout& layout);
 void gatherBatch(const double* const* arrays, double* lanes, const BatchLayout& layout);
 void scatterBatch(float* const* arrays, const float* lanes, const BatchLayout& layout);

@@ -15,7 +15,8 @@ BatchLoan::BatchLoan(BatchMemory& memory, const std::shared_ptr<const BodyModel>
 {
     if (!takeFree(model)) m_loan = {model, std::make_unique<BatchArrays>(*model)};
     const std::lock_guard<std::mutex> lock(memory.m_mutex);
-    memory.m_free.reserve(memory.m_free.size() + memory.m_lent + 1);  // so that giving it back never fails
+    // So that the destructor's push_back cannot fail.
+    memory.m_free.reserve(memory.m_free.size() + memory.m_lent + 1);
     ++memory.m_lent;
 }
 

@@ -11,18 +11,18 @@
 namespace bullet_fem
 {
 
-/// Lanes, and the model that they fit, which is known again though its address may be that of another by then.
+/// Batch arrays and their model. The weak pointer identifies the model even if its address has been reused.
 struct BatchMemory::Arrays
 {
     std::weak_ptr<const BodyModel> m_model;
     std::unique_ptr<BatchArrays> m_arrays;
 };
 
-/// Lanes for bodies of a model, which go back to their memory in the end.
+/// Batch arrays borrowed from a BatchMemory, returned by the destructor.
 class BatchLoan
 {
 public:
-    /// The model can be side by side. Allocates where the memory has no lanes of its left.
+    /// Requires canBeBatched(*model). Allocates if the memory has no free arrays of this model.
     BatchLoan(BatchMemory& memory, const std::shared_ptr<const BodyModel>& model);
     ~BatchLoan();
     BatchLoan(const BatchLoan&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/batch/batch_momentum.h"
 
 #include "fem/common/vector_targets.h"
@@ -108,7 +108,7 @@ void AddImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerB
     }
 }
 
-/// I^-1 times a vector.
+/// Product of the inverse inertia and a vector.
 HWY_INLINE V3 timesInertia(const BatchMomenta& pieces, int lane, const V3& vector)
 {
     const auto row = [&](int k)
@@ -119,7 +119,7 @@ HWY_INLINE V3 timesInertia(const BatchMomenta& pieces, int lane, const V3& vecto
     return {row(0), row(1), row(2)};
 }
 
-/// Adds to before(i, lane) the rigid motion that gives a body its momentum, and hands it to then(i, lane, velocity).
+/// Adds to before(i, lane) the rigid motion that restores a body's momentum, and calls then(i, lane, velocity) with it.
 template <class Before, class Then>
 HWY_INLINE void restore(const BatchMasses& nodes, const BatchMomenta& pieces, const Before& before, const Then& then)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// RigidMomentum of bodies side by side, each of one free piece, with the same bits.
+// RigidMomentum for bodies side by side, each a single free connected component; bitwise equal results.
 #pragma once
 
 #include "fem/batch/batch_algebra.h"
@@ -10,12 +10,12 @@
 namespace bullet_fem
 {
 
-/// The pieces of some bodies: what the kernels work with.
+/// Rigid-body quantities of the bodies.
 struct BatchMomenta
 {
     PerBatch m_mass;
     PerBatch3 m_center, m_linear, m_angular;
-    PerBatch m_inertia[9];  ///< row-major; then its inverse
+    PerBatch m_inertia[9];  ///< row-major inertia, later its inverse
 };
 
 /// Masses and positions of all nodes.
@@ -26,11 +26,11 @@ struct BatchMasses
     ConstBodyVectors m_x;  ///< [m]
 };
 
-/// Mass, and the sum of m x in place of the centre.
+/// Sets the masses, and m_center to the sum of m x (not yet divided by the mass).
 void sumMasses(const BatchMasses& nodes, BatchMomenta& pieces);
 
-/// Momenta that loads prescribe, and inertia, about the centres that are known by now: p = m v, p + share (f - alpha
-/// p). Returns |f|^2, one node after the other.
+/// Sums the momenta prescribed by the loads, p + share (f - alpha p) with p = m v, and the inertia, about m_center,
+/// which must be the centre of mass by now. Returns |f|^2, summed in node order.
 struct BatchLoads
 {
     ConstBodyVectors m_v, m_force;
@@ -38,7 +38,7 @@ struct BatchLoads
 };
 PerBatch sumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces);
 
-/// w = ofVelocity v - ofTurning h w' x (w' x r) with the angular velocities w' that the prescribed momenta make: see
+/// w = ofVelocity v - ofTurning h w' x (w' x r), with the angular velocities w' of the prescribed momenta: see
 /// RigidMomentum::addTurning() and ViscousShares.
 struct BatchTurning
 {
@@ -47,13 +47,13 @@ struct BatchTurning
 };
 void findViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning, BodyVectors w);
 
-/// Adds share times impulses [N s] to the prescribed momenta; returns their squares likewise.
+/// Adds share times the impulses [N s] to the prescribed momenta; returns the squared norm of the impulses.
 PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces);
 
-/// Completes increments of velocities v [m/s]: v + dv gets the rigid motion that addWithMomentum() adds.
+/// Adds to the increments dv [m/s] the rigid motion that gives v + dv the prescribed momentum.
 void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv);
 
-/// v += dv, and the rigid motion that gives every body its prescribed momentum; m_inertia is inverse by now.
+/// v += dv, plus the rigid motion that gives every body its prescribed momentum; m_inertia is the inverse by now.
 void addWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv, BodyVectors v);
 
 }  // namespace bullet_fem

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/batch/batch_rotations.h"
 
 #include "fem/common/vector_targets.h"
@@ -19,12 +19,12 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-using DF = hn::Rebind<float, D>;  // as many bodies as a vector of doubles has
+using DF = hn::Rebind<float, D>;  // as many lanes as a vector of doubles
 using F = hn::Vec<DF>;
-using DWide = hn::CappedTag<float, kBatchWidth>;  // as many as one of floats has
+using DWide = hn::CappedTag<float, kBatchWidth>;  // as many lanes as a vector of floats
 using Wide = hn::Vec<DWide>;
 
-/// [item][Count][body], from body `lane` on.
+/// Loads [item][Count][body], from body `lane` on.
 template <class Tag, int Count>
 HWY_INLINE void loadFloats(Tag tag, const float* from, int item, int lane, hn::Vec<Tag> (&v)[Count])
 {
@@ -41,7 +41,7 @@ HWY_INLINE void storeFloats(Tag tag, const hn::Vec<Tag> (&v)[Count], int item, i
     for (int k = 0; k < Count; ++k) hn::Store(v[k], tag, at + k * kBatchWidth);
 }
 
-/// R, row-major, of quaternions of squared length n > 0.
+/// Row-major rotation matrices of quaternions of squared length n > 0.
 HWY_INLINE void rotationOf(const Wide (&q)[4], Wide n, Wide (&R)[9])
 {
     const Wide one = hn::Set(DWide(), 1.f), s = hn::Set(DWide(), 2.f) / n;
@@ -53,7 +53,7 @@ HWY_INLINE void rotationOf(const Wide (&q)[4], Wide n, Wide (&R)[9])
     for (int k = 0; k < 9; ++k) R[k] = entries[k];
 }
 
-/// Bit b of every body b that is not marked.
+/// Bit mask of the bodies that are not marked.
 HWY_INLINE unsigned unmarked(hn::Mask<DWide> mask, int lane)
 {
     std::uint8_t bits[8] = {};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Rotations of the nodes of bodies side by side, and vectors turned by them: NodeRotations and what
-// WarpedPreconditioner does around the solve, with the same bits.
+// Node rotations of bodies side by side, and rotation of vectors by them: NodeRotations and the rotations in
+// WarpedPreconditioner, with bitwise equal results.
 #pragma once
 
 #include "fem/batch/batch_algebra.h"
@@ -11,29 +11,29 @@
 namespace bullet_fem
 {
 
-/// Rotations of nodes from those of their elements.
+/// Averages element rotations to node rotations.
 struct BatchNodeRotations
 {
     const NodeCorners* m_nodes;
     const float* m_elements;  ///< [element][x, y, z, w][body]
     float* m_out;             ///< [node][9][body], row-major
-    unsigned* m_doubtful;     ///< out, per node: bit b of a body b that is to have carefulAverage()
+    unsigned* m_doubtful;     ///< output, per node: bit b is set if body b needs carefulAverage()
 };
 void averageRotations(const BatchNodeRotations& rotations);
 
-/// The factor's vectors of bodies side by side, [position][3][body], and the rotations of their nodes.
+/// The factor's vectors of bodies side by side, [position][3][body], and their node rotations.
 struct BatchWarp
 {
     int m_nodes;
-    const int* m_position;    ///< of every node in the factor
+    const int* m_position;    ///< position of each node in the factor
     const float* m_rotation;  ///< [node][9][body]
     float* m_factorVector;
 };
 
-/// The factor's vector <- R^T in, scaled to order one; returns what it was divided by.
+/// Factor vector <- R^T in / scale, with `scale` chosen to bring it to order one; returns the scale.
 PerBatch rotateIn(const BatchWarp& warp, ConstBodyVectors in);
 
-/// out <- scale R (the factor's vector); returns in . out.
+/// out <- scale R (factor vector); returns in . out.
 PerBatch rotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out);
 
 }  // namespace bullet_fem

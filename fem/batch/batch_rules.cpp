@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Which bodies are solved side by side.
+// Decides which bodies are solved side by side.
 #include <cstring>
 
 #include "fem/batch/batch_arrays.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Vectors of three of some bodies side by side, as the operators of Vec3 have them, bit for bit. Included once for
-// every instruction set.
+// Three-dimensional vectors of bodies side by side, bitwise equal to the operators of Vec3. Included once for every
+// instruction set.
 #if defined(BULLETFEM_LANE_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_LANE_VECTORS_INL_H
 #undef BULLETFEM_LANE_VECTORS_INL_H
@@ -26,7 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<double, kBatchWidth>;
 using V = hn::Vec<D>;
-constexpr int kN = static_cast<int>(hn::MaxLanes(D()));  // bodies of a vector
+constexpr int kN = static_cast<int>(hn::MaxLanes(D()));  // bodies in a vector
 
 struct V3
 {
@@ -54,7 +54,7 @@ HWY_INLINE V3 cross(const V3& a, const V3& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Where a node's vectors are in [node][3][body], from body `lane` on; its masses in [node][body].
+/// Offset of a node's vector in [node][3][body], and of its mass in [node][body], from body `lane` on.
 HWY_INLINE std::size_t place(int node, int lane)
 {
     return static_cast<std::size_t>(node) * 3 * kBatchWidth + lane;
@@ -79,7 +79,7 @@ HWY_INLINE void store3(const V3& v, double* to)
     hn::Store(v.z, D(), to + 2 * kBatchWidth);
 }
 
-/// Numbers of bodies, which the stack need not align.
+/// Per-body values, which need not be aligned.
 HWY_INLINE V valuesOf(const PerBatch& values, int lane)
 {
     return hn::LoadU(D(), values.m + lane);
@@ -89,7 +89,7 @@ HWY_INLINE void storeValues(V v, int lane, PerBatch& to)
     hn::StoreU(v, D(), to.m + lane);
 }
 
-/// What the corners at a node hold, the two sums of it, which are zero then.
+/// Returns the sum of a node's corner contributions (its two partial sums) and resets both to zero.
 HWY_INLINE V3 takeSum(double* sums, int node, int lane)
 {
     double *even = sums + place(2 * node, lane), *odd = sums + place(2 * node + 1, lane);
@@ -108,7 +108,7 @@ HWY_INLINE void forEachNode(int nodes, const Visit& visit)
         for (int lane = 0; lane < kBatchWidth; lane += kN) visit(node, lane);
 }
 
-/// What a node adds to some sums of every body.
+/// A node's contributions to several sums of every body.
 template <int kSums>
 struct Terms
 {
@@ -121,12 +121,13 @@ struct Terms
     }
 };
 
-/// Sums of terms(node, lane), a Terms; what else it does to the node is done once. As dot() of single bodies: in
-/// pieces, with four sums in each, so that an addition need not wait for the one before it.
+/// Sums terms(node, lane), which returns a Terms and may have side effects: it is called once per node and lane. The
+/// summation order is that of the single body's dot(): in chunks, with four partial sums in each, so that additions are
+/// independent.
 template <int kSums, class TermsOf>
 HWY_INLINE void sumsOverNodes(int nodes, PerBatch* const (&out)[kSums], const TermsOf& terms)
 {
-    Terms<kSums> zero{};  // with braces, or a constructor would be made without the instruction set
+    Terms<kSums> zero{};  // braces avoid a constructor compiled without the instruction set
     for (V& term : zero.m_term) term = hn::Zero(D());
     const Chunks pieces(nodes, kEntriesPerChunk);
     for (int lane = 0; lane < kBatchWidth; lane += kN)
@@ -151,14 +152,14 @@ HWY_INLINE void sumsOverNodes(int nodes, PerBatch* const (&out)[kSums], const Te
     }
 }
 
-/// One sum, likewise.
+/// One such sum: in chunks, with four partial sums in each.
 template <class Term>
 HWY_INLINE void sumOverNodes(int nodes, PerBatch& out, const Term& term)
 {
     sumsOverNodes<1>(nodes, {&out}, [&](int node, int lane) { return Terms<1>{{term(node, lane)}}; });
 }
 
-/// Calls visit(at, lane) for every vector of numbers of [node][3][body].
+/// Calls visit(at, lane) for every vector of values of [node][3][body].
 template <class Visit>
 HWY_INLINE void forEachNumber(int nodes, const Visit& visit)
 {

@@ -43,7 +43,7 @@ public:
         }
     }
 
-    // See RigidMomentum::prescribe().
+    // Prescribes the momenta of the loads, as RigidMomentum::prescribe().
     void prescribeMomentum()
     {
         BatchLoads loads = {m_arrays.m_v.get(), m_arrays.m_rightSide.get(), m_alpha, {}};
@@ -87,7 +87,7 @@ public:
         }
         runElementPass(m_arrays.elements(), pass);
         m_bSquares = addForces(m_arrays.inertia(), m_alpha, h, m_arrays.m_v.get(), m_arrays.m_rightSide.get());
-        for (int b = 0; b < m_count; ++b)  // what fills the last block is the last element again
+        for (int b = 0; b < m_count; ++b)  // padding of the last block repeats the last element
         {
             std::vector<Quaternion>& rotation = body(b).m_state.m_elementRotation;
             const auto end = rotation.begin() + m_arrays.elementCount();
@@ -96,7 +96,7 @@ public:
         dampByTension();
     }
 
-    // See OneFreeMotion; areAlike() sees to it that the steps of all have varied alike.
+    // As OneFreeMotion::dampByTension(); areAlike() ensures equal step variation.
     void dampByTension()
     {
         const double r = scratch(0).m_stepVariation;
@@ -116,8 +116,8 @@ public:
 
     void eliminateFixedNodes() {}  // there are none
 
-    // That a body with predicted impulses goes on as it moves; of the others the increments of the last two steps,
-    // continued along a straight line.
+    // Warm start: zero increments for bodies with predicted impulses; for others the increments of the last two steps,
+    // extrapolated linearly.
     void guessIncrement()
     {
         double *last = m_arrays.m_direction.get(), *before = m_arrays.m_product.get();
@@ -145,7 +145,6 @@ public:
                 m_stops[b].m_floor = std::max(m_stops[b].m_floor, motion(b).m_predictedFloor * std::sqrt(squares[b]));
     }
 
-    // Increments with impulses in them say nothing about those without.
     void correctIncrement() {}  // Hooke's law alone: canBeBatched()
     void keepIncrement()
     {
@@ -173,7 +172,7 @@ private:
                            [](const FreeMotion* m) { return m->m_predicted != nullptr; });
     }
 
-    // What A and P need of every body alone, but for what assemble() has told.
+    // Updates the data of A and P of every body that passOverElements() has not written.
     void tellSystems()
     {
         for (int b = 0; b < m_count; ++b)
@@ -243,7 +242,7 @@ public:
         m_bSquares = addAndMeasure(m_arrays.m_residual.get(), m_arrays.m_rightSide.get(), nodes());
     }
 
-    // That the body ends with the velocities that it began the step with, or that nothing comes of the impulses.
+    // Initial guess: the return to the velocities at the start of the step, or zero.
     void guessResponse()
     {
         double* dv = m_arrays.m_increment.get();
@@ -313,7 +312,7 @@ public:
     }
 };
 
-// Calls solve(arrays, bodies) with arrays that are lent for it.
+// Calls solve(arrays, bodies) with borrowed arrays.
 template <class Job, class Solve>
 bool solveInArrays(Job* const* jobs, int count, const Solve& solve)
 {

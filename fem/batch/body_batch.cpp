@@ -56,20 +56,20 @@ void BodyBatch::gatherWarped()
            {9 * nodes()});
 }
 
-// Adds to the guess of dv the rigid motion that gives bodies the momentum prescribed.
+// Adds to the guess of dv the rigid motion that gives the bodies their prescribed momentum.
 void BodyBatch::completeGuess()
 {
     completeIncrements(m_arrays.masses(), m_momenta, m_arrays.m_v.get(), m_arrays.m_increment.get());
 }
 
-// Of A p what elements add to the sums.
+// Adds the elements' part of A p to the sums.
 void BodyBatch::addStiffness(ConstBodyVectors p) const
 {
     const double h = m_settings.m_step, beta = m_arrays.model().shape().m_material.m_stiffnessDamping;
     runElementProduct(m_arrays.elements(), h * (m_coefficients.stiffness() * h + beta), p);
 }
 
-// b = (A - M) p, |b|^2, and p = 0.
+// Computes b = (A - M) p and |b|^2, and sets p = 0.
 void BodyBatch::stiffnessOf(BodyVectors p)
 {
     const std::size_t size = static_cast<std::size_t>(3 * kBatchWidth) * nodes();
@@ -82,7 +82,7 @@ void BodyBatch::stiffnessOf(BodyVectors p)
     std::fill_n(p, size, 0.0);
 }
 
-// Returns p . A p.
+// Computes A p; returns p . A p.
 PerBatch BodyBatch::applyA(ConstBodyVectors p, BodyVectors Ap) const
 {
     addStiffness(p);
@@ -106,7 +106,7 @@ void BodyBatch::startFromZero()
                 m_arrays.m_residual.get());
 }
 
-// Of bodies whose guess is zero, too.
+// Includes bodies with a zero guess.
 GuessMeasure<kBatchWidth> BodyBatch::measureGuess()
 {
     const double* x = m_arrays.m_increment.get();
@@ -117,7 +117,7 @@ GuessMeasure<kBatchWidth> BodyBatch::measureGuess()
     return {measured.m_xx, measured.m_residual};
 }
 
-// The residual is not there yet: of all bodies.
+// Updates all bodies, because measureGuess() does not store the residual.
 PerBatch BodyBatch::scaleGuess(const PerBatch& scale, const PerBatch&)
 {
     PerBatch all;
@@ -136,7 +136,7 @@ PerBatch BodyBatch::precondition(bool isFirst)
     const double* r = m_arrays.m_residual.get();
     const PerBatch scale = rotateIn(m_arrays.warp(), r);
     m_arrays.model().factor().lower().solveBatch(m_arrays.m_factorVector.get(), m_arrays.m_factorScratch.get());
-    m_z = isFirst ? m_arrays.m_direction.get()  // later directions are made of z before A p takes its place
+    m_z = isFirst ? m_arrays.m_direction.get()  // first direction p = z; later z shares the memory of A p
                   : m_arrays.m_product.get();
     return rotateOut(m_arrays.warp(), scale, r, m_z);
 }
@@ -161,7 +161,7 @@ void BodyBatch::addIncrement()
     scatterVectors([this](int b) { return &scratch(b).m_velocity; }, v);
 }
 
-// What impulses have left undone; nothing after a breakdown.
+// Keeps the residuals of impulse responses, except after a breakdown.
 void BodyBatch::keepResiduals(const std::array<bool, kBatchWidth>& wanted) const
 {
     const auto keeps = [&](int b) { return wanted[b] && m_reports[b].m_stop != SolveStop::breakdown; };

@@ -15,8 +15,7 @@
 namespace bullet_fem
 {
 
-/// Bodies in their columns of the arrays; the columns behind the last one have its values, too, and nothing comes of
-/// them.
+/// Bodies in the columns of the batch arrays. Unused columns repeat the last body; their results are discarded.
 class BodyBatch
 {
 public:
@@ -26,11 +25,11 @@ public:
         for (int b = 0; b < kBatchWidth; ++b) m_bodies[b] = bodies[std::min(b, count - 1)];
     }
 
-    // Stages.
+    // Stages of the step.
     void solve() { solveConjugateGradients(*this, m_stops, m_isGuessed, m_reports.data()); }
     void addIncrement();
 
-    // The system of conjugate gradients.
+    // Interface of solveConjugateGradients().
     static constexpr int kBodies = kBatchWidth;
     int count() const { return m_count; }
     PerBatch rightSideSquares() const { return m_bSquares; }
@@ -49,7 +48,7 @@ protected:
     StepScratch& scratch(int b) const { return m_bodies[b]->m_workspace.scratch(); }
     int nodes() const { return m_arrays.nodeCount(); }
 
-    /// Calls of(b), which tells an array of Real, for all lanes, and takes them to [value][body].
+    /// Copies of(b), the body's array of Real, for all lanes to [value][body].
     template <class Real, class Of>
     void gather(const Of& of, Real* to, const BatchLayout& layout) const
     {
@@ -58,7 +57,7 @@ protected:
         gatherBatch(arrays, to, layout);
     }
 
-    /// The way back; where of(b) is null, nothing goes.
+    /// Copies lanes back to the bodies' arrays; skips those for which of(b) is null.
     template <class Real, class Of>
     void scatter(const Of& of, const Real* from, const BatchLayout& layout) const
     {
@@ -70,7 +69,7 @@ protected:
 
     BatchLayout warped() const { return {m_arrays.elementCount(), kWarpedRows}; }
 
-    /// The same for vectors of all nodes: of(b) tells a std::vector<Vec3>.
+    /// gather() and scatter() for one vector a node: of(b) returns a std::vector<Vec3>.
     template <class Of>
     void gatherVectors(const Of& of, BodyVectors to) const
     {

@@ -11,11 +11,11 @@ namespace bullet_fem
 namespace
 {
 
-// What a batch takes, however many bodies it has, in times of a body alone.
+// Time of a batch of any size, in units of the time of a single body.
 constexpr int kBatchCostInBodies = 7;
 
-// Of bodies that share a model, how many batches of kBatchWidth to make, the last one of as many as are left, so that
-// no thread has to wait long: the others go one by one.
+// Number of full batches of kBatchWidth, the last one possibly smaller, that minimizes the total time on so many
+// threads; the remaining bodies are solved one by one.
 int batchesSideBySide(int bodies, int threads)
 {
     const auto time = [&](int batches)
@@ -67,10 +67,10 @@ void BodyBatches::divide(const std::vector<const Body*>& bodies, int threads, bo
     m_batches.insert(m_batches.end(), m_alone.begin(), m_alone.end());
 }
 
-// Counting sort: bodies of a model stand together, in the order in which they came.
+// Counting sort by model, stable.
 void BodyBatches::putInOrder()
 {
-    m_end.clear();  // for now where a model begins
+    m_end.clear();  // holds the beginning of each model for now
     int begin = 0;
     for (const int count : m_count)
     {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// One element of bodies side by side, for the kernels of elements. Included once for every instruction set.
+// One element of bodies side by side, for the element kernels. Included once for every instruction set.
 #if defined(BULLETFEM_LANE_ELEMENT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_LANE_ELEMENT_INL_H
 #undef BULLETFEM_LANE_ELEMENT_INL_H
@@ -35,7 +35,7 @@ struct LaneElement
     const BatchElements& m_all;
     const BatchElementPass* m_pass;
     int m_element, m_lane;  // the first body
-    bool m_isCopy = false;  // no node gets its forces
+    bool m_isCopy = false;  // true: discard its forces
 
     HWY_INLINE const ElementBlock<float>& block() const { return m_all.m_rest->m_blocks[m_element / kLanes]; }
     HWY_INLINE int place() const { return m_element % kLanes; }
@@ -96,7 +96,7 @@ struct LaneElement
     }
     HWY_INLINE Matrix<float> velocityEdges() const { return roundedEdgesOf(m_pass->m_v); }
 
-    /// Adds f_1, f_2, f_3, the columns given, and f_0 = -(f_1 + f_2 + f_3) to the sums of the corners.
+    /// Adds f_1, f_2, f_3, the columns of f, and f_0 = -(f_1 + f_2 + f_3) to the sums of the corners.
     HWY_INLINE void storeForces(const Matrix<float>& f) const
     {
         if (m_isCopy) return;

@@ -13,7 +13,7 @@ static_assert(kMostActivation == kMostInitialStress);
 namespace
 {
 
-// Calls visit(number in the list, element) for those listed; for all if none is.
+// Calls visit(index in the list, element) for the listed elements, or for all if the list is empty.
 template <class Visit>
 void forEachElement(const Body& body, const std::vector<int>& listed, const Visit& visit)
 {
@@ -32,7 +32,7 @@ void addFibreStress(const Body& body, const Fibres& fibres, std::vector<Symmetri
                    });
 }
 
-// -C (strain I), which of an isotropic element is -3 K strain I.
+// Adds -C (strain I), which equals -3 K strain I for an isotropic element.
 void addExpansionStress(const Body& body, const Expansion& expansion, std::vector<SymmetricTensor>& stress)
 {
     const RestShape& shape = body.m_model->shape();

@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-// g . u and out += scale g, of both kinds.
+// g . u and out += scale g, for chambers and cables.
 
 double dotGradient(const Chamber& chamber, const std::vector<Vec3>& g, const std::vector<Vec3>& u)
 {
@@ -56,11 +56,11 @@ void addGradient(const Cable& cable, const std::vector<Vec3>& g, double scale, s
     }
 }
 
-// Share of a small matrix's diagonal that is added to it, so that actuators that pull at the same nodes alike do not
-// make it singular: above what single precision leaves of the preconditioner.
+// Regularization added to a small matrix's diagonal, as a share of it, so that actuators with equal gradients do not
+// make it singular: above the rounding error of the preconditioner in single precision.
 constexpr double kSmallRegularization = 1e-6;
 
-// Calls visit(chamber or cable number k).
+// Calls visit(actuator k), chambers first.
 template <class Visit>
 void visitActuator(const Actuators& actuators, int k, const Visit& visit)
 {
@@ -71,7 +71,7 @@ void visitActuator(const Actuators& actuators, int k, const Visit& visit)
         visit(actuators.m_cables[k - chambers]);
 }
 
-// Calls visit(chamber or cable, its pull) for all.
+// Calls visit(actuator, its Pull) for all.
 template <class Pulls, class Visit>
 void forEachPull(const Actuators& actuators, Pulls& pulls, const Visit& visit)
 {
@@ -108,7 +108,7 @@ void Actuation::listStiff()
         if (m_pulls[k].m_pulls && m_pulls[k].m_stiffness > 0) m_stiff.push_back(static_cast<int>(k));
 }
 
-// dV/dx is a third of a triangle's area vector at each of its nodes, as far as the surface is closed.
+// dV/dx is a third of a triangle's area vector at each of its nodes, for a closed surface.
 void Actuation::beginChamber(const Chamber& chamber, const std::vector<Vec3>& y, Pull& pull)
 {
     pull.m_gradient.resize(chamber.m_triangles.size());
@@ -128,7 +128,7 @@ void Actuation::beginChamber(const Chamber& chamber, const std::vector<Vec3>& y,
     pull.m_pulls = true;
 }
 
-// A cable that stretches may pull in this step if it is taut, or would be at its end with the velocities of now; see
+// An elastic cable may pull in this step if it is taut, or would be at the step's end with the present velocities; see
 // releaseSlack.
 void Actuation::beginCable(const Cable& cable, const std::vector<Vec3>& y, const std::vector<Vec3>& v, Pull& pull) const
 {
@@ -197,7 +197,7 @@ void Actuation::addProduct(const Actuators& actuators, const std::vector<Vec3>& 
     addSlopes(actuators, 1, in, out);
 }
 
-// out += sign T in, with T_part = c h^2 tension / length (I - d d^T) between the ends of every straight part.
+// out += sign T in, with c h^2 tension / length (I - d d^T) between the ends of every straight segment.
 void Actuation::addSlopes(const Actuators& actuators, double sign, const std::vector<Vec3>& in,
                           std::vector<Vec3>& out) const
 {
@@ -284,7 +284,7 @@ void Actuation::setRightSide(const Actuators& actuators, const std::vector<Vec3>
                       });
 }
 
-// sum of a P g with a + c h^2 kappa g . dv = the right-hand side's, for each.
+// P G a with (D^-1 + G^T P G) a = D^-1 rho, D = c h^2 kappa, rho = m_rightSide (docs/theory.md, Actuators).
 const std::vector<Vec3>& Actuation::lift()
 {
     for (std::size_t j = 0; j < m_stiff.size(); ++j)

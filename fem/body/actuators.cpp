@@ -19,7 +19,7 @@ namespace
 constexpr double kMostGas = 1e12;                                                      // [J]
 constexpr double kMostTension = 1e9, kMostStiffness = 1e12, kLongestRestLength = 1e6;  // [N], [N/m], [m]
 constexpr double kLeastStrain = -0.9, kMostStrain = 9;
-constexpr double kCableWeightTolerance = 1e-4;  // on their sum
+constexpr double kCableWeightTolerance = 1e-4;  // on the sum of the weights
 
 void checkNumber(double value, double least, double most, const char* name, const char* unitAndRemedy)
 {
@@ -49,7 +49,7 @@ void checkElements(const TetMesh& mesh, const std::vector<int>& elements, const 
 
 using Edge = std::pair<int, int>;
 
-// Every edge is run through once in each direction, or, where several sheets meet, equally often.
+// Every edge is traversed once in each direction, or equally often where several sheets meet.
 void checkClosed(const std::vector<Triangle>& triangles)
 {
     std::map<Edge, int> times;
@@ -68,7 +68,7 @@ void checkClosed(const std::vector<Triangle>& triangles)
     }
 }
 
-// Roots of disjoint sets.
+// Root of a disjoint set, with path halving.
 int rootOf(std::vector<int>& parent, int t)
 {
     while (parent[t] != t) t = parent[t] = parent[parent[t]];
@@ -78,7 +78,7 @@ int rootOf(std::vector<int>& parent, int t)
 double signedVolume(const std::vector<Triangle>& triangles, const std::vector<Vec3>& x)
 {
     if (triangles.empty()) return 0;
-    const Vec3 origin = x[triangles[0][0]];  // near, for rounding's sake
+    const Vec3 origin = x[triangles[0][0]];  // nearby origin limits rounding errors
     double sum = 0;
     for (const Triangle& t : triangles) sum += dot(x[t[0]] - origin, cross(x[t[1]] - origin, x[t[2]] - origin));
     return sum / 6;
@@ -207,7 +207,7 @@ std::vector<std::vector<Triangle>> findCavities(const TetMesh& mesh)
             const int other = rootOf(parent, firstAt.emplace(edge, t).first->second), own = rootOf(parent, t);
             parent[std::max(own, other)] = std::min(own, other);
         }
-    std::map<int, std::vector<Triangle>> parts;  // the mesh's triangles show the gas their front: turned
+    std::map<int, std::vector<Triangle>> parts;  // reversed, as the mesh's triangles face the gas
     for (int t = 0; t < static_cast<int>(surface.size()); ++t)
         parts[rootOf(parent, t)].push_back({surface[t][0], surface[t][2], surface[t][1]});
     std::vector<std::vector<Triangle>> cavities;

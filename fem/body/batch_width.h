@@ -7,11 +7,10 @@
 namespace bullet_fem
 {
 
-/// Bodies of one model that are solved in a batch, at most. One AVX-512 vector of floats, two of AVX2, four of SSE or
-/// NEON.
+/// Maximum number of bodies of one model in a batch: one AVX-512 vector of floats, two of AVX2, four of SSE or NEON.
 constexpr int kBatchWidth = 16;
 
-/// One number for each of some bodies.
+/// One value per body.
 template <int kBodies>
 struct PerBody
 {
@@ -21,7 +20,7 @@ struct PerBody
     double operator[](int body) const { return m[body]; }
 };
 
-/// One number, or one vector, for each body of a batch.
+/// One value, or one 3-vector, per body of a batch.
 using PerBatch = PerBody<kBatchWidth>;
 using PerBatch3 = std::array<PerBatch, 3>;
 

@@ -45,7 +45,7 @@ void Body::setModel(std::shared_ptr<const BodyModel> model)
     if (!model || model->nodeCount() != m_model->nodeCount() || model->mesh().tets() != m_model->mesh().tets())
         throw std::invalid_argument("Body::setModel: the new model has another mesh; make a new body for it");
     const ElementLanes &before = m_model->elements().m_lanes, &after = model->elements().m_lanes;
-    if (before.m_element != after.m_element)  // only one of them has patches
+    if (before.m_element != after.m_element)  // differs if only one of them has patches
     {
         std::vector<Quaternion> rotation;
         for (const int e : after.m_element) rotation.push_back(m_state.m_elementRotation[before.m_lane[e]]);

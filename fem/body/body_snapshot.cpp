@@ -15,8 +15,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFarthestNode = 1e6;    // [m] and [m/s]; beyond it Bullet's broad phase gives a body up
-constexpr float kUnitTolerance = 1e-3F;  // on a quaternion's square
+constexpr double kFarthestNode = 1e6;    // [m] and [m/s]; Bullet's broad phase drops bodies beyond it
+constexpr float kUnitTolerance = 1e-3F;  // on a quaternion's squared norm
 
 template <class T>
 void checkSize(const std::vector<T>& values, std::size_t size, const char* name)
@@ -79,7 +79,7 @@ void checkPlasticStrain(const BodySnapshot& s, const BodyModel& model)
 
 void checkRelaxedStrain(const BodySnapshot& s, const BodyModel& model)
 {
-    constexpr double kMost = 1e12;  // squared: beyond, nodes are farther than kFarthestNode
+    constexpr double kMost = 1e12;  // square of the maximum: larger strains put nodes beyond kFarthestNode
     const std::size_t terms = static_cast<std::size_t>(model.shape().m_materials.relaxationTerms());
     checkSize(s.m_relaxedStrain, terms * model.mesh().tets().size(), "relaxed strains");
     for (std::size_t k = 0; k < s.m_relaxedStrain.size(); ++k)

@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-// Four sums, so that an addition need not wait for the one before it; their order is fixed.
+// Four partial sums make additions independent; their order is fixed.
 double dotOfRange(const std::vector<Vec3>& a, const std::vector<Vec3>& b, Range nodes)
 {
     double sum[4] = {};
@@ -35,7 +35,7 @@ double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Threads
 namespace
 {
 
-/// The vectors of one system.
+/// System interface of solveConjugateGradients() for a single system.
 class VectorsOfOne
 {
 public:
@@ -61,7 +61,7 @@ public:
         return {{{dotOf(m_system.m_b, m_system.m_x)}}, {{dotOf(m_system.m_x, vectors().m_Ap)}}};
     }
 
-    /// r becomes b - A x, or b where nothing is left of x.
+    /// r = b - A x, or b if x becomes zero.
     Numbers scaleGuess(const Numbers& scale, const Numbers& isScaled)
     {
         if (!(isScaled[0] > 0)) return {};
@@ -88,12 +88,12 @@ public:
 
     Numbers precondition(bool isFirst)
     {
-        std::vector<Vec3>& z = isFirst ? vectors().m_p : vectors().m_z;  // the first direction
+        std::vector<Vec3>& z = isFirst ? vectors().m_p : vectors().m_z;  // the first direction p = z
         m_system.m_P.apply(vectors().m_r, z);
         return {{dotOf(vectors().m_r, z)}};
     }
 
-    /// z where beta is 0, whatever was in p.
+    /// p = z if beta is 0, whatever p contained.
     void turnDirection(const Numbers& beta, const Numbers&)
     {
         std::vector<Vec3>& p = vectors().m_p;
@@ -124,7 +124,7 @@ private:
     ConjugateGradientScratch& vectors() const { return m_system.m_scratch; }
     double dotOf(const std::vector<Vec3>& a, const std::vector<Vec3>& b) const { return dot(a, b, m_system.m_threads); }
 
-    /// Calls update(i) for every node, which changes nothing but entries i.
+    /// Calls update(i) for every node; update may change entries i only.
     template <class Update>
     void forEachNode(const Update& update) const
     {

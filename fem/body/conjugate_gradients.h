@@ -12,37 +12,36 @@
 namespace bullet_fem
 {
 
-/// What is asked of a guess x: x . x, and |b - A x|^2.
+/// Measures of an initial guess x: x . x and |b - A x|^2.
 template <int kBodies>
 struct GuessMeasure
 {
     PerBody<kBodies> m_xx, m_residual;
 };
 
-/// And b . x and x . A x, if its best multiple is wanted.
+/// The products b . x and x . A x, for the optimal scaling of the guess.
 template <int kBodies>
 struct GuessProducts
 {
     PerBody<kBodies> m_bx, m_xAx;
 };
 
-/// Solves A x = b of one body, or of several at once, by preconditioned conjugate gradients [Hestenes & Stiefel 1952],
-/// from a guess x that is first scaled to be at least as good as zero; not `isGuessed`: from x = 0, which then is
-/// there. Beyond a few iterations, and for tolerances below 1e-4, the recurrence's residual is checked against the true
-/// one before an answer is called converged. Never allocates; x stays finite if A, P, b and x are.
+/// Solves A x = b for one body, or several at once, by preconditioned conjugate gradients [Hestenes & Stiefel 1952],
+/// from an initial guess x that is first scaled so that its error is at most that of zero; without `isGuessed`, x must
+/// be zero on entry. After a few iterations, and for tolerances below 1e-4, the recurrence's residual is checked
+/// against the true one before convergence is accepted. Never allocates; x stays finite if A, P, b and x are.
 ///
-/// System owns the vectors x, b, r, z, p and A p of System::kBodies bodies, of which count() are there:
+/// System owns the vectors x, b, r, z, p and A p of up to System::kBodies bodies; count() are in use:
 ///     rightSideSquares()              |b|^2
 ///     startFromZero()                 r = b
-///     measureGuess(), guessProducts() see above; the products are those of the guess that was measured last
+///     measureGuess(), guessProducts() measures and products of x; products refer to the last measureGuess()
 ///     scaleGuess(scale, isScaled)     x = scale x, r = b - A x where isScaled; r = b - A x elsewhere; returns |r|^2
-///     trueResidual(active)            r = b - A x; returns |r|^2, as advance() does
+///     trueResidual(active)            r = b - A x; returns |r|^2
 ///     precondition(isFirst)           z = P r; returns r . z
 ///     turnDirection(beta, active)     p = z + beta p
 ///     applyToDirection()              returns p . A p
-///     advance(step, active)           x += step p, r -= step A p
-/// `active` is 1 for the bodies that this is done for; what becomes of the others is the system's choice, but their x
-/// and r stay.
+///     advance(step, active)           x += step p, r -= step A p; returns |r|^2
+/// `active` is 1 for the bodies to update. For other bodies x and r stay; their other vectors are unspecified.
 template <class System>
 void solveConjugateGradients(System& system, const ConjugateGradientStop* stops, bool isGuessed, SolveReport* reports);
 
@@ -51,7 +50,7 @@ class LinearOperator
 {
 public:
     virtual ~LinearOperator() = default;
-    /// out = (operator) in; the two are different arrays of the same size.
+    /// out = (operator) in; `in` and `out` are different arrays of equal size.
     virtual void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const = 0;
 };
 
@@ -62,21 +61,22 @@ struct ConjugateGradientScratch
     std::vector<Vec3> m_r, m_z, m_p, m_Ap;
 };
 
-/// One system of two operators. At the end m_r of the scratch is b - A x, as the recurrence has it.
+/// A system given by two operators. After the solve m_scratch.m_r is b - A x, as computed by the recurrence.
 struct OperatorSystem
 {
     const LinearOperator &m_A, &m_P;
     const std::vector<Vec3>& m_b;
     std::vector<Vec3>& m_x;
     ConjugateGradientScratch& m_scratch;
-    const class Threads* m_threads = nullptr;  ///< who shares the work on long vectors; null: the caller's thread alone
+    /// Threads that share the work on long vectors; null: the calling thread alone.
+    const class Threads* m_threads = nullptr;
 };
 
-/// See above; x is the guess.
+/// Solves the system of one body as described above; m_x is the initial guess.
 SolveReport solveConjugateGradients(const OperatorSystem& system, const ConjugateGradientStop& stop,
                                     bool isGuessed = true);
 
-/// Sum over nodes of a_i . b_i; the same bits for any number of threads.
+/// Sum over nodes of a_i . b_i; bitwise independent of the number of threads.
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const class Threads* threads = nullptr);
 
 // Implementation.
@@ -99,7 +99,7 @@ PerBody<kBodies> roots(PerBody<kBodies> squares)
     return squares;
 }
 
-// Guesses that are zero remain, those that are good enough, too, and of the others the best multiples are taken.
+// Keeps guesses that are zero or good enough; scales the others by their optimal factor.
 template <class System>
 void startFromGuess(System& system, const ConjugateGradientStop* stops, ConvergenceMonitor* monitors)
 {
@@ -129,7 +129,7 @@ void startFromZero(System& system, const ConjugateGradientStop* stops, Convergen
     system.startFromZero();
 }
 
-// True residuals where the monitors want them; who has converged is over then.
+// Evaluates true residuals where the monitors request them; converged bodies are over afterwards.
 template <class System>
 void checkConvergence(System& system, ConvergenceMonitor* monitors)
 {

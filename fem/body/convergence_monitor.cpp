@@ -10,16 +10,16 @@ namespace bullet_fem
 namespace
 {
 
-// A residual below it has a square that is lost to rounding: nothing is left to solve.
+// Minimum residual norm: the square of a smaller one underflows.
 constexpr double kLeastResidual = 1e-150;
 
-// The recurrence's residual drifts from the true one by about the rounding of A, 1e-6 |b| in single precision, an
-// iteration. It is believed where that is far below the tolerance.
+// The recurrence's residual drifts from the true one by about the rounding of A per iteration, 1e-6 |b| in single
+// precision. It is trusted where this is far below the tolerance.
 constexpr double kTrustedTolerance = 1e-4;
 constexpr int kTrustedIterations = 8;
 
-// A guess that is good enough as it stands must be better than an iteration's answer would have to be: its error is
-// that of the step before, and would be carried on from step to step.
+// An initial guess must be better than an iterated answer to be accepted unchanged: its error is that of the previous
+// step, and would accumulate from step to step.
 constexpr double kGuessToleranceShare = 0.1;
 
 }  // namespace

@@ -14,10 +14,11 @@ namespace bullet_fem
 namespace
 {
 
-/// Plastic strain is uniaxial strain times sqrt(3/2) if it keeps the volume, and stress likewise.
+/// Ratio of the equivalent uniaxial strain to the norm of a deviatoric strain, and of the norm of a stress deviator to
+/// the uniaxial stress.
 const double kOfUniaxial = std::sqrt(2.0 / 3);
 
-/// A material in a step.
+/// A material's coefficients for one step.
 struct InelasticLaw
 {
     InelasticLaw(const Material& material, double step)
@@ -29,9 +30,9 @@ struct InelasticLaw
     }
 
     const Material& m_material;
-    double m_flow;  // of the stress beyond the yield stress, what goes in the step [-]
+    double m_flow;  // share of the stress beyond the yield stress that relaxes in the step [-]
     int m_terms;
-    double m_relaxed[Material::kMostRelaxationTerms];  // of e - alpha_i, likewise [-]
+    double m_relaxed[Material::kMostRelaxationTerms];  // share of e - alpha_i that relaxes in the step [-]
 };
 
 class InelasticStrain
@@ -45,11 +46,12 @@ public:
     {
     }
 
-    // Of an element with such a strain.
+    // Advances element e, whose strain is given.
     void advance(int e, const SymmetricTensor& strain) const
     {
         const SymmetricTensor total = deviator(strain);
-        if (!std::isfinite(contraction(total, total))) return;  // of a sliver, in single precision
+        // Skips slivers that are not finite in single precision.
+        if (!std::isfinite(contraction(total, total))) return;
         const ElementMaterials& materials = m_body.m_model->shape().m_materials;
         if (materials.isUniform()) return advance(e, total, m_first);
         advance(e, total, InelasticLaw(materials.of(e), m_step));
@@ -100,8 +102,8 @@ private:
 
     Body& m_body;
     double m_step;            // [s]
-    InelasticLaw m_first;     // of a uniform body
-    std::size_t m_mostTerms;  // of m_relaxedStrain, an element
+    InelasticLaw m_first;     // law of a uniform body
+    std::size_t m_mostTerms;  // entries of m_relaxedStrain per element
 };
 
 template <class Real>

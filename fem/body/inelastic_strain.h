@@ -8,19 +8,19 @@
 namespace bullet_fem
 {
 
-/// What relaxes and what yields does so at the end of a step, for its h and at the positions that it has reached. With
-/// the elastic strain e = dev(eps) - eps_p:
+/// Updates relaxation and plastic strain at the end of a step of h, at its end positions. With the elastic strain e =
+/// dev(eps) - eps_p:
 ///
-/// Relaxation [Simo & Hughes 1998, 10.2], exact where e stands still:
+/// Relaxation [Simo & Hughes 1998, 10.2], exact for constant e:
 ///     alpha_i -> exp(-h / tau_i) alpha_i + (1 - exp(-h / tau_i)) e
 ///
 /// Plastic flow by radial return of the stress to von Mises' cylinder [Simo & Hughes 1998, box 3.2]:
 ///     s = 2 mu (e - sum g_i alpha_i) + dev(sigma_0),   f = |s| - sqrt(2/3) (sigma_y + H alpha),   n = s / |s|,
 ///     gamma = c f / (2 mu + 2/3 H),   eps_p += gamma n,   alpha += sqrt(2/3) gamma
-/// where f > 0. c = 1 - exp(-h creep) is the share of it that flows in a step; 1 where creep is infinite. eps_p stays
-/// within sqrt(2/3) |eps_p| <= the largest plastic strain, by scaling it back.
+/// if f > 0. c = 1 - exp(-h creep) is the share of f that flows in a step; 1 for infinite creep. eps_p is scaled back
+/// to sqrt(2/3) |eps_p| <= the maximum plastic strain.
 ///
-/// Nothing for bodies of other materials. Never allocates. Any number of threads gives the same bits.
+/// No effect on bodies of other materials. Never allocates. Bitwise independent of the number of threads.
 void advanceInelasticStrain(Body& body, const StepSettings& settings);
 
 }  // namespace bullet_fem

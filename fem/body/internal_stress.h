@@ -10,12 +10,12 @@ namespace bullet_fem
 
 class Threads;
 
-/// True if elements have a stress that is not that of their strain.
+/// True if any element has a stress besides the one of its strain.
 bool hasInitialStress(const Body& body);
 
-/// What element e has of it, in the frame that turns with it [Pa]: what was given, of which in a patch the pressure of
-/// all elements is the patch's mean, as their volume change is, and -2 mu (eps_p + sum g_i alpha_i) of what has flown
-/// and relaxed. Never allocates.
+/// Initial stress of element e, in the frame that rotates with it [Pa]: the given stress, whose pressure is averaged
+/// over the element's patch as the volume change is, minus 2 mu (eps_p + sum g_i alpha_i) of plastic and relaxed
+/// strain. Never allocates.
 SymmetricTensor initialStress(const Body& body, int e);
 
 /// sum g_i alpha_i of the element's relaxation terms [-].
@@ -25,8 +25,8 @@ SymmetricTensor relaxedStrain(const Body& body, int e);
 /// strain e = dev(eps) - eps_p is V mu ((1 - sum g_i) |e|^2 + sum g_i |e - alpha_i|^2).
 double inelasticEnergy(const Body& body, int e);
 
-/// Of all elements, times their volumes, as the kernels read them. Never allocates. Any number of threads gives the
-/// same bits.
+/// Initial stresses of all elements, times their volumes, in the kernels' layout. Never allocates. Bitwise independent
+/// of the number of threads.
 template <class Real>
 void gatherInitialStress(const Body& body, const Threads* threads, StressBlock<Real>* out);
 

@@ -13,8 +13,8 @@ namespace bullet_fem
 namespace
 {
 
-// Inverse of an inertia tensor; along axes without inertia (a component collapsed to a point or a line) it stays
-// bounded. What is below `rounding` [kg m2] is none.
+// Inverse of an inertia tensor, bounded along axes without inertia (a component collapsed to a point or a line). Zero
+// if the trace is at most `rounding` [kg m2].
 Mat3 boundedInverse(const Mat3& inertia, double rounding)
 {
     const double size = trace(inertia);
@@ -22,11 +22,11 @@ Mat3 boundedInverse(const Mat3& inertia, double rounding)
     return inverse(inertia + Mat3::diagonal(1e-14 * size));
 }
 
-// Share of a component's size by which fixed nodes may lie beside a point or a line.
+// Maximum distance of fixed nodes from their common point or line, as a share of the component's size [-].
 constexpr double kCollinearShare = 1e-4;
 
-// Calls add(component, i) for every node, in order. Nodes of a component mostly follow each other: what is summed up
-// for such a run stays in registers, for additions to memory would wait for one another.
+// Calls add(component, i) for every node, in order. Consecutive nodes mostly belong to one component, whose sums then
+// stay in registers instead of waiting for memory.
 template <class Component, class Add>
 void forEachNode(const std::vector<int>& componentOf, std::vector<Component>& components, const Add& add)
 {
@@ -40,8 +40,8 @@ void forEachNode(const std::vector<int>& componentOf, std::vector<Component>& co
     }
 }
 
-// From where levers are measured: x+ is this and h theta v+, so that of the angular momentum of the step's end only the
-// part with these positions depends on the end velocities.
+// Reference positions of levers: with x+ = y + h theta v+, only the part of the end angular momentum with the positions
+// y depends on the end velocities.
 const std::vector<Vec3>& leverPositions(const Body& body)
 {
     return body.m_workspace.scratch().m_kickPosition;
@@ -49,8 +49,7 @@ const std::vector<Vec3>& leverPositions(const Body& body)
 
 }  // namespace
 
-// Mass and centre of every component: that of mass, or the first of its fixed nodes, and the fixed node farthest from
-// it.
+// Mass and centre of every component: the centre of mass, or the first fixed node and the vector to the farthest one.
 void RigidMomentum::findCenters(const Body& body, const std::vector<Vec3>& x)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
@@ -74,8 +73,8 @@ void RigidMomentum::findCenters(const Body& body, const std::vector<Vec3>& x)
         component.m_center = component.m_pivot < 0 ? (1 / component.m_mass) * component.m_center : x[component.m_pivot];
 }
 
-// Which components move as one, of those whose inertia stands in the place of its inverse, and then that. A component
-// with fixed nodes is clamped if one of them lies beside the point or line of the others, or is moved otherwise.
+// Determines the movable components, for which it replaces the inertia in m_inverseInertia by its inverse. A component
+// with fixed nodes is clamped if one lies off the point or line of the others, or moves differently.
 void RigidMomentum::findMovable(const Body& body, double step, const std::vector<Vec3>& x)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
@@ -197,7 +196,7 @@ void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
     addRigid(body, x, velocity);
 }
 
-// Of momenta that are to be had, in place of the velocities: adds what is missing to them.
+// Adds the rigid motion with the missing momentum: the momenta to reach are in the components' velocities on entry.
 void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& velocity)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();

@@ -14,13 +14,13 @@
 namespace bullet_fem
 {
 
-/// What a solve with the factor writes.
+/// Work vectors of a solve with the factor.
 struct FactorWork
 {
     AlignedFloats m_vector, m_scratch;
 };
 
-/// The vectors of QuasiNewton; empty where all elements have Hooke's law.
+/// The vectors of QuasiNewton; empty if all elements are linear.
 struct QuasiNewtonScratch
 {
     explicit QuasiNewtonScratch(std::size_t n)
@@ -33,37 +33,39 @@ struct QuasiNewtonScratch
     std::vector<Vec3> m_loads;      ///< b_0, written by the free motion [kg m/s]
     std::vector<Vec3> m_turning;    ///< h w x (w x r) [m/s]
     std::vector<Vec3> m_position;   ///< z [m]
-    std::vector<Vec3> m_viscous;    ///< what K' acts on besides [m]
+    std::vector<Vec3> m_viscous;    ///< vector that K' acts on besides z [m]
     std::vector<Vec3> m_residual;   ///< r [kg m/s]
     std::vector<Vec3> m_direction;  ///< d [m/s]
 };
 
-/// Everything that a step writes besides the state.
+/// All data that a step writes besides the state.
 struct StepScratch
 {
     explicit StepScratch(const BodyModel& model);
 
     std::vector<Vec3> m_velocity;  ///< velocities during the step [m/s]
-    /// Where the forces of the step act: x + (1 - theta) h v, of fixed nodes with the target velocity [m].
+    /// Kick positions, where the forces of the step act: x + (1 - theta) h v, with the target velocity at fixed nodes
+    /// [m].
     std::vector<Vec3> m_kickPosition;
-    std::vector<Vec3> m_drift;  ///< the nodes move with theta times m_velocity and this [m/s]; see meanVelocity()
-    std::vector<Vec3> m_meanVelocity;  ///< with which they move in the free motion [m/s]
-    std::vector<Vec3> m_push;          ///< velocities of position correction: moved by, never kept [m/s]
-    std::vector<Vec3> m_strained;      ///< velocities changed from outside, less their rigid motion [m/s]
-    bool m_isStrained = false;         ///< false: m_strained is not read
+    std::vector<Vec3> m_drift;         ///< the nodes move with theta m_velocity + m_drift [m/s]; see noteMeanVelocity()
+    std::vector<Vec3> m_meanVelocity;  ///< mean velocities in the free motion [m/s]
+    std::vector<Vec3> m_push;          ///< velocities of the position correction: they displace but are not kept [m/s]
+    std::vector<Vec3> m_strained;      ///< external velocity changes without their rigid part [m/s]
+    bool m_isStrained = false;         ///< false: m_strained is unused
     bool m_isPushed = false;           ///< false: m_push is zero
     std::vector<Vec3> m_rightSide;     ///< b [kg m/s]
     std::vector<Vec3> m_increment;     ///< dv [m/s]
-    std::vector<Vec3> m_residual;      ///< what the responses of this step have left of the impulses [kg m/s]
-    bool m_hasResidual = false;        ///< false: that is nothing, whatever is in there
-    RigidMomentum m_momentum;          ///< what the impulses prescribe for every connected piece
-    Actuation m_actuation;             ///< what the body's actuators do in this step
-    double m_complianceScale =
-        1;  ///< what contact has learnt: A^-1 is about this times the warped A0^-1 at the surface
+    std::vector<Vec3> m_residual;      ///< residual of this step's impulse responses [kg m/s]
+    bool m_hasResidual = false;        ///< false: m_residual is unused and counts as zero
+    RigidMomentum m_momentum;          ///< momenta prescribed for every connected component
+    Actuation m_actuation;             ///< linearized actuators of this step
+    /// Learnt in contact: A^-1 at the surface is about this times the warped A0^-1 [-], > 0.
+    double m_complianceScale = 1;
     ConjugateGradientScratch m_solver;
-    /// 1 in a step that would carry elements too far before their forces are known, else 0: as of the loads [-].
+    /// Lower bound of the numerical damping [-]: 1 in a step that would strain elements too much before their forces
+    /// are known, else 0.
     double m_leastDamping = 0;
-    double m_stepVariation = 0;  ///< r, of the recent steps: 1 - (the shortest / the longest)^2, in [0, 1)
+    double m_stepVariation = 0;  ///< r of the recent steps: 1 - (shortest / longest)^2, in [0, 1)
     QuasiNewtonScratch m_newton;
     mutable ElementWork m_elements;
     mutable FactorWork m_factor;

@@ -34,7 +34,7 @@ void BisectedTets::addCube(int cube, bool whole)
     for (const std::array<int, 3>& order : kAxisOrders)
     {
         std::array<int, 3> place;
-        for (int a = 0; a < 3; ++a) place[a] = low[a] + (low[a] & 1);  // the corner of even places
+        for (int a = 0; a < 3; ++a) place[a] = low[a] + (low[a] & 1);  // the corner with even coordinates
         BisectedTet tet;
         tet.m_whole = whole;
         tet.m_corners[0] = nodeAt(place);
@@ -110,7 +110,7 @@ int BisectedTets::middleOf(int a, int b)
     if (isNew)
     {
         at->second = static_cast<int>(m_nodes.size());
-        m_nodes.push_back(0.5 * (m_nodes[a] + m_nodes[b]));  // exact: places are multiples of 1 / 2^levels
+        m_nodes.push_back(0.5 * (m_nodes[a] + m_nodes[b]));  // exact: coordinates are multiples of 1 / 2^levels
         m_atHalved.push_back(0);
         m_atHalved[a] = m_atHalved[b] = 1;
     }

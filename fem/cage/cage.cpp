@@ -20,15 +20,15 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastThickness = 1e-7;  // volume over area times length below which nothing is enclosed
+constexpr double kLeastThickness = 1e-7;  // volume over area times length, below which nothing is enclosed
 
-/// Mean ratio of the tets that cut off a cube's corners, less rounding: 12 (1/2)^(2/3) / 9; the middle one is regular.
+/// Mean ratio of the tets at a cube's corners, less rounding: 12 (1/2)^(2/3) / 9; the middle one is regular.
 constexpr double kLatticeQuality = 0.8399;
 
-/// The same of a cube's sixth, less rounding: 12 (1/2)^(2/3) / 10. Its halves are better.
+/// Mean ratio of a sixth of a cube, less rounding: 12 (1/2)^(2/3) / 10. Its bisections have higher ones.
 constexpr double kGradedQuality = 0.7559;
 
-/// Where stages end, as shares of the work; about, for a scan of 69,000 triangles and 4000 elements.
+/// Completed shares of the work at the ends of stages; approximate, for a scan of 69,000 triangles and 4000 elements.
 constexpr double kInspected = 0.15, kWound = 0.2, kSizeFound = 0.4, kMarked = 0.45, kFilled = 0.8, kSnapped = 0.9;
 
 Vec3 centreOf(const SurfaceInspection& surface)
@@ -36,7 +36,7 @@ Vec3 centreOf(const SurfaceInspection& surface)
     return 0.5 * (surface.m_low + surface.m_high);
 }
 
-/// The winding number with its origin at the centre of the bounding box, for digits.
+/// The winding number with its origin at the centre of the bounding box, for accuracy.
 SurfaceWinding windingAboutCentre(const SurfaceInspection& surface)
 {
     const Vec3 centre = centreOf(surface);
@@ -67,7 +67,7 @@ TetMesh meshOf(const CageLattice& lattice, const std::vector<FilledTet>& filled)
     return TetMesh(std::move(X), std::move(tets));
 }
 
-/// The enclosed volume [m3]: exact where the divergence theorem counts every point once, else what the samples say.
+/// The enclosed volume [m3]: exact where the divergence theorem counts every point once, else from samples.
 double enclosedVolume(const SurfaceInspection& surface, const CageFill& fill, double cellSize, bool exact)
 {
     const double volume = exact ? std::abs(signedVolume(surface.m_repaired.m_surface))
@@ -97,7 +97,7 @@ CageReport reportOn(const SurfaceInspection& surface, const CageFill& fill, doub
     return report;
 }
 
-/// What a lattice is filled with.
+/// Inputs of filling a lattice.
 struct FillInput
 {
     const SurfaceInspection& m_surface;
@@ -110,7 +110,7 @@ struct FillInput
     const std::vector<Vec3>& vertices() const { return m_surface.m_repaired.m_surface.m_vertices; }
 };
 
-/// Makes mesh and report of a cage whose cells are alike. Returns every vertex's element.
+/// Makes mesh and report of a uniform cage. Returns every vertex's element.
 std::vector<int> fillAlike(const FillInput& input, CageFill& fill, Cage& cage)
 {
     const CageLattice& lattice = input.m_lattice;
@@ -123,7 +123,7 @@ std::vector<int> fillAlike(const FillInput& input, CageFill& fill, Cage& cage)
     return held;
 }
 
-/// The same of a graded cage.
+/// Makes mesh and report of a graded cage. Returns every vertex's element.
 std::vector<int> fillGraded(const FillInput& input, CageFill& fill, Cage& cage)
 {
     const CageLattice& lattice = input.m_lattice;

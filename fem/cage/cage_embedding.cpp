@@ -20,15 +20,15 @@ std::array<double, 4> barycentric(const std::array<Vec3, 4>& x, const Vec3& p)
 namespace
 {
 
-constexpr double kOnTetWeight = -1e-9;  // least barycentric weight of a vertex that lies in or on an element
+constexpr double kOnTetWeight = -1e-9;  // minimum barycentric weight of a vertex in or on an element
 
-/// A tet of the lattice, in the order of the cage's elements.
+/// Index of a lattice tet, in the order of the cage's elements.
 int latticeTet(int cube, int tet)
 {
     return 5 * cube + tet;
 }
 
-/// The lattice tet that holds p best, and its least weight there: kept ones before others.
+/// The best lattice tet for p and its minimum weight there; kept tets take precedence.
 struct Holder
 {
     int m_cube = 0, m_tet = 0;
@@ -38,8 +38,8 @@ struct Holder
 
 Holder findHolder(const CageLattice& lattice, const std::vector<std::uint8_t>& kept, const Vec3& p)
 {
-    constexpr double kSharedCubeTolerance =
-        1e-6;  // one cube, or all those that share the face, edge or corner p lies on
+    // In cells: finds one cube, or all those that share the face, edge or corner p lies on.
+    constexpr double kSharedCubeTolerance = 1e-6;
     Holder best;
     for (const int cube : lattice.cubesAround(p, kSharedCubeTolerance))
         for (int tet = 0; tet < 5; ++tet)
@@ -52,7 +52,7 @@ Holder findHolder(const CageLattice& lattice, const std::vector<std::uint8_t>& k
     return best;
 }
 
-/// The number of a lattice tet among the kept ones; 0 for -1.
+/// Index of a lattice tet among the kept ones; 0 for -1.
 int elementOf(int id, const std::vector<FilledTet>& kept)
 {
     if (id < 0) return 0;

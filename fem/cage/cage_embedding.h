@@ -9,19 +9,19 @@
 namespace bullet_fem
 {
 
-/// Barycentric weights of p in a tet, sum exactly 1 but for rounding.
+/// Barycentric weights of p in a tet; their sum is 1 to rounding.
 std::array<double, 4> barycentric(const std::array<Vec3, 4>& x, const Vec3& p);
 
-/// Makes sure that every used vertex [m] lies in a kept tet, and returns its element in the order of fill.m_tets (0 for
+/// Ensures that every used vertex [m] lies in a kept tet, and returns its element in the order of fill.m_tets (0 for
 /// unused vertices).
 std::vector<int> holdVertices(const CageLattice& lattice, const std::vector<Vec3>& vertices,
                               const std::vector<char>& used, CageFill& fill);
 
-/// Weights with the final nodes, so that they give the vertex back.
+/// Barycentric weights with the final nodes, which reproduce the vertex.
 std::vector<Embedding> embed(const std::vector<Vec3>& vertices, const std::vector<int>& held, const TetMesh& mesh);
 
-/// The same after nodes have moved: every used vertex hangs on the element that holds it best, of those around the one
-/// it was in, or of all where none of these holds it.
+/// Embeds every used vertex again after nodes have moved: in the best element around its previous one, or in the best
+/// of all if none of these contains it.
 void embedAnew(const TetMesh& mesh, const std::vector<Vec3>& vertices, const std::vector<char>& used,
                std::vector<Embedding>& embedding);
 

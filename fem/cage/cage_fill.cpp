@@ -68,8 +68,8 @@ public:
         return std::move(m_fill);
     }
 
-    /// The untouched tets that are inside as a whole: cheap, so that too many are refused before any is sampled.
-    /// Returns how many these and the entered ones are; ends beyond `most`.
+    /// Finds the untouched tets that are entirely inside: cheap, so that too many are refused before any is sampled.
+    /// Returns the number of these plus the entered ones; stops beyond `most`.
     double findWholeTets(double most)
     {
         double atLeast = 0;
@@ -91,7 +91,7 @@ public:
         return atLeast;
     }
 
-    /// As many again are likely to be kept: those near winding number 1/2 whose centre is inside.
+    /// Number of further tets likely to be kept: those near winding number 1/2 whose centre is inside.
     double likely() const { return m_likely; }
 
 private:
@@ -104,7 +104,7 @@ private:
         {
             const std::array<Vec3, 4> x = m_lattice.corners(cube, 4);  // the middle tet: its centre is the cube's
             m_lastWinding = windingAt((x[0] + x[1] + x[2] + x[3]) * 0.25);
-            // Around an open surface the winding number falls off smoothly: a value near 1/2 needs samples.
+            // Around an open surface the winding number varies smoothly: a value near 1/2 needs samples.
             if (m_closed || std::abs(std::abs(m_lastWinding) - 0.5) > 0.25)
             {
                 m_whole[cube] = isInside(m_lastWinding) ? kAll : 0;
@@ -148,7 +148,8 @@ private:
         return static_cast<double>(hits) / m_settings.m_fillSamples;
     }
 
-    /// Must it be sampled? What a closed surface only touches is inside or outside as a whole.
+    /// True if the tet must be sampled. Contact alone does not cut it by a closed surface: it is inside or outside
+    /// entirely.
     bool isCut(int cube, int tet) const
     {
         return (m_closed ? m_lattice.entered(cube) : m_lattice.touched(cube)) >> tet & 1;
@@ -185,7 +186,7 @@ private:
     const bool m_closed;
     const CageSettings& m_settings;
     const std::vector<Weights> m_samples;
-    std::vector<std::uint8_t> m_whole;  // per cube: a bit for each tet that is inside and untouched
+    std::vector<std::uint8_t> m_whole;  // per cube: a bit for each tet that is entirely inside
     std::vector<long long> m_unsure;    // 5 cube + tet, ascending: untouched, but near winding number 1/2
     std::size_t m_nextUnsure = 0;
     double m_likely = 0;

@@ -14,8 +14,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTouchTolerance = 1e-9;  // what counts as touching, in lattice units
-constexpr double kMostCubesPerTet = 20;   // bounds memory: room for cages that fill 1 / 100 of their box
+constexpr double kTouchTolerance = 1e-9;  // maximum distance of a contact, in lattice units
+constexpr double kMostCubesPerTet = 20;   // bounds memory; sufficient for cages that fill 1 / 100 of their box
 constexpr double kMostCubes = 2e7;
 
 double cubesAlong(double extent, double cellSize)
@@ -28,7 +28,7 @@ double cubesIn(const Vec3& extent, double cellSize)
     return cubesAlong(extent.x, cellSize) * cubesAlong(extent.y, cellSize) * cubesAlong(extent.z, cellSize);
 }
 
-/// About the least cell size with which the box has at most `most` cubes, rounded up by one in a thousand.
+/// Approximately the minimum cell size with which the box has at most `most` cubes, rounded up by one in a thousand.
 double leastCellSize(const Vec3& extent, double most)
 {
     double fits = std::max({extent.x, extent.y, extent.z}), fails = fits / (2 * kMostCubes);
@@ -128,7 +128,7 @@ void CageLattice::markSurface(const SurfaceMesh& surface)
     for (const Triangle& t : surface.m_triangles)
     {
         const TriangleCorners triangle = {toLattice(x[t[0]]), toLattice(x[t[1]]), toLattice(x[t[2]])};
-        std::array<int, 3> low, high;  // the cubes of its bounding box
+        std::array<int, 3> low, high;  // range of cubes of its bounding box
         for (int a = 0; a < 3; ++a)
         {
             const auto [least, most] = std::minmax({triangle[0][a], triangle[1][a], triangle[2][a]});
@@ -139,7 +139,8 @@ void CageLattice::markSurface(const SurfaceMesh& surface)
     }
 }
 
-/// Halves the block of cubes [low, high] until one is left, so that a large triangle costs what it touches.
+/// Bisects the block of cubes [low, high] down to single cubes, so that the cost is proportional to the cubes in
+/// contact.
 void CageLattice::markTriangle(const std::array<Vec3, 3>& triangle, const std::array<int, 3>& low,
                                const std::array<int, 3>& high)
 {

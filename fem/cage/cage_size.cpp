@@ -18,13 +18,14 @@ namespace
 {
 
 constexpr int kMostLattices = 20;
-constexpr double kCountTolerance = 0.03;  // of the wanted number
+constexpr double kCountTolerance = 0.03;  // relative to the wanted number
 
-/// A lattice cube holds five tets. The cage holds the solid and a skin of cut elements, half of which stands out: about
-/// half a cell thick over the whole surface (measured on a dozen meshes). The estimate falls with the cell.
+/// A lattice cube holds five tets. The cage holds the solid and a layer of cut elements, half of which is outside:
+/// about half a cell thick over the whole surface (measured on a dozen meshes). The estimate decreases with the cell
+/// size.
 double estimateCellSize(const SurfaceInspection& surface, const CageSettings& settings, CellSizeRange range)
 {
-    const Vec3 extent = surface.m_high - surface.m_low;  // its box bounds the volume of what overlaps itself
+    const Vec3 extent = surface.m_high - surface.m_low;  // the box bounds the volume of self-overlapping surfaces
     const double volume =
         std::min(std::abs(signedVolume(surface.m_repaired.m_surface)), extent.x * extent.y * extent.z);
     for (int n = 0; n < 60; ++n)
@@ -36,7 +37,7 @@ double estimateCellSize(const SurfaceInspection& surface, const CageSettings& se
     return range.m_most;
 }
 
-/// The logarithm of a cell size, and of the count there over the wanted one.
+/// Logarithms of a cell size and of the ratio of its count to the wanted one.
 struct Trial
 {
     double m_cell, m_excess;
@@ -62,7 +63,7 @@ public:
             m_graded.emplace(m_surface, m_winding, m_settings, m_longest);
             most = std::log(std::min(m_longest, range.m_most) * kMostCellsFewer);
         }
-        Trial finer{least, 1}, coarser{most, -1}, best{0, 1e300};  // a bracket; its ends are not known at first
+        Trial finer{least, 1}, coarser{most, -1}, best{0, 1e300};  // a bracket; its ends are unknown at first
         bool knowsFiner = false, knowsCoarser = false;
         for (int n = 0; n < kMostLattices && coarser.m_cell - finer.m_cell > 1e-6; ++n)
         {
@@ -85,12 +86,12 @@ public:
     }
 
 private:
-    static constexpr double kMostOverEstimate = 2;  // thin parts take elements, so that other cells become longer
-    static constexpr double kMostCellsFewer = 8;    // cells across than asked for; nothing is graded then
-    static constexpr double kLeastCountExponent =
-        0.5;  // counts fall with the square to the cube of the cell: no step is too short
+    static constexpr double kMostOverEstimate = 2;  // thin parts need elements, so that other cells become longer
+    static constexpr double kMostCellsFewer = 8;    // reduction of the cells across at which grading ends
+    // Counts vary with the cell size to the power -2 to -3: with 1/2 no step of the logarithm is too short.
+    static constexpr double kLeastCountExponent = 0.5;
 
-    /// Up to a length cells grow; after that a graded cage has fewer across thin parts, and fewer levels.
+    /// Cells grow up to a maximum length; beyond it a graded cage has fewer cells across thin parts, and fewer levels.
     CageSize sizeAt(double cell) const
     {
         const CellSizeRange range = CageLattice::cellSizeRange(m_surface, m_settings);
@@ -103,7 +104,7 @@ private:
         return size;
     }
 
-    /// At the n-th lattice. How many there will be is not known, so that each takes a share of what is left.
+    /// Evaluates the n-th lattice. Their number is unknown, so each advances the progress by a share of the remainder.
     Trial look(double cell, int n) const
     {
         const CageSize size = sizeAt(cell);
@@ -128,7 +129,7 @@ private:
     const SurfaceWinding& m_winding;
     const CageSettings& m_settings;
     std::optional<GradedSurface> m_graded;
-    double m_longest = std::numeric_limits<double>::infinity();  // cell [m]
+    double m_longest = std::numeric_limits<double>::infinity();  // maximum cell size [m]
 };
 
 }  // namespace

@@ -8,20 +8,20 @@
 namespace bullet_fem
 {
 
-/// Throws std::invalid_argument naming value, range and remedy: what is wrong with the settings whatever the surface.
+/// Throws std::invalid_argument naming value, range and remedy on settings that are wrong for any surface.
 void checkSettings(const CageSettings& settings);
 
-/// A cell size, and how far its cells are halved if they are.
+/// A cell size and the grading of its cells.
 struct CageSize
 {
     double m_cellSize = 0;  ///< [m]
     Grading m_grading;
 };
 
-/// The size whose lattice comes nearest to m_targetTets elements, of those looked at: regula falsi and bisection in
-/// turn over the logarithms, until the count is within 3 % or 20 lattices were looked at. Cells of a graded cage become
-/// up to twice as long as they would be alike; where these are still too many, the grading becomes less. The same bits
-/// on every call. The winding number is about the centre of the surface's bounding box.
+/// The cell size whose lattice comes nearest to m_targetTets elements: regula falsi and bisection alternate over the
+/// logarithms, until the count is within 3 % or 20 lattices were tried. Cells of a graded cage become up to twice as
+/// long as uniform ones would be; if the count is still too high, the grading is reduced. Deterministic. The winding
+/// number's origin is the centre of the surface's bounding box.
 CageSize findCageSize(const SurfaceInspection& surface, const SurfaceWinding& winding, const CageSettings& settings);
 
 }  // namespace bullet_fem

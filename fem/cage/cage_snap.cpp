@@ -14,14 +14,14 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kEntryDepth = 1e-9;     // a surface is entered from here on, in cells
-constexpr double kQualityMargin = 1e-6;  // more than rounding takes when positions move back from the centre
+constexpr double kEntryDepth = 1e-9;     // minimum depth of an entered surface, in cells
+constexpr double kQualityMargin = 1e-6;  // above the rounding of moving positions back from the centre
 constexpr int kSnapRounds = 8;
 constexpr double kMovePerRound = 0.25;
-constexpr int kHalvings = 3;          // of a move that is not possible
-constexpr double kLeastMove = 0.001;  // of the way: less is not tried
+constexpr int kHalvings = 3;          // halvings of an impossible move
+constexpr double kLeastMove = 0.001;  // share of the way; smaller moves are not tried
 
-/// For every node the elements, or boundary triangles, that have it.
+/// For every node the elements, or boundary triangles, that use it.
 template <std::size_t N>
 std::vector<std::vector<int>> usersOf(int nodeCount, const std::vector<std::array<int, N>>& cells)
 {
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    /// Moves boundary node n on its way, to `wanted` of it at most.
+    /// Moves boundary node n along its way, to the share `wanted` at most.
     void advance(std::size_t n, double wanted)
     {
         const int node = m_cage.surfaceNodes()[n];
@@ -99,7 +99,8 @@ private:
                            });
     }
 
-    /// A boundary triangle whose corner moves straight sweeps a tet: on its inner side, and free of the surface.
+    /// A boundary triangle whose corner moves straight sweeps a tet, which must be on its inner side and free of the
+    /// surface.
     bool staysOutside(int node, const Vec3& to) const
     {
         if (m_target.m_surface.m_openEdges > 0 && std::abs(m_target.m_winding.m_number.at(to)) >= 0.5) return false;
@@ -121,10 +122,10 @@ private:
     const Vec3 m_centre;
     const TriangleTree m_tree;
     const double m_depth, m_rounding;  // [m], [m3]
-    std::vector<Vec3> m_x;             // about the centre
+    std::vector<Vec3> m_x;             // relative to the centre
     const std::vector<std::vector<int>> m_tetsOf, m_trianglesOf;
-    std::vector<Vec3> m_start, m_way;  // of the boundary nodes
-    std::vector<double> m_share;       // of the way that is done
+    std::vector<Vec3> m_start, m_way;  // per boundary node
+    std::vector<double> m_share;       // completed share of the way
 };
 
 }  // namespace

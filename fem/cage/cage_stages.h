@@ -9,22 +9,22 @@
 namespace bullet_fem
 {
 
-/// How many cubes or elements are looked at between two words on progress.
+/// Number of cubes or elements between two progress calls.
 constexpr int kCellsBetweenProgress = 1024;
 
-/// Throws CageCancelled where the progress gives up.
+/// Reports progress; throws CageCancelled if the callback returns false.
 inline void tell(const CageProgress& progress, double share)
 {
     if (progress && !progress(share)) throw CageCancelled();
 }
 
-/// Tells how far a loop over `count` cubes or elements is, between two shares.
+/// Reports the progress of a loop over `count` cubes or elements, from one share to another.
 inline void tellLoop(const CageProgress& progress, std::size_t at, std::size_t count, double from, double to)
 {
     if (at % kCellsBetweenProgress == 0) tell(progress, from + (to - from) * double(at) / double(count));
 }
 
-/// The progress of a stage, which is the work from one share to another. The whole one must live longer.
+/// The progress callback of a stage that covers the work from one share to another. `whole` must outlive it.
 inline CageProgress stageOf(const CageProgress& whole, double from, double to)
 {
     if (!whole) return {};

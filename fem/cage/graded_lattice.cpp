@@ -15,8 +15,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kGradedTouchTolerance = 1e-9;  // of a cell, as in the lattice without grading
-constexpr double kSplitPerKept = 12;            // bounds memory: inner generations and what is dropped
+constexpr double kGradedTouchTolerance = 1e-9;  // in cells, as in the ungraded lattice
+constexpr double kSplitPerKept = 12;            // bounds memory: inner generations and dropped tets
 constexpr double kGraded = 0.3;                 // share of the work
 
 double leastOf(const std::array<double, 4>& weights)
@@ -39,14 +39,14 @@ GradedLattice::GradedLattice(const GradingInput& input, double mostTets)
 {
     addCubes();
     const std::size_t most = m_tets.tets().size() + static_cast<std::size_t>(kSplitPerKept * mostTets);
-    WantedCells wanted{static_cast<std::size_t>(mostTets), {}};  // each takes more than one
+    WantedCells wanted{static_cast<std::size_t>(mostTets), {}};  // each requires more than one tet
     m_tooLarge = !findWantedCells(input.m_lattice, input.m_surface.parts(), input.m_grading, wanted) ||
                  !grade(wanted.m_cells, most, m_tets);
     for (int tet = 0; tet < m_tets.rootCount() && !m_tooLarge; ++tet) findLeaves(tet);
     m_kept.assign(m_tets.tets().size(), 0);
 }
 
-/// Those that the surface comes to, and those inside.
+/// Adds the cubes in contact with the surface, and those inside.
 void GradedLattice::addCubes()
 {
     const CageLattice& lattice = m_input.m_lattice;
@@ -62,7 +62,7 @@ void GradedLattice::addCubes()
         const bool sameAsPrevious =
             m_input.m_closed && cube % lattice.cubes()[0] != 0 && lattice.touched(cube - 1) == 0;
         if (!sameAsPrevious) winding = windingAt(lattice.cubeMiddle(cube));
-        // Around an open surface the winding number falls off smoothly: a value near 1/2 needs samples.
+        // Around an open surface the winding number varies smoothly: a value near 1/2 needs samples.
         const bool isSure = m_input.m_closed || std::abs(std::abs(winding) - 0.5) > 0.25;
         if (isSure && !isInside(winding)) continue;
         m_tets.addCube(cube, isSure);
@@ -153,7 +153,7 @@ CageFill GradedLattice::fill()
 std::vector<int> GradedLattice::holdVertices(const std::vector<Vec3>& vertices, const std::vector<char>& used,
                                              CageFill& fill)
 {
-    constexpr double kNear = 1e-6;  // of a cell: the cubes that share the face, edge or corner p lies on
+    constexpr double kNear = 1e-6;  // in cells: finds the cubes that share the face, edge or corner p lies on
     const CageLattice& lattice = m_input.m_lattice;
     std::vector<int> held(vertices.size(), -1);
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -184,8 +184,8 @@ std::vector<int> GradedLattice::holdVertices(const std::vector<Vec3>& vertices, 
 
 void GradedLattice::findHolder(int tet, const Vec3& p, Holder& best) const
 {
-    constexpr double kOnTetWeight = -1e-9;  // least barycentric weight of a vertex that lies in or on an element
-    constexpr double kNear = -1e-3;         // ... in or near a tet whose halves are looked at
+    constexpr double kOnTetWeight = -1e-9;  // minimum barycentric weight of a vertex in or on an element
+    constexpr double kNear = -1e-3;         // minimum weight of a vertex in or near a tet whose children are searched
     const double weight = leastOf(barycentric(m_tets.corners(tet), p));
     if (weight < kNear && best.m_tet >= 0) return;
     const int child = m_tets.tets()[tet].m_child;

@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// What a graded cage is made of, all about the centre of the surface's bounding box.
+/// The inputs of a graded cage, all relative to the centre of the surface's bounding box.
 struct GradingInput
 {
     const CageLattice& m_lattice;  ///< marked
@@ -21,31 +21,31 @@ struct GradingInput
     Grading m_grading;
 };
 
-/// The cubes of a lattice that hold something, split into tets that are smaller where the surface is thin. In what it
-/// gives, FilledTet::m_tet is the number of a tet in all of the lattice.
+/// The non-empty cubes of a lattice, split into tets that are smaller at thin parts of the surface. FilledTet::m_tet is
+/// here the index of a tet in the whole lattice.
 class GradedLattice
 {
 public:
-    /// Splits until the thin parts have what they want or there are far more than `mostTets`; see isTooLarge.
+    /// Splits until thin parts have the wanted number of cells, or far more than `mostTets` tets exist; see isTooLarge.
     GradedLattice(const GradingInput& input, double mostTets);
 
     bool isTooLarge() const { return m_tooLarge; }
 
-    /// About how many elements are kept: exactly where the surface is closed and no vertex needs another element.
-    /// Counting ends beyond `most`. Call either this or fill, once.
+    /// Approximate number of elements kept: exact if the surface is closed and no vertex needs another element. Stops
+    /// counting beyond `most`. Call either this or fill, once.
     double count(double most);
 
-    /// Throws std::invalid_argument if more than m_maxTets tets are kept.
+    /// Fills the lattice. Throws std::invalid_argument if more than m_maxTets tets are kept.
     CageFill fill();
 
-    /// Makes sure that every used vertex [m] lies in a kept tet, and returns its element in the order of fill.m_tets
-    /// (0 for unused vertices).
+    /// Ensures that every used vertex [m] lies in a kept tet, and returns its element in the order of fill.m_tets (0
+    /// for unused vertices).
     std::vector<int> holdVertices(const std::vector<Vec3>& vertices, const std::vector<char>& used, CageFill& fill);
 
-    /// The kept tets in metres, nodes in ascending order of z, y and x.
+    /// The mesh of the kept tets in metres, nodes in ascending order of z, y and x.
     TetMesh mesh(const std::vector<FilledTet>& kept) const;
 
-    /// Sizes of the kept tets.
+    /// Writes the sizes of the kept tets to the report.
     void report(const std::vector<FilledTet>& kept, CageReport& report) const;
 
 private:
@@ -53,7 +53,7 @@ private:
     {
         outside,
         inside,
-        unsure,  // not entered, but near winding number 1/2: it must be sampled
+        unsure,  // not entered, but near winding number 1/2: must be sampled
         entered
     };
     struct Holder
@@ -74,7 +74,7 @@ private:
     const GradingInput m_input;
     WindingNear m_winding;
     BisectedTets m_tets;
-    std::vector<int> m_leaves;  // depth first from cube to cube
+    std::vector<int> m_leaves;  // depth-first, cube by cube
     std::vector<char> m_kept;   // per tet
     std::vector<std::array<double, 4>> m_samples;
     FillTally m_tally;

@@ -15,11 +15,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kGradingTouchTolerance = 1e-9;   // of a cell
-constexpr double kLeastDepth = 1e-6;              // of a wanted cell: tets that come less deep do not count
-constexpr double kLongestEdge = 2;                // longest edge of a part, in cells that it wants
-constexpr std::size_t kMostQueuedCells = 100000;  // cells that are not yet looked through
-constexpr int kMostCopies = 64;                   // of a part on its way across; more are never needed for 8 cells
+constexpr double kGradingTouchTolerance = 1e-9;   // in cells
+constexpr double kLeastDepth = 1e-6;              // in wanted cells: shallower intersections do not count
+constexpr double kLongestEdge = 2;                // maximum edge of a part, in the cells that it requires
+constexpr std::size_t kMostQueuedCells = 100000;  // cells that are not yet processed
+constexpr int kMostCopies = 64;  // maximum copies of a part on its way across; more are never needed for 8 cells
 
 std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
 {
@@ -29,13 +29,13 @@ std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
     return x;
 }
 
-/// Halvings of a tet after which `cells` of its size are not longer than `width` cells of the lattice.
+/// Number of bisections of a tet after which `cells` of its size are at most `width` cells of the lattice.
 int generationFor(double cells, double width)
 {
     return std::max(0, static_cast<int>(std::ceil(3 * std::log2(cells / width) - kGradingTouchTolerance)));
 }
 
-/// Halvings of a cell's edge, the last of them begun.
+/// Halvings of a cell's edge, rounded up.
 int levelOf(int generation)
 {
     return (generation + 2) / 3;
@@ -52,7 +52,7 @@ public:
         int generation = generationFor(m_grading.m_cellsAcross, width);
         if (part.m_isGap)
         {
-            generation = 3 * levelOf(generation);  // so that planes of the lattice lie between the sides
+            generation = 3 * levelOf(generation);  // so that lattice planes lie between the sides
             if (generation > m_grading.m_mostGenerations) return;
         }
         WantedCell cell;
@@ -70,7 +70,7 @@ public:
         }
     }
 
-    /// Puts the cells in order, each place once a level.
+    /// Sorts the cells, each position once per level.
     std::vector<WantedCell>& cells()
     {
         const auto key = [](const WantedCell& c) { return std::tuple(c.m_level, c.m_place, -c.m_generation); };
@@ -82,10 +82,10 @@ public:
         return m_cells;
     }
 
-    std::size_t size() const { return m_cells.size(); }  ///< some may be there more than once
+    std::size_t size() const { return m_cells.size(); }  ///< may include duplicates
 
 private:
-    /// The cells of that level that a triangle touches.
+    /// Adds the cells of this level in contact with a triangle.
     void add(TriangleCorners x, WantedCell cell)
     {
         for (Vec3& corner : x) corner *= std::ldexp(1.0, cell.m_level);
@@ -118,7 +118,7 @@ private:
     std::vector<WantedCell> m_cells;
 };
 
-/// A wanted cell and a tet that may have to be halved for it.
+/// A wanted cell and a tet that may have to be bisected for it.
 struct Wish
 {
     const WantedCell* m_cell;
@@ -132,7 +132,7 @@ bool meets(const WantedCell& cell, const std::array<Vec3, 4>& tet)
     return TetRegion(tet).mayMeet(low + Vec3{in, in, in}, low + Vec3{edge - in, edge - in, edge - in});
 }
 
-/// Replaces what a wish is about by its leaves that are too large.
+/// Replaces the tet of a wish by its descendant leaves that are too large.
 void follow(const Wish& wish, const BisectedTets& tets, std::vector<Wish>& wishes)
 {
     const BisectedTet& tet = tets.tets()[wish.m_tet];
@@ -152,7 +152,7 @@ GradedSurface::GradedSurface(const SurfaceInspection& surface, const SurfaceWind
     search.m_reach = settings.m_cellsAcross * cellSize;
     search.m_coarsest = cellSize / 2;
     search.m_edgePerWidth = kLongestEdge / settings.m_cellsAcross;
-    // Cells much shorter than that make more than m_maxTets of such an area.
+    // Much smaller cells over this area would exceed m_maxTets.
     search.m_finest = std::max(kLongestEdge * std::ldexp(cellSize, -settings.m_mostLevels),
                                3 * std::sqrt(surface.m_area / settings.m_maxTets));
     m_parts = findThinParts(aboutCentre(surface), surface.m_repaired.m_surface.m_triangles, search);

@@ -10,20 +10,20 @@
 namespace bullet_fem
 {
 
-/// How far cells are halved.
+/// Limits of the refinement.
 struct Grading
 {
     double m_cellsAcross = 0;   ///< [-], > 0
-    int m_mostGenerations = 0;  ///< halvings of a tet, three a level
+    int m_mostGenerations = 0;  ///< maximum bisections of a tet, three a level
 
     static Grading of(const CageSettings& settings) { return {settings.m_cellsAcross, 3 * settings.m_mostLevels}; }
 };
 
-/// A surface about the centre of its bounding box, and where it is thin, for cells up to a size.
+/// A surface relative to the centre of its bounding box, and its thin parts for cells up to a given size.
 class GradedSurface
 {
 public:
-    /// Looks for parts that are thin for cells of that size [m], or shorter ones, with m_cellsAcross and m_mostLevels.
+    /// Searches parts that are thin for cells of this size [m] or smaller, with m_cellsAcross and m_mostLevels.
     GradedSurface(const SurfaceInspection& surface, const SurfaceWinding& winding, const CageSettings& settings,
                   double cellSize);
 
@@ -35,7 +35,7 @@ private:
     std::vector<ThinPart> m_parts;
 };
 
-/// A cube [m_place, m_place + 1] / 2^m_level in lattice units that wants tets of a generation.
+/// A cube [m_place, m_place + 1] / 2^m_level in lattice units that requires tets of a generation.
 struct WantedCell
 {
     std::array<int, 3> m_place = {};
@@ -44,17 +44,17 @@ struct WantedCell
 
 struct WantedCells
 {
-    std::size_t m_most = 0;           ///< cells after which counting ends
-    std::vector<WantedCell> m_cells;  ///< each place once a level, in ascending order
+    std::size_t m_most = 0;           ///< maximum number of cells, beyond which counting stops
+    std::vector<WantedCell> m_cells;  ///< each position once per level, in ascending order
 };
 
-/// What the parts want: m_cellsAcross cells across solid parts, or as many as m_mostGenerations allow; as many across
-/// gaps, and in whole levels, but nothing where that is not allowed. Returns false if that is far more than m_most.
+/// Required cells: m_cellsAcross cells across solid parts, or as many as m_mostGenerations permits; equally many across
+/// gaps, in whole levels, or none where that is not permitted. Returns false if there are far more than m_most.
 bool findWantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts, const Grading& grading,
                      WantedCells& wanted);
 
-/// Halves until no tet that meets a wanted cell is of a lower generation. Returns false, in the midst, if there are
-/// more than `most` tets.
+/// Bisects until every tet that meets a required cell has at least its generation. Returns false, unfinished, if there
+/// are more than `most` tets.
 bool grade(const std::vector<WantedCell>& wanted, std::size_t most, BisectedTets& tets);
 
 }  // namespace bullet_fem

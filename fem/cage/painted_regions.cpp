@@ -19,13 +19,13 @@ namespace
 
 constexpr double kFarAway = std::numeric_limits<double>::infinity();
 
-/// An element that paint has come to: how far, from which of the painted ones, and itself.
+/// Front of Dijkstra's search: distance, painted source element, and the element itself.
 using Front = std::tuple<double, int, int>;
 
 int mostOf(const std::map<int, int>& votes)
 {
     const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
-    return std::max_element(votes.begin(), votes.end(), fewer)->first;  // the first, which is the lowest, of several
+    return std::max_element(votes.begin(), votes.end(), fewer)->first;  // the lowest label in a tie
 }
 
 Vec3 middleOfTet(const TetMesh& mesh, int e)
@@ -35,7 +35,7 @@ Vec3 middleOfTet(const TetMesh& mesh, int e)
     return sum;
 }
 
-/// Pairs of elements that share a face.
+/// Neighbours across faces of every element.
 std::vector<std::vector<int>> elementsAcrossFaces(const TetMesh& mesh)
 {
     std::vector<std::pair<Triangle, int>> faces;

@@ -10,21 +10,21 @@
 namespace bullet_fem
 {
 
-/// One side of a triangle between two different places.
+/// One side of a triangle between two distinct positions.
 struct TriangleSide
 {
     int m_low = 0, m_high = 0;  ///< welded vertices, m_low < m_high
     int m_triangle = 0;
-    int m_way = 1;  ///< +1 if the triangle passes it from m_low to m_high, else -1
+    int m_way = 1;  ///< +1 if the triangle traverses it from m_low to m_high, else -1
 };
 
-/// For every vertex the lowest vertex at exactly the same place: files without shared vertices are closed as well.
+/// For every vertex the lowest vertex at exactly its position: also closes files without shared vertices.
 std::vector<int> weldCoincident(const std::vector<Vec3>& x);
 
-/// All sides, so sorted that those of an edge follow each other, by triangle.
+/// All sides, sorted by edge, then by triangle.
 std::vector<TriangleSide> sortedSides(const std::vector<Triangle>& triangles, const std::vector<int>& welded);
 
-/// Calls visit(first, last) with every edge's range of sides.
+/// Calls visit(first, last) with the range of sides of every edge.
 template <typename Visit>
 void forEachEdge(const std::vector<TriangleSide>& sides, Visit visit)
 {

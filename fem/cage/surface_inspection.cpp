@@ -17,8 +17,9 @@ namespace
 
 constexpr double kSheetThickness = 1e-6;  // thickness over length below which a surface is a sheet
 constexpr double kMostOneSided = 0.9;     // |vector area| / area of an open surface: 1 flat, 1/2 hemisphere, 0 closed
-constexpr double kMostMisoriented = 0.1;  // of all edges; one flipped patch passes, random orientation does not
-constexpr double kLeastRelativeSize = 1e-7;  // size over distance from the origin, for digits enough
+// Share of all edges; one flipped patch passes, random orientation does not.
+constexpr double kMostMisoriented = 0.1;
+constexpr double kLeastRelativeSize = 1e-7;  // size over distance from the origin, for accuracy
 
 void checkSoup(const SurfaceMesh& surface)
 {
@@ -62,7 +63,7 @@ void measureBounds(const SurfaceMesh& surface, SurfaceInspection& result)
                " of that distance; move it nearer to the origin");
 }
 
-/// The used vertex for which `measure` is greatest.
+/// The used vertex that maximizes `measure`.
 template <typename Measure>
 Vec3 extremeVertex(const SurfaceMesh& surface, const std::vector<char>& used, Measure measure)
 {
@@ -76,7 +77,7 @@ Vec3 extremeVertex(const SurfaceMesh& surface, const std::vector<char>& used, Me
     return best;
 }
 
-/// Largest distance of a used vertex from the plane through three far apart ones [m].
+/// Maximum distance of a used vertex from the plane through three distant ones [m].
 double thickness(const SurfaceMesh& surface, const std::vector<char>& used, const Vec3& low)
 {
     const Vec3 a = extremeVertex(surface, used, [&](const Vec3& x) { return norm(x - low); });
@@ -88,7 +89,7 @@ double thickness(const SurfaceMesh& surface, const std::vector<char>& used, cons
     return distance(extremeVertex(surface, used, distance));
 }
 
-/// Edges that are not passed equally often both ways, and those of them that have more than one triangle.
+/// Counts edges that are not traversed equally often both ways, and those of them with more than one triangle.
 void countEdges(SurfaceInspection& result)
 {
     const std::vector<TriangleSide> sides =

@@ -8,7 +8,7 @@ namespace bullet_fem
 double signedVolume(const SurfaceMesh& surface)
 {
     if (surface.m_vertices.empty()) return 0;
-    Vec3 centroid;  // a near origin keeps the digits of a small body far away
+    Vec3 centroid;  // nearby origin, for the accuracy of a small body far away
     for (const Vec3& x : surface.m_vertices) centroid += x * (1.0 / static_cast<double>(surface.m_vertices.size()));
     double sum = 0;
     for (const Triangle& t : surface.m_triangles)

@@ -13,7 +13,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMostTurnedShare = 0.25;  // of a patch's triangles: the others are trusted to know outside
+// Maximum share of a patch's triangles to reverse; the others are trusted to face outward.
+constexpr double kMostTurnedShare = 0.25;
 
 bool hasArea(const SurfaceMesh& surface, const Triangle& t)
 {
@@ -21,7 +22,7 @@ bool hasArea(const SurfaceMesh& surface, const Triangle& t)
     return norm(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) > 0;
 }
 
-/// A triangle's welded vertices, the lowest first, in the same sense.
+/// A triangle's welded vertices, rotated so that the lowest is first.
 Triangle canonical(const Triangle& t, const std::vector<int>& welded)
 {
     Triangle w = {welded[t[0]], welded[t[1]], welded[t[2]]};
@@ -45,14 +46,14 @@ std::vector<Triangle> withoutDuplicates(const std::vector<Triangle>& triangles, 
     return result;
 }
 
-/// Two triangles at an edge that has no other.
+/// Two triangles at an edge without others.
 struct Neighbours
 {
     int m_triangle, m_other;
     bool m_agree;
 };
 
-/// Both ways round, by triangle.
+/// Each pair in both orders, sorted by triangle.
 std::vector<Neighbours> neighboursOf(const std::vector<TriangleSide>& sides)
 {
     std::vector<Neighbours> result;
@@ -78,7 +79,7 @@ public:
     {
     }
 
-    /// Per triangle: 1 if it is to be turned over.
+    /// Per triangle: 1 if it is to be reversed.
     const std::vector<char>& run()
     {
         const bool allAgree =
@@ -108,7 +109,7 @@ private:
         chooseSide(patch);
     }
 
-    /// Which of the two ways round is out?
+    /// Chooses the outward orientation of a patch.
     void chooseSide(const std::vector<int>& patch)
     {
         const auto turned = std::count_if(patch.begin(), patch.end(), [&](int t) { return m_turned[t]; });

@@ -9,14 +9,14 @@
 namespace bullet_fem
 {
 
-/// Half spaces and box of a tet: what is certainly outside of either does not meet it.
+/// Half spaces and bounding box of a tet, for a conservative intersection test.
 class TetRegion
 {
 public:
-    /// The tet of either orientation, grown by `slack` on every side.
+    /// Prepares a tet of either orientation, enlarged by `slack` on every side.
     explicit TetRegion(const std::array<Vec3, 4>& tet, double slack = 0);
 
-    /// False only for boxes that do not meet the tet.
+    /// Returns false only for boxes that do not intersect the tet.
     bool mayMeet(const Vec3& low, const Vec3& high) const;
 
 private:

@@ -14,11 +14,12 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kOwnPieceReach = 1e-6;  // of the reach: nearer hits are the piece itself
-constexpr double kProbeBeyond = 1e-3;    // of the width: how far behind a side is looked whether the solid ends
-constexpr double kOpposingCosine = 0.5;  // cosine between the normal of a piece and the line of the other side's
+constexpr double kOwnPieceReach = 1e-6;  // share of the reach: nearer hits are the fragment itself
+constexpr double kProbeBeyond = 1e-3;    // share of the width: distance of the probes behind the sides
+// Minimum cosine between the fragment's normal and the line of the opposite normal.
+constexpr double kOpposingCosine = 0.5;
 
-/// The ways across from a point, zero where nothing is near.
+/// The vectors across solid and gap from a point, zero where nothing is near.
 struct Widths
 {
     Vec3 m_solid, m_gap;
@@ -36,7 +37,7 @@ double longestEdge(const TriangleCorners& t)
     return std::max({norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])});
 }
 
-/// Both halves, the longest edge cut.
+/// Both halves, the longest edge bisected.
 std::array<TriangleCorners, 2> halves(TriangleCorners t)
 {
     while (norm(t[1] - t[0]) < longestEdge(t)) std::rotate(t.begin(), t.begin() + 1, t.end());
@@ -110,7 +111,7 @@ private:
 
     const ThinSearch& m_search;
     WindingNear m_winding;
-    Vec3 m_normal;  // of the triangle that is looked at
+    Vec3 m_normal;  // normal of the current triangle
     std::map<std::array<long long, 4>, Widths> m_blocks;
     std::vector<ThinPart> m_parts;
 };

@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A convex solid by its corners and the directions of its edges and face normals.
+/// A convex polyhedron: its corners, and the directions of its edges and face normals.
 template <int Corners, int Edges, int Normals>
 struct Solid
 {

@@ -11,8 +11,8 @@ namespace bullet_fem
 
 using TriangleCorners = std::array<Vec3, 3>;
 
-/// True if the triangle comes within `slack` of the solid; with a negative slack, if it enters it deeper than that.
-/// By separating axes, so exact but for rounding; degenerate triangles count as the segment or point they are.
+/// True if the triangle comes within `slack` of the solid; with a negative slack, if it enters it deeper than -slack.
+/// Separating axis test, exact to rounding; degenerate triangles count as segments or points.
 bool triangleMeetsBox(const TriangleCorners& triangle, const Vec3& low, const Vec3& high, double slack);
 bool triangleMeetsTet(const TriangleCorners& triangle, const std::array<Vec3, 4>& tet, double slack);
 

@@ -14,15 +14,15 @@ namespace
 {
 
 constexpr int kLeafSize = 4;
-constexpr double kRayRounding = 1e-9;  // of lengths along a ray: in and out of boxes without thickness
+constexpr double kRayRounding = 1e-9;  // relative, along a ray: for boxes without thickness
 
-/// a / b, 0 where b is: in triangles without area.
+/// a / b, or 0 if b is 0, in triangles without area.
 double ratio(double a, double b)
 {
     return b != 0 ? a / b : 0;
 }
 
-/// The nearest point of a triangle, by the regions of its corners, edges and face [Ericson 2005, 5.1.5].
+/// The nearest point of a triangle, by the Voronoi regions of its corners, edges and face [Ericson 2005, 5.1.5].
 Vec3 nearestOn(const TriangleCorners& t, const Vec3& p)
 {
     const Vec3 ab = t[1] - t[0], ac = t[2] - t[0];
@@ -52,8 +52,8 @@ double squaredDistance(const Vec3& low, const Vec3& high, const Vec3& p)
     return sum;
 }
 
-/// How far along the ray from `from` the triangle is met [in lengths of `way`], negative if it is not
-/// [Moeller & Trumbore 1997]; rays through an edge meet both of its triangles.
+/// Parameter s of the ray's intersection with the triangle, negative if there is none [Moeller & Trumbore 1997]; rays
+/// through an edge meet both of its triangles.
 double alongRay(const TriangleCorners& t, const Vec3& from, const Vec3& way)
 {
     constexpr double kOnEdgeWeight = -1e-9;
@@ -68,8 +68,8 @@ double alongRay(const TriangleCorners& t, const Vec3& from, const Vec3& way)
     return dot(ac, q) / determinant;
 }
 
-// What decides where rounding leaves 0: the line is moved by (d, d^2, d^3), d > 0 and as small as one likes, which
-// changes the number by the gradient times that [Edelsbrunner and Muecke 1990, simulation of simplicity].
+// Sign of a number, by symbolic perturbation if rounding gives 0: the line is moved by (d, d^2, d^3), d > 0 arbitrarily
+// small, which changes the number by its gradient times that [Edelsbrunner & Muecke 1990, simulation of simplicity].
 bool isPositive(double number, const Vec3& gradient)
 {
     for (const double n : {number, gradient.x, gradient.y, gradient.z})
@@ -77,8 +77,8 @@ bool isPositive(double number, const Vec3& gradient)
     return false;
 }
 
-/// Is the line on the left of the edge a b, seen along it? Edges that triangles share are looked at from the same end,
-/// so that both get the same answer, rounding or not.
+/// True if the line passes the edge a b on its left, seen along the line. Edges shared by triangles are evaluated in
+/// one direction, so that both triangles get equal answers despite rounding.
 bool isLeft(const Vec3& from, const Vec3& way, const Vec3& a, const Vec3& b)
 {
     const auto key = [](const Vec3& x) { return std::make_tuple(x.x, x.y, x.z); };
@@ -87,7 +87,7 @@ bool isLeft(const Vec3& from, const Vec3& way, const Vec3& a, const Vec3& b)
     return isPositive(dot(way, cross(first - from, second - from)), cross(way, second - first)) != swapped;
 }
 
-/// 1 if the line passes the triangle along its normal, -1 against it, 0 if it does not.
+/// 1 if the segment crosses the triangle along its normal, -1 against it, 0 if it does not.
 int crossing(const TriangleCorners& t, const Vec3& from, const Vec3& to)
 {
     const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
@@ -99,7 +99,7 @@ int crossing(const TriangleCorners& t, const Vec3& from, const Vec3& to)
     return ends ? 1 : -1;
 }
 
-/// The part of a ray that is in a box; empty if m_first is greater than m_last.
+/// True if part of a ray is in a box.
 bool rayMeetsBox(const Vec3& low, const Vec3& high, const Ray& ray)
 {
     double first = ray.m_first, last = ray.m_last;
@@ -143,8 +143,8 @@ void TriangleTree::build(int first, int last)
         m_nodes[self].m_skip = static_cast<int>(self) + 1;
         return;
     }
-    // Along the axis on which the triangles' middles are farthest apart: boxes of long ones side by side would all be
-    // as long.
+    // Splits along the axis of the largest extent of the triangles' centres: splitting by boxes would not separate long
+    // triangles side by side.
     const auto middleOf = [](const TriangleCorners& t) { return t[0] + t[1] + t[2]; };
     Vec3 least = middleOf(m_triangles[first]), most = least;
     for (int t = first; t < last; ++t)

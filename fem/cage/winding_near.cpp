@@ -15,7 +15,7 @@ SurfaceWinding::SurfaceWinding(const std::vector<Vec3>& vertices, const std::vec
 
 double WindingNear::at(const Vec3& p)
 {
-    constexpr double kSure = 0.25;  // how far a winding number may be from the whole one
+    constexpr double kSure = 0.25;  // maximum distance of a computed winding number from its integer
     if (m_knows && norm(p - m_point) <= m_reach) return m_atPoint - m_winding.m_closed->crossings(m_point, p);
     const double winding = m_winding.m_number.at(p);
     if (m_winding.m_closed && std::abs(winding - std::round(winding)) < kSure)

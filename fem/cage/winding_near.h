@@ -11,23 +11,22 @@
 namespace bullet_fem
 {
 
-/// What tells the winding numbers of a surface: always its moments, and the triangles of a closed one.
+/// Data for the winding numbers of a surface: its moments, and for a closed surface its triangles.
 struct SurfaceWinding
 {
     SurfaceWinding(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, bool closed);
 
     WindingNumber m_number;
-    std::optional<TriangleTree> m_closed;  ///< none of a surface with an open edge
+    std::optional<TriangleTree> m_closed;  ///< empty for a surface with an open edge
 };
 
-/// Winding numbers at many points that lie near each other. Of a closed surface they are whole numbers, which change
-/// where a line passes the surface: so one is found by WindingNumber, and others around it by counting what lies
-/// between, which costs as much as the triangles there, and not as all those that are long enough to be near. Of an
-/// open surface each is found by itself.
+/// Winding numbers at many points near each other. For a closed surface they are integers that change where a segment
+/// crosses the surface: one is computed by WindingNumber, and those nearby by counting crossings, at the cost of the
+/// local triangles only. For an open surface each is computed independently.
 class WindingNear
 {
 public:
-    /// Triangles are counted from a point to another one of at most `reach` [m] away.
+    /// Crossings are counted between points at most `reach` [m] apart.
     WindingNear(const SurfaceWinding& winding, double reach) : m_winding(winding), m_reach(reach) {}
 
     /// Winding number at p [-].
@@ -36,7 +35,7 @@ public:
 private:
     const SurfaceWinding& m_winding;
     double m_reach;
-    bool m_knows = false;  // of a point
+    bool m_knows = false;  // true if m_point is set
     Vec3 m_point;
     double m_atPoint = 0;
 };

@@ -10,18 +10,18 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFullAngle = 4 * 3.14159265358979323846;  // solid angle all around [sr]
+constexpr double kFullAngle = 4 * 3.14159265358979323846;  // full solid angle [sr]
 constexpr int kMostInLeaf = 8;
-constexpr double kFarRatio = 2;  // distance over radius from which on moments are used: beta of [Barill et al. 2018]
+constexpr double kFarRatio = 2;  // distance over radius beyond which moments are used: beta of [Barill et al. 2018]
 
 Vec3 vectorArea(const Vec3& a, const Vec3& b, const Vec3& c)
 {
     return 0.5 * cross(b - a, c - a);
 }
 
-/// A sum of solid angles of triangles seen from the origin. Half of one is the argument of a complex number [van
-/// Oosterom and Strackee 1983, eq. 8]; numbers in the right half plane are multiplied before an argument is taken,
-/// which costs more than all the rest.
+/// A sum of solid angles of triangles seen from the origin. Half of each is the argument of a complex number [van
+/// Oosterom & Strackee 1983, eq. 8]; numbers in the right half plane are multiplied before taking a single argument,
+/// because the argument costs more than all other operations.
 class SolidAngles
 {
 public:
@@ -31,7 +31,7 @@ public:
         const double la = norm(a), lb = norm(b), lc = norm(c), scale = 1 / (la * lb * lc);
         const double im = dot(a, cross(b, c)) * scale;
         const double re = 1 + (dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb) * scale;
-        if (im == 0 || !std::isfinite(scale)) return;  // in the plane, seen edge on, or a corner
+        if (im == 0 || !std::isfinite(scale)) return;  // coplanar with the origin, or a corner there
         if (!(re > 0))
         {
             m_sum += 2 * std::atan2(im, re);
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    // Products of numbers near 0, from thin triangles, would come to an end in it.
+    // Products of small numbers, from thin triangles, could underflow.
     static constexpr double kSmall = 1e-100;
 
     void flush()

@@ -22,7 +22,7 @@ struct AlignedDelete
 };
 #endif
 
-/// An array that starts at a multiple of 64 bytes, as the kernels load it.
+/// An array aligned to 64 bytes, as the kernels require.
 template <class Real>
 #ifdef BULLETFEM_WITHOUT_HIGHWAYS_LIBRARY
 using AlignedArray = std::unique_ptr<Real[], AlignedDelete>;
@@ -32,7 +32,7 @@ using AlignedArray = hwy::AlignedFreeUniquePtr<Real[]>;
 using AlignedFloats = AlignedArray<float>;
 using AlignedDoubles = AlignedArray<double>;
 
-/// `count` numbers, not initialised; at least one, so that the array is never null. Throws std::bad_alloc.
+/// Allocates `count` numbers, not initialised; at least one, so that the array is never null. Throws std::bad_alloc.
 template <class Real>
 AlignedArray<Real> allocateAligned(std::size_t count)
 {

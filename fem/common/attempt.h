@@ -10,8 +10,8 @@
 namespace bullet_fem
 {
 
-/// Calls what may throw, for functions whose last argument is `why`. Null: what is thrown goes on. Else false is
-/// returned, and the reason written to it, where something was thrown.
+/// Calls a function that may throw, for functions whose last argument is `why`. If `why` is null, exceptions propagate.
+/// Otherwise an exception is caught, its reason is written to `why`, and false is returned.
 template <class Call>
 bool attempt(std::string* why, const Call& call)
 {
@@ -32,7 +32,7 @@ bool attempt(std::string* why, const Call& call)
     }
 }
 
-/// The same for what returns a value: one made by its default constructor where something was thrown.
+/// Like attempt(), for a call that returns a value: returns a default-constructed value after an exception.
 template <class Call>
 auto attemptValue(std::string* why, const Call& call)
 {

@@ -18,13 +18,13 @@
 namespace bullet_fem
 {
 
-// State to bytes and back, in the machine's own byte order, without padding: the same values give the same bytes. One
-// list of members serves both ways: for a type T of one's own write
+// Serialization to bytes and back, in the machine's own byte order, without padding: equal values give equal bytes. One
+// list of members serves both directions: for a type T define
 //     template <class Bytes> void transfer(Bytes& bytes, T& value) { bytes(value.m_a, value.m_b); }
-// in T's namespace. Numbers, enums, bools, Vec3, Mat3, quaternions, strings, and arrays and vectors of anything known
-// are known.
+// in T's namespace. Numbers, enums, bools, Vec3, Mat3, quaternions, strings, and arrays and vectors of serializable
+// types are supported.
 
-/// Values that are copied byte by byte: they have no padding, and any bytes are a value.
+/// True for types that are copied byte by byte: they have no padding, and every bit pattern is a value.
 template <class T>
 inline constexpr bool isCopiedAsBytes =
     (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T> || std::is_same_v<T, Vec3> ||
@@ -59,8 +59,8 @@ private:
     std::vector<unsigned char>& m_bytes;
 };
 
-/// Reads values from bytes that may be anything. Throws std::invalid_argument where they end too early, before it
-/// allocates for what is not there.
+/// Deserializes values from arbitrary bytes. Throws std::invalid_argument if the bytes end too early, before allocating
+/// memory for missing elements.
 class ByteReader
 {
 public:
@@ -80,7 +80,7 @@ public:
         m_left -= size;
     }
 
-    /// The number of elements that follow, each of so many bytes at least.
+    /// Reads the number of elements that follow, each of at least `bytesEach` bytes.
     std::size_t count(std::size_t bytesEach)
     {
         std::uint64_t count = 0;
@@ -149,7 +149,7 @@ void transfer(ByteReader& bytes, std::vector<T>& values)
     }
     else
     {
-        // One at a time: an element may be larger here than there.
+        // One at a time: an element may be larger in memory than in the bytes.
         for (std::size_t left = bytes.count(1); left > 0; --left)
         {
             values.emplace_back();
@@ -171,7 +171,7 @@ inline void transfer(ByteReader& bytes, std::string& text)
     bytes.raw(&text[0], text.size());
 }
 
-/// FNV-1a, but a number at a time: any one number that differs makes the mark differ.
+/// FNV-1a hash over numbers instead of bytes: a change of any single number changes the hash.
 constexpr std::uint64_t kEmptyMark = 14695981039346656037u;
 
 template <class Number>
@@ -183,7 +183,7 @@ void addToMark(std::uint64_t& mark, Number value)
     mark = (mark ^ bits) * 1099511628211u;
 }
 
-/// The mark of a run of bytes, eight at a time.
+/// Hash of a byte array, eight bytes at a time.
 inline std::uint64_t markOfBytes(const unsigned char* data, std::size_t size)
 {
     std::uint64_t mark = kEmptyMark;

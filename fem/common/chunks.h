@@ -10,14 +10,14 @@
 namespace bullet_fem
 {
 
-// Shorter pieces would cost more to hand out than they take: some 10 us each.
+// Minimum chunk sizes: handing out a chunk costs about as much as 10 us of work.
 constexpr int kBlocksPerChunk = 64;     ///< element blocks, 1,024 elements
 constexpr int kDomainsPerChunk = 1024;  ///< edge domains of strains
-constexpr int kNodesPerChunk = 512;     ///< nodes of which something is computed
-constexpr int kEntriesPerChunk = 2048;  ///< nodes of vectors that are added or multiplied
+constexpr int kNodesPerChunk = 512;     ///< nodes in per-node computations
+constexpr int kEntriesPerChunk = 2048;  ///< entries of vectors that are added or multiplied
 
-/// [0, size) in pieces of nearly equal length, not much shorter than asked for. They depend on the size alone, never on
-/// the number of threads, so that sums over pieces have the same bits for all of them.
+/// Divides [0, size) into chunks of nearly equal length, at least about the minimum. The division depends on the size
+/// alone, never on the number of threads, so that sums over chunks are bitwise reproducible.
 class Chunks
 {
 public:
@@ -34,7 +34,7 @@ private:
     int m_size, m_count;
 };
 
-/// Calls task(k) for every k in [0, tasks), on the caller's thread where there are no others (null).
+/// Calls task(k) for every k in [0, tasks), on the calling thread if `threads` is null.
 template <class Task>
 void runTasks(const Threads* threads, int tasks, const Task& task)
 {
@@ -44,8 +44,8 @@ void runTasks(const Threads* threads, int tasks, const Task& task)
         for (int k = 0; k < tasks; ++k) task(k);
 }
 
-/// Calls run(range) for ranges that make up [0, size): the whole at once on one thread, else pieces. Only for what has
-/// the same bits however it is divided.
+/// Calls run(range) for ranges that cover [0, size): one range on a single thread, else the chunks. For work whose
+/// result is bitwise independent of the division.
 template <class Run>
 void runRanges(const Threads* threads, const Chunks& pieces, const Run& run)
 {

@@ -9,7 +9,7 @@
 namespace bullet_fem
 {
 
-/// Things [0, n) that are joined pairwise to pieces; the lowest of a piece stands for it.
+/// Union-find over [0, n); the lowest member represents each set.
 class DisjointSets
 {
 public:

@@ -9,7 +9,7 @@
 namespace bullet_fem
 {
 
-/// The parts written one after the other, numbers with up to ten digits.
+/// Concatenates the parts; numbers have up to ten digits.
 template <typename... Parts>
 std::string message(const Parts&... parts)
 {

@@ -25,7 +25,7 @@ namespace bullet_fem
 namespace
 {
 
-// Of what a link points to.
+// True if the path, with links resolved, is a device or pipe.
 bool isDevice(const std::string& path)
 {
     std::error_code ignored;
@@ -33,10 +33,10 @@ bool isDevice(const std::string& path)
     return exists(status) && !is_regular_file(status) && !is_directory(status);
 }
 
-// A file that was not there before, to be written; null with errno otherwise.
+// Creates a new file for writing; returns null with errno if it exists or on error.
 std::FILE* makeFile(const std::string& path)
 {
-#ifdef _WIN32  // whose older C library does not know "x"
+#ifdef _WIN32  // its older C library does not support "x"
     const int file = _open(path.c_str(), _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY, _S_IREAD | _S_IWRITE);
     return file < 0 ? nullptr : _fdopen(file, "wb");
 #else

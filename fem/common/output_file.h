@@ -12,32 +12,34 @@
 namespace bullet_fem
 {
 
-/// A file that gets its name only when it is whole, so that a reader, a crash or a full disk never leaves half a file
-/// under it. Until then it is a `.part` of its own beside its place, and is removed with this object, or by
-/// removeUnfinishedFiles. Devices and pipes are written to as they are.
+/// Atomic file output: the file gets its name only when complete, so that a reader, a crash or a full disk never leaves
+/// an incomplete file under it. Until then the bytes are in a unique `.part` file in the target's directory, removed by
+/// the destructor or by removeUnfinishedFiles. Devices and pipes are written to directly.
 ///
-/// What fails throws std::runtime_error with the path, the system's reason and what to do; an older file of the name is
-/// then as it was.
+/// Errors throw std::runtime_error with the path, the system's reason and the remedy; an existing file of the name is
+/// then unchanged.
 class BULLETFEM_API OutputFile
 {
 public:
-    /// Makes the `.part`.
+    /// Creates the `.part` file. Throws std::runtime_error.
     explicit OutputFile(std::string path);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// Appends bytes.
+    /// Appends bytes. Throws std::runtime_error.
     void write(const void* bytes, std::size_t size);
-    /// Waits until all bytes are on the disk, or a power failure could leave the name without them.
+    /// Waits until all bytes are on the disk; without it a power failure could leave the name without them. Throws
+    /// std::runtime_error.
     void sync();
-    /// Gives the file its name, in place of what had it. Nothing can be written then.
+    /// Renames the file to its final name, replacing an existing one. No writing is possible afterwards. Throws
+    /// std::runtime_error.
     void commit();
 
     const std::string& path() const { return m_path; }
-    /// Where the bytes are until `commit`, for another program that writes them instead.
+    /// The path that holds the bytes until `commit`, for another program that writes them.
     const std::string& temporaryPath() const { return m_temporary; }
-    /// Throws: "cannot write '<path>': <why>".
+    /// Throws std::runtime_error: "cannot write '<path>': <why>".
     [[noreturn]] void fail(const std::string& why) const;
 
 private:
@@ -45,14 +47,14 @@ private:
 
     std::string m_path, m_temporary;
     std::FILE* m_file = nullptr;
-    bool m_pending = false;  // whether there is a .part
-    int m_unfinished = -1;   // its place among unfinished files
+    bool m_pending = false;  // true while there is a .part file
+    int m_unfinished = -1;   // index in the list of unfinished files
 };
 
-/// Writes an OutputFile of these bytes.
+/// Writes bytes to a file through OutputFile. Throws std::runtime_error.
 BULLETFEM_API void writeOutputFile(const std::string& path, std::string_view bytes);
 
-/// Throws as OutputFile does if no file can be made there: before work whose result goes there. Nothing is left.
+/// Throws as OutputFile does if the path is not writable, for a check before long computations. Leaves no file behind.
 BULLETFEM_API void checkWritable(const std::string& path);
 
 }  // namespace bullet_fem

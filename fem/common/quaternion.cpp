@@ -20,7 +20,7 @@ Mat3 toMatrix(const BasicQuaternion<Real>& q)
 template Mat3 toMatrix(const BasicQuaternion<float>&);
 template Mat3 toMatrix(const BasicQuaternion<double>&);
 
-// Four times the outer product of q with itself has these columns; the one of the largest component is the most exact.
+// The columns are those of 4 q q^T; the one of the largest component is the most accurate.
 BasicQuaternion<double> toQuaternion(const Mat3& R)
 {
     const double xy = R(0, 1) + R(1, 0), xz = R(0, 2) + R(2, 0), yz = R(1, 2) + R(2, 1);

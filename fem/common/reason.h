@@ -10,8 +10,8 @@
 namespace bullet_fem
 {
 
-/// What an exception says, for people: of a long text, as libraries make that echo a file, the first 600 characters;
-/// of std::bad_alloc, that memory ran out and what to do.
+/// Readable text of an exception: the first 600 characters of what(), because library messages may echo a file; for
+/// std::bad_alloc, that memory ran out, and the remedy.
 BULLETFEM_API std::string reasonOf(const std::exception& error);
 
 }  // namespace bullet_fem

@@ -29,7 +29,7 @@ Mat3 rotatedBy(const Vec3& w, const Mat3& R)
     return result;
 }
 
-// Gram-Schmidt: removes the drift that increments leave in R^T R.
+// Gram-Schmidt: removes the drift of R^T R from accumulated increments.
 Mat3 orthonormalised(const Mat3& R)
 {
     Vec3 a = R.column(0);
@@ -85,8 +85,9 @@ bool warmPolarRotation(const Mat3& F, Mat3& R)
     return false;
 }
 
-// By singular values; the sign of the smallest makes det = +1. A trace of the guess decides what F leaves open. The
-// guess where that overflows: Eigen leaves the vectors of such matrices unwritten.
+// Singular value decomposition; the sign of the smallest singular value makes det = +1. A small multiple of the guess
+// resolves rotations that F leaves undetermined. Returns the guess on overflow, where Eigen leaves the vectors
+// unwritten.
 Mat3 coldPolarRotation(const Mat3& F, const Mat3& guess)
 {
     Eigen::Matrix3d A;

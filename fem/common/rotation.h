@@ -8,10 +8,10 @@
 namespace bullet_fem
 {
 
-/// The rotation R of the polar decomposition F = R S that is nearest to F: R^T R = I, det R = +1, also where F is flat,
-/// inverted or zero. R maximises tr(R^T F). `guess` must be a rotation; near the answer it saves most of the work, and
-/// where F leaves R undetermined (F of rank one or zero) the answer stays as near to it as rounding allows. Where
-/// the square of F is not finite, it is the guess.
+/// The rotation R of the polar decomposition F = R S: R^T R = I, det R = +1, also if F is flat, inverted or zero. R
+/// maximises tr(R^T F). `guess` is the warm start and must be a rotation; near the solution it saves most of the work.
+/// If F does not determine R (rank one or zero), R stays as close to the guess as rounding allows. Returns the guess if
+/// the square of F is not finite.
 BULLETFEM_API Mat3 polarRotation(const Mat3& F, const Mat3& guess);
 
 }  // namespace bullet_fem

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The one file that knows oneTBB. Without BULLETFEM_WITH_TBB the caller's thread does all work, whatever the count.
-// Under ThreadSanitizer, which cannot follow oneTBB's own hand-overs, threads are made and joined for every run.
+// The only file that uses oneTBB. Without BULLETFEM_WITH_TBB the calling thread does all work, whatever the count.
+// ThreadSanitizer cannot follow oneTBB's internal synchronization: under it threads are created and joined for every
+// run.
 #include "bullet_fem/fem/common/threads.h"
 
 #if defined(__SANITIZE_THREAD__)
@@ -49,7 +50,7 @@ int validCount(int count)
 #endif
 }
 
-/// What the first task, by its number, threw.
+/// The exception of the lowest-numbered task that threw.
 class FirstFailure
 {
 public:
@@ -101,13 +102,14 @@ private:
     int m_count;
 };
 #elif defined(BULLETFEM_WITH_TBB)
-/// The library's threads that work for us.
+/// A share of oneTBB's worker threads.
 class Threads::Team
 {
     static constexpr auto kParallelism = tbb::global_control::max_allowed_parallelism;
 
 public:
-    // The library makes no more threads than the machine has unless it is told to; it never gets less than others need.
+    // oneTBB creates no more threads than the machine has unless the limit is raised; it never falls below that of
+    // others.
     explicit Team(int count)
         : m_limit(kParallelism, std::max<std::size_t>(count, tbb::global_control::active_value(kParallelism))),
           m_arena(count)
@@ -123,7 +125,7 @@ public:
     template <class Task>
     void run(int tasks, const Task& task)
     {
-        // Has the caller's floating-point settings, which are made here: another thread may enter the team for it.
+        // Captures the caller's floating-point settings, because another thread may run the tasks.
         tbb::task_group_context asCaller(tbb::task_group_context::isolated, tbb::task_group_context::fp_settings);
         execute([&] { tbb::parallel_for(0, tasks, task, tbb::auto_partitioner(), asCaller); });
     }
@@ -133,7 +135,7 @@ private:
     tbb::task_arena m_arena;
 };
 #else
-/// Nobody besides the caller: no one is ever made.
+/// A team without worker threads.
 class Threads::Team
 {
 public:

@@ -24,7 +24,7 @@ enum PlaceState
     isUnfinished
 };
 
-// A handler must not ask for memory, nor wait for a lock that the interrupted thread may hold.
+// A signal handler must not allocate memory, nor wait for a lock that the interrupted thread may hold.
 struct Place
 {
     std::atomic<int> m_state{isFree};

@@ -9,14 +9,14 @@
 namespace bullet_fem
 {
 
-/// Notes a file that must not outlive the process unless it is finished. Returns its place in the list; -1 where the
-/// list is full (64 files) or the path longer than 1,000 bytes, and then it is not noted.
+/// Registers a file to be deleted unless it is finished. Returns its index in the list, or -1 without registering if
+/// the list is full (64 files) or the path is longer than 1,000 bytes.
 int noteUnfinishedFile(const std::string& path);
 
-/// Takes a file off the list; -1 is allowed.
+/// Removes a file from the list; -1 is allowed.
 void forgetUnfinishedFile(int place);
 
-/// Deletes all files of the list. A signal handler may call it.
+/// Deletes all files of the list. Safe in a signal handler.
 BULLETFEM_API void removeUnfinishedFiles();
 
 }  // namespace bullet_fem

@@ -7,7 +7,7 @@
 namespace bullet_fem
 {
 
-/// Squared length of the plain sum of V_e q_e around a node below which carefulAverage() is to look at it [m6].
+/// Squared length of the plain sum of V_e q_e around a node below which carefulAverage() is needed [m6].
 inline float leastSquaredLength(const NodeCorners& nodes, int node)
 {
     constexpr float kAlignedShare = 0.98f;
@@ -15,8 +15,9 @@ inline float leastSquaredLength(const NodeCorners& nodes, int node)
     return least * least;
 }
 
-/// R_i of one node, in plain double precision and with all cares: signs turned to the first element's; polar(sum V_e
-/// R_e), as near to the first one's rotation as the sum leaves open, where the rotations are far apart.
+/// R_i of one node in plain double precision, with all safeguards: signs aligned with the first element's quaternion;
+/// if the rotations are far apart, polar(sum V_e R_e), and where the sum leaves it undetermined, the solution nearest
+/// to the first element's rotation.
 NodeRotation carefulAverage(const NodeRotations& rotations, int node);
 
 }  // namespace bullet_fem

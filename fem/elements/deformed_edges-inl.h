@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Rotations of several elements, and what their edges are beside rotated ones. Included once for every instruction set.
+// Rotations of several elements, and their deformed edges minus rotated rest edges. Included once for every instruction
+// set.
 #if defined(BULLETFEM_DEFORMED_EDGES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_DEFORMED_EDGES_INL_H
 #undef BULLETFEM_DEFORMED_EDGES_INL_H
@@ -18,7 +19,7 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-/// Vectors of double that make one of Real.
+/// Number of double vectors per Real vector.
 template <class Real>
 constexpr int parts()
 {
@@ -62,7 +63,7 @@ HWY_INLINE Matrix<Real> roundedMatrix(const Matrix<double> (&D)[parts<Real>()])
     return A;
 }
 
-/// R of quaternions of length 1 but for the rounding of Real: 2 / |q|^2 = 4 - 2 |q|^2 then.
+/// Rotation matrices of quaternions of unit length to rounding of Real: then 2 / |q|^2 = 4 - 2 |q|^2.
 HWY_INLINE Matrix<double> unitMatrix(const Quaternions<double>& q)
 {
     const Vector<double> squares = hn::MulAdd(q.w, q.w, dot3(q.x, q.x, q.y, q.y, q.z, q.z));
@@ -84,8 +85,7 @@ HWY_INLINE Matrix<double> minusProduct(Matrix<double> C, const Matrix<double>& A
     return C;
 }
 
-/// D_s of as many elements as a vector of Real has lanes. Elements have edges(part), those of as many as one of double
-/// has.
+/// D_s of as many elements as a Real vector has lanes. Elements::edges(part) returns those of a double vector.
 template <class Real, class Elements>
 HWY_INLINE Matrix<Real> roundedEdges(const Elements& elements)
 {
@@ -95,8 +95,8 @@ HWY_INLINE Matrix<Real> roundedEdges(const Elements& elements)
     return roundedMatrix<Real>(D);
 }
 
-/// D_s - R D_m, where elements have restEdges(part), too: computed in double, where the difference has no error that a
-/// strain of 1e-7 would notice, and then rounded.
+/// D_s - R D_m, for elements with restEdges(part): computed in double, where the difference is accurate enough for
+/// strains of 1e-7, then rounded.
 template <class Real, class Elements>
 HWY_INLINE Matrix<Real> edgesMinusRotated(const Elements& elements, const Quaternions<Real>& q)
 {

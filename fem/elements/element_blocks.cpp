@@ -10,7 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-// V C less V times that of lambda and mu.
+// Stores V C minus V times its part of lambda and mu.
 template <class Real>
 void storeStiffness(const ElasticMatrix& C, const RestElement& element, int lane, StiffnessBlock<Real>& block)
 {

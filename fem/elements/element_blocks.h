@@ -14,13 +14,13 @@
 namespace bullet_fem
 {
 
-/// A node's position or velocity as the element kernels load it, in one piece.
+/// A node's position or velocity, padded so that element kernels load it as one vector.
 struct alignas(32) PaddedVec3
 {
     double x = 0, y = 0, z = 0, zero = 0;
 };
 
-/// kLanes elements side by side, what a RestElement knows of each.
+/// The rest data of kLanes elements side by side, as in RestElement.
 template <class Real>
 struct alignas(64) ElementBlock
 {
@@ -28,40 +28,40 @@ struct alignas(64) ElementBlock
     Real m_DmInverse[9][kLanes];     ///< row-major: g_1, g_2, g_3 [1/m]
     Real m_lambdaVolume[kLanes];     ///< [J]
     Real m_muVolume[kLanes];         ///< [J]
-    std::int32_t m_node[kLanes][4];  ///< of every element
+    std::int32_t m_node[kLanes][4];  ///< node indices of every element
 };
 
-/// A vector for each of the corners of a block's elements: what they hand to the nodes.
+/// A vector for each corner of a block's elements: the contributions to the nodes.
 template <class Real>
 struct alignas(64) CornerBlock
 {
     Real m_vector[4][kLanes][4];  ///< corner, element, (x, y, z, 0)
 };
 
-/// Of a block's elements in the volumes of their patches [-].
+/// Volumes of a block's elements over those of their patches [-].
 template <class Real>
 struct alignas(64) PatchShares
 {
     Real m_lane[kLanes];
 };
 
-/// Of a block's elements: 1 where the law is Neo-Hookean, 0 where it is Hooke's.
+/// Laws of a block's elements: 1 Neo-Hookean, 0 Hooke.
 template <class Real>
 struct alignas(64) LawLanes
 {
     Real m_lane[kLanes];
 };
 
-constexpr int kStiffnessEntries = 21;  ///< of a symmetric C
+constexpr int kStiffnessEntries = 21;  ///< number of independent entries of a symmetric C
 
-/// Of a block's elements V times what C has besides lambda and mu, the upper triangle row by row [J].
+/// V times C minus its part of lambda and mu, for a block's elements, the upper triangle row by row [J].
 template <class Real>
 struct alignas(64) StiffnessBlock
 {
     Real m_entry[kStiffnessEntries][kLanes];
 };
 
-/// The elements of a RestShape in blocks, as ElementLanes puts them. Real: float or double. Const after construction.
+/// The elements of a RestShape in blocks, ordered by ElementLanes. Real: float or double. Constant after construction.
 template <class Real>
 struct ElementBlocks
 {
@@ -70,33 +70,36 @@ struct ElementBlocks
 
     int blockCount() const { return static_cast<int>(m_blocks.size()); }
     bool hasPatches() const { return !m_groups.empty(); }
-    /// Of what kernels divide into ranges: blocks, or groups of blocks where there are patches.
+    /// Number of pieces that kernels divide into ranges: blocks, or groups of blocks with patches.
     int pieceCount() const { return hasPatches() ? static_cast<int>(m_groups.size()) : blockCount(); }
-    /// Pieces that have as many blocks as kBlocksPerChunk, or more.
+    /// Number of pieces that hold about kBlocksPerChunk blocks, >= 1.
     int piecesPerChunk() const;
 
     std::vector<ElementBlock<Real>> m_blocks;
-    std::vector<PatchGroup> m_groups;               ///< none without patches
-    std::vector<LawLanes<Real>> m_law;              ///< one a block; none where all elements have Hooke's law
-    std::vector<PatchShares<Real>> m_share;         ///< likewise; a block: of every element in its patch's volume [-]
-    std::vector<StiffnessBlock<Real>> m_stiffness;  ///< likewise where an element is orthotropic; of all elements
+    std::vector<PatchGroup> m_groups;   ///< empty without patches
+    std::vector<LawLanes<Real>> m_law;  ///< one a block; empty if all elements have Hooke's law
+    /// One a block: share of each element in its patch's volume [-]; empty without patches.
+    std::vector<PatchShares<Real>> m_share;
+    /// One a block; empty if no element is orthotropic, else of all elements.
+    std::vector<StiffnessBlock<Real>> m_stiffness;
 };
 
-/// Which corners a node gathers from. Const after construction.
+/// The corners that each node gathers from. Constant after construction.
 struct NodeCorners
 {
     explicit NodeCorners(const RestShape& shape) : NodeCorners(shape, ElementLanes(shape)) {}
     NodeCorners(const RestShape& shape, const ElementLanes& lanes);
     int nodeCount() const { return static_cast<int>(m_start.size()) - 1; }
 
-    std::vector<int> m_start;     ///< of every node and of the end, into m_corner
-    std::vector<int> m_corner;    ///< places in an array of CornerBlock taken as vectors; in ElementLanes::m_order
-    std::vector<float> m_volume;  ///< V_e of every lane's element, 0 of copies [m3]
-    std::vector<float> m_volumeAround;         ///< of every node's elements together [m3]
-    std::vector<std::array<int, 4>> m_parity;  ///< of every lane's corners: 1 where it is the second, fourth ... of
-                                               ///< its node, 0 else
+    std::vector<int> m_start;  ///< start of each node in m_corner, then the end
+    /// Indices into an array of CornerBlock taken as vectors; ordered by ElementLanes::m_order.
+    std::vector<int> m_corner;
+    std::vector<float> m_volume;        ///< V_e of every lane's element; 0 for copies [m3]
+    std::vector<float> m_volumeAround;  ///< sum of V_e around every node [m3]
+    /// Per lane and corner: 1 if it is the second, fourth ... of its node, else 0.
+    std::vector<std::array<int, 4>> m_parity;
 
-    /// The lane of a corner, and the place of one (of the element in lane e, its local node a).
+    /// The lane of a corner; the corner of local node a of the element in lane e.
     static int element(int corner)
     {
         const unsigned c = static_cast<unsigned>(corner);
@@ -105,7 +108,7 @@ struct NodeCorners
     static int corner(int e, int a) { return (e / kLanes * 4 + a) * kLanes + e % kLanes; }
 };
 
-/// Blocks that hold this many elements; arrays of Quaternion have kLanes entries for each.
+/// Number of blocks for this many elements; arrays of Quaternion have kLanes entries a block.
 constexpr int blockCount(int elements)
 {
     return (elements + kLanes - 1) / kLanes;

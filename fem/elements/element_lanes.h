@@ -9,18 +9,18 @@
 namespace bullet_fem
 {
 
-constexpr int kLanes = 16;  ///< elements of a block: one AVX-512 vector of floats, two of AVX2, four of SSE or NEON
+constexpr int kLanes = 16;  ///< elements in a block: one AVX-512 vector of floats, two of AVX2, four of SSE or NEON
 
-/// Up to kLanes patches side by side: lane k of each of the blocks holds elements of patch k alone, so that sums over
-/// patches are sums of vectors.
+/// Up to kLanes patches side by side: lane k of each block holds elements of patch k only, so that sums over patches
+/// are sums of vectors.
 struct PatchGroup
 {
     int m_firstBlock, m_blocks;  ///< at most ElementPatches::kMost blocks
 };
 
-/// Where the elements of a shape stand in blocks of kLanes. Without patches in the mesh's order, and what fills the
-/// last block are copies of the last element. With patches, the largest come first, and what their columns lack are
-/// copies of elements. Copies have no stiffness, and no node knows them. Const after construction.
+/// The order of a shape's elements in blocks of kLanes. Without patches it is the mesh's order, and copies of the last
+/// element pad the last block. With patches the largest come first, and copies of elements pad shorter columns. Copies
+/// have no stiffness, and no node refers to them. Constant after construction.
 struct ElementLanes
 {
     explicit ElementLanes(const RestShape& shape);
@@ -28,10 +28,10 @@ struct ElementLanes
     int blockCount() const { return static_cast<int>(m_element.size()) / kLanes; }
     bool isCopy(int lane) const { return m_lane[m_element[lane]] != lane; }
 
-    std::vector<int> m_lane;           ///< of every element
-    std::vector<int> m_element;        ///< of every lane: its own, or the one that it has a copy of
-    std::vector<int> m_order;          ///< elements in the order in which nodes sum what they get from them
-    std::vector<PatchGroup> m_groups;  ///< none without patches
+    std::vector<int> m_lane;           ///< lane of every element
+    std::vector<int> m_element;        ///< element of every lane; for padding the one it copies
+    std::vector<int> m_order;          ///< elements in the order in which nodes sum their contributions
+    std::vector<PatchGroup> m_groups;  ///< empty without patches
 };
 
 }  // namespace bullet_fem

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What follows from the edges and the rotations of elements, several at a time, wherever they lie: side by side in a
-// body's blocks, or one element of several bodies. Included once for every instruction set.
+// Element forces and stresses from edges and rotations, several elements at a time: side by side in a body's blocks, or
+// one element of several bodies. Included once for every instruction set.
 #if defined(BULLETFEM_ELEMENT_MATH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_ELEMENT_MATH_INL_H
 #undef BULLETFEM_ELEMENT_MATH_INL_H
@@ -20,7 +20,7 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-/// The strain sym(A B^T), shears doubled.
+/// The strain sym(A B^T) with doubled shears.
 template <class Real>
 HWY_INLINE Symmetric<Real> strainOf(const Matrix<Real>& A, const Matrix<Real>& B)
 {
@@ -34,7 +34,7 @@ HWY_INLINE Symmetric<Real> strainOf(const Matrix<Real>& A, const Matrix<Real>& B
             entry(0, 1) + entry(1, 0)};
 }
 
-/// sym(R^T A), shears doubled.
+/// sym(R^T A) with doubled shears.
 template <class Real>
 HWY_INLINE Symmetric<Real> strainInFrameOf(const Matrix<Real>& R, const Matrix<Real>& A)
 {
@@ -48,7 +48,7 @@ HWY_INLINE Symmetric<Real> strainInFrameOf(const Matrix<Real>& R, const Matrix<R
             entry(0, 1) + entry(1, 0)};
 }
 
-/// 2 mu E + pressure I of a strain with doubled shears; mu times the volume.
+/// Stress 2 mu E + pressure I of a strain with doubled shears; mu includes the volume.
 template <class Real>
 HWY_INLINE Symmetric<Real> hookeUnder(Vector<Real> pressure, Vector<Real> mu, const Symmetric<Real>& E)
 {
@@ -61,18 +61,18 @@ HWY_INLINE Symmetric<Real> hookeUnder(Vector<Real> pressure, Vector<Real> mu, co
             mu * E.xy};
 }
 
-/// 2 mu E + lambda tr(E) I of a strain with doubled shears; the Lame constants times the volume.
+/// Stress 2 mu E + lambda tr(E) I of a strain with doubled shears; the Lame constants include the volume.
 template <class Real>
 HWY_INLINE Symmetric<Real> hooke(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& E)
 {
     return hookeUnder<Real>(lambda * trace(E), mu, E);
 }
 
-/// What an ElementPass makes of elements once they are rotated, but for their tension, which is the positive part of
-/// the stress that is returned. Strains and stresses are those of the world's frame, R E R^T = sym(F R^T) - I: with F
-/// R^T = D_s g'^T, g' = R D_m^-T, forces and tension need R by g' alone. Elements have edges(part), restEdges(part),
-/// velocityEdges(), DmInverse(), lambda(), mu() and damping(), and take forces, the columns f_1, f_2, f_3, and
-/// gradients, the columns g'_1, g'_2, g'_3. Between the parts of the work, other(part) is called for part in [0, 3].
+/// ElementPass for rotated elements, without the tension, which is the positive part of the returned stress. Strains
+/// and stresses are in the world frame, R E R^T = sym(F R^T) - I: with F R^T = D_s g'^T, g' = R D_m^-T, forces and
+/// tension need R through g' only. Elements provides edges(part), restEdges(part), velocityEdges(), DmInverse(),
+/// lambda(), mu() and damping(), and receives forces (columns f_1, f_2, f_3) and gradients (columns g'_1, g'_2, g'_3).
+/// Calls other(part), part in [0, 3], between the stages of the work.
 template <class Real, class Elements, class Other>
 HWY_INLINE Symmetric<Real> passElements(const Elements& elements, const Quaternions<Real>& q, const Other& other)
 {
@@ -80,7 +80,7 @@ HWY_INLINE Symmetric<Real> passElements(const Elements& elements, const Quaterni
     other(0);
     const Matrix<Real> R = toMatrix(q, number<Real>(2));
     const Matrix<Real> g = timesTranspose(R, elements.DmInverse());  // R D_m^-T
-    // D_s - R D_m instead of D_s: sym(F R^T) - I would lose strains to rounding.
+    // D_s - R D_m instead of D_s, because sym(F R^T) - I would lose small strains to rounding.
     const Matrix<Real> stretch = edgesMinusRotated(elements, q);
     const Symmetric<Real> strain = strainOf(stretch, g);
     other(1);
@@ -94,23 +94,23 @@ HWY_INLINE Symmetric<Real> passElements(const Elements& elements, const Quaterni
     return hooke<Real>(lambda, mu, strain);
 }
 
-/// lambda D + 2/3 mu (D - own): the pressure of an element whose volume change is `own`, where D is its patch's. With
-/// it, 2 mu E + pressure I is the deviator of E times 2 mu, and D times the bulk modulus.
+/// Pressure lambda D + 2/3 mu (D - own) of an element of volume change `own` in a patch of volume change D. With it, 2
+/// mu E + pressure I is 2 mu dev(E) plus the bulk modulus times D.
 template <class Real>
 HWY_INLINE Vector<Real> pressureInPatch(Vector<Real> lambda, Vector<Real> mu, Vector<Real> own, Vector<Real> D)
 {
     return hn::MulAdd(lambda, D, number<Real>(2.0 / 3) * mu * (D - own));
 }
 
-/// The elements of a patch, or as many patches as a vector has lanes, between two looks at them: first each one's
-/// strains, then, when the mean volume change is known, forces and stress. Elements are those of passElements; they
-/// have share(), of their patch's volume, and loadGradients(), with g'_1, g'_2, g'_3 in the rows.
+/// The elements of a patch, or of as many patches as a vector has lanes, in two passes: first each element's strains,
+/// then, with the mean volume change, forces and stress. Elements are those of passElements(), with share(), of their
+/// patch's volume, and loadGradients(), with rows g'_1, g'_2, g'_3.
 template <class Real>
 struct PatchStrains
 {
-    HWY_INLINE PatchStrains() = default;  // the compiler's own would not be made for the instruction set
+    HWY_INLINE PatchStrains() = default;  // an implicit one would not be compiled for the instruction set
 
-    /// Element k of the patch. Stores its gradients.
+    /// Adds element k of the patch. Stores its gradients.
     template <class Elements>
     HWY_INLINE void add(int k, const Elements& elements, const Quaternions<Real>& q)
     {
@@ -142,7 +142,7 @@ struct PatchStrains
     Vector<Real> m_dilatation, m_dampedDilatation;
 };
 
-/// The tension that an ElementPass makes of a stress.
+/// The tension of an ElementPass from a stress.
 template <class Real>
 HWY_INLINE Symmetric<Real> tensionOf(double factor, const Symmetric<Real>& elastic)
 {
@@ -157,7 +157,7 @@ HWY_INLINE Vector<Real> trace(const Matrix<Real>& H)
     return H.m[0][0] + H.m[1][1] + H.m[2][2];
 }
 
-/// pressure I + mu (H + H^T) + H T; lambda tr(H) is the pressure of what has its own volume change.
+/// pressure I + mu (H + H^T) + H T; the pressure is lambda tr(H) without patches.
 template <class Real>
 HWY_INLINE Matrix<Real> warpedStress(Vector<Real> pressure, Vector<Real> mu, const Symmetric<Real>& T,
                                      const Matrix<Real>& H)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/elements/element_pass.h"
 
 #include "fem/common/vector_targets.h"
@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 
-// Processors with nothing that Highway knows.
+// For processors without vector instructions.
 template <class Real>
 void passBlocks(const ElementPass<Real>& pass, Range blocks)
 {
@@ -32,7 +32,7 @@ void passBlocks(const ElementPass<Real>& pass, Range blocks)
 
 #else
 
-/// What a vector of elements needs of its nodes.
+/// The nodal data of a vector of elements.
 template <class Real>
 struct StagedNodes
 {
@@ -120,7 +120,7 @@ private:
 template <class Real>
 HWY_INLINE void passBlocks(const ElementPass<Real>& pass, Range blocks)
 {
-    constexpr int kN = width<Real>(), kVectors = kLanes / kN;  // of a block
+    constexpr int kN = width<Real>(), kVectors = kLanes / kN;  // vectors in a block
     StagedNodes<Real> staged[2][kBatch];
     Matrix<Real> F[kBatch];
     Quaternions<Real> q[kBatch];
@@ -143,7 +143,7 @@ HWY_INLINE void passBlocks(const ElementPass<Real>& pass, Range blocks)
         for (int i = 0; i < count; ++i)
         {
             storeQuaternions(q[i], lanes(i).rotations());
-            // The processor loads for the next batch while it computes; beyond the end, once more for the last vector.
+            // Stages the next batch during the computation; at the end, the last vector once more.
             const auto next = nodes(HWY_MIN(k + kBatch + i, end - 1));
             const auto stageNext = [&](int part) {
                 staged[1 - turn][i].stage(pass, next, {part * kN / 4, (part + 1) * kN / 4});

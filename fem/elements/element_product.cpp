@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/elements/element_product.h"
 
 #include "fem/common/vector_targets.h"
@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 
-// Processors with nothing that Highway knows.
+// For processors without vector instructions.
 template <class Real>
 void multiplyBlocks(const ElementProduct<Real>& product, Range blocks)
 {

@@ -13,7 +13,7 @@
 namespace bullet_fem
 {
 
-/// What the kernels of smoothed elements write; empty where there are none.
+/// Output arrays of the kernels of smoothed elements; empty without smoothing.
 template <class Real>
 struct SmoothedScratch
 {
@@ -30,10 +30,10 @@ struct SmoothedScratch
     std::vector<SmoothedBlock<Real>> m_warped;
     std::vector<TensionBlock<Real>> m_tension;
     std::vector<StrainQuads<Real>> m_strain[2];  ///< elastic and damped of the pass; products use the first
-    std::vector<DomainStrain<Real>> m_mean[2];   ///< likewise
+    std::vector<DomainStrain<Real>> m_mean[2];   ///< means over the edge domains of m_strain
 };
 
-/// What one body's element kernels write in a step, in one precision.
+/// Output arrays of one body's element kernels in a step, in one precision.
 template <class Real>
 struct ElementScratch
 {
@@ -45,17 +45,18 @@ struct ElementScratch
 
     std::vector<CornerBlock<Real>> m_corners;
     std::vector<WarpedBlock<Real>> m_warped;
-    std::vector<StressBlock<Real>> m_initialStress;     ///< empty until there is some
-    std::vector<StressBlock<Real>> m_cofactor;          ///< likewise of laws that are not linear
-    std::vector<StrainBlock<Real>> m_strain;            ///< likewise of strains
-    std::vector<OrthotropicBlock<Real>> m_orthotropic;  ///< likewise of orthotropic elements
+    std::vector<StressBlock<Real>> m_initialStress;     ///< empty without initial stress
+    std::vector<StressBlock<Real>> m_cofactor;          ///< empty without nonlinear laws
+    std::vector<StrainBlock<Real>> m_strain;            ///< empty until inelastic strains are needed
+    std::vector<OrthotropicBlock<Real>> m_orthotropic;  ///< empty without orthotropic elements
     SmoothedScratch<Real> m_smoothed;
 };
 
-/// Bodies in contact get impulses now and then: not to be ready for them costs as much as to be so in some six steps.
+/// Number of steps that stay prepared for impulses after one that had some: preparing late costs as much as preparing
+/// about six steps in advance.
 constexpr int kStepsReadyForImpulses = 16;
 
-/// The vectors of the element kernels. The double-precision half is grown when it is first used.
+/// The vectors of the element kernels. The double-precision half grows on first use.
 struct ElementWork
 {
     explicit ElementWork(int nodes, int blocks) : m_x(nodes), m_v(nodes), m_scaledMass(nodes), m_nodeRotation(nodes)
@@ -73,14 +74,14 @@ struct ElementWork
     }
 
     bool m_isDouble = false;          ///< precision of this step
-    bool m_isComplete = true;         ///< false: m_warped and m_scaledMass are still those of a step before
-    int m_stepsReadyForImpulses = 0;  ///< from now on in which impulses are likely to follow
-    double m_stiffnessFactor = 0;     ///< of K' in this step's A, h^2 + h beta [s2]
+    bool m_isComplete = true;         ///< false: m_warped and m_scaledMass are outdated
+    int m_stepsReadyForImpulses = 0;  ///< number of further steps to prepare for impulses
+    double m_stiffnessFactor = 0;     ///< coefficient of K' in this step's A, c h^2 + h beta [s2]
     ElementScratch<float> m_single;
     ElementScratch<double> m_double;
-    std::vector<PaddedVec3> m_x, m_v;          ///< positions and velocities; then m_x is what A is applied to
+    std::vector<PaddedVec3> m_x, m_v;          ///< positions and velocities; later m_x is the argument of A
     std::vector<double> m_scaledMass;          ///< (1 + h alpha) m_i [kg]
-    std::vector<NodeRotation> m_nodeRotation;  ///< what the preconditioner turns every node by
+    std::vector<NodeRotation> m_nodeRotation;  ///< rotation of every node in the preconditioner
 };
 
 }  // namespace bullet_fem

@@ -7,30 +7,30 @@
 namespace bullet_fem
 {
 
-/// The strains of kLanes elements in their own frames, sym(R^T F) - I [-]: xx, yy, zz, yz, xz, xy, shears not doubled.
+/// Strains of kLanes elements in their own frames, sym(R^T F) - I [-]: xx, yy, zz, yz, xz, xy, shears not doubled.
 template <class Real>
 struct alignas(64) StrainBlock
 {
     Real m_entry[6][kLanes];
 };
 
-/// Strains and rotations of all elements where nodes are now. F - R is taken in double and R found as in an
+/// Strains and rotations of all elements at the present positions. F - R is computed in double and R as in an
 /// ElementPass. Positions must be finite.
 template <class Real>
 struct ElementStrains
 {
     const ElementBlocks<Real>* m_elements;
-    const PaddedVec3* m_x;        ///< of every node [m]
-    Quaternion* m_rotation;       ///< in: where to start from, out: found; kLanes a block
+    const PaddedVec3* m_x;        ///< per node [m]
+    Quaternion* m_rotation;       ///< in: initial guess, out: solution; kLanes a block
     StrainBlock<Real>* m_strain;  ///< out, one a block
 };
 
-/// Of a range of blocks, on the widest vectors that the processor has. Any division into ranges gives the same bits.
-/// Never allocates; safe on distinct blocks at the same time.
+/// Runs over a range of blocks, on the widest vectors that the processor has. Bitwise independent of the division into
+/// ranges. Never allocates; thread-safe on distinct blocks.
 template <class Real>
 void runElementStrains(const ElementStrains<Real>& strains, Range blocks);
 
-/// The same in plain C++: what the kernel is tested against.
+/// Reference implementation in plain C++, for tests of the kernel.
 namespace reference
 {
 template <class Real>

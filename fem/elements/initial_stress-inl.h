@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What an initial stress adds to an ElementPass. Included once for every instruction set.
+// Contribution of initial stress to an ElementPass. Included once for every instruction set.
 #if defined(BULLETFEM_INITIAL_STRESS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_INITIAL_STRESS_INL_H
 #undef BULLETFEM_INITIAL_STRESS_INL_H
@@ -27,7 +27,7 @@ HWY_INLINE Matrix<Real> plus(const Matrix<Real>& A, const Matrix<Real>& B)
     return C;
 }
 
-/// f_1, f_2, f_3 in the columns, as storeCorners() has stored them.
+/// f_1, f_2, f_3 in the columns, as stored by storeCorners().
 template <class Real>
 HWY_INLINE Matrix<Real> loadCorners(const CornerBlock<Real>& from, int lane)
 {
@@ -40,7 +40,7 @@ HWY_INLINE Matrix<Real> loadCorners(const CornerBlock<Real>& from, int lane)
     return f;
 }
 
-/// The strain of the world's frame that passElements() works with, shears doubled.
+/// The strain in the world frame that passElements() computes, with doubled shears.
 template <class Real, class Elements>
 HWY_INLINE Symmetric<Real> strainAgain(const Elements& elements, const Quaternions<Real>& q)
 {
@@ -58,8 +58,8 @@ HWY_INLINE Symmetric<Real> turnedBy(const Matrix<Real>& R, const Symmetric<Real>
     return {entry(0, 0), entry(1, 1), entry(2, 2), entry(1, 2), entry(0, 2), entry(0, 1)};
 }
 
-/// The axial vector w of W in withInitialStress(), B = I + strain, shears of the strain doubled. Zero where
-/// tr(B) I - B has not three eigenvalues beyond a hundredth of its trace.
+/// The axial vector w of W in withInitialStress(), B = I + strain, with doubled shears of the strain. Zero unless all
+/// pivots of tr(B) I - B exceed kLeastPivot of its trace.
 template <class Real>
 HWY_INLINE void balanceTorque(const Symmetric<Real>& strain, const Symmetric<Real>& tau, Vector<Real> (&w)[3])
 {
@@ -83,12 +83,12 @@ HWY_INLINE void balanceTorque(const Symmetric<Real>& strain, const Symmetric<Rea
     w[2] = s * dot3(A.xz, c0, A.yz, c1, A.zz, c2);
 }
 
-/// Adds the forces of the initial stress sigma_0 = elements.initialStress(), V in it, and returns `elastic` + R sigma_0
-/// R^T. The energy is sigma_0 : (S - I), F = R S. Its derivative by F is R (sigma_0 + W), because R turns as F changes:
-/// W is the skew matrix that makes the torque of the element zero, (sigma_0 + W) S = S (sigma_0 + W)^T. In the world's
-/// frame, with tau = R sigma_0 R^T, B = R S R^T and W = [w]x:
+/// Adds the forces of the initial stress sigma_0 = elements.initialStress(), which includes V, and returns `elastic` +
+/// R sigma_0 R^T. The energy is sigma_0 : (S - I), F = R S. Its derivative by F is R (sigma_0 + W), because R rotates
+/// as F changes: W is the skew matrix that makes the element's torque zero, (sigma_0 + W) S = S (sigma_0 + W)^T. In the
+/// world frame, with tau = R sigma_0 R^T, B = R S R^T and W = [w]x:
 ///     W B + B W = B tau - tau B   <=>   (tr(B) I - B) w = axl(B tau - tau B)
-/// Where S and sigma_0 have the same axes W is zero; else of the order of the strain times sigma_0.
+/// If S and sigma_0 share their axes W is zero; else it is of the order of the strain times sigma_0.
 template <class Real, class Elements>
 HWY_INLINE Symmetric<Real> withInitialStress(const Elements& elements, const Quaternions<Real>& q,
                                              const Symmetric<Real>& strain, const Symmetric<Real>& elastic)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Small matrices whose entries are SIMD vectors, one lane an element, and how they come from and go to nodes. Included
+// Small matrices whose entries are SIMD vectors, one lane an element, with their transfer from and to nodes. Included
 // once for every instruction set.
 #if defined(BULLETFEM_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_LANES_INL_H
@@ -30,7 +30,7 @@ using Lanes = hn::CappedTag<Real, kLanes>;
 template <class Real>
 using Vector = hn::Vec<Lanes<Real>>;
 
-/// Elements that are done at a time.
+/// Number of elements processed at a time.
 template <class Real>
 constexpr int width()
 {
@@ -43,8 +43,9 @@ HWY_INLINE Vector<Real> number(double value)
     return hn::Set(Lanes<Real>(), static_cast<Real>(value));
 }
 
-/// A 3x3 matrix. The constructors here are named because an implicit one would be compiled for the least processor of
-/// its kind, and GCC does not inline NEON into that. What has one is no aggregate from C++20 on, and so they have two.
+/// A 3x3 matrix. Constructors in this file are explicit in the code because implicit ones would be compiled for the
+/// baseline processor, into which GCC does not inline NEON. A type with one is no aggregate from C++20 on, so each has
+/// two.
 template <class Real>
 struct Matrix
 {
@@ -99,7 +100,7 @@ HWY_INLINE Matrix<Real> timesTranspose(const Matrix<Real>& A, const Matrix<Real>
     return C;
 }
 
-/// The same matrix with all its entries.
+/// The symmetric matrix as a full one.
 template <class Real>
 HWY_INLINE Matrix<Real> full(const Symmetric<Real>& S)
 {
@@ -116,14 +117,13 @@ HWY_INLINE Matrix<Real> loadMatrix(const Real (*entries)[kLanes], int lane)
     return A;
 }
 
-/// D_s = [u_1 - u_0, u_2 - u_0, u_3 - u_0] of `Count` elements, on the way from nodes to vectors
-/// by way of memory, which is faster than gathering components. Rows are laid out so that transposing blocks of 128
-/// bits gives vectors. They are written one turn ahead of being read: a load that waits for the stores before it is
-/// slow.
+/// D_s = [u_1 - u_0, u_2 - u_0, u_3 - u_0] of `Count` elements, transferred from nodes to vectors via memory, which is
+/// faster than gathering components. Rows are laid out so that transposing blocks of 128 bits gives vectors. They are
+/// written one iteration before they are read, to avoid store-forwarding stalls.
 template <class Real, int Count = width<Real>()>
 struct StagedEdges
 {
-    static constexpr int kBlock = 16 / sizeof(Real);  // entries of a block
+    static constexpr int kBlock = 16 / sizeof(Real);  // entries in a block
     HWY_ALIGN Real m_rows[3][4 / kBlock][kBlock][Count];
 
     HWY_INLINE void stage(const std::int32_t (*node)[4], const PaddedVec3* u)
@@ -138,7 +138,7 @@ struct StagedEdges
         for (int a = 0; a < 3; ++a) storeDifference(u[node[a + 1]], u0, a, lane);
     }
 
-    /// Those of the elements from `lane` on.
+    /// The edges of the elements from `lane` on.
     HWY_INLINE Matrix<Real> load(int lane = 0) const
     {
         Matrix<Real> D;
@@ -148,13 +148,13 @@ struct StagedEdges
     }
 
 private:
-    /// Where part of an element's edge goes: entries from `component` on, at most those of a block.
+    /// Destination of part of an element's edge: entries from `component` on, at most those of a block.
     HWY_INLINE Real* place(int a, int lane, int component)
     {
         return m_rows[a][component / kBlock][lane % kBlock] + lane / kBlock * kBlock + component % kBlock;
     }
 
-    /// Edge a is to - from, taken in double.
+    /// Edge a is to - from, computed in double.
     HWY_INLINE void storeDifference(const PaddedVec3& to, const PaddedVec3& from, int a, int lane)
     {
         const hn::CappedTag<double, 4> d;
@@ -211,12 +211,12 @@ private:
     }
 };
 
-/// Calls stage(block, lane, slot) and then compute(block, lane, slot) for every vector of elements of the blocks; the
-/// stage of a vector comes before the computation of the one before. Slots are 0 and 1.
+/// Calls stage(block, lane, slot) and then compute(block, lane, slot) for every vector of elements of the blocks; each
+/// vector is staged before its predecessor is computed. Slots alternate between 0 and 1.
 template <class Real, class Stage, class Compute>
 HWY_INLINE void forEachVector(Range blocks, const Stage& stage, const Compute& compute)
 {
-    constexpr int kVectors = kLanes / width<Real>();  // of a block
+    constexpr int kVectors = kLanes / width<Real>();  // vectors in a block
     const int end = blocks.m_end * kVectors;
     int k = blocks.m_begin * kVectors;
     if (k < end) stage(k / kVectors, k % kVectors * width<Real>(), k % 2);
@@ -234,23 +234,22 @@ struct PatchColumn
     int m_block, m_lane, m_size;
 };
 
-/// Columns are numbered group by group.
+/// The column of an index; columns are numbered group by group.
 template <class Real>
 HWY_INLINE PatchColumn patchColumn(const std::vector<PatchGroup>& groups, int column)
 {
-    constexpr int kVectors = kLanes / width<Real>();  // of a block
+    constexpr int kVectors = kLanes / width<Real>();  // vectors in a block
     const PatchGroup& group = groups[column / kVectors];
     return {group.m_firstBlock, column % kVectors * width<Real>(), group.m_blocks};
 }
 
 /// Calls stage(column, k, slot) for every element k of every column of the groups, and then compute(column, slot,
-/// other); other(k) stages an element of the next column, if it has so many, while this one is computed with. Slots are
-/// 0 and 1.
+/// other), during which other(k) stages element k of the next column, if there is one. Slots alternate between 0 and 1.
 template <class Real, class Stage, class Compute>
 HWY_INLINE void forEachColumn(const std::vector<PatchGroup>& groups, Range range, const Stage& stage,
                               const Compute& compute)
 {
-    constexpr int kVectors = kLanes / width<Real>();  // of a block
+    constexpr int kVectors = kLanes / width<Real>();  // vectors in a block
     const int end = range.m_end * kVectors;
     const auto column = [&groups](int c) { return patchColumn<Real>(groups, c); };
     int c = range.m_begin * kVectors;
@@ -270,7 +269,7 @@ HWY_INLINE void forEachColumn(const std::vector<PatchGroup>& groups, Range range
     }
 }
 
-/// Stores f_1, f_2, f_3, the columns given, and f_0 = -(f_1 + f_2 + f_3) as the corners of the elements from `lane` on.
+/// Stores f_1, f_2, f_3, the columns of f, and f_0 = -(f_1 + f_2 + f_3) as the corners of the elements from `lane` on.
 template <class Real>
 HWY_INLINE void storeCorners(const Matrix<Real>& f, CornerBlock<Real>& out, int lane)
 {

@@ -29,7 +29,7 @@ struct ModelElements
         else
             return m_double;
     }
-    /// Empty where strains are not smoothed.
+    /// Edge smoothing; empty without smoothed strains.
     template <class Real>
     const EdgeSmoothing<Real>& smoothing() const
     {

@@ -19,11 +19,11 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-/// NeoHookeResponse without the energy, and that of Hooke's law for the elements that have it.
+/// NeoHookeResponse without the energy; Hooke's response in lanes with Hooke's law.
 template <class Real>
 struct NeoHookeLanes
 {
-    HWY_INLINE NeoHookeLanes() = default;  // the compiler's own would not be made for the instruction set
+    HWY_INLINE NeoHookeLanes() = default;  // an implicit one would not be compiled for the instruction set
 
     Symmetric<Real> m_stress, m_cofactor;
     Vector<Real> m_bulk, m_shear;
@@ -37,7 +37,7 @@ HWY_INLINE Vector<Real> contraction(const Symmetric<Real>& A, const Symmetric<Re
                       dot3(A.xx, B.xx, A.yy, B.yy, A.zz, B.zz));
 }
 
-/// Of a strain whose shears are not doubled.
+/// The law's response to a strain e whose shears are not doubled.
 template <class Real>
 HWY_INLINE NeoHookeLanes<Real> neoHooke(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& e)
 {
@@ -67,7 +67,7 @@ HWY_INLINE NeoHookeLanes<Real> neoHooke(Vector<Real> lambda, Vector<Real> mu, co
     const Symmetric<Real> deviator = shifted<Real>(e, hn::Neg(third * tr));
     const V shear = number<Real>(2.0 / 3) * contraction(deviator, deviator);
     const V stretch = hn::Max(zero, hn::MulAdd(third, tr, one) + hn::Sqrt(shear));
-    // Lanes that fill a block up have no mu.
+    // Padding lanes have mu = 0.
     result.m_shear = hn::Max(one, half * hn::MulAdd(hn::Abs(q - mu), stretch / hn::Max(mu, least), one));
     return result;
 }
@@ -86,8 +86,8 @@ HWY_INLINE Symmetric<Real> withoutDoubling(const Symmetric<Real>& E)
     return {E.xx, E.yy, E.zz, half * E.yz, half * E.xz, half * E.xy};
 }
 
-/// passElements() for elements of either law: stores forces and gradients, and returns what law they follow. Elements
-/// are those of passElements(), and have law(), 1 for Neo-Hookean ones.
+/// passElements() for elements of either law: stores forces and gradients, and returns the response. Elements are those
+/// of passElements(), with law(), 1 for Neo-Hookean ones.
 template <class Real, class Elements, class Other>
 HWY_INLINE NeoHookeLanes<Real> passNonlinear(const Elements& elements, const Quaternions<Real>& q, const Other& other)
 {
@@ -116,7 +116,7 @@ HWY_INLINE NeoHookeLanes<Real> passNonlinear(const Elements& elements, const Qua
     return law;
 }
 
-/// What an ElementProduct reads of them: with g' times sqrt(k) and C' = sqrt(l / k) C, k stands before all of K', and T
+/// Stores the input of an ElementProduct: with g' times sqrt(k) and C' = sqrt(l / k) C, k multiplies all of K', and T
 /// is divided by it.
 template <class Real, class Elements>
 HWY_INLINE void storeTangent(const Elements& elements, const NeoHookeLanes<Real>& law, const Symmetric<Real>& tension)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/elements/node_rotations.h"
 
 #include "fem/common/vector_targets.h"
@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 
-// Processors with nothing that Highway knows.
+// For processors without vector instructions.
 void averageOverNodes(const NodeRotations& rotations, Range nodes)
 {
     reference::averageRotations(rotations, nodes);
@@ -37,7 +37,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D4 = hn::FixedTag<float, 4>;  // one quaternion
 
-/// R, row-major, of a quaternion of squared length n > 0.
+/// Row-major rotation matrix of a quaternion of squared length n > 0.
 HWY_INLINE NodeRotation rotationOf(const float* q, float n)
 {
     const float s = 2 / n, x = q[0], y = q[1], z = q[2], w = q[3];
@@ -47,15 +47,15 @@ HWY_INLINE NodeRotation rotationOf(const float* q, float n)
     return {{1 - (yy + zz), xy - wz, xz + wy, xy + wz, 1 - (xx + zz), yz - wx, xz - wy, yz + wx, 1 - (xx + yy)}};
 }
 
-/// The plain sum, as long as it is nearly as long as all q_e together: a sign that is wrong then belongs to a sliver,
-/// and makes the sum shorter but hardly turns it.
+/// The plain sum, if it is nearly as long as the sum of all |V_e q_e|: a wrong sign then belongs to a sliver, and
+/// shortens the sum but hardly rotates it.
 HWY_INLINE NodeRotation averageAt(const NodeRotations& rotations, int node)
 {
     const D4 d;
     const int* corner = rotations.m_nodes->m_corner.data() + rotations.m_nodes->m_start[node];
     const int* end = rotations.m_nodes->m_corner.data() + rotations.m_nodes->m_start[node + 1];
     if (corner == end) return {};  // a loose node
-    // Two sums, so that additions need not wait for each other.
+    // Two partial sums make additions independent.
     hn::Vec<D4> sums[2] = {hn::Zero(d), hn::Zero(d)};
     const auto add = [&](int k, int e)
     {
@@ -81,7 +81,7 @@ void averageOverNodes(const NodeRotations& rotations, Range nodes)
     for (int i = nodes.m_begin; i < nodes.m_end; ++i) rotations.m_out[i] = averageAt(rotations, i);
 }
 
-/// With the sums of V q q^T, since the entries of R are sums of products of two components of q.
+/// Uses sums of V q q^T, because the entries of R are sums of products of two components of q.
 Mat3 sumOverBlocks(const NodeCorners& nodes, const Quaternion* rotation, Range blocks)
 {
     const hn::CappedTag<double, kLanes> d;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/elements/node_sums.h"
 
 #include <cstddef>
@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 
-// Processors with nothing that Highway knows.
+// For processors without vector instructions.
 template <class Real>
 void sumOverNodes(const NodeSums<Real>& sums, Range nodes)
 {
@@ -46,8 +46,8 @@ HWY_INLINE hn::Vec<D> load(const float* corner)
     return hn::PromoteTo(D(), hn::Load(hn::Rebind<float, D>(), corner));
 }
 
-/// Components from `first` on, as many as a vector has, of the sum over corners: every second one in one sum, so that
-/// additions need not wait for each other.
+/// Components from `first` on, as many as a vector has, of the sum over corners, in two alternating partial sums that
+/// make additions independent.
 template <class Real>
 HWY_INLINE hn::Vec<D> sumOf(const Real* vectors, const int* corner, const int* end)
 {

@@ -7,24 +7,24 @@
 namespace bullet_fem
 {
 
-/// out_i = given_i + sum of what the corners at node i hold, in double and in a fixed order; given_i is scale_i p_i, or
-/// out_i itself where there is no scale.
+/// out_i = given_i + the sum of the corner contributions at node i, in double and in a fixed order; given_i is scale_i
+/// p_i, or out_i itself without a scale.
 template <class Real>
 struct NodeSums
 {
     const NodeCorners* m_nodes;
     const CornerBlock<Real>* m_corners;
-    const double* m_scale;  ///< one a node, or nullptr: add to what is in m_out
-    const PaddedVec3* m_p;  ///< one a node; not read where there is no scale
+    const double* m_scale;  ///< one a node, or null: adds to m_out
+    const PaddedVec3* m_p;  ///< one a node; unused without a scale
     Vec3* m_out;            ///< one a node
 };
 
-/// Sums over nodes. Any division into ranges gives the same bits. Never allocates; safe on distinct nodes at the same
-/// time.
+/// Sums over a range of nodes. Bitwise independent of the division into ranges. Never allocates; thread-safe on
+/// distinct nodes.
 template <class Real>
 void sumCorners(const NodeSums<Real>& sums, Range nodes);
 
-/// The same in plain C++: what the kernel is tested against.
+/// Reference implementation in plain C++, for tests of the kernel.
 namespace reference
 {
 template <class Real>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Stresses of any C and how stretches change (orthotropic_elements.h), several elements at a time. Included once for
-// every instruction set.
+// Stresses of general C and changes of stretches (orthotropic_elements.h), several elements at a time. Included once
+// for every instruction set.
 #if defined(BULLETFEM_ORTHOTROPIC_MATH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_ORTHOTROPIC_MATH_INL_H
 #undef BULLETFEM_ORTHOTROPIC_MATH_INL_H
@@ -50,7 +50,7 @@ HWY_INLINE void storeSymmetricRows(const Symmetric<Real>& S, Real (&to)[6][kLane
     for (int k = 0; k < 6; ++k) hn::Store(entries[k], Lanes<Real>(), to[k] + lane);
 }
 
-/// sym(H), shears doubled.
+/// sym(H) with doubled shears.
 template <class Real>
 HWY_INLINE Symmetric<Real> doubledPart(const Matrix<Real>& H)
 {
@@ -72,9 +72,9 @@ template <class Real>
 struct StretchLanes
 {
     using V = Vector<Real>;
-    HWY_INLINE StretchLanes() = default;  // the compiler's own would not be made for the instruction set
+    HWY_INLINE StretchLanes() = default;  // an implicit one would not be compiled for the instruction set
 
-    /// Of S = I + strain, shears of the strain doubled.
+    /// Sets S = I + strain, with doubled shears of the strain.
     HWY_INLINE void find(const Symmetric<Real>& strain)
     {
         const V one = number<Real>(1), half = number<Real>(0.5), minusHalf = number<Real>(-0.5);
@@ -101,13 +101,13 @@ struct StretchLanes
         w[2] = dot3(G.xz, a, G.yz, b, G.zz, c);
     }
 
-    /// dS(H), shears doubled.
+    /// dS(H) with doubled shears.
     HWY_INLINE Symmetric<Real> change(const Matrix<Real>& H) const
     {
         V w[3];
         turnOf(H, w);
         const Matrix<Real> S = full(m_stretch);
-        Matrix<Real> M;  // H - w x the columns of S
+        Matrix<Real> M;  // H - [w]x S
         HWY_UNROLL(3)
         for (int j = 0; j < 3; ++j)
         {
@@ -118,7 +118,7 @@ struct StretchLanes
         return doubledPart(M);
     }
 
-    /// stress + rest + W, W of the rest.
+    /// stress + rest + W, with W from `rest`.
     HWY_INLINE Matrix<Real> balanced(const Symmetric<Real>& stress, const Symmetric<Real>& rest) const
     {
         V w[3];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/common/vector_targets.h"
 #include "fem/elements/orthotropic_elements.h"
 
@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 
-// Processors with nothing that Highway knows.
+// For processors without vector instructions.
 template <class Real>
 void passOrthotropic(const OrthotropicPass<Real>& pass, Range blocks)
 {
@@ -29,7 +29,7 @@ void passOrthotropic(const OrthotropicPass<Real>& pass, Range blocks)
 
 #else
 
-/// Turns a vector of elements to its positions and returns its rotations.
+/// Updates the rotations of a vector of elements to the present positions and returns them.
 template <class Real>
 HWY_INLINE Quaternions<Real> turnedLanes(const ElementPass<Real>& pass, const DeformedLanes<Real>& elements,
                                          Quaternion* rotation)

@@ -21,7 +21,7 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-/// Quaternions of any length.
+/// Quaternions of any nonzero length.
 template <class Real>
 struct Quaternions
 {
@@ -40,7 +40,7 @@ HWY_INLINE Quaternions<Real> normalised(const Quaternions<Real>& q)
     return {q.x * s, q.y * s, q.z * s, q.w * s};
 }
 
-/// R of quaternions, two = 2 / |q|^2.
+/// Rotation matrices of quaternions, two = 2 / |q|^2.
 template <class Real>
 HWY_INLINE Matrix<Real> toMatrix(const Quaternions<Real>& q, Vector<Real> two)
 {
@@ -66,7 +66,7 @@ HWY_INLINE Matrix<Real> toScaledMatrix(const Quaternions<Real>& q)
              {hn::MulSub(q.x, z2, wy), hn::MulAdd(q.y, z2, wx), wwMinusxx + difference}}};
 }
 
-/// exp(2 c) q to third order in c, not normalised, by the Cayley map, which is a rotation for every c.
+/// exp(2 c) q to third order in c, not normalised, by the Cayley map, which gives a rotation for every c.
 template <class Real>
 HWY_INLINE Quaternions<Real> turned(const Quaternions<Real>& q, const Vector<Real> (&c)[3])
 {
@@ -76,24 +76,24 @@ HWY_INLINE Quaternions<Real> turned(const Quaternions<Real>& q, const Vector<Rea
             hn::NegMulAdd(c[2], q.z, hn::NegMulAdd(c[1], q.y, hn::NegMulAdd(c[0], q.x, q.w)))};
 }
 
-/// What a Newton step says of the elements.
+/// Outcome of a Newton step per element.
 template <class Real>
 struct NewtonStep
 {
-    hn::Mask<Lanes<Real>> m_definite;   // H is positive definite beyond rounding: R goes to the global maximum
-    hn::Mask<Lanes<Real>> m_converged;  // the error left is of the size of rounding
+    hn::Mask<Lanes<Real>> m_definite;   // H is positive definite beyond rounding: R converges to the global maximum
+    hn::Mask<Lanes<Real>> m_converged;  // the remaining error is of the size of rounding
 };
 
-/// One step towards the maximum of tr(R^T F): with S = F R^T, H w = g, H = tr(S) I - sym(S), g = axl(S - S^T), R turns
-/// by w. H w = g is solved by cofactors. After a step by w the error is about |w|^2 |H| |H^-1|. Elements whose H is not
-/// positive definite, or so large that it may overflow, are left as they are, and those of `done`.
+/// One Newton step towards the maximum of tr(R^T F): with S = F R^T, H w = g, H = tr(S) I - sym(S), g = axl(S - S^T), R
+/// is rotated by w. H w = g is solved by cofactors. After a step by w the error is about |w|^2 |H| |H^-1|. Skips
+/// elements whose H is not positive definite, or so large that it may overflow, and those in `done`.
 template <class Real>
 HWY_INLINE NewtonStep<Real> newtonStep(const Matrix<Real>& F, hn::Mask<Lanes<Real>> done, Quaternions<Real>& q)
 {
     using V = Vector<Real>;
     constexpr bool kSingle = std::is_same<Real, float>::value;
     const V tiny = number<Real>(kSingle ? 1e-4 : 1e-10), error = number<Real>(kSingle ? 1e-7 : 1e-17);
-    const V huge = number<Real>(kSingle ? 1e24 : 1e200);  // beyond, products of three entries may overflow
+    const V huge = number<Real>(kSingle ? 1e24 : 1e200);  // larger values may overflow in products of three entries
 
     const Matrix<Real> S = timesTranspose(F, toScaledMatrix(q));
     const V g0 = S.m[2][1] - S.m[1][2], g1 = S.m[0][2] - S.m[2][0], g2 = S.m[1][0] - S.m[0][1];
@@ -122,7 +122,7 @@ HWY_INLINE NewtonStep<Real> newtonStep(const Matrix<Real>& F, hn::Mask<Lanes<Rea
     return {definite, hn::And(definite, squaredStep * trace * cofactors <= error * det)};
 }
 
-/// q <- the polar rotations of those F that `known` does not mark, one by one.
+/// q <- the polar rotations of those F that are not in `known`, one by one.
 template <class Real>
 HWY_INLINE void singleRotations(const Matrix<Real>& F, hn::Mask<Lanes<Real>> known, Quaternions<Real>& q)
 {
@@ -138,10 +138,10 @@ HWY_INLINE void singleRotations(const Matrix<Real>& F, hn::Mask<Lanes<Real>> kno
     hn::LoadInterleaved4(d, &rotation[0].x, q.x, q.y, q.z, q.w);
 }
 
-constexpr int kBatch = 2;  // vectors of elements; what one waits for, another has time to compute
+constexpr int kBatch = 2;  // vectors of elements processed together, to hide latencies
 
-/// q <- the polar rotations of `count` F, started from q. Those that Newton's iteration cannot answer for go one by
-/// one. An element's rotation does not depend on the others': it is done with once it has converged.
+/// q <- the polar rotations of `count` F, with q as initial guess. Elements where Newton's iteration fails are done one
+/// by one. An element's result does not depend on the others: its iteration stops when it has converged.
 template <class Real>
 HWY_INLINE void polarRotations(const Matrix<Real>* F, int count, Quaternions<Real>* q)
 {

@@ -49,18 +49,18 @@ HWY_INLINE Symmetric<Real> adjugate(const Symmetric<Real>& A)
             hn::MulSub(A.xy, A.yz, A.yy * A.xz), hn::MulSub(A.yz, A.xz, A.zz * A.xy)};
 }
 
-/// Keeps divisors of order one or less, as they are for a matrix with entries of at most 1, away from zero.
+/// Lower bound of divisors that are of order one or less, as for a matrix with entries of at most 1.
 template <class Real>
 HWY_INLINE Vector<Real> tinyNumber()
 {
     return number<Real>(std::is_same<Real, float>::value ? 1e-30 : 1e-100);
 }
 
-/// S = m_size U, no entry of U beyond 1; U = A + tr(U) / 3 I; m_value is an eigenvalue of A, m_inverse 1 / m_size.
+/// S = m_size U, with entries of U at most 1; U = A + tr(U) / 3 I; m_value is an eigenvalue of A, m_inverse 1 / m_size.
 template <class Real>
 struct FarEigenvalue
 {
-    HWY_INLINE FarEigenvalue() = default;  // the compiler's own would not be made for the instruction set
+    HWY_INLINE FarEigenvalue() = default;  // an implicit one would not be compiled for the instruction set
     HWY_INLINE FarEigenvalue(Vector<Real> size, Vector<Real> inverse, Vector<Real> value)
         : m_size(size), m_inverse(inverse), m_value(value)
     {
@@ -75,9 +75,9 @@ HWY_INLINE Symmetric<Real> times(const Symmetric<Real>& S, Vector<Real> s)
     return {S.xx * s, S.yy * s, S.zz * s, S.yz * s, S.xz * s, S.xy * s};
 }
 
-/// The one of the largest and the smallest eigenvalue that is farther from the middle one. With p^2 = |A|^2 / 6 and
-/// r = det A / (2 p^3), it is 2 p c sign(r) where 4 c^3 - 3 c = |r|, c in [cos 30, 1] (that is c = cos(acos(|r|) / 3));
-/// no other eigenvalue is within 1.7 p.
+/// The extreme eigenvalue (largest or smallest) farther from the middle one. With p^2 = |A|^2 / 6 and r = det A / (2
+/// p^3), it is 2 p c sign(r) where 4 c^3 - 3 c = |r|, c in [cos 30, 1] (that is c = cos(acos(|r|) / 3)); no other
+/// eigenvalue is within 1.7 p.
 template <class Real>
 HWY_INLINE FarEigenvalue<Real> farEigenvalue(const Symmetric<Real>& S)
 {
@@ -96,7 +96,7 @@ HWY_INLINE FarEigenvalue<Real> farEigenvalue(const Symmetric<Real>& S)
     const V det = dot3(A.xx, hn::MulSub(A.yy, A.zz, A.yz * A.yz), A.xy, hn::MulSub(A.yz, A.xz, A.zz * A.xy), A.xz,
                        hn::MulSub(A.xy, A.yz, A.yy * A.xz));
     const V r = hn::Min(number<Real>(1), hn::Abs(det) / hn::MulAdd(two * p, p2, tiny));
-    // Newton's iteration from a cubic, whose error of 3e-5 becomes 1e-9, 1e-17.
+    // Newton's iteration from a cubic approximation: its error of 3e-5 becomes 1e-9, then 1e-17.
     V c = hn::MulAdd(
         r,
         hn::MulAdd(r, hn::MulAdd(r, number<Real>(0.0093196838974819209), number<Real>(-0.040691197422887695)),
@@ -108,12 +108,12 @@ HWY_INLINE FarEigenvalue<Real> farEigenvalue(const Symmetric<Real>& S)
     return {size, inverse, hn::CopySign(two * p * c, det)};
 }
 
-/// factor S with its negative eigenvalues set to zero, by splitting off the eigenvalue e of S that is farthest from the
-/// others; exact to rounding of the largest entry of S also where eigenvalues are equal. As it is far from them,
-/// adj(A - (e - tr(A) / 3) I) / its trace is N = v v^T to rounding; where S is a multiple of I, N is 0 or any other.
-/// The rest M = S - e N has the eigenvalues e1 >= e2 beside 0, with the sum T = tr(M) and the product D, the sum of the
-/// principal minors. Of different signs (D < 0) they are apart, and M+ = e1 (M - e2 (I - N)) / (e1 - e2); of one sign
-/// M+ is M or 0. So S+ = k S + (max(e, 0) - k (e - e2)) N - k e2 I.
+/// factor times S with its negative eigenvalues set to zero, by splitting off the isolated eigenvalue e of S; accurate
+/// to rounding of the largest entry of S also for equal eigenvalues. As e is isolated, adj(A - (e - tr(A) / 3) I) over
+/// its trace is N = v v^T to rounding; if S is a multiple of I, N is 0 or arbitrary. The rest M = S - e N has
+/// eigenvalues e1 >= e2 besides 0, with sum T = tr(M) and product D, the sum of the principal minors. With different
+/// signs (D < 0) they are distinct, and M+ = e1 (M - e2 (I - N)) / (e1 - e2); with equal signs M+ is M or 0. So S+ = k
+/// S + (max(e, 0) - k (e - e2)) N - k e2 I.
 template <class Real>
 HWY_INLINE Symmetric<Real> positivePart(Vector<Real> factor, const Symmetric<Real>& S, const FarEigenvalue<Real>& far)
 {
@@ -122,7 +122,7 @@ HWY_INLINE Symmetric<Real> positivePart(Vector<Real> factor, const Symmetric<Rea
     const Symmetric<Real> U = times<Real>(S, far.m_inverse);
     const V mean = number<Real>(1.0 / 3) * trace(U), e = mean + far.m_value;
     const Symmetric<Real> A = shifted<Real>(U, hn::Neg(mean)), N = adjugate(shifted<Real>(A, hn::Neg(far.m_value)));
-    const V share = one / hn::Max(trace(N), tinyNumber<Real>());  // of v v^T in N
+    const V share = one / hn::Max(trace(N), tinyNumber<Real>());  // factor from N to v v^T
     const Symmetric<Real> M = combined<Real>(one, U, hn::Neg(e * share), N);
 
     const V T = trace(M), D = trace(adjugate(M));

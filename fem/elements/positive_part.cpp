@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-// True if the symmetric s I + sign A has positive pivots.
+// True if sign A has positive pivots.
 bool isPositive(const Mat3& A, double sign)
 {
     const double a = sign * A(0, 0);

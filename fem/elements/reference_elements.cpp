@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The element kernels in plain C++, an element at a time in double precision: what the others are tested against.
+// The element kernels in plain C++, one element at a time in double precision: reference for tests of the vector
+// kernels.
 #include <array>
 #include <cmath>
 
@@ -25,7 +26,7 @@ void storeTension(const Mat3& T, int lane, WarpedBlock<Real>& out)
     for (int k = 0; k < 6; ++k) out.m_tension[k][lane] = static_cast<Real>(entries[k]);
 }
 
-// Of either law, all in the element's own frame until it is stored; `initial` of an initial stress with its W.
+// For both laws, all in the element's own frame until stored; `initial` is the initial stress with its W.
 template <class Real>
 void passNonlinear(const ElementPass<Real>& pass, int b, int lane, const Strains& strains, const Mat3& initial)
 {

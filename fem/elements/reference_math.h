@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What the element kernels in plain C++ share.
+// Shared by the reference implementations of the element kernels.
 #pragma once
 
 #include "fem/common/rotation.h"
@@ -71,7 +71,7 @@ struct Strains
     Mat3 m_R, m_elastic, m_viscous;
 };
 
-/// Turns the element.
+/// Computes strains at the present positions, and updates the rotation.
 template <class Real>
 Strains strainsOf(const ElementPass<Real>& pass, int b, int lane)
 {
@@ -86,7 +86,7 @@ Strains strainsOf(const ElementPass<Real>& pass, int b, int lane)
     return {R, transposeTimes(R, FminusR), transposeTimes(R, Fdot)};
 }
 
-/// sigma_0 of the element, V in it; zero for none.
+/// sigma_0 of the element, times V; zero without initial stress.
 template <class Real>
 Mat3 initialStress(const ElementPass<Real>& pass, int b, int lane)
 {
@@ -97,7 +97,7 @@ Mat3 initialStress(const ElementPass<Real>& pass, int b, int lane)
              {s[4][lane], s[3][lane], s[2][lane]}}};
 }
 
-/// The skew W with (sigma_0 + W) S symmetric; zero where that is nearly singular.
+/// The skew W with (sigma_0 + W) S symmetric; zero if its equation is nearly singular.
 inline Mat3 torqueBalance(const Mat3& S, const Mat3& stress)
 {
     const Mat3 c = S * stress - stress * S;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The node kernels in plain C++, in double precision: what the others are tested against.
+// The node kernels in plain C++, in double precision: reference for tests of the vector kernels.
 #include <cmath>
 #include <cstddef>
 
@@ -21,7 +21,7 @@ NodeRotation rounded(const Mat3& R)
     return result;
 }
 
-/// polar(sum of V_e R_e), as near to the first one's rotation as the sum leaves open.
+/// polar(sum of V_e R_e); where the sum leaves it undetermined, the solution nearest to the first element's rotation.
 NodeRotation polarOfSum(const NodeRotations& rotations, int node)
 {
     const NodeCorners& nodes = *rotations.m_nodes;

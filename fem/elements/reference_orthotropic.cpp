@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The kernels of orthotropic elements in plain C++, an element at a time in double precision: what the others are
-// tested against.
+// The kernels of orthotropic elements in plain C++, one element at a time in double precision: reference for tests of
+// the vector kernels.
 #include "fem/elements/orthotropic_elements.h"
 #include "fem/elements/positive_part.h"
 #include "fem/elements/reference_math.h"
@@ -57,7 +57,7 @@ struct Stretch
     {
         return crossMatrix(m_spin * Vec3{M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1)});
     }
-    Mat3 change(const Mat3& H) const { return H - turnOf(H) * m_S; }  // whose symmetric part is taken
+    Mat3 change(const Mat3& H) const { return H - turnOf(H) * m_S; }  // its symmetric part is used
     Mat3 balanced(const Mat3& stress) const { return stress + turnOf(m_S * stress); }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The kernels of smoothed elements in plain C++, in double precision: what the others are tested against.
+// The kernels of smoothed elements in plain C++, in double precision: reference for tests of the vector kernels.
 #include <cstddef>
 
 #include "bullet_fem/fem/common/symmetric.h"
@@ -61,7 +61,7 @@ ReadStrain smoothedStrain(const EdgeSmoothing<Real>& smoothing, const SmoothedSt
     return {strainOfQuads(s).m_strain, ownStrain(strain, b, lane).m_theta};
 }
 
-// Calls visit(k, b, share) for the elements of a lane of a piece: block b, in its volume of the patch.
+// Calls visit(k, b, share) for the elements of a lane of a piece: block b, with its share of the patch's volume.
 template <class Real, class Visit>
 void visitPatch(const ElementBlocks<Real>& elements, int piece, int lane, const Visit& visit)
 {

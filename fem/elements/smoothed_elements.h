@@ -9,7 +9,7 @@
 namespace bullet_fem
 {
 
-/// Strains of kLanes elements in quads, for vectors of four numbers: xx, yy, zz, yz and xz, xy, theta, 0. Shears are
+/// Strains of kLanes elements as quads, for vectors of four numbers: xx, yy, zz, yz and xz, xy, theta, 0. Shears are
 /// doubled; theta is the mean volume change of the element's patch.
 template <class Real>
 struct alignas(64) StrainQuads
@@ -17,14 +17,14 @@ struct alignas(64) StrainQuads
     Real m_quad[2][kLanes][4];
 };
 
-/// A domain's mean of the same numbers; that of theta has no use.
+/// A domain's mean strain as quads; its theta is unused.
 template <class Real>
 struct alignas(32) DomainStrain
 {
     Real m_quad[2][4];
 };
 
-/// What the product needs of kLanes elements during a step.
+/// Data of kLanes smoothed elements for products with K' during a step.
 template <class Real>
 struct alignas(64) SmoothedBlock
 {
@@ -32,14 +32,14 @@ struct alignas(64) SmoothedBlock
     Real m_tension[6][kLanes];   ///< tension factor times V sigma+, in the element's frame: xx, yy, zz, yz, xz, xy
 };
 
-/// Of kLanes elements, H V sigma+ times the tension factor, H = sum over b of p_b g_b^T; row-major.
+/// H V sigma+ times the tension factor, of kLanes elements, H = sum over b of p_b g_b^T; row-major.
 template <class Real>
 struct alignas(64) TensionBlock
 {
     Real m_entry[9][kLanes];
 };
 
-/// The EdgeDomains of a shape as kernels read them. None where strains are not smoothed. Const once built.
+/// The EdgeDomains of a shape in the kernels' layout. Empty without smoothed strains. Constant once built.
 template <class Real>
 struct EdgeSmoothing
 {
@@ -48,18 +48,18 @@ struct EdgeSmoothing
     bool empty() const { return m_lanes.empty(); }
     int domainCount() const { return static_cast<int>(m_start.size()) - 1; }
 
-    /// Of kLanes elements.
+    /// Shares of kLanes elements.
     struct alignas(64) BlockShares
     {
         Real m_own[kLanes];                ///< 1 - b [-]
         Real m_ofDomain[kLanes];           ///< b / 6 [-]
-        std::int32_t m_domain[kLanes][6];  ///< of the six edges
+        std::int32_t m_domain[kLanes][6];  ///< domains of the six edges
     };
 
     std::vector<BlockShares> m_lanes;  ///< one a block
-    std::vector<int> m_start = {0};    ///< of every domain and of the end, into the next two
-    std::vector<int> m_place;          ///< of an element's first quad in an array of StrainQuads, taken as quads
-    std::vector<Real> m_weight;        ///< of the element in the domain's mean [-]
+    std::vector<int> m_start = {0};    ///< start of each domain in the next two arrays, then the end
+    std::vector<int> m_place;          ///< index of an element's first quad in an array of StrainQuads, taken as quads
+    std::vector<Real> m_weight;        ///< weight of the element in the domain's mean [-]
 };
 
 /// An array of StrainQuads and the domains' means.
@@ -70,54 +70,55 @@ struct SmoothedStrain
     DomainStrain<Real>* m_domain;  ///< one a domain
 };
 
-/// What an ElementPass is for elements whose strains are smoothed: with eps_e and its rate in the element's frame,
-/// theta their mean volume change over the element's patch, and s the smoothed strain of EdgeDomains,
+/// Element pass for smoothed strains: with eps_e and its rate in the element's frame, theta the mean volume change over
+/// the element's patch, and s the smoothed strain of EdgeDomains,
 ///     stress = V (2 mu dev(s) + (lambda + 2/3 mu) theta I) + V sigma_0,     f_a = -R_e (stress + W + viscous) g_a,
-/// W skew, so that the element has no torque (withInitialStress()): the forces are the gradient of the energy
-///     sum over domains of mu |dev(s_k)|^2 + of elements (1 - b) mu V |dev(eps)|^2 + (lambda + 2/3 mu) V theta^2 / 2.
-/// It goes in three parts, each when the one before is done for all: findStrains, averageStrains twice, findForces.
+/// with the skew W that makes the element's torque zero (withInitialStress()): the forces are the gradient of the
+/// energy
+///     sum over domains of mu |dev(s_k)|^2
+///         + sum over elements of (1 - b) mu V |dev(eps)|^2 + (lambda + 2/3 mu) V theta^2 / 2.
+/// Three stages, each for all elements before the next: findStrains, averageStrains twice, findForces.
 template <class Real>
 struct SmoothedPass
 {
-    ElementPass<Real> m_elements;            ///< m_warped and m_isRotated are not read
+    ElementPass<Real> m_elements;            ///< m_warped and m_isRotated are unused
     const EdgeSmoothing<Real>* m_smoothing;  ///< not empty
-    SmoothedStrain<Real> m_elastic;          ///< scratch, of eps
-    SmoothedStrain<Real> m_damped;           ///< scratch, of eps + damping times its rate
-    SmoothedBlock<Real>* m_warped;           ///< out, one a block
+    SmoothedStrain<Real> m_elastic;          ///< scratch, strains eps
+    SmoothedStrain<Real> m_damped;           ///< scratch, eps + damping times its rate
+    SmoothedBlock<Real>* m_warped;           ///< output, one a block
 };
 
-/// What an ElementProduct is, likewise in three parts.
+/// Element product for smoothed strains, in the three stages findStrains, averageStrains, findForces.
 template <class Real>
 struct SmoothedProduct
 {
-    ElementProduct<Real> m_elements;         ///< m_warped is not read
+    ElementProduct<Real> m_elements;         ///< m_warped is unused
     const EdgeSmoothing<Real>* m_smoothing;  ///< not empty
     SmoothedStrain<Real> m_strain;           ///< scratch
     TensionBlock<Real>* m_tension;           ///< scratch, one a block
-    const SmoothedBlock<Real>* m_warped;     ///< of the pass
+    const SmoothedBlock<Real>* m_warped;     ///< output of the pass
 };
 
-// All run on the widest vectors that the processor has, over ranges of pieces (ElementBlocks::pieceCount()), of domains
-// or of blocks. Any division into ranges gives the same bits. They never allocate, and are safe on distinct ranges at
-// the same time.
+// All run over ranges of pieces (ElementBlocks::pieceCount()), of domains or of blocks, on the widest vectors that the
+// processor has. Bitwise independent of the division into ranges. Never allocate; thread-safe on distinct ranges.
 
-/// Rotations and strains, of a range of pieces.
+/// Rotations and strains of a range of pieces.
 template <class Real>
 void findStrains(const SmoothedPass<Real>& pass, Range pieces);
-/// Likewise.
+/// Strains of the vector p, of a range of pieces.
 template <class Real>
 void findStrains(const SmoothedProduct<Real>& product, Range pieces);
-/// The means of a range of domains.
+/// Means of a range of domains.
 template <class Real>
 void averageStrains(const EdgeSmoothing<Real>& smoothing, const SmoothedStrain<Real>& strain, Range domains);
-/// Forces, and what products need, of a range of blocks.
+/// Forces and the data of products, of a range of blocks.
 template <class Real>
 void findForces(const SmoothedPass<Real>& pass, Range blocks);
-/// Likewise.
+/// Corner vectors f_a, of a range of blocks.
 template <class Real>
 void findForces(const SmoothedProduct<Real>& product, Range blocks);
 
-/// The same in plain C++: what the kernels are tested against.
+/// Reference implementations in plain C++, for tests of the kernels.
 namespace reference
 {
 template <class Real>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/common/vector_targets.h"
 #include "fem/elements/smoothed_elements.h"
 
@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 
-// Processors with nothing that Highway knows.
+// For processors without vector instructions.
 template <class Real>
 void passStrains(const SmoothedPass<Real>& pass, Range pieces)
 {
@@ -36,7 +36,7 @@ void passForces(const SmoothedPass<Real>& pass, Range blocks)
 
 #else
 
-/// The strain and what damping makes of it, and rotations.
+/// Strains with and without damping; updates the rotations.
 template <class Real>
 HWY_INLINE void strainsOf(const SmoothedPass<Real>& smoothed, int b, int lane, Symmetric<Real>& elastic,
                           Symmetric<Real>& damped)

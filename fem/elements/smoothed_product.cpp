@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/common/vector_targets.h"
 #include "fem/elements/smoothed_elements.h"
 
@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE
 {
 #if HWY_TARGET == HWY_SCALAR
 
-// Processors with nothing that Highway knows.
+// For processors without vector instructions.
 template <class Real>
 void productStrains(const SmoothedProduct<Real>& product, Range pieces)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Strains of several elements on their way to and from edge domains. Included once for every instruction set.
+// Transfer of element strains to and from edge domains. Included once for every instruction set.
 #if defined(BULLETFEM_SMOOTHED_STRAIN_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_SMOOTHED_STRAIN_INL_H
 #undef BULLETFEM_SMOOTHED_STRAIN_INL_H
@@ -19,7 +19,7 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-/// As quads of the elements from `lane` on.
+/// Stores strains as quads of the elements from `lane` on.
 template <class Real>
 HWY_INLINE void storeQuads(const Symmetric<Real>& E, Vector<Real> theta, StrainQuads<Real>& out, int lane)
 {
@@ -28,7 +28,7 @@ HWY_INLINE void storeQuads(const Symmetric<Real>& E, Vector<Real> theta, StrainQ
     hn::StoreInterleaved4(E.xz, E.xy, theta, hn::Zero(d), d, out.m_quad[1][lane]);
 }
 
-/// What storeQuads() has stored.
+/// Loads strains stored by storeQuads().
 template <class Real>
 HWY_INLINE Symmetric<Real> loadQuads(const Real* first, const Real* second, Vector<Real>& theta)
 {
@@ -40,13 +40,13 @@ HWY_INLINE Symmetric<Real> loadQuads(const Real* first, const Real* second, Vect
     return E;
 }
 
-/// The smoothed strains of as many elements as a vector has lanes, on the way to vectors by way of memory.
+/// The smoothed strains of as many elements as a vector has lanes, transferred to vectors via memory.
 template <class Real>
 struct StagedStrains
 {
     HWY_ALIGN Real m_quad[2][width<Real>()][4];
 
-    /// Of block b, from `lane` on.
+    /// Elements of block b, from `lane` on.
     HWY_INLINE void stage(const EdgeSmoothing<Real>& smoothing, const SmoothedStrain<Real>& strain, int b, int lane)
     {
         for (int i = 0; i < width<Real>(); ++i) stageLane(smoothing, strain, b, lane, i);
@@ -79,7 +79,7 @@ private:
     }
 };
 
-/// V (2 mu dev(s) + (lambda + 2/3 mu) theta I), the moduli times V.
+/// V (2 mu dev(s) + (lambda + 2/3 mu) theta I); the moduli include V.
 template <class Real>
 HWY_INLINE Symmetric<Real> smoothedStress(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& s,
                                           Vector<Real> theta)

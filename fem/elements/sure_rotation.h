@@ -7,9 +7,9 @@
 namespace bullet_fem
 {
 
-/// The polar rotation of one of kLanes matrices (row-major, a lane each) by polarRotation(); `guess` where the matrix
-/// is not finite. Of its two quaternions the one on the side of `guess`, so that signs stay as they are from step to
-/// step.
+/// The polar rotation of one of kLanes matrices (row-major, a lane each) by polarRotation(); `guess` if the matrix is
+/// not finite. Of the two quaternions it returns the one in the hemisphere of `guess`, so that signs persist from step
+/// to step.
 template <class Real>
 BasicQuaternion<Real> sureRotation(const Real (*F)[kLanes], int lane, const BasicQuaternion<Real>& guess);
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs. Every sum is taken in the order
-// of panel_kernels.cpp: along a row of M column by column; along a column of the panel one sum for every kN-th row, and
-// these as sumOfLanes() adds them.
+// Compiled once for every instruction set; selected at run time. Every sum has the order of panel_kernels.cpp: along a
+// row of M column by column; along a column of the panel one partial sum for every kN-th row, added as in sumOfLanes().
 #include "fem/factor/batch_panel_kernels.h"
 
 #include <cstddef>
@@ -54,8 +53,8 @@ struct MultiplySide
 /// out_c = (column c of the panel) . rows.
 struct MultiplyTransposedSide
 {
-    const float* m_rows;  // of the panel
-    float* m_parts;       // kN / 2 sums of every column of a chunk
+    const float* m_rows;  // rows of the panel
+    float* m_parts;       // kN / 2 partial sums of every column of a chunk
     float* m_out;
     int m_rowCount;
 
@@ -81,7 +80,7 @@ struct MultiplyTransposedSide
         }
     }
 
-    // Rows k, k + kN, ... and k + kN / 2, ... of all columns, each kind in a sum of its own; then both.
+    // Rows k, k + kN, ... and k + kN / 2, ... of all columns in separate sums, which are then added.
     template <int C>
     HWY_INLINE void sumTwo(int k, int h, const float* values) const
     {

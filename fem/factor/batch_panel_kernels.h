@@ -9,13 +9,14 @@
 namespace bullet_fem
 {
 
-/// forwardPanel() and backwardPanel() for kPanelLanes right-hand sides, interleaved as forwardPanelLanes() has them,
-/// each with the bits that it gets alone: sums are taken in another order than there, which costs a little. `scratch`
-/// has batchScratchOf(panel) entries. Run on the widest vectors that the processor has.
+/// forwardPanel() and backwardPanel() for kPanelLanes right-hand sides, interleaved as in forwardPanelLanes(). Each
+/// result is bitwise equal to that of the single right-hand side, so the summation order differs from
+/// forwardPanelLanes(), at a small cost. `scratch` has batchScratchOf(panel) entries. Uses the widest vectors that the
+/// processor has.
 void forwardPanelBatch(const Panel& panel, float* y, float* scratch);
 void backwardPanelBatch(const Panel& panel, float* y, float* scratch);
 
-/// Rows, and parts of sums of the columns of a chunk, of all right-hand sides.
+/// Scratch entries: the rows, and partial sums of the columns of a chunk, of all right-hand sides.
 inline std::size_t batchScratchOf(const Panel& panel)
 {
     const std::size_t rows = panel.m_rowsBelow + panel.m_columns, parts = kPanelColumns * kPanelLanes / 2;

@@ -37,7 +37,7 @@ BlockMatrix emptyMatrix(const RestShape& shape)
 {
     const TetMesh& mesh = shape.m_mesh;
     std::vector<std::vector<int>> neighbours(mesh.nodeCount());
-    for (int i = 0; i < mesh.nodeCount(); ++i) neighbours[i].push_back(i);  // loose nodes have no more
+    for (int i = 0; i < mesh.nodeCount(); ++i) neighbours[i].push_back(i);  // loose nodes have only this
     for (const Tet& tet : mesh.tets())
         for (int a : tet) neighbours[a].insert(neighbours[a].end(), tet.begin(), tet.end());
     for (int p = 0; p < shape.m_patches.count(); ++p)
@@ -58,7 +58,7 @@ BlockMatrix emptyMatrix(const RestShape& shape)
     return matrix;
 }
 
-// (lambda + 2/3 mu) V G_i G_j^T of every patch.
+// Adds (lambda + 2/3 mu) V G_i G_j^T of every patch.
 void addPatches(const RestShape& shape, BlockMatrix& K)
 {
     const ElementPatches& patches = shape.m_patches;

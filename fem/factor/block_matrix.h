@@ -9,7 +9,8 @@
 namespace bullet_fem
 {
 
-/// A symmetric matrix of 3x3 blocks, one row of blocks a node; both triangles are stored, columns ascend.
+/// A symmetric matrix of 3x3 blocks, one block row a node, in compressed row storage; both triangles are stored,
+/// columns ascend.
 struct BlockMatrix
 {
     std::vector<int> m_rowStart;  ///< node count + 1 entries
@@ -21,19 +22,19 @@ struct BlockMatrix
     const Mat3& at(int row, int column) const { return const_cast<BlockMatrix*>(this)->at(row, column); }
 };
 
-/// The gradient g_a of the shape function of an element's node a in 0..3 [1/m].
+/// Shape gradient g_a of an element's node a in 0..3 [1/m].
 Vec3 shapeGradient(const RestElement& element, int a);
 
-/// The 3x3 blocks K_ab = V (lambda g_a g_b^T + mu g_b g_a^T + mu (g_a . g_b) I) of an element's rest stiffness
-/// K_e = V B^T C B [N/m], nodes a, b in 0..3.
+/// The 3x3 block K_ab = V (lambda g_a g_b^T + mu g_b g_a^T + mu (g_a . g_b) I) of an element's rest stiffness K_e = V
+/// B^T C B [N/m], nodes a, b in 0..3.
 Mat3 elementStiffnessBlock(const RestElement& element, int a, int b);
 
-/// The same of any C: K_ab = V B_a^T C B_b.
+/// The 3x3 block K_ab = V B_a^T C B_b of the rest stiffness for a general C [N/m], nodes a, b in 0..3.
 Mat3 elementStiffnessBlock(const RestElement& element, const ElasticMatrix& C, int a, int b);
 
-/// The rest stiffness K [N/m], assembled over all nodes; where elements share their volume changes, with G_i = sum of
-/// V_e / V g_a over the elements of a patch of volume V at node i, with (lambda + 2/3 mu) V G_i G_j^T in place of what
-/// their own volume changes make.
+/// Assembles the rest stiffness K [N/m] over all nodes. For patches of mean dilatation, (lambda + 2/3 mu) V G_i G_j^T
+/// replaces the elements' own volumetric stiffness, with G_i = sum of V_e / V g_a over the elements of a patch of
+/// volume V at node i.
 BlockMatrix assembleRestStiffness(const RestShape& shape);
 
 }  // namespace bullet_fem

@@ -37,9 +37,9 @@ void validateInput(const RestShape& shape, const FactorInput& input)
             reject("node ", i, " belongs to no element and is not fixed; fix it, or remove it from the mesh");
 }
 
-// The eigenvalues of A0 lie between those of its parts: 1 + h alpha times the mass, and h^2 + h beta times K, which is
-// monotonous in the eigenvalues 2 mu and 3 lambda + 2 mu of Hooke's matrix. A step that is off by a ratio changes them
-// by its square.
+// Equivalent ratio of steps of two materials. The eigenvalues of A0 lie between those of its parts: 1 + h alpha times
+// the mass, and h^2 + h beta times K, which is monotone in the eigenvalues 2 mu and 3 lambda + 2 mu of Hooke's matrix.
+// A ratio of steps changes them by its square.
 double mismatch(const Material& a, const Material& b, double h)
 {
     const auto parts = [h](const Material& m)
@@ -49,15 +49,14 @@ double mismatch(const Material& a, const Material& b, double h)
                                      stiff * (3 * m.lameLambda() + 2 * m.lameMu())};
     };
     double most = 1;
-    // Elements that share their volume changes, and such that do not: to a volume change of the one kind the other may
-    // be as soft as without lambda.
+    // With mean dilatation in one material only, the other may be as soft in some volume changes as without lambda.
     if (a.usesMeanDilatation() != b.usesMeanDilatation())
         for (const Material* m : {&a, &b}) most = std::max(most, 1 + 1.5 * m->lameLambda() / m->lameMu());
     for (std::size_t k = 0; k < 3; ++k) most = std::max({most, parts(a)[k] / parts(b)[k], parts(b)[k] / parts(a)[k]});
     return std::sqrt(most);
 }
 
-// The same where one of them is orthotropic, by the eigenvalues of C of the one beside C of the other.
+// The equivalent ratio if a material is orthotropic, by the generalized eigenvalues of the two matrices C.
 double orthotropicMismatch(const Material& a, const Material& b, double h)
 {
     if (a == b) return 1;
@@ -73,7 +72,7 @@ double orthotropicMismatch(const Material& a, const Material& b, double h)
     return std::sqrt(std::max({1.0, mass(a) / mass(b), mass(b) / mass(a), largest, 1 / least}));
 }
 
-// Both matrices are sums over elements: none of their eigenvalues is farther off than the worst element's.
+// Both matrices are sums over elements: their eigenvalues differ by at most the worst element's ratio.
 double mismatch(const RestShape& shape, const ElementMaterials& factored, double h)
 {
     const bool orthotropic = shape.isOrthotropic() || factored.isOrthotropic();

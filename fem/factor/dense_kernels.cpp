@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Pivots are eliminated by sweeping [Goodnight 1979]. Sweeping a symmetric A on the pivots k means, for others i, j:
+// The sweep operator [Goodnight 1979] eliminates pivots. Sweeping a symmetric A on the pivots k gives, for others i, j:
 //     A_kk <- -A_kk^-1     A_ik <- A_ik A_kk^-1     A_ij <- A_ij - A_ik A_kk^-1 A_kj
-// Sweeping on all pivots of A11, in blocks of any size, leaves -A11^-1, A21 A11^-1 and A22 - A21 A11^-1 A21^T. The
-// matrix stays symmetric throughout, so lower halves do, and nearly all work is one product, C -= U V^T.
+// Sweeping on all pivots of A11, in blocks of any size, gives -A11^-1, A21 A11^-1 and A22 - A21 A11^-1 A21^T. The
+// matrix stays symmetric throughout, so lower halves suffice, and nearly all work is one product, C -= U V^T.
 #include "fem/factor/dense_kernels.h"
 
 #include <algorithm>
@@ -19,16 +19,16 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-// What all targets share; they include this file once each.
+// Shared by all targets, each of which includes this file once.
 #ifndef BULLETFEM_DENSE_KERNELS_SHARED
 #define BULLETFEM_DENSE_KERNELS_SHARED
 namespace bullet_fem
 {
-// Pivots of a block at the outer level, where products should be long, and inside such a block.
+// Pivots of a block at the outer level, where products should be long, and within such a block.
 constexpr int kOuterBlock = 96;
 constexpr int kInnerBlock = 12;
 
-// Rows of the tallest panel, and by how many doubles a start may move to the next cache line.
+// Maximum rows of a panel, and alignment of starts to cache lines [doubles].
 constexpr int kTallestPanel = 24;
 constexpr int kAlignment = 8;
 }  // namespace bullet_fem
@@ -45,14 +45,14 @@ const hn::CappedTag<double, 8> kTag;
 using Vec = hn::Vec<decltype(kTag)>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(kTag));
 
-// A tile of C is this many vectors high and columns wide, so that it stays in registers.
+// Size of a tile of C in vectors and columns, so that it fits in registers.
 constexpr int kTileVectors = 3;
 constexpr int kTileRows = kTileVectors * kLanes;
 static_assert(kTileRows <= kTallestPanel);
 constexpr int kTileColumns = HWY_MAX_BYTES >= 64 ? 8 : 4;
 
-// One factor of a product, in panels of `width` rows that the tiles read from front to back: for each of the k columns
-// the panel's rows. The last panel is filled up with zero rows.
+// One factor of a product, packed in panels of `width` rows in the order that tiles read them: for each of the k
+// columns the panel's rows. The last panel is padded with zero rows.
 struct Panels
 {
     double* m_start;
@@ -109,7 +109,7 @@ Panels packWide(const View& X, double* to)
     return pack<kTileColumns>(X, to);
 }
 
-// Where a product goes: column by column, the whole of it or the tiles that reach its diagonal.
+// The destination of a product: column-major, all of it or the tiles on and below its diagonal.
 struct Target
 {
     double* m_start;
@@ -117,8 +117,8 @@ struct Target
     bool m_lowerOnly;
 };
 
-// Subtracts the first lanes from memory and touches no other. (Masked loads may do so, and want aligned memory on
-// SSE4.)
+// Subtracts the first lanes from memory and accesses no others. (Masked loads may access others, and require aligned
+// memory on SSE4.)
 HWY_INLINE void subtractLanes(Vec x, int lanes, double* from)
 {
     if (lanes == kLanes)
@@ -165,7 +165,7 @@ HWY_INLINE void subtractTile(const double* U, const double* V, int k, const Targ
     }
 }
 
-// C -= U V^T with packed factors, down the columns of C, which the processor then fetches ahead.
+// C -= U V^T with packed factors, down the columns of C, which suits hardware prefetching.
 void subtractPanels(const Panels& U, const Panels& V, const Target& C)
 {
     for (int column = 0; column < V.m_rows; column += kTileColumns)
@@ -194,7 +194,7 @@ void subtractProduct(const DenseProduct& p, double* scratch)
     subtractPanels(U, V, {p.m_C, p.m_strideC, p.m_lowerOnly});
 }
 
-// Sweeps the symmetric n x n matrix T, both halves of it, on one pivot after the other.
+// Sweeps the symmetric n x n matrix T, both halves, on one pivot after another.
 int sweepSmall(int n, double* HWY_RESTRICT T, double& pivotValue)
 {
     for (int k = 0; k < n; ++k)
@@ -217,7 +217,7 @@ int sweepSmall(int n, double* HWY_RESTRICT T, double& pivotValue)
 
 int sweep(const DenseFront& front, int largestBlock, double* scratch, double& pivotValue);
 
-// -A_kk^-1 of the pivots k ... k + n - 1, both halves.
+// Computes -A_kk^-1 of the pivots k ... k + n - 1, both halves.
 int sweptPivotBlock(const DenseFront& front, int k, int n, double* T, double* scratch, double& pivotValue)
 {
     for (int j = 0; j < n; ++j)
@@ -232,13 +232,13 @@ void clear(double* C, int rows, int columns, std::ptrdiff_t stride)
     for (int j = 0; j < columns; ++j) std::fill_n(C + j * stride, rows, 0.0);
 }
 
-// A column of blocks of the front, A_ik, being replaced by A_ik A_kk^-1: packed before and after.
+// A block column of the front while A_ik is replaced by A_ik A_kk^-1: packed before and after.
 struct SweptRows
 {
     Panels m_old, m_new;
 };
 
-// For rows i that are stored below the block k, at X.
+// For rows i stored below the block k, at X.
 SweptRows sweepRows(const View& X, double* store, const Panels& T, double*& scratch)
 {
     SweptRows rows;
@@ -251,7 +251,7 @@ SweptRows sweepRows(const View& X, double* store, const Panels& T, double*& scra
     return rows;
 }
 
-// For rows i that come before the block k: what is stored, at X, is A_ki.
+// For rows i before the block k: X stores A_ki.
 SweptRows sweepRowsAbove(const View& X, double* store, const Panels& T, double*& scratch)
 {
     const View transposed = {X.m_start, X.m_columns, X.m_rows, X.m_columnStride, X.m_rowStride};
@@ -264,7 +264,7 @@ SweptRows sweepRowsAbove(const View& X, double* store, const Panels& T, double*&
     return rows;
 }
 
-// Sweeps the front on the n pivots from k on.
+// Sweeps the front on n pivots from k on.
 int sweepBlock(const DenseFront& front, int k, int n, double* scratch, double& pivotValue)
 {
     const int p = front.m_pivots, r = front.m_rows, end = k + n;
@@ -294,7 +294,7 @@ int sweepBlock(const DenseFront& front, int k, int n, double* scratch, double& p
     return -1;
 }
 
-// Sweeps the front on all its pivots in blocks of like size and fills the upper half of A11.
+// Sweeps the front on all its pivots in blocks of similar size and fills the upper half of A11.
 int sweep(const DenseFront& front, int largestBlock, double* scratch, double& pivotValue)
 {
     const int p = front.m_pivots;
@@ -333,7 +333,7 @@ namespace
 HWY_EXPORT(eliminatePivots);
 HWY_EXPORT(subtractProduct);
 
-// Of one level of blocks: the swept block and its panels, then twice the rows of each of the three groups.
+// Scratch of one level of blocks: the swept block and its panels, then twice the rows of each of the three groups.
 std::size_t sweepScratch(std::size_t block, std::size_t rows)
 {
     return block * (block + 2 * (block + kTallestPanel) + 2 * (rows + 3 * kTallestPanel)) + 2 * kAlignment;

@@ -8,8 +8,8 @@
 namespace bullet_fem
 {
 
-/// Where a symmetric matrix has entries: the lower triangle by columns; row indices ascend and the diagonal comes
-/// first.
+/// Sparsity pattern of a symmetric matrix: the lower triangle in compressed column storage; row indices ascend,
+/// starting with the diagonal.
 struct SparsePattern
 {
     int m_size = 0;
@@ -17,23 +17,23 @@ struct SparsePattern
     std::vector<int> m_rowIndex;
 };
 
-/// The libraries that fillReducingOrder() chooses from, with their versions: "AMD x.y.z, METIS x.y.z", with Eigen in
-/// place of AMD, or without METIS, where a build or a program has none.
+/// The libraries that fillReducingOrder() uses, with their versions: "AMD x.y.z, METIS x.y.z"; Eigen replaces AMD, and
+/// METIS is missing, if a build or program lacks them.
 std::string orderingBackend();
 
-/// A permutation that keeps a Cholesky factor sparse, and what found it.
+/// A fill-reducing elimination order, and the method that found it.
 struct FillOrder
 {
     const char* m_method = "";  ///< AMD, METIS or Eigen
-    std::vector<int> m_rows;    ///< entry k is the row of the pattern that comes k-th
+    std::vector<int> m_rows;    ///< entry k is the row of the pattern eliminated k-th
 };
 
-/// Of METIS's nested dissection and the approximate minimum degree of SuiteSparse's AMD (or of Eigen where there is no
-/// AMD) the one with less fill. May be called at the same time on several threads. Throws std::bad_alloc, or
+/// The order with less fill of METIS's nested dissection [Karypis & Kumar 1998] and SuiteSparse's approximate minimum
+/// degree [Amestoy et al. 1996] (Eigen's without AMD). Thread-safe. Allocates. Throws std::bad_alloc, or
 /// std::runtime_error if a library fails.
 FillOrder fillReducingOrder(const SparsePattern& pattern);
 
-/// Eigen's approximate minimum degree: entry k is the row that comes k-th.
+/// Eigen's approximate minimum degree order: entry k is the row eliminated k-th.
 std::vector<int> eigenOrder(const SparsePattern& pattern);
 
 }  // namespace bullet_fem

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs. One entry of a panel serves
-// three directions, so where the panels of three rows a node wait for memory these compute.
+// Compiled once for every instruction set; selected at run time. One entry of a panel serves three directions, so these
+// kernels are limited by arithmetic where those with three rows a node are limited by memory.
 #include "fem/factor/isotropic_panel_kernels.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-constexpr int kLanes = kNodeLanes;  // of 16 nodes in the scratch of one right-hand side
+constexpr int kLanes = kNodeLanes;  // floats of 16 nodes in the scratch of one right-hand side
 
 /// out += M x, one right-hand side; out has 16 rows of each direction in turn.
 struct IsotropicMultiply
@@ -92,7 +92,7 @@ struct IsotropicMultiplyTransposed
     }
 };
 
-/// Where row r of one right-hand side starts in the scratch; its directions are kPanelLanes apart.
+/// Start of row r of one right-hand side in the scratch; its directions are kPanelLanes apart.
 HWY_INLINE std::size_t place(int r)
 {
     return static_cast<std::size_t>(r / kPanelLanes) * kLanes + r % kPanelLanes;

@@ -10,7 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-/// The recurrences of the lanes.
+/// The conjugate gradient coefficients of all lanes.
 class Lanes
 {
 public:
@@ -18,7 +18,7 @@ public:
 
     bool busy() const { return m_busy > 0; }
 
-    /// beta for the next direction; lanes with nothing left to do end.
+    /// beta for the next direction; ends lanes that have converged exactly.
     LaneNumbers turn(const LaneNumbers& rz)
     {
         LaneNumbers beta;
@@ -32,7 +32,7 @@ public:
         return beta;
     }
 
-    /// How far to go along the directions: nowhere in lanes that have ended.
+    /// Step lengths along the directions; 0 in lanes that have ended.
     LaneNumbers advance(const LaneNumbers& pAp)
     {
         LaneNumbers step;

@@ -12,23 +12,23 @@
 namespace bullet_fem
 {
 
-/// Columns of A0^-1 on the low-memory path, whose factor is not that of A0: kPanelLanes right-hand sides at a time by
-/// conjugate gradients [Hestenes & Stiefel 1952] in single precision, with that factor as preconditioner. The rigid
-/// motions that fixed nodes allow are known, and all vectors are free of them. A lane ends where its last
-/// iteration changed the energy x . A0 x by less than tolerance^2 of what it is. The error of x in the energy norm, as
-/// a share of x, both without rigid motions, is then less than the tolerance, or up to twice as much where convergence
-/// is slow; and with it that of (A0^-1)_ij as a share of sqrt((A0^-1)_ii (A0^-1)_jj). A lane's bits do not depend on
-/// the other lanes. Allocates when it is made, never else.
+/// Columns of A0^-1 on the low-memory path, whose factor is not that of A0: solves kPanelLanes right-hand sides at a
+/// time by conjugate gradients [Hestenes & Stiefel 1952] in single precision, preconditioned by that factor. The rigid
+/// motions that fixed nodes permit are treated in closed form, and all vectors are free of them. A lane ends when an
+/// iteration changes the energy x . A0 x by less than tolerance^2 of it. The relative error of x in the energy norm,
+/// without rigid motions, is then less than the tolerance, or up to twice that if convergence is slow; it also bounds
+/// the error of (A0^-1)_ij relative to sqrt((A0^-1)_ii (A0^-1)_jj). A lane's bits do not depend on the other lanes.
+/// Allocates in the constructor only.
 class LaneGradients
 {
 public:
     static constexpr int kMostIterations = 200;
 
-    /// The model must outlive it, and its factor be of the low-memory path.
+    /// The model must outlive this object, and its factor must be that of the low-memory path. Allocates.
     explicit LaneGradients(const BodyModel& model);
 
-    /// y <- A0^-1 y, in all lanes. `scratch` is that of PackedFactor::solveLanes(). Returns the iterations of the lane
-    /// that took most.
+    /// y <- A0^-1 y in all lanes. `scratch` is that of PackedFactor::solveLanes(). Returns the maximum number of
+    /// iterations of a lane.
     int solve(double tolerance, float* y, float* scratch);
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for every instruction set; selected at run time.
 #include "fem/factor/lane_vectors.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace bullet_fem
 namespace HWY_NAMESPACE
 {
 
-constexpr int kNodesOfSum = 16;  // added in single precision before the sum goes on in double
+constexpr int kNodesOfSum = 16;  // nodes summed in single precision before the sum continues in double
 
 struct alignas(64) SingleNumbers
 {
@@ -34,7 +34,7 @@ struct alignas(64) SingleNumbers
     float m[kPanelLanes] = {};
 };
 
-/// Adds what has come together in single precision, and starts anew.
+/// Adds the single-precision sums to the double ones, and resets them.
 HWY_INLINE void moveSums(SingleNumbers& from, LaneNumbers& to)
 {
     for (int k = 0; k < kPanelLanes; ++k)
@@ -44,7 +44,7 @@ HWY_INLINE void moveSums(SingleNumbers& from, LaneNumbers& to)
     }
 }
 
-/// sum += a . b of a node's three directions.
+/// sum += a . b over a node's three directions.
 HWY_INLINE V dot3(V sum, const V* a, const V* b)
 {
     return hn::MulAdd(a[2], b[2], hn::MulAdd(a[1], b[1], hn::MulAdd(a[0], b[0], sum)));
@@ -62,7 +62,7 @@ HWY_INLINE void store3(const V* v, float* to)
     for (int i = 0; i < 3; ++i) hn::Store(v[i], d, to + i * kPanelLanes);
 }
 
-/// y += B x, or B^T x.
+/// y += B x, or y += B^T x.
 template <bool Transposed>
 HWY_INLINE void addBlock(const float* B, const V* x, V* y)
 {
@@ -122,8 +122,8 @@ void DotLanes(const LaneVectors& v, LaneNumbers& sum)
     moveSums(part, sum);
 }
 
-/// A row of the lower half, and what is above the diagonal in its column. Row by row from the last one on: what later
-/// rows add to q_i is there when row i is done with.
+/// Multiplies a row of the lower half, and its transpose. Rows are processed from the last one on, so that q_i has all
+/// contributions of later rows when row i is finished.
 HWY_INLINE V multiplyRow(const RestMatrix& A, int row, const LaneVectors& v, std::size_t h, V sum)
 {
     const std::size_t at = static_cast<std::size_t>(row) * kNodeLanes + h;

@@ -8,15 +8,15 @@
 namespace bullet_fem
 {
 
-/// One number for each of kPanelLanes right-hand sides.
+/// One number per right-hand side.
 struct LaneNumbers
 {
     double m[kPanelLanes] = {};
 };
 
-/// kPanelLanes vectors over the nodes of a factor, interleaved as PackedFactor::solveLanes() has them, each an array of
-/// 3 x kPanelLanes floats a node that is aligned to 64 bytes: what conjugate gradients work with. What happens in one
-/// lane never depends on the others. All run on the widest vectors that the processor has.
+/// The vectors of kPanelLanes conjugate gradient solves over the nodes of a factor, interleaved as in
+/// PackedFactor::solveLanes(), each an array of 3 x kPanelLanes floats a node, aligned to 64 bytes. Lanes are
+/// independent of each other. All functions use the widest vectors that the processor has.
 struct LaneVectors
 {
     int m_nodes;
@@ -35,7 +35,7 @@ LaneNumbers multiplyLanes(const RestMatrix& A, const LaneVectors& v);
 /// x += step p, r -= step q, then q = r.
 void advanceLanes(const LaneVectors& v, const LaneNumbers& step);
 
-/// r . q.
+/// Returns r . q.
 LaneNumbers dotLanes(const LaneVectors& v);
 
 }  // namespace bullet_fem

@@ -5,14 +5,14 @@
 namespace bullet_fem
 {
 
-/// What a factor holds for two nodes that are joined in it.
+/// Entry of a factor for a pair of adjacent nodes.
 enum class NodeEntry
 {
-    block,  ///< a 3x3 block: the directions act on each other
+    block,  ///< a 3x3 block, which couples the directions
     number  ///< one number for all three directions: a ninth of the memory
 };
 
-/// Rows and columns of a node in panels of that kind.
+/// Rows and columns per node in panels of such entries.
 inline int rowsOfNode(NodeEntry entry)
 {
     return entry == NodeEntry::block ? 3 : 1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Multifrontal [Duff & Reid 1983; Liu 1992]: each supernode is a dense front of its columns and rows, filled from A and
-// from what its children left over their rows; eliminating its columns leaves the same for its parent.
+// Multifrontal factorization [Duff & Reid 1983; Liu 1992]: each supernode is a dense front of its columns and rows,
+// assembled from A and its children's update matrices; eliminating its columns leaves the update matrix for its parent.
 #include "fem/factor/numeric_factor.h"
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace bullet_fem
 namespace
 {
 
-// Memory for the fronts. Blocks A22 wait in it for their parents on two stacks, one from either end: a supernode's own
-// goes on the stack of its depth's parity, its children's come off the other one, and nothing has to move. A11 and A21
-// of the present front lie between the stacks.
+// Memory of the fronts. Update matrices A22 wait for their parents on two stacks, one from either end: a supernode's
+// own is pushed on the stack of its depth's parity, its children's are popped from the other one, so nothing has to
+// move. A11 and A21 of the current front lie between the stacks.
 class FrontArena
 {
 public:
@@ -32,7 +32,7 @@ private:
     struct Place
     {
         std::size_t m_pivots, m_rows;  // sizes [scalars]
-        std::size_t m_A22, m_A11;      // starts; A22's from the end of the arena at odd depths
+        std::size_t m_A22, m_A11;      // starts; that of A22 from the end of the arena at odd depths
         int m_depth;
     };
 
@@ -82,11 +82,11 @@ class Fronts
 public:
     Fronts(const BlockMatrix& A, const std::vector<int>& order, const SupernodeTree& tree, NodeEntry entry);
 
-    // Fills and eliminates supernode s: A11 holds S then, A21 holds M.
+    // Assembles and eliminates supernode s: afterwards A11 holds S, and A21 holds M.
     DenseFront factor(int s);
 
 private:
-    // A stretch of a child's rows that are neighbours in the front, too.
+    // A run of a child's rows that are consecutive in the front, too.
     struct Run
     {
         int m_from, m_to, m_count;  // first row in the child, in the front, and length [scalars]
@@ -104,8 +104,8 @@ private:
     const SupernodeTree& m_tree;
     const int m_rowsOfNode;
     FrontArena m_arena;
-    std::vector<int> m_column;  // of each node of A; -1 if left out
-    std::vector<int> m_place;   // of each column in the present front [nodes]
+    std::vector<int> m_column;  // column of each node of A; -1 if left out
+    std::vector<int> m_place;   // position of each column in the current front [nodes]
     std::vector<double> m_scratch;
     std::vector<Run> m_runs;
 };
@@ -171,7 +171,7 @@ void Fronts::number(const Supernode& s)
     for (int k = 0; k < s.m_rows; ++k) m_place[m_tree.m_row[s.m_rowStart + k]] = s.m_columns + k;
 }
 
-// Upper halves too: nothing reads them, but kernels compute there, and must not meet what is no number.
+// Clears the upper halves, too: they are unused, but kernels compute there, and must not meet NaN.
 void Fronts::clear(const DenseFront& front)
 {
     const std::size_t p = front.m_pivots, r = front.m_rows;
@@ -180,14 +180,14 @@ void Fronts::clear(const DenseFront& front)
     std::fill_n(front.m_A22, r * r, 0.0);
 }
 
-// A piece of a column-major matrix.
+// A submatrix of a column-major matrix.
 struct Piece
 {
     double* m_start;
     std::ptrdiff_t m_stride;
 };
 
-// The front's lower half from entry (i, j) on, as far as the block of the front reaches that holds it.
+// The front's lower half from entry (i, j) on, up to the end of the block that contains it.
 Piece piece(const DenseFront& front, int i, int j)
 {
     const std::ptrdiff_t p = front.m_pivots, r = front.m_rows;
@@ -196,7 +196,7 @@ Piece piece(const DenseFront& front, int i, int j)
     return {front.m_A22 + (i - p) + (j - p) * r, r};
 }
 
-// The blocks of A in the supernode's columns, on and below the diagonal.
+// Adds the blocks of A in the supernode's columns, on and below the diagonal.
 void Fronts::addMatrix(const Supernode& s, const DenseFront& front)
 {
     for (int k = 0; k < s.m_columns; ++k)
@@ -205,7 +205,7 @@ void Fronts::addMatrix(const Supernode& s, const DenseFront& front)
         for (int a = m_A.m_rowStart[node]; a < m_A.m_rowStart[node + 1]; ++a)
         {
             const int row = m_column[m_A.m_column[a]];
-            if (row < s.m_first + k) continue;  // left out, or in a column before this one
+            if (row < s.m_first + k) continue;  // left out, or in an earlier column
             if (!holds(s, row))
                 reject("the tree has no room for the matrix's block of nodes ", node, " and ", m_A.m_column[a],
                        "; it must be built from a pattern that has that block");
@@ -244,7 +244,7 @@ void add(const Piece& from, const Piece& to, int rows, int columns)
     }
 }
 
-// Adds what a child left over its rows to the front, lower half to lower half.
+// Adds a child's update matrix to the front, lower half to lower half.
 void Fronts::addChild(int child, const DenseFront& front)
 {
     const std::ptrdiff_t size = m_rowsOfNode * m_tree.m_supernodes[child].m_rows;

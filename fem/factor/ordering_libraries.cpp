@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The only file that knows AMD and METIS. CMake defines BULLETFEM_WITH_SUITESPARSE and BULLETFEM_WITH_METIS where the
+// The only file that uses AMD and METIS. CMake defines BULLETFEM_WITH_SUITESPARSE and BULLETFEM_WITH_METIS if the
 // library is linked.
 #include "fem/factor/ordering_libraries.h"
 
@@ -22,7 +22,7 @@ namespace
 {
 
 #ifdef BULLETFEM_WITH_METIS
-// Both triangles without the diagonal, as METIS reads them.
+// Both triangles without the diagonal, METIS's input format.
 struct MetisGraph
 {
     std::vector<idx_t> m_start, m_neighbour;
@@ -66,10 +66,10 @@ std::string amdVersion()
     return version("AMD", AMD_MAIN_VERSION, AMD_SUB_VERSION, AMD_SUBSUB_VERSION);
 }
 
-// AMD orders the pattern of A + A^T, so one triangle will do.
+// AMD orders the pattern of A + A^T, so one triangle suffices.
 std::vector<int> amdOrder(const SparsePattern& pattern)
 {
-    if (pattern.m_size == 0) return {};  // AMD takes no null pointers
+    if (pattern.m_size == 0) return {};  // AMD accepts no null pointers
     std::vector<int> order(pattern.m_size);
     const int status = amd_order(pattern.m_size, pattern.m_columnStart.data(), pattern.m_rowIndex.data(), order.data(),
                                  nullptr, nullptr);
@@ -101,7 +101,7 @@ std::vector<int> metisOrder(const SparsePattern& pattern)
     if (graph.m_neighbour.empty()) return {};
     idx_t count = pattern.m_size;
     std::vector<idx_t> order(count), place(count);
-    // METIS seeds the C library's one random generator and draws from it: in turn, or orders would differ.
+    // METIS seeds and uses the C library's global random generator: concurrent calls would change the orders.
     static std::mutex generator;
     const std::lock_guard<std::mutex> turn(generator);
     const int status = METIS_NodeND(&count, graph.m_start.data(), graph.m_neighbour.data(), nullptr, nullptr,

@@ -10,19 +10,19 @@
 namespace bullet_fem
 {
 
-// Fill-reducing orders of libraries: permutations whose entry k is the row that comes k-th. They are the same for
-// callers on any number of threads. Both throw std::bad_alloc, or std::runtime_error if the library fails.
+// Fill-reducing orders of libraries: permutations whose entry k is the row eliminated k-th, independent of the number
+// of calling threads. Both throw std::bad_alloc, or std::runtime_error if the library fails.
 
-/// "AMD x.y.z"; empty in builds and programs without SuiteSparse.
+/// "AMD x.y.z"; empty without SuiteSparse.
 std::string amdVersion();
 
-/// Approximate minimum degree [Amestoy, Davis and Duff 1996] by SuiteSparse. Empty where there is no SuiteSparse.
+/// Approximate minimum degree order [Amestoy et al. 1996] by SuiteSparse. Empty without SuiteSparse.
 std::vector<int> amdOrder(const SparsePattern& pattern);
 
-/// "METIS x.y.z"; empty in builds and programs without METIS.
+/// "METIS x.y.z"; empty without METIS.
 std::string metisVersion();
 
-/// Nested dissection [Karypis and Kumar 1998] by METIS. Empty where there is no METIS, or nothing to dissect.
+/// Nested dissection order [Karypis & Kumar 1998] by METIS. Empty without METIS, or for a graph without edges.
 std::vector<int> metisOrder(const SparsePattern& pattern);
 
 }  // namespace bullet_fem

@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-// Rows of a panel, padded.
+// Number of rows of a panel, padded.
 std::size_t paddedRows(const Supernode& s, NodeEntry entry)
 {
     return (rowsOfNode(entry) * (static_cast<std::size_t>(s.m_columns) + s.m_rows) + kPanelLanes - 1) / kPanelLanes *
@@ -93,7 +93,7 @@ void PackedFactor::pack(int supernode, const double* S, const double* M)
     }
 }
 
-// Every subtree has scratch of its own, and the top.
+// Every subtree, and the top, has its own scratch.
 void PackedFactor::layOutScratch()
 {
     for (const Subtree& subtree : m_division.m_subtrees)
@@ -106,7 +106,7 @@ void PackedFactor::layOutScratch()
     m_scratchStart.push_back(m_scratchStart.back() + scratchOf(m_scratchRows));
 }
 
-// The panel with a subtree's own rows in place of those above it.
+// The panel with a subtree's own rows instead of those above it.
 Panel PackedFactor::forwardPanelOf(int supernode) const
 {
     Panel p = panel(supernode);
@@ -114,12 +114,12 @@ Panel PackedFactor::forwardPanelOf(int supernode) const
     return p;
 }
 
-/// How one vector, or some interleaved ones, go through a panel.
+/// Panel kernels for one vector, or for several interleaved ones.
 struct PackedFactor::Kernels
 {
     void (*m_forward)(const Panel& panel, float* y, float* scratch);
     void (*m_backward)(const Panel& panel, float* y, float* scratch);
-    std::size_t m_node;  // floats that a node has in y
+    std::size_t m_node;  // floats per node in y
     bool m_ownScratch;   // every subtree has its own
 };
 
@@ -165,7 +165,7 @@ void PackedFactor::solve(const Kernels& kernels, float* y, float* scratch, const
     float* const top = scratchOfSubtree(count);
     for (int s : m_division.m_top) kernels.m_forward(panel(s), y, top);
     for (auto s = m_division.m_top.rbegin(); s != m_division.m_top.rend(); ++s) kernels.m_backward(panel(*s), y, top);
-    // The last subtree first: on one thread it is the one still in the caches.
+    // In reverse order: on one thread the last subtree is still in the caches.
     runTasks(threads, count, [&](int t) { backward(count - 1 - t); });
 }
 

@@ -16,26 +16,25 @@ namespace bullet_fem
 {
 
 /// A block factor A0 = L D L^T, packed in single precision for the two triangular solves of a preconditioner. Supernode
-/// s holds S_s = D_s^-1 and M_s, its rows of L below the unit diagonal block, so no solve waits for a division:
-/// forward y_below -= M y_s; backward y_s = S y_s - M^T y_below. A factor of numbers is applied to each of the three
-/// directions of nodes, in one pass over its panels. Const once packed.
+/// s holds S_s = D_s^-1 and M_s, its rows of L below the unit diagonal block, so that a solve consists of products:
+/// forward y_below -= M y_s; backward y_s = S y_s - M^T y_below. A factor of numbers is applied to the three directions
+/// of nodes in one pass over its panels. Constant once packed.
 class PackedFactor
 {
 public:
     PackedFactor() = default;
 
-    /// What the panels of a factor of this pattern take [B].
+    /// Memory of the panels of a factor of this pattern [B].
     static std::size_t bytesFor(const SupernodeTree& tree, NodeEntry entry = NodeEntry::block);
 
-    /// Room for a factor of this pattern, with zeros in it.
+    /// A factor of this pattern, initialized with zeros. Allocates.
     explicit PackedFactor(SupernodeTree tree, NodeEntry entry = NodeEntry::block);
 
-    /// A factor that was packed before: `panels` are its floatCount() floats, aligned to 64 bytes, shared and not
-    /// copied.
+    /// A factor packed before: `panels` are its floatCount() floats, aligned to 64 bytes, shared without copying.
     PackedFactor(SupernodeTree tree, NodeEntry entry, std::shared_ptr<const float> panels);
 
-    /// Sets supernode s, of a factor that was not packed before: S is k nc x k nc and symmetric, M is k nr x k nc, k =
-    /// rowsOfNode(entry()), both by columns.
+    /// Sets supernode s of a factor constructed without panels: S is k nc x k nc and symmetric, M is k nr x k nc, k =
+    /// rowsOfNode(entry()), both column-major.
     void pack(int supernode, const double* S, const double* M);
 
     const SupernodeTree& tree() const { return m_tree; }
@@ -43,30 +42,30 @@ public:
     int size() const { return 3 * m_tree.m_nodeCount; }
     std::size_t byteCount() const { return sizeof(float) * floatCount(); }
 
-    /// The panels of all supernodes, one after the other. They are the same on every machine of the same byte order,
-    /// whatever its vectors; null if there is no node.
+    /// The panels of all supernodes, consecutive. Equal on all machines of one byte order, whatever their vectors; null
+    /// without nodes.
     const float* panels() const { return m_panels.get(); }
     std::size_t floatCount() const { return m_panelStart.empty() ? 0 : m_panelStart.back(); }
 
-    /// Floats that solve() writes: the vector with what follows it, and scratch.
+    /// Floats of solve()'s vector, including its working rows, and of its scratch.
     std::size_t vectorSize() const { return 3 * static_cast<std::size_t>(m_division.m_rowCount); }
     std::size_t scratchSize() const { return m_scratchStart.back(); }
 
     /// y <- A0^-1 y in the first size() of vectorSize() entries; the others are scratch. `scratch` is aligned to 64
-    /// bytes. The same bits for any number of threads; null: the caller's alone.
+    /// bytes. Bitwise independent of the number of threads; `threads` null: the calling thread alone.
     void solve(float* y, float* scratch, const Threads* threads = nullptr) const;
 
-    /// The same for kPanelLanes interleaved vectors of a factor of blocks, each of which gets the bits that it gets
-    /// alone: y has vectorSize() * kPanelLanes entries, scratch batchScratchSize(), both aligned to 64 bytes.
+    /// y <- A0^-1 y for kPanelLanes interleaved vectors of a factor of blocks, each bitwise equal to solve(): y has
+    /// vectorSize() * kPanelLanes entries, scratch batchScratchSize(), both aligned to 64 bytes.
     void solveBatch(float* y, float* scratch) const;
     std::size_t batchScratchSize() const;
 
-    /// Floats of scratch that solveLanes() needs.
+    /// Scratch entries [floats] of solveLanes().
     std::size_t laneScratchSize() const { return kPanelLanes * scratchOf(m_scratchRows); }
 
-    /// The same for kPanelLanes interleaved right-hand sides: y has size() * kPanelLanes entries, aligned to 64 bytes.
-    /// Solves forward along the supernodes of `forward` and backward along those of `backward` alone (ascending): of a
-    /// sparse right-hand side those that its entries reach towards the root; of a few wanted entries likewise.
+    /// y <- A0^-1 y for kPanelLanes interleaved right-hand sides: y has size() * kPanelLanes entries, aligned to 64
+    /// bytes. Solves forward along the supernodes of `forward` and backward along those of `backward` only (ascending):
+    /// for a sparse right-hand side the ancestors of its entries, and for a few wanted entries of the solution theirs.
     void solveLanes(const std::vector<int>& forward, const std::vector<int>& backward, float* y, float* scratch) const;
 
     /// All supernodes, ascending.
@@ -87,11 +86,11 @@ private:
     SupernodeTree m_tree;
     TreeDivision m_division{SupernodeTree()};
     std::vector<int> m_all;
-    std::vector<std::size_t> m_panelStart;  // per supernode and the end, in floats
+    std::vector<std::size_t> m_panelStart;  // per supernode, then the end, in floats
     std::shared_ptr<const float> m_panels;
-    float* m_packing = nullptr;                     // the same; null if they were packed before
-    std::size_t m_scratchRows = 0;                  // of the longest panel
-    std::vector<std::size_t> m_scratchStart = {0};  // per subtree, of the top, and the end, in floats
+    float* m_packing = nullptr;                     // m_panels while packing; null if they were packed before
+    std::size_t m_scratchRows = 0;                  // rows of the longest panel
+    std::vector<std::size_t> m_scratchStart = {0};  // per subtree, then the top and the end, in floats
 };
 
 }  // namespace bullet_fem

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Panels and 16 right-hand sides at a time. Included once for every instruction set. RowsOfNode is 3 where an entry
-// stands for one direction, and 1 where it serves all three; a node has three times 16 numbers in either case.
+// Panels applied to 16 right-hand sides at a time. Included once for every instruction set. RowsOfNode is 3 if an entry
+// belongs to one direction, and 1 if it serves all three; a node has three times 16 numbers in either case.
 #if defined(BULLETFEM_PANEL_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_PANEL_LANES_INL_H
 #undef BULLETFEM_PANEL_LANES_INL_H
@@ -29,10 +29,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, kPanelLanes>;
 using V = hn::Vec<D>;
 constexpr int kN = static_cast<int>(hn::MaxLanes(D()));
-constexpr int kNodeLanes = 3 * kPanelLanes;  // of a node in a batch
+constexpr int kNodeLanes = 3 * kPanelLanes;  // numbers per node in a batch
 
-/// Sum of all lanes, the upper half added to the lower until one is left: (0 + 2) + (1 + 3), as batches add them. So
-/// does Highway's SumOfLanes, but for NEON, where neighbours come first.
+/// Sum of all lanes, adding the upper half to the lower until one is left: (0 + 2) + (1 + 3), the order of batches.
+/// Equals Highway's SumOfLanes except on NEON, which adds neighbours first.
 HWY_INLINE float sumOfLanes(V v)
 {
 #if HWY_TARGET != HWY_SCALAR
@@ -45,7 +45,7 @@ HWY_INLINE float sumOfLanes(V v)
     return hn::GetLane(hn::SumOfLanes(D(), v));
 }
 
-/// Calls run for the last chunk, of `width` columns: less than a whole one.
+/// Calls run for the last chunk, of `width` columns: fewer than a full chunk.
 template <int Width, int Unit, class Run>
 HWY_INLINE void runLastChunk(int width, int column, const float* values, const Run& run)
 {
@@ -71,17 +71,17 @@ HWY_INLINE void forEachChunk(const Panel& panel, const Run& run)
     runLastChunk<kWidth - RowsOfNode, RowsOfNode>(panel.m_columns - c, c, values, run);
 }
 
-/// Entry (r, 0) of a chunk of C columns; those of its row are kPanelLanes apart.
+/// Entry (r, 0) of a chunk of C columns; the entries of its row are kPanelLanes apart.
 template <int C>
 HWY_INLINE const float* entriesOfRow(const float* values, int r)
 {
     return values + static_cast<std::size_t>(r / kPanelLanes) * C * kPanelLanes + r % kPanelLanes;
 }
 
-constexpr int kAhead = 1536;  // floats that 16 right-hand sides take for as long as memory takes to deliver them
+constexpr int kAhead = 1536;  // floats that 16 right-hand sides process during the latency of memory
 
-/// Asks for a sixteenth of the block that comes kAhead after that of row r: processors look ahead by less. May point
-/// beyond the factor. A factor of entries for all three directions is small, and in the caches.
+/// Prefetches a sixteenth of the block kAhead after that of row r, farther than hardware prefetchers look. May point
+/// beyond the factor. Not needed for isotropic factors, which are small and in the caches.
 template <int RowsOfNode, int C>
 HWY_INLINE void prefetchAhead(const float* values, int r)
 {
@@ -92,7 +92,7 @@ HWY_INLINE void prefetchAhead(const float* values, int r)
 template <int RowsOfNode>
 struct SubtractLanes
 {
-    static constexpr int kLanes = kNodeLanes / RowsOfNode;  // of a row
+    static constexpr int kLanes = kNodeLanes / RowsOfNode;  // numbers per row
     const Panel& m_panel;
     const float* m_x;
     float* m_y;

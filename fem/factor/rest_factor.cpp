@@ -15,9 +15,9 @@ namespace bullet_fem
 namespace
 {
 
-// Of s times the mass of the node with the least stiffness for its mass to that, so that no sliver decides. The node
-// rotations, which differ a little, mix stiffness into rigid motions, and rounding, 6e-8, does: the preconditioner must
-// not make more of that than this allows.
+// Minimum ratio of s times mass to stiffness at the node with the least stiffness for its mass [-], so that no sliver
+// decides. Node rotations, which differ slightly, mix stiffness into rigid motions, and so does rounding, 6e-8; this
+// bound limits how much the preconditioner amplifies the mixing.
 constexpr double kLeastMass = 1e-6;  // [-]
 
 double dampedMass(const RestShape& shape, const FactorInput& input)
@@ -39,7 +39,7 @@ BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input)
     return A0;
 }
 
-// The least entry on the diagonal over its mass is s and s / kLeastMass, if that is where s comes from.
+// If s comes from kLeastMass, the minimum of diagonal entry over mass is s + s / kLeastMass.
 double massScale(const BodyModel& model)
 {
     const FactorInput& input = model.factorInput();

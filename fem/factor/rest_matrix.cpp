@@ -10,7 +10,8 @@ namespace bullet_fem
 
 RestMatrix::RestMatrix(const BlockMatrix& A, const std::vector<int>& order, const std::vector<int>& position)
 {
-    const std::size_t half = (A.m_column.size() + order.size()) / 2;  // more than that where nodes are left out
+    // An upper bound of the entries if nodes are left out.
+    const std::size_t half = (A.m_column.size() + order.size()) / 2;
     m_rowStart.reserve(order.size() + 1);
     m_column.reserve(half);
     m_values.reserve(9 * half);

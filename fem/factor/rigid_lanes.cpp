@@ -11,7 +11,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kCollinearShare = 1e-9;  // share of their extent by which fixed nodes may lie beside a line
+// Maximum distance of fixed nodes from their line, relative to their extent.
+constexpr double kCollinearShare = 1e-9;
 
 }  // namespace
 
@@ -35,7 +36,7 @@ RigidLanes::RigidLanes(const BodyModel& model)
     findAxes();
 }
 
-// Of mass, or any fixed node.
+// Centre of mass, or any fixed node.
 void RigidLanes::findCenters()
 {
     const std::vector<int>& component = m_model.mesh().nodeComponent();
@@ -57,7 +58,7 @@ void RigidLanes::findCenters()
     }
 }
 
-// Takes the turns out of the inverse inertia that several fixed nodes do not allow.
+// Removes from the inverse inertia the rotations that several fixed nodes prevent.
 void RigidLanes::findAxes()
 {
     const std::vector<int>& component = m_model.mesh().nodeComponent();
@@ -87,8 +88,8 @@ void RigidLanes::findAxes()
         });
 }
 
-// visit(piece, r, mass, row) for every free node of a piece that moves: from the centre, and where its first row
-// begins.
+// Calls visit(component, r, mass, row) for every free node of a movable component: r from its centre, row the start of
+// its entries.
 template <class Visit>
 void RigidLanes::forEachRow(const Visit& visit) const
 {
@@ -101,7 +102,7 @@ void RigidLanes::forEachRow(const Visit& visit) const
     }
 }
 
-// The rigid motions that impulses make of bodies without damping, or that are in velocities.
+// Sums the rigid motions that impulses cause in undamped bodies, or that velocities contain.
 void RigidLanes::sum(const float* values, bool ofVelocities, std::vector<Motions>& motions) const
 {
     std::fill(motions.begin(), motions.end(), Motions());

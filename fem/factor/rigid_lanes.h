@@ -11,39 +11,39 @@
 namespace bullet_fem
 {
 
-/// The rigid motions in A0^-1 in closed form, for kPanelLanes vectors over the factor's rows at a time. K does not see
-/// the rigid motions R of a connected piece that its fixed nodes allow: all, or where these are in one point or on one
-/// line, turns about that. So A0 R = (1 + h alpha) M R, its masses not scaled, and a right-hand side b makes
-/// R (R^T M R)^-1 R^T b / (1 + h alpha) of them. Beside the little that a stiff, light body yields that is so much that
-/// an iteration in single precision finds neither; and whatever it rounds off, a rigid motion makes much of. Allocates
-/// when it is made, never else.
+/// The rigid motions in A0^-1 in closed form, for kPanelLanes vectors over the factor's rows at a time. K vanishes on
+/// the rigid motions R of a connected component that its fixed nodes permit: all, or rotations about them if these are
+/// at one point or on one line. So A0 R = (1 + h alpha) M R, with unscaled masses, and the rigid part of the solution
+/// for a right-hand side b is R (R^T M R)^-1 R^T b / (1 + h alpha). In a stiff, light body it exceeds the elastic part
+/// so much that single-precision iterations resolve neither, and rounding errors are amplified by rigid motions.
+/// Allocates in the constructor only.
 class RigidLanes
 {
 public:
-    /// The model must outlive it.
+    /// The model must outlive this object. Allocates.
     explicit RigidLanes(const BodyModel& model);
 
-    /// Takes the impulses that make rigid motions off right-hand sides, and remembers these.
+    /// Removes the impulses of rigid motions from right-hand sides, and stores these motions.
     void takeOff(float* rightSides);
 
-    /// Takes the rigid motions out of velocities.
+    /// Removes rigid motions from velocities.
     void takeOut(float* velocities) const;
 
-    /// Remembers them alone.
+    /// Stores the rigid motions of right-hand sides without removing them.
     void remember(const float* rightSides) { sum(rightSides, false, m_taken); }
 
-    /// Adds a share of those that are remembered to velocities that lack it.
+    /// Adds a share of the stored rigid motions to velocities.
     void add(float* velocities, double share = 1) const;
 
 private:
     struct Piece
     {
-        int m_fixed = 0;           // nodes
-        double m_inverseMass = 0;  // [1/kg]; 0 if it is held
-        Vec3 m_center;             // or what it turns about [m]
-        Mat3 m_inverseInertia;     // about that [1/(kg m2)]; 0 along axes that it cannot turn about
+        int m_fixed = 0;           // number of fixed nodes
+        double m_inverseMass = 0;  // [1/kg]; 0 with fixed nodes
+        Vec3 m_center;             // centre of mass or fixed point [m]
+        Mat3 m_inverseInertia;     // about m_center [1/(kg m2)]; 0 along axes it cannot rotate about
     };
-    // Of a piece, in every lane: linear velocities, then angular ones about the centre.
+    // Per component and lane: linear velocity, then angular velocity about the centre.
     using Motions = std::array<std::array<double, kPanelLanes>, 6>;
 
     bool moves(const Piece& piece) const { return squaredNorm(piece.m_inverseInertia) > 0; }
@@ -57,8 +57,8 @@ private:
     const BodyModel& m_model;
     double m_damped;  // 1 + h alpha
     std::vector<Piece> m_pieces;
-    std::vector<Motions> m_taken;          // of every piece
-    mutable std::vector<Motions> m_found;  // likewise
+    std::vector<Motions> m_taken;          // per component
+    mutable std::vector<Motions> m_found;  // per component
 };
 
 }  // namespace bullet_fem

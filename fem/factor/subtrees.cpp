@@ -9,11 +9,11 @@ namespace bullet_fem
 namespace
 {
 
-// Entries of the factor below which a solve is over before other threads have woken up: 1 MB.
+// Minimum entries of a factor that is divided, 1 MB: smaller solves finish before other threads wake up.
 constexpr double kLeastEntriesToDivide = 250e3;
 
-// A subtree holds at most this share of the entries: the smaller, the more threads have work, but the larger the top,
-// which is left to one. One with less than the other share is not worth rows of its own.
+// Maximum share of the entries in a subtree: smaller subtrees occupy more threads, but enlarge the top, which one
+// thread solves. Subtrees below the minimum share are not worth rows of their own.
 constexpr double kLargestSubtreeShare = 0.28;
 constexpr double kSmallestSubtreeShare = 1. / 400;
 
@@ -22,7 +22,7 @@ double entries(const Supernode& s)
     return 9. * s.m_columns * (s.m_columns + s.m_rows);
 }
 
-// Entries of every supernode with all its descendants.
+// Number of entries of every supernode with all its descendants.
 std::vector<double> subtreeEntries(const SupernodeTree& tree)
 {
     std::vector<double> sum;
@@ -32,7 +32,7 @@ std::vector<double> subtreeEntries(const SupernodeTree& tree)
     return sum;
 }
 
-// The first of a supernode's descendants, or itself.
+// The first descendant of every supernode, or itself.
 std::vector<int> firstDescendants(const SupernodeTree& tree)
 {
     std::vector<int> first(tree.m_supernodes.size());
@@ -45,7 +45,7 @@ std::vector<int> firstDescendants(const SupernodeTree& tree)
     return first;
 }
 
-// Gives the rows above a subtree numbers from firstAbove on. They are rows of the root, for all its descendants.
+// Gives the rows above a subtree indices from firstAbove on. These are rows of the root, for all its descendants.
 void renumberAbove(const SupernodeTree& tree, const Subtree& subtree, std::vector<int>& forwardRow)
 {
     const Supernode& root = tree.m_supernodes[subtree.m_end - 1];

@@ -14,17 +14,17 @@ namespace bullet_fem
 namespace
 {
 
-// What a pair of triangular solves costs, in bytes of memory traffic: M is read twice (up and down the tree),
-// all of S once. A supernode costs its calls and cold starts, a row below its gathering and scattering.
+// Cost model of a pair of triangular solves, in bytes of memory traffic: M is read twice (up and down the tree), all of
+// S once. A supernode costs its calls and cold starts, a row below its gathering and scattering.
 constexpr double kBytesPerEntry = 4;
 constexpr double kBytesPerSupernode = 2000;
 constexpr double kBytesPerRow = 48;
 
-// Wider supernodes are cut: S is stored in full, so that one of p columns takes p^2 entries where narrow ones take
-// p^2 / 2, and its arithmetic grows alike. Less than this gains little and costs calls.
+// Maximum columns of a supernode [nodes]; wider ones are cut. S is stored in full, so that p columns take p^2 entries
+// where narrow supernodes take p^2 / 2, and arithmetic grows alike. A smaller maximum gains little and adds calls.
 constexpr int kWidestSupernode = 64;
 
-// The pattern with both triangles, without its diagonal, and an elimination order of its rows.
+// The graph of the pattern, both triangles without the diagonal, and an elimination order of its rows.
 struct OrderedGraph
 {
     std::vector<int> m_start, m_neighbour;
@@ -32,14 +32,14 @@ struct OrderedGraph
 
     int size() const { return static_cast<int>(m_order.size()); }
 
-    // Calls visit(k) for every neighbour of the row that comes i-th; the neighbour comes k-th.
+    // Calls visit(k) for every neighbour of the i-th row; the neighbour is the k-th row.
     template <class Visit>
     void forNeighbours(int i, const Visit& visit) const
     {
         for (int a = m_start[m_order[i]]; a < m_start[m_order[i] + 1]; ++a) visit(m_position[m_neighbour[a]]);
     }
 
-    // Row i comes place[i]-th from now on.
+    // Makes row i the place[i]-th row.
     void reorder(const std::vector<int>& place)
     {
         std::vector<int> order(m_order.size());
@@ -85,7 +85,8 @@ OrderedGraph orderedGraph(const SparsePattern& pattern, const std::vector<int>& 
     return graph;
 }
 
-// The parent of each column: its first row below the diagonal once fill is counted; -1 at a root. [Liu 1986]
+// The elimination tree: the parent of each column is its first row below the diagonal, fill included; -1 at a root.
+// [Liu 1986]
 std::vector<int> eliminationTree(const OrderedGraph& graph)
 {
     std::vector<int> parent(graph.size(), -1), ancestor(graph.size(), -1);
@@ -96,7 +97,7 @@ std::vector<int> eliminationTree(const OrderedGraph& graph)
                                 while (k >= 0 && k < i)
                                 {
                                     const int next = ancestor[k];
-                                    ancestor[k] = i;  // a short cut for the next climb
+                                    ancestor[k] = i;  // path compression
                                     if (next < 0) parent[k] = i;
                                     k = next;
                                 }
@@ -104,8 +105,8 @@ std::vector<int> eliminationTree(const OrderedGraph& graph)
     return parent;
 }
 
-// The place of each vertex when every subtree's vertices come together, the root of the subtree last. Parents have
-// greater numbers than their children; vertices of weight 0 take no place.
+// Postorder position of each vertex, with every subtree consecutive and its root last. Parents have greater indices
+// than their children; vertices of weight 0 take no position.
 std::vector<int> postorder(const std::vector<int>& parent, const std::vector<int>& weight)
 {
     const int n = static_cast<int>(parent.size());
@@ -123,7 +124,7 @@ std::vector<int> postorder(const std::vector<int>& parent, const std::vector<int
     return place;
 }
 
-// Brings the graph into postorder and returns the elimination tree there.
+// Permutes the graph into postorder and returns its elimination tree.
 std::vector<int> postorderedTree(OrderedGraph& graph)
 {
     const std::vector<int> parent = eliminationTree(graph);
@@ -134,7 +135,7 @@ std::vector<int> postorderedTree(OrderedGraph& graph)
     return result;
 }
 
-// Rows below the diagonal of each column. Row i of the factor holds the columns on the tree's paths from the
+// Number of rows below the diagonal of each column. Row i of the factor holds the columns on the tree paths from the
 // neighbours of i up to i.
 std::vector<int> rowsBelow(const OrderedGraph& graph, const std::vector<int>& parent)
 {
@@ -155,11 +156,11 @@ std::vector<int> rowsBelow(const OrderedGraph& graph, const std::vector<int>& pa
     return count;
 }
 
-// A set of columns on the way to become a supernode.
+// A set of columns that may become a supernode.
 struct Group
 {
     int m_columns = 0, m_rows = 0, m_parent = -1;
-    std::vector<int> m_parts;  // the runs of columns in it, by first column
+    std::vector<int> m_parts;  // first columns of its runs
 
     double entries() const
     {
@@ -173,7 +174,7 @@ struct Group
     }
 };
 
-// Runs of columns with the same rows below. Returns the groups, children before parents.
+// Fundamental supernodes: runs of columns with equal rows below. Returns the groups, children before parents.
 std::vector<Group> fundamentalSupernodes(const std::vector<int>& parent, const std::vector<int>& rows)
 {
     const int n = static_cast<int>(parent.size());
@@ -192,14 +193,14 @@ std::vector<Group> fundamentalSupernodes(const std::vector<int>& parent, const s
     return groups;
 }
 
-// What the solves gain when the child's columns are stored as columns of the parent.
+// Reduction of the solve cost if the child's columns become columns of the parent.
 double mergeGain(const Group& child, const Group& parent)
 {
     const Group merged = {child.m_columns + parent.m_columns, parent.m_rows, -1, {}};
     return child.solveCost() + parent.solveCost() - merged.solveCost();
 }
 
-// Merges children into parents where it gains, the most gainful child first. A merged group is left without columns.
+// Merges children into parents where it pays, the highest gain first. A merged group is left without columns.
 void mergeGroups(std::vector<Group>& groups)
 {
     std::vector<std::vector<int>> children(groups.size());
@@ -221,7 +222,7 @@ void mergeGroups(std::vector<Group>& groups)
     }
 }
 
-// The supernodes without their rows, in postorder; brings the graph's order into line with them.
+// The supernodes without their rows, in postorder; permutes the graph accordingly.
 SupernodeTree placeGroups(const std::vector<Group>& groups, const std::vector<int>& runLength, OrderedGraph& graph)
 {
     const int n = static_cast<int>(groups.size());
@@ -254,7 +255,7 @@ SupernodeTree placeGroups(const std::vector<Group>& groups, const std::vector<in
     return tree;
 }
 
-// The rows of a supernode are those of its columns' neighbours and of its children, less its own columns.
+// The rows of a supernode are those of its columns' neighbours and of its children, minus its own columns.
 void collectRows(const OrderedGraph& graph, SupernodeTree& tree)
 {
     const int n = static_cast<int>(tree.m_supernodes.size());
@@ -281,7 +282,7 @@ void collectRows(const OrderedGraph& graph, SupernodeTree& tree)
     }
 }
 
-// Cuts wide supernodes into chains, each link the parent of the one before; children hang on the first link.
+// Cuts wide supernodes into chains, each link the parent of the previous one; children belong to the first link.
 SupernodeTree cutWide(const SupernodeTree& whole)
 {
     const auto links = [](const Supernode& s) { return (s.m_columns + kWidestSupernode - 1) / kWidestSupernode; };

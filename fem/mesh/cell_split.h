@@ -7,11 +7,11 @@
 namespace bullet_fem
 {
 
-/// A tetrahedron of a cube by its corners: corner c lies at (c & 1, c >> 1 & 1, c >> 2 & 1). Positively oriented.
+/// A tetrahedron by corners of a cube: corner c lies at (c & 1, c >> 1 & 1, c >> 2 & 1). Positively oriented.
 using CornerTet = std::array<int, 4>;
 
-/// Five tets of a cube: four that cut off corners, then the middle one. [0] for cells with even i + j + k, [1], its
-/// mirror image, for odd ones, so that the diagonals of shared faces match.
+/// Five tets of a cube: four at corners, then the middle one. [0] for cells with even i + j + k, [1], its mirror image,
+/// for odd ones, so that the diagonals of shared faces match.
 inline constexpr std::array<std::array<CornerTet, 5>, 2> kFiveTets = {
     {{{{1, 3, 0, 5}, {2, 0, 3, 6}, {4, 5, 0, 6}, {7, 3, 5, 6}, {0, 3, 6, 5}}},
      {{{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 1, 4, 7}, {6, 4, 2, 7}, {1, 2, 4, 7}}}}};

@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kMostNamed = 12;  // labels that a message lists
+constexpr std::size_t kMostNamed = 12;  // maximum number of labels in a message
 
 std::string listOf(const std::map<int, Material>& materials)
 {
@@ -29,7 +29,7 @@ std::string listOf(const std::map<int, Material>& materials)
     return list.empty() ? "none" : list;
 }
 
-// What is a body's, not a region's.
+// Checks the values that all regions of a body must share.
 void checkWithFirst(const MaterialRegion& first, const MaterialRegion& region)
 {
     const auto differ = [&](const char* what, double a, double b)
@@ -56,7 +56,7 @@ ElementMaterials::ElementMaterials(std::vector<MaterialRegion> regions, std::vec
 
 ElementMaterials ElementMaterials::ofLabels(const std::vector<int>& labels, const std::map<int, Material>& materials)
 {
-    std::map<int, int> index;  // of every label that occurs
+    std::map<int, int> index;  // index of every label that occurs
     for (std::size_t e = 0; e < labels.size(); ++e)
     {
         if (!index.emplace(labels[e], 0).second || materials.count(labels[e])) continue;
@@ -85,7 +85,7 @@ ElementMaterials ElementMaterials::ofElements(const std::vector<Material>& perEl
             const std::hash<double> hash;
             std::size_t sum = hash(m.m_youngModulus) ^ 3 * hash(m.m_poissonRatio) ^ 7 * hash(m.m_density);
             if (!m.isOrthotropic()) return sum;
-            const Orthotropic& o = m.m_orthotropic;  // of a field of directions they alone differ
+            const Orthotropic& o = m.m_orthotropic;  // in a field of fibre directions, only these values differ
             for (const double value :
                  {o.m_young[0], o.m_along.x, o.m_along.y, o.m_along.z, o.m_across.x, o.m_across.y, o.m_across.z})
                 sum = 31 * sum + hash(value);
@@ -173,7 +173,7 @@ int ElementMaterials::relaxationTerms() const
 
 std::vector<int> ElementMaterials::patchGroups() const
 {
-    std::unordered_map<std::size_t, std::vector<int>> alike;  // regions by a hash of their moduli
+    std::unordered_map<std::size_t, std::vector<int>> alike;  // regions by hash of Young's modulus
     std::vector<int> group(m_regions.size());
     for (std::size_t r = 0; r < m_regions.size(); ++r)
     {

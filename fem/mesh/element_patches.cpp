@@ -16,12 +16,12 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kFewestWanted = 4;  // of a patch: what is smaller is given to a neighbour that has room
-constexpr double kAlike = 1e-3;   // relative difference up to which patches are taken for equally compact
+constexpr int kFewestWanted = 4;  // minimum patch size; smaller ones are merged into a neighbour with room
+constexpr double kAlike = 1e-3;   // relative tolerance of equal compactness
 constexpr int kNone = -1;
 constexpr int kCornerPairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
-/// Which elements may be in one patch.
+/// The groups of elements that may share a patch.
 struct PatchGroups
 {
     const std::vector<int>& m_group;  // per element; empty: all are in one
@@ -32,7 +32,7 @@ struct PatchGroups
     }
 };
 
-/// Elements across the faces of every element, kNone on the boundary and where another group begins.
+/// Neighbours across the faces of every element; kNone on the boundary and at another group.
 std::vector<std::array<int, 4>> neighboursOf(const std::vector<Tet>& tets, const PatchGroups& groups)
 {
     struct Side
@@ -62,7 +62,7 @@ std::vector<std::array<int, 4>> neighboursOf(const std::vector<Tet>& tets, const
     return neighbours;
 }
 
-/// What could be a patch: the elements around an edge, and an element with all its neighbours.
+/// Candidate patches: the elements around an edge, and an element with all its neighbours.
 struct Candidates
 {
     Candidates(const TetMesh& mesh, const PatchGroups& groups, const std::vector<std::array<int, 4>>& neighbours)
@@ -80,7 +80,7 @@ struct Candidates
 
     std::vector<std::vector<int>> m_elements;
     std::vector<double> m_score;         ///< see compactness()
-    std::vector<std::vector<int>> m_of;  ///< of every element, the candidates that it is in
+    std::vector<std::vector<int>> m_of;  ///< candidates that contain each element
 
 private:
     void addStars(const TetMesh& mesh, const PatchGroups& groups)
@@ -123,7 +123,7 @@ private:
         m_elements.push_back(std::move(elements));
     }
 
-    // Volume over the cube of the mean distance of the nodes from their middle: 1.54 for a cube, 1.24 for the
+    // Volume over the cube of the mean distance of the nodes from their centroid: 1.54 for a cube, 1.24 for the
     // octahedron of a lattice.
     static double compactness(const TetMesh& mesh, const std::vector<int>& elements)
     {
@@ -182,7 +182,7 @@ private:
         m_members.push_back(elements);
     }
 
-    // The most compact ones first, those that are alike together.
+    // Takes candidates in order of compactness; equally compact ones together.
     void takeCandidates()
     {
         const Candidates all(m_mesh, m_groups, m_neighbours);
@@ -204,9 +204,9 @@ private:
         }
     }
 
-    // From one to its neighbours, so that they fit together in a lattice: of the octahedra around the axes between the
-    // middles of cubes and those around the cubes' edges, every element is in one of each. First those with an element
-    // that is in few others, for which there is no choice.
+    // Takes equally compact candidates from neighbour to neighbour, so that they fit together in a lattice: every
+    // element is in an octahedron around an axis between cube centres and in one around a cube edge. Candidates with an
+    // element that is in few others come first, because it leaves no choice.
     void takeAlike(const Candidates& all, const std::vector<char>& isAlike, std::vector<int>& alike)
     {
         const auto choices = [&](int c)
@@ -239,7 +239,7 @@ private:
         }
     }
 
-    // Neighbours of neighbours that are left, up to as many as a patch may have.
+    // Groups the remaining elements with their free neighbours, up to the maximum patch size.
     void takeRest()
     {
         for (int seed = 0; seed < m_mesh.tetCount(); ++seed)
@@ -255,14 +255,14 @@ private:
         }
     }
 
-    // To the neighbour with which it shares most faces; of those, to the smallest.
+    // Merges small patches into the neighbour with the most shared faces; among equals, the smallest.
     void giveAwaySmallOnes()
     {
         for (std::size_t p = 0; p < m_members.size(); ++p)
         {
             const int size = static_cast<int>(m_members[p].size());
             if (size == 0 || size >= kFewestWanted) continue;
-            std::vector<int> around;  // patches, once a face
+            std::vector<int> around;  // neighbouring patches, once per shared face
             for (const int e : m_members[p])
                 for (const int f : m_neighbours[e])
                     if (f != kNone && m_patch[f] != static_cast<int>(p)) around.push_back(m_patch[f]);
@@ -299,7 +299,7 @@ private:
 ElementPatches::ElementPatches(const TetMesh& mesh, const std::vector<int>& group)
     : m_patch(PatchMaker(mesh, group).make())
 {
-    // Numbered by their first elements.
+    // Numbers the patches by their first elements.
     std::vector<int> number(m_patch.size(), kNone), size;
     for (int& p : m_patch)
     {

@@ -14,11 +14,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostCells = 1000;         // along one axis
-constexpr double kMostTets = 5'000'000;  // in one mesh, as in CageSettings
+constexpr int kMostCells = 1000;         // maximum along one axis
+constexpr double kMostTets = 5'000'000;  // maximum in one mesh, as in CageSettings
 constexpr double kPi = 3.14159265358979323846;
-// How far the cells in the middle of a ball or disc are shrunk; by search: the least volume / longest edge^3 of all
-// elements is above 0.03 for every cell count up to 40, and falls on either side.
+// Scale of the cells in the middle of a ball or disc [-]. Found by search: the minimum volume / longest edge^3 of an
+// element is above 0.03 for every cell count up to 40, and smaller for other scales.
 constexpr double kBallCoreScale = 0.9;
 
 void checkLength(const char* what, double value)
@@ -39,7 +39,7 @@ void checkEvenCells(const char* what, int cells)
         reject(what, " is ", cells, ", not an even number in [2, ", kMostCells, "]; choose another cell size");
 }
 
-/// A grid of cells with a node at every crossing.
+/// A grid of cells with nodes at the grid points.
 struct Grid
 {
     std::array<int, 3> m_cells;
@@ -54,7 +54,7 @@ struct Grid
                    kMostTets, "]; use fewer or larger cells");
     }
 
-    /// Calls visit(i, j, k) for i in [0, m_cells[0] + extra) and so on, i fastest: extra = 0 for cells, 1 for nodes.
+    /// Calls visit(i, j, k) for i in [0, m_cells[0] + extra) and so on, i fastest: extra = 0 visits cells, 1 nodes.
     template <typename Visit>
     void forEach(int extra, Visit visit) const
     {
@@ -63,7 +63,7 @@ struct Grid
                 for (int i = 0; i < m_cells[0] + extra; ++i) visit(i, j, k);
     }
 
-    /// Appends the tets of a cell. `mirror` has bit a set where the split is reflected along axis a.
+    /// Appends the tets of a cell. Bit a of `mirror` is set if the split is reflected along axis a.
     template <std::size_t N>
     void appendCell(const std::array<int, 3>& cell, const std::array<CornerTet, N>& split, int mirror,
                     std::vector<Tet>& tets) const
@@ -83,11 +83,10 @@ struct Grid
     }
 };
 
-/// Maps the square or cube [-1, 1]^d (the first d coordinates of q) to the unit disc or ball. With rho the largest
-/// |q_a|, the shell rho = 1 goes to the sphere along equal angles, t = tan(pi q / 4 rho), and the shells within blend
-/// into a plain cube in the middle: p = rho ((1 - rho) s t + rho t / |t|). The pyramids between the centre and the
-/// faces map smoothly, with a Jacobian that is nowhere singular; a map that is smooth across them would flatten the
-/// cells at the cube's edges.
+/// Maps the square or cube [-1, 1]^d (the first d coordinates of q) to the unit disc or ball. With rho the maximum
+/// |q_a|, the shell rho = 1 maps to the sphere along equal angles, t = tan(pi q / 4 rho), and inner shells blend into a
+/// plain cube in the middle: p = rho ((1 - rho) s t + rho t / |t|). Each pyramid between the centre and a face maps
+/// smoothly, with a nonsingular Jacobian; a map smooth across pyramids would flatten the cells at the cube's edges.
 Vec3 ballFromCube(const Vec3& q)
 {
     const double rho = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
@@ -96,7 +95,7 @@ Vec3 ballFromCube(const Vec3& q)
     return rho * ((1 - rho) * kBallCoreScale + rho / norm(t)) * t;
 }
 
-/// The centred coordinate of grid line i of n, in [-1, 1], exactly odd about the middle.
+/// Coordinate of grid line i of n in [-1, 1], exactly antisymmetric about the middle.
 double centred(int i, int n)
 {
     return (2.0 * i - n) / n;
@@ -149,7 +148,7 @@ TetMesh makeBeam(double length, double width, double height, double cellSize, Ce
     return makeBox({length, width, height}, {count(length), count(width), count(height)}, {}, split);
 }
 
-// Balls and cylinders take six tets a cell around a diagonal that points away from the centre (the axis): every element
+// Balls and cylinders use six tets a cell around a diagonal that points away from the centre (the axis): every element
 // then lies within one pyramid of ballFromCube, and none has all its nodes on the round surface, where it would be
 // flat.
 
@@ -158,7 +157,7 @@ TetMesh makeSphere(double radius, int cells)
     return makeSphere(radius, std::array<int, 3>{cells, cells, cells});
 }
 
-// The diagonal of a cell in the middle of an odd number points to one side, from a node that is not on the surface.
+// With an odd number of cells, the diagonal of a middle cell starts at a node that is not on the surface.
 TetMesh makeSphere(double radius, const std::array<int, 3>& cells)
 {
     checkLength("sphere radius", radius);

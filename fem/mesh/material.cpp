@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-/// One range of a material: (low, high] or [low, high].
+/// An allowed range of a material value: (low, high] or [low, high].
 struct ValueRange
 {
     const char* m_what;
@@ -40,11 +40,11 @@ Material isotropic(double youngModulus, double poissonRatio, double density)
     return material;
 }
 
-// False, and why, if the terms of the Prony series are none.
+// Returns false and the reason for an invalid Prony series.
 bool validRelaxation(const std::array<PronyTerm, Material::kMostRelaxationTerms>& terms, std::string* why)
 {
     double sum = 0;
-    bool isOver = false;  // the series
+    bool isOver = false;  // true after a term without share
     for (int i = 0; i < Material::kMostRelaxationTerms; ++i)
     {
         const PronyTerm& term = terms[i];
@@ -77,7 +77,7 @@ const char* lawName(const Material& material)
     return material.isOrthotropic() ? "orthotropic law" : "Neo-Hookean law";
 }
 
-// False, and why, if the law is none, or does not go with the rest of the material.
+// Returns false and the reason for an invalid law, or one that conflicts with other values.
 bool validLaw(const Material& material, std::string* why)
 {
     const auto refuse = [why](const std::string& text)
@@ -103,7 +103,7 @@ bool validLaw(const Material& material, std::string* why)
     return !material.isOrthotropic() || material.m_orthotropic.valid(why);
 }
 
-// False, and why, where strains would have to be averaged that are not.
+// Returns false and the reason if accurate bending conflicts with other values.
 bool validBending(const Material& material, std::string* why)
 {
     if (!material.m_accurateBending) return true;

@@ -14,7 +14,7 @@ namespace
 constexpr int kPair[3][2] = {{0, 1}, {0, 2}, {1, 2}};  // 12, 13, 23, the order of m_poisson and m_shear
 constexpr const char* kPairName[3] = {"12", "13", "23"};
 
-/// Cosines n_ij of the compliance with ones on its diagonal.
+/// The ratios n_ij of the compliance scaled to a unit diagonal.
 struct ScaledRatios
 {
     explicit ScaledRatios(const Orthotropic& m)
@@ -40,12 +40,12 @@ bool refuse(std::string* why, const std::string& text)
 
 bool validModulus(const char* name, double value, std::string* why)
 {
-    if (value > 0 && value <= Orthotropic::kMostModulus) return true;  // not NaN
+    if (value > 0 && value <= Orthotropic::kMostModulus) return true;  // false for NaN
     return refuse(why, message("orthotropic ", name, " [Pa] is ", value, ", outside (0, ", Orthotropic::kMostModulus,
                                "]; give what a bar has along that axis, wood some 1e8 to 1e10"));
 }
 
-// Both have been checked to be positive.
+// Requires positive Young's moduli.
 bool validRatio(const Orthotropic& m, int k, std::string* why)
 {
     const double first = m.m_young[kPair[k][0]], second = m.m_young[kPair[k][1]], bound = std::sqrt(first / second);
@@ -70,7 +70,7 @@ bool validDirections(const Orthotropic& m, std::string* why)
                                text(m.m_across), ", parallel; give for axis 2 one across axis 1"));
 }
 
-// Whether A has positive pivots, as Cholesky's factorization finds them.
+// True if A has positive pivots in Cholesky's factorization.
 bool isPositiveDefinite(ElasticMatrix A)
 {
     for (int k = 0; k < 6; ++k)
@@ -82,7 +82,7 @@ bool isPositiveDefinite(ElasticMatrix A)
     return true;
 }
 
-// Bulk and shear modulus from both invariants of C that are linear in it.
+// Voigt average: bulk and shear modulus from the two linear invariants of C.
 LameModuli meanOverDirections(const ElasticMatrix& C)
 {
     const double normal = C(0, 0) + C(1, 1) + C(2, 2), across = C(0, 1) + C(0, 2) + C(1, 2);
@@ -156,8 +156,8 @@ Mat3 Orthotropic::axes() const
 
 ElasticMatrix Orthotropic::stiffness() const
 {
-    // In the material's own axes. S has the entries 1 / E_i and -nu_ij / E_i; with its diagonal scaled to ones it is
-    // inverted by cofactors.
+    // In the material's own axes: the compliance S has entries 1 / E_i and -nu_ij / E_i; scaled to a unit diagonal it
+    // is inverted by cofactors.
     const ScaledRatios ratios(*this);
     const double a = ratios.m_n[0], b = ratios.m_n[1], c = ratios.m_n[2], scale = 1 / ratios.determinant();
     const double cofactor[3][3] = {
@@ -171,7 +171,7 @@ ElasticMatrix Orthotropic::stiffness() const
         const int i = kPair[k][0], j = kPair[k][1];
         own[i][j][i][j] = own[i][j][j][i] = own[j][i][i][j] = own[j][i][j][i] = m_shear[k];
     }
-    // C_ijkl = sum over the axes p, q, r, s of A_ip A_jq A_kr A_ls C_pqrs, of which few are not zero.
+    // C_ijkl = sum over the axes p, q, r, s of A_ip A_jq A_kr A_ls C_pqrs, of which few are nonzero.
     const Mat3 A = axes();
     ElasticMatrix C;
     for (int i = 0; i < 3; ++i)
@@ -189,13 +189,13 @@ ElasticMatrix Orthotropic::stiffness() const
                     C(voigt(i, j), voigt(k, l)) = sum;
                 }
     for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < i; ++j) C(i, j) = C(j, i);  // to the bit
+        for (int j = 0; j < i; ++j) C(i, j) = C(j, i);  // exactly symmetric
     return C;
 }
 
 LameModuli Orthotropic::isotropicPart() const
 {
-    constexpr int kHalvings = 50;  // to the rounding of double
+    constexpr int kHalvings = 50;  // to rounding of double precision
     const ElasticMatrix C = stiffness();
     const LameModuli mean = meanOverDirections(C);
     double low = 0, high = 1;

@@ -51,7 +51,7 @@ RestShape::RestShape(TetMesh mesh, ElementMaterials materials, const std::vector
     m_materials.validate(m_mesh.tetCount());
     m_material = m_materials.first();
     validateScales(m_mesh, filled, massScale);
-    std::vector<LameModuli> moduli;  // of every region
+    std::vector<LameModuli> moduli;  // moduli of each region
     for (const auto& [label, material] : m_materials.m_regions)
     {
         moduli.push_back({material.lameMu(), material.lameLambda()});

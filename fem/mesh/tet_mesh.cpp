@@ -16,10 +16,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastQuality = 1e-9;   // volume over longest edge cubed; below it the shape gradients are noise
-constexpr double kSliverQuality = 1e-3;  // the same; a regular tetrahedron has .118, slivers cost iterations
+// Volume over longest edge cubed; smaller elements have meaningless shape gradients.
+constexpr double kLeastQuality = 1e-9;
+constexpr double kSliverQuality = 1e-3;  // in this measure a regular tetrahedron has .118; slivers cost iterations
 
-/// The face opposite each node of a positive element, counter-clockwise seen from outside.
+/// The face opposite each node of a positively oriented element, counter-clockwise seen from outside.
 constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 constexpr int kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
@@ -51,7 +52,7 @@ void checkIndices(const std::vector<Tet>& tets, int nodeCount)
         }
 }
 
-/// 1 for every node in no element.
+/// Flags of nodes, 1 if they belong to no element.
 std::vector<unsigned char> looseNodes(const std::vector<Tet>& tets, int nodeCount)
 {
     std::vector<unsigned char> loose(nodeCount, 1);
@@ -68,7 +69,7 @@ void refuseLooseNodes(const std::vector<unsigned char>& loose)
                " belongs to no element; remove unused nodes from the mesh");
 }
 
-/// Signed volume of an element over its longest edge cubed [-]; scaled first, so that nothing over- or underflows.
+/// Signed volume of an element over its longest edge cubed [-]; scaled first against over- and underflow.
 double signedQuality(const std::vector<Vec3>& X, const Tet& tet)
 {
     double longest = 0;
@@ -88,7 +89,7 @@ double signedQuality(const std::vector<Vec3>& X, const Tet& tet)
     return dot(cross(d[0], d[1]), d[2]) / 6 / (longestScaled * longestScaled * longestScaled);
 }
 
-/// Swaps the last two nodes of elements of negative orientation; returns how many.
+/// Swaps the last two nodes of elements of negative orientation; returns their number.
 int turnNegative(const std::vector<Vec3>& X, std::vector<Tet>& tets)
 {
     int turned = 0;
@@ -118,10 +119,10 @@ struct Face
 {
     Triangle m_sorted;  // its nodes, ascending
     int m_tet;
-    int m_opposite;  // place in the element of the node that is not in the face
+    int m_opposite;  // index in the element of the node opposite the face
 };
 
-/// The faces of all elements, equal ones side by side.
+/// The faces of all elements, sorted so that equal ones are adjacent.
 std::vector<Face> sortedFaces(const std::vector<Tet>& tets)
 {
     std::vector<Face> faces;
@@ -139,7 +140,7 @@ std::vector<Face> sortedFaces(const std::vector<Tet>& tets)
     return faces;
 }
 
-/// The faces with one element, in the order of their elements, oriented outward.
+/// The faces with a single element, in the order of their elements, oriented outward.
 std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
 {
     const std::vector<Face> faces = sortedFaces(tets);
@@ -161,7 +162,7 @@ std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
     return surface;
 }
 
-/// Numbers the pieces connected through shared nodes from 0 by their lowest node; returns their count.
+/// Labels the connected components (through shared nodes) from 0, by lowest node; returns their number.
 int labelComponents(const std::vector<Tet>& tets, std::vector<int>& label)
 {
     DisjointSets pieces(label.size());
@@ -186,7 +187,7 @@ double meanEdge(const std::vector<Vec3>& X, const std::vector<Tet>& tets)
 
 double largestFace(const std::vector<Vec3>& X, const Tet& tet)
 {
-    double most = 0;  // of twice the area, squared
+    double most = 0;  // maximum of twice the area, squared
     for (int a = 0; a < 4; ++a)
     {
         const Vec3 &p = X[tet[a]], &q = X[tet[(a + 1) % 4]], &r = X[tet[(a + 2) % 4]];
@@ -223,7 +224,7 @@ TetMesh TetMesh::withSides(std::vector<Vec3> restPositions, std::vector<Tet> tet
     return mesh;
 }
 
-// The surface has the sides in the order of the elements.
+// m_surface lists the sides in the order of the elements.
 std::vector<unsigned char> TetMesh::boundarySides() const
 {
     std::vector<unsigned char> sides(m_tets.size(), 0);
@@ -238,7 +239,7 @@ std::vector<unsigned char> TetMesh::boundarySides() const
     return sides;
 }
 
-// Checks them, and turns what is to be turned.
+// Checks positions and elements, and mends negative orientation.
 void TetMesh::takeElements(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose)
 {
     m_restPositions = std::move(restPositions);

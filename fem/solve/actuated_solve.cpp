@@ -35,8 +35,8 @@ public:
             isGuessed);
     }
 
-    // First what answers the stiff actuators: their part of b would hide the rest from the tolerance, and from the
-    // single precision of P.
+    // Subtracts the stiff actuators' answer first: their part of b would dominate the tolerance and the single
+    // precision of P.
     SolveReport solveLifted(const ConjugateGradientStop& stop, bool isGuessed) const
     {
         if (!m_actuation.isStiff()) return solve(stop, isGuessed);
@@ -51,7 +51,7 @@ public:
         }
         const SolveReport report = solve(stop, isGuessed);
         for (std::size_t i = 0; i < x.size(); ++i) x[i] += lift[i];
-        if (m_body.m_actuators.m_cables.empty()) return report;  // nobody is let go
+        if (m_body.m_actuators.m_cables.empty()) return report;  // no cable to release
         m_A.apply(lift, Ax);
         for (std::size_t i = 0; i < b.size(); ++i) b[i] += Ax[i];
         return report;

@@ -9,24 +9,24 @@
 namespace bullet_fem
 {
 
-/// Of which right-hand side a system is.
+/// The origin of a right-hand side.
 enum class SolveOf
 {
-    freeMotion,  ///< Actuation::addForces has told what of it is the actuators'
-    response,    ///< impulses: none is
-    change       ///< Actuation::setRightSide has told it
+    freeMotion,  ///< free motion; Actuation::addForces has recorded the actuators' part
+    response,    ///< impulses; no actuators' part
+    change       ///< change of velocities; Actuation::setRightSide has recorded the actuators' part
 };
 
-// For bodies with chambers or cables alone (Actuators::hasPulls).
+// For bodies with chambers or cables only (Actuators::hasPulls).
 
-/// The actuators at the positions and velocities of the step that begins, which the scratch has.
+/// Evaluates the actuators at the kick positions and velocities in the body's scratch, at the start of a step.
 void beginActuation(Body& body, const StepSettings& settings);
 
-/// h times the norm of the actuators' forces [N s], about: for the tolerance of the solve.
+/// Approximately h times the norm of the actuators' forces [N s], for the tolerance of the solve.
 double actuatorImpulseNorm(const Body& body);
 
-/// Solves A x = b for the increment and the right-hand side of the scratch. In the free motion cables that would push
-/// are let go, and the rest is solved once more.
+/// Solves A x = b for the increment and the right-hand side in the body's scratch. In the free motion, cables that
+/// would push are released, and the rest is solved again.
 SolveReport solveActuated(Body& body, const StepSettings& settings, const ConjugateGradientStop& stop, bool isGuessed,
                           SolveOf what);
 

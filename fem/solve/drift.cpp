@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-// Of a change of velocities from outside, which acts as impulses, all but the rigid motion.
+// The non-rigid part of an external change of velocities, which acts as impulses.
 void findStrainedChange(Body& body, double step, std::vector<Vec3>& change)
 {
     const BodyState& s = body.m_state;

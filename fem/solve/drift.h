@@ -7,20 +7,21 @@
 namespace bullet_fem
 {
 
-/// How a body gets from x to x+ in a step: first to y, where the forces of the step act, then on with the velocities
-/// that they make. What each function writes is in the body's scratch.
+/// The motion of a body from x to x+ in a step: first to y, where the forces of the step act, then onward with the
+/// velocities that they cause. All functions write to the body's scratch.
 
-/// y = x + (1 - theta) h v; fixed nodes go with their target velocities.
+/// Kick position y = x + (1 - theta) h v; fixed nodes move with their target velocities.
 void beginDrift(Body& body, const StepSettings& settings);
 
-/// After the free motion's solve: a change of velocities from outside moves the nodes by the share (1 - theta), too, as
-/// elements let it: by the precomputed factor, as impulses of contact do. Until then only its rigid motion has.
+/// After the free motion's solve: moves the nodes also by the share (1 - theta) of an external change of velocities,
+/// applied as impulses through the precomputed factor, as contact impulses are. Before, only its rigid part is
+/// included.
 void driftByOutsideChange(Body& body, const StepSettings& settings);
 
-/// When the velocities of the free motion stand in the scratch: with which mean velocities the nodes move by them.
+/// Computes the nodes' mean velocities in the free motion, whose end velocities are in the scratch.
 void noteMeanVelocity(Body& body, const StepSettings& settings);
 
-/// x+ = y + theta h v* + h push.
+/// Position x+ = y + theta h v* + h push.
 void endDrift(Body& body, const StepSettings& settings);
 
 }  // namespace bullet_fem

@@ -15,9 +15,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMostTurned = 0.5;  // of the slope, in a step that is taken as it is [Bonet & Wood 2008, 9.6.2]
+// Share of the initial slope, accepted at the full step [Bonet & Wood 2008, 9.6.2].
+constexpr double kMostTurned = 0.5;
 
-/// Of |r|, left by a correction: the next one, or the next step, sees it [Dembo et al. 1982].
+/// Tolerance of a correction relative to |r| [-] [Dembo et al. 1982]; the next correction or step sees the rest.
 constexpr double kInexact = 0.1;
 
 }  // namespace
@@ -46,14 +47,14 @@ void QuasiNewton::correct(const ConjugateGradientStop& stop, SolveReport& report
         report.m_iterations += found.m_iterations;
         if (found.m_stop != SolveStop::converged) report.m_stop = found.m_stop;
         const double slope = dot(newton.m_direction, newton.m_residual);
-        if (!(slope > 0)) return;  // rounding is all that there is
+        if (!(slope > 0)) return;  // nothing but rounding error is left
         move(1);
         left = findResidual();
         searchLine(slope);
     }
 }
 
-// h w x (w x r): velocities that turn with the body are no strain.
+// h w x (w x r): velocities that rotate with the body are no strain.
 void QuasiNewton::findTurning()
 {
     StepScratch& scratch = m_body.m_workspace.scratch();
@@ -62,7 +63,7 @@ void QuasiNewton::findTurning()
     scratch.m_momentum.addTurning(m_body, m_settings.m_step, turning);
 }
 
-// r of the equation above, and A, at z.
+// The residual r of the equation in quasi_newton.h at z; also evaluates A there.
 double QuasiNewton::findResidual()
 {
     StepScratch& scratch = m_body.m_workspace.scratch();

@@ -8,28 +8,28 @@
 namespace bullet_fem
 {
 
-/// Where elements have a law that is not linear, the step's one linear solve is the first quasi-Newton iteration on
+/// For elements with a nonlinear law, the step's one linear solve is the first quasi-Newton iteration on
 ///
 ///     (1 + h alpha) M dv = b_0 + h f(z) - h beta K' (v + dv - t h w x (w x r)),
-///     z = y + h (s v + c dv - e h w x (w x r)),    b_0: loads, damping by mass, predicted impulses
+///     z = y + h (s v + c dv - e h w x (w x r)),    b_0: loads, mass damping, predicted impulses
 ///
-/// with e and t of StepCoefficients, turningOfLength() and kTurningOfVelocity. This adds at most kMostCorrections
-/// more, each A d = r with A taken at z, over the same factor. They end when |r| is at most kLeftShare of |b|. Each is
-/// followed by a line search on the energy [Bonet & Wood 2008, 9.6.2]: d . r is minus the slope of kinetic, elastic and
-/// load's energy along d, and where it has turned to less than minus half of what it was, a secant step goes back to
-/// where it is zero.
+/// with e = turningOfLength() and t = kTurningOfVelocity of StepCoefficients. QuasiNewton adds at most kMostCorrections
+/// iterations, each A d = r with A evaluated at z, preconditioned by the existing factor, until |r| <= kLeftShare |b|.
+/// Each is followed by a line search on the energy [Bonet & Wood 2008, 9.6.2]: -d . r is the slope of kinetic, elastic
+/// and potential energy along d; if the slope at the full step exceeds half its initial magnitude with the opposite
+/// sign, secant steps seek its zero.
 class QuasiNewton
 {
 public:
     static constexpr int kMostCorrections = 2;
     static constexpr int kMostLineSearches = 3;
-    static constexpr double kLeftShare = 0.05;  ///< of |b| [-]
+    static constexpr double kLeftShare = 0.05;  ///< share of |b| [-]
 
-    /// b_0 has to be known: StepScratch::m_newton. `A` is of the body.
+    /// Requires b_0 in StepScratch::m_newton. `A` is the system of `body`.
     QuasiNewton(Body& body, const StepSettings& settings, const WarpedSystem& A);
 
-    /// Improves m_increment of the scratch, found by `report`, and adds what was done to it. A remains as of the last
-    /// z; m_rightSide of the scratch is not b any more.
+    /// Improves m_increment of the scratch, the solution that `report` describes, and updates the report. A remains
+    /// that of the last z; m_rightSide of the scratch is overwritten.
     void correct(const ConjugateGradientStop& stop, SolveReport& report);
 
 private:

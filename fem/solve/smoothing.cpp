@@ -13,8 +13,8 @@ namespace bullet_fem
 namespace
 {
 
-// Of the change of momenta in a step: what (A - M) makes of the change may be this share of it and stay. Modes of
-// (omega h)^2 below some times this are not damped at all.
+// Maximum of |(A - M) dv| as a share of |M dv| [-] that may remain: modes of (omega h)^2 below a multiple of it are
+// undamped.
 constexpr double kUnresolved = 0.03;
 
 double squaredLoads(const Body& body)
@@ -32,7 +32,7 @@ double squaredMomenta(const Body& body, const std::vector<Vec3>& v)
     return sum;
 }
 
-// What conjugate gradients leave of the loads' impulse anyway.
+// Residual of the conjugate gradients for the loads' impulse.
 double noise(const Body& body, const StepSettings& settings)
 {
     return settings.m_tolerance * settings.m_step * std::sqrt(squaredLoads(body));
@@ -49,7 +49,7 @@ bool findChange(Body& body, const StepSettings& settings)
     std::vector<Vec3>& d = scratch.m_increment;
     std::fill(d.begin(), d.end(), Vec3());
     scratch.m_momentum.addTurning(body, settings.m_step, d);
-    const std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;  // an outside change is one of the step's
+    const std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;  // an external change is part of the step's
     const std::vector<Vec3>& before = prior.empty() ? s.m_v : prior;
     for (std::size_t i = 0; i < d.size(); ++i) d[i] = s.m_fixed[i] ? Vec3() : scratch.m_velocity[i] - before[i] - d[i];
     scratch.m_momentum.removeMomentum(body, settings.m_step, scratch.m_kickPosition, d);

@@ -8,21 +8,21 @@
 namespace bullet_fem
 {
 
-/// The end of a step of less than full numerical damping: what the step does not resolve goes from the velocities,
+/// Smoothing at the end of a step of less than full numerical damping: removes the unresolved part of the velocities,
 ///
 ///     v+ = v* - d A^-1 (A - M) (v* - v),
 ///
-/// which leaves slow motion alone to second order. The change v* - v is all that the step did, impulses of contact and
-/// joints included, so that nothing is taken from a body at rest. StepCoefficients has d.
+/// which changes slow motion to second order only. v* - v is the total change in the step, contact and joint impulses
+/// included, so that a body at rest loses nothing. StepCoefficients has d.
 
-/// Writes v* - v, less what is rigid motion, to the scratch's m_increment. False if there is too little of it to
-/// matter, or if the step is implicit Euler. Takes the prescribed momentum.
+/// Writes v* - v without its rigid part to the scratch's m_increment. Returns false if it is negligible, or if the step
+/// is implicit Euler. Overwrites the prescribed momentum.
 bool findChange(Body& body, const StepSettings& settings);
 
-/// When that has been solved for. `floor` in the units of its right-hand side (A - M) (v* - v).
+/// Stopping rule of the smoothing solve; its floor is in the units of the right-hand side (A - M) (v* - v).
 ConjugateGradientStop smoothingStop(const Body& body, const StepSettings& settings);
 
-/// v* -= d times m_increment, which gives no momentum at the positions of the step's end.
+/// v* -= d times m_increment, without its rigid part, so that the momentum at the end positions is unchanged.
 void subtractUnresolved(Body& body, const StepSettings& settings);
 
 }  // namespace bullet_fem

@@ -7,11 +7,11 @@
 namespace bullet_fem
 {
 
-/// By how much a step moves the longest and the shortest of the recent ones towards itself [-]: a step of a quarter of
-/// the others is forgotten after 15 of these.
+/// Factor by which each step moves the maximum and minimum of the recent steps towards itself [-]: a step of a quarter
+/// of the others is forgotten after 15 steps.
 constexpr double kForgottenByStep = 1.1;
 
-/// Counts a step that begins [s] among the body's recent ones, and sets StepScratch::m_stepVariation.
+/// Updates the body's recent steps with a step that begins [s], and sets StepScratch::m_stepVariation.
 void noteStep(Body& body, double step);
 
 }  // namespace bullet_fem

@@ -16,8 +16,9 @@ namespace bullet_fem
 namespace
 {
 
-// By more than `gentle`: with L = G F^-1 of the path G, the change of Green's strain, sym(L) + L^T L / 2 in the
-// present shape, times F. To turn is no strain.
+// True if the element's strain increment exceeds `gentle`, or gentle times det F in compressed elements: with L = G
+// F^-1, G the displacement gradient of the path, the measure is the norm of (sym(L) + L^T L / 2) F, the change of
+// Green's strain in the present shape times F. It is zero for rotations.
 bool isStrained(const Body& body, int e, double time, const std::vector<Vec3>& v, const std::vector<Vec3>* dv,
                 double gentle)
 {
@@ -70,14 +71,15 @@ void chooseDamping(Body& body, const StepSettings& settings)
         v[i] = state.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : state.m_v[i];
     const bool isLinear = !body.m_model->shape().m_materials.isNonlinear();
     const double gentle = isLinear ? kGentleStrainOfHooke : kGentleStrain;
-    // Two nodes that go apart, over the height between them: more than any element is strained that is as at rest.
+    // Upper bound of the strain increment of elements near their rest shape: relative displacement over the minimum
+    // height.
     const auto isGentle = [&](const Vec3& rigid)
     {
         const double strain = 2 * before * fastest(v, rigid) / body.m_model->mesh().shortestHeight();
         return isLinear && strain < gentle;
     };
     if (isGentle(v[0])) return;
-    scratch.m_momentum.removeMomentum(body, settings.m_step, state.m_x, v);  // it may only turn
+    scratch.m_momentum.removeMomentum(body, settings.m_step, state.m_x, v);  // removes its rigid motion
     if (isGentle({})) return;
     if (isViolent(body, before, v, nullptr, gentle, settings.m_threads)) scratch.m_leastDamping = 1;
 }

@@ -8,10 +8,10 @@
 namespace bullet_fem
 {
 
-/// What impulses on nodes do to their velocities, A^-1 of the step that was last prepared, as closely as contact asks
-/// between its corrective solves: P where the factor is that of A0; on the low-memory path, where P is far from it,
-/// conjugate gradients to |r| <= 1e-3 |impulses|. A node that is fixed now has zero rows. Uses the solver's vectors in
-/// the body's scratch and its right-hand side; never allocates.
+/// Velocity response of nodes to impulses: A^-1 of the last prepared step, as accurately as contact needs between its
+/// corrective solves. P, if the factor is that of A0; on the low-memory path, where P is a poor approximation,
+/// conjugate gradients to |r| <= 1e-3 |impulses|. Nodes fixed at present have zero rows. Uses the solver's vectors and
+/// the right-hand side in the body's scratch; never allocates.
 class WarpedCompliance : public LinearOperator
 {
 public:

@@ -21,7 +21,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFinestSingle = 3e-4;  // tolerance that single precision keeps to; at 1e-5 it is 1.4e-5 off
+constexpr double kFinestSingle = 3e-4;  // finest tolerance of single precision; at 1e-5 it is 1.4e-5 off
 
 void pad(const Threads* threads, const std::vector<Vec3>& from, std::vector<PaddedVec3>& to)
 {
@@ -38,7 +38,7 @@ void sumOverNodes(const Threads* threads, const NodeSums<Real>& sums)
     runRanges(threads, {sums.m_nodes->nodeCount(), kNodesPerChunk}, [&](Range nodes) { sumCorners(sums, nodes); });
 }
 
-// The forces, rotations and parts of A of all elements.
+// Element pass arguments: forces, rotations and the parts of A.
 template <class Real>
 ElementPass<Real> passOver(Body& body, const StepSettings& settings)
 {
@@ -52,7 +52,7 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
     pass.m_elements = &elements.blocks<Real>();
     pass.m_x = work.m_x.data();
     pass.m_v = work.m_v.data();
-    pass.m_damping = 1;  // it is in these
+    pass.m_damping = 1;  // damping is included in m_v
     pass.m_tensionFactor = settings.m_tension ? StepCoefficients(settings, body).stiffness() * h * h : 0;
     pass.m_rotation = body.m_state.m_elementRotation.data();
     pass.m_force = scratch.m_corners.data();
@@ -78,7 +78,7 @@ void runPass(const ElementPass<Real>& pass, const Threads* threads)
               [&](Range pieces) { runElementPass(pass, pieces); });
 }
 
-// In parts, each when the one before is done for all: `parts` is a pass or a product.
+// Runs the smoothed parts one after another, each over all elements: `parts` is a pass or a product.
 template <class Real, class Parts>
 void runSmoothed(const Parts& parts, const ElementBlocks<Real>& elements, const SmoothedStrain<Real>* strain,
                  int strains, const Threads* threads)
@@ -112,7 +112,7 @@ void runOrthotropic(Body& body, const ElementPass<Real>& pass, const Threads* th
               [&](Range blocks) { runOrthotropicPass(orthotropic, blocks); });
 }
 
-// The forces are added to `force` [N].
+// Runs the element pass and adds the forces to `force` [N].
 template <class Real>
 void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
 {
@@ -278,8 +278,8 @@ Mat3 WarpedPreconditioner::rotation(int node) const
     return {{{R[0], R[1], R[2]}, {R[3], R[4], R[5]}, {R[6], R[7], R[8]}}};
 }
 
-// The factor's vector <- R^T in, scaled to order one, so that the range of single precision does not matter. Returns
-// what it was divided by.
+// Factor vector <- R^T in / scale with the maximum norm of `in` as scale, so that the range of single precision does
+// not matter. Returns the scale.
 double WarpedPreconditioner::rotateIn(const std::vector<Vec3>& in) const
 {
     const RestFactor& factor = m_body.m_model->factor();
@@ -307,7 +307,7 @@ double WarpedPreconditioner::rotateIn(const std::vector<Vec3>& in) const
     return largest;
 }
 
-// out <- scale R (the factor's vector).
+// out <- scale R (factor vector).
 void WarpedPreconditioner::rotateOut(const std::vector<Vec3>& in, double scale, std::vector<Vec3>& out) const
 {
     const RestFactor& factor = m_body.m_model->factor();

@@ -11,39 +11,38 @@ namespace bullet_fem
 /// True if a step with these settings works in single precision.
 bool isSinglePrecision(const StepSettings& settings);
 
-/// Element rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4 and above and in
-/// double below. Turns the state's rotations to the positions y, adds f_el(y) - K' w to `force` [N], with w of
-/// `viscous` [m], and leaves in the body's scratch what WarpedSystem works with. Allocates in the first step of double
-/// precision, never else.
+/// Assembles the element rotations, forces and A of the step that begins, in single precision for tolerances of 3e-4
+/// and above and in double below. Updates the state's rotations to the positions y [m], adds f_el(y) - K' w to `force`
+/// [N], with w = `viscous` [m], and prepares the scratch for WarpedSystem. Allocates in the first step of double
+/// precision only.
 void prepareWarpedSystem(Body& body, const StepSettings& settings, const std::vector<Vec3>& positions,
                          const std::vector<Vec3>& viscous, std::vector<Vec3>& force);
 
-/// The rotations that WarpedPreconditioner works with, of those of the elements: one a node, or the body's one for all.
+/// Computes the rotations of WarpedPreconditioner from those of the elements: one a node, or one for the body.
 void averageNodeRotations(Body& body, const StepSettings& settings);
 
-/// What A multiplies masses and K' with, in the body's scratch: part of prepareWarpedSystem().
+/// Computes the factors of masses and K' in A, in the body's scratch: part of prepareWarpedSystem().
 void scaleWarpedSystem(Body& body, const StepSettings& settings);
 
-/// To be called before A is used again in the same step, for impulses: makes up for what bodies that are solved side by
-/// side leave out where none have followed in their last steps, as that takes them longer than all the products with A.
-/// Never allocates.
+/// Completes A for impulse responses of a step; call it before A is used again. Side-by-side solves skip A in bodies
+/// without impulses in their last steps, because storing it takes longer than all products with A. Never allocates.
 void completeWarpedSystem(Body& body, const StepSettings& settings);
 
-/// A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T over the free nodes, as last prepared, and what the body's
-/// actuators add to it; rows and columns of fixed nodes are zero.
+/// A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T over the free nodes, as last prepared, plus the contribution of
+/// the body's actuators; rows and columns of fixed nodes are zero.
 class WarpedSystem : public LinearOperator
 {
 public:
     explicit WarpedSystem(const Body& body, const Threads* threads = nullptr) : m_body(body), m_threads(threads) {}
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
-    /// A without actuators, with the rows and columns of fixed nodes: what their motion does to the others.
+    /// A without actuators, including rows and columns of fixed nodes, to eliminate their prescribed motion.
     void applyUnconstrained(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
-    /// A without its masses, over the free nodes.
+    /// A - M over the free nodes, with actuators.
     void applyStiffness(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
-    /// c h^2 T alone, of the elements, with the rows and columns of fixed nodes.
+    /// c h^2 T of the elements alone, including rows and columns of fixed nodes.
     void applyTension(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
 private:
@@ -55,8 +54,8 @@ private:
     const Threads* m_threads;
 };
 
-/// P = R A0^-1 R^T [Garcia et al. 2006], R block-diagonal with the body's one rotation (global) or one a node (nodal).
-/// A node that is fixed now has zero rows; one that was fixed when the factor was built gets the inverse of its
+/// P = R A0^-1 R^T [Garcia et al. 2006], R block-diagonal with one rotation for the body (global) or one a node
+/// (nodal). Nodes fixed at present have zero rows; nodes fixed only when the factor was built get the inverse of their
 /// diagonal.
 class WarpedPreconditioner : public LinearOperator
 {
@@ -66,7 +65,7 @@ public:
     }
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
-    /// The rotation R_i that the preconditioner gives node i.
+    /// The rotation R_i of the preconditioner at a node.
     Mat3 rotation(int node) const;
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Fracture along the faces of elements, node by node, after [Parker & O'Brien 2009]: where the largest tension at a
-// node is beyond the strength, the elements around it fall to the two sides of a plane across that tension.
+// Fracture along the faces of elements, node by node, after [Parker & O'Brien 2009]: where the maximum tension at a
+// node exceeds the strength, the adjacent elements are divided by a plane across that tension.
 #include "bullet_fem/fem/step/fracture.h"
 
 #include <Eigen/Eigenvalues>
@@ -19,15 +19,15 @@ namespace bullet_fem
 namespace
 {
 
-// Area of a cut's faces seen along its normal, over their area: below it the faces run along the tension rather than
-// across it. A cut of a regular mesh has 1, a zigzag of regular tetrahedra about .8.
+// Minimum ratio of the projected area of a cut's faces along its normal to their area [-]: with a smaller one the faces
+// run along the tension rather than across it. A cut of a regular mesh has 1, a zigzag of regular tetrahedra about .8.
 constexpr double kLeastAcross = 0.3;
 
-// Share of the strength that the tension in an element around a node has at least where a cut there may bear the
-// strength: nodes at the tip of a crack bear more than their elements.
+// Share of the strength [-] that an element's tension must exceed for its nodes to be tested: a node at a crack tip
+// carries more tension than its elements.
 constexpr double kTense = 0.5;
 
-// True if no eigenvalue is beyond the limit: limit I - s has positive pivots.
+// True if no eigenvalue exceeds the limit: limit I - s has positive pivots.
 bool isTensionBelow(const Stress& s, double limit)
 {
     const double a = limit - s.xx;
@@ -46,7 +46,7 @@ Vec3 directionOfLargestTension(const Stress& s)
     return {q(0), q(1), q(2)};
 }
 
-/// Area times normal of the side opposite node a, out of the element [m2].
+/// Outward area vector of the side opposite node a [m2].
 Vec3 areaOf(const std::vector<Vec3>& x, const Tet& tet, int a)
 {
     const Vec3 &p = x[tet[(a + 1) % 4]], &q = x[tet[(a + 2) % 4]], &r = x[tet[(a + 3) % 4]];
@@ -132,7 +132,7 @@ bool Fracture::markTense(double strength)
     return any;
 }
 
-// Of the mean of the elements around a node by their volumes.
+// Direction of the maximum tension of the volume-weighted mean stress around a node.
 Vec3 Fracture::tensionAt(int node) const
 {
     Stress mean;
@@ -147,10 +147,10 @@ int Fracture::sideOf(const Body& body, int element, const Vec3& x, const Vec3& n
     return dot(normal, elementMiddle(body.m_state.m_x, m_mesh.tets()[element]) - x) > 0 ? 1 : -1;
 }
 
-// An element pulls a node with sigma A / 3, A the area of the side opposite the node times its normal. What the
-// elements on the two sides pull with, in the mean and along the normal, over a third of the area of the faces between
-// them as seen along the normal: in uniform stress n . sigma n, however the faces zigzag, and at the tip of a crack
-// what the node bears there.
+// Stress across a cut at a node. An element pulls the node with sigma A / 3, A the area vector of the side opposite the
+// node. The mean normal force of the two sides' elements, divided by a third of the projected area of the faces between
+// them, is n . sigma n in uniform stress, however the faces zigzag, and at a crack tip the stress that the node
+// carries.
 Fracture::Cut Fracture::cutAt(const Body& body, int node, const Vec3& along)
 {
     Cut cut;
@@ -193,7 +193,7 @@ void Fracture::listBegins(const Body& body, double strength)
               { return a.m_stress != b.m_stress ? a.m_stress > b.m_stress : a.m_node < b.m_node; });
 }
 
-// All elements around the node take a side of the crack; faces between the sides are cut.
+// Assigns all elements around the node to the sides of the crack and cuts the faces between the sides.
 void Fracture::open(const Body& body, int node, const Vec3& normal, Crack& crack)
 {
     const std::vector<Vec3>& x = body.m_state.m_x;
@@ -221,7 +221,7 @@ void Fracture::open(const Body& body, int node, const Vec3& normal, Crack& crack
     }
 }
 
-// On from node to node, over the faces that are cut, as far as the strength is exceeded.
+// Grows a crack from node to node over cut faces while the strength is exceeded.
 Crack Fracture::grow(const Body& body, const Begin& begin, double strength)
 {
     Crack crack;
@@ -241,7 +241,7 @@ Crack Fracture::grow(const Body& body, const Begin& begin, double strength)
     return crack;
 }
 
-// Stresses around a crack of this step are not what they were.
+// True near a crack of this step, where the computed stresses are outdated.
 bool Fracture::isNearCrack(int node) const
 {
     for (int k = m_first[node]; k < m_first[node + 1]; ++k)
@@ -250,7 +250,7 @@ bool Fracture::isNearCrack(int node) const
     return false;
 }
 
-// Elements around a node hang together by faces with it that are not cut; every part but the first gets a copy.
+// Elements around a node are connected by uncut faces at it; every connected set but the first gets a copy of the node.
 void Fracture::part(int node, SplitMesh& split) const
 {
     const int count = m_first[node + 1] - m_first[node];
@@ -349,7 +349,7 @@ Body splitBody(const Body& body, std::shared_ptr<const BodyModel> model, const s
     to.m_relaxedStrain = from.m_relaxedStrain;
     to.m_leastStep = from.m_leastStep;
     to.m_mostStep = from.m_mostStep;
-    // Of elements, which keep their numbers; nodes of cables and chambers may have parted.
+    // Elements keep their indices; nodes of cables and chambers may have separated.
     after.m_actuators.m_fibres = body.m_actuators.m_fibres;
     after.m_actuators.m_expansions = body.m_actuators.m_expansions;
     after.m_actuators.m_ownStress = body.m_actuators.m_ownStress;

@@ -27,7 +27,7 @@ Vec3 angularMomentum(const BodyState& state)
 namespace
 {
 
-// mu |dev(s_k)|^2 times the smoothed volume, of all edge domains.
+// Sum over all edge domains of mu |dev(s_k)|^2 times the smoothed volume.
 double energyOfDomains(const RestShape& shape, const std::vector<SymmetricTensor>& strain)
 {
     const EdgeDomains& domains = shape.m_edgeDomains;
@@ -49,10 +49,10 @@ double energyOfDomains(const RestShape& shape, const std::vector<SymmetricTensor
 
 }  // namespace
 
-// Element energy: V (mu E:E + lambda/2 tr(E)^2) or V/2 E:C:E, E = sym(R^T F) - I, and in place of tr(E) its mean where
-// elements are in patches; of a smoothed deviator the share that is not, and that of its edge domains; besides, V
-// sigma_0 : E of an initial stress. The state's rotations are those of the last step's start, which a spinning body has
-// left behind: R is found anew.
+// Element energy: V (mu E:E + lambda/2 tr(E)^2) or V/2 E:C:E, E = sym(R^T F) - I, with the patch's mean in place of
+// tr(E) for patches; a smoothed deviator contributes its unsmoothed share and that of its edge domains; initial stress
+// adds V sigma_0 : E. The state's rotations are those of the start of the last step, outdated in a spinning body: R is
+// recomputed.
 double mechanicalEnergy(const Body& body)
 {
     const BodyState& s = body.m_state;
@@ -61,7 +61,7 @@ double mechanicalEnergy(const Body& body)
     const RestShape& shape = body.m_model->shape();
     const ElementPatches& patches = shape.m_patches;
     std::vector<double> dilatation(patches.count(), 0.0);
-    std::vector<SymmetricTensor> strain;  // where it is smoothed
+    std::vector<SymmetricTensor> strain;  // for smoothed elements
     const std::vector<Tet>& tets = shape.m_mesh.tets();
     const std::vector<int>& lane = body.m_model->elements().m_lanes.m_lane;
     for (std::size_t e = 0; e < tets.size(); ++e)
@@ -77,7 +77,7 @@ double mechanicalEnergy(const Body& body)
         if (!patches.empty())
         {
             dilatation[patches.m_patch[e]] += shape.shareOfPatch(static_cast<int>(e)) * own;
-            lambda = -2.0 / 3 * element.m_muVolume;  // that of the deviator
+            lambda = -2.0 / 3 * element.m_muVolume;  // the deviator's part only
         }
         const bool isSmoothed = !shape.m_edgeDomains.empty();
         const double share = isSmoothed ? 1 - shape.m_edgeDomains.m_share[e] : 1;

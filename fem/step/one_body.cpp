@@ -20,7 +20,8 @@ namespace bullet_fem
 namespace
 {
 
-// Smaller bodies are solved in less time than it takes to share one out [nodes], of some 5 tets each.
+// Minimum size of a body that is shared among threads [nodes], of some 5 tets each: smaller ones are solved in less
+// time than sharing takes.
 constexpr int kNodesToShare = 1000;
 
 class OneBody
@@ -58,7 +59,7 @@ public:
         if (m_settings.m_momentumCorrection) m_scratch.m_momentum.restore(m_body, v);
     }
 
-    // What impulses have left undone. After a breakdown that may not be finite.
+    // Keeps the residual of the impulse response, except after a breakdown, when it may not be finite.
     void keepResidual()
     {
         m_scratch.m_hasResidual = m_report.m_stop != SolveStop::breakdown;
@@ -70,7 +71,7 @@ public:
 protected:
     bool isActuated() const { return m_body.m_actuators.hasPulls(); }
 
-    // Adds to the guess of dv the rigid motion that gives free pieces the momentum prescribed.
+    // Adds to the guess of dv the rigid motion that gives free components their prescribed momentum.
     void completeGuess()
     {
         std::vector<Vec3>& dv = m_scratch.m_increment;
@@ -114,10 +115,9 @@ public:
 
     void prescribeMomentum() { m_scratch.m_momentum.prescribe(m_body, m_settings.m_step); }
 
-    // T is in A but not in b: it damps the change of velocity in the step, and so must see what was changed from
-    // outside before it, u = v - v_prior. Else a node that is thrown again and again is held where it is by the tension
-    // that should pull it back. As impulses on the motion before, A (dv + u) = b(v_prior) + M u; without T that is
-    // A dv = b(v).
+    // T is in A but not in b: it damps the change of velocity in the step, and so must act on an external change before
+    // it, u = v - v_prior, as well. Otherwise the tension that should pull back a repeatedly accelerated node would
+    // hold it in place. As impulses on the prior motion, A (dv + u) = b(v_prior) + M u; without T that is A dv = b(v).
     void passOverElements()
     {
         std::vector<Vec3>& prior = m_loads.m_priorVelocity;
@@ -129,7 +129,7 @@ public:
 
     void averageRotations() { averageNodeRotations(m_body, m_settings); }
 
-    // dv_p = v_target - v moves to the right-hand side, b_f -= A_fp dv_p, and b_p = 0.
+    // Eliminates prescribed velocities: dv_p = v_target - v, b_f -= A_fp dv_p, and b_p = 0.
     void eliminateFixedNodes()
     {
         addOutsideChange();
@@ -150,7 +150,7 @@ public:
             if (m_state.m_fixed[i]) b[i] = {};
     }
 
-    // Nothing changes by them but the way that the body moves as one.
+    // Adds the predicted impulses to b and to the prescribed momentum.
     void addPredictedImpulses()
     {
         if (!m_motion.m_predicted) return;
@@ -167,8 +167,8 @@ public:
         m_stop.m_floor = std::max(m_stop.m_floor, m_motion.m_predictedFloor * std::sqrt(sum));
     }
 
-    // The increments of the last two steps, continued along a straight line: motion is smooth more often than not. With
-    // predicted impulses: that the body goes on as it moves.
+    // Warm start: the increments of the last two steps, extrapolated linearly, because most motion is smooth. With
+    // predicted impulses: zero plus the rigid motion.
     void guessIncrement()
     {
         const std::vector<Vec3>&last = m_state.m_lastIncrement[0], &before = m_state.m_lastIncrement[1];
@@ -179,7 +179,7 @@ public:
         completeGuess();
     }
 
-    // Actuators, and velocities that were changed from outside, take the linear answer.
+    // Bodies with actuators or external velocity changes keep the linear solution.
     void correctIncrement()
     {
         if (!m_scratch.m_newton.isUsed() || m_settings.m_direct || isActuated() || !m_loads.m_priorVelocity.empty())
@@ -190,7 +190,7 @@ public:
         QuasiNewton(m_body, m_settings, m_A).correct(m_stop, m_report);
     }
 
-    // Increments with impulses in them say nothing about those without.
+    // Increments with predicted impulses are no warm start for steps without.
     void keepIncrement()
     {
         if (m_motion.m_predicted)
@@ -242,8 +242,8 @@ private:
         for (std::size_t i = 0; i < b.size(); ++i) b[i] -= r * Tv[i];
     }
 
-    // w = (s h + beta) v, less a share of h w x (w x r): velocities that turn with the body are no strain. Actuators
-    // see them likewise, and add their forces to b.
+    // w = (s h + beta) v, less a share of h w x (w x r), because velocities that rotate with the body are no strain.
+    // Actuators receive both vectors as well and add their forces to b.
     void findViscous()
     {
         const double h = m_settings.m_step, beta = m_body.m_model->shape().m_material.m_stiffnessDamping;
@@ -256,7 +256,7 @@ private:
             w[i] = shares.m_ofVelocity * m_state.m_v[i] - shares.m_ofTurning * w[i];
     }
 
-    // See passOverElements().
+    // Adds the external change of velocity to b: see passOverElements().
     void addOutsideChange()
     {
         const std::vector<Vec3>& prior = m_loads.m_priorVelocity;
@@ -327,7 +327,7 @@ public:
     void keepUnresolved() {}
 };
 
-// Calls solve(settings) on the threads at hand, or without them where the body is too small.
+// Calls solve(settings) with the settings' threads, or without them if the body is too small to share.
 template <class Solve>
 void onThreads(const Body& body, const StepSettings& given, const Solve& solve)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The step of a body alone: the widths of step_stages.h for one.
+// The step of a single body: the widths of step_stages.h for one.
 #pragma once
 
 #include "bullet_fem/fem/step/stepping.h"
@@ -9,10 +9,10 @@
 namespace bullet_fem
 {
 
-/// The settings with the threads that may work on a body of this model: none if it is too small.
+/// The settings, without threads if a body of this model is too small to share.
 StepSettings sharedSettings(const BodyModel& model, StepSettings settings);
 
-/// On the threads of the settings, or without them where the body is too small.
+/// Solves one job on the threads of its settings, or without them if the body is too small to share.
 void solveAlone(FreeMotion& motion);
 void solveAlone(ImpulseResponse& response);
 void solveAlone(StepEnd& end);

@@ -23,8 +23,8 @@ namespace bullet_fem
 namespace
 {
 
-// Runs of jobs on bodies that share their model go in batches as far as they can, those like the first before the
-// others; what cannot goes one by one.
+// Solves jobs on bodies of one model in batches as far as possible, those like the first before the others; the
+// remaining ones are solved one by one.
 template <class Job>
 void solveAll(Job* jobs, int count)
 {
@@ -62,7 +62,7 @@ Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings&
 {
     StepScratch& scratch = body.m_workspace.scratch();
     WarpedCompliance(body, settings.m_threads).apply(impulses, scratch.m_increment);
-    // What implicit Euler takes back are penetrations, bit by bit; other steps go all the way that a contact wants.
+    // Implicit Euler corrects a fraction of the penetration per step; other steps correct all of it.
     const double scale = StepCoefficients(settings, body).theta() < 1 ? scratch.m_complianceScale : 1;
     scratch.m_isPushed = true;
     Vec3 angularMomentum;
@@ -84,7 +84,7 @@ void stopPushing(StepScratch& scratch)
 
 }  // namespace
 
-// h'^2 + h' beta = c h^2 + h beta
+// Positive root of h'^2 + h' beta = c h^2 + h beta.
 double factorStep(double step, double numericalDamping, const Material& material)
 {
     if (numericalDamping == 1) return step;
@@ -174,7 +174,7 @@ bool canFinishStep(const Body& body)
 {
     constexpr double kFastestNode = 1e6;
     const StepScratch& scratch = body.m_workspace.scratch();
-    int good = 0;  // no early return: the loops are for vectors
+    int good = 0;  // no early return, so that the loops vectorize
     for (const Vec3& v : scratch.m_velocity) good += dot(v, v) < kFastestNode * kFastestNode;
     for (std::size_t i = 0; i < scratch.m_push.size() && scratch.m_isPushed; ++i)
     {

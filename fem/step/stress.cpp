@@ -22,8 +22,8 @@ double vonMises(const Stress& s)
 namespace
 {
 
-// With F = R S, F R^T = R S R^T, the stretch in the world's axes. The state's rotations are those of the last step's
-// start: R is found anew.
+// F = R S and the stretch F R^T = R S R^T in world axes. The state's rotations are those of the start of the last step:
+// R is recomputed.
 struct LeftStretch
 {
     Mat3 m_R, m_stretch;
@@ -54,8 +54,8 @@ SymmetricTensor strainOf(const LeftStretch& found)
     return strain;
 }
 
-// Of elements that bend accurately: what their edge domains make of strains. `strains`: of all elements, or none, and
-// they are found where they are needed.
+// Strain of an element with accurate bending, averaged over its edge domains. `strains`: of all elements, or empty to
+// compute them on demand.
 SymmetricTensor smoothedStrain(const Body& body, int e, const std::vector<SymmetricTensor>& strains)
 {
     const EdgeDomains& domains = body.m_model->shape().m_edgeDomains;
@@ -88,14 +88,14 @@ Stress orthotropicStress(const Body& body, int e, const LeftStretch& found)
     return symmetricPart(found.m_R * timesTranspose(toMatrix(s), found.m_R));
 }
 
-// sigma = R Hooke(S - I) R^T = Hooke(F R^T - I), because R turns nothing in an isotropic law, and R sigma_0 R^T.
+// sigma = R Hooke(S - I) R^T = Hooke(F R^T - I), because an isotropic law commutes with R; plus R sigma_0 R^T.
 Stress stressOf(const Body& body, int e, const LeftStretch& found, double dilatation)
 {
     if (body.m_model->shape().isOrthotropic()) return orthotropicStress(body, e, found);
     const Material& material = body.m_model->shape().materialOf(e);
     const Mat3& left = found.m_stretch;
     const double mu = material.lameMu();
-    const double own = dilatationOf(found);  // the same as dilatation, but in a patch
+    const double own = dilatationOf(found);  // equals dilatation outside patches
     const double pressure = material.lameLambda() * dilatation + 2.0 / 3 * mu * (dilatation - own);
     Stress s;
     if (material.m_law == ElasticLaw::neoHooke)

@@ -16,92 +16,97 @@
 namespace bullet_fem
 {
 
-/// A body that was made ready off line: what a .bfem file holds. Reading one takes milliseconds, and neither orders nor
-/// factors. docs/baked.md has the format and what is promised.
+/// A body prepared off line, the contents of a .bfem file. Reading one takes milliseconds, without ordering or
+/// factorization. docs/baked.md specifies the format and its compatibility.
 struct BakedBody
 {
-    std::vector<Vec3> m_positions;       ///< of the nodes at rest [m]; the model's mesh has node 0 at the origin
-    std::vector<double> m_inverseMass;   ///< of the nodes, of pinned ones too [1/kg], > 0
-    std::vector<double> m_filled;        ///< fraction of every element, in (0, 1]; empty if all are 1
-    double m_massScale = 1;              ///< of a cage, factor on all masses [-], > 0; the masses have it
-    std::vector<Embedding> m_embedding;  ///< per vertex of the surface that follows the body; empty if there is none
-    std::vector<Triangle> m_triangles;   ///< of that surface
-    bool m_surfaceCollides = false;      ///< that surface collides, not the boundary of the elements
-    bool m_singlePrecision = true;       ///< numbers are rounded to what Bullet in single precision holds of them
+    std::vector<Vec3> m_positions;       ///< rest positions of the nodes [m]; the model's mesh has node 0 at the origin
+    std::vector<double> m_inverseMass;   ///< inverse masses of the nodes, pinned ones included [1/kg], > 0
+    std::vector<double> m_filled;        ///< filled fraction of every element [-], in (0, 1]; empty if all are 1
+    double m_massScale = 1;              ///< factor on all masses of a cage [-], > 0; m_inverseMass includes it
+    std::vector<Embedding> m_embedding;  ///< per vertex of the embedded surface; empty if there is none
+    std::vector<Triangle> m_triangles;   ///< triangles of the embedded surface
+    bool m_surfaceCollides = false;      ///< the embedded surface collides, instead of the elements' boundary
+    bool m_singlePrecision = true;       ///< values are rounded to single precision, as Bullet stores them
     std::shared_ptr<const BodyModel> m_model;  ///< mesh, material, masses, pins, step and factor; never null
 };
 
-/// What a body is baked for.
+/// The inputs of bakeBody().
 struct BakeSettings
 {
-    Material m_material;  ///< a density of 0 is taken for water's, 1000 kg/m3
-    /// Per element the label of its region, and the regions' materials, in place of m_material; empty: it is of all.
+    Material m_material;  ///< a density of 0 is replaced by water's, 1000 kg/m3
+    /// Per element the label of its region; m_regionMaterials then replaces m_material. Empty: m_material everywhere.
     std::vector<int> m_labels;
-    std::map<int, Material> m_regionMaterials;  ///< by label
+    std::map<int, Material> m_regionMaterials;  ///< material of each label
     double m_step = 1.0 / 60;                   ///< the fixed step of the world [s], in [1e-6, 1]
-    std::vector<int> m_pins;                    ///< nodes that are pinned, each in [0, n)
-    /// The precision of the Bullet that will move the body: numbers are rounded as its nodes and materials hold them,
-    /// and the body moves bit for bit like one that was not baked. Read by the other one, it differs by rounding.
+    std::vector<int> m_pins;                    ///< pinned nodes, each in [0, n)
+    /// Precision of the Bullet build that will move the body: values are rounded as its nodes and materials store them,
+    /// and the body moves bit for bit as one that was not baked. In the other precision it differs by rounding.
     bool m_singlePrecision = true;
-    FactorChoice m_choice = FactorChoice::full;  ///< which factor it gets
-    std::size_t m_maxBytes = 0;                  ///< memory that the factor may take [B], 0 for any amount
+    FactorChoice m_choice = FactorChoice::full;  ///< which factor to build
+    std::size_t m_maxBytes = 0;                  ///< maximum memory of the factor [B]; 0: unlimited
 };
 
-/// Functions with a last argument `why` throw if that is null. Else, for engines without exceptions, they return false,
-/// a body without model or an info without nodes where they would throw, with the reason in `why`.
+/// Functions with a last argument `why` throw if it is null. Otherwise, for engines without exceptions, they do not
+/// throw: they write the reason to `why` and return false, a body without model, or an info without nodes.
 
-/// Makes a body of a mesh ready, or of a cage with the surface that it was made of. Throws std::invalid_argument,
-/// naming the value, on bad settings or a mesh that rounding spoils, and what BodyModel::create throws.
+/// Bakes a body of a mesh. Throws std::invalid_argument, naming the value, on bad settings or a mesh that rounding
+/// makes invalid; std::runtime_error if A0 cannot be factored or the factor would exceed settings.m_maxBytes.
+/// Allocates.
 BULLETFEM_API BakedBody bakeBody(const TetMesh& mesh, const BakeSettings& settings, std::string* why = nullptr);
-/// The same of a cage and its surface.
+/// Bakes a body of a cage and the surface that it was made of. Throws std::invalid_argument, naming the value, on bad
+/// settings or a mesh that rounding makes invalid; std::runtime_error if A0 cannot be factored or the factor would
+/// exceed settings.m_maxBytes. Allocates.
 BULLETFEM_API BakedBody bakeBody(const Cage& cage, const SurfaceMesh& surface, const BakeSettings& settings,
                                  std::string* why = nullptr);
 
-/// Writes it to a file, under a temporary name beside it at first, so that there is either the whole file or what was
-/// there before. The same body gives the same bytes. Throws std::runtime_error that names the file, what went wrong and
-/// what to do.
+/// Writes a body to a file, first under a temporary name in its directory, so that the path holds either the whole new
+/// file or the previous one. Equal bodies give equal bytes. Throws std::runtime_error naming file, reason and remedy.
 BULLETFEM_API bool writeBakedBody(const std::string& path, const BakedBody& body, std::string* why = nullptr);
 
-/// How a file gets into memory.
+/// Loading of a file into memory.
 enum class BakedLoading
 {
-    /// Mapped: the factor stays in the file, its pages are shared by all programs that have it, and count as cache. The
-    /// file must not be changed while a body uses it, or the program may crash; replacing it, as writeBakedBody does,
-    /// is no change. Where there is no mmap: copied.
+    /// Memory-mapped: the factor stays in the file, and its pages are shared by all programs and count as cache.
+    /// Changing the file in place while a body uses it may crash the program; replacing it, as writeBakedBody does, is
+    /// safe. Copied where there is no mmap.
     mapped,
-    copied  ///< read at once; the file is not needed any more
+    copied  ///< read completely; the file is not used afterwards
 };
 
-/// Reads one. Every byte is checked, and all that is an index: nothing in a file can make the program crash. Throws
-/// std::runtime_error that names the file, what is wrong with it and what to do: it is missing, cut off, damaged, not a
-/// baked body, of another byte order, of an older or newer version, or its numbers do not make a body.
+/// Reads a baked body. Every byte and every index is checked: no file contents can crash the program. Throws
+/// std::runtime_error naming file, reason and remedy: the file is missing, truncated, damaged, not a baked body, of
+/// another byte order, of an older or newer version, or its values do not form a body. Allocates.
 BULLETFEM_API BakedBody readBakedBody(const std::string& path, BakedLoading loading = BakedLoading::mapped,
                                       std::string* why = nullptr);
 
-/// The same for a file that lies in memory already, as those of an archive do; it is copied. `name` is for messages.
+/// Reads a baked body from memory, for instance from an archive, with all checks of the other overload; copies the
+/// data. `data` has `size` bytes [B]; `name` stands in messages. Throws std::runtime_error naming `name`, reason and
+/// remedy. Allocates.
 BULLETFEM_API BakedBody readBakedBody(const unsigned char* data, std::size_t size, const std::string& name,
                                       std::string* why = nullptr);
 
-/// What stands at the beginning of a file.
+/// The header of a baked file.
 struct BakedFileInfo
 {
-    int m_version = 0;                ///< of the format
-    std::uint64_t m_fileBytes = 0;    ///< [B]
-    std::uint64_t m_factorBytes = 0;  ///< of them the factor's panels [B]
-    int m_nodes = 0;                  ///< of the mesh
-    int m_tets = 0;                   ///< likewise
-    int m_freeNodes = 0;              ///< that are neither pinned nor loose
+    int m_version = 0;                ///< version of the format
+    std::uint64_t m_fileBytes = 0;    ///< size of the file [B]
+    std::uint64_t m_factorBytes = 0;  ///< size of the factor's panels within it [B]
+    int m_nodes = 0;                  ///< number of nodes of the mesh
+    int m_tets = 0;                   ///< number of elements of the mesh
+    int m_freeNodes = 0;              ///< number of nodes that are neither pinned nor loose
     int m_embeddedVertices = 0;       ///< 0: there is no embedded surface
-    int m_embeddedTriangles = 0;      ///< of that surface
-    bool m_surfaceCollides = false;   ///< the embedded surface does, not the boundary
-    Material m_material;              ///< that the body was baked with; of the first region, if there are several
-    int m_regions = 1;                ///< of different materials: the model has them, see RestShape::m_materials
-    double m_step = 0;                ///< that the factor was made for [s]
-    bool m_singlePrecision = true;    ///< see BakeSettings
-    FactorReport m_factor;            ///< as it was reported when the body was baked, without the time that it took
+    int m_embeddedTriangles = 0;      ///< number of triangles of the embedded surface
+    bool m_surfaceCollides = false;   ///< the embedded surface collides, not the boundary
+    Material m_material;              ///< material; that of the first region, if there are several
+    int m_regions = 1;                ///< number of regions; RestShape::m_materials of the model has them
+    double m_step = 0;                ///< step of the factor [s]
+    bool m_singlePrecision = true;    ///< as BakeSettings::m_singlePrecision
+    FactorReport m_factor;            ///< report of the factorization, without its time
 };
 
-/// Reads the beginning alone, and whether the file is as long as it must be. Throws like readBakedBody.
+/// Reads the header only, and checks the length of the file. Throws std::runtime_error naming file, reason and remedy,
+/// as readBakedBody does.
 BULLETFEM_API BakedFileInfo inspectBakedBody(const std::string& path, std::string* why = nullptr);
 
 }  // namespace bullet_fem

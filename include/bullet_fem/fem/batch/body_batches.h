@@ -11,19 +11,19 @@
 namespace bullet_fem
 {
 
-/// Bodies put in order so that those that share their model stand together, and divided into batches: what one thread
-/// solves, side by side as far as it can. Which bodies are together has no effect on the bits of what becomes of them.
-/// Allocates while it grows.
+/// Sorts bodies by model and divides them into batches, each solved by one thread, side by side as far as possible. The
+/// division has no effect on the bits of the results. Allocates while it grows.
 class BULLETFEM_API BodyBatches
 {
 public:
-    /// `together`: false makes every body a batch of its own. Every body once, none null.
+    /// Divides `bodies`, each listed once and not null, for a number of `threads`, >= 1. `together` false: every body
+    /// is a batch of its own.
     void divide(const std::vector<const Body*>& bodies, int threads, bool together);
 
-    /// Indices of the bodies.
+    /// Indices into `bodies`, sorted by model.
     const std::vector<int>& order() const { return m_order; }
 
-    /// Ranges of order(), of one model each; the long ones first.
+    /// Ranges of order(), each of one model; the long ones first.
     const std::vector<Range>& batches() const { return m_batches; }
 
 private:
@@ -32,10 +32,10 @@ private:
     void divideModel(const Range& all, int sideBySide);
 
     std::vector<int> m_order;
-    std::vector<Range> m_batches, m_alone;   // those of one body
-    std::vector<const BodyModel*> m_models;  // each once, in the order of the first bodies that have them
+    std::vector<Range> m_batches, m_alone;   // m_alone: batches of a single body
+    std::vector<const BodyModel*> m_models;  // each once, ordered by first body
     std::vector<int> m_modelOf;              // per body
-    std::vector<int> m_count, m_end;         // per model: its bodies, and where they end in m_order
+    std::vector<int> m_count, m_end;         // per model: number of its bodies, and their end in m_order
 };
 
 }  // namespace bullet_fem

@@ -8,10 +8,10 @@
 namespace bullet_fem
 {
 
-/// Sets the initial stress of a body (setInitialStress) to m_actuators.m_ownStress and the stresses of its fibres and
-/// expansions: after every change of any of them, and when the body has got another material, with which that of
-/// expansions changes. Throws std::invalid_argument,
-/// naming the value, if a number leaves [-1e13, 1e13] Pa; the body keeps what it had. Allocates.
+/// Sets the initial stress of a body (setInitialStress) to m_actuators.m_ownStress plus the stresses of its fibres and
+/// expansions. To be called after every change of these, and after a change of material, on which the stress of
+/// expansions depends. Throws std::invalid_argument, naming the value, if a component leaves [-1e13, 1e13] Pa; the body
+/// is unchanged then. Allocates.
 BULLETFEM_API void applyActiveStress(Body& body);
 
 }  // namespace bullet_fem

@@ -12,153 +12,156 @@
 namespace bullet_fem
 {
 
-// What drives a body from within, by forces that have no sum and no torque. Each pulls along the gradient of a scalar q
-// of the positions, the volume of a chamber or the length of a cable, with a force that depends on q alone, so that its
-// stiffness is one number: a step takes it implicitly (docs/theory.md, Actuators).
+// Actuators drive a body by internal forces without resultant force or torque. Each acts along the gradient of a scalar
+// q of the positions, the volume of a chamber or the length of a cable, with a force that depends on q alone: its
+// stiffness is a single number, and a step takes it implicitly (docs/theory.md, Actuators).
 
 /// The standard atmosphere [Pa].
 constexpr double kStandardAtmosphere = 101325;
 
-/// A cavity with gas in it: a closed surface over nodes of the body.
+/// A gas chamber: a closed surface over nodes of the body.
 struct BULLETFEM_API Chamber
 {
-    int m_id = 0;                       ///< the caller's
-    std::vector<Triangle> m_triangles;  ///< counter-clockwise seen from outside the gas, which is from within the wall
-    bool m_isSealed = false;            ///< false: m_pressure is kept; true: m_gas is
-    double m_pressure = 0;              ///< above m_outsidePressure [Pa], in [-m_outsidePressure, 1e8]
-    double m_gas =
-        0;  ///< absolute pressure times volume, which a sealed gas keeps at one temperature [J], in [0, 1e12]
+    int m_id = 0;  ///< identifier set by the caller
+    /// Oriented counter-clockwise seen from outside the gas, that is from inside the wall.
+    std::vector<Triangle> m_triangles;
+    bool m_isSealed = false;  ///< false: constant m_pressure; true: constant m_gas
+    double m_pressure = 0;    ///< gauge pressure above m_outsidePressure [Pa], in [-m_outsidePressure, 1e8]
+    /// Absolute pressure times volume, constant in a sealed gas at constant temperature [J], in [0, 1e12].
+    double m_gas = 0;
     double m_outsidePressure = kStandardAtmosphere;  ///< [Pa], in [0, 1e8]
 
-    /// Throws std::invalid_argument, naming value, range and remedy, on values out of range, a node that the mesh has
-    /// not, a surface that is not closed or not all in one piece of the mesh, or triangles that disagree about the
-    /// inside.
+    /// Throws std::invalid_argument, naming value, range and remedy, on values out of range, a node outside the mesh, a
+    /// surface that is not closed or spans several connected components of the mesh, and inconsistently oriented
+    /// triangles.
     void validate(const TetMesh& mesh) const;
 
-    /// Throws std::invalid_argument likewise if the volume at positions x is not above zero.
+    /// Throws std::invalid_argument, naming the value and the remedy, if the volume at positions x [m], one a node, is
+    /// not positive.
     void validateVolume(const std::vector<Vec3>& x) const;
 
-    /// At positions x [m3]; negative where the surface is inside out.
+    /// Enclosed volume [m3] at positions x [m], one a node; negative if the surface is inside out.
     double volume(const std::vector<Vec3>& x) const;
 
-    /// Above the outside pressure at that volume [Pa]. A sealed gas has at most 1e8 Pa, also where its volume is zero
-    /// or below.
+    /// Gauge pressure [Pa] at a volume [m3]. That of a sealed gas is limited to 1e8 Pa, also for volumes of zero or
+    /// less.
     double pressureAt(double volume) const;
 };
 
-/// A point that moves with up to four nodes.
+/// A point attached to up to four nodes.
 struct CablePoint
 {
-    std::array<int, 4> m_nodes = {};                 ///< of the mesh; only those with a weight are looked at
+    std::array<int, 4> m_nodes = {};                 ///< node indices; ignored where the weight is 0
     std::array<double, 4> m_weights = {1, 0, 0, 0};  ///< [-], sum 1
 
-    Vec3 at(const std::vector<Vec3>& u) const;  ///< of u at the nodes, by the weights
+    Vec3 at(const std::vector<Vec3>& u) const;  ///< interpolation of u, one value a node
 };
 
-/// A cable, or tendon, that runs through points of the body and slides in them without friction, so that its tension is
-/// the same all along. It pulls, and never pushes.
+/// A cable, or tendon, through points of the body, in which it slides without friction: its tension is uniform. It
+/// carries tension only.
 struct BULLETFEM_API Cable
 {
-    int m_id = 0;                      ///< the caller's
-    std::vector<CablePoint> m_points;  ///< at least two; the cable is fixed to the first and the last
-    double m_tension = 0;              ///< where m_stiffness is 0 [N], in [0, 1e9]
-    double m_stiffness = 0;            ///< of a cable that stretches [N/m], in [0, 1e12]
-    double m_restLength = 0;           ///< where that is taut [m], in [0, 1e6]
+    int m_id = 0;                      ///< identifier set by the caller
+    std::vector<CablePoint> m_points;  ///< at least two; the cable ends are fixed to the first and the last
+    double m_tension = 0;              ///< constant tension [N], in [0, 1e9]; used if m_stiffness is 0
+    double m_stiffness = 0;            ///< stiffness of an elastic cable [N/m], in [0, 1e12]
+    double m_restLength = 0;           ///< rest length of an elastic cable [m], in [0, 1e6]
 
     /// Throws std::invalid_argument, naming value, range and remedy, on values out of range, fewer than two points, a
-    /// node that the mesh has not, weights that do not have the sum 1, or points in several pieces of the mesh.
+    /// node outside the mesh, weights whose sum is not 1, or points in several connected components of the mesh.
     void validate(const TetMesh& mesh) const;
 
-    /// At positions x [m].
+    /// Length [m] at positions x [m], one a node.
     double length(const std::vector<Vec3>& x) const;
 
-    /// At that length [N], >= 0.
+    /// Tension [N], >= 0, at a length [m].
     double tensionAt(double length) const;
 };
 
-/// Muscle fibres in some elements: the stress a f f^T along the fibre f, which turns with its element. A free bar of
-/// Young's modulus E shortens by a / E.
+/// Muscle fibres in a set of elements: the stress a f f^T along the unit fibre direction f, which rotates with the
+/// element. A free bar of Young's modulus E shortens by a / E.
 struct BULLETFEM_API Fibres
 {
-    int m_id = 0;                    ///< the caller's
-    std::vector<int> m_elements;     ///< in the mesh's order; none: all
-    std::vector<Vec3> m_directions;  ///< f in the rest shape, of any length > 0: one for all, or one an element
-    double m_activation = 0;         ///< a [Pa], in [-1e13, 1e13]; positive draws together
+    int m_id = 0;                    ///< identifier set by the caller
+    std::vector<int> m_elements;     ///< element indices of the mesh; empty: all
+    std::vector<Vec3> m_directions;  ///< f in the rest shape, of any nonzero length: one for all, or one an element
+    double m_activation = 0;         ///< a [Pa], in [-1e13, 1e13]; positive contracts
 
-    /// Throws std::invalid_argument, naming value, range and remedy.
+    /// Throws std::invalid_argument, naming value, range and remedy, on elements or values out of range.
     void validate(const TetMesh& mesh) const;
 };
 
-/// Elements that are larger than their rest shape by a strain that is the same along all axes, as heat (alpha dT),
-/// swelling or growth makes it: the stress -3 K strain I, K the bulk modulus.
+/// Isotropic expansion of a set of elements, as by heat (alpha dT), swelling or growth: the initial stress -3 K strain
+/// I, K the bulk modulus; -C (strain I) for an orthotropic material.
 struct BULLETFEM_API Expansion
 {
-    int m_id = 0;                 ///< the caller's
-    std::vector<int> m_elements;  ///< in the mesh's order; none: all
-    double m_strain = 0;          ///< [-], in [-0.9, 9]
+    int m_id = 0;                 ///< identifier set by the caller
+    std::vector<int> m_elements;  ///< element indices of the mesh; empty: all
+    double m_strain = 0;          ///< free linear strain [-], in [-0.9, 9]
 
-    /// Throws std::invalid_argument, naming value, range and remedy.
+    /// Throws std::invalid_argument, naming value, range and remedy, on elements or values out of range.
     void validate(const TetMesh& mesh) const;
 };
 
-/// All that drives a body.
+/// All actuators of a body, in the order in which they were added.
 struct BULLETFEM_API Actuators
 {
-    std::vector<Chamber> m_chambers;           ///< in the order in which they were added, as all of them
-    std::vector<Cable> m_cables;               ///< likewise
-    std::vector<Fibres> m_fibres;              ///< likewise
-    std::vector<Expansion> m_expansions;       ///< likewise
-    std::vector<SymmetricTensor> m_ownStress;  ///< the initial stress without those of fibres and expansions; see there
+    std::vector<Chamber> m_chambers;      ///< gas chambers
+    std::vector<Cable> m_cables;          ///< cables
+    std::vector<Fibres> m_fibres;         ///< muscle fibres
+    std::vector<Expansion> m_expansions;  ///< expansions
+    /// Initial stress without that of fibres and expansions (applyActiveStress).
+    std::vector<SymmetricTensor> m_ownStress;
 
-    /// Whether something changes the system that a step solves.
+    /// True if there are chambers or cables, which add forces and stiffness to the system of a step.
     bool hasPulls() const { return !m_chambers.empty() || !m_cables.empty(); }
-    /// Whether something gives elements a stress.
+    /// True if there are fibres or expansions, which add initial stress.
     bool hasActiveStress() const { return !m_fibres.empty() || !m_expansions.empty(); }
 
-    /// Throws std::invalid_argument, naming value, range and remedy.
+    /// Validates every actuator. Throws std::invalid_argument, naming value, range and remedy.
     void validate(const TetMesh& mesh) const;
 };
 
-/// The closed inner surfaces of a mesh, which enclose no material of it, turned as Chamber wants them; in the order of
-/// their first triangle in the mesh's surface. Triangles belong together that share an edge.
+/// Closed inner surfaces of a mesh, which enclose no elements, oriented as Chamber requires. Triangles are connected
+/// over shared edges. Ordered by first triangle in the mesh's surface. Allocates.
 BULLETFEM_API std::vector<std::vector<Triangle>> findCavities(const TetMesh& mesh);
 
-/// Calls bytes(...) with every member: a ByteWriter appends them, a ByteReader reads them.
+/// Calls bytes(...) with every member of a Chamber: a ByteWriter appends them, a ByteReader reads them.
 template <class Bytes>
 void transfer(Bytes& bytes, Chamber& c)
 {
     bytes(c.m_id, c.m_triangles, c.m_isSealed, c.m_pressure, c.m_gas, c.m_outsidePressure);
 }
 
-/// Calls bytes(...) with every member: a ByteWriter appends them, a ByteReader reads them.
+/// Calls bytes(...) with every member of a CablePoint: a ByteWriter appends them, a ByteReader reads them.
 template <class Bytes>
 void transfer(Bytes& bytes, CablePoint& p)
 {
     bytes(p.m_nodes, p.m_weights);
 }
 
-/// Calls bytes(...) with every member: a ByteWriter appends them, a ByteReader reads them.
+/// Calls bytes(...) with every member of a Cable: a ByteWriter appends them, a ByteReader reads them.
 template <class Bytes>
 void transfer(Bytes& bytes, Cable& c)
 {
     bytes(c.m_id, c.m_points, c.m_tension, c.m_stiffness, c.m_restLength);
 }
 
-/// Calls bytes(...) with every member: a ByteWriter appends them, a ByteReader reads them.
+/// Calls bytes(...) with every member of Fibres: a ByteWriter appends them, a ByteReader reads them.
 template <class Bytes>
 void transfer(Bytes& bytes, Fibres& f)
 {
     bytes(f.m_id, f.m_elements, f.m_directions, f.m_activation);
 }
 
-/// Calls bytes(...) with every member: a ByteWriter appends them, a ByteReader reads them.
+/// Calls bytes(...) with every member of an Expansion: a ByteWriter appends them, a ByteReader reads them.
 template <class Bytes>
 void transfer(Bytes& bytes, Expansion& e)
 {
     bytes(e.m_id, e.m_elements, e.m_strain);
 }
 
-/// Calls bytes(...) with every member: a ByteWriter appends them, a ByteReader reads them.
+/// Calls bytes(...) with every member of Actuators: a ByteWriter appends them, a ByteReader reads them.
 template <class Bytes>
 void transfer(Bytes& bytes, Actuators& a)
 {

@@ -14,48 +14,48 @@ namespace bullet_fem
 
 struct StepScratch;
 
-/// The vectors that one body's step works in. Sized once for a mesh and a factor; a step never allocates.
+/// Scratch vectors of one body's steps. Sized once for a mesh and a factor; a step never allocates.
 class BULLETFEM_API Workspace
 {
 public:
-    /// For bodies of this model. Allocates.
+    /// Scratch for bodies of this model. Allocates.
     explicit Workspace(const BodyModel& model);
     ~Workspace();
-    /// Moves: the other is not to be used then.
+    /// Moves; the source must not be used afterwards.
     Workspace(Workspace&&) noexcept;
-    /// Likewise.
+    /// Moves; the source must not be used afterwards.
     Workspace& operator=(Workspace&&) noexcept;
 
-    /// What the step works in; its type is not public.
+    /// The scratch data; the type is internal.
     StepScratch& scratch() { return *m_scratch; }
-    /// The same, to read.
+    /// The scratch data, read-only; the type is internal.
     const StepScratch& scratch() const { return *m_scratch; }
 
 private:
     std::unique_ptr<StepScratch> m_scratch;
 };
 
-/// A deformable body: the const model that it may share, its state, what acts on it, and its scratch.
+/// A deformable body: its model, which it may share, its state, its loads and its scratch memory.
 struct BULLETFEM_API Body
 {
-    /// At rest in the rest shape. `model` is not null. Allocates.
+    /// A body at rest in the rest shape. `model` is not null. Allocates.
     explicit Body(std::shared_ptr<const BodyModel> model)
         : m_model(std::move(model)), m_state(*m_model), m_loads(m_model->nodeCount()), m_workspace(*m_model)
     {
     }
 
-    /// Exchanges the factor (a new step, mass or set of fixed nodes) and keeps the motion. The mesh must be the same;
-    /// throws std::invalid_argument otherwise. Allocates.
+    /// Replaces the model (another step, mass, set of fixed nodes or material) and keeps the motion. Throws
+    /// std::invalid_argument if the mesh differs. Allocates.
     void setModel(std::shared_ptr<const BodyModel> model);
 
     /// Mesh, material and factor; not null.
     std::shared_ptr<const BodyModel> m_model;
     /// Positions, velocities, masses and pins.
     BodyState m_state;
-    /// What acts on the body in the next step.
+    /// Loads of the next step.
     StepLoads m_loads;
-    Actuators m_actuators;  ///< validated by who adds them; not to be changed within a step
-    /// Scratch of its steps.
+    Actuators m_actuators;  ///< validated by the caller that adds them; must not change during a step
+    /// Scratch memory of the steps.
     Workspace m_workspace;
 };
 

@@ -10,64 +10,67 @@
 namespace bullet_fem
 {
 
-/// All that the next steps of a body depend on: its state, what contact has learnt of it, and which factor it has.
+/// The complete state that a body's next steps depend on: state, compliance scale learnt in contact, and the inputs of
+/// its factor.
 struct BodySnapshot
 {
-    std::uint64_t m_shapeMark = 0;         ///< of the rest shape: mesh, filled fractions and material
-    FactorPath m_path = FactorPath::full;  ///< of the factor
-    FactorInput m_factor;  ///< m_step, m_mass, m_fixed; masses and fixed nodes are empty if they are those of the state
+    std::uint64_t m_shapeMark = 0;         ///< hash of the rest shape: mesh, filled fractions and materials
+    FactorPath m_path = FactorPath::full;  ///< path of the factor
+    /// m_step, m_mass and m_fixed of the factor; masses and fixed nodes are empty if equal to those of the state.
+    FactorInput m_factor;
     double m_complianceScale = 1;                      ///< as in StepScratch [-], > 0
-    std::vector<Vec3> m_x;                             ///< this and what follows as in BodyState [m]
-    std::vector<Vec3> m_v;                             ///< [m/s]
-    std::vector<double> m_mass;                        ///< [kg]
+    std::vector<Vec3> m_x;                             ///< positions, as in BodyState [m]
+    std::vector<Vec3> m_v;                             ///< velocities [m/s]
+    std::vector<double> m_mass;                        ///< node masses [kg]
     std::vector<unsigned char> m_fixed;                ///< 1: the velocity is prescribed
     std::array<std::vector<Vec3>, 2> m_lastIncrement;  ///< [m/s]
-    std::vector<Quaternion> m_elementRotation;         ///< one an element, and what fills the last block up
-    Mat3 m_bodyRotation;                               ///< of Warp::global
+    std::vector<Quaternion> m_elementRotation;         ///< one an element, then padding of the last kernel block
+    Mat3 m_bodyRotation;                               ///< rotation of Warp::global
     std::vector<SymmetricTensor> m_initialStress;      ///< [Pa]
-    std::uint64_t m_initialStressChanges = 0;          ///< how often it was set
+    std::uint64_t m_initialStressChanges = 0;          ///< number of changes of m_initialStress
     std::vector<SymmetricTensor> m_plasticStrain;      ///< [-]
     std::vector<double> m_equivalentPlasticStrain;     ///< [-]
     std::vector<SymmetricTensor> m_relaxedStrain;      ///< [-]
     Actuators m_actuators;                             ///< chambers, cables, fibres
-    double m_leastStep = 0;                            ///< [s]
-    double m_mostStep = 0;                             ///< [s]
+    double m_leastStep = 0;                            ///< minimum of the recent steps [s]
+    double m_mostStep = 0;                             ///< maximum of the recent steps [s]
 };
 
-/// The same for the same elements at the same rest positions, to the bit, of the same material.
+/// Hash of a rest shape: equal for equal elements, bitwise equal rest positions and filled fractions, and equal
+/// materials.
 BULLETFEM_API std::uint64_t markOf(const RestShape& shape);
 
-/// The same for the same materials of the same elements, whatever their regions are called.
+/// Hash of a mesh's materials: equal if every element has equal material, whatever the region labels.
 BULLETFEM_API std::uint64_t markOf(const ElementMaterials& materials);
 
-/// What the next steps of the body depend on, copied.
+/// Copies the state that the body's next steps depend on. Allocates.
 BULLETFEM_API BodySnapshot snapshotOf(const Body& body);
 
-/// Throws std::invalid_argument, naming the value, unless the snapshot can be the state of a body with this model's
+/// Throws std::invalid_argument, naming the value, unless the snapshot is a valid state of a body with this model's
 /// mesh.
 BULLETFEM_API void check(const BodySnapshot& snapshot, const BodyModel& model);
 
-/// What the body's factor was made for. After check().
+/// The inputs of the body's factor, with masses and fixed nodes filled in. Requires check().
 BULLETFEM_API FactorInput factorInputOf(const BodySnapshot& snapshot);
 
-/// Makes it the body's state, which must have the factor that the snapshot tells. After check(). Does not allocate.
+/// Restores the snapshot's state to a body, which must have the snapshot's factor. Requires check(). Does not allocate.
 BULLETFEM_API void restore(const BodySnapshot& snapshot, Body& body);
 
-/// Reads or writes what a factor was made for: `bytes` is a ByteReader or ByteWriter.
+/// Reads or writes the compared members of a FactorInput: `bytes` is a ByteReader or ByteWriter.
 template <class Bytes>
 void transfer(Bytes& bytes, FactorInput& input)
 {
     bytes(input.m_step, input.m_mass, input.m_fixed);
 }
 
-/// Likewise the constants and directions of an orthotropic material.
+/// Reads or writes constants and directions of an orthotropic material: `bytes` is a ByteReader or ByteWriter.
 template <class Bytes>
 void transfer(Bytes& bytes, Orthotropic& orthotropic)
 {
     bytes(orthotropic.m_young, orthotropic.m_poisson, orthotropic.m_shear, orthotropic.m_along, orthotropic.m_across);
 }
 
-/// Likewise a material.
+/// Reads or writes a material: `bytes` is a ByteReader or ByteWriter.
 template <class Bytes>
 void transfer(Bytes& bytes, Material& m)
 {
@@ -77,21 +80,21 @@ void transfer(Bytes& bytes, Material& m)
     if (m.isOrthotropic()) bytes(m.m_orthotropic);
 }
 
-/// Likewise.
+/// Reads or writes a region: `bytes` is a ByteReader or ByteWriter.
 template <class Bytes>
 void transfer(Bytes& bytes, MaterialRegion& region)
 {
     bytes(region.m_label, region.m_material);
 }
 
-/// Likewise.
+/// Reads or writes regions and region indices: `bytes` is a ByteReader or ByteWriter.
 template <class Bytes>
 void transfer(Bytes& bytes, ElementMaterials& materials)
 {
     bytes(materials.m_regions, materials.m_regionOf);
 }
 
-/// Likewise.
+/// Reads or writes a snapshot: `bytes` is a ByteReader or ByteWriter.
 template <class Bytes>
 void transfer(Bytes& bytes, BodySnapshot& s)
 {

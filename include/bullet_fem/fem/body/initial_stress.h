@@ -11,17 +11,18 @@
 namespace bullet_fem
 {
 
-constexpr double kMostInitialStress = 1e13;  ///< of every number [Pa], as of Young's modulus
+/// Maximum magnitude of every component [Pa], equal to that of Young's modulus.
+constexpr double kMostInitialStress = 1e13;
 
-/// Gives every element of a body a stress sigma_0 [Pa] besides the one of its strain: of heat, fibres or residual
-/// stress, in the frame that turns with the element, that is in the axes of the rest shape; tension positive. The
-/// stress is sigma = R (2 mu eps + lambda tr(eps) I + sigma_0) R^T then (docs/theory.md, Initial stress). One tensor an
-/// element in the mesh's order; none for none at all. It may change in every step: neither the stiffness nor its factor
-/// knows it. Allocates when a body that had none gets some. Throws std::invalid_argument, naming the value, on a wrong
-/// number of tensors, and on a number that is not in [-1e13, 1e13]; the body keeps what it had.
+/// Sets the initial stress sigma_0 [Pa] of a body's elements, tension positive: thermal, active or residual stress, in
+/// the frame that rotates with the element, that is in the axes of the rest shape. The total stress is then sigma = R
+/// (2 mu eps + lambda tr(eps) I + sigma_0) R^T (docs/theory.md, Initial stress). One tensor an element in the mesh's
+/// order, or none to clear it. It may change in every step, because neither the stiffness nor its factor depend on it.
+/// Allocates when a body that had none gets some. Throws std::invalid_argument, naming the value, on a wrong number of
+/// tensors and on a component outside [-1e13, 1e13]; the body is unchanged then.
 BULLETFEM_API void setInitialStress(Body& body, const std::vector<SymmetricTensor>& perElement);
 
-/// True if it could be set; else `why` (if given) names the value, the range and the remedy.
+/// True if setInitialStress() accepts these values; else `why` (if given) names the value, the range and the remedy.
 BULLETFEM_API bool isInitialStress(const BodyModel& model, const std::vector<SymmetricTensor>& perElement,
                                    std::string* why = nullptr);
 

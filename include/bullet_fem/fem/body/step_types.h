@@ -13,82 +13,84 @@ class BatchMemory;
 class Threads;
 struct Body;
 
-/// How the rest factor is turned along with the body.
+/// How the rest factor rotates with the body.
 enum class Warp
 {
     nodal,  ///< one rotation a node: fewest iterations, the default
-    global  ///< the body's one rotation, as in [Garcia et al. 2006]; exact for rigid motion
+    global  ///< one rotation for the body [Garcia et al. 2006]; exact for rigid motion
 };
 
-/// How one step is solved.
+/// Solver settings of one step.
 struct StepSettings
 {
     double m_step = 1.0 / 60;  ///< h [s], in [1e-6, 1]
-    /// Damping by the step itself [-], in [0, 1]: 1 is implicit Euler, 0 a step of second order that damps only what it
+    /// Numerical damping s [-], in [0, 1]: 1 is implicit Euler, 0 a second-order step that damps only frequencies it
     /// cannot resolve (docs/theory.md).
     double m_numericalDamping = 1;
-    double m_tolerance = 1e-3;  ///< of |r| / max(|b|, 1e-3 h |f_ext|) [-], in [1e-12, 1)
-    int m_maxIterations = 100;  ///< conjugate gradient iterations a solve, >= 1
-    /// Which rotations turn the factor.
+    double m_tolerance = 1e-3;  ///< tolerance of |r| / max(|b|, 1e-3 h |f_ext|) [-], in [1e-12, 1)
+    int m_maxIterations = 100;  ///< maximum conjugate gradient iterations a solve, >= 1
+    /// Rotations of the preconditioner.
     Warp m_warp = Warp::nodal;
-    bool m_direct = false;  ///< one iteration, whatever the residual: the paper's mode. Stiff bodies can gain energy
-    bool m_tension = true;  ///< keep the tensile geometric stiffness in A; off only to compare with references
-    bool m_momentumCorrection = true;  ///< restore the momentum that the impulses prescribe on unpinned pieces
-    /// Who shares the work on a body of some thousand elements; null: the caller's thread alone. The bits of the result
-    /// are the same. Must live as long as the settings are used.
+    bool m_direct = false;  ///< one iteration whatever the residual [Garcia et al. 2006]; stiff bodies can gain energy
+    bool m_tension = true;  ///< include the tensile geometric stiffness in A; off only to compare with references
+    /// Restore the momentum that the impulses prescribe, on unpinned connected components.
+    bool m_momentumCorrection = true;
+    /// Threads that share the work on a body of some thousand elements; null: the calling thread alone. Does not change
+    /// the bits of the result. Must outlive the settings.
     const Threads* m_threads = nullptr;
-    /// Where bodies that share their model are solved side by side, if there are enough of them; null: one after
-    /// another. The bits of the result are the same. Must live as long as the settings are used.
+    /// Memory in which bodies of one model are solved side by side, if there are enough of them; null: one after
+    /// another. Does not change the bits of the result. Must outlive the settings.
     BatchMemory* m_batchMemory = nullptr;
 };
 
-/// Why the conjugate gradients stopped.
+/// Termination of the conjugate gradients.
 enum class SolveStop
 {
     converged,  ///< the residual is at or below the tolerance
-    budget,     ///< the iteration cap came first: the answer is usable, less accurate; raise the cap or refactor
-    breakdown   ///< the system was not positive definite or not finite to rounding: the best iterate was kept
+    budget,     ///< the iteration limit came first: usable but less accurate; raise the limit or refactor
+    breakdown   ///< the system was not positive definite or not finite to rounding: the best iterate is kept
 };
 
-/// What a solve did. Every field is written on every path.
+/// Result of a solve. Every field is written on every path.
 struct SolveReport
 {
-    int m_iterations = 0;   ///< applications of the preconditioner that improved the answer
-    double m_residual = 0;  ///< true |b - A dv| / |b| at the end [-]; 0 where b = 0. With expected impulses in b, which
-                            ///< may cancel the loads, |b| is no less than the norm of these
-    /// Why it ended.
+    int m_iterations = 0;  ///< applications of the preconditioner that improved the answer
+    /// True residual |b - A dv| / |b| at the end [-]; 0 if b = 0. With expected impulses in b, which may cancel the
+    /// loads, |b| counts as at least their norm.
+    double m_residual = 0;
+    /// Reason of termination.
     SolveStop m_stop = SolveStop::converged;
 };
 
-/// solveFreeMotion of one body of several.
+/// solveFreeMotion() of one body among several.
 struct FreeMotion
 {
     Body* m_body = nullptr;   ///< not null
-    StepSettings m_settings;  ///< of its step
-    SolveReport m_report;     ///< out
-    /// Impulses that contact is expected to make [N s], one a node: solved for with the loads, from the guess that the
-    /// body goes on as it moves. ContactBody::m_predicted is to be the same then. Null: none.
+    StepSettings m_settings;  ///< settings of its step
+    SolveReport m_report;     ///< output
+    /// Expected contact impulses, one a node [N s]: solved for together with the loads, with the body's rigid motion
+    /// continued as initial guess. Must equal ContactBody::m_predicted. Null: none.
     const std::vector<Vec3>* m_predicted = nullptr;
-    double m_predictedFloor = 1;  ///< share of their norm that |b| counts as at least, for the tolerance [-], in [0, 1]
+    double m_predictedFloor = 1;  ///< lower bound of |b| as a share of their norm, for the tolerance [-], in [0, 1]
 };
 
-/// applyImpulses to one body of several.
+/// applyImpulses() to one body among several.
 struct ImpulseResponse
 {
     Body* m_body = nullptr;                         ///< not null
-    const std::vector<Vec3>* m_impulses = nullptr;  ///< [N s], one a node
-    StepSettings m_settings;                        ///< of its step
-    double m_floor = 0;                             ///< [N s], >= 0
-    bool m_steady = false;  ///< the guess: the body ends with the velocities that it began the step with
-    SolveReport m_report;   ///< out
+    const std::vector<Vec3>* m_impulses = nullptr;  ///< one a node [N s]
+    StepSettings m_settings;                        ///< settings of its step
+    double m_floor = 0;                             ///< lower bound of |b| for the tolerance [N s], >= 0
+    bool m_steady = false;  ///< initial guess: the body ends with the velocities it began the step with
+    SolveReport m_report;   ///< output
 };
 
-/// finishStep of one body of several.
+/// finishStep() of one body among several.
 struct StepEnd
 {
     Body* m_body = nullptr;   ///< not null
-    StepSettings m_settings;  ///< of its step
-    bool m_isRough = false;   ///< written: the step changed the velocities by more than it resolves
+    StepSettings m_settings;  ///< settings of its step
+    bool m_isRough = false;   ///< output: the step changed the velocities by more than it resolves
 };
 
 }  // namespace bullet_fem

@@ -10,15 +10,15 @@
 namespace bullet_fem
 {
 
-/// Called by the thread that makes a cage with the share of the work that is done [-], in [0, 1], which never falls.
-/// False gives up.
+/// Progress callback of makeCage: receives the completed share of the work [-], in [0, 1] and nondecreasing, on the
+/// calling thread. Returns false to cancel.
 using CageProgress = std::function<bool(double share)>;
 
-/// What makeCage throws when its progress gives up.
+/// Exception of makeCage after its progress callback returned false.
 class BULLETFEM_API CageCancelled : public std::runtime_error
 {
 public:
-    /// With the reason that people read.
+    /// Sets a readable reason.
     CageCancelled() : std::runtime_error("the cage was given up, as its progress asked") {}
 };
 

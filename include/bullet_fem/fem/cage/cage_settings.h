@@ -9,38 +9,38 @@
 namespace bullet_fem
 {
 
-/// How a cage is made. Give a cell size or a number of elements, not both.
+/// Options of makeCage(). Give a cell size or a number of elements, not both.
 struct CageSettings
 {
-    double m_cellSize = 0;  ///< edge of a lattice cube [m], > 0; 0: as m_targetTets asks
-    /// Elements wanted, in [5, m_maxTets]; 0: as m_cellSize says. The lattice does not give every number: within 20 %
-    /// from some hundred elements on, and else the nearest that was found.
+    double m_cellSize = 0;  ///< edge of a lattice cube [m], > 0; 0: chosen from m_targetTets
+    /// Number of elements aimed at, in [5, m_maxTets]; 0: given by m_cellSize. Not every number is possible: the result
+    /// is within 20 % from some hundred elements on, and else the nearest number found.
     int m_targetTets = 0;
-    /// Share of the way that boundary nodes move toward the nearest point of the surface, in [0, 1]; 0: none. They stop
-    /// where an element would fall below a mean ratio of .3, or the surface would no longer be inside.
+    /// Snapping: share of the way that boundary nodes move to the nearest point of the surface [-], in [0, 1]; 0: none.
+    /// A node stops where an element would fall below a mean ratio of .3, or the surface would leave the cage.
     double m_snap = 0;
-    /// Cells that thin parts are to have across, in [0.5, 8], 2 is usual; 0: cells are alike. Cells stay m_cellSize
-    /// long where the surface's other side is farther away than that many; elsewhere they are halved as often as it
-    /// takes, and in narrow gaps, too, so that their sides come apart.
+    /// Grading: number of cells across thin parts, in [0.5, 8], 2 is usual; 0: uniform cells. Cells keep the edge
+    /// m_cellSize where the opposite side of the surface is farther away than this many cells; elsewhere, and in narrow
+    /// gaps whose sides must separate, they are halved as often as necessary.
     double m_cellsAcross = 0;
-    int m_mostLevels = 3;    ///< most halvings of a cell's edge where cells are graded, in [1, 6]
-    int m_maxTets = 200000;  ///< refuse beyond this many elements, in [5, 5e6]
-    /// Least filled fraction that an element's mass and stiffness are scaled by, in (0, 1]. Contact is on the cage's
-    /// boundary, where emptier elements are softer; below about .2 they turn inside out under a hard landing.
+    int m_mostLevels = 3;    ///< maximum number of halvings of a graded cell's edge, in [1, 6]
+    int m_maxTets = 200000;  ///< maximum number of elements, in [5, 5e6]; larger cages are refused
+    /// Minimum filled fraction for scaling an element's mass and stiffness [-], in (0, 1]. Contact acts on the cage's
+    /// boundary, where partly filled elements are softer; with a floor below about .2 they invert in a hard landing.
     double m_fillFloor = 0.25;
-    int m_fillSamples = 64;  ///< points an element's filled fraction is measured with, in [8, 4096]
-    /// What collides: the surface, not the boundary of the cage, which stands up to a cell outside it. For the bodies
-    /// that are made of the cage; the cage itself is the same.
+    int m_fillSamples = 64;  ///< sample points per element for its filled fraction, in [8, 4096]
+    /// Collision surface of bodies made of the cage: the embedded surface, or the cage's boundary, which lies up to a
+    /// cell outside it. Does not change the cage itself.
     bool m_surfaceCollides = false;
-    CageProgress m_progress = {};  ///< is told how far it is, and may give up; empty: nobody is
+    CageProgress m_progress = {};  ///< progress callback, which may cancel; empty: none
 };
 
 /// A vertex of the surface as a fixed affine combination of four cage nodes.
 struct Embedding
 {
     int m_tet = 0;                         ///< element that holds the vertex; 0 for a vertex in no triangle
-    std::array<double, 4> m_weights = {};  ///< barycentric weights [-] in the order of the element's nodes, sum 1,
-                                           ///< at least -1e-6 but for vertices in no triangle
+    std::array<double, 4> m_weights = {};  ///< barycentric weights [-] in the order of the element's nodes; sum 1, each
+                                           ///< at least -1e-6 for a vertex of a triangle
 };
 
 }  // namespace bullet_fem

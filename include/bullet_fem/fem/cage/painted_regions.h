@@ -12,12 +12,12 @@
 namespace bullet_fem
 {
 
-/// The region of every element of a mesh in which a surface is embedded, by how its vertices are painted
-/// (SurfaceMesh::m_labels). An element has the label of most of the vertices in it, of several the lowest; one without
-/// vertices that of the nearest element that has some, the way measured from middle to middle through the mesh, so that
-/// paint does not jump from one leg to the other. Elements of pieces without any vertex have the surface's first label.
-/// Empty if the surface has no labels. `embedding`: one a vertex. Throws std::invalid_argument if labels or embedding
-/// are not as many as the vertices.
+/// Region labels of a mesh's elements from the labels of an embedded surface's vertices (SurfaceMesh::m_labels). An
+/// element takes the most frequent label among the vertices in it, the lowest in a tie. An element without vertices
+/// takes the label of the nearest element with some, by the length of the path through element centres, so that labels
+/// do not jump between limbs. Elements of connected components without vertices take the surface's first label.
+/// `embedding`: one entry a vertex. Returns one label an element, or nothing if the surface has no labels. Throws
+/// std::invalid_argument if the number of labels or of embeddings is not that of the vertices. Allocates.
 BULLETFEM_API std::vector<int> paintedRegions(const TetMesh& mesh, const SurfaceMesh& surface,
                                               const std::vector<Embedding>& embedding);
 

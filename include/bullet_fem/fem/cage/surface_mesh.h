@@ -10,15 +10,15 @@
 namespace bullet_fem
 {
 
-/// A triangle soup with shared vertices: what a surface file gives. Nothing is checked here.
+/// A triangle soup with shared vertices, as read from a surface file. Unchecked.
 struct SurfaceMesh
 {
     std::vector<Vec3> m_vertices;       ///< [m]
     std::vector<Triangle> m_triangles;  ///< vertex indices
-    std::vector<int> m_labels = {};     ///< per vertex, of the region that it is painted with; empty: of none
+    std::vector<int> m_labels = {};     ///< region label of each vertex; empty: no labels
 };
 
-/// The volume enclosed, by the divergence theorem about the vertices' centroid [m3]; negative if inside out.
+/// The enclosed volume, by the divergence theorem about the vertices' centroid [m3]; negative if inside out.
 BULLETFEM_API double signedVolume(const SurfaceMesh& surface);
 
 }  // namespace bullet_fem

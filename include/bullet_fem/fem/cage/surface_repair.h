@@ -10,20 +10,20 @@
 namespace bullet_fem
 {
 
-/// A surface whose triangles count once and agree with their neighbours.
+/// A surface without duplicate triangles and with consistent orientation.
 struct RepairedSurface
 {
-    SurfaceMesh m_surface;      ///< vertices as they were
-    std::vector<int> m_welded;  ///< per vertex: the lowest vertex at the same place
-    int m_duplicates = 0;       ///< triangles left out: the same places in the same sense as an earlier one
-    int m_degenerate = 0;       ///< triangles without area; kept, they close edges and count nothing
-    int m_turned = 0;           ///< triangles that turned against their neighbours and were turned over
+    SurfaceMesh m_surface;      ///< the repaired surface; vertices are unchanged
+    std::vector<int> m_welded;  ///< per vertex: the lowest vertex at its position
+    int m_duplicates = 0;       ///< duplicate triangles dropped: equal corner positions and equal orientation
+    int m_degenerate = 0;       ///< triangles of zero area; kept to close edges, without other effect
+    int m_turned = 0;           ///< triangles reversed to agree with their neighbours
 };
 
-/// Mends what can be mended without moving a vertex. Triangles hang together over edges that have exactly two. Patches
-/// whose triangles agree stay as they are, be they inside out; in others triangles are turned until they agree, the
-/// smaller share of them if it is at most a quarter, else so that the patch encloses a positive volume. Indices must be
-/// in range, positions finite.
+/// Repairs duplicates and orientation without moving a vertex. Triangles are adjacent over edges with exactly two.
+/// Patches of consistent orientation are kept, even if inside out. In other patches triangles are reversed until they
+/// agree: the minority if it is at most a quarter, else those that make the enclosed volume positive. Requires indices
+/// in range and finite positions. Allocates.
 BULLETFEM_API RepairedSurface repairSurface(const SurfaceMesh& surface);
 
 }  // namespace bullet_fem

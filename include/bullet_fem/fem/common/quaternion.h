@@ -8,26 +8,26 @@
 namespace bullet_fem
 {
 
-/// A rotation q = (x, y, z, w), w the cosine of half the angle, |q| = 1 to rounding; q and -q are the same.
+/// A rotation as a unit quaternion q = (x, y, z, w), |q| = 1 to rounding; q and -q are one rotation.
 template <class Real>
 struct alignas(4 * sizeof(Real)) BasicQuaternion
 {
-    Real x = 0;  ///< sine of half the angle times the axis
-    Real y = 0;  ///< likewise
-    Real z = 0;  ///< likewise
-    Real w = 1;  ///< cosine of half the angle
+    Real x = 0;  ///< x component of sin(angle / 2) times the axis
+    Real y = 0;  ///< y component of sin(angle / 2) times the axis
+    Real z = 0;  ///< z component of sin(angle / 2) times the axis
+    Real w = 1;  ///< cos(angle / 2)
 };
 
-using Quaternion = BasicQuaternion<float>;  ///< as bodies keep them: the start of the next iteration
+using Quaternion = BasicQuaternion<float>;  ///< single precision, as body states store rotations for the next step
 
-/// R of a quaternion of any length but zero; orthogonal to rounding of double precision.
+/// The rotation matrix of a quaternion of any nonzero length; orthogonal to rounding of double precision.
 template <class Real>
 BULLETFEM_API Mat3 toMatrix(const BasicQuaternion<Real>& q);
 
-/// One of the two quaternions of a rotation R.
+/// One of the two unit quaternions of a rotation matrix R.
 BULLETFEM_API BasicQuaternion<double> toQuaternion(const Mat3& R);
 
-/// Rounds to single precision.
+/// Rounds the components to single precision.
 inline Quaternion rounded(const BasicQuaternion<double>& q)
 {
     return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};

@@ -7,16 +7,16 @@
 namespace bullet_fem
 {
 
-/// A symmetric 3x3 tensor in six numbers, in the order in which VTK writes them: a stress [Pa] or a strain [-], of
-/// which the shears are not doubled.
+/// A symmetric 3x3 tensor as six components in VTK's order: a stress [Pa], or a strain [-] whose shear components are
+/// not doubled.
 struct SymmetricTensor
 {
-    double xx = 0;  ///< normal [Pa] or [-], and so on
-    double yy = 0;  ///< normal
-    double zz = 0;  ///< normal
-    double xy = 0;  ///< shear
-    double yz = 0;  ///< shear
-    double xz = 0;  ///< shear
+    double xx = 0;  ///< xx component [Pa] or [-]
+    double yy = 0;  ///< yy component
+    double zz = 0;  ///< zz component
+    double xy = 0;  ///< xy component
+    double yz = 0;  ///< yz component
+    double xz = 0;  ///< xz component
 
     /// Adds every component.
     SymmetricTensor& operator+=(const SymmetricTensor& b)
@@ -26,47 +26,47 @@ struct SymmetricTensor
     /// Multiplies every component.
     SymmetricTensor& operator*=(double s) { return xx *= s, yy *= s, zz *= s, xy *= s, yz *= s, xz *= s, *this; }
 
-    /// The same numbers.
+    /// True if all six components are equal.
     friend bool operator==(const SymmetricTensor& a, const SymmetricTensor& b)
     {
         return a.xx == b.xx && a.yy == b.yy && a.zz == b.zz && a.xy == b.xy && a.yz == b.yz && a.xz == b.xz;
     }
-    /// Not so.
+    /// True if any component differs.
     friend bool operator!=(const SymmetricTensor& a, const SymmetricTensor& b) { return !(a == b); }
 };
 
-/// s a.
+/// Product s a.
 inline SymmetricTensor operator*(double s, SymmetricTensor a)
 {
     return a *= s;
 }
-/// a + b.
+/// Sum a + b.
 inline SymmetricTensor operator+(SymmetricTensor a, const SymmetricTensor& b)
 {
     return a += b;
 }
-/// The sum of the normal components.
+/// Trace: the sum of the normal components.
 inline double trace(const SymmetricTensor& a)
 {
     return a.xx + a.yy + a.zz;
 }
-/// a : b, the sum over all nine entries.
+/// Double contraction a : b, the sum over all nine entries.
 inline double contraction(const SymmetricTensor& a, const SymmetricTensor& b)
 {
     return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2 * (a.xy * b.xy + a.yz * b.yz + a.xz * b.xz);
 }
-/// a - tr(a) / 3 I.
+/// Deviator a - tr(a) / 3 I.
 inline SymmetricTensor deviator(SymmetricTensor a)
 {
     const double mean = trace(a) / 3;
     return a.xx -= mean, a.yy -= mean, a.zz -= mean, a;
 }
-/// The same with all nine entries.
+/// The tensor as a full 3x3 matrix.
 inline Mat3 toMatrix(const SymmetricTensor& a)
 {
     return {{{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, a.zz}}};
 }
-/// (A + A^T) / 2.
+/// Symmetric part (A + A^T) / 2.
 inline SymmetricTensor symmetricPart(const Mat3& A)
 {
     return {A(0, 0), A(1, 1), A(2, 2), 0.5 * (A(0, 1) + A(1, 0)), 0.5 * (A(1, 2) + A(2, 1)), 0.5 * (A(0, 2) + A(2, 0))};

@@ -9,42 +9,43 @@
 namespace bullet_fem
 {
 
-/// Things that are worked on together, from m_begin up to, not including, m_end.
+/// A half-open index range [m_begin, m_end).
 struct Range
 {
-    int m_begin;  ///< the first
-    int m_end;    ///< behind the last
+    int m_begin;  ///< first index
+    int m_end;    ///< one past the last index
 };
 
-/// The threads that share the work of steps. Results have the same bits for every count: work is divided by its own
-/// size, never by the number of threads. May be used by several threads at once, and from within its own tasks. With a
-/// count of 1 there is no thread besides the caller's, and nothing is ever allocated; with more the thread library
-/// (oneTBB) allocates small tasks, from pools of its own. Not to be deleted while in use.
+/// A team of threads that shares the work of steps. Results have identical bits for every thread count, because work is
+/// divided by its own size, never by the number of threads. Several threads may use one object at once, also from
+/// within its own tasks. A count of 1 starts no thread besides the caller's and allocates nothing; with more, oneTBB
+/// allocates small tasks from pools of its own. The object must outlive its use.
 class BULLETFEM_API Threads
 {
 public:
-    static constexpr int kMost = 256;  ///< threads at most
+    static constexpr int kMost = 256;  ///< maximum number of threads
 
-    /// `count` threads, the caller's included, in [0, 256]; 0: as many as the machine has for this process. More than
-    /// that is granted, and slow. Always one where the library was built without oneTBB. Throws std::invalid_argument.
+    /// Creates a team of `count` threads, the caller's included, in [0, 256]; 0: as many as the machine grants this
+    /// process. A larger count than that is allowed, but slow. Always one thread if the library was built without
+    /// oneTBB. Throws std::invalid_argument if `count` is out of range.
     explicit Threads(int count = 1);
     ~Threads();
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
 
-    /// The threads at work at most, >= 1.
+    /// Number of threads, >= 1.
     int count() const { return m_count; }
 
-    /// Calls task(k) for every k in [0, tasks), each once, on any thread, with the caller's floating-point settings;
-    /// returns when all are done. If tasks throw, the others run nevertheless, and what the first of them (by k) threw
-    /// is thrown then.
+    /// Calls task(k) once for every k in [0, tasks), on any thread, with the caller's floating-point settings, and
+    /// returns when all calls are done. If tasks throw, the remaining ones still run; then the exception of the lowest
+    /// k is thrown.
     template <class Task>
     void run(int tasks, const Task& task) const
     {
         runCalls(tasks, {[](const void* held, int k) { (*static_cast<const Task*>(held))(k); }, &task});
     }
 
-    /// Calls task() among the others: the many short parts that it runs need not enter the team one by one.
+    /// Calls task() inside the team, so that many short run() calls within it need not enter the team one by one.
     template <class Task>
     void gather(const Task& task) const
     {
@@ -63,7 +64,7 @@ private:
     void gatherFor(const Call& call) const;
 
     int m_count;
-    std::unique_ptr<Team> m_team;  // null for one thread
+    std::unique_ptr<Team> m_team;  // null for a count of 1
 };
 
 }  // namespace bullet_fem

@@ -15,36 +15,36 @@ namespace bullet_fem
 class RestFactor;
 struct ModelElements;
 
-/// Which factor preconditions the steps of a body. Conjugate gradients iterate to the tolerance with either.
+/// The rest factor that preconditions a body's steps. Conjugate gradients reach the tolerance with either.
 enum class FactorPath
 {
-    full,      ///< of A0 itself: one or two iterations a step
-    lowMemory  ///< of mass and a scalar Laplacian, one for all three directions: about a ninth of the memory, and half
-               ///< as much to as much again for A0 itself, a tenth of the time to factor, some ten times the
-               ///< iterations; nodes that touch something for the first time take ten to twenty times as long
+    full,  ///< factor of A0 itself: one or two iterations a step
+    /// Factor of mass and a scalar Laplacian, shared by the three directions. The factor takes about a ninth of the
+    /// memory and a tenth of the time to factor; A0 itself takes half to all of the factor's memory again. Some ten
+    /// times the iterations; the first contact of a node takes ten to twenty times as long.
+    lowMemory
 };
 
-/// Who chooses the path. A factor that is larger than FactorInput::m_maxBytes all the same is refused.
+/// Selection of the factor path. Any factor larger than FactorInput::m_maxBytes is refused.
 enum class FactorChoice
 {
     full,             ///< always the full factor
-    lowMemoryBeyond,  ///< the full factor, or the low-memory path where it would be larger than m_maxBytes
+    lowMemoryBeyond,  ///< the full factor, or the low-memory path if the full one would exceed m_maxBytes
     lowMemory         ///< always the low-memory path
 };
 
-/// What a rest factor is built for. Bodies that agree in all of it share one model.
+/// The inputs of a rest factor. Bodies with equal inputs share one model.
 struct FactorInput
 {
     std::vector<double> m_mass;  ///< per node [kg], finite and > 0
-    std::vector<unsigned char>
-        m_fixed;               ///< per node, 1 where the velocity is prescribed (pinned); those are eliminated
+    /// Per node, 1 where the velocity is prescribed (pinned node); these are eliminated.
+    std::vector<unsigned char> m_fixed;
     double m_step = 1.0 / 60;  ///< h [s], in [1e-6, 1]
-    /// Memory that the packed factor may take [B], 0 for any amount. A limit, not a property of the factor: bodies that
-    /// differ in it share one.
+    /// Maximum memory of the packed factor [B]; 0: unlimited. Not compared: bodies that differ in it share a factor.
     std::size_t m_maxBytes = 0;
-    FactorChoice m_choice = FactorChoice::full;  ///< likewise not compared
+    FactorChoice m_choice = FactorChoice::full;  ///< not compared either
 
-    /// Same step, masses and fixed nodes: one factor does for both.
+    /// True if step, masses and fixed nodes are equal: one factor fits both.
     friend bool operator==(const FactorInput& a, const FactorInput& b)
     {
         return a.m_step == b.m_step && a.m_mass == b.m_mass && a.m_fixed == b.m_fixed;
@@ -54,67 +54,67 @@ struct FactorInput
 /// Figures of a factorization.
 struct FactorReport
 {
-    std::string m_backend;                 ///< libraries of fill-reducing orders, with their versions
-    std::string m_ordering;                ///< what found the order that was taken: AMD, METIS or Eigen
-    long m_entries = 0;                    ///< entries of the full factor L, fill included
-    int m_supernodes = 0;                  ///< dense panels that L is packed in
-    FactorPath m_path = FactorPath::full;  ///< what was built
+    std::string m_backend;                 ///< fill-reducing ordering libraries and their versions
+    std::string m_ordering;                ///< library whose order was used: AMD, METIS or Eigen
+    long m_entries = 0;                    ///< number of entries of the full factor L, fill included
+    int m_supernodes = 0;                  ///< number of dense panels of L
+    FactorPath m_path = FactorPath::full;  ///< factor that was built
     std::size_t m_bytes = 0;               ///< memory of its packed panels [B], without A0 on the low-memory path
-    std::size_t m_fullBytes = 0;           ///< what the full factor takes, or would have taken [B]
-    double m_seconds = 0;  ///< wall time of assembly, ordering, factorization and packing [s]; 0 of a baked factor
-    bool m_baked = false;  ///< it was not made here, but read from a file (see baked_body.h)
+    std::size_t m_fullBytes = 0;           ///< memory of the full factor, built or not [B]
+    /// Wall time of assembly, ordering, factorization and packing [s]; 0 for a baked factor.
+    double m_seconds = 0;
+    bool m_baked = false;  ///< read from a file (baked_body.h) instead of computed
 };
 
-/// A factor with what it was made for.
+/// A factor with its inputs.
 struct FactorOfModel
 {
-    /// Of A0; not null.
+    /// The factor of A0; not null.
     std::shared_ptr<const RestFactor> m_factor;
-    /// Step, masses and fixed nodes.
+    /// Step, masses and fixed nodes of the factor.
     FactorInput m_input;
-    /// The materials.
+    /// The materials of the factor.
     ElementMaterials m_materials;
     /// Figures of the factorization.
     FactorReport m_report;
 };
 
-/// A body's const half: its rest shape and the factor of A0 = (1 + h alpha) M + (h^2 + h beta) K. Immutable, so it may
-/// be shared by bodies and threads.
+/// The constant part of a body: its rest shape and the factor of A0 = (1 + h alpha) M + (h^2 + h beta) K. Immutable;
+/// may be shared by bodies and threads.
 class BULLETFEM_API BodyModel
 {
 public:
-    /// Builds the factor. May be called by several threads, which order one after another, because METIS seeds the
-    /// global random generator (std::rand) and draws from it: programs that draw at the same time get other factors,
-    /// that do as well. Throws
-    /// std::invalid_argument naming the value on a bad step, mass or array size, std::runtime_error if A0 cannot be
-    /// factored or its factor would be larger than input.m_maxBytes (said before it is computed).
+    /// Builds the factor. Several threads may call it at once; orderings are serialised, because METIS seeds and draws
+    /// from the global random generator (std::rand). If the program draws meanwhile, another order of similar quality
+    /// may result. Throws std::invalid_argument naming the value on a bad step, mass or array size; std::runtime_error
+    /// if A0 cannot be factored or the factor would exceed input.m_maxBytes (found before it is computed). Allocates.
     static std::shared_ptr<const BodyModel> create(std::shared_ptr<const RestShape> shape, FactorInput input);
-    /// A model with a factor that was made before, for a shape of the same nodes; of another material, too: then it is
-    /// a stale one, which costs iterations. Throws std::invalid_argument if there is none, or for another number of
-    /// nodes.
+    /// A model with an existing factor of a shape with equally many nodes. If the factor's material differs, it is a
+    /// stale preconditioner, which costs iterations. Throws std::invalid_argument if the factor is null or has another
+    /// number of nodes. Allocates.
     static std::shared_ptr<const BodyModel> withFactor(std::shared_ptr<const RestShape> shape, FactorOfModel factor);
     ~BodyModel();
 
-    /// Mesh, material, masses.
+    /// The rest shape: mesh, materials, masses.
     const RestShape& shape() const { return *m_shape; }
-    /// The same, to be shared.
+    /// The rest shape, for sharing.
     const std::shared_ptr<const RestShape>& sharedShape() const { return m_shape; }
     /// The mesh.
     const TetMesh& mesh() const { return m_shape->m_mesh; }
-    /// What the factor was made for.
+    /// The inputs of the factor.
     const FactorInput& factorInput() const { return m_factor.m_input; }
-    /// The factor of A0; its type is not public.
+    /// The factor of A0; the type is internal.
     const RestFactor& factor() const { return *m_factor.m_factor; }
-    /// The same with what it was made for, to be shared.
+    /// The factor with its inputs, for sharing.
     const FactorOfModel& sharedFactor() const { return m_factor; }
-    /// Elements as kernels read them; their type is not public.
+    /// Elements in the kernels' layout; the type is internal.
     const ModelElements& elements() const { return *m_elements; }
     /// Figures of the factorization.
     const FactorReport& factorReport() const { return m_factor.m_report; }
-    /// By how much the factor's material is off [-]: 1 if it is the shape's, else the ratio of steps that would be as
-    /// bad, > 1, at the worst of the elements. Masses, and so the density, are not in it.
+    /// Mismatch of the factor's material [-]: 1 if it is the shape's, else the equivalent ratio of steps, > 1, at the
+    /// worst element. Does not include masses or densities.
     double materialMismatch() const { return m_materialMismatch; }
-    /// Nodes of the mesh, loose ones included.
+    /// Number of nodes of the mesh, loose ones included.
     int nodeCount() const { return m_shape->m_mesh.nodeCount(); }
 
 private:

@@ -11,81 +11,81 @@
 namespace bullet_fem
 {
 
-/// A region of a mesh: its elements have one material.
+/// A region of a mesh: a set of elements with one material.
 struct MaterialRegion
 {
-    int m_label = 0;      ///< what a file or a program calls it
-    Material m_material;  ///< of its elements
+    int m_label = 0;      ///< name given by a file or a program
+    Material m_material;  ///< material of the region's elements
 
-    /// The same label and values.
+    /// True if label and material are equal.
     friend bool operator==(const MaterialRegion& a, const MaterialRegion& b)
     {
         return a.m_label == b.m_label && a.m_material == b.m_material;
     }
-    /// Not so.
+    /// True if label or material differs.
     friend bool operator!=(const MaterialRegion& a, const MaterialRegion& b) { return !(a == b); }
 };
 
-/// What the elements of a mesh are made of: one material, or those of regions, with one index an element. All values
-/// are a region's own, but both dampings are the body's, and a density of 0 (which keeps the body's own masses) is that
-/// of all regions or of none.
+/// The materials of a mesh's elements: one for all, or one a region with a region index an element. Each region has its
+/// own values, except the two Rayleigh dampings, which must be equal in all regions, and a density of 0 (which keeps
+/// the body's own masses), which all regions or none must have.
 struct BULLETFEM_API ElementMaterials
 {
-    /// All elements have this one.
-    ElementMaterials(const Material& material = Material()) : m_regions{{0, material}} {}  // NOLINT: a material is one
-    /// `regionOf`: per element, into `regions`; empty if there is one region alone.
+    /// One material for all elements.
+    ElementMaterials(const Material& material = Material()) : m_regions{{0, material}} {}  // NOLINT: implicit by design
+    /// Materials by region. `regionOf`: one index into `regions` an element; empty if there is one region.
     ElementMaterials(std::vector<MaterialRegion> regions, std::vector<int> regionOf);
 
-    /// Regions as a mesh has them: per element the label, and a material for every label that occurs. Materials of
-    /// other labels are left out. Throws std::invalid_argument, naming the label, its first element and the labels that
-    /// are given, where a label has no material.
+    /// Materials by label: `labels` has one label an element, `materials` one material for every label that occurs;
+    /// other materials are ignored. Throws std::invalid_argument, naming the label, its first element and the labels
+    /// given, if a label has no material. Allocates.
     static ElementMaterials ofLabels(const std::vector<int>& labels, const std::map<int, Material>& materials);
-    /// One material an element; those that are equal make a region, which is called after its first element.
+    /// One material an element. Elements of equal materials form a region, labelled by its first element. Allocates.
     static ElementMaterials ofElements(const std::vector<Material>& perElement);
 
-    /// Throws std::invalid_argument, naming region and value, on materials that are not valid or do not go together,
-    /// on another number of elements, and on indices out of range.
+    /// Throws std::invalid_argument, naming region and value, on invalid or incompatible materials, on an element count
+    /// other than `elementCount`, and on indices out of range.
     void validate(int elementCount) const;
 
-    /// Whether there is one material alone.
+    /// True if there is a single material.
     bool isUniform() const { return m_regionOf.empty(); }
-    /// Of an element, which must be of the mesh.
+    /// Material of element e, in [0, element count).
     const Material& of(int e) const { return m_regions[regionOf(e)].m_material; }
-    /// Its region, into m_regions.
+    /// Region of element e, an index into m_regions.
     std::size_t regionOf(int e) const
     {
         return isUniform() ? 0 : static_cast<std::size_t>(m_regionOf[static_cast<std::size_t>(e)]);
     }
-    /// The material of the first region: it has the dampings of all.
+    /// Material of the first region; its damping coefficients hold for all regions.
     const Material& first() const { return m_regions.front().m_material; }
 
-    static constexpr int kAlone = -1;  ///< in patchGroups(): in no patch with others
-    /// Which elements may be in one patch of mean dilatation: those of the same number. Regions of equal materials have
-    /// the same number. Empty if that is all of them.
+    static constexpr int kAlone = -1;  ///< value in patchGroups() of elements that share no patch
+    /// Patch groups for mean dilatation: only elements with equal numbers may share a patch. Regions of equal materials
+    /// have equal numbers. One number an element; empty if all elements form one group. Allocates.
     std::vector<int> patchGroups() const;
-    /// Whether any region shares volume changes.
+    /// True if any region uses mean dilatation.
     bool usesMeanDilatation() const;
-    /// Whether any region has a law that is not linear; regions that share volume changes are refused beside it.
+    /// True if any region has a nonlinear law; validate() refuses mean dilatation in the other regions then.
     bool isNonlinear() const;
-    /// Whether any region is orthotropic; regions that share volume changes or are Neo-Hookean are refused beside it.
+    /// True if any region is orthotropic; validate() refuses mean-dilatation and Neo-Hookean regions then.
     bool isOrthotropic() const;
-    /// Whether any region bends accurately.
+    /// True if any region has accurate bending.
     bool bendsAccurately() const;
-    /// Whether any region yields.
+    /// True if any region has a yield stress.
     bool yields() const;
-    /// The most relaxation terms of a region.
+    /// Maximum number of relaxation terms over the regions.
     int relaxationTerms() const;
 
-    /// The same regions of the same elements.
+    /// True if regions and region indices are equal.
     friend bool operator==(const ElementMaterials& a, const ElementMaterials& b)
     {
         return a.m_regions == b.m_regions && a.m_regionOf == b.m_regionOf;
     }
-    /// Not so.
+    /// True if regions or region indices differ.
     friend bool operator!=(const ElementMaterials& a, const ElementMaterials& b) { return !(a == b); }
 
-    std::vector<MaterialRegion> m_regions;  ///< at least one
-    std::vector<int> m_regionOf;            ///< per element, into m_regions; empty: all are in the first
+    std::vector<MaterialRegion> m_regions;  ///< at least one region
+    std::vector<int> m_regionOf;            ///< region index of each element; empty: all elements are in the first
 };
 
 }  // namespace bullet_fem

@@ -13,48 +13,50 @@
 namespace bullet_fem
 {
 
-/// When a body splits.
+/// Limits of fracture in one step.
 struct FractureLimits
 {
-    double m_strength = 0;  ///< tension that a cut through the elements around a node bears [Pa], > 0
-    int m_mostCracks = 1;   ///< that begin in a step, >= 1
+    double m_strength = 0;  ///< tensile strength of a cut through the elements around a node [Pa], > 0
+    int m_mostCracks = 1;   ///< maximum number of cracks that begin in a step, >= 1
 };
 
-/// Faces between elements that part together.
+/// A connected set of element faces that separate.
 struct Crack
 {
-    Vec3 m_place;         ///< the node where it begins [m]
-    Vec3 m_normal;        ///< the direction of the largest tension there, a unit vector
-    double m_stress = 0;  ///< tension there [Pa], beyond the strength
-    double m_area = 0;    ///< of the faces as they are now [m2], > 0
-    int m_faces = 0;      ///< > 0
+    Vec3 m_place;         ///< node where the crack begins [m]
+    Vec3 m_normal;        ///< unit direction of the maximum tension there
+    double m_stress = 0;  ///< tension there [Pa], above the strength
+    double m_area = 0;    ///< area of the faces in the present shape [m2], > 0
+    int m_faces = 0;      ///< number of faces, > 0
 };
 
-/// How the elements of a mesh join nodes once it has split.
+/// The connectivity of a mesh after splitting.
 struct SplitMesh
 {
-    std::vector<Tet> m_tets;      ///< in the mesh's order, and in that of their nodes
-    std::vector<int> m_copyOf;    ///< nodes of the mesh, ascending: copies come after the mesh's nodes in this order
-    std::vector<Crack> m_cracks;  ///< in the order in which they were found
+    std::vector<Tet> m_tets;  ///< node indices of every element, in the mesh's order
+    /// Source node of each copied node, ascending; copies are numbered after the mesh's nodes in this order.
+    std::vector<int> m_copyOf;
+    std::vector<Crack> m_cracks;  ///< in the order of detection
 };
 
-/// Finds where a body breaks: between elements, at nodes around which a cut across the largest tension bears more than
-/// the strength (docs/materials.md, Splitting). Of one mesh; find() grows its scratch when cracks are found.
+/// Fracture criterion and crack growth: a body breaks between elements, at nodes where a cut across the maximum tension
+/// carries more than the strength (docs/materials.md, Splitting). One object serves one mesh; find() grows its scratch
+/// when cracks are found.
 class BULLETFEM_API Fracture
 {
 public:
-    /// `shape` is not null. Allocates.
+    /// Prepares fracture of one shape, not null. Allocates.
     explicit Fracture(std::shared_ptr<const RestShape> shape);
 
-    /// Whose mesh it is.
+    /// The rest shape whose mesh may break.
     const std::shared_ptr<const RestShape>& shape() const { return m_shape; }
 
-    /// True if the body, which has this shape, splits as it is now; `split` is written then and not otherwise.
-    /// Allocates only then. The same for any number of threads.
+    /// Tests whether the body, which must have this shape, splits in its present state; writes `split` only then.
+    /// Allocates only then. The result does not depend on the number of threads.
     bool find(const Body& body, const FractureLimits& limits, SplitMesh& split);
 
 private:
-    struct Cut  // through the elements around a node
+    struct Cut  // a planar cut through the elements around a node
     {
         Vec3 m_normal;
         double m_stress = 0;  // [Pa]
@@ -79,24 +81,25 @@ private:
     std::shared_ptr<const RestShape> m_shape;
     const TetMesh& m_mesh;
     std::vector<int> m_first, m_around;           // elements around every node, ascending
-    std::vector<std::array<int, 4>> m_neighbour;  // behind the side opposite each node; -1: none
-    std::vector<Stress> m_stress;                 // of every element [Pa]
-    std::vector<unsigned char> m_isTense;         // per node: of an element that bears a good part of the strength
+    std::vector<std::array<int, 4>> m_neighbour;  // neighbour behind the side opposite each node; -1: none
+    std::vector<Stress> m_stress;                 // per element [Pa]
+    std::vector<unsigned char> m_isTense;         // per node: an adjacent element carries a good part of the strength
     std::vector<Begin> m_begins;
-    std::vector<signed char> m_side;       // per element: of the cracks of this step, 1 or -1; 0: of none
-    std::vector<signed char> m_sideHere;   // per element: likewise of the cut that is looked at
-    std::vector<unsigned char> m_isCut;    // per element: bit a of the side opposite its node a
+    std::vector<signed char> m_side;       // per element: side of this step's cracks, 1 or -1; 0: not at a crack
+    std::vector<signed char> m_sideHere;   // per element: side of the cut under test, 1 or -1; 0: not at it
+    std::vector<unsigned char> m_isCut;    // per element: bit a is set if the side opposite its node a is cut
     std::vector<unsigned char> m_isAtCut;  // per node
-    std::vector<int> m_front;              // nodes that a crack has come to
+    std::vector<int> m_front;              // nodes at the crack front
 };
 
-/// Masses once it has split [kg]: those of nodes and copies, shares of what the node weighed by the (filled) volumes of
-/// the elements that they keep. `filled`: fractions; empty: all 1.
+/// Node masses after splitting [kg], one a node, copies last: each node's mass is divided between the node and its
+/// copies by the filled volumes of their elements. `filled`: one fraction an element in (0, 1], or empty if all are 1;
+/// `mass`: one a node of the mesh [kg]. Allocates.
 BULLETFEM_API std::vector<double> splitMasses(const TetMesh& mesh, const SplitMesh& split,
                                               const std::vector<double>& filled, const std::vector<double>& mass);
 
-/// The body with a model of the split mesh, in the motion that it is in. Fibres and expansions are carried over, cables
-/// and chambers are not. Allocates.
+/// The body with a model of the split mesh, in its present motion. Fibres and expansions are carried over, cables and
+/// chambers are not. `copyOf` is SplitMesh::m_copyOf. Allocates.
 BULLETFEM_API Body splitBody(const Body& body, std::shared_ptr<const BodyModel> model, const std::vector<int>& copyOf);
 
 }  // namespace bullet_fem
