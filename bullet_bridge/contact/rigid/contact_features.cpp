@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact/rigid/contact_features.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "BulletCollision/CollisionDispatch/btCollisionObject.h"
+#include "bullet_bridge/contact/contact_reduction.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+int triangleOfCorner(const FemSoftBody& fem, int feature)
+{
+    return (feature - firstCornerFeature(fem)) / kMostCorners;
+}
+
+}  // namespace
+
+int firstCornerFeature(const FemSoftBody& fem)
+{
+    const SoftSurface& surface = fem.m_surface;
+    return surface.vertexCount() + 2 * static_cast<int>(surface.features().m_edges.size() + surface.triangles().size());
+}
+
+Triangle cornersOf(const FemSoftBody& fem, const ContactTarget& target, int feature)
+{
+    const SoftSurface& surface = fem.m_surface;
+    const std::vector<std::array<int, 2>>& edges = surface.features().m_edges;
+    const bool areSheets = target.m_kind == TargetKind::sheets;
+    const int vertexCount = surface.vertexCount(), edgeCount = static_cast<int>(edges.size());
+    if (feature < vertexCount) return {feature, feature, feature};
+    if (!areSheets && feature >= firstCornerFeature(fem)) return surface.triangles()[triangleOfCorner(fem, feature)];
+    const int k = areSheets ? feature - vertexCount : (feature - vertexCount) / 2;
+    const int edge = areSheets ? k - static_cast<int>(surface.triangles().size()) : k;
+    if (edge >= 0 && edge < edgeCount) return {edges[edge][0], edges[edge][1], edges[edge][0]};
+    return surface.triangles()[areSheets ? k : k - edgeCount];
+}
+
+bool areOverOneFace(const FemSoftBody& fem, int a, int b)
+{
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return fem.m_nodeGap[a] < kInfinity && fem.m_nodeGap[b] < kInfinity &&
+           dot(fem.m_nodeNormal[a], fem.m_nodeNormal[b]) > 1 - 1e-9;
+}
+
+bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
+{
+    const std::vector<Triangle>& triangles = fem.m_surface.triangles();
+    const std::vector<Vec3>& x = fem.surfacePosition();
+    const SurfaceFeatures& features = fem.m_surface.features();
+    Vec3 mean;
+    for (int k = features.m_firstAround[nodes[0]]; k < features.m_firstAround[nodes[0] + 1]; ++k)
+    {
+        const Triangle& t = triangles[features.m_around[k]];
+        const auto has = [&t](int node) { return t[0] == node || t[1] == node || t[2] == node; };
+        if (!has(nodes[1]) || !has(nodes[2])) continue;
+        const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+        if (dot(area, normal) < kOpposedCosine * norm(area)) return true;
+        mean += area;
+    }
+    return dot(mean, normal) <= kOpposedCosine * norm(mean);
+}
+
+ContactOrigin originOf(const ContactTarget& target, int feature)
+{
+    const btCollisionObject* object = target.m_object;
+    return {object, broadphaseId(*object), target.m_leaf, feature};
+}
+
+const ContactPoint* pushingContact(const FemSoftBody& fem, const ContactOrigin& origin)
+{
+    const auto [first, last] = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), origin);
+    const auto contactOf = [&](const ContactOrigin& old) { return &fem.m_contacts[&old - fem.m_origins.data()]; };
+    const auto found = std::find_if(first, last, [&](const ContactOrigin& old) { return isPushing(*contactOf(old)); });
+    return found == last ? nullptr : contactOf(*found);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact/rigid/contact_list.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "BulletCollision/CollisionDispatch/btCollisionObject.h"
+#include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "BulletCollision/CollisionShapes/btSphereShape.h"
+#include "bullet_bridge/body/contact_patch.h"
+#include "bullet_bridge/joints/soft_joints.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kSlop = 5e-5;         // permitted penetration over the body's size, for objects that cannot move [-]
+constexpr double kMovableSlop = 1e-4;  // and for movable objects: position corrections cost angular momentum [-]
+
+// Curvature of a shape [1/m]: that of a sphere; 0 for all other shapes.
+double curvatureOf(const ShapeLeaf& leaf)
+{
+    if (leaf.m_shape->getShapeType() != SPHERE_SHAPE_PROXYTYPE) return 0;
+    const double radius = static_cast<const btSphereShape*>(leaf.m_shape)->getRadius();
+    return radius > 0 ? 1 / radius : 0;
+}
+
+// Correction of the gap for rotation [m]: a point of a rotating object moves along an arc, so it comes closer than its
+// velocity predicts.
+double closedByArc(const RigidProxy& motion, const Vec3& point, const Vec3& normal, double step)
+{
+    const Vec3 turn = step * motion.m_angularVelocity;
+    return 0.5 * dot(normal, cross(turn, cross(turn, point - motion.m_center)));
+}
+
+}  // namespace
+
+void ContactList::clear()
+{
+    m_points.clear();
+    m_origins.clear();
+    m_weights.clear();
+}
+
+void ContactList::reserve(std::size_t contacts)
+{
+    m_points.reserve(contacts);
+    m_origins.reserve(contacts);
+    m_weights.reserve(contacts);
+}
+
+void ContactList::append(const ContactList& other, std::size_t k)
+{
+    m_points.push_back(other.m_points[k]);
+    m_origins.push_back(other.m_origins[k]);
+}
+
+void ContactList::consider(const SearchScope& scope, const ContactTarget& target, int feature, const Triangle& nodes,
+                           const SurfaceDistance& d)
+{
+    const FemSoftBody& fem = scope.fem();
+    const Vec3 point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
+    const Vec3 relative =
+        interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_motion->velocityAt(point);
+    const double closest = d.m_gap + target.m_step * dot(d.m_normal, relative) - norm(target.m_fall);
+    if (d.m_gap > scope.m_band && closest > scope.m_band) return;
+    // A plane fills all of its half space: a point on its way into one is a contact whatever its normal. Otherwise the
+    // core of a body that is crushed within one step would pass the contacts on its surface.
+    const double nearest = isPlane(*target.m_shape) ? std::min(d.m_gap, closest) : d.m_gap;
+    if (nearest > -scope.m_band && !faces(fem, nodes, d.m_normal)) return;
+    keep(scope, target, feature, nodes, d);
+}
+
+ContactPoint* ContactList::keep(const SearchScope& scope, const ContactTarget& target, int feature,
+                                const Triangle& nodes, const SurfaceDistance& d)
+{
+    FemSoftBody& fem = scope.fem();
+    ContactPoint contact;
+    contact.m_soft = fem.pointOn(scope.m_bodyIndex, nodes, d.m_barycentric);
+    for (int a = 0; a < contact.m_soft.m_count; ++a)
+        if (isAnchoredTo(fem, contact.m_soft.m_nodes[a], *target.m_object)) return nullptr;
+    const Vec3& inverseMass = target.m_motion->m_inverseMass;
+    contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
+    contact.m_rigidProxy = target.m_rigidProxy;
+    contact.m_approach = target.m_moved;
+    if (feature < fem.m_surface.vertexCount())
+        contact.m_patch = patchOf(scope, target, feature, d.m_normal, target.m_step);
+    contact.m_normal = d.m_normal;
+    contact.m_gap = d.m_gap;
+    if (target.m_object->isKinematicObject())
+        contact.m_gap -= closedByArc(*target.m_motion, contact.m_point, d.m_normal, target.m_step);
+    contact.m_slop = (dot(inverseMass, inverseMass) > 0 ? kMovableSlop : kSlop) * scope.m_size;
+    contact.m_friction = target.m_surface.m_friction;
+    contact.m_restitution = target.m_surface.m_restitution;
+    contact.m_stiffness = target.m_surface.m_stiffness;
+    contact.m_damping = target.m_surface.m_damping;
+    contact.m_hardness = target.m_surface.m_hardness;
+    m_points.push_back(contact);
+    m_origins.push_back(originOf(target, feature));
+    m_weights.push_back(d.m_barycentric);
+    return &m_points.back();
+}
+
+Vec3 patchOf(const SearchScope& scope, const ContactTarget& target, int node, const Vec3& normal, double time)
+{
+    const FemSoftBody& fem = scope.fem();
+    const Vec3& x = fem.surfacePosition()[node];
+    const double infinite = std::numeric_limits<double>::infinity();
+    const bool canMove = !target.m_object->isStaticOrKinematicObject();
+    const SurfacePoint point = fem.pointOn(scope.m_bodyIndex, {node, node, node}, {1, 0, 0});
+    TouchingSide soft = {point.of(fem.m_body.m_state.m_v), fem.m_meanMotion.m_spin,
+                         roundness(fem.m_surface.curvature(node), scope.m_size), scope.m_size, std::nullopt};
+    if (fem.m_surface.hasFewFacets(node)) soft.m_ofMass = fem.m_meanMotion.m_velocity;
+    const TouchingSide rigid = {
+        target.m_motion->velocityAt(x), target.m_motion->m_angularVelocity, curvatureOf(*target.m_shape),
+        canMove ? norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) : infinite, std::nullopt};
+    return patchLag(soft, rigid, normal, time);
+}
+
+}  // namespace bullet_fem

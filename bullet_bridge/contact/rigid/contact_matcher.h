@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_bridge/contact/rigid/contact_list.h"
+#include "bullet_bridge/contact/warm_start_transfer.h"
+
+namespace bullet_fem
+{
+
+/// Warm start: matches a body's contacts with those of the last step, FemSoftBody::m_contacts. Scratch grows with their
+/// number, never shrinks.
+class ContactMatcher
+{
+public:
+    /// Notes the strongest contact of every vertex in the last step.
+    void begin(const FemSoftBody& fem);
+
+    /// Per vertex, the normal of that contact, or 0.
+    const std::vector<Vec3>& heldNormal() const { return m_heldNormal; }
+
+    /// Takes over the impulses of the last step's contacts, sorted by origin as the list is. If a feature has several
+    /// contacts with a leaf, the one of most similar normal and position is taken. Impulses of contacts that are gone
+    /// go to new contacts nearby.
+    void takeOverImpulses(const SearchScope& scope, ContactList& list);
+
+private:
+    void inheritImpulses(const FemSoftBody& fem, ContactList& list);
+
+    std::vector<Vec3> m_heldNormal;
+    std::vector<double> m_heldBy;            // impulse of that contact [N s]
+    std::vector<unsigned char> m_continued;  // per contact of the last step: its impulse was taken over
+    WarmStartTransfer m_transfer;
+};
+
+}  // namespace bullet_fem

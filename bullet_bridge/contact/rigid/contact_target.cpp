@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact/rigid/contact_target.h"
+
+#include <algorithm>
+
+#include "BulletCollision/CollisionDispatch/btCollisionObject.h"
+#include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/contact/friction.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kContactBand = 0.05;  // width of the contact band over the mean edge [-]
+constexpr double kAdvantage = 0.003;   // by which a nearest point must be closer than the fixed points, over the mean
+                                       // edge [-]
+constexpr double kRigidStiffness = 1e17;       // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
+constexpr double kUsualKineticHardness = 0.1;  // Bullet's default of kKHR; those of kCHR and kSHR are 1
+
+// Upper bound on the speed of an object's points near the body [m/s]: linear velocity plus spin times the leaf's size.
+double fastestPoint(const RigidProxy& rigidProxy, const ShapeLeaf& shape)
+{
+    const double spin = norm(rigidProxy.m_angularVelocity);
+    const double size = spin > 0 ? norm(shape.m_boundsMax - shape.m_boundsMin) : 0;  // a plane's would be infinite
+    return norm(rigidProxy.m_linearVelocity) + spin * size;
+}
+
+// Speed that gravity adds in a step [m/s]. It does not count as motion: resting bodies have it as well.
+double fallingSpeed(const FemSoftBody& fem, double step)
+{
+    return step * norm(fem.gravity());
+}
+
+// Contact parameters from both sides, as Bullet combines them, with the soft body's friction coefficient. NaN counts as
+// 0.
+SurfacePair surfacePairOf(const btSoftBody& soft, const btCollisionObject& object)
+{
+    const auto atLeastZero = [](double value) { return value > 0 ? value : 0; };
+    SurfacePair surface;
+    surface.m_hardness = atLeastZero(object.isStaticOrKinematicObject() ? soft.m_cfg.kKHR / kUsualKineticHardness
+                                                                        : double(soft.m_cfg.kCHR));
+    surface.m_friction = frictionBetween(soft, object);
+    surface.m_restitution = std::min(1.0, atLeastZero(double(soft.getRestitution()) * object.getRestitution()));
+    if (!(object.getCollisionFlags() & btCollisionObject::CF_HAS_CONTACT_STIFFNESS_DAMPING)) return surface;
+    if (!(object.getContactStiffness() < kRigidStiffness)) return surface;
+    surface.m_stiffness = atLeastZero(object.getContactStiffness());
+    surface.m_damping = atLeastZero(object.getContactDamping());
+    return surface;
+}
+
+// Displacement by gravity within the step, 0 for objects that cannot move or fall little.
+Vec3 fallOf(const FemSoftBody& fem, const ContactTarget& target)
+{
+    const Vec3 gravity = fem.gravity();
+    if (!target.m_motion->canMove() || !isFinite(gravity)) return {};
+    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as in RigidProxies
+    return fallsFar(sweptShapeOf(target), norm(gravity), edge) ? target.m_step * target.m_step * gravity : Vec3();
+}
+
+}  // namespace
+
+void SearchScope::begin(FemSoftBody& fem, int bodyIndex)
+{
+    m_fem = &fem;
+    m_bodyIndex = bodyIndex;
+    m_edge = fem.m_surface.meanEdge();
+    m_band = kContactBand * m_edge;
+    m_advantage = kAdvantage * m_edge;
+    m_size = fem.m_surface.size();
+}
+
+// Bullet has moved kinematic objects already, while their leaves are at the start of the step: moves the proxy back.
+const RigidProxy& ContactTargets::asTheStepBegan(const TouchedObject& touched, const RigidSurroundings& around)
+{
+    const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
+    if (!touched.m_object->isKinematicObject()) return rigidProxy;
+    m_starts.push_back(rigidProxy);
+    m_starts.back().m_center -= around.m_step * rigidProxy.m_linearVelocity;
+    return m_starts.back();
+}
+
+void ContactTargets::list(SearchScope& scope, const RigidSurroundings& around)
+{
+    FemSoftBody& fem = scope.fem();
+    m_targets.clear();
+    m_starts.clear();
+    m_starts.reserve(around.m_count);  // m_targets points into it
+    if (around.m_count == 0) return;
+    fem.updateSkin();
+    scope.m_culling.begin(fem.m_surface, fem.surfacePosition());
+    scope.m_fastest = fastestNode(fem.m_body, Vec3());
+    const double softReach = scope.m_band + fem.m_contactOffset +
+                             around.m_step * (fem.m_skin ? fastestVertex(fem, Vec3()) : scope.m_fastest);
+    for (int k = 0; k < around.m_count; ++k)
+    {
+        const TouchedObject& touched = around.m_touched[k];
+        const RigidProxy& rigidProxy = asTheStepBegan(touched, around);
+        const SurfacePair surface = surfacePairOf(*fem.m_softBody, *touched.m_object);
+        for (int l = 0; l < touched.m_leafCount; ++l)
+        {
+            const ShapeLeaf& shape = around.m_leaves[touched.m_firstLeaf + l];
+            m_targets.push_back({&shape, touched.m_object, l, touched.m_rigidProxy, &rigidProxy,
+                                 around.m_rigidProxies[touched.m_rigidProxy].m_center - rigidProxy.m_center, surface,
+                                 softReach + around.m_step * fastestPoint(rigidProxy, shape), Vec3(), around.m_step,
+                                 &touched.m_carrying, TargetKind::slow, 0, 0, 0, 0});
+            m_targets.back().m_fall = fallOf(fem, m_targets.back());
+            m_targets.back().m_reach += norm(m_targets.back().m_fall);
+        }
+    }
+}
+
+SweptShape sweptShapeOf(const ContactTarget& target)
+{
+    const RigidProxy& motion = *target.m_motion;
+    return SweptShape(*target.m_shape, {motion.m_center, motion.m_linearVelocity, motion.m_angularVelocity},
+                      target.m_step);
+}
+
+bool isFastTarget(const SearchScope& scope, const ContactTarget& target)
+{
+    const FemSoftBody& fem = scope.fem();
+    const SweptShape swept = sweptShapeOf(target);
+    const double edge = fem.m_body.m_model->mesh().meanEdgeLength();  // as in RigidProxies
+    const double falling = 2 * fallingSpeed(fem, target.m_step);
+    // cheap upper bound first
+    return isFast(swept, scope.m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge) &&
+           isFast(swept, fastestNode(fem.m_body, swept.m_motion.m_linearVelocity) - falling, edge);
+}
+
+}  // namespace bullet_fem

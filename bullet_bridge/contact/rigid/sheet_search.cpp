@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/contact/rigid/sheet_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "BulletCollision/CollisionDispatch/btCollisionObject.h"
+#include "BulletCollision/CollisionShapes/btCollisionShape.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Largest component of a vector along the unit vectors within a cone, given by its axis (unit) and the cosine of its
+// half angle.
+double alongCone(const Vec3& way, const Vec3& axis, double cosine)
+{
+    const double along = dot(way, axis), across = norm(way - along * axis);
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    if (along > 0 && across * cosine <= along * sine) return norm(way);
+    return std::max(0.0, along * cosine + across * sine);
+}
+
+Vec3 normalOf(const std::vector<Vec3>& x, const Triangle& t)
+{
+    return unit(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+}
+
+// Displacement of a node in free motion relative to the object [m].
+Vec3 wayOf(const FemSoftBody& fem, const ContactTarget& target, int node)
+{
+    return target.m_step * (fem.surfaceVelocity()[node] - target.m_motion->velocityAt(fem.surfacePosition()[node]));
+}
+
+// True if carriers turn the path of a node, so that it differs from the free path: it may meet other triangles.
+bool isTurned(const SearchScope& scope, const ContactTarget& target, const CarriedMotion& carried, int node, Vec3& way)
+{
+    if (!carried.isCarried(node)) return false;
+    const FemSoftBody& fem = scope.fem();
+    const Vec3 carriedAlong = target.m_step * target.m_motion->velocityAt(fem.surfacePosition()[node]);
+    way = carried.allowed(node, target.m_step * fem.surfaceVelocity()[node]) - carriedAlong;
+    return norm(way) > scope.m_band;
+}
+
+double thicknessOf(const FemSoftBody& fem, const ContactTarget& target)
+{
+    return target.m_shape->m_shape->getMargin() + fem.m_contactOffset;
+}
+
+}  // namespace
+
+void SheetSearch::begin()
+{
+    m_sides.clear();
+    m_measured = false;
+}
+
+void SheetSearch::findNear(SearchScope& scope, ContactTarget& target, const std::vector<Vec3>& heldNormal,
+                           ContactList& near)
+{
+    target.m_firstSide = m_sides.size();
+    if (collect(scope, target))
+    {
+        measureSurface(scope.fem());
+        const Sheets sheets = {scope, target, thicknessOf(scope.fem(), target)};
+        findOnNodes(sheets, heldNormal, near);
+        findOnTriangles(sheets, near);
+        findOnEdges(sheets, near);
+    }
+    target.m_endSide = m_sides.size();
+}
+
+// Collects triangles near the surface in m_soup; false if there are none.
+bool SheetSearch::collect(SearchScope& scope, const ContactTarget& target)
+{
+    const double reach = target.m_reach + target.m_shape->m_shape->getMargin() + scope.fem().m_contactOffset;
+    const Vec3 box = {reach, reach, reach};
+    if (!scope.m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, reach})) return false;
+    m_soup.collect(*target.m_shape, scope.m_culling.low() - box, scope.m_culling.high() + box);
+    return !m_soup.triangles().empty();
+}
+
+// Computes the normals of the surface's nodes and edges, once a step.
+void SheetSearch::measureSurface(const FemSoftBody& fem)
+{
+    if (m_measured) return;
+    m_measured = true;
+    const std::vector<Vec3>& x = fem.surfacePosition();
+    const std::vector<Triangle>& triangles = fem.m_surface.triangles();
+    m_outward.assign(x.size(), Vec3());
+    m_edgeOutward.assign(fem.m_surface.features().m_edges.size(), Vec3());
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+    {
+        const Vec3 n = normalOf(x, triangles[k]);
+        for (int a = 0; a < 3; ++a)
+        {
+            m_outward[triangles[k][a]] += n;
+            m_edgeOutward[fem.m_surface.features().m_triangleEdges[k][a]] += n;
+        }
+    }
+    for (int i : fem.m_surface.nodes()) m_outward[i] = unit(m_outward[i]);
+}
+
+// A point on the right side of the sheets: the remembered one if the leaf was near in the last step. A node that has
+// moved farther since than a step permits was placed anew by the program, and has no history.
+Vec3 SheetSearch::safePosition(const Sheets& sheets, int node, const Vec3& position) const
+{
+    const ContactTarget& target = sheets.m_target;
+    const SheetSide key = {broadphaseId(*target.m_object), target.m_leaf, node, Vec3(), Vec3()};
+    const std::vector<SheetSide>& known = sheets.m_scope.fem().m_sheetSides;
+    const auto side = std::lower_bound(known.begin(), known.end(), key);
+    if (side != known.end() && !(key < *side))
+    {
+        const Vec3 way = position - target.m_shape->m_pose.toWorld(side->m_position);
+        if (norm(way) < 4 * target.m_reach + sheets.m_scope.m_edge) return target.m_shape->m_pose.toWorld(side->m_safe);
+    }
+    return position - sheets.m_scope.m_band * m_outward[node];
+}
+
+// The node's position on the right side of the sheets. A sliding node may pass flush walls a little below the surface
+// that carried it, so it approaches its position from above.
+Vec3 SheetSearch::rightSideOf(const Sheets& sheets, int node, const Vec3& position, const Vec3& heldNormal) const
+{
+    const Vec3 safe = safePosition(sheets, node, position);
+    const Vec3 lift = sheets.m_scope.m_band * heldNormal;
+    return onRightSide(m_soup, norm(lift) > 0 ? onRightSide(m_soup, safe, position + lift) : safe, position);
+}
+
+void SheetSearch::findOnNodes(const Sheets& sheets, const std::vector<Vec3>& heldNormal, ContactList& list)
+{
+    const ContactTarget& target = sheets.m_target;
+    const FemSoftBody& fem = sheets.m_scope.fem();
+    const int objectId = broadphaseId(*target.m_object);
+    for (int i : fem.m_surface.nodes())
+    {
+        const Vec3& x = fem.surfacePosition()[i];
+        const SheetProbe probe = {x, rightSideOf(sheets, i, x, heldNormal[i]), wayOf(fem, target, i),
+                                  sheets.m_scope.m_band, sheets.m_thickness};
+        findPointTouches(m_soup, probe, m_touches);
+        considerTouches(sheets, i, {i, i, i}, list);
+        const Pose& pose = target.m_shape->m_pose;
+        m_sides.push_back(
+            {objectId, target.m_leaf, i, pose.toLocal(probe.m_position), pose.toLocal(probe.m_rightSide)});
+    }
+}
+
+void SheetSearch::findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactList& near,
+                              const FlushFilter& filter, ContactList& list)
+{
+    const FemSoftBody& fem = scope.fem();
+    const CarriedMotion& carried = filter.carried();
+    const Sheets sheets = {scope, target, thicknessOf(fem, target)};
+    const auto keepNear = [&](std::size_t k)
+    {
+        if (!filter.isFlush(k)) list.append(near, k);
+    };
+    std::size_t k = target.m_first, side = target.m_firstSide;
+    bool isCollected = false;
+    for (int i : fem.m_surface.nodes())
+    {
+        if (side == target.m_endSide) break;
+        Vec3 way;
+        const bool turned = isTurned(scope, target, carried, i, way);
+        const std::size_t first = list.size(), firstNear = k;
+        for (; k < target.m_end && near.origins()[k].m_feature == i; ++k)
+            if (!turned || near.points()[k].m_gap <= scope.m_band) keepNear(k);
+        const Vec3 rightSide = target.m_shape->m_pose.toWorld(m_sides[side++].m_safe);
+        // All contacts of the node were dropped as flush with each other: it meets the face below the end of its path.
+        const bool dropped = k > firstNear && list.size() == first && !carried.isCarried(i);
+        if (!turned && !dropped) continue;
+        if (dropped) way = wayOf(fem, target, i);
+        if (!isCollected) collect(scope, target);
+        isCollected = true;
+        considerPath(sheets, {i, way, rightSide, first}, carried, list);
+    }
+    for (; k < target.m_end; ++k) keepNear(k);
+}
+
+void SheetSearch::considerPath(const Sheets& sheets, const TurnedNode& turned, const CarriedMotion& carried,
+                               ContactList& list)
+{
+    const int node = turned.m_node;
+    const double band = sheets.m_scope.m_band;
+    const Vec3 lift = carried.liftOf(node);
+    const SheetProbe probe = {sheets.m_scope.fem().surfacePosition()[node] + lift,
+                              onRightSide(m_soup, turned.m_rightSide, turned.m_rightSide + lift), turned.m_way, band,
+                              sheets.m_thickness};
+    const auto considerBut = [&](const auto& isKnown)
+    {
+        for (SheetTouch& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
+        m_touches.erase(std::remove_if(m_touches.begin(), m_touches.end(), isKnown), m_touches.end());
+        considerTouches(sheets, node, {node, node, node}, list);
+    };
+    findPointTouches(m_soup, probe, m_touches);
+    considerBut([band](const SheetTouch& touch) { return touch.m_surface.m_gap <= band; });
+    findTouchesAtEnd(m_soup, probe, m_touches);
+    considerBut(
+        [&](const SheetTouch& touch)
+        {
+            return std::any_of(list.points().begin() + static_cast<std::ptrdiff_t>(turned.m_first), list.points().end(),
+                               [&](const ContactPoint& known)
+                               { return dot(known.m_normal, touch.m_surface.m_normal) > kParallelNormals; });
+        });
+}
+
+void SheetSearch::findOnTriangles(const Sheets& sheets, ContactList& list)
+{
+    const SoftSurface& surface = sheets.m_scope.fem().m_surface;
+    const std::vector<Vec3>& x = sheets.m_scope.fem().surfacePosition();
+    const int firstFeature = surface.vertexCount();
+    for (std::size_t k = 0; k < surface.triangles().size(); ++k)
+    {
+        const Triangle& t = surface.triangles()[k];
+        SheetFeature feature;
+        feature.m_outward = normalOf(x, t);
+        double closing = 0;
+        for (int a = 0; a < 3; ++a)
+        {
+            feature.m_corners[a] = x[t[a]];
+            closing = std::max(closing, dot(wayOf(sheets.m_scope.fem(), sheets.m_target, t[a]), feature.m_outward));
+        }
+        feature.m_reach = sheets.m_scope.m_band + closing;
+        feature.m_depth = kFeatureDepth * sheets.m_scope.m_edge;
+        feature.m_thickness = sheets.m_thickness;
+        findCornerTouches(m_soup, feature, m_touches);
+        considerTouches(sheets, firstFeature + static_cast<int>(k), t, list);
+    }
+}
+
+void SheetSearch::findOnEdges(const Sheets& sheets, ContactList& list)
+{
+    const SoftSurface& surface = sheets.m_scope.fem().m_surface;
+    const std::vector<Vec3>& x = sheets.m_scope.fem().surfacePosition();
+    const int firstFeature = surface.vertexCount() + static_cast<int>(surface.triangles().size());
+    const std::vector<std::array<int, 2>>& edges = surface.features().m_edges;
+    for (std::size_t k = 0; k < edges.size(); ++k)
+    {
+        const auto [a, b] = edges[k];
+        SheetFeature feature;
+        feature.m_corners[0] = x[a];
+        feature.m_corners[1] = feature.m_corners[2] = x[b];
+        feature.m_outward = unit(m_edgeOutward[k]);
+        feature.m_halfAngle = 0.5 * norm(m_edgeOutward[k]);
+        const double cosine = widestNormal(feature);
+        feature.m_reach =
+            sheets.m_scope.m_band +
+            std::max(alongCone(wayOf(sheets.m_scope.fem(), sheets.m_target, a), feature.m_outward, cosine),
+                     alongCone(wayOf(sheets.m_scope.fem(), sheets.m_target, b), feature.m_outward, cosine));
+        feature.m_depth = kFeatureDepth * sheets.m_scope.m_edge;
+        feature.m_thickness = sheets.m_thickness;
+        findEdgeTouches(m_soup, feature, m_touches);
+        considerTouches(sheets, firstFeature + static_cast<int>(k), {a, b, a}, list);
+    }
+}
+
+void SheetSearch::considerTouches(const Sheets& sheets, int feature, const Triangle& nodes, ContactList& list)
+{
+    for (const SheetTouch& touch : m_touches)
+    {
+        const std::size_t before = list.size();
+        list.consider(sheets.m_scope, sheets.m_target, feature, nodes, touch.m_surface);
+        if (list.size() == before) continue;
+        list.origins().back().m_part = m_soup.triangles()[touch.m_triangle].m_part;
+        list.origins().back().m_triangle = m_soup.triangles()[touch.m_triangle].m_index;
+    }
+}
+
+}  // namespace bullet_fem
