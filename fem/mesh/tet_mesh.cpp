@@ -140,6 +140,35 @@ std::vector<Face> sortedFaces(const std::vector<Tet>& tets)
     return faces;
 }
 
+/// Rejects elements with the same four nodes, in any order; returns if there are none.
+void refuseRepeatedElements(const std::vector<Tet>& tets)
+{
+    std::vector<std::pair<Tet, int>> sorted;  // nodes, ascending, and the element
+    sorted.reserve(tets.size());
+    for (std::size_t e = 0; e < tets.size(); ++e)
+    {
+        Tet nodes = tets[e];
+        std::sort(nodes.begin(), nodes.end());
+        sorted.emplace_back(nodes, static_cast<int>(e));
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::size_t repeated = 0, single = 0, first = 0;  // `first`: where the repeated element with the lowest number is
+    for (std::size_t i = 0, next = 0; i < sorted.size(); i = next)
+    {
+        while (next < sorted.size() && sorted[next].first == sorted[i].first) ++next;
+        repeated += next - i - 1;
+        if (next == i + 1)
+            ++single;
+        else if (first == 0 || sorted[i + 1].second < sorted[first].second)
+            first = i + 1;
+    }
+    if (repeated == 0) return;
+    const int e = sorted[first].second;
+    reject(repeated, " of ", tets.size(), " elements repeat another one",
+           single == 0 ? " (none is there only once)" : "", ": element ", e, " ", nodesOf(tets[e]),
+           " has the four nodes of element ", sorted[first - 1].second, "; list each element once");
+}
+
 /// The faces with a single element, in the order of their elements, oriented outward.
 std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
 {
@@ -149,10 +178,12 @@ std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
     {
         while (next < faces.size() && faces[next].m_sorted == faces[f].m_sorted) ++next;
         const Triangle& n = faces[f].m_sorted;
+        const auto apex = [&](std::size_t face) { return tets[faces[face].m_tet][faces[face].m_opposite]; };
+        if (next - f > 2 || (next - f == 2 && apex(f) == apex(f + 1))) refuseRepeatedElements(tets);
         if (next - f > 2)
             reject("face (", n[0], ", ", n[1], ", ", n[2], ") is shared by ", next - f, " elements (", faces[f].m_tet,
                    ", ", faces[f + 1].m_tet, ", ", faces[f + 2].m_tet,
-                   ", ...), at most 2 can be; remove repeated or overlapping elements");
+                   ", ...), at most 2 can be; remove overlapping elements");
         if (next - f == 1) onBoundary[4 * static_cast<std::size_t>(faces[f].m_tet) + faces[f].m_opposite] = 1;
     }
     std::vector<Triangle> surface;

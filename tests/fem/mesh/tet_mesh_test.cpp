@@ -189,5 +189,34 @@ TEST(TetMeshRejects, FaceOfMoreThanTwoElements)
         {"face (0, 1, 2)", "3 elements", "0, 1, 2", "at most 2"});
 }
 
+// Alone in its component, an element that is there twice shares each face with itself only.
+TEST(TetMeshRejects, ElementsThatAreThereTwice)
+{
+    expectRejected(
+        [] {
+            TetMesh(kCorner, {{0, 1, 2, 3}, {2, 1, 0, 3}});
+        },
+        {"1 of 2 elements repeat another one (none is there only once)", "element 1 (nodes 2, 1, ", "of element 0",
+         "list each element once"});
+    std::vector<Vec3> X = kCorner;
+    for (const Vec3& x : kCorner) X.push_back(x + Vec3{9, 0, 0});
+    expectRejected(
+        [&] {
+            TetMesh(X, {{0, 1, 2, 3}, {4, 5, 6, 7}, {7, 6, 5, 4}});
+        },
+        {"1 of 3 elements repeat another one: element 2", "of element 1"});
+}
+
+TEST(TetMeshRejects, MeshesWhoseElementsAllOccurTwice)
+{
+    const TetMesh box = makeBox({1, 1, 1}, {2, 2, 2});
+    std::vector<Tet> tets = box.tets();
+    for (const Tet& t : box.tets()) tets.push_back({t[1], t[2], t[0], t[3]});
+    const std::string half = std::to_string(box.tetCount()), all = std::to_string(2 * box.tetCount());
+    expectRejected([&] { TetMesh(box.restPositions(), tets); },
+                   {(half + " of " + all + " elements repeat another one (none is there only once)").c_str(),
+                    ("element " + half + " ").c_str(), "of element 0;"});
+}
+
 }  // namespace
 }  // namespace bullet_fem

@@ -30,8 +30,8 @@ public:
     /// Takes n rest positions [m] and the elements. Elements of negative orientation are mended (last two nodes
     /// swapped) and counted. Throws std::invalid_argument, naming element and node, on: no element; an index outside
     /// [0, n); a repeated node in an element; a degenerate element (volume below 1e-9 of its longest edge cubed); a
-    /// position that is not finite; a node in no element, unless these are kept; a face shared by more than two
-    /// elements. Allocates.
+    /// position that is not finite; a node in no element, unless these are kept; two elements with the same four nodes;
+    /// a face shared by more than two elements. Allocates.
     TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose = LooseNodes::refused);
 
     /// Rebuilds a mesh from its positions, elements and boundarySides(), keeping loose nodes, without the search for
