@@ -35,4 +35,14 @@ std::string readBytes(const std::string& path)
     return bytes;
 }
 
+std::string readHead(const std::string& path, std::size_t most)
+{
+    checkIsFile(path);
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes(most, '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(most));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return bytes;
+}
+
 }  // namespace bullet_fem

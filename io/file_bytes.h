@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "bullet_fem/fem/common/export.h"
@@ -17,5 +18,8 @@ BULLETFEM_API void checkIsFile(const std::string& path);
 
 /// All bytes of a regular file. Throws std::runtime_error with the cause, without the path.
 BULLETFEM_API std::string readBytes(const std::string& path);
+
+/// Its first bytes, at most so many; none if it cannot be read.
+std::string readHead(const std::string& path, std::size_t most);
 
 }  // namespace bullet_fem

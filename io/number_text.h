@@ -36,13 +36,14 @@ inline std::string_view takeWord(std::string_view& text)
     return word;
 }
 
-/// A word of a file for a message: what is too long or not printable, and could be meant for a terminal, is left out.
+/// A word of a file for a message, its first 40 characters; bytes that are not printable, and could be meant for a
+/// terminal, are told in words.
 inline std::string printable(std::string_view word)
 {
-    std::string text(word.substr(0, 40));
-    for (char& c : text)
-        if (c < ' ' || c > '~') c = '?';
-    return text;
+    const std::string_view text = word.substr(0, 40);
+    for (const char c : text)
+        if (c < ' ' || c > '~') return "(unprintable bytes)";
+    return std::string(text);
 }
 
 #ifndef __cpp_lib_to_chars  // libc++ before 20 reads integers alone by from_chars

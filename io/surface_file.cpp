@@ -13,6 +13,7 @@
 #include "fem/common/message.h"
 #include "fem/common/reason.h"
 #include "io/file_bytes.h"
+#include "io/foreign_file.h"
 #include "io/polygon_mesh.h"
 #include "io/triangulate.h"
 
@@ -25,7 +26,10 @@ PolygonMesh readPolygons(const std::string& path)
 {
     checkIsFile(path);
     const std::string ending = lowerCaseEnding(path);
-    if (ending == ".off") return readOff(readBytes(path));
+    // A binary .stl file may begin with anything.
+    if (ending == ".off" || ending == ".ply" || ending == ".obj")
+        refuseForeignFile(readHead(path, kHeadBytes), ".off, .obj, .stl or .ply");
+    if (ending == ".off") return readOff(withoutByteOrderMark(readBytes(path)));
     if (ending == ".ply") return readPly(readBytes(path));
     if (ending == ".obj" || ending == ".stl") return readWithAssimp(path);
     throw std::runtime_error("the ending '" + ending + "' is not known; it must be .off, .obj, .stl or .ply");

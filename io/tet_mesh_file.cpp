@@ -11,6 +11,7 @@
 #include "fem/common/message.h"
 #include "fem/common/reason.h"
 #include "io/file_bytes.h"
+#include "io/foreign_file.h"
 #include "io/tet/tet_readers.h"
 
 namespace bullet_fem
@@ -22,6 +23,31 @@ void checkScale(double scale)
 {
     if (!(scale > 0 && std::isfinite(scale)))
         reject("readTetMeshFile: scale is ", scale, "; it must be positive and finite");
+}
+
+constexpr const char* kEndings = ".msh, .node and .ele, .vtk, .vtu or .mesh";
+
+/// The format that the first bytes tell; `stated` where they tell none.
+TetMeshFormat formatOf(std::string_view bytes, TetMeshFormat stated)
+{
+    struct Beginning
+    {
+        std::string_view m_text;
+        TetMeshFormat m_format;
+    };
+    constexpr Beginning beginnings[] = {{"$MeshFormat", TetMeshFormat::gmsh},
+                                        {"$Comments", TetMeshFormat::gmsh},
+                                        {"$NOD", TetMeshFormat::gmsh},
+                                        {"$NOE", TetMeshFormat::gmsh},
+                                        {"# vtk DataFile", TetMeshFormat::vtk},
+                                        {"#vtk DataFile", TetMeshFormat::vtk},
+                                        {"MeshVersionFormatted", TetMeshFormat::medit}};
+    bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+    bytes = bytes.substr(0, kHeadBytes);
+    if (bytes.substr(0, 1) == "<" && bytes.find("<VTKFile") != std::string_view::npos) return TetMeshFormat::vtu;
+    for (const Beginning& known : beginnings)
+        if (bytes.substr(0, known.m_text.size()) == known.m_text) return known.m_format;
+    return stated;
 }
 
 TetMeshFile readTetGen(std::string_view bytes)
@@ -110,13 +136,15 @@ TetMeshFile readTetGenFiles(const std::string& path, double scale)
     readNamed(isNode ? path : other,
               [&](std::string_view bytes)
               {
-                  MeshScanner text(bytes, true);
+                  refuseForeignFile(bytes, kEndings);
+                  MeshScanner text(withoutByteOrderMark(bytes), true);
                   readTetGenNodes(text, mesh);
               });
     readNamed(isNode ? other : path,
               [&](std::string_view bytes)
               {
-                  MeshScanner text(bytes, true);
+                  refuseForeignFile(bytes, kEndings);
+                  MeshScanner text(withoutByteOrderMark(bytes), true);
                   readTetGenTets(text, mesh);
                   finish(mesh, scale);
               });
@@ -128,7 +156,9 @@ TetMeshFile readTetGenFiles(const std::string& path, double scale)
 TetMeshFile readTetMesh(const void* bytes, std::size_t size, TetMeshFormat format, double scale)
 {
     checkScale(scale);
-    TetMeshFile mesh = readFormat(std::string_view(static_cast<const char*>(bytes), size), format);
+    const std::string_view text = withoutByteOrderMark({static_cast<const char*>(bytes), size});
+    refuseForeignFile(text, kEndings);
+    TetMeshFile mesh = readFormat(text, formatOf(text, format));
     finish(mesh, scale);
     return mesh;
 }

@@ -56,7 +56,7 @@ double numberIn(const XMLElement& element, const char* attribute, const Range& r
     }
     const bool inside = std::isfinite(value) && (range.m_openBelow ? value > range.m_low : value >= range.m_low);
     if (!inside || !takeWord(rest).empty())
-        fail(element, message(attribute, " is '", std::string(text).substr(0, 40), "'; it must be ", range.m_says));
+        fail(element, message(attribute, " is '", printable(text), "'; it must be ", range.m_says));
     return value;
 }
 
@@ -152,7 +152,8 @@ UrdfDeformable readUrdfDeformable(const std::string& path)
         if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("there is no such file");
         tinyxml2::XMLDocument document;
         if (document.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS)
-            throw std::runtime_error(message("it is not XML: ", document.ErrorStr()));
+            throw std::runtime_error(
+                message("line ", document.ErrorLineNum(), ": it is not XML (", document.ErrorName(), ")"));
         return readBlock(blockOf(document), path);
     }
     catch (const std::exception& error)

@@ -24,7 +24,7 @@ ByteOrder readByteOrder(MeshScanner& scanner)
 
 [[noreturn]] void failVersion(const MeshScanner& scanner, const std::string& version)
 {
-    scanner.fail("MSH version " + version + " cannot be read, only 2.0 to 2.2 and 4.1; convert it: " +
+    scanner.fail("MSH version " + version + " cannot be read, only 1 ($NOD), 2.0 to 2.2 and 4.1; convert it: " +
                  "gmsh OLD.msh -save -format msh41 -o NEW.msh");
 }
 
@@ -52,25 +52,49 @@ int readFormat(GmshFile& file)
     return is2 ? 2 : 4;
 }
 
-/// Passes the closing line of a section that was read.
-void readEnd(MeshScanner& scanner, const std::string& section)
+/// The closing line of a section.
+std::string endOf(const std::string& section, int version)
 {
-    const std::string end = "$End" + section;
+    return (version == 1 ? "$END" : "$End") + section;
+}
+
+/// Passes the closing line of a section that was read.
+void readEnd(MeshScanner& scanner, const std::string& end)
+{
     const std::string_view word = scanner.word(end.c_str());
     if (word != end) scanner.fail("'" + printable(word) + "' stands where " + end + " should be");
 }
 
+bool isNodeSection(const std::string& section, int version)
+{
+    return version == 1 ? section == "NOD" || section == "NOE" : section == "Nodes";
+}
+
+bool isElementSection(const std::string& section, int version)
+{
+    return section == (version == 1 ? "ELM" : "Elements");
+}
+
 void readNodes(GmshFile& file, int version)
 {
-    if (file.numbers) file.scanner.fail("there is a second section $Nodes");
-    version == 2 ? readGmshNodes2(file) : readGmshNodes4(file);
+    if (file.numbers) file.scanner.fail("there is a second section of nodes");
+    version == 4 ? readGmshNodes4(file) : readGmshNodes2(file);
     file.numbers = std::make_unique<NodeNumbers>(file.mesh.m_nodeNumbers, file.scanner);
 }
 
 void readElements(GmshFile& file, int version)
 {
-    if (!file.numbers) file.scanner.fail("$Elements stands before $Nodes");
-    version == 2 ? readGmshElements2(file) : readGmshElements4(file);
+    if (!file.numbers) file.scanner.fail(version == 1 ? "$ELM stands before $NOD" : "$Elements stands before $Nodes");
+    version == 1 ? readGmshElements1(file) : version == 2 ? readGmshElements2(file) : readGmshElements4(file);
+}
+
+/// Version 1 has no $MeshFormat: a file that begins with nodes or elements is one.
+int versionWithoutFormat(GmshFile& file, std::string_view word)
+{
+    if (word != "$NOD" && word != "$NOE" && word != "$ELM") return 0;
+    file.mesh.m_format = "Gmsh";
+    file.mesh.m_version = "1 text";
+    return 1;
 }
 
 // The section itself is passed with those that are not read: a mesh needs no groups.
@@ -99,28 +123,29 @@ TetMeshFile readGmsh(std::string_view bytes)
     while (!scanner.atEnd())
     {
         const std::string_view word = scanner.word("a section");
-        if (version == 0 && word == "$NOD") failVersion(scanner, "1");
+        if (version == 0) version = versionWithoutFormat(file, word);
         if (word.size() < 2 || word[0] != '$' || (version == 0 && word != "$MeshFormat" && word != "$Comments"))
             scanner.fail("'" + printable(word) + "' stands where a section such as " +
                          (version == 0 ? "$MeshFormat" : "$Nodes") + " should begin");
         const std::string section(word.substr(1));
-        const bool isFormat = section == "MeshFormat", isNodes = section == "Nodes", isElements = section == "Elements";
+        const bool isFormat = section == "MeshFormat", isNodes = isNodeSection(section, version),
+                   isElements = isElementSection(section, version);
         if (section == "Entities" && version == 4) findGroups(file);
         if (!isFormat && !isNodes && !isElements)
         {
-            if (!scanner.skipPast("$End" + section.substr(0, 200)))
+            if (!scanner.skipPast(endOf(section.substr(0, 200), version)))
                 scanner.fail("the section $" + printable(section) + " has no end");
             continue;
         }
         scanner.restOfLine();
-        if (isFormat && version != 0) scanner.fail("there is a second section $MeshFormat");
+        if (isFormat && version != 0) scanner.fail("a section $MeshFormat must come first, and only once");
         if (isFormat)
             version = readFormat(file);
         else if (isNodes)
             readNodes(file, version);
         else
             readElements(file, version);
-        readEnd(scanner, section);
+        readEnd(scanner, endOf(section, version));
     }
     if (!file.numbers) scanner.fail("the file has no section $Nodes");
     return std::move(file.mesh);

@@ -141,6 +141,26 @@ void readGmshNodes2(GmshFile& file)
     }
 }
 
+// For each element: number, type, physical and elementary region, count of nodes, nodes.
+void readGmshElements1(GmshFile& file)
+{
+    MeshScanner& scanner = file.scanner;
+    const std::uint64_t count = readCountLine(scanner, "a number of elements");
+    scanner.need(count, 6, 4, "elements");
+    for (std::uint64_t e = 0; e < count; ++e)
+    {
+        scanner.text<std::int64_t>("an element number");
+        GmshCell cell = cellOf(scanner.text<int>(kElementType), scanner);
+        const auto region = scanner.text<std::int64_t>("a physical region");
+        scanner.text<std::int64_t>("an elementary region");
+        const auto nodes = scanner.text<int>("a number of nodes");
+        if (nodes < 1 || (cell.kind == CellKind::tet && nodes != cell.nodes))
+            scanner.fail(message("an element has ", nodes, " nodes; its type has ", cell.nodes));
+        cell.nodes = nodes;
+        readElementNodes<std::int32_t>(file, cell, 4, region);
+    }
+}
+
 void readGmshElements2(GmshFile& file)
 {
     const std::uint64_t count = readCountLine(file.scanner, "a number of elements");

@@ -22,8 +22,9 @@ struct GmshFile
     std::map<std::int32_t, std::int32_t> groups;  ///< of version 4: of a volume, its first physical group
 };
 
-// The content of $Nodes and $Elements, up to the closing line, in versions 2 and 4.1.
-void readGmshNodes2(GmshFile& file);
+// The content of $Nodes and $Elements ($NOD and $ELM in version 1), up to the closing line.
+void readGmshElements1(GmshFile& file);
+void readGmshNodes2(GmshFile& file);  // and of version 1
 void readGmshElements2(GmshFile& file);
 void readGmshNodes4(GmshFile& file);
 void readGmshElements4(GmshFile& file);

@@ -25,9 +25,6 @@ void skipToKeyword(MeshScanner& text)
 void readHeader(MeshScanner& text, TetMeshFile& mesh)
 {
     mesh.m_format = "Medit";
-    if (text.left() >= 4 &&
-        (readBits(text.data(), 4, ByteOrder::little) == 1 || readBits(text.data(), 4, ByteOrder::big) == 1))
-        text.fail("binary Medit files (.meshb) cannot be read; save it as text (.mesh)");
     if (text.peekWord() != "MeshVersionFormatted") text.fail("a Medit file begins with MeshVersionFormatted");
     text.word("MeshVersionFormatted");
     const int version = text.text<int>("a version");

@@ -78,12 +78,16 @@ void MeshScanner::need(std::uint64_t count, std::uint64_t numbers, std::uint64_t
                      " at most; the file is cut short or damaged"));
 }
 
+std::string MeshScanner::place() const
+{
+    if (m_binary) return message("byte ", m_item);
+    const auto end = m_bytes.begin() + static_cast<std::ptrdiff_t>(m_item);
+    return message("line ", 1 + std::count(m_bytes.begin(), end, '\n'));
+}
+
 void MeshScanner::fail(const std::string& cause) const
 {
-    if (m_binary) throw std::runtime_error(message("byte ", m_item, ": ", cause));
-    const std::size_t line = static_cast<std::size_t>(
-        1 + std::count(m_bytes.begin(), m_bytes.begin() + static_cast<std::ptrdiff_t>(m_item), '\n'));
-    throw std::runtime_error(message("line ", line, ": ", cause));
+    throw std::runtime_error(place() + ": " + cause);
 }
 
 void MeshScanner::failAtEnd(const char* what)

@@ -87,6 +87,8 @@ public:
 
     /// Throws, with the line or byte of what was read last.
     [[noreturn]] void fail(const std::string& cause) const;
+    /// "line 7", or "byte 100" in binary files, of what was read last.
+    std::string place() const;
 
 private:
     void skipSpace();

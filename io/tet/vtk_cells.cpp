@@ -31,7 +31,7 @@ constexpr VtkType kTypes[] = {{0, CellKind::empty, ""},
                               {7, CellKind::face, ""},
                               {8, CellKind::face, ""},  // pixel
                               {9, CellKind::face, ""},
-                              {10, CellKind::tet, ""},
+                              {kVtkTetrahedron, CellKind::tet, ""},
                               {11, CellKind::refused, "a voxel"},
                               {12, CellKind::refused, "a hexahedron"},
                               {13, CellKind::refused, "a wedge"},
@@ -134,8 +134,7 @@ bool isVtkRegionName(std::string name)
 void noteVtkRegions(TetMeshFile& mesh, const VtkCells& cells, const std::vector<double>& regions)
 {
     if (regions.size() != cells.m_types.size()) return;
-    constexpr std::int64_t kTetrahedron = 10;
-    const auto isTet = [](std::int64_t type) { return type == kTetrahedron; };
+    const auto isTet = [](std::int64_t type) { return type == kVtkTetrahedron; };
     std::size_t tet =
         mesh.m_tets.size() - static_cast<std::size_t>(std::count_if(cells.m_types.begin(), cells.m_types.end(), isTet));
     mesh.m_regions.resize(mesh.m_tets.size(), 0);

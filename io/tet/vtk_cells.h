@@ -11,6 +11,8 @@
 namespace bullet_fem
 {
 
+constexpr std::int64_t kVtkTetrahedron = 10;  ///< VTK_TETRA, by vtkCellType.h
+
 /// The cells of an unstructured grid, as both of VTK's formats have them.
 struct VtkCells
 {

@@ -1,91 +1,15 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <stdexcept>
+
 #include "fem/common/message.h"
 #include "io/tet/tet_readers.h"
-#include "io/tet/vtk_cells.h"
+#include "io/tet/vtk_file.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-struct VtkFile
-{
-    MeshScanner scanner;
-    TetMeshFile mesh;
-    VtkCells cells;
-    MeshScanner cellsPlace;  // what is wrong with cells is known only when their types are
-    int major = 0;           // of the version
-    bool hasPoints = false, hasCells = false, hasTypes = false;
-    std::string data;             // the keyword that ended the mesh: POINT_DATA or CELL_DATA
-    std::vector<double> regions;  // of the cells, if an array tells them
-};
-
-/// A keyword, of which VTK ignores the case.
-std::string upperCase(std::string_view word)
-{
-    std::string upper = printable(word);
-    for (char& c : upper)
-        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    return upper;
-}
-
-/// VTK's name of a type of numbers. long is what it is on 64-bit Unix; vtkIdType is written as int.
-NumberType parseVtkType(const MeshScanner& scanner, std::string_view word)
-{
-    struct Named
-    {
-        const char* name;
-        NumberType type;
-    };
-    static const Named types[] = {{"CHAR", {NumberType::signedInteger, 1}},
-                                  {"SIGNED_CHAR", {NumberType::signedInteger, 1}},
-                                  {"UNSIGNED_CHAR", {NumberType::unsignedInteger, 1}},
-                                  {"SHORT", {NumberType::signedInteger, 2}},
-                                  {"UNSIGNED_SHORT", {NumberType::unsignedInteger, 2}},
-                                  {"INT", {NumberType::signedInteger, 4}},
-                                  {"UNSIGNED_INT", {NumberType::unsignedInteger, 4}},
-                                  {"LONG", {NumberType::signedInteger, 8}},
-                                  {"UNSIGNED_LONG", {NumberType::unsignedInteger, 8}},
-                                  {"VTKIDTYPE", {NumberType::signedInteger, 4}},
-                                  {"VTKTYPEINT64", {NumberType::signedInteger, 8}},
-                                  {"VTKTYPEUINT64", {NumberType::unsignedInteger, 8}},
-                                  {"VTKTYPEINT32", {NumberType::signedInteger, 4}},
-                                  {"VTKTYPEUINT32", {NumberType::unsignedInteger, 4}},
-                                  {"FLOAT", {NumberType::floating, 4}},
-                                  {"DOUBLE", {NumberType::floating, 8}}};
-    const std::string name = upperCase(word);
-    for (const Named& known : types)
-        if (name == known.name) return known.type;
-    scanner.fail("'" + printable(word) + "' is not a VTK number type");
-}
-
-/// `count` numbers of an array; the scanner stands behind the line that announces it.
-template <class Number>
-std::vector<Number> readNumbers(VtkFile& file, NumberType type, std::uint64_t count, const char* what)
-{
-    MeshScanner& scanner = file.scanner;
-    scanner.need(count, 1, static_cast<std::uint64_t>(type.size), what);
-    std::vector<Number> numbers;
-    numbers.reserve(static_cast<std::size_t>(count));
-    for (std::uint64_t i = 0; i < count; ++i)
-    {
-        if (!scanner.isBinary())
-            numbers.push_back(scanner.text<Number>(what));
-        else if constexpr (std::is_floating_point_v<Number>)
-            numbers.push_back(doubleFromBits(scanner.bits(type.size, what), type));
-        else
-            numbers.push_back(integerFromBits(scanner.bits(type.size, what), type));
-    }
-    return numbers;
-}
-
-/// Integers of an array, whose type may be anything but floating.
-std::vector<std::int64_t> readIntegers(VtkFile& file, NumberType type, std::uint64_t count, const char* what)
-{
-    if (type.kind == NumberType::floating) file.scanner.fail(message("the type of ", what, " is not an integer"));
-    return readNumbers<std::int64_t>(file, type, count, what);
-}
 
 void readHeader(VtkFile& file)
 {
@@ -95,14 +19,14 @@ void readHeader(VtkFile& file)
     const bool marked = rest.substr(0, 1) == "#";
     rest.remove_prefix(marked ? 1 : 0);
     if (rest.substr(0, 1) == " ") rest.remove_prefix(1);  // files of Bullet's own come without the blank
-    if (!marked || rest.substr(0, magic.size()) != magic)
+    if (!marked || vtkKeyword(rest.substr(0, magic.size())) != vtkKeyword(magic))
         scanner.fail("a VTK file begins with '# vtk DataFile Version'");
     rest.remove_prefix(magic.size());
     const std::string version = printable(takeWord(rest));
     file.major = scanner.parse<int>(std::string_view(version).substr(0, version.find('.')), "a version");
     if (file.major < 1 || file.major > 5) scanner.fail("the version is " + version + "; it must be in [1.0, 5.1]");
     scanner.restOfLine();  // the title
-    const std::string encoding = upperCase(scanner.word("ASCII or BINARY"));
+    const std::string encoding = vtkKeyword(scanner.word("ASCII or BINARY"));
     if (encoding != "ASCII" && encoding != "BINARY") scanner.fail("the encoding must be ASCII or BINARY");
     scanner.restOfLine();
     if (encoding == "BINARY") scanner.setBinary(ByteOrder::big);
@@ -116,10 +40,10 @@ void readPoints(VtkFile& file)
     if (file.hasPoints) scanner.fail("there is a second section POINTS");
     file.hasPoints = true;
     const auto count = scanner.text<std::uint64_t>("a number of points");
-    const NumberType type = parseVtkType(scanner, scanner.word("a type of coordinates"));
+    const NumberType type = vtkNumberType(scanner, scanner.word("a type of coordinates"));
     scanner.restOfLine();
     scanner.need(count, 1, 1, "points");
-    const std::vector<double> x = readNumbers<double>(file, type, 3 * count, "a coordinate");
+    const std::vector<double> x = readVtkDoubles(file, type, 3 * count, "a coordinate");
     for (std::uint64_t i = 0; i < count; ++i)
     {
         file.mesh.m_positions.push_back({x[3 * i], x[3 * i + 1], x[3 * i + 2]});
@@ -127,48 +51,52 @@ void readPoints(VtkFile& file)
     }
 }
 
-/// Throws, with the place of a number of rows that begin there.
-[[noreturn]] void failAtNumber(MeshScanner rows, std::uint64_t number, const std::string& cause)
+/// Whether the section goes on in a text file: with a number, where the next one begins with a letter.
+bool atNumber(MeshScanner& scanner)
 {
-    for (std::uint64_t i = 0; i <= number; ++i)
-        if (rows.isBinary())
-            rows.bits(4, "a cell's number");
-        else
-            rows.word("a cell's number");
-    rows.fail(cause);
+    const std::string_view word = scanner.peekWord();
+    return !word.empty() && !(word[0] >= 'A' && word[0] <= 'Z') && !(word[0] >= 'a' && word[0] <= 'z');
 }
 
-/// CELLS before version 5: for each cell the number of its corners, then these.
-void readCellRows(VtkFile& file, std::uint64_t cellCount, std::uint64_t size)
+std::int64_t readCellNumber(MeshScanner& scanner)
+{
+    constexpr const char* what = "a cell's number";
+    if (!scanner.isBinary()) return scanner.text<std::int64_t>(what);
+    return integerFromBits(scanner.bits(4, what), {NumberType::signedInteger, 4});
+}
+
+/// CELLS before version 5: for each cell the number of its corners, then these. How many numbers that makes is stated,
+/// too, but not always rightly; cells are counted.
+void readCellRows(VtkFile& file, std::uint64_t cellCount, std::int64_t declared)
 {
     MeshScanner& scanner = file.scanner;
-    const MeshScanner begin = scanner;
-    const std::vector<std::int64_t> rows = readIntegers(file, {NumberType::signedInteger, 4}, size, "a cell's number");
     VtkCells& cells = file.cells;
-    std::uint64_t next = 0;
     for (std::uint64_t c = 0; c < cellCount; ++c)
     {
-        if (next >= size) scanner.fail(message("of ", cellCount, " CELLS only ", c, " are there"));
-        const std::int64_t corners = rows[next++];
-        if (corners < 0 || static_cast<std::uint64_t>(corners) > size - next)
-            failAtNumber(begin, next - 1,
-                         message("cell ", c, " has ", corners, " corners where ", size - next, " numbers are left"));
-        cells.m_connectivity.insert(cells.m_connectivity.end(), rows.begin() + static_cast<std::ptrdiff_t>(next),
-                                    rows.begin() + static_cast<std::ptrdiff_t>(next) + corners);
+        if (scanner.isBinary() ? scanner.left() < 4 : !atNumber(scanner))
+            scanner.fail(message("of ", cellCount, " CELLS only ", c, " are there"));
+        const std::int64_t corners = readCellNumber(scanner);
+        if (corners < 0 || static_cast<std::uint64_t>(corners) > scanner.left())
+            scanner.fail(message("cell ", c, " has ", corners, " corners where ", scanner.left(), " bytes are left"));
+        for (std::int64_t i = 0; i < corners; ++i) cells.m_connectivity.push_back(readCellNumber(scanner));
         cells.m_ends.push_back(static_cast<std::int64_t>(cells.m_connectivity.size()));
-        next += static_cast<std::uint64_t>(corners);
     }
-    if (next != size)
-        failAtNumber(begin, next, message("CELLS of ", cellCount, " cells have ", next, " numbers, not ", size));
+    const std::size_t read = cells.m_connectivity.size() + cells.m_ends.size();
+    if (declared >= 0 && static_cast<std::uint64_t>(declared) == read) return;
+    if (atNumber(scanner))
+        scanner.fail(message("CELLS of ", cellCount, " cells have ", read, " numbers, not ", declared,
+                             ", and more follow; correct the number of cells"));
+    file.mesh.m_notes.push_back(message(file.cellsPlace.place(), ": CELLS should state ", read, " numbers for ",
+                                        cellCount, " cells, not ", declared, "; read cell by cell"));
 }
 
 std::vector<std::int64_t> readNamedIntegers(VtkFile& file, const char* name, std::uint64_t count)
 {
     MeshScanner& scanner = file.scanner;
-    if (upperCase(scanner.word(name)) != name) scanner.fail(message("here ", name, " should be"));
-    const NumberType type = parseVtkType(scanner, scanner.word("a type of integers"));
+    if (vtkKeyword(scanner.word(name)) != name) scanner.fail(message("here ", name, " should be"));
+    const NumberType type = vtkNumberType(scanner, scanner.word("a type of integers"));
     scanner.restOfLine();
-    return readIntegers(file, type, count, name);
+    return readVtkIntegers(file, type, count, name);
 }
 
 /// CELLS from version 5 on: OFFSETS, one more than there are cells, and CONNECTIVITY.
@@ -188,91 +116,59 @@ void readCells(VtkFile& file)
     file.hasCells = true;
     file.cellsPlace = scanner;
     const auto count = scanner.text<std::uint64_t>("a number of cells");
-    const auto size = scanner.text<std::uint64_t>("a number of integers");
-    scanner.restOfLine();
-    if (file.major < 5)
-        readCellRows(file, count, size);
+    std::string_view rest = scanner.restOfLine();
+    const std::string_view size = takeWord(rest);
+    if (file.major >= 5)
+        readCellArrays(file, count, scanner.parse<std::uint64_t>(size, "a number of integers"));
     else
-        readCellArrays(file, count, size);
+        readCellRows(file, count, size.empty() ? 0 : scanner.parse<std::int64_t>(size, "a number of integers"));
 }
 
+// Of a text all types up to the next section, whatever their number is said to be.
 void readCellTypes(VtkFile& file)
 {
-    if (file.hasTypes) file.scanner.fail("there is a second section CELL_TYPES");
+    MeshScanner& scanner = file.scanner;
+    if (file.hasTypes) scanner.fail("there is a second section CELL_TYPES");
     file.hasTypes = true;
-    const auto count = file.scanner.text<std::uint64_t>("a number of cell types");
-    file.scanner.restOfLine();
-    file.cells.m_types = readIntegers(file, {NumberType::signedInteger, 4}, count, "a cell type");
-}
-
-/// METADATA, which ends with an empty line or the file.
-void skipMetadata(MeshScanner& scanner)
-{
-    scanner.restOfLine();
-    while (scanner.left() > 0 && !scanner.restOfLine().empty())
-    {
-    }
-}
-
-/// Text in binary files: each behind a length, whose first two bits tell how many bytes that has.
-void skipBinaryStrings(MeshScanner& scanner, std::uint64_t count)
-{
-    for (std::uint64_t i = 0; i < count; ++i)
-    {
-        if (scanner.left() == 0) scanner.skipBytes(1, "a string");
-        const auto size = static_cast<std::size_t>(8 >> (static_cast<unsigned char>(*scanner.data()) >> 6));
-        const std::uint64_t bits = scanner.left() < size ? 0 : readBits(scanner.data(), size, ByteOrder::big);
-        scanner.skipBytes(size, "a string's length");
-        scanner.skipBytes(bits & ((std::uint64_t{1} << (8 * size - 2)) - 1), "a string");
-    }
-}
-
-/// `count` values of an array that is not needed.
-void skipValues(MeshScanner& scanner, const std::string& type, std::uint64_t count)
-{
-    const bool strings = type == "STRING" || type == "UTF8_STRING";
+    file.typesPlace = scanner.place();
+    file.declaredTypes = scanner.text<std::uint64_t>("a number of cell types");
     if (scanner.isBinary())
     {
-        if (strings)
-            skipBinaryStrings(scanner, count);
-        else if (type == "BIT")
-            scanner.skipBytes((count + 7) / 8, "bits");
-        else
-            scanner.skipBytes(count * static_cast<std::uint64_t>(parseVtkType(scanner, type).size), "an array");
+        scanner.restOfLine();
+        file.cells.m_types = readVtkIntegers(file, {NumberType::signedInteger, 4}, file.declaredTypes, "a cell type");
     }
     else
-        for (std::uint64_t i = 0; i < count; ++i)
-        {
-            if (strings)
-                scanner.restOfLine();
-            else
-                scanner.word("a value");
-        }
+        while (atNumber(scanner)) file.cells.m_types.push_back(scanner.text<std::int64_t>("a cell type"));
 }
 
-void skipField(MeshScanner& scanner)
+/// Cells that are not all given a type are tetrahedra if they have four corners and nothing says otherwise.
+void settleCellTypes(VtkFile& file)
 {
-    scanner.word("a field's name");
-    const auto arrays = scanner.text<std::uint64_t>("a number of arrays");
-    for (std::uint64_t a = 0; a < arrays; ++a)
+    VtkCells& cells = file.cells;
+    const std::size_t count = cells.m_ends.size(), given = cells.m_types.size();
+    const std::string told =
+        file.hasTypes ? message(file.typesPlace, ": CELL_TYPES lists ", given, " types for ", count, " cells")
+                      : message(file.cellsPlace.place(), ": behind CELLS the file has no section CELL_TYPES");
+    std::vector<std::string>& notes = file.mesh.m_notes;
+    if (file.hasTypes && given == count)
     {
-        if (upperCase(scanner.peekWord()) == "METADATA") skipMetadata(scanner);
-        if (upperCase(scanner.word("an array's name")) == "NULL_ARRAY") continue;
-        const auto components = scanner.text<std::uint64_t>("a number of components");
-        const auto tuples = scanner.text<std::uint64_t>("a number of tuples");
-        const std::string type = upperCase(scanner.word("an array's type"));
-        scanner.restOfLine();
-        const std::uint64_t most = 8 * std::uint64_t{scanner.left()};  // of bits
-        if (components > 0 && tuples > most / components)
-            scanner.fail(message("an array of ", tuples, " x ", components, " values in ", scanner.left(), " bytes"));
-        skipValues(scanner, type, components * tuples);
+        if (file.declaredTypes != given) notes.push_back(message(told, ", but states ", file.declaredTypes));
+        return;
     }
+    bool areTets = given <= count;
+    for (std::size_t c = 0; c < count; ++c)
+        areTets = areTets && cells.m_ends[c] == static_cast<std::int64_t>(4 * (c + 1));
+    for (const std::int64_t type : cells.m_types) areTets = areTets && type == kVtkTetrahedron;
+    if (!areTets) throw std::runtime_error(told + "; list the type of each, 10 for a tetrahedron");
+    cells.m_types.assign(count, kVtkTetrahedron);
+    notes.push_back(told + "; all cells have four corners and are taken for tetrahedra");
 }
 
 /// A section of the grid; returns false where its points' and cells' own arrays begin, which end the mesh.
 bool readSection(VtkFile& file)
 {
-    const std::string keyword = upperCase(file.scanner.word("a section"));
+    const std::string_view word = file.scanner.word("a section");
+    const std::string keyword = vtkKeyword(word);
     if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
     {
         file.data = keyword;
@@ -285,88 +181,31 @@ bool readSection(VtkFile& file)
     else if (keyword == "CELL_TYPES")
         readCellTypes(file);
     else if (keyword == "FIELD")
-        skipField(file.scanner);
+        skipVtkField(file.scanner);
     else if (keyword == "METADATA")
-        skipMetadata(file.scanner);
+        skipVtkMetadata(file.scanner);
     else
-        file.scanner.fail("'" + keyword + "' stands where a section such as POINTS or CELLS should begin");
+        file.scanner.fail("'" + printable(word) + "' stands where a section such as POINTS or CELLS should begin");
     return true;
-}
-
-/// The values of an array, kept if they are the cells' regions.
-void readDataArray(VtkFile& file, const std::string& name, const std::string& type, std::uint64_t components,
-                   std::uint64_t tuples)
-{
-    const std::uint64_t most = 8 * std::uint64_t{file.scanner.left()};  // of bits
-    if (components > 0 && tuples > most / components) file.scanner.fail("an array is too long");
-    const bool areRegions = file.data == "CELL_DATA" && components == 1 && isVtkRegionName(name);
-    if (!areRegions || type == "STRING" || type == "BIT") return skipValues(file.scanner, type, components * tuples);
-    file.regions = readNumbers<double>(file, parseVtkType(file.scanner, type), tuples, "a region");
-}
-
-/// SCALARS and FIELD arrays of points and cells, up to the first thing of another kind.
-void findRegions(VtkFile& file)
-{
-    MeshScanner& scanner = file.scanner;
-    auto count = scanner.text<std::uint64_t>("a number of values");
-    while (!scanner.atEnd())
-    {
-        const std::string keyword = upperCase(scanner.word("an array"));
-        if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
-        {
-            file.data = keyword;
-            count = scanner.text<std::uint64_t>("a number of values");
-        }
-        else if (keyword == "SCALARS")
-        {
-            const std::string name = printable(scanner.word("an array's name"));
-            const std::string type = upperCase(scanner.word("an array's type"));
-            std::string_view rest = scanner.restOfLine();
-            const std::string_view components = takeWord(rest);
-            scanner.word("LOOKUP_TABLE");
-            scanner.restOfLine();
-            const auto each = components.empty() ? 1 : scanner.parse<std::uint64_t>(components, "components");
-            readDataArray(file, name, type, each, count);
-        }
-        else if (keyword == "FIELD")
-        {
-            scanner.word("a field's name");
-            const auto arrays = scanner.text<std::uint64_t>("a number of arrays");
-            for (std::uint64_t a = 0; a < arrays; ++a)
-            {
-                if (upperCase(scanner.peekWord()) == "METADATA") skipMetadata(scanner);
-                const std::string name = printable(scanner.word("an array's name"));
-                const auto components = scanner.text<std::uint64_t>("a number of components");
-                const auto tuples = scanner.text<std::uint64_t>("a number of tuples");
-                const std::string type = upperCase(scanner.word("an array's type"));
-                scanner.restOfLine();
-                readDataArray(file, name, type, components, tuples);
-            }
-        }
-        else if (keyword == "METADATA")
-            skipMetadata(scanner);
-        else
-            return;
-    }
 }
 
 }  // namespace
 
 TetMeshFile readVtk(std::string_view bytes)
 {
-    VtkFile file{MeshScanner(bytes), {}, {}, MeshScanner(bytes), 0, false, false, false, {}, {}};
+    VtkFile file{MeshScanner(bytes), {}, {}, MeshScanner(bytes), 0, false, false, false, 0, {}, {}, {}};
     MeshScanner& scanner = file.scanner;
     readHeader(file);
-    if (upperCase(scanner.word("DATASET")) != "DATASET") scanner.fail("here DATASET should be");
-    const std::string dataset(upperCase(scanner.word("UNSTRUCTURED_GRID")));
-    if (dataset != "UNSTRUCTURED_GRID")
-        scanner.fail("the dataset is '" + dataset + "'; tetrahedra are in an UNSTRUCTURED_GRID only");
+    if (vtkKeyword(scanner.word("DATASET")) != "DATASET") scanner.fail("here DATASET should be");
+    const std::string_view dataset = scanner.word("UNSTRUCTURED_GRID");
+    if (vtkKeyword(dataset) != "UNSTRUCTURED_GRID")
+        scanner.fail("the dataset is '" + printable(dataset) + "'; tetrahedra are in an UNSTRUCTURED_GRID only");
     while (!scanner.atEnd() && readSection(file))
     {
     }
     if (!file.hasPoints) scanner.fail("the file has no section POINTS");
     if (!file.hasCells) scanner.fail("the file has no section CELLS");
-    if (!file.hasTypes) scanner.fail("the file has no section CELL_TYPES");
+    settleCellTypes(file);
     try
     {
         appendVtkCells(file.mesh, file.cells, 0);
@@ -377,7 +216,7 @@ TetMeshFile readVtk(std::string_view bytes)
     }
     try
     {
-        if (!file.data.empty()) findRegions(file);
+        if (!file.data.empty()) findVtkRegions(file);
     }
     catch (const std::runtime_error&)  // a mesh needs no regions: what follows it was never looked at
     {

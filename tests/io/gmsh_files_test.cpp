@@ -73,6 +73,7 @@ TEST_F(GmshFiles, AreTheSameMeshInEveryFormat)
     expectFirst(convert("-format msh41 -bin", "b41.msh"), 0);
     expectFirst(convert("-format msh41 -save_parametric", "p41.msh"), 0);
     expectFirst(convert("-format msh41 -save_parametric -bin", "pb41.msh"), 0);
+    expectFirst(convert("-format msh1", "a1.msh"), 0);
     expectFirst(convert("-format msh22", "a22.msh"), 0);
     expectFirst(convert("-format msh22 -bin", "b22.msh"), 0);
     expectFirst(convert("-format vtk", "a.vtk"), 0);

@@ -147,6 +147,13 @@ std::string vtkBinary(const std::string& version, const std::string& real, const
     return file.bytes();
 }
 
+/// As Bullet's own data are: sizes that do not fit, and no types.
+std::string vtkOfBullet()
+{
+    return "#vtk DataFile Version 2.0\nI know\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n0 0 0\n1 0 0\n0 1 0\n"
+           "5 5 5\n0 0 1\n1 1 1.25\nCELLS 2 8\n4 0 1 2 4\n4 1 2 4 5\nCELL_TYPES 10\n";
+}
+
 std::string vtkTextWithExtras()
 {
     return "# vtk DataFile Version 4.2\r\ntwo tetrahedra\nascii\ndataset unstructured_grid\nFIELD FieldData 3\n"
@@ -198,6 +205,13 @@ const std::vector<Tet>& fixtureTets()
 {
     static const std::vector<Tet> tets = {{0, 1, 2, 4}, {1, 2, 4, 5}};
     return tets;
+}
+
+std::string gmsh1Text(const std::string& nodes)
+{
+    return "$" + nodes + "\n6\n7 0 0 0\n2000000000 1 0 0\n3 0 1 0\n12 5 5 5\n5 0 0 1e0\n6 1 1 +1.25\n$END" + nodes +
+           "\n$ELM\n5\n1 15 0 1 1 7\n2 1 0 1 2 7 2000000000\n3 2 4 1 3 7 2000000000 12\n4 4 0 1 4 7 2000000000 3 5\n"
+           "5 4 0 1 4 2000000000 3 5 6\n$ENDELM\n";
 }
 
 std::string gmsh2Text(const std::string& version)
@@ -273,6 +287,8 @@ std::vector<TetFixture> tetFixtures()
 {
     using Format = TetMeshFormat;
     std::vector<TetFixture> all = {
+        {"Gmsh1Text", Format::gmsh, gmsh1Text("NOD"), 1, 1, 1, "1 text"},
+        {"Gmsh1NoeText", Format::gmsh, gmsh1Text("NOE"), 1, 1, 1, "1 text"},
         {"Gmsh20Text", Format::gmsh, gmsh2Text("2"), 1, 1, 1, "2 text"},
         {"Gmsh22Text", Format::gmsh, gmsh2Text("2.2"), 1, 1, 1, "2.2 text"},
         {"Gmsh22Little", Format::gmsh, gmsh2Binary(false), 1, 1, 1, "2.2 binary"},
@@ -285,6 +301,7 @@ std::vector<TetFixture> tetFixtures()
         {"TetGenFrom1", Format::tetgen, tetGenText(1), 0, 0, 0, ""},
         {"TetGenDecorated", Format::tetgen, tetGenDecorated(), 0, 0, 0, ""},
         {"Vtk20Text", Format::vtk, vtkText("2.0"), 1, 1, 1, "2.0 text"},
+        {"VtkOfBullet", Format::vtk, vtkOfBullet(), 0, 0, 0, "2.0 text"},
         {"Vtk42TextWithExtras", Format::vtk, vtkTextWithExtras(), 1, 1, 1, "4.2 text"},
         {"Vtk51Text", Format::vtk, vtkText("5.1"), 1, 1, 1, "5.1 text"},
         {"Vtk20Double", Format::vtk, vtkBinary<double, int>("2.0", "double", "", false), 1, 1, 1, "2.0 binary"},

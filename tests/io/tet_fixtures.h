@@ -36,6 +36,8 @@ const std::vector<Tet>& fixtureTets();
 /// Every format, version, encoding, byte order and layout that is read.
 std::vector<TetFixture> tetFixtures();
 
+/// Version 1, whose section of nodes is $NOD or $NOE.
+std::string gmsh1Text(const std::string& nodes);
 std::string gmsh2Text(const std::string& version);
 std::string gmsh4Text();
 std::string tetGenText(int first);

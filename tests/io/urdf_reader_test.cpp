@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "bullet_fem/io/urdf_deformable.h"
@@ -17,6 +18,11 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string kInertial = "<inertial><mass value='3'/></inertial>";
+
+MATCHER(IsAscii, "")
+{
+    return std::all_of(arg.begin(), arg.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
 
 class UrdfReader : public ::testing::Test
 {
@@ -120,6 +126,10 @@ TEST_F(UrdfReader, refusesFilesOfOtherKinds)
     EXPECT_THAT(told(m_folder.path("")), HasSubstr("no such file"));
     EXPECT_THAT(told(m_folder.write("a.urdf", "o ball\nv 0 0 0\n")), HasSubstr("not XML"));
     EXPECT_THAT(told(m_folder.write("b.urdf", "")), HasSubstr("not XML"));
+    EXPECT_THAT(told(m_folder.write("d.urdf", "<robot><\x1b[2J\xff")),
+                AllOf(HasSubstr("line 1: it is not XML"), IsAscii()));
+    EXPECT_THAT(complaint(kInertial + "<friction value='\x1b[2J'/><visual filename='ball.vtk'/>"),
+                AllOf(HasSubstr("(unprintable bytes)"), IsAscii()));
     EXPECT_THAT(told(m_folder.write("c.urdf", "<sdf/>")), HasSubstr("<robot>"));
     EXPECT_THAT(told(write("<link name='a'/>")), HasSubstr("no <deformable>"));
     EXPECT_THAT(told(write("<reduced_deformable name='a'/>")), HasSubstr("reduced"));

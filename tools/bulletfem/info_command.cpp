@@ -191,6 +191,8 @@ struct InfoCommand
         }
         m_figures.add("kind", "tetrahedra");
         m_figures.add("format", file.m_format + " " + file.m_version);
+        for (std::size_t i = 0; i < file.m_notes.size(); ++i)
+            m_figures.add(i == 0 ? "note" : "note " + std::to_string(i + 1), file.m_notes[i]);
         m_figures.add("nodes", mesh.nodeCount());
         m_figures.add("tets", mesh.tetCount());
         m_figures.add("pieces", mesh.componentCount());

@@ -76,6 +76,21 @@ TEST_F(UrdfBody, HasWhatTheFileSays)
     EXPECT_EQ(m_material.m_density, 0);
 }
 
+// As Bullet's own reduced_cube is: sizes that do not fit, and no types.
+TEST_F(UrdfBody, HasTheMeshOfBulletsOwnData)
+{
+    std::string text = "#" + vtkText(makeBox({0.5, 0.5, 0.5}, {3, 3, 3})).substr(2);
+    const std::size_t cells = text.find("CELLS 135 675"), types = text.find("CELL_TYPES");
+    ASSERT_NE(cells, std::string::npos);
+    text.replace(types, std::string::npos, "CELL_TYPES 10\n").replace(cells, 13, "CELLS 135 540");
+    m_folder.write("cube_mesh.vtk", text);
+    btSoftBody& cube = load(
+        "<collision_margin value='0.006'/><repulsion_stiffness value='800.0'/><friction value= '0.5'/>"
+        "<neohookean mu= '180' lambda= '600' damping= '0.01' /><visual filename='cube_mesh.vtk'/>");
+    EXPECT_EQ(cube.m_tetras.size(), 135);
+    EXPECT_NEAR(cube.getVolume(), 0.125, 1e-6);
+}
+
 TEST_F(UrdfBody, RestsWithItsWeightSqueezedAsItsModuliSay)
 {
     btRigidBody& floor = m_world.addFloorBox();
