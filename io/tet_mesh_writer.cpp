@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "fem/common/message.h"
 #include "fem/common/output_file.h"
 #include "io/file_bytes.h"
+#include "io/vtu_frame.h"
 
 namespace bullet_fem
 {
@@ -44,15 +46,30 @@ private:
     std::string m_text;
 };
 
-std::string gmshText(const TetMesh& mesh)
+/// A mesh, and the labels of its elements or none.
+struct LabelledMesh
 {
+    const TetMesh& m_mesh;
+    const std::vector<int>& m_regions;
+
+    bool hasRegions() const { return !m_regions.empty(); }
+    int region(int e) const { return hasRegions() ? m_regions[static_cast<std::size_t>(e)] : 0; }
+};
+
+std::string gmshText(const LabelledMesh& labelled)
+{
+    const TetMesh& mesh = labelled.m_mesh;
     NumberLines out;
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << mesh.nodeCount() << "\n";
     for (int i = 0; i < mesh.nodeCount(); ++i) out << i + 1 << mesh.restPositions()[i] << "\n";
     out << "$EndNodes\n$Elements\n" << mesh.tetCount() << "\n";
     for (int e = 0; e < mesh.tetCount(); ++e)
     {
-        out << e + 1 << "4 0 ";  // a tetrahedron without tags
+        out << e + 1;
+        if (labelled.hasRegions())
+            out << "4 2 " << labelled.region(e) << "1 ";  // a physical group, and a volume
+        else
+            out << "4 0 ";  // a tetrahedron without tags
         out.nodes(mesh.tets()[e], 1);
         out << "\n";
     }
@@ -60,8 +77,9 @@ std::string gmshText(const TetMesh& mesh)
     return out.text();
 }
 
-std::string vtkText(const TetMesh& mesh)
+std::string vtkText(const LabelledMesh& labelled)
 {
+    const TetMesh& mesh = labelled.m_mesh;
     NumberLines out;
     out << "# vtk DataFile Version 2.0\nBulletFEM\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " << mesh.nodeCount()
         << "double\n";
@@ -75,40 +93,47 @@ std::string vtkText(const TetMesh& mesh)
     }
     out << "CELL_TYPES " << mesh.tetCount() << "\n";
     for (int e = 0; e < mesh.tetCount(); ++e) out << "10\n";
+    if (!labelled.hasRegions()) return out.text();
+    out << "CELL_DATA " << mesh.tetCount() << "\nSCALARS region int 1\nLOOKUP_TABLE default\n";
+    for (const int region : labelled.m_regions) out << region << "\n";
     return out.text();
 }
 
-std::string meditText(const TetMesh& mesh)
+std::string meditText(const LabelledMesh& labelled)
 {
+    const TetMesh& mesh = labelled.m_mesh;
     NumberLines out;
     out << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << mesh.nodeCount() << "\n";
     for (const Vec3& x : mesh.restPositions()) out << x << "0\n";
     out << "Tetrahedra\n" << mesh.tetCount() << "\n";
-    for (const Tet& tet : mesh.tets())
+    for (int e = 0; e < mesh.tetCount(); ++e)
     {
-        out.nodes(tet, 1);
-        out << "0\n";
+        out.nodes(mesh.tets()[e], 1);
+        out << labelled.region(e) << "\n";
     }
     out << "End\n";
     return out.text();
 }
 
+// Counted from 0: Bullet's CreateFromTetGenData takes the numbers for places in its arrays.
 std::string nodeText(const TetMesh& mesh)
 {
     NumberLines out;
     out << mesh.nodeCount() << "3 0 0\n";
-    for (int i = 0; i < mesh.nodeCount(); ++i) out << i + 1 << mesh.restPositions()[i] << "\n";
+    for (int i = 0; i < mesh.nodeCount(); ++i) out << i << mesh.restPositions()[i] << "\n";
     return out.text();
 }
 
-std::string eleText(const TetMesh& mesh)
+std::string eleText(const LabelledMesh& labelled)
 {
+    const TetMesh& mesh = labelled.m_mesh;
     NumberLines out;
-    out << mesh.tetCount() << "4 0\n";
+    out << mesh.tetCount() << (labelled.hasRegions() ? "4 1\n" : "4 0\n");
     for (int e = 0; e < mesh.tetCount(); ++e)
     {
-        out << e + 1;
-        out.nodes(mesh.tets()[e], 1);
+        out << e;
+        out.nodes(mesh.tets()[e], 0);
+        if (labelled.hasRegions()) out << labelled.region(e);
         out << "\n";
     }
     return out.text();
@@ -120,10 +145,10 @@ std::string withEnding(const std::string& path, const char* ending)
 }
 
 // One is nothing without the other.
-void writeTetGen(const std::string& path, const TetMesh& mesh)
+void writeTetGen(const std::string& path, const LabelledMesh& labelled)
 {
     OutputFile nodes(withEnding(path, ".node")), elements(withEnding(path, ".ele"));
-    const std::string nodeLines = nodeText(mesh), elementLines = eleText(mesh);
+    const std::string nodeLines = nodeText(labelled.m_mesh), elementLines = eleText(labelled);
     nodes.write(nodeLines.data(), nodeLines.size());
     elements.write(elementLines.data(), elementLines.size());
     nodes.sync();
@@ -135,7 +160,7 @@ void writeTetGen(const std::string& path, const TetMesh& mesh)
 [[noreturn]] void failEnding(const std::string& path)
 {
     throw std::runtime_error("cannot write the mesh file '" + path + "': the ending '" + lowerCaseEnding(path) +
-                             "' is not known; it must be .msh, .vtk, .mesh, .node or .ele");
+                             "' is not known; it must be .msh, .vtk, .vtu, .mesh, .node or .ele");
 }
 
 }  // namespace
@@ -143,19 +168,24 @@ void writeTetGen(const std::string& path, const TetMesh& mesh)
 void checkTetMeshOutput(const std::string& path)
 {
     const std::string ending = lowerCaseEnding(path);
-    if (ending == ".msh" || ending == ".vtk" || ending == ".mesh") return checkWritable(path);
+    if (ending == ".msh" || ending == ".vtk" || ending == ".vtu" || ending == ".mesh") return checkWritable(path);
     if (ending != ".node" && ending != ".ele") failEnding(path);
     checkWritable(withEnding(path, ".node"));
     checkWritable(withEnding(path, ".ele"));
 }
 
-void writeTetMeshFile(const std::string& path, const TetMesh& mesh)
+void writeTetMeshFile(const std::string& path, const TetMesh& mesh, const std::vector<int>& regions)
 {
+    if (!regions.empty() && regions.size() != mesh.tets().size())
+        reject("writeTetMeshFile: there are ", regions.size(), " regions for ", mesh.tetCount(),
+               " elements; give one each, or none");
+    const LabelledMesh labelled{mesh, regions};
     const std::string ending = lowerCaseEnding(path);
-    if (ending == ".msh") return writeOutputFile(path, gmshText(mesh));
-    if (ending == ".vtk") return writeOutputFile(path, vtkText(mesh));
-    if (ending == ".mesh") return writeOutputFile(path, meditText(mesh));
-    if (ending == ".node" || ending == ".ele") return writeTetGen(path, mesh);
+    if (ending == ".msh") return writeOutputFile(path, gmshText(labelled));
+    if (ending == ".vtk") return writeOutputFile(path, vtkText(labelled));
+    if (ending == ".vtu") return writeOutputFile(path, vtuMesh(mesh, regions));
+    if (ending == ".mesh") return writeOutputFile(path, meditText(labelled));
+    if (ending == ".node" || ending == ".ele") return writeTetGen(path, labelled);
     failEnding(path);
 }
 

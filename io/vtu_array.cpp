@@ -21,7 +21,7 @@ namespace
 {
 
 constexpr std::size_t kBlock = 1 << 18;  // bytes compressed at a time
-constexpr int kPerLine = 12;             // single values in a line of text
+constexpr std::size_t kPerLine = 12;     // single values in a line of text
 constexpr int kLevel = 6;                // zlib's usual compromise
 
 template <class Number>
@@ -82,12 +82,13 @@ void appendCompressed(std::string& xml, std::string_view bytes)
 }
 
 template <class Number>
-void appendText(std::string& xml, int perLine, const std::vector<Number>& values)
+void appendText(std::string& xml, const VtuArray& array, const std::vector<Number>& values)
 {
+    const std::size_t perLine = array.m_components > 1 ? static_cast<std::size_t>(array.m_components) : kPerLine;
     for (std::size_t i = 0; i < values.size(); ++i)
     {
         if constexpr (std::is_same_v<Number, double>)
-            xml += writtenNumber(values[i]);
+            xml += array.m_exact ? exactNumber(values[i]) : writtenNumber(values[i]);
         else
             xml += std::to_string(values[i]);
         xml += (i + 1) % perLine == 0 || i + 1 == values.size() ? '\n' : ' ';
@@ -103,7 +104,7 @@ void append(std::string& xml, VtuEncoding encoding, const VtuArray& array, const
         xml += " ComponentName" + std::to_string(k) + "=\"" + array.m_componentNames[k] + "\"";
     xml += encoding == VtuEncoding::text ? " format=\"ascii\">\n" : " format=\"binary\">\n";
     if (encoding == VtuEncoding::text)
-        appendText(xml, array.m_components > 1 ? array.m_components : kPerLine, values);
+        appendText(xml, array, values);
     else if (encoding == VtuEncoding::binary)
         appendBinary(xml, bytesOf(values));
     else

@@ -17,6 +17,7 @@ struct VtuArray
     const char* m_name;
     int m_components = 0;                       ///< values a tuple; 0: one, and not said
     std::vector<const char*> m_componentNames;  ///< may be empty
+    bool m_exact = false;                       ///< text: as many digits as give back the same bits
 };
 
 /// Appends a DataArray of numbers to `xml`. Binary arrays are of single precision, text has nine digits of double.

@@ -156,6 +156,26 @@ void appendCellData(const FrameText& text, const std::vector<BodyFrame>& bodies,
     text.m_xml += "</CellData>\n";
 }
 
+std::string pieceHead(VtuEncoding encoding, std::size_t pointCount, std::size_t cellCount)
+{
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"" +
+           encodingAttributes(encoding) + ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+           std::to_string(pointCount) + "\" NumberOfCells=\"" + std::to_string(cellCount) + "\">\n";
+}
+
+/// The grid and the end of the file.
+void appendGrid(const FrameText& text, const std::vector<double>& points, const Cells& cells, bool exact)
+{
+    std::string& xml = text.m_xml;
+    xml += "<Points>\n";
+    appendArray(xml, text.m_encoding, {"Points", 3, {}, exact}, points);
+    xml += "</Points>\n<Cells>\n";
+    appendArray(xml, text.m_encoding, {"connectivity", 0, {}}, cells.m_connectivity);
+    appendArray(xml, text.m_encoding, {"offsets", 0, {}}, cells.m_offsets);
+    appendArray(xml, text.m_encoding, {"types", 0, {}}, cells.m_types);
+    xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
 }  // namespace
 
 std::string vtuFrame(const std::vector<BodyFrame>& bodies, VtuEncoding encoding, bool named)
@@ -165,20 +185,28 @@ std::string vtuFrame(const std::vector<BodyFrame>& bodies, VtuEncoding encoding,
     for (const BodyFrame& body : bodies)
         for (const Vec3& x : body.m_positions) appendNumbers(points, x);
 
-    std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"" +
-                      encodingAttributes(encoding) + ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-                      std::to_string(points.size() / 3) + "\" NumberOfCells=\"" + std::to_string(cells.m_types.size()) +
-                      "\">\n";
+    std::string xml = pieceHead(encoding, points.size() / 3, cells.m_types.size());
     const FrameText text{xml, encoding};
     appendPointData(text, bodies);
     if (named) appendCellData(text, bodies, cells);
-    xml += "<Points>\n";
-    appendArray(xml, encoding, {"Points", 3, {}}, points);
-    xml += "</Points>\n<Cells>\n";
-    appendArray(xml, encoding, {"connectivity", 0, {}}, cells.m_connectivity);
-    appendArray(xml, encoding, {"offsets", 0, {}}, cells.m_offsets);
-    appendArray(xml, encoding, {"types", 0, {}}, cells.m_types);
-    xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    appendGrid(text, points, cells, false);
+    return xml;
+}
+
+std::string vtuMesh(const TetMesh& mesh, const std::vector<int>& regions)
+{
+    Cells cells;
+    cells.append(mesh.tets(), kTetrahedron, 0, 0);
+    std::vector<double> points;
+    for (const Vec3& x : mesh.restPositions()) appendNumbers(points, x);
+    std::string xml = pieceHead(VtuEncoding::text, mesh.restPositions().size(), cells.m_types.size());
+    if (!regions.empty())
+    {
+        xml += "<CellData>\n";
+        appendArray(xml, VtuEncoding::text, {"region", 1, {}}, std::vector<std::int32_t>(regions));
+        xml += "</CellData>\n";
+    }
+    appendGrid({xml, VtuEncoding::text}, points, cells, true);
     return xml;
 }
 

@@ -15,4 +15,8 @@ namespace bullet_fem
 /// triangles. `named`: with the body ids as cell data. The bodies have been checked.
 std::string vtuFrame(const std::vector<BodyFrame>& bodies, VtuEncoding encoding, bool named);
 
+/// The text of a .vtu file with a mesh and, if there are any, the regions of its elements; coordinates have as many
+/// digits as give back the same bits.
+std::string vtuMesh(const TetMesh& mesh, const std::vector<int>& regions);
+
 }  // namespace bullet_fem

@@ -16,4 +16,11 @@ inline std::string writtenNumber(double value)
     return std::string(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr);
 }
 
+/// A number with as few digits as give back the same bits.
+inline std::string exactNumber(double value)
+{
+    char text[40];
+    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
 }  // namespace bullet_fem

@@ -59,6 +59,23 @@ TEST_P(TetMeshWriter, IsReadBackToTheSameBits)
     }
 }
 
+TEST_P(TetMeshWriter, KeepsRegions)
+{
+    const TemporaryFolder folder;
+    const TetMesh mesh = makeBox({1, 1, 1}, {1, 1, 1});
+    const std::vector<int> regions = {7, -2, 0, 2147483647, 7};
+    const std::string path = folder.path(std::string("mesh") + GetParam());
+    writeTetMeshFile(path, mesh, regions);
+    const TetMeshFile read = readTetMeshFile(path);
+    EXPECT_EQ(read.m_regions, regions);
+    EXPECT_EQ(read.mesh().tets(), mesh.tets());
+    EXPECT_THAT(messageOf<std::invalid_argument>(
+                    [&] {
+                        writeTetMeshFile(path, mesh, {1, 2});
+                    }),
+                HasSubstr("there are 2 regions for 5 elements; give one each, or none"));
+}
+
 TEST_P(TetMeshWriter, SaysWhatItCannotWrite)
 {
     const TemporaryFolder folder;
@@ -76,22 +93,22 @@ std::string formatName(const testing::TestParamInfo<const char*>& info)
     return std::string(info.param + 1) + (info.param[1] == 'M' ? "UpperCase" : "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, TetMeshWriter, testing::Values(".msh", ".vtk", ".mesh", ".node", ".ele", ".MSH"),
-                         formatName);
+INSTANTIATE_TEST_SUITE_P(Formats, TetMeshWriter,
+                         testing::Values(".msh", ".vtk", ".vtu", ".mesh", ".node", ".ele", ".MSH"), formatName);
 
 TEST(TetMeshWriterEndings, OthersAreRefusedAndNothingIsWritten)
 {
     const TemporaryFolder folder;
-    for (const char* name : {"mesh.vtu", "mesh.stl", "mesh", "mesh.msh.gz"})
+    for (const char* name : {"mesh.vtp", "mesh.stl", "mesh", "mesh.msh.gz"})
     {
         const std::string path = folder.path(name);
         EXPECT_THAT(messageOf<std::runtime_error>(
                         [&] {
                             writeTetMeshFile(path, makeBox({1, 1, 1}, {1, 1, 1}));
                         }),
-                    AllOf(HasSubstr("'" + path + "'"), HasSubstr("must be .msh, .vtk, .mesh, .node or .ele")));
+                    AllOf(HasSubstr("'" + path + "'"), HasSubstr("must be .msh, .vtk, .vtu, .mesh, .node or .ele")));
         EXPECT_THAT(messageOf<std::runtime_error>([&] { checkTetMeshOutput(path); }),
-                    HasSubstr("must be .msh, .vtk, .mesh, .node or .ele"));
+                    HasSubstr("must be .msh, .vtk, .vtu, .mesh, .node or .ele"));
         EXPECT_FALSE(std::filesystem::exists(path));
     }
 }
@@ -110,8 +127,8 @@ TEST(TetMeshWriterEndings, BothTetGenFilesAreWritten)
 {
     const TemporaryFolder folder;
     writeTetMeshFile(folder.path("a.ele"), makeBox({1, 1, 1}, {1, 1, 1}));
-    EXPECT_THAT(folder.read("a.node"), testing::StartsWith("8 3 0 0"));
-    EXPECT_THAT(folder.read("a.ele"), testing::StartsWith("5 4 0"));
+    EXPECT_THAT(folder.read("a.node"), testing::StartsWith("8 3 0 0\n0 "));
+    EXPECT_THAT(folder.read("a.ele"), testing::StartsWith("5 4 0\n0 "));
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST_F(Program, BadDataIsToldWithTheFile)
     refused("info " + path("bad.json"), 1, m_folder.path("bad.json"));
     refused("cage " + path("two.node"), 1, "is no surface file; it must end in .off, .obj, .stl or .ply");
     refused("cage " + path("damaged.off"), 1, m_folder.path("damaged.off"));
-    refused("cage " + path("cube.off") + " -o " + path("a.stl"), 1, "must be .msh, .vtk, .mesh, .node or .ele");
+    refused("cage " + path("cube.off") + " -o " + path("a.stl"), 1, "must be .msh, .vtk, .vtu, .mesh, .node or .ele");
     refused("convert " + path("cube.off") + " " + path("a.msh"), 1, "bulletfem cage makes them");
     refused("convert " + path("two.node") + " " + path("a.off"), 1, "surfaces are written as .obj or .ply");
     refused("bake " + path("damaged.off") + " -o " + path("a.bfem"), 1, m_folder.path("damaged.off"));
@@ -163,6 +163,38 @@ TEST_F(Program, ConvertsWithoutLosingABit)
     const json skin = figures("info " + path("skin.ply"));
     EXPECT_EQ(skin["triangles"], 48);
     EXPECT_NEAR(skin["signedVolume"].get<double>(), 8, 1e-5);
+}
+
+TEST_F(Program, ConvertsToVtuWithRegions)
+{
+    ASSERT_EQ(bulletfem("convert " + path("regions.msh") + " " + path("a.vtu")).m_code, 0);
+    EXPECT_EQ(figures("info " + path("a.vtu"))["region -2"], figures("info " + path("regions.msh"))["region -2"]);
+    ASSERT_EQ(bulletfem("convert " + path("a.vtu") + " " + path("b.msh")).m_code, 0);
+    ASSERT_EQ(bulletfem("convert " + path("regions.msh") + " " + path("c.msh")).m_code, 0);
+    EXPECT_EQ(m_folder.read("b.msh"), m_folder.read("c.msh"));
+    figures("bake " + path("regions.msh") + " --region 1:rubber --region=-2:foam -o " + path("r.bfem"));
+    ASSERT_EQ(bulletfem("convert " + path("r.bfem") + " " + path("r.vtu")).m_code, 0);
+    EXPECT_EQ(readTetMeshFile(m_folder.path("r.vtu")).m_regions,
+              readTetMeshFile(m_folder.path("regions.msh")).m_regions);
+    refused("convert " + path("cube.off") + " " + path("d.vtu"), 1, "bulletfem cage makes them");
+    EXPECT_FALSE(exists("d.vtu"));
+}
+
+TEST_F(Program, TellsWhatIsWrongWithAFileThatItReads)
+{
+    m_folder.write("one.vtk",
+                   "# vtk DataFile Version 2.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n"
+                   "0 1 0\n0 0 1\n\nCELLS 1 1\n4 0 1 2 3\n\nCELL_TYPES 10\n");
+    const std::string sizes = "line 11: CELLS should state 5 numbers for 1 cells, not 1; read cell by cell";
+    const json told = figures("info " + path("one.vtk"));
+    EXPECT_EQ(told["note"], sizes);
+    EXPECT_THAT(told["note 2"].get<std::string>(), HasSubstr("line 14: CELL_TYPES lists 0 types for 1 cells"));
+    const ProgramRun run = bulletfem("convert " + path("one.vtk") + " " + path("one.vtu"));
+    EXPECT_EQ(run.m_code, 0);
+    EXPECT_THAT(run.m_output, HasSubstr("one.vtk: " + sizes + "\n"));
+    EXPECT_FALSE(figures("info " + path("one.vtu")).contains("note"));
+    m_folder.write("packed.msh", std::string("\x1f\x8b\x08\0\0", 5));
+    refused("info " + path("packed.msh"), 1, "packed.msh': byte 0: it is a gzip archive, which is not read; unpack it");
 }
 
 TEST_F(Program, BakesWhatInfoTells)

@@ -75,7 +75,7 @@ void addCageCommand(CLI::App& app)
         "open.\nThe tetrahedra reach up to a cell beyond it. Prints what was made and what was wrong.");
     const auto options = std::make_shared<CageCommand>();
     command->add_option("surface", options->m_surface, "OFF, OBJ, STL or PLY file")->required();
-    command->add_option("-o,--output", options->m_output, "mesh file: .msh, .vtk, .mesh, or .node and .ele");
+    command->add_option("-o,--output", options->m_output, "mesh file: .msh, .vtk, .vtu, .mesh, or .node and .ele");
     command->add_option("--scale", options->m_scale, "times the file's positions (default 1)")
         ->check(inRange(1e-9, 1e9));
     options->m_cage.add(*command);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
 
@@ -31,16 +32,34 @@ struct ConvertCommand
             throw std::runtime_error("'" + m_input + "' is a surface, '" + m_output +
                                      "' is for tetrahedra: bulletfem cage makes them");
         checkTetMeshOutput(m_output);
-        writeTetMeshFile(m_output, mesh());
+        const Solid solid = readSolid();
+        writeTetMeshFile(m_output, solid.m_mesh, solid.m_regions);
     }
 
-    TetMesh mesh() const
+    struct Solid
     {
-        if (lowerCaseEnding(m_input) != ".bfem") return readTetMeshFile(m_input, m_scale).mesh();
+        TetMesh m_mesh;
+        std::vector<int> m_regions;  // labels of the elements, if they have any
+    };
+
+    Solid readSolid() const
+    {
+        if (lowerCaseEnding(m_input) == ".bfem") return readBaked();
+        TetMeshFile file = readTetMeshFile(m_input, m_scale);
+        for (const std::string& note : file.m_notes) std::fprintf(stderr, "%s: %s\n", m_input.c_str(), note.c_str());
+        return {file.mesh(), std::move(file.m_regions)};
+    }
+
+    Solid readBaked() const
+    {
         const BakedBody baked = readBakedBody(m_input);
         std::vector<Vec3> positions = baked.m_positions;
         for (Vec3& x : positions) x *= m_scale;
-        return TetMesh(positions, baked.m_model->mesh().tets(), LooseNodes::kept);
+        Solid solid{TetMesh(positions, baked.m_model->mesh().tets(), LooseNodes::kept), {}};
+        const auto& materials = baked.m_model->shape().m_materials;
+        for (int e = 0; e < solid.m_mesh.tetCount() && materials.m_regions.size() > 1; ++e)
+            solid.m_regions.push_back(materials.m_regions[materials.regionOf(e)].m_label);
+        return solid;
     }
 
     void writeSurface() const
@@ -58,7 +77,7 @@ struct ConvertCommand
         }
         else
         {
-            const TetMesh solid = mesh();
+            const TetMesh solid = readSolid().m_mesh;
             frame.m_positions = solid.restPositions();
             frame.m_triangles = solid.surface();
         }
@@ -73,9 +92,10 @@ struct ConvertCommand
 
 void addConvertCommand(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand("convert",
-                                           "Rewrites tetrahedra as .msh, .vtk, .mesh or .node and .ele; a surface, or "
-                                           "that of tetrahedra, as .obj or .ply.");
+    CLI::App* command =
+        app.add_subcommand("convert",
+                           "Rewrites tetrahedra as .msh, .vtk, .vtu, .mesh or .node and .ele; a surface, "
+                           "or that of tetrahedra, as .obj or .ply.");
     const auto options = std::make_shared<ConvertCommand>();
     command->add_option("input", options->m_input, "tetrahedra, a surface or a .bfem file")->required();
     command->add_option("output", options->m_output, "the file to write; its ending says how")->required();
