@@ -7,8 +7,8 @@
 #include <string_view>
 #include <type_traits>
 
-#include "io/binary_number.h"
-#include "io/number_text.h"
+#include "io/text/binary_number.h"
+#include "io/text/number_text.h"
 
 namespace bullet_fem
 {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "fem/common/message.h"
-#include "io/number_text.h"
 #include "io/tet/encoded_bytes.h"
+#include "io/text/number_text.h"
 
 namespace bullet_fem
 {

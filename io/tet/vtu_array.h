@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/binary_number.h"
+#include "io/text/binary_number.h"
 
 namespace tinyxml2
 {

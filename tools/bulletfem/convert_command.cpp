@@ -10,7 +10,7 @@
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "bullet_fem/io/tet_mesh_writer.h"
 #include "fem/common/output_file.h"
-#include "io/file_bytes.h"
+#include "io/text/file_bytes.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/console/option_range.h"
 #include "tools/scene/mesh_input.h"

@@ -13,7 +13,7 @@
 #include "bullet_fem/fem/cage/cage_report.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
-#include "io/file_bytes.h"
+#include "io/text/file_bytes.h"
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
 #include "tools/scene/mesh_input.h"

@@ -7,7 +7,7 @@
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "fem/common/reason.h"
-#include "io/file_bytes.h"
+#include "io/text/file_bytes.h"
 
 namespace bullet_fem
 {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fem/common/reason.h"
-#include "io/file_bytes.h"
+#include "io/text/file_bytes.h"
 #include "tools/scene/mesh_input.h"
 
 namespace bullet_fem

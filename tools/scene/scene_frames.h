@@ -7,7 +7,7 @@
 #include "LinearMath/btAlignedObjectArray.h"
 #include "bullet_fem/btFemReports.h"
 #include "bullet_fem/io/body_frame.h"
-#include "io/surface_part.h"
+#include "io/frames/surface_part.h"
 #include "tools/scene/scene_world.h"
 
 namespace bullet_fem

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // glTF 2.0 through tinygltf, which is known to this file alone.
-#include "io/glb_model.h"
+#include "io/frames/glb_model.h"
 
 #include <fstream>  // which tinygltf 2.7 lacks without its file functions
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "io/polygon_mesh.h"
+#include "io/surface/polygon_mesh.h"
 
 namespace bullet_fem
 {

@@ -10,9 +10,9 @@
 
 #include "fem/common/message.h"
 #include "fem/common/reason.h"
-#include "io/file_bytes.h"
-#include "io/foreign_file.h"
 #include "io/tet/tet_readers.h"
+#include "io/text/file_bytes.h"
+#include "io/text/foreign_file.h"
 
 namespace bullet_fem
 {

@@ -7,9 +7,9 @@
 
 #include "fem/common/message.h"
 #include "fem/common/output_file.h"
-#include "io/body_frame_check.h"
-#include "io/glb_model.h"
-#include "io/surface_part.h"
+#include "io/frames/body_frame_check.h"
+#include "io/frames/glb_model.h"
+#include "io/frames/surface_part.h"
 
 namespace bullet_fem
 {

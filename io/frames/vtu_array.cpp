@@ -4,7 +4,7 @@
 // How VTK's XML formats keep numbers in a file: as text, or in base 64 with a header of 64-bit counts in front, in the
 // machine's byte order. Compressed arrays are cut into blocks, each compressed on its own, and have their header
 // encoded apart: [blocks, bytes of a block, bytes of the last one if it is shorter, compressed bytes of each].
-#include "io/vtu_array.h"
+#include "io/frames/vtu_array.h"
 
 #include <zlib.h>
 
@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "io/written_number.h"
+#include "io/text/written_number.h"
 
 namespace bullet_fem
 {

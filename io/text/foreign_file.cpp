@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "io/foreign_file.h"
+#include "io/text/foreign_file.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
 #include "fem/common/message.h"
-#include "io/binary_number.h"
+#include "io/text/binary_number.h"
 
 namespace bullet_fem
 {

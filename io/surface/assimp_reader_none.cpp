@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <stdexcept>
 
-#include "io/polygon_mesh.h"
+#include "io/surface/polygon_mesh.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "io/file_bytes.h"
+#include "io/text/file_bytes.h"
 
 #include <filesystem>
 #include <fstream>

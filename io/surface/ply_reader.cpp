@@ -10,9 +10,9 @@
 #include <cstdint>
 
 #include "fem/common/message.h"
-#include "io/binary_number.h"
-#include "io/number_text.h"
-#include "io/polygon_mesh.h"
+#include "io/surface/polygon_mesh.h"
+#include "io/text/binary_number.h"
+#include "io/text/number_text.h"
 
 namespace bullet_fem
 {

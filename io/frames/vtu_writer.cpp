@@ -8,9 +8,9 @@
 
 #include "fem/common/message.h"
 #include "fem/common/output_file.h"
-#include "io/body_frame_check.h"
-#include "io/vtu_frame.h"
-#include "io/written_number.h"
+#include "io/frames/body_frame_check.h"
+#include "io/frames/vtu_frame.h"
+#include "io/text/written_number.h"
 
 namespace bullet_fem
 {

@@ -12,10 +12,10 @@
 
 #include "fem/common/message.h"
 #include "fem/common/reason.h"
-#include "io/file_bytes.h"
-#include "io/foreign_file.h"
-#include "io/polygon_mesh.h"
-#include "io/triangulate.h"
+#include "io/surface/polygon_mesh.h"
+#include "io/surface/triangulate.h"
+#include "io/text/file_bytes.h"
+#include "io/text/foreign_file.h"
 
 namespace bullet_fem
 {

@@ -10,9 +10,9 @@
 #include "bullet_fem/io/colour_map.h"
 #include "fem/common/message.h"
 #include "fem/common/output_file.h"
-#include "io/body_frame_check.h"
-#include "io/surface_part.h"
-#include "io/written_number.h"
+#include "io/frames/body_frame_check.h"
+#include "io/frames/surface_part.h"
+#include "io/text/written_number.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "io/body_frame_check.h"
+#include "io/frames/body_frame_check.h"
 
 #include <cfloat>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "io/surface_part.h"
+#include "io/frames/surface_part.h"
 
 #include "fem/common/message.h"
 

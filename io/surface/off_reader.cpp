@@ -5,8 +5,8 @@
 // nine corners, moves indices that are out of range, and allocates what the header claims: hence this one.
 #include <cstdint>
 
-#include "io/number_text.h"
-#include "io/polygon_mesh.h"
+#include "io/surface/polygon_mesh.h"
+#include "io/text/number_text.h"
 
 namespace bullet_fem
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "io/vtu_frame.h"
+#include "io/frames/vtu_frame.h"
 
-#include "io/vtu_array.h"
+#include "io/frames/vtu_array.h"
 
 namespace bullet_fem
 {

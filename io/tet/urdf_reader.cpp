@@ -10,7 +10,7 @@
 #include "bullet_fem/io/urdf_deformable.h"
 #include "fem/common/message.h"
 #include "fem/common/reason.h"
-#include "io/number_text.h"
+#include "io/text/number_text.h"
 
 namespace bullet_fem
 {

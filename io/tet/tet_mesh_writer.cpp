@@ -8,8 +8,8 @@
 
 #include "fem/common/message.h"
 #include "fem/common/output_file.h"
-#include "io/file_bytes.h"
-#include "io/vtu_frame.h"
+#include "io/frames/vtu_frame.h"
+#include "io/text/file_bytes.h"
 
 namespace bullet_fem
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "io/triangulate.h"
+#include "io/surface/triangulate.h"
 
 namespace bullet_fem
 {
