@@ -4,12 +4,14 @@
 
 #include <string>
 
+#include "LinearMath/btAlignedObjectArray.h"
 #include "LinearMath/btVector3.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/cage/cage.h"
 #include "bullet_fem/fem/common/export.h"
 
+class btDiscreteDynamicsWorld;
 class btSoftBody;
 struct btFemMaterial;
 struct btSoftBodyWorldInfo;
@@ -70,4 +72,23 @@ struct BULLETFEM_API btFemHelpers
     /// Bullet's transform, translate, rotate and scale do not: call this after them to draw the body before the next
     /// one.
     static void updateEmbeddedSurface(btSoftBody* body);
+
+    /// The time for which the world shows its rigid bodies in their motion states, in steps from the end of its last
+    /// one [-], in [-1, 1]: for interpolateNodes(). Between steps of a fixed length that is m_localTime / step - 1, or
+    /// without the latter where setLatencyMotionStateInterpolation(false) was called. Without a fixed length
+    /// (stepSimulation(dt, 0)) it is 0, or 1 after that call, because Bullet then shows rigid bodies a step ahead.
+    static btScalar interpolationFraction(const btDiscreteDynamicsWorld& world);
+
+    /// Positions of the nodes [m] to draw between two steps, in the order of m_nodes, where Bullet's motion states have
+    /// the rigid bodies. `fraction` is the time in steps from the end of the last step [-], in [-1, 1]. From -1 (its
+    /// begin) to 0 (its end) the nodes go along straight lines from m_q to m_x, above 0 from m_x on with m_v for that
+    /// share of the body's last step. Values outside count as the nearest bound, NaN as 0. A body that sleeps, is in no
+    /// world, or was never stepped stands at m_x. Cloth and ropes are interpolated in the same way. False, and an empty
+    /// array, on null. Allocates only when the array grows.
+    static bool interpolateNodes(const btSoftBody* body, btScalar fraction, btAlignedObjectArray<btVector3>& out);
+
+    /// The same for m_renderNodes, which follow the nodes. Vertices stand where m_renderNodes has them if weights or
+    /// parents are missing. False, and an empty array, on null or a body without an embedded surface.
+    static bool interpolateEmbeddedSurface(const btSoftBody* body, btScalar fraction,
+                                           btAlignedObjectArray<btVector3>& out);
 };

@@ -96,23 +96,6 @@ void embed(btSoftBody& body, const EmbeddedSurface& surface)
     btFemHelpers::updateEmbeddedSurface(&body);
 }
 
-// True if every render node has what Bullet takes for granted: weights, and three parents with a distance from their
-// plane, or four, or none.
-bool isEmbedded(const btSoftBody& body)
-{
-    const int count = body.m_renderNodes.size();
-    const bool onFaces = body.m_z.size() > 0;
-    if (body.m_renderNodesParents.size() != count || body.m_renderNodesInterpolationWeights.size() != count ||
-        (onFaces && body.m_z.size() != count))
-        return false;
-    for (int v = 0; v < count; ++v)
-    {
-        const int parents = body.m_renderNodesParents[v].size();
-        if (onFaces ? parents < 3 : parents > 0 && parents < 4) return false;
-    }
-    return true;
-}
-
 }  // namespace
 
 btSoftBody* btFemHelpers::createFromSurface(btSoftBodyWorldInfo& worldInfo, const SurfaceMesh& surface,
@@ -205,9 +188,4 @@ btSoftBody* btFemHelpers::createFromBaked(btSoftBodyWorldInfo& worldInfo, const 
         return body.release();
     };
     return attemptValue(why, create);
-}
-
-void btFemHelpers::updateEmbeddedSurface(btSoftBody* body)
-{
-    if (body && body->m_renderNodes.size() > 0 && isEmbedded(*body)) body->interpolateRenderMesh();
 }

@@ -231,5 +231,32 @@ TEST(SceneFrames, ParaViewsFileHasRegionsPlasticStrainAndActivation)
     EXPECT_EQ(active, 10) << "two cells of five tetrahedra";
 }
 
+// Between two steps soft and rigid bodies are drawn for one moment: the same share of the way back.
+TEST(SceneFrames, SoftAndRigidBodiesFlyTogetherBetweenSteps)
+{
+    const SceneDescription scene = parseScene(R"({ "gravity": [0, 0, 0], "step": 0.02,
+        "softBodies": [ { "name": "soft", "mesh": { "box": [1, 1, 1], "tets": 60 }, "velocity": [10, 0, 0] } ],
+        "rigidBodies": [ { "name": "rigid", "shape": { "box": [1, 1, 1] }, "mass": 1, "position": [1.5, 0, 0],
+                           "velocity": [10, 0, 0] } ] })",
+                                              ".");
+    SceneWorld world(scene);
+    for (int k = 0; k < 5; ++k) world.step();
+    SceneFrames frames(world);
+    const auto foremost = [&](int surface)
+    {
+        double x = -1e9;
+        for (const Vec3& position : frames.surfaces()[surface].m_positions) x = std::max(x, position.x);
+        return x;
+    };
+    const double soft = foremost(0), rigid = foremost(1);
+    EXPECT_NEAR(rigid - soft, 1.5, 1e-4);
+    frames.update(-0.75);
+    EXPECT_NEAR(foremost(0), soft - 0.75 * 0.02 * 10, 1e-4);
+    EXPECT_NEAR(foremost(1), rigid - 0.75 * 0.02 * 10, 1e-4);
+    frames.update();
+    EXPECT_EQ(foremost(0), soft);
+    EXPECT_EQ(foremost(1), rigid);
+}
+
 }  // namespace
 }  // namespace bullet_fem

@@ -228,7 +228,7 @@ Viewer::~Viewer()
     m_parts.reset();
 }
 
-bool Viewer::frame(int steps)
+bool Viewer::frame(int steps, double drawnTime)
 {
     const Current current(m_window->m_window);
     glfwPollEvents();
@@ -245,15 +245,17 @@ bool Viewer::frame(int steps)
         parts.m_panel.update(parts.m_simulation, parts.m_control, parts.m_times, size);
     }
     parts.step(steps);
+    parts.m_simulation.setDrawnTime(parts.m_control.paused() ? 0 : drawnTime);
     if (size.m_width > 0 && size.m_height > 0) parts.draw(size);
     glfwSwapBuffers(m_window->m_window);
     return !parts.m_control.closing() && !glfwWindowShouldClose(m_window->m_window);
 }
 
+// Motion is drawn a step late, between the last two states, as Bullet's motion states are.
 void Viewer::run()
 {
     double before = glfwGetTime(), due = 0;
-    for (int steps = 1; frame(steps);)
+    for (int steps = 1; frame(steps, due - 1);)
     {
         const double now = glfwGetTime(), length = m_parts->m_simulation.timeStep();
         due = std::min(due + (now - before) / length, static_cast<double>(m_parts->m_largestCatchUp));

@@ -36,8 +36,9 @@ public:
     /// Steps in real time and draws, until the user closes the window.
     void run();
     /// Handles what the user did, makes `steps` steps unless paused, and draws. A scene that is not `valid` pauses the
-    /// viewer, which says why. False if the window is to be closed.
-    bool frame(int steps = 1);
+    /// viewer, which says why. `drawnTime` is that of ViewerSimulation::setDrawnTime; 0 while it is paused. False if
+    /// the window is to be closed.
+    bool frame(int steps = 1, double drawnTime = 0);
 
     /// As if the user had done it; takes effect in the next frame. Sliders and buttons feel one event a frame.
     void inject(const ViewerEvent& event);

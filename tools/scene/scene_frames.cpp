@@ -3,6 +3,8 @@
 #include "tools/scene/scene_frames.h"
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "LinearMath/btTransformUtil.h"
+#include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemVectors.h"
 #include "tools/scene/scene_shapes.h"
 
@@ -124,28 +126,30 @@ void SceneFrames::followSplits(int i)
         m_rest[i].push_back(m_rest[i][splits->m_copyOf[n - splits->m_nodes]]);
 }
 
-void SceneFrames::update()
+void SceneFrames::update(double fraction)
 {
     for (int i = 0; i < m_world.softCount(); ++i)
     {
         followSplits(i);
-        updateVolume(i);
+        updateVolume(i, fraction);
         updateSoftSurface(i);
     }
-    for (int s = m_world.softCount(); s < static_cast<int>(m_surfaces.size()); ++s) updateRigidSurface(s);
+    for (int s = m_world.softCount(); s < static_cast<int>(m_surfaces.size()); ++s) updateRigidSurface(s, fraction);
 }
 
-void SceneFrames::updateVolume(int i)
+void SceneFrames::updateVolume(int i, double fraction)
 {
     const btSoftBody& body = m_world.soft(i);
     BodyFrame& frame = m_volumes[i];
     const int count = body.m_nodes.size();
-    frame.m_positions = positionsOf(body);
+    btFemHelpers::interpolateNodes(&body, btScalar(fraction), m_places);
+    frame.m_positions.resize(count);
     frame.m_displacement.resize(count);
     frame.m_velocity.resize(count);
     frame.m_contactForce.assign(count, Vec3{});
     for (int n = 0; n < count; ++n)
     {
+        frame.m_positions[n] = vec3(m_places[n]);
         frame.m_displacement[n] = frame.m_positions[n] - m_rest[i][n];
         frame.m_velocity[n] = vec3(body.m_nodes[n].m_v);
     }
@@ -188,9 +192,15 @@ void SceneFrames::updateSoftSurface(int i)
     }
 }
 
-void SceneFrames::updateRigidSurface(int surface)
+// As Bullet does for motion states, which the scene's bodies have not.
+void SceneFrames::updateRigidSurface(int surface, double fraction)
 {
-    const btTransform& pose = m_world.rigid(bodyOf(surface) - m_world.softCount()).getWorldTransform();
+    const btRigidBody& body = m_world.rigid(bodyOf(surface) - m_world.softCount());
+    btTransform pose = body.getWorldTransform();
+    if (fraction != 0 && body.isActive())
+        btTransformUtil::integrateTransform(body.getWorldTransform(), body.getLinearVelocity(),
+                                            body.getAngularVelocity(),
+                                            btScalar(fraction * m_world.description().m_step), pose);
     const std::vector<Vec3>& rest = m_rigidRest[surface - m_world.softCount()];
     BodyFrame& frame = m_surfaces[surface];
     frame.m_positions.resize(rest.size());

@@ -20,7 +20,9 @@ public:
     /// The world must live longer.
     explicit SceneFrames(const SceneWorld& world);
 
-    void update();
+    /// `fraction`: of pictures between two steps, the time in steps from the end of the last one [-], in [-1, 1]; see
+    /// btFemHelpers::interpolateNodes(). Forces, stress and velocities are those of the last step.
+    void update(double fraction = 0);
 
     /// The soft bodies' elements, in the scene's order: all fields.
     const std::vector<BodyFrame>& volumes() const { return m_volumes; }
@@ -34,9 +36,9 @@ public:
 private:
     void takeElements(int i);
     void followSplits(int i);
-    void updateVolume(int i);
+    void updateVolume(int i, double fraction);
     void updateSoftSurface(int i);
-    void updateRigidSurface(int surface);
+    void updateRigidSurface(int surface, double fraction);
 
     const SceneWorld& m_world;
     std::vector<BodyFrame> m_volumes, m_surfaces;
@@ -46,7 +48,7 @@ private:
     std::vector<std::vector<Vec3>> m_rigidRest;  // a surface of a rigid body: in its own frame
     btAlignedObjectArray<btFemStress> m_stress;
     btAlignedObjectArray<btScalar> m_perElement;
-    btAlignedObjectArray<btVector3> m_forces;
+    btAlignedObjectArray<btVector3> m_forces, m_places;
 };
 
 }  // namespace bullet_fem

@@ -92,7 +92,7 @@ void SceneSimulation::step()
 
 const PictureScene& SceneSimulation::scene()
 {
-    m_frames->update();
+    m_frames->update(m_drawnTime);
     const SceneSnapshot snapshot = snapshotOf(m_world, *m_frames);
     const double wanted = m_world.description().m_pictures.m_hottest;
     m_hottest = std::max(m_hottest, hottestOf({snapshot}));  // which is 1 Pa at least

@@ -37,6 +37,7 @@ public:
 
     void step() override;
     double timeStep() const override { return m_world.description().m_step; }
+    void setDrawnTime(double fraction) override { m_drawnTime = fraction; }
     const PictureScene& scene() override;
     int views() const override { return m_views; }
     bool beginDrag(const PictureRay& ray) override { return m_hold.begin(ray); }
@@ -86,6 +87,7 @@ private:
     std::vector<std::unique_ptr<MeshLoading>> m_givenUp;  // that have not noticed yet
     std::string m_message;
     double m_size = 0;          // radius of what the scene is about [m]; 0: to be measured
+    double m_drawnTime = 0;     // of SceneFrames::update
     double m_hottest = 1;       // of the legend [Pa]
     double m_largestForce = 0;  // of the legend [N]
     int m_views = 0, m_added = 0;
