@@ -24,6 +24,7 @@ public:
 
     void step() override { ++m_steps; }
     double timeStep() const override { return 1. / 60; }
+    void setDrawnTime(double fraction) override { m_drawnTime = fraction; }
     const PictureScene& scene() override { return m_scene; }
     bool beginDrag(const PictureRay& ray) override
     {
@@ -72,7 +73,7 @@ public:
 
     PictureScene m_scene;
     Vec3 m_centre;
-    double m_values[2] = {1e6, 0.3}, m_rayLength = 0;
+    double m_values[2] = {1e6, 0.3}, m_rayLength = 0, m_drawnTime = 1;
     bool m_held = false;
     int m_steps = 0, m_moves = 0, m_views = 0, m_updates = 0;
     std::vector<ViewerKey> m_keys;

@@ -62,6 +62,15 @@ protected:
     std::unique_ptr<Viewer> m_viewer;
 };
 
+TEST_F(ViewerTest, DrawsBetweenStepsUnlessItIsPaused)
+{
+    m_viewer->frame(1, -0.25);
+    EXPECT_EQ(m_simulation.m_drawnTime, -0.25);
+    m_viewer->inject(ViewerEvent::key(ViewerKey::pause));
+    m_viewer->frame(1, -0.25);
+    EXPECT_EQ(m_simulation.m_drawnTime, 0);
+}
+
 TEST_F(ViewerTest, AScriptedDragMovesTheBallInThePictureToo)
 {
     const Vec3 from{0.4, 0.5, 0}, to{0.9, 0.2, 0};

@@ -64,6 +64,24 @@ protected:
     std::unique_ptr<SceneSimulation> m_simulation;
 };
 
+TEST_F(SceneSimulationTest, DrawsTheWayBetweenTheLastTwoStates)
+{
+    begin(R"({ "gravity": [0, 0, 0], "step": 0.02, "softBodies": [
+        { "name": "block", "mesh": { "box": [1, 1, 1], "tets": 40 }, "velocity": [10, 0, 0] }] })");
+    steps(3);
+    const auto foremost = [this]
+    {
+        double x = -1e9;
+        for (const Vec3& position : m_simulation->scene().m_meshes[0].m_positions) x = std::max(x, position.x);
+        return x;
+    };
+    const double now = foremost();
+    m_simulation->setDrawnTime(-0.5);
+    EXPECT_NEAR(foremost(), now - 0.1, 1e-5);
+    m_simulation->setDrawnTime(0);
+    EXPECT_EQ(foremost(), now);
+}
+
 TEST_F(SceneSimulationTest, BoxesAndBallsFallOntoWhatTheMouseIsOn)
 {
     begin(kBlockOnGround);
