@@ -321,6 +321,15 @@ bool Actuation::releaseSlack(const Actuators& actuators, const std::vector<unsig
     return released;
 }
 
+void Actuation::addReleased(const Actuators& actuators, std::vector<Vec3>& out) const
+{
+    forEachPull(actuators, m_pulls,
+                [&](const auto& actuator, const Pull& pull)
+                {
+                    if (!pull.m_pulls) addGradient(actuator, pull.m_gradient, pull.m_rightSide, out);
+                });
+}
+
 double Actuation::squaredForces(const Actuators& actuators) const
 {
     double sum = 0;

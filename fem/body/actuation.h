@@ -50,6 +50,9 @@ public:
     /// out += (actuators' part of A) in.
     void addProduct(const Actuators& actuators, const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
+    /// out += g times the part of the right-hand side [N s] that cables had before they were let go.
+    void addReleased(const Actuators& actuators, std::vector<Vec3>& out) const;
+
     /// True if any actuator of this step has a stiffness; only then the functions below are needed.
     bool isStiff() const { return !m_stiff.empty(); }
 

@@ -27,6 +27,7 @@ StepScratch::StepScratch(const BodyModel& model)
       m_momentum(model.mesh()),
       m_solver(model.nodeCount()),
       m_newton(model.shape().m_materials.isNonlinear() ? static_cast<std::size_t>(model.nodeCount()) : 0),
+      m_reactions(model),
       m_elements(model.nodeCount(), model.elements().blockCount()),
       m_factor{allocateFloats(model.factor().lower().vectorSize()),
                allocateFloats(model.factor().lower().scratchSize())}

@@ -241,6 +241,7 @@ void restore(const BodySnapshot& s, Body& body)
     scratch.m_velocity = s.m_v;
     std::fill(scratch.m_push.begin(), scratch.m_push.end(), Vec3());
     scratch.m_isPushed = false;
+    scratch.m_reactions.forget();
 }
 
 }  // namespace bullet_fem

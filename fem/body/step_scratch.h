@@ -8,6 +8,7 @@
 #include "fem/body/actuation.h"
 #include "fem/body/conjugate_gradients.h"
 #include "fem/body/rigid_momentum.h"
+#include "fem/body/support_reactions.h"
 #include "fem/common/aligned_array.h"
 #include "fem/elements/element_scratch.h"
 
@@ -67,6 +68,7 @@ struct StepScratch
     double m_leastDamping = 0;
     double m_stepVariation = 0;  ///< r of the recent steps: 1 - (shortest / longest)^2, in [0, 1)
     QuasiNewtonScratch m_newton;
+    mutable SupportReactions m_reactions;
     mutable ElementWork m_elements;
     mutable FactorWork m_factor;
 };

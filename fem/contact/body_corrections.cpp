@@ -119,6 +119,37 @@ void BodyEnds::endCorrection()
     m_mixed = false;
 }
 
+// Both sides feel an impulse in one place, so that momenta are kept: points where contact has it, groups where the step
+// begins.
+void BodyEnds::noteReactions()
+{
+    StepScratch& scratch = m_body.m_body->m_workspace.scratch();
+    SupportReactions& reactions = scratch.m_reactions;
+    if (!reactions.isNoting()) return;
+    const std::vector<int>& componentOf = m_body.m_body->m_model->mesh().nodeComponent();
+    std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
+    for (int e = 0; e < size(); ++e)
+    {
+        const End& end = m_ends[e];
+        const Vec3& impulse = m_applied[e];
+        if (dot(impulse, impulse) == 0) continue;
+        scatter(end, impulse, m_nodeIn);
+        if (!isGroup(end))
+        {
+            const Vec3 at = read(end, scratch.m_kickPosition) + end.m_offset;
+            reactions.addOutside(componentOf[end.m_point.m_nodes[0]], impulse, cross(at, impulse));
+            continue;
+        }
+        for (int i = 0; i < end.m_count; ++i)
+        {
+            const Vec3 part = transposeTimes(end.m_blocks[i], impulse);
+            const int node = end.m_nodes[i];
+            reactions.addOutside(componentOf[node], part, cross(m_body.m_body->m_state.m_x[node], part));
+        }
+    }
+    reactions.add(m_nodeIn);
+}
+
 // Whether the new impulses make velocities that the rounding of the body's own leaves intact. At rest these are small:
 // then what counts is what has just been stopped.
 bool BodyEnds::isAboveRounding(const Lesson& lesson) const

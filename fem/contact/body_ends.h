@@ -137,6 +137,9 @@ public:
     ImpulseResponse beginCorrection(const StepSettings& settings, const CorrectionGoal& goal);
     void endCorrection();
 
+    /// Tells the body's supports what contacts and joints have given it.
+    void noteReactions();
+
     /// Forgets velocities and impulses, to solve for position corrections; applyPush then makes them. Returns the
     /// angular momentum that the body gained by being elsewhere [kg m2/s].
     void beginPush();

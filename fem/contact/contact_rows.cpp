@@ -317,6 +317,11 @@ double ContactRows::worstViolation()
     return largestOfRows([this](int k) { return violation(m_rows[k], trueVelocity(m_rows[k])); });
 }
 
+void ContactRows::noteReactions()
+{
+    forEachTouchedBody(nullptr, [this](int b) { m_bodies[b].noteReactions(); });
+}
+
 double ContactRows::store()
 {
     std::vector<ContactPoint>& contacts = m_problem->m_contacts;

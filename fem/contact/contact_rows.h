@@ -144,6 +144,9 @@ public:
     /// The largest speed [m/s] at which a contact closes faster than allowed, from the bodies' true velocities.
     double worstViolation();
 
+    /// See BodyEnds.
+    void noteReactions();
+
     /// Hands the impulses to the contacts and joints, and the slip of what sticks. Returns the worst violation.
     double store();
 

@@ -383,6 +383,7 @@ ContactReport ContactSolver::finish()
     }
     s.m_report.m_converged = s.m_report.m_converged && errorOfJoints() <= kUnsolvedJoints;
     s.m_report.m_violation = s.m_rows.store();
+    s.m_rows.noteReactions();
     if (!s.m_push.isNeeded()) return s.m_report;
     s.m_report.m_sweeps += s.m_push.push();
     for (RigidProxy& rigidProxy : s.m_problem->m_rigidProxies) payBackOwn(rigidProxy, s.m_settings.m_step.m_step);

@@ -81,6 +81,7 @@ double QuasiNewton::findResidual()
         r[i] = {};
     }
     prepareWarpedSystem(m_body, m_settings, z, w, r);
+    if (scratch.m_reactions.isNoting()) scratch.m_reactions.noteForces(newton.m_loads, r);
     const std::vector<double>& mass = scratch.m_elements.m_scaledMass;
     for (std::size_t i = 0; i < r.size(); ++i)
         r[i] = state.m_fixed[i] ? Vec3() : newton.m_loads[i] + h * r[i] - mass[i] * scratch.m_increment[i];

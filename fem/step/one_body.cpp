@@ -133,6 +133,7 @@ public:
     void eliminateFixedNodes()
     {
         addOutsideChange();
+        if (m_scratch.m_reactions.isNoting()) m_scratch.m_reactions.noteRightSide(m_scratch.m_rightSide);
         std::vector<Vec3>&dv = m_scratch.m_increment, &b = m_scratch.m_rightSide, &Adv = m_scratch.m_solver.m_Ap;
         bool moving = false;
         for (std::size_t i = 0; i < dv.size(); ++i)
@@ -201,6 +202,7 @@ public:
             m_state.m_lastIncrement[0] = m_scratch.m_increment;
             m_scratch.m_hasResidual = false;
         }
+        m_scratch.m_reactions.noteSolved(m_scratch.m_velocity);
         driftByOutsideChange(m_body, m_settings);
         noteMeanVelocity(m_body, m_settings);
     }

@@ -76,6 +76,27 @@ Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings&
     return angularMomentum;
 }
 
+void beginReactions(Body& body, double step)
+{
+    const SupportReactions::Step how = {step, RigidMomentum::damping(body), body.m_loads.m_frameDamping};
+    body.m_workspace.scratch().m_reactions.begin(*body.m_model, body.m_state, how);
+}
+
+// Those of actuators now, because the program may remove them before it asks.
+void noteReactions(Body& body, double share)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    SupportReactions& reactions = scratch.m_reactions;
+    reactions.noteEnd(scratch.m_velocity, scratch.m_increment, share);
+    if (!body.m_actuators.hasPulls()) return;
+    std::vector<Vec3>& impulses = reactions.product();
+    impulses.assign(scratch.m_velocity.size(), Vec3());
+    scratch.m_actuation.addProduct(body.m_actuators, reactions.change(), impulses);
+    scratch.m_actuation.addReleased(body.m_actuators, impulses);
+    for (Vec3& impulse : impulses) impulse *= -1;
+    reactions.add(impulses);
+}
+
 void stopPushing(StepScratch& scratch)
 {
     std::fill(scratch.m_push.begin(), scratch.m_push.end(), Vec3());
@@ -99,6 +120,7 @@ void solveFreeMotions(FreeMotion* motions, int count)
     {
         noteStep(*motions[k].m_body, motions[k].m_settings.m_step);
         chooseDamping(*motions[k].m_body, motions[k].m_settings);
+        beginReactions(*motions[k].m_body, motions[k].m_settings.m_step);
     }
     solveAll(motions, count);
 }
@@ -129,6 +151,7 @@ void addVelocity(Body& body, const std::vector<Vec3>& change)
     std::vector<Vec3>& v = body.m_workspace.scratch().m_velocity;
     for (std::size_t i = 0; i < v.size(); ++i)
         if (!body.m_state.m_fixed[i]) v[i] += change[i];
+    body.m_workspace.scratch().m_reactions.changeVelocity(body.m_state.m_fixed, change);
 }
 
 Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
@@ -157,14 +180,19 @@ void finishSteps(StepEnd* ends, int count)
     {
         endDrift(*ends[k].m_body, ends[k].m_settings);
         ends[k].m_isRough = findChange(*ends[k].m_body, ends[k].m_settings);
+        StepScratch& scratch = ends[k].m_body->m_workspace.scratch();
+        if (ends[k].m_isRough && scratch.m_reactions.isNoting()) scratch.m_reactions.noteChange(scratch.m_increment);
     }
     solveAll(ends, count);
     for (int k = 0; k < count; ++k)
     {
         Body& body = *ends[k].m_body;
-        if (ends[k].m_isRough) subtractUnresolved(body, ends[k].m_settings);
         StepScratch& scratch = body.m_workspace.scratch();
+        const double share = StepCoefficients(ends[k].m_settings, body).smoothing();
+        if (scratch.m_reactions.isNoting()) noteReactions(body, share);
+        if (ends[k].m_isRough) subtractUnresolved(body, ends[k].m_settings);
         body.m_state.m_v = scratch.m_velocity;
+        if (scratch.m_reactions.isNoting()) scratch.m_reactions.finish(body.m_state);
         if (scratch.m_isPushed) stopPushing(scratch);
         advanceInelasticStrain(body, sharedSettings(*body.m_model, ends[k].m_settings));
     }

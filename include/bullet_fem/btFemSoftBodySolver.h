@@ -14,6 +14,7 @@
 #include "bullet_fem/btFemInterest.h"
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/btFemPrecision.h"
+#include "bullet_fem/btFemReactions.h"
 #include "bullet_fem/btFemReports.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/btFemSpring.h"
@@ -243,6 +244,23 @@ public:
     /// shared out by the weights of its nodes (of self contact the one side that contacts() tells). False, and an empty
     /// array, if the body is not FEM, or its arrays were changed since. Allocates only when the array grows.
     bool getContactForces(const btSoftBody* body, btAlignedObjectArray<btVector3>& perNode) const;
+
+    /// Reaction force at a held node in the last step, on the body [N]: see btFemReaction. Zero at nodes that are
+    /// free, or do not exist, and where nothing is known: before the first step, after restoreState(), and where
+    /// refactor() made another factor, until the next; of bodies that are not FEM. A body that sleeps keeps its last
+    /// ones. What it costs, a twentieth of a step, is spent at the first of these calls after a step. From the thread
+    /// that steps the world.
+    btVector3 reactionForce(const btSoftBody* body, int node) const;
+    /// The same of every node, in the order of m_nodes. False, and an empty array, where no node is held or nothing is
+    /// known. Allocates only when the array grows.
+    bool getReactionForces(const btSoftBody* body, btAlignedObjectArray<btVector3>& perNode) const;
+    /// Sum over the held nodes among these, each as often as it is named, with the moment about a place [m].
+    btFemReaction reaction(const btSoftBody* body, const int* nodes, int count, const btVector3& about) const;
+    /// Sum over all held nodes.
+    btFemReaction reaction(const btSoftBody* body, const btVector3& about) const;
+    /// Sum over the anchors, attachments, joints and springs (see anchors()) that join the body to an object, null for
+    /// the world; with the moment about a place [m], angular joints included.
+    btFemReaction anchorReaction(const btSoftBody* body, const btCollisionObject* object, const btVector3& about) const;
 
     /// Elastic stress of every tetrahedron [Pa] where the last step left the nodes (or where prepare found them), in
     /// the order of m_tetras: R (2 mu eps + lambda tr(eps) I) R^T, Hooke's law in the frame that turns with the

@@ -373,5 +373,24 @@ TEST(Allocations, NoneForLinksOfMultibodies)
     EXPECT_GT(fem.touches(&cube).size(), 0);
 }
 
+TEST(Allocations, NoneByReactionsThatAreAskedForAgain)
+{
+    CountingSolver fem;
+    SoftWorld world(fem);
+    SoftBox box;
+    box.m_youngModulus = btScalar(2e5);
+    btSoftBody& cube = *makeSoftBox(world, fem, box);
+    clampBelow(cube, -0.4);
+    world.addSoft(&cube);
+    EXPECT_EQ(18, expectNoAllocations(fem, world, {&cube}, 20));
+    btAlignedObjectArray<btVector3> forces;
+    ASSERT_TRUE(fem.getReactionForces(&cube, forces));
+    world.step();
+    const AllocationCounter counter;
+    EXPECT_TRUE(fem.getReactionForces(&cube, forces));
+    EXPECT_EQ(25, fem.reaction(&cube, {0, 0, 0}).m_count);
+    EXPECT_EQ(0, counter.count());
+}
+
 }  // namespace
 }  // namespace bullet_fem
