@@ -84,6 +84,7 @@ void checkFrame(const char* caller, const std::vector<BodyFrame>& bodies)
         checkNodeValues(blame, "displacement", "displacements", body, body.m_displacement);
         checkNodeValues(blame, "velocity", "velocities", body, body.m_velocity);
         checkNodeValues(blame, "contact force", "contact forces", body, body.m_contactForce);
+        checkNodeValues(blame, "reaction force", "reaction forces", body, body.m_reactionForce);
         checkNodeValues(blame, "stress", "stresses", body, body.m_nodeStress);
         if (!body.m_tetStress.empty() && body.m_tetStress.size() != body.m_tets.size())
             blame(body.m_tetStress.size(), " stresses for ", body.m_tets.size(), " tetrahedra; give as many, or none");

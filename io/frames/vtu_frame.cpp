@@ -140,6 +140,7 @@ void appendPointData(const FrameText& text, const std::vector<BodyFrame>& bodies
     text.append({"displacement", 3, {}}, displacement);
     text.append({"velocity", 3, {}}, vectors(&BodyFrame::m_velocity));
     text.append({"contact_force", 3, {}}, vectors(&BodyFrame::m_contactForce));
+    text.append({"reaction_force", 3, {}}, vectors(&BodyFrame::m_reactionForce));
     text.appendStress(stress);
     text.m_xml += "</PointData>\n";
 }

@@ -23,6 +23,7 @@ inline BodyFrame sampleBox(int id, double lift = 0)
         body.m_displacement.push_back(u);
         body.m_velocity.push_back({0, 0, 2 * lift});
         body.m_contactForce.push_back({0, 0, X.z == 0 ? 4.0 : 0.0});
+        body.m_reactionForce.push_back({X.z == 0 ? 7.0 : 0.0, 0, 0});
         Stress stress;
         stress.xx = 1000 * (1 + lift) * X.x;
         stress.xy = 10;

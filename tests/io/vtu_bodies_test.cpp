@@ -165,11 +165,12 @@ TEST_P(VtuBodies, RegionsAreThoseOfTheTetrahedraAndZeroWhereTheyHaveNone)
 
 TEST_P(VtuBodies, FieldsAreThoseOfTheBodiesAndZeroWhereTheyHaveNone)
 {
-    for (const char* name : {"displacement", "velocity", "contact_force"})
+    for (const char* name : {"displacement", "velocity", "contact_force", "reaction_force"})
         EXPECT_EQ(numbersOf(m_xml, "PointData", name).size(), 3u * 57) << name;
     EXPECT_EQ(numbersOf(m_xml, "PointData", "displacement")[2], 0.5);
     EXPECT_EQ(numbersOf(m_xml, "PointData", "velocity")[2], 1);
     EXPECT_EQ(numbersOf(m_xml, "PointData", "contact_force")[2], 4);
+    EXPECT_EQ(numbersOf(m_xml, "PointData", "reaction_force")[0], 7);
     const std::vector<double> stress = numbersOf(m_xml, "PointData", "stress"),
                               vonMisesOfNodes = numbersOf(m_xml, "PointData", "von_mises");
     ASSERT_EQ(stress.size(), 6u * 57);
@@ -264,6 +265,8 @@ TEST(VtuBodiesRejects, ArraysThatDoNotFit)
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_nodeStress.push_back({}); }), HasSubstr("stress"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_contactForce[3].y = 1e39; }),
                 HasSubstr("contact force of vertex 3 is not finite in single precision"));
+    EXPECT_THAT(rejected([](BodyFrame& b) { b.m_reactionForce.pop_back(); }),
+                HasSubstr("26 reaction forces for 27 vertices; give as many, or none"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetPlasticStrain.pop_back(); }), HasSubstr("plastic strains for"));
     EXPECT_THAT(rejected([](BodyFrame& b) { b.m_tetPlasticStrain[4] = NAN; }),
                 HasSubstr("plastic strain of tetrahedron 4"));

@@ -258,5 +258,25 @@ TEST(SceneFrames, SoftAndRigidBodiesFlyTogetherBetweenSteps)
     EXPECT_EQ(foremost(1), rigid);
 }
 
+TEST(SceneFrames, ReactionForcesOfPinsSumToTheWeight)
+{
+    const SceneDescription scene = parseScene(
+        R"({ "softBodies": [{ "name": "hung", "mesh": { "box": [0.5, 1, 0.5], "cell": 0.25 },
+          "material": { "young": 1e6, "density": 1000, "massDamping": 5 },
+          "pins": [{ "low": [-1, 0.5, -1], "high": [1, 0.5, 1] }] },
+          { "name": "free", "mesh": { "box": [0.5, 1, 0.5], "cell": 0.25 }, "position": [5, 0, 0] }] })",
+        ".");
+    SceneWorld world(scene);
+    SceneFrames frames(world);
+    EXPECT_TRUE(frames.volumes()[0].m_reactionForce.empty()) << "before the first step";
+    while (world.time() < 4) world.step();
+    frames.update();
+    ASSERT_EQ(frames.volumes()[0].m_reactionForce.size(), frames.volumes()[0].m_positions.size());
+    Vec3 sum;
+    for (const Vec3& force : frames.volumes()[0].m_reactionForce) sum += force;
+    EXPECT_NEAR(norm(sum - Vec3{0, 250 * 9.81, 0}), 0, 1e-3 * 250 * 9.81);
+    EXPECT_TRUE(frames.volumes()[1].m_reactionForce.empty());
+}
+
 }  // namespace
 }  // namespace bullet_fem

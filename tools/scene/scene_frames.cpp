@@ -155,12 +155,22 @@ void SceneFrames::updateVolume(int i, double fraction)
     }
     if (m_world.fem().getContactForces(&body, m_forces))
         for (int n = 0; n < count; ++n) frame.m_contactForce[n] = vec3(m_forces[n]);
+    updateReactions(body, frame);
     if (m_world.fem().getStress(&body, m_stress)) take(m_stress, frame.m_tetStress);
     if (m_world.fem().getNodeStress(&body, m_stress)) take(m_stress, frame.m_nodeStress);
     m_world.fem().getPlasticStrain(&body, m_perElement);
     take(m_perElement, frame.m_tetPlasticStrain);
     m_world.fem().getActivation(&body, m_perElement);
     take(m_perElement, frame.m_tetActivation);
+}
+
+// Of bodies that are held.
+void SceneFrames::updateReactions(const btSoftBody& body, BodyFrame& frame)
+{
+    frame.m_reactionForce.clear();
+    if (m_world.fem().reaction(&body, {0, 0, 0}).m_count == 0) return;
+    m_world.fem().getReactionForces(&body, m_forces);
+    for (int n = 0; n < m_forces.size(); ++n) frame.m_reactionForce.push_back(vec3(m_forces[n]));
 }
 
 void SceneFrames::updateSoftSurface(int i)

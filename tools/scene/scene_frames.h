@@ -37,6 +37,7 @@ private:
     void takeElements(int i);
     void followSplits(int i);
     void updateVolume(int i, double fraction);
+    void updateReactions(const btSoftBody& body, BodyFrame& frame);
     void updateSoftSurface(int i);
     void updateRigidSurface(int surface, double fraction);
 

@@ -20,6 +20,7 @@ struct BodyFrame
     std::vector<Vec3> m_displacement;        ///< a node [m], from wherever the program likes
     std::vector<Vec3> m_velocity;            ///< a node [m/s]
     std::vector<Vec3> m_contactForce;        ///< a node [N]
+    std::vector<Vec3> m_reactionForce;       ///< a node: by which it is held [N]
     std::vector<Stress> m_nodeStress;        ///< a node [Pa]
     std::vector<Stress> m_tetStress;         ///< a tetrahedron [Pa]
     std::vector<double> m_tetPlasticStrain;  ///< a tetrahedron, equivalent [-]
