@@ -154,6 +154,16 @@ TEST_F(SceneReader, ReadsRigidBodiesConstraintsForcesAndSprings)
     EXPECT_EQ(spring.m_most, 60);
     EXPECT_EQ(spring.m_from, 0.25);
     EXPECT_EQ(spring.m_to, 2);
+
+    ASSERT_EQ(scene.m_sensors.size(), 2u);
+    EXPECT_EQ(scene.m_sensors[0].m_name, "clamp");
+    EXPECT_EQ(scene.m_sensors[0].m_body, "block");
+    EXPECT_TRUE(scene.m_sensors[0].m_to.empty());
+    EXPECT_FALSE(scene.m_sensors[0].m_everywhere);
+    EXPECT_TRUE(scene.m_sensors[0].m_box.m_high == Vec3({9, 9, 0}));
+    EXPECT_TRUE(scene.m_sensors[0].m_placed && scene.m_sensors[0].m_about == Vec3({0.5, 1, 2}));
+    EXPECT_EQ(scene.m_sensors[1].m_to, "hammer");
+    EXPECT_TRUE(scene.m_sensors[1].m_everywhere && !scene.m_sensors[1].m_placed);
 }
 
 TEST_F(SceneReader, ReadsWhetherElementsShareTheirVolumeChange)

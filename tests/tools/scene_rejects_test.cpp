@@ -58,7 +58,7 @@ const BadValue kUnknown[] = {
     {"InTheDocument", true, "/gravitation", "1",
      "the document has a member 'gravitation', which is not known; those that are: $schema, title, gravity, step, "
      "seconds, framesPerSecond, solver, materials, softBodies, rigidBodies, constraints, welds, forces, springs, "
-     "actuators, camera, pictures"},
+     "actuators, sensors, camera, pictures"},
     {"InSolver", true, "/solver/iterations", "1",
      "solver has a member 'iterations', which is not known; those that are: coupled, tolerance, contactTolerance, "
      "threads"},
@@ -104,6 +104,8 @@ const BadValue kUnknown[] = {
     {"InASpring", true, "/springs/0/node", "1",
      "springs[0] has a member 'node', which is not known; those that are: body, at, target, stiffness, damping, force, "
      "from, to"},
+    {"InASensor", true, "/sensors/0/node", "1",
+     "sensors[0] has a member 'node', which is not known; those that are: name, body, nodes, to, about"},
     {"InTheCamera", true, "/camera/zoom", "1",
      "camera has a member 'zoom', which is not known; those that are: direction, eye, target, fieldOfView"},
     {"InPictures", true, "/pictures/size", "1",
@@ -253,6 +255,14 @@ const BadValue kMeaning[] = {
      "forces[0].body is \"nobody\"; it must be the name of a body"},
     {"SpringOfARigidBody", true, "/springs/0/body", R"("hammer")",
      "springs[0].body is \"hammer\"; it must be the name of a soft body"},
+    {"SensorOfARigidBody", true, "/sensors/0/body", R"("hammer")",
+     "sensors[0].body is \"hammer\"; it must be the name of a soft body"},
+    {"SensorOfAnchorsToASoftBody", true, "/sensors/1/to", R"("scan")",
+     "sensors[1].to is \"scan\"; it must be the name of a rigid body"},
+    {"SensorOfPinsAndAnchors", true, "/sensors/0/to", R"("hammer")",
+     "sensors[0].nodes is given with 'to', whose anchors are meant; give one of them"},
+    {"NameOfTwoSensors", true, "/sensors/1/name", R"("clamp")",
+     "sensors[1].name is \"clamp\"; it must be a name that no other sensor has"},
     {"SpringWithoutATarget", true, "/springs/0/target", "", "springs[0] lacks 'target'"},
     {"NodesOfARigidBody", true, "/forces/0/body", R"("hammer")",
      "forces[0].nodes is given, but only soft bodies have nodes"},

@@ -111,6 +111,10 @@ std::string fullScene()
     { "kind": "fibres", "body": "scan", "region": { "low": [-9, -9, -9], "high": [9, 0, 9] }, "direction": [0, 2, 0], "activation": 3000 },
     { "kind": "expansion", "body": "scan", "region": { "low": [-9, 0, -9], "high": [9, 9, 9] }, "strain": 0.02 }
   ],
+  "sensors": [
+    { "name": "clamp", "body": "block", "nodes": { "low": [-9, -9, -9], "high": [9, 9, 0] }, "about": [0.5, 1, 2] },
+    { "name": "grip", "body": "block", "to": "hammer" }
+  ],
   "camera": { "eye": [5, 4, 3], "target": [0, 1, 0], "fieldOfView": 60 },
   "pictures": { "width": 640, "height": 360, "stress": true, "hottest": 2e5, "forces": true, "wireframe": true }
 })";

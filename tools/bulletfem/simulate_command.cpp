@@ -11,6 +11,7 @@
 #include "tools/bulletfem/figures.h"
 #include "tools/bulletfem/material_options.h"
 #include "tools/bulletfem/run_output.h"
+#include "tools/bulletfem/sensor_table.h"
 #include "tools/console/option_range.h"
 #include "tools/console/progress_line.h"
 #include "tools/scene/scene_reader.h"
@@ -98,6 +99,7 @@ struct SimulateCommand
         const SceneDescription& scene = world.description();
         SceneFrames frames(world);
         RunOutput output(m_output, world, frames);
+        SensorTable sensors(world, m_output.m_folder);
         const bool shown = !m_quiet && !m_figures.asJson();
         ProgressLine simulating, drawing;
         RunFigures figures;
@@ -109,6 +111,7 @@ struct SimulateCommand
             world.step();
             const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
             figures.take(world, taken.count());
+            sensors.take();
             if (k == steps || world.time() * scene.m_framesPerSecond + 1e-9 >= output.frameCount())
             {
                 frames.update();
@@ -121,9 +124,11 @@ struct SimulateCommand
         {
             if (shown) drawing.show(share, "drawing");
         };
-        const std::vector<std::string> files = output.finish(draw);
+        std::vector<std::string> files = output.finish(draw);
+        sensors.finish(files);
         drawing.finish();
         tell(world, figures, output.frameCount());
+        sensors.tell(m_figures);
         m_figures.add("files", files);
         m_figures.print();
     }

@@ -222,6 +222,18 @@ struct SceneActuator
     Vec3 m_direction{1, 0, 0};  ///< of fibres, in the world at the start
 };
 
+/// Tells the force and moment by which a soft body is held.
+struct SceneSensor
+{
+    std::string m_name;
+    std::string m_body;
+    std::string m_to;          ///< the rigid body whose anchors count; empty: pinned nodes do
+    bool m_everywhere = true;  ///< all of the body's pinned nodes; else those that start in m_box
+    SceneBox m_box;
+    bool m_placed = false;  ///< m_about is given; else it is the mean place at the start of the nodes that are held
+    Vec3 m_about;           ///< of moments [m]
+};
+
 struct SceneCamera
 {
     bool m_placed = false;          ///< m_eye and m_target are given; else the scene is framed from m_direction
@@ -258,6 +270,7 @@ struct SceneDescription
     std::vector<SceneForce> m_forces;
     std::vector<SceneSpring> m_springs;
     std::vector<SceneActuator> m_actuators;
+    std::vector<SceneSensor> m_sensors;
     SceneCamera m_camera;
     ScenePictures m_pictures;
 };

@@ -20,6 +20,7 @@
 #include "tools/scene/scene_mesh_reader.h"
 #include "tools/scene/scene_place_reader.h"
 #include "tools/scene/scene_regions.h"
+#include "tools/scene/scene_sensor_reader.h"
 #include "tools/scene/scene_weld_reader.h"
 
 namespace bullet_fem
@@ -40,8 +41,8 @@ public:
     SceneDescription read(const JsonCursor& at)
     {
         at.onlyMembers({"$schema", "title", "gravity", "step", "seconds", "framesPerSecond", "solver", "materials",
-                        "softBodies", "rigidBodies", "constraints", "welds", "forces", "springs", "actuators", "camera",
-                        "pictures"});
+                        "softBodies", "rigidBodies", "constraints", "welds", "forces", "springs", "actuators",
+                        "sensors", "camera", "pictures"});
         std::string schema;  // for editors
         at.read("$schema", schema);
         at.read("title", m_scene.m_title);
@@ -58,6 +59,7 @@ public:
         at.forEach("forces", [&](const JsonCursor& item) { readForce(item); });
         at.forEach("springs", [&](const JsonCursor& item) { readSpring(item); });
         at.forEach("actuators", [&](const JsonCursor& item) { addActuator(item); });
+        at.forEach("sensors", [&](const JsonCursor& item) { addSensor(item); });
         if (at.has("camera")) readCamera(at["camera"]);
         if (at.has("pictures")) readPictures(at["pictures"]);
         if (m_scene.m_softBodies.empty() && m_scene.m_rigidBodies.empty())
@@ -308,6 +310,16 @@ private:
             if (isOfNodes && body.m_fracture.m_tension > 0)
                 at["body"].fail("is a body that splits, which loses chambers and cables; leave out its 'fracture'");
         }
+    }
+
+    void addSensor(const JsonCursor& at)
+    {
+        const SceneSensor sensor = readSensor(at);
+        for (const SceneSensor& other : m_scene.m_sensors)
+            if (other.m_name == sensor.m_name) at["name"].expected("a name that no other sensor has");
+        softName(at["body"]);
+        if (at.has("to")) rigidName(at["to"]);
+        m_scene.m_sensors.push_back(sensor);
     }
 
     void readCamera(const JsonCursor& at)

@@ -110,6 +110,8 @@ SceneWorld::SceneWorld(const SceneDescription& description)
     for (const SceneSpring& spring : m_description.m_springs) m_springs.add(softCalled(spring.m_body), spring);
     for (const SceneActuator& actuator : m_description.m_actuators)
         named(actuator.m_body, [&] { m_actuators.add(m_fem, *softCalled(actuator.m_body).front(), actuator); });
+    for (const SceneSensor& sensor : m_description.m_sensors)
+        m_sensors.add(sensor, softCalled(sensor.m_body), sensor.m_to.empty() ? nullptr : &rigidCalled(sensor.m_to));
 }
 
 SceneWorld::~SceneWorld()

@@ -16,6 +16,7 @@
 #include "tools/scene/scene_forces.h"
 #include "tools/scene/scene_fractures.h"
 #include "tools/scene/scene_joints.h"
+#include "tools/scene/scene_sensors.h"
 #include "tools/scene/scene_springs.h"
 #include "tools/scene/scene_welds.h"
 #include "tools/scene/scene_world_materials.h"
@@ -72,6 +73,7 @@ public:
     /// Of a soft body's tetrahedra, as its file has them; empty if it has none.
     const std::vector<int>& regionLabels(int i) const { return m_regionLabels[i]; }
     const SceneFractures& fractures() const { return m_fractures; }  ///< what has split
+    const SceneSensors& sensors() const { return m_sensors; }
 
 private:
     /// A body that was cut.
@@ -116,6 +118,7 @@ private:
     SceneSprings m_springs;
     SceneActuators m_actuators;
     SceneFractures m_fractures;
+    SceneSensors m_sensors;
     long m_steps = 0;
 };
 

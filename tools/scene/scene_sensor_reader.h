@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "tools/scene/json_cursor.h"
+#include "tools/scene/scene_description.h"
+
+namespace bullet_fem
+{
+
+/// A sensor, whose name and bodies are checked by who knows the others.
+SceneSensor readSensor(const JsonCursor& at);
+
+}  // namespace bullet_fem
