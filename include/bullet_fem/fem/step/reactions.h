@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/common/export.h"
 #include "bullet_fem/fem/body/body.h"
 #include "bullet_fem/fem/body/node_reaction.h"
+#include "bullet_fem/fem/common/export.h"
 
 namespace bullet_fem
 {
