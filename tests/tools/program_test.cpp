@@ -52,7 +52,7 @@ TEST_F(Program, ExplainsItself)
 {
     const ProgramRun all = bulletfem("--help");
     EXPECT_EQ(all.m_code, 0);
-    EXPECT_THAT(all.m_output, AllOf(HasSubstr("Exit code: 0 if all is well, 1 on bad data, 2 on bad usage")));
+    EXPECT_THAT(all.m_output, AllOf(HasSubstr("Exit code: 0 if all is well, 1 on bad data, 2 on bad usage, 3 if")));
     for (const char* command : {"cage", "bake", "info", "convert", "simulate"})
     {
         EXPECT_THAT(all.m_output, HasSubstr(std::string("\n  ") + command + " ")) << command;
@@ -334,7 +334,6 @@ TEST_F(Program, TellsHowManyPartsABodyHasSplitInto)
     const json told = json::parse(splits.m_output);
     EXPECT_GE(told["splits"].get<int>(), 1);
     EXPECT_GE(told["parts"].get<int>(), 2);
-    EXPECT_FALSE(told["notSplit"].get<bool>());
     const ProgramRun whole = run("", "--pvd");
     ASSERT_EQ(whole.m_code, 0) << whole.m_output;
     EXPECT_FALSE(json::parse(whole.m_output).contains("parts")) << "of bodies that do not split";

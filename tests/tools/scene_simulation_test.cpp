@@ -279,6 +279,19 @@ TEST_F(SceneSimulationTest, KeysLeadBackInTimeAlsoWhileABodyIsHeld)
     EXPECT_THAT(m_simulation->message(), HasSubstr("latest"));
 }
 
+TEST_F(SceneSimulationTest, WarningsTellFlagsThatWereEverRaised)
+{
+    begin(kBlockOnGround);
+    steps(2);
+    EXPECT_EQ(m_simulation->warnings(), "");
+    SceneDescription sunken = parseScene(kBlockOnGround, ".");
+    sunken.m_softBodies[0].m_pose.m_position.y = 0.17;
+    begin(sunken);
+    steps(60);
+    EXPECT_THAT(m_simulation->warnings(), HasSubstr("block: deep penetration, 0.01 s to "));
+    EXPECT_EQ(m_world->fem().stepReport(&m_world->soft(0)).m_flags, 0) << "it is over";
+}
+
 TEST_F(SceneSimulationTest, AMaterialThatChangesBeginsTheHistoryAnew)
 {
     begin(kBlockOnGround);

@@ -16,7 +16,12 @@ void Figures::addOption(CLI::App& command)
 
 void Figures::add(const std::string& name, const nlohmann::json& value, const std::string& unit)
 {
-    m_rows.push_back({name, unit, value});
+    m_rows.push_back({name, unit, value, {}});
+}
+
+void Figures::addList(const std::string& name, const nlohmann::json& list, const std::vector<std::string>& lines)
+{
+    m_rows.push_back({name, "", list, lines});
 }
 
 void Figures::print() const
@@ -37,9 +42,12 @@ void Figures::print() const
             std::cout << std::setprecision(6) << row.m_value.get<double>();
         else if (row.m_value.is_string())
             std::cout << row.m_value.get_ref<const std::string&>();
-        else
+        else if (row.m_lines.empty())
             std::cout << row.m_value.dump();
+        else
+            std::cout << row.m_value.size();
         std::cout << (row.m_unit.empty() ? "" : " ") << row.m_unit << '\n';
+        for (const std::string& line : row.m_lines) std::cout << "  " << line << '\n';
     }
 }
 

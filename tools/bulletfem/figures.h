@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace bullet_fem
 {
@@ -18,6 +19,8 @@ public:
 
     /// `name` as a JSON member, with the unit behind for people.
     void add(const std::string& name, const nlohmann::json& value, const std::string& unit = "");
+    /// A list as a JSON array; people see its length, and these lines below it.
+    void addList(const std::string& name, const nlohmann::json& list, const std::vector<std::string>& lines);
     void print() const;
     bool asJson() const { return m_json; }
 
@@ -26,6 +29,7 @@ private:
     {
         std::string m_name, m_unit;
         nlohmann::json m_value;
+        std::vector<std::string> m_lines;  // of a list, for people
     };
     bool m_json = false;
     std::vector<Row> m_rows;

@@ -16,7 +16,8 @@ int main(int argc, char** argv)
         "  bulletfem bake bunny.off --material rubber -o bunny.bfem   a body that loads in milliseconds\n"
         "  bulletfem simulate scene.json --pvd --film run.mp4         a scene, to ParaView and to a film in "
         "out/scene\n\n"
-        "Exit code: 0 if all is well, 1 on bad data, 2 on bad usage.");
+        "Exit code: 0 if all is well, 1 on bad data, 2 on bad usage, 3 if a scene ends with a body inside out "
+        "or inside another.");
     app.require_subcommand(1);
     app.set_version_flag("--version", BULLETFEM_VERSION);
     addCageCommand(app);
@@ -30,6 +31,10 @@ int main(int argc, char** argv)
         {
             app.parse(argc, argv);
             return 0;
+        }
+        catch (const CLI::RuntimeError& error)  // of a command that ran
+        {
+            return error.get_exit_code();
         }
         catch (const CLI::ParseError& error)
         {

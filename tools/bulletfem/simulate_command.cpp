@@ -10,6 +10,7 @@
 #include "tools/bulletfem/commands.h"
 #include "tools/bulletfem/figures.h"
 #include "tools/bulletfem/material_options.h"
+#include "tools/bulletfem/run_health.h"
 #include "tools/bulletfem/run_output.h"
 #include "tools/bulletfem/sensor_table.h"
 #include "tools/console/option_range.h"
@@ -40,19 +41,15 @@ constexpr std::size_t kMostFactorBytes = std::size_t(4) << 30u;  // of a mesh th
 struct RunFigures
 {
     std::vector<double> m_milliseconds;  // a step
-    int m_flags = 0;
+    SceneFlags m_flags;
     int m_mostContacts = 0;
 
     void take(const SceneWorld& world, double milliseconds)
     {
         m_milliseconds.push_back(milliseconds);
+        m_flags.look(world);
         int contacts = 0;
-        for (int i = 0; i < world.softCount(); ++i)
-        {
-            const btFemStepReport& report = world.fem().stepReport(&world.soft(i));
-            m_flags |= report.m_flags;
-            contacts += report.m_contacts;
-        }
+        for (int i = 0; i < world.softCount(); ++i) contacts += world.fem().stepReport(&world.soft(i)).m_contacts;
         m_mostContacts = std::max(m_mostContacts, contacts);
     }
 };
@@ -129,8 +126,12 @@ struct SimulateCommand
         drawing.finish();
         tell(world, figures, output.frameCount());
         sensors.tell(m_figures);
+        const std::vector<SceneFault> faults = findFaults(world, frames);
+        tellFlags(m_figures, figures.m_flags.all());
+        tellFaults(m_figures, faults);
         m_figures.add("files", files);
         m_figures.print();
+        if (!faults.empty()) throw CLI::RuntimeError(kFaultyEnd);
     }
 
     void tell(const SceneWorld& world, RunFigures& figures, int frames)
@@ -151,10 +152,7 @@ struct SimulateCommand
             for (const SceneSplits& body : world.fractures().bodies()) parts += body.m_parts;
             m_figures.add("splits", world.fractures().count());
             m_figures.add("parts", parts);
-            m_figures.add("notSplit", (figures.m_flags & BT_FEM_NOT_SPLIT) != 0);
         }
-        m_figures.add("notConverged", (figures.m_flags & BT_FEM_NOT_CONVERGED) != 0);
-        m_figures.add("restored", (figures.m_flags & BT_FEM_RESTORED) != 0);
     }
 
 #ifdef BULLETFEM_HAS_VIEWER
@@ -220,11 +218,12 @@ void addWindowOptions(CLI::App& command, SimulateCommand& options)
 
 void addSimulateCommand(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand(
-        "simulate",
-        std::string(
-            "Runs a scene (docs/scenes.md) and writes what you ask for; ParaView files if you ask for nothing.\n") +
-            "Or shows it in a window, where meshes can be dropped:\n\n" + windowHelp());
+    CLI::App* command =
+        app.add_subcommand("simulate",
+                           "Runs a scene (docs/scenes.md) and writes what you ask for; ParaView files if you ask for "
+                           "nothing. Tells every\n"
+                           "flag that was raised. Or shows it in a window, where meshes can be dropped.");
+    command->footer("Exit code 3 where a body ends inside out or inside another.\n\nThe window:\n\n" + windowHelp());
     const auto options = std::make_shared<SimulateCommand>();
     RunOutputSettings& output = options->m_output;
     command->add_option("scene", options->m_scene, "the scene's .json file; the window needs none");

@@ -169,6 +169,8 @@ void ViewerPanel::showPanel(ViewerSimulation& simulation, ViewerControl& control
     const std::string status = simulation.status();
     ImGui::PushTextWrapPos(0);
     if (!status.empty()) ImGui::TextUnformatted(status.c_str());
+    const std::string warnings = simulation.warnings();
+    if (!warnings.empty()) ImGui::TextColored({0.60f, 0.34f, 0.0f, 1}, "%s", warnings.c_str());
     for (const std::string& words : {m_message, m_fault})
         if (!words.empty()) ImGui::TextColored({0.75f, 0.1f, 0.1f, 1}, "%s", words.c_str());
     ImGui::PopTextWrapPos();

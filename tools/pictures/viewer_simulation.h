@@ -58,6 +58,8 @@ public:
     virtual void setParameter(std::size_t /*index*/, double /*value*/) {}
     /// Lines of text under the sliders.
     virtual std::string status() const { return {}; }
+    /// Lines below them of what has gone wrong since the start.
+    virtual std::string warnings() const { return {}; }
 
     /// A key of the simulation's own was pressed while the mouse was on `cursor`. Says in `message` what was wrong.
     virtual void act(ViewerKey /*key*/, const PictureRay& /*cursor*/) {}

@@ -27,6 +27,7 @@ constexpr double kScaleFading = 2;        // the ranges of legends fall back to 
 constexpr double kBeforeEye = 0.4;        // of the ray's length, where it hits nothing
 constexpr double kLongest = 20, kShortest = 0.005;  // beyond them a mesh's unit is doubtful [m]
 constexpr double kMebibyte = 1 << 20;
+constexpr std::size_t kShownFlags = 6;  // in the panel
 
 constexpr Vec3 kAddedColours[] = {
     {0.85, 0.50, 0.22}, {0.88, 0.72, 0.28}, {0.70, 0.30, 0.26}, {0.36, 0.55, 0.36}, {0.40, 0.48, 0.70}};
@@ -85,6 +86,7 @@ SceneSimulation::SceneSimulation(SceneWorld& world, SceneSimulationSettings sett
 void SceneSimulation::step()
 {
     m_history.step();
+    m_flags.look(m_world);
     const double share = std::exp(-timeStep() / kScaleFading);
     m_hottest *= share;
     m_largestForce *= share;
@@ -324,6 +326,19 @@ std::string SceneSimulation::status() const
                  most = double(m_history.settings().m_mostBytes) / kMebibyte;
     return now + (m_history.isPast() ? formatted("Back in time: %.2f s of %.2f s", m_world.time(), m_history.until())
                                      : formatted("Kept since %.2f s: %.1f of %.0f MiB", m_history.since(), used, most));
+}
+
+// The latest come first, where there is no room for all.
+std::string SceneSimulation::warnings() const
+{
+    std::vector<SceneFlag> flags = m_flags.all();
+    std::reverse(flags.begin(), flags.end());
+    std::string lines;
+    for (std::size_t k = 0; k < flags.size() && k < kShownFlags; ++k)
+        lines +=
+            (lines.empty() ? "" : "\n") + flags[k].m_body + ": " + flags[k].m_text->m_title + ", " + flags[k].when();
+    if (flags.size() > kShownFlags) lines += "\n" + formatted("and %d before", int(flags.size() - kShownFlags));
+    return lines;
 }
 
 }  // namespace bullet_fem

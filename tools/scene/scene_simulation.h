@@ -8,6 +8,7 @@
 
 #include "tools/pictures/viewer_simulation.h"
 #include "tools/scene/mesh_loading.h"
+#include "tools/scene/scene_flags.h"
 #include "tools/scene/scene_history.h"
 #include "tools/scene/scene_hold.h"
 #include "tools/scene/scene_painter.h"
@@ -46,6 +47,7 @@ public:
     std::vector<ViewerParameter> parameters() const override { return m_sliders.parameters(); }
     void setParameter(std::size_t index, double value) override;
     std::string status() const override;
+    std::string warnings() const override;
     void act(ViewerKey key, const PictureRay& cursor) override;
     void open(const std::vector<std::string>& files, const PictureRay& cursor) override;
     void update() override;
@@ -80,6 +82,7 @@ private:
     SceneSliders m_sliders;
     SceneHold m_hold;
     SceneHistory m_history;
+    SceneFlags m_flags;
     std::optional<SceneFrames> m_frames;  // both anew when bodies come
     std::optional<ScenePainter> m_painter;
     std::deque<Waiting> m_waiting;  // the first is being loaded

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+// What bulletfem simulate tells of how a run went, and its exit code.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/temporary_folder.h"
+#include "tools/program_run.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A metre of a material on the ground, of which rho g H is `ratio` times E.
+std::string cube(double ratio, const std::string& rest = "")
+{
+    return R"({ "seconds": 1.5, "softBodies": [{ "name": "cube", "mesh": { "box": [1, 1, 1], "tets": 600 },
+        "material": { "young": )" +
+           std::to_string(9810 / ratio) + R"(, "poisson": 0.45, "law": "hooke" }, "position": [0, 0.5, 0] }],
+        "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }])" +
+           rest + " }";
+}
+
+class ProgramHealth : public testing::Test
+{
+protected:
+    ProgramRun simulate(const std::string& scene, const std::string& options = "")
+    {
+        m_folder.write("scene.json", scene);
+        return bulletfem("simulate '" + m_folder.path("scene.json") + "' --quiet --glb -o '" + m_folder.path("run") +
+                         "' " + options);
+    }
+
+    TemporaryFolder m_folder;
+};
+
+// Hooke's law lets what is crushed by its own weight turn inside out, and rest so.
+TEST_F(ProgramHealth, ABodyThatEndsInsideOutIsTold)
+{
+    const ProgramRun run = simulate(cube(2), "--json");
+    EXPECT_EQ(run.m_code, 3) << run.m_output;
+    const json told = json::parse(run.m_output);
+    ASSERT_GE(told["faults"].size(), 1u);
+    EXPECT_EQ(told["faults"][0]["what"], "insideOut");
+    EXPECT_EQ(told["faults"][0]["body"], "cube");
+    EXPECT_GT(told["faults"][0]["elements"].get<int>(), 0);
+    EXPECT_EQ(told["files"].size(), 1u) << "they are written all the same";
+    bool isFlagged = false;
+    for (const json& flag : told["flags"])
+    {
+        EXPECT_EQ(flag["body"], "cube");
+        EXPECT_LE(flag["first"].get<double>(), flag["last"].get<double>());
+        EXPECT_GE(flag["steps"].get<int>(), 1);
+        if (flag["flag"] != "BT_FEM_INSIDE_OUT") continue;
+        isFlagged = true;
+        EXPECT_GT(flag["first"].get<double>(), 0.1) << "not before it falls in";
+        EXPECT_NEAR(flag["last"].get<double>(), 1.5, 1e-9);
+        EXPECT_THAT(flag["explanation"].get<std::string>(), HasSubstr("stiffer material"));
+    }
+    EXPECT_TRUE(isFlagged) << told["flags"];
+    const ProgramRun shown = simulate(cube(2));
+    EXPECT_EQ(shown.m_code, 3);
+    EXPECT_THAT(shown.m_output, AllOf(HasSubstr("'cube' has "), HasSubstr("BT_FEM_INSIDE_OUT"), HasSubstr("cube: 0."),
+                                      HasSubstr(" s to 1.5 s, in ")));
+}
+
+TEST_F(ProgramHealth, ABodyThatStandsIsWell)
+{
+    const ProgramRun run = simulate(cube(0.1), "--json");
+    EXPECT_EQ(run.m_code, 0) << run.m_output;
+    EXPECT_TRUE(json::parse(run.m_output)["faults"].empty());
+}
+
+// A cube whose middle is pinned within a box that it does not touch with a pin: it cannot get out.
+TEST_F(ProgramHealth, ABodyThatEndsInsideAnotherIsTold)
+{
+    const std::string held = R"({ "seconds": 0.2, "gravity": [0, 0, 0], "softBodies": [{ "name": "held",
+        "mesh": { "box": [1, 1, 1], "tets": 300 }, "material": "rubber",
+        "pins": [{ "low": [-1, -1, -1], "high": [-0.49, 1, 1] }] }],
+        "rigidBodies": [{ "name": "wall", "shape": { "box": [1, 3, 3] }, "position": [0.9, 0, 0] }] })";
+    const ProgramRun run = simulate(held, "--json");
+    EXPECT_EQ(run.m_code, 3) << run.m_output;
+    const json fault = json::parse(run.m_output)["faults"][0];
+    EXPECT_EQ(fault["what"], "inside");
+    EXPECT_EQ(fault["other"], "wall");
+    EXPECT_GT(fault["depth"].get<double>(), 0.05);
+    EXPECT_NEAR(fault["share"].get<double>(), fault["depth"].get<double>(), 0.01) << "of a metre";
+}
+
+// 60 steps are simulated between two frames; the flag stands in the first few alone.
+TEST_F(ProgramHealth, AFlagBetweenTwoFramesIsTold)
+{
+    const std::string sunken = R"({ "seconds": 1, "framesPerSecond": 1, "softBodies": [{ "name": "sunken",
+        "mesh": { "box": [1, 1, 1], "tets": 100 }, "material": "rubber", "position": [0, 0.45, 0] }],
+        "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }] })";
+    const ProgramRun run = simulate(sunken, "--json");
+    EXPECT_EQ(run.m_code, 0) << run.m_output;
+    const json told = json::parse(run.m_output);
+    EXPECT_EQ(told["frames"], 2);
+    ASSERT_EQ(told["flags"].size(), 1u);
+    EXPECT_EQ(told["flags"][0]["flag"], "BT_FEM_PENETRATING");
+    EXPECT_LT(told["flags"][0]["last"].get<double>(), 0.9);
+}
+
+TEST_F(ProgramHealth, ManyBodiesWithAFlagAreFewLines)
+{
+    const std::string many = R"({ "seconds": 0.05, "softBodies": [{ "name": "sunken",
+        "mesh": { "box": [1, 1, 1], "tets": 40 }, "material": "rubber", "position": [0, 0.46, 0],
+        "copies": { "count": [12, 1, 1], "spacing": [2, 0, 0] } }],
+        "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }] })";
+    const ProgramRun run = simulate(many);
+    EXPECT_THAT(run.m_output, AllOf(HasSubstr("sunken.9: "), Not(HasSubstr("sunken.10: ")), HasSubstr("and 2 more")));
+}
+
+}  // namespace
+}  // namespace bullet_fem
