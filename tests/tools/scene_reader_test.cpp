@@ -346,8 +346,7 @@ TEST_F(SceneReader, SceneFilesThatCannotBeReadAreNamed)
     EXPECT_THAT(messageOfFile(missing), StartsWith("cannot read the scene '" + missing + "': there is no such file"));
     EXPECT_THAT(messageOfFile(m_folder.path("")), HasSubstr("no such file")) << "a folder";
     const std::string text = m_folder.write("text.json", "{\n  \"step\": 0,01\n}");
-    EXPECT_THAT(messageOfFile(text), testing::AllOf(HasSubstr("'" + text + "'"), HasSubstr("it is not JSON"),
-                                                    HasSubstr("line 2, column 13")));
+    EXPECT_THAT(messageOfFile(text), StartsWith(text + ":2:13: expected a member's name"));
     const std::string bad = m_folder.write("bad.json", "{ \"step\": 2 }");
     EXPECT_THAT(messageOfFile(bad), HasSubstr("bad.json': step is 2; it must be a number in [1e-06, 1]"));
 }

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 
 #include "fem/common/message.h"
-#include "fem/common/reason.h"
+#include "tools/scene/json_syntax.h"
 
 namespace bullet_fem
 {
@@ -42,27 +41,8 @@ std::string listed(std::initializer_list<const char*> names)
 
 nlohmann::json parseJson(const std::string& text)
 {
-    static constexpr int deepest = 32;           // scenes need six; messages show what is there by recursion
-    std::vector<std::set<std::string>> members;  // met so far, of the objects that are open
-    const auto allowed = [&members](int depth, nlohmann::json::parse_event_t event, nlohmann::json& value)
-    {
-        using Event = nlohmann::json::parse_event_t;
-        if (depth > deepest) throw std::runtime_error(message("it is nested deeper than ", deepest, " levels"));
-        if (event == Event::object_start) members.emplace_back();
-        if (event == Event::object_end) members.pop_back();
-        if (event == Event::key && !members.back().insert(value.get<std::string>()).second)
-            throw std::runtime_error(message("it has '", value.get<std::string>().substr(0, 40),
-                                             "' twice in one object; give every member once"));
-        return true;
-    };
-    try
-    {
-        return nlohmann::json::parse(text, allowed, true, true);  // comments are welcome
-    }
-    catch (const nlohmann::json::exception& error)
-    {
-        throw std::runtime_error(std::string("it is not JSON: ") + reasonOf(error));
-    }
+    checkJsonSyntax(text);
+    return nlohmann::json::parse(text, nullptr, true, true);  // comments are welcome
 }
 
 void JsonCursor::fail(const std::string& what) const

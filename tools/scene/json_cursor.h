@@ -13,8 +13,7 @@
 namespace bullet_fem
 {
 
-/// The document that a text is, with comments allowed. Throws std::runtime_error on text that is not JSON, that has a
-/// member twice in one object, or that is nested deeper than 32 levels.
+/// The document that a text is, with comments allowed. Throws what checkJsonSyntax throws.
 nlohmann::json parseJson(const std::string& text);
 
 /// What a number must lie in.

@@ -13,6 +13,7 @@
 #include "fem/common/message.h"
 #include "fem/common/reason.h"
 #include "tools/scene/json_cursor.h"
+#include "tools/scene/json_syntax.h"
 #include "tools/scene/scene_actuator_reader.h"
 #include "tools/scene/scene_copies.h"
 #include "tools/scene/scene_curve_reader.h"
@@ -370,6 +371,10 @@ SceneDescription readScene(const std::string& path)
         const std::string json(std::istreambuf_iterator<char>(file), {});
         if (!file) throw std::runtime_error("it cannot be read; check its permissions");
         return parseScene(json, std::filesystem::path(path).parent_path().string());
+    }
+    catch (const JsonSyntaxError& error)
+    {
+        throw std::runtime_error(message(path, ":", error.line(), ":", error.column(), ": ", error.message()));
     }
     catch (const std::exception& error)
     {
