@@ -9,6 +9,7 @@
 #include "bullet_bridge/body/body_arrays.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
 #include "bullet_fem/btFemVectors.h"
+#include "fem/common/bounds.h"
 #include "fem/common/reason.h"
 #include "plugin/btFemDeformableForces.h"
 #include "plugin/btFemWorldStep.h"

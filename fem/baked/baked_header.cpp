@@ -11,6 +11,7 @@
 #include <cstring>
 #include <string>
 
+#include "fem/common/bounds.h"
 #include "fem/common/message.h"
 
 namespace bullet_fem
@@ -114,7 +115,7 @@ void checkValues(const BakedHeader& h)
     if ((h.m_meanDilatation & kBakedOrthotropic) && h.m_version != kBakedOrthotropicVersion)
         reject("its material is orthotropic in version ", h.m_version, kDamaged);
     materialOf(h).validate();
-    if (!(h.m_step >= 1e-6 && h.m_step <= 1)) reject("its step is ", h.m_step, " s, not in [1e-6, 1]", kDamaged);
+    if (!isUsableStep(h.m_step)) reject("its step is ", h.m_step, " s, not in [1e-6, 1]", kDamaged);
     if (!(h.m_massScale > 0) || !std::isfinite(h.m_massScale))
         reject("its mass scale is ", h.m_massScale, ", not in (0, inf)", kDamaged);
     if (!isText(h.m_backend) || !isText(h.m_ordering)) reject("its header has values of no meaning", kDamaged);

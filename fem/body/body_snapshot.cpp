@@ -7,6 +7,7 @@
 
 #include "bullet_fem/fem/body/initial_stress.h"
 #include "fem/body/step_scratch.h"
+#include "fem/common/bounds.h"
 #include "fem/common/byte_stream.h"
 #include "fem/elements/model_elements.h"
 
@@ -190,9 +191,8 @@ void check(const BodySnapshot& s, const BodyModel& model)
     checkMasses(s.m_factor.m_mass);
     if (!s.m_factor.m_fixed.empty()) checkSize(s.m_factor.m_fixed, n, "fixed flags of the factor");
     checkFlags(s.m_factor.m_fixed, "the factor's fixed flag");
-    if (!(s.m_factor.m_step >= 1e-6 && s.m_factor.m_step <= 1))
-        reject("the factor's step is ", s.m_factor.m_step, " s, not in [1e-6, 1]");
-    if (!(s.m_leastStep >= 0 && s.m_leastStep <= s.m_mostStep && s.m_mostStep <= 1))
+    if (!isUsableStep(s.m_factor.m_step)) reject("the factor's step is ", s.m_factor.m_step, " s, not in [1e-6, 1]");
+    if (!(s.m_leastStep >= 0 && s.m_leastStep <= s.m_mostStep && isWithin(s.m_mostStep, 0, kLongestStep)))
         reject("the recent steps are from ", s.m_leastStep, " s to ", s.m_mostStep, " s, not in [0, 1]");
     if (s.m_path != FactorPath::full && s.m_path != FactorPath::lowMemory)
         reject("the kind of the factor is ", static_cast<int>(s.m_path), ", not 0 or 1");

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fem/common/bounds.h"
 #include "fem/common/message.h"
 #include "fem/elements/model_elements.h"
 #include "fem/factor/rest_factor.h"
@@ -22,7 +23,7 @@ namespace
 void validateInput(const RestShape& shape, const FactorInput& input)
 {
     const std::size_t n = shape.m_mesh.restPositions().size();
-    if (!(input.m_step >= 1e-6 && input.m_step <= 1))
+    if (!isUsableStep(input.m_step))
         reject("time step ", input.m_step,
                " s is not in [1e-6, 1]; give the fixed step that the world is simulated with");
     if (input.m_mass.size() != n || input.m_fixed.size() != n)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fem/common/bounds.h"
 #include "fem/common/message.h"
 
 namespace bullet_fem
@@ -22,7 +23,7 @@ struct ValueRange
 
     bool contains() const  // false for NaN
     {
-        return (m_openBelow ? m_value > m_low : m_value >= m_low) && m_value <= m_high;
+        return (!m_openBelow || m_value > m_low) && isWithin(m_value, m_low, m_high);
     }
     std::string complaint() const
     {

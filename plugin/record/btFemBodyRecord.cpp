@@ -54,12 +54,6 @@ double bodyStep(const btFemBodyRecord& record, double worldStep)
     return worldStep * record.m_softBody->m_cfg.timescale;
 }
 
-bool isUsableStep(double step)
-{
-    constexpr double kShortest = 1e-6 * (1 - 1e-6);  // [s]; 1e-6f is less than 1e-6
-    return step >= kShortest && step <= 1;
-}
-
 void readBody(btFemBodyRecord& record)
 {
     const NodeReadReport read = readNodes(record.fem());

@@ -161,8 +161,5 @@ double staleness(const btFemBodyRecord& record, double step);
 /// A body's own step [s]: Bullet scales time by m_cfg.timescale.
 double bodyStep(const btFemBodyRecord& record, double worldStep);
 
-/// True if a step [s] is one that bodies can be stepped with.
-bool isUsableStep(double step);
-
 /// Takes over what the user wrote to the nodes of a FEM body; what could not be used is flagged in its report.
 void readBody(btFemBodyRecord& record);

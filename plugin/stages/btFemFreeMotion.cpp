@@ -8,6 +8,7 @@
 #include "bullet_bridge/body/body_arrays.h"
 #include "bullet_bridge/body/node_exchange.h"
 #include "bullet_fem/fem/contact/contact_solver.h"
+#include "fem/common/bounds.h"
 #include "plugin/record/btFemModelReport.h"
 #include "plugin/record/btFemStopwatch.h"
 

@@ -8,6 +8,7 @@
 #include "bullet_bridge/body/rigid_dispatch.h"
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_fem/btFemVectors.h"
+#include "fem/common/bounds.h"
 #include "plugin/record/btFemTouches.h"
 #include "plugin/setup/btFemBodySetUp.h"
 #include "plugin/stages/btFemSleeping.h"

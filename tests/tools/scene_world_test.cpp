@@ -50,6 +50,14 @@ TEST(SceneWorld, ABeamBendsAsBeamTheorySays)
     EXPECT_NEAR((4 * fine - coarse) / 3 / theory, 1, 0.015) << "the limit of small elements";
 }
 
+TEST(SceneWorld, TheShortestStepMovesABody)
+{
+    SceneRun run(R"({ "step": 1e-6, "softBodies": [{ "name": "cube", "mesh": { "box": [1, 1, 1], "tets": 40 } }] })");
+    run.m_world.step();
+    EXPECT_EQ(run.m_world.fem().stepReport(&run.m_world.soft(0)).m_flags, 0);
+    EXPECT_NEAR(norm(run.momentum(0)) / (1000 * 9.81 * 1e-6), 1, 1e-4);
+}
+
 TEST(SceneWorld, APressedBlockPushesBackByItsStiffness)
 {
     SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01, "solver": { "tolerance": 1e-5 },

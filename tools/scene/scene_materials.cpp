@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/scene/scene_materials.h"
 
+#include "fem/common/bounds.h"
+
 namespace bullet_fem
 {
 namespace
@@ -28,7 +30,8 @@ void readRelaxation(const JsonCursor& at, Material& material)
         term.m_time = terms[i]["time"].number({1e-6, 1e9});
         sum += term.m_share;
     }
-    if (!(sum <= Material::kMostRelaxedShare)) at.fail("has shares whose sum is more than 0.99; a solid keeps some");
+    if (!isWithin(sum, 0, Material::kMostRelaxedShare))
+        at.fail("has shares whose sum is more than 0.99; a solid keeps some");
 }
 
 // Young's modulus of axis 1 is the material's, too: what shows one number shows that.

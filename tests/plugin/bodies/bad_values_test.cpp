@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemSoftBodySolver.h"
@@ -154,6 +155,22 @@ TEST_P(BadSteps, AreNotThoseAtTheBounds)
         Scene scene(GetParam());
         scene.m_fem.predictMotion(allowed);
         EXPECT_EQ(scene.flags() & BT_FEM_BAD_STEP, 0) << allowed;
+    }
+}
+
+// The nearest float to 1e-6 is below it.
+TEST_P(BadSteps, AtTheBoundsPrepareAndMoveABody)
+{
+    for (const btScalar allowed : {btScalar(1e-6), btScalar(1)})
+    {
+        FemWorld world(GetParam());
+        btSoftBody& cube = world.addSoft(
+            btFemHelpers::createBox(world.info(), btVector3(0, 0, 0), btVector3(0.5, 0.5, 0.5), btScalar(0.5)));
+        std::string why;
+        EXPECT_TRUE(world.fem().prepare(&cube, allowed, &why)) << why;
+        world.bullet().stepSimulation(allowed, 0);
+        EXPECT_EQ(world.fem().stepReport(&cube).m_flags, 0) << allowed;
+        EXPECT_NEAR(cube.m_nodes[0].m_v.z() / (-kGravity * allowed), 1, 1e-4) << allowed;
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "bullet_fem/btFemHelpers.h"
@@ -207,6 +208,20 @@ TEST(PlasticityOfBodies, MaterialsComeWhole)
     EXPECT_EQ(own.relaxationTerms(), 1);
     EXPECT_EQ(own.m_relaxation[0].m_share, 0.99);
     EXPECT_EQ(own.m_relaxation[0].m_time, 2);
+}
+
+TEST(RelaxationOfBodies, BoundsAreTakenInEveryPrecision)
+{
+    btFemMaterial material;
+    material.m_relaxation[0] = {btScalar(0.33), btScalar(1e-6)};
+    material.m_relaxation[1] = {btScalar(0.33), 1};
+    material.m_relaxation[2] = {btScalar(0.33), btScalar(1e9)};
+    std::string why;
+    EXPECT_TRUE(material.valid(&why)) << why;
+    material.m_relaxation[0].m_time = btScalar(9e-7);
+    EXPECT_FALSE(material.valid());
+    material.m_relaxation[0] = {btScalar(0.34), 1};
+    EXPECT_FALSE(material.valid()) << "1 in all";
 }
 
 // A cube that rests on the ground sinks as its modulus goes: half of it gone, twice as far.
