@@ -80,15 +80,18 @@ void play(Demo& demo, double young, double crateMass, double aside)
                     carried += double(anchor.m_impulse.y()) / kDemoStep;
             }
         samples += demo.time() > 5;
-    } while (demo.step(world.bullet()));
+    } while (apart < kCushion && demo.step(world.bullet()));
+    const bool isBroken = apart >= kCushion;  // what is left of it falls, and would for long
+    const double from = isBroken ? 0 : 7;
     const double sag = kDeck - supports[kPlanks / 2 + 1]->getCenterOfMassPosition().y();
     double lowestCrate = 10;
     for (const btRigidBody* crate : crates)
         lowestCrate = std::min(lowestCrate, double(crate->getCenterOfMassPosition().y()));
     demo.figure("weight", weight, "N");
-    demo.check("force of the piers / weight", carried / std::max(samples, 1) / weight, 0.98, 1.02, "", 7);
-    demo.check("sag / span", sag / kSpan, 0.02, 0.25, "", 7);
-    demo.check("lowest crate", lowestCrate, 0.5, kDeck + 0.5, "m", 7);
+    if (isBroken) demo.figure("gave way after", demo.time(), "s");
+    demo.check("force of the piers / weight", carried / std::max(samples, 1) / weight, 0.98, 1.02, "", from);
+    demo.check("sag / span", sag / kSpan, 0.02, 0.25, "", from);
+    demo.check("lowest crate", lowestCrate, 0.5, kDeck + 0.5, "m", from);
     demo.check("anchors apart at most", apart, 0, 0.02, "m");
 }
 
