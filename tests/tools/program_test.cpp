@@ -63,10 +63,19 @@ TEST_F(Program, ExplainsItself)
     EXPECT_EQ(bulletfem("--version").m_code, 0);
 }
 
+TEST_F(Program, WithoutASubcommandItListsThem)
+{
+    const ProgramRun run = bulletfem("");
+    EXPECT_EQ(run.m_code, 2) << "nothing was done";
+    for (const char* command : {"cage", "bake", "info", "convert", "simulate"})
+        EXPECT_THAT(run.m_output, HasSubstr(std::string("\n  ") + command + " ")) << command;
+    EXPECT_THAT(run.m_output, HasSubstr("A subcommand is required"));
+    EXPECT_EQ(run.m_output.find("\n  cage "), run.m_output.rfind("\n  cage ")) << "once";
+}
+
 TEST_F(Program, BadUsageIsToldWithItsRange)
 {
-    refused("", 2, "subcommand is required");
-    refused("mesh a.off", 2, "subcommand is required");
+    refused("mesh a.off", 2, "mesh");
     refused("simulate", 2, "scene is required");
     refused("simulate a.json --fast", 2, "--fast");
     refused("simulate --mesh a.off", 2, "--window");

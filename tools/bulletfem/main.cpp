@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // From a mesh to a body, and from a scene to pictures.
+#include <iostream>
+
 #include "tools/bulletfem/commands.h"
 #include "tools/console/option_range.h"
 #include "tools/console/program.h"
@@ -18,7 +20,7 @@ int main(int argc, char** argv)
         "out/scene\n\n"
         "Exit code: 0 if all is well, 1 on bad data, 2 on bad usage, 3 if a scene ends with a body inside out "
         "or inside another.");
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
     app.set_version_flag("--version", BULLETFEM_VERSION);
     addCageCommand(app);
     addBakeCommand(app);
@@ -30,7 +32,9 @@ int main(int argc, char** argv)
         try
         {
             app.parse(argc, argv);
-            return 0;
+            if (!app.get_subcommands().empty()) return 0;
+            std::cerr << app.help() << "\nA subcommand is required.\n";
+            return kUsageError;
         }
         catch (const CLI::RuntimeError& error)  // of a command that ran
         {
