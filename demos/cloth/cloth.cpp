@@ -34,7 +34,7 @@ btSoftBody& addCloth(DemoWorld& world, double mass, bool touches)
     return world.addCloth(cloth);
 }
 
-void play(Demo& demo, double young, double mass, double touches)
+void play(Demo& demo, double young, double mass, bool touches)
 {
     DemoWorld world;
     btRigidBody& ground = world.addGround();
@@ -45,7 +45,7 @@ void play(Demo& demo, double young, double mass, double touches)
     stool->rotate(btQuaternion(at(1, 0, 0), SIMD_HALF_PI));
     stool->translate(at(0, kHeight / 2, 0));
     world.addSoft(stool, material, 0.6);
-    btSoftBody& cloth = addCloth(world, mass, touches > 0);
+    btSoftBody& cloth = addCloth(world, mass, touches);
     demo.paint(cloth, {0.72, 0.24, 0.30});
     demo.look(at(1.1, 1.2, 2.2), at(0, 0.42, 0));
 
@@ -73,9 +73,10 @@ void play(Demo& demo, double young, double mass, double touches)
 int main(int argc, char** argv)
 {
     Demo demo("cloth", "Bullet's cloth falls over a soft body, hangs on it and weighs on it.", 5);
-    double young = 3e4, mass = 1, touches = 1;
+    double young = 3e4, mass = 1;
+    bool fallsThrough = false;
     demo.option("--young", young, 1e2, 1e9, "Young's modulus of the body [Pa]");
     demo.option("--mass", mass, 1e-3, 1e3, "of the cloth [kg]");
-    demo.option("--touches", touches, 0, 1, "0: the cloth has not the flag VF_SS, and falls through");
-    return demo.run(argc, argv, [&] { play(demo, young, mass, touches); });
+    demo.flag("--no-contact", fallsThrough, "the cloth has not the flag VF_SS, and falls through");
+    return demo.run(argc, argv, [&] { play(demo, young, mass, !fallsThrough); });
 }

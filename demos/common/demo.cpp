@@ -63,6 +63,11 @@ void Demo::option(const std::string& name, double& value, double low, double hig
     m_options->add_option(name, value, what)->check(inRange(low, high));
 }
 
+void Demo::flag(const std::string& name, bool& value, const std::string& what)
+{
+    m_options->add_flag(name, value, what)->disable_flag_override();
+}
+
 void Demo::option(const std::string& name, std::string& value, const std::string& what)
 {
     m_options->add_option(name, value, what);

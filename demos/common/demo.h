@@ -44,6 +44,8 @@ public:
 
     /// An option with its default in `value`, which must be in [low, high]. Before `run`.
     void option(const std::string& name, double& value, double low, double high, const std::string& what);
+    /// A switch, which sets `value` and takes no argument. Before `run`.
+    void flag(const std::string& name, bool& value, const std::string& what);
     /// A file's name.
     void option(const std::string& name, std::string& value, const std::string& what);
 

@@ -52,7 +52,7 @@ double depthAt(const btSoftBody& clay, const std::vector<int>& top, double x, do
     return depth;
 }
 
-void play(Demo& demo, double young, double yield, double restore)
+void play(Demo& demo, double young, double yield, bool restore)
 {
     DemoWorld world;
     world.addGround();
@@ -92,7 +92,7 @@ void play(Demo& demo, double young, double yield, double restore)
         {
             for (int k = 0; k < kBalls; ++k) spoilt = std::max(spoilt, std::abs(depth(k) / depths[k] - 1));
             world.bullet().removeRigidBody(heavy);
-            if (restore > 0) world.fem().restoreState(saved.data(), saved.size());
+            if (restore) world.fem().restoreState(saved.data(), saved.size());
         }
     } while (demo.step(world.bullet()));
     for (int k = 0; k < kBalls; ++k)
@@ -110,9 +110,10 @@ void play(Demo& demo, double young, double yield, double restore)
 int main(int argc, char** argv)
 {
     Demo demo("dents", "Balls dent a slab of clay; the dents stay, are spoilt, and are restored.", 3.6);
-    double young = 2.5e5, yield = 5e3, restore = 1;
+    double young = 2.5e5, yield = 5e3;
+    bool staysSpoilt = false;
     demo.option("--young", young, 1e3, 1e13, "Young's modulus of the clay [Pa]");
     demo.option("--yield", yield, 1, 1e13, "yield stress of the clay [Pa]");
-    demo.option("--restore", restore, 0, 1, "0: the saved state is not restored");
-    return demo.run(argc, argv, [&] { play(demo, young, yield, restore); });
+    demo.flag("--no-restore", staysSpoilt, "the saved state is not restored");
+    return demo.run(argc, argv, [&] { play(demo, young, yield, !staysSpoilt); });
 }
