@@ -108,9 +108,9 @@ INSTANTIATE_TEST_SUITE_P(
                   s.m_bounds = PictureBounds{{1, 1, 1}, {1, 1, 1}};
               },
               {"bounds are (1, 1, 1)"}},
-        Fault{"EmptyRange",
-              [](PictureScene& s) { s.m_colourScale.m_high = s.m_colourScale.m_low; },
-              {"0 to 0", "below"}}),
+        Fault{
+            "EmptyRange", [](PictureScene& s) { s.m_colourScale.m_high = s.m_colourScale.m_low; }, {"0 to 0", "below"}},
+        Fault{"TextSize", [](PictureScene& s) { s.m_textSize = 0; }, {"text's size is 0", "[0.1, 10]"}}),
     [](const auto& fault) { return fault.param.m_name; });
 
 TEST(PictureCamera, SeesRaysWhereTheyWereSent)

@@ -157,7 +157,17 @@ TEST(Render, LegendHasTheColourMapItsTitleAndItsNumbers)
     other.m_colourScale.m_legend = true;
     EXPECT_EQ(differentPixels(bare, render(other)), 0) << "no scalars, no legend";
     other.m_caption = "t = 1 s, 5 µm, \xff\xe2\x82";  // broken bytes, too
-    EXPECT_GT(differentPixels(bare, render(other)), 20) << "the caption";
+    const Image captioned = render(other);
+    EXPECT_GT(differentPixels(bare, captioned), 20) << "the caption";
+    other.m_textSize = 2;
+    EXPECT_GT(differentPixels(bare, render(other)), 2 * differentPixels(bare, captioned)) << "larger letters";
+    std::swap(other.m_title, other.m_caption);
+    const Image titled = render(other);
+    EXPECT_GT(differentPixels(bare, titled), 40) << "the title";
+    const std::size_t lowerHalf = bare.m_pixels.size() / 2;
+    EXPECT_TRUE(
+        std::equal(&bare.m_pixels[lowerHalf], bare.m_pixels.data() + bare.m_pixels.size(), &titled.m_pixels[lowerHalf]))
+        << "the title is above";
 }
 
 TEST(Render, WireframeDrawsEdgesOverTheSurface)

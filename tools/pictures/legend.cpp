@@ -19,7 +19,7 @@ constexpr double kPaperOpacity = 0.72;  // lets what is behind shine through
 /// Returns the paper's lower edge.
 double addColourBar(const PictureScene& scene, const PictureSize& size, Overlay& overlay)
 {
-    const double h = legendTextHeight(size), pad = std::round(0.7 * h);
+    const double h = legendTextHeight(scene, size), pad = std::round(0.7 * h);
     const std::string title = legendTitle(scene.m_colourScale);
     const std::vector<LegendLabel> labels = legendLabels(scene.m_colourScale);
     double labelWidth = 0;
@@ -58,10 +58,10 @@ void addArrow(const PictureRectangle& area, const Colour& colour, Overlay& overl
     }
 }
 
-/// Returns the paper's lower edge, like what is given for the one above.
-double addArrows(const PictureArrows& arrows, const PictureSize& size, double above, Overlay& overlay)
+/// With letters `h` high. Returns the paper's lower edge, like what is given for the one above.
+double addArrows(const PictureArrows& arrows, const PictureSize& size, double h, double above, Overlay& overlay)
 {
-    const double h = legendTextHeight(size), pad = std::round(0.7 * h), arrow = std::round(2.2 * h);
+    const double pad = std::round(0.7 * h), arrow = std::round(2.2 * h);
     const std::string title = legendTitle(arrows), range = legendRange(arrows);
     const double inner = std::max(overlay.textWidth(title), arrow + 0.7 * h + overlay.textWidth(range));
     PictureRectangle paper{0, above + std::round(1.2 * h), std::round(inner + 2 * pad), std::round(2 * pad + 2.6 * h)};
@@ -82,6 +82,11 @@ double legendTextHeight(const PictureSize& size)
     return std::clamp(std::round(std::min(size.m_height / 36., size.m_width / 40.)), 9., 48.);
 }
 
+double legendTextHeight(const PictureScene& scene, const PictureSize& size)
+{
+    return std::round(scene.m_textSize * legendTextHeight(size));
+}
+
 double captionHeight(const PictureSize& size)
 {
     return std::round(2.3 * legendTextHeight(size));
@@ -91,13 +96,20 @@ void addLegend(const PictureScene& scene, const PictureSize& size, Overlay& over
 {
     const bool scalars = std::any_of(scene.m_meshes.begin(), scene.m_meshes.end(),
                                      [](const PictureMesh& mesh) { return !mesh.m_scalars.empty(); });
-    const double h = legendTextHeight(size);
+    const double h = legendTextHeight(scene, size);
     double lower = 0;
     if (scalars && scene.m_colourScale.m_legend) lower = addColourBar(scene, size, overlay);
     for (const PictureArrows& arrows : scene.m_arrows)
-        if (!arrows.m_title.empty()) lower = addArrows(arrows, size, lower, overlay);
-    if (!scene.m_caption.empty())
-        overlay.text({1.2 * h, size.m_height - 1.2 * h}, scene.m_caption, TextAlignment::left, kInk);
+        if (!arrows.m_title.empty()) lower = addArrows(arrows, size, h, lower, overlay);
+    if (!scene.m_title.empty()) overlay.text({1.2 * h, 1.9 * h}, scene.m_title, TextAlignment::left, kInk);
+    double base = size.m_height - 1.2 * h;  // of the caption's last line, and of those before it
+    for (std::size_t end = scene.m_caption.size(); end > 0; base -= 1.4 * h)
+    {
+        const std::size_t found = scene.m_caption.rfind('\n', end - 1);
+        const std::size_t start = found == std::string::npos ? 0 : found + 1;
+        overlay.text({1.2 * h, base}, scene.m_caption.substr(start, end - start), TextAlignment::left, kInk);
+        end = start > 0 ? start - 1 : 0;
+    }
 }
 
 }  // namespace bullet_fem

@@ -163,6 +163,7 @@ bool valid(const PictureScene& scene, const PictureCamera& camera, std::string* 
     if (f.empty()) f = light();
     if (f.empty()) f = background();
     if (f.empty()) f = fault(scene.m_colourScale);
+    if (f.empty()) f = rangeFault("the text's size", scene.m_textSize, 0.1, 10);
     if (f.empty() && scene.m_bounds) f = fault(*scene.m_bounds);
     if (why) *why = f.empty() ? std::string() : "picture: " + f;
     return f.empty();

@@ -100,7 +100,9 @@ struct PictureScene
     /// may be missing.
     std::optional<PictureBounds> m_bounds;
     Colour m_sky{0.80, 0.85, 0.91}, m_horizon{0.955, 0.96, 0.965};  ///< background, above and at half height
-    std::string m_caption;  ///< text at the lower left, ASCII and Latin-1 as UTF-8
+    std::string m_caption;  ///< lines of text at the lower left, ASCII and Latin-1 as UTF-8
+    std::string m_title;    ///< a line at the upper left
+    double m_textSize = 1;  ///< letters' height over what suits the picture [-], in [0.1, 10]
 };
 
 /// Whether the scene can be drawn as seen by `camera`; if not, `why` names the value, the range and the remedy.

@@ -369,7 +369,7 @@ void SceneRenderer::draw(const PictureScene& scene, const PictureCamera& camera,
     m_parts->drawGround(scene);
     m_parts->drawSurfaces(scene);
     glBindSampler(kKeyShadowUnit, 0);
-    m_parts->m_overlay.begin(size, legendTextHeight(size));
+    m_parts->m_overlay.begin(size, legendTextHeight(scene, size));
     addLegend(scene, size, m_parts->m_overlay);
     m_parts->m_overlay.draw(m_parts->m_colourMap.id());
     checkGl("a picture");
