@@ -13,6 +13,7 @@
 #include "io/temporary_folder.h"
 #include "pictures/ball_simulation.h"
 #include "tools/pictures/viewer.h"
+#include "tools/pictures/viewer_panel.h"
 
 namespace bullet_fem
 {
@@ -39,6 +40,17 @@ protected:
     ViewerControl m_control{m_simulation};
     const PictureCamera m_start = m_simulation.m_scene.m_camera;
 };
+
+TEST(ViewerTimes, TellTheTimeOfAStepAndNotOfAFrame)
+{
+    ViewerTimes times;
+    times.add(20, 4, 60);
+    EXPECT_EQ(times.m_step[0], 5);
+    EXPECT_EQ(times.m_frame, 60);
+    times.add(0, 0, 16);
+    EXPECT_EQ(times.m_next, 1) << "a pause has no steps";
+    EXPECT_EQ(times.m_frame, 16);
+}
 
 TEST_F(ViewerControlTest, LeftButtonDragsWhatItHits)
 {

@@ -174,7 +174,7 @@ struct Viewer::Parts
         for (int k = 0; k < steps; ++k) m_simulation.step();
         m_film.advance(steps * m_simulation.timeStep());
         const double end = glfwGetTime();
-        m_times.add(milliseconds(end - start), milliseconds(end - m_lastFrame));
+        m_times.add(milliseconds(end - start), steps, milliseconds(end - m_lastFrame));
         m_lastFrame = end;
     }
 

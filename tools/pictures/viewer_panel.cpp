@@ -57,7 +57,7 @@ void showTimes(const ViewerTimes& times)
 {
     const float longest = *std::max_element(times.m_step.begin(), times.m_step.end());
     const float last = times.m_step[(times.m_next + ViewerTimes::kCount - 1) % ViewerTimes::kCount];
-    ImGui::Text("Simulation %.2f ms, frame %.1f ms", static_cast<double>(last), static_cast<double>(times.m_frame));
+    ImGui::Text("A step %.2f ms, a frame %.1f ms", static_cast<double>(last), static_cast<double>(times.m_frame));
     ImGui::PushItemWidth(-1);
     ImGui::PlotLines("##times", times.m_step.data(), ViewerTimes::kCount, times.m_next, nullptr, 0, 1.2f * longest,
                      {0, 56});
@@ -67,11 +67,12 @@ void showTimes(const ViewerTimes& times)
 
 }  // namespace
 
-void ViewerTimes::add(double stepMs, double frameMs)
+void ViewerTimes::add(double stepsMs, int steps, double frameMs)
 {
-    m_step[m_next] = static_cast<float>(stepMs);
-    m_next = (m_next + 1) % kCount;
     m_frame = static_cast<float>(frameMs);
+    if (steps == 0) return;
+    m_step[m_next] = static_cast<float>(stepsMs / steps);
+    m_next = (m_next + 1) % kCount;
 }
 
 ViewerPanel::ViewerPanel()

@@ -12,15 +12,16 @@
 namespace bullet_fem
 {
 
-/// Times of the last frames, for the plot.
+/// Times of the last frames that had steps, for the plot.
 struct ViewerTimes
 {
     static constexpr int kCount = 180;
-    std::array<float, kCount> m_step{};  ///< of all steps of a frame [ms]
+    std::array<float, kCount> m_step{};  ///< a step, the mean of those of a frame [ms]
     float m_frame = 0;                   ///< from one frame to the next [ms]
     int m_next = 0;                      ///< where the next goes
 
-    void add(double stepMs, double frameMs);
+    /// A frame whose `steps` took `stepsMs` together.
+    void add(double stepsMs, int steps, double frameMs);
 };
 
 /// Sliders, buttons and plot, through Dear ImGui, whose context and OpenGL part it owns. A context of OpenGL must be
