@@ -9,7 +9,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 source "$root/cmake/mesh_package.sh"
 
-most_bytes=1000000 # of a film in docs/gallery
+most_bytes=1000000         # of a film in docs/gallery
+most_bytes_compare=1500000 # of the one on README's first screen
 mesh_in_archive=data/meshes/elephant.off
 build=$root/build/gallery # of its own, so that no other script changes its options
 into_docs=no
@@ -36,7 +37,7 @@ for demo in "${demos[@]}"; do
     if [ -f "$root/demos/$demo/$demo.cpp" ]; then targets+=("bulletfem_demo_$demo"); else targets+=(bulletfem); fi
 done
 
-install_packages "${build_packages[@]}" "${picture_packages[@]}" ffmpeg
+install_packages "${build_packages[@]}" "${picture_packages[@]}" ffmpeg gifsicle
 if [ ! -s "$build/$mesh_in_archive" ]; then
     say "extracting $mesh_in_archive from $mesh_package"
     extract_meshes "$build" "$mesh_in_archive" || fail "cannot get $mesh_in_archive from the package $mesh_package"
@@ -47,11 +48,32 @@ say "building in $build"
     -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
 cmake --build "$build" --target "${targets[@]}" --parallel "$(nproc)"
 
+# end_of_motion <film>: half a second after the last of its pictures that differs from the one before [s]; nothing where
+# it moves to its end.
+end_of_motion()
+{
+    ffmpeg -hide_banner -nostats -i "$1" -vf freezedetect=noise=0.0006:duration=0.5 -f null - 2>&1 |
+        awk '/freeze_start/ { end = $NF + 0.5 } /freeze_end/ { end = "" } END { print end }'
+}
+
+# shrink <film> <GIF> <size> <pictures a second>: a film for documents, which ends when the motion ends.
+shrink()
+{
+    local end
+    end=$(end_of_motion "$1")
+    ffmpeg -loglevel error -y -i "$1" ${end:+-t "$end"} -map_metadata -1 -vf "fps=$4,hqdn3d=2:2:4:4,\
+scale=$3:flags=area,split[a][b];[a]palettegen=max_colors=64:stats_mode=full[p];[b][p]paletteuse=dither=none" "$2"
+    gifsicle --batch --optimize=3 --lossy=40 "$2"
+}
+
 # play <demo or scene>: runs it, and makes a small film for documents of its large one.
 play()
 {
-    local demo=$1 out=$root/out/gallery/$1 options=()
-    [ "$demo" != squeeze ] || options=(--mesh "$build/$mesh_in_archive")
+    local demo=$1 out=$root/out/gallery/$1 options=() size=480:270
+    case $demo in
+    compare) options=(--mesh "$build/$mesh_in_archive") size=800:450 ;;
+    squeeze) options=(--mesh "$build/$mesh_in_archive") ;;
+    esac
     mkdir -p "$out"
     local program=("$build/demos/bulletfem_demo_$demo" --out "$out" "${options[@]}")
     if [ ! -f "$root/demos/$demo/$demo.cpp" ]; then
@@ -59,8 +81,7 @@ play()
             --quiet --out "$out")
     fi
     "${program[@]}" >"$out/figures.txt" 2>&1 || { cat "$out/figures.txt"; return 1; }
-    ffmpeg -loglevel error -y -i "$out/film.mp4" -map_metadata -1 -vf "fps=10,hqdn3d=2:2:4:4,scale=320:240:flags=area,\
-split[a][b];[a]palettegen=max_colors=64:stats_mode=full[p];[b][p]paletteuse=dither=none" "$out/$demo.gif"
+    shrink "$out/film.mp4" "$out/$demo.gif" $size 10
     cat "$out/figures.txt"
 }
 
@@ -78,8 +99,9 @@ done
 
 for demo in "${demos[@]}"; do
     film=$root/out/gallery/$demo/$demo.gif
-    bytes=$(stat -c %s "$film")
-    [ "$bytes" -le "$most_bytes" ] || fail "$film has $bytes bytes, at most $most_bytes are allowed in documents"
+    bytes=$(stat -c %s "$film") most=$most_bytes
+    [ "$demo" != compare ] || most=$most_bytes_compare
+    [ "$bytes" -le "$most" ] || fail "$film has $bytes bytes, at most $most are allowed in documents"
     [ $into_docs = no ] || cp "$film" "$root/docs/gallery/"
 done
 say "figures, pictures and films are in $root/out/gallery"

@@ -28,7 +28,7 @@ const Vec3 kRigidColour{0.55, 0.60, 0.68}, kStaticColour{0.70, 0.71, 0.73};
 
 struct DemoFilm::Pictures
 {
-    static constexpr PictureSize kFilmSize{640, 480}, kPictureSize{1280, 960};
+    static constexpr PictureSize kFilmSize{960, 540}, kPictureSize{1280, 720};
     OffscreenRenderer m_renderer;
     std::unique_ptr<FilmWriter> m_film;
     PictureScene m_scene;
