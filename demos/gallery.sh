@@ -56,22 +56,22 @@ end_of_motion()
         awk '/freeze_start/ { end = $NF + 0.5 } /freeze_end/ { end = "" } END { print end }'
 }
 
-# shrink <film> <GIF> <size> <pictures a second>: a film for documents, which ends when the motion ends.
+# shrink <film> <GIF> <size> <colours> <loss>: a film for documents, which ends when the motion ends.
 shrink()
 {
     local end
     end=$(end_of_motion "$1")
-    ffmpeg -loglevel error -y -i "$1" ${end:+-t "$end"} -map_metadata -1 -vf "fps=$4,hqdn3d=2:2:4:4,\
-scale=$3:flags=area,split[a][b];[a]palettegen=max_colors=64:stats_mode=full[p];[b][p]paletteuse=dither=none" "$2"
-    gifsicle --batch --optimize=3 --lossy=40 "$2"
+    ffmpeg -loglevel error -y -i "$1" ${end:+-t "$end"} -map_metadata -1 -vf "fps=10,hqdn3d=2:2:4:4,\
+scale=$3:flags=area,split[a][b];[a]palettegen=max_colors=$4:stats_mode=full[p];[b][p]paletteuse=dither=none" "$2"
+    gifsicle --batch --optimize=3 --lossy="$5" "$2"
 }
 
 # play <demo or scene>: runs it, and makes a small film for documents of its large one.
 play()
 {
-    local demo=$1 out=$root/out/gallery/$1 options=() size=480:270
+    local demo=$1 out=$root/out/gallery/$1 options=() look=(480:270 64 40)
     case $demo in
-    compare) options=(--mesh "$build/$mesh_in_archive") size=800:450 ;;
+    compare) options=(--mesh "$build/$mesh_in_archive") look=(800:450 128 10) ;;
     squeeze) options=(--mesh "$build/$mesh_in_archive") ;;
     esac
     mkdir -p "$out"
@@ -81,7 +81,7 @@ play()
             --quiet --out "$out")
     fi
     "${program[@]}" >"$out/figures.txt" 2>&1 || { cat "$out/figures.txt"; return 1; }
-    shrink "$out/film.mp4" "$out/$demo.gif" $size 10
+    shrink "$out/film.mp4" "$out/$demo.gif" "${look[@]}"
     cat "$out/figures.txt"
 }
 

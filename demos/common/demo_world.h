@@ -9,6 +9,7 @@
 #include "BulletDynamics/Featherstone/btMultiBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyConstraint.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
+#include "BulletSoftBody/btDefaultSoftBodySolver.h"
 #include "BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h"
 #include "BulletSoftBody/btSoftMultiBodyDynamicsWorld.h"
 #include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
@@ -20,7 +21,7 @@ namespace bullet_fem
 {
 
 /// A Bullet world with BulletFEM in it, which owns what is added. What is BulletFEM's are the two solvers.
-template <class World, class RigidSolver>
+template <class World, class RigidSolver, class SoftSolver = btFemSoftBodySolver>
 class DemoWorldOf
 {
 public:
@@ -48,7 +49,7 @@ public:
     DemoWorldOf& operator=(const DemoWorldOf&) = delete;
 
     World& bullet() { return m_world; }
-    btFemSoftBodySolver& fem() { return m_fem; }
+    SoftSolver& fem() { return m_fem; }
     btSoftBodyWorldInfo& info() { return m_world.getWorldInfo(); }
 
     /// A rigid body of that mass [kg], 0 for a static one; it takes over the shape.
@@ -164,7 +165,7 @@ private:
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
     btDbvtBroadphase m_broadphase;
-    btFemSoftBodySolver m_fem;
+    SoftSolver m_fem;
     RigidSolver m_rigidSolver;
     World m_world;
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
@@ -180,10 +181,16 @@ private:
 /// Bullet's own rigid solver: with the soft body solver alone, the swap.
 struct DemoRigidSolver : btSequentialImpulseConstraintSolver
 {
-    explicit DemoRigidSolver(btFemSoftBodySolver*) {}
+    explicit DemoRigidSolver(btSoftBodySolver*) {}
+};
+/// Bullet's own soft body solver, to compare with.
+struct DemoSpringSolver : btDefaultSoftBodySolver
+{
+    explicit DemoSpringSolver(const btFemSolverInfo&) {}
 };
 
 using DemoSwapWorld = DemoWorldOf<btSoftRigidDynamicsWorld, DemoRigidSolver>;
+using DemoBulletWorld = DemoWorldOf<btSoftRigidDynamicsWorld, DemoRigidSolver, DemoSpringSolver>;
 using DemoWorld = DemoWorldOf<btSoftRigidDynamicsWorld, btFemConstraintSolver>;
 using DemoLinkWorld = DemoWorldOf<btSoftMultiBodyDynamicsWorld, btFemMultiBodyConstraintSolver>;
 
