@@ -10,10 +10,10 @@
 #include "bullet_fem/btFemSoftBodySolver.h"
 #include "bullet_fem/btFemVectors.h"
 #include "fem/common/attempt.h"
-#include "fem/common/rotation.h"
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemCoupling.h"
 #include "plugin/record/btFemRangeCheck.h"
+#include "plugin/record/btFemRigidFit.h"
 
 using namespace bullet_fem;
 
@@ -34,44 +34,9 @@ void drawElements(const btSoftBody& soft, btIDebugDraw& drawer, const btFemDrawS
     }
 }
 
-// The rigid motion X -> c + R (X - C) that brings the rest shape nearest to the nodes, weighed by their masses: R is
-// the rotation of sum m (x - c) (X - C)^T. [Mueller et al. 2005, Meshless deformations based on shape matching]
-class RigidFit
-{
-public:
-    explicit RigidFit(const FemSoftBody& fem) : m_X(fem.m_body.m_model->mesh().restPositions())
-    {
-        const std::vector<double>& mass = fem.m_body.m_state.m_mass;
-        const auto x = [&fem](std::size_t i) { return vec3(fem.m_softBody->m_nodes[static_cast<int>(i)].m_x); };
-        double sum = 0;
-        for (std::size_t i = 0; i < m_X.size(); ++i)
-        {
-            sum += mass[i];
-            m_center += mass[i] * x(i);
-            m_restCenter += mass[i] * m_X[i];
-        }
-        m_center *= 1 / sum;
-        m_restCenter *= 1 / sum;
-        Mat3 spread;
-        for (std::size_t i = 0; i < m_X.size(); ++i)
-        {
-            const Vec3 now = x(i) - m_center, rest = mass[i] * (m_X[i] - m_restCenter);
-            spread += Mat3::fromColumns(rest.x * now, rest.y * now, rest.z * now);
-        }
-        m_rotation = polarRotation(spread, fem.m_body.m_state.m_bodyRotation);
-    }
-
-    btVector3 place(int node) const { return bulletVector(m_center + m_rotation * (m_X[node] - m_restCenter)); }
-
-private:
-    const std::vector<Vec3>& m_X;
-    Vec3 m_center, m_restCenter;
-    Mat3 m_rotation;
-};
-
 void drawStressFree(const FemSoftBody& fem, btIDebugDraw& drawer, const btFemDrawSettings& settings)
 {
-    const RigidFit fit(fem);
+    const btFemRigidFit fit(fem);
     for (const Triangle& t : fem.m_body.m_model->mesh().surface())
         for (int k = 0; k < 3; ++k)
             if (t[k] < t[(k + 1) % 3])  // every edge once: the other triangle has it the other way round

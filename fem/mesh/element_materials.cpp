@@ -119,7 +119,7 @@ void ElementMaterials::validate(int elementCount) const
         if ((nonlinear || orthotropic) && region.m_material.usesMeanDilatation())
             reject("region ", region.m_label, " has mean dilatation (nu ", region.m_material.m_poissonRatio,
                    ") beside ", nonlinear ? "a Neo-Hookean" : "an orthotropic",
-                   " region; switch it off in all regions of such a body");
+                   " region; switch it off in all regions of such a body, or give all of them the law hooke");
         if (orthotropic && region.m_material.m_law == ElasticLaw::neoHooke)
             reject("region ", region.m_label,
                    " is Neo-Hookean beside an orthotropic region; give one of them the law hooke");

@@ -32,12 +32,13 @@ struct ValueRange
     }
 };
 
-Material isotropic(double youngModulus, double poissonRatio, double density)
+Material isotropic(double youngModulus, double poissonRatio, double density, ElasticLaw law = ElasticLaw::hooke)
 {
     Material material;
     material.m_youngModulus = youngModulus;
     material.m_poissonRatio = poissonRatio;
     material.m_density = density;
+    material.m_law = law;
     return material;
 }
 
@@ -75,7 +76,7 @@ bool validRelaxation(const std::array<PronyTerm, Material::kMostRelaxationTerms>
 
 const char* lawName(const Material& material)
 {
-    return material.isOrthotropic() ? "orthotropic law" : "Neo-Hookean law";
+    return material.isOrthotropic() ? "orthotropic law" : "Neo-Hookean law (as jelly and flesh have)";
 }
 
 // Returns false and the reason for an invalid law, or one that conflicts with other values.
@@ -108,13 +109,13 @@ bool validLaw(const Material& material, std::string* why)
 bool validBending(const Material& material, std::string* why)
 {
     if (!material.m_accurateBending) return true;
-    const char* without = material.m_meanDilatation == MeanDilatation::off ? "mean dilatation off; take automatic or on"
-                          : material.isOrthotropic()                       ? "the orthotropic law; take the law hooke"
-                          : material.m_law != ElasticLaw::hooke            ? "the Neo-Hookean law; take the law hooke"
-                          : material.yields() ? "a yield stress; take infinity, or another material"
-                          : material.relaxationTerms() > 0
-                              ? "relaxation; take terms without a share, or another material"
-                              : nullptr;
+    const char* without =
+        material.m_meanDilatation == MeanDilatation::off ? "mean dilatation off; take automatic or on"
+        : material.isOrthotropic()                       ? "the orthotropic law; take the law hooke"
+        : material.m_law != ElasticLaw::hooke ? "the Neo-Hookean law (as jelly and flesh have); take the law hooke"
+        : material.yields()                   ? "a yield stress; take infinity, or another material"
+        : material.relaxationTerms() > 0      ? "relaxation; take terms without a share, or another material"
+                                              : nullptr;
     if (without && why) *why = message("accurate bending does not go with ", without);
     return !without;
 }
@@ -171,6 +172,15 @@ int Material::relaxationTerms() const
     return count;
 }
 
+double Material::slowCompliance(const Vec3& direction) const
+{
+    if (isOrthotropic()) return m_orthotropic.compliance(direction);
+    double kept = 1;
+    for (const PronyTerm& term : m_relaxation) kept -= term.m_share;
+    const double bulk = lameLambda() + 2.0 / 3 * lameMu(), mu = kept * lameMu();
+    return 1 / LameModuli{mu, bulk - 2.0 / 3 * mu}.youngModulus();
+}
+
 bool Material::valid(std::string* why) const
 {
     const ValueRange ranges[] = {
@@ -218,11 +228,11 @@ Material Material::foam()
 }
 Material Material::jelly()
 {
-    return isotropic(1e4, 0.45, 1000);
+    return isotropic(1e4, 0.45, 1000, ElasticLaw::neoHooke);
 }
 Material Material::flesh()
 {
-    return isotropic(6e4, 0.45, 1060);
+    return isotropic(6e4, 0.45, 1060, ElasticLaw::neoHooke);
 }
 Material Material::wood()
 {

@@ -154,6 +154,17 @@ Mat3 Orthotropic::axes() const
     return Mat3::fromColumns(first, cross(unit, first), unit);
 }
 
+double Orthotropic::compliance(const Vec3& direction) const
+{
+    const Vec3 cosines = transposeTimes(axes(), direction);
+    const double squares[3] = {cosines.x * cosines.x, cosines.y * cosines.y, cosines.z * cosines.z};
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) sum += squares[i] * squares[i] / m_young[i];
+    for (int k = 0; k < 3; ++k)
+        sum += (1 / m_shear[k] - 2 * m_poisson[k] / m_young[kPair[k][0]]) * squares[kPair[k][0]] * squares[kPair[k][1]];
+    return sum;
+}
+
 ElasticMatrix Orthotropic::stiffness() const
 {
     // In the material's own axes: the compliance S has entries 1 / E_i and -nu_ij / E_i; scaled to a unit diagonal it

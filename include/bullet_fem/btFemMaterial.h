@@ -92,8 +92,8 @@ struct BULLETFEM_API btFemMaterial
 
     static btFemMaterial rubber();    ///< soft natural rubber: 2 MPa, nu .47, 1100 kg/m3
     static btFemMaterial foam();      ///< upholstery foam: 50 kPa, nu .1, 40 kg/m3
-    static btFemMaterial jelly();     ///< gelatine: 10 kPa, nu .45, 1000 kg/m3
-    static btFemMaterial flesh();     ///< muscle and fat: 60 kPa, nu .45, 1060 kg/m3
+    static btFemMaterial jelly();     ///< gelatine: 10 kPa, nu .45, 1000 kg/m3, Neo-Hookean
+    static btFemMaterial flesh();     ///< muscle and fat: 60 kPa, nu .45, 1060 kg/m3, Neo-Hookean
     static btFemMaterial wood();      ///< softwood taken as isotropic: 9 GPa, nu .3, 500 kg/m3
     static btFemMaterial clay();      ///< soft clay, undrained: 2.5 MPa, nu .45, 1800 kg/m3, yields at 50 kPa
     static btFemMaterial lead();      ///< 16 GPa, nu .44, 11340 kg/m3, yields at 5.5 MPa and hardens by 20 MPa

@@ -92,7 +92,15 @@ enum btFemFlags
     BT_FEM_SOLVED_AFTER = 1 << 25,
     /// The body had to split (see btFemFracture), and could not (see m_message). It has no strength from then on and is
     /// whole: allow larger factors, take a coarser mesh, and set the strength again.
-    BT_FEM_NOT_SPLIT = 1 << 26
+    BT_FEM_NOT_SPLIT = 1 << 26,
+    /// The body is too soft for its own weight: rho g H exceeds E / 2 with Hooke's law or an orthotropic one, which
+    /// give way there, so that the body sinks into itself and through what it lies on. Take the Neo-Hookean law
+    /// (btFemMaterial::m_law), a larger Young's modulus, or a smaller or lighter body (docs/manual.md, How stiff must
+    /// my body be). H is the extent of the rest shape along gravity as the body lies, of its largest connected part;
+    /// rho its mass over its volume; pins are not looked at. E is the harmonic mean over the volume, that of slow loads
+    /// where the material relaxes; Neo-Hookean regions count as rigid. Without gravity it is not set. It is looked at
+    /// as the body becomes FEM, or gets another material, rest shape or factor, and as gravity changes.
+    BT_FEM_TOO_SOFT = 1 << 27
 };
 
 /// What the last step did to a body. Every field is written in every step; all zero for a body that is not FEM.

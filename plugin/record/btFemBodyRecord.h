@@ -19,6 +19,7 @@
 #include "plugin/record/btFemRealTime.h"
 #include "plugin/record/btFemSleepRecord.h"
 #include "plugin/record/btFemSources.h"
+#include "plugin/record/btFemTooSoft.h"
 
 struct btFemFactorJob;
 
@@ -90,6 +91,7 @@ struct btFemSetUpResult
     std::string m_message;
     bool m_wasChanged = false;  ///< by the program, which appended, removed or rejoined nodes or tetrahedra
     int m_flags = 0;            ///< that hold until the body is set up anew
+    btFemTooSoft m_tooSoft;
     btFemFaceIndex m_faceIndex;
     std::unique_ptr<btFemCracks> m_cracks;  ///< of a body that has a strength, once a step has ended
 };

@@ -14,6 +14,7 @@ btFemMaterial fromCore(const bullet_fem::Material& material)
     result.m_youngModulus = static_cast<btScalar>(material.m_youngModulus);
     result.m_poissonRatio = static_cast<btScalar>(material.m_poissonRatio);
     result.m_density = static_cast<btScalar>(material.m_density);
+    result.m_law = static_cast<btFemElasticLaw>(material.m_law);
     result.m_yieldStress = static_cast<btScalar>(material.m_yieldStress);
     result.m_hardeningModulus = static_cast<btScalar>(material.m_hardeningModulus);
     result.m_plasticCreep = static_cast<btScalar>(material.m_plasticCreep);

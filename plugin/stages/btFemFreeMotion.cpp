@@ -25,9 +25,11 @@ constexpr double kCoarseTolerance = 0.05;
 
 void clearReport(btFemBodyRecord& record)
 {
+    int& setUp = record.m_model.m_flags;
+    setUp &= ~BT_FEM_TOO_SOFT;
+    if (record.isFem() && record.m_model.m_tooSoft.look(record.fem())) setUp |= BT_FEM_TOO_SOFT;
     btFemStepReport report;
-    report.m_flags =
-        record.m_reports.m_step.m_flags | record.m_model.m_flags | (record.m_model.m_rejected ? BT_FEM_REJECTED : 0);
+    report.m_flags = record.m_reports.m_step.m_flags | setUp | (record.m_model.m_rejected ? BT_FEM_REJECTED : 0);
     report.m_message = record.m_model.m_message.c_str();
     if (record.isFem()) reportModel(*record.fem().m_body.m_model, report);
     record.m_reports.m_step = report;

@@ -215,12 +215,29 @@ TEST_F(Program, BakesWhatInfoTells)
     EXPECT_EQ(told["kind"], "baked body");
     EXPECT_EQ(told["tets"], baked["tets"]);
     EXPECT_EQ(told["young"], 2e4);
+    EXPECT_EQ(told["law"], "neoHooke");
     EXPECT_NEAR(told["poisson"].get<double>(), 0.45, 1e-6);
     EXPECT_NEAR(told["step"].get<double>(), 0.01, 1e-9);
     EXPECT_GT(told["pinned"].get<int>(), 3);
     EXPECT_EQ(told["pinned"], baked["pinned"]);
     EXPECT_EQ(told["embeddedVertices"], 8);
     EXPECT_EQ(told["bytes"].get<std::uintmax_t>(), std::filesystem::file_size(m_folder.path("cube.bfem")));
+}
+
+TEST_F(Program, BakesWithTheLawThatIsGiven)
+{
+    const std::string bake = "bake " + path("two.node") + " -o " + path("law.bfem");
+    const auto law = [&](const std::string& options)
+    {
+        figures(bake + options);
+        return figures("info " + path("law.bfem")).value("law", "hooke");
+    };
+    EXPECT_EQ(law(" --material flesh"), "neoHooke");
+    EXPECT_EQ(law(" --material flesh --law hooke --accurate-bending"), "hooke");
+    EXPECT_EQ(law(" --material foam"), "hooke");
+    EXPECT_EQ(law(" --material foam --law neoHooke"), "neoHooke");
+    refused(bake + " --material flesh --accurate-bending", 1,
+            "accurate bending does not go with the Neo-Hookean law (as jelly and flesh have); take the law hooke");
 }
 
 TEST_F(Program, TellsRegionsAndBakesThem)

@@ -58,7 +58,8 @@ void take(const std::string& part, Material& material)
 }
 
 // Into a label and a material.
-void takeRegion(const std::string& text, Material material, std::map<int, Material>& regions)
+void takeRegion(const std::string& text, Material material, std::optional<ElasticLaw> law,
+                std::map<int, Material>& regions)
 {
     int label = 0;
     const char* const last = text.data() + text.size();
@@ -68,6 +69,7 @@ void takeRegion(const std::string& text, Material material, std::map<int, Materi
     int count = 0;
     for (std::string part; std::getline(parts, part, ','); ++count) take(part, material);
     if (count == 0) throw std::runtime_error("there is no material");
+    material.m_law = law.value_or(material.m_law);
     material.validate();
     if (!regions.emplace(label, material).second) throw std::runtime_error("its region was given before");
 }
@@ -76,12 +78,13 @@ void takeRegion(const std::string& text, Material material, std::map<int, Materi
 
 std::map<int, Material> MaterialOptions::regions() const
 {
+    const std::optional<ElasticLaw> given = law();
     std::map<int, Material> regions;
     for (const std::string& text : m_regions)
     {
         try
         {
-            takeRegion(text, material(), regions);
+            takeRegion(text, material(), given, regions);
         }
         catch (const std::exception& error)
         {
@@ -110,6 +113,12 @@ void MaterialOptions::add(CLI::App& command)
     command.add_flag("--accurate-bending", m_accurateBending,
                      "strains are averaged around edges, so that thin parts bend as much as they should");
     command
+        .add_option(
+            "--law", m_law,
+            "hooke, or neoHooke, which stiffens as it is stretched or crushed (default: the material's; that of "
+            "jelly and flesh is neoHooke)")
+        ->check(CLI::IsMember({"hooke", "neoHooke"}));
+    command
         .add_option("--region", m_regions,
                     "material of a region of the file, by its label: 7:rubber or 7:young=2e5,poisson=.45,density=1100; "
                     "give it for every region")
@@ -128,7 +137,14 @@ Material MaterialOptions::material() const
                                 : m_meanDilatation == "off" ? MeanDilatation::off
                                                             : MeanDilatation::automatic;
     material.m_accurateBending = m_accurateBending;
+    material.m_law = law().value_or(material.m_law);
     return material;
+}
+
+std::optional<ElasticLaw> MaterialOptions::law() const
+{
+    if (m_law.empty()) return {};
+    return m_law == "hooke" ? ElasticLaw::hooke : ElasticLaw::neoHooke;
 }
 
 }  // namespace bullet_fem

@@ -23,7 +23,9 @@ public:
     std::map<int, Material> regions() const;
 
 private:
-    std::string m_preset, m_meanDilatation;
+    std::optional<ElasticLaw> law() const;  // that is in place of the preset's
+
+    std::string m_preset, m_meanDilatation, m_law;
     bool m_accurateBending = false;
     std::vector<std::string> m_regions;
     std::optional<double> m_young, m_poisson, m_density, m_massDamping, m_stiffnessDamping;

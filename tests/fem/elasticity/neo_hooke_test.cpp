@@ -281,7 +281,7 @@ TEST(NeoHooke, WhatItDoesNotGoWithIsRefused)
     std::vector<Material> perElement(5, neoHookean(0.45));
     perElement[2] = elasticMaterial(kNeoHookeYoung, 0.45);
     expectRejected([&] { RestShape(mesh, ElementMaterials::ofElements(perElement)); },
-                   {"mean dilatation (nu 0.45) beside a Neo-Hookean region", "switch it off"});
+                   {"mean dilatation (nu 0.45) beside a Neo-Hookean region", "switch it off", "the law hooke"});
 }
 
 }  // namespace

@@ -65,8 +65,10 @@ TEST(Material, DefaultAndPresetsAreValidAndDiffer)
 
 TEST(Material, PresetsAreAsDocumented)
 {
-    const auto is = [](const Material& material, double youngModulus, double poissonRatio, double density)
+    const auto is = [](const Material& material, double youngModulus, double poissonRatio, double density,
+                       ElasticLaw law = ElasticLaw::hooke)
     {
+        EXPECT_EQ(material.m_law, law);
         EXPECT_EQ(material.m_youngModulus, youngModulus);
         EXPECT_EQ(material.m_poissonRatio, poissonRatio);
         EXPECT_EQ(material.m_density, density);
@@ -75,12 +77,45 @@ TEST(Material, PresetsAreAsDocumented)
     };
     is(Material::rubber(), 2e6, 0.47, 1100);
     is(Material::foam(), 50e3, 0.1, 40);
-    is(Material::jelly(), 10e3, 0.45, 1000);
-    is(Material::flesh(), 60e3, 0.45, 1060);
+    is(Material::jelly(), 10e3, 0.45, 1000, ElasticLaw::neoHooke);
+    is(Material::flesh(), 60e3, 0.45, 1060, ElasticLaw::neoHooke);
     is(Material::wood(), 9e9, 0.3, 500);
     is(Material::clay(), 2.5e6, 0.45, 1800);
     is(Material::lead(), 16e9, 0.44, 11340);
     is(Material::mildFoam(), 50e3, 0.1, 40);
+}
+
+TEST(Material, NeoHookeanPresetsNameTheRemedyWhereTheLawDoesNotGo)
+{
+    for (const auto spoil :
+         {+[](Material& m) { m.m_accurateBending = true; }, +[](Material& m) { m.m_yieldStress = 1e3; },
+          +[](Material& m) {
+              m.m_relaxation[0] = {.3, 1};
+          },
+          +[](Material& m) { m.m_meanDilatation = MeanDilatation::on; }})
+    {
+        Material material = Material::jelly();
+        spoil(material);
+        expectRejected([&] { material.validate(); },
+                       {"the Neo-Hookean law (as jelly and flesh have)", "the law hooke"});
+        material.m_law = ElasticLaw::hooke;
+        EXPECT_TRUE(material.valid());
+    }
+}
+
+TEST(Material, SlowComplianceIsThatOfABarUnderALastingLoad)
+{
+    Material material;
+    for (const double poisson : {0.0, 0.3, 0.45, 0.499})
+    {
+        material.m_poissonRatio = poisson;
+        material.m_relaxation = {};
+        EXPECT_NEAR(material.slowCompliance({0, 1, 0}) * material.m_youngModulus, 1, 1e-12);
+        material.m_relaxation[0] = {.5, 1};
+        material.m_relaxation[1] = {.2, 9};
+        const double bulk = material.m_youngModulus / (3 * (1 - 2 * poisson)), mu = .3 * material.lameMu();
+        EXPECT_NEAR(material.slowCompliance({0, 1, 0}) * 9 * bulk * mu / (3 * bulk + mu), 1, 1e-9);
+    }
 }
 
 TEST(Material, PresetsYieldAsDocumented)

@@ -55,6 +55,22 @@ TEST(Orthotropic, StiffnessIsTheInverseOfTheComplianceOfTheTextbook)
     EXPECT_LT((matrixOf(m.stiffness()) * S - Matrix6::Identity()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(Orthotropic, ComplianceIsThatOfABarThatIsPulledInAnyDirection)
+{
+    Orthotropic m = nineConstants();
+    m.m_along = {1, 2, -1};
+    m.m_across = {0, 1, 3};
+    for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{1, 1, 0}, Vec3{1, -2, 3}})
+    {
+        const Vec3 n = (1 / norm(way)) * way;
+        Eigen::Matrix<double, 6, 1> stress;
+        stress << n.x * n.x, n.y * n.y, n.z * n.z, n.y * n.z, n.x * n.z, n.x * n.y;  // of 1 Pa along n
+        const Eigen::Matrix<double, 6, 1> strain = matrixOf(m.stiffness()).ldlt().solve(stress);
+        EXPECT_NEAR(stress.dot(strain) * 1e9, m.compliance(n) * 1e9, 1e-9);  // shear strains are doubled
+    }
+    EXPECT_NEAR(nineConstants().compliance({0, 1, 0}) * 1.2e9, 1, 1e-12);
+}
+
 TEST(Orthotropic, OfOneConstantEachItIsHookes)
 {
     Material hooke;

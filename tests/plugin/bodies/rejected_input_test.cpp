@@ -72,6 +72,21 @@ TEST(RejectedMaterial, LimitsAndPresetsAreAccepted)
         EXPECT_TRUE(preset.valid(&why)) << why;
 }
 
+TEST(RejectedMaterial, NeoHookeanPresetsRefuseAccurateBendingWithTheRemedy)
+{
+    for (btFemMaterial material : {btFemMaterial::jelly(), btFemMaterial::flesh()})
+    {
+        EXPECT_EQ(material.m_law, btFemElasticLaw::neoHooke);
+        material.m_accurateBending = true;
+        std::string why;
+        EXPECT_FALSE(material.valid(&why));
+        EXPECT_EQ(
+            why, "accurate bending does not go with the Neo-Hookean law (as jelly and flesh have); take the law hooke");
+        material.m_law = btFemElasticLaw::hooke;
+        EXPECT_TRUE(material.valid(&why)) << why;
+    }
+}
+
 template <typename Member, typename Value>
 void expectBadInfo(Member member, Value value, const char* name)
 {

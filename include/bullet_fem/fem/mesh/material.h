@@ -98,6 +98,10 @@ struct BULLETFEM_API Material
     bool yields() const { return m_yieldStress < kInfinite; }
     /// Number of terms of m_relaxation with a share.
     int relaxationTerms() const;
+    /// Strain over stress of a bar that is pulled along a unit vector [-] by a load that lasts, at small strain [1/Pa]:
+    /// 1 / E, of an orthotropic material in that direction of the rest shape, of one that relaxes with what is left of
+    /// the shear modulus.
+    double slowCompliance(const Vec3& direction) const;
 
     /// True if every value is finite and in its range; else `why` (if given) names the value, the range and the remedy.
     bool valid(std::string* why = nullptr) const;
@@ -106,8 +110,8 @@ struct BULLETFEM_API Material
 
     static Material rubber();    ///< soft natural rubber: 2 MPa, nu .47, 1100 kg/m3
     static Material foam();      ///< upholstery foam: 50 kPa, nu .1, 40 kg/m3
-    static Material jelly();     ///< gelatine: 10 kPa, nu .45, 1000 kg/m3
-    static Material flesh();     ///< muscle and fat: 60 kPa, nu .45, 1060 kg/m3
+    static Material jelly();     ///< gelatine: 10 kPa, nu .45, 1000 kg/m3, Neo-Hookean
+    static Material flesh();     ///< muscle and fat: 60 kPa, nu .45, 1060 kg/m3, Neo-Hookean
     static Material wood();      ///< softwood taken as isotropic: 9 GPa, nu .3, 500 kg/m3
     static Material clay();      ///< soft clay, undrained: 2.5 MPa, nu .45, 1800 kg/m3, yields at 50 kPa
     static Material lead();      ///< 16 GPa, nu .44, 11340 kg/m3, yields at 5.5 MPa and hardens by 20 MPa

@@ -75,6 +75,10 @@ struct BULLETFEM_API Orthotropic
     Mat3 axes() const;
     /// Stiffness matrix C in the axes of the rest shape.
     ElasticMatrix stiffness() const;
+    /// Strain over stress of a bar that is pulled along a unit vector in the axes of the rest shape [1/Pa]:
+    /// sum of c_i^4 / E_i + sum over i < j of (1 / G_ij - 2 nu_ij / E_i) c_i^2 c_j^2, c its cosines with the axes
+    /// [Jones 1999, ch. 2].
+    double compliance(const Vec3& direction) const;
     /// The isotropic law t <C>: <C> is the mean of C over all directions (Voigt average), t in (0, 1] the largest share
     /// that leaves C - t <C> positive semidefinite. Equals C if that is isotropic. lambda may be negative.
     LameModuli isotropicPart() const;

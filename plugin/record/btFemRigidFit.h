@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "LinearMath/btVector3.h"
+#include "bullet_bridge/fem_soft_body.h"
+
+/// The rigid motion X -> c + R (X - C) that brings the rest shape nearest to a body's nodes, weighed by their masses: R
+/// is the rotation of sum m (x - c) (X - C)^T. [Mueller et al. 2005, Meshless deformations based on shape matching]
+class btFemRigidFit
+{
+public:
+    explicit btFemRigidFit(const bullet_fem::FemSoftBody& fem);
+
+    /// Where a node would be without deformation, world [m].
+    btVector3 place(int node) const;
+
+    /// R.
+    const bullet_fem::Mat3& rotation() const { return m_rotation; }
+
+private:
+    const std::vector<bullet_fem::Vec3>& m_X;
+    bullet_fem::Vec3 m_center, m_restCenter;
+    bullet_fem::Mat3 m_rotation;
+};

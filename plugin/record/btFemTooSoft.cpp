@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "plugin/record/btFemTooSoft.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "plugin/record/btFemRigidFit.h"
+
+using namespace bullet_fem;
+
+namespace
+{
+
+// rho g H / E beyond which a body is told to be too soft [-]. Cubes on a plane with Hooke's law stand at .5 in meshes
+// of four and eight cells across, and give way at .7 (docs/manual.md, How stiff must my body be; SoftPresets).
+constexpr double kMostWeightStrain = 0.5;
+
+// Extent of the largest connected part along a unit vector [m].
+double extentAlong(const TetMesh& mesh, const Vec3& direction)
+{
+    struct Span
+    {
+        double m_low = std::numeric_limits<double>::infinity(), m_high = -m_low;
+    };
+    std::vector<Span> spans(mesh.componentCount());
+    for (int i = 0; i < mesh.nodeCount(); ++i)
+    {
+        Span& span = spans[mesh.nodeComponent()[i]];
+        const double height = dot(direction, mesh.restPositions()[i]);
+        span.m_low = std::min(span.m_low, height);
+        span.m_high = std::max(span.m_high, height);
+    }
+    double most = 0;
+    for (const Span& span : spans) most = std::max(most, span.m_high - span.m_low);
+    return most;
+}
+
+// rho g H / E [-].
+double weightStrain(const FemSoftBody& fem, const Vec3& gravity)
+{
+    const double strength = norm(gravity);
+    if (!(strength > 0) || !isFinite(gravity)) return 0;
+    const RestShape& shape = fem.m_body.m_model->shape();
+    const Vec3 down = transposeTimes(btFemRigidFit(fem).rotation(), 1 / strength * gravity);
+    double volume = 0, give = 0;  // [m3], [m3/Pa]
+    for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
+    {
+        const Material& material = shape.materialOf(e);
+        volume += shape.m_elements[e].m_volume;
+        if (material.m_law != ElasticLaw::neoHooke)
+            give += shape.m_elements[e].m_volume * material.slowCompliance(down);
+    }
+    const std::vector<double>& masses = fem.m_body.m_state.m_mass;
+    const double density = std::accumulate(masses.begin(), masses.end(), 0.0) / volume;
+    return density * strength * extentAlong(shape.m_mesh, down) * give / volume;
+}
+
+}  // namespace
+
+bool btFemTooSoft::look(const FemSoftBody& fem)
+{
+    const Vec3 gravity = fem.gravity();
+    const bool asBefore = m_model.lock() == fem.m_body.m_model && gravity.x == m_gravity.x &&
+                          gravity.y == m_gravity.y && gravity.z == m_gravity.z;
+    if (asBefore) return m_isTooSoft;
+    m_model = fem.m_body.m_model;
+    m_gravity = gravity;
+    m_isTooSoft = weightStrain(fem, gravity) > kMostWeightStrain;
+    return m_isTooSoft;
+}
