@@ -99,7 +99,7 @@ enum btFemFlags
     /// my body be). H is the extent of the rest shape along gravity as the body lies, of its largest connected part;
     /// rho its mass over its volume; pins are not looked at. E is the harmonic mean over the volume, that of slow loads
     /// where the material relaxes; Neo-Hookean regions count as rigid. Without gravity it is not set. It is looked at
-    /// as the body becomes FEM, or gets another material, rest shape or factor, and as gravity changes.
+    /// as the body becomes FEM, and as its material, rest shape, mass or gravity changes.
     BT_FEM_TOO_SOFT = 1 << 27
 };
 

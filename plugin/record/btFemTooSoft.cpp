@@ -14,37 +14,37 @@ using namespace bullet_fem;
 namespace
 {
 
-// rho g H / E beyond which a body is told to be too soft [-]. Cubes on a plane with Hooke's law stand at .5 in meshes
-// of four and eight cells across, and give way at .7 (docs/manual.md, How stiff must my body be; SoftPresets).
+// rho g H / E beyond which a body is told to be too soft [-]. Cubes on a plane with Hooke's law stand at .55 in meshes
+// of four and eight cells across, and have elements inside out at .7 (docs/manual.md, How stiff must my body be;
+// SoftPresets).
 constexpr double kMostWeightStrain = 0.5;
 
-// Extent of the largest connected part along a unit vector [m].
-double extentAlong(const TetMesh& mesh, const Vec3& direction)
+}  // namespace
+
+// Of the largest connected part [m].
+double btFemTooSoft::extentAlong(const TetMesh& mesh, const Vec3& direction)
 {
-    struct Span
-    {
-        double m_low = std::numeric_limits<double>::infinity(), m_high = -m_low;
-    };
-    std::vector<Span> spans(mesh.componentCount());
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    m_spans.assign(mesh.componentCount(), {kInfinite, -kInfinite});
     for (int i = 0; i < mesh.nodeCount(); ++i)
     {
-        Span& span = spans[mesh.nodeComponent()[i]];
+        Span& span = m_spans[mesh.nodeComponent()[i]];
         const double height = dot(direction, mesh.restPositions()[i]);
         span.m_low = std::min(span.m_low, height);
         span.m_high = std::max(span.m_high, height);
     }
     double most = 0;
-    for (const Span& span : spans) most = std::max(most, span.m_high - span.m_low);
+    for (const Span& span : m_spans) most = std::max(most, span.m_high - span.m_low);
     return most;
 }
 
 // rho g H / E [-].
-double weightStrain(const FemSoftBody& fem, const Vec3& gravity)
+double btFemTooSoft::weightStrain(const FemSoftBody& fem)
 {
-    const double strength = norm(gravity);
-    if (!(strength > 0) || !isFinite(gravity)) return 0;
+    const double strength = norm(m_gravity);
+    if (!(strength > 0) || !isFinite(m_gravity)) return 0;
     const RestShape& shape = fem.m_body.m_model->shape();
-    const Vec3 down = transposeTimes(btFemRigidFit(fem).rotation(), 1 / strength * gravity);
+    const Vec3 down = transposeTimes(btFemRigidFit(fem).rotation(), 1 / strength * m_gravity);
     double volume = 0, give = 0;  // [m3], [m3/Pa]
     for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
     {
@@ -53,21 +53,20 @@ double weightStrain(const FemSoftBody& fem, const Vec3& gravity)
         if (material.m_law != ElasticLaw::neoHooke)
             give += shape.m_elements[e].m_volume * material.slowCompliance(down);
     }
-    const std::vector<double>& masses = fem.m_body.m_state.m_mass;
-    const double density = std::accumulate(masses.begin(), masses.end(), 0.0) / volume;
-    return density * strength * extentAlong(shape.m_mesh, down) * give / volume;
+    return m_mass / volume * strength * extentAlong(shape.m_mesh, down) * give / volume;
 }
-
-}  // namespace
 
 bool btFemTooSoft::look(const FemSoftBody& fem)
 {
+    const std::vector<double>& masses = fem.m_body.m_state.m_mass;
+    const double mass = std::accumulate(masses.begin(), masses.end(), 0.0);
     const Vec3 gravity = fem.gravity();
-    const bool asBefore = m_model.lock() == fem.m_body.m_model && gravity.x == m_gravity.x &&
-                          gravity.y == m_gravity.y && gravity.z == m_gravity.z;
+    const bool asBefore = m_shape.lock() == fem.m_body.m_model->sharedShape() && mass == m_mass &&
+                          gravity.x == m_gravity.x && gravity.y == m_gravity.y && gravity.z == m_gravity.z;
     if (asBefore) return m_isTooSoft;
-    m_model = fem.m_body.m_model;
+    m_shape = fem.m_body.m_model->sharedShape();
+    m_mass = mass;
     m_gravity = gravity;
-    m_isTooSoft = weightStrain(fem, gravity) > kMostWeightStrain;
+    m_isTooSoft = weightStrain(fem) > kMostWeightStrain;
     return m_isTooSoft;
 }

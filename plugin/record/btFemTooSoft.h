@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "bullet_bridge/fem_soft_body.h"
 
@@ -10,12 +11,22 @@
 class btFemTooSoft
 {
 public:
-    /// Free while the body's model and gravity are those of the last look; else it passes over nodes and elements, and
-    /// allocates where the body has several connected parts.
+    /// Sums up the masses; where these, rest shape, material or gravity are others than at the last look it passes over
+    /// nodes and elements. Allocates where the body has more connected parts than before.
     bool look(const bullet_fem::FemSoftBody& fem);
 
 private:
-    std::weak_ptr<const bullet_fem::BodyModel> m_model;  // as of the last look
-    bullet_fem::Vec3 m_gravity;                          // likewise
+    struct Span
+    {
+        double m_low, m_high;
+    };
+
+    double extentAlong(const bullet_fem::TetMesh& mesh, const bullet_fem::Vec3& direction);
+    double weightStrain(const bullet_fem::FemSoftBody& fem);
+
+    std::weak_ptr<const bullet_fem::RestShape> m_shape;  // as of the last look, as the next two
+    bullet_fem::Vec3 m_gravity;                          // [m/s2]
+    double m_mass = 0;                                   // [kg]
     bool m_isTooSoft = false;
+    std::vector<Span> m_spans;  // of connected parts; scratch
 };

@@ -65,7 +65,7 @@ double heightOfColumn(const btFemMaterial& m, double weightStrain)
     for (int k = 0; k < kSlices; ++k)
     {
         const double load = weightStrain * E * (k + .5) / kSlices;
-        height += rootOf(.01, 1, [&](double s) { return load < pressure(s) ? -1.0 : 1.0; }) / kSlices;
+        height += rootOf(.01, 1, [&](double s) { return pressure(s) > load ? 1.0 : -1.0; }) / kSlices;
     }
     return height;
 }
@@ -80,10 +80,11 @@ TEST_P(SoftHeights, AreThoseOfTheManual)
     {
         const double size = kSizes[k];
         FemWorld world(WorldClass::softRigid, Coupling::coupled);
-        world.addPlane();
+        world.addPlane().setFriction(btScalar(.5));  // what Bullet gives bodies, as the next
         SoftBox box;
         box.m_size = {size, size, size};
         box.m_center = {0, 0, size / 2};
+        box.m_friction = btScalar(.2);
         btSoftBody& cube = addSoftBox(world, world.fem(), box);
         btFemMaterial material = GetParam().m_make();
         material.m_law = GetParam().m_law;

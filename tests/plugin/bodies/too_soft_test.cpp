@@ -94,6 +94,15 @@ TEST_P(TooSoft, HeightIsTheRestShapesAlongGravityAsTheBodyLies)
     EXPECT_TRUE(isFlagged(m_world.addSoft(upright)));
 }
 
+TEST_P(TooSoft, HeightFollowsTheBodysTurnWhereItIsLookedAtAnew)
+{
+    btSoftBody& body = addSlab(softMaterial(.61, kSlabLength));
+    EXPECT_FALSE(isFlagged(body));
+    body.transform(btTransform(btQuaternion(btVector3(0, 1, 0), SIMD_HALF_PI)));
+    m_world.fem().setMaterial(&body, softMaterial(.6, kSlabLength));
+    EXPECT_TRUE(isFlagged(body));
+}
+
 TEST_P(TooSoft, FlagFollowsGravity)
 {
     btSoftBody& body = addSlab(softMaterial(.8, kSlabThick));
@@ -138,6 +147,17 @@ TEST_P(TooSoft, MassesOfTheBodyCountWithoutADensity)
     };
     EXPECT_TRUE(flagged(.51));
     EXPECT_FALSE(flagged(.49));
+}
+
+TEST_P(TooSoft, FlagFollowsTheMass)
+{
+    btSoftBody& body = addSlab(softMaterial(.4, kSlabThick));
+    const btScalar mass = body.getTotalMass();
+    EXPECT_FALSE(isFlagged(body));
+    body.setTotalMass(2 * mass);
+    EXPECT_TRUE(isFlagged(body));
+    body.setTotalMass(mass);
+    EXPECT_FALSE(isFlagged(body));
 }
 
 TEST_P(TooSoft, RegionsCountByTheHarmonicMeanAndNeoHookeanOnesAsRigid)
