@@ -8,6 +8,7 @@
 #include "bullet_fem/fem/mesh/rest_shape.h"
 #include "fem/common/attempt.h"
 #include "fem/common/message.h"
+#include "fem/common/single.h"
 
 namespace bullet_fem
 {
@@ -21,13 +22,7 @@ struct Rounding
 {
     bool m_single;
 
-    // Via memory: GCC 12.2 optimizes a vectorized conversion there and back away.
-    double operator()(double value) const
-    {
-        if (!m_single) return value;
-        const volatile float single = static_cast<float>(value);
-        return static_cast<double>(single);
-    }
+    double operator()(double value) const { return m_single ? roundedToSingle(value) : value; }
     Vec3 operator()(const Vec3& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
     Material operator()(Material m) const
     {
@@ -126,7 +121,7 @@ BakedBody bakeMesh(const Given& given, const BakeSettings& settings)
     FactorInput input;
     for (const double inverse : body.m_inverseMass) input.m_mass.push_back(1 / inverse);
     input.m_fixed = fixedNodes(shape->m_mesh, settings.m_pins);
-    input.m_step = round(settings.m_step);
+    input.m_step = roundedToSingle(settings.m_step);  // as the plug-in does in either precision
     input.m_choice = settings.m_choice;
     input.m_maxBytes = settings.m_maxBytes;
     body.m_model = BodyModel::create(std::move(shape), std::move(input));

@@ -8,16 +8,24 @@
 #include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/fem/body/body_snapshot.h"
 #include "fem/common/reason.h"
+#include "fem/common/single.h"
 #include "plugin/setup/btFemBodySetUp.h"
 
 using namespace bullet_fem;
+
+// Bullet tells the step that a body is set up in by predictMotion(float(timeStep)): in double precision, too, a factor
+// is made for the step of single precision, so that it has the same bits whoever asks for it first.
+double btFemBodySetUp::stepOfFactor(double step, const Material& material) const
+{
+    return roundedToSingle(factorStep(step, m_numericalDamping, material));
+}
 
 FactorInput btFemBodySetUp::factorInput(const btFemBodyRecord& record, double step) const
 {
     FactorInput input;
     input.m_mass = record.fem().m_body.m_state.m_mass;
     input.m_fixed = record.fem().m_body.m_state.m_fixed;
-    input.m_step = factorStep(step, m_numericalDamping, record.fem().m_body.m_model->shape().m_material);
+    input.m_step = stepOfFactor(step, record.fem().m_body.m_model->shape().m_material);
     return m_library.limited(std::move(input));
 }
 

@@ -146,7 +146,7 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
         input.m_fixed.push_back(pinned || mesh.isLoose(i));
         if (defined && pinned) input.m_mass[i] = defined->m_mass[i];
     }
-    input.m_step = factorStep(step, m_numericalDamping, shape->m_material);
+    input.m_step = stepOfFactor(step, shape->m_material);
     const auto model = baked ? m_library.modelWithFactor(shape, input, record.m_asked.m_baked->m_model)
                              : m_library.model(shape, input);
     record.m_model.m_fem = std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model));

@@ -94,6 +94,7 @@ public:
 
 private:
     bool canUseBaked(const btFemBodyRecord& record) const;
+    double stepOfFactor(double step, const bullet_fem::Material& material) const;
     std::shared_ptr<const bullet_fem::RestShape> bakedShape(const btFemBodyRecord& record,
                                                             const std::vector<double>& filled);
     void setUpNew(btFemBodyRecord& record, double step);

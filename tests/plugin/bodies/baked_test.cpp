@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies that were baked move like those that were not, and their factors are used as they are.
+// Factors of bodies that were baked are used as they are.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/baked/baked_body.h"
 #include "bullet_fem/fem/mesh/generators.h"
-#include "io/temporary_folder.h"
+#include "plugin/scenes/baked_bodies.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"
 
@@ -16,46 +16,6 @@ namespace bullet_fem
 {
 namespace
 {
-
-constexpr bool kSingle = sizeof(btScalar) == sizeof(float);
-
-// Written to a file and read again.
-BakedBody throughAFile(const BakedBody& baked)
-{
-    const TemporaryFolder folder;
-    writeBakedBody(folder.path("body.bfem"), baked);
-    return readBakedBody(folder.path("body.bfem"));
-}
-
-btFemMaterial bulletMaterial(const Material& m)
-{
-    btFemMaterial material;
-    material.m_youngModulus = static_cast<btScalar>(m.m_youngModulus);
-    material.m_poissonRatio = static_cast<btScalar>(m.m_poissonRatio);
-    material.m_density = static_cast<btScalar>(m.m_density);
-    material.m_massDamping = static_cast<btScalar>(m.m_massDamping);
-    material.m_stiffnessDamping = static_cast<btScalar>(m.m_stiffnessDamping);
-    return material;
-}
-
-// Its corners are at this distance from the centre [m].
-SurfaceMesh octahedron(double radius, const Vec3& centre)
-{
-    SurfaceMesh surface;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {radius, -radius})
-        {
-            surface.m_vertices.push_back(centre);
-            surface.m_vertices.back()[axis] += side;
-        }
-    for (int k = 0; k < 8; ++k)
-    {
-        const int x = k & 1, y = 2 + (k >> 1 & 1), z = 4 + (k >> 2);
-        const bool even = ((k & 1) + (k >> 1 & 1) + (k >> 2)) % 2 == 0;
-        surface.m_triangles.push_back(even ? Triangle{x, y, z} : Triangle{x, z, y});
-    }
-    return surface;
-}
 
 class BakedBodies : public testing::Test
 {
@@ -85,68 +45,6 @@ protected:
     btFemSoftBodySolver m_fem;
     SoftWorld m_world{m_fem};
 };
-
-/// One that was baked and one that was not, each in a world of its own with a ground.
-class BakedTwins : public BakedBodies
-{
-protected:
-    BakedTwins()
-    {
-        m_world.addPlane();
-        m_plainWorld.addPlane();
-    }
-
-    void expectSameMotion(const BakedBody& baked, btSoftBody* plain)
-    {
-        btSoftBody& a = addBaked(baked);
-        for (const int i : m_settings.m_pins) plain->m_nodes[i].m_im = 0;
-        m_plainFem.setMaterial(plain, bulletMaterial(m_settings.m_material));
-        m_plainFem.prepare(plain, kStep);
-        m_plainWorld.addSoft(plain);
-        bool touched = false;
-        for (int k = 0; k < 300; ++k)
-        {
-            m_world.step();
-            m_plainWorld.step();
-            touched = touched || m_fem.contacts(&a).size() > 0;
-            ASSERT_EQ(bitsOf(a), bitsOf(*plain)) << "step " << k;
-        }
-        EXPECT_TRUE(touched);
-        EXPECT_TRUE(m_fem.stepReport(&a).m_bakedFactor);
-        EXPECT_FALSE(m_plainFem.stepReport(plain).m_bakedFactor);
-        EXPECT_FALSE(has(a, BT_FEM_STALE_FACTOR | BT_FEM_REFACTORED | BT_FEM_BAKED_UNUSED));
-    }
-
-    btFemSoftBodySolver m_plainFem;
-    SoftWorld m_plainWorld{m_plainFem};
-};
-
-TEST_F(BakedTwins, MoveAlikeToTheBit)
-{
-    expectSameMotion(bakedBox(), btFemHelpers::createFromTetMesh(m_plainWorld.info(), box()));
-}
-
-TEST_F(BakedTwins, MoveAlikeToTheBitWhenPinned)
-{
-    m_settings.m_pins = {0, 1, 5};
-    m_settings.m_material.m_youngModulus = 2e4;  // so that they sag onto the ground
-    expectSameMotion(bakedBox(), btFemHelpers::createFromTetMesh(m_plainWorld.info(), box()));
-}
-
-TEST_F(BakedTwins, MoveAlikeToTheBitInACage)
-{
-    const SurfaceMesh ball = octahedron(0.3, {0, 0, 0.37});
-    CageSettings settings;
-    settings.m_cellSize = 0.15;
-    btSoftBody* plain = btFemHelpers::createFromSurface(m_plainWorld.info(), ball, settings);
-    const BakedBody baked = throughAFile(bakeBody(makeCage(ball, settings), ball, m_settings));
-    expectSameMotion(baked, plain);
-    const btSoftBody& body = *m_world.world().getSoftBodyArray()[0];
-    ASSERT_EQ(body.m_renderNodes.size(), plain->m_renderNodes.size());
-    ASSERT_EQ(body.m_renderFaces.size(), plain->m_renderFaces.size());
-    for (int v = 0; v < body.m_renderNodes.size(); ++v)
-        EXPECT_EQ(body.m_renderNodes[v].m_x, plain->m_renderNodes[v].m_x);
-}
 
 TEST_F(BakedBodies, ShareTheirFactor)
 {
