@@ -3,7 +3,7 @@
 #pragma once
 
 #include "LinearMath/btVector3.h"
-#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/body/fem_soft_body.h"
 
 /// The rigid motion X -> c + R (X - C) that brings the rest shape nearest to a body's nodes, weighed by their masses: R
 /// is the rotation of sum m (x - c) (X - C)^T. [Mueller et al. 2005, Meshless deformations based on shape matching]

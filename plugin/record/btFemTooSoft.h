@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_bridge/fem_soft_body.h"
+#include "bullet_bridge/body/fem_soft_body.h"
 
 /// Whether a body is too soft for its own weight; see BT_FEM_TOO_SOFT.
 class btFemTooSoft
