@@ -84,6 +84,9 @@ constexpr btFemFlagText kFlagTexts[] = {
     {BT_FEM_NOT_SPLIT, "BT_FEM_NOT_SPLIT", "could not split",
      "The body had to split and could not, and has no strength from then on. Allow larger factors, take a coarser "
      "mesh, and set the strength again."},
+    {BT_FEM_TOO_SOFT, "BT_FEM_TOO_SOFT", "too soft",
+     "The body is too soft for its own weight: rho g H exceeds E / 2 with a linear law, so that it sinks into itself. "
+     "Take the Neo-Hookean law, a larger Young's modulus, or a smaller or lighter body."},
 };
 
 }  // namespace
