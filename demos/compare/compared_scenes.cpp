@@ -49,8 +49,9 @@ ComparedBodies buildStack(ComparedSide& side, double young, int cells)
     constexpr std::size_t kFloors = 3;
     constexpr double kEdge = 0.5, kCushion = 0.25, kBoard = 0.12, kBoardMass = 4;  // [m], [kg]
     addGround(side);
-    btFemMaterial jelly = btFemMaterial::jelly();
+    btFemMaterial jelly;
     jelly.m_youngModulus = btScalar(young);
+    jelly.m_poissonRatio = btScalar(0.45);
     jelly.m_density = 300;
     jelly.m_stiffnessDamping = btScalar(0.02);
     ComparedBodies bodies;
