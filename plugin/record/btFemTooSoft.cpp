@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "plugin/record/btFemRigidFit.h"
@@ -59,7 +58,9 @@ double btFemTooSoft::weightStrain(const FemSoftBody& fem)
 bool btFemTooSoft::look(const FemSoftBody& fem)
 {
     const std::vector<double>& masses = fem.m_body.m_state.m_mass;
-    const double mass = std::accumulate(masses.begin(), masses.end(), 0.0);
+    double mass = 0;  // of nodes that elements use
+    for (std::size_t i = 0; i < masses.size(); ++i)
+        if (!fem.m_body.m_model->mesh().isLoose(static_cast<int>(i))) mass += masses[i];
     const Vec3 gravity = fem.gravity();
     const bool asBefore = m_shape.lock() == fem.m_body.m_model->sharedShape() && mass == m_mass &&
                           gravity.x == m_gravity.x && gravity.y == m_gravity.y && gravity.z == m_gravity.z;

@@ -199,7 +199,9 @@ TEST_P(Creation, UnusedNodesStandStillAndTheBodyMovesAsWithoutThem)
     const int last = body.m_nodes.size() - 1;
     const btVector3 places[] = {body.m_nodes[0].m_x, body.m_nodes[last - 1].m_x, body.m_nodes[last].m_x};
     world.step(180);
-    EXPECT_EQ(fem.stepReport(&body).m_flags & ~BT_FEM_INSIDE_OUT, BT_FEM_UNUSED_NODES);  // it fell on some elements
+    const int fallen = BT_FEM_INSIDE_OUT;  // it fell on some elements
+    EXPECT_EQ(fem.stepReport(&body).m_flags & ~fallen,
+              (fem.stepReport(&plain).m_flags & ~fallen) | BT_FEM_UNUSED_NODES);
     EXPECT_EQ(body.m_nodes[0].m_x, places[0]);
     EXPECT_EQ(body.m_nodes[last - 1].m_x, places[1]);
     EXPECT_EQ(body.m_nodes[last].m_x, places[2]);
