@@ -63,14 +63,11 @@ run_benchmark()
         copies) run crowd copies "--free" "--free" ;;
         crowd)
             local small="--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only"
-            local games="--contact-tolerance 1e-2"
             local rest="--settle 6 --steps 60 --awake-only --threads 2"
-            run crowd crowd_games "$small $games" "$rest $games"
             run crowd crowd_swap "$small" "$rest"
-            run crowd crowd_400 "--bodies 20 ${small#--bodies 10} $games" "--bodies 400 --balls 80 $rest $games"
-            run crowd crowd_400_default "--bodies 20 ${small#--bodies 10}" "--bodies 400 --balls 80 $rest"
-            run crowd crowd_different "$small $games --different" "$rest $games --different"
-            run crowd crowd_cubes "$small $games --cubes" "$rest $games --cubes"
+            run crowd crowd_400 "--bodies 20 ${small#--bodies 10}" "--bodies 400 --balls 80 $rest"
+            run crowd crowd_different "$small --different" "$rest --different"
+            run crowd crowd_cubes "$small --cubes" "$rest --cubes"
             run crowd crowd_coupled "$small --coupled" "--bodies 30 --balls 6 $rest --coupled"
             ;;
     esac

@@ -21,8 +21,7 @@ METHODS = {
     "mass-spring": "Bullet mass-spring, 20 iterations",
     "bullet": "Bullet deformable",
 }
-CROWDS = ["crowd_games", "crowd_swap", "crowd_400", "crowd_400_default", "crowd_different", "crowd_cubes",
-          "crowd_coupled"]
+CROWDS = ["crowd_swap", "crowd_400", "crowd_different", "crowd_cubes", "crowd_coupled"]
 
 
 def number(value, digits=3):
