@@ -51,7 +51,7 @@ struct BakedBody;  // bullet_fem/fem/baked/baked_body.h
 /// Bullet's m_rcontacts and m_faceRigidContacts tell what a body touches: contacts() with rigid objects that carry an
 /// impulse or have no gap, with the nearest node, and with the face that has the point. Valid until the next step;
 /// empty while the body is not active, and from when it leaves the world (if its m_worldInfo has the world's
-/// dispatcher; contacts with another object that leaves go likewise). Nobody solves them. Its m_fdbvt serves Bullet's
+/// dispatcher; contacts with another object end when that leaves). Nothing solves them. Its m_fdbvt serves Bullet's
 /// rayTest; the boxes in it do not tell where faces are.
 ///
 /// Bodies are known by address and by a mark that they get when they are first stepped or prepared, in a field of their
@@ -87,14 +87,16 @@ public:
     /// another number of materials, and on such that do not go together; the message names tetrahedron or region.
     bool setMaterials(btSoftBody* body, const std::vector<btFemMaterial>& perTetrahedron, std::string* why = nullptr);
     /// By regions: a label for every tetrahedron, such as TetMeshFile::m_regions, and the materials of the labels.
-    /// Throws likewise, and on a label without material; labels that no tetrahedron has do no harm.
+    /// Throws std::invalid_argument, and changes nothing then, as the function above does, and on a label without
+    /// material; labels that no tetrahedron has do no harm.
     bool setMaterials(btSoftBody* body, const std::vector<int>& labels, const std::map<int, btFemMaterial>& ofLabel,
                       std::string* why = nullptr);
     /// By place: `materialAt` is called now, once for every tetrahedron with its centroid [m] in the rest shape, where
     /// that lay when the body was first stepped or prepared, or lies now. Where nu is above .4 a few materials, in
     /// steps, serve better than one that changes from each tetrahedron to the next: those that share a volume change
     /// are of one material (docs/materials.md). So fibres get a direction that changes from place to place. Throws
-    /// likewise, and what the function throws.
+    /// std::invalid_argument, and changes nothing then, on materials that do not go together, and passes on exceptions
+    /// of `materialAt`.
     bool setMaterials(btSoftBody* body, const std::function<btFemMaterial(const btVector3& centroid)>& materialAt,
                       std::string* why = nullptr);
 
@@ -140,7 +142,7 @@ public:
     /// The same, to places that a rigid motion gives: see above.
     bool setNodeTargets(btSoftBody* body, const int* nodes, int count, const btTransform& fromRest,
                         std::string* why = nullptr);
-    /// Lets them go. Throws likewise.
+    /// Lets `count` nodes go. Throws std::invalid_argument on a node out of range, or a body that is not FEM.
     bool clearNodeTargets(btSoftBody* body, const int* nodes, int count, std::string* why = nullptr);
 
     /// Ties a node to a node of another FEM body, or of the same one, until detach() or until one of them leaves the
@@ -149,8 +151,9 @@ public:
     /// then `b` has the attachment, for detach() and anchors(). Returns a handle, > 0. Throws std::invalid_argument on
     /// a body that is not FEM, or a node out of range.
     int attachNodes(btSoftBody* a, int nodeA, btSoftBody* b, int nodeB, std::string* why = nullptr);
-    /// Ties a node to a point of tetrahedron tetB of another body, with barycentric weights [-] of sum 1. Throws
-    /// std::invalid_argument likewise.
+    /// Ties a node to a point of tetrahedron tetB of another body, with barycentric weights [-] of sum 1, until
+    /// detach() or until one of them leaves the world. Returns a handle, > 0. Throws std::invalid_argument on a body
+    /// that is not FEM, a node or tetrahedron out of range, or weights of another sum.
     int attachNodeToTet(btSoftBody* a, int nodeA, btSoftBody* b, int tetB, const btScalar weights[4],
                         std::string* why = nullptr);
     /// Unties what attachNodes or attachNodeToTet of body `a` returned (of cloth, `b`); nothing if that is gone. Throws
@@ -176,17 +179,22 @@ public:
     bool setInitialStress(btSoftBody* body, const btAlignedObjectArray<btFemStress>& perElement,
                           std::string* why = nullptr);
 
-    /// Adds what drives the body from within (docs/actuation.md), from the next step on, until removeActuator() or
-    /// until the body leaves the world or its mesh changes. Returns a handle, > 0. A later change wakes the body. Throw
-    /// std::invalid_argument on a body that is not FEM, within a step, on values out of range, nodes or tetrahedra that
-    /// the body has not, a chamber that is not closed, or one or a cable that is not in one piece of the body.
+    /// @name Actuators (docs/actuation.md)
+    /// They act from the next step on, until removeActuator() or until the body leaves the world or its mesh changes. A
+    /// later change wakes the body. Each returns a handle, > 0, and throws std::invalid_argument on a body that is not
+    /// FEM, within a step, on values out of the range that the struct tells, and on nodes or tetrahedra that the body
+    /// does not have.
+    /// @{
+
+    /// Adds a chamber of gas. Throws also if its surface is not closed, or not in one connected component of the body.
     int addChamber(btSoftBody* body, const btFemChamber& chamber, std::string* why = nullptr);
-    /// Likewise.
+    /// Adds a cable with a tension or a rest length. Throws also if it is not in one connected component of the body.
     int addCable(btSoftBody* body, const btFemCable& cable, std::string* why = nullptr);
-    /// Likewise.
+    /// Adds muscle fibres with an activation.
     int addFibres(btSoftBody* body, const btFemFibres& fibres, std::string* why = nullptr);
-    /// Likewise.
+    /// Adds expansion by heat or growth.
     int addExpansion(btSoftBody* body, const btFemExpansion& expansion, std::string* why = nullptr);
+    /// @}
 
     /// Opens a chamber to a pump that keeps this pressure above the outside [Pa]. These throw std::invalid_argument on
     /// a handle that the body has not, within a step, or on a value out of the range that the struct tells.
@@ -269,20 +277,24 @@ public:
     /// changed since. Allocates only when an array grows, here or in the solver. From the thread that steps the world.
     bool getStress(const btSoftBody* body, btAlignedObjectArray<btFemStress>& perElement) const;
     /// The mean of the elements at every node by their (filled) volumes, in the order of m_nodes: smooth for drawing,
-    /// and lower than the elements' peaks. Zero at nodes that no element uses. Likewise otherwise.
+    /// and lower than the elements' peaks. Zero at nodes that no element uses. False, and an empty array, as getStress
+    /// returns them. Allocates only when an array grows.
     bool getNodeStress(const btSoftBody* body, btAlignedObjectArray<btFemStress>& perNode) const;
-    /// Von Mises' equivalent of getStress [Pa], >= 0. Likewise otherwise.
+    /// Von Mises' equivalent of getStress, one a tetrahedron [Pa], >= 0. False, and an empty array, as getStress
+    /// returns them. Allocates only when an array grows.
     bool getVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const;
-    /// Von Mises' equivalent of getNodeStress [Pa], >= 0. Likewise otherwise.
+    /// Von Mises' equivalent of getNodeStress, one a node [Pa], >= 0. False, and an empty array, as getStress returns
+    /// them. Allocates only when an array grows.
     bool getNodeVonMises(const btSoftBody* body, btAlignedObjectArray<btScalar>& perNode) const;
 
     /// Equivalent plastic strain of every tetrahedron [-], >= 0, in the order of m_tetras: the sum over time of
-    /// sqrt(2/3) |d eps_p|. False, and an empty array, of bodies that never had a material that yields, too. Likewise
-    /// otherwise.
+    /// sqrt(2/3) |d eps_p|. False, and an empty array, of bodies that are not FEM, whose arrays were changed
+    /// since, or that never had a material that yields. Allocates only when an array grows.
     bool getPlasticStrain(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const;
 
     /// Activation of every tetrahedron's fibres [Pa], in the order of m_tetras: the sum of those that run through it,
-    /// whatever their directions. False, and an empty array, of bodies without fibres, too. Likewise otherwise.
+    /// whatever their directions. False, and an empty array, of bodies that are not FEM, whose arrays were changed
+    /// since, or that have no fibres. Allocates only when an array grows.
     bool getActivation(const btSoftBody* body, btAlignedObjectArray<btScalar>& perElement) const;
 
     /// Saves what the next steps of the FEM bodies of the world stepped last depend on, so that restoreState continues
