@@ -10,7 +10,7 @@ namespace bullet_fem
 {
 
 /// Hands the impulses of contacts that are gone to nearby contacts between the same two surfaces, as their warm start.
-/// Where round surfaces rest on each other, contact points change all the time while the total force does not. Scratch
+/// Contact points of round surfaces at rest change all the time while the total force does not. Scratch
 /// grows, never shrinks.
 class WarmStartTransfer
 {

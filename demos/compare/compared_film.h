@@ -11,7 +11,7 @@
 namespace bullet_fem
 {
 
-/// What one half of the picture says.
+/// The text in one half of the picture.
 struct ComparedText
 {
     std::string m_title;    ///< whose side it is

@@ -12,7 +12,7 @@ namespace bullet_fem
 
 constexpr double kNoStack = -1e9;  ///< ComparedRun::m_height of a scene without a stack [-]
 
-/// What one side did with a scene.
+/// Results of one side in a scene.
 struct ComparedRun
 {
     std::vector<double> m_stepMs;                  ///< processor time of each step [ms]

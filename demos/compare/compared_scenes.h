@@ -12,7 +12,7 @@
 namespace bullet_fem
 {
 
-/// What is in a scene, besides its ground, in the order in which it came.
+/// The bodies of a scene, without its ground, in the order in which they were added.
 struct ComparedBodies
 {
     std::vector<btSoftBody*> m_soft;

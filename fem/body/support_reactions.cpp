@@ -154,7 +154,7 @@ void SupportReactions::findImpulses(const std::vector<double>& scaledMass)
     }
 }
 
-// Where the fixed nodes of every component are, and how they would turn. Their masses are taken times 1 + h alpha.
+// Finds centre and inertia of the fixed nodes of every component. Their masses are taken times 1 + h alpha.
 void SupportReactions::centre(const std::vector<double>& scaledMass)
 {
     for (const NodeReaction& r : m_reactions)

@@ -47,7 +47,7 @@ public:
     /// The velocities that those iterations end with, which are v0 then; of any body [m/s].
     void noteSolved(const std::vector<Vec3>& velocity);
 
-    /// What is to be added to b_p [N s] for every node p.
+    /// Adds impulses to b_p, one a node [N s].
     void add(const std::vector<Vec3>& impulses);
 
     /// Impulses of contact and joints on a component of the mesh [N s], about the origin [N m s]. They are in add(),
@@ -74,7 +74,7 @@ public:
     }
     bool isFound() const { return m_stage == Stage::found; }
 
-    /// What A is to be applied to, from noteEnd() on, and scratch for the result.
+    /// The vector that A is to be applied to, valid from noteEnd() on, and scratch for the product.
     const std::vector<Vec3>& change() const { return m_change; }
     std::vector<Vec3>& product() { return m_product; }
     /// Finds them from A change(), with the masses of A and the loads of the step.

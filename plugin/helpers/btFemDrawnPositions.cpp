@@ -33,7 +33,7 @@ struct WorldClock : btDiscreteDynamicsWorld
     static btScalar fixedStep(const btDiscreteDynamicsWorld& world) { return world.*(&WorldClock::m_fixedTimeStep); }
 };
 
-/// Where nodes are drawn.
+/// Positions at which nodes are drawn.
 class DrawnNodes
 {
 public:

@@ -37,7 +37,7 @@ struct btFemCoupling
     static void setClothBodies(btFemSoftBodySolver& fem, const btAlignedObjectArray<btSoftBody*>& bodies);
     /// All that is known of a body; null if nothing is.
     static const btFemBodyRecord* record(const btFemSoftBodySolver& fem, const btSoftBody& body);
-    /// What the body's own solver knows of it; null if that is not a btFemSoftBodySolver, or knows nothing.
+    /// The record that the body's own solver has of it; null if that is not a btFemSoftBodySolver, or knows nothing.
     static const btFemBodyRecord* recordOf(const btSoftBody& body);
     /// Manifolds of a body's own solver; null if that is not a btFemSoftBodySolver, or shows none.
     static std::shared_ptr<btFemManifolds> manifoldsOf(const btSoftBody& body);

@@ -12,7 +12,7 @@ class btFemRigidFit
 public:
     explicit btFemRigidFit(const bullet_fem::FemSoftBody& fem);
 
-    /// Where a node would be without deformation, world [m].
+    /// Position of a node without deformation, world [m].
     btVector3 place(int node) const;
 
     /// R.

@@ -149,7 +149,7 @@ TEST(JsonSyntax, LimitsTheDepth)
         }
 }
 
-// What one of them takes the other must, too, or the library's words come through.
+// The checker refuses all that the library refuses, or the library's words come through.
 TEST(JsonSyntax, AgreesWithTheLibraryOnDamagedScenes)
 {
     static const std::string pool = "{}[]\",:0123456789.-+eE \n\\/*truefalsn\x7f\xff\xc3\xed";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// What bulletfem simulate tells of how a run went, and its exit code.
+// bulletfem simulate tells how a run went, also by its exit code.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

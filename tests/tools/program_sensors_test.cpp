@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// What bulletfem simulate tells of a scene's sensors.
+// bulletfem simulate tells the readings of a scene's sensors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

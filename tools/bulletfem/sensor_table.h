@@ -13,7 +13,7 @@
 namespace bullet_fem
 {
 
-/// What a scene's sensors tell in a run: a table with a line a step, and the last and largest values. Nothing is
+/// Readings of a scene's sensors in a run: a table with a line a step, and the last and largest values. Nothing is
 /// written where there are no sensors.
 class SensorTable
 {

@@ -37,7 +37,7 @@ public:
     /// Advances by `timeStep` [s].
     virtual void step() = 0;
     virtual double timeStep() const = 0;
-    /// What `scene` shows from now on: the time in steps from the end of the last one [-], in [-1, 0].
+    /// Sets the time that `scene` shows from now on: the time in steps from the end of the last one [-], in [-1, 0].
     virtual void setDrawnTime(double /*fraction*/) {}
     /// What is to be seen now; its camera is where the view starts. Used until the next call of anything here.
     virtual const PictureScene& scene() = 0;

@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    /// Where something begins.
+    /// Position of the beginning of a token.
     struct Place
     {
         std::size_t m_at, m_lineStart;

@@ -16,7 +16,7 @@ public:
 
     int line() const { return m_line; }      ///< from 1
     int column() const { return m_column; }  ///< from 1, in characters of UTF-8
-    /// What was expected, and what is there.
+    /// The expected text, and the text found.
     const std::string& message() const { return m_message; }
 
 private:

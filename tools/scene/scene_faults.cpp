@@ -86,7 +86,7 @@ public:
         m_reach = m_box;
         for (const Vec3& x : m_points) extend(m_reach, x);
     }
-    /// What is below a plane.
+    /// The half space below a plane.
     Solid(std::string name, const Vec3& origin, const Vec3& normal)
         : m_name(std::move(name)), m_origin(origin), m_normal((1 / norm(normal)) * normal)
     {

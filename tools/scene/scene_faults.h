@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// What is wrong with the state that bodies are in.
+/// A fault of the state of bodies.
 struct SceneFault
 {
     std::string m_body;   ///< its name
@@ -19,7 +19,7 @@ struct SceneFault
     double m_depth = 0;   ///< of its deepest point below the other's surface [m]
     double m_share = 0;   ///< the depth over the size of the smaller of both [-]
 
-    /// What is wrong, and what to change.
+    /// The fault, and its remedy.
     std::string sentence() const;
 };
 

@@ -24,7 +24,7 @@ struct SceneFlag
 
     /// When it was raised: "0.02 s", or "0.02 s to 1.5 s, in 40 steps".
     std::string when() const;
-    /// What happened and what to change, with the report's message.
+    /// The event and its remedy, with the report's message.
     std::string explanation() const;
 };
 

@@ -14,7 +14,7 @@ class btRigidBody;
 namespace bullet_fem
 {
 
-/// What holds a soft body, or its pieces together: mean of the last step, on the body (see btFemReaction).
+/// Reaction on a soft body, or the sum over its chunks: mean of the last step, on the body (see btFemReaction).
 struct SceneReaction
 {
     Vec3 m_force;   ///< [N]

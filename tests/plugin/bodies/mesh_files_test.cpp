@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 
-// What Bullet's own readers make of the files that are written here.
+// Bullet's own readers read the files that BulletFEM::io writes.
 #include <gtest/gtest.h>
 
 #include <memory>

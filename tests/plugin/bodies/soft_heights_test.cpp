@@ -35,7 +35,7 @@ const Heights kHeights[] = {{"jelly", btFemMaterial::jelly, kNeoHooke, {.95, .86
                             {"jellyOfHooke", btFemMaterial::jelly, kHooke, {.95, .84, 0, 0, 0, 0}},
                             {"fleshOfHooke", btFemMaterial::flesh, kHooke, {.99, .97, .91, .81, 0, 0}}};
 
-// Where f changes its sign in [low, high]; f(low) > 0.
+// Root of f in [low, high]; f(low) > 0.
 template <class F>
 double rootOf(double low, double high, const F& f)
 {

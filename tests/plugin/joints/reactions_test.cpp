@@ -21,7 +21,7 @@ void expectNear(const Vec3& expected, const Vec3& found, double error)
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(expected[c], found[c], error) << c;
 }
 
-// What holds in each class of Bullet's worlds: implicit Euler, so that all comes to rest.
+// Properties in each class of Bullet's worlds: implicit Euler, so that all comes to rest.
 class ReactionsAtRest : public EachWorld
 {
 protected:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Where bodies are drawn between two steps: beside Bullet's rigid bodies, as their motion states have these.
+// Soft bodies are drawn between two steps beside Bullet's rigid bodies, as their motion states have these.
 #include <gtest/gtest.h>
 
 #include <algorithm>

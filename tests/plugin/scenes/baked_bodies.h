@@ -20,7 +20,7 @@ inline BakedBody throughAFile(const BakedBody& baked)
     return readBakedBody(folder.path("body.bfem"));
 }
 
-/// What a program gives a body that is not baked.
+/// Settings of a body that is not baked.
 inline btFemMaterial bulletMaterial(const Material& m)
 {
     btFemMaterial material;
