@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastLength = 0.01, kMostLength = 100;  // [m]
+constexpr double kMinLength = 0.01, kMaxLength = 100;  // [m]
 
 Vec3 boundingBoxSides(const SurfaceMesh& surface)
 {
@@ -34,11 +34,11 @@ DropSize chooseSize(const SurfaceMesh& surface, const DropOptions& options)
     size.m_fileLength = std::max({sides.x, sides.y, sides.z});
     size.m_scale = options.m_scale > 0 ? options.m_scale : 1 / size.m_fileLength;
     size.m_length = size.m_scale * size.m_fileLength;
-    if (!(size.m_length >= kLeastLength && size.m_length <= kMostLength))
+    if (!(size.m_length >= kMinLength && size.m_length <= kMaxLength))
     {
         std::ostringstream message;
         message << "the body's longest side is " << size.m_length << " m (" << size.m_fileLength
-                << " in the file), must be in [" << kLeastLength << ", " << kMostLength
+                << " in the file), must be in [" << kMinLength << ", " << kMaxLength
                 << "] m; choose another --scale, or none for 1 m";
         throw std::invalid_argument(message.str());
     }

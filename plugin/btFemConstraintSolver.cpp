@@ -58,9 +58,9 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
                                     info, debugDrawer);
     };
     const auto note = [this] { noteImpulses(); };
-    const auto goBack = [this] { goBackToNoted(); };
+    const auto restoreBest = [this] { restoreNoted(); };
     solveTogether(*m_group, info,
-                  btFemRigidRows<decltype(sweep), decltype(note), decltype(goBack)>{sweep, note, goBack});
+                  btFemRigidRows<decltype(sweep), decltype(note), decltype(restoreBest)>{sweep, note, restoreBest});
     return 0;
 }
 
@@ -80,7 +80,7 @@ void btFemConstraintSolver::noteImpulses()
 }
 
 // The velocities of the solver bodies follow, as in Bullet's own rows.
-void btFemConstraintSolver::goBackToNoted()
+void btFemConstraintSolver::restoreNoted()
 {
     auto noted = m_noted.begin();
     forEachRigidRow(

@@ -17,7 +17,7 @@ void btFemLinkRows::note(std::vector<btScalar>& noted) const
     forEach([&noted](const auto& row) { noted.push_back(row.m_appliedImpulse); });
 }
 
-void btFemLinkRows::goBack(const std::vector<btScalar>& noted) const
+void btFemLinkRows::restoreBest(const std::vector<btScalar>& noted) const
 {
     auto next = noted.begin();
     forEach(

@@ -19,7 +19,7 @@ struct btFemLinkRows
     void note(std::vector<btScalar>& noted) const;
 
     /// Gives them these impulses; the velocities of solver bodies and multibodies follow, as in Bullet's own rows.
-    void goBack(const std::vector<btScalar>& noted) const;
+    void restoreBest(const std::vector<btScalar>& noted) const;
 
 private:
     void change(btSolverConstraint& row, btScalar impulse) const;

@@ -74,7 +74,7 @@ btScalar btFemMultiBodyConstraintSolver::solveGroupCacheFriendlyIterations(
          &m_multiBodySpinningFrictionContactConstraints},
         m_data};
     const auto note = [&] { rows.note(m_noted); };
-    const auto back = [&] { rows.goBack(m_noted); };
+    const auto back = [&] { rows.restoreBest(m_noted); };
     solveTogether(*m_group, info, btFemRigidRows<decltype(sweep), decltype(note), decltype(back)>{sweep, note, back});
     return 0;
 }

@@ -354,7 +354,7 @@ void btFemSoftBodySolver::processCollision(btSoftBody* body, const btCollisionOb
              !ignoresCollision(*body, *other->getCollisionObject()))
     {
         wakeIfPushed(*record, *other->getCollisionObject());
-        recordTouching(record->fem(), *other->getCollisionObject());
+        recordOverlap(record->fem(), *other->getCollisionObject());
         m_impl->m_step.noteBeforeSolve(*other->getCollisionObject());
     }
 }
@@ -369,7 +369,7 @@ void btFemSoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
         return;
     }
     if (!collide(*body, *other)) return;
-    if (fem && otherFem) return recordTouching(record->fem(), *other);
+    if (fem && otherFem) return recordOverlap(record->fem(), *other);
     btSoftBody& cloth = fem ? *other : *body;
     if (isCloth(cloth)) m_impl->cloth().note(m_impl->m_registry.find(fem ? body : other)->fem(), cloth);
 }

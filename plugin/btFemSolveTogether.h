@@ -45,18 +45,18 @@ void solveBatch(btFemSoftBodySolver& fem, btFemIslands& islands, const btFemBatc
 }
 
 /// Bullet's rows, as three functions.
-template <class Sweep, class Note, class GoBack>
+template <class Sweep, class Note, class RestoreBest>
 struct btFemRigidRows
 {
     const Sweep& sweep;
     const Note& note;
-    const GoBack& goBack;
+    const RestoreBest& restoreBest;
 };
 
 /// Rounds of sweeps over all rows, the rigid ones first, then the soft ones; after every round the soft bodies' true
 /// response. The group has begun. `rows` are Bullet's:
 ///     sweep(iteration)   sweeps them once; the square of the largest change of a row's velocity
-///     note(), goBack()   notes their impulses, and returns to those noted last
+///     note(), restoreBest()   notes their impulses, and returns to those noted last
 template <class Rows>
 void solveTogether(btFemContactGroup& group, const btContactSolverInfo& info, Rows rows)
 {
@@ -74,11 +74,11 @@ void solveTogether(btFemContactGroup& group, const btContactSolverInfo& info, Ro
         }
         group.correct();
         if (group.isBest()) rows.note();
-    } while (group.wantsRound());
-    if (group.wantsBack())
+    } while (group.needsOuterIteration());
+    if (group.shouldRollBack())
     {
-        rows.goBack();
-        group.goBack();
+        rows.restoreBest();
+        group.restoreBest();
     }
     group.finish();
 }

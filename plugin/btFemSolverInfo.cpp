@@ -35,7 +35,7 @@ bool btFemSolverInfo::valid(std::string* why) const
            btFemRangeCheck(m_factorChoice >= btFemFactorChoice::full && m_factorChoice <= btFemFactorChoice::lowMemory,
                            why, "m_factorChoice", static_cast<int>(m_factorChoice),
                            "[full, lowMemory], 0 to 2; full is usual") &&
-           btFemRangeCheck(m_threads >= 0 && m_threads <= Threads::kMost, why, "m_threads", m_threads,
+           btFemRangeCheck(m_threads >= 0 && m_threads <= Threads::kMax, why, "m_threads", m_threads,
                            "[0, 256]; 1 is usual, 0 takes all that the machine has") &&
            btFemRangeCheck(
                m_refactoring >= btFemRefactoring::onRequest && m_refactoring <= btFemRefactoring::background, why,

@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr double kLargestTension = 1e13;  // [Pa]; as of initial stresses
-constexpr int kMostCracks = 1000;
+constexpr int kMaxCracks = 1000;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ bool btFemTensileStrength::valid(std::string* why) const
 {
     return btFemRangeCheck(m_tension > 0 && m_tension <= kLargestTension, why, "m_tension", m_tension,
                            "(0, 1e13] Pa; for a body that does not split call clearStrength()") &&
-           btFemRangeCheck(m_mostCracks >= 1 && m_mostCracks <= kMostCracks, why, "m_mostCracks", m_mostCracks,
+           btFemRangeCheck(m_mostCracks >= 1 && m_mostCracks <= kMaxCracks, why, "m_mostCracks", m_mostCracks,
                            "[1, 1000]; take 1 for what tears and more for what shatters");
 }
 

@@ -105,7 +105,7 @@ void addOptions(CLI::App& app, Options& options)
     app.add_flag("--reference", options.m_reference,
                  "tension term off, beside the digits the project verifies itself with");
     app.add_option("--threads", options.m_threads, "threads that share our steps; 0: all of the machine")
-        ->check(CLI::Range(0, Threads::kMost))
+        ->check(CLI::Range(0, Threads::kMax))
         ->capture_default_str();
     app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
     app.footer(

@@ -12,13 +12,13 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostCells = 32;  // a metre
+constexpr int kMaxCells = 32;  // a metre
 
 }  // namespace
 
 int beamCells(int tets)
 {
-    for (int n = 1; n <= kMostCells; ++n)
+    for (int n = 1; n <= kMaxCells; ++n)
         if (24 * n * n * n == tets) return n;
     throw std::invalid_argument("--tets is " + std::to_string(tets) +
                                 ", must be 24 n^3 with n in [1, 32] cells per metre; try 192, 1536, 12288, 24000, "
@@ -27,7 +27,7 @@ int beamCells(int tets)
 
 BeamCase makeBeamCase(int cellsPerMetre, const Material& material)
 {
-    if (cellsPerMetre < 1 || cellsPerMetre > kMostCells)
+    if (cellsPerMetre < 1 || cellsPerMetre > kMaxCells)
         throw std::invalid_argument("cells per metre is " + std::to_string(cellsPerMetre) +
                                     ", must be in [1, 32]; 4 gives 1,536 tets and 8 gives 12,288");
     material.validate();

@@ -15,7 +15,7 @@ namespace
 
 constexpr double kTyre = 0.4, kHub = 0.16, kWidth = 0.25;  // radii and width of a wheel [m]
 constexpr double kWantedSpeed = 4;                         // [m/s]
-constexpr double kMostTorque = 120;                        // of the motor on each wheel [N m]
+constexpr double kMaxTorque = 120;                         // of the motor on each wheel [N m]
 
 btVector3 place(double x, double y, double z)
 {
@@ -68,7 +68,7 @@ void buildCar(GameWorld& world)
         [&chassis, hubs](GameWorld&, double)
         {
             const double missing = kWantedSpeed - double(chassis.getLinearVelocity().x());
-            const btVector3 torque = place(0, 0, -kMostTorque * std::clamp(2 * missing, -1.0, 1.0));
+            const btVector3 torque = place(0, 0, -kMaxTorque * std::clamp(2 * missing, -1.0, 1.0));
             for (btRigidBody* hub : hubs)
             {
                 hub->applyTorque(torque);

@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr int kRounds = 5;
-constexpr std::size_t kMostSamples = 1000000;  // a work's, in all rounds
+constexpr std::size_t kMaxSamples = 1000000;  // a work's, in all rounds
 
 /// The time of one repetition [s].
 double timeOf(const TimedWork& work)
@@ -28,7 +28,7 @@ void repeat(const TimedWork& work, double seconds, std::vector<double>& samples)
 {
     const Stopwatch whole;
     do samples.push_back(timeOf(work));
-    while (whole.seconds() < seconds && samples.size() < kMostSamples);
+    while (whole.seconds() < seconds && samples.size() < kMaxSamples);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ double medianRatio(const TimedWork& work, const TimedWork& other, double seconds
     {
         const double time = timeOf(work);
         ratios.push_back(time / timeOf(other));
-    } while (whole.seconds() < seconds && ratios.size() < kMostSamples);
+    } while (whole.seconds() < seconds && ratios.size() < kMaxSamples);
     return median(ratios);
 }
 

@@ -14,7 +14,7 @@ namespace
 
 constexpr double kTolerance = 1e-8;  // of the solves
 constexpr double kAtRest = 1e-9;     // of what moves in a step [m]
-constexpr int kMostSteps = 2000;
+constexpr int kMaxSteps = 2000;
 
 Body makeBody(const TetMesh& mesh, const Material& material, double step,
               const std::function<bool(const Vec3& X)>& isFixed)
@@ -73,7 +73,7 @@ void Bar::step()
 void Bar::settle(const std::function<void()>& renew)
 {
     double moved = 1;
-    for (int k = 0; k < kMostSteps && moved > kAtRest; ++k)
+    for (int k = 0; k < kMaxSteps && moved > kAtRest; ++k)
     {
         if (renew) renew();
         const std::vector<Vec3> before = m_body.m_state.m_x;

@@ -106,7 +106,7 @@ void addOptions(CLI::App& app, Options& options)
         ->check(CLI::Range(1e-8, 0.5))
         ->capture_default_str();
     app.add_option("--threads", options.m_threads, "threads that share a step; 0: all of the machine")
-        ->check(CLI::Range(0, Threads::kMost))
+        ->check(CLI::Range(0, Threads::kMax))
         ->capture_default_str();
     app.add_flag("--low-memory", options.m_lowMemory, "the low-memory path, too");
     app.add_flag("--bake", options.m_bake, "what baked bodies save, too");

@@ -14,11 +14,11 @@ constexpr double kFlattest = 0.5;  // smallest curvature times size (cube root o
                                    // has 1.6
 constexpr double kSizePower = 4;   // between flat sides the patch moves with the smaller one; between equal ones at the
                                    // mean velocity
-constexpr double kLeastInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
-                                        // spin
+constexpr double kMinInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
+                                      // spin
 
 // Velocity of the side's centre of curvature [m/s], limited for bodies with few facets.
-Vec3 velocityOfCentre(const TouchingSide& side, const Vec3& inward)
+Vec3 velocityOfCentre(const ContactPatchSide& side, const Vec3& inward)
 {
     if (!(side.m_curvature > 0)) return side.m_velocity;
     const Vec3 ahead = cross(side.m_spin, inward * (1 / side.m_curvature));
@@ -55,10 +55,10 @@ MeanMotion meanMotion(const Body& body)
     }
     const double size = trace(inertia);
     if (!(size > 0)) return {velocity, {}};
-    return {velocity, inverse(inertia + Mat3::diagonal(kLeastInertia * size)) * angular};
+    return {velocity, inverse(inertia + Mat3::diagonal(kMinInertia * size)) * angular};
 }
 
-Vec3 patchLag(const TouchingSide& a, const TouchingSide& b, const Vec3& normal, double h)
+Vec3 patchLag(const ContactPatchSide& a, const ContactPatchSide& b, const Vec3& normal, double h)
 {
     const double sum = a.m_curvature + b.m_curvature;
     // weight of a

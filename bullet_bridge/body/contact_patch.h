@@ -20,7 +20,7 @@ struct MeanMotion
 MeanMotion meanMotion(const Body& body);
 
 /// One side of a contact between two surfaces.
-struct TouchingSide
+struct ContactPatchSide
 {
     Vec3 m_velocity;         ///< of the material at the contact [m/s]
     Vec3 m_spin;             ///< angular velocity of the body [rad/s]
@@ -37,7 +37,7 @@ struct TouchingSide
 /// corner to corner: its patch is not faster than its centre of mass, otherwise its own weight would drive it. With a
 /// lever to the material at the start of the step, a ball that rolls with v would be braked as if its weight acted v h
 /// ahead of it.
-Vec3 patchLag(const TouchingSide& a, const TouchingSide& b, const Vec3& normal, double h);
+Vec3 patchLag(const ContactPatchSide& a, const ContactPatchSide& b, const Vec3& normal, double h);
 
 /// The curvature [1/m] that counts for patches: 0 below half an inverse size [m], since flat sides have some curvature
 /// by rounding.

@@ -76,8 +76,8 @@ struct Impact
 {
     const btCollisionObject* m_other = nullptr;
     int m_otherId = -1;          ///< broadphase id
-    int m_piece = 0;             ///< connected component of the body (TetMesh::nodeComponent)
-    int m_otherPiece = -1;       ///< connected component of a soft other body; -1: rigid
+    int m_component = 0;         ///< connected component of the body (TetMesh::nodeComponent)
+    int m_otherComponent = -1;   ///< connected component of a soft other body; -1: rigid
     double m_restitution = 0;    ///< [-], in [0, 1]
     double m_approach = 0;       ///< approach speed at the first contact [m/s]
     double m_energy = 0;         ///< energy of both at the first contact [J]
@@ -96,8 +96,8 @@ struct Impact
     /// True if the two are between equal bodies and connected components.
     bool isOf(const Impact& b) const
     {
-        return m_other == b.m_other && m_otherId == b.m_otherId && m_piece == b.m_piece &&
-               m_otherPiece == b.m_otherPiece;
+        return m_other == b.m_other && m_otherId == b.m_otherId && m_component == b.m_component &&
+               m_otherComponent == b.m_otherComponent;
     }
 };
 
@@ -145,16 +145,16 @@ struct FemSoftBody
     /// Gravity that acts on the body [m/s2]; not checked.
     Vec3 gravity() const;
 
-    std::mutex m_touchingMutex;  ///< guards m_touching and m_touchingSoft while Bullet's threads collide
-    std::vector<const btCollisionObject*> m_touching;  ///< rigid objects whose bounds overlap in this step
+    std::mutex m_overlapMutex;  ///< guards m_overlapping and m_overlappingSoft while Bullet's threads collide
+    std::vector<const btCollisionObject*> m_overlapping;  ///< rigid objects whose bounds overlap in this step
 
-    std::vector<const btSoftBody*> m_touchingSoft;  ///< FEM bodies whose bounds overlap in this step; itself: self
-                                                    ///< contact
+    std::vector<const btSoftBody*> m_overlappingSoft;  ///< FEM bodies whose bounds overlap in this step; itself: self
+                                                       ///< contact
 
     HeldJoints m_joints;  ///< joints, attachments and springs of the body
 
     std::vector<Vec3> m_predicted;  ///< contact impulses in the free motion [N s], one per node; empty: none
-                                    ///< (SteadyBodies)
+                                    ///< (ContactPrediction)
 
     MeanMotion m_meanMotion;                      ///< at the start of the step; valid if the body may have contact
     std::vector<ContactPoint> m_contacts;         ///< contacts of the last step

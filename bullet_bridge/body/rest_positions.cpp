@@ -69,7 +69,7 @@ class Walk
 {
 public:
     Walk(const std::vector<Tet>& tets, const std::vector<Mat3>& Dm, int nodeCount)
-        : m_tets(tets), m_Dm(Dm), m_first(nodeCount + 1, 0), m_X(nodeCount), m_piece(nodeCount, -1)
+        : m_tets(tets), m_Dm(Dm), m_first(nodeCount + 1, 0), m_X(nodeCount), m_component(nodeCount, -1)
     {
         for (const Tet& tet : tets)
             for (int i : tet) ++m_first[i + 1];
@@ -86,7 +86,7 @@ public:
     {
         for (std::size_t e = 0; e < m_tets.size(); ++e)
         {
-            if (m_piece[m_tets[e][0]] >= 0) continue;
+            if (m_component[m_tets[e][0]] >= 0) continue;
             place(m_tets[e][0], {});
             for (; m_next < m_reached.size(); ++m_next)
             {
@@ -94,20 +94,23 @@ public:
                 for (int k = m_first[i]; k < m_first[i + 1]; ++k)
                     if (!enter(m_around[k], i)) return false;
             }
-            ++m_pieces;
+            ++m_components;
         }
         return true;
     }
 
-    int pieces() const { return m_pieces; }
-    int piece(int node) const { return m_piece[node]; }  ///< connected component of a node; -1: no element uses it
+    int components() const { return m_components; }
+    int component(int node) const
+    {
+        return m_component[node];
+    }  ///< connected component of a node; -1: no element uses it
     std::vector<Vec3>& positions() { return m_X; }
 
 private:
     void place(int node, const Vec3& X)
     {
         m_X[node] = X;
-        m_piece[node] = m_pieces;
+        m_component[node] = m_components;
         m_reached.push_back(node);
     }
 
@@ -123,7 +126,7 @@ private:
         {
             const Vec3 X = m_X[node] + corner(a) - corner(at);
             const int i = m_tets[e][a];
-            if (m_piece[i] < 0)
+            if (m_component[i] < 0)
                 place(i, X);
             else if (!(norm(X - m_X[i]) <= kClosed * longest))
                 return false;
@@ -135,47 +138,48 @@ private:
     const std::vector<Mat3>& m_Dm;
     std::vector<int> m_first, m_around;  // elements around each node
     std::vector<Vec3> m_X;
-    std::vector<int> m_piece;
+    std::vector<int> m_component;
     std::vector<int> m_reached;  // in breadth-first order, which limits the accumulation of rounding errors
     std::size_t m_next = 0;
-    int m_pieces = 0;
+    int m_components = 0;
 };
 
 /// Aligns each connected component of the rest shape with its present position: by the rotation nearest to the mean
 /// deformation gradient, and by the centres of volume.
 void layOverPresent(Walk& walk, const std::vector<Vec3>& x, const std::vector<Tet>& tets, const std::vector<Mat3>& Dm)
 {
-    struct Piece
+    struct Component
     {
         Mat3 m_F;
         double m_volume = 0;
         Vec3 m_rest, m_present;  // centres times the volume
     };
-    std::vector<Piece> pieces(walk.pieces());
+    std::vector<Component> components(walk.components());
     std::vector<Vec3>& X = walk.positions();
     for (std::size_t e = 0; e < tets.size(); ++e)
     {
-        Piece& piece = pieces[walk.piece(tets[e][0])];
+        Component& component = components[walk.component(tets[e][0])];
         const double V = std::fabs(determinant(Dm[e])) / 6;
-        piece.m_F += V * (edgesOf(x, tets[e]) * inverse(Dm[e]));
-        piece.m_volume += V;
+        component.m_F += V * (edgesOf(x, tets[e]) * inverse(Dm[e]));
+        component.m_volume += V;
         for (int i : tets[e])
         {
-            piece.m_rest += V / 4 * X[i];
-            piece.m_present += V / 4 * x[i];
+            component.m_rest += V / 4 * X[i];
+            component.m_present += V / 4 * x[i];
         }
     }
-    for (Piece& piece : pieces) piece.m_F = polarRotation(1 / piece.m_volume * piece.m_F, Mat3::identity());
+    for (Component& component : components)
+        component.m_F = polarRotation(1 / component.m_volume * component.m_F, Mat3::identity());
     for (std::size_t i = 0; i < X.size(); ++i)
     {
-        if (walk.piece(static_cast<int>(i)) < 0)
+        if (walk.component(static_cast<int>(i)) < 0)
         {
             X[i] = x[i];
             continue;
         }
-        const Piece& piece = pieces[walk.piece(static_cast<int>(i))];
-        const double perVolume = 1 / piece.m_volume;
-        X[i] = piece.m_F * (X[i] - perVolume * piece.m_rest) + perVolume * piece.m_present;
+        const Component& component = components[walk.component(static_cast<int>(i))];
+        const double perVolume = 1 / component.m_volume;
+        X[i] = component.m_F * (X[i] - perVolume * component.m_rest) + perVolume * component.m_present;
     }
 }
 

@@ -13,7 +13,7 @@ namespace
 
 constexpr double kFine = 0.6;        // a skin is fine if its mean edge over the tetrahedra's is smaller [-]
 constexpr double kCell = 0.5;        // width of a cell over the tetrahedra's mean edge [-]
-constexpr int kMostAlike = 8;        // contacts kept in a cell that pushed in the last step and have similar normals
+constexpr int kMaxAlike = 8;         // contacts kept in a cell that pushed in the last step and have similar normals
 constexpr double kSameNormal = 0.9;  // cosine up to which normals count as different
 
 }  // namespace
@@ -64,7 +64,7 @@ bool ContactReduction::isNeeded(std::size_t candidate, std::size_t firstOfCell) 
         ++alike;
         deeper = deeper && c.m_gap < other.m_gap - c.m_slop;
     }
-    return alike == 0 || (c.m_isNew ? deeper : alike < kMostAlike);
+    return alike == 0 || (c.m_isNew ? deeper : alike < kMaxAlike);
 }
 
 }  // namespace bullet_fem

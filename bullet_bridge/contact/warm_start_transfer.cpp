@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kAlikeNormals = 0.7;  // smallest cosine between the normals
+constexpr double kParallelNormals = 0.7;  // smallest cosine between the normals
 constexpr double kFarPerGap = 30;  // distance that counts for a gap, over the gap: an open contact carries no load yet
 
 bool isZero(const Vec3& v)
@@ -31,35 +31,35 @@ void WarmStartTransfer::addLost(const Vec3& point, const Vec3& normal, const Vec
     if (!isZero(impulse)) m_lost.push_back({point, normal, impulse});
 }
 
-void WarmStartTransfer::addHeir(ContactPoint& contact, double sign)
+void WarmStartTransfer::addCandidate(ContactPoint& contact, double sign)
 {
     m_transfer.push_back({&contact, sign, !isZero(contact.m_impulse)});
 }
 
-WarmStartTransfer::Heir* WarmStartTransfer::nearestHeir(const Lost& lost, double reach)
+WarmStartTransfer::Candidate* WarmStartTransfer::nearestCandidate(const Lost& lost, double reach)
 {
-    Heir* nearest = nullptr;
+    Candidate* nearest = nullptr;
     double best = 2 * reach;  // contacts that have an impulse count as farther than all that have none
-    for (Heir& heir : m_transfer)
+    for (Candidate& candidate : m_transfer)
     {
-        const double distance = norm(heir.m_contact->m_point - lost.m_point);
+        const double distance = norm(candidate.m_contact->m_point - lost.m_point);
         const double cost =
-            distance + kFarPerGap * std::max(heir.m_contact->m_gap, 0.0) + (heir.m_hasImpulse ? reach : 0);
+            distance + kFarPerGap * std::max(candidate.m_contact->m_gap, 0.0) + (candidate.m_hasImpulse ? reach : 0);
         if (!(distance < reach) || !(cost < best)) continue;
-        if (heir.m_sign * dot(heir.m_contact->m_normal, lost.m_normal) < kAlikeNormals) continue;
+        if (candidate.m_sign * dot(candidate.m_contact->m_normal, lost.m_normal) < kParallelNormals) continue;
         best = cost;
-        nearest = &heir;
+        nearest = &candidate;
     }
     return nearest;
 }
 
-void WarmStartTransfer::settle(double reach)
+void WarmStartTransfer::assign(double reach)
 {
     for (const Lost& lost : m_lost)
-        if (Heir* heir = nearestHeir(lost, reach))
+        if (Candidate* candidate = nearestCandidate(lost, reach))
         {
-            heir->m_contact->m_impulse += heir->m_sign * lost.m_impulse;
-            heir->m_hasImpulse = true;
+            candidate->m_contact->m_impulse += candidate->m_sign * lost.m_impulse;
+            candidate->m_hasImpulse = true;
         }
 }
 

@@ -23,30 +23,30 @@ public:
     void addLost(const Vec3& point, const Vec3& normal, const Vec3& impulse);
 
     /// Adds a contact of this step as a receiver; `sign` is -1 if its normal points to the other surface. The contact
-    /// must live until settle().
-    void addHeir(ContactPoint& contact, double sign);
+    /// must live until assign().
+    void addCandidate(ContactPoint& contact, double sign);
 
     /// Adds each lost impulse to the nearest contact of a similar normal within `reach` [m]; contacts that have no
     /// impulse and no gap come first. Without such a contact the impulse is lost. Both lists are processed in the order
     /// of addition.
-    void settle(double reach);
+    void assign(double reach);
 
 private:
     struct Lost
     {
         Vec3 m_point, m_normal, m_impulse;
     };
-    struct Heir
+    struct Candidate
     {
         ContactPoint* m_contact;
         double m_sign;
         bool m_hasImpulse;
     };
 
-    Heir* nearestHeir(const Lost& lost, double reach);
+    Candidate* nearestCandidate(const Lost& lost, double reach);
 
     std::vector<Lost> m_lost;
-    std::vector<Heir> m_transfer;
+    std::vector<Candidate> m_transfer;
 };
 
 }  // namespace bullet_fem

@@ -57,7 +57,7 @@ void appendSprings(int body, const JointScene& scene, ContactProblem& problem)
                 joint.m_impulse = before->m_impulse;
             joint.m_wanted = spring.m_stiffness / s * (spring.m_target - held.m_point);
             joint.m_compliance = 1 / (h * s);
-            if (spring.m_maxForce > 0) joint.m_most = h * spring.m_maxForce;
+            if (spring.m_maxForce > 0) joint.m_maxImpulse = h * spring.m_maxForce;
             held.m_row = static_cast<int>(problem.m_joints.size());
             problem.m_joints.push_back(joint);
         }

@@ -113,7 +113,7 @@ private:
         int m_index;          // of the link in its multibody; -1: the base
         std::size_t m_first;  // of its six rows in m_jacobian and m_answer: three of velocity, three of spin
         Vec3 m_impulse, m_angularImpulse;
-        Vec3 m_felt, m_angularFelt;  // of the rigid proxy, when it was written last
+        Vec3 m_accumulatedImpulse, m_accumulatedAngularImpulse;  // of the rigid proxy, when it was written last
     };
 
     struct Momentum

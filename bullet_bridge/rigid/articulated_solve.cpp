@@ -14,7 +14,7 @@ void ArticulatedBodies::beginSolve(btAlignedObjectArray<btScalar>& deltas)
     m_deltas = &deltas;
     m_beyondDeltas.assign(m_velocity.size(), 0);
     m_solved.assign(m_velocity.size(), 0);
-    for (Link& link : m_links) link.m_felt = link.m_angularFelt = {};
+    for (Link& link : m_links) link.m_accumulatedImpulse = link.m_accumulatedAngularImpulse = {};
 }
 
 // Total change of coordinate k. A multibody without rows in Bullet's solver has no entry in *m_deltas.
@@ -43,9 +43,10 @@ void ArticulatedBodies::writeSolved(const std::vector<RigidProxy>& rigidProxies)
     for (Link& link : m_links)
     {
         const RigidProxy& proxy = rigidProxies[link.m_rigidProxy];
-        const Vec3 impulse = proxy.m_felt - link.m_felt, angular = proxy.m_angularFelt - link.m_angularFelt;
-        link.m_felt = proxy.m_felt;
-        link.m_angularFelt = proxy.m_angularFelt;
+        const Vec3 impulse = proxy.m_accumulatedImpulse - link.m_accumulatedImpulse,
+                   angular = proxy.m_accumulatedAngularImpulse - link.m_accumulatedAngularImpulse;
+        link.m_accumulatedImpulse = proxy.m_accumulatedImpulse;
+        link.m_accumulatedAngularImpulse = proxy.m_accumulatedAngularImpulse;
         const Tree& tree = m_trees[link.m_tree];
         for (int row = 0; row < 6; ++row)
             for (int k = 0; k < tree.m_coordinates; ++k)

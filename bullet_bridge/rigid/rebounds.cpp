@@ -94,7 +94,7 @@ RigidProxy proxyBefore(const RigidProxies& rigid, int index)
     return proxy;
 }
 
-int pieceOf(const FemSoftBody& fem, const SurfacePoint& point)
+int componentOf(const FemSoftBody& fem, const SurfacePoint& point)
 {
     return fem.m_body.m_model->mesh().nodeComponent()[point.m_nodes[0]];
 }
@@ -110,17 +110,17 @@ void Rebounds::gather(const ContactProblem& problem, const std::vector<FemSoftBo
         if (!(c.m_restitution > 0) || c.m_soft.m_body == c.m_other.m_body) continue;
         Patch patch;
         patch.m_body = c.m_soft.m_body;
-        patch.m_piece = pieceOf(*bodies[patch.m_body], c.m_soft);
+        patch.m_component = componentOf(*bodies[patch.m_body], c.m_soft);
         patch.m_rigidProxy = c.m_rigidProxy;
         Vec3 normal = c.m_normal;
         if (c.m_other.m_body >= 0)
         {
             patch.m_otherBody = c.m_other.m_body;
-            patch.m_otherPiece = pieceOf(*bodies[patch.m_otherBody], c.m_other);
+            patch.m_otherComponent = componentOf(*bodies[patch.m_otherBody], c.m_other);
             if (broadphaseId(*bodies[patch.m_otherBody]->m_softBody) < broadphaseId(*bodies[patch.m_body]->m_softBody))
             {
                 std::swap(patch.m_body, patch.m_otherBody);
-                std::swap(patch.m_piece, patch.m_otherPiece);
+                std::swap(patch.m_component, patch.m_otherComponent);
                 normal = -normal;
             }
         }
@@ -157,8 +157,8 @@ void Rebounds::notePatch(const Scene& scene, const Patch& patch, double least)
     Impact now;
     now.m_other = other;
     now.m_otherId = broadphaseId(*other);
-    now.m_piece = patch.m_piece;
-    now.m_otherPiece = patch.m_otherPiece;
+    now.m_component = patch.m_component;
+    now.m_otherComponent = patch.m_otherComponent;
     now.m_isNear = true;
     now.m_isPressed = size > 0;
     if (now.m_isPressed)
@@ -185,13 +185,13 @@ bool Rebounds::meet(const Scene& scene, const Patch& patch, double least, Impact
     const FemSoftBody& fem = *scene.m_bodies[patch.m_body];
     const FemSoftBody* soft = patch.m_otherBody >= 0 ? scene.m_bodies[patch.m_otherBody] : nullptr;
     const Vec3& n = impact.m_normal;
-    RigidProxy first = wholeMotion(fem.m_body, patch.m_piece);
+    RigidProxy first = wholeMotion(fem.m_body, patch.m_component);
     RigidProxy second =
-        soft ? wholeMotion(soft->m_body, patch.m_otherPiece) : proxyBefore(scene.m_rigid, patch.m_rigidProxy);
+        soft ? wholeMotion(soft->m_body, patch.m_otherComponent) : proxyBefore(scene.m_rigid, patch.m_rigidProxy);
     if (!(dot(n, second.velocityAt(impact.m_point) - first.velocityAt(impact.m_point)) > least)) return false;
-    const RigidProxy* firstSupport = supportOf(scene, patch.m_body, patch.m_piece, -n);
+    const RigidProxy* firstSupport = supportOf(scene, patch.m_body, patch.m_component, -n);
     const RigidProxy* secondSupport =
-        soft ? supportOf(scene, patch.m_otherBody, patch.m_otherPiece, n) : supportOf(scene, patch.m_rigidProxy, n);
+        soft ? supportOf(scene, patch.m_otherBody, patch.m_otherComponent, n) : supportOf(scene, patch.m_rigidProxy, n);
     impact.m_isHeld = firstSupport != nullptr;
     impact.m_otherIsHeld = secondSupport != nullptr;
     if (firstSupport) first = *firstSupport;
@@ -208,14 +208,14 @@ bool Rebounds::meet(const Scene& scene, const Patch& patch, double least, Impact
 }
 
 // The immovable proxy that supports a component of a body against a direction; null if there is none.
-const RigidProxy* Rebounds::supportOf(const Scene& scene, int body, int piece, const Vec3& against)
+const RigidProxy* Rebounds::supportOf(const Scene& scene, int body, int component, const Vec3& against)
 {
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
         if (c.m_soft.m_body != body || c.m_rigidProxy < 0) continue;
         const RigidProxy& proxy = scene.m_problem.m_rigidProxies[c.m_rigidProxy];
         if (proxy.canMove() || !(dot(c.m_impulse, c.m_normal) > 0) || !(dot(c.m_normal, against) > kHolds)) continue;
-        if (pieceOf(*scene.m_bodies[body], c.m_soft) == piece) return &proxy;
+        if (componentOf(*scene.m_bodies[body], c.m_soft) == component) return &proxy;
     }
     return nullptr;
 }
@@ -223,7 +223,7 @@ const RigidProxy* Rebounds::supportOf(const Scene& scene, int body, int piece, c
 const RigidProxy* Rebounds::supportOf(const Scene& scene, int rigidProxy, const Vec3& against)
 {
     static const RigidProxy atRest;
-    for (const RigidTouch& touch : scene.m_problem.m_rigidTouches)
+    for (const RigidContact& touch : scene.m_problem.m_rigidContacts)
         if (touch.m_rigidProxy == rigidProxy && touch.m_isSupport && touch.m_gap <= kTouching &&
             dot(touch.m_normal, against) > kHolds)
             return &atRest;
@@ -252,11 +252,11 @@ Rebounds::Other Rebounds::otherOf(const FemSoftBody& fem, const Impact& impact, 
                                   WorldObjects& world) const
 {
     Other other;
-    if (impact.m_otherPiece >= 0)
+    if (impact.m_otherComponent >= 0)
     {
         for (FemSoftBody* soft : bodies)
             if (soft->m_softBody == impact.m_other && broadphaseId(*soft->m_softBody) == impact.m_otherId &&
-                impact.m_otherPiece < soft->m_body.m_model->mesh().componentCount())
+                impact.m_otherComponent < soft->m_body.m_model->mesh().componentCount())
                 other.m_soft = soft;
         return other;
     }
@@ -281,8 +281,8 @@ void Rebounds::setPair(const FemSoftBody& fem, const Impact& impact, const Other
         setMotion(rigid.motionNow(0), proxies[kOther]);
     }
     else
-        proxies.push_back(wholeMotion(other.m_soft->m_body, impact.m_otherPiece));
-    proxies.push_back(wholeMotion(fem.m_body, impact.m_piece));
+        proxies.push_back(wholeMotion(other.m_soft->m_body, impact.m_otherComponent));
+    proxies.push_back(wholeMotion(fem.m_body, impact.m_component));
     for (const int k : {kOther, kBody})
     {
         if (!(k == kBody ? impact.m_isHeld : impact.m_otherIsHeld)) continue;
@@ -331,12 +331,12 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     { return m_problem.m_rigidProxies[k].m_angularVelocity - before[k].m_angularVelocity; };
     for (const int k : {kOther, kBody})
         if (!isBelow(kFastest, linear(k)) || !isBelow(kFastest, angular(k))) return true;
-    const auto move = [&](FemSoftBody& body, int piece, int k)
+    const auto move = [&](FemSoftBody& body, int component, int k)
     {
-        if (before[k].canMove()) addWholeMotion(body.m_body, piece, before[k].m_center, linear(k), angular(k));
+        if (before[k].canMove()) addWholeMotion(body.m_body, component, before[k].m_center, linear(k), angular(k));
     };
-    move(fem, impact.m_piece, kBody);
-    if (other.m_soft) move(*other.m_soft, impact.m_otherPiece, kOther);
+    move(fem, impact.m_component, kBody);
+    if (other.m_soft) move(*other.m_soft, impact.m_otherComponent, kOther);
     if (other.m_soft || !before[kOther].canMove()) return true;
     rigid.rigidProxies().front().m_linearVelocity += linear(kOther);
     rigid.rigidProxies().front().m_angularVelocity += angular(kOther);

@@ -38,15 +38,15 @@ private:
     // The contact points between a connected component of a body and one other object.
     struct Patch
     {
-        int m_body = 0, m_piece = 0, m_otherBody = -1, m_otherPiece = -1, m_rigidProxy = -1;
+        int m_body = 0, m_component = 0, m_otherBody = -1, m_otherComponent = -1, m_rigidProxy = -1;
         double m_restitution = 0;  // [-]
         double m_push = 0;         // sum of the normal impulses [N s]
         Vec3 m_point, m_normal;    // sums weighted by normal impulse
 
         bool isOf(const Patch& b) const
         {
-            return m_body == b.m_body && m_piece == b.m_piece && m_otherBody == b.m_otherBody &&
-                   m_otherPiece == b.m_otherPiece && m_rigidProxy == b.m_rigidProxy;
+            return m_body == b.m_body && m_component == b.m_component && m_otherBody == b.m_otherBody &&
+                   m_otherComponent == b.m_otherComponent && m_rigidProxy == b.m_rigidProxy;
         }
     };
 
@@ -68,7 +68,7 @@ private:
 
     void notePatch(const Scene& scene, const Patch& patch, double least);
     static bool meet(const Scene& scene, const Patch& patch, double least, Impact& impact);
-    static const RigidProxy* supportOf(const Scene& scene, int body, int piece, const Vec3& against);
+    static const RigidProxy* supportOf(const Scene& scene, int body, int component, const Vec3& against);
     static const RigidProxy* supportOf(const Scene& scene, int rigidProxy, const Vec3& against);
     Other otherOf(const FemSoftBody& fem, const Impact& impact, const std::vector<FemSoftBody*>& bodies,
                   WorldObjects& world) const;

@@ -15,11 +15,11 @@ namespace
 {
 
 // Bound of values in a snapshot: no scene reaches it, and its square is finite in single precision.
-constexpr double kMost = 1e12;
+constexpr double kMax = 1e12;
 
 bool isSane(double value)
 {
-    return std::fabs(value) < kMost;
+    return std::fabs(value) < kMax;
 }
 
 bool isSane(const Vec3& v)
@@ -87,17 +87,17 @@ void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBod
 // `other` is null for a rigid object, or a body that has left the world.
 void checkImpact(const Impact& i, const FemSoftBody& fem, const FemSoftBody* other)
 {
-    const auto checkPiece = [](int piece, int least, const FemSoftBody& of)
+    const auto checkComponent = [](int component, int least, const FemSoftBody& of)
     {
         const int count = of.m_body.m_model->mesh().componentCount();
-        if (piece < least || piece >= count)
-            reject("the piece of an impact is ", piece, ", not in [", least, ", ", count, ")");
+        if (component < least || component >= count)
+            reject("the component of an impact is ", component, ", not in [", least, ", ", count, ")");
     };
-    checkPiece(i.m_piece, 0, fem);
+    checkComponent(i.m_component, 0, fem);
     if (other)
-        checkPiece(i.m_otherPiece, 0, *other);
-    else if (i.m_otherPiece < -1)
-        reject("the other piece of an impact is ", i.m_otherPiece, ", below -1");
+        checkComponent(i.m_otherComponent, 0, *other);
+    else if (i.m_otherComponent < -1)
+        reject("the other component of an impact is ", i.m_otherComponent, ", below -1");
     checkSane("an impact", i.m_approach, i.m_energy, i.m_speed, i.m_gain, i.m_point, i.m_normal, i.m_frame, i.m_time,
               i.m_stopTime);
     if (!(i.m_restitution >= 0 && i.m_restitution <= 1))
@@ -200,8 +200,8 @@ void restoreJoints(const ContactSnapshot& s, const WorldIds& world, HeldJoints& 
 
 void checkNodeCount(int count)
 {
-    if (count < 1 || count > SurfacePoint::kMostNodes)
-        reject("a contact point has ", count, " nodes, not 1 to ", SurfacePoint::kMostNodes);
+    if (count < 1 || count > SurfacePoint::kMaxNodes)
+        reject("a contact point has ", count, " nodes, not 1 to ", SurfacePoint::kMaxNodes);
 }
 
 ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
@@ -271,8 +271,8 @@ void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
         fem.m_impacts.push_back(impact.m_impact);
         fem.m_impacts.back().m_other = other;
     }
-    fem.m_touching.clear();
-    fem.m_touchingSoft.clear();
+    fem.m_overlapping.clear();
+    fem.m_overlappingSoft.clear();
     restoreJoints(s, world, fem.m_joints);
     fem.m_surface.restorePlace(s.m_place);
 }

@@ -19,8 +19,8 @@
 namespace
 {
 
-constexpr int kStand = 180, kLift = 120, kSettle = 240, kHold = 240, kMost = 3600;  // steps
-constexpr double kHeight = 1.6;                                                     // that the mouse goes up [m]
+constexpr int kStand = 180, kLift = 120, kSettle = 240, kHold = 240, kMax = 3600;  // steps
+constexpr double kHeight = 1.6;                                                    // that the mouse goes up [m]
 
 bool failed = false;
 std::vector<double> stepMs;  // processor time of each step since the last figure
@@ -149,8 +149,8 @@ int main(int argc, char** argv)
 
     scene_release();
     int waited = 0;
-    for (; waited < kMost && !scene_asleep(); ++waited) scene_step();
-    check("asleep after [steps]", waited, 1, kMost - 1);
+    for (; waited < kMax && !scene_asleep(); ++waited) scene_step();
+    check("asleep after [steps]", waited, 1, kMax - 1);
     check("centre above the ground [m]", scene_centre()[1], 0.1, standing + 0.05);
     check("finite", isFinite(), 1, 1);
     std::printf("bits %016llx\n", static_cast<unsigned long long>(bits()));

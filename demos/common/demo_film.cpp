@@ -17,7 +17,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMostFrames = 72, kMostFramesPerSecond = 20;
+constexpr double kMaxFrames = 72, kMaxFramesPerSecond = 20;
 const Vec3 kSoftColours[] = {{0.86, 0.52, 0.30}, {0.33, 0.62, 0.58}, {0.85, 0.70, 0.32},
                              {0.73, 0.38, 0.42}, {0.42, 0.55, 0.76}, {0.58, 0.70, 0.38}};
 const Vec3 kRigidColour{0.55, 0.60, 0.68}, kStaticColour{0.70, 0.71, 0.73};
@@ -91,7 +91,7 @@ void DemoFilm::open(const std::string& folder, double seconds)
 {
     m_folder = folder;
     m_seconds = seconds;
-    m_framesPerSecond = std::clamp(std::round(kMostFrames / seconds), 1.0, kMostFramesPerSecond);
+    m_framesPerSecond = std::clamp(std::round(kMaxFrames / seconds), 1.0, kMaxFramesPerSecond);
     m_series = std::make_unique<VtuSeries>(folder, "surfaces", VtuEncoding::compressed);
     m_pictures = std::make_unique<Pictures>();
 #ifdef BULLETFEM_HAS_PICTURES

@@ -27,8 +27,8 @@ struct Rounding
     Material operator()(Material m) const
     {
         // The maximum is not rounded: the plug-in, too, maps its rounded value to it.
-        constexpr double kMostPoisson = Material::kMostPoissonRatio;
-        if (m.m_poissonRatio != kMostPoisson) m.m_poissonRatio = (*this)(m.m_poissonRatio);
+        constexpr double kMaxPoisson = Material::kMaxPoissonRatio;
+        if (m.m_poissonRatio != kMaxPoisson) m.m_poissonRatio = (*this)(m.m_poissonRatio);
         for (double* value : {&m.m_youngModulus, &m.m_density, &m.m_massDamping, &m.m_stiffnessDamping,
                               &m.m_yieldStress, &m.m_hardeningModulus, &m.m_plasticCreep, &m.m_mostPlasticStrain})
             *value = (*this)(*value);

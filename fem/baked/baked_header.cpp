@@ -21,8 +21,8 @@ namespace
 
 constexpr std::array<char, 8> kMagic = {'B', 'F', 'E', 'M', 'B', 'O', 'D', 'Y'};
 constexpr std::uint32_t kByteOrder = 0x01020304, kOtherByteOrder = 0x04030201;
-constexpr std::uint32_t kMostCount = INT_MAX / 12;  // as in TetMesh
-constexpr std::uint64_t kMostEntries = std::uint64_t(1) << 50;
+constexpr std::uint32_t kMaxCount = INT_MAX / 12;  // as in TetMesh
+constexpr std::uint64_t kMaxEntries = std::uint64_t(1) << 50;
 
 constexpr const char* kDamaged = "; copy or bake it anew";
 
@@ -34,11 +34,11 @@ std::uint64_t headerChecksum(BakedHeader header)
 
 Material yielding(Material material, const BakedPlasticity& p)
 {
-    if (p.m_yieldStress == 0 && p.m_hardeningModulus == 0 && p.m_creep == 0 && p.m_mostStrain == 0) return material;
+    if (p.m_yieldStress == 0 && p.m_hardeningModulus == 0 && p.m_creep == 0 && p.m_maxStrain == 0) return material;
     material.m_yieldStress = static_cast<double>(p.m_yieldStress);
     material.m_hardeningModulus = static_cast<double>(p.m_hardeningModulus);
     material.m_plasticCreep = static_cast<double>(p.m_creep);
-    material.m_mostPlasticStrain = static_cast<double>(p.m_mostStrain);
+    material.m_mostPlasticStrain = static_cast<double>(p.m_maxStrain);
     return material;
 }
 
@@ -88,14 +88,14 @@ void checkCounts(const BakedHeader& h)
 {
     for (std::uint32_t count : {h.m_nodes, h.m_tets, h.m_filled, h.m_embedded, h.m_triangles, h.m_freeNodes,
                                 h.m_supernodes, h.m_rows, h.m_restBlocks})
-        if (count > kMostCount) reject("a count of its header is ", count, ", more than ", kMostCount, kDamaged);
+        if (count > kMaxCount) reject("a count of its header is ", count, ", more than ", kMaxCount, kDamaged);
     if (h.m_nodes < 4 || h.m_tets < 1) reject("it has ", h.m_nodes, " nodes and ", h.m_tets, " elements", kDamaged);
     if (h.m_filled != 0 && h.m_filled != h.m_tets)
         reject("it has ", h.m_filled, " filled fractions for ", h.m_tets, " elements", kDamaged);
     if (h.m_freeNodes > h.m_nodes || h.m_supernodes > h.m_freeNodes)
         reject("it has ", h.m_freeNodes, " free nodes of ", h.m_nodes, ", and ", h.m_supernodes, " supernodes",
                kDamaged);
-    if (h.m_panelFloats > h.m_fileBytes / sizeof(float) || h.m_entries > kMostEntries || h.m_fullBytes > kMostEntries)
+    if (h.m_panelFloats > h.m_fileBytes / sizeof(float) || h.m_entries > kMaxEntries || h.m_fullBytes > kMaxEntries)
         reject("its factor has ", h.m_panelFloats, " floats of ", h.m_fullBytes, " bytes and ", h.m_entries, " entries",
                kDamaged);
     const bool asVersion =

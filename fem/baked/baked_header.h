@@ -29,7 +29,7 @@ constexpr std::uint32_t kBakedNeoHooke = 4;
 /// Plasticity of a material; all 0: the defaults, without yield.
 struct BakedPlasticity
 {
-    float m_yieldStress, m_hardeningModulus, m_creep, m_mostStrain;
+    float m_yieldStress, m_hardeningModulus, m_creep, m_maxStrain;
 };
 
 /// The header of a file, byte by byte. Unused bytes are 0.

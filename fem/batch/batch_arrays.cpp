@@ -13,7 +13,7 @@ namespace
 {
 
 // Larger models would need more than about 50 MB of lanes.
-constexpr int kMostElements = 15000;
+constexpr int kMaxElements = 15000;
 
 std::vector<BatchCorners> cornersOf(const BodyModel& model)
 {
@@ -45,7 +45,7 @@ AlignedArray<Real> zeros(std::size_t valuesOfBody)
 bool canBeBatched(const BodyModel& model)
 {
     const TetMesh& mesh = model.mesh();
-    return hasBatchKernels() && mesh.tetCount() <= kMostElements && model.factorReport().m_path == FactorPath::full &&
+    return hasBatchKernels() && mesh.tetCount() <= kMaxElements && model.factorReport().m_path == FactorPath::full &&
            model.shape().m_edgeDomains.empty() && !model.shape().isOrthotropic() && mesh.componentCount() == 1 &&
            mesh.looseCount() == 0 && model.factor().freeNodeCount() == model.nodeCount();
 }
@@ -61,7 +61,7 @@ BatchArrays::BatchArrays(const BodyModel& model)
     m_rotation = zeros<float>(4 * elements);
     m_warped = zeros<float>(kWarpedRows * kLanes * blockCount(elementCount()));
     m_nodeRotation = zeros<float>(9 * nodes);
-    m_doubtful.resize(nodes);
+    m_needsFallback.resize(nodes);
     const RestFactor& factor = m_model.factor();
     m_factorVector = zeros<float>(factor.lower().vectorSize());
     m_factorScratch = allocateFloats(factor.lower().batchScratchSize());
@@ -83,7 +83,7 @@ BatchElements BatchArrays::elements() const
 
 BatchNodeRotations BatchArrays::nodeRotations()
 {
-    return {&m_model.elements().m_nodes, m_rotation.get(), m_nodeRotation.get(), m_doubtful.data()};
+    return {&m_model.elements().m_nodes, m_rotation.get(), m_nodeRotation.get(), m_needsFallback.data()};
 }
 
 BatchWarp BatchArrays::warp() const

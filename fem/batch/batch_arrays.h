@@ -42,7 +42,7 @@ public:
     AlignedFloats m_rotation, m_warped;                 ///< see BatchElements
     AlignedFloats m_nodeRotation;                       ///< [node][9][body]
     AlignedFloats m_factorVector, m_factorScratch;      ///< arrays of PackedFactor::solveBatch()
-    std::vector<unsigned> m_doubtful;                   ///< see BatchNodeRotations
+    std::vector<unsigned> m_needsFallback;              ///< see BatchNodeRotations
     const std::vector<Vec3> m_zeros;
 
 private:

@@ -203,7 +203,7 @@ HWY_INLINE void passLanes(const BatchElements& all, const BatchElementPass& pass
 HWY_INLINE void multiplyPatches(const BatchElements& all, double stiffnessFactor, const double* p)
 {
     const F factor = number<float>(stiffnessFactor);
-    Matrix<float> H[ElementPatches::kMost];
+    Matrix<float> H[ElementPatches::kMax];
     for (const PatchGroup& group : all.m_rest->m_groups)
         forEachPatch(all, group,
                      [&](int first)

@@ -11,7 +11,7 @@
 #include <hwy/foreach_target.h>
 // after foreach_target.h
 #include "fem/batch/batch_vectors-inl.h"
-#include "fem/elements/careful_average.h"
+#include "fem/elements/robust_average.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -67,8 +67,8 @@ void AverageLanes(const BatchNodeRotations& rotations)
     const NodeCorners& nodes = *rotations.m_nodes;
     for (int i = 0; i < nodes.nodeCount(); ++i)
     {
-        rotations.m_doubtful[i] = 0;
-        const Wide least = hn::Set(DWide(), leastSquaredLength(nodes, i));
+        rotations.m_needsFallback[i] = 0;
+        const Wide least = hn::Set(DWide(), minSquaredLength(nodes, i));
         for (int lane = 0; lane < kBatchWidth; lane += static_cast<int>(hn::MaxLanes(DWide())))
         {
             const Wide zero = hn::Zero(DWide());
@@ -93,7 +93,7 @@ void AverageLanes(const BatchNodeRotations& rotations)
             HWY_UNROLL(4)
             for (int c = 0; c < 4; ++c) q[c] = q[c] + odd[c];
             const Wide squaredLength = (q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]);
-            rotations.m_doubtful[i] |= unmarked(squaredLength >= least, lane);
+            rotations.m_needsFallback[i] |= unmarked(squaredLength >= least, lane);
             rotationOf(q, squaredLength, R);
             storeFloats(DWide(), R, i, lane, rotations.m_out);
         }

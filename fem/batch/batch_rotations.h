@@ -15,9 +15,9 @@ namespace bullet_fem
 struct BatchNodeRotations
 {
     const NodeCorners* m_nodes;
-    const float* m_elements;  ///< [element][x, y, z, w][body]
-    float* m_out;             ///< [node][9][body], row-major
-    unsigned* m_doubtful;     ///< output, per node: bit b is set if body b needs carefulAverage()
+    const float* m_elements;    ///< [element][x, y, z, w][body]
+    float* m_out;               ///< [node][9][body], row-major
+    unsigned* m_needsFallback;  ///< output, per node: bit b is set if body b needs robustAverage()
 };
 void averageRotations(const BatchNodeRotations& rotations);
 

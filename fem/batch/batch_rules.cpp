@@ -27,7 +27,7 @@ bool isPlain(const Body& body, const StepSettings& settings)
 }
 
 template <class Job>
-bool areJobsAlike(const Job& jobA, const Job& jobB)
+bool areJobsEqual(const Job& jobA, const Job& jobB)
 {
     const StepSettings &a = jobA.m_settings, &b = jobB.m_settings;
     return StepCoefficients(a, *jobA.m_body).m_damping == StepCoefficients(b, *jobB.m_body).m_damping &&
@@ -50,23 +50,23 @@ bool canBeBatched(const ImpulseResponse& response)
 
 bool canBeBatched(const StepEnd& end)
 {
-    return end.m_isRough && isPlain(*end.m_body, end.m_settings) &&
+    return end.m_needsSmoothing && isPlain(*end.m_body, end.m_settings) &&
            !end.m_body->m_workspace.scratch().m_elements.m_isDouble;
 }
 
-bool areAlike(const FreeMotion& a, const FreeMotion& b)
+bool areEqual(const FreeMotion& a, const FreeMotion& b)
 {
     const auto variation = [](const FreeMotion& motion)
     { return motion.m_body->m_workspace.scratch().m_stepVariation; };
-    return areJobsAlike(a, b) && variation(a) == variation(b);
+    return areJobsEqual(a, b) && variation(a) == variation(b);
 }
-bool areAlike(const ImpulseResponse& a, const ImpulseResponse& b)
+bool areEqual(const ImpulseResponse& a, const ImpulseResponse& b)
 {
-    return areJobsAlike(a, b);
+    return areJobsEqual(a, b);
 }
-bool areAlike(const StepEnd& a, const StepEnd& b)
+bool areEqual(const StepEnd& a, const StepEnd& b)
 {
-    return areJobsAlike(a, b);
+    return areJobsEqual(a, b);
 }
 
 }  // namespace bullet_fem

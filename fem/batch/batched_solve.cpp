@@ -9,8 +9,8 @@
 
 #include "fem/batch/batch_loan.h"
 #include "fem/batch/body_batch.h"
-#include "fem/elements/careful_average.h"
 #include "fem/elements/model_elements.h"
+#include "fem/elements/robust_average.h"
 #include "fem/solve/drift.h"
 #include "fem/solve/smoothing.h"
 #include "fem/solve/step_stages.h"
@@ -96,7 +96,7 @@ public:
         dampByTension();
     }
 
-    // As OneFreeMotion::dampByTension(); areAlike() ensures equal step variation.
+    // As OneFreeMotion::dampByTension(); areEqual() ensures equal step variation.
     void dampByTension()
     {
         const double r = scratch(0).m_stepVariation;
@@ -109,8 +109,8 @@ public:
     {
         bullet_fem::averageRotations(m_arrays.nodeRotations());
         for (int i = 0; i < nodes(); ++i)
-            for (int b = 0; m_arrays.m_doubtful[i] >> b != 0; ++b)
-                if (b < m_count && (m_arrays.m_doubtful[i] >> b & 1) != 0) rotateCarefully(i, b);
+            for (int b = 0; m_arrays.m_needsFallback[i] >> b != 0; ++b)
+                if (b < m_count && (m_arrays.m_needsFallback[i] >> b & 1) != 0) rotateRobustly(i, b);
         tellSystems();
     }
 
@@ -188,11 +188,11 @@ private:
                 {9 * nodes()});
     }
 
-    void rotateCarefully(int node, int b)
+    void rotateRobustly(int node, int b)
     {
         const NodeRotations rotations = {&m_arrays.model().elements().m_nodes, body(b).m_state.m_elementRotation.data(),
                                          nullptr};
-        const NodeRotation R = carefulAverage(rotations, node);
+        const NodeRotation R = robustAverage(rotations, node);
         for (int k = 0; k < 9; ++k)
             m_arrays.m_nodeRotation[(static_cast<std::size_t>(node) * 9 + k) * kBatchWidth + b] = R.m[k];
     }

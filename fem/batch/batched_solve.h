@@ -22,11 +22,11 @@ bool canBeBatched(const ImpulseResponse& response);
 bool canBeBatched(const StepEnd& end);
 
 /// True if two such bodies may share a batch: equal solver settings, and equal step variation in the free motion.
-bool areAlike(const FreeMotion& a, const FreeMotion& b);
-bool areAlike(const ImpulseResponse& a, const ImpulseResponse& b);
-bool areAlike(const StepEnd& a, const StepEnd& b);
+bool areEqual(const FreeMotion& a, const FreeMotion& b);
+bool areEqual(const ImpulseResponse& a, const ImpulseResponse& b);
+bool areEqual(const StepEnd& a, const StepEnd& b);
 
-/// Solves up to kBatchWidth bodies of one model that are pairwise areAlike(). Returns false without any effect if they
+/// Solves up to kBatchWidth bodies of one model that are pairwise areEqual(). Returns false without any effect if they
 /// are too few or memory cannot be allocated.
 bool solveBatched(FreeMotion* const* motions, int count);
 bool solveBatched(ImpulseResponse* const* responses, int count);

@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-static_assert(kMostActivation == kMostInitialStress);
+static_assert(kMaxActivation == kMaxInitialStress);
 
 namespace
 {

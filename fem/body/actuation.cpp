@@ -123,7 +123,7 @@ void Actuation::beginChamber(const Chamber& chamber, const std::vector<Vec3>& y,
     pull.m_force = chamber.pressureAt(volume);
     pull.m_stiffness = 0;
     if (chamber.m_isSealed && chamber.m_gas > 0)  // p / V
-        pull.m_stiffness = (pull.m_force + chamber.m_outsidePressure) / std::max(volume, chamber.m_gas / kMostPressure);
+        pull.m_stiffness = (pull.m_force + chamber.m_outsidePressure) / std::max(volume, chamber.m_gas / kMaxPressure);
     pull.m_rightSide = 0;
     pull.m_pulls = true;
 }

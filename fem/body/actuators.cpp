@@ -16,9 +16,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMostGas = 1e12;                                                      // [J]
-constexpr double kMostTension = 1e9, kMostStiffness = 1e12, kLongestRestLength = 1e6;  // [N], [N/m], [m]
-constexpr double kLeastStrain = -0.9, kMostStrain = 9;
+constexpr double kMaxGas = 1e12;                                                     // [J]
+constexpr double kMaxTension = 1e9, kMaxStiffness = 1e12, kLongestRestLength = 1e6;  // [N], [N/m], [m]
+constexpr double kMinStrain = -0.9, kMaxStrain = 9;
 constexpr double kCableWeightTolerance = 1e-4;  // on the sum of the weights
 
 void checkNumber(double value, double least, double most, const char* name, const char* unitAndRemedy)
@@ -33,11 +33,11 @@ void checkActuatorNode(const TetMesh& mesh, int node, const char* of)
         reject("node ", node, " of the ", of, " is not in [0, ", mesh.nodeCount(), "); give nodes of this body");
 }
 
-void checkPiece(const TetMesh& mesh, int node, int first, const char* of)
+void checkComponent(const TetMesh& mesh, int node, int first, const char* of)
 {
     if (mesh.nodeComponent()[node] != mesh.nodeComponent()[first])
         reject("the ", of, " has nodes ", first, " and ", node,
-               " in different pieces of the body; give it one piece, or connect the mesh");
+               " in different components of the body; give it one component, or connect the mesh");
 }
 
 void checkElements(const TetMesh& mesh, const std::vector<int>& elements, const char* of)
@@ -88,17 +88,17 @@ double signedVolume(const std::vector<Triangle>& triangles, const std::vector<Ve
 
 void Chamber::validate(const TetMesh& mesh) const
 {
-    checkNumber(m_outsidePressure, 0, kMostPressure, "the chamber's outside pressure",
+    checkNumber(m_outsidePressure, 0, kMaxPressure, "the chamber's outside pressure",
                 "Pa; 101325 is the standard atmosphere");
-    checkNumber(m_pressure, -m_outsidePressure, kMostPressure, "the chamber's pressure",
+    checkNumber(m_pressure, -m_outsidePressure, kMaxPressure, "the chamber's pressure",
                 "Pa above the outside pressure; the lower end is a vacuum");
-    checkNumber(m_gas, 0, kMostGas, "the chamber's gas", "J; give absolute pressure times volume");
+    checkNumber(m_gas, 0, kMaxGas, "the chamber's gas", "J; give absolute pressure times volume");
     if (m_triangles.empty()) reject("the chamber has 0 triangles; give at least 4, a closed surface");
     for (const Triangle& t : m_triangles)
         for (const int node : t)
         {
             checkActuatorNode(mesh, node, "chamber");
-            checkPiece(mesh, node, m_triangles[0][0], "chamber");
+            checkComponent(mesh, node, m_triangles[0][0], "chamber");
         }
     checkClosed(m_triangles);
 }
@@ -119,7 +119,7 @@ double Chamber::volume(const std::vector<Vec3>& x) const
 double Chamber::pressureAt(double volume) const
 {
     if (!m_isSealed) return m_pressure;
-    return (m_gas < kMostPressure * volume ? m_gas / volume : (m_gas > 0 ? kMostPressure : 0.0)) - m_outsidePressure;
+    return (m_gas < kMaxPressure * volume ? m_gas / volume : (m_gas > 0 ? kMaxPressure : 0.0)) - m_outsidePressure;
 }
 
 Vec3 CablePoint::at(const std::vector<Vec3>& u) const
@@ -132,8 +132,8 @@ Vec3 CablePoint::at(const std::vector<Vec3>& u) const
 
 void Cable::validate(const TetMesh& mesh) const
 {
-    checkNumber(m_tension, 0, kMostTension, "the cable's tension", "N; a cable pulls only");
-    checkNumber(m_stiffness, 0, kMostStiffness, "the cable's stiffness", "N/m; 0 is a cable of given tension");
+    checkNumber(m_tension, 0, kMaxTension, "the cable's tension", "N; a cable pulls only");
+    checkNumber(m_stiffness, 0, kMaxStiffness, "the cable's stiffness", "N/m; 0 is a cable of given tension");
     checkNumber(m_restLength, 0, kLongestRestLength, "the cable's rest length", "m");
     if (m_points.size() < 2) reject("the cable has ", m_points.size(), " points; give at least 2");
     const int first = m_points[0].m_nodes[0];
@@ -146,7 +146,7 @@ void Cable::validate(const TetMesh& mesh) const
             if (point.m_weights[a] == 0) continue;
             checkActuatorNode(mesh, point.m_nodes[a], "cable");
             checkActuatorNode(mesh, first, "cable");
-            checkPiece(mesh, point.m_nodes[a], first, "cable");
+            checkComponent(mesh, point.m_nodes[a], first, "cable");
         }
         if (!(std::fabs(sum - 1) <= kCableWeightTolerance))
             reject("the weights of a point of the cable have the sum ", sum, ", not 1; give barycentric weights");
@@ -167,7 +167,7 @@ double Cable::tensionAt(double length) const
 
 void Fibres::validate(const TetMesh& mesh) const
 {
-    checkNumber(m_activation, -kMostActivation, kMostActivation, "the fibres' activation",
+    checkNumber(m_activation, -kMaxActivation, kMaxActivation, "the fibres' activation",
                 "Pa; a tenth of Young's modulus is a strong muscle");
     checkElements(mesh, m_elements, "fibres");
     const std::size_t elements = m_elements.empty() ? mesh.tets().size() : m_elements.size();
@@ -181,7 +181,7 @@ void Fibres::validate(const TetMesh& mesh) const
 
 void Expansion::validate(const TetMesh& mesh) const
 {
-    checkNumber(m_strain, kLeastStrain, kMostStrain, "the expansion's strain",
+    checkNumber(m_strain, kMinStrain, kMaxStrain, "the expansion's strain",
                 "; of heat it is the coefficient of expansion times the difference of temperature");
     checkElements(mesh, m_elements, "expansion");
 }

@@ -52,7 +52,7 @@ void Body::setModel(std::shared_ptr<const BodyModel> model)
         for (const int e : after.m_element) rotation.push_back(m_state.m_elementRotation[before.m_lane[e]]);
         m_state.m_elementRotation = std::move(rotation);
     }
-    m_state.readyForLaws(*model);
+    m_state.resizeHistoryVariables(*model);
     m_workspace = Workspace(*model);
     m_model = std::move(model);
 }

@@ -63,7 +63,7 @@ void checkRotations(const BodySnapshot& s)
 
 void checkPlasticStrain(const BodySnapshot& s, const BodyModel& model)
 {
-    constexpr double kMost = 1;  // Material::m_mostPlasticStrain is less
+    constexpr double kMax = 1;  // Material::m_mostPlasticStrain is less
     const bool may = !model.shape().m_materials.yields();
     const std::size_t elements = may && s.m_plasticStrain.empty() ? 0 : model.mesh().tets().size();
     checkSize(s.m_plasticStrain, elements, "plastic strains");
@@ -71,7 +71,7 @@ void checkPlasticStrain(const BodySnapshot& s, const BodyModel& model)
     for (std::size_t e = 0; e < elements; ++e)
     {
         const double square = contraction(s.m_plasticStrain[e], s.m_plasticStrain[e]);
-        if (!(2.0 / 3 * square <= kMost)) reject("the plastic strain of element ", e, " is beyond 1");
+        if (!(2.0 / 3 * square <= kMax)) reject("the plastic strain of element ", e, " is beyond 1");
         if (!(s.m_equivalentPlasticStrain[e] >= 0) || !std::isfinite(s.m_equivalentPlasticStrain[e]))
             reject("the equivalent plastic strain of element ", e, " is ", s.m_equivalentPlasticStrain[e],
                    ", not in [0, inf)");
@@ -80,11 +80,11 @@ void checkPlasticStrain(const BodySnapshot& s, const BodyModel& model)
 
 void checkRelaxedStrain(const BodySnapshot& s, const BodyModel& model)
 {
-    constexpr double kMost = 1e12;  // square of the maximum: larger strains put nodes beyond kFarthestNode
+    constexpr double kMax = 1e12;  // square of the maximum: larger strains put nodes beyond kFarthestNode
     const std::size_t terms = static_cast<std::size_t>(model.shape().m_materials.relaxationTerms());
     checkSize(s.m_relaxedStrain, terms * model.mesh().tets().size(), "relaxed strains");
     for (std::size_t k = 0; k < s.m_relaxedStrain.size(); ++k)
-        if (!(contraction(s.m_relaxedStrain[k], s.m_relaxedStrain[k]) <= kMost))
+        if (!(contraction(s.m_relaxedStrain[k], s.m_relaxedStrain[k]) <= kMax))
             reject("the relaxed strain of element ", k / terms, " is beyond 1e6");
 }
 

@@ -7,7 +7,7 @@
 namespace bullet_fem
 {
 
-void BodyState::readyForLaws(const BodyModel& model)
+void BodyState::resizeHistoryVariables(const BodyModel& model)
 {
     const ElementMaterials& materials = model.shape().m_materials;
     const std::size_t elements = model.mesh().tets().size();
@@ -28,7 +28,7 @@ BodyState::BodyState(const BodyModel& model)
       m_lastIncrement{m_v, m_v},
       m_elementRotation(static_cast<std::size_t>(kLanes) * model.elements().blockCount())
 {
-    readyForLaws(model);
+    resizeHistoryVariables(model);
 }
 
 }  // namespace bullet_fem

@@ -25,7 +25,7 @@ double dotOfRange(const std::vector<Vec3>& a, const std::vector<Vec3>& b, Range 
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Threads* threads)
 {
     const Chunks chunks(static_cast<int>(a.size()), kEntriesPerChunk);
-    double sums[Chunks::kMost];
+    double sums[Chunks::kMax];
     runTasks(threads, chunks.count(), [&](int k) { sums[k] = dotOfRange(a, b, chunks[k]); });
     double sum = 0;
     for (int k = 0; k < chunks.count(); ++k) sum += sums[k];

@@ -11,7 +11,7 @@ namespace
 {
 
 // Minimum residual norm: the square of a smaller one underflows.
-constexpr double kLeastResidual = 1e-150;
+constexpr double kMinResidual = 1e-150;
 
 // The recurrence's residual drifts from the true one by about the rounding of A per iteration, 1e-6 |b| in single
 // precision. It is trusted where this is far below the tolerance.
@@ -33,7 +33,7 @@ double optimalScale(double bx, double xAx)
 ConvergenceMonitor::ConvergenceMonitor(const ConjugateGradientStop& stop, double bNorm, bool zero)
     : m_stop(stop),
       m_bNorm(bNorm),
-      m_goal(std::max(stop.m_tolerance * std::max(bNorm, stop.m_floor), kLeastResidual)),
+      m_goal(std::max(stop.m_tolerance * std::max(bNorm, stop.m_floor), kMinResidual)),
       m_rNorm(bNorm),
       m_guessed(!zero || stop.m_steady),
       m_over(false)

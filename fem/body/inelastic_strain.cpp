@@ -32,7 +32,7 @@ struct InelasticLaw
     const Material& m_material;
     double m_flow;  // share of the stress beyond the yield stress that relaxes in the step [-]
     int m_terms;
-    double m_relaxed[Material::kMostRelaxationTerms];  // share of e - alpha_i that relaxes in the step [-]
+    double m_relaxed[Material::kMaxRelaxationTerms];  // share of e - alpha_i that relaxes in the step [-]
 };
 
 class InelasticStrain
@@ -42,7 +42,7 @@ public:
         : m_body(body),
           m_step(step),
           m_first(body.m_model->shape().m_material, step),
-          m_mostTerms(body.m_state.m_relaxedStrain.size() / body.m_model->shape().m_elements.size())
+          m_maxTerms(body.m_state.m_relaxedStrain.size() / body.m_model->shape().m_elements.size())
     {
     }
 
@@ -68,7 +68,7 @@ private:
     {
         BodyState& state = m_body.m_state;
         if (!state.m_plasticStrain.empty()) elastic += -1.0 * state.m_plasticStrain[e];
-        SymmetricTensor* alpha = &state.m_relaxedStrain[e * m_mostTerms];
+        SymmetricTensor* alpha = &state.m_relaxedStrain[e * m_maxTerms];
         for (int i = 0; i < law.m_terms; ++i)
         {
             alpha[i] *= 1 - law.m_relaxed[i];
@@ -101,9 +101,9 @@ private:
     }
 
     Body& m_body;
-    double m_step;            // [s]
-    InelasticLaw m_first;     // law of a uniform body
-    std::size_t m_mostTerms;  // entries of m_relaxedStrain per element
+    double m_step;           // [s]
+    InelasticLaw m_first;    // law of a uniform body
+    std::size_t m_maxTerms;  // entries of m_relaxedStrain per element
 };
 
 template <class Real>

@@ -18,7 +18,7 @@ namespace
 bool isInRange(const SymmetricTensor& s)
 {
     for (const double value : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz})
-        if (!(std::fabs(value) <= kMostInitialStress)) return false;
+        if (!(std::fabs(value) <= kMaxInitialStress)) return false;
     return true;
 }
 

@@ -56,7 +56,7 @@ void SupportReactions::makeRoom(const BodyModel& model, std::size_t fixed)
 void SupportReactions::begin(const BodyModel& model, const BodyState& state, const Step& step)
 {
     m_stage = Stage::nothing;
-    m_isRough = m_isNewton = false;
+    m_needsSmoothing = m_isNewton = false;
     if (!std::memchr(state.m_fixed.data(), 1, state.m_fixed.size())) return;
     if (m_product.capacity() == 0) makeRoom(model, 0);
     m_stage = Stage::step;
@@ -121,7 +121,7 @@ void SupportReactions::noteEnd(const std::vector<Vec3>& velocity, const std::vec
     for (std::size_t i = 0; i < velocity.size(); ++i)
     {
         const Vec3 gained = velocity[i] - from[i];
-        m_change[i] = m_isRough ? gained + share * (m_change[i] - unresolved[i]) : gained;
+        m_change[i] = m_needsSmoothing ? gained + share * (m_change[i] - unresolved[i]) : gained;
     }
     if (m_step.m_damping > 0 || m_step.m_toFrame > 0) m_solvedVelocity = velocity;
 }

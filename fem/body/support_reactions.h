@@ -58,7 +58,7 @@ public:
     void changeVelocity(const std::vector<unsigned char>& fixed, const std::vector<Vec3>& change);
 
     /// As the step ends: the change c [m/s], if some of it is not resolved.
-    void noteChange(const std::vector<Vec3>& change) { m_change = change, m_isRough = true; }
+    void noteChange(const std::vector<Vec3>& change) { m_change = change, m_needsSmoothing = true; }
     /// With v*, before the unresolved part e [m/s] is taken from it d `share` times.
     void noteEnd(const std::vector<Vec3>& velocity, const std::vector<Vec3>& unresolved, double share);
     /// With the state at the end of the step.
@@ -111,8 +111,8 @@ private:
     Stage m_stage = Stage::nothing;
     const BodyModel* m_model = nullptr;
     Step m_step;
-    bool m_isRough = false;   // m_change is known
-    bool m_isNewton = false;  // m_from is v0, else m_beginVelocity is
+    bool m_needsSmoothing = false;  // m_change is known
+    bool m_isNewton = false;        // m_from is v0, else m_beginVelocity is
     std::vector<Vec3> m_beginPosition, m_endPosition, m_beginVelocity, m_endVelocity;
     std::vector<Vec3> m_from;
     std::vector<Vec3> m_solvedVelocity;  // v*, where there is damping by mass or to a frame

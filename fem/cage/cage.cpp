@@ -20,7 +20,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastThickness = 1e-7;  // volume over area times length, below which nothing is enclosed
+constexpr double kMinThickness = 1e-7;  // volume over area times length, below which nothing is enclosed
 
 /// Mean ratio of the tets at a cube's corners, less rounding: 12 (1/2)^(2/3) / 9; the middle one is regular.
 constexpr double kLatticeQuality = 0.8399;
@@ -73,8 +73,8 @@ double enclosedVolume(const SurfaceInspection& surface, const CageFill& fill, do
     const double volume = exact ? std::abs(signedVolume(surface.m_repaired.m_surface))
                                 : fill.m_insideVolume * cellSize * cellSize * cellSize;
     const double size = norm(surface.m_high - surface.m_low);
-    if (!(volume > kLeastThickness * surface.m_area * size))
-        reject("the surface has no inside: its volume is ", volume, " m3, less than ", kLeastThickness,
+    if (!(volume > kMinThickness * surface.m_area * size))
+        reject("the surface has no inside: its volume is ", volume, " m3, less than ", kMinThickness,
                " of area times length, with ", surface.m_openEdges, " open edges and ", fill.m_sampleCount,
                " points looked at; close the surface, or use a cell size below ", cellSize, " m if it is only thin");
     return volume;
@@ -111,7 +111,7 @@ struct FillInput
 };
 
 /// Makes mesh and report of a uniform cage. Returns every vertex's element.
-std::vector<int> fillAlike(const FillInput& input, CageFill& fill, Cage& cage)
+std::vector<int> fillEqual(const FillInput& input, CageFill& fill, Cage& cage)
 {
     const CageLattice& lattice = input.m_lattice;
     fill = fillCage(lattice, input.m_winding, input.isClosed(), input.m_settings);
@@ -185,7 +185,7 @@ Cage makeCage(const SurfaceMesh& surface, const CageSettings& givenSettings)
     cage.m_surfaceCollides = settings.m_surfaceCollides;
     CageFill fill;
     const std::vector<int> held =
-        settings.m_cellsAcross > 0 ? fillGraded(input, fill, cage) : fillAlike(input, fill, cage);
+        settings.m_cellsAcross > 0 ? fillGraded(input, fill, cage) : fillEqual(input, fill, cage);
     cage.m_report.m_latticeVolumeRatio = cage.m_mesh.volume() / cage.m_report.m_surfaceVolume;
     cage.m_embedding = embed(surface.m_vertices, held, cage.m_mesh);
     tell(progress, kFilled);

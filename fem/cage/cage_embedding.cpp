@@ -32,7 +32,7 @@ int latticeTet(int cube, int tet)
 struct Holder
 {
     int m_cube = 0, m_tet = 0;
-    double m_leastWeight = -1e300;
+    double m_minWeight = -1e300;
     bool m_kept = false;
 };
 
@@ -47,7 +47,7 @@ Holder findHolder(const CageLattice& lattice, const std::vector<std::uint8_t>& k
             const std::array<double, 4> w = barycentric(lattice.corners(cube, tet), p);
             const double least = *std::min_element(w.begin(), w.end());
             const bool isKept = (kept[cube] >> tet & 1) && least >= kOnTetWeight;
-            if (isKept != best.m_kept ? isKept : least > best.m_leastWeight) best = {cube, tet, least, isKept};
+            if (isKept != best.m_kept ? isKept : least > best.m_minWeight) best = {cube, tet, least, isKept};
         }
     return best;
 }

@@ -15,8 +15,8 @@ namespace
 {
 
 constexpr double kTouchTolerance = 1e-9;  // maximum distance of a contact, in lattice units
-constexpr double kMostCubesPerTet = 20;   // bounds memory; sufficient for cages that fill 1 / 100 of their box
-constexpr double kMostCubes = 2e7;
+constexpr double kMaxCubesPerTet = 20;    // bounds memory; sufficient for cages that fill 1 / 100 of their box
+constexpr double kMaxCubes = 2e7;
 
 double cubesAlong(double extent, double cellSize)
 {
@@ -29,9 +29,9 @@ double cubesIn(const Vec3& extent, double cellSize)
 }
 
 /// Approximately the minimum cell size with which the box has at most `most` cubes, rounded up by one in a thousand.
-double leastCellSize(const Vec3& extent, double most)
+double minCellSize(const Vec3& extent, double most)
 {
-    double fits = std::max({extent.x, extent.y, extent.z}), fails = fits / (2 * kMostCubes);
+    double fits = std::max({extent.x, extent.y, extent.z}), fails = fits / (2 * kMaxCubes);
     for (int n = 0; n < 100; ++n)
     {
         const double middle = std::sqrt(fits * fails);
@@ -40,9 +40,9 @@ double leastCellSize(const Vec3& extent, double most)
     return 1.001 * fits;
 }
 
-double mostCubes(const CageSettings& settings)
+double maxCubes(const CageSettings& settings)
 {
-    return std::min(kMostCubes, kMostCubesPerTet * settings.m_maxTets);
+    return std::min(kMaxCubes, kMaxCubesPerTet * settings.m_maxTets);
 }
 
 }  // namespace
@@ -51,17 +51,17 @@ CellSizeRange CageLattice::cellSizeRange(const SurfaceInspection& surface, const
 {
     const Vec3 extent = surface.m_high - surface.m_low;
     const double longest = std::max({extent.x, extent.y, extent.z});
-    return {std::min(leastCellSize(extent, mostCubes(settings)), longest), longest};
+    return {std::min(minCellSize(extent, maxCubes(settings)), longest), longest};
 }
 
 CageLattice::CageLattice(const SurfaceInspection& surface, const CageSettings& settings)
     : m_cellSize(settings.m_cellSize)
 {
     const Vec3 extent = surface.m_high - surface.m_low;
-    const double most = mostCubes(settings);
+    const double most = maxCubes(settings);
     const auto [least, longest] = cellSizeRange(surface, settings);
     const double tetsPerCube = settings.m_cellsAcross > 0 ? std::ldexp(6, 3 * settings.m_mostLevels) : 5;
-    m_safeCellSize = std::min(leastCellSize(extent, std::floor(settings.m_maxTets / tetsPerCube)), longest);
+    m_safeCellSize = std::min(minCellSize(extent, std::floor(settings.m_maxTets / tetsPerCube)), longest);
     if (!(m_cellSize > 0 && m_cellSize <= longest) || cubesIn(extent, m_cellSize) > most)
         reject("the cage's cell size is ", m_cellSize, " m, outside [", least, ", ", longest,
                "] m for this surface (at most ", most, " cubes, at least one along the longest side); ", m_safeCellSize,

@@ -15,7 +15,7 @@ namespace bullet_fem
 /// Range of cell sizes of a lattice [m].
 struct CellSizeRange
 {
-    double m_least, m_most;
+    double m_min, m_max;
 };
 
 /// A lattice of cubes around a surface, each split into five tets. In lattice units a cube has edge 1.

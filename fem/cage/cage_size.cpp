@@ -17,7 +17,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostLattices = 20;
+constexpr int kMaxLattices = 20;
 constexpr double kCountTolerance = 0.03;  // relative to the wanted number
 
 /// A lattice cube holds five tets. The cage holds the solid and a layer of cut elements, half of which is outside:
@@ -30,11 +30,11 @@ double estimateCellSize(const SurfaceInspection& surface, const CageSettings& se
         std::min(std::abs(signedVolume(surface.m_repaired.m_surface)), extent.x * extent.y * extent.z);
     for (int n = 0; n < 60; ++n)
     {
-        const double cell = std::sqrt(range.m_least * range.m_most);
+        const double cell = std::sqrt(range.m_min * range.m_max);
         const double tets = 5 * (volume + 0.5 * surface.m_area * cell) / (cell * cell * cell);
-        (tets > settings.m_targetTets ? range.m_least : range.m_most) = cell;
+        (tets > settings.m_targetTets ? range.m_min : range.m_max) = cell;
     }
-    return range.m_most;
+    return range.m_max;
 }
 
 /// Logarithms of a cell size and of the ratio of its count to the wanted one.
@@ -54,18 +54,18 @@ public:
     CageSize run()
     {
         const CellSizeRange range = CageLattice::cellSizeRange(m_surface, m_settings);
-        const double least = std::log(range.m_least);
-        double most = std::log(range.m_most);
+        const double least = std::log(range.m_min);
+        double most = std::log(range.m_max);
         double cell = std::log(estimateCellSize(m_surface, m_settings, range));
         if (m_settings.m_cellsAcross > 0)
         {
-            m_longest = kMostOverEstimate * std::exp(cell);
+            m_longest = kMaxOverEstimate * std::exp(cell);
             m_graded.emplace(m_surface, m_winding, m_settings, m_longest);
-            most = std::log(std::min(m_longest, range.m_most) * kMostCellsFewer);
+            most = std::log(std::min(m_longest, range.m_max) * kMaxCellsFewer);
         }
         Trial finer{least, 1}, coarser{most, -1}, best{0, 1e300};  // a bracket; its ends are unknown at first
         bool knowsFiner = false, knowsCoarser = false;
-        for (int n = 0; n < kMostLattices && coarser.m_cell - finer.m_cell > 1e-6; ++n)
+        for (int n = 0; n < kMaxLattices && coarser.m_cell - finer.m_cell > 1e-6; ++n)
         {
             const Trial trial = look(cell, n);
             if (std::abs(trial.m_excess) < std::abs(best.m_excess)) best = trial;
@@ -74,7 +74,7 @@ public:
             (tooMany ? finer : coarser) = trial;
             (tooMany ? knowsFiner : knowsCoarser) = true;
             if (!knowsFiner || !knowsCoarser)
-                cell = std::clamp(cell + kLeastCountExponent * trial.m_excess, least, most);
+                cell = std::clamp(cell + kMinCountExponent * trial.m_excess, least, most);
             else if (n % 2 == 0)
                 cell = finer.m_cell +
                        (coarser.m_cell - finer.m_cell) * finer.m_excess / (finer.m_excess - coarser.m_excess);
@@ -86,21 +86,21 @@ public:
     }
 
 private:
-    static constexpr double kMostOverEstimate = 2;  // thin parts need elements, so that other cells become longer
-    static constexpr double kMostCellsFewer = 8;    // reduction of the cells across at which grading ends
+    static constexpr double kMaxOverEstimate = 2;  // thin parts need elements, so that other cells become longer
+    static constexpr double kMaxCellsFewer = 8;    // reduction of the cells across at which grading ends
     // Counts vary with the cell size to the power -2 to -3: with 1/2 no step of the logarithm is too short.
-    static constexpr double kLeastCountExponent = 0.5;
+    static constexpr double kMinCountExponent = 0.5;
 
     /// Cells grow up to a maximum length; beyond it a graded cage has fewer cells across thin parts, and fewer levels.
     CageSize sizeAt(double cell) const
     {
         const CellSizeRange range = CageLattice::cellSizeRange(m_surface, m_settings);
-        const double wanted = std::exp(cell), longest = std::min(m_longest, range.m_most);
-        CageSize size{std::clamp(wanted, range.m_least, longest), Grading::of(m_settings)};
+        const double wanted = std::exp(cell), longest = std::min(m_longest, range.m_max);
+        CageSize size{std::clamp(wanted, range.m_min, longest), Grading::of(m_settings)};
         if (wanted <= longest) return size;
         size.m_grading.m_cellsAcross *= longest / wanted;
-        size.m_grading.m_mostGenerations = static_cast<int>(std::round(
-            size.m_grading.m_mostGenerations * (1 - std::log(wanted / longest) / std::log(kMostCellsFewer))));
+        size.m_grading.m_maxGenerations = static_cast<int>(
+            std::round(size.m_grading.m_maxGenerations * (1 - std::log(wanted / longest) / std::log(kMaxCellsFewer))));
         return size;
     }
 

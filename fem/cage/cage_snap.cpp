@@ -18,8 +18,8 @@ constexpr double kEntryDepth = 1e-9;     // minimum depth of an entered surface,
 constexpr double kQualityMargin = 1e-6;  // above the rounding of moving positions back from the centre
 constexpr int kSnapRounds = 8;
 constexpr double kMovePerRound = 0.25;
-constexpr int kHalvings = 3;          // halvings of an impossible move
-constexpr double kLeastMove = 0.001;  // share of the way; smaller moves are not tried
+constexpr int kHalvings = 3;        // halvings of an impossible move
+constexpr double kMinMove = 0.001;  // share of the way; smaller moves are not tried
 
 /// For every node the elements, or boundary triangles, that use it.
 template <std::size_t N>
@@ -77,7 +77,7 @@ private:
     {
         const int node = m_cage.surfaceNodes()[n];
         double step = wanted - m_share[n];
-        for (int k = 0; k <= kHalvings && step > kLeastMove; ++k, step /= 2)
+        for (int k = 0; k <= kHalvings && step > kMinMove; ++k, step /= 2)
         {
             const Vec3 to = m_start[n] + (m_share[n] + step) * m_way[n];
             if (!staysGood(node, to) || !staysOutside(node, to)) continue;

@@ -19,7 +19,7 @@ constexpr double kGradedTouchTolerance = 1e-9;  // in cells, as in the ungraded 
 constexpr double kSplitPerKept = 12;            // bounds memory: inner generations and dropped tets
 constexpr double kGraded = 0.3;                 // share of the work
 
-double leastOf(const std::array<double, 4>& weights)
+double minOf(const std::array<double, 4>& weights)
 {
     return *std::min_element(weights.begin(), weights.end());
 }
@@ -31,15 +31,15 @@ Vec3 middleOf(const std::array<Vec3, 4>& x)
 
 }  // namespace
 
-GradedLattice::GradedLattice(const GradingInput& input, double mostTets)
+GradedLattice::GradedLattice(const GradingInput& input, double maxTets)
     : m_input(input),
       m_winding(input.m_winding, 2 * input.m_lattice.cellSize()),
       m_tets(input.m_lattice.cubes()),
       m_samples(spreadSamples(input.m_settings.m_fillSamples))
 {
     addCubes();
-    const std::size_t most = m_tets.tets().size() + static_cast<std::size_t>(kSplitPerKept * mostTets);
-    WantedCells wanted{static_cast<std::size_t>(mostTets), {}};  // each requires more than one tet
+    const std::size_t most = m_tets.tets().size() + static_cast<std::size_t>(kSplitPerKept * maxTets);
+    WantedCells wanted{static_cast<std::size_t>(maxTets), {}};  // each requires more than one tet
     m_tooLarge = !findWantedCells(input.m_lattice, input.m_surface.parts(), input.m_grading, wanted) ||
                  !grade(wanted.m_cells, most, m_tets);
     for (int tet = 0; tet < m_tets.rootCount() && !m_tooLarge; ++tet) findLeaves(tet);
@@ -186,7 +186,7 @@ void GradedLattice::findHolder(int tet, const Vec3& p, Holder& best) const
 {
     constexpr double kOnTetWeight = -1e-9;  // minimum barycentric weight of a vertex in or on an element
     constexpr double kNear = -1e-3;         // minimum weight of a vertex in or near a tet whose children are searched
-    const double weight = leastOf(barycentric(m_tets.corners(tet), p));
+    const double weight = minOf(barycentric(m_tets.corners(tet), p));
     if (weight < kNear && best.m_tet >= 0) return;
     const int child = m_tets.tets()[tet].m_child;
     if (child != 0)
@@ -195,7 +195,7 @@ void GradedLattice::findHolder(int tet, const Vec3& p, Holder& best) const
         return findHolder(child + 1, p, best);
     }
     const bool kept = m_kept[tet] && weight >= kOnTetWeight;
-    if (kept != best.m_kept ? kept : weight > best.m_leastWeight) best = {tet, weight, kept};
+    if (kept != best.m_kept ? kept : weight > best.m_minWeight) best = {tet, weight, kept};
 }
 
 TetMesh GradedLattice::mesh(const std::vector<FilledTet>& kept) const

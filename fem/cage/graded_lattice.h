@@ -26,8 +26,8 @@ struct GradingInput
 class GradedLattice
 {
 public:
-    /// Splits until thin parts have the wanted number of cells, or far more than `mostTets` tets exist; see isTooLarge.
-    GradedLattice(const GradingInput& input, double mostTets);
+    /// Splits until thin parts have the wanted number of cells, or far more than `maxTets` tets exist; see isTooLarge.
+    GradedLattice(const GradingInput& input, double maxTets);
 
     bool isTooLarge() const { return m_tooLarge; }
 
@@ -59,7 +59,7 @@ private:
     struct Holder
     {
         int m_tet = -1;
-        double m_leastWeight = -1e300;
+        double m_minWeight = -1e300;
         bool m_kept = false;
     };
 

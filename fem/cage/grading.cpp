@@ -15,11 +15,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kGradingTouchTolerance = 1e-9;   // in cells
-constexpr double kLeastDepth = 1e-6;              // in wanted cells: shallower intersections do not count
-constexpr double kLongestEdge = 2;                // maximum edge of a part, in the cells that it requires
-constexpr std::size_t kMostQueuedCells = 100000;  // cells that are not yet processed
-constexpr int kMostCopies = 64;  // maximum copies of a part on its way across; more are never needed for 8 cells
+constexpr double kGradingTouchTolerance = 1e-9;  // in cells
+constexpr double kMinDepth = 1e-6;               // in wanted cells: shallower intersections do not count
+constexpr double kLongestEdge = 2;               // maximum edge of a part, in the cells that it requires
+constexpr std::size_t kMaxQueuedCells = 100000;  // cells that are not yet processed
+constexpr int kMaxCopies = 64;  // maximum copies of a part on its way across; more are never needed for 8 cells
 
 std::vector<Vec3> aboutCentre(const SurfaceInspection& surface)
 {
@@ -53,14 +53,14 @@ public:
         if (part.m_isGap)
         {
             generation = 3 * levelOf(generation);  // so that lattice planes lie between the sides
-            if (generation > m_grading.m_mostGenerations) return;
+            if (generation > m_grading.m_maxGenerations) return;
         }
         WantedCell cell;
-        cell.m_generation = std::min(generation, m_grading.m_mostGenerations);
+        cell.m_generation = std::min(generation, m_grading.m_maxGenerations);
         cell.m_level = levelOf(cell.m_generation);
         if (cell.m_generation == 0) return;
         const int copies =
-            part.m_isGap ? 0 : std::min(kMostCopies, static_cast<int>(std::ceil(std::ldexp(width, cell.m_level))));
+            part.m_isGap ? 0 : std::min(kMaxCopies, static_cast<int>(std::ceil(std::ldexp(width, cell.m_level))));
         for (int n = 0; n <= copies; ++n)
         {
             TriangleCorners x = part.m_corners;
@@ -127,7 +127,7 @@ struct Wish
 
 bool meets(const WantedCell& cell, const std::array<Vec3, 4>& tet)
 {
-    const double edge = std::ldexp(1.0, -cell.m_level), in = kLeastDepth * edge;
+    const double edge = std::ldexp(1.0, -cell.m_level), in = kMinDepth * edge;
     const Vec3 low = Vec3{1.0 * cell.m_place[0], 1.0 * cell.m_place[1], 1.0 * cell.m_place[2]} * edge;
     return TetRegion(tet).mayMeet(low + Vec3{in, in, in}, low + Vec3{edge - in, edge - in, edge - in});
 }
@@ -165,8 +165,7 @@ bool findWantedCells(const CageLattice& lattice, const std::vector<ThinPart>& pa
     for (const ThinPart& part : parts)
     {
         wanting.add(part);
-        if (wanting.size() > 2 * wanted.m_most + kMostQueuedCells && wanting.cells().size() > wanted.m_most)
-            return false;
+        if (wanting.size() > 2 * wanted.m_max + kMaxQueuedCells && wanting.cells().size() > wanted.m_max) return false;
     }
     wanted.m_cells = std::move(wanting.cells());
     return true;

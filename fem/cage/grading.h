@@ -13,8 +13,8 @@ namespace bullet_fem
 /// Limits of the refinement.
 struct Grading
 {
-    double m_cellsAcross = 0;   ///< [-], > 0
-    int m_mostGenerations = 0;  ///< maximum bisections of a tet, three a level
+    double m_cellsAcross = 0;  ///< [-], > 0
+    int m_maxGenerations = 0;  ///< maximum bisections of a tet, three a level
 
     static Grading of(const CageSettings& settings) { return {settings.m_cellsAcross, 3 * settings.m_mostLevels}; }
 };
@@ -44,12 +44,12 @@ struct WantedCell
 
 struct WantedCells
 {
-    std::size_t m_most = 0;           ///< maximum number of cells, beyond which counting stops
+    std::size_t m_max = 0;            ///< maximum number of cells, beyond which counting stops
     std::vector<WantedCell> m_cells;  ///< each position once per level, in ascending order
 };
 
-/// Required cells: m_cellsAcross cells across solid parts, or as many as m_mostGenerations permits; equally many across
-/// gaps, in whole levels, or none where that is not permitted. Returns false if there are far more than m_most.
+/// Required cells: m_cellsAcross cells across solid parts, or as many as m_maxGenerations permits; equally many across
+/// gaps, in whole levels, or none where that is not permitted. Returns false if there are far more than m_max.
 bool findWantedCells(const CageLattice& lattice, const std::vector<ThinPart>& parts, const Grading& grading,
                      WantedCells& wanted);
 

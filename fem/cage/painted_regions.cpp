@@ -22,7 +22,7 @@ constexpr double kFarAway = std::numeric_limits<double>::infinity();
 /// Front of Dijkstra's search: distance, painted source element, and the element itself.
 using Front = std::tuple<double, int, int>;
 
-int mostOf(const std::map<int, int>& votes)
+int maxOf(const std::map<int, int>& votes)
 {
     const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
     return std::max_element(votes.begin(), votes.end(), fewer)->first;  // the lowest label in a tie
@@ -76,7 +76,7 @@ std::vector<int> paintedRegions(const TetMesh& mesh, const SurfaceMesh& surface,
     for (int e = 0; e < mesh.tetCount(); ++e)
     {
         if (votes[e].empty()) continue;
-        label[e] = mostOf(votes[e]);
+        label[e] = maxOf(votes[e]);
         way[e] = 0;
         front.push({0, e, e});
     }

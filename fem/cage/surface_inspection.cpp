@@ -16,10 +16,10 @@ namespace
 {
 
 constexpr double kSheetThickness = 1e-6;  // thickness over length below which a surface is a sheet
-constexpr double kMostOneSided = 0.9;     // |vector area| / area of an open surface: 1 flat, 1/2 hemisphere, 0 closed
+constexpr double kMaxOneSided = 0.9;      // |vector area| / area of an open surface: 1 flat, 1/2 hemisphere, 0 closed
 // Share of all edges; one flipped patch passes, random orientation does not.
-constexpr double kMostMisoriented = 0.1;
-constexpr double kLeastRelativeSize = 1e-7;  // size over distance from the origin, for accuracy
+constexpr double kMaxMisoriented = 0.1;
+constexpr double kMinRelativeSize = 1e-7;  // size over distance from the origin, for accuracy
 
 void checkSoup(const SurfaceMesh& surface)
 {
@@ -58,8 +58,8 @@ void measureBounds(const SurfaceMesh& surface, SurfaceInspection& result)
     for (int a = 0; a < 3; ++a) farthest = std::max({farthest, std::abs(result.m_low[a]), std::abs(result.m_high[a])});
     if (!(farthest < 1e50))
         reject("the surface reaches ", farthest, " m from the origin, outside [0, 1e50); scale it to metres");
-    if (size > 0 && size < kLeastRelativeSize * farthest)
-        reject("the surface is ", size, " m long and ", farthest, " m from the origin, less than ", kLeastRelativeSize,
+    if (size > 0 && size < kMinRelativeSize * farthest)
+        reject("the surface is ", size, " m long and ", farthest, " m from the origin, less than ", kMinRelativeSize,
                " of that distance; move it nearer to the origin");
 }
 
@@ -104,9 +104,9 @@ void countEdges(SurfaceInspection& result)
                     result.m_openEdges += sum != 0;
                     misoriented += sum != 0 && last - first > 1;
                 });
-    if (misoriented > kMostMisoriented * result.m_edges)
+    if (misoriented > kMaxMisoriented * result.m_edges)
         reject("the surface is not oriented: at ", misoriented, " of ", result.m_edges,
-               " edges the triangles turn against each other and cannot be mended, at most ", kMostMisoriented,
+               " edges the triangles turn against each other and cannot be mended, at most ", kMaxMisoriented,
                " of them may; order the vertices of all triangles counter-clockwise seen from outside");
 }
 
@@ -150,9 +150,9 @@ SurfaceInspection inspectSurface(const SurfaceMesh& surface)
         reject("the surface has no inside: it is flat, ", thick, " m thick and ", size, " m long, at least ",
                kSheetThickness, " of the length is needed; give a closed surface");
     const double oneSided = norm(vectorArea) / result.m_area;
-    if (result.m_openEdges > 0 && oneSided > kMostOneSided)
+    if (result.m_openEdges > 0 && oneSided > kMaxOneSided)
         reject("the surface has no inside: it is wide open, with ", result.m_openEdges,
-               " open edges and |vector area| / area = ", oneSided, ", outside [0, ", kMostOneSided,
+               " open edges and |vector area| / area = ", oneSided, ", outside [0, ", kMaxOneSided,
                "]; close its holes");
     return result;
 }

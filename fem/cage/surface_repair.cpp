@@ -14,7 +14,7 @@ namespace
 {
 
 // Maximum share of a patch's triangles to reverse; the others are trusted to face outward.
-constexpr double kMostTurnedShare = 0.25;
+constexpr double kMaxTurnedShare = 0.25;
 
 bool hasArea(const SurfaceMesh& surface, const Triangle& t)
 {
@@ -114,7 +114,7 @@ private:
     {
         const auto turned = std::count_if(patch.begin(), patch.end(), [&](int t) { return m_turned[t]; });
         const double share = static_cast<double>(turned) / static_cast<double>(patch.size());
-        const bool clear = std::min(share, 1 - share) <= kMostTurnedShare;
+        const bool clear = std::min(share, 1 - share) <= kMaxTurnedShare;
         if (clear ? share > 0.5 : volumeOf(patch) < 0)
             for (const int t : patch) m_turned[t] = !m_turned[t];
     }

@@ -14,8 +14,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kOwnPieceReach = 1e-6;  // share of the reach: nearer hits are the fragment itself
-constexpr double kProbeBeyond = 1e-3;    // share of the width: distance of the probes behind the sides
+constexpr double kOwnComponentReach = 1e-6;  // share of the reach: nearer hits are the fragment itself
+constexpr double kProbeBeyond = 1e-3;        // share of the width: distance of the probes behind the sides
 // Minimum cosine between the fragment's normal and the line of the opposite normal.
 constexpr double kOpposingCosine = 0.5;
 
@@ -95,7 +95,7 @@ private:
         Widths widths;
         for (const double side : {-1.0, 1.0})
         {
-            const Ray ray{p, m_normal * (side * m_search.m_reach), kOwnPieceReach, 1};
+            const Ray ray{p, m_normal * (side * m_search.m_reach), kOwnComponentReach, 1};
             const RayHit hit = m_search.m_tree.firstAlong(ray);
             if (hit.m_along < 0 || std::abs(dot(m_normal, hit.m_normal)) < kOpposingCosine * norm(hit.m_normal))
                 continue;

@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr double kFullAngle = 4 * 3.14159265358979323846;  // full solid angle [sr]
-constexpr int kMostInLeaf = 8;
+constexpr int kMaxInLeaf = 8;
 constexpr double kFarRatio = 2;  // distance over radius beyond which moments are used: beta of [Barill et al. 2018]
 
 Vec3 vectorArea(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -76,7 +76,7 @@ void WindingNumber::build(int first, int last)
 {
     const std::size_t self = m_nodes.size();
     m_nodes.push_back(summarise(first, last));
-    if (last - first <= kMostInLeaf)
+    if (last - first <= kMaxInLeaf)
         m_nodes[self].m_leaf = true;
     else
     {

@@ -21,9 +21,9 @@ constexpr int kEntriesPerChunk = 2048;  ///< entries of vectors that are added o
 class Chunks
 {
 public:
-    static constexpr int kMost = 64;
+    static constexpr int kMax = 64;
 
-    Chunks(int size, int shortest) : m_size(size), m_count(std::clamp(size / shortest, 1, kMost)) {}
+    Chunks(int size, int shortest) : m_size(size), m_count(std::clamp(size / shortest, 1, kMax)) {}
 
     int count() const { return m_count; }
     Range operator[](int k) const { return {bound(k), bound(k + 1)}; }

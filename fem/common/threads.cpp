@@ -40,11 +40,11 @@ namespace
 
 int validCount(int count)
 {
-    if (count < 0 || count > Threads::kMost)
-        reject("number of threads ", count, " is not in [0, ", Threads::kMost,
+    if (count < 0 || count > Threads::kMax)
+        reject("number of threads ", count, " is not in [0, ", Threads::kMax,
                "]; 1 is the caller's thread alone, 0 all that the machine has");
 #ifdef BULLETFEM_WITH_TBB
-    return count == 0 ? std::clamp(tbb::info::default_concurrency(), 1, Threads::kMost) : count;
+    return count == 0 ? std::clamp(tbb::info::default_concurrency(), 1, Threads::kMax) : count;
 #else
     return 1;
 #endif

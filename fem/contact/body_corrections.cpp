@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "fem/body/step_scratch.h"
-#include "fem/contact/body_ends.h"
+#include "fem/contact/soft_body_contacts.h"
 
 namespace bullet_fem
 {
@@ -22,7 +22,7 @@ constexpr double kRounding = 1e-9;     // share of the body's speed below which 
 
 }  // namespace
 
-ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, const CorrectionGoal& goal)
+ImpulseResponse SoftBodyContacts::beginCorrection(const StepSettings& settings, const CorrectionGoal& goal)
 {
     m_learnt = false;
     refresh();
@@ -36,7 +36,7 @@ ImpulseResponse BodyEnds::beginCorrection(const StepSettings& settings, const Co
 }
 
 // Of a residual [N s].
-double BodyEnds::floorOf(const CorrectionGoal& goal) const
+double SoftBodyContacts::floorOf(const CorrectionGoal& goal) const
 {
     double all = 0;
     for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
@@ -45,7 +45,7 @@ double BodyEnds::floorOf(const CorrectionGoal& goal) const
 
 // Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin. So is
 // what the nodes of a group, which is where the step begins, are ahead of it as they feel theirs.
-void BodyEnds::addLevers(const StepSettings& settings)
+void SoftBodyContacts::addLevers(const StepSettings& settings)
 {
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
     for (int e = 0; e < size(); ++e)
@@ -60,7 +60,7 @@ void BodyEnds::addLevers(const StepSettings& settings)
     }
 }
 
-Vec3 BodyEnds::groupLever(const End& end, const Vec3& impulse) const
+Vec3 SoftBodyContacts::groupLever(const End& end, const Vec3& impulse) const
 {
     const std::vector<Vec3>& begin = m_body.m_body->m_state.m_x;
     const std::vector<Vec3>& kick = m_body.m_body->m_workspace.scratch().m_kickPosition;
@@ -70,7 +70,7 @@ Vec3 BodyEnds::groupLever(const End& end, const Vec3& impulse) const
     return lever;
 }
 
-void BodyEnds::takeExpected(const StepSettings& settings, const CorrectionGoal& goal)
+void SoftBodyContacts::takeExpected(const StepSettings& settings, const CorrectionGoal& goal)
 {
     if (m_ends.empty()) return giveUpExpected(settings);
     addLevers(settings);
@@ -92,7 +92,7 @@ void BodyEnds::takeExpected(const StepSettings& settings, const CorrectionGoal& 
     m_applied.assign(m_impulse.begin(), m_impulse.end());
 }
 
-void BodyEnds::giveUpExpected(const StepSettings& settings)
+void SoftBodyContacts::giveUpExpected(const StepSettings& settings)
 {
     const std::vector<Vec3>& expected = *m_body.m_predicted;
     m_nodeIn.assign(expected.begin(), expected.end());
@@ -100,7 +100,7 @@ void BodyEnds::giveUpExpected(const StepSettings& settings)
     applyImpulses(*m_body.m_body, m_nodeIn, settings);
 }
 
-void BodyEnds::endCorrection()
+void SoftBodyContacts::endCorrection()
 {
     double trueWork = 0, predictedWork = 0;  // of the new impulses on the velocities that they made
     double impulses = 0;                     // the sum of the new ones [N s]
@@ -121,7 +121,7 @@ void BodyEnds::endCorrection()
 
 // Both sides feel an impulse in one place, so that momenta are kept: points where contact has it, groups where the step
 // begins.
-void BodyEnds::noteReactions()
+void SoftBodyContacts::noteReactions()
 {
     StepScratch& scratch = m_body.m_body->m_workspace.scratch();
     SupportReactions& reactions = scratch.m_reactions;
@@ -152,14 +152,14 @@ void BodyEnds::noteReactions()
 
 // Whether the new impulses make velocities that the rounding of the body's own leaves intact. At rest these are small:
 // then what counts is what has just been stopped.
-bool BodyEnds::isAboveRounding(const Lesson& lesson) const
+bool SoftBodyContacts::isAboveRounding(const Lesson& lesson) const
 {
     double fastest = m_loadSpeed;
     for (const Vec3& v : bullet_fem::velocity(*m_body.m_body)) fastest = std::max(fastest, norm(v));
     return lesson.m_predictedWork > kRounding * fastest * lesson.m_impulses;
 }
 
-void BodyEnds::learn(const Lesson& lesson)
+void SoftBodyContacts::learn(const Lesson& lesson)
 {
     const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
     const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
@@ -179,7 +179,7 @@ void BodyEnds::learn(const Lesson& lesson)
 
 // A strained body moves as one more easily than P tells: the momentum of impulses is seen to, whatever withstands it.
 // Of joints alone that is all there is to learn: their rounds combine what they have tried, and a factor does no harm.
-void BodyEnds::learnRigid(const Lesson& lesson)
+void SoftBodyContacts::learnRigid(const Lesson& lesson)
 {
     if (!m_dense || m_rigid >= 1 || !(lesson.m_trueWork > kMuchTooStiff * lesson.m_predictedWork)) return;
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
@@ -194,7 +194,7 @@ void BodyEnds::learnRigid(const Lesson& lesson)
     m_working.reset(size());
 }
 
-void BodyEnds::addRigid(double share)
+void SoftBodyContacts::addRigid(double share)
 {
     const RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
     const Mat3 whole = Mat3::identity();

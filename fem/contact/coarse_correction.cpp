@@ -15,7 +15,7 @@ namespace
 
 // A tower of a hundred floors takes 20,000 multiplications, fifty bodies in a pit a hundred millions, and sweeps are as
 // good there.
-constexpr double kMostWork = 1e6;
+constexpr double kMaxWork = 1e6;
 
 // Of the cone, what has the same normal part, or none.
 Vec3 nearestInCone(const ContactRow& row, const Vec3& impulse)
@@ -48,7 +48,7 @@ void CoarseCorrection::begin()
     m_velocity.reserve(padded(3 * longest, kResponsePadding));
     // Of pairs w wide the factor takes 36 w^2 multiplications, and has 4 w blocks: at most what follows by the
     // inequality of Cauchy and Schwarz.
-    const double widths = std::sqrt(static_cast<double>(pairs) * kMostWork / 36);
+    const double widths = std::sqrt(static_cast<double>(pairs) * kMaxWork / 36);
     m_factor.reserve(2 * pairs, std::min(2 * pairs * (pairs + 1), static_cast<std::size_t>(4 * widths)));
 }
 
@@ -79,7 +79,7 @@ void CoarseCorrection::listPairs(const std::vector<int>& working)
         { return row.m_joint != first.m_joint || row.m_torsion != first.m_torsion || !sharesOwners(row, first); };
         range.m_end = range.m_begin + 1;
         while (range.m_end < count && !isOther(rows[working[range.m_end]])) ++range.m_end;
-        const auto isLink = [&](const RowEnd& end)
+        const auto isLink = [&](const ConstraintSide& end)
         { return end.m_rigidProxy >= 0 && m_rows.problem().m_rigidProxies[end.m_rigidProxy].m_responseCount > 0; };
         if (!first.m_joint && !first.m_torsion && !isLink(first.m_a) && !isLink(first.m_b)) addPair(working, range);
     }
@@ -179,7 +179,7 @@ bool CoarseCorrection::shapeFactor()
     }
     double work = 0;
     for (int p = 0; p < pairs; ++p) work += 2 * EnvelopeFactor::work(2.0 * (p - m_first[p] + 1));
-    if (work > kMostWork) return false;
+    if (work > kMaxWork) return false;
     m_factor.clear();
     for (int p = 0; p < pairs; ++p)
         for (int half = 0; half < 2; ++half) m_factor.addRow(2 * m_first[p]);
@@ -233,7 +233,7 @@ void CoarseCorrection::addOwner(const std::vector<int>& working, Range sides)
         }
 }
 
-const RowEnd& CoarseCorrection::endOf(int row, const Side& side) const
+const ConstraintSide& CoarseCorrection::endOf(int row, const Side& side) const
 {
     return side.m_isB ? m_rows.rows()[row].m_b : m_rows.rows()[row].m_a;
 }
@@ -249,7 +249,7 @@ void CoarseCorrection::respond(const std::vector<int>& working, const Side& side
     for (int k = rows.m_begin; k < rows.m_end; ++k)
     {
         if (!m_patterns[k].m_carries) continue;
-        const RowEnd& end = endOf(working[k], side);
+        const ConstraintSide& end = endOf(working[k], side);
         const Vec3 impulse = sign * m_patterns[k].m_of[unknown];
         if (side.m_owner < bodies)
             m_responses.push_back(m_rows.body(side.m_owner).working().response(end.m_end, impulse));
@@ -267,7 +267,7 @@ void CoarseCorrection::respond(const std::vector<int>& working, const Side& side
     m_angular = rigidProxy.m_inverseInertia * torque;
 }
 
-Vec3 CoarseCorrection::responseAt(int owner, const RowEnd& end)
+Vec3 CoarseCorrection::responseAt(int owner, const ConstraintSide& end)
 {
     if (owner < static_cast<int>(m_rows.problem().m_bodies.size()))
         return m_rows.body(owner).working().read(end.m_end, m_velocity);

@@ -58,8 +58,8 @@ private:
     void addYields(const std::vector<int>& working);
     void addOwner(const std::vector<int>& working, Range sides);
     void respond(const std::vector<int>& working, const Side& side, int unknown);
-    const RowEnd& endOf(int row, const Side& side) const;
-    Vec3 responseAt(int owner, const RowEnd& end);
+    const ConstraintSide& endOf(int row, const Side& side) const;
+    Vec3 responseAt(int owner, const ConstraintSide& end);
     void addColumn(int pair, int other, int unknown, const Pattern& pattern, const Vec3& v);
     void addRow(int pair, int unknown, const Pattern& pattern, const Vec3& v);
     void residual(const std::vector<int>& working);

@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostSolvers = 4;  // each needs scratch of the size of 16 vectors, on the low-memory path of 64
+constexpr int kMaxSolvers = 4;  // each needs scratch of the size of 16 vectors, on the low-memory path of 64
 
 }  // namespace
 
@@ -85,7 +85,7 @@ void ComplianceCache::solveNewColumns(const Threads* threads)
     for (int node : m_newNodes)
         for (int axis = 0; axis < 3; ++axis) m_newColumns.push_back({node, axis, m_columns[m_slotOfNode[node]].get()});
     const int columns = static_cast<int>(m_newColumns.size()), batches = (columns + kPanelLanes - 1) / kPanelLanes;
-    const int solvers = threads ? std::min({threads->count(), batches, kMostSolvers}) : 1;
+    const int solvers = threads ? std::min({threads->count(), batches, kMaxSolvers}) : 1;
     while (static_cast<int>(m_solvers.size()) < solvers)
         m_solvers.push_back(std::make_unique<ColumnSolver>(*m_model, m_nodes));
     runTasks(solvers > 1 ? threads : nullptr, solvers,

@@ -29,10 +29,10 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b) m_bodies[b].clear(problem.m_bodies[b], settings.m_step);
     addContactRows();
     for (std::size_t k = 0; k < problem.m_joints.size(); ++k) addJointRow(problem.m_joints[k], &m_jointPoints[2 * k]);
-    for (const RigidTouch& touch : problem.m_rigidTouches) addTouchRow(touch);
+    for (const RigidContact& touch : problem.m_rigidContacts) addRigidContactRow(touch);
     for (const TorsionalFriction& torsion : problem.m_torsions) addTorsionRow(torsion);
     m_wants.assign(m_rows.size(), 0);
-    forEachTouchedBody(threadsForCompliance(),
+    forEachContactBody(threadsForCompliance(),
                        [&](int b) { m_bodies[b].assemble(settings.m_denseLimit, settings.m_step.m_step); });
     m_loadSpeed = 0;
     m_shortestEdge = std::numeric_limits<double>::max();
@@ -44,7 +44,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
         m_loadSpeed = std::max(m_loadSpeed, m_bodies[b].loadSpeed());
         m_shortestEdge = std::min(m_shortestEdge, m_bodies[b].body().m_model->mesh().meanEdgeLength());
     }
-    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
+    forEachContactBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
     finishRows();
     for (ContactRow& row : m_rows)
         if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a guess that nothing would ever change
@@ -56,7 +56,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
                  if (m_bodies[b].expects()) m_bodies[b].takeExpected(settings.m_step, goal);
              });
     measure();
-    forEachPiece(
+    forEachChunk(
         [&](int, Range rows)
         {
             const int end = std::min(rows.m_end, static_cast<int>(problem.m_contacts.size()));
@@ -68,10 +68,10 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
 // The impulses that rows start with, on the ends that are expected to have them, or the others.
 void ContactRows::pushStarts(bool expected)
 {
-    const auto push = [&](const RowEnd& end, const Vec3& impulse)
+    const auto push = [&](const ConstraintSide& end, const Vec3& impulse)
     {
         if (end.m_body < 0) return;
-        BodyEnds& body = m_bodies[end.m_body];
+        SoftBodyContacts& body = m_bodies[end.m_body];
         if (body.isExpected(end.m_end) == expected) body.push(end.m_end, impulse);
     };
     for (const ContactRow& row : m_rows)
@@ -96,7 +96,7 @@ void ContactRows::addContactRows()
     numberJointPoints();
     runTasks(threadsForCompliance(), static_cast<int>(m_problem->m_bodies.size()),
              [this](int b) { m_bodies[b].makeRoom(); });
-    forEachPiece(
+    forEachChunk(
         [&](int, Range rows)
         {
             for (int k = rows.m_begin; k < rows.m_end; ++k)
@@ -110,7 +110,7 @@ void ContactRows::addContactRows()
 // Of joints, ends that move as nodes by weights, if the body has the columns of these. It solves for the others.
 bool ContactRows::isPoint(const JointEnd& end) const
 {
-    if (end.m_body < 0 || end.m_count > SurfacePoint::kMostNodes) return false;
+    if (end.m_body < 0 || end.m_count > SurfacePoint::kMaxNodes) return false;
     for (int k = end.m_first; k < end.m_first + end.m_count; ++k)
     {
         const Mat3& block = m_problem->m_handleBlocks[k];
@@ -132,10 +132,10 @@ void ContactRows::numberJointPoints()
 void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 {
     const Vec3 at = impulsePoint(contact);
-    const RowEnd a = softEnd(contact.m_soft, at, row.m_a.m_end);
+    const ConstraintSide a = softEnd(contact.m_soft, at, row.m_a.m_end);
     const Vec3 atRigid = (contact.m_isMetLater ? contact.m_point + contact.m_patch : at) + contact.m_approach;
-    const RowEnd b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, atRigid)
-                                               : softEnd(contact.m_other, at, row.m_b.m_end);
+    const ConstraintSide b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, atRigid)
+                                                       : softEnd(contact.m_other, at, row.m_b.m_end);
     row = ContactRow();
     row.m_a = a;
     row.m_b = b;
@@ -173,7 +173,7 @@ void ContactRows::addJointRow(const Joint& joint, const int* points)
     for (int i = 0; i < 3; ++i) row.m_axes[i] = joint.m_axes[i];
     row.m_target = joint.m_wanted;
     row.m_limit = joint.m_limit;
-    row.m_most = joint.m_most;
+    row.m_maxImpulse = joint.m_maxImpulse;
     row.m_softness = joint.m_softness;
     row.m_spring = joint.m_compliance;
     for (int i = 0; i < 3 && isFinite(joint.m_impulse); ++i)
@@ -182,20 +182,20 @@ void ContactRows::addJointRow(const Joint& joint, const int* points)
     m_rows.push_back(row);
 }
 
-RowEnd ContactRows::softEnd(const SurfacePoint& point, const Vec3& at, int end)
+ConstraintSide ContactRows::softEnd(const SurfacePoint& point, const Vec3& at, int end)
 {
-    RowEnd row;
+    ConstraintSide row;
     row.m_body = point.m_body;
     row.m_end = end;
     if (point.m_body >= 0) m_bodies[point.m_body].setPoint(end, point, at);
     return row;
 }
 
-RowEnd ContactRows::jointEnd(const JointEnd& joint, int number)
+ConstraintSide ContactRows::jointEnd(const JointEnd& joint, int number)
 {
     if (joint.m_body < 0)
     {
-        RowEnd end = rigidEnd(joint.m_rigidProxy, joint.m_point);
+        ConstraintSide end = rigidEnd(joint.m_rigidProxy, joint.m_point);
         end.m_angular = joint.m_angular;
         return end;
     }
@@ -211,22 +211,22 @@ RowEnd ContactRows::jointEnd(const JointEnd& joint, int number)
         }
         return softEnd(point, point.of(m_problem->m_bodies[joint.m_body].m_body->m_state.m_x), number);
     }
-    RowEnd end;
+    ConstraintSide end;
     end.m_body = joint.m_body;
     end.m_end = m_bodies[joint.m_body].addGroup(m_problem->m_handleNodes.data() + joint.m_first,
                                                 m_problem->m_handleBlocks.data() + joint.m_first, joint.m_count);
     return end;
 }
 
-RowEnd ContactRows::rigidEnd(int rigidProxy, const Vec3& point) const
+ConstraintSide ContactRows::rigidEnd(int rigidProxy, const Vec3& point) const
 {
-    RowEnd end;
+    ConstraintSide end;
     end.m_rigidProxy = rigidProxy;
     if (rigidProxy >= 0) end.m_arm = point - m_problem->m_rigidProxies[rigidProxy].m_center;
     return end;
 }
 
-Mat3 ContactRows::compliance(const RowEnd& of, const RowEnd& from) const
+Mat3 ContactRows::compliance(const ConstraintSide& of, const ConstraintSide& from) const
 {
     if (from.m_body >= 0)
         return of.m_body == from.m_body ? m_bodies[of.m_body].compliance(of.m_end, from.m_end) : Mat3();
@@ -236,7 +236,7 @@ Mat3 ContactRows::compliance(const RowEnd& of, const RowEnd& from) const
 
 void ContactRows::finishRows()
 {
-    forEachPiece(
+    forEachChunk(
         [this](int, Range rows)
         {
             for (int k = rows.m_begin; k < rows.m_end; ++k) finishRow(m_rows[k]);
@@ -263,7 +263,7 @@ void ContactRows::finishRow(ContactRow& row) const
         const double a = row.m_rowCompliance.y, b = row.m_rowCompliance.z, c = dot(row.m_axes[1], w[2]);
         row.m_rowCompliance.y = row.m_rowCompliance.z = 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + c * c);
         if (!(row.m_rowCompliance.y > 0)) row.m_rowCompliance.y = row.m_rowCompliance.z = row.m_rowCompliance.x;
-        if (row.m_touch) limitTouchFriction(row);
+        if (row.m_touch) limitContactFriction(row);
     }
     if (!m_dense && !row.m_joint)
     {

@@ -49,7 +49,7 @@ Vec3 impulseOfJoint(const ContactRow& row, const Vec3& impulse, Vec3 v, double s
         if (step == 1) v += row.m_compliance * ((wanted - old) * axis);
     }
     const double length = norm(result);
-    if (length > row.m_most) result *= row.m_most / length;
+    if (length > row.m_maxImpulse) result *= row.m_maxImpulse / length;
     return result;
 }
 

@@ -8,14 +8,17 @@ namespace bullet_fem
 {
 
 /// What one side of a row pulls at: a soft body's end, a point of a rigid proxy, or, with neither, the world.
-struct RowEnd
+struct ConstraintSide
 {
     int m_body = -1, m_end = -1;  ///< soft: indices into the problem's bodies, and into the body's ends
     int m_rigidProxy = -1;        ///< rigid: index into the problem's rigid proxies
     bool m_angular = false;       ///< rigid: its velocity is the angular one, and impulses are angular
     Vec3 m_arm;                   ///< rigid: from the rigid proxy's centre [m]
 
-    bool sharesOwner(const RowEnd& other) const { return m_body == other.m_body && m_rigidProxy == other.m_rigidProxy; }
+    bool sharesOwner(const ConstraintSide& other) const
+    {
+        return m_body == other.m_body && m_rigidProxy == other.m_rigidProxy;
+    }
 };
 
 /// A contact, a joint or a torsional friction: three impulses between two ends. What every look at it reads comes
@@ -27,22 +30,22 @@ struct ContactRow
     bool m_touch = false;    ///< of rigid proxies
     bool m_torsion = false;  ///< of rolling and spinning friction: angular about all axes
     bool m_idle = false;     ///< nothing can move: no compliance
-    RowEnd m_a, m_b;
-    Vec3 m_impulse;         ///< on end a [N s] or [N m s]
-    Vec3 m_target;          ///< relative velocity along the axes: at least (normal), exactly (joint) [m/s]
-    Vec3 m_axes[3];         ///< normal and tangents; a joint's axes [-]
-    Vec3 m_rowCompliance;   ///< of every axis; a contact's tangents share the largest of their plane [1/kg]
-    Vec3 m_yield;           ///< compliance added along the axes [1/kg]
-    double m_friction = 0;  ///< [-]
-    Mat3 m_compliance;      ///< of the relative velocity to the impulse [1/kg]
-    Vec3 m_bestImpulse;     ///< at the end of the best round
-    Vec3 m_limit;           ///< of a joint's impulses
-    double m_most = 0;      ///< and of their sum
-    double m_softness = 0;  ///< of a joint: compliance added, as a share of its own [-]
-    double m_spring = 0;    ///< of a joint: compliance added [1/kg]
-    int m_pressed = -1;     ///< of a contact: row of the torsional friction that its normal impulse presses on
-    double m_load = 0;      ///< of a torsional friction: the sum of these normal impulses [N s]
-    double m_lever = 1;     ///< of a torsional friction: a spin times it counts as a speed [m]
+    ConstraintSide m_a, m_b;
+    Vec3 m_impulse;           ///< on end a [N s] or [N m s]
+    Vec3 m_target;            ///< relative velocity along the axes: at least (normal), exactly (joint) [m/s]
+    Vec3 m_axes[3];           ///< normal and tangents; a joint's axes [-]
+    Vec3 m_rowCompliance;     ///< of every axis; a contact's tangents share the largest of their plane [1/kg]
+    Vec3 m_yield;             ///< compliance added along the axes [1/kg]
+    double m_friction = 0;    ///< [-]
+    Mat3 m_compliance;        ///< of the relative velocity to the impulse [1/kg]
+    Vec3 m_bestImpulse;       ///< at the end of the best round
+    Vec3 m_limit;             ///< of a joint's impulses
+    double m_maxImpulse = 0;  ///< and of their sum
+    double m_softness = 0;    ///< of a joint: compliance added, as a share of its own [-]
+    double m_spring = 0;      ///< of a joint: compliance added [1/kg]
+    int m_pressed = -1;       ///< of a contact: row of the torsional friction that its normal impulse presses on
+    double m_load = 0;        ///< of a torsional friction: the sum of these normal impulses [N s]
+    double m_lever = 1;       ///< of a torsional friction: a spin times it counts as a speed [m]
 };
 
 /// True if both pull at the same two owners.

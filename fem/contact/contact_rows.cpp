@@ -19,7 +19,7 @@ constexpr double kRunaway = 1e3;
 
 }  // namespace
 
-Vec3 ContactRows::velocity(const RowEnd& end) const
+Vec3 ContactRows::velocity(const ConstraintSide& end) const
 {
     if (end.m_body >= 0) return m_bodies[end.m_body].velocity(end.m_end);
     if (end.m_rigidProxy < 0) return {};
@@ -27,7 +27,7 @@ Vec3 ContactRows::velocity(const RowEnd& end) const
     return end.m_angular ? o.m_angularVelocity : o.m_linearVelocity + cross(o.m_angularVelocity, end.m_arm);
 }
 
-void ContactRows::react(const RowEnd& end, const Vec3& impulse)
+void ContactRows::react(const ConstraintSide& end, const Vec3& impulse)
 {
     if (end.m_body >= 0) m_bodies[end.m_body].push(end.m_end, impulse);
     if (end.m_rigidProxy < 0) return;
@@ -42,8 +42,8 @@ void ContactRows::react(const RowEnd& end, const Vec3& impulse)
     const Vec3 linear = end.m_angular ? Vec3() : impulse, angular = end.m_angular ? impulse : cross(end.m_arm, impulse);
     respond(*m_problem, end.m_rigidProxy, linear, angular, add);
     if (rigidProxy.m_responseCount == 0) return;
-    rigidProxies[end.m_rigidProxy].m_felt += linear;
-    rigidProxies[end.m_rigidProxy].m_angularFelt += angular;
+    rigidProxies[end.m_rigidProxy].m_accumulatedImpulse += linear;
+    rigidProxies[end.m_rigidProxy].m_accumulatedAngularImpulse += angular;
 }
 
 void ContactRows::change(ContactRow& row, const Vec3& impulse)
@@ -59,7 +59,7 @@ void ContactRows::pushAlong(ContactRow& row, const Vec3& impulse)
 {
     row.m_impulse += impulse;
     press(row, impulse);
-    const auto push = [this](const RowEnd& end, const Vec3& on)
+    const auto push = [this](const ConstraintSide& end, const Vec3& on)
     {
         if (end.m_body >= 0)
             m_bodies[end.m_body].pushAlong(end.m_end, on);
@@ -70,7 +70,7 @@ void ContactRows::pushAlong(ContactRow& row, const Vec3& impulse)
     push(row.m_b, -impulse);
 }
 
-int ContactRows::mover(const RowEnd& end) const
+int ContactRows::mover(const ConstraintSide& end) const
 {
     if (end.m_body >= 0) return end.m_body;
     if (end.m_rigidProxy < 0 || !m_problem->m_rigidProxies[end.m_rigidProxy].canMove()) return -1;
@@ -85,7 +85,7 @@ bool ContactRows::movesRigid(const ContactRow& row) const
 Vec3 ContactRows::pointOf(std::size_t row) const
 {
     if (row < m_problem->m_contacts.size()) return m_problem->m_contacts[row].m_point;
-    const RowEnd& end = m_rows[row].m_torsion ? m_rows[row].m_b : m_rows[row].m_a;
+    const ConstraintSide& end = m_rows[row].m_torsion ? m_rows[row].m_b : m_rows[row].m_a;
     return m_problem->m_rigidProxies[end.m_rigidProxy].m_center + end.m_arm;
 }
 
@@ -97,7 +97,7 @@ const Threads* ContactRows::threadsForCompliance() const
 
 void ContactRows::flush()
 {
-    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].flush(); });
+    forEachContactBody(threadsForCompliance(), [this](int b) { m_bodies[b].flush(); });
 }
 
 void ContactRows::warmStart()
@@ -120,7 +120,7 @@ void ContactRows::keep()
     for (ContactRow& row : m_rows) row.m_bestImpulse = row.m_impulse;
 }
 
-void ContactRows::goBack()
+void ContactRows::restoreBest()
 {
     for (ContactRow& row : m_rows) change(row, row.m_bestImpulse);
     flush();
@@ -134,7 +134,7 @@ bool ContactRows::hasImpulses() const
 
 void ContactRows::measure()
 {
-    forEachTouchedBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
+    forEachContactBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
 }
 
 void ContactRows::setSpeedScale(double wanted)
@@ -168,7 +168,7 @@ double ContactRows::wantedSpeed(const ContactRow& row) const
 
 void ContactRows::noteWants()
 {
-    forEachPiece(
+    forEachChunk(
         [this](int, Range rows)
         {
             for (int k = rows.m_begin; k < rows.m_end; ++k) m_wants[k] = !rests(m_rows[k]);
@@ -184,23 +184,23 @@ double ContactRows::error()
 // What rests closes no faster than allowed: its velocity has just been measured.
 RowSurvey ContactRows::survey()
 {
-    std::array<RowSurvey, Chunks::kMost> found{};
-    forEachPiece(
+    std::array<RowSurvey, Chunks::kMax> found{};
+    forEachChunk(
         [&](int p, Range rows)
         {
-            RowSurvey ofPiece;
+            RowSurvey ofChunk;
             for (int k = rows.m_begin; k < rows.m_end; ++k)
             {
                 const ContactRow& row = m_rows[k];
                 m_wants[k] = !rests(row);
                 if (!m_wants[k]) continue;
                 const double wanted = wantedSpeed(row);
-                double& largest = isSolvedAtOnce(row) ? ofPiece.m_joints : ofPiece.m_wanted;
+                double& largest = isSolvedAtOnce(row) ? ofChunk.m_joints : ofChunk.m_wanted;
                 largest = std::max(largest, wanted);
-                if (!isSolvedAtOnce(row) && !movesRigid(row)) ofPiece.m_guessed = std::max(ofPiece.m_guessed, wanted);
-                ofPiece.m_closing = std::max(ofPiece.m_closing, violation(row, trueVelocity(row)));
+                if (!isSolvedAtOnce(row) && !movesRigid(row)) ofChunk.m_guessed = std::max(ofChunk.m_guessed, wanted);
+                ofChunk.m_closing = std::max(ofChunk.m_closing, violation(row, trueVelocity(row)));
             }
-            found[p] = ofPiece;
+            found[p] = ofChunk;
         });
     RowSurvey all;
     for (const RowSurvey& piece : found)
@@ -211,14 +211,14 @@ RowSurvey ContactRows::survey()
 
 bool ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& report)
 {
-    forEachTouchedBody(m_settings.m_step.m_threads,
+    forEachContactBody(m_settings.m_step.m_threads,
                        [&](int b)
                        {
                            m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step, goal);
                            m_corrections[b].m_steady = steady;
                        });
     solveCorrections();
-    forEachTouchedBody(m_settings.m_step.m_threads,
+    forEachContactBody(m_settings.m_step.m_threads,
                        [this](int b)
                        {
                            if (m_corrections[b].m_body) m_bodies[b].endCorrection();
@@ -259,7 +259,7 @@ void ContactRows::solveCorrections()
 
 Vec3 ContactRows::trueVelocity(const ContactRow& row) const
 {
-    const auto ofEnd = [this](const RowEnd& end)
+    const auto ofEnd = [this](const ConstraintSide& end)
     { return end.m_body >= 0 ? m_bodies[end.m_body].trueVelocity(end.m_end) : velocity(end); };
     return ofEnd(row.m_a) - ofEnd(row.m_b);
 }
@@ -276,7 +276,7 @@ double ContactRows::theta(int a, int b) const
 Vec3 ContactRows::arcOf(const ContactRow& row) const
 {
     constexpr double kFarTurn = 0.5;  // within a step [rad]
-    const RowEnd& end = row.m_b;
+    const ConstraintSide& end = row.m_b;
     if (end.m_rigidProxy < 0 || end.m_angular) return {};
     const RigidProxy& rigidProxy = m_problem->m_rigidProxies[end.m_rigidProxy];
     const Vec3 turn = m_settings.m_step.m_step * rigidProxy.m_angularVelocity;
@@ -299,7 +299,7 @@ Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact) co
 
 bool ContactRows::isTooSoft() const
 {
-    const auto isSoft = [](const BodyEnds& body) { return body.size() > 0 && body.isTooSoft(); };
+    const auto isSoft = [](const SoftBodyContacts& body) { return body.size() > 0 && body.isTooSoft(); };
     return std::any_of(m_bodies.begin(), m_bodies.begin() + static_cast<std::ptrdiff_t>(m_problem->m_bodies.size()),
                        isSoft);
 }
@@ -319,7 +319,7 @@ double ContactRows::worstViolation()
 
 void ContactRows::noteReactions()
 {
-    forEachTouchedBody(nullptr, [this](int b) { m_bodies[b].noteReactions(); });
+    forEachContactBody(nullptr, [this](int b) { m_bodies[b].noteReactions(); });
 }
 
 double ContactRows::store()
@@ -337,7 +337,7 @@ double ContactRows::store()
         });
     std::size_t k = contacts.size();
     for (Joint& joint : m_problem->m_joints) joint.m_impulse = m_rows[k++].m_impulse;
-    k += m_problem->m_rigidTouches.size();
+    k += m_problem->m_rigidContacts.size();
     for (TorsionalFriction& torsion : m_problem->m_torsions) torsion.m_impulse = m_rows[k++].m_impulse;
     return worst;
 }

@@ -9,8 +9,8 @@
 #include "bullet_fem/fem/batch/body_batches.h"
 #include "bullet_fem/fem/contact/contact_problem.h"
 #include "fem/common/chunks.h"
-#include "fem/contact/body_ends.h"
 #include "fem/contact/contact_row.h"
+#include "fem/contact/soft_body_contacts.h"
 
 namespace bullet_fem
 {
@@ -40,7 +40,7 @@ public:
     /// Of the contacts, the joints, the touches of rigid proxies and the torsional frictions, in this order.
     std::vector<ContactRow>& rows() { return m_rows; }
     const std::vector<ContactRow>& rows() const { return m_rows; }
-    BodyEnds& body(int b) { return m_bodies[b]; }
+    SoftBodyContacts& body(int b) { return m_bodies[b]; }
 
     /// True if all bodies have a dense compliance: a change of one row is felt by the others at once.
     bool isDense() const { return m_dense; }
@@ -51,22 +51,22 @@ public:
     /// Takes all impulses back.
     void takeBack();
 
-    /// Notes all impulses; goBack() gives those noted last to the rows again, and the velocities follow.
+    /// Notes all impulses; restoreBest() gives those noted last to the rows again, and the velocities follow.
     void keep();
-    void goBack();
+    void restoreBest();
 
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
 
     /// Lets the touches of rigid proxies answer what the impulses so far do to them. Returns whether there are any.
-    bool settleTouches();
+    bool settleRigidContacts();
 
     /// What an impulse on one end of a row does to the velocity of another's [1/kg]; angular ends of rigid proxies have
     /// spins and angular impulses.
-    Mat3 compliance(const RowEnd& of, const RowEnd& from) const;
+    Mat3 compliance(const ConstraintSide& of, const ConstraintSide& from) const;
 
     /// What impulses on an end move, by number: bodies, then rigid proxies. -1: nothing.
-    int mover(const RowEnd& end) const;
+    int mover(const ConstraintSide& end) const;
     std::size_t movers() const { return m_problem->m_bodies.size() + m_problem->m_rigidProxies.size(); }
 
     /// True if a rigid proxy that can move is at one of its ends.
@@ -144,7 +144,7 @@ public:
     /// The largest speed [m/s] at which a contact closes faster than allowed, from the bodies' true velocities.
     double worstViolation();
 
-    /// See BodyEnds.
+    /// See SoftBodyContacts.
     void noteReactions();
 
     /// Hands the impulses to the contacts and joints, and the slip of what sticks. Returns the worst violation.
@@ -156,7 +156,7 @@ public:
     /// Calls part(b) for all bodies with ends, on these threads at the same time: it must write to nothing but body b
     /// and its ends.
     template <class Part>
-    void forEachTouchedBody(const Threads* threads, const Part& part)
+    void forEachContactBody(const Threads* threads, const Part& part)
     {
         runTasks(threads, static_cast<int>(m_problem->m_bodies.size()),
                  [&](int b)
@@ -168,7 +168,7 @@ public:
     /// Calls part(p, rows) for ranges that make up all rows, where they are many on the settings' threads at the same
     /// time: it must write to nothing but these rows.
     template <class Part>
-    void forEachPiece(const Part& part)
+    void forEachChunk(const Part& part)
     {
         const Chunks pieces(static_cast<int>(m_rows.size()), kRowsPerChunk);
         runTasks(pieces.count() > 1 ? m_settings.m_step.m_threads : nullptr, pieces.count(),
@@ -183,26 +183,26 @@ private:
     void setContactRow(ContactRow& row, const ContactPoint& contact);
     Vec3 impulsePoint(const ContactPoint& contact) const;
     void addJointRow(const Joint& joint, const int* points);
-    void addTouchRow(const RigidTouch& touch);
+    void addRigidContactRow(const RigidContact& touch);
     void addTorsionRow(const TorsionalFriction& torsion);
     void pressOnTorsions();
     void press(const ContactRow& row, const Vec3& impulse)
     {
         if (row.m_pressed >= 0) m_rows[row.m_pressed].m_load += dot(impulse, row.m_axes[0]);
     }
-    static void limitTouchFriction(ContactRow& row);
-    RowEnd softEnd(const SurfacePoint& point, const Vec3& at, int end);
+    static void limitContactFriction(ContactRow& row);
+    ConstraintSide softEnd(const SurfacePoint& point, const Vec3& at, int end);
     bool isPoint(const JointEnd& end) const;
     void numberJointPoints();
-    RowEnd jointEnd(const JointEnd& end, int point);
-    RowEnd rigidEnd(int rigidProxy, const Vec3& point) const;
+    ConstraintSide jointEnd(const JointEnd& end, int point);
+    ConstraintSide rigidEnd(int rigidProxy, const Vec3& point) const;
     void pushStarts(bool expected);
     void finishRows();
     void finishRow(ContactRow& row) const;
     void setContactTarget(ContactRow& row, const ContactPoint& contact) const;
 
-    Vec3 velocity(const RowEnd& end) const;
-    Vec3 meanVelocity(const RowEnd& end) const
+    Vec3 velocity(const ConstraintSide& end) const;
+    Vec3 meanVelocity(const ConstraintSide& end) const
     {
         return end.m_body >= 0 ? m_bodies[end.m_body].meanVelocity(end.m_end) : velocity(end);
     }
@@ -210,27 +210,27 @@ private:
     double violation(const ContactRow& row, const Vec3& trueVelocity) const;
     Vec3 newSlip(const ContactRow& row, const ContactPoint& contact) const;
     bool rests(const ContactRow& row) const;
-    void react(const RowEnd& end, const Vec3& impulse);
+    void react(const ConstraintSide& end, const Vec3& impulse);
     void solveCorrections();
 
     /// The largest value(k) of all rows, or 0 if none is more.
     template <class Value>
     double largestOfRows(const Value& value)
     {
-        std::array<double, Chunks::kMost> largest{};
-        forEachPiece(
+        std::array<double, Chunks::kMax> largest{};
+        forEachChunk(
             [&](int p, Range rows)
             {
-                double ofPiece = 0;
-                for (int k = rows.m_begin; k < rows.m_end; ++k) ofPiece = std::max(ofPiece, value(k));
-                largest[p] = ofPiece;
+                double ofChunk = 0;
+                for (int k = rows.m_begin; k < rows.m_end; ++k) ofChunk = std::max(ofChunk, value(k));
+                largest[p] = ofChunk;
             });
         return *std::max_element(largest.begin(), largest.end());
     }
 
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
-    std::vector<BodyEnds> m_bodies;
+    std::vector<SoftBodyContacts> m_bodies;
     std::vector<ImpulseResponse> m_corrections;  // of the last corrective solves
     std::vector<ImpulseResponse> m_ordered;      // in the order of the batches
     std::vector<int> m_corrected;                // bodies, one a correction

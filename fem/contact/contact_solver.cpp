@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "fem/contact/joint_rounds.h"
-#include "fem/contact/position_push.h"
+#include "fem/contact/gcr_iteration.h"
+#include "fem/contact/position_correction.h"
 
 namespace bullet_fem
 {
@@ -29,7 +29,7 @@ void ContactProblem::clear()
     m_responses.clear();
     m_contacts.clear();
     m_joints.clear();
-    m_rigidTouches.clear();
+    m_rigidContacts.clear();
     m_torsions.clear();
     m_torsionOf.clear();
     m_handleNodes.clear();
@@ -42,7 +42,7 @@ namespace
 // Where points contradict each other, as some that slide do, an impulse grows by the same amount in every sweep and no
 // velocity changes. A round ends if the best sweep of a window is hardly better than that of the one before.
 constexpr int kWindow = 10;
-constexpr double kHardlyBetter = 0.8;
+constexpr double kStallRatio = 0.8;
 
 // The sweeps of a round.
 struct SweepProgress
@@ -54,7 +54,7 @@ struct SweepProgress
     {
         m_best = m_sweeps % kWindow == 0 ? change : std::min(m_best, change);
         if (++m_sweeps % kWindow != 0) return false;
-        const bool stalled = m_sweeps > kWindow && m_best > kHardlyBetter * m_bestBefore;
+        const bool stalled = m_sweeps > kWindow && m_best > kStallRatio * m_bestBefore;
         m_bestBefore = m_best;
         return stalled;
     }
@@ -66,8 +66,8 @@ struct ContactSolver::Scratch
 {
     ContactRows m_rows;
     ContactSweeps m_sweeps{m_rows};
-    JointRounds m_jointRounds{m_rows, m_sweeps.joints()};
-    PositionPush m_push{m_rows, m_sweeps};
+    GcrIteration m_gcr{m_rows, m_sweeps.joints()};
+    PositionCorrection m_push{m_rows, m_sweeps};
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     ContactReport m_report;
@@ -140,7 +140,7 @@ constexpr double kBadGuess = 5;
 
 // A step does not end with impulses that leave more speed than there was to begin with, some 1, and this many times
 // that of its best round. A smaller one may be that of rounds in which the rows of others have come nearer.
-constexpr double kWorse = 1, kMuchWorse = 2;
+constexpr double kRollBackRatio = 1, kMuchWorse = 2;
 
 // A round that leaves more than this share of a small error has met the error of the corrective solves, or points that
 // slide and hand their load on to each other bit by bit, which the next step takes up. Where W is too soft, every round
@@ -181,14 +181,14 @@ ContactSolver::~ContactSolver() = default;
 ContactReport ContactSolver::solve(ContactProblem& problem, const ContactSettings& settings)
 {
     begin(problem, settings);
-    while (wantsRound())
+    while (needsOuterIteration())
     {
         for (int s = 0; s < settings.m_sweeps && sweep(); ++s)
         {
         }
         correct();
     }
-    if (wantsBack()) goBack();
+    if (shouldRollBack()) restoreBest();
     return finish();
 }
 
@@ -205,13 +205,14 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_empty = problem.m_contacts.empty() && problem.m_joints.empty() && !anyExpects;
     for (RigidProxy& rigidProxy : problem.m_rigidProxies)
         rigidProxy.m_pushLinear = rigidProxy.m_pushAngular = rigidProxy.m_angularImpulse = rigidProxy.m_pushImpulse =
-            rigidProxy.m_pushAngularImpulse = rigidProxy.m_felt = rigidProxy.m_angularFelt = {};
+            rigidProxy.m_pushAngularImpulse = rigidProxy.m_accumulatedImpulse =
+                rigidProxy.m_accumulatedAngularImpulse = {};
     if (s.m_empty) return;
     const bool joints = !problem.m_joints.empty();
     s.m_floor = joints ? kFinestFloor : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
     s.m_rows.assemble(problem, settings, {s.m_floor, 0});
     s.m_sweeps.begin();
-    s.m_jointRounds.begin();
+    s.m_gcr.begin();
     s.m_push.begin();
     s.m_error = 1;
     s.m_isCalm = false;
@@ -225,9 +226,9 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     {
         s.m_rows.warmStart();
         s.m_sweeps.measure();
-        s.m_jointRounds.look();
+        s.m_gcr.look();
     }
-    if (s.m_rows.settleTouches() || !guesses) s.m_found = s.m_sweeps.look();
+    if (s.m_rows.settleRigidContacts() || !guesses) s.m_found = s.m_sweeps.look();
     s.m_rows.setSpeedScale(std::max(s.m_found.m_wanted, s.m_found.m_joints));
     const double shareOfEdge = s.m_rows.share(kErrorOfEdge * s.m_rows.shortestEdge() / settings.m_step.m_step);
     s.m_settings.m_tolerance = std::min(settings.m_tolerance, std::max(shareOfEdge, kFinestTolerance));
@@ -252,14 +253,14 @@ double ContactSolver::errorNow() const
 double ContactSolver::speedLeft() const
 {
     const Scratch& s = *m_scratch;
-    return s.m_rows.share(std::max(s.m_found.m_wanted, s.m_jointRounds.largestSpeed()));
+    return s.m_rows.share(std::max(s.m_found.m_wanted, s.m_gcr.largestSpeed()));
 }
 
 double ContactSolver::errorOfJoints() const
 {
     const Scratch& s = *m_scratch;
-    return std::max(s.m_jointRounds.largestShare(kNoJointSpeed * s.m_rows.speedScale()),
-                    s.m_rows.share(s.m_jointRounds.largestSpeed()));
+    return std::max(s.m_gcr.largestShare(kNoJointSpeed * s.m_rows.speedScale()),
+                    s.m_rows.share(s.m_gcr.largestSpeed()));
 }
 
 // Where bodies are jammed or deep in each other the impulses of the last step may be those of another world: what they
@@ -295,22 +296,22 @@ bool ContactSolver::isBest() const
     return m_scratch->m_isBest;
 }
 
-bool ContactSolver::wantsBack() const
+bool ContactSolver::shouldRollBack() const
 {
     const Scratch& s = *m_scratch;
-    return !s.m_empty && s.m_left > std::max(kMuchWorse * s.m_best, kWorse);
+    return !s.m_empty && s.m_left > std::max(kMuchWorse * s.m_best, kRollBackRatio);
 }
 
-void ContactSolver::goBack()
+void ContactSolver::restoreBest()
 {
     Scratch& s = *m_scratch;
-    if (!wantsBack()) return;
-    s.m_rows.goBack();
+    if (!shouldRollBack()) return;
+    s.m_rows.restoreBest();
     s.m_error = 0;  // no loose solve
     correct();
 }
 
-bool ContactSolver::wantsRound() const
+bool ContactSolver::needsOuterIteration() const
 {
     const Scratch& s = *m_scratch;
     if (s.m_empty) return false;
@@ -324,7 +325,7 @@ bool ContactSolver::sweep(double others)
     Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     ++s.m_report.m_sweeps;
-    if (s.m_begins) s.m_jointRounds.combine();
+    if (s.m_begins) s.m_gcr.combine();
     s.m_begins = false;
     const double tolerance = s.m_settings.m_tolerance;
     const double othersChange = s.m_rows.share(others);
@@ -357,7 +358,7 @@ void ContactSolver::correct()
     if (s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report))
         s.m_sweeps.joints().reform();
     s.m_sweeps.measure();
-    s.m_jointRounds.look(s.m_othersMoved);
+    s.m_gcr.look(s.m_othersMoved);
     s.m_othersMoved = false;
     s.m_begins = true;
     const double before = s.m_error;
@@ -375,11 +376,11 @@ ContactReport ContactSolver::finish()
 {
     Scratch& s = *m_scratch;
     if (s.m_empty) return s.m_report;
-    if (s.m_begins && errorOfJoints() > kJointTolerance && s.m_jointRounds.isBestBehind())
+    if (s.m_begins && errorOfJoints() > kJointTolerance && s.m_gcr.isBestBehind())
     {
-        s.m_jointRounds.takeBest();
+        s.m_gcr.takeBest();
         correct();
-        goBack();  // what they were to leave was told by rounds in which contacts had other impulses
+        restoreBest();  // what they were to leave was told by rounds in which contacts had other impulses
     }
     s.m_report.m_converged = s.m_report.m_converged && errorOfJoints() <= kUnsolvedJoints;
     s.m_report.m_violation = s.m_rows.store();

@@ -47,7 +47,7 @@ void ContactSweeps::letGo()
     m_runaways.assign(m_rows.movers(), 0);
     const auto forMovableEnds = [this](const ContactRow& row, const auto& visit)
     {
-        for (const RowEnd* end : {&row.m_a, &row.m_b})
+        for (const ConstraintSide* end : {&row.m_a, &row.m_b})
             if (const int mover = m_rows.mover(*end); mover >= 0) visit(m_runaways[mover]);
     };
     for (const ContactRow& row : m_rows.rows())

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fem/contact/sweeps_at_once.h"
-#include "fem/contact/sweeps_in_turn.h"
+#include "fem/contact/accelerated_projected_gradient.h"
+#include "fem/contact/projected_gauss_seidel.h"
 
 namespace bullet_fem
 {
@@ -59,8 +59,8 @@ public:
 private:
     ContactRows& m_rows;
     JointSystem m_joints;
-    SweepsInTurn m_inTurn;
-    SweepsAtOnce m_atOnce;
+    ProjectedGaussSeidel m_inTurn;
+    AcceleratedProjectedGradient m_atOnce;
     std::vector<unsigned char> m_runaways;  // per mover of the rows: is being let go
 };
 

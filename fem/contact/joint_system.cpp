@@ -11,7 +11,7 @@ namespace
 {
 
 // Multiplications that one factor may take, some 20 ms; where joints are more, parts of them are solved in turn.
-constexpr double kMostWork = 6e7;
+constexpr double kMaxWork = 6e7;
 constexpr int kJointsOfPart = 64;
 
 constexpr int kPatience = 30;          // changes of what is held, a step: each takes another factor
@@ -38,9 +38,9 @@ Vec3 withinLimits(const ContactRow& joint, Vec3 impulse, unsigned char* held)
         held[i] = 1;
     }
     const double length = norm(impulse);
-    if (!(length > joint.m_most)) return impulse;
+    if (!(length > joint.m_maxImpulse)) return impulse;
     std::fill_n(held, 3, static_cast<unsigned char>(1));
-    return (joint.m_most / length) * impulse;
+    return (joint.m_maxImpulse / length) * impulse;
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void JointSystem::begin()
     for (int k = 0; k < m_count; ++k)
     {
         ContactRow& joint = row(k);
-        const bool atMost = norm(joint.m_impulse) >= kAtLimit * joint.m_most;
+        const bool atMost = norm(joint.m_impulse) >= kAtLimit * joint.m_maxImpulse;
         for (int i = 0; i < 3; ++i)
         {
             m_isIdle[3 * k + i] = joint.m_idle || !(joint.m_rowCompliance[i] > 0) || !(joint.m_limit[i] > 0) ||
@@ -88,7 +88,7 @@ void JointSystem::reform()
 }
 
 // The first joint that has the same owner: a body, or a rigid proxy that can move, with all that moves with it.
-int JointSystem::firstWithOwner(const RowEnd& end, int joint)
+int JointSystem::firstWithOwner(const ConstraintSide& end, int joint)
 {
     const ContactProblem& problem = m_rows.problem();
     int owner = end.m_body;
@@ -118,8 +118,8 @@ void JointSystem::chooseParts()
         m_profile[k] = std::min(firstWithOwner(row(k).m_a, k), firstWithOwner(row(k).m_b, k));
         if (!m_turned.has(k)) work += EnvelopeFactor::work(k - m_profile[k] + 1);
     }
-    if (work > kMostWork) m_turned.dropAll();
-    const int length = work > kMostWork ? kJointsOfPart : m_count;
+    if (work > kMaxWork) m_turned.dropAll();
+    const int length = work > kMaxWork ? kJointsOfPart : m_count;
     for (int k = 0; k < m_count; k += length) addPart(k, std::min(k + length, m_count));
 }
 
@@ -285,7 +285,7 @@ double JointSystem::sweepHeld(Part& part, int joint)
         if (isSwept(i)) impulse += (dot(wanted, r.m_axes[i]) - along(r, i)) * r.m_axes[i];
     const double change = speedOf(r, impulse - r.m_impulse);
     m_rows.change(r, impulse);
-    const bool isWithin = norm(impulse) < kAtLimit * r.m_most;
+    const bool isWithin = norm(impulse) < kAtLimit * r.m_maxImpulse;
     for (int i = 0; i < 3; ++i)
     {
         if (!isSwept(i) || m_patience == 0) continue;
@@ -309,7 +309,7 @@ Vec3 JointSystem::changeOf(int joint) const
 
 bool JointSystem::isBeyondLimits(const ContactRow& joint, const Vec3& impulse) const
 {
-    bool isBeyond = norm(impulse) > joint.m_most;
+    bool isBeyond = norm(impulse) > joint.m_maxImpulse;
     for (int i = 0; i < 3; ++i) isBeyond = isBeyond || std::fabs(dot(impulse, joint.m_axes[i])) > joint.m_limit[i];
     return isBeyond;
 }

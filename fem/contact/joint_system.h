@@ -6,7 +6,7 @@
 
 #include "fem/contact/contact_rows.h"
 #include "fem/contact/envelope_factor.h"
-#include "fem/contact/turned_joints.h"
+#include "fem/contact/rotated_anchor_factor.h"
 
 namespace bullet_fem
 {
@@ -39,7 +39,7 @@ public:
     /// do for another call, as the speed that a change gives a row's own point [m/s]: 0 where all are solved at once.
     double solve();
 
-    /// For JointRounds. Unknowns are numbered along the joints' axes, three a joint.
+    /// For GcrIteration. Unknowns are numbered along the joints' axes, three a joint.
     int unknowns() const { return 3 * m_count; }
     ContactRow& row(int joint) { return m_rows.rows()[m_first + joint]; }
 
@@ -69,7 +69,7 @@ private:
     void form(Part& part);
     void dropTurned(Part& part, int joint);
     double refine(Part& part, double missed);
-    int firstWithOwner(const RowEnd& end, int joint);
+    int firstWithOwner(const ConstraintSide& end, int joint);
     Mat3 between(const ContactRow& a, const ContactRow& b) const;
     const ContactRow& row(int joint) const { return m_rows.rows()[m_first + joint]; }
     double residual(int joint, int axis, const Vec3& velocity) const;
@@ -89,7 +89,7 @@ private:
     std::vector<int> m_profile;       // per joint: the first that it moves
     std::vector<Part> m_parts;        // of which the first m_partCount are used
     int m_partCount = 0;
-    TurnedJoints m_turned;                  // of which parts have empty rows; none where there is more than one part
+    RotatedAnchorFactor m_turned;           // of which parts have empty rows; none where there is more than one part
     bool m_work = false;                    // working sets have the ends
     std::vector<unsigned char> m_isHeld;    // per unknown: at its limit, or nothing to solve for
     std::vector<unsigned char> m_isIdle;    // per unknown: nothing to solve for

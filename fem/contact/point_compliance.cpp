@@ -84,7 +84,7 @@ void PointCompliance::form(const ContactBody& body, double scale)
     m_floatWeight.assign(m_weight.begin(), m_weight.end());
     forgetColumns();
     m_columns.reserve(3 * m_rows * points());
-    m_terms.reserve(SurfacePoint::kMostNodes);
+    m_terms.reserve(SurfacePoint::kMaxNodes);
 }
 
 void PointCompliance::scale(double factor)

@@ -11,16 +11,16 @@
 namespace bullet_fem
 {
 
-RigidProxy wholeMotion(const Body& body, int piece)
+RigidProxy wholeMotion(const Body& body, int component)
 {
     const BodyState& s = body.m_state;
-    const std::vector<int>& pieceOf = body.m_model->mesh().nodeComponent();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     RigidProxy whole;
     double mass = 0;
     bool isFree = true;
     for (std::size_t i = 0; i < s.m_x.size(); ++i)
     {
-        if (pieceOf[i] != piece) continue;
+        if (componentOf[i] != component) continue;
         isFree = isFree && !s.m_fixed[i];
         mass += s.m_mass[i];
         whole.m_center += s.m_mass[i] * s.m_x[i];
@@ -32,7 +32,7 @@ RigidProxy wholeMotion(const Body& body, int piece)
     Vec3 momentum;
     for (std::size_t i = 0; i < s.m_x.size(); ++i)
     {
-        if (pieceOf[i] != piece) continue;
+        if (componentOf[i] != component) continue;
         const Vec3 r = s.m_x[i] - whole.m_center;
         inertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
         momentum += s.m_mass[i] * cross(r, s.m_v[i]);
@@ -45,12 +45,12 @@ RigidProxy wholeMotion(const Body& body, int piece)
     return whole;
 }
 
-void addWholeMotion(Body& body, int piece, const Vec3& center, const Vec3& linear, const Vec3& angular)
+void addWholeMotion(Body& body, int component, const Vec3& center, const Vec3& linear, const Vec3& angular)
 {
     BodyState& s = body.m_state;
-    const std::vector<int>& pieceOf = body.m_model->mesh().nodeComponent();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     for (std::size_t i = 0; i < s.m_x.size(); ++i)
-        if (pieceOf[i] == piece && !s.m_fixed[i]) s.m_v[i] += linear + cross(angular, s.m_x[i] - center);
+        if (componentOf[i] == component && !s.m_fixed[i]) s.m_v[i] += linear + cross(angular, s.m_x[i] - center);
 }
 
 Vec3 giveRebound(ContactProblem& problem, const Rebound& rebound)
@@ -60,7 +60,7 @@ Vec3 giveRebound(ContactProblem& problem, const Rebound& rebound)
     double compliance = 0, speed = 0;
     for (const int k : {rebound.m_first, rebound.m_second})
     {
-        RowEnd end;
+        ConstraintSide end;
         end.m_rigidProxy = k;
         end.m_arm = rebound.m_point - proxies[k].m_center;
         compliance += dot(n, rigidCompliance(problem, end, end) * n);
@@ -68,8 +68,8 @@ Vec3 giveRebound(ContactProblem& problem, const Rebound& rebound)
     }
     if (!(compliance > 0)) return {};
     // An impulse that makes s of the speed s0 gives (s^2 - s0^2) / (2 compliance).
-    const double mostSquared = speed * speed + 2 * compliance * std::max(rebound.m_energy, 0.0);
-    const double wanted = std::min(rebound.m_speed, std::sqrt(mostSquared));
+    const double maxSquared = speed * speed + 2 * compliance * std::max(rebound.m_energy, 0.0);
+    const double wanted = std::min(rebound.m_speed, std::sqrt(maxSquared));
     if (!(wanted > speed)) return {};
     const Vec3 impulse = ((wanted - speed) / compliance) * n;
     const auto add = [&proxies](int k, const Vec3& linear, const Vec3& angular)

@@ -25,7 +25,7 @@ void respond(const ContactProblem& problem, int rigidProxy, const Vec3& impulse,
 
 /// What an impulse at `from` does to the velocity at `of`, two ends on rigid proxies [1/kg]; angular ends have spins
 /// and angular impulses [1/(kg m)], [1/(kg m2)].
-inline Mat3 rigidCompliance(const ContactProblem& problem, const RowEnd& of, const RowEnd& from)
+inline Mat3 rigidCompliance(const ContactProblem& problem, const ConstraintSide& of, const ConstraintSide& from)
 {
     const RigidProxy& o = problem.m_rigidProxies[from.m_rigidProxy];
     if (o.m_responseCount == 0 && (of.m_rigidProxy != from.m_rigidProxy || !o.canMove())) return {};

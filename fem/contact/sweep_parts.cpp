@@ -30,7 +30,7 @@ void SweepParts::divide(bool many)
 {
     m_levels = 1;
     const int rows = static_cast<int>(m_rows.size());
-    while (many && m_levels < kMostLevels && rows >> m_levels >= kRowsOfPart) ++m_levels;
+    while (many && m_levels < kMaxLevels && rows >> m_levels >= kRowsOfPart) ++m_levels;
     m_order.clear();
     m_order.reserve(m_movers.size());
     for (std::size_t k = 0; k < m_movers.size(); ++k)

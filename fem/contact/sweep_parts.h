@@ -19,8 +19,8 @@ class SweepParts
 {
 public:
     static constexpr int kRowsOfPart = 1024;  ///< sought in a smallest part: a sweep of fewer is over at once
-    static constexpr int kMostLevels = 5;
-    static constexpr int kMost = 1 << kMostLevels;  ///< parts, of which number 0 is none
+    static constexpr int kMaxLevels = 5;
+    static constexpr int kMax = 1 << kMaxLevels;  ///< parts, of which number 0 is none
 
     /// Begins with so many movers and no rows.
     void clear(int movers);

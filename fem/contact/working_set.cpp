@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMostLeft = 0.25;  // share of ends that may have left before the others move together
+constexpr double kMaxLeft = 0.25;  // share of ends that may have left before the others move together
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void WorkingSet::put(const Vec3& v, std::vector<double>& values, std::size_t pla
 void WorkingSet::pack(PointCompliance& points, const std::vector<double>& slotVelocity)
 {
     const auto left = std::count(m_wanted.begin(), m_wanted.end(), static_cast<unsigned char>(0));
-    if (static_cast<double>(left) > kMostLeft * static_cast<double>(m_ends.size())) dropThoseThatLeft();
+    if (static_cast<double>(left) > kMaxLeft * static_cast<double>(m_ends.size())) dropThoseThatLeft();
     if (order() > m_stride) widen();
     for (; m_packed < m_ends.size(); ++m_packed)
     {

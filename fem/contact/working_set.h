@@ -48,8 +48,9 @@ public:
     Vec3 read(int e, const std::vector<double>& values) const { return at(values, m_place[e]); }
     std::size_t order() const { return padded(3 * m_ends.size(), kResponsePadding); }
 
-    /// For SweepMixing: the velocities after the last sweep, and their differences from those of the sweeps before, of
-    /// which noteSweep keeps that of this one in a slot; the first has none. mixSweeps takes shares of them off.
+    /// For AndersonAcceleration: the velocities after the last sweep, and their differences from those of the sweeps
+    /// before, of which noteSweep keeps that of this one in a slot; the first has none. mixSweeps takes shares of them
+    /// off.
     static constexpr int kMixed = 2;
     void noteSweep(int slot, bool first);
     void mixSweeps(const std::array<double, kMixed>& shares);

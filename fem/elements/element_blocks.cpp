@@ -57,9 +57,9 @@ ElementBlocks<Real>::ElementBlocks(const RestShape& shape, const ElementLanes& l
 }
 
 template <class Real>
-int ElementBlocks<Real>::piecesPerChunk() const
+int ElementBlocks<Real>::workUnitsPerChunk() const
 {
-    return std::max(1, kBlocksPerChunk * pieceCount() / blockCount());
+    return std::max(1, kBlocksPerChunk * workUnitCount() / blockCount());
 }
 
 template struct ElementBlocks<float>;

@@ -15,7 +15,7 @@ constexpr int kLanes = 16;  ///< elements in a block: one AVX-512 vector of floa
 /// are sums of vectors.
 struct PatchGroup
 {
-    int m_firstBlock, m_blocks;  ///< at most ElementPatches::kMost blocks
+    int m_firstBlock, m_blocks;  ///< at most ElementPatches::kMax blocks
 };
 
 /// The order of a shape's elements in blocks of kLanes. Without patches it is the mesh's order, and copies of the last

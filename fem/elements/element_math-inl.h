@@ -138,7 +138,7 @@ struct PatchStrains
         return hookeUnder<Real>(pressureInPatch<Real>(lambda, mu, trace(m_strain[k]), m_dilatation), mu, m_strain[k]);
     }
 
-    Symmetric<Real> m_strain[ElementPatches::kMost], m_damped[ElementPatches::kMost];
+    Symmetric<Real> m_strain[ElementPatches::kMax], m_damped[ElementPatches::kMax];
     Vector<Real> m_dilatation, m_dampedDilatation;
 };
 

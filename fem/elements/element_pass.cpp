@@ -234,7 +234,7 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
 #endif
 
 template <class Real>
-void passPieces(const ElementPass<Real>& pass, Range pieces)
+void passUnits(const ElementPass<Real>& pass, Range pieces)
 {
 #if HWY_TARGET != HWY_SCALAR
     if (pass.m_elements->hasPatches()) return passPatches(pass, pieces);
@@ -244,12 +244,12 @@ void passPieces(const ElementPass<Real>& pass, Range pieces)
 
 void elementPassFloat(const ElementPass<float>& pass, Range pieces)
 {
-    passPieces(pass, pieces);
+    passUnits(pass, pieces);
 }
 
 void elementPassDouble(const ElementPass<double>& pass, Range pieces)
 {
-    passPieces(pass, pieces);
+    passUnits(pass, pieces);
 }
 
 }  // namespace HWY_NAMESPACE

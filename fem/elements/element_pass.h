@@ -23,7 +23,7 @@ static_assert(sizeof(WarpedBlock<float>) == sizeof(float) * kWarpedRows * kLanes
 
 /// Minimum pivot of tr(S) I - S, F = R S, as a share of its trace [-]. Elements below it are flat or inverted: their
 /// rotation is about to jump, and they omit the skew term of initial stress (withInitialStress()).
-constexpr double kLeastPivot = 0.01;
+constexpr double kMinPivot = 0.01;
 
 /// The initial stress of kLanes elements, times their volumes, in their own frames [J]: xx, yy, zz, yz, xz, xy.
 template <class Real>
@@ -59,7 +59,7 @@ struct ElementPass
     StressBlock<Real>* m_cofactor = nullptr;
 };
 
-/// Runs the pass over pieces (ElementBlocks::pieceCount()), on the widest vectors that the processor has. Bitwise
+/// Runs the pass over pieces (ElementBlocks::workUnitCount()), on the widest vectors that the processor has. Bitwise
 /// independent of the division into ranges. Never allocates; thread-safe on distinct pieces.
 template <class Real>
 void runElementPass(const ElementPass<Real>& pass, Range pieces);

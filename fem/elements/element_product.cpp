@@ -75,8 +75,8 @@ HWY_INLINE void multiplyPatches(const ElementProduct<Real>& product, Range group
     const Lanes<Real> d;
     const Vector<Real> factor = number<Real>(product.m_stiffnessFactor);
     const ElementBlocks<Real>& elements = *product.m_elements;
-    StagedEdges<Real> edges[2][ElementPatches::kMost];
-    Matrix<Real> H[ElementPatches::kMost];
+    StagedEdges<Real> edges[2][ElementPatches::kMax];
+    Matrix<Real> H[ElementPatches::kMax];
     const auto stage = [&](const PatchColumn& column, int k, int slot)
     { edges[slot][k].stage(elements.m_blocks[column.m_block + k].m_node + column.m_lane, product.m_p); };
     const auto compute = [&](const PatchColumn& column, int slot, const auto& other)
@@ -107,7 +107,7 @@ HWY_INLINE void multiplyPatches(const ElementProduct<Real>& product, Range group
 #endif
 
 template <class Real>
-void multiplyPieces(const ElementProduct<Real>& product, Range pieces)
+void multiplyUnits(const ElementProduct<Real>& product, Range pieces)
 {
 #if HWY_TARGET != HWY_SCALAR
     if (product.m_elements->hasPatches()) return multiplyPatches(product, pieces);
@@ -117,12 +117,12 @@ void multiplyPieces(const ElementProduct<Real>& product, Range pieces)
 
 void elementProductFloat(const ElementProduct<float>& product, Range pieces)
 {
-    multiplyPieces(product, pieces);
+    multiplyUnits(product, pieces);
 }
 
 void elementProductDouble(const ElementProduct<double>& product, Range pieces)
 {
-    multiplyPieces(product, pieces);
+    multiplyUnits(product, pieces);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -22,7 +22,7 @@ struct ElementProduct
     const StressBlock<Real>* m_cofactor = nullptr;  ///< C', one a block, from an ElementPass; null for none
 };
 
-/// Runs the product over pieces (ElementBlocks::pieceCount()), on the widest vectors that the processor has. Bitwise
+/// Runs the product over pieces (ElementBlocks::workUnitCount()), on the widest vectors that the processor has. Bitwise
 /// independent of the division into ranges. Never allocates; thread-safe on distinct pieces.
 template <class Real>
 void runElementProduct(const ElementProduct<Real>& product, Range pieces);

@@ -59,7 +59,7 @@ HWY_INLINE Symmetric<Real> turnedBy(const Matrix<Real>& R, const Symmetric<Real>
 }
 
 /// The axial vector w of W in withInitialStress(), B = I + strain, with doubled shears of the strain. Zero unless all
-/// pivots of tr(B) I - B exceed kLeastPivot of its trace.
+/// pivots of tr(B) I - B exceed kMinPivot of its trace.
 template <class Real>
 HWY_INLINE void balanceTorque(const Symmetric<Real>& strain, const Symmetric<Real>& tau, Vector<Real> (&w)[3])
 {
@@ -75,7 +75,7 @@ HWY_INLINE void balanceTorque(const Symmetric<Real>& strain, const Symmetric<Rea
     const Symmetric<Real> A = adjugate(H);
     const V det = dot3(H.xx, A.xx, H.xy, A.xy, H.xz, A.xz);
     // Sylvester's pivots H.xx, A.zz / H.xx, det / A.zz.
-    const V least = hn::Max(number<Real>(kLeastPivot) * trace(H), hn::Zero(Lanes<Real>()));
+    const V least = hn::Max(number<Real>(kMinPivot) * trace(H), hn::Zero(Lanes<Real>()));
     const auto definite = hn::And(hn::And(H.xx > least, A.zz > least * H.xx), det > least * A.zz);
     const V s = hn::IfThenElseZero(definite, one / det);
     w[0] = s * dot3(A.xx, c0, A.xy, c1, A.xz, c2);

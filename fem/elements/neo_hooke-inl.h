@@ -47,7 +47,7 @@ HWY_INLINE NeoHookeLanes<Real> neoHooke(Vector<Real> lambda, Vector<Real> mu, co
     const V tr = trace(e);
     const V det = dot3(e.xx, adjugateOfE.xx, e.xy, adjugateOfE.xy, e.xz, adjugateOfE.xz);
     const V j = tr + trace(adjugateOfE) + det;
-    const V above = hn::Max(j, number<Real>(kLeastVolumeRatio - 1)), below = j - above;
+    const V above = hn::Max(j, number<Real>(kMinVolumeRatio - 1)), below = j - above;
     const V inverse = one / (one + above), squared = inverse * inverse;
     const V curvature = hn::MulAdd(half * lambda, one + squared, mu * squared);
     const V slope = above * hn::MulAdd(lambda, hn::MulAdd(half, above, one), mu) * inverse;

@@ -22,7 +22,7 @@ NeoHookeResponse neoHooke(const Mat3& e, double lambda, double mu)
 {
     const Mat3 adjugate = adjugateOf(e);
     const double tr = trace(e), j = tr + trace(adjugate) + determinant(e);  // J - 1
-    const double above = std::max(j, kLeastVolumeRatio - 1), below = j - above, inverse = 1 / (1 + above);
+    const double above = std::max(j, kMinVolumeRatio - 1), below = j - above, inverse = 1 / (1 + above);
     const double curvature = 0.5 * lambda * (1 + inverse * inverse) + mu * inverse * inverse;
     const double slope = above * (lambda * (1 + 0.5 * above) + mu) * inverse;  // q
     const double q = slope + curvature * below;

@@ -11,7 +11,7 @@ namespace bullet_fem
 ///
 ///     W = mu/2 (I - 3) + g(J),   g = lambda/4 (J^2 - 1) - (lambda/2 + mu) ln J
 ///
-/// which equals Hooke's law of equal E and nu at small strain. Below J0 = kLeastVolumeRatio g continues as the
+/// which equals Hooke's law of equal E and nu at small strain. Below J0 = kMinVolumeRatio g continues as the
 /// parabola with equal value, slope and curvature at J0, so that it is defined for flat and inverted elements, too, and
 /// drives them back: stress and tangent are continuous, and flattening an element takes about 10 E.
 ///
@@ -25,7 +25,7 @@ namespace bullet_fem
 /// with D bilinear in B and H. k = max(1, (mu + |g'| s) / (2 mu)), with s = 1 + tr(e) / 3 + sqrt(2/3) |dev(e)| >= every
 /// stretch, and l = max(0, g'' - 3 mu i^2 / |C|^2), with i = (tr(C)^2 / |C|^2 - 1) / 2, which is 1 if all stretches are
 /// equal, bound the contribution of D, and equal 1 and lambda at rest. T is the tension of an ElementPass.
-constexpr double kLeastVolumeRatio = 0.1;
+constexpr double kMinVolumeRatio = 0.1;
 
 /// Response of the law in one element, in the units of lambda and mu.
 struct NeoHookeResponse

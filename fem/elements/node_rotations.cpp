@@ -12,7 +12,7 @@
 // after foreach_target.h
 #include <hwy/highway.h>
 
-#include "fem/elements/careful_average.h"
+#include "fem/elements/robust_average.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -72,7 +72,7 @@ HWY_INLINE NodeRotation averageAt(const NodeRotations& rotations, int node)
     HWY_ALIGN float q[4];
     hn::Store(hn::Add(sums[0], sums[1]), d, q);
     const float squaredLength = (q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]);
-    if (!(squaredLength >= leastSquaredLength(*rotations.m_nodes, node))) return carefulAverage(rotations, node);
+    if (!(squaredLength >= minSquaredLength(*rotations.m_nodes, node))) return robustAverage(rotations, node);
     return rotationOf(q, squaredLength);
 }
 

@@ -14,7 +14,7 @@ struct alignas(64) OrthotropicBlock
     Real m_rotation[9][kLanes];  ///< R, row-major
     Real m_tension[6][kLanes];   ///< tension factor times V sigma+: xx, yy, zz, yz, xz, xy
     Real m_stretch[6][kLanes];   ///< S = R^T F in this order
-    Real m_spin[6][kLanes];      ///< (tr(S) I - S)^-1 in this order; 0 where it is nearly singular (kLeastPivot)
+    Real m_spin[6][kLanes];      ///< (tr(S) I - S)^-1 in this order; 0 where it is nearly singular (kMinPivot)
 };
 
 /// Element pass for elements of general C: that of their lambda and mu, plus the positive semidefinite D =

@@ -86,7 +86,7 @@ struct StretchLanes
         const Symmetric<Real> A = adjugate(G);
         const V det = dot3(G.xx, A.xx, G.xy, A.xy, G.xz, A.xz);
         // Sylvester's pivots G.xx, A.zz / G.xx, det / A.zz.
-        const V least = hn::Max(number<Real>(kLeastPivot) * trace(G), hn::Zero(Lanes<Real>()));
+        const V least = hn::Max(number<Real>(kMinPivot) * trace(G), hn::Zero(Lanes<Real>()));
         const auto definite = hn::And(hn::And(G.xx > least, A.zz > least * G.xx), det > least * A.zz);
         m_spin = times<Real>(A, hn::IfThenElseZero(definite, one / det));
     }

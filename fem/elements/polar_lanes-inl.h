@@ -12,7 +12,7 @@
 #include <type_traits>
 
 #include "fem/elements/lanes-inl.h"
-#include "fem/elements/sure_rotation.h"
+#include "fem/elements/robust_polar.h"
 
 #if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();
@@ -134,7 +134,7 @@ HWY_INLINE void singleRotations(const Matrix<Real>& F, hn::Mask<Lanes<Real>> kno
     hn::StoreInterleaved4(q.x, q.y, q.z, q.w, d, &rotation[0].x);
     hn::Store(hn::IfThenElseZero(known, number<Real>(1)), d, marks);
     for (int lane = 0; lane < width<Real>(); ++lane)
-        if (marks[lane] == 0) rotation[lane] = sureRotation(entries, lane, rotation[lane]);
+        if (marks[lane] == 0) rotation[lane] = robustPolar(entries, lane, rotation[lane]);
     hn::LoadInterleaved4(d, &rotation[0].x, q.x, q.y, q.z, q.w);
 }
 

@@ -123,7 +123,7 @@ void runElementPass(const ElementPass<Real>& pass, Range pieces)
         for (int lane = 0; lane < kLanes; ++lane)
         {
             const PatchGroup group = elements.hasPatches() ? elements.m_groups[p] : PatchGroup{p, 1};
-            std::array<Strains, ElementPatches::kMost> strains;
+            std::array<Strains, ElementPatches::kMax> strains;
             double dilatation = 0, rate = 0;
             for (int k = 0; k < group.m_blocks; ++k)
             {

@@ -102,7 +102,7 @@ inline Mat3 torqueBalance(const Mat3& S, const Mat3& stress)
 {
     const Mat3 c = S * stress - stress * S;
     const Mat3 H = Mat3::diagonal(trace(S)) - S;
-    const double least = kLeastPivot * trace(H), minor = H(0, 0) * H(1, 1) - H(0, 1) * H(0, 1);
+    const double least = kMinPivot * trace(H), minor = H(0, 0) * H(1, 1) - H(0, 1) * H(0, 1);
     if (!(least > 0 && H(0, 0) > least && minor > least * H(0, 0) && determinant(H) > least * minor)) return {};
     return crossMatrix(inverse(H) * Vec3{c(2, 1), c(0, 2), c(1, 0)});
 }

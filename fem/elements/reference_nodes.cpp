@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include "fem/common/rotation.h"
-#include "fem/elements/careful_average.h"
 #include "fem/elements/node_sums.h"
+#include "fem/elements/robust_average.h"
 
 namespace bullet_fem
 {
@@ -38,7 +38,7 @@ NodeRotation polarOfSum(const NodeRotations& rotations, int node)
 
 }  // namespace
 
-NodeRotation carefulAverage(const NodeRotations& rotations, int node)
+NodeRotation robustAverage(const NodeRotations& rotations, int node)
 {
     constexpr double kAlignedShareOfPlainSum = 0.7;
     const NodeCorners& nodes = *rotations.m_nodes;
@@ -64,7 +64,7 @@ namespace reference
 
 void averageRotations(const NodeRotations& rotations, Range nodes)
 {
-    for (int i = nodes.m_begin; i < nodes.m_end; ++i) rotations.m_out[i] = carefulAverage(rotations, i);
+    for (int i = nodes.m_begin; i < nodes.m_end; ++i) rotations.m_out[i] = robustAverage(rotations, i);
 }
 
 Mat3 sumRotations(const NodeCorners& nodes, const Quaternion* rotation, Range blocks)

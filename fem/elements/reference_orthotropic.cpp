@@ -48,7 +48,7 @@ struct Stretch
     static Stretch of(const Mat3& S)
     {
         const Mat3 G = Mat3::diagonal(trace(S)) - S;
-        const double least = kLeastPivot * trace(G), minor = G(0, 0) * G(1, 1) - G(0, 1) * G(0, 1);
+        const double least = kMinPivot * trace(G), minor = G(0, 0) * G(1, 1) - G(0, 1) * G(0, 1);
         const bool definite = least > 0 && G(0, 0) > least && minor > least * G(0, 0) && determinant(G) > least * minor;
         return {S, definite ? inverse(G) : Mat3()};
     }

@@ -111,7 +111,7 @@ void findStrains(const SmoothedPass<Real>& pass, Range pieces)
     for (int p = pieces.m_begin; p < pieces.m_end; ++p)
         for (int lane = 0; lane < kLanes; ++lane)
         {
-            Mat3 elastic[ElementPatches::kMost], damped[ElementPatches::kMost];
+            Mat3 elastic[ElementPatches::kMax], damped[ElementPatches::kMax];
             double theta = 0, dampedTheta = 0;
             visitPatch(elements, p, lane,
                        [&](int k, int b, double share)
@@ -142,7 +142,7 @@ void findStrains(const SmoothedProduct<Real>& product, Range pieces)
     for (int p = pieces.m_begin; p < pieces.m_end; ++p)
         for (int lane = 0; lane < kLanes; ++lane)
         {
-            Mat3 strain[ElementPatches::kMost];
+            Mat3 strain[ElementPatches::kMax];
             double theta = 0;
             visitPatch(elements, p, lane,
                        [&](int k, int b, double share)

@@ -99,8 +99,8 @@ struct SmoothedProduct
     const SmoothedBlock<Real>* m_warped;     ///< output of the pass
 };
 
-// All run over ranges of pieces (ElementBlocks::pieceCount()), of domains or of blocks, on the widest vectors that the
-// processor has. Bitwise independent of the division into ranges. Never allocate; thread-safe on distinct ranges.
+// All run over ranges of pieces (ElementBlocks::workUnitCount()), of domains or of blocks, on the widest vectors that
+// the processor has. Bitwise independent of the division into ranges. Never allocate; thread-safe on distinct ranges.
 
 /// Rotations and strains of a range of pieces.
 template <class Real>

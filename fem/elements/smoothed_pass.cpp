@@ -68,7 +68,7 @@ void passStrains(const SmoothedPass<Real>& pass, Range pieces)
     for (int c = pieces.m_begin * kVectors; c < pieces.m_end * kVectors; ++c)
     {
         const PatchColumn column = patchColumn<Real>(elements.m_groups, c);
-        Symmetric<Real> elastic[ElementPatches::kMost], damped[ElementPatches::kMost];
+        Symmetric<Real> elastic[ElementPatches::kMax], damped[ElementPatches::kMax];
         Vector<Real> theta = hn::Zero(Lanes<Real>()), dampedTheta = theta;
         for (int k = 0; k < column.m_size; ++k)
         {

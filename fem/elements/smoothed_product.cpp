@@ -48,8 +48,8 @@ void productStrains(const SmoothedProduct<Real>& product, Range pieces)
 {
     const Lanes<Real> d;
     const ElementBlocks<Real>& elements = *product.m_elements.m_elements;
-    StagedEdges<Real> edges[2][ElementPatches::kMost];
-    Symmetric<Real> strain[ElementPatches::kMost];
+    StagedEdges<Real> edges[2][ElementPatches::kMax];
+    Symmetric<Real> strain[ElementPatches::kMax];
     const auto stage = [&](const PatchColumn& column, int k, int slot)
     { edges[slot][k].stage(elements.m_blocks[column.m_block + k].m_node + column.m_lane, product.m_elements.m_p); };
     const auto compute = [&](const PatchColumn& column, int slot, const auto& other)

@@ -341,9 +341,9 @@ std::size_t sweepScratch(std::size_t block, std::size_t rows)
 
 }  // namespace
 
-std::size_t eliminationScratch(int mostPivots, int mostRows)
+std::size_t eliminationScratch(int maxPivots, int maxRows)
 {
-    const std::size_t rows = static_cast<std::size_t>(mostPivots) + mostRows;
+    const std::size_t rows = static_cast<std::size_t>(maxPivots) + maxRows;
     return sweepScratch(kOuterBlock, rows) + sweepScratch(kInnerBlock, kOuterBlock);
 }
 

@@ -18,7 +18,7 @@ struct DenseFront
 };
 
 /// Scratch entries [doubles] of eliminatePivots() for fronts up to these sizes.
-std::size_t eliminationScratch(int mostPivots, int mostRows);
+std::size_t eliminationScratch(int maxPivots, int maxRows);
 
 /// Partial elimination of A11: A11 <- A11^-1 (both halves), A21 <- A21 A11^-1, A22 <- A22 - A21 A11^-1 A21^T (lower
 /// half). Returns -1, or the index of the first pivot that is not positive (or NaN): A is then not positive definite,

@@ -82,14 +82,14 @@ int LaneGradients::solve(double tolerance, float* y, float* scratch)
     const LaneVectors v = {P.size() / 3, m_x.get(), y, m_p.get(), m_q.get()};
     std::fill(v.m_x, v.m_x + size, 0.f);
     std::fill(v.m_p, v.m_p + size, 0.f);
-    m_rigid.takeOff(v.m_r);
+    m_rigid.deflateRightSide(v.m_r);
     std::copy(v.m_r, v.m_r + size, v.m_q);
     Lanes lanes(tolerance);
     int iterations = 0;
-    for (; iterations < kMostIterations; ++iterations)
+    for (; iterations < kMaxIterations; ++iterations)
     {
         P.solveLanes(P.allSupernodes(), P.allSupernodes(), v.m_q, scratch);
-        m_rigid.takeOut(v.m_q);
+        m_rigid.deflateSolution(v.m_q);
         const LaneNumbers beta = lanes.turn(dotLanes(v));
         if (!lanes.busy()) break;
         turnLanes(v, beta);
@@ -100,7 +100,7 @@ int LaneGradients::solve(double tolerance, float* y, float* scratch)
             break;
         }
     }
-    m_rigid.takeOut(v.m_x);
+    m_rigid.deflateSolution(v.m_x);
     m_rigid.add(v.m_x);
     std::copy(v.m_x, v.m_x + size, y);
     return iterations;

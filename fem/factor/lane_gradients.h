@@ -22,7 +22,7 @@ namespace bullet_fem
 class LaneGradients
 {
 public:
-    static constexpr int kMostIterations = 200;
+    static constexpr int kMaxIterations = 200;
 
     /// The model must outlive this object, and its factor must be that of the low-memory path. Allocates.
     explicit LaneGradients(const BodyModel& model);

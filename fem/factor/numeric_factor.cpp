@@ -181,14 +181,14 @@ void Fronts::clear(const DenseFront& front)
 }
 
 // A submatrix of a column-major matrix.
-struct Piece
+struct Submatrix
 {
     double* m_start;
     std::ptrdiff_t m_stride;
 };
 
 // The front's lower half from entry (i, j) on, up to the end of the block that contains it.
-Piece piece(const DenseFront& front, int i, int j)
+Submatrix submatrix(const DenseFront& front, int i, int j)
 {
     const std::ptrdiff_t p = front.m_pivots, r = front.m_rows;
     if (i < p) return {front.m_A11 + i + j * p, p};
@@ -209,7 +209,7 @@ void Fronts::addMatrix(const Supernode& s, const DenseFront& front)
             if (!holds(s, row))
                 reject("the tree has no room for the matrix's block of nodes ", node, " and ", m_A.m_column[a],
                        "; it must be built from a pattern that has that block");
-            const Piece to = piece(front, m_rowsOfNode * m_place[row], m_rowsOfNode * k);
+            const Submatrix to = submatrix(front, m_rowsOfNode * m_place[row], m_rowsOfNode * k);
             if (m_rowsOfNode == 1)
             {
                 *to.m_start += trace(m_A.m_block[a]) / 3;
@@ -234,7 +234,7 @@ void Fronts::findRuns(const Supernode& child, int columns)
     }
 }
 
-void add(const Piece& from, const Piece& to, int rows, int columns)
+void add(const Submatrix& from, const Submatrix& to, int rows, int columns)
 {
     for (int j = 0; j < columns; ++j)
     {
@@ -253,8 +253,8 @@ void Fronts::addChild(int child, const DenseFront& front)
         for (std::size_t r = c; r < m_runs.size(); ++r)
         {
             const Run &columns = m_runs[c], &rows = m_runs[r];
-            const Piece from = {m_arena.front(child).m_A22 + rows.m_from + columns.m_from * size, size};
-            add(from, piece(front, rows.m_to, columns.m_to), rows.m_count, columns.m_count);
+            const Submatrix from = {m_arena.front(child).m_A22 + rows.m_from + columns.m_from * size, size};
+            add(from, submatrix(front, rows.m_to, columns.m_to), rows.m_count, columns.m_count);
         }
 }
 

@@ -18,7 +18,7 @@ namespace
 // Minimum ratio of s times mass to stiffness at the node with the least stiffness for its mass [-], so that no sliver
 // decides. Node rotations, which differ slightly, mix stiffness into rigid motions, and so does rounding, 6e-8; this
 // bound limits how much the preconditioner amplifies the mixing.
-constexpr double kLeastMass = 1e-6;  // [-]
+constexpr double kMinMass = 1e-6;  // [-]
 
 double dampedMass(const RestShape& shape, const FactorInput& input)
 {
@@ -34,18 +34,18 @@ BlockMatrix assembleA0(const RestShape& shape, const FactorInput& input)
     for (Mat3& block : A0.m_block) block *= h * h + h * beta;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < A0.nodeCount(); ++i) least = std::min(least, trace(A0.at(i, i)) / 3 / input.m_mass[i]);
-    const double scale = std::max(dampedMass(shape, input), kLeastMass * least);
+    const double scale = std::max(dampedMass(shape, input), kMinMass * least);
     for (int i = 0; i < A0.nodeCount(); ++i) A0.at(i, i) += Mat3::diagonal(scale * input.m_mass[i]);
     return A0;
 }
 
-// If s comes from kLeastMass, the minimum of diagonal entry over mass is s + s / kLeastMass.
+// If s comes from kMinMass, the minimum of diagonal entry over mass is s + s / kMinMass.
 double massScale(const BodyModel& model)
 {
     const FactorInput& input = model.factorInput();
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < model.nodeCount(); ++i) least = std::min(least, model.factor().diagonal(i) / input.m_mass[i]);
-    return std::max(dampedMass(model.shape(), input), least * kLeastMass / (1 + kLeastMass));
+    return std::max(dampedMass(model.shape(), input), least * kMinMass / (1 + kMinMass));
 }
 
 SparsePattern blockPattern(const BlockMatrix& A, const std::vector<int>& nodes, const std::vector<int>& position)

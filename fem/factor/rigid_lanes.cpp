@@ -19,8 +19,8 @@ constexpr double kCollinearShare = 1e-9;
 RigidLanes::RigidLanes(const BodyModel& model)
     : m_model(model),
       m_damped(1 + model.factorInput().m_step * model.shape().m_material.m_massDamping),
-      m_pieces(model.mesh().componentCount()),
-      m_taken(m_pieces.size()),
+      m_components(model.mesh().componentCount()),
+      m_taken(m_components.size()),
       m_found(m_taken)
 {
     findCenters();
@@ -28,11 +28,11 @@ RigidLanes::RigidLanes(const BodyModel& model)
     const std::vector<Vec3>& X = model.mesh().restPositions();
     for (std::size_t i = 0; i < X.size(); ++i)
     {
-        Piece& piece = m_pieces[component[i]];
-        const Vec3 r = X[i] - piece.m_center;
-        piece.m_inverseInertia += model.factorInput().m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
+        Component& rigid = m_components[component[i]];
+        const Vec3 r = X[i] - rigid.m_center;
+        rigid.m_inverseInertia += model.factorInput().m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
     }
-    for (Piece& piece : m_pieces) piece.m_inverseInertia = inverse(piece.m_inverseInertia);
+    for (Component& rigid : m_components) rigid.m_inverseInertia = inverse(rigid.m_inverseInertia);
     findAxes();
 }
 
@@ -41,20 +41,20 @@ void RigidLanes::findCenters()
 {
     const std::vector<int>& component = m_model.mesh().nodeComponent();
     const std::vector<Vec3>& X = m_model.mesh().restPositions();
-    std::vector<double> mass(m_pieces.size());
+    std::vector<double> mass(m_components.size());
     for (std::size_t i = 0; i < X.size(); ++i)
     {
-        Piece& piece = m_pieces[component[i]];
-        if (m_model.factor().position(static_cast<int>(i)) < 0 && piece.m_fixed++ == 0) piece.m_center = X[i];
-        if (piece.m_fixed > 0) continue;
+        Component& rigid = m_components[component[i]];
+        if (m_model.factor().position(static_cast<int>(i)) < 0 && rigid.m_fixed++ == 0) rigid.m_center = X[i];
+        if (rigid.m_fixed > 0) continue;
         mass[component[i]] += m_model.factorInput().m_mass[i];
-        piece.m_center += m_model.factorInput().m_mass[i] * X[i];
+        rigid.m_center += m_model.factorInput().m_mass[i] * X[i];
     }
-    for (std::size_t k = 0; k < m_pieces.size(); ++k)
+    for (std::size_t k = 0; k < m_components.size(); ++k)
     {
-        if (m_pieces[k].m_fixed > 0) continue;
-        m_pieces[k].m_inverseMass = 1 / mass[k];
-        m_pieces[k].m_center *= 1 / mass[k];
+        if (m_components[k].m_fixed > 0) continue;
+        m_components[k].m_inverseMass = 1 / mass[k];
+        m_components[k].m_center *= 1 / mass[k];
     }
 }
 
@@ -63,28 +63,28 @@ void RigidLanes::findAxes()
 {
     const std::vector<int>& component = m_model.mesh().nodeComponent();
     const std::vector<Vec3>& X = m_model.mesh().restPositions();
-    std::vector<Vec3> axis(m_pieces.size());  // to the farthest fixed node
+    std::vector<Vec3> axis(m_components.size());  // to the farthest fixed node
     const auto forEachFixed = [&](const auto& visit)
     {
         for (std::size_t i = 0; i < X.size(); ++i)
             if (m_model.factor().position(static_cast<int>(i)) < 0)
-                visit(m_pieces[component[i]], axis[component[i]], X[i] - m_pieces[component[i]].m_center);
+                visit(m_components[component[i]], axis[component[i]], X[i] - m_components[component[i]].m_center);
     };
     forEachFixed(
-        [](const Piece&, Vec3& a, const Vec3& r)
+        [](const Component&, Vec3& a, const Vec3& r)
         {
             if (dot(r, r) > dot(a, a)) a = r;
         });
-    for (std::size_t k = 0; k < m_pieces.size(); ++k)
+    for (std::size_t k = 0; k < m_components.size(); ++k)
     {
         if (!(dot(axis[k], axis[k]) > 0)) continue;
         const Vec3 a = (1 / norm(axis[k])) * axis[k];
-        m_pieces[k].m_inverseInertia = (1 / dot(a, inverse(m_pieces[k].m_inverseInertia) * a)) * outer(a, a);
+        m_components[k].m_inverseInertia = (1 / dot(a, inverse(m_components[k].m_inverseInertia) * a)) * outer(a, a);
     }
     forEachFixed(
-        [](Piece& piece, const Vec3& a, const Vec3& r)
+        [](Component& rigid, const Vec3& a, const Vec3& r)
         {
-            if (norm(cross(a, r)) > kCollinearShare * dot(a, a)) piece.m_inverseInertia = {};
+            if (norm(cross(a, r)) > kCollinearShare * dot(a, a)) rigid.m_inverseInertia = {};
         });
 }
 
@@ -95,9 +95,9 @@ void RigidLanes::forEachRow(const Visit& visit) const
 {
     for (int i = 0; i < m_model.nodeCount(); ++i)
     {
-        const int piece = m_model.mesh().nodeComponent()[i];
-        if (m_model.factor().position(i) < 0 || !moves(m_pieces[piece])) continue;
-        visit(piece, m_model.mesh().restPositions()[i] - m_pieces[piece].m_center, m_model.factorInput().m_mass[i],
+        const int rigid = m_model.mesh().nodeComponent()[i];
+        if (m_model.factor().position(i) < 0 || !moves(m_components[rigid])) continue;
+        visit(rigid, m_model.mesh().restPositions()[i] - m_components[rigid].m_center, m_model.factorInput().m_mass[i],
               3 * static_cast<std::size_t>(m_model.factor().position(i)) * kPanelLanes);
     }
 }
@@ -107,11 +107,11 @@ void RigidLanes::sum(const float* values, bool ofVelocities, std::vector<Motions
 {
     std::fill(motions.begin(), motions.end(), Motions());
     forEachRow(
-        [&](int piece, const Vec3& r, double mass, std::size_t row)
+        [&](int rigid, const Vec3& r, double mass, std::size_t row)
         {
             const double weight = ofVelocities ? mass : 1;
             const float *x = values + row, *y = x + kPanelLanes, *z = y + kPanelLanes;
-            Motions& m = motions[piece];
+            Motions& m = motions[rigid];
             for (int k = 0; k < kPanelLanes; ++k)
             {
                 const double px = weight * x[k], py = weight * y[k], pz = weight * z[k];
@@ -127,10 +127,10 @@ void RigidLanes::sum(const float* values, bool ofVelocities, std::vector<Motions
         for (int k = 0; k < kPanelLanes; ++k)
         {
             Motions& m = motions[p];
-            const Vec3 angular = m_pieces[p].m_inverseInertia * Vec3{m[3][k], m[4][k], m[5][k]};
+            const Vec3 angular = m_components[p].m_inverseInertia * Vec3{m[3][k], m[4][k], m[5][k]};
             for (int i = 0; i < 3; ++i)
             {
-                m[i][k] *= m_pieces[p].m_inverseMass;
+                m[i][k] *= m_components[p].m_inverseMass;
                 m[3 + i][k] = angular[i];
             }
         }
@@ -139,11 +139,11 @@ void RigidLanes::sum(const float* values, bool ofVelocities, std::vector<Motions
 void RigidLanes::addMotions(const std::vector<Motions>& motions, double factor, bool asImpulses, float* values) const
 {
     forEachRow(
-        [&](int piece, const Vec3& r, double mass, std::size_t row)
+        [&](int rigid, const Vec3& r, double mass, std::size_t row)
         {
             const double weight = asImpulses ? factor * mass : factor;
             float *x = values + row, *y = x + kPanelLanes, *z = y + kPanelLanes;
-            const Motions& m = motions[piece];
+            const Motions& m = motions[rigid];
             for (int k = 0; k < kPanelLanes; ++k)
             {
                 x[k] += static_cast<float>(weight * (m[0][k] + m[4][k] * r.z - m[5][k] * r.y));
@@ -153,13 +153,13 @@ void RigidLanes::addMotions(const std::vector<Motions>& motions, double factor, 
         });
 }
 
-void RigidLanes::takeOff(float* rightSides)
+void RigidLanes::deflateRightSide(float* rightSides)
 {
     sum(rightSides, false, m_taken);
     addMotions(m_taken, -1, true, rightSides);
 }
 
-void RigidLanes::takeOut(float* velocities) const
+void RigidLanes::deflateSolution(float* velocities) const
 {
     sum(velocities, true, m_found);
     addMotions(m_found, -1, false, velocities);

@@ -24,10 +24,10 @@ public:
     explicit RigidLanes(const BodyModel& model);
 
     /// Removes the impulses of rigid motions from right-hand sides, and stores these motions.
-    void takeOff(float* rightSides);
+    void deflateRightSide(float* rightSides);
 
     /// Removes rigid motions from velocities.
-    void takeOut(float* velocities) const;
+    void deflateSolution(float* velocities) const;
 
     /// Stores the rigid motions of right-hand sides without removing them.
     void remember(const float* rightSides) { sum(rightSides, false, m_taken); }
@@ -36,7 +36,7 @@ public:
     void add(float* velocities, double share = 1) const;
 
 private:
-    struct Piece
+    struct Component
     {
         int m_fixed = 0;           // number of fixed nodes
         double m_inverseMass = 0;  // [1/kg]; 0 with fixed nodes
@@ -46,7 +46,7 @@ private:
     // Per component and lane: linear velocity, then angular velocity about the centre.
     using Motions = std::array<std::array<double, kPanelLanes>, 6>;
 
-    bool moves(const Piece& piece) const { return squaredNorm(piece.m_inverseInertia) > 0; }
+    bool moves(const Component& rigid) const { return squaredNorm(rigid.m_inverseInertia) > 0; }
     void findCenters();
     void findAxes();
     template <class Visit>
@@ -56,7 +56,7 @@ private:
 
     const BodyModel& m_model;
     double m_damped;  // 1 + h alpha
-    std::vector<Piece> m_pieces;
+    std::vector<Component> m_components;
     std::vector<Motions> m_taken;          // per component
     mutable std::vector<Motions> m_found;  // per component
 };

@@ -10,7 +10,7 @@ namespace
 {
 
 // Minimum entries of a factor that is divided, 1 MB: smaller solves finish before other threads wake up.
-constexpr double kLeastEntriesToDivide = 250e3;
+constexpr double kMinEntriesToDivide = 250e3;
 
 // Maximum share of the entries in a subtree: smaller subtrees occupy more threads, but enlarge the top, which one
 // thread solves. Subtrees below the minimum share are not worth rows of their own.
@@ -71,7 +71,7 @@ TreeDivision::TreeDivision(const SupernodeTree& tree) : m_forwardRow(tree.m_row)
     for (const Supernode& s : tree.m_supernodes) total += entries(s);
     for (int s = static_cast<int>(sum.size()) - 1; s >= 0;)
     {
-        const bool own = total >= kLeastEntriesToDivide && sum[s] <= kLargestSubtreeShare * total &&
+        const bool own = total >= kMinEntriesToDivide && sum[s] <= kLargestSubtreeShare * total &&
                          sum[s] >= kSmallestSubtreeShare * total;
         if (own)
         {

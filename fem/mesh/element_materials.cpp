@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kMostNamed = 12;  // maximum number of labels in a message
+constexpr std::size_t kMaxNamed = 12;  // maximum number of labels in a message
 
 std::string listOf(const std::map<int, Material>& materials)
 {
@@ -23,7 +23,7 @@ std::string listOf(const std::map<int, Material>& materials)
     std::size_t named = 0;
     for (const auto& [label, material] : materials)
     {
-        if (named++ == kMostNamed) return list + ", ...";
+        if (named++ == kMaxNamed) return list + ", ...";
         list += (list.empty() ? "" : ", ") + std::to_string(label);
     }
     return list.empty() ? "none" : list;

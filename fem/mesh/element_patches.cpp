@@ -16,8 +16,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kFewestWanted = 4;  // minimum patch size; smaller ones are merged into a neighbour with room
-constexpr double kAlike = 1e-3;   // relative tolerance of equal compactness
+constexpr int kMinWanted = 4;    // minimum patch size; smaller ones are merged into a neighbour with room
+constexpr double kAlike = 1e-3;  // relative tolerance of equal compactness
 constexpr int kNone = -1;
 constexpr int kCornerPairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
@@ -117,7 +117,7 @@ private:
     void add(const TetMesh& mesh, std::vector<int> elements)
     {
         const int size = static_cast<int>(elements.size());
-        if (size < kFewestWanted || size > ElementPatches::kMost) return;
+        if (size < kMinWanted || size > ElementPatches::kMax) return;
         for (const int e : elements) m_of[e].push_back(static_cast<int>(m_elements.size()));
         m_score.push_back(compactness(mesh, elements));
         m_elements.push_back(std::move(elements));
@@ -127,7 +127,7 @@ private:
     // octahedron of a lattice.
     static double compactness(const TetMesh& mesh, const std::vector<int>& elements)
     {
-        std::array<int, 4 * ElementPatches::kMost> nodes;
+        std::array<int, 4 * ElementPatches::kMax> nodes;
         auto end = nodes.begin();
         double volume = 0;
         for (const int e : elements)
@@ -199,7 +199,7 @@ private:
             for (; k < order.size() && all.m_score[order[k]] >= least; ++k)
                 if (areFree(all.m_elements[order[k]])) alike.push_back(order[k]);
             for (const int c : alike) isAlike[c] = 1;
-            takeAlike(all, isAlike, alike);
+            takeEqual(all, isAlike, alike);
             for (const int c : alike) isAlike[c] = 0;
         }
     }
@@ -207,11 +207,11 @@ private:
     // Takes equally compact candidates from neighbour to neighbour, so that they fit together in a lattice: every
     // element is in an octahedron around an axis between cube centres and in one around a cube edge. Candidates with an
     // element that is in few others come first, because it leaves no choice.
-    void takeAlike(const Candidates& all, const std::vector<char>& isAlike, std::vector<int>& alike)
+    void takeEqual(const Candidates& all, const std::vector<char>& isAlike, std::vector<int>& alike)
     {
         const auto choices = [&](int c)
         {
-            std::ptrdiff_t fewest = ElementPatches::kMost * ElementPatches::kMost;
+            std::ptrdiff_t fewest = ElementPatches::kMax * ElementPatches::kMax;
             for (const int e : all.m_elements[c])
                 fewest = std::min(fewest, std::count_if(all.m_of[e].begin(), all.m_of[e].end(),
                                                         [&](int other) { return isAlike[other] != 0; }));
@@ -248,7 +248,7 @@ private:
             std::vector<int> elements = {seed};
             for (std::size_t k = 0; k < elements.size(); ++k)
                 for (const int f : m_neighbours[elements[k]])
-                    if (f != kNone && isFree(f) && static_cast<int>(elements.size()) < ElementPatches::kMost &&
+                    if (f != kNone && isFree(f) && static_cast<int>(elements.size()) < ElementPatches::kMax &&
                         std::find(elements.begin(), elements.end(), f) == elements.end())
                         elements.push_back(f);
             take(elements);
@@ -261,21 +261,21 @@ private:
         for (std::size_t p = 0; p < m_members.size(); ++p)
         {
             const int size = static_cast<int>(m_members[p].size());
-            if (size == 0 || size >= kFewestWanted) continue;
+            if (size == 0 || size >= kMinWanted) continue;
             std::vector<int> around;  // neighbouring patches, once per shared face
             for (const int e : m_members[p])
                 for (const int f : m_neighbours[e])
                     if (f != kNone && m_patch[f] != static_cast<int>(p)) around.push_back(m_patch[f]);
             std::sort(around.begin(), around.end());
             int best = kNone;
-            std::ptrdiff_t mostFaces = 0;
+            std::ptrdiff_t maxFaces = 0;
             for (const int q : around)
             {
                 const std::ptrdiff_t faces = std::count(around.begin(), around.end(), q);
-                if (static_cast<int>(m_members[q].size()) + size > ElementPatches::kMost || q == best) continue;
-                if (faces < mostFaces) continue;
-                if (faces == mostFaces && m_members[q].size() >= m_members[best].size()) continue;
-                best = q, mostFaces = faces;
+                if (static_cast<int>(m_members[q].size()) + size > ElementPatches::kMax || q == best) continue;
+                if (faces < maxFaces) continue;
+                if (faces == maxFaces && m_members[q].size() >= m_members[best].size()) continue;
+                best = q, maxFaces = faces;
             }
             if (best == kNone) continue;
             for (const int e : m_members[p])

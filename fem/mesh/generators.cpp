@@ -14,8 +14,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostCells = 1000;         // maximum along one axis
-constexpr double kMostTets = 5'000'000;  // maximum in one mesh, as in CageSettings
+constexpr int kMaxCells = 1000;         // maximum along one axis
+constexpr double kMaxTets = 5'000'000;  // maximum in one mesh, as in CageSettings
 constexpr double kPi = 3.14159265358979323846;
 // Scale of the cells in the middle of a ball or disc [-]. Found by search: the minimum volume / longest edge^3 of an
 // element is above 0.03 for every cell count up to 40, and smaller for other scales.
@@ -29,14 +29,14 @@ void checkLength(const char* what, double value)
 
 void checkCells(const char* what, int cells, int least = 1)
 {
-    if (cells < least || cells > kMostCells)
-        reject(what, " is ", cells, ", outside [", least, ", ", kMostCells, "]; choose another cell size");
+    if (cells < least || cells > kMaxCells)
+        reject(what, " is ", cells, ", outside [", least, ", ", kMaxCells, "]; choose another cell size");
 }
 
 void checkEvenCells(const char* what, int cells)
 {
-    if (cells < 2 || cells > kMostCells || cells % 2 != 0)
-        reject(what, " is ", cells, ", not an even number in [2, ", kMostCells, "]; choose another cell size");
+    if (cells < 2 || cells > kMaxCells || cells % 2 != 0)
+        reject(what, " is ", cells, ", not an even number in [2, ", kMaxCells, "]; choose another cell size");
 }
 
 /// A grid of cells with nodes at the grid points.
@@ -49,9 +49,9 @@ struct Grid
     void checkCount(int tetsPerCell) const
     {
         const double tets = 1.0 * m_cells[0] * m_cells[1] * m_cells[2] * tetsPerCell;
-        if (tets > kMostTets)
+        if (tets > kMaxTets)
             reject(m_cells[0], " x ", m_cells[1], " x ", m_cells[2], " cells make ", tets, " elements, outside [1, ",
-                   kMostTets, "]; use fewer or larger cells");
+                   kMaxTets, "]; use fewer or larger cells");
     }
 
     /// Calls visit(i, j, k) for i in [0, m_cells[0] + extra) and so on, i fastest: extra = 0 visits cells, 1 nodes.
@@ -141,8 +141,8 @@ TetMesh makeBeam(double length, double width, double height, double cellSize, Ce
     checkLength("beam height", height);
     checkLength("cell size", cellSize);
     const double longest = std::max({length, width, height});
-    if (longest / cellSize > kMostCells)
-        reject("cell size is ", cellSize, " m, outside [", longest / kMostCells, ", inf) for a beam of ", longest,
+    if (longest / cellSize > kMaxCells)
+        reject("cell size is ", cellSize, " m, outside [", longest / kMaxCells, ", inf) for a beam of ", longest,
                " m; use larger cells");
     const auto count = [&](double extent) { return std::max(1, static_cast<int>(std::lround(extent / cellSize))); };
     return makeBox({length, width, height}, {count(length), count(width), count(height)}, {}, split);

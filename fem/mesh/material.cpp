@@ -43,15 +43,15 @@ Material isotropic(double youngModulus, double poissonRatio, double density, Ela
 }
 
 // Returns false and the reason for an invalid Prony series.
-bool validRelaxation(const std::array<PronyTerm, Material::kMostRelaxationTerms>& terms, std::string* why)
+bool validRelaxation(const std::array<PronyTerm, Material::kMaxRelaxationTerms>& terms, std::string* why)
 {
     double sum = 0;
     bool isOver = false;  // true after a term without share
-    for (int i = 0; i < Material::kMostRelaxationTerms; ++i)
+    for (int i = 0; i < Material::kMaxRelaxationTerms; ++i)
     {
         const PronyTerm& term = terms[i];
         const std::string name = message("relaxation term ", i);
-        const ValueRange ranges[] = {{"share [-]", term.m_share, false, 0, Material::kMostRelaxedShare, "0 is no term"},
+        const ValueRange ranges[] = {{"share [-]", term.m_share, false, 0, Material::kMaxRelaxedShare, "0 is no term"},
                                      {"time [s]", term.m_time, false, 1e-6, 1e9, "usual ones are 0.01 to 1000 s"}};
         for (const ValueRange& range : ranges)
             if (!range.contains())
@@ -68,7 +68,7 @@ bool validRelaxation(const std::array<PronyTerm, Material::kMostRelaxationTerms>
         isOver = term.m_share == 0;
         sum += term.m_share;
     }
-    const ValueRange all = {"sum of the relaxation terms' shares [-]", sum, false, 0, Material::kMostRelaxedShare,
+    const ValueRange all = {"sum of the relaxation terms' shares [-]", sum, false, 0, Material::kMaxRelaxedShare,
                             "a solid keeps some of its stiffness"};
     if (!all.contains() && why) *why = all.complaint();
     return all.contains();
@@ -138,7 +138,7 @@ double LameModuli::youngModulus() const
 double LameModuli::poissonRatio() const
 {
     const double lambda = std::max(0.0, m_lambda);
-    return std::min(Material::kMostPoissonRatio, 0.5 * lambda / (lambda + m_mu));
+    return std::min(Material::kMaxPoissonRatio, 0.5 * lambda / (lambda + m_mu));
 }
 
 double Material::lameLambda() const
@@ -162,13 +162,13 @@ bool Material::usesMeanDilatation() const
 {
     if (m_law != ElasticLaw::hooke) return false;
     if (m_meanDilatation != MeanDilatation::automatic) return m_meanDilatation == MeanDilatation::on;
-    return m_accurateBending || static_cast<float>(m_poissonRatio) > static_cast<float>(kLeastAveragedRatio);
+    return m_accurateBending || static_cast<float>(m_poissonRatio) > static_cast<float>(kMinAveragedRatio);
 }
 
 int Material::relaxationTerms() const
 {
     int count = 0;
-    while (count < kMostRelaxationTerms && m_relaxation[count].m_share > 0) ++count;
+    while (count < kMaxRelaxationTerms && m_relaxation[count].m_share > 0) ++count;
     return count;
 }
 
@@ -185,7 +185,7 @@ bool Material::valid(std::string* why) const
 {
     const ValueRange ranges[] = {
         {"Young's modulus [Pa]", m_youngModulus, true, 0, 1e13, "rubber is about 2e6, steel 2e11"},
-        {"Poisson's ratio [-]", m_poissonRatio, false, 0, kMostPoissonRatio,
+        {"Poisson's ratio [-]", m_poissonRatio, false, 0, kMaxPoissonRatio,
          "use 0.45 to 0.499 for a nearly incompressible solid: at 0.5 no pressure would change its volume"},
         {"density [kg/m3]", m_density, false, 0, 1e6, "water is 1000; 0 keeps the body's own node masses"},
         {"mass damping [1/s]", m_massDamping, false, 0, 1e4, "0 switches it off"},

@@ -40,8 +40,8 @@ bool refuse(std::string* why, const std::string& text)
 
 bool validModulus(const char* name, double value, std::string* why)
 {
-    if (value > 0 && value <= Orthotropic::kMostModulus) return true;  // false for NaN
-    return refuse(why, message("orthotropic ", name, " [Pa] is ", value, ", outside (0, ", Orthotropic::kMostModulus,
+    if (value > 0 && value <= Orthotropic::kMaxModulus) return true;  // false for NaN
+    return refuse(why, message("orthotropic ", name, " [Pa] is ", value, ", outside (0, ", Orthotropic::kMaxModulus,
                                "]; give what a bar has along that axis, wood some 1e8 to 1e10"));
 }
 
@@ -65,7 +65,7 @@ bool validDirections(const Orthotropic& m, std::string* why)
             return refuse(why, message("orthotropic direction of axis ", v == &m.m_along ? 1 : 2, " is ", text(*v),
                                        ", without a length in (0, inf); give a direction such as (1, 0, 0)"));
     const double sine = norm(cross((1 / along) * m.m_along, (1 / across) * m.m_across));
-    if (sine >= Orthotropic::kLeastSine) return true;
+    if (sine >= Orthotropic::kMinSine) return true;
     return refuse(why, message("orthotropic directions of axes 1 and 2 are ", text(m.m_along), " and ",
                                text(m.m_across), ", parallel; give for axis 2 one across axis 1"));
 }
@@ -139,11 +139,11 @@ bool Orthotropic::valid(std::string* why) const
     for (int k = 0; k < 3; ++k)
         if (!validModulus(kShear[k], m_shear[k], why)) return false;
     const double determinant = ScaledRatios(*this).determinant();
-    if (!(determinant > kLeastDeterminant))
-        return refuse(why, message("orthotropic 1 - nu12 nu21 - nu13 nu31 - nu23 nu32 - 2 nu21 nu32 nu13 is ",
-                                   determinant, ", not above ", kLeastDeterminant,
-                                   " with nu12, nu13, nu23 = ", m_poisson[0], ", ", m_poisson[1], ", ", m_poisson[2],
-                                   ": some strain would have no energy; give smaller Poisson's ratios"));
+    if (!(determinant > kMinDeterminant))
+        return refuse(
+            why, message("orthotropic 1 - nu12 nu21 - nu13 nu31 - nu23 nu32 - 2 nu21 nu32 nu13 is ", determinant,
+                         ", not above ", kMinDeterminant, " with nu12, nu13, nu23 = ", m_poisson[0], ", ", m_poisson[1],
+                         ", ", m_poisson[2], ": some strain would have no energy; give smaller Poisson's ratios"));
     return validDirections(*this, why);
 }
 

@@ -17,7 +17,7 @@ namespace
 {
 
 // Volume over longest edge cubed; smaller elements have meaningless shape gradients.
-constexpr double kLeastQuality = 1e-9;
+constexpr double kMinQuality = 1e-9;
 constexpr double kSliverQuality = 1e-3;  // in this measure a regular tetrahedron has .118; slivers cost iterations
 
 /// The face opposite each node of a positively oriented element, counter-clockwise seen from outside.
@@ -96,9 +96,9 @@ int turnNegative(const std::vector<Vec3>& X, std::vector<Tet>& tets)
     for (std::size_t e = 0; e < tets.size(); ++e)
     {
         const double quality = signedQuality(X, tets[e]);
-        if (!(std::abs(quality) >= kLeastQuality))
+        if (!(std::abs(quality) >= kMinQuality))
             reject("element ", e, " ", nodesOf(tets[e]), " is degenerate: its volume is ", std::abs(quality),
-                   " of its longest edge cubed, the least allowed is ", kLeastQuality,
+                   " of its longest edge cubed, the least allowed is ", kMinQuality,
                    "; remove it or move its nodes out of one plane");
         if (quality < 0)
         {

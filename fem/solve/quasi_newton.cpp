@@ -16,7 +16,7 @@ namespace
 {
 
 // Share of the initial slope, accepted at the full step [Bonet & Wood 2008, 9.6.2].
-constexpr double kMostTurned = 0.5;
+constexpr double kMaxTurned = 0.5;
 
 /// Tolerance of a correction relative to |r| [-] [Dembo et al. 1982]; the next correction or step sees the rest.
 constexpr double kInexact = 0.1;
@@ -38,7 +38,7 @@ void QuasiNewton::correct(const ConjugateGradientStop& stop, SolveReport& report
     corrections.m_steady = false;
     findTurning();
     double left = findResidual();
-    for (int k = 0; k < kMostCorrections && left > kLeftShare * scale && std::isfinite(left); ++k)
+    for (int k = 0; k < kMaxCorrections && left > kLeftShare * scale && std::isfinite(left); ++k)
     {
         const WarpedPreconditioner P(m_body, m_settings.m_threads);
         const SolveReport found = solveConjugateGradients(
@@ -92,10 +92,10 @@ void QuasiNewton::searchLine(double slope)
 {
     const QuasiNewtonScratch& newton = m_body.m_workspace.scratch().m_newton;
     double length = 1;
-    for (int k = 0; k < kMostLineSearches; ++k)
+    for (int k = 0; k < kMaxLineSearches; ++k)
     {
         const double turned = dot(newton.m_direction, newton.m_residual);
-        if (turned >= -kMostTurned * slope) return;
+        if (turned >= -kMaxTurned * slope) return;
         const double back = std::isfinite(turned) ? slope / (slope - turned) * length : 0.25 * length;
         move(back - length);
         length = back;

@@ -13,7 +13,7 @@ namespace bullet_fem
 ///     (1 + h alpha) M dv = b_0 + h f(z) - h beta K' (v + dv - t h w x (w x r)),
 ///     z = y + h (s v + c dv - e h w x (w x r)),    b_0: loads, mass damping, predicted impulses
 ///
-/// with e = turningOfLength() and t = kTurningOfVelocity of StepCoefficients. QuasiNewton adds at most kMostCorrections
+/// with e = turningOfLength() and t = kTurningOfVelocity of StepCoefficients. QuasiNewton adds at most kMaxCorrections
 /// iterations, each A d = r with A evaluated at z, preconditioned by the existing factor, until |r| <= kLeftShare |b|.
 /// Each is followed by a line search on the energy [Bonet & Wood 2008, 9.6.2]: -d . r is the slope of kinetic, elastic
 /// and potential energy along d; if the slope at the full step exceeds half its initial magnitude with the opposite
@@ -21,8 +21,8 @@ namespace bullet_fem
 class QuasiNewton
 {
 public:
-    static constexpr int kMostCorrections = 2;
-    static constexpr int kMostLineSearches = 3;
+    static constexpr int kMaxCorrections = 2;
+    static constexpr int kMaxLineSearches = 3;
     static constexpr double kLeftShare = 0.05;  ///< share of |b| [-]
 
     /// Requires b_0 in StepScratch::m_newton. `A` is the system of `body`.

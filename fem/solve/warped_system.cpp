@@ -74,7 +74,7 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
 template <class Real>
 void runPass(const ElementPass<Real>& pass, const Threads* threads)
 {
-    runRanges(threads, {pass.m_elements->pieceCount(), pass.m_elements->piecesPerChunk()},
+    runRanges(threads, {pass.m_elements->workUnitCount(), pass.m_elements->workUnitsPerChunk()},
               [&](Range pieces) { runElementPass(pass, pieces); });
 }
 
@@ -83,7 +83,7 @@ template <class Real, class Parts>
 void runSmoothed(const Parts& parts, const ElementBlocks<Real>& elements, const SmoothedStrain<Real>* strain,
                  int strains, const Threads* threads)
 {
-    runRanges(threads, {elements.pieceCount(), elements.piecesPerChunk()},
+    runRanges(threads, {elements.workUnitCount(), elements.workUnitsPerChunk()},
               [&](Range pieces) { findStrains(parts, pieces); });
     for (int k = 0; k < strains; ++k)
         runRanges(threads, {parts.m_smoothing->domainCount(), kDomainsPerChunk},
@@ -147,7 +147,7 @@ void product(const Body& body, const Threads* threads, double stiffnessFactor, b
                   [&](Range range) { runOrthotropicProduct(orthotropic, range); });
     }
     else if (smoothing.empty())
-        runRanges(threads, {forces.m_elements->pieceCount(), forces.m_elements->piecesPerChunk()},
+        runRanges(threads, {forces.m_elements->workUnitCount(), forces.m_elements->workUnitsPerChunk()},
                   [&](Range pieces) { runElementProduct(forces, pieces); });
     else
     {

@@ -21,7 +21,7 @@ namespace
 
 // Minimum ratio of the projected area of a cut's faces along its normal to their area [-]: with a smaller one the faces
 // run along the tension rather than across it. A cut of a regular mesh has 1, a zigzag of regular tetrahedra about .8.
-constexpr double kLeastAcross = 0.3;
+constexpr double kMinAcross = 0.3;
 
 // Share of the strength [-] that an element's tension must exceed for its nodes to be tested: a node at a crack tip
 // carries more tension than its elements.
@@ -174,7 +174,7 @@ Fracture::Cut Fracture::cutAt(const Body& body, int node, const Vec3& along)
             area += norm(face) / 3;
         }
     }
-    cut.m_isThere = across > kLeastAcross * area;
+    cut.m_isThere = across > kMinAcross * area;
     if (cut.m_isThere) cut.m_stress = force / across;
     return cut;
 }

@@ -12,7 +12,7 @@
 #include "fem/solve/quasi_newton.h"
 #include "fem/solve/smoothing.h"
 #include "fem/solve/step_stages.h"
-#include "fem/solve/violent_step.h"
+#include "fem/solve/strain_increment.h"
 #include "fem/solve/warped_system.h"
 
 namespace bullet_fem
@@ -185,8 +185,8 @@ public:
     {
         if (!m_scratch.m_newton.isUsed() || m_settings.m_direct || isActuated() || !m_loads.m_priorVelocity.empty())
             return;
-        if (!isViolent(m_body, m_settings.m_step, m_scratch.m_velocity, &m_scratch.m_increment, kGentleStrain,
-                       m_settings.m_threads))
+        if (!exceedsStrainIncrement(m_body, m_settings.m_step, m_scratch.m_velocity, &m_scratch.m_increment,
+                                    kMaxStrainIncrement, m_settings.m_threads))
             return;
         QuasiNewton(m_body, m_settings, m_A).correct(m_stop, m_report);
     }
@@ -372,7 +372,7 @@ void solveAlone(ImpulseResponse& response)
 
 void solveAlone(StepEnd& end)
 {
-    if (!end.m_isRough) return;
+    if (!end.m_needsSmoothing) return;
     onThreads(*end.m_body, end.m_settings,
               [&](const StepSettings& settings)
               {

@@ -14,7 +14,7 @@
 #include "fem/solve/drift.h"
 #include "fem/solve/smoothing.h"
 #include "fem/solve/step_variation.h"
-#include "fem/solve/violent_step.h"
+#include "fem/solve/strain_increment.h"
 #include "fem/solve/warped_compliance.h"
 #include "fem/step/one_body.h"
 
@@ -44,13 +44,13 @@ void solveAll(Job* jobs, int count)
         {
             for (int k = first; k < end; ++k)
             {
-                if (areAlike(jobs[first], jobs[k]) != asFirst) continue;
+                if (areEqual(jobs[first], jobs[k]) != asFirst) continue;
                 if (!canBeBatched(jobs[k]))
                 {
                     solveAlone(jobs[k]);
                     continue;
                 }
-                if (collected == kBatchWidth || (collected > 0 && !areAlike(*together[0], jobs[k]))) solveCollected();
+                if (collected == kBatchWidth || (collected > 0 && !areEqual(*together[0], jobs[k]))) solveCollected();
                 together[collected++] = &jobs[k];
             }
             solveCollected();
@@ -154,7 +154,7 @@ void addVelocity(Body& body, const std::vector<Vec3>& change)
     body.m_workspace.scratch().m_reactions.changeVelocity(body.m_state.m_fixed, change);
 }
 
-Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
+Vec3 applyPositionCorrection(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
 {
     const StepSettings shared = sharedSettings(*body.m_model, settings);
     Vec3 angularMomentum;
@@ -179,9 +179,10 @@ void finishSteps(StepEnd* ends, int count)
     for (int k = 0; k < count; ++k)
     {
         endDrift(*ends[k].m_body, ends[k].m_settings);
-        ends[k].m_isRough = findChange(*ends[k].m_body, ends[k].m_settings);
+        ends[k].m_needsSmoothing = findChange(*ends[k].m_body, ends[k].m_settings);
         StepScratch& scratch = ends[k].m_body->m_workspace.scratch();
-        if (ends[k].m_isRough && scratch.m_reactions.isNoting()) scratch.m_reactions.noteChange(scratch.m_increment);
+        if (ends[k].m_needsSmoothing && scratch.m_reactions.isNoting())
+            scratch.m_reactions.noteChange(scratch.m_increment);
     }
     solveAll(ends, count);
     for (int k = 0; k < count; ++k)
@@ -190,7 +191,7 @@ void finishSteps(StepEnd* ends, int count)
         StepScratch& scratch = body.m_workspace.scratch();
         const double share = StepCoefficients(ends[k].m_settings, body).smoothing();
         if (scratch.m_reactions.isNoting()) noteReactions(body, share);
-        if (ends[k].m_isRough) subtractUnresolved(body, ends[k].m_settings);
+        if (ends[k].m_needsSmoothing) subtractUnresolved(body, ends[k].m_settings);
         body.m_state.m_v = scratch.m_velocity;
         if (scratch.m_reactions.isNoting()) scratch.m_reactions.finish(body.m_state);
         if (scratch.m_isPushed) stopPushing(scratch);

@@ -121,7 +121,7 @@ void visitPatch(const Body& body, int patch, const Visit& visit)
     const RestShape& shape = body.m_model->shape();
     const int* element = &shape.m_patches.m_element[shape.m_patches.m_start[patch]];
     const int count = shape.m_patches.size(patch);
-    LeftStretch left[ElementPatches::kMost];
+    LeftStretch left[ElementPatches::kMax];
     double dilatation = 0;
     for (int k = 0; k < count; ++k)
     {

@@ -47,7 +47,7 @@ protected:
 
 private:
     void noteImpulses();
-    void goBackToNoted();
+    void restoreNoted();
     template <class Visit>
     void forEachRigidRow(Visit visit);
 

@@ -67,10 +67,11 @@ struct BULLETFEM_API btFemMaterial
     btScalar m_plasticCreep = std::numeric_limits<btScalar>::infinity();
     /// Largest plastic strain, sqrt(2/3 eps_p : eps_p) [-], in (0, 0.9]; strain beyond it is elastic again.
     btScalar m_mostPlasticStrain = btScalar(0.5);
-    static constexpr int kMostRelaxationTerms = 3;  ///< of m_relaxation
+    static constexpr int kMaxRelaxationTerms = 3;  ///< of m_relaxation
+    [[deprecated("kMaxRelaxationTerms")]] static constexpr int kMostRelaxationTerms = kMaxRelaxationTerms;
     /// Viscoelasticity: E and nu are those of fast loads, and mu (1 - sum g_i (1 - exp(-t / tau_i))) the shear modulus
     /// after a time t; the bulk modulus stays. Those with a share stand first; the shares' sum is at most 0.99.
-    btFemRelaxation m_relaxation[kMostRelaxationTerms];
+    btFemRelaxation m_relaxation[kMaxRelaxationTerms];
     /// The law; E and nu are those of small strain. A Neo-Hookean material does not yield or relax, and its elements
     /// have their own volume change each.
     btFemElasticLaw m_law = btFemElasticLaw::hooke;

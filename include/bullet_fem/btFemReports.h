@@ -153,10 +153,11 @@ struct btFemContact
     int m_index = -1;  ///< likewise its triangle; of a height field the row
     /// Nodes that may carry a point: those of a triangle, or of up to three tetrahedra where the surface that follows
     /// them collides.
-    static constexpr int kMostNodes = 12;
-    int m_nodes[kMostNodes] = {0};         ///< nodes of this body that carry the point; among the first 3 they repeat
-    btScalar m_weights[kMostNodes] = {1};  ///< [-], sum 1; 0 for those that repeat
-    int m_nodeCount = 3;                   ///< how many they are, in [1, kMostNodes]
+    static constexpr int kMaxNodes = 12;
+    [[deprecated("kMaxNodes")]] static constexpr int kMostNodes = kMaxNodes;
+    int m_nodes[kMaxNodes] = {0};         ///< nodes of this body that carry the point; among the first 3 they repeat
+    btScalar m_weights[kMaxNodes] = {1};  ///< [-], sum 1; 0 for those that repeat
+    int m_nodeCount = 3;                  ///< how many they are, in [1, kMaxNodes]
 };
 
 /// A stress in the world's axes [Pa], tension positive.

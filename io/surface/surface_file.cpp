@@ -105,7 +105,7 @@ bool areRegions(const std::vector<int>& labels)
 {
     std::set<int> different;
     for (const int label : labels)
-        if (different.insert(label).second && static_cast<int>(different.size()) > kMostSurfaceRegions) return false;
+        if (different.insert(label).second && static_cast<int>(different.size()) > kMaxSurfaceRegions) return false;
     return different.size() > 1;
 }
 

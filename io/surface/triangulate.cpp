@@ -7,7 +7,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kMostCornersForEars = 256;
+constexpr std::size_t kMaxCornersForEars = 256;
 
 /// Twice the polygon's area vector (Newell); about its first corner, so that a place far away costs no digits.
 Vec3 areaVector(const std::vector<Vec3>& positions, const std::vector<int>& corners)
@@ -42,7 +42,7 @@ bool isEar(const std::vector<Vec3>& positions, const std::vector<int>& corners, 
 void triangulatePolygon(const std::vector<Vec3>& positions, std::vector<int> corners, std::vector<Triangle>& triangles)
 {
     const Vec3 normal = areaVector(positions, corners);
-    for (std::size_t i = 0, tried = 0; corners.size() > 3 && corners.size() <= kMostCornersForEars;)
+    for (std::size_t i = 0, tried = 0; corners.size() > 3 && corners.size() <= kMaxCornersForEars;)
     {
         const std::size_t n = corners.size();
         i %= n;

@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::uint64_t kMostInflation = 1032;  // of deflate, bytes from a byte
+constexpr std::uint64_t kMaxInflation = 1032;  // of deflate, bytes from a byte
 
 NumberType parseVtuType(const std::string& name)
 {
@@ -53,7 +53,7 @@ void spend(VtuArrayEncoding& encoding, std::uint64_t numbers)
 /// Appends a compressed block that should have `size` bytes when it is no longer.
 void inflateBlock(const std::string& block, std::uint64_t size, std::string& out)
 {
-    if (size > kMostInflation * (block.size() + 1))
+    if (size > kMaxInflation * (block.size() + 1))
         throw std::runtime_error(message("a zlib block of ", block.size(), " bytes cannot hold ", size));
     const std::size_t before = out.size();
     out.resize(before + static_cast<std::size_t>(size) + 1);  // one more, so that too much is noticed

@@ -10,7 +10,7 @@
 namespace
 {
 
-constexpr double kMost = 1e12, kFarthestTarget = 1e6, kSumTolerance = 1e-4;
+constexpr double kMax = 1e12, kFarthestTarget = 1e6, kSumTolerance = 1e-4;
 
 }  // namespace
 
@@ -39,10 +39,10 @@ bool btFemSpring::valid(std::string* why) const
     const double sum = double(m_weights[0]) + double(m_weights[1]) + double(m_weights[2]);
     return btFemRangeCheck(finite && std::fabs(sum - 1) <= kSumTolerance, why, "the sum of m_weights", sum,
                            "[0.9999, 1.0001]; take them from a btFemRayHit") &&
-           btFemRangeCheck(m_stiffness >= 0 && m_stiffness <= kMost, why, "m_stiffness", m_stiffness,
+           btFemRangeCheck(m_stiffness >= 0 && m_stiffness <= kMax, why, "m_stiffness", m_stiffness,
                            "[0, 1e12] N/m; mass / step^2 is a stiff one") &&
-           btFemRangeCheck(m_damping >= 0 && m_damping <= kMost, why, "m_damping", m_damping,
+           btFemRangeCheck(m_damping >= 0 && m_damping <= kMax, why, "m_damping", m_damping,
                            "[0, 1e12] N s/m; 0 is usual") &&
-           btFemRangeCheck(m_maxForce >= 0 && m_maxForce <= kMost, why, "m_maxForce", m_maxForce,
+           btFemRangeCheck(m_maxForce >= 0 && m_maxForce <= kMax, why, "m_maxForce", m_maxForce,
                            "[0, 1e12] N; 0 is no limit, 20 times the weight is usual");
 }

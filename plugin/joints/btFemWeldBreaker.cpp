@@ -46,7 +46,7 @@ void btFemWeldBreaker::tell(const FemSoftBody& fem, const WeldBreak& broken)
 
 void btFemWeldBreaker::makeRoom(int nodes)
 {
-    m_most += nodes;
-    m_breaks.reserve(m_most);
-    m_broken.reserve(m_most);
+    m_max += nodes;
+    m_breaks.reserve(m_max);
+    m_broken.reserve(m_max);
 }

@@ -36,6 +36,6 @@ private:
     bullet_fem::WeldLoads m_loads;
     std::vector<bullet_fem::WeldBreak> m_broken;  // scratch, of one body
     btAlignedObjectArray<btFemWeldBreak> m_breaks;
-    int m_most = 0;     // number of nodes of all welds made
+    int m_max = 0;      // number of nodes of all welds made
     double m_time = 0;  // [s]
 };

@@ -12,13 +12,13 @@ public:
     /// they are: from 10 more of those than of the others on, until there are as many of either.
     bool isTooSlow(double taken, double step)
     {
-        m_slowSteps = std::clamp(m_slowSteps + (taken > step ? 1 : -1), 0, kMost);
+        m_slowSteps = std::clamp(m_slowSteps + (taken > step ? 1 : -1), 0, kMax);
         m_tooSlow = m_slowSteps >= kPersistent || (m_tooSlow && m_slowSteps > 0);
         return m_tooSlow;
     }
 
 private:
-    static constexpr int kPersistent = 10, kMost = 20;
+    static constexpr int kPersistent = 10, kMax = 20;
     int m_slowSteps = 0;  // more than others, of late
     bool m_tooSlow = false;
 };

@@ -16,7 +16,7 @@ namespace
 // rho g H / E beyond which a body is told to be too soft [-]. Cubes on a plane with Hooke's law stand at .55 in meshes
 // of four and eight cells across, and have elements inside out at .7 (docs/manual.md, How stiff must my body be;
 // SoftPresets).
-constexpr double kMostWeightStrain = 0.5;
+constexpr double kMaxWeightStrain = 0.5;
 
 }  // namespace
 
@@ -68,6 +68,6 @@ bool btFemTooSoft::look(const FemSoftBody& fem)
     m_shape = fem.m_body.m_model->sharedShape();
     m_mass = mass;
     m_gravity = gravity;
-    m_isTooSoft = weightStrain(fem) > kMostWeightStrain;
+    m_isTooSoft = weightStrain(fem) > kMaxWeightStrain;
     return m_isTooSoft;
 }

@@ -28,15 +28,15 @@ static_assert(static_cast<int>(btFemMeanDilatation::off) == static_cast<int>(bul
 
 static_assert(static_cast<int>(btFemElasticLaw::neoHooke) == static_cast<int>(bullet_fem::ElasticLaw::neoHooke));
 static_assert(static_cast<int>(btFemElasticLaw::orthotropic) == static_cast<int>(bullet_fem::ElasticLaw::orthotropic));
-static_assert(btFemMaterial::kMostRelaxationTerms == bullet_fem::Material::kMostRelaxationTerms);
+static_assert(btFemMaterial::kMaxRelaxationTerms == bullet_fem::Material::kMaxRelaxationTerms);
 
 bullet_fem::Material coreMaterial(const btFemMaterial& material)
 {
     bullet_fem::Material core;
     core.m_youngModulus = material.m_youngModulus;
     // The largest permitted ratio has no exact binary form: its single-precision value counts as that ratio.
-    constexpr double kMost = bullet_fem::Material::kMostPoissonRatio;
-    core.m_poissonRatio = material.m_poissonRatio == btScalar(kMost) ? kMost : double(material.m_poissonRatio);
+    constexpr double kMax = bullet_fem::Material::kMaxPoissonRatio;
+    core.m_poissonRatio = material.m_poissonRatio == btScalar(kMax) ? kMax : double(material.m_poissonRatio);
     core.m_density = material.m_density;
     core.m_massDamping = material.m_massDamping;
     core.m_stiffnessDamping = material.m_stiffnessDamping;
@@ -47,11 +47,11 @@ bullet_fem::Material coreMaterial(const btFemMaterial& material)
     core.m_hardeningModulus = material.m_hardeningModulus;
     core.m_plasticCreep = material.m_plasticCreep;
     core.m_mostPlasticStrain = material.m_mostPlasticStrain;
-    constexpr double kMostShare = bullet_fem::Material::kMostRelaxedShare;  // as for kMost
-    for (int i = 0; i < btFemMaterial::kMostRelaxationTerms; ++i)
+    constexpr double kMaxShare = bullet_fem::Material::kMaxRelaxedShare;  // as for kMax
+    for (int i = 0; i < btFemMaterial::kMaxRelaxationTerms; ++i)
     {
         const btFemRelaxation& term = material.m_relaxation[i];
-        core.m_relaxation[i].m_share = term.m_share == btScalar(kMostShare) ? kMostShare : double(term.m_share);
+        core.m_relaxation[i].m_share = term.m_share == btScalar(kMaxShare) ? kMaxShare : double(term.m_share);
         core.m_relaxation[i].m_time = term.m_time;
     }
     const btFemOrthotropic& orthotropic = material.m_orthotropic;

@@ -39,7 +39,7 @@ void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
     contact.m_impulse = bulletVector(impulse);
     contact.m_normalImpulse = static_cast<btScalar>(dot(impulse, normal));
     contact.m_frictionImpulse = bulletVector(impulse - dot(impulse, normal) * normal);
-    static_assert(btFemContact::kMostNodes == SurfacePoint::kMostNodes);
+    static_assert(btFemContact::kMaxNodes == SurfacePoint::kMaxNodes);
     contact.m_nodeCount = side.m_count;
     for (int a = 0; a < side.m_count; ++a)
     {
@@ -100,10 +100,10 @@ void btFemContactGroup::collect(const Scope& scope)
     m_rigid.connectLinks(m_problem.m_responses);
     const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
     if (world && world->m_dispatcher && (!m_problem.m_contacts.empty() || m_rigid.holdsRewound()))
-        m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidTouches);
+        m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidContacts);
     m_problem.m_rigidProxies.assign(m_rigid.rigidProxies().begin(), m_rigid.rigidProxies().end());
     m_cloth.append(m_step, m_problem);
-    listTouching();
+    listOverlaps();
     m_settings.m_step.m_step = m_step;
     m_settings.m_step.m_numericalDamping = m_info.m_numericalDamping;
     m_settings.m_step.m_tolerance = m_info.m_tolerance;
@@ -176,15 +176,15 @@ void btFemContactGroup::collectContacts()
                                      });
 }
 
-void btFemContactGroup::listTouching()
+void btFemContactGroup::listOverlaps()
 {
     m_touches.assign(m_records.size(), 0);
     for (const ContactPoint& contact : m_problem.m_contacts)
         for (const int body : {contact.m_soft.m_body, contact.m_other.m_body})
             if (body >= 0) m_touches[body] = 1;
-    m_touching.clear();
+    m_overlapping.clear();
     for (std::size_t b = 0; b < m_records.size(); ++b)
-        if (m_touches[b] != 0) m_touching.push_back(m_records[b]);
+        if (m_touches[b] != 0) m_overlapping.push_back(m_records[b]);
 }
 
 // Links move on arcs: momenta are conserved only if both sides share one contact point.
@@ -265,9 +265,9 @@ void btFemContactGroup::correct()
     m_milliseconds += watch.milliseconds();
 }
 
-void btFemContactGroup::goBack()
+void btFemContactGroup::restoreBest()
 {
-    onSolverBodies([this] { m_solver.goBack(); });
+    onSolverBodies([this] { m_solver.restoreBest(); });
 }
 
 void btFemContactGroup::finish()

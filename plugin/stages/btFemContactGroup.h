@@ -10,7 +10,7 @@
 #include "bullet_bridge/contact/soft/soft_pair_search.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/rigid/rebounds.h"
-#include "bullet_bridge/rigid/rigid_touches.h"
+#include "bullet_bridge/rigid/rigid_contacts.h"
 #include "bullet_bridge/rigid/solver_bodies.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "plugin/joints/btFemWeldBreaker.h"
@@ -56,7 +56,7 @@ public:
     bool isEmpty() const { return m_problem.m_contacts.empty() && m_problem.m_joints.empty(); }
 
     /// The bodies that have contacts.
-    const std::vector<btFemBodyRecord*>& touching() const { return m_touching; }
+    const std::vector<btFemBodyRecord*>& touching() const { return m_overlapping; }
 
     /// True if every movable rigid body of the group is one of `bodies`, as is every movable link of a multibody (none
     /// is permitted unless `linksToo`), and no joint connects the group to other active soft bodies.
@@ -66,17 +66,17 @@ public:
     void solve();
 
     /// Solves within Bullet's rigid solver, on its solver bodies, by the functions of ContactSolver: begin; while
-    /// wantsRound, one outer iteration of sweep (repeatedly) and correct; goBack if wantsBack; finally finish; and
-    /// moveRigid after the rigid solver has written its bodies back. `others`: largest velocity change by Bullet's rows
-    /// since the last sweep [m/s]. `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver without
-    /// multibodies.
+    /// needsOuterIteration, one outer iteration of sweep (repeatedly) and correct; restoreBest if shouldRollBack;
+    /// finally finish; and moveRigid after the rigid solver has written its bodies back. `others`: largest velocity
+    /// change by Bullet's rows since the last sweep [m/s]. `linkDeltas`: see ArticulatedBodies::beginSolve; null for a
+    /// solver without multibodies.
     void begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas = nullptr);
     bool sweep(double others);
-    bool wantsRound() const { return m_solver.wantsRound(); }
+    bool needsOuterIteration() const { return m_solver.needsOuterIteration(); }
     void correct();
     bool isBest() const { return m_solver.isBest(); }
-    bool wantsBack() const { return m_solver.wantsBack(); }
-    void goBack();
+    bool shouldRollBack() const { return m_solver.shouldRollBack(); }
+    void restoreBest();
     void finish();
     void moveRigid();
 
@@ -107,7 +107,7 @@ private:
     void findSoft();
     void findCloth();
     void collectContacts();
-    void listTouching();
+    void listOverlaps();
     void alignLinks(std::vector<bullet_fem::ContactPoint>& contacts) const;
     void collectJoints(const Scope& scope);
     template <class Part>
@@ -120,10 +120,10 @@ private:
     btFemSolverInfo m_info;
     double m_step = 0;  // [s]
     std::vector<btFemBodyRecord*> m_records;
-    std::vector<btFemBodyRecord*> m_touching;
+    std::vector<btFemBodyRecord*> m_overlapping;
     bullet_fem::ContactSettings m_settings;
     bullet_fem::RigidSearch m_rigidSearch;
-    bullet_fem::RigidTouchFinder m_touchFinder;
+    bullet_fem::RigidContactFinder m_touchFinder;
     bullet_fem::TorsionalPatches m_torsionalPatches;
     bullet_fem::SoftPairSearch m_softPairs;
     bullet_fem::ClothContacts m_cloth;

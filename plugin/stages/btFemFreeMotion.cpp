@@ -167,7 +167,7 @@ void btFemFreeMotion::prepare(btFemBodyRecord& record) const
     record.m_work.m_staleness = staleness(record, record.m_work.m_lastStep);
     if (record.m_work.m_staleness > 1) record.m_reports.m_step.m_flags |= BT_FEM_STALE_FACTOR;
     record.m_reports.m_step.m_detail = detailInUse(record);
-    SteadyBodies::judge(fem, record.m_work.m_lastStep);
+    ContactPrediction::accept(fem, record.m_work.m_lastStep);
 }
 
 FreeMotion btFemFreeMotion::motionOf(btFemBodyRecord& record) const

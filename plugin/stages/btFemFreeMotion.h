@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_bridge/contact/soft/contact_prediction.h"
 #include "bullet_bridge/contact/soft/soft_pair_memory.h"
-#include "bullet_bridge/contact/soft/steady_bodies.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/fem/batch/body_batches.h"
 #include "bullet_fem/fem/common/threads.h"
@@ -62,7 +62,7 @@ private:
     std::vector<const bullet_fem::Body*> m_bodies;  // bodies of m_due
     std::vector<bullet_fem::FemSoftBody*> m_fems;
     bullet_fem::BodyBatches m_batches;
-    bullet_fem::SteadyBodies m_steady;
+    bullet_fem::ContactPrediction m_steady;
     std::vector<bullet_fem::FreeMotion> m_motions;  // in the order of the batches
     std::vector<bullet_fem::StepEnd> m_ends;        // in the order of the batches
     std::vector<unsigned char> m_isUsable;          // per body of finish()

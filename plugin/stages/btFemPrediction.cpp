@@ -60,8 +60,8 @@ bool beginBodyStep(btFemBodySetUp& setUp, btFemBodyRecord& record, double worldS
     if (present) ageTouches(record);
     if (record.isFem())
     {
-        record.fem().m_touching.clear();
-        record.fem().m_touchingSoft.clear();
+        record.fem().m_overlapping.clear();
+        record.fem().m_overlappingSoft.clear();
     }
     const bool isActive = record.m_softBody->isActive();
     if (record.isFem() && !isActive) record.fem().m_impacts.clear();

@@ -258,7 +258,7 @@ void wakeIfPushed(const btFemBodyRecord& record, const btCollisionObject& other)
     const bool moves =
         !other.getInterpolationLinearVelocity().isZero() || !other.getInterpolationAngularVelocity().isZero();
     if (!moves || !other.isKinematicObject() || !other.isActive()) return;
-    const std::lock_guard<std::mutex> lock(record.fem().m_touchingMutex);
+    const std::lock_guard<std::mutex> lock(record.fem().m_overlapMutex);
     if (isQuiet(record)) record.m_softBody->activate();
 }
 

@@ -29,8 +29,8 @@ protected:
 
     const std::vector<ContactPoint>& find(const btCollisionObject& object, int most = 1000)
     {
-        m_fem.m_touching.clear();
-        recordTouching(m_fem, object);
+        m_fem.m_overlapping.clear();
+        recordOverlap(m_fem, object);
         solveFreeMotion(m_fem.m_body, StepSettings());
         m_rigidProxies.clear();
         m_search.find({&m_fem}, kStep, most, m_rigidProxies);

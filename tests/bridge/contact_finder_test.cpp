@@ -260,7 +260,7 @@ TEST_F(ContactFinderTest, manyBodiesOnSeveralThreadsFindWhatEachFindsAlone)
         fems.push_back(std::make_unique<FemSoftBody>(*boxes.back()->m_body, m_fem.m_body.m_model, m_fem.m_compliance));
         bodies.push_back(fems.back().get());
         for (const btCollisionObject* object : {&m_ball, &m_ground, &meshObject})
-            if (object != &meshObject || b % 3 == 0) recordTouching(*bodies.back(), *object);
+            if (object != &meshObject || b % 3 == 0) recordOverlap(*bodies.back(), *object);
         solveFreeMotion(bodies.back()->m_body, StepSettings());
     }
     Threads threads(3);
@@ -292,11 +292,11 @@ TEST_F(ContactFinderTest, objectsRecordedByManyThreadsAreFoundOnce)
         threads.emplace_back(
             [&]
             {
-                for (const btCollisionObject& object : objects) recordTouching(m_fem, object);
+                for (const btCollisionObject& object : objects) recordOverlap(m_fem, object);
             });
     for (std::thread& thread : threads) thread.join();
-    EXPECT_EQ(m_fem.m_touching.size(), objects.size());
-    m_fem.m_touching.clear();
+    EXPECT_EQ(m_fem.m_overlapping.size(), objects.size());
+    m_fem.m_overlapping.clear();
 }
 
 }  // namespace

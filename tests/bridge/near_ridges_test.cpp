@@ -140,7 +140,7 @@ std::set<int> listed(const SoftSurface& surface, const SoftSurface& other)
     return edges;
 }
 
-double leastDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
+double minDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 {
     double least = 1e9;
     for (const Vec3& p : a)
@@ -161,8 +161,7 @@ TEST(NearRidges, AreAllThatMayTouchAndFewMore)
         for (int n = 0; n < edges; ++n)
         {
             if (!(a.m_surface.bend(m) < -0.03 && b.m_surface.bend(n) < -0.03)) continue;
-            if (leastDistance(a.trace(m, 0), b.trace(n, 0)) > kNear &&
-                leastDistance(a.trace(m, 1), b.trace(n, 1)) > kBand)
+            if (minDistance(a.trace(m, 0), b.trace(n, 0)) > kNear && minDistance(a.trace(m, 1), b.trace(n, 1)) > kBand)
                 continue;
             ++touching;
             EXPECT_TRUE(ofA.count(m) && ofB.count(n));

@@ -10,7 +10,7 @@
 #include "LinearMath/btAlignedAllocator.h"
 #include "bridge/bridge_test_shapes.h"
 #include "bridge/concave_test_shapes.h"
-#include "bullet_bridge/contact/rigid/sheet_touch.h"
+#include "bullet_bridge/contact/rigid/sheet_contact.h"
 
 namespace
 {
@@ -103,7 +103,7 @@ TEST(SheetTouchAllocation, NothingIsAllocatedOnceTheScratchHasGrown)
         const ConcaveShape shape = named.m_make(hills);
         const ShapeLeaf leaf = leafOf(shape.shape());
         TriangleSoup soup;
-        std::vector<SheetTouch> touches;
+        std::vector<SheetContact> touches;
         std::size_t found = 0;
         const auto search = [&]
         {
@@ -114,14 +114,14 @@ TEST(SheetTouchAllocation, NothingIsAllocatedOnceTheScratchHasGrown)
                 probe.m_position = probe.m_rightSide = {x, 0.3, 0.25 + named.m_height};
                 probe.m_path = {0.3, 0.1, -0.3};
                 probe.m_band = 0.05;
-                findPointTouches(soup, probe, touches);
+                findPointContacts(soup, probe, touches);
                 found += touches.size();
                 SheetFeature feature;
                 feature.m_corners = {probe.m_position, {x + 0.3, 0.4, 0.1}, {x + 0.1, 0.7, 0.1}};
                 feature.m_outward = {0, 0, -1};
                 feature.m_reach = feature.m_depth = 0.5;
-                findCornerTouches(soup, feature, touches);
-                findEdgeTouches(soup, feature, touches);
+                findCornerContacts(soup, feature, touches);
+                findEdgeContacts(soup, feature, touches);
             }
         };
         search();

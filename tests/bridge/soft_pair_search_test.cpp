@@ -22,7 +22,7 @@ class SoftPairSearchTest : public testing::Test
 protected:
     explicit SoftPairSearchTest(int cellsOfUpper = 2) : m_upper(cube(cellsOfUpper))
     {
-        m_upper.m_fem.m_touchingSoft.push_back(m_lower.m_soft.get());
+        m_upper.m_fem.m_overlappingSoft.push_back(m_lower.m_soft.get());
         moveUpper({0, 0, 1});
     }
 
@@ -54,7 +54,7 @@ protected:
         return m_search.searchedPairs();
     }
 
-    double leastGap() const
+    double minGap() const
     {
         double least = 1e30;
         for (const ContactPoint& contact : m_search.contacts()) least = std::min(least, contact.m_gap);
@@ -106,13 +106,13 @@ TEST_F(SoftPairSearchTest, PairsThatStayKeepTheirContacts)
 TEST_F(SoftPairSearchTest, TheirGapsFollow)
 {
     searched();
-    const double before = leastGap();
+    const double before = minGap();
     moveUpper({0, 0, 0.004 * m_edge});
     EXPECT_EQ(searched(), 0);
-    EXPECT_NEAR(leastGap(), before + 0.004 * m_edge, kExact);
+    EXPECT_NEAR(minGap(), before + 0.004 * m_edge, kExact);
     moveUpper({0, 0, -0.008 * m_edge});
     EXPECT_EQ(searched(), 0);
-    EXPECT_NEAR(leastGap(), before - 0.004 * m_edge, kExact);
+    EXPECT_NEAR(minGap(), before - 0.004 * m_edge, kExact);
 }
 
 TEST_F(SoftPairSearchTest, OneThatMovedIsSearched)
@@ -170,9 +170,9 @@ TEST_F(SoftPairSearchTest, WhatWasNotSolvedIsSearchedAgain)
 TEST_F(SoftPairSearchTest, OneThatWasApartIsSearched)
 {
     searched();
-    m_upper.m_fem.m_touchingSoft.clear();
+    m_upper.m_fem.m_overlappingSoft.clear();
     EXPECT_EQ(searched(), 0);
-    m_upper.m_fem.m_touchingSoft.push_back(m_lower.m_soft.get());
+    m_upper.m_fem.m_overlappingSoft.push_back(m_lower.m_soft.get());
     EXPECT_EQ(searched(), 1);
 }
 

@@ -61,7 +61,7 @@ TEST_P(SurfaceCullingTest, nothingWithinReachIsRuledOut)
         const bool isNear = m_nearest.m_gap < kReach;
         const bool outside = !m_inBounds || m_culling.isOutside(m_nodes);
         near += isNear;
-        ruledOut += outside || m_culling.leastGap(m_nodes) > kReach;
+        ruledOut += outside || m_culling.minGap(m_nodes) > kReach;
         EXPECT_FALSE(isNear && outside);
     }
     EXPECT_GT(near, 200);
@@ -73,7 +73,7 @@ TEST_P(SurfaceCullingTest, noPointIsNearerThanTheLeastGap)
     for (int k = 0; k < 2000; ++k)
     {
         next(k);
-        EXPECT_LE(m_culling.leastGap(m_nodes), m_nearest.m_gap + kGradients);
+        EXPECT_LE(m_culling.minGap(m_nodes), m_nearest.m_gap + kGradients);
     }
 }
 

@@ -23,10 +23,10 @@ ContactPoint contactAt(double x, double impulse, const Vec3& normal = kUp)
 TEST(WarmStartTransfer, TheNearestWithoutAnImpulseInherits)
 {
     ContactPoint rich = contactAt(0.1, 5), near = contactAt(0.3, 0), far = contactAt(0.4, 0);
-    WarmStartTransfer heirs;
-    heirs.addLost({0.1, 0, 0}, kUp, {0, 0, 2});
-    for (ContactPoint* contact : {&rich, &far, &near}) heirs.addHeir(*contact, 1);
-    heirs.settle(1);
+    WarmStartTransfer candidates;
+    candidates.addLost({0.1, 0, 0}, kUp, {0, 0, 2});
+    for (ContactPoint* contact : {&rich, &far, &near}) candidates.addCandidate(*contact, 1);
+    candidates.assign(1);
     EXPECT_EQ(near.m_impulse.z, 2);
     EXPECT_EQ(far.m_impulse.z, 0);
     EXPECT_EQ(rich.m_impulse.z, 5);
@@ -35,11 +35,11 @@ TEST(WarmStartTransfer, TheNearestWithoutAnImpulseInherits)
 TEST(WarmStartTransfer, WhereAllHaveImpulsesTheNearestGetsItOnTop)
 {
     ContactPoint near = contactAt(0.1, 5), far = contactAt(0.4, 3);
-    WarmStartTransfer heirs;
-    heirs.addLost({0, 0, 0}, kUp, {0.5, 0, 2});
-    heirs.addHeir(far, 1);
-    heirs.addHeir(near, 1);
-    heirs.settle(1);
+    WarmStartTransfer candidates;
+    candidates.addLost({0, 0, 0}, kUp, {0.5, 0, 2});
+    candidates.addCandidate(far, 1);
+    candidates.addCandidate(near, 1);
+    candidates.assign(1);
     EXPECT_EQ(near.m_impulse.z, 7);
     EXPECT_EQ(near.m_impulse.x, 0.5);
     EXPECT_EQ(far.m_impulse.z, 3);
@@ -50,10 +50,10 @@ TEST(WarmStartTransfer, OneThatTouchesComesBeforeANearerOneThatDoesNotYet)
     ContactPoint apart = contactAt(0.1, 0), touching = contactAt(0.4, 0), sunk = contactAt(0.5, 0);
     apart.m_gap = 0.02;
     sunk.m_gap = -0.02;
-    WarmStartTransfer heirs;
-    heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
-    for (ContactPoint* contact : {&apart, &touching, &sunk}) heirs.addHeir(*contact, 1);
-    heirs.settle(1);
+    WarmStartTransfer candidates;
+    candidates.addLost({0, 0, 0}, kUp, {0, 0, 2});
+    for (ContactPoint* contact : {&apart, &touching, &sunk}) candidates.addCandidate(*contact, 1);
+    candidates.assign(1);
     EXPECT_EQ(touching.m_impulse.z, 2);
     EXPECT_EQ(apart.m_impulse.z, 0);
     EXPECT_EQ(sunk.m_impulse.z, 0);
@@ -62,12 +62,12 @@ TEST(WarmStartTransfer, OneThatTouchesComesBeforeANearerOneThatDoesNotYet)
 TEST(WarmStartTransfer, TwoLostOnesGoToTwoHeirs)
 {
     ContactPoint near = contactAt(0.1, 0), far = contactAt(0.2, 0);
-    WarmStartTransfer heirs;
-    heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
-    heirs.addLost({0, 0, 0}, kUp, {0, 0, 3});
-    heirs.addHeir(far, 1);
-    heirs.addHeir(near, 1);
-    heirs.settle(1);
+    WarmStartTransfer candidates;
+    candidates.addLost({0, 0, 0}, kUp, {0, 0, 2});
+    candidates.addLost({0, 0, 0}, kUp, {0, 0, 3});
+    candidates.addCandidate(far, 1);
+    candidates.addCandidate(near, 1);
+    candidates.assign(1);
     EXPECT_EQ(near.m_impulse.z, 2);
     EXPECT_EQ(far.m_impulse.z, 3);
 }
@@ -75,34 +75,34 @@ TEST(WarmStartTransfer, TwoLostOnesGoToTwoHeirs)
 TEST(WarmStartTransfer, OnesOutOfReachOrOfAnotherNormalInheritNothing)
 {
     ContactPoint far = contactAt(1, 0), turned = contactAt(0, 0, {1, 0, 0}), opposite = contactAt(0, 0, {0, 0, -1});
-    WarmStartTransfer heirs;
-    heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
-    for (ContactPoint* contact : {&far, &turned, &opposite}) heirs.addHeir(*contact, 1);
-    heirs.settle(1);
+    WarmStartTransfer candidates;
+    candidates.addLost({0, 0, 0}, kUp, {0, 0, 2});
+    for (ContactPoint* contact : {&far, &turned, &opposite}) candidates.addCandidate(*contact, 1);
+    candidates.assign(1);
     for (const ContactPoint* contact : {&far, &turned, &opposite})
         EXPECT_EQ(dot(contact->m_impulse, contact->m_impulse), 0);
 }
 
 TEST(WarmStartTransfer, AContactSeenFromTheOtherSideInheritsTheOppositeImpulse)
 {
-    ContactPoint heir = contactAt(0, 0, {0, 0, -1});
-    WarmStartTransfer heirs;
-    heirs.addLost({0, 0, 0}, kUp, {0.5, 0, 2});
-    heirs.addHeir(heir, -1);
-    heirs.settle(1);
-    EXPECT_EQ(heir.m_impulse.z, -2);
-    EXPECT_EQ(heir.m_impulse.x, -0.5);
+    ContactPoint candidate = contactAt(0, 0, {0, 0, -1});
+    WarmStartTransfer candidates;
+    candidates.addLost({0, 0, 0}, kUp, {0.5, 0, 2});
+    candidates.addCandidate(candidate, -1);
+    candidates.assign(1);
+    EXPECT_EQ(candidate.m_impulse.z, -2);
+    EXPECT_EQ(candidate.m_impulse.x, -0.5);
 }
 
 TEST(WarmStartTransfer, NothingIsInheritedTwice)
 {
-    ContactPoint heir = contactAt(0, 0);
-    WarmStartTransfer heirs;
-    heirs.addLost({0, 0, 0}, kUp, {0, 0, 2});
-    heirs.clear(1);
-    heirs.addHeir(heir, 1);
-    heirs.settle(1);
-    EXPECT_EQ(heir.m_impulse.z, 0);
+    ContactPoint candidate = contactAt(0, 0);
+    WarmStartTransfer candidates;
+    candidates.addLost({0, 0, 0}, kUp, {0, 0, 2});
+    candidates.clear(1);
+    candidates.addCandidate(candidate, 1);
+    candidates.assign(1);
+    EXPECT_EQ(candidate.m_impulse.z, 0);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ double EnergyBook::elastic() const
 void EnergyBook::open()
 {
     m_start = kinetic() + potential() + elastic();
-    m_work = m_least = m_made = 0;
+    m_work = m_min = m_made = 0;
     for (Led& led : m_led) led.m_before = led.m_object->getWorldTransform();
 }
 
@@ -83,8 +83,8 @@ void EnergyBook::noteStep(double step)
 void EnergyBook::audit()
 {
     const double now = surplus();
-    m_made = std::max(m_made, now - m_least);
-    m_least = std::min(m_least, now);
+    m_made = std::max(m_made, now - m_min);
+    m_min = std::min(m_min, now);
 }
 
 double EnergyBook::surplus() const

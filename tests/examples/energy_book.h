@@ -67,7 +67,7 @@ private:
     std::vector<Soft> m_soft;
     std::vector<const btRigidBody*> m_rigid;
     std::vector<Led> m_led;
-    double m_start = 0, m_work = 0, m_least = 0, m_made = 0;
+    double m_start = 0, m_work = 0, m_min = 0, m_made = 0;
 };
 
 }  // namespace bullet_fem

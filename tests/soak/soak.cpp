@@ -35,7 +35,7 @@ struct Options
     unsigned m_first = 1;
     double m_seconds = 60;
     long m_steps = 1000000000;
-    int m_acts = 300, m_mostSeconds = 120, m_mostFaults = 20;
+    int m_acts = 300, m_maxSeconds = 120, m_maxFaults = 20;
     std::string m_only;  // acts of one program
     bool m_oneProgram = false, m_isTraced = false;
 };
@@ -75,13 +75,13 @@ std::vector<int> numbersOf(const std::string& text)
 
 SoakOutcome runCase(const SoakCase& soak, const Options& options)
 {
-    return runInChild([&] { return run(soak); }, options.m_mostSeconds);
+    return runInChild([&] { return run(soak); }, options.m_maxSeconds);
 }
 
 // Any fault counts, or leaving acts out would be held up by the number of the act in the message.
 void tell(SoakCase soak, const SoakOutcome& outcome, const Options& options)
 {
-    constexpr int kMostRuns = 300;
+    constexpr int kMaxRuns = 300;
     std::printf("%s: %s\n", nameOf(soak).c_str(), outcome.m_fault.c_str());
     std::fflush(stdout);
     const auto fails = [&](const std::vector<int>& acts)
@@ -89,7 +89,7 @@ void tell(SoakCase soak, const SoakOutcome& outcome, const Options& options)
         soak.m_acts = acts;
         return !runCase(soak, options).m_fault.empty();
     };
-    const std::vector<int> few = isEnding ? soak.m_acts : minimise(soak.m_acts, fails, kMostRuns);
+    const std::vector<int> few = isEnding ? soak.m_acts : minimise(soak.m_acts, fails, kMaxRuns);
     soak.m_acts = few;
     std::printf("  with %zu acts: %s\n  bulletfem_soak --program %u --only %s\n", few.size(),
                 runCase(soak, options).m_fault.c_str(), soak.m_number, listed(few).c_str());
@@ -113,7 +113,7 @@ bool soakAll(const Options& options)
         kinds[name.substr(0, name.rfind(' '))].add(outcome);
         if (outcome.m_fault.empty()) continue;
         tell(soak, outcome, options);
-        if (all.m_faults >= options.m_mostFaults) break;
+        if (all.m_faults >= options.m_maxFaults) break;
     }
     kinds["all"] = all;
     std::printf("%-28s %9s %10s %9s %7s\n", "", "programs", "steps", "refusals", "faults");
@@ -151,7 +151,7 @@ int main(int argc, char** argv)
         ->capture_default_str();
     app.add_option("--steps", options.m_steps, "or after so many steps")->check(CLI::PositiveNumber);
     app.add_option("--acts", options.m_acts, "acts a program")->check(CLI::Range(1, 1000000))->capture_default_str();
-    app.add_option("--limit", options.m_mostSeconds, "a program that takes more processor time is a fault [s]")
+    app.add_option("--limit", options.m_maxSeconds, "a program that takes more processor time is a fault [s]")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     app.footer(

@@ -22,8 +22,8 @@ namespace bullet_fem
 /// as long, and what threads do is alike in all of them.
 constexpr int stepsOnThreads(int usually)
 {
-    constexpr int kMostUnderThreadSanitizer = 12;
-    return BULLETFEM_UNDER_THREAD_SANITIZER ? std::min(usually, kMostUnderThreadSanitizer) : usually;
+    constexpr int kMaxUnderThreadSanitizer = 12;
+    return BULLETFEM_UNDER_THREAD_SANITIZER ? std::min(usually, kMaxUnderThreadSanitizer) : usually;
 }
 
 }  // namespace bullet_fem

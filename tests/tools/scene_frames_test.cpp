@@ -44,7 +44,7 @@ const double kPolygon = 32 / (2 * kHalfTurn) * std::sin(2 * kHalfTurn / 32);
 struct ShapeVolume
 {
     const char* m_shape;
-    double m_least, m_most;  // [m3]
+    double m_min, m_max;  // [m3]
 };
 
 void PrintTo(const ShapeVolume& shape, std::ostream* out)
@@ -76,8 +76,8 @@ TEST_P(RigidSurface, IsClosedOutwardAndFollowsTheBody)
         EXPECT_GT(norm(cross(before[t[1]] - before[t[0]], before[t[2]] - before[t[0]])), 1e-9)
             << "a triangle of no area";
     const double volume = signedVolume({before, triangles});
-    EXPECT_GE(volume, GetParam().m_least * (1 - 1e-5));
-    EXPECT_LE(volume, GetParam().m_most * (1 + 1e-5));
+    EXPECT_GE(volume, GetParam().m_min * (1 - 1e-5));
+    EXPECT_LE(volume, GetParam().m_max * (1 + 1e-5));
     for (int k = 0; k < 50; ++k) world.step();
     frames.update();
     for (std::size_t i = 0; i < before.size(); ++i)

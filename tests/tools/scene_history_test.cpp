@@ -38,9 +38,9 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 class SceneHistoryTest : public testing::Test
 {
 protected:
-    void begin(int stepsBetween, std::size_t mostBytes)
+    void begin(int stepsBetween, std::size_t maxBytes)
     {
-        m_history = std::make_unique<SceneHistory>(m_run.m_world, SceneHistorySettings{stepsBetween, mostBytes});
+        m_history = std::make_unique<SceneHistory>(m_run.m_world, SceneHistorySettings{stepsBetween, maxBytes});
     }
     void steps(int count)
     {

@@ -134,7 +134,7 @@ TEST_F(SceneReader, ReadsRigidBodiesConstraintsForcesAndSprings)
     EXPECT_TRUE(hinge.m_axis == Vec3({0, 0, 1}));
     EXPECT_EQ(hinge.m_speed.at(0), 2);
     EXPECT_EQ(hinge.m_speed.at(9), 2);
-    EXPECT_EQ(hinge.m_most, 7);
+    EXPECT_EQ(hinge.m_max, 7);
 
     ASSERT_EQ(scene.m_forces.size(), 1u);
     EXPECT_EQ(scene.m_forces[0].m_body, "block");
@@ -151,7 +151,7 @@ TEST_F(SceneReader, ReadsRigidBodiesConstraintsForcesAndSprings)
     EXPECT_TRUE(spring.m_target.at(1) == Vec3({2, 2, 2}));
     EXPECT_EQ(spring.m_stiffness, 400);
     EXPECT_EQ(spring.m_damping, 5);
-    EXPECT_EQ(spring.m_most, 60);
+    EXPECT_EQ(spring.m_max, 60);
     EXPECT_EQ(spring.m_from, 0.25);
     EXPECT_EQ(spring.m_to, 2);
 
@@ -286,7 +286,7 @@ TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
     EXPECT_TRUE(scene.m_constraints[1].m_b.empty());
     EXPECT_TRUE(scene.m_constraints[1].m_axis == Vec3({0, 0, 2}));
     EXPECT_NEAR(scene.m_constraints[1].m_speed.at(1.25), 0.2, 1e-12);
-    EXPECT_EQ(scene.m_constraints[1].m_most, 9);
+    EXPECT_EQ(scene.m_constraints[1].m_max, 9);
     EXPECT_TRUE(scene.m_forces[0].m_everywhere);
     EXPECT_FALSE(scene.m_camera.m_placed);
     EXPECT_TRUE(scene.m_camera.m_direction == Vec3({1, 2, 3}));

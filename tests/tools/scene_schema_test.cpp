@@ -324,12 +324,12 @@ std::string written(const SceneDescription& scene)
     for (const SceneConstraint& constraint : scene.m_constraints)
     {
         for (const SceneCurve::Point& point : constraint.m_speed.m_points) all.push_back(point.m_value);
-        all.push_back(constraint.m_most);
+        all.push_back(constraint.m_max);
         add(constraint.m_axis);
     }
     for (const SceneForce& force : scene.m_forces) all.insert(all.end(), {force.m_from, force.m_to});
     for (const SceneSpring& spring : scene.m_springs)
-        all.insert(all.end(), {spring.m_damping, spring.m_most, spring.m_from, spring.m_to});
+        all.insert(all.end(), {spring.m_damping, spring.m_max, spring.m_from, spring.m_to});
     for (const SceneActuator& actuator : scene.m_actuators) all.push_back(actuator.m_sealedFrom);
     const ScenePictures& pictures = scene.m_pictures;
     all.insert(all.end(), {pictures.m_width, pictures.m_height, int(pictures.m_stress), int(pictures.m_forces),

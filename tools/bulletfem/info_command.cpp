@@ -24,7 +24,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kMostLabels = 20;  // of a surface that are listed: photographs have thousands of colours
+constexpr std::size_t kMaxLabels = 20;  // of a surface that are listed: photographs have thousands of colours
 
 struct InfoCommand
 {
@@ -90,13 +90,13 @@ struct InfoCommand
     }
 
     // Of a field of directions every element is a region.
-    static constexpr std::size_t kMostRegions = 20;
+    static constexpr std::size_t kMaxRegions = 20;
 
     // Volumes are those that are filled.
     void tellRegions(const BakedBody& body)
     {
         const RestShape& shape = body.m_model->shape();
-        if (shape.isOrthotropic() && shape.m_materials.m_regions.size() > kMostRegions)
+        if (shape.isOrthotropic() && shape.m_materials.m_regions.size() > kMaxRegions)
         {
             m_figures.add("law", "orthotropic");
             m_figures.add("regions", shape.m_materials.m_regions.size());
@@ -173,7 +173,7 @@ struct InfoCommand
         m_figures.add("signedVolume", signedVolume(surface), "m3, negative if inside out");
         const std::set<int> labels(surface.m_labels.begin(), surface.m_labels.end());
         m_figures.add("painted", labels.size(), "regions");
-        if (labels.size() <= kMostLabels)
+        if (labels.size() <= kMaxLabels)
             for (const int label : labels)
                 m_figures.add("region " + std::to_string(label),
                               {{"vertices", std::count(surface.m_labels.begin(), surface.m_labels.end(), label)}});

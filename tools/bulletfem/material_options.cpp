@@ -101,7 +101,7 @@ void MaterialOptions::add(CLI::App& command)
                     "rubber, foam, jelly, flesh, wood, clay, lead or mildFoam (default: E 1e6 Pa, nu .3, 1000 kg/m3)")
         ->check(CLI::IsMember({"rubber", "foam", "jelly", "flesh", "wood", "clay", "lead", "mildFoam"}));
     command.add_option("--young", m_young, "Young's modulus [Pa]")->check(inRange(1e-3, 1e13));
-    command.add_option("--poisson", m_poisson, "Poisson's ratio [-]")->check(inRange(0, Material::kMostPoissonRatio));
+    command.add_option("--poisson", m_poisson, "Poisson's ratio [-]")->check(inRange(0, Material::kMaxPoissonRatio));
     command.add_option("--density", m_density, "density [kg/m3]")->check(inRange(1e-6, 1e6));
     command.add_option("--mass-damping", m_massDamping, "Rayleigh's alpha [1/s] (default 0)")->check(inRange(0, 1e4));
     command.add_option("--stiffness-damping", m_stiffnessDamping, "Rayleigh's beta [s] (default 0.005)")

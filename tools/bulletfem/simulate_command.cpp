@@ -35,7 +35,7 @@ std::string windowHelp()
 #endif
 }
 
-constexpr std::size_t kMostFactorBytes = std::size_t(4) << 30u;  // of a mesh that is opened in the window
+constexpr std::size_t kMaxFactorBytes = std::size_t(4) << 30u;  // of a mesh that is opened in the window
 
 /// Cost and health of a run.
 struct RunFigures
@@ -164,7 +164,7 @@ struct SimulateCommand
         how.m_meshes.m_cage = m_cage.settings();
         how.m_meshes.m_bake.m_material = m_material.material();
         how.m_meshes.m_bake.m_regionMaterials = m_material.regions();
-        how.m_meshes.m_bake.m_maxBytes = kMostFactorBytes;
+        how.m_meshes.m_bake.m_maxBytes = kMaxFactorBytes;
         how.m_history = {m_historySteps, static_cast<std::size_t>(m_historyMegabytes) << 20u};
         SceneSimulation simulation(world, how);
         for (const std::string& mesh : m_meshes) simulation.open(mesh);

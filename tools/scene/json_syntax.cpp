@@ -78,7 +78,7 @@ private:
     char now() const { return isOver() ? '\0' : m_text[m_at]; }
     bool isAt(char c) const { return !isOver() && m_text[m_at] == c; }
     Place here() const { return {m_at, m_lineStart, m_line}; }
-    void goBack(const Place& place)
+    void restoreBest(const Place& place)
     {
         m_at = place.m_at;
         m_lineStart = place.m_lineStart;
@@ -150,7 +150,7 @@ private:
         {
             if (isOver())
             {
-                goBack(start);
+                restoreBest(start);
                 fail("expected '*/' after '/*', which begins a comment, found the end of the file");
             }
             advance();
@@ -200,7 +200,7 @@ private:
             const auto [earlier, isNew] = members.try_emplace(name, nameStart.m_line);
             if (!isNew)
             {
-                goBack(nameStart);
+                restoreBest(nameStart);
                 fail(message("the member ", quoted(name), " is there twice in one object, first in line ",
                              earlier->second, "; give every member once"));
             }
@@ -310,7 +310,7 @@ private:
         const std::string number = m_text.substr(start.m_at, m_at - start.m_at);
         if (isWordLetter(now()) || isAt('.')) expected("the end of the number " + number.substr(0, kLongestShown));
         if (std::isfinite(std::strtod(number.c_str(), nullptr))) return;
-        goBack(start);
+        restoreBest(start);
         fail("expected a number of at most 1.8e308, found a larger one");
     }
 

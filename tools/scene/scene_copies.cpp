@@ -11,18 +11,18 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostAlongAnAxis = 100, kMostCopies = 10000;  // of a grid [-]
-constexpr double kFarthest = 1e6;                           // coordinate of a place, as of all bodies [m]
+constexpr int kMaxAlongAnAxis = 100, kMaxCopies = 10000;  // of a grid [-]
+constexpr double kFarthest = 1e6;                         // coordinate of a place, as of all bodies [m]
 
 std::array<int, 3> readCount(const JsonCursor& at)
 {
     const std::vector<JsonCursor> items = at.items();
     if (items.size() != 3) at.expected("an array of three whole numbers");
     std::array<int, 3> count;
-    for (std::size_t i = 0; i < 3; ++i) count[i] = items[i].integer(1, kMostAlongAnAxis);
+    for (std::size_t i = 0; i < 3; ++i) count[i] = items[i].integer(1, kMaxAlongAnAxis);
     const int bodies = count[0] * count[1] * count[2];
-    if (bodies > kMostCopies)
-        at.fail("makes " + std::to_string(bodies) + " bodies; at most " + std::to_string(kMostCopies) + " are allowed");
+    if (bodies > kMaxCopies)
+        at.fail("makes " + std::to_string(bodies) + " bodies; at most " + std::to_string(kMaxCopies) + " are allowed");
     return count;
 }
 

@@ -168,7 +168,7 @@ struct SceneConstraint
     {
         anchor,  ///< nodes of a soft body in m_box, to a rigid one
         point,   ///< a ball joint at m_pivot, between two rigid bodies or one and the world
-        hinge,   ///< likewise, about m_axis, with a motor if m_most > 0
+        hinge,   ///< likewise, about m_axis, with a motor if m_max > 0
         slider   ///< likewise, along m_axis
     };
     Kind m_kind = Kind::anchor;
@@ -176,7 +176,7 @@ struct SceneConstraint
     SceneBox m_box;
     Vec3 m_pivot, m_axis{0, 1, 0};  ///< in the world at the start [m]
     SceneCurve m_speed{{{0, 0}}};   ///< of the motor [rad/s], of a slider's [m/s]
-    double m_most = 0;              ///< torque of the motor at most [N m], of a slider's its force [N]
+    double m_max = 0;               ///< torque of the motor at most [N m], of a slider's its force [N]
 };
 
 /// A force on a body while time is in [m_from, m_to).
@@ -196,7 +196,7 @@ struct SceneSpring
     Vec3 m_at;                              ///< it holds the point of the surface that starts nearest to this [m]
     SceneVectorCurve m_target;              ///< [m]
     double m_stiffness = 0, m_damping = 0;  ///< [N/m], [N s/m]
-    double m_most = 0;                      ///< force at most [N]; 0: no limit
+    double m_max = 0;                       ///< force at most [N]; 0: no limit
     double m_from = 0, m_to = 1e30;         ///< [s]
 };
 

@@ -56,7 +56,7 @@ void SceneHistory::keep()
     SceneState state = stateOf(m_world);
     m_bytes += state.bytes();
     m_states.push_back(std::move(state));
-    for (; m_bytes > m_settings.m_mostBytes; m_states.pop_front()) m_bytes -= m_states.front().bytes();
+    for (; m_bytes > m_settings.m_maxBytes; m_states.pop_front()) m_bytes -= m_states.front().bytes();
     m_shown = count() - 1;
 }
 

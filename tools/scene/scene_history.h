@@ -11,8 +11,8 @@ namespace bullet_fem
 
 struct SceneHistorySettings
 {
-    int m_stepsBetween = 10;                ///< states, >= 1
-    std::size_t m_mostBytes = 256u << 20u;  ///< for all states together [B]: the oldest go first
+    int m_stepsBetween = 10;               ///< states, >= 1
+    std::size_t m_maxBytes = 256u << 20u;  ///< for all states together [B]: the oldest go first
 };
 
 /// States of a scene that it can be put back to. It begins with the present one; memory grows up to the bound.

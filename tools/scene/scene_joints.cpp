@@ -27,7 +27,7 @@ std::unique_ptr<btTypedConstraint> makeHinge(const SceneConstraint& from, btRigi
     const btVector3 pivot = bulletVector(from.m_pivot), axis = bulletVector(from.m_axis).normalized();
     btVector3 inBody = intoBody.getBasis() * axis, inTo = intoTo.getBasis() * axis;
     auto hinge = std::make_unique<btHingeConstraint>(body, to, intoBody * pivot, intoTo * pivot, inBody, inTo);
-    if (from.m_most > 0) hinge->enableAngularMotor(true, 0, btScalar(from.m_most * step));  // an impulse
+    if (from.m_max > 0) hinge->enableAngularMotor(true, 0, btScalar(from.m_max * step));  // an impulse
     return hinge;
 }
 
@@ -37,8 +37,8 @@ std::unique_ptr<btTypedConstraint> makeSlider(const SceneConstraint& from, btRig
     const btTransform frame = frameOf(from);
     auto slider = std::make_unique<btSliderConstraint>(to, body, to.getWorldTransform().inverse() * frame,
                                                        body.getWorldTransform().inverse() * frame, true);
-    slider->setPoweredLinMotor(from.m_most > 0);
-    slider->setMaxLinMotorForce(btScalar(from.m_most));
+    slider->setPoweredLinMotor(from.m_max > 0);
+    slider->setMaxLinMotorForce(btScalar(from.m_max));
     return slider;
 }
 
@@ -83,7 +83,7 @@ void SceneJoints::apply(double middle)
     for (Joint& joint : m_joints)
     {
         const double speed = joint.m_from->m_speed.at(middle);
-        if (joint.m_from->m_most == 0 || speed == joint.m_speed) continue;  // what sleeps sleeps on
+        if (joint.m_from->m_max == 0 || speed == joint.m_speed) continue;  // what sleeps sleeps on
         setSpeed(*joint.m_joint, joint.m_from->m_kind, speed);
         joint.m_speed = speed;
     }

@@ -26,11 +26,11 @@ void readRelaxation(const JsonCursor& at, Material& material)
     {
         terms[i].onlyMembers({"share", "time"});
         PronyTerm& term = material.m_relaxation[i];
-        term.m_share = terms[i]["share"].number({0, Material::kMostRelaxedShare, true});
+        term.m_share = terms[i]["share"].number({0, Material::kMaxRelaxedShare, true});
         term.m_time = terms[i]["time"].number({1e-6, 1e9});
         sum += term.m_share;
     }
-    if (!isWithin(sum, 0, Material::kMostRelaxedShare))
+    if (!isWithin(sum, 0, Material::kMaxRelaxedShare))
         at.fail("has shares whose sum is more than 0.99; a solid keeps some");
 }
 
@@ -44,9 +44,9 @@ void readOrthotropic(const JsonCursor& at, Material& material)
         const Vec3 given = at[name].vector(range);
         values = {given.x, given.y, given.z};
     };
-    read("young", {0, Orthotropic::kMostModulus, true}, constants.m_young);
+    read("young", {0, Orthotropic::kMaxModulus, true}, constants.m_young);
     read("poisson", {-100, 100}, constants.m_poisson);  // the material knows what goes together
-    read("shear", {0, Orthotropic::kMostModulus, true}, constants.m_shear);
+    read("shear", {0, Orthotropic::kMaxModulus, true}, constants.m_shear);
     constants.m_along = Orthotropic().m_along;
     constants.m_across = Orthotropic().m_across;
     if (at.has("axes"))
@@ -92,7 +92,7 @@ Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
     if (at.has("law") && at.has("orthotropic")) at.fail("has both 'law' and 'orthotropic', which is a law; give one");
     Material material = at.has("like") ? materialCalled(at["like"], known) : defaultMaterial();
     at.read("young", {0, 1e13, true}, material.m_youngModulus);
-    at.read("poisson", {0, Material::kMostPoissonRatio}, material.m_poissonRatio);
+    at.read("poisson", {0, Material::kMaxPoissonRatio}, material.m_poissonRatio);
     at.read("density", {0, 1e6, true}, material.m_density);
     at.read("massDamping", {0, 1e4}, material.m_massDamping);
     at.read("stiffnessDamping", {0, 10}, material.m_stiffnessDamping);

@@ -14,11 +14,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMostCells = 1e6;  // along an edge; more than makeBox takes, which then says so
+constexpr double kMaxCells = 1e6;  // along an edge; more than makeBox takes, which then says so
 
 double cellsAlong(double edge, double cell)
 {
-    return std::clamp(std::round(edge / cell), 1.0, kMostCells);
+    return std::clamp(std::round(edge / cell), 1.0, kMaxCells);
 }
 
 // The cell [m] that gives a block about `tets` elements, five a cell. By bisection: thin blocks have one cell across
@@ -83,7 +83,7 @@ TetMesh ballOf(const SceneMesh& mesh)
 {
     const double radius = mesh.m_scale * mesh.m_radius;
     const double cells = mesh.m_cellSize > 0 ? 2 * radius / mesh.m_cellSize : std::cbrt(mesh.m_tets / 6.0);
-    return makeSphere(radius, static_cast<int>(std::clamp(std::round(cells), 2.0, kMostCells)));
+    return makeSphere(radius, static_cast<int>(std::clamp(std::round(cells), 2.0, kMaxCells)));
 }
 
 // Six elements a cell of the square that is mapped to the disc. The generator's z becomes y.

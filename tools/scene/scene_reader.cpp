@@ -248,7 +248,7 @@ private:
             if (!slides && at.has("force")) at["force"].fail("is given, but only a slider has one; leave it out");
             at.readDirection("axis", constraint.m_axis);
             if (at.has("speed")) constraint.m_speed = readCurve(at["speed"], kSpeed);
-            at.read(turns ? "torque" : "force", kNotNegative, constraint.m_most);
+            at.read(turns ? "torque" : "force", kNotNegative, constraint.m_max);
         }
         m_scene.m_constraints.push_back(std::move(constraint));
     }
@@ -292,7 +292,7 @@ private:
         spring.m_target = readVectorCurve(at["target"], kPlace);
         spring.m_stiffness = at["stiffness"].number(kSpringRange);
         at.read("damping", kSpringRange, spring.m_damping);
-        at.read("force", kSpringRange, spring.m_most);
+        at.read("force", kSpringRange, spring.m_max);
         readTimes(at, spring.m_from, spring.m_to);
         m_scene.m_springs.push_back(std::move(spring));
     }

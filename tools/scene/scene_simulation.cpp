@@ -323,7 +323,7 @@ std::string SceneSimulation::status() const
     }
     const std::string now = formatted("%.2f s, %d tetrahedra, %d contacts\n", m_world.time(), tets, contacts);
     const double used = double(m_history.bytes()) / kMebibyte,
-                 most = double(m_history.settings().m_mostBytes) / kMebibyte;
+                 most = double(m_history.settings().m_maxBytes) / kMebibyte;
     return now + (m_history.isPast() ? formatted("Back in time: %.2f s of %.2f s", m_world.time(), m_history.until())
                                      : formatted("Kept since %.2f s: %.1f of %.0f MiB", m_history.since(), used, most));
 }

@@ -29,7 +29,7 @@ Vec3 downOf(const Vec3& gravity)
 void scaleStiffness(Material& material, double factor)
 {
     for (auto* constants : {&material.m_orthotropic.m_young, &material.m_orthotropic.m_shear})
-        for (double& value : *constants) value = std::clamp(factor * value, 1e-3, Orthotropic::kMostModulus);
+        for (double& value : *constants) value = std::clamp(factor * value, 1e-3, Orthotropic::kMaxModulus);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ std::vector<ViewerParameter> SceneSliders::parameters() const
     const Material first = m_materials.empty() ? Material() : m_materials[0].first();
     std::vector<ViewerParameter> all(4);
     all[kYoung] = {"Young's modulus", "Pa", first.m_youngModulus, 1e3, 1e10, true};
-    all[kPoisson] = {"Poisson's ratio", "", first.m_poissonRatio, 0, Material::kMostPoissonRatio, false};
+    all[kPoisson] = {"Poisson's ratio", "", first.m_poissonRatio, 0, Material::kMaxPoissonRatio, false};
     all[kDamping] = {"Stiffness damping", "s", first.m_stiffnessDamping, 0, 0.1, false};
     all[kGravity] = {"Gravity", "m/s\u00b2", norm(m_world.description().m_gravity), 0, 30, false};
     return all;

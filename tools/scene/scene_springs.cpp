@@ -49,7 +49,7 @@ void SceneSprings::add(const std::vector<btSoftBody*>& bodies, const SceneSpring
     btFemSpring& spring = nearest.m_spring;
     spring.m_stiffness = btScalar(from.m_stiffness);
     spring.m_damping = btScalar(from.m_damping);
-    spring.m_maxForce = btScalar(from.m_most);
+    spring.m_maxForce = btScalar(from.m_max);
     m_springs.push_back({&from, nearest.m_body, spring, 0, {}});
 }
 

@@ -24,7 +24,7 @@ constexpr double kClothBand = 0.05;  // width of the contact band over the body'
 constexpr double kClothSlop = 5e-4;  // permitted penetration over the body's size [-]
 
 // Keeps the `most` contacts of smallest gap, in the order in which they were found.
-void keepNearestTouches(int most, std::vector<ClothTouch>& touches, std::vector<int>& order)
+void keepNearestTouches(int most, std::vector<ClothContact>& touches, std::vector<int>& order)
 {
     order.resize(touches.size());
     std::iota(order.begin(), order.end(), 0);
@@ -166,7 +166,7 @@ void ClothContacts::search(const FemSoftBody& fem, int maxContacts, Search& sear
     if (!m_isUsable[search.m_surface]) return;
     const ClothSurface& cloth = *m_surfaces[search.m_surface];
     const double thickness = cloth.thickness() + fem.m_contactOffset;
-    ClothTouchSearch(fem.m_surface, cloth, thickness, kClothBand * fem.m_surface.meanEdge()).find(search.m_touches);
+    ClothContactSearch(fem.m_surface, cloth, thickness, kClothBand * fem.m_surface.meanEdge()).find(search.m_touches);
     search.m_limited = static_cast<int>(search.m_touches.size()) > maxContacts;
     if (search.m_limited) keepNearestTouches(maxContacts, search.m_touches, search.m_order);
 }
@@ -191,7 +191,7 @@ void ClothContacts::append(double step, ContactProblem& problem)
     m_firstContact = problem.m_contacts.size();
     m_firstProxy = problem.m_rigidProxies.size();
     for (std::size_t k = 0; k < m_searchCount; ++k)
-        for (const ClothTouch& touch : m_searches[k]->m_touches)
+        for (const ClothContact& touch : m_searches[k]->m_touches)
             appendContact(*m_searches[k], *(*m_bodies)[m_searches[k]->m_body], touch, problem);
     m_contactCount = m_holds.size();
     for (std::size_t k = 0; k < m_searchCount; ++k) appendJoints(*m_searches[k], step, problem);
@@ -213,7 +213,7 @@ int ClothContacts::appendProxy(const Hold& hold, const Vec3& at, ContactProblem&
 
 // The impulse acts on both sides at the cloth's point, since the cloth's proxy has no other moment arm. Cloth nodes
 // that are attached to the body have no contact with it.
-void ClothContacts::appendContact(const Search& search, const FemSoftBody& fem, const ClothTouch& touch,
+void ClothContacts::appendContact(const Search& search, const FemSoftBody& fem, const ClothContact& touch,
                                   ContactProblem& problem)
 {
     const ClothSurface& cloth = *m_surfaces[search.m_surface];

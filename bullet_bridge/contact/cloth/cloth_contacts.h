@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/contact/cloth/cloth_contact_search.h"
 #include "bullet_bridge/contact/cloth/cloth_surface.h"
-#include "bullet_bridge/contact/cloth/cloth_touch_search.h"
 #include "bullet_fem/fem/contact/contact_solver.h"
 
 class btSoftBody;
@@ -85,7 +85,7 @@ private:
     {
         int m_body, m_surface;
         bool m_mayTouch, m_limited;
-        std::vector<ClothTouch> m_touches;
+        std::vector<ClothContact> m_touches;
         std::vector<int> m_order;
     };
     struct Hold  // one proxy: a contact, or the joint of an attachment
@@ -109,7 +109,8 @@ private:
     void listSearches(const std::vector<FemSoftBody*>& bodies);
     int surfaceOf(const Pair& pair);
     void search(const FemSoftBody& fem, int maxContacts, Search& search) const;
-    void appendContact(const Search& search, const FemSoftBody& fem, const ClothTouch& touch, ContactProblem& problem);
+    void appendContact(const Search& search, const FemSoftBody& fem, const ClothContact& touch,
+                       ContactProblem& problem);
     void appendJoints(const Search& search, double step, ContactProblem& problem);
     int appendProxy(const Hold& hold, const Vec3& at, ContactProblem& problem);
     void listUses();

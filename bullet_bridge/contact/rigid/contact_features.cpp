@@ -15,7 +15,7 @@ namespace
 
 int triangleOfCorner(const FemSoftBody& fem, int feature)
 {
-    return (feature - firstCornerFeature(fem)) / kMostCorners;
+    return (feature - firstCornerFeature(fem)) / kMaxCorners;
 }
 
 }  // namespace

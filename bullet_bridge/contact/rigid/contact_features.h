@@ -8,7 +8,7 @@ namespace bullet_fem
 {
 
 /// Largest number of corners of a polyhedron: each triangle has as many feature numbers.
-constexpr int kMostCorners = 32;
+constexpr int kMaxCorners = 32;
 
 /// Number of the first feature that stands for a corner of a shape over a triangle; see ContactOrigin::m_feature.
 int firstCornerFeature(const FemSoftBody& fem);

@@ -11,18 +11,18 @@
 namespace bullet_fem
 {
 
-void recordTouching(FemSoftBody& fem, const btCollisionObject& object)
+void recordOverlap(FemSoftBody& fem, const btCollisionObject& object)
 {
-    const std::lock_guard<std::mutex> lock(fem.m_touchingMutex);
-    if (std::find(fem.m_touching.begin(), fem.m_touching.end(), &object) == fem.m_touching.end())
-        fem.m_touching.push_back(&object);
+    const std::lock_guard<std::mutex> lock(fem.m_overlapMutex);
+    if (std::find(fem.m_overlapping.begin(), fem.m_overlapping.end(), &object) == fem.m_overlapping.end())
+        fem.m_overlapping.push_back(&object);
 }
 
-void recordTouching(FemSoftBody& fem, const btSoftBody& other)
+void recordOverlap(FemSoftBody& fem, const btSoftBody& other)
 {
-    const std::lock_guard<std::mutex> lock(fem.m_touchingMutex);
-    if (std::find(fem.m_touchingSoft.begin(), fem.m_touchingSoft.end(), &other) == fem.m_touchingSoft.end())
-        fem.m_touchingSoft.push_back(&other);
+    const std::lock_guard<std::mutex> lock(fem.m_overlapMutex);
+    if (std::find(fem.m_overlappingSoft.begin(), fem.m_overlappingSoft.end(), &other) == fem.m_overlappingSoft.end())
+        fem.m_overlappingSoft.push_back(&other);
 }
 
 ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const RigidSurroundings& around)
@@ -42,7 +42,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     for (const ContactTarget& target : m_targets.targets()) findWithinStep(target);
     thin(around);
     report.m_limited = keepNearest(around.m_maxContacts, m_found.points(), m_found.origins(), m_order);
-    m_matcher.takeOverImpulses(m_scope, m_found);
+    m_matcher.transferImpulses(m_scope, m_found);
     fem.m_contacts.assign(m_found.points().begin(), m_found.points().end());
     fem.m_origins.assign(m_found.origins().begin(), m_found.origins().end());
     fem.m_sheetSides.assign(m_sheets.sides().begin(), m_sheets.sides().end());
@@ -83,13 +83,13 @@ void ContactFinder::findWithinStep(const ContactTarget& target)
 // Reserves for contacts that may come, so that steps with no more contacts than before do not allocate.
 void ContactFinder::reserve()
 {
-    constexpr std::size_t kLeast = 64;  // contacts
-    const std::size_t room = std::max(kLeast, 2 * m_near.size());
+    constexpr std::size_t kMin = 64;  // contacts
+    const std::size_t room = std::max(kMin, 2 * m_near.size());
     m_near.reserve(room);
     m_found.reserve(room);
     m_filter.reserve(room);
-    m_targets.reserve(kLeast);
-    m_nodes.reserve(kLeast);
+    m_targets.reserve(kMin);
+    m_nodes.reserve(kMin);
 }
 
 // Thins the contacts by their gaps at the end of the step, predicted with the last step's velocities: the free motion

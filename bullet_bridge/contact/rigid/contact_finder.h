@@ -19,9 +19,9 @@ struct ContactSearchReport
 };
 
 /// Records that Bullet's broad phase found the two overlapping, once. May be called by several threads at once.
-void recordTouching(FemSoftBody& fem, const btCollisionObject& object);
+void recordOverlap(FemSoftBody& fem, const btCollisionObject& object);
 /// Records an overlap with another FEM body, on one body of the pair, once. May be called by several threads at once.
-void recordTouching(FemSoftBody& fem, const btSoftBody& other);
+void recordOverlap(FemSoftBody& fem, const btSoftBody& other);
 
 /// Finds the contacts of a FEM body's surface with the recorded objects, present or possible within the step.
 /// Features: every shape is tested with surface nodes. Convex shapes are also tested with midpoints of edges and

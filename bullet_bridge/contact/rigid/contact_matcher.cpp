@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastLikeness = -2;  // smallest similarity of a contact to one of the last step; 1: equal
+constexpr double kMinLikeness = -2;  // smallest similarity of a contact to one of the last step; 1: equal
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void ContactMatcher::begin(const FemSoftBody& fem)
     }
 }
 
-void ContactMatcher::takeOverImpulses(const SearchScope& scope, ContactList& list)
+void ContactMatcher::transferImpulses(const SearchScope& scope, ContactList& list)
 {
     const FemSoftBody& fem = scope.fem();
     const std::vector<ContactOrigin>& origins = list.origins();
@@ -37,7 +37,7 @@ void ContactMatcher::takeOverImpulses(const SearchScope& scope, ContactList& lis
     for (std::size_t k = 0; k < origins.size(); ++k)
     {
         const auto range = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), origins[k]);
-        double best = kLeastLikeness;
+        double best = kMinLikeness;
         std::size_t before = fem.m_origins.size();
         for (auto old = range.first; old != range.second; ++old)
         {
@@ -73,8 +73,8 @@ void ContactMatcher::inheritImpulses(const FemSoftBody& fem, ContactList& list)
             m_transfer.addLost(old.m_soft.of(fem.m_body.m_state.m_x), old.m_normal, old.m_impulse);
         }
         while (k < origins.size() && idOf(origins[k]) < id) ++k;
-        for (; k < origins.size() && idOf(origins[k]) == id; ++k) m_transfer.addHeir(list.points()[k], 1);
-        m_transfer.settle(fem.m_body.m_model->mesh().meanEdgeLength());
+        for (; k < origins.size() && idOf(origins[k]) == id; ++k) m_transfer.addCandidate(list.points()[k], 1);
+        m_transfer.assign(fem.m_body.m_model->mesh().meanEdgeLength());
     }
 }
 

@@ -24,7 +24,7 @@ public:
     /// Takes over the impulses of the last step's contacts, sorted by origin as the list is. If a feature has several
     /// contacts with a leaf, the one of most similar normal and position is taken. Impulses of contacts that are gone
     /// go to new contacts nearby.
-    void takeOverImpulses(const SearchScope& scope, ContactList& list);
+    void transferImpulses(const SearchScope& scope, ContactList& list);
 
 private:
     void inheritImpulses(const FemSoftBody& fem, ContactList& list);

@@ -73,7 +73,7 @@ void SearchScope::begin(FemSoftBody& fem, int bodyIndex)
 }
 
 // Bullet has moved kinematic objects already, while their leaves are at the start of the step: moves the proxy back.
-const RigidProxy& ContactTargets::asTheStepBegan(const TouchedObject& touched, const RigidSurroundings& around)
+const RigidProxy& ContactTargets::asTheStepBegan(const ContactObject& touched, const RigidSurroundings& around)
 {
     const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
     if (!touched.m_object->isKinematicObject()) return rigidProxy;
@@ -96,7 +96,7 @@ void ContactTargets::list(SearchScope& scope, const RigidSurroundings& around)
                              around.m_step * (fem.m_skin ? fastestVertex(fem, Vec3()) : scope.m_fastest);
     for (int k = 0; k < around.m_count; ++k)
     {
-        const TouchedObject& touched = around.m_touched[k];
+        const ContactObject& touched = around.m_touched[k];
         const RigidProxy& rigidProxy = asTheStepBegan(touched, around);
         const SurfacePair surface = surfacePairOf(*fem.m_softBody, *touched.m_object);
         for (int l = 0; l < touched.m_leafCount; ++l)

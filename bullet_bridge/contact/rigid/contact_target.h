@@ -22,7 +22,7 @@ struct CarryingPlane
 };
 
 /// An object near a body, as input of the contact search.
-struct TouchedObject
+struct ContactObject
 {
     const btCollisionObject* m_object;
     int m_rigidProxy;              ///< index of its rigid proxy
@@ -34,7 +34,7 @@ struct TouchedObject
 /// Input of a body's contact search.
 struct RigidSurroundings
 {
-    const TouchedObject* m_touched;  ///< objects near the body, by ascending broadphase id, m_count of them
+    const ContactObject* m_touched;  ///< objects near the body, by ascending broadphase id, m_count of them
     int m_count;
     const btAlignedObjectArray<ShapeLeaf>& m_leaves;
     const std::vector<RigidProxy>& m_rigidProxies;
@@ -88,7 +88,7 @@ public:
     void reserve(std::size_t targets) { m_targets.reserve(targets); }
 
 private:
-    const RigidProxy& asTheStepBegan(const TouchedObject& touched, const RigidSurroundings& around);
+    const RigidProxy& asTheStepBegan(const ContactObject& touched, const RigidSurroundings& around);
 
     std::vector<ContactTarget> m_targets;
     std::vector<RigidProxy> m_starts;  // proxies of kinematic objects as the step begins

@@ -10,11 +10,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kLeastStep = 0.25;  // smallest height of a step above a carrier, over the lift; lower ones are flush
-constexpr double kApart = 0.05;      // gap of separated surfaces, over the lift; resting ones have less
-constexpr double kFlushReach = 4;    // radius of the search for a wall near a lifted point, over the lift
-constexpr double kSunk = 0.2;        // depth to which objects sink into soft bodies that carry them, over the mean edge
-constexpr double kAlikeCosine = 0.7;       // smallest cosine of normals of surfaces that carry together
+constexpr double kMinStep = 0.25;  // smallest height of a step above a carrier, over the lift; lower ones are flush
+constexpr double kApart = 0.05;    // gap of separated surfaces, over the lift; resting ones have less
+constexpr double kFlushReach = 4;  // radius of the search for a wall near a lifted point, over the lift
+constexpr double kSunk = 0.2;      // depth to which objects sink into soft bodies that carry them, over the mean edge
+constexpr double kCarrierCosine = 0.7;     // smallest cosine of normals of surfaces that carry together
 constexpr double kParallelCosine = 0.999;  // smallest cosine of normals of one surface
 
 // Number of the surface of contact k: a convex shape, or one triangle of a sheet.
@@ -84,9 +84,9 @@ bool FlushFilter::isFlushWithCarriers(const SearchScope& scope, const Candidate&
             const double cosine = dot(contact.m_normal, c.m_normal);
             if (flush || c.m_surface == candidate.m_surface || cosine < kOpposedCosine || cosine > kParallelCosine)
                 return;
-            flush = cosine < kAlikeCosine
+            flush = cosine < kCarrierCosine
                         ? isFlushWith(candidate.m_target, contact, x - c.m_gap * c.m_normal, c.m_normal)
-                        : isPassed(scope, candidate);
+                        : isBehindPath(scope, candidate);
         };
         m_carried.forEach(candidate.m_corners[a], check);
     }
@@ -99,7 +99,7 @@ bool isBesideCarryingPlane(const SearchScope& scope, const ContactTarget& target
     const CarryingPlane& plane = *target.m_carrying;
     if (!plane.m_exists) return false;
     const double cosine = dot(normal, plane.m_normal);
-    return cosine > kOpposedCosine && cosine < (gap > 0 ? kParallelCosine : kAlikeCosine) &&
+    return cosine > kOpposedCosine && cosine < (gap > 0 ? kParallelCosine : kCarrierCosine) &&
            plane.m_distance - dot(plane.m_normal, point) < kSunk * scope.m_edge;
 }
 
@@ -111,11 +111,11 @@ bool FlushFilter::isFlushWith(const ContactTarget& target, const ContactPoint& c
     const Vec3 lifted = contact.m_point + std::max(0.0, m_carried.lift() - height) * normal;
     Vec3 nearest;
     if (!nearestOn(target, lifted, contact, nearest)) return true;
-    return dot(normal, nearest - onPlane) < kLeastStep * m_carried.lift();
+    return dot(normal, nearest - onPlane) < kMinStep * m_carried.lift();
 }
 
 // True if a contact is separated now, and will be at the point to which the other carriers lead.
-bool FlushFilter::isPassed(const SearchScope& scope, const Candidate& candidate)
+bool FlushFilter::isBehindPath(const SearchScope& scope, const Candidate& candidate)
 {
     const FemSoftBody& fem = scope.fem();
     const ContactTarget& target = candidate.m_target;
@@ -150,7 +150,7 @@ bool FlushFilter::nearestOn(const ContactTarget& target, const Vec3& point, cons
     double distance = reach;
     for (const SoupTriangle& triangle : m_soup.triangles())
     {
-        if (std::fabs(dot(triangle.m_normal, contact.m_normal)) < kAlikeCosine) continue;
+        if (std::fabs(dot(triangle.m_normal, contact.m_normal)) < kCarrierCosine) continue;
         const Vec3 on = bullet_fem::nearestOn(triangle, point).m_point;
         if (!(norm(point - on) < distance)) continue;
         distance = norm(point - on);

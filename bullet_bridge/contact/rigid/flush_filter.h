@@ -41,7 +41,7 @@ private:
 
     void addCarriers(const SearchScope& scope, const std::vector<ContactTarget>& targets, const ContactList& near);
     bool isFlushWithCarriers(const SearchScope& scope, const Candidate& candidate);
-    bool isPassed(const SearchScope& scope, const Candidate& candidate);
+    bool isBehindPath(const SearchScope& scope, const Candidate& candidate);
     bool isFlushWith(const ContactTarget& target, const ContactPoint& contact, const Vec3& onPlane, const Vec3& normal);
     bool nearestOn(const ContactTarget& target, const Vec3& point, const ContactPoint& contact, Vec3& nearest);
 

@@ -59,7 +59,7 @@ void forEachCornerOver(const SearchScope& scope, const ContactTarget& target, co
     const btCollisionShape& shape = *target.m_shape->m_shape;
     if (!shape.isPolyhedral()) return;
     const auto& polyhedron = static_cast<const btPolyhedralConvexShape&>(shape);
-    if (polyhedron.getNumVertices() > kMostCorners) return;
+    if (polyhedron.getNumVertices() > kMaxCorners) return;
     const std::vector<Vec3>& x = fem.surfacePosition();
     const Corners corners = {x[t[0]], x[t[1]], x[t[2]]};
     const Vec3 normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
@@ -86,7 +86,7 @@ bool isUnderCorner(const SearchScope& scope, const ContactTarget& target, const 
 // True if no point of the edge or triangle is within reach.
 bool isFar(const SearchScope& scope, const ContactTarget& target, const Triangle& nodes)
 {
-    return scope.m_culling.leastGap(nodes) > target.m_reach + kGradientSlack * scope.m_edge;
+    return scope.m_culling.minGap(nodes) > target.m_reach + kGradientSlack * scope.m_edge;
 }
 
 // Gap at a point of the surface; infinite if it is out of reach.
@@ -212,7 +212,7 @@ void NodeSearch::findOnCorners(const SearchScope& scope, const ContactTarget& ta
         const Triangle& t = fem.m_surface.triangles()[triangle];
         forEachCornerOver(scope, target, t,
                           [&](int corner, const SurfaceDistance& d)
-                          { list.consider(scope, target, firstFeature + kMostCorners * triangle + corner, t, d); });
+                          { list.consider(scope, target, firstFeature + kMaxCorners * triangle + corner, t, d); });
     }
 }
 
@@ -225,7 +225,7 @@ double NodeSearch::considerNearest(const SearchScope& scope, const ContactTarget
 {
     const FemSoftBody& fem = scope.fem();
     const std::vector<Vec3>& x = fem.surfacePosition();
-    if (scope.m_culling.leastGap(nodes) - fem.m_contactOffset >= nearest - kGapRounding * scope.m_edge) return nearest;
+    if (scope.m_culling.minGap(nodes) - fem.m_contactOffset >= nearest - kGapRounding * scope.m_edge) return nearest;
     SurfaceDistance d;
     if (!triangleShapeDistance(*target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_reach, d))
         return nearest;

@@ -74,7 +74,7 @@ RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders
 void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts,
                        RigidProxies& rigidProxies)
 {
-    m_touching.clear();
+    m_overlapping.clear();
     m_touched.clear();
     m_shapes.clear();
     m_leaves.resizeNoInitialize(0);
@@ -83,13 +83,13 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
         removeGone(*bodies[b], static_cast<int>(b));
-        listTouched(*bodies[b], step, rigidProxies);
+        listContacts(*bodies[b], step, rigidProxies);
     }
     m_reports.assign(bodies.size(), {});
 
     const auto findOf = [&](ContactFinder& finder, std::size_t b)
     {
-        const Touching& touching = m_touching[b];
+        const Overlap& touching = m_overlapping[b];
         FemSoftBody& fem = *bodies[b];
         if (touching.m_count > 0) fem.m_meanMotion = meanMotion(fem.m_body);
         m_reports[b] = finder.find(*bodies[b], static_cast<int>(b),
@@ -101,10 +101,10 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
                   {
                       const std::size_t end = bodies.size() * (part + 1) / kParts;
                       for (std::size_t b = bodies.size() * part / kParts; b < end; ++b)
-                          if (!m_touching[b].m_alone) findOf(m_finders[part], b);
+                          if (!m_overlapping[b].m_alone) findOf(m_finders[part], b);
                   });
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (m_touching[b].m_alone) findOf(m_finders.front(), b);
+        if (m_overlapping[b].m_alone) findOf(m_finders.front(), b);
 }
 
 // Lists the bodies' overlaps in Bullet's broad phase with other objects. Pairs are compared by address: objects that
@@ -120,11 +120,11 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
         const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(object, 0));
         return at != m_byAddress.end() && at->first == object ? at->second : -1;
     };
-    m_overlapping.clear();
+    m_overlappingPairs.clear();
     m_broadphases.clear();
     for (const FemSoftBody* fem : bodies)
     {
-        btBroadphaseInterface* broadphase = fem->m_touching.empty() ? nullptr : broadphaseOf(*fem);
+        btBroadphaseInterface* broadphase = fem->m_overlapping.empty() ? nullptr : broadphaseOf(*fem);
         if (!broadphase || std::find(m_broadphases.begin(), m_broadphases.end(), broadphase) != m_broadphases.end())
             continue;
         m_broadphases.push_back(broadphase);
@@ -133,11 +133,11 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
         {
             const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
             const int first = indexOf(a), second = indexOf(b);
-            if (first >= 0 && second < 0) m_overlapping.emplace_back(first, b);
-            if (second >= 0 && first < 0) m_overlapping.emplace_back(second, a);
+            if (first >= 0 && second < 0) m_overlappingPairs.emplace_back(first, b);
+            if (second >= 0 && first < 0) m_overlappingPairs.emplace_back(second, a);
         }
     }
-    std::sort(m_overlapping.begin(), m_overlapping.end());
+    std::sort(m_overlappingPairs.begin(), m_overlappingPairs.end());
 }
 
 // Sums up the impulses by which soft bodies carried each object in the last step.
@@ -197,16 +197,17 @@ void RigidSearch::removeGone(FemSoftBody& fem, int body) const
 {
     if (!broadphaseOf(fem)) return;
     const auto isGone = [&](const void* object)
-    { return !std::binary_search(m_overlapping.begin(), m_overlapping.end(), std::make_pair(body, object)); };
-    fem.m_touching.erase(std::remove_if(fem.m_touching.begin(), fem.m_touching.end(), isGone), fem.m_touching.end());
+    { return !std::binary_search(m_overlappingPairs.begin(), m_overlappingPairs.end(), std::make_pair(body, object)); };
+    fem.m_overlapping.erase(std::remove_if(fem.m_overlapping.begin(), fem.m_overlapping.end(), isGone),
+                            fem.m_overlapping.end());
 }
 
-void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidProxies& rigidProxies)
+void RigidSearch::listContacts(FemSoftBody& fem, double step, RigidProxies& rigidProxies)
 {
-    std::sort(fem.m_touching.begin(), fem.m_touching.end(),
+    std::sort(fem.m_overlapping.begin(), fem.m_overlapping.end(),
               [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
-    Touching touching = {static_cast<int>(m_touched.size()), static_cast<int>(fem.m_touching.size()), false};
-    for (const btCollisionObject* object : fem.m_touching)
+    Overlap touching = {static_cast<int>(m_touched.size()), static_cast<int>(fem.m_overlapping.size()), false};
+    for (const btCollisionObject* object : fem.m_overlapping)
     {
         const int rigidProxy = rigidProxies.indexForContact(*object, step, fem.m_body);
         const ShapeRange& shape = shapeOf(*object, rigidProxy, step, rigidProxies);
@@ -214,7 +215,7 @@ void RigidSearch::listTouched(FemSoftBody& fem, double step, RigidProxies& rigid
         m_touched.push_back({object, rigidProxy, shape.m_first, shape.m_count, shape.m_unknown,
                              carryingPlaneOf(*object, rigidProxies.rigidProxies()[rigidProxy], step)});
     }
-    m_touching.push_back(touching);
+    m_overlapping.push_back(touching);
 }
 
 // True if a program's own concave shape reports triangles: it need not, as Bullet's height fields do not. A shape that

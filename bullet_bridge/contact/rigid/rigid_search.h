@@ -35,7 +35,7 @@ private:
     static constexpr int kParts = 32;  // chunks of the bodies, whatever the number of threads
 
     /// The objects near a body, listed on one thread: rigid proxies are made at their first use.
-    struct Touching
+    struct Overlap
     {
         int m_first, m_count;  // range of m_touched
         bool m_alone;          // a shape must be asked on one thread only
@@ -50,7 +50,7 @@ private:
     CarryingPlane carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy, double step) const;
     void listOverlapping(const std::vector<FemSoftBody*>& bodies);
     void removeGone(FemSoftBody& fem, int body) const;
-    void listTouched(FemSoftBody& fem, double step, RigidProxies& rigidProxies);
+    void listContacts(FemSoftBody& fem, double step, RigidProxies& rigidProxies);
     const ShapeRange& shapeOf(const btCollisionObject& object, int rigidProxy, double step,
                               const RigidProxies& rigidProxies);
 
@@ -70,16 +70,16 @@ private:
 
     const Threads& m_threads;
     std::vector<ContactFinder> m_finders;
-    std::vector<Touching> m_touching;      // one per body
-    std::vector<TouchedObject> m_touched;  // body by body
+    std::vector<Overlap> m_overlapping;    // one per body
+    std::vector<ContactObject> m_touched;  // body by body
     std::vector<ShapeRange> m_shapes;      // one per rigid proxy
     btAlignedObjectArray<ShapeLeaf> m_leaves;
     std::vector<const btCollisionShape*> m_giving;  // a program's own shapes that have reported triangles, ascending
     std::vector<Carried> m_carried;                 // by object, ascending
     std::vector<ContactSearchReport> m_reports;
-    std::vector<std::pair<const void*, int>> m_byAddress;     // bodies by address, ascending
-    std::vector<const btBroadphaseInterface*> m_broadphases;  // the bodies' broad phases, each once
-    std::vector<std::pair<int, const void*>> m_overlapping;   // bodies and the objects that they overlap, ascending
+    std::vector<std::pair<const void*, int>> m_byAddress;         // bodies by address, ascending
+    std::vector<const btBroadphaseInterface*> m_broadphases;      // the bodies' broad phases, each once
+    std::vector<std::pair<int, const void*>> m_overlappingPairs;  // bodies and the objects that they overlap, ascending
 };
 
 }  // namespace bullet_fem

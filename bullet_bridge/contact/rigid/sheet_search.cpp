@@ -138,8 +138,8 @@ void SheetSearch::findOnNodes(const Sheets& sheets, const std::vector<Vec3>& hel
         const Vec3& x = fem.surfacePosition()[i];
         const SheetProbe probe = {x, rightSideOf(sheets, i, x, heldNormal[i]), wayOf(fem, target, i),
                                   sheets.m_scope.m_band, sheets.m_thickness};
-        findPointTouches(m_soup, probe, m_touches);
-        considerTouches(sheets, i, {i, i, i}, list);
+        findPointContacts(m_soup, probe, m_touches);
+        considerContacts(sheets, i, {i, i, i}, list);
         const Pose& pose = target.m_shape->m_pose;
         m_sides.push_back(
             {objectId, target.m_leaf, i, pose.toLocal(probe.m_position), pose.toLocal(probe.m_rightSide)});
@@ -189,15 +189,15 @@ void SheetSearch::considerPath(const Sheets& sheets, const TurnedNode& turned, c
                               sheets.m_thickness};
     const auto considerBut = [&](const auto& isKnown)
     {
-        for (SheetTouch& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
+        for (SheetContact& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
         m_touches.erase(std::remove_if(m_touches.begin(), m_touches.end(), isKnown), m_touches.end());
-        considerTouches(sheets, node, {node, node, node}, list);
+        considerContacts(sheets, node, {node, node, node}, list);
     };
-    findPointTouches(m_soup, probe, m_touches);
-    considerBut([band](const SheetTouch& touch) { return touch.m_surface.m_gap <= band; });
-    findTouchesAtEnd(m_soup, probe, m_touches);
+    findPointContacts(m_soup, probe, m_touches);
+    considerBut([band](const SheetContact& touch) { return touch.m_surface.m_gap <= band; });
+    findContactsAtEnd(m_soup, probe, m_touches);
     considerBut(
-        [&](const SheetTouch& touch)
+        [&](const SheetContact& touch)
         {
             return std::any_of(list.points().begin() + static_cast<std::ptrdiff_t>(turned.m_first), list.points().end(),
                                [&](const ContactPoint& known)
@@ -224,8 +224,8 @@ void SheetSearch::findOnTriangles(const Sheets& sheets, ContactList& list)
         feature.m_reach = sheets.m_scope.m_band + closing;
         feature.m_depth = kFeatureDepth * sheets.m_scope.m_edge;
         feature.m_thickness = sheets.m_thickness;
-        findCornerTouches(m_soup, feature, m_touches);
-        considerTouches(sheets, firstFeature + static_cast<int>(k), t, list);
+        findCornerContacts(m_soup, feature, m_touches);
+        considerContacts(sheets, firstFeature + static_cast<int>(k), t, list);
     }
 }
 
@@ -250,14 +250,14 @@ void SheetSearch::findOnEdges(const Sheets& sheets, ContactList& list)
                      alongCone(wayOf(sheets.m_scope.fem(), sheets.m_target, b), feature.m_outward, cosine));
         feature.m_depth = kFeatureDepth * sheets.m_scope.m_edge;
         feature.m_thickness = sheets.m_thickness;
-        findEdgeTouches(m_soup, feature, m_touches);
-        considerTouches(sheets, firstFeature + static_cast<int>(k), {a, b, a}, list);
+        findEdgeContacts(m_soup, feature, m_touches);
+        considerContacts(sheets, firstFeature + static_cast<int>(k), {a, b, a}, list);
     }
 }
 
-void SheetSearch::considerTouches(const Sheets& sheets, int feature, const Triangle& nodes, ContactList& list)
+void SheetSearch::considerContacts(const Sheets& sheets, int feature, const Triangle& nodes, ContactList& list)
 {
-    for (const SheetTouch& touch : m_touches)
+    for (const SheetContact& touch : m_touches)
     {
         const std::size_t before = list.size();
         list.consider(sheets.m_scope, sheets.m_target, feature, nodes, touch.m_surface);

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "bullet_bridge/contact/rigid/flush_filter.h"
-#include "bullet_bridge/contact/rigid/sheet_touch.h"
+#include "bullet_bridge/contact/rigid/sheet_contact.h"
 
 namespace bullet_fem
 {
 
-/// Contacts of a body's surface with sheets of two-sided triangles (sheet_touch.h). A node stays on the side that it
+/// Contacts of a body's surface with sheets of two-sided triangles (sheet_contact.h). A node stays on the side that it
 /// came from, which is remembered while it is near. A node without a history is on its present side; if it is less than
 /// the contact band beyond a sheet, it is on the side of its body. Scratch grows with the surface and the number of
 /// triangles, never shrinks.
@@ -57,10 +57,10 @@ private:
     Vec3 safePosition(const Sheets& sheets, int node, const Vec3& position) const;
     Vec3 rightSideOf(const Sheets& sheets, int node, const Vec3& position, const Vec3& heldNormal) const;
     void considerPath(const Sheets& sheets, const TurnedNode& turned, const CarriedMotion& carried, ContactList& list);
-    void considerTouches(const Sheets& sheets, int feature, const Triangle& nodes, ContactList& list);
+    void considerContacts(const Sheets& sheets, int feature, const Triangle& nodes, ContactList& list);
 
     TriangleSoup m_soup;
-    std::vector<SheetTouch> m_touches;
+    std::vector<SheetContact> m_touches;
     std::vector<SheetSide> m_sides;
     std::vector<Vec3> m_outward;      // unit normals of the nodes
     std::vector<Vec3> m_edgeOutward;  // per edge, sum of the unit normals of both triangles

@@ -52,7 +52,7 @@ bool SurfaceCulling::noteVertex(int vertex, const Vec3& start, const Vec3& end)
 
 // Lower bound of the gap on a triangle. The gap f to a convex shape is convex: f(p) >= f(x) + grad f(x) . (p - x), and
 // the right side is smallest in a corner.
-double SurfaceCulling::leastGap(int vertex, const Triangle& t) const
+double SurfaceCulling::minGap(int vertex, const Triangle& t) const
 {
     double least = 0;
     for (int i : t)
@@ -60,10 +60,10 @@ double SurfaceCulling::leastGap(int vertex, const Triangle& t) const
     return m_gaps[vertex].m_gap + least;
 }
 
-double SurfaceCulling::leastGap(const Triangle& t) const
+double SurfaceCulling::minGap(const Triangle& t) const
 {
-    const double least = std::max(leastGap(t[0], t), leastGap(t[1], t));
-    return t[2] == t[0] ? least : std::max(least, leastGap(t[2], t));
+    const double least = std::max(minGap(t[0], t), minGap(t[1], t));
+    return t[2] == t[0] ? least : std::max(least, minGap(t[2], t));
 }
 
 }  // namespace bullet_fem

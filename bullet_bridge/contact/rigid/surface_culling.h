@@ -50,7 +50,7 @@ public:
 
     /// Lower bound of the gap between a triangle or edge and the shape [m] from the noted gaps, up to errors of their
     /// gradients.
-    double leastGap(const Triangle& t) const;
+    double minGap(const Triangle& t) const;
 
 private:
     struct Gap
@@ -58,7 +58,7 @@ private:
         double m_gap;
         Vec3 m_normal;
     };
-    double leastGap(int vertex, const Triangle& t) const;
+    double minGap(int vertex, const Triangle& t) const;
 
     const std::vector<Vec3>* m_x = nullptr;
     Vec3 m_low, m_high;  // of the surface

@@ -13,10 +13,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSameFace = 0.5;       // smallest cosine of the angle between normals of one patch
-constexpr double kTouches = 0.01;       // largest gap of a touching point without an impulse, over the mean edge
-constexpr double kLeastInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
-                                        // spin
+constexpr double kSameFace = 0.5;     // smallest cosine of the angle between normals of one patch
+constexpr double kTouches = 0.01;     // largest gap of a touching point without an impulse, over the mean edge
+constexpr double kMinInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
+                                      // spin
 
 double coefficient(double ofObject, double ofBody, const FemSoftBody& fem, const btCollisionObject& object)
 {
@@ -125,7 +125,7 @@ void TorsionalPatches::appendPatch(int body, const Pair& pair, int patch, Contac
         inertia += Mat3::diagonal(dot(d, d)) - outer(d, d);
     }
     if (!(trace(inertia) > 0)) return;
-    const Mat3 inverseInertia = inverse(inertia + Mat3::diagonal(kLeastInertia * trace(inertia)));
+    const Mat3 inverseInertia = inverse(inertia + Mat3::diagonal(kMinInertia * trace(inertia)));
     TorsionalFriction torsion;
     torsion.m_body = body;
     torsion.m_first = static_cast<int>(problem.m_handleNodes.size());

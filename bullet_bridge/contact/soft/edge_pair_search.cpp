@@ -75,9 +75,9 @@ bool isCrossed(const SoftSurface& surface, int edge, const Vec3& from, const Vec
 
 }  // namespace
 
-void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, const TouchReach& reach,
+void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, const ContactReach& reach,
                           const NodesFound& nodes, const std::vector<EdgePair>& held,
-                          std::vector<SurfaceTouch>& touches)
+                          std::vector<SurfaceContact>& touches)
 {
     m_first = &first;
     m_second = &second;
@@ -89,9 +89,9 @@ void EdgePairSearch::find(const SoftSurface& first, const SoftSurface& second, c
         for (const NearRidges::Run& runB : m_ridgesB.runs())
             if (mayTouch(runA.m_box, runB.m_box)) tryRuns(runA, runB, nodes);
     for (const EdgePair& pair : held) tryHeld(pair, nodes);
-    const auto key = [](const SurfaceTouch& touch) { return std::pair(touch.m_feature, touch.m_otherFeature); };
+    const auto key = [](const SurfaceContact& touch) { return std::pair(touch.m_feature, touch.m_otherFeature); };
     std::sort(touches.begin() + begin, touches.end(),
-              [&](const SurfaceTouch& a, const SurfaceTouch& b) { return key(a) < key(b); });
+              [&](const SurfaceContact& a, const SurfaceContact& b) { return key(a) < key(b); });
 }
 
 bool EdgePairSearch::areClose(const Pair& pair) const

@@ -32,8 +32,8 @@ class EdgePairSearch
 public:
     /// Appends contacts, ascending by edge of `first`, then of `second`; equal surfaces mean self contact. `held`:
     /// pairs that pushed in the last step.
-    void find(const SoftSurface& first, const SoftSurface& second, const TouchReach& reach, const NodesFound& nodes,
-              const std::vector<EdgePair>& held, std::vector<SurfaceTouch>& touches);
+    void find(const SoftSurface& first, const SoftSurface& second, const ContactReach& reach, const NodesFound& nodes,
+              const std::vector<EdgePair>& held, std::vector<SurfaceContact>& touches);
 
 private:
     struct Pair
@@ -66,10 +66,10 @@ private:
     void emit(const Pair& pair, const Crossing& crossing);
 
     const SoftSurface *m_first = nullptr, *m_second = nullptr;
-    TouchReach m_reach;
+    ContactReach m_reach;
     RidgeReach m_ridgeReach;
     NearRidges m_ridgesA, m_ridgesB;
-    std::vector<SurfaceTouch>* m_touches = nullptr;
+    std::vector<SurfaceContact>* m_touches = nullptr;
 };
 
 }  // namespace bullet_fem

@@ -21,9 +21,9 @@ constexpr double kFacingCosineAtImpact = -0.25;  // that cosine at an impact: gr
 constexpr double kSeparatingSine = -0.05;        // smallest sine of a body's edges above a separating plane
 constexpr double kSameNormalCosine = 0.99;       // smallest cosine of normals that count as one
 constexpr double kSameWayOutCosine = 0.9;        // smallest cosine of ways out that count as one
-constexpr double kCornerWeight = 2e-3;          // largest barycentric weight that counts as zero, near a corner or edge
-constexpr std::size_t kLeastNodesForProof = 8;  // nodes near the other body from which on the proof pays off
-constexpr double kDeepest = 3;                  // largest depth along a way out over the distance from the surface
+constexpr double kCornerWeight = 2e-3;        // largest barycentric weight that counts as zero, near a corner or edge
+constexpr std::size_t kMinNodesForProof = 8;  // nodes near the other body from which on the proof pays off
+constexpr double kDeepest = 3;                // largest depth along a way out over the distance from the surface
 
 double height(const Corners& t, int corner)
 {
@@ -33,8 +33,8 @@ double height(const Corners& t, int corner)
 
 }  // namespace
 
-void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces, const TouchReach& reach,
-                             const NodeSurfaceSearch* done, std::vector<SurfaceTouch>& touches)
+void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces, const ContactReach& reach,
+                             const NodeSurfaceSearch* done, std::vector<SurfaceContact>& touches)
 {
     m_nodes = &nodes;
     m_faces = &faces;
@@ -43,7 +43,7 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
     m_touches = &touches;
     forget();
     listNear();
-    m_outside = OutsideProof();
+    m_outside = HalfSpaceCull();
     m_looks = 0;
     m_guess = -1;
     for (int i : m_near) findNode(i);
@@ -121,8 +121,8 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     if (!bounds.meets(point, m_reach.within())) return false;
     const double travel = largestTravel(point, bounds);
     const bool self = m_nodes == m_faces;
-    if (!self && ++m_looks == 1 && m_near.size() > kLeastNodesForProof && m_faces->isPrepared())
-        m_outside = OutsideProof(*m_faces, unit(m_nodes->middle() - m_faces->middle()));
+    if (!self && ++m_looks == 1 && m_near.size() > kMinNodesForProof && m_faces->isPrepared())
+        m_outside = HalfSpaceCull(*m_faces, unit(m_nodes->middle() - m_faces->middle()));
     if (m_outside.isFarOutside(visit.m_x, m_reach.within() + travel)) return false;
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
     const double most = maybeInside ? kInfinity : std::max(m_reach.within(), m_reach.depth()) + travel;
@@ -314,7 +314,7 @@ void NodeSurfaceSearch::tryNearestFeature(const Visit& visit)
     const Vec3 normal = (1 / visit.m_distance) * (visit.m_x - visit.m_nearest.m_point);
     const Hit hit = {
         visit.m_nearestTriangle, visit.m_nearest.m_weights, normal, visit.m_distance, 0, Place::over, false};
-    if (!isNear(visit, hit) || m_nodes->leastAlongEdges(visit.m_node, normal) < kSeparatingSine) return;
+    if (!isNear(visit, hit) || m_nodes->minAlongEdges(visit.m_node, normal) < kSeparatingSine) return;
     if (dot(visit.m_normal, normal) > kFacingCosine) return;
     const std::size_t count = m_touches->size();
     emit(visit, hit);
@@ -332,8 +332,8 @@ void NodeSurfaceSearch::emit(const Visit& visit, const Hit& hit)
 {
     const Triangle& t = m_faces->triangles()[hit.m_triangle];
     const int node = visit.m_node;
-    SurfaceTouch touch = {{node, node, node}, t,         {1, 0, 0}, hit.m_weights,
-                          hit.m_normal,       hit.m_gap, node,      hit.m_triangle};
+    SurfaceContact touch = {{node, node, node}, t,         {1, 0, 0}, hit.m_weights,
+                            hit.m_normal,       hit.m_gap, node,      hit.m_triangle};
     // On a nearly flat corner or edge all faces are equal: their mean normal keeps forces steady.
     const auto useNormal = [&](const Vec3& normal)
     {

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_bridge/geometry/surface/outside_proof.h"
-#include "bullet_bridge/geometry/surface/surface_touch.h"
+#include "bullet_bridge/geometry/surface/half_space_cull.h"
+#include "bullet_bridge/geometry/surface/surface_contact.h"
 
 namespace bullet_fem
 {
@@ -22,8 +22,8 @@ public:
     /// Appends the contacts of `nodes`' nodes with `faces`, ascending by node and triangle; equal surfaces mean self
     /// contact. The feature of a nearest edge or corner is -1. `done`, if not null, is the finished search with
     /// exchanged surfaces: pairs of nodes that it found are left out.
-    void find(const SoftSurface& nodes, const SoftSurface& faces, const TouchReach& reach,
-              const NodeSurfaceSearch* done, std::vector<SurfaceTouch>& touches);
+    void find(const SoftSurface& nodes, const SoftSurface& faces, const ContactReach& reach,
+              const NodeSurfaceSearch* done, std::vector<SurfaceContact>& touches);
 
     /// Depth of a node that was found inside, if its way out differs from `direction` (unit) [m]; infinity otherwise.
     double depthAside(int node, const Vec3& direction) const;
@@ -79,11 +79,11 @@ private:
 
     const SoftSurface *m_nodes = nullptr, *m_faces = nullptr;
     const NodeSurfaceSearch* m_done = nullptr;
-    TouchReach m_reach;
-    OutsideProof m_outside;  // of the faces; made once it pays off
+    ContactReach m_reach;
+    HalfSpaceCull m_outside;  // of the faces; made once it pays off
     int m_looks = 0;
     int m_guess = -1;  // triangle nearest to the last node: consecutive nodes are often neighbours
-    std::vector<SurfaceTouch>* m_touches = nullptr;
+    std::vector<SurfaceContact>* m_touches = nullptr;
     std::vector<Hit> m_hits;
     std::vector<int> m_near;      // tested nodes, ascending
     std::vector<double> m_depth;  // per node [m]; infinity for nodes that are not inside

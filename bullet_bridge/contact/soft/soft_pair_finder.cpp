@@ -39,7 +39,7 @@ double fallBetween(const FemSoftBody& first, const FemSoftBody& second, double e
 
 }  // namespace
 
-TouchReach reachBetween(const FemSoftBody& first, const FemSoftBody& second)
+ContactReach reachBetween(const FemSoftBody& first, const FemSoftBody& second)
 {
     const double edge = std::min(first.m_surface.meanEdge(), second.m_surface.meanEdge());
     return {kPairBand * edge + offsetBetween(first, second), edge, fallBetween(first, second, edge)};
@@ -53,7 +53,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     const bool self = &first.m_fem == &second.m_fem;
     const SoftSurface &a = first.m_fem.m_surface, &b = second.m_fem.m_surface;
     const double offset = offsetBetween(first.m_fem, second.m_fem);
-    const TouchReach reach = reachBetween(first.m_fem, second.m_fem);
+    const ContactReach reach = reachBetween(first.m_fem, second.m_fem);
     Roles roles = {first, second, {}};
     roles.m_origin.m_firstId = broadphaseId(*first.m_fem.m_softBody);
     roles.m_origin.m_secondId = broadphaseId(*second.m_fem.m_softBody);
@@ -79,7 +79,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     report.m_thinned = thin(first, second);
     report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
     m_continued.assign(m_last.m_count, 0);
-    takeOverImpulses();
+    transferImpulses();
     inheritImpulses(first, second);
     tell(report, contacts, origins);
     return report;
@@ -148,13 +148,13 @@ ContactPoint SoftPairFinder::commonOf(const FemSoftBody& first, const FemSoftBod
 }
 
 // Offset from a node's contact point to the contact patch at the end of the step.
-Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceTouch& touch, const ContactPoint& contact)
+Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceContact& touch, const ContactPoint& contact)
 {
     const auto sideOf = [](const FemSoftBody& fem, const SurfacePoint& point, const Triangle& nodes,
                            const std::array<double, 3>& weights)
     {
-        TouchingSide side = {point.of(fem.m_body.m_state.m_v), fem.m_meanMotion.m_spin, 0, fem.m_surface.size(),
-                             std::nullopt};
+        ContactPatchSide side = {point.of(fem.m_body.m_state.m_v), fem.m_meanMotion.m_spin, 0, fem.m_surface.size(),
+                                 std::nullopt};
         for (int a = 0; a < 3; ++a)
         {
             side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
@@ -172,7 +172,7 @@ void SoftPairFinder::append(const Roles& roles, double offset)
 {
     const SoftSurface &soft = roles.m_soft.m_fem.m_surface, &other = roles.m_other.m_fem.m_surface;
     const ContactPoint common = commonOf(roles.m_soft.m_fem, roles.m_other.m_fem);
-    for (const SurfaceTouch& touch : m_touches)
+    for (const SurfaceContact& touch : m_touches)
     {
         ContactPoint contact = common;
         contact.m_soft = roles.m_soft.m_fem.pointOn(roles.m_soft.m_index, touch.m_nodes, touch.m_weights);
@@ -218,7 +218,7 @@ bool SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
     return true;
 }
 
-void SoftPairFinder::takeOverImpulses()
+void SoftPairFinder::transferImpulses()
 {
     for (std::size_t k = 0; k < m_found.size(); ++k)
     {
@@ -270,9 +270,9 @@ void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSi
                            sign * last.m_normal, sign * last.m_impulse);
     }
     for (std::size_t k = 0; k < m_found.size(); ++k)
-        m_transfer.addHeir(m_found[k], isSecond(m_foundOrigins[k]) ? -1 : 1);
+        m_transfer.addCandidate(m_found[k], isSecond(m_foundOrigins[k]) ? -1 : 1);
     const auto edgeOf = [](const SoftPairSide& side) { return side.m_fem.m_body.m_model->mesh().meanEdgeLength(); };
-    m_transfer.settle(std::max(edgeOf(first), edgeOf(second)));
+    m_transfer.assign(std::max(edgeOf(first), edgeOf(second)));
 }
 
 }  // namespace bullet_fem

@@ -27,7 +27,7 @@ struct SoftPairReport
 };
 
 /// Search distances for two bodies; call after SoftSurface::place of both.
-TouchReach reachBetween(const FemSoftBody& first, const FemSoftBody& second);
+ContactReach reachBetween(const FemSoftBody& first, const FemSoftBody& second);
 
 /// Finds the contacts between the surfaces of two FEM bodies, or of one with itself, present or possible within the
 /// step: nodes against faces both ways (NodeSurfaceSearch) and ridges against ridges (EdgePairSearch). Gaps are those
@@ -64,15 +64,15 @@ private:
     void listHeldEdges();
     static ContactPoint commonOf(const FemSoftBody& first, const FemSoftBody& second);
     void append(const Roles& roles, double offset);
-    static Vec3 patchOf(const Roles& roles, const SurfaceTouch& touch, const ContactPoint& contact);
+    static Vec3 patchOf(const Roles& roles, const SurfaceContact& touch, const ContactPoint& contact);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
     bool thin(const SoftPairSide& first, const SoftPairSide& second);
-    void takeOverImpulses();
+    void transferImpulses();
     void inheritImpulses(const SoftPairSide& first, const SoftPairSide& second);
 
     NodeSurfaceSearch m_nodesOfFirst, m_nodesOfSecond;
     EdgePairSearch m_edges;
-    std::vector<SurfaceTouch> m_touches;
+    std::vector<SurfaceContact> m_touches;
     std::vector<ContactPoint> m_found;
     std::vector<SoftPairOrigin> m_foundOrigins;
     std::vector<int> m_order;

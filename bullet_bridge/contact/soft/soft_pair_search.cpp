@@ -114,9 +114,9 @@ void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
     m_smallestEdge.assign(bodies.size(), 0);
     const auto pairWith = [&](int b, double edge)
     { m_smallestEdge[b] = m_smallestEdge[b] > 0 ? std::min(m_smallestEdge[b], edge) : edge; };
-    listTouching(bodies);
+    listOverlaps(bodies);
     m_pairs.clear();
-    for (const auto& [a, b] : m_touching)
+    for (const auto& [a, b] : m_overlapping)
     {
         const double edge = std::min(bodies[a]->m_surface.meanEdge(), bodies[b]->m_surface.meanEdge());
         pairWith(a, edge);
@@ -133,22 +133,22 @@ void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
 }
 
 // A pair may be recorded by either body, or by both.
-void SoftPairSearch::listTouching(const std::vector<FemSoftBody*>& bodies)
+void SoftPairSearch::listOverlaps(const std::vector<FemSoftBody*>& bodies)
 {
     m_byAddress.clear();
     for (std::size_t b = 0; b < bodies.size(); ++b)
         m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
     std::sort(m_byAddress.begin(), m_byAddress.end());
-    m_touching.clear();
+    m_overlapping.clear();
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
-        for (const btSoftBody* other : bodies[a]->m_touchingSoft)
+        for (const btSoftBody* other : bodies[a]->m_overlappingSoft)
         {
             const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(other, 0));
             if (at != m_byAddress.end() && at->first == other && mayTouch(*bodies[a], *bodies[at->second]))
-                m_touching.emplace_back(std::min(a, at->second), std::max(a, at->second));
+                m_overlapping.emplace_back(std::min(a, at->second), std::max(a, at->second));
         }
-    std::sort(m_touching.begin(), m_touching.end());
-    m_touching.erase(std::unique(m_touching.begin(), m_touching.end()), m_touching.end());
+    std::sort(m_overlapping.begin(), m_overlapping.end());
+    m_overlapping.erase(std::unique(m_overlapping.begin(), m_overlapping.end()), m_overlapping.end());
 }
 
 void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part)

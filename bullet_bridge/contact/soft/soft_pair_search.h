@@ -62,7 +62,7 @@ private:
     };
 
     void listPairs(const std::vector<FemSoftBody*>& bodies);
-    void listTouching(const std::vector<FemSoftBody*>& bodies);
+    void listOverlaps(const std::vector<FemSoftBody*>& bodies);
     void choosePairs();
     void listNearby(const std::vector<FemSoftBody*>& bodies);
     void collectParts();
@@ -72,7 +72,7 @@ private:
     SoftPairMemory m_memory;
     std::vector<Part> m_parts;
     std::vector<std::pair<const btSoftBody*, int>> m_byAddress;  // bodies by address, ascending
-    std::vector<std::pair<int, int>> m_touching;                 // pairs of bodies, the smaller index first; ascending
+    std::vector<std::pair<int, int>> m_overlapping;              // pairs of bodies, the smaller index first; ascending
     std::vector<Pair> m_pairs;
     std::vector<SoftPairIds> m_complete;  // scratch: pairs with all of their contacts
     std::vector<int> m_paired;            // bodies that are in some pair

@@ -16,7 +16,7 @@ namespace
 
 constexpr int kGrid = 4;            // intervals per axis of the grid that is sampled to see whether a field is loaded
 constexpr double kInside = 1e-6;    // how far queries stay within the domain, over its size
-constexpr int kMostDescents = 24;   // largest number of queries per triangle after the first seven
+constexpr int kMaxDescents = 24;    // largest number of queries per triangle after the first seven
 constexpr double kFirstWay = 0.25;  // first step length over the longest edge
 constexpr double kLastWay = 1e-3;   // last step length over the longest edge
 
@@ -129,7 +129,7 @@ bool triangleFieldDistance(const btSdfCollisionShape& field, const std::array<Ve
     const double longest =
         std::max({norm(triangle[1] - triangle[0]), norm(triangle[2] - triangle[1]), norm(triangle[0] - triangle[2])});
     double way = kFirstWay * longest;
-    for (int k = 0; k < kMostDescents && way > kLastWay * longest; ++k)
+    for (int k = 0; k < kMaxDescents && way > kLastWay * longest; ++k)
     {
         const TrianglePoint next = nearestOnTriangle(triangle, at - way * best.m_normal);
         if (norm(next.m_point - at) < kLastWay * longest) break;  // the gradient is perpendicular to the triangle

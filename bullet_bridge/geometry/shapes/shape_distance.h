@@ -62,7 +62,7 @@ struct SurfaceDistance
 ///  - sphere, capsule: it is the radius. Closed form;
 ///  - cone: around radius and height (0.04 m unless set, so Bullet's cone is larger than its sizes). Closed form;
 ///  - static plane: none, as for Bullet's rigid bodies. Closed form; points behind the plane are inside at any depth;
-///  - sheets of triangles: not handled here but in sheet_touch.h. The margin is on both sides of the sheet, 0 for
+///  - sheets of triangles: not handled here but in sheet_contact.h. The margin is on both sides of the sheet, 0 for
 ///    meshes and heightfields and 0.01 m for GImpact unless set: this is where Bullet's boxes and hulls come to rest
 ///    (its spheres ignore it). A scaled mesh has its own margin, not the original's;
 ///  - convex hull and every other btConvexShape: around the shape. By GJK, and by EPA inside the core, in double

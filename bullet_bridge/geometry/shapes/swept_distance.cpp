@@ -18,7 +18,7 @@ namespace
 constexpr int kSafeAdvances = 24;   // by the upper bound of the closing speed; pure translation takes less than 10
 constexpr int kMaxAdvances = 40;    // the others by the closing speed itself (Newton's method)
 constexpr double kAccuracy = 1e-6;  // gap that counts as zero, relative to the thickness [-]
-constexpr double kLeast = 1e-8;     // smallest such gap, relative to the largest extent [-]; below, GJK has no reliable
+constexpr double kMin = 1e-8;       // smallest such gap, relative to the largest extent [-]; below, GJK has no reliable
                                     // direction
 constexpr double kFastFraction = 0.5;  // travel that counts as fast, relative to an edge or the thickness [-]
 constexpr double kThinnest = 0.2;      // smallest thickness of shapes here, in edges
@@ -54,7 +54,7 @@ void measure(SweptShape& swept)
     swept.m_leaf.m_shape->getAabb(btTransform::getIdentity(), low, high);
     const Vec3 extent = vec3(high - low);
     swept.m_thickness = std::min({extent.x, extent.y, extent.z});
-    swept.m_accuracy = std::max(kAccuracy * swept.m_thickness, kLeast * std::max({extent.x, extent.y, extent.z}));
+    swept.m_accuracy = std::max(kAccuracy * swept.m_thickness, kMin * std::max({extent.x, extent.y, extent.z}));
     swept.m_spinRadius = axisDistance(swept.m_motion, swept.m_leaf.m_pose.m_origin);
     if (swept.m_leaf.m_shape->getShapeType() == SPHERE_SHAPE_PROXYTYPE) return;  // a sphere rotates in itself
     for (int corner = 0; corner < 8; ++corner)
@@ -160,7 +160,7 @@ Approach approachAt(const SweptShape& shape, const SweptFeature& feature, double
 
 /// The contact from the present gap and closing speed. The gap of its row is the one from which the pair, closing at
 /// this speed since the start of the step, would have reached the present gap.
-bool touchFrom(const Approach& at, double step, SweptContact& contact)
+bool contactFrom(const Approach& at, double step, SweptContact& contact)
 {
     const double arrival = at.m_time + std::max(at.m_surface.m_gap, 0.0) / at.m_closing;
     if (!(at.m_closing > 0) || arrival > step) return false;
@@ -274,12 +274,12 @@ bool sweptDistance(const SweptShape& shape, const SweptFeature& feature, double 
         const double closing = isSafe ? bound.along(d.m_normal) : now.m_closing;
         if (!(closing > 0)) return false;  // by the bound, the pair separates from now on
         if ((isSafe ? d.m_gap : std::fabs(d.m_gap)) <= accuracy && now.m_closing > 0)
-            return touchFrom(now, step, contact);
+            return contactFrom(now, step, contact);
         const double time = now.m_time + (isSafe ? std::max(d.m_gap, accuracy) : d.m_gap) / closing;
         if (!(time < step)) return false;
         now.m_time = time;
     }
-    return touchFrom(now, step, contact);
+    return contactFrom(now, step, contact);
 }
 
 }  // namespace bullet_fem

@@ -22,27 +22,27 @@ public:
     {
         for (int i : surface.nodes())
         {
-            m_most = std::max(m_most, dot(direction, surface.position()[i]));
-            m_mostChange = std::max(m_mostChange, dot(direction, surface.change()[i]));
+            m_max = std::max(m_max, dot(direction, surface.position()[i]));
+            m_maxChange = std::max(m_maxChange, dot(direction, surface.change()[i]));
         }
     }
 
     /// Signed distance of a point in front of the plane [m].
-    double distance(const Vec3& x) const { return dot(m_direction, x) - m_most; }
+    double distance(const Vec3& x) const { return dot(m_direction, x) - m_max; }
 
     /// True if points at x and y with displacements dx and dy per step, and all points between them, stay farther than
     /// `near` [m] at the start and farther than `band` [m] during the motion.
     bool isBeyond(const Vec3& x, const Vec3& dx, const Vec3& y, const Vec3& dy, double near, double band) const
     {
-        const double start = std::min(distance(x), distance(y)) - 1e-12 * (std::fabs(m_most) + near);
-        const double closing = m_mostChange - std::min(dot(m_direction, dx), dot(m_direction, dy));
+        const double start = std::min(distance(x), distance(y)) - 1e-12 * (std::fabs(m_max) + near);
+        const double closing = m_maxChange - std::min(dot(m_direction, dx), dot(m_direction, dy));
         return start > near && start - m_steps * std::max(0.0, closing) > band;
     }
 
 private:
     Vec3 m_direction;
     int m_steps;
-    double m_most = -VectorBounds::kInfinity, m_mostChange = -VectorBounds::kInfinity;
+    double m_max = -VectorBounds::kInfinity, m_maxChange = -VectorBounds::kInfinity;
 };
 
 }  // namespace bullet_fem

@@ -26,8 +26,8 @@ struct alignas(64) CoarseBox  // one cache line
     /// The empty box: it meets no other.
     static CoarseBox empty()
     {
-        constexpr float kMost = std::numeric_limits<float>::max();
-        constexpr FloatLanes kHigh = {kMost, kMost, kMost, 0}, kLow = {-kMost, -kMost, -kMost, 0};
+        constexpr float kMax = std::numeric_limits<float>::max();
+        constexpr FloatLanes kHigh = {kMax, kMax, kMax, 0}, kLow = {-kMax, -kMax, -kMax, 0};
         return {kHigh, kLow, kHigh, kLow};
     }
 

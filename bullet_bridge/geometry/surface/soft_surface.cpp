@@ -327,7 +327,7 @@ bool SoftSurface::isFlatNode(int node) const
                         [&](int t) { return dot(faceNormal(t), normal) < kFlatSurfaceCosine; });
 }
 
-double SoftSurface::leastAlongEdges(int node, const Vec3& direction) const
+double SoftSurface::minAlongEdges(int node, const Vec3& direction) const
 {
     double least = 1;
     for (int k = m_firstAround[node]; k < m_firstAround[node + 1]; ++k)

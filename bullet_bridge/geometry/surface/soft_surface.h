@@ -146,7 +146,7 @@ public:
 
     /// Smallest dot product [-] of a direction with the unit vectors along the surface edges from a node. If it is >=
     /// 0, the body near the node lies on the direction's side of a plane through the node.
-    double leastAlongEdges(int node, const Vec3& direction) const;
+    double minAlongEdges(int node, const Vec3& direction) const;
 
 private:
     static constexpr std::size_t kFine = 2000;  // triangles, as of two or three thousand elements

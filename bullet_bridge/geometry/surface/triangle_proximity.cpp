@@ -114,11 +114,11 @@ TrianglePoint nearestOnTriangle(const Corners& t, const Vec3& p)
     return best;
 }
 
-bool nearestOfLines(const std::array<Vec3, 4>& ends, double leastSine, LineParameters& at)
+bool nearestOfLines(const std::array<Vec3, 4>& ends, double minSine, LineParameters& at)
 {
     const Vec3 a = ends[1] - ends[0], b = ends[3] - ends[2], r = ends[2] - ends[0], n = cross(a, b);
     const double n2 = dot(n, n);
-    if (!(n2 > leastSine * leastSine * dot(a, a) * dot(b, b))) return false;
+    if (!(n2 > minSine * minSine * dot(a, a) * dot(b, b))) return false;
     at.m_a = triple(r, b, n) / n2;
     at.m_b = triple(r, a, n) / n2;
     return true;

@@ -42,8 +42,8 @@ struct LineParameters
 };
 
 /// Finds the nearest points of the lines `ends` = a0, a1, b0, b1 [m]. False if the sine of the angle between them is at
-/// most `leastSine`, or one has no length.
-bool nearestOfLines(const std::array<Vec3, 4>& ends, double leastSine, LineParameters& at);
+/// most `minSine`, or one has no length.
+bool nearestOfLines(const std::array<Vec3, 4>& ends, double minSine, LineParameters& at);
 
 /// A vector that changes linearly with time.
 struct MovingVector

@@ -18,7 +18,7 @@ namespace
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr int kMostInts = 120;  // elements below
+constexpr int kMaxInts = 120;  // elements below
 
 // 2 x 2 x 6 cells, the lower half of region 7 and the upper of region -2.
 BakeSettings layeredSettings(const TetMesh& mesh)
@@ -117,7 +117,7 @@ TEST_F(BakedRegions, OfWrongNumbersAreRefused)
         std::memcpy(&bytes[bytes.size() - fromEnd], &entry, sizeof entry);
         return complaint(sealed(bytes));
     };
-    const std::size_t indices = alignedBytes(sizeof(std::int32_t) * kMostInts),
+    const std::size_t indices = alignedBytes(sizeof(std::int32_t) * kMaxInts),
                       table = indices + 2 * sizeof(BakedRegion);
     EXPECT_EQ(complaint(m_bytes), "");
     EXPECT_THAT(with(indices, 2), HasSubstr("element 0 is in region 2"));

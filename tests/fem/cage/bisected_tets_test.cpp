@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kMost = 1000000;
+constexpr std::size_t kMax = 1000000;
 
 std::vector<int> leavesOf(const BisectedTets& tets)
 {
@@ -45,7 +45,7 @@ void halveAtRandom(BisectedTets& tets)
             seed = 1664525u * seed + 1013904223u;
             marks[t] = (seed >> 16) % 40 == 0 && tets.tets()[t].m_generation < 12;
         }
-        ASSERT_TRUE(tets.halve(marks, kMost));
+        ASSERT_TRUE(tets.halve(marks, kMax));
         EXPECT_EQ(marks, std::vector<char>(tets.tets().size(), 0));
     }
 }

@@ -17,11 +17,11 @@ namespace bullet_fem
 namespace
 {
 
-CageSettings graded(double cellSize, double cellsAcross = 2, int mostLevels = 3)
+CageSettings graded(double cellSize, double cellsAcross = 2, int maxLevels = 3)
 {
     CageSettings settings = withCell(cellSize);
     settings.m_cellsAcross = cellsAcross;
-    settings.m_mostLevels = mostLevels;
+    settings.m_mostLevels = maxLevels;
     settings.m_fillSamples = 16;
     return settings;
 }
@@ -101,7 +101,7 @@ void expectGradedPromises(const Cage& cage, const SurfaceMesh& surface, const Ca
     EXPECT_EQ(report.m_qualityBound, 0.7559);
     EXPECT_GE(report.m_leastQuality, report.m_qualityBound);
     EXPECT_FALSE(piercesBoundary(cage, surface, 1e-7 * report.m_cellSize));
-    double filled = 0, leastWeight = 1, farthest = 0, smallest = 1e300, largest = 0;
+    double filled = 0, minWeight = 1, farthest = 0, smallest = 1e300, largest = 0;
     for (int e = 0; e < cage.m_mesh.tetCount(); ++e)
     {
         filled += cage.m_massScale * cage.m_filled[e] * cage.m_mesh.tetVolume(e);
@@ -115,7 +115,7 @@ void expectGradedPromises(const Cage& cage, const SurfaceMesh& surface, const Ca
         for (int a = 0; a < 4; ++a)
         {
             p += cage.m_mesh.restPositions()[cage.m_mesh.tets()[at.m_tet][a]] * at.m_weights[a];
-            leastWeight = std::min(leastWeight, at.m_weights[a]);
+            minWeight = std::min(minWeight, at.m_weights[a]);
         }
         farthest = std::max(farthest, norm(p - surface.m_vertices[i]));
     }
@@ -124,7 +124,7 @@ void expectGradedPromises(const Cage& cage, const SurfaceMesh& surface, const Ca
     EXPECT_NEAR(largest, report.m_largestCell, 1e-9 * largest);
     EXPECT_LE(report.m_levels, settings.m_mostLevels);
     EXPECT_EQ(std::accumulate(report.m_levelTets.begin(), report.m_levelTets.end(), 0), report.m_tets);
-    EXPECT_GE(leastWeight, -1e-6);
+    EXPECT_GE(minWeight, -1e-6);
     EXPECT_LT(farthest, 1e-11 * settings.m_cellSize);  // up to some 10,000 cells from the origin
 }
 

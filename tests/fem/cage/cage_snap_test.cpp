@@ -58,7 +58,7 @@ void expectSnapPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh
     EXPECT_GE(report.m_volumeRatio, 1 - 1e-9);
     EXPECT_GE(deepestOutside(cage, lattice), -1e-8);  // it only shrinks
     EXPECT_FALSE(piercesBoundary(cage, surface, 1e-7 * report.m_cellSize));
-    double filled = 0, leastWeight = 1, farthest = 0;
+    double filled = 0, minWeight = 1, farthest = 0;
     for (int e = 0; e < cage.m_mesh.tetCount(); ++e)
         filled += cage.m_massScale * cage.m_filled[e] * cage.m_mesh.tetVolume(e);
     for (std::size_t i = 0; i < surface.m_vertices.size(); ++i)
@@ -68,12 +68,12 @@ void expectSnapPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh
         for (int a = 0; a < 4; ++a)
         {
             p += cage.m_mesh.restPositions()[cage.m_mesh.tets()[at.m_tet][a]] * at.m_weights[a];
-            leastWeight = std::min(leastWeight, at.m_weights[a]);
+            minWeight = std::min(minWeight, at.m_weights[a]);
         }
         farthest = std::max(farthest, norm(p - surface.m_vertices[i]));
     }
     EXPECT_NEAR(filled, report.m_surfaceVolume, 1e-11 * report.m_surfaceVolume);
-    EXPECT_GE(leastWeight, -1e-6);
+    EXPECT_GE(minWeight, -1e-6);
     EXPECT_LT(farthest, 1e-11 * report.m_cellSize);  // up to some 10,000 cells from the origin
 }
 
@@ -95,7 +95,7 @@ struct SnapCase
     const char* m_name;
     SurfaceMesh m_surface;
     double m_cell;
-    double m_mostRatio;  // cage over solid; a tenth above what it was when this was written
+    double m_maxRatio;  // cage over solid; a tenth above what it was when this was written
 };
 
 class SnappedCage : public testing::TestWithParam<SnapCase>
@@ -104,11 +104,11 @@ class SnappedCage : public testing::TestWithParam<SnapCase>
 
 TEST_P(SnappedCage, KeepsItsPromises)
 {
-    const auto& [name, surface, cell, mostRatio] = GetParam();
+    const auto& [name, surface, cell, maxRatio] = GetParam();
     const Cage lattice = makeCage(surface, withCell(cell));
     const Cage cage = makeCage(surface, snapping(cell));
     expectSnapPromises(cage, lattice, surface);
-    EXPECT_LT(cage.m_report.m_volumeRatio, mostRatio);
+    EXPECT_LT(cage.m_report.m_volumeRatio, maxRatio);
     EXPECT_LT(cage.m_report.m_volumeRatio - 1, 0.6 * (lattice.m_report.m_volumeRatio - 1));
     EXPECT_EQ(makeCage(surface, snapping(cell)).m_mesh.restPositions()[7].x, cage.m_mesh.restPositions()[7].x);
 }

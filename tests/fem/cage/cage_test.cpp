@@ -33,7 +33,7 @@ void expectPromises(const Cage& cage, const SurfaceMesh& surface, const CageSett
                 1e-11 * cage.m_report.m_surfaceVolume);  // sums of some 1e4 terms
 
     ASSERT_EQ(cage.m_embedding.size(), surface.m_vertices.size());
-    double worst = 0, leastWeight = 1;
+    double worst = 0, minWeight = 1;
     for (std::size_t i = 0; i < surface.m_vertices.size(); ++i)
     {
         Vec3 p;
@@ -41,12 +41,12 @@ void expectPromises(const Cage& cage, const SurfaceMesh& surface, const CageSett
         {
             const Embedding& at = cage.m_embedding[i];
             p += cage.m_mesh.restPositions()[cage.m_mesh.tets()[at.m_tet][a]] * at.m_weights[a];
-            leastWeight = std::min(leastWeight, at.m_weights[a]);
+            minWeight = std::min(minWeight, at.m_weights[a]);
         }
         worst = std::max(worst, norm(p - surface.m_vertices[i]));
     }
     EXPECT_LT(worst, 1e-12 * settings.m_cellSize);  // surfaces here lie within a few hundred cells of the origin
-    EXPECT_GE(leastWeight, -1e-9);
+    EXPECT_GE(minWeight, -1e-9);
 }
 
 TEST(SignedVolume, ByHandAndFarFromTheOrigin)

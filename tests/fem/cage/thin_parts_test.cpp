@@ -29,7 +29,7 @@ double areaOf(const ThinPart& part)
 
 struct Found
 {
-    double m_area = 0, m_least = 1e300, m_most = 0;
+    double m_area = 0, m_min = 1e300, m_max = 0;
 };
 
 Found found(const std::vector<ThinPart>& parts, bool gaps)
@@ -39,8 +39,8 @@ Found found(const std::vector<ThinPart>& parts, bool gaps)
     {
         if (part.m_isGap != gaps) continue;
         sum.m_area += areaOf(part);
-        sum.m_least = std::min(sum.m_least, norm(part.m_across));
-        sum.m_most = std::max(sum.m_most, norm(part.m_across));
+        sum.m_min = std::min(sum.m_min, norm(part.m_across));
+        sum.m_max = std::max(sum.m_max, norm(part.m_across));
     }
     return sum;
 }
@@ -50,8 +50,8 @@ TEST(ThinParts, OfAPlateAreItsFaces)
     const std::vector<ThinPart> parts = partsOf(boxSurface({0, 0, 0}, {1, 1, 0.1}));
     const Found solid = found(parts, false);
     EXPECT_NEAR(solid.m_area, 2, 1e-12);  // not the rim, which is 1 m across
-    EXPECT_NEAR(solid.m_least, 0.1, 1e-12);
-    EXPECT_NEAR(solid.m_most, 0.1, 1e-12);
+    EXPECT_NEAR(solid.m_min, 0.1, 1e-12);
+    EXPECT_NEAR(solid.m_max, 0.1, 1e-12);
     EXPECT_EQ(found(parts, true).m_area, 0);
     for (const ThinPart& part : parts)
         for (int a = 0; a < 3; ++a) EXPECT_LE(norm(part.m_corners[a] - part.m_corners[(a + 1) % 3]), 0.1);
@@ -90,8 +90,8 @@ TEST(ThinParts, AreGapsBetweenTwoSides)
         const std::vector<ThinPart> parts = partsOf(surface);
         const Found gap = found(parts, true);
         EXPECT_NEAR(gap.m_area, 2, 1e-12);
-        EXPECT_NEAR(gap.m_least, 0.2, 1e-12);
-        EXPECT_NEAR(gap.m_most, 0.2, 1e-12);
+        EXPECT_NEAR(gap.m_min, 0.2, 1e-12);
+        EXPECT_NEAR(gap.m_max, 0.2, 1e-12);
         EXPECT_EQ(found(parts, false).m_area, 0);
     }
 }
@@ -128,7 +128,7 @@ TEST(ThinParts, OfAFinePlateAreNotItsRim)
         findThinParts(plate.m_vertices, plate.m_triangles, {tree, winding, 0.5, 0.3, 0.15, 1});
     const Found solid = found(parts, false);
     EXPECT_NEAR(solid.m_area, 2, 1e-12);
-    EXPECT_NEAR(solid.m_most, 0.02, 1e-12);
+    EXPECT_NEAR(solid.m_max, 0.02, 1e-12);
 }
 
 TEST(ThinParts, OfFineTrianglesAreTheSame)
@@ -136,8 +136,8 @@ TEST(ThinParts, OfFineTrianglesAreTheSame)
     const Found ring = found(partsOf(torusSurface(1, 0.15, 400)), false);  // triangles of 0.005 to 0.02 m
     const double area = 4 * 9.8696044 * 0.15;
     EXPECT_NEAR(ring.m_area, area, 0.01 * area);
-    EXPECT_NEAR(ring.m_least, 0.3, 0.01);
-    EXPECT_NEAR(ring.m_most, 0.3, 0.01);
+    EXPECT_NEAR(ring.m_min, 0.3, 0.01);
+    EXPECT_NEAR(ring.m_max, 0.3, 0.01);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ public:
     double closingOfBalls() const
     {
         double largest = 0;
-        for (const RigidTouch& touch : m_problem.m_rigidTouches)
+        for (const RigidContact& touch : m_problem.m_rigidContacts)
             largest = std::max(largest, m_problem.m_rigidProxies[touch.m_other].m_linearVelocity.z -
                                             m_problem.m_rigidProxies[touch.m_rigidProxy].m_linearVelocity.z);
         return largest;
@@ -138,13 +138,13 @@ private:
 
     void addTouch(int above, int below)
     {
-        RigidTouch touch;
+        RigidContact touch;
         touch.m_rigidProxy = above;
         touch.m_other = below;
         touch.m_normal = {0, 0, 1};
         touch.m_arm = {0, 0, -0.5};
         touch.m_otherArm = {0, 0, 0.5};
-        m_problem.m_rigidTouches.push_back(touch);
+        m_problem.m_rigidContacts.push_back(touch);
     }
 
     static std::shared_ptr<const BodyModel> model()

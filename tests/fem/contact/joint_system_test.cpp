@@ -10,7 +10,7 @@
 
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/compliance_cache.h"
-#include "fem/contact/turned_joints.h"
+#include "fem/contact/rotated_anchor_factor.h"
 #include "fem/scenes/contact_scene.h"
 
 namespace bullet_fem
@@ -114,7 +114,7 @@ TEST_F(JointSystemTest, HoldsImpulsesAtTheirLimits)
 {
     for (int node : {0, 2, 6, 8}) hold(node);
     m_joints[0].m_limit = {Joint::kUnlimited, Joint::kUnlimited, 50};
-    m_joints[1].m_most = 20;
+    m_joints[1].m_maxImpulse = 20;
     m_joints[2].m_limit = {0, Joint::kUnlimited, Joint::kUnlimited};
     m_joints[2].m_impulse = {10, 0, 0};  // of a step in which it had none
     solve();
@@ -130,7 +130,7 @@ TEST_F(JointSystemTest, HoldsImpulsesAtTheirLimits)
 // One that starts at its limit, as it was a step ago, lets go of it.
 TEST_F(JointSystemTest, LetsGoOfLimitsThatAreNoLongerReached)
 {
-    hold(4).m_most = 1e6;
+    hold(4).m_maxImpulse = 1e6;
     m_joints[0].m_impulse = {0, 0, -1e6};
     solve();
     EXPECT_LT(miss(m_joints[0]), 1e-3);  // what it started with would make a thousand m/s
@@ -195,7 +195,7 @@ TEST_F(ManyHeldNodesTest, TurnedJointsInvertTheirCompliance)
     solveFreeMotion(m_scene.m_body, m_scene.m_settings.m_step);
     ContactRows rows;
     assemble(rows);
-    TurnedJoints turned(rows);
+    RotatedAnchorFactor turned(rows);
     const std::size_t unknowns = 3 * m_joints.size();
     turned.find(0, std::vector<unsigned char>(unknowns, 0));
     ASSERT_TRUE(turned.hasAll());
@@ -221,7 +221,7 @@ TEST_F(ManyHeldNodesTest, AreNotTurnedWhereAnythingElseCounts)
     solveFreeMotion(m_scene.m_body, m_scene.m_settings.m_step);
     makeBall(m_scene.m_rigidProxies[0], 10, 0.5);
     ContactRows rows;
-    TurnedJoints turned(rows);
+    RotatedAnchorFactor turned(rows);
     const auto isTurned = [&](const std::vector<unsigned char>& held)
     {
         assemble(rows);
@@ -267,7 +267,7 @@ TEST_F(ManyHeldNodesTest, FeelWhatTheStepsOwnFactorGivesThem)
 // One of them, and the others go on by the step's own factor.
 TEST_F(ManyHeldNodesTest, HoldAnImpulseAtItsLimit)
 {
-    m_joints[4].m_most = 1;
+    m_joints[4].m_maxImpulse = 1;
     m_scene.solve();
     EXPECT_NEAR(norm(m_joints[4].m_impulse), 1, 1e-6);
     EXPECT_GT(missAlongAxes(m_joints[4]), 1e-3);

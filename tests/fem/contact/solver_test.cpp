@@ -102,8 +102,8 @@ TEST(Contact, OnAPointOfThreeElementsActsThere)
     ContactPoint contact;
     contact.m_rigidProxy = 0;
     contact.m_soft.m_body = 0;
-    contact.m_soft.m_count = SurfacePoint::kMostNodes;
-    for (int a = 0; a < SurfacePoint::kMostNodes; ++a)
+    contact.m_soft.m_count = SurfacePoint::kMaxNodes;
+    for (int a = 0; a < SurfacePoint::kMaxNodes; ++a)
     {
         contact.m_soft.m_nodes[a] = 2 * a;  // 13, the middle of the cube, is not among them, but 12 and 14 are
         contact.m_soft.m_weights[a] = (a + 1) / 78.0;

@@ -28,9 +28,9 @@ void putBalls(ContactScene& scene, int count)
 }
 
 // A ball on the one below; the last on the floor.
-RigidTouch touchBelow(int ball, int count)
+RigidContact touchBelow(int ball, int count)
 {
-    RigidTouch touch;
+    RigidContact touch;
     touch.m_rigidProxy = ball;
     touch.m_other = ball + 1 < count ? ball + 1 : -1;
     touch.m_normal = {0, 0, 1};
@@ -55,14 +55,14 @@ double impulseOnTheFloor()
 
 }  // namespace
 
-TEST(RigidTouch, HoldsWhatLiesOnAFloor)
+TEST(RigidContact, HoldsWhatLiesOnAFloor)
 {
     const double whole = impulseOnTheFloor();
     for (int count : {1, 3})
     {
         ContactScene scene;
         putBalls(scene, count);
-        for (int k = 0; k < count; ++k) scene.m_problem.m_rigidTouches.push_back(touchBelow(k, count));
+        for (int k = 0; k < count; ++k) scene.m_problem.m_rigidContacts.push_back(touchBelow(k, count));
         EXPECT_NEAR(impulseOf(scene), whole, 1e-3 * whole) << count;
         for (const RigidProxy& ball : scene.m_rigidProxies) EXPECT_NEAR(ball.m_linearVelocity.z, 0, 2e-3) << count;
     }
@@ -71,31 +71,31 @@ TEST(RigidTouch, HoldsWhatLiesOnAFloor)
     EXPECT_LT(impulseOf(alone), 0.5 * whole) << "nothing holds it";
 }
 
-TEST(RigidTouch, NeverPulls)
+TEST(RigidContact, NeverPulls)
 {
     ContactScene scene;
     putBalls(scene, 1);
     scene.m_contacts.clear();
     scene.touchNode(4, 10, 0);  // far away
-    scene.m_problem.m_rigidTouches.push_back(touchBelow(0, 1));
+    scene.m_problem.m_rigidContacts.push_back(touchBelow(0, 1));
     scene.m_rigidProxies[0].m_linearVelocity = {0, 0, 1};
     scene.solve();
     EXPECT_EQ(scene.m_rigidProxies[0].m_linearVelocity.z, 1);
 }
 
-TEST(RigidTouch, LeavesTheGapThatThereIs)
+TEST(RigidContact, LeavesTheGapThatThereIs)
 {
     const double gap = 1e-3;
     ContactScene scene;
     putBalls(scene, 1);
-    scene.m_problem.m_rigidTouches.push_back(touchBelow(0, 1));
-    scene.m_problem.m_rigidTouches[0].m_leastSpeed = -gap / scene.m_settings.m_step.m_step;
+    scene.m_problem.m_rigidContacts.push_back(touchBelow(0, 1));
+    scene.m_problem.m_rigidContacts[0].m_leastSpeed = -gap / scene.m_settings.m_step.m_step;
     scene.solve();
     EXPECT_NEAR(scene.m_rigidProxies[0].m_linearVelocity.z, -gap / scene.m_settings.m_step.m_step, 2e-3);
 }
 
 // The soft cube goes all the way where the ball cannot give way; nearly none of it otherwise.
-TEST(RigidTouch, KeepsPositionCorrectionsOutOfTheFloor)
+TEST(RigidContact, KeepsPositionCorrectionsOutOfTheFloor)
 {
     for (const bool touches : {false, true})
     {
@@ -103,9 +103,9 @@ TEST(RigidTouch, KeepsPositionCorrectionsOutOfTheFloor)
         putBalls(scene, 1);
         scene.setVelocity({});
         scene.m_contacts[0].m_gap = -0.05;
-        RigidTouch touch = touchBelow(0, 1);
+        RigidContact touch = touchBelow(0, 1);
         touch.m_pushOnly = true;
-        if (touches) scene.m_problem.m_rigidTouches.push_back(touch);
+        if (touches) scene.m_problem.m_rigidContacts.push_back(touch);
         scene.solve();
         const double pushed = scene.m_rigidProxies[0].m_pushLinear.z;
         if (touches)

@@ -77,7 +77,7 @@ double torsionRatio(const RestShape& shape)
 }
 
 // The mode whose shape, weighted by mass, moves most along the bar as a whole.
-const Mode& mostAxial(const std::vector<Mode>& modes, const std::vector<double>& mass)
+const Mode& maxAxial(const std::vector<Mode>& modes, const std::vector<double>& mass)
 {
     const auto along = [&mass](const Mode& m) { return std::fabs(weightedMean(mass, m.m_shape).x); };
     return *std::max_element(modes.begin(), modes.end(),
@@ -138,7 +138,7 @@ TEST_P(ElasticityCantilever, LowestBendingAndAxialFrequency)
     EXPECT_NEAR(modes.front().m_omega / bending, GetParam().m_frequency, 0.01 * GetParam().m_frequency);
 
     const double axial = 2 * 3.14159265358979 * std::sqrt(kYoung / rho) / (4 * kLength);
-    const Mode& found = mostAxial(modes, shape.m_lumpedMass);
+    const Mode& found = maxAxial(modes, shape.m_lumpedMass);
     EXPECT_NEAR(found.m_omega / axial, 1, 0.01);
 }
 

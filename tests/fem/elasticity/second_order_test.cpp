@@ -153,7 +153,7 @@ std::vector<Vec3> after(double h, double stretch, double damping)
 
 struct Order
 {
-    double m_stretch, m_damping, m_least, m_most;
+    double m_stretch, m_damping, m_min, m_max;
 };
 
 class OrderOfConvergence : public testing::TestWithParam<Order>
@@ -167,8 +167,8 @@ TEST_P(OrderOfConvergence, IsTwoWithoutNumericalDampingAndOneWithAll)
     const double coarse = largestDistance(after(1.0 / 240, p.m_stretch, p.m_damping), exact);
     const double fine = largestDistance(after(1.0 / 480, p.m_stretch, p.m_damping), exact);
     const double order = std::log2(coarse / fine);
-    EXPECT_GE(order, p.m_least);
-    EXPECT_LE(order, p.m_most);
+    EXPECT_GE(order, p.m_min);
+    EXPECT_LE(order, p.m_max);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bars, OrderOfConvergence,

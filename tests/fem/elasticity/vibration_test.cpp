@@ -48,8 +48,8 @@ Mode chosenMode(const RestShape& shape, bool axial)
 {
     const std::vector<Mode> modes = LinearSystem(shape, rodEnd).lowestModes(8);
     const auto along = [&shape](const Mode& m) { return std::fabs(weightedMean(shape.m_lumpedMass, m.m_shape).x); };
-    const auto mostAlong = [&along](const Mode& a, const Mode& b) { return along(a) < along(b); };
-    return axial ? *std::max_element(modes.begin(), modes.end(), mostAlong) : modes.front();
+    const auto maxAlong = [&along](const Mode& a, const Mode& b) { return along(a) < along(b); };
+    return axial ? *std::max_element(modes.begin(), modes.end(), maxAlong) : modes.front();
 }
 
 // phi^T M u.

@@ -153,7 +153,7 @@ template <class Real>
 void expectSameBitsInRanges(const RestShape& shape, const std::vector<Vec3>& x, const std::vector<Vec3>& v)
 {
     ElementCase<Real> whole(shape, x, v), parts(shape, x, v);
-    const int blocks = whole.m_elements.blockCount(), pieces = whole.m_elements.pieceCount();
+    const int blocks = whole.m_elements.blockCount(), pieces = whole.m_elements.workUnitCount();
     whole.forces();
     for (const int b : {2, 0, 1}) runElementPass(parts.pass(), {b * pieces / 3, (b + 1) * pieces / 3});
     EXPECT_EQ(0, std::memcmp(whole.m_corners.data(), parts.m_corners.data(), blocks * sizeof(CornerBlock<Real>)));

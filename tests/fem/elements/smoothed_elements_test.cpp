@@ -43,7 +43,7 @@ struct SmoothedCase
     {
         SmoothedPass<Real> parts = pass();
         if (initial) parts.m_elements.m_initialStress = initial->data();
-        inRanges(m_plain.m_elements.pieceCount(), atOnce, [&](Range r) { findStrains(parts, r); });
+        inRanges(m_plain.m_elements.workUnitCount(), atOnce, [&](Range r) { findStrains(parts, r); });
         for (int k = 0; k < 2; ++k)
             inRanges(m_smoothing.domainCount(), atOnce, [&](Range r) { averageStrains(m_smoothing, strain(k), r); });
         inRanges(m_plain.m_elements.blockCount(), atOnce, [&](Range r) { findForces(parts, r); });
@@ -54,7 +54,7 @@ struct SmoothedCase
     {
         const std::vector<PaddedVec3> in = padded(p);
         const SmoothedProduct<Real> parts = product(in);
-        inRanges(m_plain.m_elements.pieceCount(), atOnce, [&](Range r) { findStrains(parts, r); });
+        inRanges(m_plain.m_elements.workUnitCount(), atOnce, [&](Range r) { findStrains(parts, r); });
         inRanges(m_smoothing.domainCount(), atOnce, [&](Range r) { averageStrains(m_smoothing, strain(0), r); });
         inRanges(m_plain.m_elements.blockCount(), atOnce, [&](Range r) { findForces(parts, r); });
         return m_plain.cornerSums();
@@ -64,7 +64,7 @@ struct SmoothedCase
     {
         SmoothedPass<Real> parts = pass();
         if (initial) parts.m_elements.m_initialStress = initial->data();
-        reference::findStrains(parts, {0, m_plain.m_elements.pieceCount()});
+        reference::findStrains(parts, {0, m_plain.m_elements.workUnitCount()});
         for (int k = 0; k < 2; ++k) reference::averageStrains(m_smoothing, strain(k), {0, m_smoothing.domainCount()});
         reference::findForces(parts, {0, m_plain.m_elements.blockCount()});
         return m_plain.cornerSums();
@@ -74,7 +74,7 @@ struct SmoothedCase
     {
         const std::vector<PaddedVec3> in = padded(p);
         const SmoothedProduct<Real> parts = product(in);
-        reference::findStrains(parts, {0, m_plain.m_elements.pieceCount()});
+        reference::findStrains(parts, {0, m_plain.m_elements.workUnitCount()});
         reference::averageStrains(m_smoothing, strain(0), {0, m_smoothing.domainCount()});
         reference::findForces(parts, {0, m_plain.m_elements.blockCount()});
         return m_plain.cornerSums();

@@ -32,7 +32,7 @@ void expectPatches(const TetMesh& mesh, const ElementPatches& patches)
     {
         const auto begin = patches.m_element.begin() + patches.m_start[p], end = begin + patches.size(p);
         ASSERT_GE(patches.size(p), 1);
-        ASSERT_LE(patches.size(p), ElementPatches::kMost);
+        ASSERT_LE(patches.size(p), ElementPatches::kMax);
         EXPECT_TRUE(std::is_sorted(begin, end));
         std::vector<int> reached = {*begin};
         for (std::size_t k = 0; k < reached.size(); ++k)

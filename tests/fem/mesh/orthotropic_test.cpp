@@ -151,9 +151,8 @@ TEST(Orthotropic, WhatIsAcceptedIsPositiveDefinite)
         if (!m.valid()) continue;
         ++accepted;
         const Matrix6 C = matrixOf(m.stiffness()), rest = C - matrixOf(isotropicStiffness(m.isotropicPart()));
-        const auto leastOf = [](const Matrix6& A)
-        { return Eigen::SelfAdjointEigenSolver<Matrix6>(A).eigenvalues()(0); };
-        least += leastOf(C) > 0 && leastOf(rest) > -1e-12 * C.maxCoeff() && m.isotropicPart().m_mu > 0;
+        const auto minOf = [](const Matrix6& A) { return Eigen::SelfAdjointEigenSolver<Matrix6>(A).eigenvalues()(0); };
+        least += minOf(C) > 0 && minOf(rest) > -1e-12 * C.maxCoeff() && m.isotropicPart().m_mu > 0;
     }
     EXPECT_GT(accepted, 500);
     EXPECT_EQ(least, accepted);

@@ -113,7 +113,7 @@ struct ElementCase
         return {&m_elements, m_warped.data(), kStiffnessFactor, p.data(), m_corners.data()};
     }
 
-    Range blocks() const { return {0, m_elements.pieceCount()}; }
+    Range blocks() const { return {0, m_elements.workUnitCount()}; }
 
     std::vector<Vec3> cornerSums() const
     {

@@ -64,7 +64,7 @@ protected:
         {
             solveFreeMotion(body, m_settings);
             applyImpulses(body, m_impulses, m_settings);
-            applyPush(body, m_impulses, m_settings);
+            applyPositionCorrection(body, m_impulses, m_settings);
             finishStep(body, m_settings);
         }
     }

@@ -39,7 +39,7 @@ protected:
     {
         solveFreeMotion(*m_body, m_settings);
         applyImpulses(*m_body, m_impulses, m_settings);
-        applyPush(*m_body, m_impulses, m_settings);
+        applyPositionCorrection(*m_body, m_impulses, m_settings);
         finishStep(*m_body, m_settings);
     }
 

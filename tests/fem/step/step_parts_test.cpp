@@ -74,7 +74,7 @@ TEST(Parts, PushesMoveWithoutVelocity)
     solveFreeMotion(body, settings);
     std::vector<Vec3> impulses(body.m_state.m_x.size());
     impulses.back() = {0, 0, 0.1};
-    applyPush(body, impulses, settings);
+    applyPositionCorrection(body, impulses, settings);
     finishStep(body, settings);
     const std::vector<Vec3>& X = body.m_model->mesh().restPositions();
     const Eigen::MatrixXd A0 =

@@ -314,7 +314,7 @@ TEST(AbandonedStep, LeavesTheBodyWhereItIsWithoutMotion)
     change[3].y = kTooFast;
     addVelocity(body, change);
     EXPECT_FALSE(canFinishStep(body));
-    applyPush(body, std::vector<Vec3>(change.size(), Vec3{0, 0, 1}), settings);
+    applyPositionCorrection(body, std::vector<Vec3>(change.size(), Vec3{0, 0, 1}), settings);
     const std::vector<Vec3> before = body.m_state.m_x;
     abandonStep(body);
     step(body, settings);  // in which nothing of it may be left

@@ -214,7 +214,7 @@ protected:
         {
             solveFreeMotion(body, settings);
             applyImpulses(body, impulses, settings);
-            applyPush(body, impulses, settings);
+            applyPositionCorrection(body, impulses, settings);
             finishStep(body, settings);
         }
         return body.m_state;

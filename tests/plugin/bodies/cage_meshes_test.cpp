@@ -22,7 +22,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr int kTargetTets = 1500;
-constexpr std::size_t kMostTriangles = 100000;
+constexpr std::size_t kMaxTriangles = 100000;
 constexpr double kDensity = 1000;    // [kg/m3]
 constexpr double kDropHeight = 0.1;  // [m]; bodies are 1 m long
 constexpr int kSteps = 120;          // two seconds
@@ -66,7 +66,7 @@ std::vector<NamedSurface> readMeshes()
     {
         if (file.filename() == "b9.ply") continue;  // points without triangles
         NamedSurface surface{file.filename().string(), readScaled(file)};
-        if (surface.m_surface.m_triangles.size() >= kMostTriangles) continue;
+        if (surface.m_surface.m_triangles.size() >= kMaxTriangles) continue;
         result.push_back(surface);
         if (surface.m_name != "elephant.off") continue;
         surface.m_name = "elephant.off, turned";
@@ -95,15 +95,15 @@ std::string findings(const CageReport& report)
 void expectInside(const btSoftBody& body, const SurfaceMesh& surface)
 {
     ASSERT_EQ(body.m_renderNodes.size(), static_cast<int>(surface.m_vertices.size()));
-    double leastWeight = 1, farthest = 0;
+    double minWeight = 1, farthest = 0;
     for (int v = 0; v < body.m_renderNodes.size(); ++v)
     {
         for (int a = 0; a < 4; ++a)
-            leastWeight = std::min(leastWeight, double(body.m_renderNodesInterpolationWeights[v][a]));
+            minWeight = std::min(minWeight, double(body.m_renderNodesInterpolationWeights[v][a]));
         const btVector3& x = body.m_renderNodes[v].m_x;
         farthest = std::max(farthest, norm(Vec3{x.x(), x.y(), x.z()} - surface.m_vertices[v]));
     }
-    EXPECT_GE(leastWeight, -1e-6);
+    EXPECT_GE(minWeight, -1e-6);
     EXPECT_LT(farthest, 1e-6);  // single precision, bodies of 1 m
 }
 
@@ -114,7 +114,7 @@ double volumeOf(const btSoftBody::Tetra& tet)
 }
 
 /// The least volume of an element over its volume at rest.
-double leastVolumeRatio(const btSoftBody& body, const std::vector<double>& atRest)
+double minVolumeRatio(const btSoftBody& body, const std::vector<double>& atRest)
 {
     double least = 1;
     for (int e = 0; e < body.m_tetras.size(); ++e) least = std::min(least, volumeOf(body.m_tetras[e]) / atRest[e]);
@@ -186,7 +186,7 @@ protected:
         world.step(kSteps);
         EXPECT_TRUE(allFinite(body));
         EXPECT_GT(lowestHeight(body), -1e-3);
-        return leastVolumeRatio(body, atRest);
+        return minVolumeRatio(body, atRest);
     }
 
     void write(const NamedSurface& given, const CageReport& report, const std::string& result) const

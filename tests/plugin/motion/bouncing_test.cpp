@@ -83,7 +83,7 @@ public:
             addRigid(body.m_isBall, {0.5, 0.5, 0.5}, kBoxMass, 3 * kReach + gap, -kImpactSpeed);
         m_world.fem().prepare(m_soft, btScalar(m_step));
         if (m_other) m_world.fem().prepare(m_other, btScalar(m_step));
-        m_startEnergy = m_mostEnergy = energy();
+        m_startEnergy = m_maxEnergy = energy();
     }
 
     // Steps until they have parted, three seconds at most; the share of the speed that they part with.
@@ -97,7 +97,7 @@ public:
             const bool touches = norm(impulse()) > 0;
             touched = touched || touches;
             parted = touches || !touched ? 0 : parted + 1;
-            m_mostEnergy = std::max(m_mostEnergy, energy());
+            m_maxEnergy = std::max(m_maxEnergy, energy());
         }
         return (speed() + (hasGravity() ? kGravity * m_step * parted : 0)) / kImpactSpeed;
     }
@@ -119,7 +119,7 @@ public:
         return sum;
     }
 
-    double m_startEnergy = 0, m_mostEnergy = 0;  // [J]
+    double m_startEnergy = 0, m_maxEnergy = 0;  // [J]
 
 private:
     bool hasGravity() const { return m_scene == BounceScene::onFloor || m_scene == BounceScene::onBed; }
@@ -219,7 +219,7 @@ TEST_P(Bouncing, GivesBackWhatIsSet)
             EXPECT_LE(returns, wanted + kOff) << young << ", " << set;
             const bool rings = bodies.energy() > kRinging * bodies.m_startEnergy;
             EXPECT_TRUE(returns > wanted - kOff || rings) << returns << " of " << wanted << ", " << young;
-            EXPECT_LE(bodies.m_mostEnergy, std::max(kSwing * bodies.m_startEnergy, 1.001 * alone.m_mostEnergy))
+            EXPECT_LE(bodies.m_maxEnergy, std::max(kSwing * bodies.m_startEnergy, 1.001 * alone.m_maxEnergy))
                 << young << ", " << set;
             EXPECT_LE(bodies.motion().m_energy, 1.01 * bodies.m_startEnergy) << young << ", " << set;
         }

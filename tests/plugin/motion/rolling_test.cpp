@@ -54,7 +54,7 @@ struct Descent
 {
     double m_degrees, m_youngModulus;
     double m_converged;  // speed after six seconds, of steps of 1/1920 s [m/s]
-    double m_least;      // share of it that the ball reaches at 60 Hz
+    double m_min;        // share of it that the ball reaches at 60 Hz
 };
 
 class Incline : public testing::TestWithParam<std::tuple<Coupling, Descent>>
@@ -72,7 +72,7 @@ TEST_P(Incline, IsRolledDownAsFastAsWithSmallSteps)
     world.addPlane();
     btSoftBody& ball = addBall(world, {descent.m_youngModulus, 0.005}, {0, 0, btScalar(kRadius + 1e-4)});
     world.step(360);
-    EXPECT_GT(velocityOf(ball).x, descent.m_least * descent.m_converged);
+    EXPECT_GT(velocityOf(ball).x, descent.m_min * descent.m_converged);
     EXPECT_LT(velocityOf(ball).x, 1.06 * descent.m_converged);
 }
 

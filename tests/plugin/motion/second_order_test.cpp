@@ -52,7 +52,7 @@ btSoftBody& addRubberBall(FemWorld& world, double young, double stiffnessDamping
 struct RubberDrop
 {
     double m_youngModulus, m_rate;  // [Pa], steps a second
-    double m_least, m_most;         // of the speed that it returns with [-]
+    double m_min, m_max;            // of the speed that it returns with [-]
 };
 
 void PrintTo(const RubberDrop& drop, std::ostream* stream)
@@ -86,8 +86,8 @@ TEST_P(SecondOrderDrop, GivesBackWhatTheContactLasts)
             lowest = std::min(lowest, lowestHeight(ball));
         }
         const double returns = (velocityOf(ball).z + kGravity * h * parted) / impact;
-        EXPECT_GE(returns, drop.m_least) << later;
-        EXPECT_LE(returns, drop.m_most) << later;
+        EXPECT_GE(returns, drop.m_min) << later;
+        EXPECT_LE(returns, drop.m_max) << later;
         EXPECT_GT(lowest, -0.002) << later;
     }
 }

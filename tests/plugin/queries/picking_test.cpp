@@ -214,20 +214,20 @@ TEST_P(Dragging, BySpringForFiveSecondsKeepsEnergyBoundedAndReleasesGently)
     spring.m_maxForce = c.m_maxForce;
     const int handle = fem.addSpring(&body, spring);
     const int steps = static_cast<int>(std::lround(5 / c.m_step));
-    double most = 0, mostForce = 0, farthest = 0;
+    double most = 0, maxForce = 0, farthest = 0;
     for (int k = 0; k < steps; ++k)
     {
         fem.setSpringTarget(&body, handle, hit.m_point + pathAt(k * double(c.m_step)));
         world.step(1, c.m_step);
         most = std::max(most, motionOf(body).m_energy);
-        mostForce = std::max(mostForce, double(fem.anchors(&body)[0].m_impulse.length() / c.m_step));
+        maxForce = std::max(maxForce, double(fem.anchors(&body)[0].m_impulse.length() / c.m_step));
         farthest = std::max(farthest, double(fem.anchors(&body)[0].m_error));
         ASSERT_TRUE(allFinite(body));
     }
     EXPECT_LT(most, 0.5 * kMass * 12 * 12);
     EXPECT_GT(most, 0.5 * kMass * 2 * 2);
     EXPECT_LT(farthest, 2);
-    EXPECT_LE(mostForce, 1.0001 * (c.m_maxForce > 0 ? double(c.m_maxForce) : 1e30));
+    EXPECT_LE(maxForce, 1.0001 * (c.m_maxForce > 0 ? double(c.m_maxForce) : 1e30));
     fem.removeSpring(&body, handle);
     const double before = norm(velocityOf(body));
     world.step(10, c.m_step);

@@ -20,7 +20,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMostSoft = 5, kMostRigid = 8;
+constexpr int kMaxSoft = 5, kMaxRigid = 8;
 // What a long step turns far is stretched by it, and springs back in a much shorter one (docs/reliability.md).
 constexpr double kShorterSteps = 4;  // at most so many times shorter is the next step of a gentle program
 constexpr double kThrown = 10;       // [m/s], [rad/s]: by a gentle program
@@ -256,7 +256,7 @@ void RandomProgram::addSoft(btSoftBody* body)
     if (one(2)) body->forceActivationState(ACTIVE_TAG);
     body->m_cfg.kDF = btScalar(number(0, 1));
     m_soft.push_back(body);
-    if (static_cast<int>(m_soft.size()) > kMostSoft) removeSoft();
+    if (static_cast<int>(m_soft.size()) > kMaxSoft) removeSoft();
 }
 
 void RandomProgram::addBox()
@@ -357,7 +357,7 @@ void RandomProgram::addRigid()
     if (m_manner == Manner::gentle) settings.m_mass = btScalar(number(0.1, 10));
     m_rigid.push_back(&m_world.addRigid(shape, settings));
     if (one(2)) m_rigid.back()->forceActivationState(ACTIVE_TAG);
-    if (static_cast<int>(m_rigid.size()) > kMostRigid) removeRigid();
+    if (static_cast<int>(m_rigid.size()) > kMaxRigid) removeRigid();
 }
 
 void RandomProgram::addStatic()
@@ -369,7 +369,7 @@ void RandomProgram::addStatic()
         m_world.addRigid(new btBoxShape(btVector3(btScalar(0.3), btScalar(0.1), btScalar(0.2))), settings);
     if (one(2)) body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     m_rigid.push_back(&body);
-    if (static_cast<int>(m_rigid.size()) > kMostRigid) removeRigid();
+    if (static_cast<int>(m_rigid.size()) > kMaxRigid) removeRigid();
 }
 
 void RandomProgram::removeRigid()

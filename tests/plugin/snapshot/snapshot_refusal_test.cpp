@@ -188,7 +188,7 @@ TEST_F(RefusedSnapshot, OfImpactsThatCannotBe)
     {
         Impact impact;
         impact.m_other = m_scene.m_soft[1];
-        impact.m_otherPiece = 0;
+        impact.m_otherComponent = 0;
         impact.m_normal = {0, 0, 1};
         spoil(impact);
         fem.m_impacts.assign(1, impact);
@@ -197,8 +197,8 @@ TEST_F(RefusedSnapshot, OfImpactsThatCannotBe)
         expectRefused(bytes, reason);
     };
     expectImpactRefused([](Impact& i) { i.m_restitution = 1.5; }, "the restitution of an impact is 1.5");
-    expectImpactRefused([](Impact& i) { i.m_piece = 1; }, "the piece of an impact is 1");
-    expectImpactRefused([](Impact& i) { i.m_otherPiece = 7; }, "the piece of an impact is 7");
+    expectImpactRefused([](Impact& i) { i.m_component = 1; }, "the piece of an impact is 1");
+    expectImpactRefused([](Impact& i) { i.m_otherComponent = 7; }, "the piece of an impact is 7");
     expectImpactRefused([](Impact& i) { i.m_normal.z = 2; }, "the normal of an impact has length 2");
     expectImpactRefused([](Impact& i) { i.m_energy = std::numeric_limits<double>::quiet_NaN(); },
                         "the numbers of an impact");

@@ -176,10 +176,10 @@ public:
                     for (std::size_t k = t; k < soft.size(); k += m_threads) getNearCallback()(*soft[k], *this, info);
                 });
         for (std::thread& thread : threads) thread.join();
-        m_mostPairs = std::max(m_mostPairs, soft.size());
+        m_maxPairs = std::max(m_maxPairs, soft.size());
     }
 
-    std::size_t m_mostPairs = 0;
+    std::size_t m_maxPairs = 0;
 
 private:
     static btCollisionObject* first(const btBroadphasePair& pair)
@@ -247,7 +247,7 @@ std::vector<btScalar> runSlab(int collisionThreads, bool manifolds)
         for (const auto& body : rigid)
             for (const btScalar value : bitsOf(*body)) bits.push_back(value);
     }
-    EXPECT_GT(dispatcher.m_mostPairs, 20u);
+    EXPECT_GT(dispatcher.m_maxPairs, 20u);
     EXPECT_GT(fem.contacts(soft[0].get()).size(), 20);
     for (const auto& body : soft) world.removeSoftBody(body.get());
     for (const auto& body : rigid) world.removeRigidBody(body.get());

@@ -23,7 +23,11 @@ struct BULLETFEM_API BodyState
 
     /// Sizes the history variables for a model's material laws. Keeps existing plastic strain; resets relaxed strain if
     /// the number of terms changes. Allocates.
-    void readyForLaws(const BodyModel& model);
+    void resizeHistoryVariables(const BodyModel& model);
+    [[deprecated("resizeHistoryVariables")]] void readyForLaws(const BodyModel& model)
+    {
+        resizeHistoryVariables(model);
+    }
 
     std::vector<Vec3> m_x;               ///< positions [m]
     std::vector<Vec3> m_v;               ///< velocities [m/s]

@@ -12,7 +12,8 @@ namespace bullet_fem
 {
 
 /// Maximum magnitude of every component [Pa], equal to that of Young's modulus.
-constexpr double kMostInitialStress = 1e13;
+constexpr double kMaxInitialStress = 1e13;
+[[deprecated("kMaxInitialStress")]] constexpr double kMostInitialStress = kMaxInitialStress;
 
 /// Sets the initial stress sigma_0 [Pa] of a body's elements, tension positive: thermal, active or residual stress, in
 /// the frame that rotates with the element, that is in the axes of the rest shape. The total stress is then sigma = R

@@ -88,9 +88,9 @@ struct ImpulseResponse
 /// finishStep() of one body among several.
 struct StepEnd
 {
-    Body* m_body = nullptr;   ///< not null
-    StepSettings m_settings;  ///< settings of its step
-    bool m_isRough = false;   ///< output: the step changed the velocities by more than it resolves
+    Body* m_body = nullptr;         ///< not null
+    StepSettings m_settings;        ///< settings of its step
+    bool m_needsSmoothing = false;  ///< output: the step changed the velocities by more than it resolves
 };
 
 }  // namespace bullet_fem

@@ -23,7 +23,8 @@ struct Range
 class BULLETFEM_API Threads
 {
 public:
-    static constexpr int kMost = 256;  ///< maximum number of threads
+    static constexpr int kMax = 256;  ///< maximum number of threads
+    [[deprecated("kMax")]] static constexpr int kMost = kMax;
 
     /// Creates a team of `count` threads, the caller's included, in [0, 256]; 0: as many as the machine grants this
     /// process. A larger count than that is allowed, but slow. Always one thread if the library was built without

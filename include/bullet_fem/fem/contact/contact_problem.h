@@ -38,8 +38,9 @@ struct RigidProxy
     int m_responseCount = 0;
     Vec3 m_pushImpulse;         ///< written by solve() if it has responses: what makes the push [N s]
     Vec3 m_pushAngularImpulse;  ///< likewise, about its centre [N m s]
-    Vec3 m_felt;         ///< written by the solver if it has responses: what contacts and joints gave it so far [N s]
-    Vec3 m_angularFelt;  ///< likewise, about its centre [N m s]
+    Vec3 m_accumulatedImpulse;  ///< written by the solver if it has responses: what contacts and joints gave it so far
+                                ///< [N s]
+    Vec3 m_accumulatedAngularImpulse;  ///< likewise, about its centre [N m s]
 
     /// True if an impulse moves or turns it.
     bool canMove() const { return dot(m_inverseMass, m_inverseMass) > 0 || squaredNorm(m_inverseInertia) > 0; }
@@ -63,12 +64,13 @@ struct RigidResponse
 /// on it is shared out by the same weights, and so has no other moment than that of the impulse at the point.
 struct SurfacePoint
 {
-    static constexpr int kMostNodes = 12;  ///< three corners of a triangle, each in a tetrahedron
+    static constexpr int kMaxNodes = 12;  ///< three corners of a triangle, each in a tetrahedron
+    [[deprecated("kMaxNodes")]] static constexpr int kMostNodes = kMaxNodes;
 
-    int m_body = -1;                                    ///< index into the bodies of the solve; -1: none
-    std::array<int, kMostNodes> m_nodes = {0, 0, 0};    ///< of a surface of the mesh its triangle's; may repeat
-    std::array<double, kMostNodes> m_weights = {1, 0};  ///< [-], sum 1
-    int m_count = 3;                                    ///< nodes that it has, in [1, kMostNodes]
+    int m_body = -1;                                   ///< index into the bodies of the solve; -1: none
+    std::array<int, kMaxNodes> m_nodes = {0, 0, 0};    ///< of a surface of the mesh its triangle's; may repeat
+    std::array<double, kMaxNodes> m_weights = {1, 0};  ///< [-], sum 1
+    int m_count = 3;                                   ///< nodes that it has, in [1, kMaxNodes]
 
     /// What the nodes have, at the point.
     Vec3 of(const std::vector<Vec3>& nodeValues) const
@@ -110,22 +112,24 @@ struct ContactPoint
 
 /// Where a rigid proxy touches another, or something immovable: a row that keeps the two apart. Its impulses are part
 /// of the rigid proxies' new velocities, and told nowhere else.
-struct RigidTouch
+struct RigidContact
 {
-    int m_rigidProxy = -1;     ///< index into the rigid proxies of the solve
-    int m_other = -1;          ///< likewise; -1: immovable
-    Vec3 m_arm;                ///< from its centre to where they touch [m]
-    Vec3 m_otherArm;           ///< likewise from the other's; not read where that is immovable
-    Vec3 m_normal;             ///< unit [-], from the other to the rigid proxy
-    double m_gap = 0;          ///< signed distance [m]; negative inside
-    bool m_moves = true;       ///< the velocities of the solve will bring them together or apart from there
-    double m_leastSpeed = 0;   ///< at which they part along the normal, at least; < 0: they may close [m/s]
-    Vec3 m_otherVelocity;      ///< of what is immovable, where they touch; leastSpeed is relative to it, and so is the
-                               ///< sliding that friction acts against [m/s]
-    double m_friction = 0;     ///< Coulomb's coefficient [-], >= 0
-    bool m_pushOnly = false;   ///< it counts for position corrections alone
+    int m_rigidProxy = -1;    ///< index into the rigid proxies of the solve
+    int m_other = -1;         ///< likewise; -1: immovable
+    Vec3 m_arm;               ///< from its centre to where they touch [m]
+    Vec3 m_otherArm;          ///< likewise from the other's; not read where that is immovable
+    Vec3 m_normal;            ///< unit [-], from the other to the rigid proxy
+    double m_gap = 0;         ///< signed distance [m]; negative inside
+    bool m_moves = true;      ///< the velocities of the solve will bring them together or apart from there
+    double m_leastSpeed = 0;  ///< at which they part along the normal, at least; < 0: they may close [m/s]
+    Vec3 m_otherVelocity;     ///< of what is immovable, where they touch; m_leastSpeed is relative to it, and so is the
+                              ///< sliding that friction acts against [m/s]
+    double m_friction = 0;    ///< Coulomb's coefficient [-], >= 0
+    bool m_pushOnly = false;  ///< it counts for position corrections alone
     bool m_isSupport = false;  ///< the other stands still, whatever happens
 };
+
+using RigidTouch [[deprecated("RigidContact")]] = RigidContact;
 
 /// A body with its compliance cache. Neither may be null, and both must live until the solve is over.
 struct ContactBody
@@ -188,11 +192,11 @@ struct Joint
     std::array<Vec3, 3> m_axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< orthonormal [-]
     Vec3 m_wanted;  ///< relative velocity along the axes [m/s] or [rad/s]: error correction, motor speed
     Vec3 m_limit = {kUnlimited, kUnlimited,
-                    kUnlimited};  ///< largest impulse along every axis [N s] or [N m s], >= 0; 0: axis is free
-    double m_most = kUnlimited;   ///< largest impulse of all axes together [N s] or [N m s], > 0
-    double m_compliance = 0;      ///< compliance added, of an implicit spring [1/kg] or [1/(kg m2)], >= 0; 0: rigid
-    double m_softness = 0;        ///< compliance added, as a share of the joint's own [-], >= 0; 0: rigid
-    Vec3 m_impulse;               ///< on end a, world axes [N s] or [N m s]: a guess before, the answer after
+                    kUnlimited};       ///< largest impulse along every axis [N s] or [N m s], >= 0; 0: axis is free
+    double m_maxImpulse = kUnlimited;  ///< largest impulse of all axes together [N s] or [N m s], > 0
+    double m_compliance = 0;  ///< compliance added, of an implicit spring [1/kg] or [1/(kg m2)], >= 0; 0: rigid
+    double m_softness = 0;    ///< compliance added, as a share of the joint's own [-], >= 0; 0: rigid
+    Vec3 m_impulse;           ///< on end a, world axes [N s] or [N m s]: a guess before, the answer after
 };
 
 /// Rolling and spinning friction where a face of a rigid proxy lies on a patch of a soft surface: a couple between the
@@ -221,7 +225,7 @@ struct BULLETFEM_API ContactProblem
     std::vector<RigidResponse> m_responses;     ///< of the rigid proxies that have some
     std::vector<ContactPoint> m_contacts;       ///< between them; their order decides
     std::vector<Joint> m_joints;                ///< likewise
-    std::vector<RigidTouch> m_rigidTouches;     ///< likewise
+    std::vector<RigidContact> m_rigidContacts;  ///< likewise
     std::vector<TorsionalFriction> m_torsions;  ///< likewise
     std::vector<int> m_torsionOf;      ///< per contact: the one it presses on, or -1; of those beyond its end: none
     std::vector<int> m_handleNodes;    ///< nodes of soft ends of joints and patches, one end's after another

@@ -25,9 +25,9 @@ BULLETFEM_API double residualFloor(double contactTolerance, double solveToleranc
 /// displacement.
 ///
 /// solve() does it all. Who sweeps rows of its own in between, such as those between rigid bodies, calls its parts:
-/// begin, then while wantsRound sweep ... sweep, correct, then if wantsBack goBack, and at the end finish; it may read
-/// and write the rigid proxies' velocities between any two of them. The scratch grows with the number of contacts and
-/// never shrinks. Deterministic: the order of contacts decides.
+/// begin, then while needsOuterIteration sweep ... sweep, correct, then if shouldRollBack restoreBest, and at the end
+/// finish; it may read and write the rigid proxies' velocities between any two of them. The scratch grows with the
+/// number of contacts and never shrinks. Deterministic: the order of contacts decides.
 class BULLETFEM_API ContactSolver
 {
 public:
@@ -51,18 +51,22 @@ public:
 
     /// True if another round is to be made: fewer than m_rounds were, or the error of the true velocities exceeds
     /// m_tolerance.
-    bool wantsRound() const;
+    bool needsOuterIteration() const;
 
     /// True if no impulses before have left a smaller error than those of the last begin or correct: others note those
     /// of their rows.
     bool isBest() const;
 
     /// True if the last round has left much more than the best. Others give their rows the impulses noted last, and
-    /// call goBack, or leave everything as it is.
-    bool wantsBack() const;
+    /// call restoreBest, or leave everything as it is.
+    bool shouldRollBack() const;
 
     /// Ends the rounds with the impulses of the best.
-    void goBack();
+    void restoreBest();
+
+    [[deprecated("needsOuterIteration")]] bool wantsRound() const { return needsOuterIteration(); }
+    [[deprecated("shouldRollBack")]] bool wantsBack() const { return shouldRollBack(); }
+    [[deprecated("restoreBest")]] void goBack() { restoreBest(); }
 
     /// Takes penetration back, and reports. The problem has the impulses from here on.
     ContactReport finish();

@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// Disjoint groups of neighbouring elements, one to kMost each: patches over which the volume change is averaged (mean
+/// Disjoint groups of neighbouring elements, one to kMax each: patches over which the volume change is averaged (mean
 /// dilatation [Nagtegaal et al. 1974], docs/materials.md). Candidates are four to eight elements around an edge, and an
 /// element with its face neighbours; the most compact candidates are taken first, for instance the five or six
 /// tetrahedra of a cube or the octahedra around the axes of a body-centred lattice. Remaining elements form patches
@@ -19,7 +19,8 @@ namespace bullet_fem
 /// Every patch is connected through faces. Patches depend on the mesh alone, not on the machine. Constant once built.
 struct BULLETFEM_API ElementPatches
 {
-    static constexpr int kMost = 8;  ///< maximum number of elements in a patch
+    static constexpr int kMax = 8;  ///< maximum number of elements in a patch
+    [[deprecated("kMax")]] static constexpr int kMost = kMax;
 
     ElementPatches() = default;
     /// Builds the patches. `group`: one number an element (ElementMaterials::patchGroups()); a patch never joins
@@ -30,7 +31,7 @@ struct BULLETFEM_API ElementPatches
     bool empty() const { return m_element.empty(); }
     /// Number of patches.
     int count() const { return static_cast<int>(m_start.size()) - 1; }
-    /// Number of elements in a patch, in [1, kMost]; `patch` in [0, count()).
+    /// Number of elements in a patch, in [1, kMax]; `patch` in [0, count()).
     int size(int patch) const;
 
     std::vector<int> m_start = {0};  ///< start of each patch in m_element, then the end

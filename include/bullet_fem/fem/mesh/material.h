@@ -16,7 +16,7 @@ namespace bullet_fem
 /// each keep their own volume lock where the material is nearly incompressible.
 enum class MeanDilatation
 {
-    automatic,  ///< on for nu above Material::kLeastAveragedRatio, and for accurate bending
+    automatic,  ///< on for nu above Material::kMinAveragedRatio, and for accurate bending
     on,
     off
 };
@@ -48,10 +48,14 @@ struct BULLETFEM_API Material
 {
     /// A yield stress that is never reached.
     static constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    static constexpr int kMostRelaxationTerms = 3;      ///< capacity of m_relaxation
-    static constexpr double kMostRelaxedShare = 0.99;   ///< maximum sum of g_i; the rest carries slow loads
-    static constexpr double kMostPoissonRatio = 0.499;  ///< maximum nu; lambda / mu is 499 there, infinite at .5
-    static constexpr double kLeastAveragedRatio = 0.4;  ///< MeanDilatation::automatic is on for larger nu
+    static constexpr int kMaxRelaxationTerms = 3;  ///< capacity of m_relaxation
+    [[deprecated("kMaxRelaxationTerms")]] static constexpr int kMostRelaxationTerms = kMaxRelaxationTerms;
+    static constexpr double kMaxRelaxedShare = 0.99;  ///< maximum sum of g_i; the rest carries slow loads
+    [[deprecated("kMaxRelaxedShare")]] static constexpr double kMostRelaxedShare = kMaxRelaxedShare;
+    static constexpr double kMaxPoissonRatio = 0.499;  ///< maximum nu; lambda / mu is 499 there, infinite at .5
+    [[deprecated("kMaxPoissonRatio")]] static constexpr double kMostPoissonRatio = kMaxPoissonRatio;
+    static constexpr double kMinAveragedRatio = 0.4;  ///< MeanDilatation::automatic is on for larger nu
+    [[deprecated("kMinAveragedRatio")]] static constexpr double kLeastAveragedRatio = kMinAveragedRatio;
 
     double m_youngModulus = 1e6;    ///< E [Pa], in (0, 1e13].
     double m_poissonRatio = 0.3;    ///< nu [-], in [0, 0.499].
@@ -71,7 +75,7 @@ struct BULLETFEM_API Material
     /// Prony series. With terms, E and nu are the instantaneous ones, and the shear modulus is mu (1 - sum g_i (1 -
     /// exp(-t / tau_i))); the bulk modulus does not relax. Terms with a share stand first; the sum of the shares is at
     /// most 0.99.
-    std::array<PronyTerm, kMostRelaxationTerms> m_relaxation = {};
+    std::array<PronyTerm, kMaxRelaxationTerms> m_relaxation = {};
 
     /// Averages shear strains around edges, so that bending does not lock (EdgeDomains). Not available with mean
     /// dilatation off, nor for materials that yield or relax.

@@ -22,7 +22,7 @@ struct BULLETFEM_API LameModuli
 
     /// E = mu (3 lambda + 2 mu) / (lambda + mu) [Pa]; a lambda below 0 counts as 0, which keeps mu.
     double youngModulus() const;
-    /// nu = lambda / (2 (lambda + mu)) [-], clamped to [0, Material::kMostPoissonRatio].
+    /// nu = lambda / (2 (lambda + mu)) [-], clamped to [0, Material::kMaxPoissonRatio].
     double poissonRatio() const;
 };
 
@@ -50,10 +50,13 @@ struct BULLETFEM_API Orthotropic
     /// Lower bound [-] of det [[1, -n12, -n13], [-n12, 1, -n23], [-n13, -n23, 1]] with n_ij = nu_ij sqrt(E_j / E_i).
     /// The compliance ceases to be positive definite where the determinant is 0; an isotropic material of nu = .499 has
     /// .0045.
-    static constexpr double kLeastDeterminant = 0.004;
+    static constexpr double kMinDeterminant = 0.004;
+    [[deprecated("kMinDeterminant")]] static constexpr double kLeastDeterminant = kMinDeterminant;
     /// Minimum sine of the angle between m_along and m_across [-].
-    static constexpr double kLeastSine = 1e-3;
-    static constexpr double kMostModulus = 1e13;  ///< maximum of E_i and G_ij [Pa], equal to that of Material
+    static constexpr double kMinSine = 1e-3;
+    [[deprecated("kMinSine")]] static constexpr double kLeastSine = kMinSine;
+    static constexpr double kMaxModulus = 1e13;  ///< maximum of E_i and G_ij [Pa], equal to that of Material
+    [[deprecated("kMaxModulus")]] static constexpr double kMostModulus = kMaxModulus;
 
     std::array<double, 3> m_young = {1e6, 1e6, 1e6};    ///< E_1, E_2, E_3 [Pa], each in (0, 1e13]
     std::array<double, 3> m_poisson = {0.3, 0.3, 0.3};  ///< nu_12, nu_13, nu_23 [-], |nu_ij| < sqrt(E_i / E_j)

@@ -54,7 +54,12 @@ BULLETFEM_API void addVelocity(Body& body, const std::vector<Vec3>& change);
 /// node [N s], P the warped preconditioner. On the low-memory path A^-1 J, solved to 1e-3, replaces P J;
 /// settings.m_threads share the work. Returns the change of the body's angular momentum about the origin by the
 /// displacement at unchanged velocities [kg m2/s].
-BULLETFEM_API Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
+BULLETFEM_API Vec3 applyPositionCorrection(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings);
+[[deprecated("applyPositionCorrection")]] inline Vec3 applyPush(Body& body, const std::vector<Vec3>& impulses,
+                                                                const StepSettings& settings)
+{
+    return applyPositionCorrection(body, impulses, settings);
+}
 
 /// Completes the step: x <- x+ plus the position corrections, v <- velocity(body); with less than full numerical
 /// damping the unresolved part is removed from v. Requires the settings of solveFreeMotion.

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include "fem/elements/node_rotations.h"
+
+namespace bullet_fem
+{
+
+/// Squared length of the plain sum of V_e q_e around a node below which robustAverage() is needed [m6].
+inline float minSquaredLength(const NodeCorners& nodes, int node)
+{
+    constexpr float kAlignedShare = 0.98f;
+    const float least = kAlignedShare * nodes.m_volumeAround[node];
+    return least * least;
+}
+
+/// R_i of one node in plain double precision, with all safeguards: signs aligned with the first element's quaternion;
+/// if the rotations are far apart, polar(sum V_e R_e), and where the sum leaves it undetermined, the solution nearest
+/// to the first element's rotation.
+NodeRotation robustAverage(const NodeRotations& rotations, int node);
+
+}  // namespace bullet_fem

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "fem/contact/soft_body_contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "bullet_fem/fem/step/stepping.h"
+#include "fem/scenes/elasticity_scenes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+void addNode(SoftBodyContacts& ends, const Body& body, int node)
+{
+    const int point = ends.addPoint();
+    ends.makeRoom();
+    ends.setPoint(point, {0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
+}
+
+// A corner of a turned and strained cube is pushed: away from rest one iteration is not enough.
+TEST(SoftBodyContacts, SolveForWhatALooseCorrectionLeft)
+{
+    const auto makeCube = []
+    {
+        Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
+        for (Vec3& x : body.m_state.m_x) x = {1.3 * x.y, -x.x, x.z + 0.2 * x.x};
+        return body;
+    };
+    StepSettings settings;
+    settings.m_tolerance = 1e-9;
+    const Vec3 impulse = {0, 30, 50};
+
+    Body expected = makeCube();
+    solveFreeMotion(expected, settings);
+    std::vector<Vec3> impulses(expected.m_state.m_x.size());
+    impulses[0] = impulse;
+    applyImpulses(expected, impulses, settings);
+
+    Body body = makeCube();
+    solveFreeMotion(body, settings);
+    const auto largestDifference = [&]
+    {
+        double largest = 0;
+        for (std::size_t i = 0; i < impulses.size(); ++i)
+            largest = std::max(largest, norm(velocity(body)[i] - velocity(expected)[i]));
+        return largest;
+    };
+    const auto cache = makeComplianceCache(body.m_model);
+    SoftBodyContacts ends;
+    ends.clear({&body, cache.get()}, StepSettings());
+    addNode(ends, body, 0);
+    ends.assemble(400, settings.m_step);
+    ends.request();
+    ends.form();
+    ends.measure();
+    const double whole = largestDifference();
+    ends.push(0, impulse);
+    const auto correct = [&](const CorrectionGoal& goal)
+    {
+        ImpulseResponse response = ends.beginCorrection(settings, goal);
+        if (!response.m_body) return false;
+        applyImpulses(&response, 1);
+        ends.endCorrection();
+        ends.measure();
+        return true;
+    };
+
+    EXPECT_TRUE(correct({0, 0.3}));
+    EXPECT_GT(largestDifference(), 1e-3 * whole);
+    EXPECT_TRUE(correct({}));
+    EXPECT_LT(largestDifference(), 1e-7 * whole);
+    EXPECT_FALSE(correct({}));
+}
+
+// Impulses that rounding makes where nothing closes change velocities of 1 m/s by nothing, or by rounding.
+TEST(SoftBodyContacts, LearnNothingFromTheRoundingOfVelocities)
+{
+    Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
+    std::fill(body.m_state.m_v.begin(), body.m_state.m_v.end(), Vec3{0.3, -0.2, 1});
+    const StepSettings settings;
+    solveFreeMotion(body, settings);
+    const auto cache = makeComplianceCache(body.m_model);
+    SoftBodyContacts ends;
+    ends.clear({&body, cache.get()}, StepSettings());
+    for (int node : {0, 1, 2}) addNode(ends, body, node);
+    ends.assemble(400, settings.m_step);
+    ends.request();
+    ends.form();
+    ends.measure();
+    const Mat3 before = ends.compliance(1, 1);
+    for (double impulse = 1e-30; impulse < 1e-8; impulse *= 3)
+    {
+        ends.push(1, {impulse, 0.1 * impulse, -impulse});
+        ImpulseResponse response = ends.beginCorrection(settings, {});
+        applyImpulses(&response, 1);
+        ends.endCorrection();
+        ends.measure();
+        ASSERT_FALSE(ends.hasLearnt()) << impulse << " N s";
+        ASSERT_FALSE(ends.isTooSoft()) << impulse << " N s";
+    }
+    for (int k = 0; k < 9; ++k) EXPECT_EQ(ends.compliance(1, 1)(k / 3, k % 3), before(k / 3, k % 3));
+}
+
+// The correction that takes back what was expected in vain changes velocities by more than its own impulses do.
+TEST(SoftBodyContacts, LearnNothingFromImpulsesThatWereExpectedInVain)
+{
+    Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
+    std::vector<Vec3> expected(body.m_state.m_x.size());
+    expected[0] = {0, 0, -100};
+    FreeMotion motion;
+    motion.m_body = &body;
+    motion.m_predicted = &expected;
+    solveFreeMotions(&motion, 1);
+    const auto cache = makeComplianceCache(body.m_model);
+    SoftBodyContacts ends;
+    ends.clear({&body, cache.get(), &expected}, StepSettings());
+    for (int node : {0, 1, 2}) addNode(ends, body, node);
+    ends.assemble(400, motion.m_settings.m_step);
+    ends.request();
+    ends.form();
+    ends.takeExpected(motion.m_settings, {});
+    ends.measure();
+    const auto correct = [&](const Vec3& impulse)
+    {
+        ends.push(0, impulse);
+        ImpulseResponse response = ends.beginCorrection(motion.m_settings, {});
+        applyImpulses(&response, 1);
+        ends.endCorrection();
+        ends.measure();
+    };
+    correct({0, 0, 10});
+    EXPECT_FALSE(ends.hasLearnt());
+    EXPECT_FALSE(ends.isTooSoft());
+    correct({0, 0, 10});
+    EXPECT_FALSE(ends.hasLearnt());  // W is right
+    EXPECT_FALSE(ends.isTooSoft());
+}
+
+// What hangs on a pin turns about it by the momentum of an impulse, whatever its shape; P has the arms of the body at
+// rest, along which this one pulls: it tells a thirtieth. To scale W would make it soft in every other direction, too.
+TEST(SoftBodyContacts, LearnTheRigidAnswerOfWhatIsStrained)
+{
+    const auto isPinned = [](const Vec3& X) { return norm(X) < 1e-6; };
+    Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e9, 0.3), isPinned);
+    for (Vec3& x : body.m_state.m_x)
+        x = {1.6 * x.x + 0.3 * x.y * x.z, x.y + 0.5 * x.x * x.x, 0.7 * x.z - 0.5 * x.x * x.y};
+    StepSettings settings;
+    settings.m_tolerance = 1e-6;
+    solveFreeMotion(body, settings);
+    const auto cache = makeComplianceCache(body.m_model);
+    SoftBodyContacts ends;
+    ends.clear({&body, cache.get()}, StepSettings());
+    ends.beginJoints();
+    const int last = static_cast<int>(body.m_state.m_x.size()) - 1;
+    for (int node : {last, last - 1}) addNode(ends, body, node);
+    ends.assemble(400, settings.m_step);
+    ends.request();
+    ends.form();
+    ends.measure();
+    const Mat3 before = ends.compliance(0, 0);
+    const Vec3 impulse = ends.rotation(last) * Vec3{10, 10, 10};
+    // What W tells of the speed that the end gets, as a share of what it gets.
+    const auto toldShare = [&]
+    {
+        const Vec3 v = ends.trueVelocity(0);
+        ends.push(0, impulse);
+        ends.refresh();
+        const double told = norm(ends.velocity(0) - v);
+        ImpulseResponse response = ends.beginCorrection(settings, {});
+        applyImpulses(&response, 1);
+        ends.endCorrection();
+        ends.measure();
+        return told / norm(ends.trueVelocity(0) - v);
+    };
+    EXPECT_LT(toldShare(), 0.1);
+    EXPECT_TRUE(ends.hasLearnt());
+    const double told = toldShare();
+    EXPECT_GT(told, 0.7);
+    EXPECT_LT(told, 2.2);
+    EXPECT_LT(trace(ends.compliance(0, 0)), 3 * trace(before));
+}
+
+}  // namespace
+}  // namespace bullet_fem
