@@ -85,7 +85,7 @@ protected:
     std::vector<LinkMotion> m_now;
 };
 
-TEST_F(ArticulatedBodiesTest, linksMoveNowAsBulletSays)
+TEST_F(ArticulatedBodiesTest, LinksMoveNowAsBulletSays)
 {
     addAll();
     btVector3 spin[5], velocity[5];
@@ -97,7 +97,7 @@ TEST_F(ArticulatedBodiesTest, linksMoveNowAsBulletSays)
     }
 }
 
-TEST_F(ArticulatedBodiesTest, allLinksMoveAsTheirResponsesSaid)
+TEST_F(ArticulatedBodiesTest, AllLinksMoveAsTheirResponsesSaid)
 {
     const Vec3 impulse = {1, -2, 3}, angular = {0.5, 1, -1};
     for (int pushed = 0; pushed < 5; ++pushed)
@@ -119,7 +119,7 @@ TEST_F(ArticulatedBodiesTest, allLinksMoveAsTheirResponsesSaid)
 }
 
 // Maxwell-Betti.
-TEST_F(ArticulatedBodiesTest, responsesAreReciprocal)
+TEST_F(ArticulatedBodiesTest, ResponsesAreReciprocal)
 {
     addAll();
     for (int a = 0; a < 5; ++a)
@@ -131,7 +131,7 @@ TEST_F(ArticulatedBodiesTest, responsesAreReciprocal)
         }
 }
 
-TEST_F(ArticulatedBodiesTest, aBaseAloneIsARigidBody)
+TEST_F(ArticulatedBodiesTest, ABaseAloneIsARigidBody)
 {
     btMultiBody body(0, 4, btVector3(1, 2, 3), false, false);
     body.finalizeMultiDof();
@@ -155,7 +155,7 @@ TEST_F(ArticulatedBodiesTest, aBaseAloneIsARigidBody)
     EXPECT_LT(squaredNorm(m_responses[0].m_linearOfAngular), 1e-12);
 }
 
-TEST_F(ArticulatedBodiesTest, forcesCountAsInBulletsNextStep)
+TEST_F(ArticulatedBodiesTest, ForcesActInBulletsNextStep)
 {
     m_body.addBaseForce(btVector3(0, 0, -7));
     m_body.addLinkForce(2, btVector3(5, 0, -9));
@@ -174,7 +174,7 @@ TEST_F(ArticulatedBodiesTest, forcesCountAsInBulletsNextStep)
     }
 }
 
-TEST_F(ArticulatedBodiesTest, jointFeedbackIsTheUsersAlone)
+TEST_F(ArticulatedBodiesTest, JointFeedbackIsLeftToTheUser)
 {
     btMultiBodyJointFeedback feedback;
     feedback.m_reactionForces.m_topVec.setValue(1, 2, 3);
@@ -184,7 +184,7 @@ TEST_F(ArticulatedBodiesTest, jointFeedbackIsTheUsersAlone)
     EXPECT_EQ(feedback.m_reactionForces.m_topVec, btVector3(1, 2, 3));
 }
 
-TEST_F(ArticulatedBodiesTest, onlyDynamicLinksOfMultibodiesThatMayWakeCanMove)
+TEST_F(ArticulatedBodiesTest, OnlyDynamicLinksOfWakeableMultibodiesCanMove)
 {
     EXPECT_TRUE(ArticulatedBodies::canMove(*m_colliders[0]) && ArticulatedBodies::canMove(*m_colliders[2]));
     m_body.setFixedBase(true);

@@ -77,7 +77,7 @@ protected:
     FemSoftBody& m_other = m_world.addCube({1, 0, 0});
 };
 
-TEST_F(ClusterJointTest, aPointOfAClusterMovesAsTheRigidBodyOfItsNodes)
+TEST_F(ClusterJointTest, APointOfAClusterMovesAsTheRigidBodyOfItsNodes)
 {
     appendLinear(m_other.m_softBody->m_clusters[0], btVector3(1, 0, btScalar(0.5)));
     const ContactProblem& problem = append();
@@ -89,7 +89,7 @@ TEST_F(ClusterJointTest, aPointOfAClusterMovesAsTheRigidBodyOfItsNodes)
     expectNear(joint.m_wanted, {}, 1e-4);
 }
 
-TEST_F(ClusterJointTest, anImpulseOnAPointIsHandedToTheNodesWithItsMomenta)
+TEST_F(ClusterJointTest, AnImpulseOnAPointIsHandedToTheNodesWithItsMomenta)
 {
     appendLinear(btSoftBody::Body(), btVector3(1, 0, btScalar(0.5)));
     const ContactProblem& problem = append();
@@ -101,7 +101,7 @@ TEST_F(ClusterJointTest, anImpulseOnAPointIsHandedToTheNodesWithItsMomenta)
     expectNear(angular, cross({1, 0, 0.5}, impulse), 1e-6);
 }
 
-TEST_F(ClusterJointTest, theSpinOfAClusterIsThatOfTheRigidBodyOfItsNodes)
+TEST_F(ClusterJointTest, TheSpinOfAClusterIsThatOfTheRigidBodyOfItsNodes)
 {
     appendAngular(btSoftBody::Body(), btVector3(0, 0, 1));
     const ContactProblem& problem = append();
@@ -115,7 +115,7 @@ TEST_F(ClusterJointTest, theSpinOfAClusterIsThatOfTheRigidBodyOfItsNodes)
     expectNear(angular, torque, 1e-6);
 }
 
-TEST_F(ClusterJointTest, bothBodiesReportOppositeImpulses)
+TEST_F(ClusterJointTest, BothBodiesReportOppositeImpulses)
 {
     appendLinear(m_other.m_softBody->m_clusters[0], btVector3(1, 0, btScalar(0.5)));
     expectOppositeImpulses(append(), m_cube, m_other, {0, 0, 2});
@@ -125,7 +125,7 @@ TEST_F(ClusterJointTest, bothBodiesReportOppositeImpulses)
     showClusterJoints(m_cube);
 }
 
-TEST_F(ClusterJointTest, pinnedNodesLeadTheirCluster)
+TEST_F(ClusterJointTest, PinnedNodesLeadTheirCluster)
 {
     soft().releaseClusters();
     soft().setMass(0, 0);
@@ -137,7 +137,7 @@ TEST_F(ClusterJointTest, pinnedNodesLeadTheirCluster)
     expectNear(velocityOf(problem.m_joints[0].m_a, problem, v), v[0], 1e-5);
 }
 
-TEST_F(ClusterJointTest, theFrameFollowsTheNodesAlsoOfASmallBody)
+TEST_F(ClusterJointTest, TheFrameFollowsTheNodesAlsoOfASmallBody)
 {
     // Bullet's own frames of clusters of centimetres are turned towards the identity.
     const Mat3 Q = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
@@ -151,7 +151,7 @@ TEST_F(ClusterJointTest, theFrameFollowsTheNodesAlsoOfASmallBody)
     EXPECT_NEAR(soft().m_clusters[0]->m_com.x(), -0.005, 1e-6);
 }
 
-TEST_F(ClusterJointTest, bulletsClusterSolverMovesNothing)
+TEST_F(ClusterJointTest, BulletsClusterSolverMovesNothing)
 {
     btRigidBody& ball = m_world.addRigid(1, btVector3(1, 0, 0));
     appendLinear(&ball, btVector3(1, 0, 0));
@@ -170,7 +170,7 @@ TEST_F(ClusterJointTest, bulletsClusterSolverMovesNothing)
     EXPECT_EQ(joint->m_bodies[1].m_rigid, &ball);
 }
 
-TEST_F(ClusterJointTest, contactJointsAreRemoved)
+TEST_F(ClusterJointTest, ContactJointsAreRemoved)
 {
     appendLinear(btSoftBody::Body(), btVector3(0, 0, 0));
     auto* contact = new (btAlignedAlloc(sizeof(btSoftBody::CJoint), 16)) btSoftBody::CJoint();
@@ -181,7 +181,7 @@ TEST_F(ClusterJointTest, contactJointsAreRemoved)
     showClusterJoints(m_cube);
 }
 
-TEST_F(ClusterJointTest, aJointThatACallbackDeletedIsForgotten)
+TEST_F(ClusterJointTest, JointDeletedByACallbackIsForgotten)
 {
     appendLinear(btSoftBody::Body(), btVector3(0, 0, 0));
     hideClusterJoints(m_cube);
@@ -191,7 +191,7 @@ TEST_F(ClusterJointTest, aJointThatACallbackDeletedIsForgotten)
     showClusterJoints(m_cube);
 }
 
-TEST_F(ClusterJointTest, aJointToADeletedBodyIsRemoved)
+TEST_F(ClusterJointTest, AJointToADeletedBodyIsRemoved)
 {
     btRigidBody& ball = m_world.addRigid(1, btVector3(1, 0, 0));
     appendLinear(&ball, btVector3(1, 0, 0));
@@ -203,7 +203,7 @@ TEST_F(ClusterJointTest, aJointToADeletedBodyIsRemoved)
     showClusterJoints(m_cube);
 }
 
-TEST_F(ClusterJointTest, aJointToABodyThatSpringsMoveIsFlaggedAndIgnored)
+TEST_F(ClusterJointTest, JointToASpringBodyIsFlaggedAndIgnored)
 {
     appendLinear(m_other.m_softBody->m_clusters[0], btVector3(1, 0, 0));
     m_world.m_bodies.pop_back();  // now just a soft body of the world
@@ -213,7 +213,7 @@ TEST_F(ClusterJointTest, aJointToABodyThatSpringsMoveIsFlaggedAndIgnored)
     showClusterJoints(m_cube);
 }
 
-TEST_F(ClusterJointTest, takesBackTheShareErpOfADistance)
+TEST_F(ClusterJointTest, TakesBackTheShareErpOfADistance)
 {
     btRigidBody& ball = m_world.addRigid(0, btVector3(1, 0, 0));
     appendLinear(&ball, btVector3(1, 0, 0));
@@ -225,7 +225,7 @@ TEST_F(ClusterJointTest, takesBackTheShareErpOfADistance)
     EXPECT_NEAR(joint.m_softness, 3, 1e-6);
 }
 
-TEST_F(ClusterJointTest, anAxisIsTurnedBackAndItsSpinLeftFree)
+TEST_F(ClusterJointTest, AnAxisIsTurnedBackAndItsSpinLeftFree)
 {
     btRigidBody& ball = m_world.addRigid(0, btVector3(1, 0, 0));
     appendAngular(&ball, btVector3(0, 0, 1));
@@ -240,7 +240,7 @@ TEST_F(ClusterJointTest, anAxisIsTurnedBackAndItsSpinLeftFree)
     EXPECT_TRUE(joint.m_b.m_angular);
 }
 
-TEST_F(ClusterJointTest, aMotorHoldsTheSpeedThatItSays)
+TEST_F(ClusterJointTest, MotorHoldsItsSpeed)
 {
     struct Motor : btSoftBody::AJoint::IControl
     {
@@ -269,7 +269,7 @@ TEST_F(ClusterJointTest, aMotorHoldsTheSpeedThatItSays)
     showClusterJoints(m_cube);
 }
 
-TEST_F(ClusterJointTest, badValuesAreFlaggedAndIgnored)
+TEST_F(ClusterJointTest, BadValuesAreFlaggedAndIgnored)
 {
     appendLinear(btSoftBody::Body(), btVector3(NAN, 0, 0));
     appendLinear(btSoftBody::Body(), btVector3(0, 0, 0));

@@ -32,7 +32,7 @@ protected:
     const std::vector<SkinVertex> m_vertices = verticesOf(m_mesh);
 };
 
-TEST_F(CollisionSkinTest, OfTheBoundaryIsTheBoundary)
+TEST_F(CollisionSkinTest, BoundarySkinEqualsTheMeshSurface)
 {
     const CollisionSkin skin(m_mesh, m_vertices, m_mesh.surface());
     EXPECT_EQ(skin.nodes(), m_mesh.surfaceNodes());
@@ -43,7 +43,7 @@ TEST_F(CollisionSkinTest, OfTheBoundaryIsTheBoundary)
     EXPECT_EQ(skin.mended().m_turned, 0);
 }
 
-TEST_F(CollisionSkinTest, CountsWhatItMends)
+TEST_F(CollisionSkinTest, CountsRepairedDefects)
 {
     std::vector<SkinVertex> vertices = m_vertices;
     vertices.push_back(vertices[m_mesh.surface()[0][0]]);  // the same place once more
@@ -108,7 +108,7 @@ TEST_F(CollisionSkinTest, PointsAreSumsOfNodesEachOnce)
     EXPECT_LT(norm(point.of(moved) - interpolated(followed, {0, 1, 2}, {0.5, 0.3, 0.2})), 1e-15);
 }
 
-TEST_F(CollisionSkinTest, NothingWithAnAreaIsRefused)
+TEST_F(CollisionSkinTest, SurfaceWithoutAreaIsRejected)
 {
     EXPECT_THROW(CollisionSkin(m_mesh, m_vertices, {{0, 1, 0}, {2, 2, 2}}), std::invalid_argument);
 }
@@ -148,7 +148,7 @@ TEST_F(Thinning, KeepsTheDeepestOfEveryCell)
     EXPECT_EQ(kept(), (std::vector<int>{4, 14}));
 }
 
-TEST_F(Thinning, KeepsWhatHoldsAndWhatIsDeeperByTheSlop)
+TEST_F(Thinning, KeepsLoadedContactsAndThoseDeeperBySlop)
 {
     for (const double gap : {0.0, -5e-5, 1e-5, -2e-4, -3e-4}) add(gap, gap >= 0);
     EXPECT_EQ(kept(), (std::vector<int>{0, 2, 4}));

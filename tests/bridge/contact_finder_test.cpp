@@ -32,7 +32,7 @@ protected:
     btCollisionObject m_ground, m_ball;
 };
 
-TEST_F(ContactFinderTest, theNodesOfAFaceTouchThePlaneBelow)
+TEST_F(ContactFinderTest, NodesOfAFaceContactThePlaneBelow)
 {
     const auto& contacts = find(m_ground);
     ASSERT_EQ(contacts.size(), 9u);
@@ -45,7 +45,7 @@ TEST_F(ContactFinderTest, theNodesOfAFaceTouchThePlaneBelow)
     }
 }
 
-TEST_F(ContactFinderTest, restitutionIsTheProductOfBothAtMostOne)
+TEST_F(ContactFinderTest, RestitutionIsTheProductOfBothAtMostOne)
 {
     EXPECT_EQ(find(m_ground).at(0).m_restitution, 0);
     m_box.m_body->setRestitution(btScalar(0.5));
@@ -57,7 +57,7 @@ TEST_F(ContactFinderTest, restitutionIsTheProductOfBothAtMostOne)
     EXPECT_EQ(find(m_ground).at(0).m_restitution, 0);
 }
 
-TEST_F(ContactFinderTest, contactSpringsAreTheRigidObjectsWhereItHasThem)
+TEST_F(ContactFinderTest, TakesContactStiffnessFromTheRigidObject)
 {
     EXPECT_EQ(find(m_ground).at(0).m_stiffness, 0);
     m_ground.setContactStiffnessAndDamping(1024, 8);
@@ -68,7 +68,7 @@ TEST_F(ContactFinderTest, contactSpringsAreTheRigidObjectsWhereItHasThem)
     EXPECT_EQ(find(m_ground).at(0).m_damping, 0);
 }
 
-TEST_F(ContactFinderTest, whatCannotBeReachedWithinTheStepIsLeftOut)
+TEST_F(ContactFinderTest, OmitsContactsOutOfReachWithinTheStep)
 {
     for (Vec3& x : m_fem.m_body.m_state.m_x) x.z += 0.5;
     EXPECT_TRUE(find(m_ground).empty());
@@ -78,7 +78,7 @@ TEST_F(ContactFinderTest, whatCannotBeReachedWithinTheStepIsLeftOut)
     EXPECT_TRUE(find(m_ground).empty());
 }
 
-TEST_F(ContactFinderTest, aBallBetweenTheFixedPointsTouchesTheNearestPointOfATriangle)
+TEST_F(ContactFinderTest, BallBetweenFixedPointsContactsNearestTrianglePoint)
 {
     // The nodes are 0.25 m away, and no middle of an edge or triangle is the nearest point.
     m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.3), btScalar(0.26), btScalar(1.09)));
@@ -92,7 +92,7 @@ TEST_F(ContactFinderTest, aBallBetweenTheFixedPointsTouchesTheNearestPointOfATri
 }
 
 // A box within one triangle of the top.
-TEST_F(ContactFinderTest, aSmallBoxThatLiesOnATriangleTouchesItWithItsCorners)
+TEST_F(ContactFinderTest, SmallBoxOnATriangleContactsItWithItsCorners)
 {
     const double half = 0.04, edge = m_fem.m_surface.meanEdge();
     const auto touchesAt = [&](double depth, double height)
@@ -119,7 +119,7 @@ TEST_F(ContactFinderTest, aSmallBoxThatLiesOnATriangleTouchesItWithItsCorners)
     EXPECT_LT(touchesAt(0.001, 1.01 * tallest), 4);
 }
 
-TEST_F(ContactFinderTest, aNearestPointThatPushesStaysUntilAFixedPointIsHardlyFarther)
+TEST_F(ContactFinderTest, ActiveNearestPointYieldsToNearlyAsCloseFixedPoints)
 {
     // Over an edge that leaves the node in the middle of the top face.
     const auto find = [this](double aside) -> const std::vector<ContactPoint>&
@@ -140,7 +140,7 @@ TEST_F(ContactFinderTest, aNearestPointThatPushesStaysUntilAFixedPointIsHardlyFa
     EXPECT_FALSE(hasNearest(find(kNext)));
 }
 
-TEST_F(ContactFinderTest, theLoadOfANearestPointThatPushesFollowsSlowly)
+TEST_F(ContactFinderTest, LoadOfAnActiveNearestPointFollowsSlowly)
 {
     const auto findNearest = [this](double aside)
     {
@@ -169,7 +169,7 @@ TEST_F(ContactFinderTest, theLoadOfANearestPointThatPushesFollowsSlowly)
     EXPECT_NEAR(findNearest(0.1), 0.1, 1e-6) << "it is fast";
 }
 
-TEST_F(ContactFinderTest, aCurvedShapeIsTouchedByPointsThatAreFixedInTheSurface)
+TEST_F(ContactFinderTest, CurvedShapeContactsFixedSurfacePoints)
 {
     btSphereShape large(30);
     m_ball.setCollisionShape(&large);
@@ -180,14 +180,14 @@ TEST_F(ContactFinderTest, aCurvedShapeIsTouchedByPointsThatAreFixedInTheSurface)
     EXPECT_GT(m_fem.m_contacts.size(), 9u);
 }
 
-TEST_F(ContactFinderTest, theOffsetIsTakenOffTheGap)
+TEST_F(ContactFinderTest, TheOffsetIsTakenOffTheGap)
 {
     m_fem.m_contactOffset = 0.02;
     ASSERT_EQ(find(m_ground).size(), 9u);
     for (const ContactPoint& c : m_fem.m_contacts) EXPECT_NEAR(c.m_gap, -0.02, 1e-12);
 }
 
-TEST_F(ContactFinderTest, impulsesOfTheLastStepAreTakenOver)
+TEST_F(ContactFinderTest, ImpulsesOfTheLastStepAreTakenOver)
 {
     ASSERT_EQ(find(m_ground).size(), 9u);
     m_fem.m_contacts[4].m_impulse = {1, 2, 3};
@@ -196,7 +196,7 @@ TEST_F(ContactFinderTest, impulsesOfTheLastStepAreTakenOver)
     for (const ContactPoint& c : m_fem.m_contacts) EXPECT_EQ(c.m_impulse.y, c.m_soft.m_nodes[0] == node ? 2 : 0);
 }
 
-TEST_F(ContactFinderTest, impulsesOfAllKindsOfPointsAreTakenOver)
+TEST_F(ContactFinderTest, ImpulsesOfAllKindsOfPointsAreTakenOver)
 {
     // A tilted box that is sunk in at one corner: nodes, middles and nearest points of edges and triangles.
     btBoxShape box(btVector3(1, 1, 1) * btScalar(0.4));
@@ -223,7 +223,7 @@ TEST_F(ContactFinderTest, impulsesOfAllKindsOfPointsAreTakenOver)
     EXPECT_EQ(found, count);
 }
 
-TEST_F(ContactFinderTest, theDeepestAreKeptWhereThereAreTooMany)
+TEST_F(ContactFinderTest, KeepsDeepestContactsAboveTheLimit)
 {
     Vec3& deep = m_fem.m_body.m_state.m_x[4];
     deep.z -= 0.01;
@@ -232,7 +232,7 @@ TEST_F(ContactFinderTest, theDeepestAreKeptWhereThereAreTooMany)
     EXPECT_NEAR(deepest()->m_gap, -0.01, 1e-9);
 }
 
-TEST_F(ContactFinderTest, shapesWithoutSupportAreReported)
+TEST_F(ContactFinderTest, ShapesWithoutSupportAreReported)
 {
     btEmptyShape empty;
     m_ground.setCollisionShape(&empty);
@@ -241,7 +241,7 @@ TEST_F(ContactFinderTest, shapesWithoutSupportAreReported)
 }
 
 // Every third stands on a triangle mesh, too, which is not asked by several threads.
-TEST_F(ContactFinderTest, manyBodiesOnSeveralThreadsFindWhatEachFindsAlone)
+TEST_F(ContactFinderTest, ThreadedSearchEqualsSearchBodyByBody)
 {
     const ConcaveShape sheet = makeTriangleMesh();
     btBoxShape box(btVector3(1, 1, 1));
@@ -284,7 +284,7 @@ TEST_F(ContactFinderTest, manyBodiesOnSeveralThreadsFindWhatEachFindsAlone)
     }
 }
 
-TEST_F(ContactFinderTest, objectsRecordedByManyThreadsAreFoundOnce)
+TEST_F(ContactFinderTest, ObjectsRecordedByManyThreadsAreFoundOnce)
 {
     std::vector<btCollisionObject> objects(16);
     std::vector<std::thread> threads;

@@ -35,7 +35,7 @@ protected:
 
 }  // namespace
 
-TEST_F(ContactPathsTest, aBallMeetsThePointThatItFliesTo)
+TEST_F(ContactPathsTest, BallHitsThePointInItsPath)
 {
     // Down to the upper face and, if nothing stops it, on through the lower one.
     const auto& contacts = findFrom({0.3, 0.2, 1.5625}, {0, 0, -120});
@@ -47,7 +47,7 @@ TEST_F(ContactPathsTest, aBallMeetsThePointThatItFliesTo)
     for (const ContactPoint& c : contacts) EXPECT_LT(std::hypot(c.m_point.x - 0.3, c.m_point.y - 0.2), 0.0626);
 }
 
-TEST_F(ContactPathsTest, theArmIsThatOfTheTouch)
+TEST_F(ContactPathsTest, ContactArmIsThatAtTheTimeOfImpact)
 {
     const auto& contacts = findFrom({-0.2, 0.2, 1.5625}, {60, 0, -60});
     ASSERT_FALSE(contacts.empty());
@@ -56,14 +56,14 @@ TEST_F(ContactPathsTest, theArmIsThatOfTheTouch)
         EXPECT_NEAR(norm(c.m_point + c.m_approach - centre - 0.0625 * c.m_normal), 0, 1e-5);
 }
 
-TEST_F(ContactPathsTest, whatLiesBesideThePathIsNoContact)
+TEST_F(ContactPathsTest, ObjectsBesideThePathMakeNoContact)
 {
     EXPECT_TRUE(findFrom({-1, 0.5, 1.07}, {200, 0, 0}).empty()) << "8 mm over the face";
     EXPECT_FALSE(findFrom({-1, 0.5, 1.06}, {200, 0, 0}).empty());
     EXPECT_TRUE(findFrom({0.5, 0.5, 1.07}, {0, 0, 100}).empty()) << "it leaves";
 }
 
-TEST_F(ContactPathsTest, whatTouchesAsTheStepBeginsHasTheGapOfThatTime)
+TEST_F(ContactPathsTest, InitialContactHasTheGapAtStepStart)
 {
     ASSERT_FALSE(findFrom({0.3, 0.2, 1.05}, {0, 0, -120}).empty());
     const auto first = deepest();
@@ -71,7 +71,7 @@ TEST_F(ContactPathsTest, whatTouchesAsTheStepBeginsHasTheGapOfThatTime)
     EXPECT_NEAR(norm(first->m_approach - Vec3{0, 0, -2}), 0, 1e-5) << "the object is 2 m farther on";
 }
 
-TEST_F(ContactPathsTest, whatGravityGivesInAStepIsNotFast)
+TEST_F(ContactPathsTest, GravityOfOneStepIsNotFastMotion)
 {
     const double speed = 0.3 / kStep;  // more than half of the ball's diameter and of an edge in a step
     const auto fromTheBeginning = [&](const ContactPoint& c)  // the object has gone its way already

@@ -18,10 +18,10 @@ namespace
 constexpr double kStep = 1.0 / 60, kGravity = 9.81;
 
 // A cube, 1 kg a node, in gravity, on contacts with rigid and soft bodies.
-class SteadyBodiesTest : public testing::Test
+class ContactPredictionTest : public testing::Test
 {
 protected:
-    SteadyBodiesTest()
+    ContactPredictionTest()
     {
         for (Vec3& f : m_fem.m_body.m_loads.m_force) f = {0, 0, -kGravity};
         m_weight = kStep * kGravity * double(m_fem.m_body.m_state.m_mass.size());
@@ -61,19 +61,19 @@ protected:
     double m_weight = 0;  // times the step [N s]
 };
 
-TEST_F(SteadyBodiesTest, OneThatNothingTouchesIsNot)
+TEST_F(ContactPredictionTest, BodyWithoutContactIsNotSteady)
 {
     EXPECT_FALSE(isSteady());
 }
 
-TEST_F(SteadyBodiesTest, OneWhoseWeightIsCarriedIs)
+TEST_F(ContactPredictionTest, SupportedBodyIsSteady)
 {
     rest(1);
     EXPECT_TRUE(isSteady());
 }
 
 // A quarter of the band, 1.25 % of an edge of .6 m, is 7.5 mm a step: gravity alone is 2.7 mm.
-TEST_F(SteadyBodiesTest, OneThatIsPushedByMoreIsNot)
+TEST_F(ContactPredictionTest, OverloadedBodyIsNotSteady)
 {
     rest(3);
     EXPECT_TRUE(isSteady());
@@ -84,7 +84,7 @@ TEST_F(SteadyBodiesTest, OneThatIsPushedByMoreIsNot)
     EXPECT_FALSE(isSteady());
 }
 
-TEST_F(SteadyBodiesTest, OneThatSoftBodiesCarryIs)
+TEST_F(ContactPredictionTest, BodyCarriedBySoftBodiesIsSteady)
 {
     for (Vec3& f : m_fem.m_body.m_loads.m_force) f = {0, 0, -10 * kGravity};
     restOnSoft(SoftPairKind::edges, 10 * m_weight);
@@ -95,7 +95,7 @@ TEST_F(SteadyBodiesTest, OneThatSoftBodiesCarryIs)
     EXPECT_FALSE(isSteady());
 }
 
-TEST_F(SteadyBodiesTest, OneThatMovesAsOneIs)
+TEST_F(ContactPredictionTest, RigidlyMovingBodyIsSteady)
 {
     rest(1);
     for (Vec3& v : m_fem.m_body.m_state.m_v) v = {20, -10, 3};
@@ -105,7 +105,7 @@ TEST_F(SteadyBodiesTest, OneThatMovesAsOneIs)
 }
 
 // A jammed one, say: what it does would hang on small differences of large impulses.
-TEST_F(SteadyBodiesTest, OneThatCarriesManyTimesItsLoadsIsNot)
+TEST_F(ContactPredictionTest, BodyCarryingManyTimesItsLoadsIsNotSteady)
 {
     m_fem.m_contacts.assign(3, ContactPoint());
     m_fem.m_contacts[0].m_impulse = {0, 0, m_weight};
@@ -119,7 +119,7 @@ TEST_F(SteadyBodiesTest, OneThatCarriesManyTimesItsLoadsIsNot)
     EXPECT_FALSE(isSteady());
 }
 
-TEST_F(SteadyBodiesTest, IsExpectedToGetWhatItsNodesGotInTheLastStep)
+TEST_F(ContactPredictionTest, PredictsNodeImpulsesOfTheLastStep)
 {
     rest(0.5);
     m_fem.m_contacts[0].m_soft.m_nodes = {3, 4, 3};
@@ -135,7 +135,7 @@ TEST_F(SteadyBodiesTest, IsExpectedToGetWhatItsNodesGotInTheLastStep)
 }
 
 // As after it was attached to something, or set up anew: its contacts may be told by other nodes.
-TEST_F(SteadyBodiesTest, OneWhosePlaceIsForgottenIsNotCarriedBySoftBodies)
+TEST_F(ContactPredictionTest, BodyWithForgottenPlaceIsNotCarriedBySoftBodies)
 {
     restOnSoft(SoftPairKind::edges, m_weight);
     ASSERT_TRUE(isSteady());
@@ -143,7 +143,7 @@ TEST_F(SteadyBodiesTest, OneWhosePlaceIsForgottenIsNotCarriedBySoftBodies)
     EXPECT_FALSE(isSteady());
 }
 
-TEST_F(SteadyBodiesTest, OneWithVelocitiesThatAreNoNumbersIsNot)
+TEST_F(ContactPredictionTest, BodyWithNonFiniteVelocitiesIsNotSteady)
 {
     rest(1);
     m_fem.m_body.m_state.m_v[5].x = std::nan("");

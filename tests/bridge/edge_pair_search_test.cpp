@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST(EdgePairSearch, CrossingBarsTouchWhereTheirRimsCross)
+TEST(EdgePairSearch, CrossingBarsContactAtRimCrossings)
 {
     PairBody upper(makeBox({3, 0.5, 0.5}, {1, 1, 1})), lower(makeBox({0.5, 3, 0.5}, {1, 1, 1}));
     upper.move({-1.2, 1.1, 0.501});
@@ -30,7 +30,7 @@ TEST(EdgePairSearch, CrossingBarsTouchWhereTheirRimsCross)
 }
 
 // The sides of rims lean over the way out, as those of squeezed bodies do.
-TEST(EdgePairSearch, SunkRimsOfLeaningBarsTouch)
+TEST(EdgePairSearch, OverlappingRimsOfLeaningBarsAreInContact)
 {
     for (const double slope : {-0.2, 0.01, 0.05, 0.2})
     {
@@ -53,7 +53,7 @@ TEST(EdgePairSearch, FastCrossingBarsMeet)
     expectAlongZ(found, 0.4);
 }
 
-TEST(EdgePairSearch, EdgesOnEdgesTouchAlongTheirCommonNormal)
+TEST(EdgePairSearch, EdgePairsContactAlongTheirCommonNormal)
 {
     PairBody upper(makeBox({2, 1, 1}, {1, 1, 1}, {-1, -0.5, -0.5})),
         lower(makeBox({2, 1, 1}, {1, 1, 1}, {-1, -0.5, -0.5}));
@@ -98,7 +98,7 @@ protected:
     const std::vector<Vec3> m_restOfUpper = m_upper.m_x, m_restOfLower = m_lower.m_x;
 };
 
-TEST_F(BentPlates, CrossingEdgesTouchWhoseEndsHaveJustComeInside)
+TEST_F(BentPlates, CrossingEdgesWithPenetratingEndsAreInContact)
 {
     bend(0.1, -0.0101);  // the ends, .1 m away, are 0.1 mm deep
     const PairContacts found(m_upper, m_lower);
@@ -106,7 +106,7 @@ TEST_F(BentPlates, CrossingEdgesTouchWhoseEndsHaveJustComeInside)
     EXPECT_GT(found.count(SoftPairKind::nodeOfFirst), 0);
 }
 
-TEST_F(BentPlates, EdgesThatPushEachOtherFlatRemainAPairUntilOneIsAGroove)
+TEST_F(BentPlates, FlattenedEdgesRemainAPairUntilOneIsAGroove)
 {
     constexpr double kGap = 1e-4;
     constexpr double kRidge = 0.02, kFlat = 0.005, kGroove = -0.02;  // slopes: 2.3, 0.6 and -2.3 degrees in all
@@ -130,7 +130,7 @@ TEST_F(BentPlates, EdgesThatPushEachOtherFlatRemainAPairUntilOneIsAGroove)
     EXPECT_EQ(countAfterRidge(kGroove, 1), 0);
 }
 
-TEST_F(BentPlates, EdgesOfASurfaceThatIsAnotherNowAreNoPair)
+TEST_F(BentPlates, EdgesOfAReplacedSurfaceFormNoPair)
 {
     bend(0.02, 1e-4);
     PairContacts found(m_upper, m_lower);

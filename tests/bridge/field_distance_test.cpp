@@ -23,7 +23,7 @@ std::unique_ptr<btSdfCollisionShape> ballField()
         makeSdf({[](const Vec3& x) { return norm(x) - kBallOfField; }, {1, 1, 1}, 12}));
 }
 
-TEST(FieldDistance, IsThatOfTheBallWithItsNormal)
+TEST(FieldDistance, MatchesTheBallAndItsNormal)
 {
     const auto ball = ballField();
     std::mt19937 random(1);
@@ -49,7 +49,7 @@ TEST(FieldDistance, HasTheMargin)
     EXPECT_NEAR(d.m_gap, 0.15, 1e-3);
 }
 
-TEST(FieldDistance, IsNoMoreThanTheTrueOneBeyondTheDomain)
+TEST(FieldDistance, IsALowerBoundBeyondTheDomain)
 {
     const auto ball = ballField();
     for (const Vec3& x : {Vec3{1.2, 0, 0}, Vec3{3, 2, 1}, Vec3{0, -1.05, 0.4}})
@@ -65,7 +65,7 @@ TEST(FieldDistance, IsNoMoreThanTheTrueOneBeyondTheDomain)
 }
 
 // The true nearest point is found on a fine grid.
-TEST(FieldDistance, OfTrianglesIsTheLeastOnThem)
+TEST(FieldDistance, TriangleDistanceIsTheMinimumOverTheTriangle)
 {
     const auto ball = ballField();
     std::mt19937 random(2);
@@ -92,7 +92,7 @@ TEST(FieldDistance, OfTrianglesIsTheLeastOnThem)
     }
 }
 
-TEST(FieldDistance, OfAnEdgeIsFoundToo)
+TEST(FieldDistance, DegenerateTriangleGivesTheEdgeDistance)
 {
     const auto ball = ballField();
     const Vec3 a = {-0.9, 0.1, 0.7}, b = {0.8, 0.1, 0.7};

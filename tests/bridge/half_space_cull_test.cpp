@@ -70,7 +70,7 @@ TEST(HalfSpaceCull, AgreesWithTheNearestTriangleOfAnInvertedBody)
     EXPECT_EQ(proved(makeSphere(1, 6), insideOut), 0);
 }
 
-TEST(HalfSpaceCull, IsNoneOfOpenSurfaces)
+TEST(HalfSpaceCull, CullsNothingForOpenSurfaces)
 {
     SoftSurface sheet(RestSurface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {0, 1, 2}, 1, 1, {}});
     EXPECT_FALSE(sheet.isClosed());

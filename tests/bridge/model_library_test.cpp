@@ -23,7 +23,7 @@ protected:
     ModelLibrary m_library;
 };
 
-TEST_F(ModelLibraryTest, copiesOfABodyElsewhereShareModelAndCompliance)
+TEST_F(ModelLibraryTest, CopiesOfABodyElsewhereShareModelAndCompliance)
 {
     const TestBox a, b({btScalar(37.3), btScalar(-12.1), 5});
     const auto first = modelOf(*a.m_body, Material()), second = modelOf(*b.m_body, Material());
@@ -32,7 +32,7 @@ TEST_F(ModelLibraryTest, copiesOfABodyElsewhereShareModelAndCompliance)
     EXPECT_EQ(compliance, m_library.compliance(second));
 }
 
-TEST_F(ModelLibraryTest, copiesWhoseMassesDifferByRoundingShareModelAndNeighbours)
+TEST_F(ModelLibraryTest, CopiesWithRoundedMassesShareModelAndNeighbours)
 {
     const TestBox a;
     const auto shape = m_library.restShape(tetMeshOf(*a.m_body), Material(), filledFractionsOf(*a.m_body));
@@ -46,7 +46,7 @@ TEST_F(ModelLibraryTest, copiesWhoseMassesDifferByRoundingShareModelAndNeighbour
     EXPECT_EQ(m_library.restNeighbours(shape), neighbours);
 }
 
-TEST_F(ModelLibraryTest, aStepRoundedToSinglePrecisionIsTheSameStep)
+TEST_F(ModelLibraryTest, StepRoundedToSinglePrecisionIsTheSameStep)
 {
     const TestBox a;
     const auto model = modelOf(*a.m_body, Material(), 1.0 / 60);
@@ -54,7 +54,7 @@ TEST_F(ModelLibraryTest, aStepRoundedToSinglePrecisionIsTheSameStep)
     EXPECT_NE(model, modelOf(*a.m_body, Material(), 1.0001 / 60));
 }
 
-TEST_F(ModelLibraryTest, anotherMaterialStepOrShapeIsAnotherModel)
+TEST_F(ModelLibraryTest, AnotherMaterialStepOrShapeIsAnotherModel)
 {
     const TestBox a;
     TestBox stretched;
@@ -68,7 +68,7 @@ TEST_F(ModelLibraryTest, anotherMaterialStepOrShapeIsAnotherModel)
     EXPECT_NE(model, modelOf(*hollow.m_body, Material()));
 }
 
-TEST_F(ModelLibraryTest, modelsMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
+TEST_F(ModelLibraryTest, ModelsMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
 {
     const TestBox a;
     const auto shape = m_library.restShape(tetMeshOf(*a.m_body), Material(), filledFractionsOf(*a.m_body));
@@ -81,7 +81,7 @@ TEST_F(ModelLibraryTest, modelsMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
     EXPECT_EQ(m_library.model(shape, input), first);
 }
 
-TEST_F(ModelLibraryTest, factorsOfAnotherMaterialAreBorrowedAndNeverTakenForFresh)
+TEST_F(ModelLibraryTest, FactorsOfAnotherMaterialAreBorrowedAndNeverTakenForFresh)
 {
     const TestBox a;
     const auto mesh = tetMeshOf(*a.m_body);
@@ -101,7 +101,7 @@ TEST_F(ModelLibraryTest, factorsOfAnotherMaterialAreBorrowedAndNeverTakenForFres
     EXPECT_EQ(m_library.modelWithFactor(wooden, input, factored), own);  // which fits better
 }
 
-TEST_F(ModelLibraryTest, shapesMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
+TEST_F(ModelLibraryTest, ShapesMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
 {
     const TestBox a;
     const auto first = std::make_shared<const RestShape>(tetMeshOf(*a.m_body), Material());
@@ -111,7 +111,7 @@ TEST_F(ModelLibraryTest, shapesMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)
     EXPECT_EQ(m_library.restShape(tetMeshOf(*a.m_body), Material(), {}), first);
 }
 
-TEST_F(ModelLibraryTest, modelsDieWithTheirLastBody)
+TEST_F(ModelLibraryTest, ModelsDieWithTheirLastBody)
 {
     const TestBox a;
     std::weak_ptr<const BodyModel> observed = modelOf(*a.m_body, Material());

@@ -58,7 +58,7 @@ bool crossNearby(const TestEdge& a, const TestEdge& b)
     return interior && norm(a.at(at.m_a, 0) - b.at(at.m_b, 0)) < kNear;
 }
 
-TEST_P(PlacedRidges, AreRuledOutFourAtATimeOnlyWhereTheyCanNeitherCrossNorMeet)
+TEST_P(PlacedRidges, BatchCullingKeepsCrossingAndMeetingEdges)
 {
     Random random;
     int crossings = 0, kept = 0, count = 0;
@@ -149,7 +149,7 @@ double minDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 }
 
 // Two balls that close in on each other at an angle to all axes.
-TEST(NearRidges, AreAllThatMayTouchAndFewMore)
+TEST(NearRidges, IncludesAllPossibleContactsAndFewMore)
 {
     Random random;
     const Vec3 toB = unit({1, 0.8, 1.2});
@@ -170,7 +170,7 @@ TEST(NearRidges, AreAllThatMayTouchAndFewMore)
     EXPECT_LT(static_cast<int>(ofA.size() + ofB.size()), edges / 2);
 }
 
-TEST(BeyondPlane, LeavesOutWhatStaysFarWithinTheStepsAlone)
+TEST(BeyondPlane, ExcludesLeavesThatStayBeyondWithinTheSteps)
 {
     Random random;
     const TestSurface ball(random, {}, {});

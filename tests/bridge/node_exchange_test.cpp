@@ -27,7 +27,7 @@ protected:
     FemSoftBody m_fem = makeFemSoftBody(*m_box.m_body);
 };
 
-TEST_F(NodeExchange, loadsOnlyTheComponentsThatTheUserWrote)
+TEST_F(NodeExchange, LoadsOnlyComponentsWrittenByTheUser)
 {
     state().m_x[3] = {1.00000000123, 2.00000000456, 3.00000000789};  // more digits than Bullet's float holds
     writeNodes(m_fem);
@@ -38,7 +38,7 @@ TEST_F(NodeExchange, loadsOnlyTheComponentsThatTheUserWrote)
     EXPECT_EQ(state().m_x[3].z, 3.00000000789);
 }
 
-TEST_F(NodeExchange, keepsThePreviousPositionAndVelocityInBulletsFields)
+TEST_F(NodeExchange, KeepsThePreviousPositionAndVelocityInBulletsFields)
 {
     const btVector3 before = node(2).m_x;
     state().m_x[2] += Vec3{1, 0, 0};
@@ -49,7 +49,7 @@ TEST_F(NodeExchange, keepsThePreviousPositionAndVelocityInBulletsFields)
     EXPECT_EQ(node(2).m_v, btVector3(0, 7, 0));
 }
 
-TEST_F(NodeExchange, aMovedPinIsReachedWithinTheStepAndThenStands)
+TEST_F(NodeExchange, AMovedPinIsReachedWithinTheStepAndThenStands)
 {
     node(0).m_im = 0;
     readNodes(m_fem);
@@ -63,7 +63,7 @@ TEST_F(NodeExchange, aMovedPinIsReachedWithinTheStepAndThenStands)
     EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0);
 }
 
-TEST_F(NodeExchange, aBodyMovedAsAWholeTakesItsPinsAlong)
+TEST_F(NodeExchange, ABodyMovedAsAWholeTakesItsPinsAlong)
 {
     node(0).m_im = 0;
     readNodes(m_fem);
@@ -75,7 +75,7 @@ TEST_F(NodeExchange, aBodyMovedAsAWholeTakesItsPinsAlong)
     EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].z, 0);
 }
 
-TEST_F(NodeExchange, aPinnedNodeThatIsGivenAVelocityKeepsIt)
+TEST_F(NodeExchange, PinnedNodeKeepsAPrescribedVelocity)
 {
     node(0).m_im = 0;
     node(0).m_v = btVector3(0, 2, 0);
@@ -87,7 +87,7 @@ TEST_F(NodeExchange, aPinnedNodeThatIsGivenAVelocityKeepsIt)
     }
 }
 
-TEST_F(NodeExchange, pinningAMovingNodeStopsIt)
+TEST_F(NodeExchange, PinningAMovingNodeStopsIt)
 {
     state().m_v[0] = {3, 0, 0};
     writeNodes(m_fem);
@@ -97,7 +97,7 @@ TEST_F(NodeExchange, pinningAMovingNodeStopsIt)
     EXPECT_EQ(m_fem.m_body.m_loads.m_targetVelocity[0].x, 0);
 }
 
-TEST_F(NodeExchange, restoresWhatIsNotFinite)
+TEST_F(NodeExchange, RestoresNonFiniteValues)
 {
     const btVector3 good = node(4).m_x;
     node(4).m_x.setX(std::numeric_limits<btScalar>::quiet_NaN());
@@ -108,7 +108,7 @@ TEST_F(NodeExchange, restoresWhatIsNotFinite)
     EXPECT_FALSE(readNodes(m_fem).m_restored);
 }
 
-TEST_F(NodeExchange, dropsForcesThatAreNotFinite)
+TEST_F(NodeExchange, DropsNonFiniteForces)
 {
     node(1).m_f = btVector3(std::numeric_limits<btScalar>::quiet_NaN(), 0, 0);
     node(2).m_f = btVector3(6, 0, 0);
@@ -119,7 +119,7 @@ TEST_F(NodeExchange, dropsForcesThatAreNotFinite)
 }
 
 // A pressure of 1e30, say.
-TEST_F(NodeExchange, dropsForcesThatWouldThrowTheBodyOutOfTheWorld)
+TEST_F(NodeExchange, DropsForcesAboveTheLimit)
 {
     double mass = 0;
     for (double m : m_fem.m_body.m_state.m_mass) mass += m;
@@ -131,7 +131,7 @@ TEST_F(NodeExchange, dropsForcesThatWouldThrowTheBodyOutOfTheWorld)
     EXPECT_NEAR(m_fem.m_body.m_loads.m_force[2].y, -0.99 * most, 1e-5 * most);
 }
 
-TEST_F(NodeExchange, takesNewMassesAndKeepsTheOldOnesForBadOnes)
+TEST_F(NodeExchange, TakesNewMassesAndKeepsTheOldOnesForBadOnes)
 {
     const double old = state().m_mass[1];
     node(0).m_im = btScalar(0.25);
@@ -142,7 +142,7 @@ TEST_F(NodeExchange, takesNewMassesAndKeepsTheOldOnesForBadOnes)
     EXPECT_EQ(state().m_mass[1], old);
 }
 
-TEST_F(NodeExchange, measuresHowFarTheFactorIsOff)
+TEST_F(NodeExchange, MeasuresHowFarTheFactorIsOff)
 {
     EXPECT_NEAR(factorMismatch(m_fem, kFrame), 1, 1e-12);
     EXPECT_NEAR(factorMismatch(m_fem, kFrame / 4), 4, 1e-12);
@@ -150,14 +150,14 @@ TEST_F(NodeExchange, measuresHowFarTheFactorIsOff)
     EXPECT_NEAR(factorMismatch(m_fem, kFrame), 10, 1e-12);
 }
 
-TEST_F(NodeExchange, turnsBulletsDampingIntoTheRateThatDoesTheSame)
+TEST_F(NodeExchange, ConvertsBulletsDampingToAnEquivalentRate)
 {
     m_box.m_body->m_cfg.kDP = btScalar(0.5);
     readLoads(m_fem, kFrame);
     EXPECT_NEAR(1 / (1 + kFrame * m_fem.m_body.m_loads.m_massDamping), 0.5, 1e-12);
 }
 
-TEST_F(NodeExchange, boundsHoldTheMotionToCome)
+TEST_F(NodeExchange, BoundsHoldTheMotionToCome)
 {
     for (Vec3& v : state().m_v) v = {60, 0, 0};
     setSweptBounds(m_fem, kFrame, 0.1);

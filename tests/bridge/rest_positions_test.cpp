@@ -26,7 +26,7 @@ std::vector<Vec3> relativeToFirst(const btSoftBody& body)
 }
 
 // A long walk: 40 cells, whose rounding does not add up to more than a hundred-thousandth of an edge.
-TEST(RestPositions, areFoundByWalkingOverTheElements)
+TEST(RestPositions, AreFoundByWalkingOverTheElements)
 {
     btSoftBodyWorldInfo info;
     const auto body = makeSoftBody(info, makeBox({4, .2, .2}, {40, 2, 2}));
@@ -41,7 +41,7 @@ TEST(RestPositions, areFoundByWalkingOverTheElements)
     for (std::size_t i = 1; i < rest.size(); ++i) EXPECT_NEAR(norm(found.m_X[i]), norm(rest[i]), 1e-6) << i;
 }
 
-TEST(RestPositions, arePresentOnesAfterRigidMotions)
+TEST(RestPositions, ArePresentOnesAfterRigidMotions)
 {
     const TestBox box;
     box.m_body->initializeDmInverse();
@@ -53,7 +53,7 @@ TEST(RestPositions, arePresentOnesAfterRigidMotions)
     EXPECT_EQ(norm(found.m_origin - vec3(box.m_body->m_nodes[0].m_x)), 0);
 }
 
-TEST(RestPositions, ofEveryPieceLieOverIt)
+TEST(RestPositions, EachComponentLiesOverItsPresentPlace)
 {
     const TetMesh cube = makeBox({1, 1, 1}, {1, 1, 1});
     std::vector<Vec3> X = cube.restPositions();
@@ -74,7 +74,7 @@ TEST(RestPositions, ofEveryPieceLieOverIt)
     }
 }
 
-TEST(RestPositions, areThePresentOnesWithoutMatrices)
+TEST(RestPositions, AreThePresentOnesWithoutMatrices)
 {
     const TestBox box;
     const RestPositions found = restPositionsOf(*box.m_body, tetsOf(*box.m_body));
@@ -83,7 +83,7 @@ TEST(RestPositions, areThePresentOnesWithoutMatrices)
 }
 
 // Elements of negative orientation have a negative rest volume and the matrix of that.
-TEST(RestPositions, ofTurnedElementsAreFoundToo)
+TEST(RestPositions, AreFoundForElementsOfNegativeOrientation)
 {
     const TestBox box;
     for (int e = 0; e < box.m_body->m_tetras.size(); e += 2)
@@ -98,7 +98,7 @@ TEST(RestPositions, ofTurnedElementsAreFoundToo)
 }
 
 // Bullet moves the nodes when it appends one, and forgets the tetrahedra's pointers.
-TEST(RestPositions, ofElementsThatPointNowhereAreRefused)
+TEST(RestPositions, RejectElementsWithInvalidNodePointers)
 {
     const TestBox box;
     for (int k = 0; k < 40; ++k) box.m_body->appendNode(btVector3(5, 5, 5), 1);

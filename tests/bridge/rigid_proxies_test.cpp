@@ -14,7 +14,7 @@ namespace
 
 constexpr double kObstacleStep = 1.0 / 60;
 
-class RigidObstaclesTest : public ::testing::Test
+class RigidProxiesTest : public ::testing::Test
 {
 protected:
     btSphereShape m_sphere{1};
@@ -37,7 +37,7 @@ protected:
     }
 };
 
-TEST_F(RigidObstaclesTest, aDynamicBodyIsSeenWithTheVelocityOfItsNextStep)
+TEST_F(RigidProxiesTest, ADynamicBodyIsSeenWithTheVelocityOfItsNextStep)
 {
     m_body.setGravity(btVector3(0, 0, -6));
     m_body.setLinearVelocity(btVector3(1, 0, 0));
@@ -47,13 +47,13 @@ TEST_F(RigidObstaclesTest, aDynamicBodyIsSeenWithTheVelocityOfItsNextStep)
     EXPECT_NEAR(rigidProxy.m_inverseMass.x, 0.5, 1e-6);
 }
 
-TEST_F(RigidObstaclesTest, anObjectHasOneObstacle)
+TEST_F(RigidProxiesTest, AnObjectHasOneObstacle)
 {
     EXPECT_EQ(m_rigidProxies.indexOf(m_body, kObstacleStep), m_rigidProxies.indexOf(m_body, kObstacleStep));
     EXPECT_EQ(m_rigidProxies.rigidProxies().size(), 1u);
 }
 
-TEST_F(RigidObstaclesTest, lockedAxesFeelNoImpulse)
+TEST_F(RigidProxiesTest, LockedAxesReceiveNoImpulse)
 {
     m_body.setLinearFactor(btVector3(1, 1, 0));
     m_body.setAngularFactor(btVector3(0, 0, 1));
@@ -64,7 +64,7 @@ TEST_F(RigidObstaclesTest, lockedAxesFeelNoImpulse)
     EXPECT_NEAR(m_body.getAngularVelocity().z(), -2, 1e-6);
 }
 
-TEST_F(RigidObstaclesTest, impulsesBelowTheRoundingOfFloatAddUp)
+TEST_F(RigidProxiesTest, ImpulsesBelowTheRoundingOfFloatAddUp)
 {
     m_body.setLinearVelocity(btVector3(1, 0, 0));
     const double tiny = 2e-8;  // each changes the velocity by 1e-8, a sixth of what float can add to 1
@@ -76,14 +76,14 @@ TEST_F(RigidObstaclesTest, impulsesBelowTheRoundingOfFloatAddUp)
     EXPECT_NEAR(m_body.getLinearVelocity().x(), 1 + 1e-5, 2e-7);
 }
 
-TEST_F(RigidObstaclesTest, impulsesWakeABody)
+TEST_F(RigidProxiesTest, ImpulsesWakeABody)
 {
     m_body.setActivationState(ISLAND_SLEEPING);
     m_rigidProxies.applyReactions(contact({-1, 0, 0}, {0, 0, 0}), kObstacleStep);
     EXPECT_TRUE(m_body.isActive());
 }
 
-TEST_F(RigidObstaclesTest, aPushMovesTheBodyAndLeavesItsVelocityAlone)
+TEST_F(RigidProxiesTest, APushMovesTheBodyAndLeavesItsVelocityAlone)
 {
     m_rigidProxies.indexOf(m_body, kObstacleStep);
     m_rigidProxies.rigidProxies()[0].m_pushLinear = {0, 6, 0};
@@ -92,7 +92,7 @@ TEST_F(RigidObstaclesTest, aPushMovesTheBodyAndLeavesItsVelocityAlone)
     EXPECT_EQ(m_body.getLinearVelocity(), btVector3(0, 0, 0));
 }
 
-TEST_F(RigidObstaclesTest, staticAndKinematicBodiesCannotBeMoved)
+TEST_F(RigidProxiesTest, StaticAndKinematicBodiesCannotBeMoved)
 {
     m_body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     m_body.setInterpolationLinearVelocity(btVector3(0, 3, 0));

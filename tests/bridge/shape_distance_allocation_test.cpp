@@ -92,7 +92,7 @@ TEST(ShapeDistanceAllocation, NothingIsAllocatedOnceTheLeavesHaveRoom)
     EXPECT_GT(inside, 300);
 }
 
-TEST(SheetTouchAllocation, NothingIsAllocatedOnceTheScratchHasGrown)
+TEST(SheetContactAllocation, NothingIsAllocatedOnceTheScratchHasGrown)
 {
     btAlignedAllocSetCustom(countedAlloc, countedFree);
     btAlignedAllocSetCustomAligned(countedAlignedAlloc, countedFree);

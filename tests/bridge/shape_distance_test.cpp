@@ -53,7 +53,7 @@ const double s2 = std::sqrt(0.5), s3 = std::sqrt(1.0 / 3), s5 = std::sqrt(0.2);
 
 }  // namespace
 
-TEST(PointShapeDistance, Box)
+TEST(PointShapeDistance, MatchesHandValuesForBox)
 {
     btBoxShape box(btVector3(1, 2, 3));
     expectHandValues(box, {{"face", {1.5, 0.5, 1}, 0.5, {1, 0, 0}},
@@ -66,7 +66,7 @@ TEST(PointShapeDistance, Box)
     expectHandValues(box, {{"scaled", {2.5, 0, 0}, 0.5, {1, 0, 0}}});
 }
 
-TEST(PointShapeDistance, Sphere)
+TEST(PointShapeDistance, MatchesHandValuesForSphere)
 {
     btSphereShape sphere(0.5);
     expectHandValues(sphere, {{"outside", {0, 0, 2}, 1.5, {0, 0, 1}},
@@ -76,7 +76,7 @@ TEST(PointShapeDistance, Sphere)
     expectHandValues(sphere, {{"scaled", {0, 0, 2}, 1, {0, 0, 1}}});
 }
 
-TEST(PointShapeDistance, Capsule)
+TEST(PointShapeDistance, MatchesHandValuesForCapsule)
 {
     btCapsuleShapeX x(0.5, 2);
     expectHandValues(x, {{"side", {0.5, 0, 2}, 1.5, {0, 0, 1}},
@@ -90,7 +90,7 @@ TEST(PointShapeDistance, Capsule)
     expectHandValues(z, {{"scaled end", {0, 0, 4}, 1, {0, 0, 1}}, {"scaled side", {2, 0, 1}, 1, {1, 0, 0}}});
 }
 
-TEST(PointShapeDistance, Cylinder)
+TEST(PointShapeDistance, MatchesHandValuesForCylinder)
 {
     btCylinderShape y(btVector3(1, 2, 1));
     expectHandValues(y, {{"side", {0, 1, -1.5}, 0.5, {0, 0, -1}},
@@ -106,7 +106,7 @@ TEST(PointShapeDistance, Cylinder)
     expectHandValues(z, {{"scaled cap", {0.5, 0, 5}, 1, {0, 0, 1}}, {"scaled side", {2, 0, 3}, 1, {1, 0, 0}}});
 }
 
-TEST(PointShapeDistance, Cone)
+TEST(PointShapeDistance, MatchesHandValuesForCone)
 {
     // Apex (0, 1, 0), base of radius 1 at y = -1: the slant's normal is (2, 1) / sqrt 5.
     btConeShape y(1, 2);
@@ -131,7 +131,7 @@ TEST(PointShapeDistance, Cone)
     expectHandValues(z, {{"scaled apex", {0, 0, 2.5}, 0.5, {0, 0, 1}}, {"scaled base", {0, 0, -3}, 1, {0, 0, -1}}});
 }
 
-TEST(PointShapeDistance, Plane)
+TEST(PointShapeDistance, MatchesHandValuesForPlane)
 {
     btStaticPlaneShape plane(btVector3(3, 4, 0), 2);
     plane.setMargin(0.5);  // Bullet's rigid bodies do not feel a plane's margin
@@ -157,7 +157,7 @@ TEST(PointShapeDistance, HullIsItsPointsWithTheMarginAround)
     expectHandValues(*hull, {{"scaled", {2.5, 0, 0}, 0.375, {1, 0, 0}}}, 1e-11);
 }
 
-TEST(PointShapeDistance, FlatHulls)
+TEST(PointShapeDistance, MatchesHandValuesForFlatHulls)
 {
     btConvexHullShape square;
     for (int i = 0; i < 4; ++i) square.addPoint(btVector3(i & 1 ? 1 : -1, 0, i & 2 ? 1 : -1));
@@ -179,7 +179,7 @@ TEST(PointShapeDistance, FlatHulls)
     expectHandValues(dot, {{"outside", {0, 0, 1}, 0.875, {0, 0, 1}}, {"centre", {0, 0, 0}, -0.125, {0, 1, 0}}});
 }
 
-TEST(PointShapeDistance, MultiSphere)
+TEST(PointShapeDistance, MatchesHandValuesForMultiSphere)
 {
     const ShapePtr spheres = twoSpheres();  // radius 1/4 at x = -1/4, 1/2 at x = 1/2: the mantle's normal has x = -1/3
     const Vec3 mantle = {-1.0 / 3, 0, std::sqrt(8.0) / 3};
@@ -191,7 +191,7 @@ TEST(PointShapeDistance, MultiSphere)
                      1e-6);
 }
 
-TEST(PointShapeDistance, OtherConvexShapes)
+TEST(PointShapeDistance, MatchesHandValuesForOtherConvexShapes)
 {
     const btVector3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     btConvexPointCloudShape cloud(const_cast<btVector3*>(corners), 4, btVector3(2, 2, 2));
@@ -209,7 +209,7 @@ TEST(PointShapeDistance, OtherConvexShapes)
     expectHandValues(large, {{"scaled sphere", {0, 0, 2}, 0.5, {0, 0, 1}}});
 }
 
-TEST(PointShapeDistance, FartherThanAskedLeavesTheResultAlone)
+TEST(PointShapeDistance, LeavesTheResultAloneBeyondTheLimit)
 {
     btBoxShape box(btVector3(1, 1, 1));
     const ShapePtr hull = boxHull({1, 1, 1}, 0);

@@ -26,7 +26,7 @@ btTransform moved(btScalar x)
     return btTransform(btQuaternion::getIdentity(), btVector3(x, 0, 0));
 }
 
-TEST(ShapeMark, OfAnEqualShapeElsewhereIsTheSame)
+TEST(ShapeMark, IsEqualForEqualShapesElsewhere)
 {
     const btBoxShape box(btVector3(1, 2, 3)), same(btVector3(1, 2, 3)), other(btVector3(1, 2, btScalar(3.01)));
     EXPECT_EQ(markAt(box), markAt(same));
@@ -41,7 +41,7 @@ TEST(ShapeMark, TellsAxesOfEqualBounds)
     EXPECT_NE(markAt(alongX), markAt(alongZ));
 }
 
-TEST(ShapeMark, OfACompoundDoesNotDependOnTheOrderOfItsChildren)
+TEST(ShapeMark, IsIndependentOfCompoundChildOrder)
 {
     btBoxShape box(btVector3(1, 1, 1));
     btSphereShape ball(1);
@@ -56,7 +56,7 @@ TEST(ShapeMark, OfACompoundDoesNotDependOnTheOrderOfItsChildren)
     }
 }
 
-TEST(ShapeMark, OfACompoundKnowsWhatIsInsideTheBoxAtAnyDepth)
+TEST(ShapeMark, CoversNestedCompoundChildrenInsideTheBox)
 {
     btBoxShape box(btVector3(1, 1, 1)), far(btVector3(1, 1, 1));
     btCompoundShape inner, outer;
@@ -70,7 +70,7 @@ TEST(ShapeMark, OfACompoundKnowsWhatIsInsideTheBoxAtAnyDepth)
     EXPECT_NE(markAt(outer), before);
 }
 
-TEST(ShapeMark, OfAScaledMeshHasItsScaling)
+TEST(ShapeMark, DependsOnTheScalingOfAMesh)
 {
     btTriangleMesh triangles;
     triangles.addTriangle({-2, -2, 0}, {2, -2, 0}, {0, 2, 0});
@@ -82,7 +82,7 @@ TEST(ShapeMark, OfAScaledMeshHasItsScaling)
     EXPECT_NE(markAt(scaled), markAt(scaled, {0, 0, 5}));  // not there
 }
 
-TEST(ShapeMark, OfABoxThatIsNoneIsTakenWithoutHarm)
+TEST(ShapeMark, AcceptsInvalidBoxes)
 {
     const double infinity = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
     btTriangleMesh triangles;

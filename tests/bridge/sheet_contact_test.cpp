@@ -66,7 +66,7 @@ std::string concaveName(const ::testing::TestParamInfo<NamedConcave>& info)
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, FlatSheetTest, ::testing::ValuesIn(concaveShapes()), concaveName);
 
-TEST_P(FlatSheetTest, everyNodeHasOneContactWithTheNormalOfThePlane)
+TEST_P(FlatSheetTest, EveryNodeHasOneContactWithTheNormalOfThePlane)
 {
     for (double z : {0.0, 0.01, -0.01})
     {
@@ -79,14 +79,14 @@ TEST_P(FlatSheetTest, everyNodeHasOneContactWithTheNormalOfThePlane)
     EXPECT_FALSE(m_report.m_unknownShape);
 }
 
-TEST_P(FlatSheetTest, aBodyBelowStaysBelow)
+TEST_P(FlatSheetTest, ABodyBelowStaysBelow)
 {
     move({0.03, 0.02, -1.001});
     find(m_sheet, m_atZero);
     expectFlat({0, 0, -1}, 0.001);
 }
 
-TEST_P(FlatSheetTest, whatSankInIsPushedBackWhereverItSlides)
+TEST_P(FlatSheetTest, PenetratingBodyIsPushedBackWhileSliding)
 {
     move({0.013, 0.007, 0.001});
     find(m_sheet, m_atZero);
@@ -99,7 +99,7 @@ TEST_P(FlatSheetTest, whatSankInIsPushedBackWhereverItSlides)
     }
 }
 
-TEST_P(FlatSheetTest, whatLiesFlushStaysOnItsSideWhateverTheRounding)
+TEST_P(FlatSheetTest, FlushBodyStaysOnItsSideDespiteRounding)
 {
     move({0.013, 0.007, 0});
     for (double z : {0.0, 1e-18, -1e-18, 1e-16, -1e-16, 1e-12, -1e-12, 1e-9, -1e-9, 1e-7, -1e-7, 1e-5, -1e-5, 0.0})
@@ -111,7 +111,7 @@ TEST_P(FlatSheetTest, whatLiesFlushStaysOnItsSideWhateverTheRounding)
     }
 }
 
-TEST_P(FlatSheetTest, whatPassesThroughInAStepIsBroughtBack)
+TEST_P(FlatSheetTest, BodyThatPassedThroughInAStepIsBroughtBack)
 {
     move({0.013, 0.007, 0.2});
     setVelocity({0, 0, -24});
@@ -125,7 +125,7 @@ TEST_P(FlatSheetTest, whatPassesThroughInAStepIsBroughtBack)
     }
 }
 
-TEST_P(FlatSheetTest, whatWasPutElsewhereIsOnTheSideWhereItIs)
+TEST_P(FlatSheetTest, TeleportedBodyIsOnItsNewSide)
 {
     move({0.013, 0.007, 0.001});
     find(m_sheet, m_atZero);
@@ -134,7 +134,7 @@ TEST_P(FlatSheetTest, whatWasPutElsewhereIsOnTheSideWhereItIs)
     expectFlat({0, 0, -1}, 0.001);
 }
 
-TEST_P(FlatSheetTest, whatComesFastIsStoppedAtTheSheet)
+TEST_P(FlatSheetTest, FastBodyIsStoppedAtTheSheet)
 {
     for (double speed : {10.0, 100.0, 1000.0})
     {
@@ -150,7 +150,7 @@ TEST_P(FlatSheetTest, whatComesFastIsStoppedAtTheSheet)
     }
 }
 
-TEST_P(FlatSheetTest, theContactOffsetAndTheMarginAreTakenOffTheGap)
+TEST_P(FlatSheetTest, TheContactOffsetAndTheMarginAreTakenOffTheGap)
 {
     static_cast<btConcaveShape&>(*m_sheet.m_parts.front()).setMargin(btScalar(0.03125));
     m_fem.m_contactOffset = 0.0625;
@@ -159,7 +159,7 @@ TEST_P(FlatSheetTest, theContactOffsetAndTheMarginAreTakenOffTheGap)
     expectFlat({0, 0, 1}, -0.0625 - scaledHasItsOwn);
 }
 
-TEST_P(FlatSheetTest, aKinematicSheetIsSeenWhereItWasAsTheStepBegan)
+TEST_P(FlatSheetTest, KinematicSheetIsUsedAtItsPoseAtStepStart)
 {
     m_ground.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     m_ground.setInterpolationLinearVelocity({0, 0, 3});
@@ -168,7 +168,7 @@ TEST_P(FlatSheetTest, aKinematicSheetIsSeenWhereItWasAsTheStepBegan)
     expectFlat({0, 0, 1}, 0);
 }
 
-TEST_F(SheetContactTest, aKinematicSheetThatTurnsComesAlongAnArc)
+TEST_F(SheetContactTest, RotatingKinematicSheetMovesAlongAnArc)
 {
     constexpr double turn = 0.05, height = 2;  // in the step [rad], and of the axis [m]
     GridSettings below;
@@ -184,7 +184,7 @@ TEST_F(SheetContactTest, aKinematicSheetThatTurnsComesAlongAnArc)
     for (const ContactPoint& c : m_fem.m_contacts) EXPECT_NEAR(c.m_gap, -height * (1 - std::cos(turn)), 5e-5);
 }
 
-TEST_F(SheetContactTest, aCornerHasOneContactAFace)
+TEST_F(SheetContactTest, ACornerHasOneContactAFace)
 {
     ConcaveShape shape;
     addGrid(*shape.m_mesh, {});
@@ -220,7 +220,7 @@ ConcaveShape makeRoof(btScalar slope, btScalar x)
     return shape;
 }
 
-TEST_F(SheetContactTest, aRidgeBetweenTheNodesTouchesTheEdgesAcross)
+TEST_F(SheetContactTest, RidgeBetweenNodesContactsTheEdgesAcross)
 {
     for (btScalar slope : {btScalar(0.5), btScalar(4)})
     {
@@ -236,7 +236,7 @@ TEST_F(SheetContactTest, aRidgeBetweenTheNodesTouchesTheEdgesAcross)
     }
 }
 
-TEST_F(SheetContactTest, aNodeAboveARidgeTouchesIt)
+TEST_F(SheetContactTest, NodeAboveARidgeContactsIt)
 {
     const ConcaveShape roof = makeRoof(2, btScalar(0.5));
     find(roof, btScalar(-0.001));
@@ -248,7 +248,7 @@ TEST_F(SheetContactTest, aNodeAboveARidgeTouchesIt)
     }
 }
 
-TEST_F(SheetContactTest, aThinSpikeBetweenTheNodesTouchesTheTriangleOnItsTip)
+TEST_F(SheetContactTest, ThinSpikeContactsTheTriangleOnItsTip)
 {
     ConcaveShape shape;
     const btVector3 tip(btScalar(0.3), btScalar(0.35), btScalar(0.002));
@@ -267,7 +267,7 @@ TEST_F(SheetContactTest, aThinSpikeBetweenTheNodesTouchesTheTriangleOnItsTip)
     EXPECT_GE(m_fem.m_origins[0].m_triangle, 0);
 }
 
-TEST_F(SheetContactTest, whatRunsIntoASlopeFromTheSideIsStoppedOrBroughtBack)
+TEST_F(SheetContactTest, BodyHittingASlopeSidewaysIsStoppedOrBroughtBack)
 {
     GridSettings valley;
     valley.m_cells = 16;
@@ -285,7 +285,7 @@ TEST_F(SheetContactTest, whatRunsIntoASlopeFromTheSideIsStoppedOrBroughtBack)
     EXPECT_NEAR(deepest()->m_gap, -0.125 * std::cos(std::atan(0.5)), 1e-3);
 }
 
-TEST_F(SheetContactTest, slippingOffAThinEdgeIsNotHeldByTheFaceBehind)
+TEST_F(SheetContactTest, SlippingOffAThinEdgeIsNotHeldByTheFaceBehind)
 {
     // An acute wedge whose upper face is the floor: above it, its lower face does not count.
     ConcaveShape shape;
@@ -301,7 +301,7 @@ TEST_F(SheetContactTest, slippingOffAThinEdgeIsNotHeldByTheFaceBehind)
     for (const ContactPoint& c : m_fem.m_contacts) EXPECT_NEAR(c.m_normal.z, 1, 1e-9);
 }
 
-TEST_F(SheetContactTest, trianglesThatAreNoneAreLeftOut)
+TEST_F(SheetContactTest, DegenerateTrianglesAreOmitted)
 {
     ConcaveShape shape;
     addGrid(*shape.m_mesh, {});
@@ -327,7 +327,7 @@ TEST_F(SheetContactTest, trianglesThatAreNoneAreLeftOut)
     EXPECT_FALSE(m_fem.m_contacts.empty());
 }
 
-TEST_F(SheetContactTest, anEmptyMeshIsNoContact)
+TEST_F(SheetContactTest, EmptyMeshMakesNoContact)
 {
     ConcaveShape shape;
     shape.make<btGImpactMeshShape>(shape.m_mesh.get());

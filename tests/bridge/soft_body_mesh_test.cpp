@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST(SoftBodyMesh, keepsTheOrderOfNodesAndElements)
+TEST(SoftBodyMesh, KeepsTheOrderOfNodesAndElements)
 {
     const TestBox box({100, 0, 0});
     const TetMesh mesh = tetMeshOf(*box.m_body);
@@ -24,12 +24,12 @@ TEST(SoftBodyMesh, keepsTheOrderOfNodesAndElements)
     for (int a = 0; a < 4; ++a) EXPECT_EQ(mesh.tets()[5][a], box.m_body->m_tetras[5].m_n[a] - &box.m_body->m_nodes[0]);
 }
 
-TEST(SoftBodyMesh, bodiesWithoutStoredFractionsAreFull)
+TEST(SoftBodyMesh, BodiesWithoutStoredFractionsAreFull)
 {
     EXPECT_TRUE(filledFractionsOf(*TestBox().m_body).empty());
 }
 
-TEST(SoftBodyMesh, filledFractionsSurviveWhatUsersDoToABody)
+TEST(SoftBodyMesh, FilledFractionsSurviveScalingAndNewMasses)
 {
     const TestBox box;
     storeFill(*box.m_body, 0, 0.25, 1.5);
@@ -42,7 +42,7 @@ TEST(SoftBodyMesh, filledFractionsSurviveWhatUsersDoToABody)
     EXPECT_EQ(filled[3], 1);
 }
 
-TEST(SoftBodyMesh, theUnsetMaterialFollowsTheSpringStiffness)
+TEST(SoftBodyMesh, TheUnsetMaterialFollowsTheSpringStiffness)
 {
     const TestBox box;
     box.m_body->m_materials[0]->m_kLST = btScalar(0.5);
@@ -52,7 +52,7 @@ TEST(SoftBodyMesh, theUnsetMaterialFollowsTheSpringStiffness)
     EXPECT_TRUE(unsetMaterialOf(*box.m_body).valid());
 }
 
-TEST(SoftBodyMesh, massesAddUpToDensityTimesFilledVolume)
+TEST(SoftBodyMesh, MassesAddUpToDensityTimesFilledVolume)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {2, 2, 2});
     std::vector<double> filled(mesh.tetCount(), 1.0);
@@ -62,7 +62,7 @@ TEST(SoftBodyMesh, massesAddUpToDensityTimesFilledVolume)
     EXPECT_NEAR(total, 300 * (1 - 0.5 * mesh.tetVolume(0)), 1e-9);
 }
 
-TEST(SoftBodyMesh, unusableMassesBecomeTheShareOfTheVolume)
+TEST(SoftBodyMesh, UnusableMassesBecomeTheShareOfTheVolume)
 {
     const TestBox box;
     const std::vector<double> share = lumpedMasses(tetMeshOf(*box.m_body), {}, 1);

@@ -33,7 +33,7 @@ protected:
     FemSoftBody& m_cube = m_world.addCube();
 };
 
-TEST_F(SoftAnchorTest, joinsItsNodeToTheRigidBody)
+TEST_F(SoftAnchorTest, JoinsItsNodeToTheRigidBody)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall);
@@ -50,7 +50,7 @@ TEST_F(SoftAnchorTest, joinsItsNodeToTheRigidBody)
     EXPECT_EQ(joint.m_softness, 0);
 }
 
-TEST_F(SoftAnchorTest, takesBackTheShareKAHROfADistance)
+TEST_F(SoftAnchorTest, TakesBackTheShareKAHROfADistance)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().m_cfg.kAHR = btScalar(0.5);
@@ -58,7 +58,7 @@ TEST_F(SoftAnchorTest, takesBackTheShareKAHROfADistance)
     expectNear(m_world.append().m_joints[0].m_wanted, {0.005 / JointTestWorld::kStep, 0, 0}, 1e-4);
 }
 
-TEST_F(SoftAnchorTest, aFarPivotPullsItsNodeInByAQuarterOfAnEdgeAStep)
+TEST_F(SoftAnchorTest, AFarPivotPullsItsNodeInByAQuarterOfAnEdgeAStep)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall, bulletVector(position(5) + Vec3{0, 7, 0}));
@@ -66,7 +66,7 @@ TEST_F(SoftAnchorTest, aFarPivotPullsItsNodeInByAQuarterOfAnEdgeAStep)
     expectNear(m_world.append().m_joints[0].m_wanted, {0, 0.25 * edge / JointTestWorld::kStep, 0}, 1e-4);
 }
 
-TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfABodyThatHasMoved)
+TEST_F(SoftAnchorTest, NodeEndsTheStepOnThePivotOfAMovedBody)
 {
     btRigidBody& body = m_world.addRigid(2, btVector3(3, 0, 0));
     soft().appendAnchor(5, &body);
@@ -81,7 +81,7 @@ TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfABodyThatHasMoved)
     expectNear(endOfNode(joint, 5, body), vec3(moved * local), 1e-6);
 }
 
-TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfABodyThatIsAboutToMove)
+TEST_F(SoftAnchorTest, NodeEndsTheStepOnThePivotOfAMovingBody)
 {
     btRigidBody& body = m_world.addRigid(2, btVector3(3, 0, 0));
     soft().appendAnchor(5, &body);
@@ -94,7 +94,7 @@ TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfABodyThatIsAboutToMove)
     expectNear(endOfNode(joint, 5, body), vec3(moved * soft().m_anchors[0].m_local), 1e-6);
 }
 
-TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfAKinematicBody)
+TEST_F(SoftAnchorTest, NodeEndsTheStepOnThePivotOfAKinematicBody)
 {
     btRigidBody& body = m_world.addRigid(0, btVector3(3, 0, 0));
     body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -109,7 +109,7 @@ TEST_F(SoftAnchorTest, theNodeEndsTheStepOnThePivotOfAKinematicBody)
     expectNear(endOfNode(joint, 5, body), vec3(moved * soft().m_anchors[0].m_local), 1e-5);
 }
 
-TEST_F(SoftAnchorTest, aKinematicBodyThatFellAsleepStandsStill)
+TEST_F(SoftAnchorTest, SleepingKinematicBodyStandsStill)
 {
     btRigidBody& body = m_world.addRigid(0);
     body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -120,7 +120,7 @@ TEST_F(SoftAnchorTest, aKinematicBodyThatFellAsleepStandsStill)
     expectNear(m_world.m_rigidProxies.rigidProxies()[0].m_linearVelocity, {}, 1e-12);
 }
 
-TEST_F(SoftAnchorTest, influenceSoftensIt)
+TEST_F(SoftAnchorTest, InfluenceSoftensTheAnchor)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall, false, btScalar(0.25));
@@ -130,7 +130,7 @@ TEST_F(SoftAnchorTest, influenceSoftensIt)
     EXPECT_NEAR(problem.m_joints[0].m_softness, 3, 1e-6);
 }
 
-TEST_F(SoftAnchorTest, aPinnedNodeIsHeldToWhatCanMoveOnly)
+TEST_F(SoftAnchorTest, PinnedNodeIsHeldToMovableObjectsOnly)
 {
     btRigidBody &wall = m_world.addRigid(0), &ball = m_world.addRigid(1);
     soft().appendAnchor(5, &wall);
@@ -141,7 +141,7 @@ TEST_F(SoftAnchorTest, aPinnedNodeIsHeldToWhatCanMoveOnly)
     EXPECT_EQ(&m_world.m_rigidProxies.object(problem.m_joints[0].m_b.m_rigidProxy), &ball);
 }
 
-TEST_F(SoftAnchorTest, aDeformableAnchorIsOneToo)
+TEST_F(SoftAnchorTest, ADeformableAnchorIsOneToo)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendDeformableAnchor(7, &wall);
@@ -151,7 +151,7 @@ TEST_F(SoftAnchorTest, aDeformableAnchorIsOneToo)
     expectNear(problem.m_joints[0].m_wanted, {}, 1e-5);
 }
 
-TEST_F(SoftAnchorTest, anchorsToADeletedBodyAreRemovedAndTheNodeCollidesAgain)
+TEST_F(SoftAnchorTest, AnchorsToADeletedBodyAreRemovedAndTheNodeCollidesAgain)
 {
     btRigidBody &wall = m_world.addRigid(0), &other = m_world.addRigid(0);
     soft().appendAnchor(5, &wall);
@@ -173,7 +173,7 @@ TEST_F(SoftAnchorTest, anchorsToADeletedBodyAreRemovedAndTheNodeCollidesAgain)
     EXPECT_FALSE(m_world.m_flags[0].m_lost);
 }
 
-TEST_F(SoftAnchorTest, anotherBodyAtTheAddressOfADeletedOneIsNotHeld)
+TEST_F(SoftAnchorTest, BodyAtAReusedAddressIsNotHeld)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall);
@@ -186,7 +186,7 @@ TEST_F(SoftAnchorTest, anotherBodyAtTheAddressOfADeletedOneIsNotHeld)
     EXPECT_EQ(soft().m_anchors.size(), 0);
 }
 
-TEST_F(SoftAnchorTest, aBodyThatWasTakenOutAndPutBackIsStillHeld)
+TEST_F(SoftAnchorTest, ReinsertedBodyIsStillHeld)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall);
@@ -197,7 +197,7 @@ TEST_F(SoftAnchorTest, aBodyThatWasTakenOutAndPutBackIsStillHeld)
     EXPECT_FALSE(m_world.m_flags[0].m_lost);
 }
 
-TEST_F(SoftAnchorTest, removeAnchorLetsTheNodeCollideAgain)
+TEST_F(SoftAnchorTest, RemoveAnchorLetsTheNodeCollideAgain)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendDeformableAnchor(7, &wall);
@@ -208,7 +208,7 @@ TEST_F(SoftAnchorTest, removeAnchorLetsTheNodeCollideAgain)
     EXPECT_FALSE(m_world.m_flags[0].m_lost);
 }
 
-TEST_F(SoftAnchorTest, aForeignNodeIsFlaggedAndIgnored)
+TEST_F(SoftAnchorTest, AForeignNodeIsFlaggedAndIgnored)
 {
     btRigidBody& wall = m_world.addRigid(0);
     FemSoftBody& other = m_world.addCube({5, 0, 0});
@@ -219,7 +219,7 @@ TEST_F(SoftAnchorTest, aForeignNodeIsFlaggedAndIgnored)
     EXPECT_EQ(soft().m_anchors.size(), 1);
 }
 
-TEST_F(SoftAnchorTest, valuesThatAreNoNumbersAreFlaggedAndIgnored)
+TEST_F(SoftAnchorTest, NonFiniteValuesAreFlaggedAndIgnored)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall, btVector3(NAN, 0, 0));
@@ -228,7 +228,7 @@ TEST_F(SoftAnchorTest, valuesThatAreNoNumbersAreFlaggedAndIgnored)
     EXPECT_TRUE(m_world.m_flags[0].m_bad);
 }
 
-TEST_F(SoftAnchorTest, anImpulseIsTheGuessOfTheNextStepWhereverTheAnchorStands)
+TEST_F(SoftAnchorTest, ImpulseWarmStartsTheNextStepAtAnyAnchorIndex)
 {
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall);
@@ -242,7 +242,7 @@ TEST_F(SoftAnchorTest, anImpulseIsTheGuessOfTheNextStepWhereverTheAnchorStands)
     expectNear(next.m_joints[0].m_impulse, {1, 2, 3}, 1e-12);
 }
 
-TEST_F(SoftAnchorTest, knowsItsNodeAndItsObject)
+TEST_F(SoftAnchorTest, KnowsItsNodeAndItsObject)
 {
     btRigidBody &wall = m_world.addRigid(0), &other = m_world.addRigid(0);
     soft().appendAnchor(5, &wall);
@@ -254,7 +254,7 @@ TEST_F(SoftAnchorTest, knowsItsNodeAndItsObject)
     EXPECT_FALSE(isAnchoredTo(m_cube, 7, wall));
 }
 
-TEST_F(SoftAnchorTest, aMultibodysLinkLeadsItsNode)
+TEST_F(SoftAnchorTest, AMultibodysLinkLeadsItsNode)
 {
     btMultiBody robot(1, 1, btVector3(1, 1, 1), false, false);
     robot.setupRevolute(0, 1, btVector3(1, 1, 1), -1, btQuaternion::getIdentity(), btVector3(0, 0, 1),
@@ -280,7 +280,7 @@ TEST_F(SoftAnchorTest, aMultibodysLinkLeadsItsNode)
     m_world.world().removeCollisionObject(&link);
 }
 
-TEST_F(SoftAnchorTest, linkedBodiesMayIgnoreEachOther)
+TEST_F(SoftAnchorTest, LinkedBodiesMayIgnoreEachOther)
 {
     btRigidBody &wall = m_world.addRigid(0), &other = m_world.addRigid(0), &third = m_world.addRigid(0);
     soft().appendAnchor(5, &wall, true);
@@ -309,7 +309,7 @@ protected:
     FemSoftBody& m_other = m_world.addCube({1.01, 0, 0});
 };
 
-TEST_F(NodeAttachmentTest, joinsANodeToAPointOfAnotherBody)
+TEST_F(NodeAttachmentTest, JoinsANodeToAPointOfAnotherBody)
 {
     attach(3, {0, 1, 2, 2}, {0.25, 0.75, 0, 0});
     const ContactProblem& problem = m_world.append();
@@ -325,14 +325,14 @@ TEST_F(NodeAttachmentTest, joinsANodeToAPointOfAnotherBody)
     EXPECT_GT(dot(joint.m_wanted, gap), 0);
 }
 
-TEST_F(NodeAttachmentTest, bothBodiesReportOppositeImpulses)
+TEST_F(NodeAttachmentTest, BothBodiesReportOppositeImpulses)
 {
     attach(3, {0, 0, 0, 0}, {1, 0, 0, 0});
     expectOppositeImpulses(m_world.append(), m_cube, m_other, {0, 0, 2});
     expectNear(m_world.append().m_joints[0].m_impulse, {0, 0, 2}, 1e-12);
 }
 
-TEST_F(NodeAttachmentTest, aBodyOutsideTheSolveStandsStill)
+TEST_F(NodeAttachmentTest, ABodyOutsideTheSolveStandsStill)
 {
     attach(3, {0, 0, 0, 0}, {1, 0, 0, 0});
     m_world.m_bodies.pop_back();
@@ -343,7 +343,7 @@ TEST_F(NodeAttachmentTest, aBodyOutsideTheSolveStandsStill)
     EXPECT_TRUE(m_world.m_flags[0].m_outside);  // awake: it should have been solved together
 }
 
-TEST_F(NodeAttachmentTest, knowsBothItsSides)
+TEST_F(NodeAttachmentTest, KnowsBothItsSides)
 {
     attach(3, {0, 1, 2, 2}, {0.25, 0.75, 0, 0});
     EXPECT_TRUE(isAttached(m_cube, {9, 3, 8}, m_other));
@@ -352,14 +352,14 @@ TEST_F(NodeAttachmentTest, knowsBothItsSides)
     EXPECT_FALSE(isAttached(m_other, {9, 2, 8}, m_cube));  // has no weight
 }
 
-TEST_F(NodeAttachmentTest, anAwakeBodyOutsideTheSolveIsKnownToReachIn)
+TEST_F(NodeAttachmentTest, AnAwakeBodyOutsideTheSolveIsKnownToReachIn)
 {
     attach(3, {0, 0, 0, 0}, {1, 0, 0, 0});
     EXPECT_TRUE(reachesInto(m_cube, {&m_other}));
     EXPECT_FALSE(reachesInto(m_other, {&m_cube}));
 }
 
-TEST_F(NodeAttachmentTest, endsWithTheOtherBody)
+TEST_F(NodeAttachmentTest, EndsWithTheOtherBody)
 {
     attach(3, {0, 0, 0, 0}, {1, 0, 0, 0});
     m_world.m_bodies.pop_back();

@@ -21,7 +21,7 @@ Vec3 at(const std::vector<Vec3>& x, const SurfacePoint& p)
     return p.m_weights[0] * x[p.m_nodes[0]] + p.m_weights[1] * x[p.m_nodes[1]] + p.m_weights[2] * x[p.m_nodes[2]];
 }
 
-TEST(SoftPairFinder, NodesOfEitherCubeTouchTheOthersFace)
+TEST(SoftPairFinder, NodesOfEitherCubeContactTheOthersFace)
 {
     PairBody upper(cube(3)), lower(cube(2));
     upper.move({0.2, 0.3, 1.001});
@@ -73,7 +73,7 @@ TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
 }
 
 // Neither moves relative to the other, but the ground may hold the lower one.
-TEST(SoftPairFinder, SmallBodiesTouchWhenGravityCanCloseTheGapWithinTheStep)
+TEST(SoftPairFinder, SmallBodiesContactIfGravityClosesTheGapInAStep)
 {
     const double fall = 10.0 / (60 * 60), edgeOfUnitCube = cube().meanEdgeLength();  // [m], [-]
     const auto countAt = [&](double gap, double fallPerEdge)
@@ -99,7 +99,7 @@ TEST(SoftPairFinder, ATipNearTheFarSideOfAThinPlateIsNotDeepInside)
     expectAlongZ(above, 0.002);
 }
 
-TEST(SoftPairFinder, FindsWhatClosesWithinTheStepAndNothingElse)
+TEST(SoftPairFinder, FindsExactlyTheContactsClosingWithinTheStep)
 {
     PairBody upper(cube()), lower(cube());
     upper.move({0.1, 0.1, 1.1});
@@ -157,7 +157,7 @@ class PlacedPairs : public testing::TestWithParam<int>
 };
 
 // Turned and moved as one, to 100 m away, a pair has the same contacts.
-TEST_P(PlacedPairs, TouchAtTheSamePoints)
+TEST_P(PlacedPairs, HaveTheSameContactPoints)
 {
     PairBody a(makeSphere(0.5, 6)), b(cube(3));
     b.turn(testRotation(0.3, 0.2, 0.1)).move({-0.5, -0.45, 0.37});
@@ -203,7 +203,7 @@ double signedDistance(const SoftSurface& surface, const Vec3& p)
 }
 
 // Against all pairs: the nodes of two overlapping balls that are within the band or inside.
-TEST(SoftPairFinder, FindsWhatAllPairsFind)
+TEST(SoftPairFinder, MatchesBruteForceOverAllPairs)
 {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -254,7 +254,7 @@ TEST(SoftPairFinder, MaterialsOfBothMakeTheContact)
     EXPECT_EQ(PairContacts(upper, lower).m_contacts[0].m_friction, 0);
 }
 
-TEST(SoftPairFinder, KeepsTheDeepestWhereTooManyAreFound)
+TEST(SoftPairFinder, KeepsDeepestContactsAboveTheLimit)
 {
     PairBody upper(cube()), lower(cube());
     upper.turn(testRotation(0, 0.01, 0)).move({0.1, 0.1, 1});

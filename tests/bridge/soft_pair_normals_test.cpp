@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST(SoftPairNormals, WhatOverlapsAtTheStartIsLedOutTheShortWay)
+TEST(SoftPairNormals, InitialOverlapIsResolvedTheShortWay)
 {
     for (double depth : {0.05, 0.2, 0.45})
     {
@@ -39,7 +39,7 @@ TetMesh obliqueTip()
     return TetMesh({{0, 0, 0}, {0.3, 0.1, 0.1}, {0.1, 0.1, 0.3}, {0.2, -0.1, 0.2}}, {{0, 1, 2, 3}});
 }
 
-TEST(SoftPairNormals, InsideAnEdgeTheNearerFaceLeadsOut)
+TEST(SoftPairNormals, NearerFaceGivesTheNormalInsideAnEdge)
 {
     PairBody tip(obliqueTip()), block(cube(4));
     tip.move({0.98, 0.4, 0.99});  // 0.02 under one face, 0.01 under the other
@@ -49,7 +49,7 @@ TEST(SoftPairNormals, InsideAnEdgeTheNearerFaceLeadsOut)
     EXPECT_NEAR(found.m_contacts[0].m_gap, -0.01, kExact);
 }
 
-TEST(SoftPairNormals, OnARimOneFaceCarries)
+TEST(SoftPairNormals, OneFaceGivesTheContactOnARim)
 {
     PairBody tip(obliqueTip()), block(cube(4));
     tip.move({1 + 1e-6, 0.4, 1 + 1e-6});
@@ -77,7 +77,7 @@ TEST(SoftPairNormals, ATipSunkIntoTheFloorOfAGrooveIsHeldByItsWallToo)
 }
 
 // Four nearly equal faces meet under the tip: none of them comes first.
-TEST(SoftPairNormals, OverAFlatCornerTheMeanNormalIsUsed)
+TEST(SoftPairNormals, MeanNormalIsUsedOverAFlatCorner)
 {
     PairBody tip(TetMesh({{0, 0, 0}, {-0.1, -0.11, 0.5}, {0.1, -0.1, 0.5}, {0, 0.2, 0.5}}, {{0, 1, 2, 3}}));
     PairBody block(makeBox({1, 1, 1}, {2, 2, 2}, {-0.5, -0.5, -1}));
@@ -89,7 +89,7 @@ TEST(SoftPairNormals, OverAFlatCornerTheMeanNormalIsUsed)
     EXPECT_NEAR(found.m_contacts[0].m_gap, 0.001, 0.04 * 0.04 * 0.001) << "to the slope of the dent squared";
 }
 
-TEST(SoftPairNormals, OfTwoLayersTheFirstStopsAFastTip)
+TEST(SoftPairNormals, FirstOfTwoLayersStopsAFastTip)
 {
     PairBody tip(TetMesh({{0.4, 0.15, 1}, {0.3, 0.1, 1.5}, {0.5, 0.1, 1.5}, {0.4, 0.25, 1.5}}, {{0, 1, 2, 3}}));
     tip.throwAt({0, 0, -90});  // 1.5 m a step
@@ -100,7 +100,7 @@ TEST(SoftPairNormals, OfTwoLayersTheFirstStopsAFastTip)
     EXPECT_NEAR(found.m_contacts[0].m_gap, 0.3, 1e-9) << "the layer at z = 0.7 is level";
 }
 
-TEST(SoftPairNormals, EdgesThatDoNotFaceEachOtherDoNotTouch)
+TEST(SoftPairNormals, EdgesFacingAwayMakeNoContact)
 {
     PairBody upper(makeBox({3, 0.5, 0.5}, {1, 1, 1})), lower(makeBox({0.5, 3, 0.02}, {1, 1, 1}));
     upper.move({-1.2, 1.1, 0.021});
@@ -110,7 +110,7 @@ TEST(SoftPairNormals, EdgesThatDoNotFaceEachOtherDoNotTouch)
 }
 
 // An edge that rises outwards from a point under the face crosses the rim in a direction that separates nothing.
-TEST(SoftPairNormals, AnEdgeAcrossARimTouchesItBetweenTheNormalsOfItsFacesOnly)
+TEST(SoftPairNormals, EdgeContactsARimOnlyBetweenItsFaceNormals)
 {
     PairBody tip(TetMesh({{0.9, 0.4, 0.98}, {1.3, 0.45, 1.08}, {1, 0.2, 1.5}, {1.1, 0.7, 1.5}}, {{0, 1, 2, 3}}));
     PairBody block(cube(4));
@@ -119,7 +119,7 @@ TEST(SoftPairNormals, AnEdgeAcrossARimTouchesItBetweenTheNormalsOfItsFacesOnly)
     expectAlongZ(found, -0.02);
 }
 
-TEST(SoftPairNormals, WhatOverlapsALittleSidewaysIsNotLiftedUp)
+TEST(SoftPairNormals, SmallSidewaysOverlapIsNotLiftedUp)
 {
     PairBody a(cube(1)), b(cube(1));
     a.move({0.99, 0.3, 0.7});

@@ -74,7 +74,7 @@ protected:
     SearchOfAFineCube() : SoftPairSearchTest(8) {}
 };
 
-TEST_F(SoftPairSearchTest, PairsThatStayKeepTheirContacts)
+TEST_F(SoftPairSearchTest, UnmovedPairsKeepTheirContacts)
 {
     EXPECT_EQ(searched(kManyContacts, false), 1);
     std::vector<ContactPoint> found = m_search.contacts();
@@ -103,7 +103,7 @@ TEST_F(SoftPairSearchTest, PairsThatStayKeepTheirContacts)
     }
 }
 
-TEST_F(SoftPairSearchTest, TheirGapsFollow)
+TEST_F(SoftPairSearchTest, GapsOfKeptContactsFollowTheMotion)
 {
     searched();
     const double before = minGap();
@@ -115,7 +115,7 @@ TEST_F(SoftPairSearchTest, TheirGapsFollow)
     EXPECT_NEAR(minGap(), before - 0.004 * m_edge, kExact);
 }
 
-TEST_F(SoftPairSearchTest, OneThatMovedIsSearched)
+TEST_F(SoftPairSearchTest, MovedPairIsSearched)
 {
     searched();
     moveUpper({0, 0, 0.01 * m_edge});
@@ -125,7 +125,7 @@ TEST_F(SoftPairSearchTest, OneThatMovedIsSearched)
     EXPECT_EQ(searched(), 1);
 }
 
-TEST_F(SoftPairSearchTest, OneNodeThatMovedIsEnough)
+TEST_F(SoftPairSearchTest, OneMovedNodeTriggersASearch)
 {
     searched();
     m_lower.m_fem.m_body.m_state.m_x.back().x += 0.01 * m_edge;
@@ -133,7 +133,7 @@ TEST_F(SoftPairSearchTest, OneNodeThatMovedIsEnough)
 }
 
 // However small its steps are.
-TEST_F(SoftPairSearchTest, OneThatCreepsIsSearchedNowAndThen)
+TEST_F(SoftPairSearchTest, CreepingPairIsSearchedOccasionally)
 {
     searched();
     int searches = 0;
@@ -145,7 +145,7 @@ TEST_F(SoftPairSearchTest, OneThatCreepsIsSearchedNowAndThen)
     EXPECT_EQ(searches, 5);  // 7 steps of .001 edges are more than .00625
 }
 
-TEST_F(SoftPairSearchTest, OneThatIsExpectedToMoveIsSearched)
+TEST_F(SoftPairSearchTest, PairExpectedToMoveIsSearched)
 {
     searched();
     throwUpper({0, 0, 0.01 * m_edge / kSearchStep});
@@ -156,7 +156,7 @@ TEST_F(SoftPairSearchTest, OneThatIsExpectedToMoveIsSearched)
 }
 
 // The solver of a coupled step may hand it back before it is solved.
-TEST_F(SoftPairSearchTest, WhatWasNotSolvedIsSearchedAgain)
+TEST_F(SoftPairSearchTest, UnsolvedPairIsSearchedAgain)
 {
     searched();
     moveUpper({0, 0, 0.01 * m_edge});
@@ -167,7 +167,7 @@ TEST_F(SoftPairSearchTest, WhatWasNotSolvedIsSearchedAgain)
     EXPECT_EQ(searched(), 0);
 }
 
-TEST_F(SoftPairSearchTest, OneThatWasApartIsSearched)
+TEST_F(SoftPairSearchTest, PreviouslySeparatePairIsSearched)
 {
     searched();
     m_upper.m_fem.m_overlappingSoft.clear();
@@ -177,7 +177,7 @@ TEST_F(SoftPairSearchTest, OneThatWasApartIsSearched)
 }
 
 // What was left out may come to matter.
-TEST_F(SoftPairSearchTest, OneWithMoreContactsThanAllowedIsSearched)
+TEST_F(SoftPairSearchTest, PairAboveTheContactLimitIsSearched)
 {
     searched();
     EXPECT_EQ(searched(4), 0);  // has all of them
@@ -190,7 +190,7 @@ TEST_F(SoftPairSearchTest, OneWithMoreContactsThanAllowedIsSearched)
     EXPECT_EQ(searched(), 0);
 }
 
-TEST_F(SoftPairSearchTest, OneWhosePlaceIsForgottenIsSearched)
+TEST_F(SoftPairSearchTest, PairWithForgottenPlaceIsSearched)
 {
     searched();
     m_lower.m_fem.m_surface.forgetPlace();

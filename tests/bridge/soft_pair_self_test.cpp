@@ -27,13 +27,13 @@ protected:
     }
 };
 
-TEST_P(UndeformedBodies, DoNotTouchThemselves)
+TEST_P(UndeformedBodies, HaveNoSelfContact)
 {
     PairBody body(mesh(GetParam()));
     EXPECT_TRUE(PairContacts(body, body).m_contacts.empty());
 }
 
-TEST_P(UndeformedBodies, DoNotTouchThemselvesBentStretchedOrSqueezedALittle)
+TEST_P(UndeformedBodies, HaveNoSelfContactUnderModerateDeformation)
 {
     PairBody body(mesh(GetParam()));
     body.bend([](const Vec3& x) { return Vec3{std::sin(x.x) * (1 + x.z), x.y, (1 + x.z) * std::cos(x.x)}; });
@@ -56,7 +56,7 @@ Vec3 folded(const Vec3& X, double distance)
     return {roof * std::sin(angle) - beyond, X.y, 0.1 + r - roof * std::cos(angle)};
 }
 
-TEST(SelfPair, TheLayersOfAFoldedStripTouch)
+TEST(SelfPair, LayersOfAFoldedStripAreInContact)
 {
     PairBody strip(makeBox({2, 0.3, 0.1}, {20, 3, 1}));
     for (double distance : {0.004, -0.004, -0.03})
@@ -79,7 +79,7 @@ TEST(SelfPair, TheLayersOfAFoldedStripTouch)
 }
 
 // A slit narrower than an edge: close at rest, but not connected by a short way.
-TEST(SelfPair, TheSidesOfANarrowSlitTouchWhenItCloses)
+TEST(SelfPair, ClosingSidesOfANarrowSlitAreInContact)
 {
     // Without the cells around x = 0.55, from z = 0.2 upwards.
     PairBody body(without(makeBox({1, 0.2, 1}, {10, 2, 10}),

@@ -52,7 +52,7 @@ protected:
     SurfaceDistance m_nearest;
 };
 
-TEST_P(SurfaceCullingTest, nothingWithinReachIsRuledOut)
+TEST_P(SurfaceCullingTest, NothingWithinReachIsRuledOut)
 {
     int near = 0, ruledOut = 0;
     for (int k = 0; k < 2000; ++k)
@@ -68,7 +68,7 @@ TEST_P(SurfaceCullingTest, nothingWithinReachIsRuledOut)
     EXPECT_GT(ruledOut, 0.8 * (2000 - near));
 }
 
-TEST_P(SurfaceCullingTest, noPointIsNearerThanTheLeastGap)
+TEST_P(SurfaceCullingTest, NoPointIsNearerThanTheLeastGap)
 {
     for (int k = 0; k < 2000; ++k)
     {
@@ -77,7 +77,7 @@ TEST_P(SurfaceCullingTest, noPointIsNearerThanTheLeastGap)
     }
 }
 
-TEST_P(SurfaceCullingTest, wholeWaysCount)
+TEST_P(SurfaceCullingTest, TestsTheWholePathOfANode)
 {
     next(1);
     const Vec3 middle = 0.5 * (m_leaf.m_boundsMin + m_leaf.m_boundsMax), away = {10, 0, 0};

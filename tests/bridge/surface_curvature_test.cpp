@@ -31,7 +31,7 @@ std::pair<double, double> roundnessOf(const TetMesh& mesh, double radius, const 
 
 // A tyre rolls on its radius at its rims, too: by the mean normals there it would on less than half of it. A rim's
 // triangles lie on one side of its vertices, and lean their normals by some of an edge.
-TEST(SurfaceCurvature, OfACylindersRimIsThatOfItsMantle)
+TEST(SurfaceCurvature, CylinderRimHasTheCurvatureOfItsMantle)
 {
     constexpr double kRadius = 0.4;  // [m]
     for (const int cells : {6, 8, 12})
@@ -43,7 +43,7 @@ TEST(SurfaceCurvature, OfACylindersRimIsThatOfItsMantle)
     }
 }
 
-TEST(SurfaceCurvature, OfABallIsThatOfItsRadius)
+TEST(SurfaceCurvature, BallHasTheCurvatureOfItsRadius)
 {
     const auto range = roundnessOf(makeSphere(0.25, 8), 0.25, [](const Vec3&) { return true; });
     EXPECT_GT(range.first, 0.85);
@@ -51,7 +51,7 @@ TEST(SurfaceCurvature, OfABallIsThatOfItsRadius)
 }
 
 // Where there is nothing but a crease it is an edge that a box rolls over.
-TEST(SurfaceCurvature, OfABoxIsInItsEdgesAlone)
+TEST(SurfaceCurvature, BoxIsCurvedOnlyAtItsEdges)
 {
     const TetMesh box = makeBox({1, 1, 1}, {4, 4, 4});
     const auto outside = [](const Vec3& X)

@@ -109,7 +109,7 @@ std::vector<unsigned char> everyOtherLeaf(const SurfaceTree& tree)
     return has;
 }
 
-TEST_P(PlacedTrees, FindAllLeavesThatABoxMayMeetAndThatHaveWhatIsLookedFor)
+TEST_P(PlacedTrees, FindAllMatchingLeavesThatABoxMayMeet)
 {
     Random random;
     const MovingBall ball(random, GetParam());
@@ -158,7 +158,7 @@ struct BothBoxes
 };
 
 // At twice the precision's rounding of the place the answers may differ, one way.
-TEST_P(PlacedTrees, CoarseBoxesSayNoOnlyWhereExactOnesDo)
+TEST_P(PlacedTrees, CoarseBoxesRejectOnlyPairsExactOnesReject)
 {
     Random random;
     int no = 0, yes = 0, differ = 0;
@@ -188,7 +188,7 @@ TEST_P(PlacedTrees, CoarseBoxesSayNoOnlyWhereExactOnesDo)
     EXPECT_LT(differ, 100);
 }
 
-TEST(CoarseBox, NothingMeetsNothing)
+TEST(CoarseBox, EmptyBoxMeetsNoBox)
 {
     const CoarseBox point = CoarseBox::of({1, 2, 3}, {4, 5, 6});
     EXPECT_FALSE(CoarseBox::empty().meets(point, 1e6f));

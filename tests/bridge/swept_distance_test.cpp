@@ -74,7 +74,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(, SweptDistance, ::testing::Values(0.0, 100.0),
                          [](const auto& far) { return far.param > 0 ? "far" : "near"; });
 
-TEST_P(SweptDistance, aFastSphereMeetsWhatLiesWithinItsRadiusOfThePath)
+TEST_P(SweptDistance, FastSphereHitsNodesWithinItsRadiusOfThePath)
 {
     const double radius = m_sphere.getRadius();
     const SweptShape swept = sweep(m_sphere, m_origin, {100, 0, 0});
@@ -91,7 +91,7 @@ TEST_P(SweptDistance, aFastSphereMeetsWhatLiesWithinItsRadiusOfThePath)
     }
 }
 
-TEST_P(SweptDistance, onlyTheRelativeMotionCounts)
+TEST_P(SweptDistance, OnlyRelativeMotionCounts)
 {
     const SweptShape still = sweep(m_sphere, m_origin, {}), along = sweep(m_sphere, m_origin, {50, 0, 0});
     const Vec3 ahead = m_origin + Vec3{0.5, 0.003, 0};
@@ -102,14 +102,14 @@ TEST_P(SweptDistance, onlyTheRelativeMotionCounts)
     EXPECT_FALSE(touches(along, node(ahead, {60, 0, 0})));
 }
 
-TEST_P(SweptDistance, whatComesTooLateOrPartsIsNoContact)
+TEST_P(SweptDistance, LateOrSeparatingObjectsMakeNoContact)
 {
     EXPECT_FALSE(touches(sweep(m_sphere, m_origin, {100, 0, 0}), node(m_origin + Vec3{2, 0, 0})));
     EXPECT_FALSE(touches(sweep(m_sphere, m_origin, {-100, 0, 0}), node(m_origin + Vec3{0.011, 0, 0})));
     EXPECT_FALSE(touches(sweep(m_sphere, m_origin, {}), node(m_origin + Vec3{0.011, 0, 0})));
 }
 
-TEST_P(SweptDistance, whatTouchesAsTheStepBeginsHasTheGapOfThatTime)
+TEST_P(SweptDistance, InitialContactHasTheGapAtStepStart)
 {
     const SweptShape swept = sweep(m_sphere, m_origin, {-100, 0, 0});
     const SweptContact inside = touchOf(swept, node(m_origin + Vec3{0.008, 0, 0}));
@@ -118,7 +118,7 @@ TEST_P(SweptDistance, whatTouchesAsTheStepBeginsHasTheGapOfThatTime)
     EXPECT_NEAR(touchOf(swept, node(m_origin + Vec3{0.012, 0, 0}), 0.003).m_surface.m_gap, -0.001, 1e-9);
 }
 
-TEST_P(SweptDistance, theOffsetIsKept)
+TEST_P(SweptDistance, TheOffsetIsKept)
 {
     const SweptShape swept = sweep(m_sphere, m_origin, {100, 0, 0});
     const SweptContact contact = touchOf(swept, node(m_origin + Vec3{1, 0, 0}), 0.02);
@@ -128,7 +128,7 @@ TEST_P(SweptDistance, theOffsetIsKept)
     EXPECT_FALSE(touches(swept, node(m_origin + Vec3{1, 0.0299, 0})));
 }
 
-TEST_P(SweptDistance, aNeedleMeetsTheMiddleOfATriangle)
+TEST_P(SweptDistance, ANeedleMeetsTheMiddleOfATriangle)
 {
     btCylinderShapeX needle(btVector3(btScalar(0.05), btScalar(0.001), btScalar(0.001)));
     const SweptShape swept = sweep(needle, m_origin, {20, 0, 0});
@@ -152,7 +152,7 @@ TEST_P(SweptDistance, aNeedleMeetsTheMiddleOfATriangle)
     EXPECT_EQ(crossing.m_surface.m_barycentric[2], 0);
 }
 
-TEST_P(SweptDistance, aThinPlateStopsAFastNode)
+TEST_P(SweptDistance, AThinPlateStopsAFastNode)
 {
     btBoxShape plate(btVector3(btScalar(0.5), btScalar(0.5), btScalar(0.001)));
     const SweptShape swept = sweep(plate, m_origin, {});
@@ -167,7 +167,7 @@ TEST_P(SweptDistance, aThinPlateStopsAFastNode)
     EXPECT_EQ(slanted.m_surface.m_normal.z, 1);
 }
 
-TEST_P(SweptDistance, theTipOfATurningRodHits)
+TEST_P(SweptDistance, TheTipOfATurningRodHits)
 {
     btCapsuleShapeX rod(btScalar(0.005), btScalar(0.6));
     const double spin = 30, touchAngle = 0.4;  // [rad/s], [rad]
@@ -189,7 +189,7 @@ TEST_P(SweptDistance, theTipOfATurningRodHits)
     EXPECT_FALSE(touches(swept, node(m_origin + radius * Vec3{std::cos(0.1), -std::sin(0.1), 0}))) << "it parts";
 }
 
-TEST_P(SweptDistance, planesAreMetByTheFirstCorner)
+TEST_P(SweptDistance, PlanesAreMetByTheFirstCorner)
 {
     btStaticPlaneShape plane(btVector3(0, 0, 1), 0);
     const SweptShape swept = sweep(plane, m_origin, {0, 0, 1});
@@ -203,7 +203,7 @@ TEST_P(SweptDistance, planesAreMetByTheFirstCorner)
     EXPECT_NEAR(turned.m_time, std::atan(0.06) / 5, 1e-6 * std::atan(0.06) / 5);
 }
 
-TEST_P(SweptDistance, boundsHoldTheShapeOnAllOfItsWay)
+TEST_P(SweptDistance, BoundsHoldTheShapeOnAllOfItsWay)
 {
     btBoxShape box(btVector3(btScalar(0.5), btScalar(0.1), btScalar(0.05)));
     RandomPoints random;
@@ -227,7 +227,7 @@ TEST_P(SweptDistance, boundsHoldTheShapeOnAllOfItsWay)
     }
 }
 
-TEST(SweptShape, turnsAboutItsCentre)
+TEST(SweptShape, TurnsAboutItsCentre)
 {
     btSphereShape sphere(btScalar(0.5));
     ShapeLeaf leaf = leafOf(sphere);
@@ -239,7 +239,7 @@ TEST(SweptShape, turnsAboutItsCentre)
     EXPECT_NEAR(swept.m_spinRadius, 1, 1e-14) << "the sphere itself turns unseen";
 }
 
-TEST(SweptShape, movedBackAndForthIsTheSame)
+TEST(SweptShape, MovedBackAndForthIsTheSame)
 {
     btCapsuleShape capsule(btScalar(0.1), btScalar(0.5));
     RandomPoints random;
@@ -261,7 +261,7 @@ TEST(SweptShape, movedBackAndForthIsTheSame)
     }
 }
 
-TEST(SweptShape, whatStaysFarFromThePathCannotMeet)
+TEST(SweptShape, NodesFarFromThePathCannotMeetIt)
 {
     btSphereShape sphere(btScalar(0.01));
     const SweptShape swept = sweep(sphere, {}, {60, 60, 0});  // 1 m along x and along y
@@ -274,7 +274,7 @@ TEST(SweptShape, whatStaysFarFromThePathCannotMeet)
     EXPECT_TRUE(mayMeet(swept, node({0.5, 0.5, 0.5}, {0, 0, -60}), 0)) << "it comes";
 }
 
-TEST(SweptShape, isFastFromHalfAnEdgeOrThicknessAStep)
+TEST(SweptShape, IsFastFromHalfAnEdgeOrThicknessAStep)
 {
     btBoxShape box(btVector3(btScalar(0.5), btScalar(0.25), btScalar(0.125)));
     const SweptShape still = sweep(box, {}, {});
@@ -290,7 +290,7 @@ TEST(SweptShape, isFastFromHalfAnEdgeOrThicknessAStep)
 }
 
 // Twice what gravity moves in a step: bodies at rest are not fast up to there.
-TEST(SweptShape, fallsFarFromAQuarterOfAnEdgeOrThicknessAStep)
+TEST(SweptShape, FallsFarFromAQuarterOfAnEdgeOrThicknessAStep)
 {
     btBoxShape box(btVector3(btScalar(0.5), btScalar(0.25), btScalar(0.125)));
     const SweptShape still = sweep(box, {}, {});
@@ -303,7 +303,7 @@ TEST(SweptShape, fallsFarFromAQuarterOfAnEdgeOrThicknessAStep)
     EXPECT_FALSE(fallsFar(sweep(plane, {}, {}), 1e6, 1e-3)) << "its normal is the same everywhere";
 }
 
-TEST(SweptShape, whatIsNotANumberIsNoContact)
+TEST(SweptShape, NonFiniteValuesMakeNoContact)
 {
     btSphereShape sphere(btScalar(0.01));
     const SweptFeature good = node({1, 0, 0});
@@ -383,7 +383,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(, SweptSolid, ::testing::ValuesIn(convexSolids()), shapeName);
 
-TEST_P(SweptSolid, firstTouchesAreThoseOfDenseSampling)
+TEST_P(SweptSolid, FirstContactsMatchDenseSampling)
 {
     const ShapePtr solid = GetParam().m_make();
     int touching = 0;

@@ -43,7 +43,7 @@ TEST(TopologyMarks, MatchTheBodyAsItWas)
 }
 
 // Whichever it is, whatever its turn.
-TEST(TopologyMarks, SeeEveryTetrahedronThatIsJoinedOtherwise)
+TEST(TopologyMarks, DetectEveryRejoinedTetrahedron)
 {
     int before = 0;
     for (int tetra = 0; tetra < kTetras; ++tetra)
@@ -59,7 +59,7 @@ TEST(TopologyMarks, SeeEveryTetrahedronThatIsJoinedOtherwise)
     EXPECT_GT(before, 0);  // parts do take turns
 }
 
-TEST(TopologyMarks, SeeAtOnceWhatBulletSaysIsNew)
+TEST(TopologyMarks, DetectBulletsUpdateFlagAtOnce)
 {
     for (int tetra = 0; tetra < kTetras; ++tetra)
     {
@@ -70,7 +70,7 @@ TEST(TopologyMarks, SeeAtOnceWhatBulletSaysIsNew)
     }
 }
 
-TEST(TopologyMarks, SeeAtOnceWhatIsInAnotherArray)
+TEST(TopologyMarks, DetectReallocatedArraysAtOnce)
 {
     for (int tetra = 0; tetra < kTetras; ++tetra)
     {
@@ -82,7 +82,7 @@ TEST(TopologyMarks, SeeAtOnceWhatIsInAnotherArray)
 }
 
 // Node pointers go along with the array, as followNodes makes them.
-TEST(TopologyMarks, DoNotMindWhereTheArraysAre)
+TEST(TopologyMarks, IgnoreTheAddressesOfArrays)
 {
     MarkedBox box;
     btSoftBody& body = *box.m_body;

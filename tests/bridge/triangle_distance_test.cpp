@@ -79,7 +79,7 @@ double overlapDepth(const Vec3& halfExtents, const Corners& t)
 
 }  // namespace
 
-TEST(TriangleShapeDistance, Sphere)
+TEST(TriangleShapeDistance, MatchesHandValuesForSphere)
 {
     btSphereShape sphere(1);
     expectAnswers(sphere,
@@ -99,7 +99,7 @@ TEST(TriangleShapeDistance, SphereWithItsCentreInTheTriangleGoesOutThroughItsOut
     expectAnswers(sphere, {{"down", {{up[0], up[2], up[1]}}, -1, {0, 1, 0}, {0, 0, 0}}}, 1e-14);
 }
 
-TEST(TriangleShapeDistance, Capsule)
+TEST(TriangleShapeDistance, MatchesHandValuesForCapsule)
 {
     btCapsuleShape capsule(0.5, 2);
     expectAnswers(
@@ -111,7 +111,7 @@ TEST(TriangleShapeDistance, Capsule)
         1e-12);
 }
 
-TEST(TriangleShapeDistance, Box)
+TEST(TriangleShapeDistance, MatchesHandValuesForBox)
 {
     btBoxShape box(btVector3(1, 1, 1));
     const double rounded = ConvexCore::edgeRounding * (std::sqrt(2) - 1);  // added to the gap at a box's edge
@@ -132,7 +132,7 @@ TEST(TriangleShapeDistance, Box)
     EXPECT_LE(std::abs(soft.z), 1 + 1e-7);
 }
 
-TEST(TriangleShapeDistance, Hull)
+TEST(TriangleShapeDistance, MatchesHandValuesForHull)
 {
     const ShapePtr hull = boxHull({1, 1, 1}, 0.125);
     expectAnswers(
@@ -153,7 +153,7 @@ TEST(TriangleShapeDistance, Hull)
         1e-10);
 }
 
-TEST(TriangleShapeDistance, FartherThanAskedLeavesTheResultAlone)
+TEST(TriangleShapeDistance, LeavesTheResultAloneBeyondTheLimit)
 {
     btBoxShape box(btVector3(1, 1, 1));
     btStaticPlaneShape plane(btVector3(0, 1, 0), 0);
@@ -209,7 +209,7 @@ TEST(TriangleShapeDistance, DepthInAHullIsThatOfTheSeparatingAxes)
 }
 
 // Axis-aligned configurations are the hard ones for a polytope: everything lies in common planes.
-TEST(TriangleShapeDistance, DepthIsRightWhereEverythingIsAligned)
+TEST(TriangleShapeDistance, DepthIsRightForAlignedShapes)
 {
     const Vec3 h = {0.5, 0.25, 0.75};
     const ShapePtr hull = boxHull({0.5f, 0.25f, 0.75f}, 0);

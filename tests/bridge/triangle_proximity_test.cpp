@@ -102,7 +102,7 @@ TEST(TriangleProximity, FindsAllTimesInOnePlane)
     }
 }
 
-TEST(TriangleProximity, APointThatFallsOnATriangleMeetsItsPlaneInTime)
+TEST(TriangleProximity, FallingPointMeetsTheTrianglePlaneInTime)
 {
     const std::array<MovingVector, 3> vectors = {MovingVector{{0.2, 0.2, 3}, {0, 0, -10}}, MovingVector{{1, 0, 0}, {}},
                                                  MovingVector{{0, 1, 0}, {}}};

@@ -17,7 +17,7 @@ namespace
 
 const btTransform kOneUp(btQuaternion::getIdentity(), btVector3(0, 0, 1));
 
-TEST(TriangleSoup, aBoxVisitsTheTrianglesInItOnce)
+TEST(TriangleSoup, ABoxVisitsTheTrianglesInItOnce)
 {
     const ConcaveShape shape = makeTriangleMesh({100, 5, true, [](btScalar x, btScalar) { return x * x; }});
     const ShapeLeaf leaf = leafOf(shape.shape(), kOneUp);
@@ -41,7 +41,7 @@ TEST(TriangleSoup, aBoxVisitsTheTrianglesInItOnce)
     EXPECT_EQ(within, 24) << "4 x 3 cells";
 }
 
-TEST(TriangleSoup, aPathMeetsTheFirstTriangle)
+TEST(TriangleSoup, APathMeetsTheFirstTriangle)
 {
     const ConcaveShape shape = makeTriangleMesh();
     TriangleSoup soup;

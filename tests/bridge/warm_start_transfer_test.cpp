@@ -20,7 +20,7 @@ ContactPoint contactAt(double x, double impulse, const Vec3& normal = kUp)
     return contact;
 }
 
-TEST(WarmStartTransfer, TheNearestWithoutAnImpulseInherits)
+TEST(WarmStartTransfer, NearestContactWithoutAnImpulseReceivesIt)
 {
     ContactPoint rich = contactAt(0.1, 5), near = contactAt(0.3, 0), far = contactAt(0.4, 0);
     WarmStartTransfer candidates;
@@ -32,7 +32,7 @@ TEST(WarmStartTransfer, TheNearestWithoutAnImpulseInherits)
     EXPECT_EQ(rich.m_impulse.z, 5);
 }
 
-TEST(WarmStartTransfer, WhereAllHaveImpulsesTheNearestGetsItOnTop)
+TEST(WarmStartTransfer, NearestContactReceivesTheSumIfAllHaveImpulses)
 {
     ContactPoint near = contactAt(0.1, 5), far = contactAt(0.4, 3);
     WarmStartTransfer candidates;
@@ -45,7 +45,7 @@ TEST(WarmStartTransfer, WhereAllHaveImpulsesTheNearestGetsItOnTop)
     EXPECT_EQ(far.m_impulse.z, 3);
 }
 
-TEST(WarmStartTransfer, OneThatTouchesComesBeforeANearerOneThatDoesNotYet)
+TEST(WarmStartTransfer, ClosedContactsPrecedeNearerOpenOnes)
 {
     ContactPoint apart = contactAt(0.1, 0), touching = contactAt(0.4, 0), sunk = contactAt(0.5, 0);
     apart.m_gap = 0.02;
@@ -59,7 +59,7 @@ TEST(WarmStartTransfer, OneThatTouchesComesBeforeANearerOneThatDoesNotYet)
     EXPECT_EQ(sunk.m_impulse.z, 0);
 }
 
-TEST(WarmStartTransfer, TwoLostOnesGoToTwoHeirs)
+TEST(WarmStartTransfer, TwoLostContactsPassToTwoNewOnes)
 {
     ContactPoint near = contactAt(0.1, 0), far = contactAt(0.2, 0);
     WarmStartTransfer candidates;
@@ -72,7 +72,7 @@ TEST(WarmStartTransfer, TwoLostOnesGoToTwoHeirs)
     EXPECT_EQ(far.m_impulse.z, 3);
 }
 
-TEST(WarmStartTransfer, OnesOutOfReachOrOfAnotherNormalInheritNothing)
+TEST(WarmStartTransfer, ContactsOutOfReachOrOfOtherNormalReceiveNothing)
 {
     ContactPoint far = contactAt(1, 0), turned = contactAt(0, 0, {1, 0, 0}), opposite = contactAt(0, 0, {0, 0, -1});
     WarmStartTransfer candidates;
@@ -83,7 +83,7 @@ TEST(WarmStartTransfer, OnesOutOfReachOrOfAnotherNormalInheritNothing)
         EXPECT_EQ(dot(contact->m_impulse, contact->m_impulse), 0);
 }
 
-TEST(WarmStartTransfer, AContactSeenFromTheOtherSideInheritsTheOppositeImpulse)
+TEST(WarmStartTransfer, OppositeSideContactReceivesTheOppositeImpulse)
 {
     ContactPoint candidate = contactAt(0, 0, {0, 0, -1});
     WarmStartTransfer candidates;
@@ -94,7 +94,7 @@ TEST(WarmStartTransfer, AContactSeenFromTheOtherSideInheritsTheOppositeImpulse)
     EXPECT_EQ(candidate.m_impulse.x, -0.5);
 }
 
-TEST(WarmStartTransfer, NothingIsInheritedTwice)
+TEST(WarmStartTransfer, ImpulseIsTransferredOnce)
 {
     ContactPoint candidate = contactAt(0, 0);
     WarmStartTransfer candidates;

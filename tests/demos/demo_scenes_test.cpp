@@ -95,7 +95,7 @@ struct DemoScene
 };
 
 // 1e-3 of each is what four printed digits leave; the rest is said at each.
-TEST(DemoScenes, BallsRollAsFast)
+TEST(DemoScenes, BallsHaveTheSpeedOfTheDemo)
 {
     DemoScene scene("balls");
     scene.until(2);
@@ -109,7 +109,7 @@ TEST(DemoScenes, BallsRollAsFast)
 }
 
 // The crates settle where they fall, and a rounded position moves them a little.
-TEST(DemoScenes, TheBridgeSagsAsDeep)
+TEST(DemoScenes, BridgeHasTheSagOfTheDemo)
 {
     DemoScene scene("bridge");
     scene.until(7);
@@ -117,7 +117,7 @@ TEST(DemoScenes, TheBridgeSagsAsDeep)
     EXPECT_NEAR(sag / figureOf("bridge", 7, "sag / span"), 1, 0.02);
 }
 
-TEST(DemoScenes, TheClayKeepsAsDeepADent)
+TEST(DemoScenes, ClayKeepsTheDentOfTheDemo)
 {
     DemoScene scene("dents");
     const btSoftBody& clay = scene.soft("clay");
@@ -137,7 +137,7 @@ TEST(DemoScenes, TheClayKeepsAsDeepADent)
     EXPECT_NEAR(depth / formula / figureOf("dents", 1.75, "dent 3: depth / formula"), 1, 0.05);
 }
 
-TEST(DemoScenes, TheFingersFillAsFarAndLiftTheBallAsHigh)
+TEST(DemoScenes, FingersFillAndLiftTheBallAsInTheDemo)
 {
     DemoScene scene("finger");
     const double empty = scene.gasOf("finger0"), low = scene.centre("ball").y;
@@ -147,7 +147,7 @@ TEST(DemoScenes, TheFingersFillAsFarAndLiftTheBallAsHigh)
 }
 
 // A motor that keeps the wheels' speed keeps the car's, but for what the tyres flatten.
-TEST(DemoScenes, TheCarGoesAsFast)
+TEST(DemoScenes, CarHasTheSpeedOfTheDemo)
 {
     DemoScene scene("car");
     double lowest = 1;
@@ -164,7 +164,7 @@ TEST(DemoScenes, TheCarGoesAsFast)
 }
 
 // Rigid bodies on sliders in place of a multibody.
-TEST(DemoScenes, TheGripperLiftsAsHighAndPressesAsMuch)
+TEST(DemoScenes, GripperLiftsAndPressesAsInTheDemo)
 {
     DemoScene scene("gripper");
     const double low = scene.centre("fruit").y;
@@ -179,7 +179,7 @@ TEST(DemoScenes, TheGripperLiftsAsHighAndPressesAsMuch)
     EXPECT_NEAR(narrowest / figureOf("gripper", 4, "width of the fruit / at rest"), 1, 0.01);
 }
 
-TEST(DemoScenes, TheRingIsDrawnAsFar)
+TEST(DemoScenes, RingIsDrawnAsFarAsInTheDemo)
 {
     DemoScene scene("squeeze");
     scene.until(3);
@@ -187,7 +187,7 @@ TEST(DemoScenes, TheRingIsDrawnAsFar)
 }
 
 // Its cells are not as long, and where it touches the ground first depends on how it swung before.
-TEST(DemoScenes, TheRollIsThrownAsFastAndAsFar)
+TEST(DemoScenes, RollIsThrownAsInTheDemo)
 {
     DemoScene scene("throw");
     scene.until(3 + scene.m_scene.m_step);  // it holds in the step that begins at 3 s
@@ -203,7 +203,7 @@ TEST(DemoScenes, TheRollIsThrownAsFastAndAsFar)
 }
 
 // Its hands pull at once, where the program's let it come to rest before.
-TEST(DemoScenes, TheLoafTearsAtTheSamePull)
+TEST(DemoScenes, LoafTearsAtThePullOfTheDemo)
 {
     DemoScene scene("tearing");
     double mass = 0, pull = 0;
@@ -230,7 +230,7 @@ TEST(DemoScenes, TheLoafTearsAtTheSamePull)
 }
 
 // Its specimens have no wide ends, so that the whole one parts above its middle, where more weight hangs.
-TEST(DemoScenes, TheSpecimensPartAtTheSamePull)
+TEST(DemoScenes, SpecimensPartAtThePullOfTheDemo)
 {
     DemoScene scene("tensile");
     const btRigidBody* head = &scene.m_world.rigid(2);
@@ -276,7 +276,7 @@ TEST(DemoScenes, TheCrowdFillsThePit)
     EXPECT_NEAR(farthest / figureOf("crowd", 5, "farthest centre from the middle"), 1, 0.05);
 }
 
-TEST(DemoScenes, TheTowerStandsAsHigh)
+TEST(DemoScenes, TowerHasTheHeightOfTheDemo)
 {
     DemoScene scene("tower");
     scene.until(2.5);
@@ -286,7 +286,7 @@ TEST(DemoScenes, TheTowerStandsAsHigh)
     EXPECT_LT(scene.rigid("board3").y, 0.74) << "knocked down";
 }
 
-TEST(DemoScenes, TheDogWalksAsFar)
+TEST(DemoScenes, DogWalksAsFarAsInTheDemo)
 {
     DemoScene scene("walker");
     const double step = scene.m_scene.m_step;

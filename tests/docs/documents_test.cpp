@@ -64,14 +64,14 @@ TEST(Documents, AreReadAsMarkdown)
     EXPECT_EQ(document.m_snippets[2].m_file, "a/b.txt");
 }
 
-TEST(Documents, ThatAreBrokenAreRefused)
+TEST(Documents, AreRejectedIfMalformed)
 {
     EXPECT_THROW(readDocument((kRoot / "no_such_document.md").string()), std::runtime_error);
     EXPECT_THROW(WrittenDocument("```cpp\nint x;\n").read(), std::runtime_error);
 }
 
 /// Every link within the project leads to a file that is there, and to a heading of it.
-TEST(Documents, LinkToWhatIsThere)
+TEST(Documents, LinkToExistingTargets)
 {
     std::size_t followed = 0;
     for (const fs::path& path : documentsOfProject())
@@ -90,7 +90,7 @@ TEST(Documents, LinkToWhatIsThere)
 }
 
 /// Paths of the source tree in what a reader is told to type lead to what is there.
-TEST(Documents, TellToRunWhatIsThere)
+TEST(Documents, CommandsNameExistingFiles)
 {
     std::size_t found = 0;
     for (const fs::path& path : documentsOfProject())

@@ -39,7 +39,7 @@ protected:
     btRigidBody* m_ground;  // its top is at -2
 };
 
-TEST_F(DeformableBalls, ballBouncesWithLittleLoss)
+TEST_F(DeformableBalls, BallBouncesWithLittleLoss)
 {
     const double mass = 4, step = 0.001, radius = 0.5;
     const ExampleBlock block = {
@@ -74,7 +74,7 @@ TEST_F(DeformableBalls, ballBouncesWithLittleLoss)
     EXPECT_NEAR(box.getCenterOfMassPosition().y(), -1.5, 0.02);
 }
 
-TEST_F(DeformableBalls, toriFallOnEachOtherAndLieDown)
+TEST_F(DeformableBalls, ToriFallOnEachOtherAndLieDown)
 {
     const double young = 180 * (3 * 600 + 2 * 180) / 780.0, poisson = 600 / (2 * 780.0);
     EnergyBook book(fem(), m_gravity);
@@ -108,7 +108,7 @@ TEST_F(DeformableBalls, toriFallOnEachOtherAndLieDown)
 }
 
 // A box of 1 kg hangs and swings on two edges of a slab that is pinned at two others.
-TEST_F(DeformableExample, anchoredCornersCarryABox)
+TEST_F(DeformableExample, AnchoredCornersCarryABox)
 {
     setGravity(10);
     m_world.world().setImplicit(false);

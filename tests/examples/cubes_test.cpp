@@ -91,7 +91,7 @@ protected:
     std::vector<btRigidBody*> m_boxes;
 };
 
-TEST_F(VolumetricDeformable, boxesFallOnTheStiffestCubeOfTheSlider)
+TEST_F(VolumetricDeformable, BoxesFallOnTheStiffestCubeOfTheSlider)
 {
     runWithBoxes(2000, makeBox({2, 2, 2}, {6, 6, 6}, {-1, -1, -1}));
     EXPECT_GT(smallestVolumeRatio(*m_cube), 0.5);
@@ -99,7 +99,7 @@ TEST_F(VolumetricDeformable, boxesFallOnTheStiffestCubeOfTheSlider)
 }
 
 // A box weighs as much as E times its face: the linear law lets elements be pressed flat, and through themselves.
-TEST_F(VolumetricDeformable, boxesCrushTheCubeOfTheExample)
+TEST_F(VolumetricDeformable, BoxesCrushTheCubeOfTheExample)
 {
     runWithBoxes(50, makeBox({2, 2, 2}, {4, 4, 4}, {-1, -1, -1}));
     // A node or two may stay where two boxes press them: at some of the starts some 10 um apart, and so with other
@@ -115,7 +115,7 @@ TEST_F(VolumetricDeformable, boxesCrushTheCubeOfTheExample)
 }
 
 // The same cube with a Neo-Hookean force: the law holds the boxes, which the linear one does not.
-TEST_F(VolumetricDeformable, boxesCrushTheCubeOfANeoHookeanForceAndNoElementIsInsideOutAtRest)
+TEST_F(VolumetricDeformable, BoxesCrushANeoHookeanCubeWithoutInvertedElementsAtRest)
 {
     addCubeAndWalls(makeBox({2, 2, 2}, {4, 4, 4}, {-1, -1, -1}));
     auto force = std::make_unique<btDeformableNeoHookeanForce>(100, 100, btScalar(0.2));
@@ -138,7 +138,7 @@ TEST_F(VolumetricDeformable, boxesCrushTheCubeOfANeoHookeanForceAndNoElementIsIn
     EXPECT_NEAR(kEdge - highest(*m_cube), own, 0.2 * own);  // friction on the floor holds its foot
 }
 
-TEST_F(VolumetricDeformable, aCubeAloneAndUnderAPlateIsSqueezedAsItsModulusSays)
+TEST_F(VolumetricDeformable, ACubeAloneAndUnderAPlateIsSqueezedAsItsModulusSays)
 {
     m_cube = &addBlock(makeBox({2, 2, 2}, {5, 5, 5}, {-1, -1, -1}), cubeAt(2, 2));
     addGravity(*m_cube);
@@ -157,7 +157,7 @@ TEST_F(VolumetricDeformable, aCubeAloneAndUnderAPlateIsSqueezedAsItsModulusSays)
 }
 
 // As the examples pick: the face that a ray hits, drawn to the mouse by the example's spring of 100 N/m a node.
-TEST_F(VolumetricDeformable, aPickedFaceFollowsTheMouse)
+TEST_F(VolumetricDeformable, APickedFaceFollowsTheMouse)
 {
     m_cube = &addBlock(makeBox({2, 2, 2}, {5, 5, 5}, {-1, -1, -1}), cubeAt(2, 2));
     addGravity(*m_cube);
@@ -201,7 +201,7 @@ TEST_F(VolumetricDeformable, aPickedFaceFollowsTheMouse)
 }
 
 // All nodes begin anywhere in a box of half the size.
-TEST_F(DeformableExample, largeDeformationRegainsItsShapeFromRandomPositions)
+TEST_F(DeformableExample, LargeDeformationRegainsItsShapeFromRandomPositions)
 {
     useImplicitSolver();
     btSoftBody& cube = addBlock(exampleCube(), cubeAt(5, btScalar(0.5)));
@@ -227,7 +227,7 @@ TEST_F(DeformableExample, largeDeformationRegainsItsShapeFromRandomPositions)
 }
 
 // Head on at 30 m/s, without gravity and friction.
-TEST_F(DeformableExample, collideKeepsMomentumAndMakesNoEnergy)
+TEST_F(DeformableExample, CollideKeepsMomentumAndMakesNoEnergy)
 {
     setGravity(0);
     useImplicitSolver();

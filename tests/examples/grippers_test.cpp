@@ -82,7 +82,7 @@ protected:
 };
 
 // Pressed, torn up by 5 m/s at once, aside by 5 m/s at once, and held.
-TEST_F(Plates, pinchHoldsACubeThroughLiftAndShift)
+TEST_F(Plates, PinchHoldsACubeThroughLiftAndShift)
 {
     start({btScalar(0.9), btScalar(2.5), btScalar(3.5), 5, 5, 20});
     btSoftBody& cube = addHeld(makeBox({2, 2, 2}, {4, 4, 4}, {-1, -1, -1}), {{2, 2, 2}, {0, 4, 0}, 1, btScalar(0.5)});
@@ -120,7 +120,7 @@ TEST_F(Plates, pinchHoldsACubeThroughLiftAndShift)
 
 // Three blocks side by side, the one in the middle held by friction between soft bodies. Friction of the plates is 400,
 // which is as good as 10.
-TEST_F(Plates, pinchFrictionLiftsThreeBlocks)
+TEST_F(Plates, PinchFrictionLiftsThreeBlocks)
 {
     start({btScalar(0.45), 5, 5, 2, 0, 200});
     EnergyBook book(fem(), m_gravity);
@@ -214,7 +214,7 @@ protected:
     std::array<btMultiBodyJointMotor*, 2> m_motors = {};
 };
 
-TEST_F(GraspDeformable, graspHoldsAndLiftsTheCubeAndLetsItGo)
+TEST_F(GraspDeformable, GraspHoldsAndLiftsTheCubeAndLetsItGo)
 {
     const btRigidBody& table = addRigidBox({btScalar(0.2), btScalar(0.35), btScalar(0.08)}, {0, btScalar(0.35), 0}, 0);
     ExampleBlock block;

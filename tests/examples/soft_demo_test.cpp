@@ -114,7 +114,7 @@ protected:
     double m_flattest = 1;
 };
 
-TEST_F(SoftDemo, tetraCubeFallsOnTheWavesAndComesToRest)
+TEST_F(SoftDemo, TetraCubeFallsOnTheWavesAndComesToRest)
 {
     btSoftBody& cube = addCube();
     EnergyBook book(m_fem, {0, -10, 0});
@@ -130,7 +130,7 @@ TEST_F(SoftDemo, tetraCubeFallsOnTheWavesAndComesToRest)
     EXPECT_GT(m_flattest, 0.8);
 }
 
-TEST_F(SoftDemo, tetraBunnyFallsOnTheWavesAndRocks)
+TEST_F(SoftDemo, TetraBunnyFallsOnTheWavesAndRocks)
 {
     CageSettings settings;
     settings.m_cellSize = 1.15;
@@ -169,7 +169,7 @@ void drag(btDynamicsWorld* world, btScalar step)
     pulled.m_impulse = delta / (step * pulled.m_node->m_im);
 }
 
-TEST_F(SoftDemo, aPickedNodeOfTheTetraCubeFollowsTheMouse)
+TEST_F(SoftDemo, APickedNodeOfTheTetraCubeFollowsTheMouse)
 {
     btSoftBody& cube = addCube();
     const btVector3 from(1, 30, btScalar(1.3)), to(1, -30, btScalar(1.3));

@@ -17,7 +17,7 @@ void expectColour(double share, const Vec3& published, double tolerance)
 }
 
 // The published colours have six digits; ours are whole 255ths, with straight lines between every fifth.
-TEST(ColourMap, IsTheOnePublished)
+TEST(ColourMap, MatchesThePublishedMap)
 {
     expectColour(0, {0.267004, 0.004874, 0.329415}, 0.5 / 255);
     expectColour(128. / 255, {0.127568, 0.566949, 0.550556}, 1. / 255);
@@ -46,7 +46,7 @@ TEST(ColourMap, GetsLighterInNearlyEqualSteps)
         EXPECT_NEAR(lightness(0.1 * (k + 1)) - lightness(0.1 * k), whole / 10, 0.2 * whole / 10) << k;
 }
 
-TEST(ColourMap, AsLightFollowsTheStandardOfScreens)
+TEST(ColourMap, LinearLightFollowsTheSrgbStandard)
 {
     EXPECT_NEAR(linearColour({0, 0.5, 1}).y, 0.2140, 1e-4);
     EXPECT_NEAR(linearColour({0, 0.5, 1}).z, 1, 1e-12);

@@ -189,7 +189,7 @@ TEST(GlbFilm, ColoursAreThoseOfTheStressOrOfItsPeak)
 }
 
 // Quaternions of glTF are (x, y, z, w): q turns (0, 0, 1) to (2 x z + 2 w y, 2 y z - 2 w x, ...).
-TEST(GlbFilm, TurnsAWorldWhoseZIsUp)
+TEST(GlbFilm, RotatesAZUpWorld)
 {
     EXPECT_FALSE(written(sampleFilm()).m_json["nodes"][1].contains("rotation"));
     GlbSettings settings;
@@ -207,7 +207,7 @@ TEST(GlbFilm, OneFrameIsAStill)
     EXPECT_FALSE(glb.surface(0).contains("targets"));
 }
 
-TEST(GlbFilm, SizesAreForeseen)
+TEST(GlbFilm, SizesArePredicted)
 {
     for (const GlbColours colours : {GlbColours::plain, GlbColours::vonMises, GlbColours::peakVonMises})
         for (const bool normals : {false, true})
@@ -221,7 +221,7 @@ TEST(GlbFilm, SizesAreForeseen)
     EXPECT_EQ(GlbFilm().byteCount(), 0u);
 }
 
-TEST(GlbFilmRejects, FramesBeyondTheLimitsAndKeepsThoseBefore)
+TEST(GlbFilmInput, RejectsFramesBeyondLimitsKeepingEarlierOnes)
 {
     GlbSettings settings;
     settings.m_maxFrames = 3;
@@ -237,7 +237,7 @@ TEST(GlbFilmRejects, FramesBeyondTheLimitsAndKeepsThoseBefore)
     EXPECT_EQ(written(film).surface(0)["targets"].size(), 2u);
 }
 
-TEST(GlbFilmRejects, FramesThatDoNotFit)
+TEST(GlbFilmInput, RejectsInconsistentFrames)
 {
     GlbFilm film = sampleFilm();
     const auto rejected = [&film](double time, const std::vector<BodyFrame>& bodies)
@@ -267,7 +267,7 @@ TEST(GlbFilmRejects, FramesThatDoNotFit)
                 HasSubstr("body 7 has no node stress"));
 }
 
-TEST(GlbFilmRejects, SettingsOutOfRange)
+TEST(GlbFilmInput, RejectsSettingsOutOfRange)
 {
     GlbSettings settings;
     settings.m_hottest = -1;
@@ -280,7 +280,7 @@ TEST(GlbFilmRejects, SettingsOutOfRange)
     EXPECT_THAT(messageOf<std::invalid_argument>([&] { GlbFilm film(settings); }), HasSubstr("[1, 4294967295]"));
 }
 
-TEST(GlbFilmRejects, PlacesThatCannotBeWritten)
+TEST(GlbFilmInput, RejectsUnwritablePaths)
 {
     const TemporaryFolder folder;
     const GlbFilm film = sampleFilm();

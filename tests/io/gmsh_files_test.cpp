@@ -81,7 +81,7 @@ TEST_F(GmshFiles, AreTheSameMeshInEveryFormat)
     expectFirst(convert("-format mesh", "a.mesh"), 1e-12);  // written with 14 digits
 }
 
-TEST_F(GmshFiles, OfVersion40AreConvertedAsTheErrorSays)
+TEST_F(GmshFiles, Version40ConvertsAsTheErrorSays)
 {
     // Gmsh calls version 4.0 just 4.
     ASSERT_TRUE(run("first.msh -save -format msh40 -o OLD.msh"));
@@ -92,7 +92,7 @@ TEST_F(GmshFiles, OfVersion40AreConvertedAsTheErrorSays)
     expectFirst(read("NEW.msh"), 0);
 }
 
-TEST_F(GmshFiles, OfSecondOrderAreRefused)
+TEST_F(GmshFiles, SecondOrderMeshesAreRejected)
 {
     for (const char* format : {"msh41", "msh22"})
     {

@@ -52,7 +52,7 @@ std::vector<std::string> notesOf(const std::string& bytes)
     return file.m_notes;
 }
 
-TEST(VtkCells, AreReadOneByOneWhereTheirSizeIsWrong)
+TEST(VtkCells, AreReadOneByOneIfTheirSizeIsWrong)
 {
     const std::string types = "CELL_TYPES 2\n10\n10\n";
     EXPECT_THAT(notesOf(twoTets("CELLS 2 10" + std::string(kRows), types)), ElementsAre());
@@ -63,7 +63,7 @@ TEST(VtkCells, AreReadOneByOneWhereTheirSizeIsWrong)
     EXPECT_THAT(notesOf(twoTets("CELLS 2" + std::string(kRows), types)), ElementsAre(HasSubstr("not 0;")));
 }
 
-TEST(VtkCells, AreTetrahedraWhereTypesAreMissingAndAllHaveFourCorners)
+TEST(VtkCells, DefaultToTetrahedraIfAllHaveFourCorners)
 {
     const std::string cells = "CELLS 2 10" + std::string(kRows);
     for (const char* types : {"CELL_TYPES 10\n", "CELL_TYPES 1\n10", "CELL_TYPES 0", "cell_types 2 10"})
@@ -75,7 +75,7 @@ TEST(VtkCells, AreTetrahedraWhereTypesAreMissingAndAllHaveFourCorners)
 }
 
 // Without types a square and a tetrahedron look alike.
-TEST(VtkCells, AreNotGuessedWhereSomeHaveOtherCornersOrTypes)
+TEST(VtkCells, AreRejectedIfTypesAreAmbiguous)
 {
     const auto why = [](const std::string& bytes)
     { return messageOf<std::runtime_error>([&] { readAs(TetMeshFormat::vtk, bytes); }); };
@@ -84,7 +84,7 @@ TEST(VtkCells, AreNotGuessedWhereSomeHaveOtherCornersOrTypes)
                 HasSubstr("list the type of each"));
 }
 
-TEST(VtkCells, OfFacesAndTetrahedraAreToldApartByType)
+TEST(VtkCells, FacesAndTetrahedraAreDistinguishedByType)
 {
     const TetMeshFile file =
         readAs(TetMeshFormat::vtk,
@@ -94,7 +94,7 @@ TEST(VtkCells, OfFacesAndTetrahedraAreToldApartByType)
     EXPECT_THAT(file.m_notes, ElementsAre(HasSubstr("CELLS should state 19 numbers for 4 cells, not 999")));
 }
 
-TEST(VtkCells, OfBinaryFilesAreReadOneByOneToo)
+TEST(VtkCells, BinaryCellsAreReadOneByOneToo)
 {
     std::string bytes = twoTets("", "");
     bytes.replace(bytes.find("ASCII"), 5, "BINARY");
@@ -232,7 +232,7 @@ TEST(UnprintableWords, AreToldInWords)
                 HasSubstr("'(unprintable bytes)' stands where a section such as $Nodes"));
 }
 
-TEST(RepeatedElements, OfAFileAreRefusedByTheirMesh)
+TEST(RepeatedElements, AreRejectedByTheMesh)
 {
     std::string text = tetGenText(1);
     text.replace(text.find("2 4 0"), std::string::npos, "2 4 0\n1 1 2 3 5\n2 5 3 2 1\n");

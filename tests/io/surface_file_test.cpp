@@ -283,7 +283,7 @@ TEST(SurfaceFile, KeepsColoursOfPlyVerticesAsLabels)
 }
 
 // A fan of so many triangles, every corner in another colour.
-TEST(SurfaceFile, OfTooManyColoursIsAPhotograph)
+TEST(SurfaceFile, TreatsTooManyColoursAsAPhotograph)
 {
     const TemporaryFolder folder;
     const auto labels = [&](int colours)
@@ -318,7 +318,7 @@ TEST(SurfaceFile, KeepsPartsOfObjFilesAsLabels)
     EXPECT_TRUE(labels("", "").empty());
 }
 
-TEST(SurfaceFile, RejectsScaleThatIsNotPositiveAndFinite)
+TEST(SurfaceFile, RejectsInvalidScale)
 {
     const auto read = [](double scale) { return [scale] { readSurfaceFile("box.off", scale); }; };
     EXPECT_THAT(messageOf<std::invalid_argument>(read(0)), AllOf(HasSubstr("scale is 0;"), HasSubstr("positive")));

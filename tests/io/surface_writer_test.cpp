@@ -40,7 +40,7 @@ void expectSampleSurface(const SurfaceMesh& mesh)
     EXPECT_NEAR(volume, 1.125 + 1, 1e-5);  // the first is stretched by an eighth; the triangle's plane holds the origin
 }
 
-TEST(SurfaceWriter, ObjComesBack)
+TEST(SurfaceWriter, ObjIsReadBack)
 {
     const TemporaryFolder folder;
     writeObj(folder.path("frame.obj"), sampleBodies());
@@ -51,7 +51,7 @@ TEST(SurfaceWriter, ObjComesBack)
     EXPECT_THAT(text, HasSubstr("\nf 27 28 29\n"));
 }
 
-TEST(SurfaceWriter, PlyComesBack)
+TEST(SurfaceWriter, PlyIsReadBack)
 {
     const TemporaryFolder folder;
     writePly(folder.path("frame.ply"), sampleBodies());
@@ -89,7 +89,7 @@ TEST(SurfaceWriter, PlyWithoutStressHasNoColours)
     EXPECT_THAT(folder.read("frame.ply"), HasSubstr("red"));
 }
 
-TEST(SurfaceWriter, RejectsWhatItCannotWrite)
+TEST(SurfaceWriter, RejectsInvalidBodiesAndPaths)
 {
     const TemporaryFolder folder;
     const std::string path = folder.path("frame");

@@ -49,7 +49,7 @@ class TetDamageTest : public testing::TestWithParam<TetFixture>
 {
 };
 
-TEST_P(TetDamageTest, CutAnywhereIsAnErrorOrAMesh)
+TEST_P(TetDamageTest, TruncationGivesAnErrorOrAMesh)
 {
     const TetFixture& file = GetParam();
     int whole = 0;
@@ -60,7 +60,7 @@ TEST_P(TetDamageTest, CutAnywhereIsAnErrorOrAMesh)
     EXPECT_FALSE(readsWhole(file.bytes.substr(0, file.bytes.size() / 2), file.format));
 }
 
-TEST_P(TetDamageTest, ChangedAnywhereIsAnErrorOrAMesh)
+TEST_P(TetDamageTest, MutationGivesAnErrorOrAMesh)
 {
     const TetFixture& file = GetParam();
     std::mt19937 random(1);
@@ -105,7 +105,7 @@ TEST(TetDamage, NestedXmlIsAnError)
     EXPECT_FALSE(readsWhole(deep, TetMeshFormat::vtu));
 }
 
-TEST(TetDamage, NothingIsAnError)
+TEST(TetDamage, EmptyInputIsAnError)
 {
     for (const TetMeshFormat format :
          {TetMeshFormat::gmsh, TetMeshFormat::tetgen, TetMeshFormat::vtk, TetMeshFormat::vtu, TetMeshFormat::medit})

@@ -84,7 +84,7 @@ TEST_P(TetFixtureTest, IsReadFromAFile)
 INSTANTIATE_TEST_SUITE_P(Formats, TetFixtureTest, testing::ValuesIn(tetFixtures()),
                          [](const auto& fixture) { return fixture.param.name; });
 
-TEST(TetMeshFile, TellsWhatTheFileCallsItsNodes)
+TEST(TetMeshFile, ReportsTheNodeNumbersOfTheFile)
 {
     EXPECT_EQ(readText(gmsh4Text(), TetMeshFormat::gmsh).m_nodeNumbers,
               (std::vector<std::uint64_t>{7, 1000000000000000000u, 3, 5, 9223372036854775817u}));
@@ -112,7 +112,7 @@ TEST(TetMeshFile, ScaleMultipliesPositions)
     EXPECT_DOUBLE_EQ(mesh.mesh().volume() * 1e9, readText(meditText(2), TetMeshFormat::medit).mesh().volume());
 }
 
-TEST(TetMeshFile, RejectsScaleThatIsNotPositiveAndFinite)
+TEST(TetMeshFile, RejectsInvalidScale)
 {
     for (const double scale : {0., -1., std::nan(""), HUGE_VAL})
     {
@@ -130,7 +130,7 @@ TEST(TetMeshFile, RejectsScaleThatOverflows)
                 AllOf(HasSubstr("node 6"), HasSubstr("not finite once scaled")));
 }
 
-TEST(TetMeshFile, NodeAndEleBringEachOther)
+TEST(TetMeshFile, NodeAndEleFilesLoadEachOther)
 {
     const TemporaryFolder folder;
     const std::string text = tetGenText(1), nodes = text.substr(0, text.find("2 4 0")),
@@ -161,7 +161,7 @@ TEST(TetMeshFile, RejectsMissingFilesFoldersAndEndings)
                 AllOf(HasSubstr("'box.stl'"), HasSubstr("'.stl' is not known; it must be .msh, .node, .ele, .vtk,")));
 }
 
-TEST(TetMeshFile, MeshRefusesWhatTetMeshRefuses)
+TEST(TetMeshFile, MeshRejectsInvalidElements)
 {
     std::string text = tetGenText(0);
     text.replace(text.find("0 0 1 2 4"), 9, "0 0 1 2 2");

@@ -76,7 +76,7 @@ TEST_P(TetMeshWriter, KeepsRegions)
                 HasSubstr("there are 2 regions for 5 elements; give one each, or none"));
 }
 
-TEST_P(TetMeshWriter, SaysWhatItCannotWrite)
+TEST_P(TetMeshWriter, ReportsUnwritablePaths)
 {
     const TemporaryFolder folder;
     const std::string path = folder.path(std::string("missing/mesh") + GetParam());

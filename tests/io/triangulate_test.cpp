@@ -45,13 +45,13 @@ Vec3 placed(double u, double v)
     return Vec3{1, -2, 3} + u * Vec3{0.6, 0.8, 0} + v * Vec3{0, 0, 1};
 }
 
-TEST(Triangulate, NothingBelowThreeCorners)
+TEST(Triangulate, MakesNoTriangleBelowThreeCorners)
 {
     EXPECT_EQ(triangulatedAreas({}).count, 0u);
     EXPECT_EQ(triangulatedAreas({{0, 0, 0}, {1, 0, 0}}).count, 0u);
 }
 
-TEST(Triangulate, ConvexPolygonsOfAnySize)
+TEST(Triangulate, CoversConvexPolygonsOfAnySize)
 {
     for (const int n : {3, 4, 10, 256, 300})
     {
@@ -75,7 +75,7 @@ TEST(Triangulate, ConcavePolygonIsNotCoveredTwice)
     EXPECT_NEAR(areas.ofEach, 7, 1e-14 * 7 * 8);
 }
 
-TEST(Triangulate, PolygonWithAHoleOverABridge)
+TEST(Triangulate, CoversAPolygonWithABridgedHole)
 {
     // Square of 3 with a hole of 1; corners 0 and 4 come again at the bridge.
     const Areas areas = triangulatedAreas({placed(0, 0), placed(3, 0), placed(3, 3), placed(0, 3), placed(0, 0),

@@ -45,7 +45,7 @@ protected:
     TemporaryFolder m_folder;
 };
 
-TEST_F(UrdfReader, takesEveryValueThatTheBlockGives)
+TEST_F(UrdfReader, TakesEveryValueOfTheBlock)
 {
     const UrdfDeformable body = read(kInertial +
                                      "<collision_margin value='0.006'/><repulsion_stiffness value='800'/>"
@@ -64,7 +64,7 @@ TEST_F(UrdfReader, takesEveryValueThatTheBlockGives)
     EXPECT_EQ(body.m_visualPath, "");
 }
 
-TEST_F(UrdfReader, takesPybulletsValuesForWhatIsNotGiven)
+TEST_F(UrdfReader, UsesPybulletsDefaults)
 {
     const UrdfDeformable body = read(kInertial +
                                      "<spring elastic_stiffness='9' damping_stiffness='1'/>"
@@ -75,7 +75,7 @@ TEST_F(UrdfReader, takesPybulletsValuesForWhatIsNotGiven)
     EXPECT_FALSE(body.m_elastic);
 }
 
-TEST_F(UrdfReader, addsTwoLaws)
+TEST_F(UrdfReader, AddsTwoLaws)
 {
     const UrdfDeformable body = read(kInertial +
                                      "<corotated mu='100' lambda='50'/>"
@@ -85,7 +85,7 @@ TEST_F(UrdfReader, addsTwoLaws)
     EXPECT_DOUBLE_EQ(body.m_damping, 0.032);  // that of 400 Pa of the 500 Pa
 }
 
-TEST_F(UrdfReader, tellsTheMeshThatMovesFromTheOneThatIsDrawn)
+TEST_F(UrdfReader, DistinguishesSimulationMeshFromVisualMesh)
 {
     m_folder.write("ball.obj", "not read here");
     const UrdfDeformable body =
@@ -94,7 +94,7 @@ TEST_F(UrdfReader, tellsTheMeshThatMovesFromTheOneThatIsDrawn)
     EXPECT_EQ(body.m_visualPath, m_folder.path("ball.obj"));
 }
 
-TEST_F(UrdfReader, findsMeshesInTheFoldersAbove)
+TEST_F(UrdfReader, FindsMeshesInTheFoldersAbove)
 {
     std::filesystem::create_directories(m_folder.path("a/b"));
     const std::string path = m_folder.write("a/b/body.urdf", "<robot name='r'><deformable name='x'>" + kInertial +
@@ -102,7 +102,7 @@ TEST_F(UrdfReader, findsMeshesInTheFoldersAbove)
     EXPECT_TRUE(std::filesystem::equivalent(readUrdfDeformable(path).m_meshPath, m_folder.path("ball.vtk")));
 }
 
-TEST_F(UrdfReader, namesFileLineAndWhatIsWrong)
+TEST_F(UrdfReader, NamesFileLineAndFault)
 {
     const std::string mesh = "<visual filename='ball.vtk'/>";
     EXPECT_THAT(complaint("\n" + mesh), AllOf(HasSubstr("body.urdf"), HasSubstr("line 3"), HasSubstr("<inertial>")));
@@ -118,7 +118,7 @@ TEST_F(UrdfReader, namesFileLineAndWhatIsWrong)
                 AllOf(HasSubstr("cube.vtk"), HasSubstr("four folders above")));
 }
 
-TEST_F(UrdfReader, refusesFilesOfOtherKinds)
+TEST_F(UrdfReader, RefusesFilesOfOtherKinds)
 {
     const auto told = [&](const std::string& path)
     { return messageOf<std::runtime_error>([&] { readUrdfDeformable(path); }); };

@@ -123,7 +123,7 @@ protected:
 };
 
 // Two boxes of 27 nodes and 40 tetrahedra, and a triangle between them.
-TEST_P(VtuBodies, CellsOfAllBodiesStandInOnePiece)
+TEST_P(VtuBodies, CellsOfAllBodiesShareOneVtkBlock)
 {
     EXPECT_THAT(m_xml, HasSubstr("NumberOfPoints=\"57\" NumberOfCells=\"81\""));
     const std::vector<double> points = numbersOf(m_xml, "Points", "Points"),
@@ -147,7 +147,7 @@ TEST_P(VtuBodies, CellsOfAllBodiesStandInOnePiece)
 }
 
 // And it is read back as what the mesh's file had.
-TEST_P(VtuBodies, RegionsAreThoseOfTheTetrahedraAndZeroWhereTheyHaveNone)
+TEST_P(VtuBodies, RegionsOfBodiesWithoutAnyAreZero)
 {
     EXPECT_THAT(m_xml, Not(HasSubstr("region")));
     std::vector<BodyFrame> bodies = m_bodies;
@@ -163,7 +163,7 @@ TEST_P(VtuBodies, RegionsAreThoseOfTheTetrahedraAndZeroWhereTheyHaveNone)
     EXPECT_EQ(read[79], 12);
 }
 
-TEST_P(VtuBodies, FieldsAreThoseOfTheBodiesAndZeroWhereTheyHaveNone)
+TEST_P(VtuBodies, FieldsOfBodiesWithoutAnyAreZero)
 {
     for (const char* name : {"displacement", "velocity", "contact_force", "reaction_force"})
         EXPECT_EQ(numbersOf(m_xml, "PointData", name).size(), 3u * 57) << name;
@@ -213,7 +213,7 @@ TEST_P(VtuBodies, CellsHaveTheActivationOfTheirFibres)
     EXPECT_THAT(written(bodies, GetParam()), Not(HasSubstr("activation")));
 }
 
-TEST_P(VtuBodies, MayHaveNothingAtAll)
+TEST_P(VtuBodies, MayBeEmpty)
 {
     const std::string xml = written({}, GetParam());
     EXPECT_THAT(xml, AllOf(HasSubstr("NumberOfPoints=\"0\" NumberOfCells=\"0\""), Not(HasSubstr("stress"))));
@@ -247,7 +247,7 @@ TEST(VtuEncodings, BinaryIsSmallerAndCompressedSmallerStill)
                                 std::to_string(compressed.size()));
 }
 
-TEST(VtuBodiesRejects, ArraysThatDoNotFit)
+TEST(VtuBodiesInput, RejectsInconsistentArrays)
 {
     const TemporaryFolder folder;
     VtuSeries series(folder.path("out"), "run");
@@ -281,7 +281,7 @@ TEST(VtuBodiesRejects, ArraysThatDoNotFit)
     EXPECT_FALSE(std::filesystem::exists(folder.path("out/run_000000.vtu")));
 }
 
-TEST(VtuBodiesRejects, AFolderThatIsGone)
+TEST(VtuBodiesInput, ReportsAMissingFolder)
 {
     const TemporaryFolder folder;
     VtuSeries series(folder.path("out"), "run");

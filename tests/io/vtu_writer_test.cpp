@@ -52,7 +52,7 @@ TEST(VtuSeries, FrameHoldsPointsCellsAndDisplacement)
     EXPECT_THAT(numbersOf(text, "types"), ElementsAre(5, 5));
 }
 
-TEST(VtuSeries, FrameWithoutDisplacementOrTriangles)
+TEST(VtuSeries, AcceptsFramesWithoutTrianglesOrDisplacement)
 {
     const TemporaryFolder folder;
     VtuSeries series(folder.path("out"), "drop");
@@ -96,7 +96,7 @@ TEST(VtuSeries, FramesDoNotDependOnTheLocaleOfStreams)
     EXPECT_THAT(folder.read("out/drop.pvd"), HasSubstr("timestep=\"0.5\""));
 }
 
-TEST(VtuSeries, RejectsNamesThatAreNotAFile)
+TEST(VtuSeries, RejectsInvalidFileNames)
 {
     const TemporaryFolder folder;
     for (const std::string name : {"", "a/b", "a\"b", "a b"})
@@ -105,7 +105,7 @@ TEST(VtuSeries, RejectsNamesThatAreNotAFile)
     EXPECT_FALSE(std::filesystem::exists(folder.path("out")));
 }
 
-TEST(VtuSeries, RejectsFolderThatCannotBeMade)
+TEST(VtuSeries, RejectsUncreatableFolders)
 {
     const TemporaryFolder folder;
     const std::string file = folder.write("file", "");
@@ -115,7 +115,7 @@ TEST(VtuSeries, RejectsFolderThatCannotBeMade)
     EXPECT_THROW(VtuSeries("", "drop"), std::runtime_error);
 }
 
-TEST(VtuSeries, RejectsBadFramesAndCountsNoneOfThem)
+TEST(VtuSeries, RejectsBadFramesWithoutCountingThem)
 {
     const TemporaryFolder folder;
     VtuSeries series(folder.path("out"), "drop");

@@ -94,7 +94,7 @@ TEST_F(FilmRecorderTest, NoFilmTakesTheNameOfAnother)
     }
 }
 
-TEST_F(FilmRecorderTest, EndsWhereTheWindowGetsAnotherSize)
+TEST_F(FilmRecorderTest, StopsIfTheWindowIsResized)
 {
     ASSERT_TRUE(m_film.start(m_size));
     m_film.append(plainImage(m_size));
@@ -105,7 +105,7 @@ TEST_F(FilmRecorderTest, EndsWhereTheWindowGetsAnotherSize)
     EXPECT_EQ(framesIn(m_film.path()), 1);
 }
 
-TEST_F(FilmRecorderTest, WhatIsWrongIsASentence)
+TEST_F(FilmRecorderTest, ReportsFailuresInASentence)
 {
     m_folder.write("file", "no folder");
     FilmRecorder nowhere(m_folder.path("file/films"));

@@ -156,7 +156,7 @@ TEST(Film, AbandonedFilmsLeaveNothing)
     EXPECT_THAT(messageOf<std::invalid_argument>([&] { empty.finish(); }), HasSubstr("no frames"));
 }
 
-TEST(Film, RejectsWhatIsNoFilm)
+TEST(Film, RejectsInvalidFilms)
 {
     const TemporaryFolder folder;
     const auto start = [&](const char* name, const PictureSize& size, int rate)
@@ -170,7 +170,7 @@ TEST(Film, RejectsWhatIsNoFilm)
 }
 
 /// Puts a program of its own in place of ffmpeg, or none.
-class FilmWithout : public testing::Test
+class FilmWithoutFfmpeg : public testing::Test
 {
 protected:
     void SetUp() override { setenv("PATH", m_folder.path("bin").c_str(), 1); }
@@ -185,7 +185,7 @@ protected:
     const std::string m_path = getenv("PATH");
 };
 
-TEST_F(FilmWithout, FfmpegSaysSo)
+TEST_F(FilmWithoutFfmpeg, ReportsThatFfmpegIsMissing)
 {
     EXPECT_FALSE(FilmWriter::available());
     EXPECT_THAT(messageOf<std::runtime_error>(
@@ -196,7 +196,7 @@ TEST_F(FilmWithout, FfmpegSaysSo)
     EXPECT_THAT(m_folder.names(), IsEmpty());
 }
 
-TEST_F(FilmWithout, AnFfmpegThatWorksRepeatsItsWords)
+TEST_F(FilmWithoutFfmpeg, ReportsTheErrorsOfAFailingFfmpeg)
 {
     putProgram("echo the disk is full >&2\nexit 1\n");
     EXPECT_TRUE(FilmWriter::available());

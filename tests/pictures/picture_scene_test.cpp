@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"TextSize", [](PictureScene& s) { s.m_textSize = 0; }, {"text's size is 0", "[0.1, 10]"}}),
     [](const auto& fault) { return fault.param.m_name; });
 
-TEST(PictureCamera, SeesRaysWhereTheyWereSent)
+TEST(PictureCamera, MapsRaysBackToTheirPixels)
 {
     PictureCamera camera;
     camera.m_eye = {3, 2, -1};
@@ -199,7 +199,7 @@ TEST(Legend, TellsTheRangeInReadableUnits)
     EXPECT_EQ(legendTitle({0, 1e6, "", "Pa"}), "[MPa]");
 }
 
-TEST(Legend, TellsWhatArrowsShow)
+TEST(Legend, NamesTheQuantityOfArrows)
 {
     PictureArrows arrows;
     arrows.m_title = "contact force";

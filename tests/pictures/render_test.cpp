@@ -47,7 +47,7 @@ TEST(Render, ShowsSomething)
 }
 
 /// A ball, off the picture's middle: every pixel whose ray misses the sphere is background, every other is the ball's.
-TEST(Render, SilhouetteOfABallIsWhereProjectionPutsIt)
+TEST(Render, BallSilhouetteFollowsTheProjection)
 {
     const Vec3 centre{0.9, 0.5, -0.4};
     const double radius = 0.6, chord = radius * (1 - std::cos(std::acos(-1.) / 96));  // polyhedron inside the sphere
@@ -76,7 +76,7 @@ TEST(Render, SilhouetteOfABallIsWhereProjectionPutsIt)
 }
 
 /// The light comes from the upper left: the ball's shadow lies where the ray through its centre meets the ground.
-TEST(Render, ShadowLiesWhereGeometryPutsIt)
+TEST(Render, ShadowFollowsTheGeometry)
 {
     PictureScene scene;
     const Vec3 centre{0, 1, 0}, towards{-1, 1, 0};
@@ -320,7 +320,7 @@ TEST(Render, RejectsBadScenesAndSizes)
     EXPECT_NO_THROW(render(scene)) << "the renderer is as good as before";
 }
 
-TEST(RenderDeathTest, SaysWhatToInstallWithoutEgl)
+TEST(RenderDeathTest, AdvisesInstallingADriverWithoutEgl)
 {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     const auto withoutDriver = []

@@ -52,7 +52,7 @@ TEST(ViewerTimes, TellTheTimeOfAStepAndNotOfAFrame)
     EXPECT_EQ(times.m_frame, 16);
 }
 
-TEST_F(ViewerControlTest, LeftButtonDragsWhatItHits)
+TEST_F(ViewerControlTest, LeftButtonDragsTheHitBody)
 {
     send({moveTo({0.4, 0.5, 0}), ViewerEvent::press()});
     EXPECT_TRUE(m_control.dragging());
@@ -122,7 +122,7 @@ double distanceTo(const Vec3& point, const PictureRay& ray)
     return norm(cross(point - ray.m_from, along));
 }
 
-TEST_F(ViewerControlTest, OtherKeysAreTheSimulationsWithWhereTheMouseIs)
+TEST_F(ViewerControlTest, OtherKeysReachTheSimulationWithTheCursor)
 {
     send({moveTo({0.4, 0.5, 0}), ViewerEvent::key(ViewerKey::box)});
     EXPECT_NEAR(distanceTo({0.4, 0.5, 0}, m_simulation.m_cursor), 0, 1e-9);
@@ -150,14 +150,14 @@ TEST_F(ViewerControlTest, GoingBackInTimePausesAndLetsGo)
     EXPECT_EQ(m_control.takeSteps(2), 2) << "it runs on";
 }
 
-TEST_F(ViewerControlTest, FilesAreDroppedWhereTheMouseIs)
+TEST_F(ViewerControlTest, FilesAreDroppedAtTheCursor)
 {
     send({moveTo({-0.2, 0.3, 0}), ViewerEvent::drop({"a.off", "b.msh"})});
     EXPECT_THAT(m_simulation.m_files, testing::ElementsAre("a.off", "b.msh"));
     EXPECT_NEAR(distanceTo({-0.2, 0.3, 0}, m_simulation.m_cursor), 0, 1e-9);
 }
 
-TEST_F(ViewerControlTest, AnotherThingToBeSeenMovesTheCamera)
+TEST_F(ViewerControlTest, ChangedViewMovesTheCamera)
 {
     m_simulation.m_scene.m_camera.m_eye = {0, 3, 9};
     m_control.update();
@@ -171,7 +171,7 @@ TEST_F(ViewerControlTest, AnotherThingToBeSeenMovesTheCamera)
     EXPECT_EQ(distance(), zoomed) << "once";
 }
 
-TEST(ViewerKeys, AllAreToldByHelpAndDocument)
+TEST(ViewerKeys, AllAreListedInHelpAndDocument)
 {
     ASSERT_EQ(viewerKeys().size(), static_cast<std::size_t>(ViewerKey::close) + 1);
     EXPECT_EQ(viewerKeys()[static_cast<std::size_t>(ViewerKey::box)].m_keys, "B");
@@ -188,7 +188,7 @@ TEST(ViewerKeys, AllAreToldByHelpAndDocument)
     }
 }
 
-TEST(ViewerWithout, ADisplaySaysSo)
+TEST(ViewerWithoutDisplay, ReportsTheMissingDisplay)
 {
     unsetenv("DISPLAY");
     BallSimulation simulation;

@@ -124,7 +124,7 @@ TEST_F(ViewerTest, PausesStepsHidesItsPanelAndCloses)
     EXPECT_FALSE(m_viewer->frame());
 }
 
-TEST_F(ViewerTest, ASceneThatCannotBeDrawnPausesIt)
+TEST_F(ViewerTest, UndrawableScenePausesIt)
 {
     m_simulation.place({std::nan(""), 0, 0});
     EXPECT_TRUE(m_viewer->frame());
@@ -172,7 +172,7 @@ TEST_F(ViewerTest, HelpProgressAndSentencesStandOverThePicture)
     EXPECT_GT(m_simulation.m_updates, 8) << "in every frame, also in a pause";
 }
 
-TEST_F(ViewerTest, AButtonGivesUp)
+TEST_F(ViewerTest, ButtonSendsTheCancelKey)
 {
     play({ViewerEvent::key(ViewerKey::panel)});
     m_simulation.m_progress = {"ball.off: making the cage", 0.4};

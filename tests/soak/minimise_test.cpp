@@ -27,7 +27,7 @@ bool has(const std::vector<int>& all, int number)
     return std::find(all.begin(), all.end(), number) != all.end();
 }
 
-TEST(Minimise, KeepsWhatIsNeeded)
+TEST(Minimise, KeepsNeededElements)
 {
     const auto fails = [](const std::vector<int>& all) { return has(all, 3) && has(all, 200) && has(all, 201); };
     EXPECT_THAT(minimise(firstNumbers(300), fails, 10000), ElementsAre(3, 200, 201));
@@ -40,14 +40,14 @@ TEST(Minimise, KeepsTheOrder)
     EXPECT_THAT(minimise(firstNumbers(10), fails, 1000), ElementsAre(0, 9));
 }
 
-TEST(Minimise, OfWhatAlwaysFailsIsNothing)
+TEST(Minimise, IsEmptyIfEverythingFails)
 {
     EXPECT_TRUE(minimise(
                     firstNumbers(7), [](const std::vector<int>&) { return true; }, 1000)
                     .empty());
 }
 
-TEST(Minimise, EndsAfterTheRunsThatItMayTake)
+TEST(Minimise, StopsAtTheRunLimit)
 {
     int runs = 0;
     const auto fails = [&runs](const std::vector<int>& all)

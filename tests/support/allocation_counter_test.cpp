@@ -39,7 +39,7 @@ TEST(AllocationCounter, CountsEveryFormOfNew)
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(wide.get()) % 64, 0u);
 }
 
-TEST(AllocationCounter, CountsAVectorThatGrowsAndNotOneThatHasRoom)
+TEST(AllocationCounter, CountsAGrowingVectorButNotOneWithRoom)
 {
     std::vector<int> v(10);
     seen = v.data();

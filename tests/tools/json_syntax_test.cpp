@@ -34,7 +34,7 @@ class BadJson : public testing::TestWithParam<BadText>
 {
 };
 
-TEST_P(BadJson, IsRefusedWithThePlaceAndWhatWasExpected)
+TEST_P(BadJson, IsRejectedWithPlaceAndExpectation)
 {
     const BadText& bad = GetParam();
     try

@@ -79,7 +79,7 @@ TEST_F(MeshLoadingTest, TetrahedraStayAsTheyAre)
     EXPECT_EQ(loading.take().m_model->mesh().tetCount(), 1);
 }
 
-TEST_F(MeshLoadingTest, WhatIsWrongIsToldWithTheFile)
+TEST_F(MeshLoadingTest, ReportsFaultsWithTheFile)
 {
     using testing::AllOf;
     using testing::HasSubstr;
@@ -104,7 +104,7 @@ TEST_F(MeshLoadingTest, WhatIsWrongIsToldWithTheFile)
     EXPECT_THAT(refusal(large), HasSubstr("ball.off"));
 }
 
-TEST_F(MeshLoadingTest, IsGivenUp)
+TEST_F(MeshLoadingTest, CanBeCancelled)
 {
     writeBall(m_folder.path("ball.off"), 1, 40);
     MeshLoading loading(requestOf(m_folder.path("ball.off"), 400000));

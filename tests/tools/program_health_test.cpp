@@ -44,7 +44,7 @@ protected:
 };
 
 // Hooke's law lets what is crushed by its own weight turn inside out, and rest so.
-TEST_F(ProgramHealth, ABodyThatEndsInsideOutIsTold)
+TEST_F(ProgramHealth, InvertedBodyIsReported)
 {
     const ProgramRun run = simulate(cube(2), "--json");
     EXPECT_EQ(run.m_code, 3) << run.m_output;
@@ -73,7 +73,7 @@ TEST_F(ProgramHealth, ABodyThatEndsInsideOutIsTold)
                                       HasSubstr(" s to 1.5 s, in ")));
 }
 
-TEST_F(ProgramHealth, ABodyThatStandsIsWell)
+TEST_F(ProgramHealth, StandingBodyIsHealthy)
 {
     const ProgramRun run = simulate(cube(0.1), "--json");
     EXPECT_EQ(run.m_code, 0) << run.m_output;
@@ -81,7 +81,7 @@ TEST_F(ProgramHealth, ABodyThatStandsIsWell)
 }
 
 // A ball that starts in a cube does not come out by itself.
-TEST_F(ProgramHealth, ABodyThatEndsInsideAnotherIsTold)
+TEST_F(ProgramHealth, BodyInsideAnotherIsReported)
 {
     const std::string scene = R"({ "seconds": 0.2, "gravity": [0, 0, 0], "softBodies": [{ "name": "cube",
         "mesh": { "box": [1, 1, 1], "tets": 300 }, "material": "rubber" }],
@@ -97,7 +97,7 @@ TEST_F(ProgramHealth, ABodyThatEndsInsideAnotherIsTold)
 }
 
 // 60 steps are simulated between two frames; the flag stands in the first few alone.
-TEST_F(ProgramHealth, AFlagBetweenTwoFramesIsTold)
+TEST_F(ProgramHealth, FlagBetweenTwoFramesIsReported)
 {
     const std::string sunken = R"({ "seconds": 1, "framesPerSecond": 1, "softBodies": [{ "name": "sunken",
         "mesh": { "box": [1, 1, 1], "tets": 100 }, "material": "rubber", "position": [0, 0.45, 0] }],

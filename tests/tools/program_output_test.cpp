@@ -63,7 +63,7 @@ protected:
 
 // All of the program's files are limited to no bytes, which acts like a disk that is full from the start. By default
 // the limit's signal ends a program without a word.
-TEST_P(ProgramOutput, OnAFullDiskLeavesNothing)
+TEST_P(ProgramOutput, LeavesNothingOnAFullDisk)
 {
     const ProgramRun full = run(m_folder.path(""), "ulimit -f 0;");
     if (cannotBeHad(full)) GTEST_SKIP() << full.m_output;
@@ -72,7 +72,7 @@ TEST_P(ProgramOutput, OnAFullDiskLeavesNothing)
     EXPECT_THAT(m_folder.names(), IsEmpty());
 }
 
-TEST_P(ProgramOutput, ToADeviceWithoutRoomSaysSo)
+TEST_P(ProgramOutput, ReportsADeviceWithoutRoom)
 {
     std::filesystem::create_symlink("/dev/full", m_file);
     const ProgramRun full = run(m_folder.path(""));
@@ -82,7 +82,7 @@ TEST_P(ProgramOutput, ToADeviceWithoutRoomSaysSo)
     EXPECT_TRUE(std::filesystem::is_symlink(m_file));
 }
 
-TEST_P(ProgramOutput, BelowAFileIsToldWithTheName)
+TEST_P(ProgramOutput, ReportsAPathBelowAFile)
 {
     m_folder.write("file", "in the way");
     const ProgramRun blocked = run(m_folder.path("file/run"));
@@ -94,7 +94,7 @@ TEST_P(ProgramOutput, BelowAFileIsToldWithTheName)
     EXPECT_THAT(m_folder.names(), ElementsAre("file"));
 }
 
-TEST_P(ProgramOutput, OfARunThatIsEndedLeavesNoPart)
+TEST_P(ProgramOutput, LeavesNoPartWhenInterrupted)
 {
     if (!isScene()) GTEST_SKIP() << "it is done before it could be ended";
     const ProgramRun ended = run(m_folder.path(""), "timeout --preserve-status -s TERM 0.4", "1e5");

@@ -69,7 +69,7 @@ TEST(ProgramSensors, TellTheWeightInJsonAndATable)
     EXPECT_THAT(folder.read("run/elements_000010.vtu"), HasSubstr("Name=\"reaction_force\""));
 }
 
-TEST(ProgramSensors, WithoutHeldNodesAreRefused)
+TEST(ProgramSensors, AreRejectedWithoutHeldNodes)
 {
     const TemporaryFolder folder;
     const auto refusal = [&](const std::string& sensor)

@@ -63,7 +63,7 @@ TEST_F(Program, ExplainsItself)
     EXPECT_EQ(bulletfem("--version").m_code, 0);
 }
 
-TEST_F(Program, WithoutASubcommandItListsThem)
+TEST_F(Program, ListsItsSubcommandsWithoutOne)
 {
     const ProgramRun run = bulletfem("");
     EXPECT_EQ(run.m_code, 2) << "nothing was done";
@@ -116,7 +116,7 @@ TEST_F(Program, BadDataIsToldWithTheFile)
     for (const char* name : {"a.stl", "a.msh", "a.off", "a.bfem"}) EXPECT_FALSE(exists(name)) << name;
 }
 
-TEST_F(Program, CagesTellWhatWasMade)
+TEST_F(Program, CagesReportTheirFigures)
 {
     const json told = figures("cage " + path("cube.off") + " --tets 600 -o " + path("cage.msh"));
     EXPECT_NEAR(told["tets"].get<double>(), 600, 300);
@@ -189,7 +189,7 @@ TEST_F(Program, ConvertsToVtuWithRegions)
     EXPECT_FALSE(exists("d.vtu"));
 }
 
-TEST_F(Program, TellsWhatIsWrongWithAFileThatItReads)
+TEST_F(Program, ReportsFaultsOfAReadableFile)
 {
     m_folder.write("one.vtk",
                    "# vtk DataFile Version 2.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n"
@@ -206,7 +206,7 @@ TEST_F(Program, TellsWhatIsWrongWithAFileThatItReads)
     refused("info " + path("packed.msh"), 1, "packed.msh': byte 0: it is a gzip archive, which is not read; unpack it");
 }
 
-TEST_F(Program, BakesWhatInfoTells)
+TEST_F(Program, InfoReportsTheBakedBody)
 {
     const json baked =
         figures("bake " + path("cube.off") + " --tets 300 --material jelly --young 2e4 --step 1/100 -o " +
@@ -224,7 +224,7 @@ TEST_F(Program, BakesWhatInfoTells)
     EXPECT_EQ(told["bytes"].get<std::uintmax_t>(), std::filesystem::file_size(m_folder.path("cube.bfem")));
 }
 
-TEST_F(Program, BakesWithTheLawThatIsGiven)
+TEST_F(Program, BakesWithTheGivenLaw)
 {
     const std::string bake = "bake " + path("two.node") + " -o " + path("law.bfem");
     const auto law = [&](const std::string& options)

@@ -108,7 +108,7 @@ TEST(SceneActuators, ACableOfATensionBendsABar)
     EXPECT_LT(reportsOf(run)[0].m_length, 0.395);
 }
 
-TEST(SceneActuators, ACableThatStretchesIsWoundUp)
+TEST(SceneActuators, ElasticCableIsWoundUp)
 {
     SceneRun run(floating(kBar, R"({ "kind": "cable", "body": "pad", "through": [[-0.2, 0, 0], [0.2, 0, 0]],
                                     "stiffness": 1e5, "restLength": [[0, 0.4], [1, 0.39]] })"));
@@ -144,7 +144,7 @@ std::string refusalOf(const std::string& mesh, const std::string& actuator)
     return messageOf<std::exception>([&] { SceneRun run(floating(mesh, actuator)); });
 }
 
-TEST(SceneActuators, OfWhatTheBodyHasNotAreRefused)
+TEST(SceneActuators, AreRejectedIfTheBodyLacksTheirParts)
 {
     EXPECT_EQ(refusalOf(kBar, R"({ "kind": "chamber", "body": "pad", "pressure": 1 })"),
               "'pad': it has no cavity for a chamber; give its mesh a closed inner surface");

@@ -107,7 +107,7 @@ TEST(SceneFaults, ABodyInAHoleHasNone)
     EXPECT_THAT(faultsOf(run), IsEmpty());
 }
 
-TEST(SceneFaults, WhatIsPinnedOrAnchoredInABodyBelongsThere)
+TEST(SceneFaults, PinnedOrAnchoredOverlapIsNoFault)
 {
     SceneRun pinned = cubeAnd(0, 0.4, kGround, R"(, "pins": [{ "low": [-1, -1, -1], "high": [1, -0.05, 1] }])");
     EXPECT_THAT(faultsOf(pinned), IsEmpty());
@@ -119,7 +119,7 @@ TEST(SceneFaults, WhatIsPinnedOrAnchoredInABodyBelongsThere)
     EXPECT_THAT(faultsOf(anchored), IsEmpty());
 }
 
-TEST(SceneFaults, CountElementsThatAreInsideOut)
+TEST(SceneFaults, CountInvertedElements)
 {
     SceneRun run = cubeAnd(0, 5, "]");
     SceneFrames frames(run.m_world);
@@ -143,7 +143,7 @@ TEST(SceneFaults, CountElementsThatAreInsideOut)
     EXPECT_THAT(faults[0].sentence(), HasSubstr("'cube' has " + std::to_string(expected) + " element"));
 }
 
-TEST(SceneFaults, TheBoundIsWhatTheManualSays)
+TEST(SceneFaults, BoundEqualsThatOfTheManual)
 {
     EXPECT_EQ(kDeepestShare, 0.05);
 }

@@ -54,7 +54,7 @@ TEST(SceneFlags, TellTheFirstAndTheLastStepWithAFlag)
     EXPECT_THAT(all[0].explanation(), HasSubstr("deeper inside the body"));
 }
 
-TEST(SceneFlags, OfStepsThatWereTakenBackAreForgotten)
+TEST(SceneFlags, RevertedStepsAreForgotten)
 {
     SceneRun run(kSunken);
     SceneHistory history(run.m_world, {10, 1u << 28u});
@@ -79,7 +79,7 @@ TEST(SceneFlags, OfStepsThatWereTakenBackAreForgotten)
     EXPECT_LE(all[0].m_steps, 11);
 }
 
-TEST(SceneFlags, OfSetUpTellTheReportsMessage)
+TEST(SceneFlags, SetUpFlagsTellTheReportsMessage)
 {
     SceneFlag flag;
     flag.m_text = btFemFlagText::find(BT_FEM_NOT_SPLIT);

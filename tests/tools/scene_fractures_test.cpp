@@ -103,7 +103,7 @@ TEST(SceneFractures, ForcesPullAtCopiesOfNodesToo)
 }
 
 // A force at some nodes stays at them and at their copies: a stub of the bar that bears it splits along its length.
-TEST(SceneFractures, AForceStaysAsLargeWhereItsNodesSplit)
+TEST(SceneFractures, ForceKeepsItsSizeIfItsNodesSplit)
 {
     SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01, "softBodies": [{ "name": "bar",
       "mesh": { "box": [0.4, 0.2, 0.2], "cell": 0.1 }, "material": { "young": 1e5 }, "fracture": { "tension": 300 } }],
@@ -115,7 +115,7 @@ TEST(SceneFractures, AForceStaysAsLargeWhereItsNodesSplit)
     EXPECT_NEAR(run.momentum(0).y, 10, 0.01) << "(30 - 50 + 30) N for a second";
 }
 
-TEST(SceneFractures, PartsTouchUnlessTheyAreNotTo)
+TEST(SceneFractures, PartsCollideUnlessDisabled)
 {
     SceneRun usual(pulledBar(strengthOf(1250)));
     SceneRun apart(pulledBar(R"(, "fracture": { "tension": 1250, "partsTouch": false, "mostCracks": 3 })"));
@@ -128,7 +128,7 @@ TEST(SceneFractures, PartsTouchUnlessTheyAreNotTo)
 }
 
 // Writers and pictures: elements with their present nodes, the sides of cracks, and displacements from where all began.
-TEST(SceneFractures, FramesHaveWhatCameAndWhereItWas)
+TEST(SceneFractures, FramesShowSplitElementsAndDisplacements)
 {
     SceneRun run(pulledBar(strengthOf(1250)));
     SceneFrames frames(run.m_world);
@@ -167,7 +167,7 @@ TEST(SceneFractures, FramesHaveWhatCameAndWhereItWas)
 }
 
 // What has split cannot be whole again: the way back begins where it split last.
-TEST(SceneFractures, TheHistoryBeginsAnewWhereABodySplits)
+TEST(SceneFractures, HistoryRestartsAtASplit)
 {
     SceneRun run(pulledBar(strengthOf(1250)));
     SceneHistorySettings settings;
@@ -187,7 +187,7 @@ TEST(SceneFractures, TheHistoryBeginsAnewWhereABodySplits)
     EXPECT_EQ(run.node(0, run.nodeCount(0) - 1).x, end);
 }
 
-TEST(SceneFractures, PiecesSplitToo)
+TEST(SceneFractures, FragmentsSplitToo)
 {
     SceneRun run(pulledBar(strengthOf(1250) + R"(, "pieces": { "cells": 3 })"));
     EXPECT_GE(run.m_world.fractures().bodies().size(), 3u);
@@ -195,7 +195,7 @@ TEST(SceneFractures, PiecesSplitToo)
 }
 
 // Of a baked file the program does not know before whether something is embedded.
-TEST(SceneFractures, OfABakedBodySplitsAndOfABakedSurfaceIsRefusedByName)
+TEST(SceneFractures, BakedBodySplitsButBakedSurfaceIsRejected)
 {
     const TemporaryFolder folder;
     writeSampleMeshes(folder);

@@ -160,7 +160,7 @@ TEST(SceneFrames, ContactForcesSumToTheWeightAndStressToTheLoad)
 }
 
 // Four by four by four cells: 125 nodes, 98 of them outside.
-TEST(SceneFrames, ASurfaceHasOnlyWhatIsSeen)
+TEST(SceneFrames, SurfaceHasOnlyOuterVertices)
 {
     const SceneDescription scene = parseScene(
         R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1], "cell": 0.25 },

@@ -98,7 +98,7 @@ TEST_F(SceneHistoryTest, RunsOnAsItDidBefore)
     EXPECT_GT(farthest(m_seen[30], m_seen[50]), 2e-2) << "it moves meanwhile";
 }
 
-TEST_F(SceneHistoryTest, AStepForgetsWhatCameLater)
+TEST_F(SceneHistoryTest, StepDiscardsLaterStates)
 {
     begin(10, 1u << 28u);
     steps(40);
@@ -136,7 +136,7 @@ TEST_F(SceneHistoryTest, KeepsItsMemoryInBounds)
     EXPECT_EQ(m_history->bytes(), 0u);
 }
 
-TEST_F(SceneHistoryTest, BeginsAnewWhereBodiesCome)
+TEST_F(SceneHistoryTest, RestartsIfBodiesAreAdded)
 {
     begin(5, 1u << 28u);
     steps(12);
@@ -159,7 +159,7 @@ TEST_F(SceneHistoryTest, BeginsAnewWhereBodiesCome)
 }
 
 // A muscle that is drawn at .1 s: what acts is that of the time, also after the clock was set back.
-TEST(SceneHistoryOf, ActuatorsHaveTheValuesOfTheTime)
+TEST(SceneHistoryActuators, ActuatorsHaveTheValuesOfTheTime)
 {
     SceneRun run(R"({ "step": 0.01, "gravity": [0, 0, 0], "softBodies": [{ "name": "bar",
         "mesh": { "box": [0.4, 0.1, 0.1], "cell": 0.05 }, "material": { "young": 1e5, "poisson": 0.3, "stiffnessDamping": 0.02 } }],

@@ -35,7 +35,7 @@ TEST(SceneMotion, ABodyWithoutMassFollowsItsSpeedOverTime)
 }
 
 // It rests until it sleeps, and what lies on it, or is tied to it, sleeps, too; then it goes.
-TEST(SceneMotion, WhatSleepsOnAPlateGoesWithIt)
+TEST(SceneMotion, SleepingBodiesMoveWithTheirPlate)
 {
     SceneRun run(R"({ "softBodies": [
         { "name": "lies", "mesh": { "box": [0.2, 0.2, 0.2], "tets": 100 }, "position": [0, 0.1, 0] },
@@ -77,7 +77,7 @@ TEST(SceneMotion, ASliderGoesByItsMotor)
 }
 
 // The second slider rides on the first one's body; after a rest in which all sleeps, the motors wake it.
-TEST(SceneMotion, MotorsFollowTheirSpeedsOverTimeAndWakeWhatSleeps)
+TEST(SceneMotion, MotorsFollowTheirSpeedsAndWakeSleepingBodies)
 {
     SceneRun run(R"({ "step": 0.01, "gravity": [0, 0, 0], "rigidBodies": [
         { "name": "lift", "shape": { "box": [1, 0.1, 1] }, "mass": 3 },

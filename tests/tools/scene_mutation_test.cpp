@@ -45,7 +45,7 @@ protected:
     std::mt19937 m_random{1};
 };
 
-TEST_F(SceneMutation, ByteByByte)
+TEST_F(SceneMutation, MutatedBytesAreReadOrRejected)
 {
     static const std::string pool = "{}[]\",:0123456789.-+eE \n\\/*truefalsn\0\x7f\xff\xc3\xed";
     int scenes = 0;
@@ -107,7 +107,7 @@ const std::array<const char*, 24> kValues = {"null",
                                              R"({"low":[0,0,0],"high":[1,1,1]})",
                                              R"([{"name":"x"}])"};
 
-TEST_F(SceneMutation, ValueByValue)
+TEST_F(SceneMutation, MutatedValuesAreReadOrRejected)
 {
     const std::array<json, 2> scenes = {json::parse(fullScene()), json::parse(otherScene())};
     std::array<std::vector<std::string>, 2> places;

@@ -135,7 +135,7 @@ double legendEnd(const PictureColourScale& scale)
 // all nodes are more of it at the rim than the rim's share of the area. By Saint-Venant's principle that is gone a
 // width away, which is 2 % of the length: of so many nodes the colour scale takes no notice. Poisson's ratio is 0, or
 // the clamp were such an end, too.
-TEST(SceneLegend, OfABarInTensionTellsForceByArea)
+TEST(SceneLegend, ShowsForceOverAreaOfABarInTension)
 {
     PaintedRun bar(
         R"({ "gravity": [0, 0, 0], "step": 0.05, "softBodies": [{ "name": "bar", "mesh": { "box": [5, 0.1, 0.1], "cell": 0.025 },

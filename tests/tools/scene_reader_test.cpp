@@ -294,7 +294,7 @@ TEST_F(SceneReader, ReadsTheOtherKindsAndTakesDefaults)
     EXPECT_TRUE(scene.m_coupled);
 }
 
-TEST_F(SceneReader, MakesCopiesOnAGridThatAreTurnedAlikeInEveryRun)
+TEST_F(SceneReader, MakesIdenticallyRotatedGridCopiesInEveryRun)
 {
     const SceneDescription scene = parse(otherScene()), again = parse(otherScene());
     ASSERT_EQ(scene.m_softBodies.size(), 11u);
@@ -316,7 +316,7 @@ TEST_F(SceneReader, MakesCopiesOnAGridThatAreTurnedAlikeInEveryRun)
     EXPECT_EQ(scene.m_rigidBodies[4].m_pose.m_angle, 0);
 }
 
-TEST_F(SceneReader, CommentsAreWelcomeAndOrderIsFree)
+TEST_F(SceneReader, AcceptsCommentsAndAnyOrder)
 {
     const SceneDescription scene = parse(R"(// a scene
         { "forces": [{ "body": "a", "force": [0, 1, 0] }], /* names are known
@@ -338,7 +338,7 @@ TEST_F(SceneReader, FilesAreFoundBesideTheScene)
                                             scene.m_softBodies[0].m_mesh.m_path));
 }
 
-TEST_F(SceneReader, SceneFilesThatCannotBeReadAreNamed)
+TEST_F(SceneReader, UnreadableSceneFilesAreNamed)
 {
     const auto messageOfFile = [&](const std::string& path)
     { return messageOf<std::runtime_error>([&] { readScene(path); }); };

@@ -35,7 +35,7 @@ class RejectedScene : public testing::TestWithParam<BadValue>
 {
 };
 
-TEST_P(RejectedScene, SaysWhereWhatAndWhy)
+TEST_P(RejectedScene, NamesPlaceFaultAndReason)
 {
     const TemporaryFolder folder;
     writeSampleMeshes(folder);
@@ -374,7 +374,7 @@ std::string messageOfText(const std::string& text)
     return messageOf<std::runtime_error>([&] { parseScene(text, "."); });
 }
 
-TEST(SceneText, ThatIsNoSceneIsRefused)
+TEST(SceneText, IsRejectedIfItIsNoScene)
 {
     using testing::HasSubstr;
     using testing::StartsWith;
@@ -385,7 +385,7 @@ TEST(SceneText, ThatIsNoSceneIsRefused)
                 HasSubstr("nested deeper than 32 levels"));
 }
 
-TEST(SceneText, WithAMemberTwiceIsRefused)
+TEST(SceneText, IsRejectedForARepeatedMember)
 {
     EXPECT_EQ(messageOfText(R"({ "solver": {}, "softBodies": [{ "a": {}, "step": 1, "step": 1 }] })"),
               "line 1, column 54: the member \"step\" is there twice in one object, first in line 1; give every member "

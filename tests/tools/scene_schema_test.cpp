@@ -162,7 +162,7 @@ std::set<std::string> namesOf(const json& object)
     return names;
 }
 
-TEST_F(SceneSchema, KnowsTheMembersThatTheReaderKnows)
+TEST_F(SceneSchema, KnowsTheMembersOfTheReader)
 {
     for (const SchemaPlace& place : kObjects)
     {
@@ -178,7 +178,7 @@ TEST_F(SceneSchema, KnowsTheMembersThatTheReaderKnows)
     }
 }
 
-TEST_F(SceneSchema, HasNoObjectThatIsNotLookedAtHere)
+TEST_F(SceneSchema, HasNoObjectMissingFromTheTest)
 {
     std::set<std::string> objects, seen;
     const json flat = m_document.flatten();
@@ -266,7 +266,7 @@ TEST_F(SceneSchema, AgreesWithTheReaderOnEveryValue)
     EXPECT_GT(m_invalid, 5000);
 }
 
-TEST_F(SceneSchema, AgreesWithTheReaderOnEveryMemberThatIsAdded)
+TEST_F(SceneSchema, AgreesWithTheReaderOnEveryAddedMember)
 {
     const std::vector<json> values = {0,
                                       0.5,
@@ -362,7 +362,7 @@ TEST_F(SceneSchema, HasTheReadersDefaults)
     EXPECT_GE(count, 40);
 }
 
-TEST_F(SceneSchema, AndItsDocumentNameTheSameMembers)
+TEST_F(SceneSchema, HasTheMembersOfItsDocument)
 {
     std::ifstream file(BULLETFEM_SCENES_DOCUMENT);
     const std::string text(std::istreambuf_iterator<char>(file), {});

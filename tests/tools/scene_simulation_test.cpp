@@ -82,7 +82,7 @@ TEST_F(SceneSimulationTest, DrawsTheWayBetweenTheLastTwoStates)
     EXPECT_EQ(foremost(), now);
 }
 
-TEST_F(SceneSimulationTest, BoxesAndBallsFallOntoWhatTheMouseIsOn)
+TEST_F(SceneSimulationTest, BoxesAndBallsFallAtTheCursor)
 {
     begin(kBlockOnGround);
     m_simulation->act(ViewerKey::box, downAt(2, 0.3));
@@ -101,7 +101,7 @@ TEST_F(SceneSimulationTest, BoxesAndBallsFallOntoWhatTheMouseIsOn)
     EXPECT_EQ(m_simulation->scene().m_meshes.size(), 3u);
 }
 
-TEST_F(SceneSimulationTest, WhereTheMouseIsOnNothingTheyComeBeforeTheCamera)
+TEST_F(SceneSimulationTest, BoxesAppearBeforeTheCameraWithoutATarget)
 {
     begin(kBlockOnGround);
     m_simulation->act(ViewerKey::box, {{0, 1, 4}, {0, 9, -16}});
@@ -279,7 +279,7 @@ TEST_F(SceneSimulationTest, KeysLeadBackInTimeAlsoWhileABodyIsHeld)
     EXPECT_THAT(m_simulation->message(), HasSubstr("latest"));
 }
 
-TEST_F(SceneSimulationTest, WarningsTellFlagsThatWereEverRaised)
+TEST_F(SceneSimulationTest, WarningsKeepFlagsOnceRaised)
 {
     begin(kBlockOnGround);
     steps(2);
@@ -292,7 +292,7 @@ TEST_F(SceneSimulationTest, WarningsTellFlagsThatWereEverRaised)
     EXPECT_EQ(m_world->fem().stepReport(&m_world->soft(0)).m_flags, 0) << "it is over";
 }
 
-TEST_F(SceneSimulationTest, AMaterialThatChangesBeginsTheHistoryAnew)
+TEST_F(SceneSimulationTest, ChangedMaterialRestartsTheHistory)
 {
     begin(kBlockOnGround);
     steps(30);

@@ -103,7 +103,7 @@ TEST_F(SceneViewer, AScriptedDragPullsTheBodyAlong)
     EXPECT_NE(m_viewer->screenshot().m_pixels, before.m_pixels);
 }
 
-TEST_F(SceneViewer, BesideABodyTheMouseTurnsTheCamera)
+TEST_F(SceneViewer, MouseBesideABodyTurnsTheCamera)
 {
     open(kCube);
     const Vec3 eye = m_viewer->control().camera().m_eye;
@@ -114,7 +114,7 @@ TEST_F(SceneViewer, BesideABodyTheMouseTurnsTheCamera)
     EXPECT_GT(norm(m_viewer->control().camera().m_eye - eye), 0.01);
 }
 
-TEST_F(SceneViewer, WithoutGravityNothingFallsOn)
+TEST_F(SceneViewer, BodiesStopAcceleratingWithoutGravity)
 {
     open(
         R"({ "step": 0.01, "softBodies": [{ "name": "cube", "mesh": { "box": [0.4, 0.4, 0.4], "tets": 300 }, "material": "rubber" }],
@@ -134,7 +134,7 @@ TEST_F(SceneViewer, WithoutGravityNothingFallsOn)
 }
 
 // A slider changes one value, and leaves what bodies do not have in common.
-TEST_F(SceneViewer, SlidersOfTheMaterialKeepWhatTheyDoNotShow)
+TEST_F(SceneViewer, MaterialSlidersKeepHiddenValues)
 {
     open(kCube);
     const double mass = m_run->m_world.soft(0).getTotalMass();

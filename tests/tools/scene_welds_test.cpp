@@ -97,7 +97,7 @@ TEST(SceneWelds, AreReadAsTheyAreWritten)
     EXPECT_TRUE(std::isinf(never.m_strength.m_breakStretch));
 }
 
-TEST(SceneWelds, ABodyInPiecesIsThereAsPiecesWithItsMassMotionAndPins)
+TEST(SceneWelds, FragmentsKeepMassMotionAndPinsOfTheBody)
 {
     SceneRun run(clampedBar(R"(, "pieces": { "cells": 5, "seed": 2 }, "velocity": [0, 0, 3], "friction": 0.7)", ""));
     const std::vector<SceneSoftBody>& bodies = run.m_world.description().m_softBodies;
@@ -123,7 +123,7 @@ TEST(SceneWelds, ABodyInPiecesIsThereAsPiecesWithItsMassMotionAndPins)
 }
 
 // Welds without a limit: the bar bends as it does in one piece.
-TEST(SceneWelds, PiecesBendAsTheWhole)
+TEST(SceneWelds, FragmentsBendAsTheWhole)
 {
     SceneRun whole(clampedBar("", "", "[0, -1, 0]")),
         cut(clampedBar(R"(, "pieces": { "cells": 5 })", "", "[0, -1, 0]"));
@@ -134,7 +134,7 @@ TEST(SceneWelds, PiecesBendAsTheWhole)
 }
 
 // F / A is 2500 Pa: at half the stress that the welds bear the bar stretches by F / (E A), at twice that it is torn.
-TEST(SceneWelds, PiecesTearAtTheirStress)
+TEST(SceneWelds, FragmentsTearAtTheirStress)
 {
     const auto run = [](double stress)
     { return clampedBar(R"(, "pieces": { "cells": 5, "breakStress": )" + std::to_string(stress) + " }", pull(100)); };
@@ -194,7 +194,7 @@ TEST(SceneWelds, AWeldBreaksAtItsForceAndIsThereAgainBackInTime)
     EXPECT_EQ(lowestOf(run), fallen);
 }
 
-TEST(SceneWelds, JoinABodyToEveryPieceThatTouchesIt)
+TEST(SceneWelds, JoinABodyToEveryFragmentInContact)
 {
     std::string scene = hangingCube("");
     const std::string lower = R"("position": [0, 1.8, 0])";
@@ -210,7 +210,7 @@ TEST(SceneWelds, JoinABodyToEveryPieceThatTouchesIt)
     EXPECT_NEAR(force, -weight, 0.01 * weight);
 }
 
-TEST(SceneWelds, AnchorsOfABodyInPiecesAreThoseOfItsPieces)
+TEST(SceneWelds, AnchorsOfAFragmentedBodyHoldItsFragments)
 {
     SceneRun run(clampedBar(R"(, "pieces": { "cells": 5 })",
                             R"(, "rigidBodies": [{ "name": "hand", "shape": { "box": [0.1, 0.3, 0.3] },
@@ -230,7 +230,7 @@ TEST(SceneWelds, AnchorsOfABodyInPiecesAreThoseOfItsPieces)
 }
 
 // Of the cube's lower half, label 1, and its upper one, label -2.
-TEST(SceneWelds, PiecesHaveTheRegionsOfTheirElements)
+TEST(SceneWelds, FragmentsHaveTheRegionsOfTheirElements)
 {
     const TemporaryFolder folder;
     writeSampleMeshes(folder);
@@ -258,7 +258,7 @@ TEST(SceneWelds, PiecesHaveTheRegionsOfTheirElements)
     EXPECT_EQ(upper, 20);
 }
 
-TEST(SceneWelds, OfWhatIsNotThereAreRefused)
+TEST(SceneWelds, AreRejectedForMissingParts)
 {
     const auto refusalOf = [](const std::string& scene)
     { return messageOf<std::exception>([&] { SceneRun run(scene); }); };

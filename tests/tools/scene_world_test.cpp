@@ -94,7 +94,7 @@ TEST(SceneWorld, AnOrthotropicBlockPushesBackByItsFibres)
     EXPECT_NEAR(run.m_world.materials(0).first().m_orthotropic.m_along.y, 1, 1e-6);
 }
 
-TEST(SceneWorld, AnchorsFollowWhatTheyAreFixedTo)
+TEST(SceneWorld, AnchorsFollowTheirObjects)
 {
     SceneRun run(
         R"({ "softBodies": [{ "name": "block", "mesh": { "box": [0.2, 0.2, 0.2], "tets": 300 }, "material": "rubber" }],
@@ -165,7 +165,7 @@ TEST(SceneWorld, AForceActsInItsTimeAlone)
 }
 
 // Pulled nodes leave the box that chose them, and are pulled on.
-TEST(SceneWorld, AForceStaysWithTheNodesThatStartedInItsBox)
+TEST(SceneWorld, ForceStaysWithTheNodesOfItsInitialBox)
 {
     SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01,
       "softBodies": [{ "name": "soft", "mesh": { "box": [0.2, 0.2, 0.2], "tets": 300 }, "material": "rubber" }],
@@ -216,7 +216,7 @@ TEST(SceneWorld, RegionsOfAFileHaveMaterialsOfTheirOwn)
     EXPECT_EQ(frames.volumes()[0].m_tetRegion, run.m_world.regionLabels(0));
 }
 
-TEST(SceneWorld, MeshesGetTheSizesAndElementsThatAreAskedFor)
+TEST(SceneWorld, MeshesHaveTheRequestedSizesAndElements)
 {
     const TemporaryFolder folder;
     writeSampleMeshes(folder);
@@ -288,7 +288,7 @@ std::string refusal(const std::string& softMember, const std::string& more, cons
     return messageOf<std::exception>([&] { SceneRun(text, folder); });
 }
 
-TEST(SceneWorld, WhatNoBodyCanHaveIsRefusedWithTheBodysName)
+TEST(SceneWorld, InvalidBodiesAreRejectedByName)
 {
     const std::string mesh = R"("mesh": { "box": [1, 1, 1], "tets": 40 })";
     EXPECT_EQ(refusal(mesh + R"(, "pins": [{ "low": [5, 5, 5], "high": [6, 6, 6] }])", ""),

@@ -78,7 +78,7 @@ TEST(ActivatedFibres, ActInTheirRegion)
     EXPECT_NEAR(x(1) - x(0.5), 0.5 * 0.98, 1e-6);
 }
 
-TEST(ActivatedFibres, HaveADirectionOfTheirOwnWhereGiven)
+TEST(ActivatedFibres, MayHaveOneDirectionPerElement)
 {
     Body body = freeBar();
     const int count = body.m_model->mesh().tetCount();
@@ -94,7 +94,7 @@ TEST(ActivatedFibres, HaveADirectionOfTheirOwnWhereGiven)
 
 // --- Expansion ---
 
-TEST(Expansion, OfAFreeBodyIsItsStrain)
+TEST(Expansion, FreeBodyStretchesByTheGivenStrain)
 {
     for (const double nu : {0.0, 0.3, 0.45})  // the last with shared volume changes
         for (const double strain : {-0.05, 0.01, 0.5})
@@ -132,7 +132,7 @@ double bilayerCurvature(const std::function<void(Body&, const std::vector<int>& 
     return 2 * norm(cross(b - a, c - a)) / (norm(b - a) * norm(c - b) * norm(c - a));
 }
 
-TEST(Expansion, OfOneLayerBendsABimetal)
+TEST(Expansion, BendsABimetalFromOneLayer)
 {
     const double strain = 0.01, curvature = 1.5 * strain / 0.04;
     const double found = bilayerCurvature(
@@ -142,7 +142,7 @@ TEST(Expansion, OfOneLayerBendsABimetal)
     EXPECT_NEAR(found, curvature, 0.05 * curvature);
 }
 
-TEST(ActivatedFibres, OfOneLayerBendABilayer)
+TEST(ActivatedFibres, BendABilayerFromOneLayer)
 {
     const double a = 0.01 * kYoung, curvature = 1.5 * 0.01 / 0.04;
     const double found = bilayerCurvature(
@@ -179,7 +179,7 @@ TEST(ActiveStress, IsAddedToTheBodysOwn)
     EXPECT_TRUE(body.m_state.m_initialStress.empty());
 }
 
-TEST(ActiveStress, RefusesWhatItCannotBe)
+TEST(ActiveStress, RejectsInvalidInput)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {1, 1, 1});
     const auto fibres = [&](const Fibres& f, const char* part) { expectRejected([&] { f.validate(mesh); }, {part}); };

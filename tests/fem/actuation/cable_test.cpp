@@ -251,7 +251,7 @@ TEST(ElasticCable, FollowsItsFixedEndInTheSameStep)
     EXPECT_NEAR(slider.m_body.m_state.m_v.back().x, -hhk / (slider.m_mass + hhk), 1e-4);
 }
 
-TEST(ElasticCable, CatchesWhatRunsIntoIt)
+TEST(ElasticCable, CatchesAMovingEnd)
 {
     for (const double stiffness : {1e4, 1e8, 1e12})
     {

@@ -266,7 +266,7 @@ TEST(SealedGas, ComesBackFromInsideOut)
     EXPECT_NEAR(chamber.volume(body.m_state.m_x), V0, 0.2 * V0);
 }
 
-TEST(SealedGas, OfNothingIsAVacuum)
+TEST(SealedGas, EmptyChamberIsAVacuum)
 {
     const Body body = hollowBall();
     Chamber chamber = body.m_actuators.m_chambers[0];
@@ -330,7 +330,7 @@ TEST(ChamberErrors, NameValueRangeAndRemedy)
     expect(c, "outside pressure is -1, not in [0, 100000000] Pa");
 }
 
-TEST(ChamberErrors, KnowPiecesOfABody)
+TEST(ChamberErrors, RejectSurfacesOnDifferentComponents)
 {
     const TetMesh one = makeBox({1, 1, 1}, {1, 1, 1});
     std::vector<Vec3> X = one.restPositions();

@@ -86,7 +86,7 @@ TEST_P(BakedBodies, GiveTheSameBytesEveryTime)
     EXPECT_EQ(bytesOf(readBakedBody(m_path)), bytesOf(m_baked));
 }
 
-TEST_P(BakedBodies, AreToldByTheirBeginning)
+TEST_P(BakedBodies, AreDescribedByTheirHeader)
 {
     writeBakedBody(m_path, m_baked);
     const BakedFileInfo info = inspectBakedBody(m_path);
@@ -198,7 +198,7 @@ TEST(Baking, RoundsToSinglePrecisionUnlessToldOtherwise)
     EXPECT_EQ(single.m_model->factorInput().m_step, static_cast<double>(1.f / 60));
 }
 
-TEST(Baking, GivesWatersMassesWhereThereIsNoDensity)
+TEST(Baking, UsesWaterDensityIfNoneIsGiven)
 {
     BakeSettings settings;
     settings.m_material.m_density = 0;
@@ -208,7 +208,7 @@ TEST(Baking, GivesWatersMassesWhereThereIsNoDensity)
     EXPECT_NEAR(mass, 1000, 1e-3);  // rounded to single precision
 }
 
-TEST(Baking, OfAllNodesPinnedMakesNoFactor)
+TEST(Baking, MakesNoFactorIfAllNodesArePinned)
 {
     BakeSettings settings;
     const TetMesh mesh = makeBox({1, 1, 1}, {1, 1, 1});
@@ -219,7 +219,7 @@ TEST(Baking, OfAllNodesPinnedMakesNoFactor)
     EXPECT_EQ(body.m_model->factor().freeNodeCount(), 0);
 }
 
-TEST(Baking, RejectsWhatCannotBe)
+TEST(Baking, RejectsInvalidSettings)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {1, 1, 1});
     BakeSettings settings;
@@ -244,7 +244,7 @@ TEST(Baking, RejectsWhatCannotBe)
     EXPECT_TRUE(bakeBody(mesh, settings, &why).m_model);
 }
 
-TEST(BakedFactor, OfAnotherMaterialPreconditionsAndIsCalledStale)
+TEST(BakedFactor, PreconditionsAnotherMaterialAndIsStale)
 {
     const BakedBody baked = bakeCase({{6, 3, 3}, FactorChoice::full, false});
     Material stiffer = baked.m_model->shape().m_material;

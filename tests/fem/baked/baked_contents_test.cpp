@@ -64,7 +64,7 @@ protected:
     std::string m_bytes = bytesOf(bakeCase());  // 12 nodes, 0 and 1 pinned
 };
 
-TEST_F(BakedContents, OfTheMeshAreChecked)
+TEST_F(BakedContents, MeshArraysAreValidated)
 {
     EXPECT_THAT(with(&BakedArrays::m_positions, 3, Vec3{kNaN, 0, 0}), HasSubstr("node 3"));
     EXPECT_THAT(with(&BakedArrays::m_tets, 1, -1), HasSubstr("uses node -1"));
@@ -77,7 +77,7 @@ TEST_F(BakedContents, OfTheMeshAreChecked)
     EXPECT_THAT(with(&BakedArrays::m_fixed, 0, char(0)), HasSubstr("more free nodes"));
 }
 
-TEST_F(BakedContents, OfTheSurfaceAreChecked)
+TEST_F(BakedContents, SurfaceArraysAreValidated)
 {
     EXPECT_THAT(with(&BakedArrays::m_vertexTet, 1, -1), HasSubstr("embedded vertex 1"));
     EXPECT_THAT(with(&BakedArrays::m_vertexTet, 1, 10), HasSubstr("embedded vertex 1"));
@@ -85,7 +85,7 @@ TEST_F(BakedContents, OfTheSurfaceAreChecked)
     EXPECT_THAT(with(&BakedArrays::m_triangles, 2, 3), HasSubstr("vertex 3"));
 }
 
-TEST_F(BakedContents, OfTheFactorAreChecked)
+TEST_F(BakedContents, FactorArraysAreValidated)
 {
     EXPECT_THAT(with(&BakedArrays::m_order, 0, -1), HasSubstr("node -1"));
     EXPECT_THAT(with(&BakedArrays::m_order, 0, 12), HasSubstr("node 12"));
@@ -103,7 +103,7 @@ TEST_F(BakedContents, OfTheFactorAreChecked)
     }
 }
 
-TEST_F(BakedContents, OfTheLowMemoryPathAreChecked)
+TEST_F(BakedContents, LowMemoryArraysAreValidated)
 {
     m_bytes = bytesOf(bakeCase({{2, 1, 1}, FactorChoice::lowMemory, false}));
     EXPECT_THAT(with(&BakedArrays::m_restRowStart, 0, 1), HasSubstr("rows of A0 go from 1"));
@@ -113,7 +113,7 @@ TEST_F(BakedContents, OfTheLowMemoryPathAreChecked)
     EXPECT_THAT(with(&BakedArrays::m_restValues, 4, std::numeric_limits<float>::infinity()), HasSubstr("not finite"));
 }
 
-TEST_F(BakedContents, OfTheHeaderAreChecked)
+TEST_F(BakedContents, HeaderFieldsAreValidated)
 {
     EXPECT_THAT(with(&BakedHeader::m_nodes, ~0u), HasSubstr("4294967295"));
     EXPECT_THAT(with(&BakedHeader::m_nodes, 3u), HasSubstr("3 nodes"));
@@ -137,7 +137,7 @@ TEST_F(BakedContents, OfTheHeaderAreChecked)
 }
 
 // Three elements apart from each other make three supernodes without rows, so that any may be the parent of any.
-TEST_F(BakedContents, OfATreeAreInPostorder)
+TEST_F(BakedContents, SupernodeTreesAreInPostorder)
 {
     std::vector<Vec3> X;
     for (int k = 0; k < 3; ++k)

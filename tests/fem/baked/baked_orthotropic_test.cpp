@@ -87,7 +87,7 @@ TEST_P(BakedOrthotropic, HaveAVersionOfTheirOwnAndTellTheirConstants)
 }
 
 // With right checksums: the constants of the last region end the file but for what fills it up.
-TEST_P(BakedOrthotropic, OfWrongNumbersAreRefused)
+TEST_P(BakedOrthotropic, InvalidConstantsAreRejected)
 {
     const std::size_t count = GetParam() ? 3 : 1;
     const std::size_t last =

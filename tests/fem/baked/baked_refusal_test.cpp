@@ -41,7 +41,7 @@ protected:
     const std::string m_bytes = bytesOf(bakeCase());
 };
 
-TEST_F(BakedFiles, WithAnyByteChangedAreRefused)
+TEST_F(BakedFiles, AreRejectedWithAnyByteChanged)
 {
     for (std::size_t k = 0; k < m_bytes.size(); ++k)
         for (const int change : {1, 0x80, 0xFF})
@@ -52,7 +52,7 @@ TEST_F(BakedFiles, WithAnyByteChangedAreRefused)
         }
 }
 
-TEST_F(BakedFiles, OfAnyOtherLengthAreRefused)
+TEST_F(BakedFiles, AreRejectedWithAnyOtherLength)
 {
     for (std::size_t length = 0; length < m_bytes.size(); ++length)
         ASSERT_NE(complaint(m_bytes.substr(0, length)), "") << length;
@@ -77,7 +77,7 @@ TEST_F(BakedFiles, AreRefusedWithNameReasonAndRemedy)
     EXPECT_THAT(readingOf(with(m_bytes.size() - 1, '\7')), says("damaged", "anew"));
 }
 
-TEST_F(BakedFiles, ThatAreNoneAreRefused)
+TEST_F(BakedFiles, UnreadablePathsAreRejected)
 {
     const auto reading = [](const std::string& path)
     { return messageOf<std::runtime_error>([&path] { readBakedBody(path); }); };
@@ -90,7 +90,7 @@ TEST_F(BakedFiles, ThatAreNoneAreRefused)
                 AllOf(HasSubstr("nothing"), HasSubstr("null")));
 }
 
-TEST_F(BakedFiles, AreInspectedWithTheSameCareForTheirBeginning)
+TEST_F(BakedFiles, HeadersAreInspectedWithTheSameChecks)
 {
     const auto inspected = [this](const std::string& bytes)
     {
@@ -116,7 +116,7 @@ protected:
     const BakedBody m_body = bakeCase();
 };
 
-TEST_F(BakedFileWriting, IsToldWhereItCannotBe)
+TEST_F(BakedFileWriting, ReportsUnwritablePaths)
 {
     const auto writing = [this](const std::string& path)
     { return messageOf<std::runtime_error>([&] { writeBakedBody(path, m_body); }); };
@@ -130,7 +130,7 @@ TEST_F(BakedFileWriting, IsToldWhereItCannotBe)
     EXPECT_THAT(m_folder.names(), IsEmpty());
 }
 
-TEST_F(BakedFileWriting, ToAFullDiskLeavesWhatWasThere)
+TEST_F(BakedFileWriting, LeavesTheOldFileOnAFullDisk)
 {
     const std::string path = m_folder.write("body.bfem", "what was there");
     std::string why;
@@ -145,7 +145,7 @@ TEST_F(BakedFileWriting, ToAFullDiskLeavesWhatWasThere)
     EXPECT_THAT(m_folder.names(), ElementsAre("body.bfem"));
 }
 
-TEST_F(BakedFileWriting, RefusesABodyWhosePartsDoNotFit)
+TEST_F(BakedFileWriting, RejectsBodiesWithInconsistentParts)
 {
     const auto writing = [this](const BakedBody& body)
     { return messageOf<std::runtime_error>([&] { writeBakedBody(m_folder.path("bad.bfem"), body); }); };

@@ -98,7 +98,7 @@ TEST_F(BakedRegions, AloneHaveTheNewVersion)
     EXPECT_EQ(inspectBakedBody(folder.path("body.bfem")).m_regions, 1);
 }
 
-TEST_F(BakedRegions, OfBadSettingsAreRefused)
+TEST_F(BakedRegions, RejectInvalidSettings)
 {
     BakeSettings settings = layeredSettings(m_mesh);
     settings.m_labels.pop_back();
@@ -109,7 +109,7 @@ TEST_F(BakedRegions, OfBadSettingsAreRefused)
 }
 
 // With right checksums.
-TEST_F(BakedRegions, OfWrongNumbersAreRefused)
+TEST_F(BakedRegions, RejectInvalidRegionNumbers)
 {
     const auto with = [&](std::size_t fromEnd, std::int32_t entry)
     {

@@ -97,7 +97,7 @@ TEST(BisectedTets, HaveThreeShapes)
     EXPECT_EQ(shapes.count(8000), 1u);
 }
 
-TEST(BisectedTets, EndBeyondTheMost)
+TEST(BisectedTets, StopBisectionAtTheElementLimit)
 {
     BisectedTets tets = lattice();
     std::vector<char> marks(tets.tets().size(), 1);

@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
                     GradedCase{"farAway", moved(torusSurface(1, 0.15, 24), {1000, 2000, 500}), 0.4, 2}),
     [](const auto& suite) { return suite.param.m_name; });
 
-TEST(GradedCage, OfAnAlignedBoxIsTheBox)
+TEST(GradedCage, AlignedBoxGivesTheBox)
 {
     const SurfaceMesh surface = boxSurface({-1, 0, 2}, {1, 1.5, 3});
     const Cage cage = makeCage(surface, graded(0.25));
@@ -171,7 +171,7 @@ TEST(GradedCage, OfAnAlignedBoxIsTheBox)
 }
 
 // Four and eight cells across: the whole box is thin.
-TEST(GradedCage, HalvesWhatIsThinnerThanAskedFor)
+TEST(GradedCage, HalvesPartsThinnerThanRequested)
 {
     const SurfaceMesh surface = boxSurface({0, 0, 0}, {2, 2, 1});
     const Cage four = makeCage(surface, graded(0.25, 4)), eight = makeCage(surface, graded(0.25, 8));
@@ -181,7 +181,7 @@ TEST(GradedCage, HalvesWhatIsThinnerThanAskedFor)
     EXPECT_EQ(eight.m_report.m_levelTets[1], 16 * 16 * 8 * 6);
 }
 
-TEST(GradedCage, IsFineOnlyWhereTheSurfaceIsThin)
+TEST(GradedCage, IsFineOnlyAtThinParts)
 {
     const SurfaceMesh surface = tilted(blockWithRod());
     const Cage cage = makeCage(surface, graded(0.25));
@@ -240,7 +240,7 @@ TEST(GradedCage, CountsOverlapsOnceAndClosesHoles)
     EXPECT_NEAR(open.m_report.m_surfaceVolume, 0.15, 0.004);  // the plate cuts all elements alike
 }
 
-TEST(GradedCage, EndsAtTheMostLevels)
+TEST(GradedCage, StopsAtTheLevelLimit)
 {
     const SurfaceMesh surface = boxSurface({0, 0, 0}, {1, 1, 0.001});
     for (const int levels : {1, 2, 3})
@@ -253,7 +253,7 @@ TEST(GradedCage, EndsAtTheMostLevels)
 }
 
 // Along the lattice two cells part two sides; along no axis as many as four.
-TEST(GradedCage, PartsSheetsWhoseGapItResolves)
+TEST(GradedCage, SeparatesSheetsIfItResolvesTheGap)
 {
     EXPECT_EQ(makeCage(twoPlates(), withCell(0.3)).m_mesh.componentCount(), 1);
     EXPECT_EQ(makeCage(twoPlates(), graded(0.3, 2, 3)).m_mesh.componentCount(), 2);
@@ -329,7 +329,7 @@ TEST(GradedCage, IsSnapped)
     }
 }
 
-TEST(GradedCage, IsNotWhereItIsNotAskedFor)
+TEST(GradedCage, IsUniformUnlessGradingIsRequested)
 {
     const SurfaceMesh surface = blockWithRod();
     CageSettings settings = withCell(0.25);

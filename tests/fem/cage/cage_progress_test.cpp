@@ -33,7 +33,7 @@ protected:
     const SurfaceMesh m_ball = sphereSurface(1, {0.3, 0, 0}, 3);
 };
 
-TEST_P(CageProgressTest, RisesFromNothingToAll)
+TEST_P(CageProgressTest, RisesFromZeroToOne)
 {
     CageSettings told = settings();
     std::vector<double> shares;
@@ -58,7 +58,7 @@ TEST_P(CageProgressTest, RisesFromNothingToAll)
 }
 
 // Wherever it is asked, it says no more after that.
-TEST_P(CageProgressTest, MayGiveUpAtAnyTime)
+TEST_P(CageProgressTest, CanBeCancelledAtAnyTime)
 {
     int words = 0;
     CageSettings told = settings();

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST(CageRejects, CellSizes)
+TEST(CageInput, RejectsCellSizesOutOfRange)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 2);
     for (const double cell : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e-300})
@@ -29,7 +29,7 @@ TEST(CageRejects, CellSizes)
                                                              "use larger cells (0.0", "raise m_maxTets"});
 }
 
-TEST(CageRejects, ButTakesTheCellSizeItSuggests)
+TEST(CageInput, AcceptsTheCellSizeItSuggests)
 {
     CageSettings settings = withCell(0);
     settings.m_maxTets = 1000;
@@ -45,7 +45,7 @@ TEST(CageRejects, ButTakesTheCellSizeItSuggests)
     expectRejected([&] { makeCage(box, settings); }, {"at least 320 elements", "[1, 319]"});
 }
 
-TEST(CageRejects, SettingsOutOfRange)
+TEST(CageInput, RejectsSettingsOutOfRange)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 1, 1});
     const auto with = [&](auto member, auto value)
@@ -63,7 +63,7 @@ TEST(CageRejects, SettingsOutOfRange)
     expectRejected(with(&CageSettings::m_fillSamples, 4097), {"are 4097", "[8, 4096]"});
 }
 
-TEST(CageRejects, NumbersOfElements)
+TEST(CageInput, RejectsElementCountsOutOfRange)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 1, 1});
     CageSettings settings = withCell(0.5);
@@ -79,7 +79,7 @@ TEST(CageRejects, NumbersOfElements)
     expectRejected([&] { makeCage(box, CageSettings()); }, {"cell size is 0 m", "or give m_targetTets"});
 }
 
-TEST(CageRejects, SoupsThatAreNoSurface)
+TEST(CageInput, RejectsInvalidTriangleSoups)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 1, 1});
     expectRejected([&] { makeCage(without(box, 0, 12), withCell(0.5)); }, {"0 triangles", "at least 4"});
@@ -106,7 +106,7 @@ TEST(CageRejects, SoupsThatAreNoSurface)
 }
 
 // Where three triangles meet nobody can say which of them is the wrong way round.
-TEST(CageRejects, TrianglesThatCannotBeOriented)
+TEST(CageInput, RejectsUnorientableTriangles)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 3);
     SurfaceMesh fans = ball;
@@ -117,7 +117,7 @@ TEST(CageRejects, TrianglesThatCannotBeOriented)
                    {"not oriented", "of 2562 edges", "cannot be mended", "0.1", "counter-clockwise"});
 }
 
-TEST(CageRejects, SurfacesWithoutInside)
+TEST(CageInput, RejectsSurfacesWithoutInside)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 1, 1});
     SurfaceMesh point = box;

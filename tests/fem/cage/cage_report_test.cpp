@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST(MeanRatio, ByHand)
+TEST(MeanRatio, MatchesHandValues)
 {
     const std::array<Vec3, 4> regular = {Vec3{0, 0, 0}, {0, 1, 1}, {1, 0, 1}, {1, 1, 0}};
     EXPECT_NEAR(std::abs(meanRatio(regular)), 1, 1e-15);
@@ -26,7 +26,7 @@ TEST(MeanRatio, ByHand)
     EXPECT_EQ(meanRatio({corner[0], corner[0], corner[0], corner[0]}), 0);
 }
 
-TEST(CageReport, OfAnAlignedBox)
+TEST(CageReport, MatchesAnAlignedBox)
 {
     const CageReport report = makeCage(boxSurface({-1, 0, 2}, {1, 1.5, 3}), withCell(0.25)).m_report;
     EXPECT_EQ(report.m_tets, 8 * 6 * 4 * 5);
@@ -45,7 +45,7 @@ TEST(CageReport, OfAnAlignedBox)
     EXPECT_NE(describe(report).find("960 tets, 315 nodes, cells of 0.25 m"), std::string::npos) << describe(report);
 }
 
-TEST(CageReport, CountsHolesAndPieces)
+TEST(CageReport, CountsHolesAndComponents)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 3);
     const CageReport report =
@@ -73,7 +73,7 @@ TEST(CageReport, TurnsTrianglesThatDisagree)
 }
 
 // The side of the many counts, even where that is the inside: a cavity stays one.
-TEST(CageReport, TurnsTheFewToTheMany)
+TEST(CageReport, OrientsTheMinorityToTheMajority)
 {
     SurfaceMesh cavity = flipped(sphereSurface(0.6, {}, 2));
     std::swap(cavity.m_triangles[5][0], cavity.m_triangles[5][1]);
@@ -99,7 +99,7 @@ TEST(CageReport, LeavesDuplicatesOutAndCountsTrianglesWithoutArea)
         EXPECT_EQ(cage.m_embedding[i].m_weights, cage.m_embedding[i + ball.m_vertices.size()].m_weights);
 }
 
-TEST(CageReport, ElementsNearTheWantedNumber)
+TEST(CageReport, ElementCountIsNearTheTarget)
 {
     const SurfaceMesh surfaces[] = {boxSurface({0, 0, 0}, {3, 1, 1}), sphereSurface(1, {5, 0, 0}, 3),
                                     torusSurface(1, 0.2, 24), boxSurface({0, 0, 0}, {1, 1, 0.01}),
@@ -116,7 +116,7 @@ TEST(CageReport, ElementsNearTheWantedNumber)
     EXPECT_EQ(makeCage(sphereSurface(1, {}, 2), settings).m_report.m_tets, 5);
 }
 
-TEST(CageReport, TheCellSizeThatWasFoundGivesTheSameCage)
+TEST(CageReport, FoundCellSizeGivesTheSameCage)
 {
     const SurfaceMesh surface = sphereSurface(1, {5, 0, 0}, 2);
     CageSettings settings;

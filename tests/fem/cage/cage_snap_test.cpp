@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SnapCase{"farAway", sphereSurface(1, {1000, 2000, 500}, 2), 0.3, 1.2}),
     [](const auto& suite) { return suite.param.m_name; });
 
-TEST(SnappedCage, OfAnAlignedBoxStaysAsItIs)
+TEST(SnappedCage, AlignedBoxStaysUnchanged)
 {
     const SurfaceMesh surface = boxSurface({-1, 0, 2}, {1, 1.5, 3});
     const Cage lattice = makeCage(surface, withCell(0.25)), cage = makeCage(surface, snapping(0.25));
@@ -133,7 +133,7 @@ TEST(SnappedCage, OfAnAlignedBoxStaysAsItIs)
     EXPECT_NEAR(cage.m_report.m_volumeRatio, 1, 1e-9);
 }
 
-TEST(SnappedCage, GoesAShareOfTheWay)
+TEST(SnappedCage, MovesNodesByTheGivenShare)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 3);
     double previous = makeCage(ball, withCell(0.3)).m_report.m_volumeRatio;
@@ -222,7 +222,7 @@ TEST(TriangleTree, FindsTheNearestPoint)
     }
 }
 
-TEST(TriangleTree, FindsWhatEntersATet)
+TEST(TriangleTree, FindsTrianglesEnteringATetrahedron)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 3);
     const TriangleTree tree(ball.m_vertices, ball.m_triangles);

@@ -49,7 +49,7 @@ void expectPromises(const Cage& cage, const SurfaceMesh& surface, const CageSett
     EXPECT_GE(minWeight, -1e-9);
 }
 
-TEST(SignedVolume, ByHandAndFarFromTheOrigin)
+TEST(SignedVolume, MatchesHandValuesAlsoFarFromTheOrigin)
 {
     EXPECT_NEAR(signedVolume(boxSurface({1, 2, 3}, {3, 5, 7})), 24, 24e-14);
     EXPECT_NEAR(signedVolume(flipped(boxSurface({1, 2, 3}, {3, 5, 7}))), -24, 24e-14);
@@ -57,7 +57,7 @@ TEST(SignedVolume, ByHandAndFarFromTheOrigin)
     EXPECT_EQ(signedVolume(SurfaceMesh()), 0);
 }
 
-TEST(Cage, OfAnAlignedBoxIsTheBox)
+TEST(Cage, AlignedBoxGivesTheBox)
 {
     const SurfaceMesh surface = boxSurface({-1, 0, 2}, {1, 1.5, 3});
     const CageSettings settings = withCell(0.25);
@@ -74,7 +74,7 @@ TEST(Cage, OfAnAlignedBoxIsTheBox)
 }
 
 // The notch's sides lie on sides of lattice cubes: the cubes beyond are touched, but hold nothing.
-TEST(Cage, OfAnAlignedAngleHasNothingInItsNotch)
+TEST(Cage, AlignedAngleLeavesItsNotchEmpty)
 {
     SurfaceMesh surface;  // (0,0) (2,0) (2,1) (1,1) (1,2) (0,2), from z = 0 to 1
     for (const double z : {0, 1})
@@ -180,7 +180,7 @@ TEST(Cage, KeepsACavityEmpty)
     for (const Vec3& X : cage.m_mesh.restPositions()) EXPECT_GT(norm(X), 0.4);
 }
 
-TEST(Cage, AcceptsASurfaceThatIsInsideOut)
+TEST(Cage, AcceptsAnInvertedSurface)
 {
     const SurfaceMesh outward = sphereSurface(1, {}, 3), inward = flipped(outward);
     const CageSettings settings = withCell(0.2);
@@ -206,7 +206,7 @@ TEST(Cage, CountsOverlapsOnce)
     EXPECT_NEAR(cage.m_report.m_surfaceVolume, both, 0.005 * both);  // facets miss 0.2 %, sampling less
 }
 
-TEST(Cage, CountsPiecesOfBothOrientations)
+TEST(Cage, CountsComponentsOfBothOrientations)
 {
     const SurfaceMesh surface = joined(sphereSurface(1, {}, 3), flipped(sphereSurface(0.5, {3, 0, 0}, 3)));
     const CageSettings settings = withCell(0.1);
@@ -285,7 +285,7 @@ TEST(Cage, HoldsAFinWithoutThickness)
     EXPECT_EQ(cage.m_mesh.tetCount(), 4 * 4 * 4 * 5 + 2);  // one element for each of the far vertices
 }
 
-TEST(Cage, GivesUnusedVerticesBack)
+TEST(Cage, EmbedsUnusedVertices)
 {
     SurfaceMesh surface = sphereSurface(1, {}, 2);
     surface.m_vertices.push_back({50, -20, 30});

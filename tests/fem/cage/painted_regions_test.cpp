@@ -80,7 +80,7 @@ TEST(CagePaintedRegions, ComeThroughTheMeshAndNotAcrossAGap)
 }
 
 // A ball, one half painted in each colour: what lies deep inside follows the surface.
-TEST(CagePaintedRegions, OfACageFollowItsSurface)
+TEST(CagePaintedRegions, FollowTheSurfaceOfACage)
 {
     SurfaceMesh ball = sphereSurface(1, {0, 0, 0}, 3);
     const CageSettings settings = withCell(.2);

@@ -45,7 +45,7 @@ Found found(const std::vector<ThinPart>& parts, bool gaps)
     return sum;
 }
 
-TEST(ThinParts, OfAPlateAreItsFaces)
+TEST(ThinParts, IncludeTheFacesOfAPlate)
 {
     const std::vector<ThinPart> parts = partsOf(boxSurface({0, 0, 0}, {1, 1, 0.1}));
     const Found solid = found(parts, false);
@@ -57,14 +57,14 @@ TEST(ThinParts, OfAPlateAreItsFaces)
         for (int a = 0; a < 3; ++a) EXPECT_LE(norm(part.m_corners[a] - part.m_corners[(a + 1) % 3]), 0.1);
 }
 
-TEST(ThinParts, AreNotTheEdgesOfWhatIsThick)
+TEST(ThinParts, ExcludeTheEdgesOfThickSolids)
 {
     EXPECT_TRUE(partsOf(boxSurface({0, 0, 0}, {1, 1, 1})).empty());
     EXPECT_TRUE(partsOf(sphereSurface(1, {}, 3)).empty());
     EXPECT_TRUE(partsOf(flipped(sphereSurface(1, {}, 3))).empty());
 }
 
-TEST(ThinParts, OfAWedgeAreItsEdge)
+TEST(ThinParts, IncludeTheEdgeOfAWedge)
 {
     SurfaceMesh wedge;  // 1 m long, 0.3 m high at its back: 17 degrees
     wedge.m_vertices = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, 0.3}, {1, 1, 0.3}};
@@ -97,7 +97,7 @@ TEST(ThinParts, AreGapsBetweenTwoSides)
 }
 
 // Walls within the solid, of pieces that overlap, bound nothing.
-TEST(ThinParts, AreNotWhereSolidsOverlap)
+TEST(ThinParts, ExcludeOverlapsOfSolids)
 {
     EXPECT_TRUE(partsOf(joined(boxSurface({0, 0, 0}, {1, 1, 1}), boxSurface({0.8, 0, 0}, {1.8, 1, 1}))).empty());
 }
@@ -118,7 +118,7 @@ SurfaceMesh split(const SurfaceMesh& surface)
 }
 
 // The rim's triangles share blocks with the faces', and are 1 m across.
-TEST(ThinParts, OfAFinePlateAreNotItsRim)
+TEST(ThinParts, ExcludeTheRimOfAFinePlate)
 {
     SurfaceMesh plate = boxSurface({0, 0, 0}, {1, 1, 0.02});
     for (int n = 0; n < 4; ++n) plate = split(plate);
@@ -131,7 +131,7 @@ TEST(ThinParts, OfAFinePlateAreNotItsRim)
     EXPECT_NEAR(solid.m_max, 0.02, 1e-12);
 }
 
-TEST(ThinParts, OfFineTrianglesAreTheSame)
+TEST(ThinParts, AreIndependentOfTriangleSize)
 {
     const Found ring = found(partsOf(torusSurface(1, 0.15, 400)), false);  // triangles of 0.005 to 0.02 m
     const double area = 4 * 9.8696044 * 0.15;

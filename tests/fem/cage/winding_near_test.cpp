@@ -34,7 +34,7 @@ void expectWholeNumbers(const SurfaceMesh& surface, double size)
     }
 }
 
-TEST(WindingNear, CountsWhatLinesPass)
+TEST(WindingNear, CountsSurfaceCrossings)
 {
     expectWholeNumbers(boxSurface({-1, -1, -1}, {1, 1, 1}), 1.5);
     expectWholeNumbers(sphereSurface(1, {}, 3), 1.5);
@@ -42,7 +42,7 @@ TEST(WindingNear, CountsWhatLinesPass)
     expectWholeNumbers(flipped(sphereSurface(1, {}, 2)), 1.5);
 }
 
-TEST(WindingNear, CountsOverlappingPiecesTwice)
+TEST(WindingNear, CountsOverlappingComponentsTwice)
 {
     expectWholeNumbers(joined(sphereSurface(1, {}, 2), sphereSurface(1, {0.7, 0.1, 0.2}, 2)), 2);
 }
@@ -66,7 +66,7 @@ TEST(WindingNear, PassesEdgesAndCornersOnce)
     }
 }
 
-TEST(WindingNear, OfAnOpenSurfaceIsEveryPointsOwn)
+TEST(WindingNear, EvaluatesEveryPointOfAnOpenSurface)
 {
     const SurfaceMesh open = without(sphereSurface(1, {}, 2), 0, 100);
     const SurfaceWinding winding(open.m_vertices, open.m_triangles, false);

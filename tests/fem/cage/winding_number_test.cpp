@@ -19,7 +19,7 @@ double windingAt(const SurfaceMesh& surface, const Vec3& p)
     return WindingNumber(surface.m_vertices, surface.m_triangles).at(p);
 }
 
-TEST(WindingNumber, OfABoxIsExact)
+TEST(WindingNumber, IsExactForABox)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 2, 3});
     EXPECT_NEAR(windingAt(box, {0.5, 1, 1.5}), 1, 1e-14);
@@ -28,21 +28,21 @@ TEST(WindingNumber, OfABoxIsExact)
     EXPECT_NEAR(windingAt(flipped(box), {0.5, 1, 1.5}), -1, 1e-14);
 }
 
-TEST(WindingNumber, OfOneSideOfACubeSeenFromItsCentreIsASixth)
+TEST(WindingNumber, IsOneSixthForACubeFaceSeenFromTheCentre)
 {
     const SurfaceMesh side = without(boxSurface({-1, -1, -1}, {1, 1, 1}), 2, 12);
     EXPECT_NEAR(windingAt(side, {0, 0, 0}), 1.0 / 6, 1e-15);
 }
 
 // The moments of a closed surface are N = 0 and C = V times the identity, whose two terms cancel.
-TEST(WindingNumber, OfAFarBoxVanishesByItsMoments)
+TEST(WindingNumber, VanishesForAFarBoxByItsMoments)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 2, 3});
     EXPECT_NEAR(windingAt(box, {20, -10, 10}), 0, 1e-17);  // either term alone: 1e-4
 }
 
 // A tube of many long sides, all of which are near to its inside: the product of their complex numbers would come to 0.
-TEST(WindingNumber, OfManyThinTrianglesDoesNotUnderflow)
+TEST(WindingNumber, DoesNotUnderflowForManyThinTriangles)
 {
     constexpr int kSides = 600;
     SurfaceMesh tube;
@@ -65,7 +65,7 @@ TEST(WindingNumber, OfManyThinTrianglesDoesNotUnderflow)
     EXPECT_NEAR(winding.at({0.6, 0, 5}), 0, 0.1);
 }
 
-TEST(WindingNumber, OfNothingIsZero)
+TEST(WindingNumber, IsZeroForAnEmptySurface)
 {
     EXPECT_EQ(windingAt(SurfaceMesh(), {1, 2, 3}), 0);
 }
@@ -99,7 +99,7 @@ TEST(WindingNumber, ApproximatesFarTriangles)
     EXPECT_LT(worstPart, 0.02);
 }
 
-TEST(TriangleOverlap, WithABox)
+TEST(TriangleOverlap, DetectsOverlapWithABox)
 {
     const Vec3 low = {0, 0, 0}, high = {1, 1, 1};
     const TriangleCorners through = {Vec3{-5, 0.5, 0.5}, Vec3{5, 0.5, 0.5}, Vec3{0, 9, 0.5}};
@@ -125,7 +125,7 @@ TEST(TriangleOverlap, LargeTriangleBeyondACornerIsSeparatedByItsNormalAlone)
     EXPECT_TRUE(triangleMeetsBox(inPlane(2.9), {0, 0, 0}, {1, 1, 1}, 0));
 }
 
-TEST(TriangleOverlap, SlackDecidesAboutTouching)
+TEST(TriangleOverlap, SlackDecidesBoundaryContact)
 {
     const std::array<Vec3, 4> tet = {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
     const TriangleCorners onItsFace = {Vec3{0.1, 0.1, 0}, Vec3{2, 0.1, 0}, Vec3{0.1, 2, 0}};

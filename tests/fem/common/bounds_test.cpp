@@ -35,7 +35,7 @@ TEST(Bounds, AreNotWiderThanTheSlack)
     EXPECT_TRUE(isWithin(std::numeric_limits<double>::infinity(), 0, std::numeric_limits<double>::infinity()));
 }
 
-TEST(Bounds, OfStepsAreAMicrosecondAndASecond)
+TEST(Bounds, StepsRangeFromAMicrosecondToASecond)
 {
     EXPECT_EQ(kShortestStep, 1e-6);
     EXPECT_EQ(kLongestStep, 1);

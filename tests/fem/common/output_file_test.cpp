@@ -30,7 +30,7 @@ std::string messageOfWriting(const std::string& path)
     return messageOf<std::runtime_error>([&] { writeOutputFile(path, std::string(100000, 'x')); });
 }
 
-TEST(OutputFile, ReplacesWhatWasThere)
+TEST(OutputFile, ReplacesTheExistingFile)
 {
     const TemporaryFolder folder;
     const std::string path = folder.write("a", "something longer");
@@ -59,7 +59,7 @@ TEST(OutputFile, HasItsNameOnlyWhenItIsWhole)
     EXPECT_THAT(folder.names(), ElementsAre("a"));
 }
 
-TEST(OutputFile, OnAFullDiskTheOldFileStaysAndNoPartIsLeft)
+TEST(OutputFile, FullDiskKeepsTheOldFileAndLeavesNoPart)
 {
     const TemporaryFolder folder;
     const std::string path = folder.write("a", "old");
@@ -78,7 +78,7 @@ TEST(OutputFile, OnAFullDiskTheOldFileStaysAndNoPartIsLeft)
     EXPECT_THAT(folder.names(), ElementsAre("a"));
 }
 
-TEST(OutputFile, ThatIsUnfinishedCanBeRemovedByASignalHandler)
+TEST(OutputFile, UnfinishedFilesCanBeRemovedByASignalHandler)
 {
     const TemporaryFolder folder;
     writeOutputFile(folder.path("whole"), "kept");
@@ -109,7 +109,7 @@ TEST(OutputFile, DevicesAreWrittenToAndStayDevices)
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
-TEST(OutputFile, PlacesThatCannotBeWrittenAreNamed)
+TEST(OutputFile, UnwritablePathsAreNamed)
 {
     const TemporaryFolder folder;
     folder.write("file", "in the way");

@@ -15,14 +15,14 @@ namespace bullet_fem
 namespace
 {
 
-TEST(Reason, IsWhatTheExceptionSays)
+TEST(Reason, IsTheMessageOfTheException)
 {
     EXPECT_EQ(reasonOf(std::runtime_error("nu is .5")), "nu is .5");
     EXPECT_EQ(reasonOf(std::runtime_error(std::string(600, 'a'))), std::string(600, 'a'));
     EXPECT_EQ(reasonOf(std::runtime_error(std::string(601, 'a'))), std::string(600, 'a') + "...");
 }
 
-TEST(Reason, OfTooLittleMemorySaysWhatToDo)
+TEST(Reason, SuggestsARemedyForTooLittleMemory)
 {
     std::string why;
     EXPECT_FALSE(attempt(&why, [] { throw std::bad_alloc(); }));

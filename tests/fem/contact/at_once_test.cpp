@@ -73,7 +73,7 @@ private:
 };
 
 // The impulses of one node by one, and of all at once, solve the same problem.
-TEST(AcceleratedProjectedGradient, StopASlabLikeThoseInTurn)
+TEST(AcceleratedProjectedGradient, StopsASlabAsGaussSeidelSweepsDo)
 {
     SlabOnFloor atOnce(0), inTurn(SlabOnFloor::kLower);
     const ContactReport report = atOnce.solve();
@@ -87,7 +87,7 @@ TEST(AcceleratedProjectedGradient, StopASlabLikeThoseInTurn)
 }
 
 // They end when nothing closes any more.
-TEST(AcceleratedProjectedGradient, AreFewWhereLittleIsToDo)
+TEST(AcceleratedProjectedGradient, StopsEarlyIfNothingCloses)
 {
     SlabOnFloor slab(0);
     int sweeps = 0;
@@ -101,7 +101,7 @@ TEST(AcceleratedProjectedGradient, AreFewWhereLittleIsToDo)
 }
 
 // How far a body yields is estimated from some points: fixed ones among them say nothing of the others.
-TEST(AcceleratedProjectedGradient, HoldABodyWithFixedNodes)
+TEST(AcceleratedProjectedGradient, HoldsABodyWithFixedNodes)
 {
     SlabOnFloor slab(0);
     for (int k = 0; k < 4; ++k) slab.m_body.m_state.m_fixed[k * (SlabOnFloor::kLower - 1) / 3] = 1;

@@ -75,7 +75,7 @@ TEST_P(ComplianceCacheTest, HoldsTheInverseOfA0)
     EXPECT_EQ(compared, 40 * 40);  // 56 of 64 nodes on the surface, 16 of them clamped
 }
 
-TEST_P(ComplianceCacheTest, FactorsWhatItHoldsBetweenNodes)
+TEST_P(ComplianceCacheTest, FactorsItsBlocksBetweenNodes)
 {
     ComplianceCache cache(m_model);
     std::vector<int> nodes;
@@ -202,7 +202,7 @@ TEST_P(ComplianceCacheTest, KeepsAllColumnsOfARequest)
 }
 
 // Room for ten columns, all taken; the request names the oldest of them before four new ones.
-TEST_P(ComplianceCacheTest, DoesNotThrowOutWhatTheRequestNames)
+TEST_P(ComplianceCacheTest, DoesNotEvictRequestedColumns)
 {
     ComplianceCache cache(m_model, 0);
     std::vector<std::vector<int>> requests = {{0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}, {0, 10, 11, 12, 13}};
@@ -265,7 +265,7 @@ TEST_P(ComplianceCacheTest, ScalesWithTheMass)
     }
 }
 
-TEST_P(ComplianceCacheTest, OfAFullyFixedBodyIsZero)
+TEST_P(ComplianceCacheTest, IsZeroForAFullyFixedBody)
 {
     FactorInput input = m_model->factorInput();
     input.m_fixed.assign(input.m_fixed.size(), 1);
@@ -275,7 +275,7 @@ TEST_P(ComplianceCacheTest, OfAFullyFixedBodyIsZero)
 }
 
 // A plate of 27 g that yields 1e-7 of its rigid motions: sweeps over a compliance that is not definite run away.
-TEST_P(ComplianceCacheTest, OfAStiffLightBodyIsDefinite)
+TEST_P(ComplianceCacheTest, IsDefiniteForAStiffLightBody)
 {
     Material material = elasticMaterial(1e8, 0.3);
     material.m_density = 10;

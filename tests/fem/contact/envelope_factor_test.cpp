@@ -90,7 +90,7 @@ TEST(EnvelopeFactor, SolvesWithinItsEnvelope)
     }
 }
 
-TEST(EnvelopeFactor, LeavesOutWhatIsHeld)
+TEST(EnvelopeFactor, OmitsHeldUnknowns)
 {
     Within c({0, 0, 0, 0}, 40);
     c.m_held[2] = c.m_held[7] = 1;
@@ -103,7 +103,7 @@ TEST(EnvelopeFactor, LeavesOutWhatIsHeld)
 }
 
 // Twelve equations for five unknowns: what agrees is met, and nothing becomes large.
-TEST(EnvelopeFactor, GivesNoAnswerToWhatHangsOnOthers)
+TEST(EnvelopeFactor, LeavesDependentUnknownsAtZero)
 {
     Within c({0, 0, 0, 0}, 5);
     const Eigen::VectorXd b = c.m_W * c.vector(), x = c.solve(b);

@@ -14,7 +14,7 @@ namespace
 {
 
 // A soft cube in gravity, squeezed out of shape, comes down on a ball; contacts start with a guess.
-class ExpectedImpulses : public testing::Test
+class PredictedImpulses : public testing::Test
 {
 protected:
     static constexpr double kBallMass = 300;
@@ -106,7 +106,7 @@ protected:
     }
 };
 
-TEST_F(ExpectedImpulses, OfTheContactsChangeNothing)
+TEST_F(PredictedImpulses, ChangeNothingIfCorrect)
 {
     Scene scene, reference;
     reference.solve();
@@ -114,7 +114,7 @@ TEST_F(ExpectedImpulses, OfTheContactsChangeNothing)
     expectSameAnswer(scene, reference);
 }
 
-TEST_F(ExpectedImpulses, LeaveTheirResidualToContact)
+TEST_F(PredictedImpulses, LeaveTheirResidualToContact)
 {
     Scene scene, reference;
     reference.solve();
@@ -122,7 +122,7 @@ TEST_F(ExpectedImpulses, LeaveTheirResidualToContact)
     expectSameAnswer(scene, reference);
 }
 
-TEST_F(ExpectedImpulses, ThatAreNotThoseOfTheContactsChangeNothing)
+TEST_F(PredictedImpulses, ChangeNothingIfWrong)
 {
     Scene scene, reference;
     reference.solve();
@@ -132,7 +132,7 @@ TEST_F(ExpectedImpulses, ThatAreNotThoseOfTheContactsChangeNothing)
     expectSameAnswer(scene, reference);
 }
 
-TEST_F(ExpectedImpulses, LeaveMomentumToTheImpulsesThatAre)
+TEST_F(PredictedImpulses, PreserveTheMomentumOfTheActualImpulses)
 {
     Scene right, wrong;
     expectMomentumKept(right, nodeImpulses(right));
@@ -142,7 +142,7 @@ TEST_F(ExpectedImpulses, LeaveMomentumToTheImpulsesThatAre)
 }
 
 // Be it that nothing is solved for any more.
-TEST_F(ExpectedImpulses, LeaveMomentumToAGuessThatIsTheAnswer)
+TEST_F(PredictedImpulses, PreserveMomentumIfTheGuessIsTheSolution)
 {
     Scene scene;
     scene.m_settings.m_maxRounds = 1;
@@ -152,7 +152,7 @@ TEST_F(ExpectedImpulses, LeaveMomentumToAGuessThatIsTheAnswer)
     EXPECT_EQ(scene.m_contacts[0].m_impulse.z, 15);
 }
 
-TEST_F(ExpectedImpulses, WhereNothingTouchesAreTakenBack)
+TEST_F(PredictedImpulses, AreTakenBackWithoutContact)
 {
     Scene scene, reference;
     const std::vector<Vec3> expected = nodeImpulses(scene);
@@ -167,7 +167,7 @@ TEST_F(ExpectedImpulses, WhereNothingTouchesAreTakenBack)
 }
 
 // The residual is measured against the impulses: what is to be solved is next to nothing.
-TEST_F(ExpectedImpulses, ThatBalanceTheLoadsLeaveNothingToSolve)
+TEST_F(PredictedImpulses, LeaveNothingToSolveIfTheyBalanceTheLoads)
 {
     Scene scene;
     scene.m_body.m_state.m_x = scene.m_body.m_model->mesh().restPositions();

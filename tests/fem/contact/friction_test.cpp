@@ -75,7 +75,7 @@ TEST_P(Sliding, EnoughFrictionSticks)
 INSTANTIATE_TEST_SUITE_P(Directions, Sliding, testing::Values(0, 30, 45, 90, 135, 200, 300),
                          [](const auto& suite) { return std::to_string(suite.param); });
 
-TEST(Friction, OfZeroLeavesNoTrace)
+TEST(Friction, IsAbsentWithZeroCoefficient)
 {
     ContactScene scene;
     scene.setVelocity({5, -3, -1});

@@ -62,7 +62,7 @@ protected:
     std::vector<Joint>& m_joints = m_scene.m_problem.m_joints;
 };
 
-TEST_F(JointSystemTest, TakesOneSweepARound)
+TEST_F(JointSystemTest, TakesOneSweepPerOuterIteration)
 {
     for (int node = 0; node < 9; ++node) hold(node);
     const ContactReport report = solve();
@@ -87,7 +87,7 @@ TEST_F(JointSystemTest, HoldsRigidBodiesOfAnyMass)
     }
 }
 
-TEST_F(JointSystemTest, BearsAJointThatIsGivenTwice)
+TEST_F(JointSystemTest, ToleratesDuplicateJoints)
 {
     for (int node : {0, 4, 8, 4, 0}) hold(node);
     solve();
@@ -128,7 +128,7 @@ TEST_F(JointSystemTest, HoldsImpulsesAtTheirLimits)
 }
 
 // One that starts at its limit, as it was a step ago, lets go of it.
-TEST_F(JointSystemTest, LetsGoOfLimitsThatAreNoLongerReached)
+TEST_F(JointSystemTest, ReleasesLimitsNoLongerReached)
 {
     hold(4).m_maxImpulse = 1e6;
     m_joints[0].m_impulse = {0, 0, -1e6};
@@ -190,7 +190,7 @@ protected:
 };
 
 // The factor of A0^-1 between the nodes, which is a constant, answers what W asks, though the body has turned.
-TEST_F(ManyHeldNodesTest, TurnedJointsInvertTheirCompliance)
+TEST_F(ManyHeldNodesTest, RotatedFactorInvertsTheirCompliance)
 {
     solveFreeMotion(m_scene.m_body, m_scene.m_settings.m_step);
     ContactRows rows;
@@ -216,7 +216,7 @@ TEST_F(ManyHeldNodesTest, TurnedJointsInvertTheirCompliance)
     }
 }
 
-TEST_F(ManyHeldNodesTest, AreNotTurnedWhereAnythingElseCounts)
+TEST_F(ManyHeldNodesTest, UseTheRotatedFactorOnlyWithoutOtherConstraints)
 {
     solveFreeMotion(m_scene.m_body, m_scene.m_settings.m_step);
     makeBall(m_scene.m_rigidProxies[0], 10, 0.5);
@@ -241,7 +241,7 @@ TEST_F(ManyHeldNodesTest, AreNotTurnedWhereAnythingElseCounts)
     EXPECT_TRUE(isTurned(none));
 }
 
-TEST_F(ManyHeldNodesTest, TakeOneSweepARound)
+TEST_F(ManyHeldNodesTest, TakeOneSweepPerOuterIteration)
 {
     const ContactReport report = m_scene.solve();
     EXPECT_TRUE(report.m_converged);
@@ -250,7 +250,7 @@ TEST_F(ManyHeldNodesTest, TakeOneSweepARound)
 }
 
 // A compliance that is nothing beside W takes them to the factor of the step's own W.
-TEST_F(ManyHeldNodesTest, FeelWhatTheStepsOwnFactorGivesThem)
+TEST_F(ManyHeldNodesTest, MatchTheResponseOfTheStepsOwnFactor)
 {
     ContactScene other;
     holdSurface(other);

@@ -29,7 +29,7 @@ class ComplianceKernel : public OnTarget
 };
 
 // All nodes, and some of them: what lies before and behind them is not written.
-TEST_P(ComplianceKernel, TurnsColumnsAsItsTwinDoes)
+TEST_P(ComplianceKernel, RotatesColumnsAsItsScalarReference)
 {
     constexpr std::size_t kNodes = 21, kStride = 3 * kNodes + 2;
     const std::vector<float> blocks = randomFloats(9 * kNodes, 1),
@@ -52,7 +52,7 @@ TEST_P(ComplianceKernel, TurnsColumnsAsItsTwinDoes)
 }
 
 // Sizes with and without a rest at the end of every vector width; no array at all.
-TEST_P(ComplianceKernel, AddsWeightedArraysAsItsTwinDoes)
+TEST_P(ComplianceKernel, AddsWeightedArraysAsItsScalarReference)
 {
     const std::vector<float> values = randomFloats(4 * 50, 3), weights = {.5f, -2, .25f, 3};
     const float* arrays[] = {&values[0], &values[50], &values[100], &values[150]};
@@ -123,7 +123,7 @@ protected:
     int m_held = -1;
 };
 
-TEST_F(PointComplianceTest, IsWhatTheTurnedFactorDoesBetweenPoints)
+TEST_F(PointComplianceTest, MatchesTheRotatedFactorBetweenPoints)
 {
     const std::vector<SurfacePoint> points = {
         point({m_free[0]}, {1}), point({m_free[5], m_free[9], m_free[20]}, {.2, .3, .5}),

@@ -55,7 +55,7 @@ TEST(Penetration, IsLeftAloneWithinTheSlop)
 }
 
 // What is less than the tolerance that pushes are solved to, 1e-4 of what loads do in a step, is left as it is.
-TEST(Penetration, IsLeftAloneWhereSweepsWouldLeaveIt)
+TEST(Penetration, IsLeftAloneBelowTheSweepTolerance)
 {
     const double step = 1.0 / 60, acceleration = 10;
     const double negligible = 1e-4 * acceleration * step * step / 0.2;
@@ -102,7 +102,7 @@ TEST(Penetration, IsSharedWithAFreeObstacle)
 
 // --- Nodes that cannot give way ---
 
-TEST(FixedContact, WithAStaticObstacleIsLeftAlone)
+TEST(FixedContact, IsIgnoredAgainstAStaticObstacle)
 {
     ContactScene scene;
     scene.m_body.m_state.m_fixed[4] = 1;
@@ -131,7 +131,7 @@ TEST(FixedContact, PushesAFreeObstacle)
 
 // A node that was fixed when the factor was made and is free now has no compliance in it; the law holds all the same.
 // (W does not know; the rounds find out.)
-TEST(FixedContact, OfANodeReleasedSinceTheFactor)
+TEST(FixedContact, HoldsForANodeReleasedSinceTheFactor)
 {
     ContactScene scene;
     FactorInput input = scene.m_body.m_model->factorInput();

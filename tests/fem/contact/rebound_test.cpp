@@ -63,7 +63,7 @@ TEST_F(ReboundTest, PartsAtTheSpeedWanted)
     EXPECT_NEAR(speed(), 3, 1e-12);
 }
 
-TEST_F(ReboundTest, GivesNoMoreThanTheEnergyThatThereIs)
+TEST_F(ReboundTest, GivesNoMoreThanTheAvailableEnergy)
 {
     m_rebound.m_energy = 0.7;
     const double before = energy();
@@ -72,7 +72,7 @@ TEST_F(ReboundTest, GivesNoMoreThanTheEnergyThatThereIs)
     EXPECT_LT(speed(), 3);
 }
 
-TEST_F(ReboundTest, GivesNothingToWhatPartsFasterOrHasNoEnergy)
+TEST_F(ReboundTest, GivesNothingIfPartingFasterOrWithoutEnergy)
 {
     m_rebound.m_speed = 0.01;
     EXPECT_EQ(norm(giveRebound(m_problem, m_rebound)), 0);
@@ -82,7 +82,7 @@ TEST_F(ReboundTest, GivesNothingToWhatPartsFasterOrHasNoEnergy)
 }
 
 // One piece with momenta of a rigid body; a rigid motion that is added is in them.
-TEST(WholeMotion, IsThatOfTheMomenta)
+TEST(WholeMotion, MatchesTheMomenta)
 {
     ContactScene scene;
     Body& body = scene.m_body;

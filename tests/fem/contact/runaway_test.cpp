@@ -88,7 +88,7 @@ TEST(Runaway, DoesNotHappenWithRigidMotions)
         }
 }
 
-TEST(Runaway, IsLetGo)
+TEST(Runaway, IsStopped)
 {
     int unsolved = 0;
     for (unsigned seed = 0; seed < 70; ++seed)
@@ -101,7 +101,7 @@ TEST(Runaway, IsLetGo)
 }
 
 // What has sunk in and does not close any more is pushed apart by sweeps of its own, which run away as well.
-TEST(Runaway, OfPositionCorrectionsIsLetGo)
+TEST(Runaway, IsStoppedInPositionCorrections)
 {
     for (unsigned seed = 0; seed < 10; ++seed)
     {
@@ -117,7 +117,7 @@ TEST(Runaway, OfPositionCorrectionsIsLetGo)
 }
 
 // Points of the lower face of a cube, held by the floor, are driven into it: no impulse is enough.
-TEST(Runaway, OfAMixOfSweepsIsTakenBack)
+TEST(Runaway, IsRevertedForAMixOfSweeps)
 {
     std::mt19937 generator(1);
     const auto number = [&generator] { return generator() / 2147483648.0 - 1; };
@@ -140,7 +140,7 @@ TEST(Runaway, OfAMixOfSweepsIsTakenBack)
     }
 }
 
-TEST(Runaway, OfAJointThatAsksForNoNumberHarmsNothing)
+TEST(Runaway, NonFiniteJointTargetDoesNoHarm)
 {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     {

@@ -23,7 +23,7 @@ void addNode(SoftBodyContacts& ends, const Body& body, int node)
 }
 
 // A corner of a turned and strained cube is pushed: away from rest one iteration is not enough.
-TEST(SoftBodyContacts, SolveForWhatALooseCorrectionLeft)
+TEST(SoftBodyContacts, SolveForTheResidualOfALooseCorrection)
 {
     const auto makeCube = []
     {
@@ -107,7 +107,7 @@ TEST(SoftBodyContacts, LearnNothingFromTheRoundingOfVelocities)
 }
 
 // The correction that takes back what was expected in vain changes velocities by more than its own impulses do.
-TEST(SoftBodyContacts, LearnNothingFromImpulsesThatWereExpectedInVain)
+TEST(SoftBodyContacts, LearnNothingFromWrongPredictedImpulses)
 {
     Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
     std::vector<Vec3> expected(body.m_state.m_x.size());
@@ -143,7 +143,7 @@ TEST(SoftBodyContacts, LearnNothingFromImpulsesThatWereExpectedInVain)
 
 // What hangs on a pin turns about it by the momentum of an impulse, whatever its shape; P has the arms of the body at
 // rest, along which this one pulls: it tells a thirtieth. To scale W would make it soft in every other direction, too.
-TEST(SoftBodyContacts, LearnTheRigidAnswerOfWhatIsStrained)
+TEST(SoftBodyContacts, LearnTheRigidResponseOfAStrainedBody)
 {
     const auto isPinned = [](const Vec3& X) { return norm(X) < 1e-6; };
     Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e9, 0.3), isPinned);

@@ -60,7 +60,7 @@ TEST(Contact, TakesTheWholeMomentumOfAStiffBody)
 }
 
 // lambda = -(n . v) / (n . A^-1 n), A at rest being A0.
-TEST(Contact, OfOneNodeByHand)
+TEST(Contact, NodeImpulseMatchesHandCalculation)
 {
     ContactScene scene;
     scene.setVelocity({0, 0, -2});
@@ -74,7 +74,7 @@ TEST(Contact, OfOneNodeByHand)
     EXPECT_EQ(scene.m_contacts[0].m_impulse.y, 0);
 }
 
-TEST(Contact, OnAFaceStopsThePointInIt)
+TEST(Contact, StopsThePointOfAFace)
 {
     ContactScene scene;
     scene.setVelocity({0, 0, -2});
@@ -91,7 +91,7 @@ TEST(Contact, OnAFaceStopsThePointInIt)
 }
 
 // Anywhere in the body, if the cache serves the nodes: with the point's own compliance, and no moment about it.
-TEST(Contact, OnAPointOfThreeElementsActsThere)
+TEST(Contact, ActsAtAPointOfThreeElements)
 {
     ContactScene scene;
     const Body& body = scene.m_body;
@@ -161,7 +161,7 @@ TEST(Contact, IsSweptAsLongAsOthersMove)
     EXPECT_EQ(sweepsUntilDone([](int) { return 1.0; }), 20) << "the second ten are no better than the first";
 }
 
-TEST(Contact, IsNotFeltFromAfar)
+TEST(Contact, HasNoEffectOutOfReach)
 {
     ContactScene scene, alone;
     for (ContactScene* each : {&scene, &alone}) each->setVelocity({1, 0, -2});
@@ -184,7 +184,7 @@ TEST(Contact, LetsTheGapCloseWithinTheStep)
     for (int node = 0; node < 9; ++node) EXPECT_NEAR(scene.m_body.m_state.m_x[node].z, -0.02, kSolved / 60);
 }
 
-TEST(Contact, WithNothingReportsNothing)
+TEST(Contact, ReportsNothingWithoutContacts)
 {
     ContactScene scene;
     scene.m_rigidProxies[0].m_pushLinear = {1, 2, 3};
@@ -228,7 +228,7 @@ TEST(Contact, SticksToAConveyorAndToATurntable)
 
 // --- Several bodies, guesses, limits ---
 
-TEST(Contacts, OfSeveralBodiesDoNotMix)
+TEST(Contacts, SeveralBodiesAreIndependent)
 {
     ContactScene a, quiet, b;
     a.setVelocity({0, 0, -2});
@@ -305,7 +305,7 @@ TEST(Contacts, SayWhenASolveDidNotConverge)
     for (const Vec3& v : velocity(scene.m_body)) EXPECT_LT(norm(v), 10);
 }
 
-TEST(Contacts, KeepToTheirSweepsAndRounds)
+TEST(Contacts, ObeyTheirSweepAndOuterIterationLimits)
 {
     ContactScene scene;
     scene.setVelocity({1, 0, -2});
@@ -322,7 +322,7 @@ TEST(Contacts, KeepToTheirSweepsAndRounds)
 }
 
 // One pair of a cube and the floor: seven more sweeps over it are part of the first; then one finds nothing to do.
-TEST(Contact, PairThatChangesMuchIsSweptAgainAtOnce)
+TEST(Contact, StronglyChangedPairIsSweptAgainAtOnce)
 {
     ContactScene scene;
     scene.touchLowerFace(0, 0.5);

@@ -145,7 +145,7 @@ TEST_F(SweepPartsTest, LargerPartsComeAfterTheirOwn)
     }
 }
 
-TEST_F(SweepPartsTest, NotManyAreOnePartAsTheyAre)
+TEST_F(SweepPartsTest, FewRowsFormOnePartUnchanged)
 {
     m_parts.divide(false);
     std::vector<int> rows = all();

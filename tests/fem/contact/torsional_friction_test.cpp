@@ -116,7 +116,7 @@ TEST_P(TorsionalRows, SlipWithTheLoadTimesTheCoefficients)
     EXPECT_NEAR(std::hypot(torsion().m_impulse.x, torsion().m_impulse.y), 0.01 * load(), 1e-6 * load());
 }
 
-TEST_P(TorsionalRows, StickWhereTheyMay)
+TEST_P(TorsionalRows, StickWithinTheirLimits)
 {
     addTorsion(10, 10);
     m_scene.solve();

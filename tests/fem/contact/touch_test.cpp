@@ -55,7 +55,7 @@ double impulseOnTheFloor()
 
 }  // namespace
 
-TEST(RigidContact, HoldsWhatLiesOnAFloor)
+TEST(RigidContact, SupportsObjectsOnAFloor)
 {
     const double whole = impulseOnTheFloor();
     for (int count : {1, 3})
@@ -83,7 +83,7 @@ TEST(RigidContact, NeverPulls)
     EXPECT_EQ(scene.m_rigidProxies[0].m_linearVelocity.z, 1);
 }
 
-TEST(RigidContact, LeavesTheGapThatThereIs)
+TEST(RigidContact, PreservesTheExistingGap)
 {
     const double gap = 1e-3;
     ContactScene scene;

@@ -29,7 +29,7 @@ private:
 };
 
 // Fewer, as many and more than the kernel takes at a time; orders with and without a rest at the end of its loop.
-TEST(ResponseKernel, AgreesWithItsTwinOnEveryInstructionSet)
+TEST(ResponseKernel, MatchesItsReferenceOnEveryInstructionSet)
 {
     Numbers random;
     int compared = 0;

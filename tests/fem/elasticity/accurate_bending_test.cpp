@@ -320,7 +320,7 @@ double bendingIterations(double nu, bool isAccurate, double tolerance)
 }
 
 // The factor is that of the patches' elements: it knows the volume changes, so that nu does not matter.
-TEST(ElasticityAccurateBending, TakesFewIterationsWhateverPoissonsRatio)
+TEST(ElasticityAccurateBending, TakesFewIterationsForAnyPoissonsRatio)
 {
     for (const double nu : {.3, .45, .49, .499})
     {

@@ -142,19 +142,19 @@ void ElasticityBeam::expectDigits(const Tips& reference, double roundOff, bool t
 
 using ElasticityBeamSlow = ElasticityBeam;  // 12,288 tets
 
-TEST_P(ElasticityBeam, ReferenceDigits)
+TEST_P(ElasticityBeam, MatchesTheReferenceDigits)
 {
     expectDigits(GetParam().m_reference, GetParam().m_roundOff, false);
 }
-TEST_P(ElasticityBeam, OwnDigitsWithTension)
+TEST_P(ElasticityBeam, MatchesItsOwnDigitsWithTension)
 {
     expectDigits(GetParam().m_withTension, 5e-8, true);
 }
-TEST_P(ElasticityBeamSlow, ReferenceDigits)
+TEST_P(ElasticityBeamSlow, MatchesTheReferenceDigits)
 {
     expectDigits(GetParam().m_reference, GetParam().m_roundOff, false);
 }
-TEST_P(ElasticityBeamSlow, OwnDigitsWithTension)
+TEST_P(ElasticityBeamSlow, MatchesItsOwnDigitsWithTension)
 {
     expectDigits(GetParam().m_withTension, 5e-8, true);
 }
@@ -191,7 +191,7 @@ std::string beamName(const testing::TestParamInfo<Beam>& info)
 INSTANTIATE_TEST_SUITE_P(Both, ElasticityBeam, testing::Values(kCoarseSoft, kCoarseStiff), beamName);
 INSTANTIATE_TEST_SUITE_P(Both, ElasticityBeamSlow, testing::Values(kFineSoft, kFineStiff), beamName);
 
-TEST(ElasticityBeamSlow, GlobalWarpIterations)
+TEST(ElasticityBeamSlow, GlobalWarpTakesFewIterations)
 {
     StepSettings settings = beamSettings(1e-3, true);
     settings.m_warp = Warp::global;

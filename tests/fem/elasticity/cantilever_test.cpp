@@ -122,7 +122,7 @@ TEST_P(ElasticityCantilever, LocksAsMuchAsLinearTetrahedraDo)
     }
 }
 
-TEST_P(ElasticityCantilever, TorsionalStiffness)
+TEST_P(ElasticityCantilever, HasTheRecordedTorsionalStiffness)
 {
     EXPECT_NEAR(torsionRatio(bar(GetParam().m_split, GetParam().m_cells, .3)), GetParam().m_torsion,
                 0.01 * GetParam().m_torsion);
@@ -130,7 +130,7 @@ TEST_P(ElasticityCantilever, TorsionalStiffness)
 
 // f1 = (1.8751^2 / 2 pi) sqrt(E I / (rho A)) / L^2, up to the band; axial sqrt(E / rho) / (4 L), which linear
 // tetrahedra meet within 1 % on two cells: its strain is nearly uniform across the section.
-TEST_P(ElasticityCantilever, LowestBendingAndAxialFrequency)
+TEST_P(ElasticityCantilever, HasTheLowestBendingAndAxialFrequencies)
 {
     const RestShape shape = bar(GetParam().m_split, GetParam().m_cells, .3);
     const std::vector<Mode> modes = LinearSystem(shape, clamped).lowestModes(8);

@@ -182,7 +182,7 @@ TEST(ElasticityMeanDilatation, StressesAreTheEnergysGradient)
 }
 
 // p = -K (V / V0 - 1) for small p: pushed from all sides, the block keeps its shape.
-TEST(ElasticityMeanDilatation, BulkModulusUnderPressure)
+TEST(ElasticityMeanDilatation, HasTheBulkModulusUnderPressure)
 {
     for (const double nu : {.3, .45, .499})
         for (const TetMesh& mesh : {shuffledMesh(makeBox({1, 1, 1}, {3, 3, 3}, {}, CellSplit::kuhnSix), .15, 1),

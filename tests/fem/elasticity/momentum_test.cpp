@@ -56,7 +56,7 @@ class ElasticityMomentum : public testing::TestWithParam<Solver>
 
 // x0 + n h v0 + g h^2 (n (n - 1) / 2 + theta n), the sum of the integrator's own steps; no node knows of its
 // neighbours.
-TEST_P(ElasticityMomentum, FreeFlight)
+TEST_P(ElasticityMomentum, FreeFlightIsExact)
 {
     Body body = makeBody(makeBox({1, .5, .5}, {4, 2, 2}), elasticMaterial(1e6, .3));
     const Vec3 v0 = {3, -1, 4}, g = {0, 0, -9.81};
@@ -175,7 +175,7 @@ TEST(ElasticitySpin, RigidCorrectionKeepsAngularMomentum)
     }
 }
 
-TEST(ElasticitySpin, EnergyOfASlowSpin)
+TEST(ElasticitySpin, SlowSpinKeepsItsEnergy)
 {
     Plate plate(1.5);  // omega h = .025
     const double start = mechanicalEnergy(plate.m_body);

@@ -250,7 +250,7 @@ TEST(NeoHooke, IsBaked)
     EXPECT_EQ(read.m_model->shape().m_material.m_law, ElasticLaw::neoHooke);
 }
 
-TEST(NeoHooke, BesideOthersOfItsModelABodyHasTheSameBits)
+TEST(NeoHooke, BatchedStepsHaveTheSameBits)
 {
     const Body model = makeBody(makeBox({1, 0.5, 0.5}, {4, 2, 2}), movedNeoHookean());
     std::vector<Body> together;

@@ -184,7 +184,7 @@ Mat3 nominalStress(const Material& material, const Mat3& F)
 }
 
 // Simple shear to 100 %, crushing to a tenth of the height, and both at once.
-TEST(NeoHooke, BlocksThatAreLedHaveTheStressOfTheFormula)
+TEST(NeoHooke, PrescribedBlocksHaveTheStressOfTheFormula)
 {
     for (const double nu : {0.0, 0.3, 0.45})
     {
@@ -256,7 +256,7 @@ TEST(NeoHooke, StandsBesideHookesInRegions)
     }
 }
 
-TEST(NeoHooke, WhatItDoesNotGoWithIsRefused)
+TEST(NeoHooke, RejectsIncompatibleOptions)
 {
     const auto refusal = [](Material material)
     {

@@ -119,7 +119,7 @@ TEST(ElasticityOrthotropic, BarsStretchAndNarrowByTheirNineConstants)
 }
 
 // Off the axes 1 / E = c^4 / E1 + (1 / G12 - 2 nu12 / E1) s^2 c^2 + s^4 / E2, and the bar shears as it is pulled.
-TEST(ElasticityOrthotropic, BarsPulledOffTheirAxes)
+TEST(ElasticityOrthotropic, OffAxisBarsFollowTheTransformedCompliance)
 {
     Orthotropic m = sprucelike();
     for (const double degrees : {15.0, 30.0, 45.0, 60.0, 75.0})
@@ -216,7 +216,7 @@ private:
     std::unique_ptr<Body> m_body;
 };
 
-TEST(ElasticityOrthotropic, FibresThatRunAroundARingHoldItsPressure)
+TEST(ElasticityOrthotropic, HoopFibresHoldThePressureOfARing)
 {
     const Orthotropic m = Orthotropic::transverselyIsotropic(9e6, 1e6, 0.3, 0.3, 4e5);
     constexpr double p = 10, a = FibreRing::kInner, b = FibreRing::kOuter, k = 3;  // E1 / E2 = k^2
@@ -236,7 +236,7 @@ TEST(ElasticityOrthotropic, FibresThatRunAroundARingHoldItsPressure)
 }
 
 // Isotropic constants make Hooke's law, step by step, as it swings and turns.
-TEST(ElasticityOrthotropic, OfIsotropicConstantsItMovesAsHookes)
+TEST(ElasticityOrthotropic, IsotropicConstantsMoveAsHookesLaw)
 {
     Material hooke = elasticMaterial(1e5, 0.3);
     hooke.m_stiffnessDamping = 0.002;

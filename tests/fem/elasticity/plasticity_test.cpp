@@ -379,7 +379,7 @@ TEST(Plasticity, DamagedSnapshotsAreRefused)
     expectRejected([&] { check(bad, *body.m_model); }, {"equivalent plastic strain of element 3", "[0, inf)"});
 }
 
-TEST(Plasticity, BesideOthersOfItsModelABodyHasTheSameBits)
+TEST(Plasticity, BatchedStepsHaveTheSameBits)
 {
     const Body model = makeBody(barOfSix(), yielding());
     std::vector<Body> together, alone;
@@ -427,7 +427,7 @@ TEST(Plasticity, DentsOutliveTheMaterial)
 }
 
 // A material that yields far beyond what happens: nothing but the rounding of rotations that are found twice a step.
-TEST(Plasticity, BelowTheYieldStressNothingChanges)
+TEST(Plasticity, BehavesElasticallyBelowTheYieldStress)
 {
     Material strong = elasticMaterial(kElastic, 0.3);
     strong.m_yieldStress = 1e12;

@@ -31,7 +31,7 @@ Material relaxing(const std::array<PronyTerm, 3>& terms, double nu = 0.3, double
 constexpr std::array<PronyTerm, 3> kThreeTerms = {{{0.3, 0.1}, {0.2, 1}, {0.1, 7}}};
 
 // Held where it was strained at once: the deviator follows the series, the pressure stays.
-TEST(Relaxation, OfAHeldBodyIsThePronySeries)
+TEST(Relaxation, HeldBodyFollowsThePronySeries)
 {
     for (const double nu : {0.3, 0.45})
     {

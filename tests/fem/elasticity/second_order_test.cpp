@@ -237,7 +237,7 @@ TEST_P(SecondOrderSpin, KeepsTheLengthOfStiffBars)
 INSTANTIATE_TEST_SUITE_P(Damping, SecondOrderSpin, testing::Values(0, 0.005, 0.1));
 
 // Strips stretched to twice their length, kicked, and cubes of nodes thrown anywhere.
-TEST(SecondOrder, ComesToRestWhereStepsWithoutDampingExplode)
+TEST(SecondOrder, ComesToRestFromViolentMotion)
 {
     StepSettings settings;
     settings.m_numericalDamping = 0;
@@ -274,7 +274,7 @@ TEST(SecondOrder, ComesToRestWhereStepsWithoutDampingExplode)
 }
 
 // Where a damped bar comes to rest under its weight is none of the step's business.
-TEST(SecondOrder, RestsWhereEulerRests)
+TEST(SecondOrder, RestsAtTheEulerEquilibrium)
 {
     std::vector<Vec3> rest[2];
     for (const double damping : {0.0, 1.0})

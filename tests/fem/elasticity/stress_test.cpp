@@ -103,7 +103,7 @@ protected:
 };
 
 // sigma_xx = M z / I, fitted over the elements of a slice: sum sigma z over sum M z^2 / I.
-TEST_P(BendingStress, OfASliceIsTheMomentsLine)
+TEST_P(BendingStress, SliceFollowsTheMomentLine)
 {
     for (const double slice : {1.5, 3.0})
     {

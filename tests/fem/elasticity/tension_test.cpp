@@ -92,7 +92,7 @@ TEST_P(ElasticityTension, AGivenVelocityActsAsItsImpulse)
 
 // The first test is not empty: without the tension term the same strips shake themselves apart, up to kinetic energies
 // of 6e7 to 3e9 times the seed's (measured), and do not calm down.
-TEST_P(ElasticityTension, WithoutTheTermItNeverDoes)
+TEST_P(ElasticityTension, NeverSettlesWithoutTheTensionTerm)
 {
     largestKineticEnergy(m_strip, 60, false);
     EXPECT_GT(largestKineticEnergy(m_strip, 60, false), 1e6 * m_seedEnergy);

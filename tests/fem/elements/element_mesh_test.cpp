@@ -111,7 +111,7 @@ TEST_P(ElementMesh, SmallStrainsKeepTheirDigits)
     EXPECT_LE(largestDistance(kernels.forces(), expected), 6e-6 * largest(expected));
 }
 
-TEST_P(ElementMesh, AgreesWithItsScalarTwin)
+TEST_P(ElementMesh, MatchesItsScalarReference)
 {
     const TetMesh mesh = meshes()[3];
     deform(mesh);
@@ -178,7 +178,7 @@ TEST_P(ElementMesh, HasTheSameBitsHoweverBlocksAreDivided)
     }
 }
 
-TEST_P(ElementMesh, WhatFillsTheLastBlockHasNoForce)
+TEST_P(ElementMesh, PaddingLanesHaveNoForce)
 {
     const TetMesh mesh = meshes()[2];
     const RestShape shape(mesh, elasticMaterial(1e4, 0.3));
@@ -192,7 +192,7 @@ TEST_P(ElementMesh, WhatFillsTheLastBlockHasNoForce)
 }
 
 // What comes of them is what came of them when they were found.
-TEST_P(ElementMesh, KeepsRotationsThatAreKnown)
+TEST_P(ElementMesh, KeepsKnownRotations)
 {
     const TetMesh mesh = meshes()[2];
     const RestShape shape(mesh, elasticMaterial(1e4, 0.3));

@@ -70,7 +70,7 @@ protected:
     std::vector<Quaternion> m_rotation = std::vector<Quaternion>(blockCount(m_mesh.tetCount()) * kLanes);
 };
 
-TEST_P(ElementNodes, OfARigidMotionHaveItsRotation)
+TEST_P(ElementNodes, HaveTheRotationOfARigidMotion)
 {
     for (const double angle : {0.0, 1.0, 3.14159265358979, 5.0})
     {
@@ -83,7 +83,7 @@ TEST_P(ElementNodes, OfARigidMotionHaveItsRotation)
 }
 
 // The two means differ by terms of the third order in the spread.
-TEST_P(ElementNodes, OfNearRotationsAreNearThePolarOnes)
+TEST_P(ElementNodes, AverageNearRotationsCloseToThePolarOnes)
 {
     for (const double spread : {0.02, 0.2, 0.5})
     {
@@ -94,7 +94,7 @@ TEST_P(ElementNodes, OfNearRotationsAreNearThePolarOnes)
 
 // Thirds of the elements are nearly half a turn from each other: |sum| is about sqrt(1/3), and the mean quaternion is
 // no good. Where every third has a fifth of the volume, |sum| is below sqrt(0.44) and R_i is exactly the polar one.
-TEST_P(ElementNodes, OfFarRotationsAreThePolarOnes)
+TEST_P(ElementNodes, AverageFarRotationsToThePolarOnes)
 {
     const Mat3 turns[3] = {Mat3::identity(), rotationAbout({1, 0, 0.01}, 3.12), rotationAbout({0.02, 1, 0}, 3.1)};
     for (std::size_t e = 0; e < m_rotation.size(); ++e) m_rotation[e] = rounded(toQuaternion(turns[e % 3]));
@@ -120,7 +120,7 @@ TEST_P(ElementNodes, OfFarRotationsAreThePolarOnes)
     EXPECT_GT(far, 3);
 }
 
-TEST_P(ElementNodes, RotationsAgreeWithTheirScalarTwins)
+TEST_P(ElementNodes, RotationsMatchTheirScalarReferences)
 {
     for (const double spread : {0.02, 0.5, 3.0})
     {
@@ -137,7 +137,7 @@ TEST_P(ElementNodes, RotationsAgreeWithTheirScalarTwins)
     }
 }
 
-TEST_P(ElementNodes, SumsAgreeWithTheirScalarTwin)
+TEST_P(ElementNodes, SumsMatchTheirScalarReference)
 {
     RandomVectors random(7);
     std::vector<CornerBlock<float>> corners(blockCount(m_mesh.tetCount()));

@@ -94,30 +94,30 @@ protected:
     }
 };
 
-TEST_P(ElementRotation, OfRandomStretches)
+TEST_P(ElementRotation, IsPolarForRandomStretches)
 {
     expectPolarInBoth(withStretches({{1, 1, 1}, {1.1, 1, 0.9}, {3, 1, 0.2}, {100, 1, 0.01}, {1e3, 1e3, 1e3}}, 1));
 }
 
-TEST_P(ElementRotation, OfInvertedElements)
+TEST_P(ElementRotation, IsPolarForInvertedElements)
 {
     expectPolarInBoth(withStretches({{1, 1, -0.2}, {1, 1, -1}, {1, 0.5, -0.49999}, {2, 1, -0.5}, {1, 1e-3, -1e-3}}, 2));
 }
 
-TEST_P(ElementRotation, OfFlatElementsAndOfOneDirectionOrNone)
+TEST_P(ElementRotation, IsPolarForFlatAndDegenerateElements)
 {
     expectPolarInBoth(withStretches({{1, 1, 0}, {2, 0.5, 0}, {1, 0, 0}, {1e-20, 1e-20, 1e-20}, {0, 0, 0}}, 3));
 }
 
 // Written to nodes by mistake: products of three entries overflow in single precision.
-TEST_P(ElementRotation, OfElementsLargerThanTheEarth)
+TEST_P(ElementRotation, IsPolarForHugeElements)
 {
     const Vec3 size = {1, 0.7, 0.4};
     expectPolarInBoth(withStretches({1e8 * size, 1e10 * size, 1e13 * size, 1e16 * size}, 6));
 }
 
 // The last rotation of such elements, whatever their kernels' products say.
-TEST_P(ElementRotation, OfEntriesThatOverflowIsTheLastOne)
+TEST_P(ElementRotation, IsFiniteForOverflowingEntries)
 {
     const SingleElements elements(std::vector<Mat3>(20, scaling({1e36, 3e37, 1e38})));
     ElementCase<float> kernels(elements.m_shape, elements.m_x, elements.atRest());
@@ -126,7 +126,7 @@ TEST_P(ElementRotation, OfEntriesThatOverflowIsTheLastOne)
 }
 
 // Half turns about the axes, exact but for rounding: the trace that definiteness is measured against is negative there.
-TEST_P(ElementRotation, OfHalfTurnsAboutTheAxes)
+TEST_P(ElementRotation, IsPolarForHalfTurnsAboutTheAxes)
 {
     std::vector<Mat3> F;
     for (const double s : {0.0, 1.2e-16, -1.2e-16, 3e-12, 1e-8})
@@ -139,7 +139,7 @@ TEST_P(ElementRotation, OfHalfTurnsAboutTheAxes)
     expectPolarInBoth(F);
 }
 
-TEST_P(ElementRotation, OfHalfTurnsFromTheLastOne)
+TEST_P(ElementRotation, IsPolarForHalfTurnsFromTheLastRotation)
 {
     std::vector<Mat3> F;
     RandomVectors random(4);
@@ -150,7 +150,7 @@ TEST_P(ElementRotation, OfHalfTurnsFromTheLastOne)
 }
 
 // Where F leaves R open, nothing jumps: a crushed element keeps the rotation that it had.
-TEST_P(ElementRotation, OfNothingStaysWhatItWas)
+TEST_P(ElementRotation, KeepsTheLastRotationOfACollapsedElement)
 {
     const SingleElements elements(std::vector<Mat3>(20, Mat3()));
     ElementCase<float> kernels(elements.m_shape, elements.m_x, elements.atRest());

@@ -128,7 +128,7 @@ TEST_P(OrthotropicKernel, ElementsHaveNoTorqueAndNoForceOfTheirOwn)
     EXPECT_LT(norm(torque), 1e-6 * largest(f));
 }
 
-TEST_P(OrthotropicKernel, AgreesWithItsScalarTwin)
+TEST_P(OrthotropicKernel, MatchesItsScalarReference)
 {
     const RestShape shape(m_mesh, fibrous());
     for (const double height : {1.2, 0.5, 0.12})
@@ -159,7 +159,7 @@ TEST_P(OrthotropicKernel, AgreesWithItsScalarTwin)
 }
 
 // Of equal constants in all directions they are those of Hooke's law.
-TEST_P(OrthotropicKernel, OfIsotropicConstantsTheyAreHookes)
+TEST_P(OrthotropicKernel, IsotropicConstantsGiveHookesLaw)
 {
     const Material hooke = elasticMaterial(1e4, 0.35);
     const RestShape plain(m_mesh, hooke), shape(m_mesh, inNineConstants(hooke));

@@ -142,7 +142,7 @@ TEST(Rotation, IsAFixedPointOfItself)
 }
 
 // What F leaves open is taken from the guess; the tie of 1e-12 that decides leaves 2e-16 / 1e-12 of rounding.
-TEST(Rotation, KeepsTheGuessWhereFSaysNothing)
+TEST(Rotation, ReturnsGuessInUndeterminedDirections)
 {
     const Mat3 guess = oblique(50);
     EXPECT_LE(distance(polarRotation(Mat3(), guess), guess), 1e-14);
@@ -153,7 +153,7 @@ TEST(Rotation, KeepsTheGuessWhereFSaysNothing)
 }
 
 // Nothing that comes out of memory nobody wrote.
-TEST(Rotation, OfWhatIsNoNumberIsTheGuess)
+TEST(Rotation, ReturnsGuessForNaN)
 {
     const Mat3 guess = oblique(50);
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200})

@@ -175,7 +175,7 @@ TEST_P(WarpedElements, ProductIsThatOfTheAssembledMatrix)
     EXPECT_LE((flat(product(m_v, {0.7, 0})) - expected).norm(), 1e-13 * expected.norm());
 }
 
-TEST_P(WarpedElements, ProductIsAddedToWhatWasThere)
+TEST_P(WarpedElements, ProductIsAddedToTheOutput)
 {
     std::vector<Vec3> out = m_v;
     addStiffnessProduct(m_shape, m_R, {}, {1, 0}, m_v, out);
@@ -268,7 +268,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 // A cube that is pressed from all sides has no tension; one that is pulled has its whole stress.
-TEST(Tension, OfUniformStretchAndCompression)
+TEST(Tension, VanishesInCompressionAndIsFullInStretch)
 {
     const RestShape shape(makeBox({1, 1, 1}, {1, 1, 1}), elasticMaterial(1e4, 0.3));
     const std::vector<Mat3> R(5, Mat3::identity());
@@ -317,7 +317,7 @@ TEST_P(PositivePart, SetsNegativeEigenvaluesToZero)
 }
 
 // Double and triple eigenvalues, where closed formulas divide by differences.
-TEST_P(PositivePart, StandsEqualEigenvalues)
+TEST_P(PositivePart, HandlesEqualEigenvalues)
 {
     const double scale = GetParam();
     const Mat3 Q = rotationAbout({1, 2, -1}, 0.8);

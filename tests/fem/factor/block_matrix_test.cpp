@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Poisson, RestStiffness, testing::Values(0, 0.3, 0.49),
 
 // The unit tetrahedron, V = 1/6, g_1 = (1, 0, 0): K_11 = V diag(lambda + 2 mu, mu, mu), K_12 = V (lambda e1 e2^T + mu
 // e2 e1^T).
-TEST(ElementStiffness, UnitTetrahedronByHand)
+TEST(ElementStiffness, UnitTetrahedronMatchesHandValues)
 {
     const Material material = elasticMaterial(260, 0.3);  // lambda 150, mu 100
     const RestShape shape(TetMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}), material);

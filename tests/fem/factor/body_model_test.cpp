@@ -65,7 +65,7 @@ TEST_F(BodyModelInput, IsReportedOn)
     EXPECT_TRUE(std::isfinite(report.m_seconds) && report.m_seconds >= 0) << report.m_seconds;
 }
 
-TEST_F(BodyModelInput, WithoutAFreeNodeNeedsNoFactor)
+TEST_F(BodyModelInput, NeedsNoFactorWithoutAFreeNode)
 {
     m_input.m_fixed.assign(27, 1);
     const auto model = BodyModel::create(m_shape, m_input);
@@ -73,13 +73,13 @@ TEST_F(BodyModelInput, WithoutAFreeNodeNeedsNoFactor)
     EXPECT_EQ(model->factorReport().m_supernodes, 0);
 }
 
-TEST_F(BodyModelInput, OfNoShapeIsRejected)
+TEST_F(BodyModelInput, IsRejectedWithoutAShape)
 {
     m_shape = nullptr;
     expectRejected(create(), {"rest shape is null"});
 }
 
-TEST_F(BodyModelInput, OfABadStepIsRejected)
+TEST_F(BodyModelInput, IsRejectedWithAnInvalidStep)
 {
     m_input.m_step = 0;
     expectRejected(create(), {"time step 0", "[1e-6, 1]", "fixed step"});
@@ -95,7 +95,7 @@ TEST_F(BodyModelInput, OfABadStepIsRejected)
     expectRejected(create(), {"time step inf", "[1e-6, 1]"});
 }
 
-TEST_F(BodyModelInput, OfTheEndsOfTheStepsRangeIsAccepted)
+TEST_F(BodyModelInput, IsAcceptedAtTheEndsOfTheStepRange)
 {
     m_input.m_step = 1e-6;
     EXPECT_NO_THROW(create()());
@@ -103,7 +103,7 @@ TEST_F(BodyModelInput, OfTheEndsOfTheStepsRangeIsAccepted)
     EXPECT_NO_THROW(create()());
 }
 
-TEST_F(BodyModelInput, OfTheWrongSizeIsRejected)
+TEST_F(BodyModelInput, IsRejectedWithArraysOfTheWrongSize)
 {
     m_input.m_mass.pop_back();
     expectRejected(create(), {"26 masses", "27 fixed flags", "27 nodes"});
@@ -112,7 +112,7 @@ TEST_F(BodyModelInput, OfTheWrongSizeIsRejected)
     expectRejected(create(), {"27 masses", "28 fixed flags", "27 nodes"});
 }
 
-TEST_F(BodyModelInput, OfABadMassIsRejected)
+TEST_F(BodyModelInput, IsRejectedWithInvalidMasses)
 {
     m_input.m_mass[7] = 0;
     expectRejected(create(), {"node 7 is 0 kg", "(0, inf)"});
@@ -125,7 +125,7 @@ TEST_F(BodyModelInput, OfABadMassIsRejected)
 }
 
 // Light and heavy, soft and stiff: single precision of the factor sees them all scaled.
-TEST_F(BodyModelInput, OfExtremeValuesGivesAFiniteStep)
+TEST_F(BodyModelInput, ExtremeValuesGiveAFiniteStep)
 {
     struct Extreme
     {

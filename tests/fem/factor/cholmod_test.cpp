@@ -77,7 +77,7 @@ struct Product
     }
 };
 
-class BesideCholmod : public testing::TestWithParam<int>
+class CholmodComparison : public testing::TestWithParam<int>
 {
 protected:
     const FactorCase m_case = thirtyFactorCases()[GetParam()]();
@@ -111,7 +111,7 @@ protected:
 
 // S = (L11 L11^T)^-1 and M = L21 L11^-1 of every supernode, with CHOLMOD's L: once rounded to single precision, the
 // factors are one.
-TEST_P(BesideCholmod, BlocksOfTheFactorAreCholmods)
+TEST_P(CholmodComparison, FactorBlocksMatchCholmod)
 {
     CholmodFactor cholmod(m_A, CholmodFactor::Kind::simplicial, CholmodFactor::Order::natural);
     cholmod.factorize();
@@ -138,7 +138,7 @@ TEST_P(BesideCholmod, BlocksOfTheFactorAreCholmods)
 }
 
 // A few roundings of single precision in all: of b, of the factor's entries and of x.
-TEST_P(BesideCholmod, SolutionIsCholmodsToTheRoundingOfSinglePrecision)
+TEST_P(CholmodComparison, SolutionMatchesCholmodToSinglePrecision)
 {
     PackedFactor factor(m_tree);
     factorSupernodes(m_system.m_A0, m_order, m_tree,
@@ -154,7 +154,7 @@ TEST_P(BesideCholmod, SolutionIsCholmodsToTheRoundingOfSinglePrecision)
     EXPECT_LE((x - exact).norm(), 8 * kSingleRounding * exact.norm()) << m_case.m_name;
 }
 
-INSTANTIATE_TEST_SUITE_P(ThirtyBodies, BesideCholmod, testing::Range(0, 30));
+INSTANTIATE_TEST_SUITE_P(ThirtyBodies, CholmodComparison, testing::Range(0, 30));
 
 }  // namespace
 }  // namespace bullet_fem

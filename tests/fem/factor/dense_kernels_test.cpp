@@ -108,7 +108,7 @@ class DenseKernels : public testing::TestWithParam<std::int64_t>
     const OnlyTarget m_target{GetParam()};
 };
 
-TEST_P(DenseKernels, ProductIsThatOfItsPlainTwin)
+TEST_P(DenseKernels, ProductMatchesItsPlainReference)
 {
     for (bool lowerOnly : {false, true})
         for (int m : {1, 2, 7, 8, 9, 16, 17, 24, 25, 53})
@@ -136,7 +136,7 @@ TEST_P(DenseKernels, ProductIsThatOfItsPlainTwin)
 }
 
 // Sizes on both sides of vectors, tiles and blocks.
-TEST_P(DenseKernels, EliminationIsThatOfItsPlainTwin)
+TEST_P(DenseKernels, EliminationMatchesItsPlainReference)
 {
     for (int p : {0, 1, 3, 11, 12, 13, 24, 30, 95, 96, 97, 99, 200})
         for (int r : {0, 1, 3, 8, 9, 24, 27, 60})
@@ -154,7 +154,7 @@ TEST_P(DenseKernels, EliminationIsThatOfItsPlainTwin)
         }
 }
 
-TEST_P(DenseKernels, EliminationNamesThePivotThatIsNotPositive)
+TEST_P(DenseKernels, EliminationNamesTheNonPositivePivot)
 {
     for (int failing : {0, 5, 11, 12, 50, 95, 96, 130, 199})
         for (double value :
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Targets, DenseKernels, testing::ValuesIn(targetsHere())
                          });
 
 // [4 2; 2 5]: 1/4, 1/2 and 5 - 1.
-TEST(DenseKernelsPlain, OnePivotByHand)
+TEST(DenseKernelsPlain, OnePivotMatchesHandValues)
 {
     double A11 = 4, A21 = 2, A22 = 5, pivotValue = 0;
     EXPECT_EQ(reference::eliminatePivots({1, 1, &A11, &A21, &A22}, pivotValue), -1);

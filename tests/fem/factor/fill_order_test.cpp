@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Patterns, FillOrderOfPattern,
                          [](const auto& suite) { return std::string(suite.param.m_name); });
 
 // In its own order an arrow fills up; with its tip last it does not fill at all.
-TEST(FillOrderOf, AnArrowLeavesItsTipToTheEnd)
+TEST(FillOrder, EliminatesTheTipOfAnArrowLast)
 {
     constexpr int n = 40;
     std::vector<int> natural(n);
@@ -102,7 +102,7 @@ TEST(FillOrderOf, AnArrowLeavesItsTipToTheEnd)
 }
 
 // METIS seeds the C library's one random generator and draws from it.
-TEST(FillOrderOf, ConcurrentCallersIsThatOfOne)
+TEST(FillOrder, IsTheSameForConcurrentCallers)
 {
     const SparsePattern pattern = sparsePattern(gridMatrix(40));
     const FillOrder alone = fillReducingOrder(pattern);
@@ -147,7 +147,7 @@ std::vector<int> minimumDegreeOrder(const SparsePattern& pattern)
 }
 
 // SuiteSparse's takes Eigen's place where it is there; a bar is dissected at the price of more fill.
-TEST(FillOrderOf, ABarIsOfMinimumDegree)
+TEST(FillOrder, UsesMinimumDegreeForABar)
 {
     const SparsePattern bar = boxPattern(60, 3, 3);
     const FillOrder order = fillReducingOrder(bar);
@@ -158,7 +158,7 @@ TEST(FillOrderOf, ABarIsOfMinimumDegree)
 }
 
 // Dissection wins in a cube, where this build has it.
-TEST(FillOrderOf, ACubeIsDissected)
+TEST(FillOrder, UsesNestedDissectionForACube)
 {
     const SparsePattern cube = boxPattern(10, 10, 10);
     const FillOrder order = fillReducingOrder(cube);
@@ -167,7 +167,7 @@ TEST(FillOrderOf, ACubeIsDissected)
     EXPECT_LE(blocksOfFactor(cube, order.m_rows), blocksOfFactor(cube, minimumDegreeOrder(cube)));
 }
 
-TEST(FillOrderOf, NoRowsIsEmpty)
+TEST(FillOrder, IsEmptyForNoRows)
 {
     SparsePattern nothing;
     nothing.m_columnStart = {0};

@@ -157,7 +157,7 @@ TEST_P(LaneGradientsTest, DoNotLetLanesActOnEachOther)
 }
 
 // Numbers that no step length can be made of leave what there is, and no NaN.
-TEST_P(LaneGradientsTest, EndWhereTheyBreakDown)
+TEST_P(LaneGradientsTest, LeaveNoNaNOnBreakdown)
 {
     Lanes extreme = randomLanes(6);
     extreme.col(0) *= 1e30f;

@@ -76,14 +76,14 @@ TEST_F(Choice, FallsBackOneByteBelowTheFullFactor)
     EXPECT_LE(low->factorReport().m_bytes, m_fullBytes / 6);  // a ninth, and panels padded to sixteen rows
 }
 
-TEST_F(Choice, OfLowMemoryNeedsNoLimit)
+TEST_F(Choice, LowMemoryNeedsNoLimit)
 {
     EXPECT_EQ(withChoice(*m_full, FactorChoice::lowMemory)->factorReport().m_path, FactorPath::lowMemory);
     EXPECT_EQ(withChoice(*m_full, FactorChoice::lowMemoryBeyond)->factorReport().m_path, FactorPath::full);
 }
 
 // Each refusal names what would be needed, and what can be done.
-TEST_F(Choice, RefusesWhatIsBeyondTheLimitAllTheSame)
+TEST_F(Choice, RejectsModelsBeyondTheLimitOnEitherPath)
 {
     const std::size_t lowBytes = withChoice(*m_full, FactorChoice::lowMemory)->factorReport().m_bytes;
     EXPECT_THAT(refusal(FactorChoice::full, m_fullBytes - 1),
@@ -101,7 +101,7 @@ TEST_F(Choice, RefusesWhatIsBeyondTheLimitAllTheSame)
 // --- The factor ---
 
 // A third of the trace of every block of A0, from the textbook's A0, for each direction.
-TEST(LowMemoryFactor, IsThatOfTheMeanOverDirections)
+TEST(LowMemoryFactor, FactorsTheMeanOverDirections)
 {
     const auto model = withChoice(*box(4).m_model, FactorChoice::lowMemory);
     const PackedFactor& lower = model->factor().lower();
@@ -150,7 +150,7 @@ Body bodyOf(std::shared_ptr<const BodyModel> model)
 }
 
 // Both solve the same system: what remains is the tolerance, a step, and what single precision leaves of the tip's way.
-TEST(LowMemoryStep, TakesTheBeamWhereTheFullOneDoes)
+TEST(LowMemoryStep, MovesTheBeamAsTheFullFactorDoes)
 {
     const Body beam =
         makeBody(makeBox({4, 1, 1}, {16, 4, 4}), dampedMaterial(1e6), [](const Vec3& X) { return X.x == 0; });
@@ -199,7 +199,7 @@ TEST(LowMemoryStep, AllocatesNothing)
 }
 
 // A body of which every node is fixed has no factor at all.
-TEST(LowMemoryStep, OfNothingFreeDoesNothing)
+TEST(LowMemoryStep, DoesNothingWithoutFreeNodes)
 {
     const Body fixed = makeBody(makeBox({1, 1, 1}, {1, 1, 1}), Material(), [](const Vec3&) { return true; });
     Body body = bodyOf(withChoice(*fixed.m_model, FactorChoice::lowMemory));

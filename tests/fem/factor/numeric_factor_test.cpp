@@ -220,7 +220,7 @@ TEST_P(NumericFactor, BlocksAreThoseOfTheCholeskyFactor)
     }
 }
 
-TEST_P(NumericFactor, AgainGivesTheSameBits)
+TEST_P(NumericFactor, RefactoringGivesTheSameBits)
 {
     Factor again = m_factor;
     again.run(m_A);
@@ -255,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(Systems, NumericFactor,
                          [](const auto& suite) { return suite.param.m_name; });
 
 // The clamped beam of 1,536 elements.
-TEST(NumericFactorBeam, SolvesWithoutTheNodesThatAreLeftOut)
+TEST(NumericFactorBeam, SolvesWithoutOmittedNodes)
 {
     const TetMesh mesh = makeBox({4, 1, 1}, {16, 4, 4}, {}, CellSplit::kuhnSix);
     const BlockMatrix A = restSystem(mesh);
@@ -279,7 +279,7 @@ std::string failure(const BlockMatrix& A)
     return "nothing was thrown";
 }
 
-TEST(NumericFactorErrors, NameTheNodeThatIsNotPositiveDefinite)
+TEST(NumericFactorErrors, NameTheNonPositiveNode)
 {
     BlockMatrix A = restSystem(makeBox({1, 1, 1}, {4, 4, 4}));
     A.at(17, 17)(1, 1) = -3e5;
@@ -297,7 +297,7 @@ TEST(NumericFactorErrors, RefuseAnIndefiniteSum)
     EXPECT_NE(failure(A).find("not positive definite"), std::string::npos);
 }
 
-TEST(NumericFactorErrors, RefuseWhatDoesNotFitTogether)
+TEST(NumericFactorErrors, RejectInconsistentInput)
 {
     const BlockMatrix A = blocksOf(randomBlocks(6, 1, 1)), sparse = blocksOf(randomBlocks(6, 0, 1));
     const Factor factor(A, allNodes(A)), points(sparse, allNodes(sparse));

@@ -98,42 +98,42 @@ protected:
 using PanelKernels = PanelKernelsTest<3>;
 using IsotropicKernels = PanelKernelsTest<1>;
 
-TEST_P(PanelKernels, ForwardIsItsScalarTwin)
+TEST_P(PanelKernels, ForwardMatchesItsScalarReference)
 {
     compare(1, forwardPanel, reference::forwardPanel);
 }
 
-TEST_P(PanelKernels, BackwardIsItsScalarTwin)
+TEST_P(PanelKernels, BackwardMatchesItsScalarReference)
 {
     compare(1, backwardPanel, reference::backwardPanel);
 }
 
-TEST_P(PanelKernels, ForwardOfSixteenIsItsScalarTwin)
+TEST_P(PanelKernels, ForwardOfSixteenMatchesItsScalarReference)
 {
     compare(kPanelLanes, forwardPanelLanes, reference::forwardPanel);
 }
 
-TEST_P(PanelKernels, BackwardOfSixteenIsItsScalarTwin)
+TEST_P(PanelKernels, BackwardOfSixteenMatchesItsScalarReference)
 {
     compare(kPanelLanes, backwardPanelLanes, reference::backwardPanel);
 }
 
-TEST_P(IsotropicKernels, ForwardIsItsScalarTwin)
+TEST_P(IsotropicKernels, ForwardMatchesItsScalarReference)
 {
     compare(1, forwardIsotropic, reference::forwardIsotropic);
 }
 
-TEST_P(IsotropicKernels, BackwardIsItsScalarTwin)
+TEST_P(IsotropicKernels, BackwardMatchesItsScalarReference)
 {
     compare(1, backwardIsotropic, reference::backwardIsotropic);
 }
 
-TEST_P(IsotropicKernels, ForwardOfSixteenIsItsScalarTwin)
+TEST_P(IsotropicKernels, ForwardOfSixteenMatchesItsScalarReference)
 {
     compare(kPanelLanes, forwardIsotropicLanes, reference::forwardIsotropic);
 }
 
-TEST_P(IsotropicKernels, BackwardOfSixteenIsItsScalarTwin)
+TEST_P(IsotropicKernels, BackwardOfSixteenMatchesItsScalarReference)
 {
     compare(kPanelLanes, backwardIsotropicLanes, reference::backwardIsotropic);
 }
@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PanelKernels, testing::ValuesIn(kPanelSizes));
 INSTANTIATE_TEST_SUITE_P(Sizes, IsotropicKernels, testing::ValuesIn(kPanelSizes));
 
 // One node over one: M = 2 I, S = 3 I, padded.
-TEST(PanelKernelsByHand, OneNodeOverOne)
+TEST(PanelKernelsByHand, OneNodeOverOneMatchesHandValues)
 {
     AlignedFloats values = allocateFloats(3 * kPanelLanes), scratch = allocateFloats(kPanelLanes);
     std::fill(values.get(), values.get() + 3 * kPanelLanes, 0.f);
@@ -165,7 +165,7 @@ TEST(PanelKernelsByHand, OneNodeOverOne)
 }
 
 // One node over one: M = 2, S = 3, padded.
-TEST(IsotropicKernelsByHand, OneNodeOverOne)
+TEST(IsotropicKernelsByHand, OneNodeOverOneMatchesHandValues)
 {
     AlignedFloats values = allocateFloats(kPanelLanes), scratch = allocateFloats(3 * kPanelLanes);
     std::fill(values.get(), values.get() + kPanelLanes, 0.f);

@@ -52,7 +52,7 @@ TEST_F(Division, SubtreesAreRootsWithAllTheirDescendants)
 }
 
 // In the order of the rows that they stand for, and no two subtrees write to the same.
-TEST_F(Division, WhatLiesAboveASubtreeGetsRowsOfItsOwn)
+TEST_F(Division, SubtreesHaveTheirOwnRowsAbove)
 {
     int next = m_tree.m_nodeCount;
     for (const Subtree& subtree : m_division.m_subtrees)
@@ -86,7 +86,7 @@ TEST(SmallDivision, IsAllTop)
     EXPECT_EQ(division.m_rowCount, model->factor().freeNodeCount());
 }
 
-TEST(SmallDivision, OfNothingIsEmpty)
+TEST(SmallDivision, IsEmptyForAnEmptyTree)
 {
     const TreeDivision division{SupernodeTree()};
     EXPECT_TRUE(division.m_top.empty());

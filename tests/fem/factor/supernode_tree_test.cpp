@@ -271,7 +271,7 @@ TEST(SupernodeTree, AWideSupernodeIsAChain)
     EXPECT_EQ(tree.m_entries, 450 * 451 / 2);
 }
 
-TEST(SupernodeTree, PiecesAreNotMerged)
+TEST(SupernodeTree, ComponentsAreNotMerged)
 {
     const SupernodeTree tree = treeOf(blockDiagonal(3, 2));
     ASSERT_EQ(tree.m_supernodes.size(), 3u);
@@ -313,7 +313,7 @@ TEST(SupernodeTree, AnEmptyPatternHasNone)
     EXPECT_EQ(tree.longestRows(), 0);
 }
 
-TEST(SupernodeTree, RefusesWhatIsNoPermutation)
+TEST(SupernodeTree, RejectsInvalidPermutations)
 {
     const SparsePattern pattern = sparsePattern(tridiagonalMatrix(4));
     const auto build = [&pattern](std::vector<int> order)

@@ -105,7 +105,7 @@ TEST(EdgeDomains, DoNotCrossRegions)
     for (int e = 0; e < mesh.tetCount(); ++e) EXPECT_EQ(domains.m_share[e] == 0, label[e] == 2) << e;
 }
 
-TEST(EdgeDomains, AreNoneOfOtherMaterials)
+TEST(EdgeDomains, AreEmptyForOtherMaterials)
 {
     EXPECT_TRUE(RestShape(makeBox({1, 1, 1}, {2, 2, 2}), elasticMaterial(1e6, .45)).m_edgeDomains.empty());
 }

@@ -57,7 +57,7 @@ TEST(MeshElementMaterials, EqualMaterialsOfElementsMakeARegion)
     EXPECT_EQ(ElementMaterials::ofElements({soft, soft}), ElementMaterials(soft));
 }
 
-TEST(MeshElementMaterials, RefusesWhatDoesNotGoTogether)
+TEST(MeshElementMaterials, RejectsInconsistentInput)
 {
     expectRejected(
         [] {

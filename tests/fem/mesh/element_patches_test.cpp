@@ -108,7 +108,7 @@ TEST(MeshElementPatches, AreNeighboursInAnyOtherMesh)
     }
 }
 
-TEST(MeshElementPatches, AreMadeWhereTheMaterialAsks)
+TEST(MeshElementPatches, AreMadeIfTheMaterialRequestsThem)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {2, 2, 2});
     const auto count = [&](double nu, MeanDilatation choice)

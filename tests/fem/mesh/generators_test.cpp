@@ -176,7 +176,7 @@ TEST_P(RoundMesh, CylinderConvergesFromBelow)
 INSTANTIATE_TEST_SUITE_P(Cells, RoundMesh, testing::Values(2, 4, 6, 8, 12, 20),
                          [](const auto& suite) { return std::to_string(suite.param); });
 
-TEST(GeneratorRejects, Box)
+TEST(GeneratorInput, RejectsInvalidBoxes)
 {
     expectRejected([] { makeBox({0, 1, 1}, {1, 1, 1}); }, {"along x is 0 m", "(0, inf)", "positive"});
     expectRejected([] { makeBox({1, -2, 1}, {1, 1, 1}); }, {"along y is -2 m"});
@@ -192,7 +192,7 @@ TEST(GeneratorRejects, Box)
         {"1000 x 1000 x 1000", "5000000000 elements", "[1, 5000000]", "larger cells"});
 }
 
-TEST(GeneratorRejects, Beam)
+TEST(GeneratorInput, RejectsInvalidBeams)
 {
     expectRejected([] { makeBeam(0, 1, 1, 1); }, {"beam length is 0 m", "(0, inf)"});
     expectRejected([] { makeBeam(1, kNaN, 1, 1); }, {"beam width is nan m"});
@@ -201,7 +201,7 @@ TEST(GeneratorRejects, Beam)
     expectRejected([] { makeBeam(2, 1, 1, 1e-300); }, {"cell size is 1e-300 m", "[0.002, inf)", "larger cells"});
 }
 
-TEST(GeneratorRejects, Sphere)
+TEST(GeneratorInput, RejectsInvalidSpheres)
 {
     expectRejected([] { makeSphere(0, 2); }, {"radius is 0 m"});
     expectRejected([] { makeSphere(std::numeric_limits<double>::infinity(), 2); }, {"radius is inf m"});
@@ -211,7 +211,7 @@ TEST(GeneratorRejects, Sphere)
     expectRejected([] { makeSphere(1, 1000); }, {"6000000000 elements", "[1, 5000000]"});
 }
 
-TEST(GeneratorRejects, Cylinder)
+TEST(GeneratorInput, RejectsInvalidCylinders)
 {
     expectRejected([] { makeCylinder(-1, 1, 2, 1); }, {"radius is -1 m"});
     expectRejected([] { makeCylinder(1, kNaN, 2, 1); }, {"height is nan m"});

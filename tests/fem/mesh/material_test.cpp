@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST(Material, LameConstantsByHand)
+TEST(Material, LameConstantsMatchHandValues)
 {
     Material material;
     material.m_youngModulus = 260;
@@ -28,7 +28,7 @@ TEST(Material, LameConstantsByHand)
     EXPECT_DOUBLE_EQ(material.lameMu(), 130);
 }
 
-TEST(LameModuli, AreThoseThatTheMaterialHas)
+TEST(LameModuli, EqualThoseOfTheMaterial)
 {
     Material material;
     for (const double poisson : {0.0, 0.2, 0.45})
@@ -40,7 +40,7 @@ TEST(LameModuli, AreThoseThatTheMaterialHas)
     }
 }
 
-TEST(LameModuli, StayInWhatAMaterialMayHave)
+TEST(LameModuli, StayWithinTheMaterialRange)
 {
     const LameModuli soft = {300, -150}, stiff = {1, 1e9};
     EXPECT_DOUBLE_EQ(soft.poissonRatio(), 0);
@@ -85,7 +85,7 @@ TEST(Material, PresetsAreAsDocumented)
     is(Material::mildFoam(), 50e3, 0.1, 40);
 }
 
-TEST(Material, NeoHookeanPresetsNameTheRemedyWhereTheLawDoesNotGo)
+TEST(Material, NeoHookeanPresetsNameTheRemedyForConflicts)
 {
     for (const auto spoil :
          {+[](Material& m) { m.m_accurateBending = true; }, +[](Material& m) { m.m_yieldStress = 1e3; },
@@ -135,7 +135,7 @@ TEST(Material, PresetsYieldAsDocumented)
     yields(Material::mildFoam(), 2.5e3, 0, 2);
 }
 
-TEST(Material, WhatYieldsOtherwiseIsAnother)
+TEST(Material, ComparesYieldParameters)
 {
     for (double Material::*member : {&Material::m_yieldStress, &Material::m_hardeningModulus, &Material::m_plasticCreep,
                                      &Material::m_mostPlasticStrain})
@@ -175,7 +175,7 @@ TEST_P(MaterialRange, AcceptsItsEnds)
     }
 }
 
-TEST_P(MaterialRange, RejectsWhatIsOutsideNamingIt)
+TEST_P(MaterialRange, RejectsValuesOutsideAndNamesThem)
 {
     for (const double value : GetParam().m_bad)
     {

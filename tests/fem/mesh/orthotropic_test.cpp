@@ -55,7 +55,7 @@ TEST(Orthotropic, StiffnessIsTheInverseOfTheComplianceOfTheTextbook)
     EXPECT_LT((matrixOf(m.stiffness()) * S - Matrix6::Identity()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(Orthotropic, ComplianceIsThatOfABarThatIsPulledInAnyDirection)
+TEST(Orthotropic, ComplianceMatchesABarPulledInAnyDirection)
 {
     Orthotropic m = nineConstants();
     m.m_along = {1, 2, -1};
@@ -71,7 +71,7 @@ TEST(Orthotropic, ComplianceIsThatOfABarThatIsPulledInAnyDirection)
     EXPECT_NEAR(nineConstants().compliance({0, 1, 0}) * 1.2e9, 1, 1e-12);
 }
 
-TEST(Orthotropic, OfOneConstantEachItIsHookes)
+TEST(Orthotropic, EqualConstantsGiveHookesLaw)
 {
     Material hooke;
     hooke.m_poissonRatio = 0.42;
@@ -133,7 +133,7 @@ TEST(Orthotropic, BadConstantsAreRefusedByName)
 }
 
 // What is accepted has a positive definite C, at the edge of the range as well.
-TEST(Orthotropic, WhatIsAcceptedIsPositiveDefinite)
+TEST(Orthotropic, AcceptedConstantsArePositiveDefinite)
 {
     int accepted = 0, least = 0;
     for (int k = 0; k < 4000; ++k)
@@ -158,7 +158,7 @@ TEST(Orthotropic, WhatIsAcceptedIsPositiveDefinite)
     EXPECT_EQ(least, accepted);
 }
 
-TEST(Orthotropic, WhatItDoesNotGoWithIsRefused)
+TEST(Orthotropic, RejectsIncompatibleOptions)
 {
     Material material = orthotropicMaterial(nineConstants());
     EXPECT_FALSE(material.usesMeanDilatation());

@@ -34,7 +34,7 @@ double totalMass(const RestShape& shape)
     return std::accumulate(shape.m_lumpedMass.begin(), shape.m_lumpedMass.end(), 0.0);
 }
 
-TEST(RestShape, UnitTetrahedronByHand)
+TEST(RestShape, UnitTetrahedronMatchesHandValues)
 {
     const RestShape shape(unitTet(), material());
     ASSERT_EQ(shape.m_elements.size(), 1u);
@@ -66,12 +66,12 @@ TEST(RestShape, MassesAddUpToDensityTimesVolume)
     for (double m : shape.m_lumpedMass) EXPECT_GT(m, 0);
 }
 
-TEST(RestShape, WithoutADensityMassesAreThoseOfOneKilogramACubicMetre)
+TEST(RestShape, MassesWithoutADensityAreOfUnitDensity)
 {
     EXPECT_NEAR(totalMass(RestShape(makeBox({1, 2, 0.3}, {2, 3, 2}), material(0))), 0.6, 1e-14);
 }
 
-TEST(RestShape, FilledFractionsScaleMassAndStiffnessAndTheMassScaleMassesAlone)
+TEST(RestShape, FilledFractionsScaleMassAndStiffnessMassScaleOnlyMasses)
 {
     const RestShape shape(unitTet(), material(), {0.25}, 3);
     EXPECT_DOUBLE_EQ(shape.m_elements[0].m_volume, 0.25 / 6);
@@ -80,7 +80,7 @@ TEST(RestShape, FilledFractionsScaleMassAndStiffnessAndTheMassScaleMassesAlone)
     for (double m : shape.m_lumpedMass) EXPECT_DOUBLE_EQ(m, 50 * 0.25 * 3);
 }
 
-TEST(RestShapeRejects, BadMassScales)
+TEST(RestShapeInput, RejectsInvalidMassScales)
 {
     const auto make = [](double scale) { return [scale] { RestShape(unitTet(), material(), {}, scale); }; };
     expectRejected(make(0), {"mass scale 0", "(0, inf)"});
@@ -90,7 +90,7 @@ TEST(RestShapeRejects, BadMassScales)
     expectRejected(make(kInf), {"mass scale inf", "(0, inf)"});
 }
 
-TEST(RestShapeRejects, BadFilledFractions)
+TEST(RestShapeInput, RejectsInvalidFilledFractions)
 {
     const auto make = [](std::vector<double> filled) {
         return [filled] { RestShape(makeBox({1, 1, 1}, {1, 1, 1}), material(), filled); };
@@ -103,7 +103,7 @@ TEST(RestShapeRejects, BadFilledFractions)
     expectRejected(make({1, 1, 1, 1, kNaN}), {"element 4 is nan", "(0, 1]"});
 }
 
-TEST(RestShapeRejects, BadMaterials)
+TEST(RestShapeInput, RejectsInvalidMaterials)
 {
     Material bad = material();
     bad.m_poissonRatio = 0.5;

@@ -91,7 +91,7 @@ TEST(TetMesh, QualityDoesNotDependOnTheUnitOfLength)
     }
 }
 
-TEST(TetMesh, IsTheSameWithTheSidesThatWereFoundBefore)
+TEST(TetMesh, IsTheSameWithKnownBoundarySides)
 {
     std::vector<Vec3> X = makeBox({1, 2, 3}, {3, 2, 4}).restPositions();
     std::vector<Tet> tets = makeBox({1, 2, 3}, {3, 2, 4}).tets();
@@ -110,7 +110,7 @@ TEST(TetMesh, IsTheSameWithTheSidesThatWereFoundBefore)
     EXPECT_EQ(TetMesh(kCorner, {{0, 1, 2, 3}}).boundarySides(), (std::vector<unsigned char>{15}));
 }
 
-TEST(TetMeshRejects, SidesThatNoElementHas)
+TEST(TetMeshInput, RejectsInconsistentSides)
 {
     expectRejected([] { TetMesh::withSides(kCorner, {{0, 1, 2, 3}}, {16}); }, {"element 0", "16", "[0, 15]"});
     expectRejected([] { TetMesh::withSides(kCorner, {{0, 1, 2, 3}}, {}); }, {"0 of 1 elements"});
@@ -118,24 +118,24 @@ TEST(TetMeshRejects, SidesThatNoElementHas)
     expectRejected([] { TetMesh::withSides(kCorner, {{0, 1, 2, 4}}, {15}); }, {"node 4"});
 }
 
-TEST(TetMeshRejects, NoElement)
+TEST(TetMeshInput, RejectsAMeshWithoutElements)
 {
     expectRejected([] { TetMesh(kCorner, {}); }, {"0 elements", "at least 1"});
 }
 
-TEST(TetMeshRejects, IndexOutOfRange)
+TEST(TetMeshInput, RejectsIndicesOutOfRange)
 {
     expectRejected([] { TetMesh(kCorner, {{0, 1, 2, 3}, {0, 1, 2, 4}}); }, {"element 1", "node 4", "[0, 3]"});
     expectRejected([] { TetMesh(kCorner, {{0, -7, 2, 3}}); }, {"element 0", "node -7", "[0, 3]"});
     expectRejected([] { TetMesh({}, {{0, 1, 2, 3}}); }, {"element 0", "node 0"});
 }
 
-TEST(TetMeshRejects, NodeTwiceInAnElement)
+TEST(TetMeshInput, RejectsARepeatedNodeInAnElement)
 {
     expectRejected([] { TetMesh(kCorner, {{0, 1, 2, 3}, {0, 3, 2, 3}}); }, {"element 1", "node 3 twice"});
 }
 
-TEST(TetMeshRejects, DegenerateElement)
+TEST(TetMeshInput, RejectsDegenerateElements)
 {
     const auto withHeight = [](double z) { return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0.5, z}}; };
     // Longest edge sqrt 2, volume z / 6: the bound 1e-9 is met at z = 1.697e-8.
@@ -149,7 +149,7 @@ TEST(TetMeshRejects, DegenerateElement)
     expectRejected([] { TetMesh({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}); }, {"degenerate"});
 }
 
-TEST(TetMeshRejects, PositionThatIsNotFinite)
+TEST(TetMeshInput, RejectsNonFinitePositions)
 {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     {
@@ -159,7 +159,7 @@ TEST(TetMeshRejects, PositionThatIsNotFinite)
     }
 }
 
-TEST(TetMeshRejects, ExtentThatOverflows)
+TEST(TetMeshInput, RejectsOverflowingExtents)
 {
     std::vector<Vec3> X = kCorner;
     X[0].x = -1.7e308;
@@ -167,7 +167,7 @@ TEST(TetMeshRejects, ExtentThatOverflows)
     expectRejected([&] { TetMesh(X, {{0, 1, 2, 3}}); }, {"element 0", "degenerate"});
 }
 
-TEST(TetMeshRejects, NodeInNoElement)
+TEST(TetMeshInput, RejectsUnusedNodes)
 {
     std::vector<Vec3> X = kCorner;
     X.insert(X.begin() + 1, {5, 5, 5});
@@ -178,7 +178,7 @@ TEST(TetMeshRejects, NodeInNoElement)
     for (int i = 0; i < 5; ++i) EXPECT_EQ(mesh.isLoose(i), i == 1) << i;
 }
 
-TEST(TetMeshRejects, FaceOfMoreThanTwoElements)
+TEST(TetMeshInput, RejectsFacesOfMoreThanTwoElements)
 {
     std::vector<Vec3> X = kCorner;
     X.insert(X.end(), {{0, 0, -1}, {0.1, 0.1, 4}});
@@ -190,7 +190,7 @@ TEST(TetMeshRejects, FaceOfMoreThanTwoElements)
 }
 
 // Alone in its component, an element that is there twice shares each face with itself only.
-TEST(TetMeshRejects, ElementsThatAreThereTwice)
+TEST(TetMeshInput, RejectsDuplicateElements)
 {
     expectRejected(
         [] {
@@ -207,7 +207,7 @@ TEST(TetMeshRejects, ElementsThatAreThereTwice)
         {"1 of 3 elements repeat another one: element 2", "of element 1"});
 }
 
-TEST(TetMeshRejects, MeshesWhoseElementsAllOccurTwice)
+TEST(TetMeshInput, RejectsMeshesOfDuplicatesOnly)
 {
     const TetMesh box = makeBox({1, 1, 1}, {2, 2, 2});
     std::vector<Tet> tets = box.tets();

@@ -177,7 +177,7 @@ protected:
     }
 };
 
-TEST_P(ElementsSideBySide, HaveTheBitsThatTheyHaveAlone)
+TEST_P(ElementsSideBySide, HaveTheSameBitsAsAlone)
 {
     for (const TetMesh& mesh : meshes())
         for (const double nu : {0.3, 0.49})  // elements of their own, and in patches

@@ -86,7 +86,7 @@ protected:
 };
 
 // Numbers of values that are a multiple of what vectors take at a time, and that are not.
-TEST_P(LaneExchange, GoesThereAndBack)
+TEST_P(LaneExchange, RestoresAllLanes)
 {
     for (const int count : {1, 2, 3, 4, 5, 7, 16, 17, 63})
         for (const int rows : {1, 2, 15})

@@ -20,7 +20,7 @@ std::shared_ptr<const BodyModel> smallModel()
     return makeBody(makeBox({1, 1, 1}, {2, 2, 2}), Material()).m_model;
 }
 
-TEST(BatchMemory, LendsWhatCameBack)
+TEST(BatchMemory, LendsReturnedArraysAgain)
 {
     BatchMemory memory;
     const auto model = smallModel();
@@ -48,7 +48,7 @@ TEST(BatchMemory, LendsEveryModelItsOwn)
 }
 
 // Another model may get the address of one that is gone.
-TEST(BatchMemory, ForgetsModelsThatAreGone)
+TEST(BatchMemory, ForgetsReleasedModels)
 {
     BatchMemory memory;
     for (int k = 0; k < 20; ++k)

@@ -227,7 +227,7 @@ TEST(BatchOfCopies, HasTheSameBitsForEveryNumberOfThreads)
 }
 
 // Bodies that no impulses followed in the last step leave out what only impulses need.
-TEST(BatchOfCopies, TakesImpulsesThatComeNowAndThen)
+TEST(BatchOfCopies, TakesIntermittentImpulses)
 {
     const auto model = freeBlock().m_model;
     for (const bool tension : {true, false})
@@ -256,7 +256,7 @@ TEST(BatchOfCopies, TakesStepsOfSecondOrder)
 }
 
 // Tension damps what turns then, in one product more. A body that comes later knows other steps.
-TEST(BatchOfCopies, TakesStepsThatVary)
+TEST(BatchOfCopies, TakesVaryingSteps)
 {
     const auto model = freeBlock().m_model;
     for (const double damping : {0.0, 1.0})

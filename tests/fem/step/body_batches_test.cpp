@@ -63,14 +63,14 @@ protected:
     BodyBatches m_batches;
 };
 
-TEST_F(BodyBatchesTest, OfAModelAreOneBatchForASingleThread)
+TEST_F(BodyBatchesTest, OneModelMakesOneBatchForASingleThread)
 {
     ASSERT_TRUE(canBeBatched(*m_free));
     divide(40, 0, 1);
     EXPECT_EQ(batchesOf(40), 1);
 }
 
-TEST_F(BodyBatchesTest, AreBodiesAloneWhereTheyAreNotToBeTogether)
+TEST_F(BodyBatchesTest, BodiesAreAloneIfBatchingIsOff)
 {
     for (const int threads : {1, 2})
     {
@@ -88,7 +88,7 @@ TEST_F(BodyBatchesTest, FillTheLanesAndShareOutTheRest)
 }
 
 // Many that are left are a batch, too: it takes as long as if it were full.
-TEST_F(BodyBatchesTest, TakeInManyThatAreLeft)
+TEST_F(BodyBatchesTest, RemainingBodiesMakeABatch)
 {
     divide(94, 0, 2);
     EXPECT_EQ(batchesOf(kBatchWidth), 5);
@@ -103,7 +103,7 @@ TEST_F(BodyBatchesTest, LeaveNoThreadWithoutWork)
     EXPECT_EQ(batchesOf(1), 100);
 }
 
-TEST_F(BodyBatchesTest, AreBodiesAloneWhereTheModelCannotBeSideBySide)
+TEST_F(BodyBatchesTest, BodiesOfUnbatchableModelsAreAlone)
 {
     ASSERT_FALSE(canBeBatched(*m_hung));
     divide(0, 50, 2);

@@ -99,7 +99,7 @@ protected:
     ConjugateGradientScratch m_scratch{kNodes};
 };
 
-TEST_F(ConjugateGradients, FindTheSolution)
+TEST_F(ConjugateGradients, FindsTheSolution)
 {
     const SolveReport report = solve();
     EXPECT_EQ(report.m_stop, SolveStop::converged);
@@ -109,7 +109,7 @@ TEST_F(ConjugateGradients, FindTheSolution)
     EXPECT_LE(error(), 1e-8);  // the tolerance times a condition below 100
 }
 
-TEST_F(ConjugateGradients, EndInOneIterationWithTheInverse)
+TEST_F(ConjugateGradients, ConvergesInOneIterationWithTheInverse)
 {
     const SolveReport report = solve(m_A, m_inverse);
     EXPECT_EQ(report.m_stop, SolveStop::converged);
@@ -118,14 +118,14 @@ TEST_F(ConjugateGradients, EndInOneIterationWithTheInverse)
 }
 
 // A scaled inverse is as good: the step length is optimal.
-TEST_F(ConjugateGradients, DoNotMindTheScaleOfThePreconditioner)
+TEST_F(ConjugateGradients, IsInvariantToPreconditionerScale)
 {
     EXPECT_EQ(solve(m_A, DenseOperator(1e-7 * m_matrix.inverse())).m_iterations, 1);
     EXPECT_LE(error(), 1e-12);
 }
 
 // With k distinct eigenvalues k iterations are enough.
-TEST_F(ConjugateGradients, TakeAsManyIterationsAsThereAreEigenvalues)
+TEST_F(ConjugateGradients, ConvergesInAsManyIterationsAsDistinctEigenvalues)
 {
     Eigen::VectorXd d(3 * kNodes);
     for (int i = 0; i < 3 * kNodes; ++i) d(i) = 1 + i % 4;
@@ -134,7 +134,7 @@ TEST_F(ConjugateGradients, TakeAsManyIterationsAsThereAreEigenvalues)
     EXPECT_EQ(report.m_iterations, 4);
 }
 
-TEST_F(ConjugateGradients, ReportTheTrueResidual)
+TEST_F(ConjugateGradients, ReportsTheTrueResidual)
 {
     for (const int budget : {1, 2, 5, 200})
     {
@@ -145,7 +145,7 @@ TEST_F(ConjugateGradients, ReportTheTrueResidual)
     }
 }
 
-TEST_F(ConjugateGradients, StopAtTheBudgetAndSaySo)
+TEST_F(ConjugateGradients, StopsAtTheBudgetAndReportsIt)
 {
     m_stop.m_maxIterations = 3;
     const SolveReport report = solve();
@@ -155,7 +155,7 @@ TEST_F(ConjugateGradients, StopAtTheBudgetAndSaySo)
     EXPECT_LT(report.m_residual, 1);
 }
 
-TEST_F(ConjugateGradients, StopAtTheToleranceNotBelow)
+TEST_F(ConjugateGradients, StopsAtTheToleranceNotBelow)
 {
     m_stop.m_tolerance = 1e-2;
     const int loose = solve().m_iterations;
@@ -165,7 +165,7 @@ TEST_F(ConjugateGradients, StopAtTheToleranceNotBelow)
     EXPECT_GT(solve().m_iterations, loose);
 }
 
-TEST_F(ConjugateGradients, MeasureASmallRightSideAgainstTheFloor)
+TEST_F(ConjugateGradients, MeasuresASmallRightSideAgainstTheFloor)
 {
     m_stop.m_tolerance = 1e-3;
     m_stop.m_floor = 1e3 * flat(m_b).norm();
@@ -182,7 +182,7 @@ TEST_F(ConjugateGradients, MeasureASmallRightSideAgainstTheFloor)
     EXPECT_GT(report.m_residual, 1e-5);
 }
 
-TEST_F(ConjugateGradients, StartFromTheGuess)
+TEST_F(ConjugateGradients, StartsFromTheGuess)
 {
     const int cold = solve().m_iterations;
     m_x = m_solution;
@@ -198,7 +198,7 @@ TEST_F(ConjugateGradients, StartFromTheGuess)
 }
 
 // A guess that is right but for its length costs nothing, one that points the wrong way is as good as none.
-TEST_F(ConjugateGradients, ScaleTheGuessByItsOptimalLength)
+TEST_F(ConjugateGradients, ScalesTheGuessByItsOptimalLength)
 {
     const int cold = solve().m_iterations;
     for (const double length : {1e-3, 0.5, 40.0})
@@ -214,7 +214,7 @@ TEST_F(ConjugateGradients, ScaleTheGuessByItsOptimalLength)
 }
 
 // Else its error would be carried from step to step.
-TEST_F(ConjugateGradients, TakeAGuessAsItStandsAtATenthOfTheToleranceOnly)
+TEST_F(ConjugateGradients, AcceptsAGuessOnlyAtATenthOfTheTolerance)
 {
     m_stop.m_tolerance = 1e-2;
     m_stop.m_maxIterations = 2;
@@ -230,7 +230,7 @@ TEST_F(ConjugateGradients, TakeAGuessAsItStandsAtATenthOfTheToleranceOnly)
 }
 
 // Short of eight iterations and at loose tolerances the recurrence is believed: no product is spent on looking.
-TEST_F(ConjugateGradients, SpendNoProductOnTheTrueResidualAtLooseTolerances)
+TEST_F(ConjugateGradients, SpendsNoProductOnTheTrueResidualAtLooseTolerances)
 {
     m_stop.m_tolerance = 1e-2;
     int products = 0;
@@ -241,7 +241,7 @@ TEST_F(ConjugateGradients, SpendNoProductOnTheTrueResidualAtLooseTolerances)
     EXPECT_NEAR(report.m_residual, trueResidual(), 1e-9);
 }
 
-TEST_F(ConjugateGradients, HaveNothingToDoWithoutARightSide)
+TEST_F(ConjugateGradients, DoesNothingWithoutARightSide)
 {
     m_b.assign(kNodes, Vec3());
     const SolveReport report = solve();
@@ -251,7 +251,7 @@ TEST_F(ConjugateGradients, HaveNothingToDoWithoutARightSide)
     EXPECT_EQ(flat(m_x).norm(), 0);
 }
 
-TEST_F(ConjugateGradients, BringAWrongGuessBackToZero)
+TEST_F(ConjugateGradients, BringsAWrongGuessBackToZero)
 {
     m_b.assign(kNodes, Vec3());
     m_x = m_solution;
@@ -260,7 +260,7 @@ TEST_F(ConjugateGradients, BringAWrongGuessBackToZero)
     EXPECT_LE(flat(m_x).norm(), 1e-9);
 }
 
-TEST_F(ConjugateGradients, BreakDownWhereTheSystemIsNotPositive)
+TEST_F(ConjugateGradients, BreaksDownForANonPositiveSystem)
 {
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(3 * kNodes, 3 * kNodes);
     for (const Eigen::MatrixXd& bad : {Eigen::MatrixXd(-m_matrix), zero})
@@ -278,7 +278,7 @@ TEST_F(ConjugateGradients, BreakDownWhereTheSystemIsNotPositive)
 }
 
 // One negative eigenvalue: the iterations before it shows are kept.
-TEST_F(ConjugateGradients, KeepWhatTheyHadWhenTheyBreakDown)
+TEST_F(ConjugateGradients, KeepsTheLastIterateOnBreakdown)
 {
     Eigen::MatrixXd indefinite = m_matrix;
     indefinite(5, 5) = -1;
@@ -289,7 +289,7 @@ TEST_F(ConjugateGradients, KeepWhatTheyHadWhenTheyBreakDown)
     EXPECT_LT(report.m_residual, 1);
 }
 
-TEST_F(ConjugateGradients, NeverPassANaNOn)
+TEST_F(ConjugateGradients, NeverPropagatesNaN)
 {
     const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
     for (const double value : bad)
@@ -306,7 +306,7 @@ TEST_F(ConjugateGradients, NeverPassANaNOn)
 }
 
 // A right side that is not finite has no answer: never "converged", and x stays what it was.
-TEST_F(ConjugateGradients, DoNotCallARightSideThatIsNotFiniteSolved)
+TEST_F(ConjugateGradients, NeverReportsConvergenceForANonFiniteRightSide)
 {
     const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
     for (const double value : bad)
@@ -320,7 +320,7 @@ TEST_F(ConjugateGradients, DoNotCallARightSideThatIsNotFiniteSolved)
 
 // The recurrence believes what A said in the second iteration. It was wrong by 1 %, so that the residual it carries is
 // not the true one; it notices, starts anew and gets there.
-TEST_F(ConjugateGradients, CheckTheRecurrenceAgainstTheTruth)
+TEST_F(ConjugateGradients, ChecksTheRecurrenceAgainstTheTrueResidual)
 {
     const LyingOperator A(m_A, 1, [](const Vec3& value) { return Vec3{1.01 * value.x, value.y, value.z}; });
     const SolveReport report = solve(A, m_identity);
@@ -328,7 +328,7 @@ TEST_F(ConjugateGradients, CheckTheRecurrenceAgainstTheTruth)
     EXPECT_LE(trueResidual(), 1.001e-10);
 }
 
-TEST_F(ConjugateGradients, GiveTheSameBitsEveryTime)
+TEST_F(ConjugateGradients, GivesTheSameBitsEveryTime)
 {
     solve();
     const std::vector<Vec3> first = m_x;
@@ -338,7 +338,7 @@ TEST_F(ConjugateGradients, GiveTheSameBitsEveryTime)
     EXPECT_EQ(largestDistance(first, m_x), 0);
 }
 
-TEST(NodeVectors, DotProductByHand)
+TEST(NodeVectors, DotProductMatchesHandValue)
 {
     EXPECT_EQ(dot(std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}, std::vector<Vec3>{{1, 0, -1}, {2, 1, 0}}), 11);
 }

@@ -119,7 +119,7 @@ TEST(InitialStress, AClampedBarCarriesItAndALooseOneGivesWay)
 }
 
 // Everything is held: the stress is the initial one, turned with the body.
-TEST(InitialStress, IsTheStressOfABodyThatIsNotStrained)
+TEST(InitialStress, IsTheStressOfAnUnstrainedBody)
 {
     Body body = makeBody(bar(), still(0.45));
     const SymmetricTensor s = {3e3, -1e3, 2e3, 500, -700, 900};
@@ -294,7 +294,7 @@ TEST(InitialStress, ZeroIsNone)
 }
 
 // A body with an initial stress goes alone, and those beside it in their batch.
-TEST(InitialStress, BesideOthersOfItsModel)
+TEST(InitialStress, BatchedStepsHaveTheSameBits)
 {
     const Body first = makeBody(bar(), still());
     std::vector<Body> together, alone;

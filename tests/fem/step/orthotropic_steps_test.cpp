@@ -112,7 +112,7 @@ TEST_P(OrthotropicSteps, GoOnFromASavedState)
     EXPECT_NE(markOf(windingFibres(mesh)), markOf(turned));
 }
 
-TEST_P(OrthotropicSteps, TakeNoMemory)
+TEST_P(OrthotropicSteps, AllocateNoMemory)
 {
     Body hung = body();
     run(hung, 1);  // in double precision the first step does
@@ -122,7 +122,7 @@ TEST_P(OrthotropicSteps, TakeNoMemory)
 }
 
 // The factor has the very C: it takes few iterations however stiff the fibres are.
-TEST_P(OrthotropicSteps, AreFewIterationsFromTheirFactor)
+TEST_P(OrthotropicSteps, TakeFewIterationsWithTheirFactor)
 {
     const TetMesh mesh = makeBox({2, 1, 1}, {12, 6, 6});
     for (const double young : {1e5, 1e6, 1e7})

@@ -55,7 +55,7 @@ Body undampedBeam(Material material)
     return makeBody(makeBox({1, 0.4, 0.4}, {5, 2, 2}), material, [](const Vec3& X) { return X.x == 0; });
 }
 
-TEST(Reactions, OfEveryNodeAtRestAreTheEnergysDerivative)
+TEST(Reactions, AreTheEnergysDerivativeAtRest)
 {
     Body beam = clampedBeam();
     const std::size_t nodes = beam.m_state.m_x.size();
@@ -70,7 +70,7 @@ TEST(Reactions, OfEveryNodeAtRestAreTheEnergysDerivative)
 }
 
 // Quasi-Newton iterations follow the linear solve by then, and leave up to a twentieth of its right-hand side.
-TEST(Reactions, OfEveryNodeInAViolentStepAreTheEnergysDerivative)
+TEST(Reactions, AreTheEnergysDerivativeInAViolentStep)
 {
     Material material = elasticMaterial(2e4, 0.3);
     material.m_law = ElasticLaw::neoHooke;
@@ -84,7 +84,7 @@ TEST(Reactions, OfEveryNodeInAViolentStepAreTheEnergysDerivative)
     expectEnergyDerivatives(beam, std::vector<Vec3>(beam.m_state.m_x.size()), 0.01 * largest);
 }
 
-TEST(Reactions, OfANodeThatACablePullsAtHaveItsTension)
+TEST(Reactions, IncludeTheTensionOfACable)
 {
     Body beam = undampedBeam(elasticMaterial(1e6, 0.3));
     const TetMesh& mesh = beam.m_model->mesh();
@@ -111,7 +111,7 @@ TEST(Reactions, OfANodeThatACablePullsAtHaveItsTension)
 
 // Three nodes in a line along y but for the middle one: from a lever of 1e-3 of the radius of gyration on they bear a
 // moment about the line.
-TEST(Reactions, BearAMomentWhereNodesLieBesideALine)
+TEST(Reactions, BearAMomentForNodesBesideALine)
 {
     const auto isHeld = [](const Vec3& X) { return X.x == 0 && X.z == 0.2; };
     const auto momentLeft = [&](double beside)
@@ -190,7 +190,7 @@ TEST_P(HeldMotion, BalancesMomentumInEveryStep)
 INSTANTIATE_TEST_SUITE_P(Steps, HeldMotion,
                          testing::Values(HeldStep{1, 1e-3}, HeldStep{1, 1e-8}, HeldStep{0, 1e-3}, HeldStep{0.3, 1e-8}));
 
-TEST(Reactions, AreUnknownWhereNoStepTellsThem)
+TEST(Reactions, AreUnknownUntilAStepComputesThem)
 {
     Body beam = clampedBeam();
     EXPECT_FALSE(reactions(beam));

@@ -131,7 +131,7 @@ protected:
     RigidMomentum m_momentum{m_body.m_model->mesh()};
 };
 
-TEST_F(RigidMomentumTest, RestoresWhatTheLoadsPrescribeOfEveryPiece)
+TEST_F(RigidMomentumTest, RestoresThePrescribedMomentumOfEveryComponent)
 {
     ASSERT_EQ(m_body.m_model->mesh().componentCount(), 2);
     prescribe(m_momentum, m_body);
@@ -177,7 +177,7 @@ TEST_F(RigidMomentumTest, HasNothingToAddTheSecondTime)
     EXPECT_LE(largestDistance(once, m_velocity), 1e-13);
 }
 
-TEST_F(RigidMomentumTest, LeavesAClampedPieceAlone)
+TEST_F(RigidMomentumTest, LeavesAClampedComponentAlone)
 {
     const int fixedPiece = m_component[0];
     for (const int node : {0, 1, 3}) m_body.m_state.m_fixed[static_cast<std::size_t>(node)] = 1;
@@ -193,7 +193,7 @@ TEST_F(RigidMomentumTest, LeavesAClampedPieceAlone)
 }
 
 // A piece that hangs on the nodes of one edge of its box, or on one node, which move with a velocity.
-class HungPiece : public RigidMomentumTest
+class HungComponent : public RigidMomentumTest
 {
 protected:
     // Box 0's nodes on the edge along x, not yet where the random numbers put them.
@@ -254,7 +254,7 @@ private:
     }
 };
 
-TEST_F(HungPiece, GetsTheAngularMomentumAboutItsPin)
+TEST_F(HungComponent, GetsTheAngularMomentumAboutItsPin)
 {
     hang(1);
     const Vec3 got = momentumAfterImpulses();
@@ -262,7 +262,7 @@ TEST_F(HungPiece, GetsTheAngularMomentumAboutItsPin)
     EXPECT_LE(norm(got - expected()), 1e-11 * norm(expected()));
 }
 
-TEST_F(HungPiece, GetsTheAngularMomentumAboutItsHinge)
+TEST_F(HungComponent, GetsTheAngularMomentumAboutItsHinge)
 {
     hang(3);
     const Vec3 got = momentumAfterImpulses();
@@ -271,7 +271,7 @@ TEST_F(HungPiece, GetsTheAngularMomentumAboutItsHinge)
     EXPECT_GT(norm(got - expected()), 0.1 * norm(expected()));  // the hinge takes the rest
 }
 
-TEST_F(HungPiece, IsClampedByANodeBesideItsHinge)
+TEST_F(HungComponent, IsClampedByANodeBesideItsHinge)
 {
     hang(3);
     const std::vector<Vec3>& X = m_body.m_model->mesh().restPositions();
@@ -283,7 +283,7 @@ TEST_F(HungPiece, IsClampedByANodeBesideItsHinge)
     EXPECT_FALSE(m_anyMoved);
 }
 
-TEST_F(HungPiece, IsClampedByAHingeThatTurns)
+TEST_F(HungComponent, IsClampedByATurningHinge)
 {
     hang(3);
     m_body.m_loads.m_targetVelocity[0] += Vec3{0, 0.1, 0};
@@ -302,7 +302,7 @@ TEST_F(RigidMomentumTest, StaysBoundedForABodyCollapsedToAPoint)
 
 // About the line there is no inertia; across it momentum is restored, to what the inverse of a tensor of condition 1e14
 // is worth.
-TEST_F(RigidMomentumTest, RestoresWhatABodyCollapsedToALineHas)
+TEST_F(RigidMomentumTest, RestoresTheMomentumOfABodyCollapsedToALine)
 {
     const Vec3 axis = {0.6, 0, 0.8};
     for (Vec3& x : m_body.m_state.m_x) x = dot(x, axis) * axis;

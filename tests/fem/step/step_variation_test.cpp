@@ -36,7 +36,7 @@ protected:
     Body m_body = clampedBeam();
 };
 
-TEST_F(StepVariation, IsNoneOfEqualSteps)
+TEST_F(StepVariation, IsZeroForEqualSteps)
 {
     for (const double step : {1.0 / 60, 1e-6, 1.0})
     {
@@ -66,7 +66,7 @@ TEST_F(StepVariation, IsForgottenWithinFifteenStepsOfAQuarter)
     }
 }
 
-TEST_F(StepVariation, IsInSnapshots)
+TEST_F(StepVariation, IsSavedInSnapshots)
 {
     disturb(m_body);
     for (const double step : {1.0 / 60, 1.0 / 60, 1.0 / 240}) take(m_body, step);

@@ -167,7 +167,7 @@ TEST_P(DenseStep, ImpulsesAddTheirResponse)
 }
 
 // Ten responses that are hardly solved, or not at all, and a last one that is: nothing of the ten is missing.
-TEST_P(DenseStep, WhatAResponseLeavesTheNextOnesMakeGood)
+TEST_P(DenseStep, LaterResponsesCorrectEarlierResiduals)
 {
     solveFreeMotion(m_body, m_settings);
     assemble();

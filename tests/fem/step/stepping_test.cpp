@@ -26,7 +26,7 @@ StepSettings exactSettings(double tolerance = 1e-10)
 
 // --- Fixed nodes ---
 
-TEST(FixedNodes, HoldWhateverActsOnThem)
+TEST(FixedNodes, HoldUnderAnyLoad)
 {
     Body body = clampedBeam();
     disturb(body);
@@ -163,7 +163,7 @@ TEST(Momentum, FollowsTheLoadsToRounding)
     }
 }
 
-TEST(Invariants, ByHand)
+TEST(Invariants, MatchHandValues)
 {
     Body body =
         makeBody(TetMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}), elasticMaterial(260, 0.3, 24));
@@ -181,7 +181,7 @@ TEST(Invariants, ByHand)
 
 // --- How the solve ends ---
 
-TEST(DirectMode, IsOneIteration)
+TEST(DirectMode, TakesOneIteration)
 {
     Body body = clampedBeam();
     disturb(body);
@@ -261,7 +261,7 @@ TEST(Repeatability, TwoRunsGiveTheSameBits)
 
 // The increments of the last two steps, continued, save iterations where the motion is smooth, and change the answer by
 // no more than the tolerance allows.
-TEST(Guess, FromTheLastTwoIncrementsSavesIterations)
+TEST(WarmStart, LastTwoIncrementsSaveIterations)
 {
     Body warm =
         makeBody(makeBox({4, 1, 1}, {8, 2, 2}), elasticMaterial(1e5, 0.3), [](const Vec3& X) { return X.x == 0; });
@@ -283,7 +283,7 @@ TEST(Guess, FromTheLastTwoIncrementsSavesIterations)
 }
 
 // What the state remembers is only where the search starts.
-TEST(Guess, OfAnotherMotionDoesNoHarm)
+TEST(WarmStart, GuessOfAnotherMotionDoesNoHarm)
 {
     Body body =
         makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e5, 0.3), [](const Vec3& X) { return X.z == 0; });
@@ -303,7 +303,7 @@ TEST(Guess, OfAnotherMotionDoesNoHarm)
     EXPECT_LE(largestDistance(body.m_state.m_x, other.m_state.m_x), 1e-6 * moved);
 }
 
-TEST(AbandonedStep, LeavesTheBodyWhereItIsWithoutMotion)
+TEST(AbandonedStep, LeavesTheBodyInPlaceWithoutMotion)
 {
     constexpr double kTooFast = 1e13;  // squared, and in single precision, it still is a number
     Body body = makeBody(makeBox({1, 1, 1}, {1, 1, 1}), elasticMaterial(1e5, 0.3));

@@ -188,7 +188,7 @@ TEST(Stress, IsUniformInAPatchAlsoOfPartlyFilledElements)
 }
 
 // Two elements on a common face, the second twice as large: a node of the face gets a third and two thirds.
-TEST(Stress, OfANodeIsTheMeanByVolume)
+TEST(Stress, NodeStressIsTheVolumeWeightedMean)
 {
     const TetMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 2}, {5, 5, 5}},
                        {{0, 2, 1, 3}, {0, 1, 2, 4}}, LooseNodes::kept);

@@ -97,7 +97,7 @@ TEST_P(ThreadCount, PartsMayLieDeepWithinEachOther)
     EXPECT_EQ(leaves, 101);
 }
 
-TEST_P(ThreadCount, TasksThatThrowLoseNoOthers)
+TEST_P(ThreadCount, ThrowingTasksLoseNoOthers)
 {
     std::vector<std::atomic<int>> done(50);
     std::string what;
@@ -148,7 +148,7 @@ TEST_P(ThreadCount, TheyWorkAtTheSameTime)
     EXPECT_EQ(countTogether([] { return true; }), expected());
 }
 
-TEST_P(ThreadCount, TasksRoundAsTheirCaller)
+TEST_P(ThreadCount, TasksInheritTheRoundingMode)
 {
     const auto roundsUp = [] { return std::fegetround() == FE_UPWARD; };
     EXPECT_EQ(countTogether(roundsUp), 0);  // all have come before the caller changes its mind
@@ -162,7 +162,7 @@ TEST_P(ThreadCount, TasksRoundAsTheirCaller)
 
 INSTANTIATE_TEST_SUITE_P(Counts, ThreadCount, testing::ValuesIn(g_counts));
 
-TEST(Threads, RejectCountsThatNobodyMeans)
+TEST(Threads, RejectInvalidCounts)
 {
     expectRejected([] { Threads(-1); }, {"-1", "[0, 256]", "1 is the caller's"});
     expectRejected([] { Threads(257); }, {"257", "[0, 256]"});

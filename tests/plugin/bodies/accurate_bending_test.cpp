@@ -228,7 +228,7 @@ TEST(AccurateBendingBodies, GoOnToTheBitAfterASnapshot)
     EXPECT_TRUE(scene.run(20) == bits);
 }
 
-TEST(AccurateBendingBodies, RefuseWhatDoesNotGoWithThem)
+TEST(AccurateBendingBodies, RejectIncompatibleOptions)
 {
     BendingScene scene;
     SoftBox box;

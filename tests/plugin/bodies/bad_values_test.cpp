@@ -109,7 +109,7 @@ TEST_P(BadValues, NaNInAllNodesIsPutBackToo)
     EXPECT_TRUE(bad.m_cube->isActive());
 }
 
-TEST_P(BadValues, GravityThatIsNotFiniteIsFlaggedAndLeftOut)
+TEST_P(BadValues, NonFiniteGravityIsFlaggedAndIgnored)
 {
     Scene scene(GetParam());
     scene.m_world.setSoftGravity(btVector3(0, 0, kNaN));
@@ -118,7 +118,7 @@ TEST_P(BadValues, GravityThatIsNotFiniteIsFlaggedAndLeftOut)
     EXPECT_TRUE(allFinite(*scene.m_cube));
 }
 
-TEST_P(BadValues, MassesThatBulletMadeInfiniteAreTheNodesShareOfTheVolume)
+TEST_P(BadValues, InfiniteMassesAreReplacedByVolumeShares)
 {
     FemWorld world(GetParam());
     btFemSoftBodySolver& fem = world.fem();
@@ -159,7 +159,7 @@ TEST_P(BadSteps, AreNotThoseAtTheBounds)
 }
 
 // The nearest float to 1e-6 is below it.
-TEST_P(BadSteps, AtTheBoundsPrepareAndMoveABody)
+TEST_P(BadSteps, LimitingStepsPrepareAndMoveABody)
 {
     for (const btScalar allowed : {btScalar(1e-6), btScalar(1)})
     {
@@ -174,7 +174,7 @@ TEST_P(BadSteps, AtTheBoundsPrepareAndMoveABody)
     }
 }
 
-TEST_P(BadSteps, OfTheWorldDoNotSpread)
+TEST_P(BadSteps, LeaveBodiesFiniteAfterABadWorldStep)
 {
     for (const btScalar bad : {btScalar(0), kNaN, btScalar(5)})
     {

@@ -60,7 +60,7 @@ TEST_F(BakedBodies, ShareTheirFactor)
         EXPECT_TRUE(m_fem.stepReport(body).m_bakedFactor);
 }
 
-TEST_F(BakedBodies, OfTheOtherPrecisionAreUsed)
+TEST_F(BakedBodies, AreUsedInTheOtherPrecision)
 {
     m_settings.m_singlePrecision = !kSingle;
     btSoftBody& body = addBaked(bakedBox());
@@ -93,7 +93,7 @@ protected:
     }
 };
 
-TEST_F(StaleBakedFactor, OfAnotherStep)
+TEST_F(StaleBakedFactor, IsUsedForAnotherStep)
 {
     m_settings.m_step = 1.0 / 100;
     btSoftBody& body = addBaked(bakedBox());
@@ -101,7 +101,7 @@ TEST_F(StaleBakedFactor, OfAnotherStep)
     expectFreshWhenRefactored(body);
 }
 
-TEST_F(StaleBakedFactor, OfOtherMasses)
+TEST_F(StaleBakedFactor, IsUsedForOtherMasses)
 {
     btSoftBody& body = addBaked(bakedBox());
     body.setTotalMass(2 * body.getTotalMass());
@@ -109,7 +109,7 @@ TEST_F(StaleBakedFactor, OfOtherMasses)
     expectFreshWhenRefactored(body);
 }
 
-TEST_F(StaleBakedFactor, OfOtherPins)
+TEST_F(StaleBakedFactor, IsUsedForOtherPins)
 {
     btSoftBody& body = addBaked(bakedBox());
     body.m_nodes[3].m_im = 0;
@@ -119,7 +119,7 @@ TEST_F(StaleBakedFactor, OfOtherPins)
     expectFreshWhenRefactored(body);
 }
 
-TEST_F(StaleBakedFactor, OfAPinThatIsGone)
+TEST_F(StaleBakedFactor, IsUsedForARemovedPin)
 {
     m_settings.m_pins = {3};
     const BakedBody baked = bakedBox();
@@ -132,7 +132,7 @@ TEST_F(StaleBakedFactor, OfAPinThatIsGone)
     expectFreshWhenRefactored(body);
 }
 
-TEST_F(StaleBakedFactor, OfAnotherMaterial)
+TEST_F(StaleBakedFactor, IsUsedForAnotherMaterial)
 {
     btSoftBody& body = addBaked(bakedBox());
     Material stiffer = m_settings.m_material;
@@ -186,7 +186,7 @@ TEST_F(StaleBakedFactor, IsRenewedByPolicy)
     EXPECT_EQ(fem.stepReport(body).m_flags & BT_FEM_STALE_FACTOR, 0);
 }
 
-TEST_F(BakedBodies, ThatWereScaledAreFactoredAnewAndThisIsReported)
+TEST_F(BakedBodies, AreRefactoredAndReportedIfScaled)
 {
     btSoftBody& body = addBaked(bakedBox());
     body.scale(btVector3(2, 2, 2));
@@ -196,7 +196,7 @@ TEST_F(BakedBodies, ThatWereScaledAreFactoredAnewAndThisIsReported)
     EXPECT_FALSE(has(body, BT_FEM_STALE_FACTOR));
 }
 
-TEST_F(BakedBodies, WithFactorsBeyondTheLimitAreFactoredAnew)
+TEST_F(BakedBodies, AreRefactoredIfTheFactorExceedsTheLimit)
 {
     const BakedBody baked = bakedBox();
     btFemSolverInfo info;
@@ -212,7 +212,7 @@ TEST_F(BakedBodies, WithFactorsBeyondTheLimitAreFactoredAnew)
     EXPECT_TRUE(fem.stepReport(body).m_flags & BT_FEM_BAKED_UNUSED);
 }
 
-TEST_F(BakedBodies, CanBeGivenToABodyThatIsFem)
+TEST_F(BakedBodies, CanBeGivenToAnExistingFemBody)
 {
     btSoftBody* body = btFemHelpers::createFromTetMesh(m_world.info(), box());
     m_world.addSoft(body);

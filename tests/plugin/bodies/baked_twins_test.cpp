@@ -162,7 +162,7 @@ TEST_P(BakedTwins, HaveTheSameBitsWithMeanDilatationAndAnotherStep)
     expectSameBits();
 }
 
-TEST_P(BakedTwins, HaveTheSameBitsWhenTheyTouchThemselves)
+TEST_P(BakedTwins, HaveTheSameBitsInSelfContact)
 {
     add(0.05, [](FemWorld&, btSoftBody& body) { body.m_cfg.collisions |= btSoftBody::fCollision::CL_SELF; });
     expectSameBits();

@@ -44,7 +44,7 @@ TEST(FlagText, IsThereForEveryFlagOfTheHeader)
     EXPECT_EQ(explanations.size(), std::size_t(count));
 }
 
-TEST(FlagText, IsNullForWhatIsNoSingleFlag)
+TEST(FlagText, IsNullForUnknownOrCombinedFlags)
 {
     for (const int none : {0, -1, 1 << 30, BT_FEM_NOT_CONVERGED | BT_FEM_BREAKDOWN})
         EXPECT_EQ(btFemFlagText::find(none), nullptr) << none;

@@ -68,7 +68,7 @@ TEST_F(InitialStressOfABody, WakesItAndMakesItGrow)
 }
 
 // Held all round it has the stress and does not move.
-TEST_F(InitialStressOfABody, IsInTheStressThatIsRead)
+TEST_F(InitialStressOfABody, IsIncludedInTheReadStress)
 {
     btSoftBody& cube = addCube(0, 3);
     for (int i = 0; i < cube.m_nodes.size(); ++i) cube.setMass(i, 0);

@@ -94,7 +94,7 @@ void stepAndRemoveAtRest(SoftWorld& world, const btFemSoftBodySolver& fem, btSof
     body->~btSoftBody();
 }
 
-TEST_P(Lifecycle, AnotherBodyAtTheAddressOfADeletedOneIsKnownAsAnother)
+TEST_P(Lifecycle, BodyAtAReusedAddressIsRecognizedAsNew)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();
@@ -104,7 +104,7 @@ TEST_P(Lifecycle, AnotherBodyAtTheAddressOfADeletedOneIsKnownAsAnother)
 }
 
 // The order of bodies decides about rounding.
-TEST_P(Lifecycle, ABodyAtTheAddressOfADeletedOneComesLastAsAtAnyOther)
+TEST_P(Lifecycle, BodyAtAReusedAddressComesLast)
 {
     std::vector<btScalar> bits[2];
     for (int place = 0; place < 2; ++place)
@@ -130,7 +130,7 @@ TEST_P(Lifecycle, ABodyAtTheAddressOfADeletedOneComesLastAsAtAnyOther)
     EXPECT_TRUE(bits[0] == bits[1]);
 }
 
-TEST_P(Lifecycle, ABodyAtTheAddressOfADeletedOneHasNoneOfItsReports)
+TEST_P(Lifecycle, ReusedAddressHasNoStaleReports)
 {
     FemWorld world(GetParam());
     const btFemSoftBodySolver& fem = world.fem();
@@ -151,7 +151,7 @@ TEST_P(Lifecycle, ABodyAtTheAddressOfADeletedOneHasNoneOfItsReports)
 }
 
 // The next world gives out the same broadphase ids, and may itself be at the address of the last.
-TEST_P(LifecycleOfWorlds, AnotherBodyAtTheSameAddressInTheNextWorldIsKnownAsAnother)
+TEST_P(LifecycleOfWorlds, BodyAtAReusedAddressInTheNextWorldIsNew)
 {
     btFemSoftBodySolver fem;
     SoftWorld home(GetParam(), fem, btVector3(0, 0, 0));
@@ -371,7 +371,7 @@ class BrokenBody : public EachWorldWith<bool>
 {
 };
 
-TEST_P(BrokenBody, MovesAndTouchesAsInBulletAlone)
+TEST_P(BrokenBody, MovesAndCollidesAsInBulletAlone)
 {
     btDefaultSoftBodySolver plain;
     FemWorld world(worldClass());

@@ -101,7 +101,7 @@ TEST_P(Loads, BulletsDampingSlowsAFlyingBodyAsItDoesBulletsBodies)
     EXPECT_NEAR(velocityOf(cube).x, std::pow(0.98, 50), 1e-4);
 }
 
-TEST_P(Loads, VelocitiesThatTheUserSetsAreTakenOver)
+TEST_P(Loads, UserSetVelocitiesAreTakenOver)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = addCube(world);
@@ -177,7 +177,7 @@ TEST_P(Steps, TimescaleIsAFactorOnTheStepOfABody)
     EXPECT_NEAR(centerOf(cube).z, -kGravity * h * h * 60 * 60 / 2, 1e-4);
 }
 
-TEST_P(Steps, AChangingStepIsFlaggedAsStaleAndRefactorMendsThat)
+TEST_P(Steps, ChangedStepIsFlaggedAsStaleUntilRefactored)
 {
     FemWorld world(GetParam());
     btFemSoftBodySolver& fem = world.fem();
@@ -195,7 +195,7 @@ TEST_P(Steps, AChangingStepIsFlaggedAsStaleAndRefactorMendsThat)
 }
 
 // A body that touches something is given the factor of its step when the step is far off.
-TEST_P(Steps, ThatComeAndGoInContactAreFactoredFor)
+TEST_P(Steps, RecurringStepsInContactAreRefactored)
 {
     FemWorld world(GetParam());
     btFemSoftBodySolver& fem = world.fem();
@@ -214,7 +214,7 @@ TEST_P(Steps, ThatComeAndGoInContactAreFactoredFor)
 
 // --- What can be asked without exceptions ---
 
-TEST(Valid, SaysWhatSetMaterialWouldThrowAbout)
+TEST(Valid, ReportsTheErrorsOfSetMaterial)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);

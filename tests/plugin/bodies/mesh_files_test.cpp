@@ -43,7 +43,7 @@ protected:
     btSoftBodyWorldInfo m_info;
 };
 
-TEST_P(FilesForBullet, OfTetGenAreReadByCreateFromTetGenData)
+TEST_P(FilesForBullet, AreReadByCreateFromTetGenData)
 {
     const std::string path = m_folder.path("box.node");
     writeTetMeshFile(path, m_mesh, m_regions);
@@ -54,7 +54,7 @@ TEST_P(FilesForBullet, OfTetGenAreReadByCreateFromTetGenData)
     EXPECT_EQ(readTetMeshFile(path).mesh().tets(), m_mesh.tets());
 }
 
-TEST_P(FilesForBullet, OfVtkAreReadByCreateFromVtkFile)
+TEST_P(FilesForBullet, AreReadByCreateFromVtkFile)
 {
     const std::string path = m_folder.path("box.vtk");
     writeTetMeshFile(path, m_mesh, m_regions);

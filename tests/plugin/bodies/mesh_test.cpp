@@ -139,7 +139,7 @@ TEST_P(Meshes, SliversAreFlagged)
     EXPECT_EQ(flagsOf(0.99 * least), BT_FEM_SLIVERS);
 }
 
-TEST_P(Meshes, AnElementThatIsInsideOutIsFlaggedUntilItIsNot)
+TEST_P(Meshes, InvertedElementIsFlaggedUntilItRecovers)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& body = world.addSoft(makeByHand(world, kCorners, {{0, 1, 2, 3}}));
@@ -155,7 +155,7 @@ TEST_P(Meshes, AnElementThatIsInsideOutIsFlaggedUntilItIsNot)
     EXPECT_FALSE(world.fem().stepReport(&body).m_flags & BT_FEM_INSIDE_OUT);
 }
 
-TEST_P(Meshes, PiecesThatAreNotConnectedMoveOnTheirOwn)
+TEST_P(Meshes, UnconnectedComponentsMoveOnTheirOwn)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();

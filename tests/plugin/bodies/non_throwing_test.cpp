@@ -62,7 +62,7 @@ protected:
     const int m_node = 3;
 };
 
-TEST_F(NonThrowing, OfBodiesThatCannotBeFemTellWhy)
+TEST_F(NonThrowing, CallsOnInvalidBodiesTellWhy)
 {
     expectRefused([&](std::string* why) { return m_fem.setMaterial(nullptr, btFemMaterial(), why); }, "null");
     btFemMaterial hard;
@@ -77,7 +77,7 @@ TEST_F(NonThrowing, OfBodiesThatCannotBeFemTellWhy)
     expectRefused([&](std::string* why) { return m_fem.setInterest(nullptr, policy, why); }, "-1");
 }
 
-TEST_F(NonThrowing, OfWhatDrivesBodiesTellWhy)
+TEST_F(NonThrowing, ActuatorCallsTellWhy)
 {
     expectRefused([&](std::string* why) { return m_fem.addChamber(&m_cube, {}, why); }, "prepare");
     m_fem.prepare(&m_cube, btScalar(0.01));
@@ -95,7 +95,7 @@ TEST_F(NonThrowing, OfWhatDrivesBodiesTellWhy)
     expectRefused([&](std::string* why) { return btFemChamber::find(nullptr, cavities, why); }, "null");
 }
 
-TEST_F(NonThrowing, OfWhatHoldsNodesTellWhy)
+TEST_F(NonThrowing, TargetAndSpringCallsTellWhy)
 {
     btFemSpring spring;
     expectRefused([&](std::string* why) { return m_fem.setNodeTarget(&m_cube, m_node, m_place, why); }, "prepare");
@@ -117,7 +117,7 @@ TEST_F(NonThrowing, OfWhatHoldsNodesTellWhy)
     expectRefused([&](std::string* why) { return m_fem.removeSpring(nullptr, 1, why); }, "removeSpring");
 }
 
-TEST_F(NonThrowing, OfHelpersGiveNull)
+TEST_F(NonThrowing, HelpersReturnNull)
 {
     const auto isMade = [](btSoftBody* body) { return std::unique_ptr<btSoftBody>(body) != nullptr; };
     btSoftBodyWorldInfo& info = m_world.info();
@@ -143,7 +143,7 @@ TEST_F(NonThrowing, OfHelpersGiveNull)
 #endif
 }
 
-TEST_F(NonThrowing, OfConstructorsTellWhyBeforehand)
+TEST_F(NonThrowing, ConstructorArgumentsAreValidatedBeforehand)
 {
     expectRefused([&](std::string* why) { return btFemConstraintSolver::valid(nullptr, why); }, "null");
     expectDone([&](std::string* why) { return btFemConstraintSolver::valid(&m_fem, why); });
@@ -156,7 +156,7 @@ TEST_F(NonThrowing, OfConstructorsTellWhyBeforehand)
     expectRefused([&](std::string* why) { return info.valid(why); }, "-1");
 }
 
-TEST_F(NonThrowing, OfDrawingTellWhy)
+TEST_F(NonThrowing, DrawingCallsTellWhy)
 {
     btFemDrawSettings settings;
     const auto draw = [&](std::string* why)
@@ -166,7 +166,7 @@ TEST_F(NonThrowing, OfDrawingTellWhy)
     expectRefused(draw, "m_shrink");
 }
 
-TEST_F(NonThrowing, DoWhatTheCallsDo)
+TEST_F(NonThrowing, CallsHaveTheirUsualEffect)
 {
     expectDone([&](std::string* why) { return m_fem.setMaterial(&m_cube, btFemMaterial(), why); });
     expectDone([&](std::string* why) { return m_fem.setDetail(&m_cube, btFemDetail::automatic, why); });

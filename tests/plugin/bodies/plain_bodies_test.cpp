@@ -83,7 +83,7 @@ TEST_P(PlainBodies, MoveBitForBitAsWithBulletsOwnSolverBesideAFemBody)
 }
 
 // Those with the flag touch FEM bodies: ClothOnFemBodies.
-TEST_P(PlainBodies, WithoutTheFlagForSoftBodiesLeaveFemBodiesAlone)
+TEST_P(PlainBodies, LeaveFemBodiesAloneWithoutTheSoftBodyFlag)
 {
     std::vector<btScalar> bits[2];
     for (const int k : {0, 1})

@@ -109,7 +109,7 @@ TEST_P(PlasticityOfABody, APanelStaysDented)
 }
 
 // Neither the weight alone nor a turn makes it yield.
-TEST_P(PlasticityOfABody, APanelThatLiesThereDoesNotYield)
+TEST_P(PlasticityOfABody, RestingPanelDoesNotYield)
 {
     DentedPanel clay(GetParam(), softClay());
     clay.takeBallAway();
@@ -257,7 +257,7 @@ TEST(RelaxationOfBodies, ACubeSinksSlowly)
     EXPECT_NEAR(1 - top(), fast / 0.6, 0.05 * fast);
 }
 
-TEST(PlasticityOfBodies, OfNoneThereIsNothingToRead)
+TEST(PlasticityOfBodies, OtherBodiesHaveNoPlasticStrain)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);

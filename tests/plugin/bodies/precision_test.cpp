@@ -56,7 +56,7 @@ class Precision : public testing::TestWithParam<Coupling>
 // The cube's shape is rounded to where it stands, by kEpsilon of the distance, and so are its places. Contact adds to
 // it what the linear solves leave: measured .3 (float) and 80 (double) times that;
 // single precision anywhere in the double build would be 1e8 times.
-TEST_P(Precision, aFallFarAwayHasTheDigitsThatBulletHas)
+TEST_P(Precision, DistantFallHasThePrecisionOfBullet)
 {
     const Vec3 far{2048, -1024, 512};
     const double difference =

@@ -162,7 +162,7 @@ TEST(RegionBodies, SettleOnTheGroundAsTwoBarsDo)
     }
 }
 
-TEST(RegionBodies, OfAllFormsOfAskingAreTheSame)
+TEST(RegionBodies, AreTheSameByAnyFormOfCall)
 {
     RegionScene byLabel, byTet, byPlace;
     byLabel.add(kMaterials, 0, .5);
@@ -188,7 +188,7 @@ TEST(RegionBodies, OfAllFormsOfAskingAreTheSame)
     EXPECT_TRUE(byPlace.run(60) == bits);
 }
 
-TEST(RegionBodies, OfOneMaterialHaveItsBits)
+TEST(RegionBodies, HaveTheBitsOfASingleMaterial)
 {
     for (const btScalar nu : {btScalar(.3), btScalar(.47)})
     {
@@ -202,7 +202,7 @@ TEST(RegionBodies, OfOneMaterialHaveItsBits)
     }
 }
 
-TEST(RegionBodies, AreRefusedWithWhatIsWrong)
+TEST(RegionBodies, AreRejectedWithTheReason)
 {
     RegionScene scene;
     btSoftBody& body = scene.add();
@@ -348,7 +348,7 @@ TEST(RegionBodies, AreGivenToOthersByDefinitions)
     }
 }
 
-TEST(RegionBodies, OfBakedFilesMoveAsTheOthersDo)
+TEST(RegionBodies, MoveAlikeFromBakedFiles)
 {
     RegionScene plain, fromFile;
     BakeSettings settings;
@@ -388,7 +388,7 @@ TEST(RegionBodies, MayGetOtherMaterialsAtAnyTime)
 }
 
 // A cut body has materials for other elements than it has now: that is said, and given anew it is FEM again.
-TEST(RegionBodies, ThatAreCutNeedTheirMaterialsAnew)
+TEST(RegionBodies, NeedNewMaterialsAfterACut)
 {
     RegionScene scene;
     btSoftBody& body = scene.add();

@@ -135,7 +135,7 @@ protected:
 };
 
 // The body is left to Bullet with the amount in its message; one that fits is stepped.
-TEST(RejectedSize, OfAFactorBeyondTheLimit)
+TEST(RejectedSize, NamesTheFactorSizeAndTheLimit)
 {
     btFemSolverInfo info;
     info.m_maxFactorMegabytes = btScalar(0.5);
@@ -152,7 +152,7 @@ TEST(RejectedSize, OfAFactorBeyondTheLimit)
 }
 
 // With the low-memory path allowed the same body is stepped, and says how.
-TEST(RejectedSize, IsNoneWhereTheLowMemoryPathIsAllowed)
+TEST(RejectedSize, IsAvoidedByTheLowMemoryPath)
 {
     btFemSolverInfo info;
     info.m_maxFactorMegabytes = btScalar(0.2);
@@ -173,12 +173,12 @@ TEST(RejectedSize, IsNoneWhereTheLowMemoryPathIsAllowed)
     EXPECT_LE(low.m_residual, info.m_tolerance);
 }
 
-TEST(RejectedSize, AChoiceThatDoesNotExistIsToldSo)
+TEST(RejectedSize, ReportsAnUnknownChoice)
 {
     expectBadInfo(&btFemSolverInfo::m_factorChoice, static_cast<btFemFactorChoice>(7), "m_factorChoice");
 }
 
-TEST_F(RejectedCall, OnNull)
+TEST_F(RejectedCall, ReportsNullBodies)
 {
     expectRejected([&] { m_fem.setMaterial(nullptr, btFemMaterial()); }, {"null", "btFemHelpers"});
     expectRejected([&] { m_fem.setDetail(nullptr, btFemDetail::direct); }, {"null"});
@@ -195,7 +195,7 @@ TEST_F(RejectedCall, OnNull)
     EXPECT_EQ(m_fem.contactForce(nullptr, nullptr), btVector3(0, 0, 0));
 }
 
-TEST_F(RejectedCall, OnACloth)
+TEST_F(RejectedCall, ReportsCloths)
 {
     const std::unique_ptr<btSoftBody> cloth(btSoftBodyHelpers::CreatePatch(m_world.info(), btVector3(-1, -1, 0),
                                                                            btVector3(1, -1, 0), btVector3(-1, 1, 0),
@@ -217,7 +217,7 @@ TEST_F(RejectedCall, SetMaterialOnABadMeshNamesTheElement)
     expectRejected([&] { m_fem.prepare(&body, kStep); }, {"element 0"});
 }
 
-TEST_F(RejectedCall, PrepareWithABadStep)
+TEST_F(RejectedCall, ReportsBadStepsOfPrepare)
 {
     const std::unique_ptr<btSoftBody> cube(makeCube());
     for (const btScalar step : {btScalar(0), btScalar(-1), btScalar(1.5), btScalar(1e-7), kNotANumber})
@@ -226,7 +226,7 @@ TEST_F(RejectedCall, PrepareWithABadStep)
     EXPECT_TRUE(m_fem.isFem(cube.get()));
 }
 
-TEST_F(RejectedCall, NodeTargetsOutOfRange)
+TEST_F(RejectedCall, ReportsNodeTargetsOutOfRange)
 {
     const std::unique_ptr<btSoftBody> cube(makeCube());
     m_fem.prepare(cube.get(), kStep);
@@ -240,7 +240,7 @@ TEST_F(RejectedCall, NodeTargetsOutOfRange)
     expectRejected([&] { m_fem.setNodeTarget(cube.get(), 2, btVector3(0, kNotANumber, 0)); }, {"node 2", "finite"});
 }
 
-TEST_F(RejectedCall, ContactOffsetsOutOfRange)
+TEST_F(RejectedCall, ReportsContactOffsetsOutOfRange)
 {
     const std::unique_ptr<btSoftBody> cube(makeCube());
     expectRejected([&] { m_fem.setContactOffset(cube.get(), btScalar(-0.5)); }, {"-0.5", "[0, 1000]"});
@@ -248,7 +248,7 @@ TEST_F(RejectedCall, ContactOffsetsOutOfRange)
     expectRejected([&] { m_fem.setContactOffset(cube.get(), kNotANumber); }, {"nan", "[0, 1000]"});
 }
 
-TEST_F(RejectedCall, HelpersOnBadBoxesAndMeshes)
+TEST_F(RejectedCall, ReportsBadBoxesAndMeshesOfHelpers)
 {
     btSoftBodyWorldInfo& info = m_world.info();
     const btVector3 center(0, 0, 0);
@@ -272,7 +272,7 @@ TEST_F(RejectedCall, HelpersOnBadBoxesAndMeshes)
     expectRejected([&] { btFemHelpers::createFromTetMesh(info, TetMesh()); }, {"empty"});
 }
 
-TEST_F(RejectedCall, HelpersOnBadSurfaces)
+TEST_F(RejectedCall, ReportsBadSurfacesOfHelpers)
 {
     btSoftBodyWorldInfo& info = m_world.info();
     SurfaceMesh triangle;
@@ -294,7 +294,7 @@ TEST_F(RejectedCall, HelpersOnBadSurfaces)
     EXPECT_NE(text.find("/nonexistent/bunny.obj"), std::string::npos) << text;
 }
 
-TEST_F(RejectedCall, SurfaceFileWithABadCellSizeOrScale)
+TEST_F(RejectedCall, ReportsABadCellSizeOrScaleOfASurfaceFile)
 {
     const std::string path = testing::TempDir() + "bulletfem_rejected_tetrahedron.off";
     std::FILE* file = std::fopen(path.c_str(), "w");

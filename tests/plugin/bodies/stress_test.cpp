@@ -28,7 +28,7 @@ Vec3 centreOf(const btSoftBody& body, int tet)
 
 // Hung up by its upper end, it carries at every height the weight of what is below: rho g z / 1 m2 of section. Where
 // the contraction is free, a depth away from the upper end, that is von Mises' stress, too.
-TEST(StressOfABody, HangingCarriesWhatIsBelow)
+TEST(StressOfABody, HangingBodyCarriesTheWeightBelow)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
@@ -90,7 +90,7 @@ TEST(StressOfABody, IsLargestAtTheClampOfABeam)
 }
 
 // As far as single precision goes, in which a step to a tolerance of 1e-3 computes strains.
-TEST(StressOfABody, IsZeroAtRestAlsoWhereTheBodyIsTurned)
+TEST(StressOfABody, IsZeroAtRestForATurnedBody)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem, btVector3(0, 0, 0));
@@ -146,7 +146,7 @@ TEST(ContactForcesOfNodes, CarryTheWeight)
     EXPECT_EQ(forces.size(), 0);
 }
 
-TEST(StressOfABody, OfOthersIsNone)
+TEST(StressOfABody, IsMissingForOtherBodies)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);

@@ -57,7 +57,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, TooSoft, eachWorld(), nameOfWorld);
 
-TEST_P(TooSoft, IsFlaggedWhereWeightExceedsHalfOfYoungsModulus)
+TEST_P(TooSoft, IsFlaggedIfWeightExceedsHalfOfYoungsModulus)
 {
     EXPECT_TRUE(isFlagged(addSlab(softMaterial(.505, kSlabThick))));
     EXPECT_FALSE(isFlagged(addSlab(softMaterial(.495, kSlabThick))));
@@ -94,7 +94,7 @@ TEST_P(TooSoft, HeightIsTheRestShapesAlongGravityAsTheBodyLies)
     EXPECT_TRUE(isFlagged(m_world.addSoft(upright)));
 }
 
-TEST_P(TooSoft, HeightFollowsTheBodysTurnWhereItIsLookedAtAnew)
+TEST_P(TooSoft, HeightFollowsTheOrientationWhenReevaluated)
 {
     btSoftBody& body = addSlab(softMaterial(.61, kSlabLength));
     EXPECT_FALSE(isFlagged(body));
@@ -115,7 +115,7 @@ TEST_P(TooSoft, FlagFollowsGravity)
     EXPECT_TRUE(isFlagged(body));
 }
 
-TEST_P(TooSoft, PartsThatAreNotConnectedAreMeasuredEach)
+TEST_P(TooSoft, UnconnectedComponentsAreMeasuredSeparately)
 {
     TetMesh lower = makeBox({1, 1, 1}, {2, 2, 2}, {0, 0, 3});
     std::vector<Vec3> places = lower.restPositions();
@@ -194,7 +194,7 @@ TEST_P(TooSoft, OrthotropicMaterialsCountAlongGravity)
     EXPECT_TRUE(flagged(.52, .8, {0, 0, 1}));
 }
 
-TEST_P(TooSoft, MaterialsThatRelaxCountWithWhatIsLeft)
+TEST_P(TooSoft, RelaxingMaterialsCountWithTheirRelaxedModulus)
 {
     btFemMaterial material = softMaterial(.3, kSlabThick);
     EXPECT_FALSE(isFlagged(addSlab(material)));

@@ -58,7 +58,7 @@ protected:
     btFemMaterial m_material;
 };
 
-TEST_F(UrdfBody, HasWhatTheFileSays)
+TEST_F(UrdfBody, HasThePropertiesOfTheFile)
 {
     btSoftBody& cube = load(
         "<collision_margin value='0.006'/><friction value='0.75'/><gravity_factor value='0.5'/>"
@@ -110,7 +110,7 @@ TEST_F(UrdfBody, RestsWithItsWeightSqueezedAsItsModuliSay)
     EXPECT_NEAR(0.5 - height, squeezed, 0.04 * squeezed);
 }
 
-TEST_F(UrdfBody, KeepsTheMaterialGivenWhereTheFileHasNoModuli)
+TEST_F(UrdfBody, KeepsTheGivenMaterialIfTheFileHasNoModuli)
 {
     m_material.m_youngModulus = 12345;
     load("<spring elastic_stiffness='1' damping_stiffness='1'/><visual filename='cube.vtk'/>");
@@ -118,7 +118,7 @@ TEST_F(UrdfBody, KeepsTheMaterialGivenWhereTheFileHasNoModuli)
     EXPECT_EQ(m_material.m_density, 0);
 }
 
-TEST_F(UrdfBody, CarriesTheSurfaceThatIsDrawn)
+TEST_F(UrdfBody, CarriesTheVisualSurface)
 {
     m_folder.write("skin.off", "OFF\n3 1 0\n.1 .1 .1\n.4 .1 .1\n.1 .4 .3\n3 0 1 2\n");
     btSoftBody& cube =

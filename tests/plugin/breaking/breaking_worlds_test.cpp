@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, BrokenPlate, testing::Values(Coupling::swap, C
                          [](const auto& scene) { return couplingName(scene.param); });
 
 // Free in space: a ball flies through a plate that was whole.
-TEST_P(BrokenPlate, keepsMassAndMomentaWithWhatBrokeIt)
+TEST_P(BrokenPlate, ConservesMassAndMomentaWithTheProjectile)
 {
     CutBoxScene scene(plate(), GetParam(), 0, {});
     ASSERT_GT(scene.weld(brittle(1e4)), 8);
@@ -78,7 +78,7 @@ TEST_P(BrokenPlate, keepsMassAndMomentaWithWhatBrokeIt)
 }
 
 // The breaking itself changes no node: only what comes after does.
-TEST_P(BrokenPlate, hasTheMotionThatTheWholeHadWhenItBroke)
+TEST_P(BrokenPlate, KeepsTheMotionOfTheWholeAtBreaking)
 {
     const auto run = [](double stress)
     {
@@ -104,7 +104,7 @@ TEST_P(BrokenPlate, hasTheMotionThatTheWholeHadWhenItBroke)
 }
 
 // Between two walls hangs a plate that a ball falls through; one that bears it keeps it.
-TEST_P(BrokenPlate, letsTheBallThroughAndAStrongOneDoesNot)
+TEST_P(BrokenPlate, LetsTheBallThroughAndAStrongOneDoesNot)
 {
     for (const double stress : {4e4, 1e12})
     {
@@ -142,14 +142,14 @@ std::vector<btScalar> runPlate(Coupling coupling, int threads)
     return bits;
 }
 
-TEST_P(BrokenPlate, hasTheSameBitsForEveryNumberOfThreads)
+TEST_P(BrokenPlate, HasTheSameBitsForEveryNumberOfThreads)
 {
     const std::vector<btScalar> alone = runPlate(GetParam(), 1);
     for (const int threads : {2, 3, 8}) EXPECT_TRUE(runPlate(GetParam(), threads) == alone) << threads;
 }
 
 // Saved while it is whole, and while it is half broken.
-TEST_P(BrokenPlate, goesOnToTheBitFromASavedState)
+TEST_P(BrokenPlate, GoesOnToTheBitFromASavedState)
 {
     CutBoxScene scene(plate(), GetParam(), kGravity, {});
     scene.m_world.addPlane(-1);

@@ -25,7 +25,7 @@ std::vector<int> nodesAtRightEnd(const BarScene& scene)
 }
 
 // Beyond the yield stress the bar has a plastic strain where it is pulled; no element loses it.
-TEST(WhatSplits, KeepsItsPlasticStrain)
+TEST(SplitBody, KeepsItsPlasticStrain)
 {
     Bar bar;
     bar.m_isClampedLeft = true;
@@ -68,7 +68,7 @@ int nearestNode(const btSoftBody& body, const btVector3& x)
 
 // The right end is tied to a wall .04 m away, which tears the bar in two, and a spring holds it, too. All of them stay:
 // the end is where the wall is, and the report has them.
-TEST(WhatSplits, KeepsAttachmentsAndSprings)
+TEST(SplitBody, KeepsAttachmentsAndSprings)
 {
     Bar bar;
     bar.m_isClampedLeft = true;
@@ -100,7 +100,7 @@ TEST(WhatSplits, KeepsAttachmentsAndSprings)
 }
 
 // Fibres are of elements, which stay; a cable runs through nodes, which may have parted.
-TEST(WhatSplits, KeepsFibresAndLosesCables)
+TEST(SplitBody, KeepsFibresAndLosesCables)
 {
     Bar bar;
     bar.m_isClampedLeft = true;

@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, SplittingBar, testing::Values(Coupling::swap, 
                          [](const auto& scene) { return couplingName(scene.param); });
 
 // Stress is F / A: in a regular mesh, and in one that has no plane of faces across the pull.
-TEST_P(SplittingBar, breaksAcrossThePullAtTheStrengthThatWasSet)
+TEST_P(SplittingBar, BreaksAcrossThePullAtTheSetStrength)
 {
     for (const BarMesh mesh : {BarMesh::regular, BarMesh::shaken})
     {
@@ -58,7 +58,7 @@ TEST_P(SplittingBar, breaksAcrossThePullAtTheStrengthThatWasSet)
     }
 }
 
-TEST_P(SplittingBar, staysWholeJustBelowItsStrength)
+TEST_P(SplittingBar, StaysWholeJustBelowItsStrength)
 {
     for (const BarMesh mesh : {BarMesh::regular, BarMesh::shaken})
     {
@@ -85,7 +85,7 @@ Bar notchedBar()
 }
 
 // Half of the section is left there, and stress is larger still at the bottom of the slit.
-TEST_P(SplittingBar, breaksAtItsNotch)
+TEST_P(SplittingBar, BreaksAtItsNotch)
 {
     BarScene scene(notchedBar(), GetParam());
     scene.setStrength(kStrength);
@@ -126,7 +126,7 @@ void throwIt(const BarScene& scene)
 }
 
 // Its twin has no strength, and is at the same place in the same motion when it splits.
-TEST_P(SplittingBar, keepsMassMotionAndStressAsItSplits)
+TEST_P(SplittingBar, KeepsMassMotionAndStressAsItSplits)
 {
     BarScene scene(freeBar(), GetParam(), 0, {}), twin(freeBar(), GetParam(), 0, {});
     scene.setStrength(kStrength);
@@ -161,7 +161,7 @@ TEST_P(SplittingBar, keepsMassMotionAndStressAsItSplits)
     for (int e = 0; e < stress.size(); ++e) EXPECT_NEAR(double(stress[e].m_xx), double(wholeStress[e].m_xx), 1);
 }
 
-TEST_P(SplittingBar, keepsItsMomentaAfterwards)
+TEST_P(SplittingBar, KeepsItsMomentaAfterwards)
 {
     BarScene scene(freeBar(), GetParam(), 0, {});
     scene.setStrength(kStrength);
@@ -176,7 +176,7 @@ TEST_P(SplittingBar, keepsItsMomentaAfterwards)
 }
 
 // The halves are thrown at each other.
-TEST_P(SplittingBar, hasPartsThatTouchEachOtherUnlessTheyShallNot)
+TEST_P(SplittingBar, PartsCollideUnlessDisabled)
 {
     for (const bool touch : {true, false})
     {
@@ -209,7 +209,7 @@ TEST_P(SplittingBar, hasPartsThatTouchEachOtherUnlessTheyShallNot)
 }
 
 // What broke off falls back on what is left, lies there, and has its weight.
-TEST_P(SplittingBar, bearsWhatBrokeOff)
+TEST_P(SplittingBar, SupportsTheBrokenOffPart)
 {
     BarScene scene(heldBar(), GetParam());
     scene.setStrength(kStrength);
@@ -225,7 +225,7 @@ TEST_P(SplittingBar, bearsWhatBrokeOff)
 }
 
 // Its right end is moved: the nodes there are held on.
-TEST(Splitting, keepsTargetsAndPins)
+TEST(Splitting, KeepsTargetsAndPins)
 {
     BarScene scene(heldBar());
     scene.setStrength(kStrength);
@@ -252,7 +252,7 @@ TEST(Splitting, keepsTargetsAndPins)
     EXPECT_EQ(scene.splits().size(), 1);
 }
 
-TEST(Splitting, isRefusedWhereInputIsBad)
+TEST(Splitting, IsRejectedForBadInput)
 {
     BarScene scene(heldBar());
     const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -297,7 +297,7 @@ class SplittingInWorld : public EachWorld
 {
 };
 
-TEST_P(SplittingInWorld, happensAtTheStrengthThatWasSet)
+TEST_P(SplittingInWorld, HappensAtTheSetStrength)
 {
     BarScene scene(heldBar(), Coupling::swap, 0, implicitEuler(), GetParam());
     scene.setStrength(kStrength);

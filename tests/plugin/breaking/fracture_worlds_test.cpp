@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, SplittingPlate, testing::Values(Coupling::swap
                          [](const auto& scene) { return couplingName(scene.param); });
 
 // Free in space: a ball flies through.
-TEST_P(SplittingPlate, keepsMassAndMomentaWithWhatBrokeIt)
+TEST_P(SplittingPlate, ConservesMassAndMomentaWithTheProjectile)
 {
     BarScene scene(brittlePlate(), GetParam(), 0, {});
     scene.setStrength(kBrittle / 2.5, 20);
@@ -82,14 +82,14 @@ std::vector<btScalar> runSplittingPlate(Coupling coupling, int threads)
     return bits;
 }
 
-TEST_P(SplittingPlate, hasTheSameBitsForEveryNumberOfThreads)
+TEST_P(SplittingPlate, HasTheSameBitsForEveryNumberOfThreads)
 {
     const std::vector<btScalar> alone = runSplittingPlate(GetParam(), 1);
     for (const int threads : {2, 3}) EXPECT_TRUE(runSplittingPlate(GetParam(), threads) == alone) << threads;
 }
 
 // Saved before it splits, and refused afterwards; saved in the midst of it, and restored while nothing splits.
-TEST_P(SplittingPlate, goesOnFromASavedStateAsLongAsItIsTheSameMesh)
+TEST_P(SplittingPlate, GoesOnFromASavedStateAsLongAsItIsTheSameMesh)
 {
     BarScene scene(brittlePlate(), GetParam(), kGravity, {});
     scene.m_world.addPlane(-1);
@@ -129,7 +129,7 @@ TEST_P(SplittingPlate, goesOnFromASavedStateAsLongAsItIsTheSameMesh)
 }
 
 // What broke lies on the floor, and one upon another.
-TEST_P(SplittingPlate, comesToRestInParts)
+TEST_P(SplittingPlate, ComesToRestInParts)
 {
     BarScene scene(brittlePlate(), GetParam(), kGravity);
     scene.m_world.addPlane(-1);

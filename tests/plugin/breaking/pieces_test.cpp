@@ -15,10 +15,10 @@ namespace bullet_fem
 namespace
 {
 
-class PiecesTest : public testing::Test
+class FragmentsTest : public testing::Test
 {
 protected:
-    PiecesTest() { m_info.m_gravity.setZero(); }
+    FragmentsTest() { m_info.m_gravity.setZero(); }
 
     btSoftBody& box(const Vec3& size, const std::array<int, 3>& cells)
     {
@@ -43,7 +43,7 @@ protected:
     std::vector<std::unique_ptr<btSoftBody>> m_owner;
 };
 
-TEST_F(PiecesTest, haveTheMassAndTheMomentaOfTheWhole)
+TEST_F(FragmentsTest, HaveTheMassAndTheMomentaOfTheWhole)
 {
     btSoftBody& whole = box({1, 0.8, 0.6}, {5, 4, 3});
     for (int i = 0; i < whole.m_nodes.size(); ++i)
@@ -64,7 +64,7 @@ TEST_F(PiecesTest, haveTheMassAndTheMomentaOfTheWhole)
     EXPECT_NEAR(after.m_energy, before.m_energy, 1e-6 * before.m_energy);
 }
 
-TEST_F(PiecesTest, haveEveryTetrahedronOnceWhereItIs)
+TEST_F(FragmentsTest, HaveEveryTetrahedronOnceInPlace)
 {
     const btSoftBody& whole = box({1, 0.8, 0.6}, {5, 4, 3});
     cutVoronoi(7);
@@ -91,7 +91,7 @@ TEST_F(PiecesTest, haveEveryTetrahedronOnceWhereItIs)
     for (int count : times) EXPECT_EQ(count, 1);
 }
 
-TEST_F(PiecesTest, ofALabelInTwoPlacesAreTwo)
+TEST_F(FragmentsTest, OneLabelInTwoPlacesGivesTwoFragments)
 {
     const btSoftBody& whole = box({4, 1, 1}, {4, 1, 1});
     std::vector<int> labels = sliceLabels(makeBox({4, 1, 1}, {4, 1, 1}, {}), 4);
@@ -104,7 +104,7 @@ TEST_F(PiecesTest, ofALabelInTwoPlacesAreTwo)
 }
 
 // What was strained is strained when it is cut.
-TEST_F(PiecesTest, keepTheRestShapePinsAndSettings)
+TEST_F(FragmentsTest, KeepTheRestShapePinsAndSettings)
 {
     btSoftBody& whole = box({1, 0.8, 0.6}, {5, 4, 3});
     whole.m_cfg.kDF = btScalar(0.77);
@@ -142,7 +142,7 @@ TEST_F(PiecesTest, keepTheRestShapePinsAndSettings)
     EXPECT_GE(pinned, 1);
 }
 
-TEST_F(PiecesTest, ofVoronoiCellsAreWholeAndTheSameEveryTime)
+TEST_F(FragmentsTest, VoronoiCellsAreWholeAndReproducible)
 {
     const btSoftBody& whole = box({1, 1, 1}, {6, 6, 6});
     std::vector<int> first, again, other;
@@ -159,7 +159,7 @@ TEST_F(PiecesTest, ofVoronoiCellsAreWholeAndTheSameEveryTime)
     EXPECT_GT(smallest, first.size() / 12 / 5);  // spread, not heaped
 }
 
-TEST_F(PiecesTest, areRefusedWhereInputIsBad)
+TEST_F(FragmentsTest, AreRejectedForBadInput)
 {
     const btSoftBody& whole = box({1, 1, 1}, {2, 2, 2});
     std::vector<int> labels(40, 0);

@@ -40,14 +40,14 @@ CutBox clampedBar()
     return bar;
 }
 
-class EachCoupling : public testing::TestWithParam<Coupling>
+class WeldedBar : public testing::TestWithParam<Coupling>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Solvers, EachCoupling, testing::Values(Coupling::swap, Coupling::coupled),
+INSTANTIATE_TEST_SUITE_P(Solvers, WeldedBar, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& scene) { return couplingName(scene.param); });
 
-TEST_P(EachCoupling, breaksAWeldedBarAtTheForceThatWasSet)
+TEST_P(WeldedBar, BreaksAtTheSetForce)
 {
     CutBoxScene scene(clampedBar(), GetParam());
     btFemWeldStrength strength;
@@ -74,7 +74,7 @@ TEST_P(EachCoupling, breaksAWeldedBarAtTheForceThatWasSet)
 }
 
 // Without Poisson's ratio the stress is the same all over the section.
-TEST_P(EachCoupling, tearsAWeldedBarAtTheStressThatWasSet)
+TEST_P(WeldedBar, TearsAtTheSetStress)
 {
     CutBoxScene scene(clampedBar(), GetParam());
     btFemWeldStrength strength;
@@ -88,7 +88,7 @@ TEST_P(EachCoupling, tearsAWeldedBarAtTheStressThatWasSet)
     EXPECT_TRUE(scene.welds().empty());  // what one node no longer bears the next ones do not
 }
 
-TEST_P(EachCoupling, stretchesGlueByItsComplianceAndTearsItAtItsStretch)
+TEST_P(WeldedBar, StretchesGlueByItsComplianceAndTearsItAtItsStretch)
 {
     CutBoxScene scene(clampedBar(), GetParam());
     btFemWeldStrength strength;
@@ -102,7 +102,7 @@ TEST_P(EachCoupling, stretchesGlueByItsComplianceAndTearsItAtItsStretch)
     EXPECT_NEAR(force, kLimit, 0.02 * kLimit);
 }
 
-TEST_P(EachCoupling, breaksNothingByPressure)
+TEST_P(WeldedBar, DoesNotBreakUnderPressure)
 {
     CutBoxScene scene(clampedBar(), GetParam());
     btFemWeldStrength strength;
@@ -115,7 +115,7 @@ TEST_P(EachCoupling, breaksNothingByPressure)
     EXPECT_LT(double(scene.welds()[0].m_stress), 0.05 * kLimit / kArea);
 }
 
-TEST_P(EachCoupling, carriesWhatHangsBelowAWeld)
+TEST_P(WeldedBar, CarriesTheLoadBelowAWeld)
 {
     CutBox bar = clampedBar();
     bar.m_slices = 4;
@@ -152,7 +152,7 @@ double lowestTip(const CutBoxScene& scene)
 }
 
 // The welds add nothing: the mesh is the same, and so is its bending.
-TEST_P(WeldedBeam, bendsAsTheWhole)
+TEST_P(WeldedBeam, BendsAsTheWhole)
 {
     CutBox bar = clampedBar();
     bar.m_cells = {12, 3, 3};
@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Cuts, WeldedBeam,
                          });
 
 // Faces that lie upon each other push nothing apart.
-TEST(Welds, keepPiecesAtRestThatTouchOnlyOnceTheyBroke)
+TEST(Welds, KeepFragmentsAtRestWithoutContactUntilTheyBreak)
 {
     CutBox box;
     box.m_slices = 0;
@@ -204,7 +204,7 @@ TEST(Welds, keepPiecesAtRestThatTouchOnlyOnceTheyBroke)
 }
 
 // A bar that is bent into a hairpin: its ends lie upon each other.
-TEST(Welds, makePiecesOneBodyThatTouchesItselfOnlyWhereItMay)
+TEST(Welds, MakeFragmentsOneBodyWithOptionalSelfContact)
 {
     for (const bool mayTouchItself : {false, true})
     {
@@ -233,7 +233,7 @@ TEST(Welds, makePiecesOneBodyThatTouchesItselfOnlyWhereItMay)
     }
 }
 
-TEST(Welds, thatBrokeLetPiecesCollide)
+TEST(Welds, BrokenWeldsLetFragmentsCollide)
 {
     CutBox box;
     CutBoxScene scene(box);
@@ -257,7 +257,7 @@ TEST(Welds, thatBrokeLetPiecesCollide)
     EXPECT_LT(norm(scene.motion().m_linear), 1e-3);
 }
 
-TEST(Welds, areRefusedWhereInputIsBad)
+TEST(Welds, AreRejectedForBadInput)
 {
     CutBoxScene scene({});
     btSoftBody &a = *scene.m_pieces[0].m_body, &b = *scene.m_pieces[1].m_body;
@@ -303,7 +303,7 @@ TEST(Welds, areRefusedWhereInputIsBad)
     EXPECT_FALSE(btFemWelds::welds(scene.m_fem, scene.m_whole.get(), reports));
 }
 
-TEST(Welds, endWithTheOtherBody)
+TEST(Welds, EndWithTheOtherBody)
 {
     CutBoxScene scene({});
     scene.weld();
@@ -319,7 +319,7 @@ class WeldsInWorld : public EachWorld
 {
 };
 
-TEST_P(WeldsInWorld, breakAtTheForceThatWasSet)
+TEST_P(WeldsInWorld, BreakAtTheSetForce)
 {
     CutBoxScene scene(clampedBar(), Coupling::swap, 0, implicitEuler(), GetParam());
     btFemWeldStrength strength;

@@ -163,7 +163,7 @@ TEST_P(ChangedArrays, NodesAppendedAfterTheTetrahedraBeforeTheFirstStepAreFlagge
     EXPECT_EQ(why, fem.stepReport(&cube).m_message);
 }
 
-TEST_P(ChangedArrays, OurOwnCallsSayThatTheBodyMustBeStepped)
+TEST_P(ChangedArrays, OurOwnCallsReportThatAStepIsNeeded)
 {
     HangingCube cube(GetParam());
     cube.appendNodes();

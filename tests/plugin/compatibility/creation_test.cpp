@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // --- Faces ---
 
-TEST_P(Creation, FacesAreMadeOutwardWhereTheCreatorMadeNone)
+TEST_P(Creation, FacesAreMadeOutwardIfTheCreatorMadeNone)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     const TetMesh mesh = barMesh();
@@ -251,7 +251,7 @@ TEST_P(Creation, UnusedNodesGetNoMassFromADensity)
     EXPECT_NEAR(body.getTotalMass(), 192 + 7 + 1, 0.01);  // theirs are what they were
 }
 
-TEST_P(Creation, AllNodesUnusedButAPieceIsStillRefusedByOurHelpers)
+TEST_P(Creation, HelpersRejectUnusedNodes)
 {
     FemWorld world(GetParam());
     const btVector3 x[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 5}};

@@ -56,7 +56,7 @@ class MassSetter : public EachWorldWith<Setter>
 {
 };
 
-TEST_P(MassSetter, SaysWhatTheBodyWeighs)
+TEST_P(MassSetter, SetsTheWeightOfTheBody)
 {
     Scales scales(worldClass());
     value().m_set(scales.body());
@@ -67,7 +67,7 @@ TEST_P(MassSetter, SaysWhatTheBodyWeighs)
     EXPECT_NEAR(massOf(scales.body()), value().m_weighs, 1e-4 * value().m_weighs);  // and its nodes say so
 }
 
-TEST_P(MassSetter, SaysWhatTheBodyWeighsInMidRun)
+TEST_P(MassSetter, SetsTheWeightOfTheBodyInMidRun)
 {
     Scales scales(worldClass());
     scales.put();
@@ -109,7 +109,7 @@ class Masses : public EachWorld
 INSTANTIATE_TEST_SUITE_P(Worlds, Masses, eachWorld(), nameOfWorld);
 
 // Inner nodes move like the others, not like massless ones.
-TEST_P(Masses, FromFacesAreSharedOutByVolume)
+TEST_P(Masses, FaceMassesAreDistributedByVolume)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));
@@ -122,7 +122,7 @@ TEST_P(Masses, FromFacesAreSharedOutByVolume)
 }
 
 // Without faces Bullet makes NaN of all masses, and what was asked for is lost.
-TEST_P(Masses, FromFacesThatAreNotThereAreThoseOfWater)
+TEST_P(Masses, MissingFacesGiveTheMassesOfWater)
 {
     Scales scales(GetParam());
     scales.body().m_faces.clear();
@@ -176,7 +176,7 @@ TEST_P(Masses, SetWhilePinnedAreWeighedAndThePinsStay)
 }
 
 // Let go with another mass: it falls freely, with that mass, in its own shape.
-TEST_P(Masses, ANodeReleasedWithAnotherMassHasThat)
+TEST_P(Masses, ANodeReleasedWithANewMassHasThatMass)
 {
     Hanging bar(GetParam());
     bar.sag();

@@ -198,7 +198,7 @@ protected:
     }
 };
 
-TEST_P(HungCube, FeelsAllThatHitsItHoweverItsPoseIsMatched)
+TEST_P(HungCube, KeepsImpactMomentumForAnyPoseMatching)
 {
     for (const double kMT : {0.0, 0.3, 0.9})
     {

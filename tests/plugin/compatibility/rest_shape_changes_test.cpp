@@ -49,7 +49,7 @@ double largestDifference(const std::vector<double>& a, const std::vector<double>
 
 // A body that has left the world is known until the next step. Who becomes FEM before that shares its factor and rest
 // shape if it is a copy of what that was; not if it has a shape of its own, nor what that one has become.
-TEST(RestShape, OfABodyThatFollowsARemovedCopyIsItsOwn)
+TEST(RestShape, BodyFollowingARemovedCopyHasItsOwn)
 {
     for (const bool isPrepared : {true, false})
         for (const double growth : {0.0, 2e-4, 1e-2})
@@ -83,7 +83,7 @@ class RestShape : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, RestShape, eachWorld(), nameOfWorld);
 
-TEST_P(RestShape, ABodyDeformedBeforeItsFirstStepSpringsBackToItsElementMatrices)
+TEST_P(RestShape, EarlyDeformedBodySpringsBackToItsElementMatrices)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();
@@ -118,7 +118,7 @@ TEST_P(RestShape, ABodyMovedBeforeItsFirstStepStandsStill)
 }
 
 // Bodies assembled with appendTetra have matrices of zero: their shape in the first step is the one that they keep.
-TEST_P(RestShape, WithoutElementMatricesItIsThePresentShape)
+TEST_P(RestShape, IsThePresentShapeWithoutElementMatrices)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody* made = makeElasticCube(world);
@@ -130,7 +130,7 @@ TEST_P(RestShape, WithoutElementMatricesItIsThePresentShape)
 }
 
 // Matrices that nobody set, or that do not fit to each other, are not believed.
-TEST_P(RestShape, ElementMatricesThatAreNoShapeAreIgnored)
+TEST_P(RestShape, InconsistentElementMatricesAreIgnored)
 {
     for (const int kind : {0, 1, 2})
     {

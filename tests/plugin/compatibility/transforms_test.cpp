@@ -67,7 +67,7 @@ TEST_P(Transforms, APinnedBodyTurnsWithItsPinsAndStaysAsItHung)
     for (int i = 0; i < beam.m_nodes.size(); ++i) EXPECT_LT((beam.m_nodes[i].m_x - expected[i]).length(), 1e-4) << i;
 }
 
-TEST_P(Transforms, ABodyWithAllNodesPinnedIsWhereItIsPut)
+TEST_P(Transforms, FullyPinnedBodyFollowsTranslations)
 {
     FemWorld world(GetParam());
     btSoftBody& cube = addUnitCube(world, btVector3(0, 0, 0));

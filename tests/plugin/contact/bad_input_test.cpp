@@ -113,7 +113,7 @@ TEST_P(BadContactInput, TetrahedraFallOnEachOther)
     EXPECT_LT(fastestNode(upper), 5);
 }
 
-TEST_P(BadContactInput, ATouchedRigidBodyIsDeletedBetweenSteps)
+TEST_P(BadContactInput, RigidBodyInContactIsDeletedBetweenSteps)
 {
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = addCube(0);
@@ -129,7 +129,7 @@ TEST_P(BadContactInput, ATouchedRigidBodyIsDeletedBetweenSteps)
     EXPECT_LT(velocityOf(cube).z, -0.45 * kGravity);  // half a second of free fall
 }
 
-TEST_P(BadContactInput, ATouchedRigidBodyIsDeletedWithinAStep)
+TEST_P(BadContactInput, RigidBodyInContactIsDeletedWithinAStep)
 {
     for (const bool before : {true, false})
     {
@@ -149,7 +149,7 @@ TEST_P(BadContactInput, ATouchedRigidBodyIsDeletedWithinAStep)
     }
 }
 
-TEST_P(BadContactInput, ATouchedRigidBodyLeavesTheWorldWithinAStepAndComesBack)
+TEST_P(BadContactInput, RigidBodyInContactLeavesWithinAStepAndReturns)
 {
     for (const bool before : {true, false})
     {
@@ -171,7 +171,7 @@ TEST_P(BadContactInput, ATouchedRigidBodyLeavesTheWorldWithinAStepAndComesBack)
     }
 }
 
-TEST_P(BadContactInput, ATouchedSoftBodyIsDeletedBetweenSteps)
+TEST_P(BadContactInput, SoftBodyInContactIsDeletedBetweenSteps)
 {
     m_world.addFloorBox();
     btSoftBody& lower = addCube(0);
@@ -184,7 +184,7 @@ TEST_P(BadContactInput, ATouchedSoftBodyIsDeletedBetweenSteps)
 }
 
 // Bullet makes a body static whose mass is set to 0; it does not say that the body is in the world.
-TEST_P(BadContactInput, ARigidBodyOfMassZero)
+TEST_P(BadContactInput, RigidBodyBecomingStaticDoesNoHarm)
 {
     m_world.addFloorBox();
     btSoftBody& cube = addCube(0);
@@ -195,7 +195,7 @@ TEST_P(BadContactInput, ARigidBodyOfMassZero)
     EXPECT_EQ(std::isfinite(stone.getCenterOfMassPosition().z()), true);
 }
 
-TEST_P(BadContactInput, ARigidBodyOfHugeOrTinyMass)
+TEST_P(BadContactInput, HugeOrTinyRigidMassDoesNoHarm)
 {
     for (const btScalar mass : {btScalar(1e18), btScalar(1e-6)})
     {
@@ -221,7 +221,7 @@ TEST_P(BadContactInput, ARigidBodyOfNearlyInfiniteMassDoesNotReachTheSoftBody)
     stepAndExpectFinite(cube, 120);
 }
 
-TEST_P(BadContactInput, AMassThatIsNoNumberDoesNotReachTheSoftBody)
+TEST_P(BadContactInput, NonFiniteMassDoesNotReachTheSoftBody)
 {
     m_world.addFloorBox();
     btSoftBody& cube = addCube(0);
@@ -231,7 +231,7 @@ TEST_P(BadContactInput, AMassThatIsNoNumberDoesNotReachTheSoftBody)
     stepAndExpectFinite(cube, 30);
 }
 
-TEST_P(BadContactInput, AnEmptyCompoundIsNotTouched)
+TEST_P(BadContactInput, EmptyCompoundHasNoContact)
 {
     m_world.addFloorBox();
     m_world.addRigid(new btCompoundShape);

@@ -54,7 +54,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Worlds, ClothAttachments, eachClothWorld(),
                          [](const auto& suite) { return nameOf(suite.param); });
 
-TEST_P(ClothAttachments, holdAClothsWeight)
+TEST_P(ClothAttachments, HoldAClothsWeight)
 {
     ClothWorld scene(GetParam());
     build(scene);
@@ -80,7 +80,7 @@ TEST_P(ClothAttachments, holdAClothsWeight)
     EXPECT_NEAR(force, weight, 0.05 * weight);  // it swings
 }
 
-TEST_P(ClothAttachments, keepMomentum)
+TEST_P(ClothAttachments, KeepMomentum)
 {
     ClothWorld scene(GetParam(), {0, 0, 0});
     btSoftBody& ball = scene.addBall({0, 0, 0}, 0.3, 10, 1e5);
@@ -102,7 +102,7 @@ TEST_P(ClothAttachments, keepMomentum)
     EXPECT_LT(velocityOf(cloth).x, -0.2);
 }
 
-TEST_P(ClothAttachments, endWithDetachOrTheCloth)
+TEST_P(ClothAttachments, EndWithDetachOrTheCloth)
 {
     for (const bool detach : {false, true})
     {
@@ -124,7 +124,7 @@ TEST_P(ClothAttachments, endWithDetachOrTheCloth)
 }
 
 // A state has neither the cloth nor what ties it: both are there still, and the cloth's nodes are put back.
-TEST_P(ClothAttachments, stayWhenAStateIsRestored)
+TEST_P(ClothAttachments, StayWhenAStateIsRestored)
 {
     ClothWorld scene(GetParam());
     build(scene);
@@ -157,7 +157,7 @@ TEST_P(ClothAttachments, stayWhenAStateIsRestored)
     EXPECT_TRUE(GetParam() == ClothWorldKind::deformable || first == bitsOf(*m_block));
 }
 
-TEST_P(ClothAttachments, areRefusedWithAReason)
+TEST_P(ClothAttachments, AreRefusedWithAReason)
 {
     ClothWorld scene(GetParam());
     build(scene);

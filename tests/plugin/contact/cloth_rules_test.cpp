@@ -48,7 +48,7 @@ class ClothRulesOfSoftWorlds : public ClothRules
 INSTANTIATE_TEST_SUITE_P(Worlds, ClothRulesOfSoftWorlds, eachSoftClothWorld(),
                          [](const auto& suite) { return nameOf(suite.param); });
 
-TEST_P(ClothRules, bothNeedTheFlagForSoftBodies)
+TEST_P(ClothRules, BothNeedTheSoftBodyFlag)
 {
     for (const bool ofCloth : {false, true})
     {
@@ -65,7 +65,7 @@ TEST_P(ClothRules, bothNeedTheFlagForSoftBodies)
     EXPECT_FALSE(falls(scene, *cloth));
 }
 
-TEST_P(ClothRules, filtersAndIgnoreListsAreObeyed)
+TEST_P(ClothRules, FiltersAndIgnoreListsAreObeyed)
 {
     for (const int way : {0, 1, 2})
     {
@@ -85,7 +85,7 @@ TEST_P(ClothRules, filtersAndIgnoreListsAreObeyed)
     }
 }
 
-TEST_P(ClothRules, contactIsTold)
+TEST_P(ClothRules, ContactIsReported)
 {
     btFemSolverInfo info;
     info.m_manifolds = true;
@@ -116,7 +116,7 @@ TEST_P(ClothRules, contactIsTold)
 }
 
 // Bullet's islands wake what cloth comes near.
-TEST_P(ClothRules, aBodyThatSleepsIsWoken)
+TEST_P(ClothRules, SleepingBodyIsWoken)
 {
     ClothWorld scene(GetParam());
     btSoftBody& block = scene.addBox(blockBelow(0));
@@ -130,7 +130,7 @@ TEST_P(ClothRules, aBodyThatSleepsIsWoken)
     EXPECT_GT(scene.fem().stepReport(&block).m_contacts, 100);
 }
 
-TEST_P(ClothRules, bodiesMayGoWhileTheyTouch)
+TEST_P(ClothRules, BodiesInContactMayBeRemoved)
 {
     for (const bool ofCloth : {false, true})
     {
@@ -149,7 +149,7 @@ TEST_P(ClothRules, bodiesMayGoWhileTheyTouch)
 }
 
 // Programs tear cloth.
-TEST_P(ClothRules, facesMayGoWhileTheyTouch)
+TEST_P(ClothRules, FacesInContactMayBeRemoved)
 {
     ClothWorld scene(GetParam());
     btSoftBody *block, *cloth;
@@ -162,7 +162,7 @@ TEST_P(ClothRules, facesMayGoWhileTheyTouch)
     EXPECT_TRUE(allFinite(*cloth));
 }
 
-TEST_P(ClothRulesOfSoftWorlds, whatIsNoNumberTouchesNothing)
+TEST_P(ClothRulesOfSoftWorlds, NonFiniteNodesHaveNoContact)
 {
     ClothWorld scene(GetParam());
     btSoftBody *block, *cloth;
@@ -173,7 +173,7 @@ TEST_P(ClothRulesOfSoftWorlds, whatIsNoNumberTouchesNothing)
     EXPECT_TRUE(allFinite(*block));
 }
 
-TEST_P(ClothRules, theDeepestContactsAreKept)
+TEST_P(ClothRules, TheDeepestContactsAreKept)
 {
     btFemSolverInfo info;
     info.m_maxContacts = 20;
@@ -185,7 +185,7 @@ TEST_P(ClothRules, theDeepestContactsAreKept)
     EXPECT_TRUE(scene.fem().stepReport(block).m_flags & BT_FEM_CONTACT_LIMIT);
 }
 
-TEST_P(ClothRules, sameBitsForAnyNumberOfThreads)
+TEST_P(ClothRules, HaveTheSameBitsForAnyNumberOfThreads)
 {
     const auto run = [](int threads)
     {
@@ -217,7 +217,7 @@ TEST_P(ClothRules, sameBitsForAnyNumberOfThreads)
 }
 
 // A state does not have cloth: a program puts back what its nodes are and how fast.
-TEST_P(ClothRulesOfSoftWorlds, aSavedStateGoesOnWithTheNodesOfTheClothPutBack)
+TEST_P(ClothRulesOfSoftWorlds, SavedStateContinuesWithRestoredClothNodes)
 {
     ClothWorld scene(GetParam());
     btSoftBody *block, *cloth;

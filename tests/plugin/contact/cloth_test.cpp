@@ -56,7 +56,7 @@ SoftBox stiffSlab(const Vec3& size, const std::array<int, 3>& cells)
     return box;
 }
 
-TEST_P(ClothOnFemBodies, restOnABlockWithTheirWeight)
+TEST_P(ClothOnFemBodies, RestOnABlockWithTheirWeight)
 {
     ClothWorld scene(GetParam());
     btSoftBody& block = scene.addBox(stiffSlab({1, 1, 0.5}, {4, 4, 2}));
@@ -78,7 +78,7 @@ TEST_P(ClothOnFemBodies, restOnABlockWithTheirWeight)
 }
 
 // Nodes beside the block hang on those upon it.
-TEST_P(ClothOnFemBodies, hangOverABallAndWeighOnIt)
+TEST_P(ClothOnFemBodies, HangOverABallAndWeighOnIt)
 {
     ClothWorld scene(GetParam());
     btSoftBody& ball = scene.addBall({0, 0, 0}, 0.3, 1000, 1e6);
@@ -94,7 +94,7 @@ TEST_P(ClothOnFemBodies, hangOverABallAndWeighOnIt)
         EXPECT_GT(norm(vec3(cloth.m_nodes[i].m_x)), 0.3 * 0.97 + 0.5 * kClothMargin) << i;  // a polyhedron's faces
 }
 
-TEST_P(ClothOnFemBodies, fallOnAFreeBallAndPushIt)
+TEST_P(ClothOnFemBodies, FallOnAFreeBallAndPushIt)
 {
     ClothWorld scene(GetParam(), {0, 0, 0});
     btSoftBody& ball = scene.addBall({0, 0, 0}, 0.3, 10, 1e5);
@@ -107,7 +107,7 @@ TEST_P(ClothOnFemBodies, fallOnAFreeBallAndPushIt)
     EXPECT_NEAR(motionOf(ball).m_linear.z + motionOf(cloth).m_linear.z, -momentum, 1e-5 * momentum);
 }
 
-TEST_P(ClothOnFemBodies, keepMomentum)
+TEST_P(ClothOnFemBodies, KeepMomentum)
 {
     ClothWorld scene(GetParam(), {0, 0, 0});
     btSoftBody& ball = scene.addBall({0.03, 0.01, 0.5}, 0.3, 10, 1e5);
@@ -129,7 +129,7 @@ TEST_P(ClothOnFemBodies, keepMomentum)
 }
 
 // Bullet's links turn what they hold a little; without them there is contact alone.
-TEST_P(ClothInSoftWorlds, keepsAngularMomentumButForBulletsSprings)
+TEST_P(ClothInSoftWorlds, KeepsAngularMomentumButForBulletsSprings)
 {
     ClothWorld scene(GetParam(), {0, 0, 0});
     btSoftBody& ball = scene.addBall({0.1, 0.05, 0.5}, 0.3, 10, 1e5);
@@ -152,7 +152,7 @@ TEST_P(ClothInSoftWorlds, keepsAngularMomentumButForBulletsSprings)
 }
 
 // Bullet's own rigid sphere of this mass hangs as low, or falls through (swap), and does so in a deformable world.
-TEST_P(ClothOnFemBodies, carryABallBetweenPinnedCorners)
+TEST_P(ClothOnFemBodies, CarryABallBetweenPinnedCorners)
 {
     ClothWorld scene(GetParam());
     btSoftBody& cloth = scene.addPatch({0, 0, 0}, 2, 1, 21, 1 + 2 + 4 + 8);
@@ -172,7 +172,7 @@ TEST_P(ClothOnFemBodies, carryABallBetweenPinnedCorners)
     EXPECT_EQ(vec3(cloth.m_nodes[20].m_x).z, corners[1].z);
 }
 
-TEST(ClothWithABall, hangsAsLowAsWithBulletsRigidSphere)
+TEST(ClothWithABall, HangsAsLowAsWithBulletsRigidSphere)
 {
     const auto heights = [](bool rigid)
     {
@@ -197,7 +197,7 @@ TEST(ClothWithABall, hangsAsLowAsWithBulletsRigidSphere)
     EXPECT_NEAR(heights(false), heights(true), 0.1);  // of a sag of 0.7 m
 }
 
-TEST_P(ClothOnFemBodies, ropesHangOverABox)
+TEST_P(ClothOnFemBodies, RopesHangOverABox)
 {
     ClothWorld scene(GetParam());
     btSoftBody& block = scene.addBox(stiffSlab({0.4, 1, 0.4}, {4, 8, 4}));
@@ -212,7 +212,7 @@ TEST_P(ClothOnFemBodies, ropesHangOverABox)
 }
 
 // mu is the larger kDF: it holds up to a slope of mu, and beyond it slides with g (sin - mu cos).
-TEST_P(ClothOnFemBodies, stickAndSlideByCoulombsLaw)
+TEST_P(ClothOnFemBodies, StickAndSlideByCoulombsLaw)
 {
     const double slope = 20 * SIMD_RADS_PER_DEG, sine = std::sin(slope), cosine = std::cos(slope);
     const btVector3 gravity(btScalar(kGravity * sine), 0, btScalar(-kGravity * cosine));
@@ -235,7 +235,7 @@ TEST_P(ClothOnFemBodies, stickAndSlideByCoulombsLaw)
 }
 
 // 0.3 m a step, through what is 0.2 m thick.
-TEST_P(ClothOnFemBodies, fastOnesDoNotPassEachOther)
+TEST_P(ClothOnFemBodies, FastOnesDoNotPassEachOther)
 {
     ClothWorld scene(GetParam(), {0, 0, 0});
     btSoftBody& slab = scene.addBox(stiffSlab({1, 1, 0.2}, {6, 6, 1}));

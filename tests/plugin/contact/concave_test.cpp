@@ -224,7 +224,7 @@ ConcaveShape makeGImpactCube(btScalar halfSize)
     return shape;
 }
 
-TEST(MovingSheets, AGImpactCubeThatHitsASoftOneKeepsTheirMomentum)
+TEST(MovingSheets, GImpactCubeHittingASoftOneConservesMomentum)
 {
     ConcaveWorld scene;
     scene.m_world.world().setGravity({0, 0, 0});
@@ -248,7 +248,7 @@ TEST(MovingSheets, AGImpactCubeThatHitsASoftOneKeepsTheirMomentum)
     EXPECT_LT(norm(after.m_linear - before.m_linear), 2e-6 * norm(before.m_linear));
 }
 
-TEST(MovingSheets, AKinematicSheetLiftsWhatLiesOnIt)
+TEST(MovingSheets, KinematicSheetLiftsABodyOnIt)
 {
     ConcaveWorld scene;
     btRigidBody& lift = scene.addGround(makeGImpact());

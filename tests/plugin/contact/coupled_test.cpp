@@ -30,7 +30,7 @@ class RigidSlide : public testing::TestWithParam<SlideCase>
 };
 
 // Coupled: a rigid box on a slab that falls towards +x, its lower face held.
-TEST_P(RigidSlide, HasCoulombsForceAndTheAccelerationThatItLeaves)
+TEST_P(RigidSlide, HasCoulombsForceAndTheNetAcceleration)
 {
     const SlideCase& scene = GetParam();
     const btScalar h = btScalar(1) / scene.m_frequency;
@@ -100,7 +100,7 @@ void kickOnce(btDynamicsWorld* world, btScalar)
     world->setWorldUserInfo(nullptr);
 }
 
-TEST(CoupledStep, TakesOverVelocitiesThatATickCallbackWrites)
+TEST(CoupledStep, TakesOverVelocitiesOfATickCallback)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem, Coupling::coupled);

@@ -102,7 +102,7 @@ double deepestInDrum(Coupling coupling, int facets, double aside)
 
 // What tumbles in a drum slides over its edges by 2 to 3 cm a step. How deep is a matter of chance: of 36 starts in a
 // drum of eight facets half were below 2.8 mm, the worst at 5.9 mm.
-TEST_P(Drum, KeepsWhatTumblesInIt)
+TEST_P(Drum, KeepsTumblingBodiesInside)
 {
     const auto [coupling, facets] = GetParam();
     double deepest[3];

@@ -32,7 +32,7 @@ btSoftBody& addBall(FemWorld& world, const btVector3& center)
 }
 
 // What graze nothing but a wall's surface, or each other's, feel impulses of rounding all the way down.
-TEST(Flush, BallsThatGrazeAWallAndEachOtherLandOnTheFloor)
+TEST(Flush, BallsGrazingAWallAndEachOtherLandOnTheFloor)
 {
     FemWorld world(WorldClass::softRigid);
     world.addFloorBox();

@@ -101,7 +101,7 @@ private:
 };
 
 // Coupled: the pads are held by joints and pushed by forces, and touch the cube.
-TEST(CoupledGripper, HoldsWhatFrictionCarries)
+TEST(CoupledGripper, HoldsTheLoadThatFrictionCarries)
 {
     Gripper gripper;
     const double push = 1.25 * gripper.weight() / (2 * kPadOnCube);
@@ -118,7 +118,7 @@ TEST(CoupledGripper, HoldsWhatFrictionCarries)
     }
 }
 
-TEST(CoupledGripper, DropsWhatIsTooHeavyWithTheAccelerationThatFrictionLeaves)
+TEST(CoupledGripper, DropsHeavyLoadsWithTheNetAcceleration)
 {
     Gripper gripper;
     gripper.lift(1.25 * gripper.weight() / (2 * kPadOnCube));

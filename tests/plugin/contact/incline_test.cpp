@@ -84,7 +84,7 @@ TEST_P(InclineTest, SticksJustBelowTheFrictionAngle)
     }
 }
 
-TEST_P(InclineTest, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves)
+TEST_P(InclineTest, SlidesAboveItWithCoulombsForceAndNetAcceleration)
 {
     for (const double steepness : {1.05, 1.3})
     {
@@ -108,7 +108,7 @@ TEST_P(InclineTest, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves
 INSTANTIATE_TEST_SUITE_P(Grounds, InclineTest, testing::Values(true, false),
                          [](const auto& scene) { return scene.param ? "plane" : "box"; });
 
-TEST(Friction, NoneIsFeltOnIce)
+TEST(Friction, IsAbsentOnIce)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);

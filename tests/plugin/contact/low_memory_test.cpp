@@ -24,7 +24,7 @@ btFemSolverInfo withChoice(btFemFactorChoice choice)
     return info;
 }
 
-class ContactWith : public testing::TestWithParam<btFemFactorChoice>
+class ContactWithEitherFactor : public testing::TestWithParam<btFemFactorChoice>
 {
 protected:
     // The path was taken, and nothing is wrong.
@@ -39,7 +39,7 @@ protected:
 };
 
 // Two rows of nodes, pressed apart: the surface gives way much more where it is touched than beside it.
-TEST_P(ContactWith, ACylinderCarriesACubeToItsWeight)
+TEST_P(ContactWithEitherFactor, ACylinderCarriesACubeToItsWeight)
 {
     SoftWorld world(m_fem);
     RigidSettings settings;
@@ -60,7 +60,7 @@ TEST_P(ContactWith, ACylinderCarriesACubeToItsWeight)
 }
 
 // Coulomb's law on both sides of the friction angle, mu = .4.
-TEST_P(ContactWith, FrictionHoldsAndBrakesByCoulombsLaw)
+TEST_P(ContactWithEitherFactor, FrictionHoldsAndBrakesByCoulombsLaw)
 {
     constexpr double kRampFriction = 0.4;
     for (const double steepness : {0.95, 1.3})
@@ -88,7 +88,7 @@ TEST_P(ContactWith, FrictionHoldsAndBrakesByCoulombsLaw)
 }
 
 // 1 GPa: most of the factor's error is in how the body turns as a whole.
-TEST_P(ContactWith, AStiffBallLeavesAtItsShareOfTheSpeed)
+TEST_P(ContactWithEitherFactor, AStiffBallLeavesAtItsShareOfTheSpeed)
 {
     SoftWorld world(m_fem, btVector3(0, 0, 0));
     btRigidBody& floor = world.addFloorBox();
@@ -109,7 +109,7 @@ TEST_P(ContactWith, AStiffBallLeavesAtItsShareOfTheSpeed)
 }
 
 // Meshes that do not fit, so that points lie on faces.
-TEST_P(ContactWith, ASoftBodyCarriesAnotherToItsWeight)
+TEST_P(ContactWithEitherFactor, ASoftBodyCarriesAnotherToItsWeight)
 {
     SoftWorld world(m_fem);
     SoftBox below, above;
@@ -137,7 +137,7 @@ TEST_P(ContactWith, ASoftBodyCarriesAnotherToItsWeight)
 }
 
 // Rigid, soft, rigid, ten to one, solved together.
-TEST_P(ContactWith, AStackOfRigidAndSoftStands)
+TEST_P(ContactWithEitherFactor, AStackOfRigidAndSoftStands)
 {
     constexpr double kEdge = 0.2;
     SoftWorld world(m_fem, Coupling::coupled);
@@ -167,7 +167,8 @@ TEST_P(ContactWith, AStackOfRigidAndSoftStands)
     expectHealthy(soft);
 }
 
-INSTANTIATE_TEST_SUITE_P(Factors, ContactWith, testing::Values(btFemFactorChoice::full, btFemFactorChoice::lowMemory),
+INSTANTIATE_TEST_SUITE_P(Factors, ContactWithEitherFactor,
+                         testing::Values(btFemFactorChoice::full, btFemFactorChoice::lowMemory),
                          [](const auto& scene)
                          { return scene.param == btFemFactorChoice::full ? "full" : "lowMemory"; });
 

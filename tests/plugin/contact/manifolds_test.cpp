@@ -85,7 +85,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Manifolds, eachWorld(), nameOfWorld);
 
-TEST(ManifoldsAreOff, UnlessAskedFor)
+TEST(ManifoldDefaults, MakeNoManifolds)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
@@ -144,7 +144,7 @@ TEST_P(Manifolds, HoldTheFourDeepestContactPoints)
     }
 }
 
-TEST_P(Manifolds, StayTheSameWhileTheTouchLasts)
+TEST_P(Manifolds, PersistWhileTheContactLasts)
 {
     const btPersistentManifold* first = &manifold();
     const int lifeTime = first->getContactPoint(0).getLifeTime();
@@ -157,7 +157,7 @@ TEST_P(Manifolds, StayTheSameWhileTheTouchLasts)
     EXPECT_EQ(first->getContactPoint(0).m_userPersistentData, &user);
 }
 
-TEST_P(Manifolds, GoWithTheTouch)
+TEST_P(Manifolds, EndWithTheContact)
 {
     m_cube->translate(btVector3(0, 0, btScalar(0.05)));
     m_world.step();
@@ -180,14 +180,14 @@ TEST_P(Manifolds, GoAtOnceWithTheSoftBody)
     EXPECT_EQ(countOf(m_world), 0);
 }
 
-TEST_P(Manifolds, SurviveASolverThatForgetsTheBody)
+TEST_P(Manifolds, SurviveASolverForgettingTheBody)
 {
     m_fem.forget(m_cube);
     m_world.step(2);
     EXPECT_EQ(countOf(m_world), 1);
 }
 
-TEST_P(Manifolds, OfABodyThatSleepsAreKeptAndDoNotKeepItAwake)
+TEST_P(Manifolds, PersistForASleepingBodyWithoutWakingIt)
 {
     m_floor->forceActivationState(ISLAND_SLEEPING);
     m_cube->forceActivationState(ACTIVE_TAG);
@@ -237,11 +237,11 @@ TEST(ManifoldsOfWorlds, OneDispatcherServesTwoSolversInTurn)
     }
 }
 
-class ManifoldsChangeNothing : public testing::TestWithParam<Coupling>
+class ManifoldReporting : public testing::TestWithParam<Coupling>
 {
 };
 
-TEST_P(ManifoldsChangeNothing, InTheMotion)
+TEST_P(ManifoldReporting, LeavesTheMotionBitIdentical)
 {
     std::vector<btScalar> bits[2];
     btVector3 stones[2];
@@ -265,7 +265,7 @@ TEST_P(ManifoldsChangeNothing, InTheMotion)
     EXPECT_EQ(stones[0], stones[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, ManifoldsChangeNothing, testing::Values(Coupling::swap, Coupling::coupled),
+INSTANTIATE_TEST_SUITE_P(Solvers, ManifoldReporting, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& p) { return couplingName(p.param); });
 
 TEST(ManifoldsOfSoftBodies, AreShownOfTwoNotOfOne)

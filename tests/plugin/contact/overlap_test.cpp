@@ -93,20 +93,20 @@ protected:
     bool m_finite = true;
 };
 
-TEST_P(Overlap, WithTheGroundIsResolved)
+TEST_P(Overlap, IsResolvedWithTheGround)
 {
     m_world.addPlane();
     expectOverlapWithTheGroundToBeResolved();
 }
 
-TEST_P(Overlap, WithAStaticBoxIsResolved)
+TEST_P(Overlap, IsResolvedWithAStaticBox)
 {
     m_world.addFloorBox();
     expectOverlapWithTheGroundToBeResolved();
 }
 
 // The way out is up for every node, though not by much for those of the upper corners.
-TEST_P(Overlap, WithADynamicBoxOnTopIsResolved)
+TEST_P(Overlap, IsResolvedWithADynamicBoxOnTop)
 {
     m_world.addFloorBox();
     btSoftBody& cube = addCube(0);
@@ -122,7 +122,7 @@ TEST_P(Overlap, WithADynamicBoxOnTopIsResolved)
 }
 
 // Nodes under a small box may find its sides nearer than its lower face: where it goes is open, how fast is not.
-TEST_P(Overlap, WithASmallDynamicBoxThrowsNothing)
+TEST_P(Overlap, ThrowsNothingWithASmallDynamicBox)
 {
     m_world.addFloorBox();
     btSoftBody& cube = addCube(0);
@@ -139,7 +139,7 @@ TEST_P(Overlap, WithASmallDynamicBoxThrowsNothing)
     EXPECT_GT(lowestHeight(cube), -kGone);
 }
 
-TEST_P(Overlap, OfTwoSoftCubesIsResolved)
+TEST_P(Overlap, IsResolvedBetweenTwoSoftCubes)
 {
     m_world.addFloorBox();
     addCube(0);

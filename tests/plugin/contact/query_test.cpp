@@ -72,7 +72,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, ContactQuery, eachWorld(), nameOfWorld);
 
-TEST_P(ContactQuery, OfASoftBodyTellsAllThatItTouches)
+TEST_P(ContactQuery, SoftBodyReportsAllItsContacts)
 {
     Told told;
     m_world.bullet().contactTest(m_cube, told);
@@ -83,7 +83,7 @@ TEST_P(ContactQuery, OfASoftBodyTellsAllThatItTouches)
     for (std::size_t k = 0; k < told.m_points.size(); ++k) EXPECT_EQ(told.m_first[k], m_cube);
 }
 
-TEST_P(ContactQuery, OfARigidBodyTellsTheSoftOne)
+TEST_P(ContactQuery, RigidBodyReportsTheSoftOne)
 {
     Told told;
     m_world.bullet().contactTest(m_sphere, told);
@@ -99,7 +99,7 @@ TEST_P(ContactQuery, OfARigidBodyTellsTheSoftOne)
     }
 }
 
-TEST_P(ContactQuery, OfAPairIsTheSameBothWays)
+TEST_P(ContactQuery, PairIsTheSameBothWays)
 {
     Told there, back;
     m_world.bullet().contactPairTest(m_cube, m_ground, there);
@@ -120,7 +120,7 @@ TEST_P(ContactQuery, OfAPairIsTheSameBothWays)
     }
 }
 
-TEST_P(ContactQuery, OfSoftBodiesTellsWhereTheyTouch)
+TEST_P(ContactQuery, SoftBodiesReportTheirContactPoints)
 {
     btSoftBody &lower = addCube(btScalar(0.001), 1), &upper = addCube(btScalar(0.402), 1);
     m_world.step(60);
@@ -171,7 +171,7 @@ TEST_P(ContactQuery, TellsNothingOfBodiesApartRemovedOrNew)
     EXPECT_EQ(int(told.m_points.size()), pointsWith(*m_cube, m_ground));
 }
 
-TEST_P(ContactQuery, OfBodiesThatSpringsMoveIsWhatBulletMakesOfIt)
+TEST_P(ContactQuery, SpringBodiesAreLeftToBullet)
 {
     btSoftBody& ball = m_world.addSoft(btSoftBodyHelpers::CreateEllipsoid(
         m_world.info(), btVector3(1, 0, btScalar(0.2)), btVector3(0.3, 0.3, 0.3), 64));

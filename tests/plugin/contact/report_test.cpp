@@ -22,7 +22,7 @@ btSoftBody& addCube(SoftWorld& world, btScalar lowest)
 }
 
 /// A cube that rests on two static boxes, one under each half.
-class OnTwoBoxes : public EachWorld
+class CubeOnTwoBoxes : public EachWorld
 {
 protected:
     void SetUp() override
@@ -43,9 +43,9 @@ protected:
     btSoftBody* m_cube;
 };
 
-INSTANTIATE_TEST_SUITE_P(Worlds, OnTwoBoxes, eachWorld(), nameOfWorld);
+INSTANTIATE_TEST_SUITE_P(Worlds, CubeOnTwoBoxes, eachWorld(), nameOfWorld);
 
-TEST_P(OnTwoBoxes, ContactForceIsThatOfEachOfThem)
+TEST_P(CubeOnTwoBoxes, ContactForceIsThatOfEachOfThem)
 {
     const double weight = massOf(*m_cube) * kGravity;
     Vec3 mean[2], torque;  // about the cube's centre: how two supports share a weight is open, their torques are not
@@ -70,7 +70,7 @@ TEST_P(OnTwoBoxes, ContactForceIsThatOfEachOfThem)
     EXPECT_LT(norm(torque), 1e-4 * weight);  // the cube is 1 m wide
 }
 
-TEST_P(OnTwoBoxes, ContactsSayWhereAndWithWhom)
+TEST_P(CubeOnTwoBoxes, ContactsNamePlaceAndObject)
 {
     const btAlignedObjectArray<btFemContact>& contacts = m_fem.contacts(m_cube);
     ASSERT_GT(contacts.size(), 0);
@@ -98,7 +98,7 @@ TEST_P(OnTwoBoxes, ContactsSayWhereAndWithWhom)
     }
 }
 
-TEST_P(OnTwoBoxes, TheReportHasEveryField)
+TEST_P(CubeOnTwoBoxes, TheReportHasEveryField)
 {
     const btFemStepReport& report = m_fem.stepReport(m_cube);
     EXPECT_EQ(report.m_flags, 0);
@@ -116,7 +116,7 @@ TEST_P(OnTwoBoxes, TheReportHasEveryField)
     EXPECT_GT(m_fem.stepReport(m_cube).m_contactIterations, 0);
 }
 
-TEST_P(OnTwoBoxes, ContactsEndWithTheTouch)
+TEST_P(CubeOnTwoBoxes, ContactsEndWithSeparation)
 {
     m_cube->translate(btVector3(0, 0, 5));
     m_world.step();
@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, ContactHardness,
                                                           HardnessCase{1e9, 1, 0.2}, HardnessCase{1e9, 0.5, 0.1})),
                          nameOfWorldWith(hardnessName));
 
-TEST_P(ContactFlags, BodiesWithoutContactResponseAreNotTouched)
+TEST_P(ContactFlags, BodiesWithoutContactResponseMakeNoContact)
 {
     FemWorld world(GetParam());
     btRigidBody& ghost = world.addFloorBox();
@@ -194,7 +194,7 @@ TEST_P(ContactFlags, BodiesWithoutContactResponseAreNotTouched)
     EXPECT_NEAR(velocityOf(cube).z, -kGravity * 30 * kStep, 1e-4);
 }
 
-TEST_P(ContactFlags, SoftBodiesThatCollideWithNothingFallThrough)
+TEST_P(ContactFlags, NonCollidingSoftBodiesFallThrough)
 {
     FemWorld world(GetParam());
     world.addFloorBox();

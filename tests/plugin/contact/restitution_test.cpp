@@ -124,7 +124,7 @@ TEST_P(Bounce, AStiffBallRisesToTheSquareOfItsRestitution)
     EXPECT_NEAR(apex, expected, (0.04 + 3 * kGravity * m_h / speed) * expected);
 }
 
-TEST_P(Bounce, WithoutRestitutionAStiffBallStays)
+TEST_P(Bounce, StiffBallStaysWithoutRestitution)
 {
     btSoftBody& ball = addBall(1 + kRadius);
     ball.setRestitution(0);

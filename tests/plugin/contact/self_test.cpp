@@ -115,7 +115,7 @@ TEST(SelfContact, GoesOnWithAnotherRestShape)
 }
 
 // Self contact of a body that does not touch itself changes nothing.
-TEST(SelfContact, DoesNotDisturbABodyThatIsSquashed)
+TEST(SelfContact, DoesNotDisturbASquashedBody)
 {
     const auto run = [](bool selfContact)
     {

@@ -298,7 +298,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, MovingOnSoft,
                          [](const auto& scene) { return scene.param.m_name; });
 
 // Half a metre above a field, at 20 m/s.
-TEST(FieldAtSpeed, StopsWhatFlies)
+TEST(FieldAtSpeed, StopsAFastBody)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
@@ -332,7 +332,7 @@ private:
     btVector3 m_scaling{1, 1, 1};
 };
 
-TEST(UnknownShape, IsFlaggedAndNotTouched)
+TEST(UnknownShape, IsFlaggedAndMakesNoContact)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);

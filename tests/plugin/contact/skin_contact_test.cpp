@@ -96,7 +96,7 @@ TEST_P(SkinGround, ItsCageStandsHigher)
     EXPECT_GT(lowestVertex(ball), 0.02);
 }
 
-TEST_P(SkinGround, WhatCollidesCanBeChangedAtAnyTime)
+TEST_P(SkinGround, CollisionSurfaceCanBeChangedAtAnyTime)
 {
     btSoftBody& ball = add(skinBall({0, 0, 0.51}));
     m_world.addPlane();
@@ -156,7 +156,7 @@ std::vector<btScalar> runOfABox(Coupling coupling, bool drawn)
     return bits;
 }
 
-TEST_P(SkinGround, WhatFollowsTheBoundaryOfABodyCollidesLikeItToTheBit)
+TEST_P(SkinGround, BoundarySkinCollidesLikeTheBodyToTheBit)
 {
     EXPECT_TRUE(runOfABox(GetParam(), true) == runOfABox(GetParam(), false));
 }
@@ -217,7 +217,7 @@ TEST_P(SkinFriction, SticksJustBelowTheFrictionAngle)
     }
 }
 
-TEST_P(SkinFriction, SlidesAboveItWithCoulombsForceAndTheAccelerationThatItLeaves)
+TEST_P(SkinFriction, SlidesAboveItWithCoulombsForceAndNetAcceleration)
 {
     SkinIncline incline(1.2, GetParam());
     incline.step(120);
@@ -313,7 +313,7 @@ protected:
     }
 };
 
-TEST_P(SkinCollision, OfTwoBallsKeepsBothMomenta)
+TEST_P(SkinCollision, ConservesBothMomentaOfTwoBalls)
 {
     btSoftBody &first = add(skinBall({0, 0, 0})), &second = add(skinBall({0.3, -0.2, 1.05}));
     throwAt(first, {0, 0, btScalar(1)}, {1, btScalar(-0.5), 2});
@@ -321,7 +321,7 @@ TEST_P(SkinCollision, OfTwoBallsKeepsBothMomenta)
     expectBothMomentaKept(first, second);
 }
 
-TEST_P(SkinCollision, WithARigidBoxKeepsBothMomenta)
+TEST_P(SkinCollision, ConservesBothMomentaWithARigidBox)
 {
     btSoftBody& ball = add(skinBall({0, 0, 0}));
     RigidSettings settings{btScalar(300), at(btScalar(0.23), btScalar(-0.11), btScalar(0.83))};
@@ -332,7 +332,7 @@ TEST_P(SkinCollision, WithARigidBoxKeepsBothMomenta)
     expectBothMomentaKept(ball, box);
 }
 
-TEST_P(SkinCollision, AtAnySpeedIsFelt)
+TEST_P(SkinCollision, OccursAtAnySpeed)
 {
     for (const btScalar speed : {btScalar(10), btScalar(60)})
     {

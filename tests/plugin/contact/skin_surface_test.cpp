@@ -104,7 +104,7 @@ TEST(SkinHeap, ContinuesFromASnapshotToTheBit)
 }
 
 // Its two sides are nearer to each other than self contact believes what is inside.
-TEST(SkinSelfContact, AThinSlabNeverTouchesItself)
+TEST(SkinSelfContact, ThinSlabHasNoSelfContact)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
@@ -211,7 +211,7 @@ protected:
     SoftWorld m_world;
 };
 
-TEST_F(SkinSurface, ThatCannotCollideIsRefusedWithTheReason)
+TEST_F(SkinSurface, UnusableSurfaceIsRejectedWithTheReason)
 {
     expectRefused("0 nodes and 0 faces",
                   [](btSoftBody& body)
@@ -247,7 +247,7 @@ TEST_F(SkinSurface, ThatCannotCollideIsRefusedWithTheReason)
                   });
 }
 
-TEST_F(SkinSurface, InsideOutRepeatedAndWithHolesIsMended)
+TEST_F(SkinSurface, InvertedRepeatedAndOpenSurfacesAreRepaired)
 {
     const SurfaceMesh sphere = sphereSurface(0.5, {0, 0, 0.51}, 3);
     expectToRest(flipped(sphere));
@@ -268,7 +268,7 @@ TEST_F(SkinSurface, InsideOutRepeatedAndWithHolesIsMended)
     expectToRest(fin);
 }
 
-TEST_F(SkinSurface, OfABakedBodyCollidesToTheSameBits)
+TEST_F(SkinSurface, BakedBodyCollidesToTheSameBits)
 {
     const SurfaceMesh sphere = sphereSurface(0.5, {0, 0, 0.51}, 2);
     CageSettings settings;
@@ -339,7 +339,7 @@ TEST_F(SkinSurface, SharesItsForcesOutToTheNodes)
     EXPECT_EQ(body.m_faceRigidContacts.size(), 0);  // no face of the cage has the points
 }
 
-TEST_F(SkinSurface, IsKeptWhereTheRestShapeChanges)
+TEST_F(SkinSurface, PersistsWhenTheRestShapeChanges)
 {
     btSoftBody* body = ball();
     body->translate(btVector3(0, 0, btScalar(-0.51)));

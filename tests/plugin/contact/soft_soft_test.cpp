@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SoftRestCase{"flushAt240Hz", boxFrom({0, 0, 1.001}), btScalar(1) / 240}),
     [](const auto& scene) { return scene.param.m_name; });
 
-TEST(SoftOnSoftPatch, OfNearlyAThousandPointsIsCarriedWithoutSinkingIn)
+TEST(SoftOnSoftPatch, NearlyAThousandPointsCarryWithoutSinkingIn)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
@@ -90,7 +90,7 @@ TEST(SoftOnSoftPatch, OfNearlyAThousandPointsIsCarriedWithoutSinkingIn)
     }
 }
 
-TEST(SoftStack, OfThreeFlushCubesStands)
+TEST(SoftStack, ThreeFlushCubesStand)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
@@ -275,7 +275,7 @@ TEST(FastSoftBody, DoesNotPassAThinPlate)
     EXPECT_GT(centerOf(*ball).z, 0.1) << "it came back";
 }
 
-TEST(SoftOnSoftTwice, GivesTheSameBits)
+TEST(SoftOnSoftRepeatability, GivesTheSameBits)
 {
     const auto run = []
     {

@@ -72,7 +72,7 @@ protected:
 }  // namespace
 
 // They fall in four columns, every third one rigid.
-TEST_P(Squeezed, ballsInAPitStayOutOfWallsAndOfEachOther)
+TEST_P(Squeezed, BallsInAPitStayOutOfWallsAndOfEachOther)
 {
     const double half = 0.25;
     m_scene.m_world.addFloorBox();
@@ -117,7 +117,7 @@ TEST_P(Squeezed, ballsInAPitStayOutOfWallsAndOfEachOther)
     EXPECT_LT(medianOf(depths), kDeepest);
 }
 
-TEST_P(Squeezed, aBallOnAnotherStaysOutOfIt)
+TEST_P(Squeezed, ABallOnAnotherStaysOutOfIt)
 {
     m_scene.m_world.addFloorBox();
     for (const int side : {-1, 1})
@@ -145,7 +145,7 @@ TEST_P(Squeezed, aBallOnAnotherStaysOutOfIt)
 }
 
 // What is behind it counts, but is no wall: nothing gains energy.
-TEST_P(Squeezed, aFreeBallThatTouchesAnotherGivesWayWithIt)
+TEST_P(Squeezed, FreeBallInContactWithAnotherYieldsWithIt)
 {
     m_scene.m_world.bullet().setGravity(btVector3(0, 0, 0));
     m_scene.m_world.setSoftGravity(btVector3(0, 0, 0));

@@ -49,7 +49,7 @@ struct BoxOnSlab
 };
 
 // Coupled: at rest is at rest, and the box feels its weight on every frame.
-TEST(HeavyBoxOnLightSlabSlow, RestsWhereItSettledWhenCoupled)
+TEST(HeavyBoxOnLightSlabSlow, RestsInItsSettledPlaceWhenCoupled)
 {
     BoxOnSlab scene(Coupling::coupled);
     EXPECT_NEAR(massOf(*scene.m_slab), 1, 1e-5);
@@ -221,7 +221,7 @@ class SoftTower : public testing::TestWithParam<Coupling>
 
 // What sweeps leave at every floor leans a tower over by the square of its height: by several millimetres within ten
 // seconds if only they hand on the load.
-TEST_P(SoftTower, OfTwentyCubesStandsUpright)
+TEST_P(SoftTower, TwentyCubesStandUpright)
 {
     constexpr int kCubes = 20;
     btFemSoftBodySolver fem;
@@ -257,7 +257,7 @@ class SoftStackSlow : public testing::TestWithParam<Coupling>
 {
 };
 
-TEST_P(SoftStackSlow, OfFiveCubesStandsForAMinuteAndIsAsShortAsAColumn)
+TEST_P(SoftStackSlow, FiveCubesStandForAMinuteAndShortenAsAColumn)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem, GetParam());

@@ -102,13 +102,13 @@ btVector3 motionAtRest(FemWorld& world, const btRigidBody& ball)
     return ball.getLinearVelocity() + (swaps ? kStep : 0) * ball.getGravity();
 }
 
-class TorsionalFrictionOf : public testing::TestWithParam<Coupling>
+class TorsionalFrictionTest : public testing::TestWithParam<Coupling>
 {
 };
 
 // A ball that rolls along x loses v' = 5/7 mu_r g / r. On facets it loses some more, on the soft slab as on Bullet's
 // own ground.
-TEST_P(TorsionalFrictionOf, ARollingBallComesToRestAboutWhereItDoesOnRigidGround)
+TEST_P(TorsionalFrictionTest, RollingBallStopsAboutAsOnRigidGround)
 {
     constexpr double kSpeed = 1, kRolling = 0.05;  // [m/s], [m]
     FemWorld world(WorldClass::softRigid, GetParam());
@@ -127,7 +127,7 @@ TEST_P(TorsionalFrictionOf, ARollingBallComesToRestAboutWhereItDoesOnRigidGround
     EXPECT_LT(ball->getAngularVelocity().length(), 1e-4);
 }
 
-TEST_P(TorsionalFrictionOf, WithoutItTheBallRollsOn)
+TEST_P(TorsionalFrictionTest, BallRollsOnWithoutIt)
 {
     FemWorld world(WorldClass::softRigid, GetParam());
     addSlab(world);
@@ -157,7 +157,7 @@ TEST(TorsionalFrictionLaw, IsTheCoefficientTimesTheLoad)
     }
 }
 
-TEST_P(TorsionalFrictionOf, ASpinningBallSlowsDownAsOnRigidGround)
+TEST_P(TorsionalFrictionTest, ASpinningBallSlowsDownAsOnRigidGround)
 {
     constexpr double kSpin = 20, kSpinning = 0.05;  // [rad/s], [m]
     FemWorld world(WorldClass::softRigid, GetParam());
@@ -176,7 +176,7 @@ TEST_P(TorsionalFrictionOf, ASpinningBallSlowsDownAsOnRigidGround)
 }
 
 // At tan(angle) = mu_r / r the couple holds the ball's weight.
-TEST_P(TorsionalFrictionOf, ABallStaysOnASlopeThatRollingFrictionHolds)
+TEST_P(TorsionalFrictionTest, RollingFrictionHoldsABallOnASlope)
 {
     constexpr double kRolling = 0.05;
     for (const double share : {0.9, 1.3})
@@ -194,7 +194,7 @@ TEST_P(TorsionalFrictionOf, ABallStaysOnASlopeThatRollingFrictionHolds)
 }
 
 // A capsule that lies along y rolls along x. Bullet's direction of a capsule leaves the friction about its axis alone.
-TEST_P(TorsionalFrictionOf, MayBeAnisotropic)
+TEST_P(TorsionalFrictionTest, MayBeAnisotropic)
 {
     for (const bool aboutItsAxis : {true, false})
     {
@@ -240,7 +240,7 @@ TEST(TorsionalFrictionOnThreads, HasTheSameBits)
 }
 
 // Nothing else acts on the two.
-TEST_P(TorsionalFrictionOf, KeepsTheAngularMomentumOfAFreePair)
+TEST_P(TorsionalFrictionTest, KeepsTheAngularMomentumOfAFreePair)
 {
     FemWorld world(WorldClass::softRigid, GetParam(), btVector3(0, 0, 0));
     SoftBox box;
@@ -271,7 +271,7 @@ TEST_P(TorsionalFrictionOf, KeepsTheAngularMomentumOfAFreePair)
 }
 
 // On many points as a ball's on few. Its kDF leaves no sliding friction to speak of.
-TEST_P(TorsionalFrictionOf, ABoxThatSpinsHasTheFrictionOfAllItsPoints)
+TEST_P(TorsionalFrictionTest, SpinningBoxHasTheFrictionOfAllItsPoints)
 {
     constexpr double kSpin = 20, kSpinning = 0.02, kEdge = 0.2, kMass = 4;
     FemWorld world(WorldClass::softRigid, GetParam());
@@ -289,7 +289,7 @@ TEST_P(TorsionalFrictionOf, ABoxThatSpinsHasTheFrictionOfAllItsPoints)
     EXPECT_NEAR(kSpin - box.getAngularVelocity().z(), slowed, 0.03 * slowed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Couplings, TorsionalFrictionOf, testing::Values(Coupling::swap, Coupling::coupled),
+INSTANTIATE_TEST_SUITE_P(Couplings, TorsionalFrictionTest, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& suite) { return couplingName(suite.param); });
 
 }  // namespace

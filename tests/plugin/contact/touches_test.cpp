@@ -60,7 +60,7 @@ TEST_P(Touches, AreNoneInFlight)
     EXPECT_EQ(m_fem.touches(nullptr).size(), 0);
 }
 
-TEST_P(Touches, OfABodyThatFallsAndRestsBeginOnceAndLast)
+TEST_P(Touches, BeginOnceAndLastForARestingBody)
 {
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.02));
@@ -130,7 +130,7 @@ TEST_P(Touches, ALiftWithinTheSlackDoesNotEndThem)
     }
 }
 
-TEST_P(Touches, ABodyThatComesNearWithoutTouchingHasNone)
+TEST_P(Touches, NearbyBodyWithoutContactHasNone)
 {
     m_world.setSoftGravity(btVector3(0, 0, 0));
     m_world.addFloorBox();
@@ -140,7 +140,7 @@ TEST_P(Touches, ABodyThatComesNearWithoutTouchingHasNone)
     EXPECT_EQ(of(cube).size(), 0);
 }
 
-TEST_P(Touches, OfSeveralObjectsAreToldApart)
+TEST_P(Touches, SeveralObjectsAreDistinguished)
 {
     btRigidBody &left = addBlock(m_world, btScalar(-0.2)), &right = addBlock(m_world, btScalar(0.25));
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
@@ -156,7 +156,7 @@ TEST_P(Touches, OfSeveralObjectsAreToldApart)
     EXPECT_EQ(of(cube)[1 - gone].m_other, &left);
 }
 
-TEST_P(Touches, AnotherObjectAtTheSameAddressIsAnotherTouch)
+TEST_P(Touches, ObjectAtAReusedAddressMakesANewPair)
 {
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.001));
@@ -172,7 +172,7 @@ TEST_P(Touches, AnotherObjectAtTheSameAddressIsAnotherTouch)
     EXPECT_EQ(of(cube)[1].m_state, State::began);
 }
 
-TEST_P(Touches, OfTwoSoftBodiesAgree)
+TEST_P(Touches, AgreeBetweenTwoSoftBodies)
 {
     m_world.addFloorBox();
     btSoftBody &lower = addSmallCube(m_world, btScalar(0.001)), &upper = addSmallCube(m_world, btScalar(0.402));
@@ -204,7 +204,7 @@ TEST_P(Touches, OfTwoSoftBodiesAgree)
         EXPECT_EQ(of(lower)[k].m_state, of(lower)[k].m_other == gone ? State::ended : State::lasting);
 }
 
-TEST(TouchesInTheCoupledWorld, AreToldToo)
+TEST(ContactPairsInTheCoupledWorld, AreReportedToo)
 {
     FemWorld world(WorldClass::softRigid, Coupling::coupled);
     btRigidBody& block = addRigidBox(world, {0.2, 0.2, 0.2}, {10, at(0, 0, btScalar(0.52))});
@@ -220,7 +220,7 @@ TEST(TouchesInTheCoupledWorld, AreToldToo)
     }
 }
 
-TEST_P(Touches, OfAThrownBodyBeginAndEndAtEveryBounce)
+TEST_P(Touches, BeginAndEndAtEveryBounce)
 {
     m_world.addFloorBox().setRestitution(1);
     btSoftBody& cube = addSmallCube(m_world, btScalar(0.3));
@@ -233,11 +233,11 @@ TEST_P(Touches, OfAThrownBodyBeginAndEndAtEveryBounce)
     EXPECT_LE(count.m_began, 30);
 }
 
-class SleepingTouches : public SleepingScene, public testing::Test
+class SleepingContactPairs : public SleepingScene, public testing::Test
 {
 };
 
-TEST_F(SleepingTouches, AreKeptWithoutEvents)
+TEST_F(SleepingContactPairs, AreKeptWithoutEvents)
 {
     btRigidBody& ground = addGround();
     btSoftBody& cube = addCube();
@@ -254,7 +254,7 @@ TEST_F(SleepingTouches, AreKeptWithoutEvents)
     }
 }
 
-TEST_F(SleepingTouches, OfARemovedObjectEnd)
+TEST_F(SleepingContactPairs, EndWithARemovedObject)
 {
     btRigidBody& ground = addGround();
     const btCollisionObject* gone = &ground;

@@ -25,7 +25,7 @@ class ShotAtASlab : public testing::TestWithParam<Shot>
 
 }  // namespace
 
-TEST_P(ShotAtASlab, staysOnItsSide)
+TEST_P(ShotAtASlab, StaysOnItsSide)
 {
     const auto& [coupling, projectile, cellsThick] = GetParam();
     for (const double height : {0.05, 0.3, 0.9, 1.9, 3.0})
@@ -102,7 +102,7 @@ btRigidBody& addThinPlate(FastScene& scene, double mass)
 INSTANTIATE_TEST_SUITE_P(, Tunnelling, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& scene) { return couplingName(scene.param); });
 
-TEST_P(Tunnelling, aSoftBallAt50DoesNotPassAThinPlate)
+TEST_P(Tunnelling, ASoftBallAt50DoesNotPassAThinPlate)
 {
     for (const double height : {0.1, 0.5, 1.0, 1.3})
     {
@@ -121,7 +121,7 @@ TEST_P(Tunnelling, aSoftBallAt50DoesNotPassAThinPlate)
     }
 }
 
-TEST_P(Tunnelling, aSoftBallAt50PushesAThinPlateOfTwiceItsMass)
+TEST_P(Tunnelling, ASoftBallAt50PushesAThinPlateOfTwiceItsMass)
 {
     FastScene scene(GetParam());
     btSoftBody& ball = throwBall(scene, 1.2, 50);
@@ -143,7 +143,7 @@ TEST_P(Tunnelling, aSoftBallAt50PushesAThinPlateOfTwiceItsMass)
     EXPECT_LT(norm(after.m_linear - before.m_linear), 1e-6 * whole);
 }
 
-TEST_P(Tunnelling, fastImpactsConserveMomentum)
+TEST_P(Tunnelling, FastImpactsConserveMomentum)
 {
     for (const double x : {0.0, 0.13})
     {
@@ -168,7 +168,7 @@ TEST_P(Tunnelling, fastImpactsConserveMomentum)
 
 // Its contact is the point of the slab that it meets at the end of its way, and the normal there goes through its
 // centre.
-TEST_P(Tunnelling, aSphereThatComesAskewWithoutFrictionDoesNotSpin)
+TEST_P(Tunnelling, ObliqueFrictionlessSphereDoesNotSpin)
 {
     FastScene scene(GetParam());
     btSoftBody& soft = scene.addSoft(slab(1));
@@ -182,7 +182,7 @@ TEST_P(Tunnelling, aSphereThatComesAskewWithoutFrictionDoesNotSpin)
     EXPECT_LT(rigid.getAngularVelocity().length(), 0.01);
 }
 
-TEST_P(Tunnelling, aSphereAtRestOnASlabThatIsShotDoesNotPassIt)
+TEST_P(Tunnelling, SphereAtRestOnAShotSlabDoesNotPassIt)
 {
     FastScene scene(GetParam(), kGravity);
     btSoftBody& soft = scene.addSoft(slab(1));
@@ -202,7 +202,7 @@ TEST_P(Tunnelling, aSphereAtRestOnASlabThatIsShotDoesNotPassIt)
 }
 
 // Thinner than its way in a step, which is less than half of an edge.
-TEST_P(Tunnelling, aSlowThinPlateDoesNotPass)
+TEST_P(Tunnelling, ASlowThinPlateDoesNotPass)
 {
     for (const double height : {0.021, 0.026, 0.031, 0.036})
     {
@@ -229,7 +229,7 @@ TEST_P(Tunnelling, aSlowThinPlateDoesNotPass)
 
 // Its way in a step is just less than half of an edge, and less than its thickness; but more than the 5 cm by which
 // Bullet's broad phase sees too much.
-TEST_P(Tunnelling, aSlowThickBoxIsSeenBeforeItSinksIn)
+TEST_P(Tunnelling, ASlowThickBoxIsSeenBeforeItSinksIn)
 {
     for (const double height : {5.2, 5.5, 5.8})
     {
@@ -252,7 +252,7 @@ TEST_P(Tunnelling, aSlowThickBoxIsSeenBeforeItSinksIn)
     }
 }
 
-TEST_P(Tunnelling, aSphereThatFliesByIsNotDeflected)
+TEST_P(Tunnelling, SphereFlyingByIsNotDeflected)
 {
     for (const double start : {0.3, 0.7, 1.6, 2.5})
     {
@@ -274,7 +274,7 @@ TEST_P(Tunnelling, aSphereThatFliesByIsNotDeflected)
     }
 }
 
-TEST_P(Tunnelling, aSphereThatFliesAheadOfASlabIsNotDeflected)
+TEST_P(Tunnelling, SphereFlyingAheadOfASlabIsNotDeflected)
 {
     FastScene scene(GetParam());
     btSoftBody& soft = scene.addSoft(slab(2));
@@ -287,7 +287,7 @@ TEST_P(Tunnelling, aSphereThatFliesAheadOfASlabIsNotDeflected)
     EXPECT_EQ(scene.m_fem.stepReport(&soft).m_contacts, 0);
 }
 
-TEST_P(Tunnelling, aThinRodDroppedBetweenNodesRestsOnTheSurface)
+TEST_P(Tunnelling, AThinRodDroppedBetweenNodesRestsOnTheSurface)
 {
     FastScene scene(GetParam(), kGravity);
     scene.m_world.addPlane();
@@ -308,7 +308,7 @@ TEST_P(Tunnelling, aThinRodDroppedBetweenNodesRestsOnTheSurface)
     }
 }
 
-TEST_P(Tunnelling, aTurningRodHitsWithItsTip)
+TEST_P(Tunnelling, ATurningRodHitsWithItsTip)
 {
     FastScene scene(GetParam());
     btSoftBody& soft = scene.addSoft(slab(1));
@@ -333,7 +333,7 @@ TEST_P(Tunnelling, aTurningRodHitsWithItsTip)
 }
 
 // Fast soft bodies see rigid ones where they were. What holds these from behind must count all the same.
-TEST_P(Tunnelling, aBallOnTheFloorIsNotDrivenIntoItByWhatFallsOnIt)
+TEST_P(Tunnelling, BallOnTheFloorIsNotDrivenIntoItByAFallingBody)
 {
     for (const double speed : {1.0, 3.0, 6.0})
     {

@@ -19,7 +19,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, AnchorChangesTest, eachWorld(), nameOfWorld);
 
-TEST_P(AnchorChangesTest, removedAnchorsLetGo)
+TEST_P(AnchorChangesTest, RemovedAnchorsLetGo)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -34,7 +34,7 @@ TEST_P(AnchorChangesTest, removedAnchorsLetGo)
     EXPECT_EQ(cube.m_nodes[node].m_battach, 0);
 }
 
-TEST_P(AnchorChangesTest, aDeletedBodyLetsGoAndIsNotTouched)
+TEST_P(AnchorChangesTest, DeletedBodyLetsGoAndIsNotAccessed)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -49,7 +49,7 @@ TEST_P(AnchorChangesTest, aDeletedBodyLetsGoAndIsNotTouched)
     EXPECT_LT(velocityOf(cube).z, -0.9 * kGravity * 30 * double(kStep));
 }
 
-TEST_P(AnchorChangesTest, anAnchorToABodyOfAnotherWorldIsRemoved)
+TEST_P(AnchorChangesTest, AnAnchorToABodyOfAnotherWorldIsRemoved)
 {
     btFemSoftBodySolver otherFem;
     SoftWorld other(otherFem);
@@ -61,7 +61,7 @@ TEST_P(AnchorChangesTest, anAnchorToABodyOfAnotherWorldIsRemoved)
     EXPECT_EQ(cube.m_anchors.size(), 0);
 }
 
-TEST_P(AnchorChangesTest, aForeignNodeIsFlagged)
+TEST_P(AnchorChangesTest, AForeignNodeIsFlagged)
 {
     btSoftBody &cube = addCube({0, 0, 0}), &other = addCube({3, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});

@@ -28,7 +28,7 @@ protected:
     FloatingAnchorsTest() : AnchorScene(value(), btVector3(0, 0, 0), worldClass()) {}
 };
 
-TEST_P(AnchorsTest, aStaticCeilingCarriesTheWeight)
+TEST_P(AnchorsTest, AStaticCeilingCarriesTheWeight)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -39,7 +39,7 @@ TEST_P(AnchorsTest, aStaticCeilingCarriesTheWeight)
     EXPECT_LT(largestError(cube), 1e-5 * kHalf);
 }
 
-TEST_P(AnchorsTest, aKinematicBodyCarriesTheBodyUpWithoutLag)
+TEST_P(AnchorsTest, AKinematicBodyCarriesTheBodyUpWithoutLag)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& lift = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -65,7 +65,7 @@ TEST_P(AnchorsTest, aKinematicBodyCarriesTheBodyUpWithoutLag)
     EXPECT_LT(farthest, 1e-3 * kHalf);
 }
 
-TEST_P(AnchorsTest, aDynamicBodyHangsOnASoftOneThatHangs)
+TEST_P(AnchorsTest, DynamicBodyHangsOnAHangingSoftOne)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody &ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)}), &weight = addBox(50, {0, 0, btScalar(-2 * kHalf)});
@@ -79,7 +79,7 @@ TEST_P(AnchorsTest, aDynamicBodyHangsOnASoftOneThatHangs)
 }
 
 // Strain of 7 % under the load, so that the deformation is part of the scene.
-TEST_P(MinuteOfAnchorsTest, aThousandTimesHeavierBodyHangsStillForAMinute)
+TEST_P(MinuteOfAnchorsTest, AThousandTimesHeavierBodyHangsStillForAMinute)
 {
     const double density = 8, mass = 1000, load = mass * kGravity;
     btSoftBody& cube = addCube({0, 0, 0}, load / (4 * kHalf * kHalf) / 0.07, density);
@@ -96,7 +96,7 @@ TEST_P(MinuteOfAnchorsTest, aThousandTimesHeavierBodyHangsStillForAMinute)
     EXPECT_LT(strain, 0.1);
 }
 
-TEST_P(MinuteOfAnchorsTest, aThousandTimesLighterBodyHangsStillForAMinute)
+TEST_P(MinuteOfAnchorsTest, AThousandTimesLighterBodyHangsStillForAMinute)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -109,7 +109,7 @@ TEST_P(MinuteOfAnchorsTest, aThousandTimesLighterBodyHangsStillForAMinute)
     EXPECT_LT(norm(vec3(weight.getLinearVelocity())), kGravity * double(kStep) + 1e-3);
 }
 
-TEST_P(AnchorsTest, aFarPivotDrawsItsNodeInWithoutAnExplosion)
+TEST_P(AnchorsTest, AFarPivotDrawsItsNodeInWithoutAnExplosion)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, 3});
@@ -126,7 +126,7 @@ TEST_P(AnchorsTest, aFarPivotDrawsItsNodeInWithoutAnExplosion)
 }
 
 // By 15 mean edges a second, which would be 250 in steps of 1/1000 s if these took a quarter of an edge, too.
-TEST_P(FloatingAnchorsTest, aFarPivotDrawsItsNodeInNoFasterInShortSteps)
+TEST_P(FloatingAnchorsTest, AFarPivotDrawsItsNodeInNoFasterInShortSteps)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, 3});
@@ -143,7 +143,7 @@ TEST_P(FloatingAnchorsTest, aFarPivotDrawsItsNodeInNoFasterInShortSteps)
     EXPECT_GT(centerOf(cube).z - height, 0.2);
 }
 
-TEST_P(AnchorsTest, anchoredNodesMayBeInsideTheirObject)
+TEST_P(AnchorsTest, AnchoredNodesMayBeInsideTheirObject)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(1.8 * kHalf)});
@@ -153,7 +153,7 @@ TEST_P(AnchorsTest, anchoredNodesMayBeInsideTheirObject)
     EXPECT_EQ(m_fem.contacts(&cube).size(), 0);
 }
 
-TEST_P(AnchorsTest, influenceLetsTheNodeHangLower)
+TEST_P(AnchorsTest, InfluenceLetsTheNodeHangLower)
 {
     btSoftBody &firm = addCube({0, 0, 0}), &loose = addCube({3, 0, 0});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -166,7 +166,7 @@ TEST_P(AnchorsTest, influenceLetsTheNodeHangLower)
     EXPECT_LT(worstForce(60, loose, ceiling, {0, 0, kCubeWeight}), 1e-3);
 }
 
-TEST_P(FloatingAnchorsTest, aSleepingBodyWakesWhenItIsPulled)
+TEST_P(FloatingAnchorsTest, ASleepingBodyWakesWhenItIsPulled)
 {
     btSoftBody& cube = addCube({0, 0, 0});
     btRigidBody& box = addBox(10, {0, 0, btScalar(2 * kHalf + 0.01)});
@@ -185,7 +185,7 @@ TEST_P(FloatingAnchorsTest, aSleepingBodyWakesWhenItIsPulled)
     EXPECT_LT(largestError(cube), 1e-3);
 }
 
-TEST(AnchorMomentumTest, isConservedWithoutGravityAtAnyMassRatio)
+TEST(AnchorMomentumTest, IsConservedWithoutGravityAtAnyMassRatio)
 {
     for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
         for (const btScalar mass : {btScalar(0.125), btScalar(300), btScalar(125000)})
@@ -216,7 +216,7 @@ TEST(AnchorMomentumTest, isConservedWithoutGravityAtAnyMassRatio)
 }
 
 // A stiff bar on a hinge of two anchored nodes: T = 2 pi sqrt(I / (m g d)), and 1 + a^2 / 16 of it at amplitude a.
-TEST_P(AnchorsTest, aStiffBarSwingsAsAPendulum)
+TEST_P(AnchorsTest, AStiffBarSwingsAsAPendulum)
 {
     const btScalar length(1), thickness(0.1);
     btSoftBody& bar = m_world.addSoft(btFemHelpers::createBox(m_world.info(), btVector3(length / 2, 0, 0),
@@ -263,7 +263,7 @@ TEST_P(AnchorsTest, aStiffBarSwingsAsAPendulum)
 }
 
 // What the coupled solve adds: a swapped solver lets the weight read a velocity of g h.
-TEST(CoupledAnchorsTest, aHangingWeightIsStill)
+TEST(CoupledAnchorsTest, AHangingWeightIsStill)
 {
     struct Scene : AnchorScene
     {

@@ -14,7 +14,7 @@ class AttachmentsTest : public AnchorScene, public ::testing::Test
 {
 };
 
-TEST_F(AttachmentsTest, twoSoftBodiesHangTogetherByTheirNodes)
+TEST_F(AttachmentsTest, TwoSoftBodiesHangTogetherByTheirNodes)
 {
     btSoftBody &upper = addCube({0, 0, 0}), &lower = addCube({0, 0, btScalar(-2 * kHalf)});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -32,7 +32,7 @@ TEST_F(AttachmentsTest, twoSoftBodiesHangTogetherByTheirNodes)
 }
 
 // The coupled solver solves islands one after the other; these two do not overlap, and one stands on the ground.
-TEST(CoupledAttachmentsTest, bodiesOfDifferentIslandsFeelEachOther)
+TEST(CoupledAttachmentsTest, BodiesOfDifferentIslandsInteract)
 {
     struct Scene : AnchorScene
     {
@@ -55,7 +55,7 @@ TEST(CoupledAttachmentsTest, bodiesOfDifferentIslandsFeelEachOther)
     EXPECT_EQ(norm(Scene().sumOfImpulses(-1)), 0);
 }
 
-TEST_F(AttachmentsTest, detachedBodiesPart)
+TEST_F(AttachmentsTest, DetachedBodiesPart)
 {
     btSoftBody &upper = addCube({0, 0, 0}), &lower = addCube({0, 0, btScalar(-2 * kHalf - 0.05)});
     btRigidBody& ceiling = addBox(0, {0, 0, btScalar(2 * kHalf)});
@@ -73,7 +73,7 @@ TEST_F(AttachmentsTest, detachedBodiesPart)
 }
 
 // Though bodies that stay where they are keep their contacts.
-TEST_F(AttachmentsTest, attachedNodesTouchNoMoreWhereBodiesRestEither)
+TEST_F(AttachmentsTest, AttachedNodesLoseContactsOfRestingBodies)
 {
     m_world.addPlane(btScalar(-kHalf));
     btSoftBody &lower = addCube({0, 0, 0}), &upper = addCube({0, 0, btScalar(2 * kHalf)});
@@ -106,7 +106,7 @@ TEST_F(AttachmentsTest, attachedNodesTouchNoMoreWhereBodiesRestEither)
     EXPECT_GT(contactsAtNode(), 0);
 }
 
-TEST_F(AttachmentsTest, anAttachmentEndsWithTheOtherBody)
+TEST_F(AttachmentsTest, AnAttachmentEndsWithTheOtherBody)
 {
     btSoftBody &a = addCube({0, 0, 0}), &b = addCube({2, 0, 0});
     m_fem.prepare(&a, kStep);
@@ -120,7 +120,7 @@ TEST_F(AttachmentsTest, anAttachmentEndsWithTheOtherBody)
     EXPECT_EQ(m_fem.anchors(&a).size(), 0);
 }
 
-TEST_F(AttachmentsTest, badAttachmentsAreRejected)
+TEST_F(AttachmentsTest, BadAttachmentsAreRejected)
 {
     btSoftBody &a = addCube({0, 0, 0}), &b = addCube({2, 0, 0});
     EXPECT_THROW(m_fem.attachNodes(&a, 0, &b, 0), std::invalid_argument);  // not yet FEM

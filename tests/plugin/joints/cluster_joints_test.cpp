@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Worlds, JointScenesTest, eachWorld(), nameOfWorld);
 
 INSTANTIATE_TEST_SUITE_P(Worlds, FloatingJointScenesTest, eachWorld(), nameOfWorld);
 
-TEST_P(JointScenesTest, aBarHangsHingedOnAnother)
+TEST_P(JointScenesTest, ABarHangsHingedOnAnother)
 {
     btSoftBody &fixed = addBar(0, 5), &hanging = addBar(1, 5);
     for (int i = 0; i < fixed.m_nodes.size(); ++i)
@@ -133,7 +133,7 @@ TEST_P(JointScenesTest, aBarHangsHingedOnAnother)
     EXPECT_EQ(m_fem.anchors(&hanging)[0].m_object, &fixed);
 }
 
-TEST_P(FloatingJointScenesTest, aJointToARigidBodyConservesMomentum)
+TEST_P(FloatingJointScenesTest, AJointToARigidBodyConservesMomentum)
 {
     btSoftBody& bar = addBar(0, 5);
     btRigidBody& ball = addBall(10, {btScalar(1.2), 0, 0});
@@ -150,7 +150,7 @@ TEST_P(FloatingJointScenesTest, aJointToARigidBodyConservesMomentum)
     EXPECT_LT(m_fem.anchors(&bar)[0].m_error, 2e-3);
 }
 
-TEST_P(FloatingJointScenesTest, aMotorTurnsASoftBodyOnAStaticAxle)
+TEST_P(FloatingJointScenesTest, AMotorTurnsASoftBodyOnAStaticAxle)
 {
     btSoftBody& bar = addBar(btScalar(-0.5), 1);
     btRigidBody& axle = addBall(0, {0, 0, 1});
@@ -162,7 +162,7 @@ TEST_P(FloatingJointScenesTest, aMotorTurnsASoftBodyOnAStaticAxle)
     EXPECT_LT(norm(centerOf(bar)), 1e-4);
 }
 
-TEST_P(FloatingJointScenesTest, aMotorTurnsARigidBodyTheOtherWay)
+TEST_P(FloatingJointScenesTest, AMotorTurnsARigidBodyTheOtherWay)
 {
     btSoftBody& bar = addBar(btScalar(-0.5), 1);
     btRigidBody& ball = addBall(50, {0, 0, btScalar(0.3)});
@@ -177,7 +177,7 @@ TEST_P(FloatingJointScenesTest, aMotorTurnsARigidBodyTheOtherWay)
     EXPECT_LT(norm(sum.m_angular), 1e-3 * norm(motionOf(bar).m_angular));
 }
 
-TEST_P(FloatingJointScenesTest, anAngularJointLeavesTheSpinAboutItsAxisFree)
+TEST_P(FloatingJointScenesTest, AnAngularJointLeavesTheSpinAboutItsAxisFree)
 {
     btSoftBody& bar = addBar(btScalar(-0.5), 1);
     btRigidBody& axle = addBall(0, {0, 0, 1});
@@ -192,7 +192,7 @@ TEST_P(FloatingJointScenesTest, anAngularJointLeavesTheSpinAboutItsAxisFree)
     EXPECT_LT(m_fem.anchors(&bar)[0].m_error, 1e-3);
 }
 
-TEST_P(FloatingJointScenesTest, theImpulsesAreGivenOnce)
+TEST_P(FloatingJointScenesTest, TheImpulsesAreGivenOnce)
 {
     // Bullet's own cluster solver would push the ball, and tell no node.
     btSoftBody& bar = addBar(0, 5);
@@ -205,7 +205,7 @@ TEST_P(FloatingJointScenesTest, theImpulsesAreGivenOnce)
     EXPECT_EQ(ball.getLinearVelocity().y(), 2);
 }
 
-TEST_P(JointScenesTest, aJointToADeletedBodyIsRemoved)
+TEST_P(JointScenesTest, AJointToADeletedBodyIsRemoved)
 {
     btSoftBody& bar = addBar(0, 5);
     btRigidBody& ball = addBall(0, {btScalar(1.2), 0, 0});
@@ -220,7 +220,7 @@ TEST_P(JointScenesTest, aJointToADeletedBodyIsRemoved)
     EXPECT_EQ(m_fem.anchors(&bar).size(), 0);
 }
 
-TEST_P(JointScenesTest, aJointToADeletedSoftBodyIsRemoved)
+TEST_P(JointScenesTest, AJointToADeletedSoftBodyIsRemoved)
 {
     btSoftBody &bar = addBar(0, 5), &other = addBar(1, 5);
     hinge(bar, nearestCluster(other, btVector3(1, 0, 0)), btVector3(1, 0, 0));
@@ -231,7 +231,7 @@ TEST_P(JointScenesTest, aJointToADeletedSoftBodyIsRemoved)
     EXPECT_EQ(bar.m_joints.size(), 0);
 }
 
-TEST_P(JointScenesTest, aCallbackMayDeleteABodyWithJoints)
+TEST_P(JointScenesTest, ACallbackMayDeleteABodyWithJoints)
 {
     btSoftBody &bar = addBar(0, 5), &other = addBar(1, 5);
     hinge(bar, nearestCluster(other, btVector3(1, 0, 0)), btVector3(1, 0, 0));

@@ -52,7 +52,7 @@ protected:
     std::vector<int> m_group;  // the end face x = 0
 };
 
-TEST_F(NodeTargetsTest, aGroupFollowsATransformOfItsRestShape)
+TEST_F(NodeTargetsTest, AGroupFollowsATransformOfItsRestShape)
 {
     btTransform pose = btTransform::getIdentity();
     for (int k = 1; k <= 30; ++k)
@@ -67,7 +67,7 @@ TEST_F(NodeTargetsTest, aGroupFollowsATransformOfItsRestShape)
     EXPECT_LT(farthest(pose), 1e-6);  // and stays
 }
 
-TEST_F(NodeTargetsTest, aGroupFollowsPositions)
+TEST_F(NodeTargetsTest, AGroupFollowsPositions)
 {
     std::vector<btVector3> positions;
     for (int i : m_group) positions.push_back(m_rest[i] * btScalar(1.05));
@@ -76,7 +76,7 @@ TEST_F(NodeTargetsTest, aGroupFollowsPositions)
     for (int k = 0; k < count(); ++k) EXPECT_LT(m_bar.m_nodes[m_group[k]].m_x.distance(positions[k]), 1e-6);
 }
 
-TEST_F(NodeTargetsTest, aGroupThatIsLetGoFalls)
+TEST_F(NodeTargetsTest, ReleasedGroupFalls)
 {
     m_fem.setNodeTargets(&m_bar, m_group.data(), count(), btTransform::getIdentity());
     m_world.step(5);
@@ -85,7 +85,7 @@ TEST_F(NodeTargetsTest, aGroupThatIsLetGoFalls)
     EXPECT_LT(velocityOf(m_bar).z, -0.95 * kGravity);
 }
 
-TEST_F(NodeTargetsTest, aBadGroupIsRejectedBeforeAnyNodeIsTouched)
+TEST_F(NodeTargetsTest, BadGroupIsRejectedBeforeAnyNodeIsChanged)
 {
     const int outOfRange[2] = {m_group[0], m_bar.m_nodes.size()};
     std::vector<btVector3> positions(m_group.size(), btVector3(0, 0, 0));
@@ -108,7 +108,7 @@ TEST_F(NodeTargetsTest, aBadGroupIsRejectedBeforeAnyNodeIsTouched)
 }
 
 // The factor knows nothing of new pins: that costs iterations, but the body is not factored anew on the spot.
-TEST(NodeTargetsOfALargeBodyTest, pinningAtRunTimeCostsFewIterations)
+TEST(NodeTargetsOfALargeBodyTest, PinningAtRunTimeCostsFewIterations)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);

@@ -120,7 +120,7 @@ protected:
     SoftWorld m_world{m_fem};
 };
 
-TEST_P(HeldBalance, OfAClampedBeamIsExactInEveryStep)
+TEST_P(HeldBalance, IsExactInEveryStepForAClampedBeam)
 {
     btSoftBody& beam = *makeSoftBox(m_world, m_fem, shortBeam());
     m_fem.setMaterial(&beam, GetParam().m_material);
@@ -136,7 +136,7 @@ TEST_P(HeldBalance, OfAClampedBeamIsExactInEveryStep)
 }
 
 // On a line of pins along y: no forces at them have a moment about it.
-TEST_P(HeldBalance, OfAPendulumIsExactButAboutItsAxis)
+TEST_P(HeldBalance, IsExactForAPendulumButAboutItsAxis)
 {
     btSoftBody& beam = *makeSoftBox(m_world, m_fem, shortBeam());
     m_fem.setMaterial(&beam, GetParam().m_material);

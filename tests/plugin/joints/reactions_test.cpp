@@ -183,7 +183,7 @@ TEST(Reactions, AskingChangesNoBitOfTheMotion)
     EXPECT_EQ(run(false), run(true));
 }
 
-TEST(Reactions, BodyOnTargetsFeelsItsInertia)
+TEST(Reactions, BodyOnTargetsReactsWithItsInertia)
 {
     btFemSoftBodySolver fem(implicitEuler());
     SoftWorld world(fem);
@@ -209,7 +209,7 @@ class AnchorReactions : public testing::TestWithParam<Coupling>
 {
 };
 
-TEST_P(AnchorReactions, AreWhatARigidBodyFeels)
+TEST_P(AnchorReactions, EqualTheLoadsOnTheRigidBody)
 {
     AnchorScene scene(GetParam());
     btSoftBody& cube = scene.addCube({0, 0, 0});

@@ -200,7 +200,7 @@ protected:
 
 // Of what is set and of their own elasticity, which the bodies show with none set, the larger counts. Those that ring
 // with what contact has not lost may fall short of it: there is nothing to give.
-TEST_P(Bouncing, GivesBackWhatIsSet)
+TEST_P(Bouncing, ReturnsTheSetRestitution)
 {
     constexpr double kOff = 0.1;      // of the returns [-]
     constexpr double kRinging = 0.9;  // of the energy at the start [-]
@@ -322,7 +322,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, BouncingMomentum,
                          });
 
 // Bullet's threshold: slower impacts give nothing back.
-TEST(BouncingThreshold, IsThatOfBullet)
+TEST(BouncingThreshold, EqualsThatOfBullet)
 {
     for (const double speed : {0.15, 0.25})
     {
@@ -344,7 +344,7 @@ TEST(BouncingThreshold, IsThatOfBullet)
 }
 
 // A box that lies on the floor gives no way, as light as it may be.
-TEST(BouncingOnABox, OnTheFloorGivesBackWhatIsSet)
+TEST(BouncingOnABox, ReturnsTheSetRestitutionOnTheFloor)
 {
     for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
     {

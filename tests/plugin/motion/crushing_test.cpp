@@ -159,7 +159,7 @@ class Overloaded : public testing::TestWithParam<std::tuple<Coupling, double, do
 
 // Under a hundred or a thousand times its weight a soft cube is squeezed to nothing. Steps that begin with a node deep
 // in the ground say so; those within the body go there where elements are turned inside out.
-TEST_P(Overloaded, ACubeSaysThatItIsCrushed)
+TEST_P(Overloaded, ReportsACrushedCube)
 {
     const auto& [coupling, size, ratio] = GetParam();
     FemWorld world(WorldClass::softRigid, coupling);

@@ -115,7 +115,7 @@ protected:
     }
 };
 
-TEST_P(Rolling, OnTheFlatLosesNoMoreThanWithSmallSteps)
+TEST_P(Rolling, LosesNoMoreOnTheFlatThanWithSmallSteps)
 {
     FemWorld world(WorldClass::softRigid, GetParam());
     world.addPlane();
@@ -149,7 +149,7 @@ TEST_P(Rolling, DoesNotWidenWithStrongDamping)
 
 // Nothing else acts on the two: the ball pushes the block back. A cube, as what Bullet does to the spin of other bodies
 // loses momentum.
-TEST_P(Rolling, OnAFreeBlockKeepsTheAngularMomentum)
+TEST_P(Rolling, KeepsTheAngularMomentumOnAFreeBlock)
 {
     FemWorld world(WorldClass::softRigid, GetParam(), btVector3(0, 0, 0));
     btSoftBody& ball = addBall(world, {1e6, 0.005}, {0, 0, btScalar(kRadius - 1e-3)});
@@ -162,7 +162,7 @@ TEST_P(Rolling, OnAFreeBlockKeepsTheAngularMomentum)
     expectAngularMomentumKept(world, ball, block);
 }
 
-TEST_P(Rolling, OfASoftBallOnAFreeSoftSlabKeepsTheAngularMomentum)
+TEST_P(Rolling, KeepsTheAngularMomentumOnAFreeSoftSlab)
 {
     FemWorld world(WorldClass::softRigid, GetParam(), btVector3(0, 0, 0));
     btSoftBody& ball = addBall(world, {1e6, 0.005}, {0, 0, btScalar(kRadius - 1e-3)});

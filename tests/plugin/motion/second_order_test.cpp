@@ -66,7 +66,7 @@ class SecondOrderDrop : public testing::TestWithParam<std::tuple<Coupling, Rubbe
 
 // Undamped rubber balls that fall from a metre return with .81, .90 and .85 of their speed in steps of 1/1920 s.
 // Implicit Euler at 60 Hz gives .32, .19 and .10 back, and .35 of the stiffest at 240 Hz.
-TEST_P(SecondOrderDrop, GivesBackWhatTheContactLasts)
+TEST_P(SecondOrderDrop, ReboundsWithTheExpectedShareOfTheSpeed)
 {
     const auto& [coupling, drop] = GetParam();
     for (const double later : {0.01, 0.035, 0.06})
@@ -113,7 +113,7 @@ std::pair<double, double> swing(FemWorld& world, btSoftBody& bar, int node)
 
 // A swing of 1.7 Hz loses half of itself in .75 s by implicit Euler. Contact has a damping of its own: what swings free
 // of any has none of it, unless something else is asked for.
-TEST(SecondOrderInTheAir, SwingsOnWhereContactIsDamped)
+TEST(SecondOrderInTheAir, KeepsSwingingDespiteContactDamping)
 {
     FemWorld world(WorldClass::softRigid);
     btSoftBody* bar = btFemHelpers::createBox(world.info(), {0, 0, 0}, {2, .2f, .2f}, .1f);
@@ -133,7 +133,7 @@ TEST(SecondOrderInTheAir, SwingsOnWhereContactIsDamped)
 
 // What touches goes by the damping of contact from the next step on: a ball that gives back .69 of its speed without
 // any gives back the .2 of implicit Euler.
-TEST(SecondOrderInTheAir, GivesBackWhatContactLeaves)
+TEST(SecondOrderInTheAir, ReboundsByTheContactDamping)
 {
     double returned[2] = {0, 0};
     for (const int damping : {0, 1})

@@ -75,7 +75,7 @@ class Seams : public testing::TestWithParam<std::tuple<Coupling, Ground, int>>
 };
 
 // A side wall that lies flush in what a body slides on is no wall.
-TEST_P(Seams, DoNotStopWhatSlidesOverThem)
+TEST_P(Seams, DoNotStopSlidingBodies)
 {
     const auto [coupling, ground, frequency] = GetParam();
     for (const double speed : {0.5, 1.0, 2.0, 4.0, 6.0, 10.0})
@@ -106,7 +106,7 @@ class Steps : public testing::TestWithParam<std::tuple<Coupling, Ground, int>>
 };
 
 // It falls and goes on: the landing takes less than 3 % of its speed.
-TEST_P(Steps, DownDoNotStopWhatSlidesOverThem)
+TEST_P(Steps, DownwardOnesDoNotStopSlidingBodies)
 {
     const auto [coupling, ground, frequency] = GetParam();
     for (const double down : {0.001, 0.003, 0.005})
@@ -120,7 +120,7 @@ TEST_P(Steps, DownDoNotStopWhatSlidesOverThem)
 }
 
 // A fifth of an edge high.
-TEST_P(Steps, UpStopIt)
+TEST_P(Steps, UpwardOnesStopSlidingBodies)
 {
     const auto [coupling, ground, frequency] = GetParam();
     for (const double speed : {3.0, 4.0, 6.0})
@@ -154,7 +154,7 @@ class SoftGround : public testing::TestWithParam<std::tuple<Coupling, int>>
 
 // A rigid box over soft slabs side by side, clamped below: it sinks in, so the front of the next slab stands before it,
 // and the surface of its own; but it slides as on one. Waves along the slabs' surface go at 18 m/s.
-TEST_P(SoftGround, IsNoWallForARigidBoxThatSlidesOverIt)
+TEST_P(SoftGround, IsNoWallForASlidingRigidBox)
 {
     const auto [coupling, slabs] = GetParam();
     for (const double gap : {0.0, 0.05})

@@ -46,7 +46,7 @@ protected:
 
 // In a step of 1/60 s gravity moves what is free by 2.7 mm, through a body of that size. Two cubes above each other
 // both fall freely, and in truth the lower one is held by the ground.
-TEST_P(EverySize, WhatIsDroppedIsNeitherLostNorSinksIn)
+TEST_P(EverySize, DroppedBodiesAreNeitherLostNorSinkIn)
 {
     const auto& [coupling, drop, frequency, size] = GetParam();
     const btScalar step = btScalar(1) / btScalar(frequency);

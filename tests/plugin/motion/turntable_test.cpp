@@ -19,7 +19,7 @@ class Turntable : public testing::TestWithParam<std::tuple<Coupling, int, double
 };
 
 // Friction of 0.5 holds 2 rad/s at half a metre well, but every step leads what sticks along the tangent.
-TEST_P(Turntable, KeepsWhatSticksToItAtItsRadius)
+TEST_P(Turntable, KeepsStickingBodiesAtTheirRadius)
 {
     const auto [coupling, frequency, damping] = GetParam();
     constexpr double kSpin = 2, kRadius = 0.5;  // [rad/s], [m]

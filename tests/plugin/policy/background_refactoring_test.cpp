@@ -50,7 +50,7 @@ std::vector<Vec3> trajectory(const std::shared_ptr<const BodyModel>& model)
     return body.m_state.m_x;
 }
 
-TEST(FactorJobs, GiveTheModelThatTheCallerWouldHaveMade)
+TEST(FactorJobs, GiveTheModelOfASynchronousCall)
 {
     btFemFactorThread worker;
     const auto shape = beamShape(3);
@@ -64,7 +64,7 @@ TEST(FactorJobs, GiveTheModelThatTheCallerWouldHaveMade)
     EXPECT_EQ(largestDifference(a, b), 0);
 }
 
-TEST(FactorJobs, ThatFailSayWhy)
+TEST(FactorJobs, ReportTheirFailures)
 {
     btFemFactorThread worker;
     const auto shape = beamShape(2);
@@ -76,7 +76,7 @@ TEST(FactorJobs, ThatFailSayWhy)
     EXPECT_NE(job->m_error.find("limit of 1000"), std::string::npos) << job->m_error;
 }
 
-TEST(FactorJobs, ThatNobodyHoldsAnyMoreAreLeftOut)
+TEST(FactorJobs, AreSkippedIfAbandoned)
 {
     const auto shape = beamShape(4);
     std::weak_ptr<btFemFactorJob> dropped[50];
@@ -93,7 +93,7 @@ TEST(FactorJobs, ThatNobodyHoldsAnyMoreAreLeftOut)
 }
 
 // The orders of both draw from the C library's one random generator.
-TEST(FactorJobs, AndTheCallersOwnModelsDoNotDisturbEachOther)
+TEST(FactorJobs, DoNotDisturbTheCallersOwnModels)
 {
     const auto one = beamShape(4), other = beamShape(5);
     const auto oneAlone = trajectory(BodyModel::create(one, inputFor(*one)));
@@ -152,7 +152,7 @@ TEST(BackgroundRefactoring, TakesTheNewFactorOverSomeTimeAfterItPays)
     EXPECT_LE((beam.tip() - asked.tip()).length(), 1e-4);
 }
 
-TEST(BackgroundRefactoring, LeavesOutWhatIsOfNoUseAnyMore)
+TEST(BackgroundRefactoring, SkipsFactorsNoLongerUseful)
 {
     ClampedBeam::Settings settings;
     settings.m_info = inBackground();
@@ -188,7 +188,7 @@ TEST(BackgroundRefactoring, ForgetsTheFactorOfAnotherMaterial)
 }
 
 // Bodies come, go, change and are refactored while their factors are being made; then the solver goes.
-TEST(BackgroundRefactoring, SurvivesBodiesThatComeGoAndChange)
+TEST(BackgroundRefactoring, SurvivesAddedRemovedAndChangedBodies)
 {
     std::mt19937 random(1);
     for (int round = 0; round < 4; ++round)

@@ -51,7 +51,7 @@ protected:
     btFemDetailLevel m_level;
 };
 
-TEST_F(DetailLevel, StandsAtOnceWhereTheFirstInterestPutsIt)
+TEST_F(DetailLevel, StartsAtTheLevelOfTheFirstInterest)
 {
     EXPECT_EQ(m_level.detail(), btFemDetail::nodalWarp);
     EXPECT_EQ(after(0.05), btFemDetail::direct);
@@ -87,7 +87,7 @@ TEST_F(DetailLevel, StaysBetweenItsTwoBoundsForGood)
     EXPECT_EQ(after(0.19, 100), btFemDetail::direct);
 }
 
-TEST_F(DetailLevel, ChangesTwiceInADwellAtMostWhateverTheInterestDoes)
+TEST_F(DetailLevel, ChangesAtMostTwicePerDwell)
 {
     int changes = 0;
     btFemDetail last = after(1);
@@ -179,7 +179,7 @@ TEST_F(AutomaticDetail, GivesWayToTheUsersChoiceUntilItIsGivenBack)
     EXPECT_EQ(m_interest.m_calls, 2);
 }
 
-TEST_F(AutomaticDetail, TakesNaNForFullInterestAndSaysSo)
+TEST_F(AutomaticDetail, TakesNaNForFullInterestAndReportsIt)
 {
     m_interest.m_value = 0;
     m_fem.setInterest(&m_interest);
@@ -193,7 +193,7 @@ TEST_F(AutomaticDetail, TakesNaNForFullInterestAndSaysSo)
     EXPECT_EQ(m_fem.stepReport(&m_cube).m_flags, 0);
 }
 
-TEST_F(AutomaticDetail, ClampsInterestOutOfRangeAndSaysSo)
+TEST_F(AutomaticDetail, ClampsInterestOutOfRangeAndReportsIt)
 {
     const btScalar infinity = std::numeric_limits<btScalar>::infinity();
     m_fem.setInterest(&m_interest);
@@ -212,7 +212,7 @@ TEST_F(AutomaticDetail, ClampsInterestOutOfRangeAndSaysSo)
     }
 }
 
-TEST(AutomaticDetailInContact, IsFullWhileTheBodyTouchesSomething)
+TEST(AutomaticDetailInContact, IsFullWhileInContact)
 {
     PlainInterest none(0);
     btFemSoftBodySolver fem;
@@ -291,7 +291,7 @@ class StalePinTest : public testing::TestWithParam<btFemDetail>
 
 // The factor knows nothing of the pin, and what 5 % of stiff forces leave bends a bar of 1 GPa by more than they had,
 // step by step.
-TEST_P(StalePinTest, AddsNoEnergyInStepsThatVary)
+TEST_P(StalePinTest, AddsNoEnergyInVaryingSteps)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem, btVector3(0, 0, btScalar(-kGravity)));
@@ -322,7 +322,7 @@ TEST_P(StalePinTest, AddsNoEnergyInStepsThatVary)
 
 INSTANTIATE_TEST_SUITE_P(Bars, StalePinTest, testing::Values(btFemDetail::direct, btFemDetail::oneIteration));
 
-TEST(Detail, ThatIsNoneIsRefused)
+TEST(Detail, RejectsUnknownValues)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
@@ -354,7 +354,7 @@ TEST(ViewerInterest, FallsLinearlyWithTheDistanceToTheBox)
     EXPECT_TRUE(std::isnan(viewer.interest(cube)));
 }
 
-TEST(ViewerInterest, IsNoneForWhatIsNotVisible)
+TEST(ViewerInterest, IsZeroForInvisibleBodies)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem, btVector3(0, 0, 0));
@@ -449,7 +449,7 @@ TEST_P(DetailSwitch, MovesASwingingTipAsTheFullSolutionWould)
 }
 
 // The beam hangs still; a second in the new level must not set it in motion.
-TEST_P(DetailSwitch, LeavesATipAtRestWhereItIs)
+TEST_P(DetailSwitch, LeavesARestingTipInPlace)
 {
     settle(4, 600);
     for (int k = 0; k < 60; ++k)

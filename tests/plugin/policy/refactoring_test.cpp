@@ -51,13 +51,13 @@ TEST(FactorAccount, ANewFactorPaysWhenTheOldOneHasCostAsMuch)
     EXPECT_FALSE(account.refactorPays(kPrice));  // it fits again
 }
 
-TEST(FactorAccount, NothingIsLostWhereNoMoreIterationsAreNeeded)
+TEST(FactorAccount, CostsNothingWithoutExtraIterations)
 {
     btFemFactorAccount account = accountWithFresh(6);
     EXPECT_EQ(stepsUntilItPays(account, 6), 10000);
 }
 
-TEST(FactorAccount, IterationsThatTheFactorCannotHaveCostAreNotItsFault)
+TEST(FactorAccount, IterationsNotCausedByTheFactorAreNotCharged)
 {
     btFemFactorAccount account = accountWithFresh(2);
     EXPECT_EQ(stepsUntilItPays(account, 50, 1.0005), 10000);  // none
@@ -78,7 +78,7 @@ TEST(FactorAccount, ABodyWithoutAPastIsHeldAgainstTheUsualNumber)
     EXPECT_FALSE(fine.refactorPays(kPrice));  // usual: 6.4
 }
 
-TEST(FactorAccount, BoundOfChebyshevByHand)
+TEST(FactorAccount, ChebyshevBoundMatchesHandValues)
 {
     EXPECT_EQ(iterationsLostTo(1, 1e-3), 0);
     EXPECT_EQ(iterationsLostTo(2, 1e-3), std::floor(std::log(2000) / std::log(3)));  // 6.9
@@ -86,7 +86,7 @@ TEST(FactorAccount, BoundOfChebyshevByHand)
     EXPECT_EQ(iterationsLostTo(kInfinity, 1e-3), kInfinity);
 }
 
-TEST(FactorAccount, FactorsThatNeverLastBecomeDearerAndCheapAgainOnceOneDoes)
+TEST(FactorAccount, ShortLivedFactorsGrowDearerUntilOneLasts)
 {
     btFemFactorAccount account = accountWithFresh(2);
     const int expected[] = {25, 50, 100, 200, 400, 800, 1600, 1600};
@@ -149,7 +149,7 @@ int stepsUntil(ClampedBeam& beam, btFemFlags flag, int most)
     return most;
 }
 
-TEST(Refactoring, OnRequestIsAdvisedAndLeftToTheUser)
+TEST(Refactoring, IsOnlyAdvisedOnRequest)
 {
     ClampedBeam beam(beamSettings(btFemRefactoring::onRequest));
     beam.step(60);
@@ -187,7 +187,7 @@ TEST(Refactoring, SynchronousComesInTheStepAfterTheAdviceAndSavesIterations)
     EXPECT_LT(1.5 * fresh, stale);  // measured: 1.6 and 3.7 a step
 }
 
-TEST(Refactoring, SynchronousGivesTheSameBitsInEveryRunAndForEveryNumberOfThreads)
+TEST(Refactoring, SynchronousGivesTheSameBitsForEveryNumberOfThreads)
 {
     const auto run = [](int threads)
     {
@@ -219,7 +219,7 @@ TEST(Refactoring, SynchronousMendsAFactorOfOtherPins)
 }
 
 // A factor that would become too large is not made: the old one stays, and the report has the amount.
-TEST(Refactoring, ThatFailsWithinAStepKeepsTheOldFactor)
+TEST(Refactoring, FailureWithinAStepKeepsTheOldFactor)
 {
     ClampedBeam::Settings settings = beamSettings(btFemRefactoring::synchronous);
     const auto pinHalf = [](btSoftBody& body)
@@ -249,7 +249,7 @@ TEST(Refactoring, ThatFailsWithinAStepKeepsTheOldFactor)
 }
 
 // Likewise where contact asks for it.
-TEST(Refactoring, ThatFailsInContactKeepsTheOldFactor)
+TEST(Refactoring, FailureInContactKeepsTheOldFactor)
 {
     btFemSolverInfo info;
     info.m_maxFactorMegabytes = btScalar(0.12);
@@ -279,7 +279,7 @@ TEST(Refactoring, ThatFailsInContactKeepsTheOldFactor)
 }
 
 // With the factor of the long step what an anchor is to do in the short one was guessed 200 times too large.
-TEST(Refactoring, OfWhatAnAnchorHoldsComesAtOnceWhereTheStepIsFarOff)
+TEST(Refactoring, HappensAtOnceForAnchoredBodiesAtAFarOffStep)
 {
     btFemSolverInfo info;
     info.m_refactoring = btFemRefactoring::onRequest;
@@ -311,7 +311,7 @@ TEST(Refactoring, OfWhatAnAnchorHoldsComesAtOnceWhereTheStepIsFarOff)
 }
 
 // A node was thrown at 175 m/s by the factor of a longer step, in the step in which its anchor came.
-TEST(Refactoring, OfWhatAnAnchorHoldsComesBeforeItHolds)
+TEST(Refactoring, HappensBeforeANewAnchorHolds)
 {
     btFemSolverInfo info;
     info.m_refactoring = btFemRefactoring::onRequest;
@@ -331,7 +331,7 @@ TEST(Refactoring, OfWhatAnAnchorHoldsComesBeforeItHolds)
     EXPECT_LT(motionOf(ball).m_energy, 1.01 * before);  // a post gives it none; its weight some, in a millisecond
 }
 
-TEST(Refactoring, RejectsAWayThatThereIsNot)
+TEST(Refactoring, RejectsAnUnknownMode)
 {
     btFemSolverInfo info;
     info.m_refactoring = static_cast<btFemRefactoring>(3);
@@ -342,7 +342,7 @@ TEST(Refactoring, RejectsAWayThatThereIsNot)
 
 // --- Real time ---
 
-TEST(RealTime, IsMissedByWhatTakesTooLongMostOfTheTime)
+TEST(RealTime, IsMissedBySustainedOverruns)
 {
     btFemRealTime time;
     for (int k = 0; k < 9; ++k) EXPECT_FALSE(time.isTooSlow(17, 16)) << k;

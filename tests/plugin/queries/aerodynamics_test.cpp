@@ -141,7 +141,7 @@ protected:
 };
 
 // Bullet 3.24 looks the medium up, and takes the density of air all the same: whoever swims in it swims in air.
-TEST_P(Water, DoesToFemBodiesWhatItDoesToBulletsBodiesNothing)
+TEST_P(Water, HasNoEffectAsOnBulletsBodies)
 {
     const std::vector<btScalar> bullet = ofBullet(1000), inAir = ofBullet(0), fem = ofFem(1000);
     EXPECT_EQ(bullet, inAir);

@@ -66,7 +66,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, RenderNodes, eachWorld(), nameOfWorld);
 
-TEST_P(RenderNodes, WithBulletsInterpolationFollowTheirTetrahedra)
+TEST_P(RenderNodes, FollowTheirTetrahedraByInterpolation)
 {
     btSoftBodyHelpers::interpolateBarycentricWeights(&m_body);
     m_world.step();
@@ -100,7 +100,7 @@ TEST_P(RenderNodes, WaitForTheStepAfterATransformUnlessTheyAreUpdated)
         EXPECT_LT(m_body.m_renderNodes[v].m_x.distance(pose * m_start[v]), 1e-5);
 }
 
-TEST_P(RenderNodes, WithBulletsExtrapolationKeepTheirDistanceFromTheFaces)
+TEST_P(RenderNodes, KeepTheirFaceDistanceByExtrapolation)
 {
     btSoftBodyHelpers::extrapolateBarycentricWeights(&m_body);
     m_world.step();
@@ -118,7 +118,7 @@ class RenderNodesAlone : public RenderNodes
 INSTANTIATE_TEST_SUITE_P(Worlds, RenderNodesAlone, testing::Values(WorldClass::softRigid, WorldClass::deformable),
                          nameOfWorld);
 
-TEST_P(RenderNodesAlone, WithoutWeightsOrParentsStayWhereTheyAre)
+TEST_P(RenderNodesAlone, StayInPlaceWithoutWeightsOrParents)
 {
     const auto expectStill = [this]
     {
@@ -229,7 +229,7 @@ private:
     btSoftBody& m_body;
 };
 
-TEST_P(BulletFields, UserPointersIndicesAndTagsAreNeverTouched)
+TEST_P(BulletFields, UserPointersIndicesAndTagsAreNeverModified)
 {
     UserData data(m_body);
     m_body.forceActivationState(ACTIVE_TAG);
@@ -278,7 +278,7 @@ TEST_P(BulletFields, NoContactResponseOfTheSoftBodyMakesItAGhost)
     EXPECT_EQ(m_fem.contacts(&m_body).size(), 0);
 }
 
-TEST_P(BulletFields, CollisionFiltersSayWhatItTouches)
+TEST_P(BulletFields, CollisionFiltersDecideContacts)
 {
     constexpr int kSoft = 64;
     m_world.step(30);
@@ -295,7 +295,7 @@ TEST_P(BulletFields, CollisionFiltersSayWhatItTouches)
     EXPECT_GT(centerOf(m_body).z, 0);
 }
 
-TEST_P(BulletFields, IgnoredObjectsAreNotTouched)
+TEST_P(BulletFields, IgnoredObjectsMakeNoContact)
 {
     m_body.setIgnoreCollisionCheck(&m_floor, true);
     EXPECT_TRUE(fallsFreely());
@@ -342,7 +342,7 @@ TEST_P(BulletFields, AWorldInfoOfNullOffWorldIsTolerated)
     EXPECT_GT(m_fem.contacts(&m_body).size(), 0);
 }
 
-TEST_P(BulletFields, AddAeroForceToNodeAndFaceAreFeltOnce)
+TEST_P(BulletFields, AddAeroForceToNodeAndFaceActOnce)
 {
     m_world.setSoftGravity(btVector3(0, 0, 0));
     m_body.translate(btVector3(0, 0, 3));

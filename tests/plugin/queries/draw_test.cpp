@@ -193,7 +193,7 @@ TEST_P(Drawing, BadSettingsAreRejected)
     }
 }
 
-TEST_P(Drawing, ByBulletWithAllItsFlagsShowsNodesFacesAndContacts)
+TEST_P(Drawing, BulletsFlagsShowNodesFacesAndContacts)
 {
     m_body.generateClusters(0);
     m_body.appendAnchor(0, &m_floor);
@@ -215,7 +215,7 @@ TEST_P(Drawing, ByBulletWithAllItsFlagsShowsNodesFacesAndContacts)
     for (const Line& line : contacts.m_lines) EXPECT_NEAR(std::min(line.m_from.z(), line.m_to.z()), 0, 0.02);
 }
 
-TEST_P(Drawing, ByTheWorldGoesOn)
+TEST_P(Drawing, WorldDrawsItsBodies)
 {
     Recorder recorder;
     m_world.bullet().setDebugDrawer(&recorder);
@@ -230,7 +230,7 @@ TEST_P(Drawing, ByTheWorldGoesOn)
     m_world.bullet().setDebugDrawer(nullptr);
 }
 
-TEST_P(Drawing, BulletsContactArraysTellWhatOursTell)
+TEST_P(Drawing, BulletsContactArraysMatchOurContacts)
 {
     const auto& contacts = m_fem.contacts(&m_body);
     int touching = 0;
@@ -256,14 +256,14 @@ TEST_P(Drawing, BulletsContactArraysTellWhatOursTell)
     EXPECT_EQ(m_body.m_faceRigidContacts.size(), touching);
 }
 
-TEST_P(Drawing, BulletsContactArraysAreNotSolvedByAnybody)
+TEST_P(Drawing, BulletsContactArraysAreNeverSolved)
 {
     const std::vector<btScalar> before = bitsOf(m_body);
     btSoftBody::PSolve_RContacts(&m_body, 1, 0);
     EXPECT_EQ(bitsOf(m_body), before);
 }
 
-TEST_P(Drawing, BulletsContactArraysAreEmptyWhenTheObjectIsGoneOrTheBodyInactive)
+TEST_P(Drawing, BulletsContactArraysAreEmptyForGoneObjectsOrInactiveBodies)
 {
     ASSERT_GT(m_body.m_rcontacts.size(), 0);
     m_body.forceActivationState(DISABLE_SIMULATION);
@@ -312,7 +312,7 @@ TEST_P(Drawing, BulletsContactArraysAreEmptyWhenTheBodyHasLeftTheWorld)
     m_world.put(m_body);
 }
 
-TEST_P(Drawing, BulletsContactArraysKeepWhatIsStillThereWhenAnObjectLeaves)
+TEST_P(Drawing, BulletsContactArraysKeepOthersWhenAnObjectLeaves)
 {
     RigidSettings settings;
     settings.m_transform.setOrigin(btVector3(btScalar(0.2), btScalar(0.2), btScalar(1.05)));
@@ -338,7 +338,7 @@ class BulletsContactArrays : public EachWorldWith<Coupling>
 {
 };
 
-TEST_P(BulletsContactArrays, HaveNoObjectThatATickCallbackDeleted)
+TEST_P(BulletsContactArrays, ExcludeObjectsDeletedByATickCallback)
 {
     FemWorld world(worldClass(), value());
     SoftBox box;

@@ -147,7 +147,7 @@ TEST_F(DrawnFall, FractionsOutOfRangeCountAsTheNearestBound)
     expectNodes(*m_soft, m_drawn, &btSoftBody::Node::m_x);
 }
 
-TEST_F(DrawnFall, BodiesThatSleepOrLeftTheWorldStandStill)
+TEST_F(DrawnFall, SleepingOrRemovedBodiesStandStill)
 {
     m_soft->forceActivationState(ISLAND_SLEEPING);
     ASSERT_TRUE(btFemHelpers::interpolateNodes(m_soft, btScalar(-0.5), m_drawn));

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Worlds, PickingInTheSoftDemo, testing::Combine(eachWorl
 
 // Bullet's soft demo: the nearest node of the face that was hit gets, before every step, the velocity that would take
 // it to the mouse.
-TEST_P(PickingInTheSoftDemo, ByNodeVelocityAsInBulletsSoftDemoDragsTheBodyForFiveSeconds)
+TEST_P(PickingInTheSoftDemo, NodeVelocityDragsTheBodyForFiveSeconds)
 {
     struct Drag
     {
@@ -116,7 +116,7 @@ TEST_P(PickingInTheSoftDemo, ByNodeVelocityAsInBulletsSoftDemoDragsTheBodyForFiv
 }
 
 // As engines lead soft bodies: the node is pinned, and its position written.
-TEST_P(Picking, ByWritingThePositionOfAPinnedNodeDragsTheBodyForFiveSeconds)
+TEST_P(Picking, PinnedNodePositionDragsTheBodyForFiveSeconds)
 {
     m_world.step();
     const int picked = pickFromAbove().m_nodes[0];
@@ -144,7 +144,7 @@ TEST_P(Picking, ByWritingThePositionOfAPinnedNodeDragsTheBodyForFiveSeconds)
 // A node that is free and written to every step pulls by its own mass alone; nothing blows up. After two hundred steps
 // the body has fallen fifty metres from the node, and how it swings from there on differs by up to 25 m/s between paths
 // that differ by a thousandth.
-TEST_P(Picking, ByWritingTheMotionOfAFreeNodeAddsNoEnergy)
+TEST_P(Picking, FreeNodeMotionAddsNoEnergy)
 {
     constexpr int kOrderlySteps = 200;
     m_world.step();
@@ -161,7 +161,7 @@ TEST_P(Picking, ByWritingTheMotionOfAFreeNodeAddsNoEnergy)
     }
 }
 
-TEST_P(Picking, BySpringHangsWeightOverStiffnessBelowTheTarget)
+TEST_P(Picking, SpringHangsWeightOverStiffnessBelowTheTarget)
 {
     m_world.step();
     for (const btScalar stiffness : {btScalar(2e3), btScalar(2e5)})
@@ -199,7 +199,7 @@ class Dragging : public EachWorldWith<SpringCase>
 
 // The target moves at up to 5 m/s. A body that follows it and swings about it is not faster than a few times that;
 // let go, it flies on as fast as it was.
-TEST_P(Dragging, BySpringForFiveSecondsKeepsEnergyBoundedAndReleasesGently)
+TEST_P(Dragging, SpringKeepsEnergyBoundedAndReleasesGently)
 {
     const SpringCase& c = value();
     FemWorld world(worldClass(), c.m_coupling);
@@ -260,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(OtherWorlds, Dragging,
                          nameOfWorldWith(springName));
 
 // A target that jumps tears at the body with the largest force and no more.
-TEST_P(Picking, BySpringWithALargestForceOutlastsATargetThatJumps)
+TEST_P(Picking, LimitedSpringSurvivesAJumpingTarget)
 {
     m_world.step();
     btFemSpring spring = btFemSpring::at(pickFromAbove());
@@ -278,7 +278,7 @@ TEST_P(Picking, BySpringWithALargestForceOutlastsATargetThatJumps)
 }
 
 // What lies on the floor and is pulled aside.
-TEST_P(Picking, BySpringDragsABodyOverTheFloorAgainstFriction)
+TEST_P(Picking, SpringDragsABodyOverTheFloorAgainstFriction)
 {
     const btRigidBody& plane = m_world.addPlane(btScalar(-0.2));
     m_world.step(30);

@@ -155,7 +155,7 @@ protected:
     int m_onEdges = 0;
 };
 
-TEST_P(RayTestOfAFemBody, FindsWhatBruteForceFindsAtRestInMotionAndFarAway)
+TEST_P(RayTestOfAFemBody, MatchesBruteForceAtRestInMotionAndFarAway)
 {
     m_scene.m_fem.prepare(&m_body, kStep);
     compare();
@@ -189,14 +189,14 @@ INSTANTIATE_TEST_SUITE_P(OtherWorlds, RayTestOfAFemBody,
                                           testing::Values(kRayCases[0])),
                          nameOfWorldWith(rayName));
 
-class RayTestNeverHangs : public EachWorld
+class RayTestTermination : public EachWorld
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Worlds, RayTestNeverHangs, eachWorld(), nameOfWorld);
+INSTANTIATE_TEST_SUITE_P(Worlds, RayTestTermination, eachWorld(), nameOfWorld);
 
 // Bullet's own tree is never finished where faces or nodes are not connected.
-TEST_P(RayTestNeverHangs, WhateverWasDoneToTheFaces)
+TEST_P(RayTestTermination, HoldsForAnyChangeOfFaces)
 {
     Scene scene(GetParam());
     btSoftBody& body = scene.m_world.addSoft(assembled(scene, false, true));
@@ -220,7 +220,7 @@ TEST_P(RayTestNeverHangs, WhateverWasDoneToTheFaces)
     EXPECT_EQ(found.feature, btSoftBody::eFeature::Tetra);
 }
 
-TEST_P(RayTestNeverHangs, OfABodyThatWasRejected)
+TEST_P(RayTestTermination, HoldsForARejectedBody)
 {
     Scene scene(GetParam());
     btSoftBody& body = scene.m_world.addSoft(assembled(scene, false, true));

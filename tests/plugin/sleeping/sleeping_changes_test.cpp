@@ -140,7 +140,7 @@ protected:
     SleepingOnChanged() : SleepingOnBoard(std::get<0>(GetParam())) {}
 };
 
-TEST_P(SleepingOnChanged, WakesAndLiesOnWhatItBecame)
+TEST_P(SleepingOnChanged, WakesAndRestsOnTheChangedShape)
 {
     const Change& change = std::get<1>(GetParam());
     restOn(change.m_shape(*this));
@@ -250,7 +250,7 @@ protected:
     SleepingNearChanged() : SleepingOnBoard(GetParam()) {}
 };
 
-TEST_P(SleepingNearChanged, SleepsOnWhileAPieceFarAwayMoves)
+TEST_P(SleepingNearChanged, SleepsOnWhileAFarChildShapeMoves)
 {
     for (const bool tree : {true, false})
     {
@@ -279,7 +279,7 @@ TEST_P(SleepingNearChanged, SleepsOnWhenTheSameIsSetAgain)
     }
 }
 
-TEST_P(SleepingNearChanged, WakesWhenAPieceComesToItsSide)
+TEST_P(SleepingNearChanged, WakesWhenAChildShapeComesToItsSide)
 {
     restOn(compound(true));
     children().updateChildTransform(1, at(btScalar(0.65), 0, btScalar(0.2)));
@@ -287,7 +287,7 @@ TEST_P(SleepingNearChanged, WakesWhenAPieceComesToItsSide)
     EXPECT_TRUE(m_cube->isActive());
 }
 
-TEST_P(SleepingNearChanged, WakesWhenWhatLiesOnItGrowsHeavier)
+TEST_P(SleepingNearChanged, WakesWhenItsLoadGrowsHeavier)
 {
     btSoftBody& cube = addCube();
     btRigidBody& sphere = addSphere(btScalar(0.515), 5);

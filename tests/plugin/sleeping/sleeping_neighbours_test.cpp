@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST_P(Sleeping, ARigidBodyThatFallsOnItWakesIt)
+TEST_P(Sleeping, FallingRigidBodyWakesIt)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -61,7 +61,7 @@ TEST_P(Sleeping, APusherWakesItAndMovesIt)
     EXPECT_GT(cube.m_nodes[cube.m_nodes.size() - 1].m_x.x(), 0.3);
 }
 
-TEST_P(Sleeping, APusherThatComesInOneStepIsFeltInThatStep)
+TEST_P(Sleeping, PusherArrivingInOneStepActsInThatStep)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -86,7 +86,7 @@ TEST_P(Sleeping, AStaticObjectPutBesideItWakesIt)
     EXPECT_TRUE(cube.isActive());
 }
 
-TEST_P(Sleeping, AnObjectAtRestThatTheUserKeepsAwakeDoesNotWakeIt)
+TEST_P(Sleeping, ObjectAtRestKeptAwakeByTheUserDoesNotWakeIt)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -159,7 +159,7 @@ protected:
 };
 
 // Steps until the removal, counted from the one after which it is about to sleep.
-TEST_P(SleepingSupport, RemovedLetsItFall)
+TEST_P(SleepingSupport, LetsTheBodyFallWhenRemoved)
 {
     btRigidBody& board = addBoard(0);
     btSoftBody& cube = addCube(0, btScalar(0.21));
@@ -173,7 +173,7 @@ TEST_P(SleepingSupport, RemovedLetsItFall)
 
 INSTANTIATE_TEST_SUITE_P(Steps, SleepingSupport, testing::Values(0, 1, 2, 100));
 
-TEST_F(SleepingSupport, ThatCanMoveRemovedLetsItFall)
+TEST_F(SleepingSupport, LetsTheBodyFallWhenAMovableOneIsRemoved)
 {
     addGround();
     btRigidBody& board = addBoard(100);
@@ -190,7 +190,7 @@ TEST_F(SleepingSupport, ThatCanMoveRemovedLetsItFall)
     EXPECT_LT(lowestHeight(cube), 0.01);
 }
 
-TEST_F(SleepingSupport, ReplacedByAnotherAtItsPlaceCarriesIt)
+TEST_F(SleepingSupport, CarriesTheBodyWhenReplacedInPlace)
 {
     btRigidBody* board = &addBoard(0);
     btSoftBody& cube = addCube(0, btScalar(0.21));
@@ -204,7 +204,7 @@ TEST_F(SleepingSupport, ReplacedByAnotherAtItsPlaceCarriesIt)
     EXPECT_GT(m_fem.contactForce(&cube, board).z(), 0);
 }
 
-TEST_F(SleepingSupport, MovedByTheUserIsFollowed)
+TEST_F(SleepingSupport, IsFollowedWhenMovedByTheUser)
 {
     btRigidBody& board = addBoard(0);
     btSoftBody& cube = addCube(0, btScalar(0.21));

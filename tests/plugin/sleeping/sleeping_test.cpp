@@ -18,7 +18,7 @@ namespace
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Sleeping, eachWorld(), nameOfWorld);
 
-TEST_P(Sleeping, ABodyAtRestSleepsWithinFiveSecondsStaysPutAndKeepsItsContacts)
+TEST_P(Sleeping, RestingBodySleepsWithinFiveSecondsAndKeepsItsContacts)
 {
     btRigidBody& ground = addGround();
     btSoftBody& cube = addCube();
@@ -48,7 +48,7 @@ TEST_P(Sleeping, ASleepingBodyIsNotSolvedFor)
     EXPECT_GT(report.m_nodes, 0);
 }
 
-TEST_P(Sleeping, ABodyThatIsWokenLiesWhereItLay)
+TEST_P(Sleeping, WokenBodyStaysInPlace)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -177,7 +177,7 @@ TEST_P(Sleeping, TheSameTargetAgainDoesNotWake)
     EXPECT_NEAR(cube.m_nodes[0].m_x.z(), target.z() + 0.001, 1e-6);
 }
 
-TEST_P(Sleeping, WhatIsDrivenSlowerThanTheThresholdMovesOn)
+TEST_P(Sleeping, SlowlyDrivenBodyKeepsMoving)
 {
     btSoftBody& cube = addCube();
     for (int i = 0; i < cube.m_nodes.size(); ++i)
@@ -190,7 +190,7 @@ TEST_P(Sleeping, WhatIsDrivenSlowerThanTheThresholdMovesOn)
     EXPECT_NEAR(cube.m_nodes[0].m_x.x() - start, 0.1, 1e-4);
 }
 
-TEST_P(Sleeping, AForceThatIsGivenEveryStepIsFelt)
+TEST_P(Sleeping, ForceGivenEveryStepActs)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -207,7 +207,7 @@ void pullFromTick(btDynamicsWorld* world, btScalar)
     static_cast<btSoftBody*>(world->getWorldUserInfo())->addForce(btVector3(1, 0, 0), 3);
 }
 
-TEST_P(Sleeping, AForceFromATickCallbackIsFelt)
+TEST_P(Sleeping, ForceFromATickCallbackActs)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -222,7 +222,7 @@ TEST_P(Sleeping, AForceFromATickCallbackIsFelt)
     EXPECT_FALSE(cube.isActive());
 }
 
-TEST_P(Sleeping, NeighboursThatDoNotTouchSleepOnTheirOwn)
+TEST_P(Sleeping, SeparateNeighboursSleepIndependently)
 {
     addGround();
     btSoftBody& left = addCube(-1);
@@ -246,7 +246,7 @@ TEST_P(Sleeping, DisabledDeactivationNeverSleeps)
     EXPECT_GT(m_fem.stepReport(&cube).m_contacts, 0);
 }
 
-TEST_P(Sleeping, DisabledSimulationStaysPutWhateverHappens)
+TEST_P(Sleeping, DisabledSimulationStaysPutUnderAnyChange)
 {
     addGround();
     btSoftBody& cube = addCube();
@@ -317,7 +317,7 @@ TEST_P(Sleeping, MotionCostsAllOfTheTimeAtRest)
     EXPECT_TRUE(cube.isActive());
 }
 
-TEST_P(Sleeping, ABodyThatTwitchesAgainAndAgainStaysAwake)
+TEST_P(Sleeping, RepeatedlyTwitchingBodyStaysAwake)
 {
     addGround();
     btSoftBody& cube = addCube();

@@ -115,7 +115,7 @@ TEST_P(Definition, KeepsTheRestShapeMaterialMassesAndPinsOfABentBody)
     EXPECT_LT(tip(lost), tip(*m_beam) - 0.5 * sag);
 }
 
-TEST_P(Definition, IsTheSameOfTheBodyThatGotIt)
+TEST_P(Definition, IsTheSameForTheReceivingBody)
 {
     SnapshotScene other{Coupling::swap, {}, GetParam()};
     btSoftBody& copy = other.m_world.addSoft(copyOf(*m_beam, other.m_world.info()));
@@ -130,7 +130,7 @@ TEST_P(Definition, IsTheSameOfTheBodyThatGotIt)
 }
 
 // Not with the rest shape and masses of fewer nodes.
-TEST_P(Definition, IsForgottenByABodyThatIsCutBeforeItsFirstStep)
+TEST_P(Definition, IsForgottenIfCutBeforeTheFirstStep)
 {
     SnapshotScene other{Coupling::swap, {}, GetParam()};
     btSoftBody& copy = other.m_world.addSoft(copyOf(*m_beam, other.m_world.info()));
@@ -153,7 +153,7 @@ TEST_P(Definition, IsForgottenByABodyThatIsCutBeforeItsFirstStep)
     EXPECT_EQ(other.m_fem.stepReport(&copy).m_nodes, m_beam->m_nodes.size() + 1);
 }
 
-TEST_P(Definition, AndASavedStateContinueBitForBit)
+TEST_P(Definition, ContinuesBitForBitWithASavedState)
 {
     const Bytes state = m_scene.save();
     SnapshotScene other{Coupling::swap, {}, GetParam()};
@@ -210,7 +210,7 @@ TEST_P(Definition, IsRefusedIfDamaged)
     }
 }
 
-TEST_P(Definition, OfAnyBytesIsRefusedOrMoves)
+TEST_P(Definition, MutatedBytesAreRejectedOrMove)
 {
     std::mt19937 random(3);
     std::string why;
@@ -232,7 +232,7 @@ TEST_P(Definition, OfAnyBytesIsRefusedOrMoves)
     EXPECT_GT(refused, 1000);
 }
 
-TEST_P(Definition, OfABodyThatCannotBeOneIsRefused)
+TEST_P(Definition, CannotBeSavedForANullBody)
 {
     Bytes bytes(10, 1);
     std::string why;

@@ -43,7 +43,7 @@ protected:
     }
 };
 
-TEST_P(Determinism, TheSameBitsWithAnotherLayoutOfAddresses)
+TEST_P(Determinism, HoldsForAnotherLayoutOfAddresses)
 {
     const std::vector<double> bits = reference();
     const Junk before(1);
@@ -62,7 +62,7 @@ TEST_P(Determinism, TheSameBitsWithAnotherLayoutOfAddresses)
     EXPECT_TRUE(other == bits);
 }
 
-TEST_P(Determinism, TheSameBitsAfterOtherBodiesCameAndWent)
+TEST_P(Determinism, HoldsAfterOtherBodiesCameAndWent)
 {
     const std::vector<double> bits = reference();
     SnapshotScene scene(value(), {}, worldClass());

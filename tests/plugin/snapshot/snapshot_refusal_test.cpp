@@ -97,7 +97,7 @@ protected:
     Bytes m_good;
 };
 
-TEST_F(RefusedSnapshot, BytesThatAreNone)
+TEST_F(RefusedSnapshot, ForeignBytesAreRejected)
 {
     expectRefused({}, "header");
     std::string why;
@@ -119,7 +119,7 @@ TEST_F(RefusedSnapshot, BytesThatAreNone)
     expectRefused(longer, "1 bytes too many");
 }
 
-TEST_F(RefusedSnapshot, CutOffAnywhere)
+TEST_F(RefusedSnapshot, TruncationIsRejected)
 {
     std::string why;
     for (std::size_t size = 0; size < m_good.size(); size += size < 100 ? 1 : 997)
@@ -127,7 +127,7 @@ TEST_F(RefusedSnapshot, CutOffAnywhere)
     expectRefused(Bytes(m_good.begin(), m_good.end() - 1), "cut off");
 }
 
-TEST_F(RefusedSnapshot, WithAnyBitFlipped)
+TEST_F(RefusedSnapshot, BitFlipsAreRejected)
 {
     std::mt19937 random(1);
     std::string why;
@@ -140,7 +140,7 @@ TEST_F(RefusedSnapshot, WithAnyBitFlipped)
     EXPECT_TRUE(m_scene.save() == m_good);
 }
 
-TEST_F(RefusedSnapshot, OrTakenButNeverACrash)
+TEST_F(RefusedSnapshot, MutationsAreRejectedOrTakenWithoutACrash)
 {
     const SnapshotScene::Saved saved = m_scene.saveAll();
     const std::vector<double> bits = m_scene.run(10);
@@ -170,7 +170,7 @@ TEST_F(RefusedSnapshot, OrTakenButNeverACrash)
 }
 
 // A feature is an index: the next step reads at it.
-TEST_F(RefusedSnapshot, OfAContactAtNoFeature)
+TEST_F(RefusedSnapshot, ContactsOfInvalidFeaturesAreRejected)
 {
     FemSoftBody& fem = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem();
     ASSERT_FALSE(fem.m_origins.empty());
@@ -181,7 +181,7 @@ TEST_F(RefusedSnapshot, OfAContactAtNoFeature)
     expectRefused(bytes, "the feature of a contact is -3, below 0");
 }
 
-TEST_F(RefusedSnapshot, OfImpactsThatCannotBe)
+TEST_F(RefusedSnapshot, InvalidImpactsAreRejected)
 {
     FemSoftBody& fem = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem();
     const auto expectImpactRefused = [&](const auto& spoil, const char* reason)
@@ -204,7 +204,7 @@ TEST_F(RefusedSnapshot, OfImpactsThatCannotBe)
                         "the numbers of an impact");
 }
 
-TEST_F(RefusedSnapshot, OfBodiesThatAreGone)
+TEST_F(RefusedSnapshot, RemovedBodiesAreRejected)
 {
     m_scene.m_world.deleteSoft(*m_scene.m_soft.back());
     m_scene.m_soft.pop_back();
@@ -213,7 +213,7 @@ TEST_F(RefusedSnapshot, OfBodiesThatAreGone)
     expectRefused(m_good, "is not in the world");
 }
 
-TEST_F(RefusedSnapshot, OfABodyAddedAnew)
+TEST_F(RefusedSnapshot, ReaddedBodyIsRejected)
 {
     btSoftBody& body = *m_scene.m_soft[0];
     m_scene.m_world.world().removeSoftBody(&body);
@@ -221,7 +221,7 @@ TEST_F(RefusedSnapshot, OfABodyAddedAnew)
     expectRefused(m_good, "is not in the world");
 }
 
-TEST_F(RefusedSnapshot, OfABodyThatWasCut)
+TEST_F(RefusedSnapshot, CutBodyIsRejected)
 {
     btSoftBody& body = *m_scene.m_soft[0];
     body.m_tetras.pop_back();
@@ -230,7 +230,7 @@ TEST_F(RefusedSnapshot, OfABodyThatWasCut)
     expectRefused(m_good, "now has 48 and 89");
 }
 
-TEST_F(RefusedSnapshot, OfABodyOfAnotherMaterial)
+TEST_F(RefusedSnapshot, OtherMaterialIsRejected)
 {
     btFemMaterial material;
     material.m_youngModulus = btScalar(2e5);
@@ -267,7 +267,7 @@ struct TriesWithinAStep
     std::string m_saving, m_restoring;
 };
 
-TEST_F(RefusedSnapshot, WithinAStep)
+TEST_F(RefusedSnapshot, CallsWithinAStepAreRejected)
 {
     TriesWithinAStep tries{m_scene.m_fem, m_good, {}, {}};
     m_scene.m_world.world().setInternalTickCallback(&TriesWithinAStep::tick, &tries);
@@ -276,7 +276,7 @@ TEST_F(RefusedSnapshot, WithinAStep)
     EXPECT_THAT(tries.m_restoring, HasSubstr("between steps"));
 }
 
-TEST_F(RefusedSnapshot, WithoutABroadPhase)
+TEST_F(RefusedSnapshot, MissingBroadPhaseIsRejected)
 {
     btBroadphaseInterface* broadphase = m_scene.m_world.info().m_broadphase;
     m_scene.m_world.info().m_broadphase = nullptr;
@@ -288,7 +288,7 @@ TEST_F(RefusedSnapshot, WithoutABroadPhase)
     expectRefused(Bytes(40, 0), "something else");
 }
 
-TEST_F(RefusedSnapshot, OfAnotherKindOfFactor)
+TEST_F(RefusedSnapshot, OtherFactorChoiceIsRejected)
 {
     btFemSolverInfo info;
     info.m_factorChoice = btFemFactorChoice::lowMemory;
@@ -301,7 +301,7 @@ TEST_F(RefusedSnapshot, OfAnotherKindOfFactor)
     EXPECT_TRUE(low.save() == before);
 }
 
-TEST(RestoredSnapshot, ShowsTheManifoldsOfThen)
+TEST(RestoredSnapshot, ShowsTheSavedManifolds)
 {
     btFemSolverInfo info;
     info.m_manifolds = true;
@@ -326,7 +326,7 @@ TEST(RestoredSnapshot, ShowsTheManifoldsOfThen)
     EXPECT_EQ(pointsShown(), points);
 }
 
-TEST(RestoredSnapshot, LeavesOutWhatIsGoneAndLeavesNewBodiesAlone)
+TEST(RestoredSnapshot, OmitsRemovedBodiesAndLeavesNewOnesAlone)
 {
     SnapshotScene scene;
     scene.addTower();
@@ -348,7 +348,7 @@ TEST(RestoredSnapshot, LeavesOutWhatIsGoneAndLeavesNewBodiesAlone)
     EXPECT_EQ(scene.m_fem.touches(scene.m_soft[1]).size(), 1);
 }
 
-TEST(RestoredSnapshot, OfNoBodiesIsEmpty)
+TEST(RestoredSnapshot, IsEmptyWithoutBodies)
 {
     SnapshotScene scene;
     Bytes bytes;

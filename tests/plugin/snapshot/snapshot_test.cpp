@@ -56,7 +56,7 @@ TEST_P(Snapshot, ContinuesBitForBitInTheMidstOfContact)
 }
 
 // What an impact has to give back is given in the run that goes on from the saved state, too.
-TEST_P(Snapshot, OfWhatAnImpactHasToGiveBackContinuesBitForBit)
+TEST_P(Snapshot, PendingRestitutionContinuesBitForBit)
 {
     m_scene.addTower();
     for (btSoftBody* body : m_scene.m_soft) body->setRestitution(btScalar(0.8));
@@ -88,7 +88,7 @@ TEST_P(SnapshotInOtherWorlds, ContinuesBitForBitInTheMidstOfContact)
 INSTANTIATE_TEST_SUITE_P(Worlds, SnapshotInOtherWorlds,
                          testing::Values(WorldClass::softMultiBody, WorldClass::deformable), nameOfWorld);
 
-TEST_P(Snapshot, OfBodiesThatFallAsleepOrSleepContinuesBitForBit)
+TEST_P(Snapshot, BodiesFallingAsleepOrSleepingContinueBitForBit)
 {
     m_scene.addSlab();
     m_scene.setState(ACTIVE_TAG);
@@ -122,7 +122,7 @@ TEST_P(Snapshot, OfBodiesThatFallAsleepOrSleepContinuesBitForBit)
     EXPECT_NE(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
 }
 
-TEST_P(Snapshot, HasBodiesThatCameAsleep)
+TEST_P(Snapshot, IncludesBodiesAddedAsleep)
 {
     m_scene.addTower();
     btSoftBody& asleep = *m_scene.m_soft[0];
@@ -140,7 +140,7 @@ TEST_P(Snapshot, HasBodiesThatCameAsleep)
     EXPECT_TRUE(m_scene.save() == saved.m_fem);
 }
 
-TEST_P(Snapshot, TakesBackWhatTheUserDidSince)
+TEST_P(Snapshot, UndoesTheUsersChanges)
 {
     m_scene.build();
     m_scene.m_world.step(40);
@@ -163,7 +163,7 @@ TEST_P(Snapshot, TakesBackWhatTheUserDidSince)
     EXPECT_TRUE(m_scene.run(30) == bits);
 }
 
-TEST_P(Snapshot, MakesTheFactorOfThenAgain)
+TEST_P(Snapshot, RecreatesItsFactor)
 {
     const btScalar shorter = kStep / btScalar(1.3);  // stale, but not so much that contact makes a new one
     m_scene.addTower();
@@ -183,7 +183,7 @@ TEST_P(Snapshot, MakesTheFactorOfThenAgain)
     EXPECT_TRUE(m_scene.run(60, shorter) == bits);
 }
 
-TEST_P(Snapshot, OfABodyThatASpringHoldsContinuesBitForBit)
+TEST_P(Snapshot, BodyHeldByASpringContinuesBitForBit)
 {
     m_scene.build();
     m_scene.m_world.step(2);
@@ -206,7 +206,7 @@ TEST_P(Snapshot, OfABodyThatASpringHoldsContinuesBitForBit)
     EXPECT_FALSE(m_scene.run(40) == bits);
 }
 
-TEST_P(Snapshot, OfAWorldBuiltAnewContinuesBitForBit)
+TEST_P(Snapshot, RebuiltWorldContinuesBitForBit)
 {
     m_scene.build();
     m_scene.m_world.step(40);
@@ -219,7 +219,7 @@ TEST_P(Snapshot, OfAWorldBuiltAnewContinuesBitForBit)
     EXPECT_TRUE(again.run(60) == m_scene.run(60));
 }
 
-TEST_P(Snapshot, OfBodiesThatBecameKnownInAnotherOrderContinuesBitForBit)
+TEST_P(Snapshot, BodiesKnownInAnotherOrderContinueBitForBit)
 {
     const SoftBox lower{{1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.26}}, upper{{0.8, 0.8, 0.5}, {3, 3, 2}, {0.1, 0, 0.8}};
     m_scene.m_world.addPlane();
@@ -238,7 +238,7 @@ TEST_P(Snapshot, OfBodiesThatBecameKnownInAnotherOrderContinuesBitForBit)
     EXPECT_TRUE(again.run(60) == m_scene.run(60));
 }
 
-TEST_P(Snapshot, OfAnImpactContinuesBitForBit)
+TEST_P(Snapshot, ImpactContinuesBitForBit)
 {
     btSoftBody& block = m_scene.add({{0.6, 0.6, 0.3}, {6, 6, 3}, {0, 0, 0}, btScalar(3e5)});
     clampBelow(block, -0.14);
@@ -262,7 +262,7 @@ TEST_P(Snapshot, OfAnImpactContinuesBitForBit)
     EXPECT_GT(touching, 5);
 }
 
-TEST_P(Snapshot, OfLevelsOfDetailContinuesBitForBit)
+TEST_P(Snapshot, LevelsOfDetailContinueBitForBit)
 {
     btFemViewerInterest viewer(5, 50);
     m_scene.m_fem.setInterest(&viewer);
@@ -288,7 +288,7 @@ void giveModulus(SnapshotScene& scene, btScalar youngModulus)
     for (btSoftBody* body : scene.m_soft) scene.m_fem.setMaterial(body, material);
 }
 
-TEST_P(Snapshot, OfCopiesContinuesBitForBitOnceTheirFactorsAreForgotten)
+TEST_P(Snapshot, CopiesContinueBitForBitWithForgottenFactors)
 {
     for (const btFemFactorChoice choice : {btFemFactorChoice::full, btFemFactorChoice::lowMemory})
     {
@@ -312,7 +312,7 @@ TEST_P(Snapshot, OfCopiesContinuesBitForBitOnceTheirFactorsAreForgotten)
 
 // Where rigid bodies touch each other, Bullet's contacts remember impulses, and cannot be put back. Let go of on both
 // sides, as BulletState does, they begin anew on both. With SOLVER_RANDMIZE_ORDER the rigid solver draws numbers, too.
-TEST_P(Snapshot, OfRigidBodiesThatTouchEachOtherContinuesBitForBitFromContactsLetGoOf)
+TEST_P(Snapshot, RigidContactsContinueBitForBitOnceCleared)
 {
     m_scene.addTower();
     for (const double x : {0.1, 0.2})
@@ -347,7 +347,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Snapshot,
                                     std::to_string(test.param.m_threads) + "Threads";
                          });
 
-TEST(SnapshotSize, IsTold)
+TEST(SnapshotSize, GrowsLinearlyWithTheMesh)
 {
     for (const int cells : {4, 8, 16})
     {

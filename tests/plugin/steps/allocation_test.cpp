@@ -90,7 +90,7 @@ int expectNoAllocations(CountingSolver& fem, World& world, const std::vector<btS
     return checked;
 }
 
-TEST(Allocations, TheFirstStepMakesSome)
+TEST(Allocations, OccurInTheFirstStep)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -99,7 +99,7 @@ TEST(Allocations, TheFirstStepMakesSome)
     EXPECT_GT(fem.m_allocations, 100);  // the counter counts
 }
 
-TEST(Allocations, NoneForABodyInFlight)
+TEST(Allocations, AreNoneForABodyInFlight)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -109,7 +109,7 @@ TEST(Allocations, NoneForABodyInFlight)
 }
 
 // It hangs by one face, with tension that is close to what it bears.
-TEST(Allocations, NoneForABodyThatDoesNotSplit)
+TEST(Allocations, AreNoneForAnUnsplitBody)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -124,7 +124,7 @@ TEST(Allocations, NoneForABodyThatDoesNotSplit)
     EXPECT_EQ(btFemFracture::splits(fem).size(), 0);
 }
 
-TEST(Allocations, NoneForABodyThatASpringDragsOverTheFloor)
+TEST(Allocations, AreNoneForASpringDraggedBody)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -142,7 +142,7 @@ TEST(Allocations, NoneForABodyThatASpringDragsOverTheFloor)
 
 // Their contacts are thinned: what is found may grow although what is kept does not, so the bodies move first as they
 // do then.
-TEST(Allocations, NoneForBodiesWhoseDrawnSurfaceCollides)
+TEST(Allocations, AreNoneForCollidingRenderSurfaces)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -159,7 +159,7 @@ TEST(Allocations, NoneForBodiesWhoseDrawnSurfaceCollides)
 }
 
 // What its nodes and faces touch goes to and fro. Bullet itself allocates for cloth, in every step the same.
-TEST(Allocations, NoneForClothOnABallButBulletsOwn)
+TEST(Allocations, AreOnlyBulletsOwnForClothOnABall)
 {
     const auto run = [](bool touches)
     {
@@ -192,7 +192,7 @@ TEST(Allocations, NoneForClothOnABallButBulletsOwn)
 }
 
 // Interest that goes up and down takes it through all levels; a stale factor is kept account of.
-TEST(Allocations, NoneWhileDetailIsChosenAndTheFactorIsStale)
+TEST(Allocations, AreNoneWithChangingDetailAndAStaleFactor)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -217,7 +217,7 @@ TEST(Allocations, NoneWhileDetailIsChosenAndTheFactorIsStale)
     EXPECT_LT(low, 50);
 }
 
-TEST(Allocations, NoneForACubeAtRestOnABox)
+TEST(Allocations, AreNoneForACubeAtRestOnABox)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -227,7 +227,7 @@ TEST(Allocations, NoneForACubeAtRestOnABox)
     EXPECT_GT(fem.contacts(&cube).size(), 0);
 }
 
-TEST(Allocations, NoneForABodyThatSleeps)
+TEST(Allocations, AreNoneForASleepingBody)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -242,7 +242,7 @@ TEST(Allocations, NoneForABodyThatSleeps)
     EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 30), 28);
 }
 
-TEST(Allocations, NoneForACubeThatSlides)
+TEST(Allocations, AreNoneForASlidingCube)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -257,7 +257,7 @@ TEST(Allocations, NoneForACubeThatSlides)
     EXPECT_GT(norm(velocityOf(cube)), 1);
 }
 
-TEST(Allocations, NoneForSeveralBodiesAndARigidOneOnTop)
+TEST(Allocations, AreNoneForSeveralBodiesAndARigidOneOnTop)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -268,7 +268,7 @@ TEST(Allocations, NoneForSeveralBodiesAndARigidOneOnTop)
     EXPECT_GT(expectNoAllocations(fem, world, {&first, &second}, 120), 60);
 }
 
-TEST(Allocations, NoneForCopiesThatAreSolvedTogether)
+TEST(Allocations, AreNoneForBatchedCopies)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -281,7 +281,7 @@ TEST(Allocations, NoneForCopiesThatAreSolvedTogether)
     EXPECT_EQ(expectNoAllocations(fem, world, cubes, 60), 58);
 }
 
-TEST(Allocations, NoneForBodiesThatAreHeld)
+TEST(Allocations, AreNoneForHeldBodies)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -304,7 +304,7 @@ TEST(Allocations, NoneForBodiesThatAreHeld)
 }
 
 // A step that comes and goes finds its old factor: what factoring allocates is allocated for the first change only.
-TEST(Allocations, OfAFactorAreMadeOnceForStepsThatComeAndGo)
+TEST(Allocations, OccurOnceForRecurringSteps)
 {
     CountingSolver fem;
     SoftWorld world(fem);
@@ -324,7 +324,7 @@ TEST(Allocations, OfAFactorAreMadeOnceForStepsThatComeAndGo)
     }
 }
 
-TEST(Allocations, NoneForManifoldsThatLast)
+TEST(Allocations, AreNoneForLastingManifolds)
 {
     btFemSolverInfo info;
     info.m_manifolds = true;
@@ -336,7 +336,7 @@ TEST(Allocations, NoneForManifoldsThatLast)
     EXPECT_EQ(world.world().getDispatcher()->getNumManifolds(), 1);
 }
 
-TEST(Allocations, NoneForStressesOnceTheyHaveGrown)
+TEST(Allocations, AreNoneForStressesOnceGrown)
 {
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
@@ -355,7 +355,7 @@ TEST(Allocations, NoneForStressesOnceTheyHaveGrown)
 }
 
 // It holds a link by an anchor, and lies on another one of the same multibody.
-TEST(Allocations, NoneForLinksOfMultibodies)
+TEST(Allocations, AreNoneForMultibodyLinks)
 {
     CountingSolver fem;
     MultiBodyWorld world(fem);
@@ -373,7 +373,7 @@ TEST(Allocations, NoneForLinksOfMultibodies)
     EXPECT_GT(fem.touches(&cube).size(), 0);
 }
 
-TEST(Allocations, NoneByReactionsThatAreAskedForAgain)
+TEST(Allocations, AreNoneForRepeatedReactionQueries)
 {
     CountingSolver fem;
     SoftWorld world(fem);

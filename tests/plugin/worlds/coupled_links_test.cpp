@@ -98,7 +98,7 @@ struct LinkNames
 using LinkWorlds = ::testing::Types<SoftMultiBodyLinks, DeformableLinks>;
 TYPED_TEST_SUITE(CoupledLinks, LinkWorlds, LinkNames);
 
-TYPED_TEST(CoupledLinks, AGripperPressesWithWhatItsMotorsGive)
+TYPED_TEST(CoupledLinks, GripperPressesWithTheForceOfItsMotors)
 {
     constexpr double kForce = 20;  // [N]
     auto& gripper = this->addGripper(kForce);
@@ -178,7 +178,7 @@ TYPED_TEST(CoupledLinks, ALiftStandsStillUnderItsLoad)
 }
 
 // About the hinge, which takes all else.
-TYPED_TEST(CoupledLinks, APendulumThatIsHitGetsTheAngularMomentum)
+TYPED_TEST(CoupledLinks, HitPendulumReceivesTheAngularMomentum)
 {
     const btVector3 half(btScalar(0.1), btScalar(0.3), btScalar(0.5));
     this->begin(kNoGravity);
@@ -289,7 +289,7 @@ TEST(CoupledLinksAlone, SpinningFrictionOfALinkKeepsMomentaWithTheSwapToo)
 }
 
 // A cloth over a rigid box that stands on a slab: all three are in one island.
-TEST(CoupledLinksAlone, ClothLiesOnWhatASoftBodyCarries)
+TEST(CoupledLinksAlone, ClothRestsOnALoadCarriedByASoftBody)
 {
     const btVector3 gravity(0, 0, btScalar(-kGravity));
     btDeformableMassSpringForce springs(btScalar(30), btScalar(1), true);

@@ -18,7 +18,7 @@ class ElasticForces : public DeformableWorldTest, public ::testing::WithParamInt
 {
 };
 
-TEST_P(ElasticForces, stretchAHangingBarAsTheirModuliSay)
+TEST_P(ElasticForces, StretchAHangingBarAsTheirModuliSay)
 {
     const double length = 1;
     btSoftBody& bar = addBox(m_world, {0.25, 0.25, length}, {3, 3, 12}, {0, 0, -0.5 * length});
@@ -34,7 +34,7 @@ TEST_P(ElasticForces, stretchAHangingBarAsTheirModuliSay)
     EXPECT_NEAR(-lowestHeight(bar) - length, wanted, 0.04 * wanted);
 }
 
-TEST_P(ElasticForces, letABodyRestOnTheGround)
+TEST_P(ElasticForces, LetABodyRestOnTheGround)
 {
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = addCube(m_world, {0, 0, 0.5});
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ElasticForces,
                          ::testing::Values(Elastic::linear, Elastic::corotated, Elastic::neoHookean),
                          [](const auto& kind) { return nameOf(kind.param); });
 
-TEST_F(DeformableWorldTest, changedModuliAreObeyed)
+TEST_F(DeformableWorldTest, ChangedModuliAreObeyed)
 {
     btSoftBody& bar = addBox(m_world, {0.25, 0.25, 1}, {2, 2, 8}, {0, 0, -0.5});
     addForces(m_world, bar);
@@ -68,7 +68,7 @@ TEST_F(DeformableWorldTest, changedModuliAreObeyed)
     EXPECT_NEAR(-lowestHeight(bar) - 1, 0.5 * soft, 0.01 * soft);
 }
 
-TEST_F(DeformableWorldTest, aBodyFallsOnlyWithAGravityForceAndByItsFactor)
+TEST_F(DeformableWorldTest, ABodyFallsOnlyWithAGravityForceAndByItsFactor)
 {
     btSoftBody &floats = addCube(m_world, {0, 0, 5}), &falls = addCube(m_world, {2, 0, 5}),
                &half = addCube(m_world, {4, 0, 5});
@@ -82,7 +82,7 @@ TEST_F(DeformableWorldTest, aBodyFallsOnlyWithAGravityForceAndByItsFactor)
     EXPECT_NEAR(velocityOf(half).z, -0.5 * speed, 1e-4 * speed);
 }
 
-TEST_F(DeformableWorldTest, mousePickingDragsABodyToTheMouse)
+TEST_F(DeformableWorldTest, MousePickingDragsABodyToTheMouse)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     addForce(m_world, cube, makeForce(Elastic::linear, kMu, kLambda));
@@ -111,7 +111,7 @@ TEST_F(DeformableWorldTest, mousePickingDragsABodyToTheMouse)
     EXPECT_LT(norm(velocityOf(cube)), 0.05);
 }
 
-TEST_F(DeformableWorldTest, mousePickingHoldsWithItsFullStiffness)
+TEST_F(DeformableWorldTest, MousePickingHoldsWithItsFullStiffness)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     addForces(m_world, cube);
@@ -131,7 +131,7 @@ TEST_F(DeformableWorldTest, mousePickingHoldsWithItsFullStiffness)
     EXPECT_NEAR(sag, wanted, 0.02 * wanted);
 }
 
-TEST_F(DeformableWorldTest, mousePickingPullsWithItsLargestImpulseAndLetsGo)
+TEST_F(DeformableWorldTest, MousePickingPullsWithItsLargestImpulseAndLetsGo)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     addForce(m_world, cube, makeForce(Elastic::linear, kMu, kLambda));
@@ -156,7 +156,7 @@ class ImpossibleModuli : public DeformableWorldTest, public ::testing::WithParam
 {
 };
 
-TEST_P(ImpossibleModuli, leaveABodyToBulletWithAReason)
+TEST_P(ImpossibleModuli, LeaveABodyToBulletWithAReason)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     if (GetParam()) makeReadyForBullet(cube);
@@ -176,7 +176,7 @@ TEST_P(ImpossibleModuli, leaveABodyToBulletWithAReason)
 INSTANTIATE_TEST_SUITE_P(ReadyForBullet, ImpossibleModuli, ::testing::Bool(),
                          [](const auto& ready) { return ready.param ? "ready" : "standsStill"; });
 
-TEST_F(DeformableWorldTest, aMaterialOfTheUsersOwnReplacesAnImpossibleOne)
+TEST_F(DeformableWorldTest, AMaterialOfTheUsersOwnReplacesAnImpossibleOne)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     addForce(m_world, cube, makeForce(Elastic::linear, 0, 0));

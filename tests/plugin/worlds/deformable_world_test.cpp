@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST_F(DeformableWorldTest, clothBesideFemBodiesKeepsItsBits)
+TEST_F(DeformableWorldTest, ClothBesideFemBodiesKeepsItsBits)
 {
     const auto run = [this](btDeformableBodySolver& solver, bool withFem, bool implicit)
     {
@@ -47,7 +47,7 @@ TEST_F(DeformableWorldTest, clothBesideFemBodiesKeepsItsBits)
 }
 
 // Bullet's world makes all soft bodies collide that have VF_DD, whatever they ignore.
-TEST_F(DeformableWorldTest, clothThatIgnoresFemBodiesFallsThroughThemAndLeavesThemAlone)
+TEST_F(DeformableWorldTest, ClothIgnoringFemBodiesFallsThroughThem)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 0.5});
     addForce(m_world, cube, makeForce(Elastic::linear, kMu, kLambda));
@@ -60,7 +60,7 @@ TEST_F(DeformableWorldTest, clothThatIgnoresFemBodiesFallsThroughThemAndLeavesTh
     EXPECT_TRUE(cube.m_cfg.collisions & btSoftBody::fCollision::VF_DD);
 }
 
-TEST_F(DeformableWorldTest, bodiesThatLeaveTheWorldLeaveTheirContacts)
+TEST_F(DeformableWorldTest, RemovedBodiesLoseTheirContacts)
 {
     m_world.addFloorBox();
     btSoftBody& cube = addCube(m_world, {0, 0, 0.2});
@@ -72,7 +72,7 @@ TEST_F(DeformableWorldTest, bodiesThatLeaveTheWorldLeaveTheirContacts)
 }
 
 // Held at a strain of 1 % along x: Hooke's law with the force's coefficients.
-TEST_F(DeformableWorldTest, stressIsThatOfTheForcesCoefficients)
+TEST_F(DeformableWorldTest, StressIsThatOfTheForcesCoefficients)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     addForce(m_world, cube, makeForce(Elastic::corotated, kMu, kLambda));
@@ -90,7 +90,7 @@ TEST_F(DeformableWorldTest, stressIsThatOfTheForcesCoefficients)
     }
 }
 
-TEST_F(DeformableWorldTest, bodiesWithoutAnElasticForceStayBullets)
+TEST_F(DeformableWorldTest, BodiesWithoutAnElasticForceStayBullets)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     makeReadyForBullet(cube);
@@ -102,7 +102,7 @@ TEST_F(DeformableWorldTest, bodiesWithoutAnElasticForceStayBullets)
     EXPECT_TRUE(m_solver.fem().isFem(&cube));
 }
 
-TEST_F(DeformableWorldTest, bodiesThatBulletCannotMoveAreFemWithoutForces)
+TEST_F(DeformableWorldTest, BodiesWithoutForcesAreFemAndStandStill)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     m_world.step(2);
@@ -110,7 +110,7 @@ TEST_F(DeformableWorldTest, bodiesThatBulletCannotMoveAreFemWithoutForces)
     EXPECT_NEAR(velocityOf(cube).z, 0, 1e-6);
 }
 
-TEST_F(DeformableWorldTest, forcesListTheirBodiesBetweenSteps)
+TEST_F(DeformableWorldTest, ForcesListTheirBodiesBetweenSteps)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
     addForces(m_world, cube);
@@ -119,7 +119,7 @@ TEST_F(DeformableWorldTest, forcesListTheirBodiesBetweenSteps)
     EXPECT_EQ(m_solver.getLagrangianForceArray()->size(), 2);
 }
 
-TEST_F(DeformableWorldTest, bodiesCollideWithEachOtherAndKeepTheirMomentum)
+TEST_F(DeformableWorldTest, BodiesCollideWithEachOtherAndKeepTheirMomentum)
 {
     btSoftBody &a = addCube(m_world, {0, 0, 0}), &b = addCube(m_world, {0.6, 0.05, 0.1});
     for (btSoftBody* body : {&a, &b})
@@ -134,7 +134,7 @@ TEST_F(DeformableWorldTest, bodiesCollideWithEachOtherAndKeepTheirMomentum)
     EXPECT_NEAR(motionOf(a).m_linear.x + motionOf(b).m_linear.x, start, 1e-5 * start);
 }
 
-TEST_F(DeformableWorldTest, aRigidBoxOnASoftBodyIsCarried)
+TEST_F(DeformableWorldTest, ARigidBoxOnASoftBodyIsCarried)
 {
     m_world.addFloorBox();
     btSoftBody& cube = addCube(m_world, {0, 0, 0.2});
@@ -155,7 +155,7 @@ TEST_F(DeformableWorldTest, aRigidBoxOnASoftBodyIsCarried)
     EXPECT_GT(box.getCenterOfMassPosition().z(), 0.4);
 }
 
-TEST_F(DeformableWorldTest, anAnchoredLinkHangsOnASoftBody)
+TEST_F(DeformableWorldTest, AnAnchoredLinkHangsOnASoftBody)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 0.2});
     addForces(m_world, cube);
@@ -178,7 +178,7 @@ TEST_F(DeformableWorldTest, anAnchoredLinkHangsOnASoftBody)
 }
 
 // A platform on a vertical slider that a motor holds: gravity is Bullet's at another time of the step than elsewhere.
-TEST_F(DeformableWorldTest, aLinkThatIsHeldCarriesABody)
+TEST_F(DeformableWorldTest, MotorHeldLinkCarriesABody)
 {
     const btVector3 half(btScalar(0.5), btScalar(0.5), btScalar(0.1));
     auto* body = new btMultiBody(1, 0, btVector3(0, 0, 0), true, false);
@@ -194,7 +194,7 @@ TEST_F(DeformableWorldTest, aLinkThatIsHeldCarriesABody)
     EXPECT_LT(fastestNode(cube), 0.01);
 }
 
-TEST_F(DeformableWorldTest, bodiesFallAsleepInTwoSecondsAndWake)
+TEST_F(DeformableWorldTest, BodiesFallAsleepInTwoSecondsAndWake)
 {
     m_world.addFloorBox();
     btSoftBody& cube = addCube(m_world, {0, 0, 0.2});
@@ -210,7 +210,7 @@ TEST_F(DeformableWorldTest, bodiesFallAsleepInTwoSecondsAndWake)
     EXPECT_GT(velocityOf(cube).z, 0.5);
 }
 
-TEST_F(DeformableWorldTest, bodiesMayBeRemovedWithinAStepAndAfter)
+TEST_F(DeformableWorldTest, BodiesMayBeRemovedWithinAStepAndAfter)
 {
     btSoftBody &a = addCube(m_world, {0, 0, 1}), &b = addCube(m_world, {2, 0, 1});
     for (btSoftBody* body : {&a, &b}) addForces(m_world, *body);

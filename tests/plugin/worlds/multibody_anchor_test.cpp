@@ -42,7 +42,7 @@ protected:
     }
 };
 
-TEST_F(HeldMultiBody, anAnchoredSoftBodyCarriesTheWholeChain)
+TEST_F(HeldMultiBody, AnAnchoredSoftBodyCarriesTheWholeChain)
 {
     MultiBodyWorld world(m_fem);
     btSoftBody& cube = addCube(world, {0, 0, 0.2});
@@ -65,7 +65,7 @@ TEST_F(HeldMultiBody, anAnchoredSoftBodyCarriesTheWholeChain)
     for (int k = 0; k < m_fem.anchors(&cube).size(); ++k) EXPECT_LT(m_fem.anchors(&cube)[k].m_error, 1e-3);
 }
 
-TEST_F(HeldMultiBody, aSoftBodyThatHangsOnAMovingLinkPullsAtItsJoint)
+TEST_F(HeldMultiBody, SoftBodyOnAMovingLinkPullsAtItsJoint)
 {
     MultiBodyWorld world(m_fem, kNoGravity);
     btMultiBodyLinkCollider& link =
@@ -85,7 +85,7 @@ TEST_F(HeldMultiBody, aSoftBodyThatHangsOnAMovingLinkPullsAtItsJoint)
     EXPECT_GT(velocityOf(cube).x, 0.3);
 }
 
-TEST_F(HeldMultiBody, aSleepingMultibodyIsWokenByWhatFallsOnIt)
+TEST_F(HeldMultiBody, SleepingMultibodyIsWokenByAFallingBody)
 {
     MultiBodyWorld world(m_fem, kNoGravity);
     btMultiBody& chain = addHangingChain(world, 1, 0.1);
@@ -102,7 +102,7 @@ TEST_F(HeldMultiBody, aSleepingMultibodyIsWokenByWhatFallsOnIt)
 }
 
 // They are apart, in islands of their own: nothing but the anchor's impulse can wake it.
-TEST_F(HeldMultiBody, aSleepingMultibodyIsWokenByAnAnchorFarAway)
+TEST_F(HeldMultiBody, ASleepingMultibodyIsWokenByAnAnchorFarAway)
 {
     MultiBodyWorld world(m_fem, kNoGravity);
     btMultiBody& chain = addHangingChain(world, 0, 0.1);
@@ -118,7 +118,7 @@ TEST_F(HeldMultiBody, aSleepingMultibodyIsWokenByAnAnchorFarAway)
     EXPECT_GT(chain.getBasePos().x(), 0.005);
 }
 
-TEST_F(HeldMultiBody, aMotorsLinkAndTheCubeOnItFallAsleep)
+TEST_F(HeldMultiBody, AMotorsLinkAndTheCubeOnItFallAsleep)
 {
     MultiBodyWorld world(m_fem);
     const btVector3 half(btScalar(0.5), btScalar(0.5), btScalar(0.1));

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST_F(MultiBodyWorldTest, aPendulumThatIsHitGetsTheAngularMomentum)
+TEST_F(MultiBodyWorldTest, HitPendulumReceivesTheAngularMomentum)
 {
     MultiBodyWorld world(m_fem, kNoGravity);
     btMultiBodyLinkCollider& link = addPendulum(world, 30, btVector3(btScalar(0.1), btScalar(0.3), btScalar(0.5)));
@@ -33,7 +33,7 @@ TEST_F(MultiBodyWorldTest, aPendulumThatIsHitGetsTheAngularMomentum)
 }
 
 // The same pendulum as a rigid body on Bullet's hinge, which is solved after the soft body pushed it.
-TEST_F(MultiBodyWorldTest, aPendulumTurnsLikeARigidBodyOnAHinge)
+TEST_F(MultiBodyWorldTest, APendulumTurnsLikeARigidBodyOnAHinge)
 {
     const btVector3 half(btScalar(0.1), btScalar(0.3), btScalar(0.5));
     const auto hit = [&](MultiBodyWorld& world)
@@ -65,7 +65,7 @@ class FastLink : public MultiBodyWorldTest, public ::testing::WithParamInterface
 };
 
 // A plate that goes farther in a step than it and the cube are thick; on a slider along x, or on a hinge 2 m above.
-TEST_P(FastLink, isStoppedByACubeAndKeepsTheMomentumThatItsJointLeaves)
+TEST_P(FastLink, IsStoppedByACubeAndKeepsMomentumAlongItsJoint)
 {
     MultiBodyWorld world(m_fem, kNoGravity);
     const double speed = GetParam().first;
@@ -158,7 +158,7 @@ protected:
 // The cube covers the seam between the base and a link, and hits off the middle. Bullet's own steps of joint
 // coordinates keep momentum to the first order of the step only, so what soft bodies do is measured from where Bullet
 // left off.
-TEST_P(FreeChain, keepsAllMomentaWhenHitOnTwoLinksAtOnce)
+TEST_P(FreeChain, KeepsAllMomentaWhenHitOnTwoLinksAtOnce)
 {
     MultiBodyWorld world(m_fem, kNoGravity);
     btMultiBody& chain = addChain(world);

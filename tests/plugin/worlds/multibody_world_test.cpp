@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-TEST_F(MultiBodyWorldTest, bodiesThatLeaveTheWorldLeaveTheirContacts)
+TEST_F(MultiBodyWorldTest, RemovedBodiesLoseTheirContacts)
 {
     MultiBodyWorld world(m_fem);
     btMultiBodyLinkCollider& slider = addSlider(world, 1, {0, 0, 1}, {1, 1, btScalar(0.1)}, {0, 0, btScalar(0.5)});
@@ -35,7 +35,7 @@ TEST_F(MultiBodyWorldTest, bodiesThatLeaveTheWorldLeaveTheirContacts)
     EXPECT_EQ(cube.m_rcontacts.size() + cube.m_faceRigidContacts.size(), 0);
 }
 
-TEST_F(MultiBodyWorldTest, aMotorCarriesTheWeightOfACubeOnItsLink)
+TEST_F(MultiBodyWorldTest, AMotorCarriesTheWeightOfACubeOnItsLink)
 {
     MultiBodyWorld world(m_fem);
     const btVector3 half(btScalar(0.5), btScalar(0.5), btScalar(0.1));
@@ -60,7 +60,7 @@ TEST_F(MultiBodyWorldTest, aMotorCarriesTheWeightOfACubeOnItsLink)
     EXPECT_NEAR(link.m_multiBody->getJointPos(0), height, 1e-4);
 }
 
-TEST_F(MultiBodyWorldTest, aSlidingCubeDragsItsSliderAlong)
+TEST_F(MultiBodyWorldTest, ASlidingCubeDragsItsSliderAlong)
 {
     MultiBodyWorld world(m_fem);
     const btVector3 half(2, btScalar(0.5), btScalar(0.1));
@@ -88,7 +88,7 @@ class ImmovableLink : public MultiBodyWorldTest, public ::testing::WithParamInte
 };
 
 // What a cube at rest on the base of a multibody feels: fixed to the world, static by flag, kinematic.
-TEST_P(ImmovableLink, carriesACubeLikeAFloor)
+TEST_P(ImmovableLink, CarriesACubeLikeAFloor)
 {
     MultiBodyWorld world(m_fem);
     const btVector3 half(1, 1, btScalar(0.1));
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Bases, ImmovableLink,
                              return base.param == 0 ? "fixed" : base.param == 1 ? "static" : "kinematic";
                          });
 
-TEST_F(MultiBodyWorldTest, aKinematicBaseTakesACubeAlong)
+TEST_F(MultiBodyWorldTest, AKinematicBaseTakesACubeAlong)
 {
     MultiBodyWorld world(m_fem);
     const btVector3 half(1, 1, btScalar(0.1));
@@ -134,7 +134,7 @@ TEST_F(MultiBodyWorldTest, aKinematicBaseTakesACubeAlong)
 }
 
 // Cloth, and a chain that only it touches.
-TEST_F(MultiBodyWorldTest, clothBesideFemBodiesKeepsItsBits)
+TEST_F(MultiBodyWorldTest, ClothBesideFemBodiesKeepsItsBits)
 {
     const auto run = [this](btSoftBodySolver& solver, bool withFem)
     {
@@ -157,7 +157,7 @@ TEST_F(MultiBodyWorldTest, clothBesideFemBodiesKeepsItsBits)
     EXPECT_EQ(run(bullet, false), run(m_fem, true));
 }
 
-TEST_F(MultiBodyWorldTest, theSameSceneHasTheSameBitsAgain)
+TEST_F(MultiBodyWorldTest, TheSameSceneHasTheSameBitsAgain)
 {
     const auto run = [this](int threads)
     {
