@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_bridge/body/fem_soft_body.h"
-#include "bullet_fem/fem/step/fracture.h"
+#include "bullet_fem/fem/fracture/fracture.h"
 
 namespace bullet_fem
 {

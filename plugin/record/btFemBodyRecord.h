@@ -12,7 +12,7 @@
 #include "bullet_fem/btFemAnchors.h"
 #include "bullet_fem/btFemFracture.h"
 #include "bullet_fem/btFemReports.h"
-#include "bullet_fem/fem/step/fracture.h"
+#include "bullet_fem/fem/fracture/fracture.h"
 #include "plugin/record/btFemDetailLevel.h"
 #include "plugin/record/btFemFactorAccount.h"
 #include "plugin/record/btFemInsideOut.h"

@@ -3,7 +3,7 @@
 //
 // Fracture along the faces of elements, node by node, after [Parker & O'Brien 2009]: where the maximum tension at a
 // node exceeds the strength, the adjacent elements are divided by a plane across that tension.
-#include "bullet_fem/fem/step/fracture.h"
+#include "bullet_fem/fem/fracture/fracture.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
