@@ -5,7 +5,8 @@
 
     tools/performance_tables.py out/benchmarks docs/performance.md
 
-A table stands between <!-- table: NAME --> and <!-- end -->. Those whose JSON file is missing are left as they are.
+A table stands between <!-- table: NAME --> and <!-- end -->. Those without any of their rows in the JSON files are left
+as they are.
 """
 import argparse
 import json
@@ -21,7 +22,7 @@ METHODS = {
     "mass-spring": "Bullet mass-spring, 20 iterations",
     "bullet": "Bullet deformable",
 }
-CROWDS = ["crowd_swap", "crowd_400", "crowd_different", "crowd_cubes", "crowd_coupled"]
+CROWDS = ["crowd_swap", "crowd_400", "crowd_cubes"]
 
 
 def number(value, digits=3):
@@ -43,139 +44,126 @@ def table(heads, rows):
     return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
 
 
-def tolerance(row):
-    return f"{row['tolerance']:.0e}" if row["tolerance"] else "-"
+def whole(value):
+    return f"{value:,}"
 
 
-def beam_row(row):
-    counts = "-" if not row["same_model"] else "yes" if row["counts"] else "no"
-    residual = row["residual_worst"]
-    return [f"{row['tets']:,}", f"{row['young_modulus_pa']:.0e}", METHODS[row["method"]], tolerance(row),
-            number(row["ms_median"]), number(row["ms_cpu_median"]), number(row["ms_worst"]), f"{row['iterations_mean']:.1f}",
-            "-" if residual is None else f"{residual:.0e}", percent(row["tip_error_worst"]), counts,
-            number(1e3 * row["setup_s"]), number(row["memory_mb"]), number(row["ratio_to_bullet"]),
-            number(row["ratio_to_bullet_cpu"] or None)]
+def method(row, default=""):
+    """The method, with its tolerance if it has one."""
+    text = f"{row['tolerance']:.0e}" if row["tolerance"] else default
+    return METHODS[row["method"]] + (f", {text}" if text else "")
+
+
+def chosen(rows, keys, wanted):
+    """Those rows whose values of these keys are wanted: the page shows a selection, *.txt beside the JSON files all."""
+    def rounded(value):
+        return float(f"{value:.3g}") if isinstance(value, float) else value
+    return [row for row in rows if tuple(rounded(row[key]) for key in keys) in wanted]
+
+
+BEAM_ROWS = {(1536, 1e6, "nodal", 1e-3), (1536, 1e6, "bullet", 0), (12288, 1e6, "nodal", 1e-3), (12288, 1e6, "global", 1e-6),
+             (12288, 1e6, "mass-spring", 0), (12288, 1e6, "bullet", 0), (12288, 1e7, "nodal", 1e-3), (12288, 1e7, "bullet", 0)}
 
 
 def beam(document):
-    heads = ["tets", "E [Pa]", "method", "tolerance", "median ms", "CPU ms", "worst ms", "iterations", "residual",
-             "tip error", "counts", "set-up ms", "MB", "x Bullet, medians", "x Bullet, CPU"]
-    return table(heads, [beam_row(row) for row in document["results"]])
+    heads = ["tets", "E [Pa]", "method, tolerance", "median ms", "worst ms", "tip error", "set-up ms", "MB", "x Bullet"]
+    rows = []
+    for row in chosen(document["results"], ["tets", "young_modulus_pa", "method", "tolerance"], BEAM_ROWS):
+        outside = row["same_model"] and not row["counts"]
+        rows.append([whole(row["tets"]), f"{row['young_modulus_pa']:.0e}", method(row), number(row["ms_median"]),
+                     number(row["ms_worst"]), percent(row["tip_error_worst"]), number(1e3 * row["setup_s"]),
+                     number(row["memory_mb"]), "not within bounds" if outside else number(row["ratio_to_bullet_cpu"] or None)])
+    return heads, rows
+
+
+CURVE_ROWS = {("nodal", 1e-3), ("nodal", 1e-4), ("nodal", 1e-6), ("direct", 0), ("bullet", 1e-2), ("bullet", 0)}
 
 
 def curve(document):
-    heads = ["method", "tolerance", "median ms", "CPU ms", "iterations", "residual", "tip error"]
-    rows = [[METHODS[row["method"]], tolerance(row) if row["tolerance"] or row["method"] != "bullet" else "default",
-             number(row["ms_median"]), number(row["ms_cpu_median"]), f"{row['iterations_mean']:.1f}", f"{row['residual_worst']:.0e}",
-             f"{row['tip_error_worst']:.0e}"] for row in document["results"]]
-    return table(heads, rows)
+    heads = ["method, tolerance", "median ms", "iterations", "tip error"]
+    return heads, [[method(row, "default" if row["method"] == "bullet" else ""), number(row["ms_median"]),
+                    f"{row['iterations_mean']:.1f}", f"{row['tip_error_worst']:.0e}"]
+                   for row in chosen(document["results"], ["method", "tolerance"], CURVE_ROWS)]
 
 
 def kernels(document):
-    heads = ["tets", "kernel", "best us", "median us", "ns/tet", "GB/s", "GFLOP/s"]
-    rows = [[f"{row['tets']:,}", row["kernel"], number(row["us_best"]), number(row["us_median"]),
-             number(row["ns_per_tet"]), number(row["gb_per_s"]) if row["gb_per_s"] else "-",
-             number(row["gflop_per_s"]) if row["gflop_per_s"] else "-"] for row in document["kernels"]]
-    return table(heads, rows)
+    heads = ["kernel", "ns/tet", "GB/s", "GFLOP/s"]
+    return heads, [[row["kernel"], number(row["ns_per_tet"]), number(row["gb_per_s"] or None), number(row["gflop_per_s"] or None)]
+                   for row in chosen(document["kernels"], ["tets"], {(12288,)})]
 
 
-def solves(document):
-    heads = ["tets", "packed factor MB", "read bandwidth GB/s", "one solve pair / two reads, alternately",
-             "of the best, each for itself", "16 right-hand sides / one"]
-    rows = [[f"{row['tets']:,}", number(row["factor_mb"]), number(row["read_gb_per_s"]),
-             f"{row['pair_over_two_reads']:.2f}", f"{row['pair_over_best_reads']:.2f}",
-             f"{row['sixteen_over_one']:.2f}"] for row in document["solves"]]
-    return table(heads, rows)
-
-
-def compliance(document):
-    c = document["compliance"]
-    return table(["nodes touched", "of a block of", "newly touched, ms", "touched before, ms", "peak GFLOP/s"],
-                 [[c["touched"], f"{c['tets']:,} tets", f"{number(c['ms_new_best'])} (median {number(c['ms_new_median'])})",
-                   f"{number(c['ms_known_best'])} (median {number(c['ms_known_median'])})",
-                   number(document["peak_gflop_per_s"])]])
+SCALING_ROWS = {(1536,), (12288,), (24000,), (98304,), (192000,)}
 
 
 def scaling(document):
-    heads = ["tets", "set-up ms", "order", "order ms", "numeric ms", "factor MB", "fill", "all MB", "iterations", "median ms",
-             "CPU ms", "worst ms", "residual"]
-    rows = [[f"{row['tets']:,}", number(row["setup_ms"]), row["ordering"], number(row["order_ms"]),
-             number(row["tree_ms"] + row["numeric_ms"]), number(row["factor_mb"]), number(row["fill"]),
-             number(row["memory_mb"]), f"{row['iterations_mean']:.1f}", number(row["ms_median"]), number(row["ms_cpu_median"]),
-             number(row["ms_worst"]), f"{row['residual_worst']:.1e}"] for row in document["results"]]
+    heads = ["tets", "set-up ms", "factor MB", "all MB", "iterations", "median ms", "worst ms"]
+    rows = [[whole(row["tets"]), number(row["setup_ms"]), number(row["factor_mb"]), number(row["memory_mb"]),
+             f"{row['iterations_mean']:.1f}", number(row["ms_median"]), number(row["ms_worst"])]
+            for row in chosen(document["results"], ["tets"], SCALING_ROWS)]
     p = document["exponents"]
-    growth = ["grows as n^p, p", number(p["setup"]), "", number(p["order"]), number(p["numeric"]), number(p["factor_mb"]),
-              "", "", "", "", number(p["step"]), "", ""]
-    return table(heads, rows + [growth])
+    growth = ["grows as n^p, p", number(p["setup"]), number(p["factor_mb"]), "", "", number(p["step"]), ""]
+    return heads, rows + [growth] if rows else []
+
+
+FACTOR_ROWS = {("cube 13182", name) for name in ("BulletFEM", "CHOLMOD supernodal", "Eigen SimplicialLLT")}
 
 
 def factors(document):
-    heads = ["matrix", "factor", "order by", "order ms", "numeric ms", "one solve ms", "16 solves ms", "fill", "MB", "residual"]
-    return table(heads, [[row["matrix"], row["factor"], row["ordering"] or "-", number(row["order_ms"]),
-                          number(row["numeric_ms"]), number(row["solve_ms"]), number(row["sixteen_ms"]),
-                          number(row["fill"]), number(row["factor_mb"]), f"{row['residual']:.0e}"]
-                         for row in document["factors"]])
+    heads = ["factor", "order ms", "numeric ms", "one solve ms", "16 solves ms", "fill", "MB"]
+    return heads, [[row["factor"], number(row["order_ms"]), number(row["numeric_ms"]), number(row["solve_ms"]),
+                    number(row["sixteen_ms"]), number(row["fill"]), number(row["factor_mb"])]
+                   for row in chosen(document["factors"], ["matrix", "factor"], FACTOR_ROWS)]
 
 
-def first_steps(document):
-    heads = ["body", "tets", "mesh ms", "factor ms", "first step ms", "all ms"]
-    return table(heads, [[row["matrix"], f"{row['tets']:,}", number(row["mesh_ms"]), number(row["model_ms"]), number(row["step_ms"]),
-                          number(row["mesh_ms"] + row["model_ms"] + row["step_ms"])] for row in document["first_steps"]])
-
-
-def fill(document):
-    heads = ["mesh", "tets", "free nodes", "AMD", "METIS", "Eigen", "chosen"]
-    return table(heads, [[row["mesh"], f"{row['tets']:,}", f"{row['free_nodes']:,}", number(row["amd"] or None),
-                          number(row["metis"] or None), number(row["eigen"] or None), row["chosen"]]
-                         for row in document["fill"]])
+CONTACT_ROWS = {("block on static box", "~100", "fem"), ("block on static box", "~100", "bullet"),
+                ("block on static box", "~100", "bullet/4"), ("ball meets cube, zero gravity", "ratio 1", "fem"),
+                ("ball meets cube, zero gravity", "ratio 1", "bullet")}
 
 
 def contact(document):
-    heads = ["scene", "tets", "variant", "method", "points", "median ms", "worst ms", "CPU ms", "free ms", "contact ms",
-             "deepest mm", "x Bullet"]
-    rows = [[row["scene"], f"{row['tets']:,}", row["variant"], row["method"], row["contacts"],
-             number(row["ms_median"]), number(row["ms_worst"]), number(row["ms_cpu_median"]), number(row["ms_free_median"]),
-             number(row["ms_contact_median"]),
-             "failed" if row["stopped_in_step"] else number(1e3 * row["penetration_worst_m"]),
-             number(row["ratio_to_bullet"])] for row in document["results"]]
-    return table(heads, rows)
+    heads = ["scene", "tets", "method", "median ms", "worst ms", "contact ms", "deepest mm", "x Bullet"]
+    return heads, [[row["scene"], whole(row["tets"]), row["method"], number(row["ms_median"]), number(row["ms_worst"]),
+                    number(row["ms_contact_median"]),
+                    "failed" if row["stopped_in_step"] else number(1e3 * row["penetration_worst_m"]),
+                    number(row["ratio_to_bullet"])]
+                   for row in chosen(document["results"], ["scene", "variant", "method"], CONTACT_ROWS)]
 
 
 def copies(document):
-    heads = ["bodies", "tets", "factor MB", "stale", "iterations a step", "together ms", "one by one ms", "ratio", "bits"]
-    return table(heads, [[row["bodies"], f"{row['tets']:,}", number(row["factor_mb"]), f"{row['stale']:.0f}",
-                          f"{row['iterations_mean']:.2f}", number(row["ms_together_median"]), number(row["ms_alone_median"]),
-                          f"{row['ratio']:.2f}", "same" if row["same_bits"] else "DIFFERENT"] for row in document["results"]])
+    heads = ["bodies", "tets", "together ms", "one by one ms", "ratio"]
+    wanted = {(16, 1080, 1), (100, 1080, 1), (16, 10985, 1)}
+    return heads, [[row["bodies"], whole(row["tets"]), number(row["ms_together_median"]), number(row["ms_alone_median"]),
+                    f"{row['ratio']:.2f}" if row["same_bits"] else "DIFFERENT BITS"]
+                   for row in chosen(document["results"], ["bodies", "tets", "stale"], wanted)]
 
 
-def crowd_rows(document):
-    kind = ("different " if document["different"] else "identical ") + ("cubes" if document["cubes"] else "balls")
-    name = f"{document['bodies']} {kind}, {document['balls']} rigid"
-    way = (f"{'coupled' if document['coupled'] else 'swap'}, {document['contact_tolerance']:.0e}, "
-           f"{document['threads']} thread{'s' if document['threads'] > 1 else ''}")
-    return [[name, way, row["phase"], number(row["ms_median"]), number(row["ms_worst"]), number(row["ms_free_median"]),
-             number(row["ms_contact_median"]), number(row["ms_rest_median"]), f"{row['contacts_mean']:.0f}",
-             f"{row['sweeps_mean']:.0f}", f"{row['corrective_iterations_mean']:.0f}", row["asleep"],
-             number(1e3 * row["penetration_worst_m"])] for row in document["results"]]
+# Bodies, cubes, phase; of the swap and identical bodies.
+CROWD_ROWS = {(100, False, "falling"), (100, False, "awake"), (400, False, "awake"), (100, True, "awake")}
 
 
 def crowd(*documents):
-    heads = ["bodies", "way", "phase", "median ms", "worst ms", "free ms", "contact ms", "rest ms", "points", "sweeps",
-             "corr. iterations", "asleep", "deepest mm"]
-    return table(heads, [row for document in documents for row in crowd_rows(document)])
+    heads = ["bodies, tolerance", "phase", "median ms", "worst ms", "free ms", "contact ms", "points", "deepest mm"]
+    rows = []
+    for document in documents:
+        kind = "cubes" if document["cubes"] else "balls"
+        name = f"{document['bodies']} {kind}, {document['balls']} rigid, {document['contact_tolerance']:.0e}"
+        rows += [[name, row["phase"], number(row["ms_median"]), number(row["ms_worst"]), number(row["ms_free_median"]),
+                  number(row["ms_contact_median"]), f"{row['contacts_mean']:.0f}", number(1e3 * row["penetration_worst_m"])]
+                 for row in document["results"] if (document["bodies"], document["cubes"], row["phase"]) in CROWD_ROWS]
+    return heads, rows
 
 
 def machine(*documents):
     """What is the same for all, once; the load of each."""
-    names = ["cpu", "logical_cores", "threads", "vectors", "factors", "compiler", "build_type", "bulletfem", "commit", "bullet"]
+    names = ["cpu", "vectors", "factors", "compiler", "commit", "bullet"]
     rows = []
     for name in names:
-        values = sorted({d["machine"][name] for d in documents if name in d["machine"]})
+        values = sorted({re.sub(r"(OpenBLAS [\d.]+).*", r"\1", d["machine"][name]) for d in documents if name in d["machine"]})
         if values:
-            rows.append([name.replace("_", " "), ", ".join(values)])
+            rows.append([name, ", ".join(values)])
     loads = sorted(float(d["machine"]["load_before"]) for d in documents)
     rows.append(["load before each program (1 minute)", f"{loads[0]:.1f} to {loads[-1]:.1f}"])
-    return table(["", ""], rows)
+    return ["", ""], rows
 
 
 # Table, its function, the files it is made of; of several files those that are there.
@@ -184,11 +172,7 @@ TABLES = [
     ("beam", beam, ["beam"]),
     ("curve", curve, ["curve"]),
     ("kernels", kernels, ["kernels"]),
-    ("solves", solves, ["kernels"]),
-    ("compliance", compliance, ["kernels"]),
     ("factors", factors, ["factors"]),
-    ("first_steps", first_steps, ["factors"]),
-    ("fill", fill, ["factors"]),
     ("scaling", scaling, ["scaling"]),
     ("contact", contact, ["contact"]),
     ("copies", copies, ["copies"]),
@@ -222,8 +206,9 @@ def main():
         page = file.read()
     for name, make, files in TABLES:
         documents = load(options.folder, files)
-        if documents:
-            page = renew(page, name, make(*documents))
+        heads, rows = make(*documents) if documents else ([], [])
+        if rows:
+            page = renew(page, name, table(heads, rows))
     with open(options.page, "w", encoding="utf-8") as file:
         file.write(page)
 
