@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The dynamic clamped beam: our step beside that of Bullet's own deformable world, each time with its error.
+// Dynamic clamped beam: BulletFEM's step compared with Bullet's deformable world, each time listed with its error.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Contact: time by stage and error against the number of contacts and of elements, beside Bullet's own deformable
+// Contact: time by stage and error against the number of contacts and of elements, compared with Bullet's deformable
 // world.
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -38,7 +38,7 @@ bullet/4  four steps of 1/240 s for each of ours, as Bullet recommends, where it
           and counts are then of the four together
 )";
 
-constexpr int kRecommendedSubSteps = 4;  // of Bullet in 1/60 s
+constexpr int kRecommendedSubSteps = 4;  // recommended by Bullet for 1/60 s
 
 struct Options
 {
@@ -53,7 +53,7 @@ struct Options
     std::string m_jsonFile;
 };
 
-/// A scene, and how its row is called.
+/// A scene and the label of its row.
 struct Job
 {
     std::string m_variant;
@@ -104,8 +104,8 @@ std::vector<Job> makeJobs(const Options& options)
     return jobs;
 }
 
-/// One job in every engine, one after the other: Bullet with our step, and where that does not hold with the one that
-/// it recommends.
+/// Runs one job in every engine, one after another. Bullet runs at the scene's step and, if that fails, with its
+/// recommended sub-steps.
 void run(const Job& job, const Options& options, std::vector<ContactFigures>& rows)
 {
     std::cerr << job.m_scene.m_name << ", " << job.m_scene.tetCount() << " tets, " << job.m_variant << " ..."

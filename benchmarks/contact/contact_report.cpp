@@ -48,7 +48,7 @@ void printRow(std::ostream& out, const ContactFigures& row)
     out << '\n';
 }
 
-/// Flags that a reader of the table must know about.
+/// Flags that affect the interpretation of a row.
 std::string flagText(int flags)
 {
     std::string text;
@@ -60,7 +60,7 @@ std::string flagText(int flags)
     return text;
 }
 
-/// JSON has no NaN.
+/// JSON null for NaN.
 nlohmann::json number(double value)
 {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();

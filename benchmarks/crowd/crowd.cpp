@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Many soft bodies and rigid balls in a pit: what a step costs while all of it moves, rests, and sleeps.
+// Many soft bodies and rigid balls in a pit: cost of a step while all bodies move, rest or sleep.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <exception>
@@ -31,7 +31,7 @@ corr.it    conjugate gradient iterations of the corrective solves, mean
 closing    largest speed at which a contact point still closes; deepest: largest penetration as a step begins
 )";
 
-constexpr int kDrowsySteps = 90;  // that a crowd gets beyond its settling time to fall asleep
+constexpr int kDrowsySteps = 90;  // steps beyond the settling time in which a crowd falls asleep
 
 struct Options
 {
@@ -44,7 +44,7 @@ struct Options
     std::string m_jsonFile;
 };
 
-/// Runs `count` steps, and tells now and then how far it is: a large crowd takes minutes.
+/// Runs `count` steps and reports progress: a large crowd takes minutes.
 std::vector<CrowdStep> runSteps(CrowdWorld& world, int count, const char* phase)
 {
     const int told = 20;
@@ -103,7 +103,7 @@ void addOptions(CLI::App& app, Options& options)
         "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
 }
 
-// Bodies of about 1,000 tets that need one iteration a step, and several; smaller and larger ones.
+// Bodies of about 1,000 tets that need one or several iterations per step, then smaller and larger bodies.
 void runFreeCopies(const Options& options)
 {
     JsonFile json(options.m_jsonFile);
