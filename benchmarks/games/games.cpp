@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Scenes as games have them: time by stage beside errors, in both couplings.
+// Scenes typical of games: time by stage with errors, for both coupling methods.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>

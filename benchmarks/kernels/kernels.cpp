@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The kernels of one step, each on its own, beside what the machine's memory and arithmetic allow.
+// Times each kernel of a step on its own, compared with the limits of the machine's memory and arithmetic.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -61,9 +61,9 @@ double measurePeak(double seconds)
     return sink > 0 ? 1e-9 * multiplyAddOperations(rounds) / time.m_best : 0;
 }
 
-constexpr int kFirstSteps = 5;  // repetitions: set-up allocates, so that the first is slower than the others
+constexpr int kFirstSteps = 5;  // repetitions: allocations in set-up make the first one slower
 
-/// A beam and a cube of about that many elements each.
+/// A beam and a cube of about each number of elements.
 std::vector<FactorCase> factorCases(const std::vector<int>& sizes)
 {
     std::vector<FactorCase> cases;

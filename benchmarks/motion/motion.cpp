@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What bodies do in steps of different sizes, and what a step costs: implicit Euler and the step of second order.
+// Motion of bodies at different step sizes, and cost of a step: implicit Euler and the second-order step.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>

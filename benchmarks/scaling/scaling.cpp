@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The clamped beam in many sizes: what set-up, memory and a step cost, and how they grow.
+// The clamped beam in many sizes: set-up, memory and time per step, and their growth.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -43,7 +43,7 @@ struct Options
     std::string m_jsonFile;
 };
 
-/// What is the same for all sizes of a table.
+/// Settings shared by all sizes of a table.
 struct Table
 {
     const Options& m_options;
@@ -131,7 +131,7 @@ int main(int argc, char** argv)
         JsonFile json(options.m_jsonFile);
         const Threads threads(options.m_threads);
         const MachineInfo machine = readMachineInfo(threads.count());
-        for (int tets : options.m_tets) beamCells(tets);  // a bad size is told before the others have run
+        for (int tets : options.m_tets) beamCells(tets);  // reports an invalid size before the others run
         const std::vector<ScalingFigures> rows = runSizes({options, threads, FactorChoice::full});
         std::vector<ScalingFigures> lowMemory;
         if (options.m_lowMemory) lowMemory = runSizes({options, threads, FactorChoice::lowMemory});
