@@ -18,7 +18,7 @@ struct GameScene
     std::string m_name;
     int m_frames = 240;
     int m_subSteps = 1;
-    bool m_carriesItsWeight = false;  ///< finally soft bodies rest on others: their weight is the force
+    bool m_carriesItsWeight = false;  ///< at the end other bodies carry the soft ones' weight
     std::function<std::unique_ptr<Game>(const GameSettings&)> m_start;
     bool m_isOfBullet = false;  ///< Bullet alone runs it, too
     std::string m_missing;      ///< a missing input and how to provide it; empty if the scene can run

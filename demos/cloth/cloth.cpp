@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bullet's cloth falls over a soft body, hangs on it and weighs on it.
+// Bullet's cloth falls over a soft body, hangs on it and loads it with its weight.
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +28,7 @@ btSoftBody& addCloth(DemoWorld& world, double mass, bool touches)
     cloth->setTotalMass(btScalar(mass));
     cloth->getCollisionShape()->setMargin(btScalar(kMargin));
     cloth->m_cfg.piterations = 8;
-    cloth->m_cfg.kDP = btScalar(0.02);  // of the air
+    cloth->m_cfg.kDP = btScalar(0.02);  // air drag
     cloth->m_cfg.kDF = btScalar(0.6);
     if (touches) cloth->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
     return world.addCloth(cloth);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The same meshes in the same scenes at the same 60 Hz: Bullet's own soft bodies on the left, BulletFEM on the right.
+// Equal meshes in equal scenes at 60 Hz: Bullet's own soft bodies on the left, BulletFEM on the right.
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -17,16 +17,16 @@ namespace
 using namespace bullet_fem;
 
 constexpr int kCheckFailed = 3;
-constexpr double kStands = 0.8;  // of the height at the start
+constexpr double kStands = 0.8;  // minimum final height over the initial one
 
 struct CompareOptions
 {
     std::string m_meshFile, m_folder;
-    double m_seconds = 0;  // 0: as long as the scene lasts
+    double m_seconds = 0;  // 0: the scene's own duration
     CrateSettings m_crate;
     double m_jelly = 3e4;  // [Pa]
     int m_cells = 4;
-    int m_clusters = -1;  // as the scenes choose
+    int m_clusters = -1;  // -1: the scene's own number
     SpringSettings m_springs;
 };
 
@@ -79,7 +79,7 @@ void print(const char* what, double left, double right, const char* unit)
     std::printf("  %-34s %12.4g %12.4g  %s\n", what, left, right, unit);
 }
 
-/// False where BulletFEM's side is not as it shall be.
+/// Returns false if BulletFEM's side fails a check.
 bool report(const ComparedScene& scene, const ComparedRun& left, const ComparedRun& right)
 {
     std::printf("%-36s %12s %12s\n", scene.m_name.c_str(), "Bullet", "BulletFEM");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A hundred soft toys fall into a pit. Each is a surface of overlapping balls in a cage of tetrahedra.
+// A hundred soft toys fall into a pit. Each one is a surface of overlapping balls embedded in a cage of tetrahedra.
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,7 @@ void appendBall(const Vec3& centre, double radius, SurfaceMesh& mesh)
         }
 }
 
-/// A bear of a body, a head, two ears, arms and legs, 0.36 m high.
+/// A bear with body, head, two ears, arms and legs, 0.36 m high.
 SurfaceMesh bear()
 {
     SurfaceMesh mesh;
