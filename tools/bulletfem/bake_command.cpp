@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A number, or one over another: 1/60.
+/// A number, or a quotient such as 1/60.
 double numberOf(const std::string& text)
 {
     char* end = nullptr;
@@ -33,7 +33,7 @@ struct BakeCommand
     std::string m_mesh, m_output, m_step = "1/60";
     double m_scale = 1;
     bool m_double = false, m_lowMemory = false;
-    std::vector<std::array<double, 6>> m_pinBoxes;  // low corner, high corner [m]
+    std::vector<std::array<double, 6>> m_pinBoxes;  // minimum and maximum corner [m]
     MaterialOptions m_material;
     CageOptions m_cage;
     Figures m_figures;

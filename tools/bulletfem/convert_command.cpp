@@ -39,7 +39,7 @@ struct ConvertCommand
     struct Solid
     {
         TetMesh m_mesh;
-        std::vector<int> m_regions;  // labels of the elements, if they have any
+        std::vector<int> m_regions;  // labels of the elements; may be empty
     };
 
     Solid readSolid() const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// From a mesh to a body, and from a scene to pictures.
+// Command-line tools for meshes, bodies and scenes.
 #include <iostream>
 
 #include "tools/bulletfem/commands.h"
@@ -36,7 +36,7 @@ int main(int argc, char** argv)
             std::cerr << app.help() << "\nA subcommand is required.\n";
             return kUsageError;
         }
-        catch (const CLI::RuntimeError& error)  // of a command that ran
+        catch (const CLI::RuntimeError& error)  // thrown by a subcommand
         {
             return error.get_exit_code();
         }

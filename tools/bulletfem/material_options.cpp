@@ -32,7 +32,7 @@ double valueOf(const std::string& text)
     return value;
 }
 
-// A preset, or the name of a value and the value.
+// Parses a preset, or the name of a value and the value.
 void take(const std::string& part, Material& material)
 {
     const std::size_t sign = part.find('=');
@@ -40,7 +40,7 @@ void take(const std::string& part, Material& material)
     {
         const auto preset = kPresets.find(part);
         if (preset == kPresets.end()) throw std::runtime_error("'" + part + "' is no material");
-        const Material body = material;  // what it has is not a region's own
+        const Material body = material;  // settings of the body that a region's preset keeps
         material = preset->second;
         material.m_massDamping = body.m_massDamping;
         material.m_stiffnessDamping = body.m_stiffnessDamping;
@@ -57,7 +57,7 @@ void take(const std::string& part, Material& material)
     material.*member = valueOf(part.substr(sign + 1));
 }
 
-// Into a label and a material.
+// Parses a label and a material.
 void takeRegion(const std::string& text, Material material, std::optional<ElasticLaw> law,
                 std::map<int, Material>& regions)
 {
@@ -128,7 +128,7 @@ void MaterialOptions::add(CLI::App& command)
 Material MaterialOptions::material() const
 {
     Material material = m_preset.empty() ? Material() : kPresets.at(m_preset);
-    material.m_stiffnessDamping = m_stiffnessDamping.value_or(0.005);  // as btFemMaterial
+    material.m_stiffnessDamping = m_stiffnessDamping.value_or(0.005);  // as in btFemMaterial
     material.m_youngModulus = m_young.value_or(material.m_youngModulus);
     material.m_poissonRatio = m_poisson.value_or(material.m_poissonRatio);
     material.m_density = m_density.value_or(material.m_density);

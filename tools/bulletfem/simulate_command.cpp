@@ -35,12 +35,12 @@ std::string windowHelp()
 #endif
 }
 
-constexpr std::size_t kMaxFactorBytes = std::size_t(4) << 30u;  // of a mesh that is opened in the window
+constexpr std::size_t kMaxFactorBytes = std::size_t(4) << 30u;  // limit for meshes opened in the window
 
-/// Cost and health of a run.
+/// Cost and final state of a run.
 struct RunFigures
 {
-    std::vector<double> m_milliseconds;  // a step
+    std::vector<double> m_milliseconds;  // per step
     SceneFlags m_flags;
     int m_mostContacts = 0;
 
@@ -60,7 +60,7 @@ struct SimulateCommand
     RunOutputSettings m_output;
     double m_seconds = 0;
     bool m_stress = false, m_window = false, m_quiet = false;
-    std::vector<std::string> m_meshes;  // of the window
+    std::vector<std::string> m_meshes;  // opened in the window at the start
     double m_scale = 1;
     CageOptions m_cage;
     MaterialOptions m_material;
