@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Renews the tables of docs/performance.md from the JSON files of the benchmarks. Standard library only.
+"""Updates the tables of docs/performance.md from the JSON files of the benchmarks. Needs Python's standard library only.
 
     tools/performance_tables.py out/benchmarks docs/performance.md
 
-A table stands between <!-- table: NAME --> and <!-- end -->. Those whose JSON file is missing are left as they are.
+A table is between <!-- table: NAME --> and <!-- end -->. Tables without a JSON file stay unchanged.
 """
 import argparse
 import json
@@ -25,7 +25,7 @@ CROWDS = ["crowd_swap", "crowd_400", "crowd_different", "crowd_cubes", "crowd_co
 
 
 def number(value, digits=3):
-    """A figure with that many significant digits, without exponent from a ten-thousandth on."""
+    """Formats a number with that many significant digits, without exponent from 1e-4 on."""
     if value is None:
         return "-"
     if abs(value) < 1e-4:
@@ -166,7 +166,7 @@ def crowd(*documents):
 
 
 def machine(*documents):
-    """What is the same for all, once; the load of each."""
+    """Table of the machine: common values once, and the range of loads."""
     names = ["cpu", "logical_cores", "threads", "vectors", "factors", "compiler", "build_type", "bulletfem", "commit", "bullet"]
     rows = []
     for name in names:
@@ -178,7 +178,7 @@ def machine(*documents):
     return table(["", ""], rows)
 
 
-# Table, its function, the files it is made of; of several files those that are there.
+# Table, its function, and the files from which it is made; missing ones of several files are skipped.
 TABLES = [
     ("machine", machine, ["beam", "curve", "kernels", "factors", "scaling", "contact", "copies", *CROWDS]),
     ("beam", beam, ["beam"]),
