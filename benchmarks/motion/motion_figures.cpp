@@ -26,8 +26,7 @@ struct Description
 const Description g_descriptions[] = {
     {MotionCase::tip, "tip", "error", "-", "largest error of the beam's tip in a second / largest deflection"},
     {MotionCase::swing, "swing", "half-life", "s", "half-life of the amplitude of an undamped swing of 1.7 Hz"},
-    {MotionCase::drop, "drop", "returns", "-",
-     "speed that an undamped ball returns with from a metre / that it came with"},
+    {MotionCase::drop, "drop", "returns", "-", "rebound speed of an undamped ball dropped from a metre / impact speed"},
     {MotionCase::roll10, "roll10", "speed", "m/s", "speed of a ball after six seconds down ten degrees"},
     {MotionCase::roll20, "roll20", "speed", "m/s", "speed of a ball after six seconds down twenty degrees"}};
 

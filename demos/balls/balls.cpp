@@ -32,11 +32,11 @@ btFemMaterial materialOf(double young, double damping)
 
 int main(int argc, char** argv)
 {
-    Demo demo("balls", "Balls of three stiffnesses bounce and roll down a slope beside Bullet's rigid sphere.", 4);
+    Demo demo("balls", "Balls of three stiffnesses and Bullet's rigid sphere bounce and roll down a slope.", 4);
     double friction = 0.9, damping = 0.002, restitution = 0.6;
-    demo.option("--friction", friction, 0, 2, "between balls and slope [-]");
-    demo.option("--damping", damping, 0, 1, "of the balls' material [s]");
-    demo.option("--restitution", restitution, 0, 1, "of all four [-]");
+    demo.option("--friction", friction, 0, 2, "friction between balls and slope [-]");
+    demo.option("--damping", damping, 0, 1, "stiffness damping of the balls [s]");
+    demo.option("--restitution", restitution, 0, 1, "restitution of all four bodies [-]");
     const auto scene = [&]
     {
         DemoWorld world;

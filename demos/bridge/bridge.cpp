@@ -103,6 +103,6 @@ int main(int argc, char** argv)
     double young = 4e5, crateMass = kCrateMass, aside = 0;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus of the cushions [Pa]");
     demo.option("--crate", crateMass, 0.1, 1e4, "mass of a crate [kg]");
-    demo.option("--aside", aside, -10, 10, "how far beside the middle they fall [m]");
+    demo.option("--aside", aside, -10, 10, "lateral offset of the crates [m]");
     return demo.run(argc, argv, [&] { play(demo, young, crateMass, aside); });
 }

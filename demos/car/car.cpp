@@ -54,7 +54,7 @@ int main(int argc, char** argv)
     Demo demo("car", "A car with soft tyres drives over bumps.", 6);
     double young = 4e5, torque = 120, bump = 0.08;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus of the tyres [Pa]");
-    demo.option("--torque", torque, 0, 1e4, "of the motor on each wheel at most [N m]");
+    demo.option("--torque", torque, 0, 1e4, "maximum torque of the motor on each wheel [N m]");
     demo.option("--bump", bump, 0, 0.5, "height of the bumps [m]");
     const auto scene = [&]
     {

@@ -72,11 +72,11 @@ void play(Demo& demo, double young, double mass, bool touches)
 
 int main(int argc, char** argv)
 {
-    Demo demo("cloth", "Bullet's cloth falls over a soft body, hangs on it and weighs on it.", 5);
+    Demo demo("cloth", "Bullet's cloth falls over a soft body, hangs on it and loads it with its weight.", 5);
     double young = 3e4, mass = 1;
     bool fallsThrough = false;
     demo.option("--young", young, 1e2, 1e9, "Young's modulus of the body [Pa]");
-    demo.option("--mass", mass, 1e-3, 1e3, "of the cloth [kg]");
-    demo.flag("--no-contact", fallsThrough, "the cloth has not the flag VF_SS, and falls through");
+    demo.option("--mass", mass, 1e-3, 1e3, "mass of the cloth [kg]");
+    demo.flag("--no-contact", fallsThrough, "the cloth lacks the flag VF_SS, and falls through");
     return demo.run(argc, argv, [&] { play(demo, young, mass, !fallsThrough); });
 }

@@ -33,8 +33,8 @@ struct CompareOptions
 std::optional<int> parse(int argc, char** argv, CompareOptions& options)
 {
     CLI::App app(
-        "Bullet's own soft bodies (left) beside BulletFEM (right): a box falls on a stack, and a crate on a surface.\n"
-        "Prints processor time a step, and what became of the bodies; --out draws a film.\n"
+        "Bullet's own soft bodies (left) and BulletFEM (right): a box falls on a stack, and a crate on a surface.\n"
+        "Prints processor time per step and the final state of the bodies; --out draws a film.\n"
         "Exit code: 1 on a bad file, 2 on a bad option, 3 if a check of BulletFEM's side failed.");
     app.option_defaults()->take_last()->always_capture_default(true);
     app.add_option("--mesh", options.m_meshFile,
@@ -45,7 +45,7 @@ std::optional<int> parse(int argc, char** argv, CompareOptions& options)
     app.add_option("--young", options.m_crate.m_young, "BulletFEM: Young's modulus of the surface's body [Pa]")
         ->check(inRange(1, 1e9));
     app.add_option("--jelly", options.m_jelly, "BulletFEM: Young's modulus in the stack [Pa]")->check(inRange(1, 1e9));
-    app.add_option("--tets", options.m_crate.m_tets, "elements wanted of the surface's body")
+    app.add_option("--tets", options.m_crate.m_tets, "desired number of elements of the surface's body")
         ->check(CLI::Range(100, 20000));
     app.add_option("--crate", options.m_crate.m_crateMass, "mass of the crate [kg]")->check(inRange(0.1, 1e4));
     app.add_option("--cells", options.m_cells, "cells along a cushion of the stack")->check(CLI::Range(2, 12));
@@ -54,7 +54,7 @@ std::optional<int> parse(int argc, char** argv, CompareOptions& options)
         ->check(CLI::Range(1, 1000));
     app.add_option("--clusters", options.m_clusters,
                    "Bullet: clusters of a body that collide; 0: its nodes collide with distance fields; -1: 16 for the "
-                   "surface's body, 0 in the stack, with which it does best")
+                   "surface's body, 0 in the stack, the best values for Bullet")
         ->check(CLI::Range(-1, 1000));
     try
     {

@@ -112,9 +112,9 @@ int main(int argc, char** argv)
 {
     Demo demo("crowd", "A hundred soft toys fall into a pit.", 5);
     double count = 100, young = 5e4, wall = 1.2, drop = 0;
-    demo.option("--toys", count, 1, 400, "how many [-]");
+    demo.option("--toys", count, 1, 400, "number of toys [-]");
     demo.option("--young", young, 1e2, 1e9, "Young's modulus [Pa]");
     demo.option("--wall", wall, 0.02, 10, "height of the pit [m]");
-    demo.option("--drop", drop, 0, 1e3, "how much higher they start [m]");
+    demo.option("--drop", drop, 0, 1e3, "additional initial height [m]");
     return demo.run(argc, argv, [&] { play(demo, count, young, wall, drop); });
 }

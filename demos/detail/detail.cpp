@@ -102,10 +102,10 @@ void play(Demo& demo, double gust, double nearDistance, double behind)
 
 int main(int argc, char** argv)
 {
-    Demo demo("detail", "A camera flies along soft plants; far ones are solved with less detail.", 5);
+    Demo demo("detail", "A camera flies along soft plants; distant ones are solved with less detail.", 5);
     double gust = 8, nearDistance = kNear, behind = 0;
-    demo.option("--gust", gust, 0, 100, "of the wind [m/s2]");
+    demo.option("--gust", gust, 0, 100, "acceleration by the wind [m/s2]");
     demo.option("--near", nearDistance, 0, 1e3, "distance of full interest [m]");
-    demo.option("--behind", behind, 0, 1e3, "how far behind the camera the solver takes the viewer for [m]");
+    demo.option("--behind", behind, 0, 1e3, "distance of the solver's viewer position behind the camera [m]");
     return demo.run(argc, argv, [&] { play(demo, gust, nearDistance, behind); });
 }

@@ -111,6 +111,6 @@ int main(int argc, char** argv)
     Demo demo("gripper", "A gripper of multibody fingers with soft pads lifts a soft fruit.", 4);
     double grip = 15, friction = 0.8;
     demo.option("--grip", grip, 0, 1e4, "force of the fingers' motors [N]");
-    demo.option("--friction", friction, 0, 2, "between pads and fruit [-]");
+    demo.option("--friction", friction, 0, 2, "friction between pads and fruit [-]");
     return demo.run(argc, argv, [&] { play(demo, grip, friction); });
 }

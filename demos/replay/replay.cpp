@@ -81,7 +81,7 @@ void play(Demo& demo, double nudge)
 
 int main(int argc, char** argv)
 {
-    Demo demo("replay", "Soft bodies fall; their state is saved, restored and replayed to the bit.", 4.5);
+    Demo demo("replay", "Soft bodies fall; their state is saved and restored, and the replay is bitwise equal.", 4.5);
     double nudge = 0;
     demo.option("--nudge", nudge, 0, 1, "speed given to a node after the state is restored [m/s]");
     return demo.run(argc, argv, [&] { play(demo, nudge); });

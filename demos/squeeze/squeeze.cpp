@@ -106,12 +106,12 @@ void play(Demo& demo, const std::string& file, double young, double gapShare, do
 
 int main(int argc, char** argv)
 {
-    Demo demo("squeeze", "A scan, or another closed surface, is drawn between two rollers.", 3);
+    Demo demo("squeeze", "A scan or another closed surface is drawn between two rollers.", 3);
     std::string file;
     double young = 1e5, gap = 0.7, friction = 0.9;
     demo.option("--mesh", file, "closed surface: OFF, OBJ, STL or PLY file; a ring without it");
     demo.option("--young", young, 1e3, 1e9, "Young's modulus [Pa]");
-    demo.option("--gap", gap, 0.05, 2, "between the rollers / height of the body [-]");
-    demo.option("--friction", friction, 0, 2, "of the body [-]");
+    demo.option("--gap", gap, 0.05, 2, "gap of the rollers / height of the body [-]");
+    demo.option("--friction", friction, 0, 2, "friction of the body [-]");
     return demo.run(argc, argv, [&] { play(demo, file, young, gap, friction); });
 }

@@ -109,10 +109,10 @@ void play(Demo& demo, double young, double strength, double speed)
 
 int main(int argc, char** argv)
 {
-    Demo demo("tearing", "A loaf of bread, of cells that are welded to each other, is pulled apart.", 4);
+    Demo demo("tearing", "A loaf of bread, divided into cells that are welded together, is pulled apart.", 4);
     double young = 4e4, strength = 4e3, speed = 0.07;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus of the bread [Pa]");
     demo.option("--strength", strength, 1, 1e9, "stress at which it tears [Pa]");
-    demo.option("--speed", speed, 0, 10, "of each hand [m/s]");
+    demo.option("--speed", speed, 0, 10, "speed of each grip [m/s]");
     return demo.run(argc, argv, [&] { play(demo, young, strength, speed); });
 }

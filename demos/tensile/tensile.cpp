@@ -105,10 +105,10 @@ void play(Demo& demo, double young, double strength, double speed)
 
 int main(int argc, char** argv)
 {
-    Demo demo("tensile", "Two specimens, one of them notched, are pulled until they part.", 3);
+    Demo demo("tensile", "Two specimens, one of them notched, are pulled until they break.", 3);
     double young = 1e5, strength = 2e4, speed = 0.09;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus [Pa]");
-    demo.option("--strength", strength, 1, 1e9, "tension at which they split [Pa]");
-    demo.option("--speed", speed, 0, 10, "of the head [m/s]");
+    demo.option("--strength", strength, 1, 1e9, "tensile strength [Pa]");
+    demo.option("--speed", speed, 0, 10, "speed of the upper clamp [m/s]");
     return demo.run(argc, argv, [&] { play(demo, young, strength, speed); });
 }

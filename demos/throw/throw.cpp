@@ -114,7 +114,7 @@ int main(int argc, char** argv)
     Demo demo("throw", "The mouse's spring picks a soft body up, holds it, swings it and throws it.", 5);
     double young = 2e5, stiffness = 4000, drag = 0;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus [Pa]");
-    demo.option("--stiffness", stiffness, 0, 1e9, "of the spring [N/m]");
-    demo.option("--drag", drag, 0, 1, "damping of the body, Bullet's kDP [-]");
+    demo.option("--stiffness", stiffness, 0, 1e9, "stiffness of the spring [N/m]");
+    demo.option("--drag", drag, 0, 1, "drag of the body, Bullet's kDP [-]");
     return demo.run(argc, argv, [&] { play(demo, young, stiffness, drag); });
 }

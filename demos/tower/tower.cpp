@@ -99,6 +99,6 @@ int main(int argc, char** argv)
     double young = 3e4, ballMass = 12, friction = 1;
     demo.option("--young", young, 1e2, 1e9, "Young's modulus of the jelly [Pa]");
     demo.option("--ball", ballMass, 1e-3, 1e3, "mass of the ball [kg]");
-    demo.option("--friction", friction, 0, 2, "of the ground [-]");
+    demo.option("--friction", friction, 0, 2, "friction of the ground [-]");
     return demo.run(argc, argv, [&] { play(demo, young, ballMass, friction); });
 }

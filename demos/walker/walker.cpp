@@ -111,7 +111,7 @@ int main(int argc, char** argv)
     double young = 3e5, activation = 1.8e5, period = 0.5, friction = 0.8;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus [Pa]");
     demo.option("--activation", activation, 0, 1e7, "largest stress of the fibres [Pa]");
-    demo.option("--period", period, 0.05, 10, "of a step of all legs [s]");
-    demo.option("--friction", friction, 0, 2, "between feet and ground [-]");
+    demo.option("--period", period, 0.05, 10, "period of the gait [s]");
+    demo.option("--friction", friction, 0, 2, "friction between feet and ground [-]");
     return demo.run(argc, argv, [&] { play(demo, young, activation, period, friction); });
 }

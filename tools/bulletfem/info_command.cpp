@@ -225,8 +225,8 @@ struct InfoCommand
 
 void addInfoCommand(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand(
-        "info", "Tells what a file holds: tetrahedra, a surface, a baked body (.bfem) or a scene (.json).");
+    CLI::App* command =
+        app.add_subcommand("info", "Describes a file: tetrahedra, a surface, a baked body (.bfem) or a scene (.json).");
     const auto options = std::make_shared<InfoCommand>();
     command->add_option("file", options->m_file, "the file")->required();
     options->m_figures.addOption(*command);

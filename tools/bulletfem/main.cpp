@@ -13,7 +13,7 @@ int main(int argc, char** argv)
     using namespace bullet_fem;
     CLI::App app(
         "Makes finite-element bodies of meshes, and runs scenes of them. All lengths are metres, all values SI.\n"
-        "Each command explains itself: bulletfem cage --help\n\n"
+        "Help on a command: bulletfem cage --help\n\n"
         "  bulletfem cage bunny.off --tets 4000 -o bunny.msh          tetrahedra around a surface\n"
         "  bulletfem bake bunny.off --material rubber -o bunny.bfem   a body that loads in milliseconds\n"
         "  bulletfem simulate scene.json --pvd --film run.mp4         a scene, to ParaView and to a film in "

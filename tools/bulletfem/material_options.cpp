@@ -107,16 +107,16 @@ void MaterialOptions::add(CLI::App& command)
     command.add_option("--stiffness-damping", m_stiffnessDamping, "Rayleigh's beta [s] (default 0.005)")
         ->check(inRange(0, 10));
     command
-        .add_option("--mean-dilatation", m_meanDilatation,
-                    "auto, on or off: neighbouring elements share their volume change (default auto: above nu .4)")
+        .add_option(
+            "--mean-dilatation", m_meanDilatation,
+            "auto, on or off: volume changes are averaged over neighbouring elements (default auto: above nu .4)")
         ->check(CLI::IsMember({"auto", "on", "off"}));
     command.add_flag("--accurate-bending", m_accurateBending,
-                     "strains are averaged around edges, so that thin parts bend as much as they should");
+                     "averages strains around edges, for accurate bending of thin parts");
     command
-        .add_option(
-            "--law", m_law,
-            "hooke, or neoHooke, which stiffens as it is stretched or crushed (default: the material's; that of "
-            "jelly and flesh is neoHooke)")
+        .add_option("--law", m_law,
+                    "hooke, or neoHooke, which stiffens in tension and compression (default: the material's; that of "
+                    "jelly and flesh is neoHooke)")
         ->check(CLI::IsMember({"hooke", "neoHooke"}));
     command
         .add_option("--region", m_regions,

@@ -57,7 +57,7 @@ std::string contents(std::FILE* file)
     std::rewind(file);
     text.resize(std::fread(&text[0], 1, text.size(), file));
     while (!text.empty() && text.back() == '\n') text.pop_back();
-    return text.empty() ? "it says nothing" : text;
+    return text.empty() ? "without a message" : text;
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ double showProgress(const ViewerProgress& progress, const PictureSize& size, boo
     ImGui::ProgressBar(static_cast<float>(progress.m_share), {width - 110, 0});
     ImGui::PopStyleColor();
     ImGui::SameLine();
-    if (ImGui::Button("Give up", {100, 0})) cancelled = true;
+    if (ImGui::Button("Cancel", {100, 0})) cancelled = true;
     const double height = static_cast<double>(ImGui::GetWindowHeight() + kDialogMargin);
     ImGui::End();
     return height;
