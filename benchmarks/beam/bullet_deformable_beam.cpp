@@ -119,7 +119,7 @@ BeamRun runBulletDeformable(const BeamCase& beam, double tolerance)
     BeamRun run;
     run.m_method = "bullet";
     run.m_tolerance = tolerance;
-    run.m_tipBound = 6e-3;  // allows for the different point of linearisation, at the same model
+    run.m_tipBound = 6e-3;  // allows for the different point of linearisation
 
     const std::size_t heapBefore = heapBytes();
     const Stopwatch setUp;

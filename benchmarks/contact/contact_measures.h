@@ -7,7 +7,7 @@
 namespace bullet_fem
 {
 
-// Measured on Bullet's bodies alone, in the same way for both engines.
+// Measured on Bullet's bodies alone, equally for both engines.
 
 /// Largest penetration [m] of the soft surfaces into the boxes and into each other, where surfaces closer than
 /// `distance` [m], >= 0, count as penetrating; NaN if a node's position is not finite. Each surface triangle is sampled

@@ -47,7 +47,7 @@ double degreesOf(MotionCase motionCase)
     return motionCase == MotionCase::roll10 ? 10 : 20;
 }
 
-/// Measures cases that need no reference solution at the same step.
+/// Measures cases that need no reference solution at their own step size.
 Measured measure(MotionCase motionCase, MotionMethod method, int rate, int ballCells)
 {
     std::cerr << nameOf(motionCase) << ", " << nameOf(method) << ", 1/" << rate << " s ..." << std::endl;

@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// Final results of a command, printed as a table or, with --json, as JSON with the same names.
+/// Final results of a command, printed as a table or, with --json, as JSON with these names.
 class Figures
 {
 public:

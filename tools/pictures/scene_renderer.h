@@ -9,7 +9,7 @@
 namespace bullet_fem
 {
 
-/// Draws scenes with OpenGL 3.3 core. Equal scene, camera and size give equal pixels on the same driver. The context
+/// Draws scenes with OpenGL 3.3 core. Equal scene, camera and size give equal pixels on one driver. The context
 /// that was current in the constructor must be current in all calls, including the destructor.
 class SceneRenderer
 {
