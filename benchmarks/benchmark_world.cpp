@@ -84,7 +84,7 @@ void BenchmarkWorld::addJoint(btTypedConstraint* joint)
     m_world.addConstraint(joint, true);
 }
 
-// All bodies of a group report its time, so every group is counted once.
+// Each body reports the time of its whole group, so each group is counted once.
 BenchmarkReport sumReports(const btFemSoftBodySolver& fem, const std::vector<std::unique_ptr<btSoftBody>>& bodies)
 {
     BenchmarkReport sum;

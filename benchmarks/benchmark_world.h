@@ -16,32 +16,32 @@
 namespace bullet_fem
 {
 
-/// What the reports of all soft bodies tell of a step.
+/// Summary of the reports of all soft bodies for one step.
 struct BenchmarkReport
 {
-    double m_freeMilliseconds = 0;     ///< of the elastic solves without contact, all bodies [ms]
+    double m_freeMilliseconds = 0;     ///< elastic solves without contact, all bodies [ms]
     double m_contactMilliseconds = 0;  ///< of contacts and joints, all groups [ms]
-    int m_contacts = 0;                ///< contact points of all bodies; between soft bodies they count for both
-    int m_sweeps = 0;                  ///< of the group with the most
-    int m_correctiveIterations = 0;    ///< of the group with the most
-    int m_asleep = 0;                  ///< soft bodies
-    double m_closingSpeed = 0;         ///< largest at which a contact point still closes [m/s]
+    int m_contacts = 0;                ///< contact points of all bodies; those between soft bodies count twice
+    int m_sweeps = 0;                  ///< maximum over the groups
+    int m_correctiveIterations = 0;    ///< maximum over the groups
+    int m_asleep = 0;                  ///< number of sleeping soft bodies
+    double m_closingSpeed = 0;         ///< largest remaining closing speed at a contact point [m/s]
     double m_deepest = 0;              ///< largest penetration at the start of the step [m]
-    int m_flags = 0;                   ///< btFemFlags of all bodies
+    int m_flags = 0;                   ///< btFemFlags of all bodies, combined
 };
 
-/// Who moves the bodies of a world.
+/// Selects the solvers of a world.
 enum class BenchmarkLine
 {
-    swap,     ///< BulletFEM the soft bodies, Bullet's rigid solver the rigid ones
-    coupled,  ///< BulletFEM's constraint solver both together
-    bullet    ///< Bullet all of them: there are no reports then
+    swap,     ///< staggered: BulletFEM moves soft bodies, Bullet's rigid solver rigid ones
+    coupled,  ///< monolithic: BulletFEM's constraint solver moves both together
+    bullet    ///< Bullet moves all bodies; there are no reports
 };
 
-/// The sum of the reports of these bodies' last step.
+/// Sums the reports of the last step of these bodies.
 BenchmarkReport sumReports(const btFemSoftBodySolver& fem, const std::vector<std::unique_ptr<btSoftBody>>& bodies);
 
-/// A btSoftRigidDynamicsWorld whose soft bodies are FEM, and which owns its bodies, their shapes and joints.
+/// A btSoftRigidDynamicsWorld with FEM soft bodies. It owns its bodies, their shapes and joints.
 class BenchmarkWorld
 {
 public:
@@ -50,15 +50,15 @@ public:
     BenchmarkWorld(const BenchmarkWorld&) = delete;
     BenchmarkWorld& operator=(const BenchmarkWorld&) = delete;
 
-    /// A rigid body that takes over its shape; mass 0 [kg] is static.
+    /// Adds a rigid body and takes ownership of its shape; mass 0 [kg]: static.
     btRigidBody& addRigid(btCollisionShape* shape, double mass, const btVector3& position, double friction);
-    /// Takes the body over, and factors it for steps of `step` [s].
+    /// Takes ownership of the body and factors it for steps of `step` [s].
     btSoftBody& addSoft(btSoftBody* body, const btFemMaterial& material, double friction, double step);
-    /// The same with the material and friction that Bullet's program gave it.
+    /// Keeps the material and friction that the body already has in Bullet.
     btSoftBody& addSoft(btSoftBody* body, double step);
-    /// Takes the joint over; its bodies do not touch each other.
+    /// Takes ownership of the joint; collisions between its bodies are disabled.
     void addJoint(btTypedConstraint* joint);
-    /// Holds what the world's shapes need for as long as they do.
+    /// Keeps an object alive as long as the world, for shapes that refer to it.
     void keep(std::shared_ptr<void> object) { m_kept.push_back(std::move(object)); }
 
     BenchmarkReport report() const { return sumReports(m_fem, m_soft); }
@@ -67,8 +67,8 @@ public:
     const btFemSoftBodySolver& fem() const { return m_fem; }
     const std::vector<std::unique_ptr<btSoftBody>>& soft() const { return m_soft; }
     const std::vector<std::unique_ptr<btRigidBody>>& rigid() const { return m_rigid; }
-    int tetCount() const;                                   ///< of all soft bodies
-    double setupSeconds() const { return m_setupSeconds; }  ///< of all soft bodies [s]
+    int tetCount() const;                                   ///< over all soft bodies
+    double setupSeconds() const { return m_setupSeconds; }  ///< over all soft bodies [s]
 
 private:
     void prepare(btSoftBody& body, double step);

@@ -22,21 +22,21 @@ inline btVector3 toBullet(const Vec3& a)
     return btVector3(btScalar(a.x), btScalar(a.y), btScalar(a.z));
 }
 
-/// Bullet's own deformable world, set up rightly for a body of tetrahedra: implicit, with projection (without it the
-/// implicit solve gives NaN, which Bullet turns into standing still), gravity as a force.
+/// Bullet's deformable world for tetrahedral bodies: implicit, gravity as a force, with projection. Without projection
+/// the implicit solve gives NaN, and Bullet then stops the motion.
 class BulletDeformableWorld
 {
 public:
-    /// `solver` must outlive it. gravity [m/s2].
+    /// `solver` must outlive the world. gravity [m/s2].
     BulletDeformableWorld(btDeformableBodySolver& solver, const Vec3& gravity);
 
-    /// Adds a body that has tetrahedra and node masses; completes what appendTetra leaves out and the deformable forces
-    /// read. Bullet's damping is the same Rayleigh damping, so alpha and beta go over as they are. Remove the body
-    /// before deleting it, or the world. `elasticity` must outlive the body in the world, be of one material, and be
-    /// the same for all bodies of a world: Bullet keeps one force of a kind.
+    /// Adds a body that has tetrahedra and node masses, and fills in data that appendTetra leaves out and the
+    /// deformable forces read. Bullet uses the same Rayleigh damping, so alpha and beta apply unchanged. Remove the
+    /// body before deleting it or the world. `elasticity` must outlive the body in the world; it has one material and
+    /// must be one object for all bodies of a world, because Bullet keeps one force of each kind.
     void add(btSoftBody& body, btDeformableLinearElasticityForce& elasticity, const Material& material);
 
-    /// One step of exactly h [s].
+    /// Makes one step of exactly h [s].
     void step(double h) { m_world.stepSimulation(btScalar(h), 0); }
 
     btDeformableMultiBodyDynamicsWorld& world() { return m_world; }

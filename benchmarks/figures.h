@@ -13,9 +13,9 @@
 namespace bullet_fem
 {
 
-// What the benchmarks' reports have in common.
+// Functions shared by the reports of the benchmarks.
 
-/// The middle value, the upper one of two; `values` must not be empty.
+/// The median; of two middle values, the upper one. `values` must not be empty.
 inline double median(std::vector<double> values)
 {
     const auto middle = values.begin() + values.size() / 2;
@@ -23,7 +23,7 @@ inline double median(std::vector<double> values)
     return *middle;
 }
 
-/// Largest of values >= 0; NaN if one of them is.
+/// Largest of values >= 0; NaN if any value is NaN.
 inline double largest(const std::vector<double>& values)
 {
     double result = 0;
@@ -41,15 +41,15 @@ void print(std::ostream& out, const char* format, Values... values)
     out << line;
 }
 
-/// Time since it was made.
+/// Time since construction.
 class Stopwatch
 {
 public:
     /// Wall time [s].
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
 
-    /// What the calling thread had of a processor [s], which programs beside it add little to. To be called by the
-    /// thread that made it; 0 where the system does not count it.
+    /// Processor time of the calling thread [s], which is nearly independent of other programs. Call it from the thread
+    /// that made this object; 0 if the system does not count it.
     double cpuSeconds() const { return cpuNow() - m_cpuStart; }
 
 private:

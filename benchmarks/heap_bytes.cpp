@@ -18,7 +18,7 @@ std::size_t heapBytes()
 {
 #ifdef BULLETFEM_HAS_MALLINFO2
     const struct mallinfo2 info = mallinfo2();
-    return info.uordblks + info.hblkhd;  // small blocks, and large ones that are mapped on their own
+    return info.uordblks + info.hblkhd;  // small blocks, and large blocks with a mapping of their own
 #else
     return 0;
 #endif

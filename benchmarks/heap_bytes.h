@@ -7,9 +7,9 @@
 namespace bullet_fem
 {
 
-/// Bytes that the program holds on the heap now, as the allocator counts them (sizes rounded up to its grain). What an
-/// object holds is the difference before and after it was made: nothing has to be added up by hand, and nothing is
-/// forgotten. 0 with C libraries other than glibc 2.33 or later. For programs of one thread.
+/// Bytes in use on the heap, as counted by the allocator (sizes rounded up to its granularity). The difference before
+/// and after construction is the memory of an object, with all its parts. 0 with C libraries other than glibc 2.33 or
+/// later. For programs with one thread.
 std::size_t heapBytes();
 
 }  // namespace bullet_fem

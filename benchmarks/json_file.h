@@ -11,15 +11,14 @@
 namespace bullet_fem
 {
 
-/// The file that --json names. Opened before the first measurement, so that a wrong path is told at once and not after
-/// minutes.
+/// The file named by --json. It is opened before the first measurement, so that a wrong path is reported at once.
 class JsonFile
 {
 public:
     /// An empty path stands for no file. Throws std::runtime_error if the file cannot be opened.
     explicit JsonFile(const std::string& path);
 
-    /// Writes `document`, an object, with the machine added to it; nothing if there is no file. Throws
+    /// Writes `document`, an object, and adds the machine's data; does nothing without a file. Throws
     /// std::runtime_error if the file cannot be written.
     void write(const MachineInfo& machine, nlohmann::json document);
 

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <thread>
 
-// BULLETFEM_VERSION, BULLETFEM_COMMIT and BULLETFEM_BUILD_TYPE come from CMake.
+// CMake defines BULLETFEM_VERSION, BULLETFEM_COMMIT and BULLETFEM_BUILD_TYPE.
 
 namespace bullet_fem
 {
@@ -44,8 +44,8 @@ std::string bulletVersion()
     return std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100) + scalar;
 }
 
-/// Programs that wanted to run, mean over the last minute: well above 0 before the first measurement says that others
-/// were using the machine.
+/// Load average of the last minute. Well above 0 before the first measurement it shows that other programs use the
+/// machine.
 std::string loadAverage()
 {
     std::ifstream file("/proc/loadavg");

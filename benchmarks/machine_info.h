@@ -9,15 +9,15 @@
 namespace bullet_fem
 {
 
-/// What a time means nothing without, as names and values: cpu, logical cores, load of the machine, threads used,
-/// compiler, build type, versions of this project and of Bullet, commit at the time of configuring. A value that is not
-/// known reads "unknown".
+/// Conditions of a measurement as names and values: processor, logical cores, load of the machine, threads used,
+/// compiler, build type, versions of this project and of Bullet, commit at configuration. An unknown value reads
+/// "unknown".
 using MachineInfo = std::vector<std::pair<std::string, std::string>>;
 
-/// Reads the machine's; `threads` [-] is how many the program uses.
+/// Reads the data of this machine; `threads` [-] is the number of threads in use.
 MachineInfo readMachineInfo(int threads);
 
-/// One line a field, names padded to one width.
+/// One line per field, names padded to one width.
 std::string toText(const MachineInfo& info);
 
 }  // namespace bullet_fem

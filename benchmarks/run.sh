@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs what is missing (Debian 12, as root or with sudo), builds the benchmarks, runs them, writes their figures to
-# out/benchmarks/, and renews the tables and pictures of docs/performance.md, accuracy.md and materials.md.
+# Installs missing packages (Debian 12, as root or with sudo), builds and runs the benchmarks, writes their results to
+# out/benchmarks/, and updates the tables and pictures of docs/performance.md, accuracy.md and materials.md.
 #
-#   benchmarks/run.sh                     all of them, small: about two minutes
-#   benchmarks/run.sh --full              all of them, as in docs/performance.md: ten minutes to an hour
-#   benchmarks/run.sh --full beam curve   some: of beam curve kernels factors scaling contact copies
+#   benchmarks/run.sh                     all, small: about two minutes
+#   benchmarks/run.sh --full              all, as in docs/performance.md: ten minutes to an hour
+#   benchmarks/run.sh --full beam curve   a selection of beam curve kernels factors scaling contact copies
 #                                         crowd games materials motion
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 
-build=$root/build/benchmarks # of its own, so that no script changes the options of another's
+build=$root/build/benchmarks # separate from the build folders of other scripts, because options differ
 out=$root/out/benchmarks
 known=(beam curve kernels factors scaling contact copies crowd games materials motion)
 full=0
@@ -31,7 +31,7 @@ for argument in "$@"; do
 done
 [ ${#chosen[@]} -gt 0 ] || chosen=("${known[@]}")
 
-# run <program> <file> <options when quick> <options when full>: figures to <file>.json, the tables to <file>.txt.
+# run <program> <file> <options when quick> <options when full>: writes results to <file>.json, tables to <file>.txt.
 run()
 {
     local options=$3
@@ -73,7 +73,7 @@ run_benchmark()
     esac
 }
 
-# CHOLMOD is slow with the reference BLAS that it brings.
+# CHOLMOD is slow with the reference BLAS, which is installed with it.
 install_packages "${build_packages[@]}" libopenblas0-serial nlohmann-json3-dev python3 python3-matplotlib
 
 say "building in $build"
@@ -83,7 +83,7 @@ cmake --build "$build" --parallel "$(nproc)"
 mkdir -p "$out"
 for name in "${chosen[@]}"; do run_benchmark "$name"; done
 
-# Debian's own interpreter, which sees Debian's matplotlib, whatever else is called python3 here.
+# Debian's interpreter, which finds Debian's matplotlib, whichever python3 comes first in PATH.
 python=/usr/bin/python3
 [ -x "$python" ] || python=python3
 say "renewing docs/performance.md"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Zlib
-# Compiles through ccache, as BULLETFEM_CCACHE says; a launcher that the user has set, or a project around this one, stays.
+# Compiles through ccache according to BULLETFEM_CCACHE; a launcher set by the user or a parent project is kept.
 set_property(CACHE BULLETFEM_CCACHE PROPERTY STRINGS AUTO ON OFF)
 if(NOT BULLETFEM_CCACHE MATCHES "^(AUTO|ON|OFF)$")
     message(FATAL_ERROR "BULLETFEM_CCACHE is ${BULLETFEM_CCACHE}: it must be AUTO, ON or OFF")
@@ -11,7 +11,7 @@ endif()
 find_program(BULLETFEM_CCACHE_PROGRAM ccache)
 mark_as_advanced(BULLETFEM_CCACHE_PROGRAM)
 if(BULLETFEM_CCACHE_PROGRAM)
-    # What ccache must overlook where headers are precompiled.
+    # Required by ccache for precompiled headers.
     set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
         CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${BULLETFEM_CCACHE_PROGRAM}")
 elseif(BULLETFEM_CCACHE STREQUAL ON)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
-# Debian packages by CPack, with BULLETFEM_BUILD_DEBS, which tools/ci/debs.sh sets: the shared libraries, what programs
-# are built with, and the program bulletfem. Packages are named by what their libraries promise, as Debian does.
+# Debian packages by CPack with BULLETFEM_BUILD_DEBS, which tools/ci/debs.sh sets: shared libraries, development files,
+# and the program bulletfem. Package names contain the soname of their library, as usual in Debian.
 set(BULLETFEM_MAINTAINER "The BulletFEM authors <bulletfem@example.org>" CACHE STRING "Who answers for Debian packages")
 if(NOT BUILD_SHARED_LIBS)
     message(FATAL_ERROR "BULLETFEM_BUILD_DEBS is ON, but BUILD_SHARED_LIBS is not: set both")

@@ -3,14 +3,14 @@
 # BulletFEM::plugin, BulletFEM::plugin-float64 and the others.
 include(CMakePackageConfigHelpers)
 
-# Components of the installation, which packages are made of: libraries, development and tools.
+# Components of the installation, which become packages: libraries, development and tools.
 set(_targets bulletfem_fem)
 set(_runtimes "")
 foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
     set(_suffix "${BULLETFEM_SUFFIX_${_precision}}")
     list(APPEND _targets bulletfem_plugin${_suffix})
     list(APPEND _runtimes bulletfem_runtime${_suffix})
-    if(NOT BUILD_SHARED_LIBS) # else it is part of the plug-in, and the orders are part of fem
+    if(NOT BUILD_SHARED_LIBS) # shared: it is part of the plug-in, and the orders are part of fem
         list(APPEND _targets bulletfem_bullet_bridge${_suffix})
     endif()
 endforeach()
@@ -34,10 +34,10 @@ function(bulletfem_install_targets export)
     install(EXPORT ${export} NAMESPACE BulletFEM:: DESTINATION ${_config_dir} COMPONENT development)
 endfunction()
 bulletfem_install_targets(BulletFEMTargets ${_targets})
-# Apart from the others: who wants it alone needs nothing that the others link.
+# In an export file of its own: the runtime alone does not require the dependencies of the others.
 bulletfem_install_targets(BulletFEMRuntimeTargets ${_runtimes})
 install(DIRECTORY include/bullet_fem DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
-# Users get the same Bullet, unless they say otherwise.
+# By default users get the Bullet that BulletFEM was built with.
 set(BULLETFEM_BULLET_INSTALLED "")
 if(IS_DIRECTORY "${BULLETFEM_BULLET}")
     set(BULLETFEM_BULLET_INSTALLED "${BULLETFEM_BULLET}")
@@ -49,7 +49,7 @@ install(FILES "${PROJECT_BINARY_DIR}/BulletFEMConfig.cmake" "${PROJECT_BINARY_DI
     cmake/FindSuiteSparse.cmake cmake/FindMETIS.cmake cmake/FindBulletPrecisions.cmake DESTINATION ${_config_dir} COMPONENT development)
 install(FILES LICENSE THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 
-# pkg-config: bulletfem and bulletfem-float64. Static libraries want what they need linked as well, in this order.
+# pkg-config files bulletfem and bulletfem-float64. Static libraries list their dependencies as well, in link order.
 file(RELATIVE_PATH _pc_up "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
 foreach(_dir LIBDIR INCLUDEDIR)
     string(TOLOWER "_pc_${_dir}" _variable)
@@ -96,7 +96,7 @@ foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
             string(APPEND _pc_requires " tbb")
         endif()
     endif()
-    # Bullet's own installations have one precision, and one name for both.
+    # Bullet's own installations have a single precision and one name for both.
     if(BulletPrecisions_CHOICE STREQUAL "system")
         string(APPEND _pc_requires " bullet${_suffix}")
     else()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
-# Bullet's two precisions. What sees Bullet is built once for each of BULLETFEM_PRECISIONS, with Bullet's own suffix: none
-# for float, "-float64" for float64. Source lists are written once.
+# Bullet's two precisions. Targets that include Bullet are built once for each of BULLETFEM_PRECISIONS, with Bullet's
+# suffix: none for float, "-float64" for float64. Source lists are written once.
 set(BULLETFEM_BULLET "" CACHE STRING "Which Bullet: targets (of this build), system, or the folder that it is installed in; \
 empty: targets where there are some, else system")
 set(BULLETFEM_BULLET_MINIMUM 3.23) # docs/compatibility.md, Which Bullet
@@ -32,7 +32,7 @@ list(REMOVE_DUPLICATES BULLETFEM_PRECISIONS)
 
 set(BULLETFEM_SUFFIX_float "")
 set(BULLETFEM_SUFFIX_float64 "-float64")
-# What programs that are built once take: float if it is there.
+# Precision of programs that are built once: float if available.
 list(FIND BULLETFEM_PRECISIONS float _float_at)
 if(_float_at EQUAL -1)
     set(BULLETFEM_SUFFIX "${BULLETFEM_SUFFIX_float64}")
@@ -40,7 +40,7 @@ else()
     set(BULLETFEM_SUFFIX "${BULLETFEM_SUFFIX_float}")
 endif()
 
-# bulletfem_in_precision(<variable> <suffix> <target>...): the targets, of those that there are with the suffix, these.
+# bulletfem_in_precision(<variable> <suffix> <target>...): the targets, each with the suffix if such a target exists.
 function(bulletfem_in_precision variable suffix)
     set(targets "")
     foreach(target IN LISTS ARGN)
@@ -53,13 +53,13 @@ function(bulletfem_in_precision variable suffix)
     set(${variable} "${targets}" PARENT_SCOPE)
 endfunction()
 
-# Libraries of Bullet that are linked by name or by path, as CMake's own FindBullet gives them, carry no BULLET_PRECISION.
-# These match those of the other precision, which bullet_fem/btFemPrecision.h then refuses.
+# Bullet libraries linked by name or by path, as CMake's own FindBullet gives them, carry no BULLET_PRECISION. CMake
+# then accepts a mixture of precisions, which bullet_fem/btFemPrecision.h rejects.
 set(BULLETFEM_FOREIGN_float "(LinearMath|Bullet(Collision|Dynamics|SoftBody))-float64")
 set(BULLETFEM_FOREIGN_float64 "(LinearMath|Bullet(Collision|Dynamics|SoftBody))([.]|$)")
 
-# bulletfem_bullet_library(<name> [INTERNAL] <source>...  SEES <room>...  PUBLIC <target>...  PRIVATE <target>...): bulletfem_library
-# for each precision, linked with the targets of the same precision.
+# bulletfem_bullet_library(<name> [INTERNAL] <source>...  SEES <room>...  PUBLIC <target>...  PRIVATE <target>...):
+# bulletfem_library for each precision, linked with the targets of that precision.
 function(bulletfem_bullet_library name)
     cmake_parse_arguments(ARG "" "" "SEES;PUBLIC;PRIVATE" ${ARGN})
     foreach(precision IN LISTS BULLETFEM_PRECISIONS)
@@ -69,7 +69,7 @@ function(bulletfem_bullet_library name)
         bulletfem_in_precision(public "${suffix}" ${ARG_PUBLIC})
         bulletfem_in_precision(private "${suffix}" ${ARG_PRIVATE})
         target_link_libraries(bulletfem_${name}${suffix} PUBLIC ${public} PRIVATE ${private})
-        # Bullet's targets have it, too; here it also stops who gets Bullet in another way.
+        # Bullet's targets have it, too; here it also stops users who get Bullet in another way.
         set_target_properties(bulletfem_${name}${suffix} PROPERTIES
             INTERFACE_BULLET_PRECISION ${precision} COMPATIBLE_INTERFACE_STRING BULLET_PRECISION)
         set(foreign "$<FILTER:$<TARGET_PROPERTY:LINK_LIBRARIES>,INCLUDE,${BULLETFEM_FOREIGN_${precision}}>")
@@ -79,8 +79,8 @@ function(bulletfem_bullet_library name)
 endfunction()
 
 # bulletfem_bullet_test(<name> <source>...  LIBS <target>...  LABEL <label>  [COST <seconds>]  [SLOW_IN_DOUBLE]):
-# bulletfem_test for each precision. Those of float64 have the program's and the tests' names with "-float64" behind;
-# SLOW_IN_DOUBLE labels them slow.
+# bulletfem_test for each precision. In float64, names of the program and of its tests end in "-float64"; SLOW_IN_DOUBLE
+# labels them slow.
 function(bulletfem_bullet_test name)
     cmake_parse_arguments(ARG "SLOW_IN_DOUBLE" "LABEL;COST" "LIBS" ${ARGN})
     foreach(precision IN LISTS BULLETFEM_PRECISIONS)

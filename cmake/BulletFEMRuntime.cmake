@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Zlib
-# BulletFEM::runtime: all that programs need which play baked bodies, in one library. It is the plug-in and what lies below
-# it, with Eigen's orders in place of AMD and METIS, and without the helpers that read files. It links Bullet, and Highway
-# and oneTBB if the project does.
+# BulletFEM::runtime: one library with all that programs need to simulate baked bodies. It has the plug-in and the
+# layers below it, with Eigen's orders instead of AMD and METIS, and without the helpers that read files. It links
+# Bullet, and Highway and oneTBB if the project does.
 get_property(_floor_objects GLOBAL PROPERTY BULLETFEM_FLOOR_OBJECTS)
 foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
     set(_suffix "${BULLETFEM_SUFFIX_${_precision}}")
@@ -16,6 +16,6 @@ foreach(_precision IN LISTS BULLETFEM_PRECISIONS)
     target_link_libraries(bulletfem_runtime${_suffix} PUBLIC Bullet::SoftBody${_suffix}
         PRIVATE ${BULLETFEM_HWY} ${BULLETFEM_TBB} Threads::Threads)
 endforeach()
-# A program that linked both would have everything twice.
+# Linking both would duplicate all symbols.
 set_target_properties(bulletfem_fem PROPERTIES COMPATIBLE_INTERFACE_STRING BULLETFEM_LIBRARIES
     INTERFACE_BULLETFEM_LIBRARIES "plugin, io and fem")

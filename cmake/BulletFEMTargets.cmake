@@ -1,34 +1,34 @@
 # SPDX-License-Identifier: Zlib
-# What every library and program of this project has in common. Nothing of it is exported to users.
+# Settings shared by all libraries and programs of this project; none of them is exported to users.
 
-# True in a program with the property BULLETFEM_RUNTIME: it links neither AMD, METIS nor Assimp, orders with Eigen
-# where it orders at all, and has no createFromSurfaceFile.
+# True in a program with the property BULLETFEM_RUNTIME: it links neither AMD, METIS nor Assimp, uses Eigen if it orders
+# at all, and has no createFromSurfaceFile.
 set(BULLETFEM_IN_RUNTIME "$<BOOL:$<TARGET_PROPERTY:BULLETFEM_RUNTIME>>")
 
-# bulletfem_defaults(<target>): C++17, warnings, the sanitizers asked for, and the public include folder.
+# bulletfem_defaults(<target>): C++17, warnings, the requested sanitizers, and the public include folder.
 function(bulletfem_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_17)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-    if(BUILD_SHARED_LIBS) # what is not marked BULLETFEM_API stays inside
+    if(BUILD_SHARED_LIBS) # hides symbols that are not marked BULLETFEM_API
         set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     endif()
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
     if(BULLETFEM_UNITY)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${BULLETFEM_UNITY})
-        # GCC takes a class in a source file that such a unit includes for one of a header.
+        # False positive of GCC: in a unity build it takes classes of included source files for classes of headers.
         target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
     endif()
     if(BULLETFEM_SANITIZE)
         target_compile_options(${target} PRIVATE
             -fsanitize=${BULLETFEM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
-        target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS) # indices into what is reserved but not there
+        target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS) # detects indices beyond the size of a container
         target_link_options(${target} PUBLIC -fsanitize=${BULLETFEM_SANITIZE})
     endif()
 endfunction()
 
-# What a target may include is what it sees: folders of the source tree, each behind a link in the build tree, so that an
-# include of any other does not compile. bulletfem_room(<name> <folder>...): a folder of links, in which these stand at
-# their own paths; those of include/ without it.
+# A target's includes are limited to its "rooms": folders of links in the build tree to folders of the source tree.
+# Other includes do not compile. bulletfem_room(<name> <folder>...): a folder of links in which these have their own
+# paths; those of include/ without it.
 function(bulletfem_room name)
     foreach(folder IN LISTS ARGN)
         string(REGEX REPLACE "^include/" "" place "${folder}")
@@ -46,9 +46,9 @@ function(bulletfem_sees target)
     endforeach()
 endfunction()
 
-# bulletfem_library(<name> [INTERNAL] <source>...): the library bulletfem_<name>, known to users as BulletFEM::<name>. It is
-# shared with BUILD_SHARED_LIBS, and then programs go with all that have its soname: before 1.0 a minor version is a new
-# interface. INTERNAL: no user calls it; it stays static, and becomes part of the shared libraries that link it.
+# bulletfem_library(<name> [INTERNAL] <source>...): the library bulletfem_<name>, exported as BulletFEM::<name>. It is
+# shared with BUILD_SHARED_LIBS; its soname then changes with each minor version before 1.0. INTERNAL: a library without
+# users' calls, which stays static and becomes part of the shared libraries that link it.
 function(bulletfem_library name)
     cmake_parse_arguments(ARG "INTERNAL" "" "" ${ARGN})
     set(kind STATIC)
@@ -70,8 +70,8 @@ function(bulletfem_library name)
         PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
 
-# Headers that most tests include, compiled once for all programs of one kind (what sees Bullet, in either precision, and
-# the rest), by a program that does nothing. bulletfem_precompile(<program> <kind> LIBS <target>... HEADERS <header>...)
+# Headers included by most tests, precompiled once for all programs of one kind (with Bullet, in either precision, or
+# without), by a program without function. bulletfem_precompile(<program> <kind> LIBS <target>... HEADERS <header>...)
 function(bulletfem_precompile program kind)
     if(NOT BULLETFEM_PRECOMPILE)
         return()
@@ -87,18 +87,19 @@ function(bulletfem_precompile program kind)
     target_precompile_headers(${program} REUSE_FROM ${owner})
 endfunction()
 
-# What all tests are compiled with, and the precompiled headers, too.
+# Compile options of all tests and of the precompiled headers.
 function(bulletfem_test_flags program)
     bulletfem_defaults(${program})
-    # Tests call what is measured, they are not it: half the time to compile.
+    # Performance of test code is irrelevant, and this halves its compile time.
     target_compile_options(${program} PRIVATE
         $<$<AND:$<CONFIG:Release,RelWithDebInfo>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>)
     target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
     target_link_libraries(${program} PRIVATE ${ARGN} GTest::gtest GTest::gmock GTest::gtest_main)
 endfunction()
 
-# Makes ctest run each suite of the program as one test, and not each case, if BULLETFEM_TEST_SUITES is in its environment:
-# most cases take less time than their process does to start. A suite that skips a case fails, as nobody would see it.
+# With BULLETFEM_TEST_SUITES in its environment, ctest runs each suite of the program as one test instead of each case:
+# most cases take less time than starting their process. A suite with a skipped case fails, because the skip would go
+# unnoticed.
 function(bulletfem_test_suites name suffix properties)
     set(suites "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake")
     list(APPEND properties FAIL_REGULAR_EXPRESSION ".  SKIPPED .")
@@ -109,7 +110,7 @@ function(bulletfem_test_suites name suffix properties)
             -P "${PROJECT_SOURCE_DIR}/cmake/list_suites.cmake")
     set(chosen "${CMAKE_CURRENT_BINARY_DIR}/${name}_chosen.cmake")
     get_property(includes DIRECTORY PROPERTY TEST_INCLUDE_FILES)
-    list(POP_BACK includes cases) # what gtest_discover_tests has just added
+    list(POP_BACK includes cases) # added by gtest_discover_tests
     file(CONFIGURE OUTPUT "${chosen}" @ONLY CONTENT [=[
 if(DEFINED ENV{BULLETFEM_TEST_SUITES} AND EXISTS "@suites@")
     include("@suites@")
@@ -121,9 +122,9 @@ endif()
 endfunction()
 
 # bulletfem_test(<name> <source>...  LIBS <target>...  LABEL <label>  [SUFFIX <suffix>]  [COST <seconds>]  [MAY_SKIP]
-# [KIND <kind>  PRECOMPILE <header>...]): one GoogleTest program; each test is known to ctest, by its name with the suffix
-# behind. Programs of the same kind and suffix share precompiled headers. What costs more is started earlier; MAY_SKIP is
-# for programs whose tests may be skipped: each case is a test then, whatever the environment says.
+# [KIND <kind>  PRECOMPILE <header>...]): one GoogleTest program; ctest knows each test by its name followed by the
+# suffix. Programs of equal kind and suffix share precompiled headers. Tests of higher cost start earlier. MAY_SKIP:
+# tests may be skipped, so each case is a test, regardless of the environment.
 function(bulletfem_test name)
     cmake_parse_arguments(ARG "MAY_SKIP" "LABEL;SUFFIX;KIND;COST" "LIBS;PRECOMPILE" ${ARGN})
     add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})

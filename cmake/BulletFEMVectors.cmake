@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
-# Gives hwy::hwy, Highway, as BULLETFEM_VECTORS says; where it is not dynamic, from its headers, and there is nothing to link
-# or to install. BULLETFEM_HWY is what the libraries link.
+# Provides hwy::hwy (Highway) according to BULLETFEM_VECTORS; unless that is dynamic, as a header-only target without a
+# library to link or install. BULLETFEM_HWY is the target that the libraries link.
 set_property(CACHE BULLETFEM_VECTORS PROPERTY STRINGS dynamic static scalar)
 if(NOT BULLETFEM_VECTORS MATCHES "^(dynamic|static|scalar)$")
     message(FATAL_ERROR "BULLETFEM_VECTORS is ${BULLETFEM_VECTORS}: it must be dynamic, static or scalar")

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Zlib
-# Finds Bullet and makes the imported targets that CMake's own FindBullet does not make. Bullet's headers are the same for
-# both precisions; BT_USE_DOUBLE_PRECISION chooses the layout.
+# Finds Bullet and creates imported targets that CMake's own FindBullet lacks. Both precisions share Bullet's headers;
+# BT_USE_DOUBLE_PRECISION selects the layout.
 #   component float    Bullet::SoftBody, Bullet::Dynamics, Bullet::Collision, Bullet::LinearMath
 #   component float64  Bullet::SoftBody-float64 and so on, with BT_USE_DOUBLE_PRECISION in their interface
-# Each tells its precision as BULLET_PRECISION. CMake stops with an error where a target would have two of them.
-# BulletPrecisions_VERSION is that of the headers, e.g. 3.24; find_package(BulletPrecisions 3.23) asks for one.
+# Each target has its precision in the property BULLET_PRECISION; CMake stops with an error if a target would get both.
+# BulletPrecisions_VERSION is the version of the headers, e.g. 3.24; find_package(BulletPrecisions 3.23) requires one.
 #
-# BULLETFEM_BULLET says which Bullet:
-#   targets    that of this build: the targets BulletSoftBody and so on of Bullet's own CMakeLists.txt, made before
-#   system     both precisions side by side, as Debian ships them, where CMake looks for libraries
-#   a folder   what Bullet's own installation has put there, or Debian's layout below it
-# Empty: targets where they are, else system.
+# BULLETFEM_BULLET selects the Bullet to use:
+#   targets    that of this build: targets BulletSoftBody and so on of Bullet's own CMakeLists.txt, created before
+#   system     both precisions in one installation, as Debian ships them, in CMake's search path for libraries
+#   a folder   an installation by Bullet's own CMakeLists.txt, or Debian's layout below that folder
+# Empty: targets if they exist, else system.
 set(_parts LinearMath BulletCollision BulletDynamics BulletSoftBody)
 set(_suffix_float "")
 set(_suffix_float64 "-float64")
@@ -25,7 +25,7 @@ if(NOT _bullet MATCHES "^(targets|system)$" AND NOT IS_DIRECTORY "${_bullet}")
     message(FATAL_ERROR "BULLETFEM_BULLET is ${_bullet}: it must be targets, system or a folder that Bullet is installed in")
 endif()
 
-# What was found for another choice is forgotten.
+# Results of another choice are discarded.
 if(NOT "${BulletPrecisions_CHOICE}" STREQUAL "${_bullet}")
     unset(BulletPrecisions_INCLUDE_DIR CACHE)
     foreach(_part IN LISTS _parts)
@@ -57,7 +57,7 @@ else()
     set(_where "")
     if(NOT _bullet STREQUAL "system")
         set(_where PATHS "${_bullet}" NO_DEFAULT_PATH)
-        # Bullet's own installation has one precision, and no suffix.
+        # Bullet's own installation has a single precision and no suffix.
         file(GLOB _own "${_bullet}/lib*/cmake/*/BulletConfig.cmake")
         if(_own)
             list(GET _own 0 _own)
@@ -87,7 +87,7 @@ endif()
 if(BulletPrecisions_INCLUDE_DIR)
     file(STRINGS "${BulletPrecisions_INCLUDE_DIR}/LinearMath/btScalar.h" BulletPrecisions_VERSION
         REGEX "^#define BT_BULLET_VERSION [0-9]+")
-    # 324 stands for 3.24.
+    # 324 means 3.24.
     string(REGEX REPLACE "^.* ([0-9])([0-9]+)$" "\\1.\\2" BulletPrecisions_VERSION "${BulletPrecisions_VERSION}")
 endif()
 

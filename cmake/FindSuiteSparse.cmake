@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Zlib
-# Finds the parts of SuiteSparse that are asked for as components; distributions ship it without a CMake configuration.
-#   component AMD      SuiteSparse::AMD, BSD: minimum-degree orders; with SuiteSparse_config
-#   component CHOLMOD  SuiteSparse::CHOLMOD, the GPL in Debian's binary: only for what is never installed
+# Finds parts of SuiteSparse, requested as components; distributions ship it without a CMake configuration.
+#   component AMD      SuiteSparse::AMD, BSD licence: minimum-degree orders; with SuiteSparse_config
+#   component CHOLMOD  SuiteSparse::CHOLMOD, GPL in Debian's binary: only for targets that are never installed
 #   SuiteSparse_VERSION  such as 5.12.0
 find_path(SuiteSparse_INCLUDE_DIR NAMES SuiteSparse_config.h PATH_SUFFIXES suitesparse)
 find_library(SuiteSparse_config_LIBRARY NAMES suitesparseconfig)

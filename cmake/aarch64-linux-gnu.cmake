@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
-# Toolchain: Debian's cross compiler for 64-bit Arm, and QEMU to run what it makes. CMAKE_SYSROOT has the libraries, as
-# docs/notes/arm.md tells to get them, or CMAKE_FIND_ROOT_PATH, where tools/ci/arm.sh puts them.
+# Toolchain: Debian's cross compiler for 64-bit Arm, and QEMU to run its programs. Libraries are in CMAKE_SYSROOT, as
+# described in docs/notes/arm.md, or in CMAKE_FIND_ROOT_PATH, as set up by tools/ci/arm.sh.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

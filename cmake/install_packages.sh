@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: Zlib
 # shellcheck shell=bash disable=SC2034
-# Sourced by demos/run.sh and tests/run.sh: Debian packages, installed only if they are missing.
+# Sourced by demos/run.sh and tests/run.sh: installs Debian packages that are missing.
 
-# What every build of this project needs.
+# Needed by each build of this project.
 build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libhwy-dev libtbb-dev libsuitesparse-dev libmetis-dev
     libassimp-dev libxxhash-dev libtinyxml2-dev zlib1g-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev)
 
-# What pictures and the window need; the build leaves them out without these. The last two are the software driver for OpenGL.
+# Needed for pictures and the window; without them the build leaves both out. The last two are OpenGL's software driver.
 picture_packages=(pkg-config libepoxy-dev libegl-dev libstb-dev fonts-dejavu-core libglfw3-dev libimgui-dev libgl1
     libegl-mesa0 libgl1-mesa-dri)
 
 say() { printf '== %s\n' "$*"; }
 fail() { printf 'error: %s\n' "$*" >&2; exit 1; }
 
-# as_root <command>...: runs it as root, through sudo if need be.
+# as_root <command>...: runs the command as root, through sudo if necessary.
 as_root()
 {
     if [ "$(id -u)" -eq 0 ]; then
@@ -27,7 +27,7 @@ as_root()
 
 is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
 
-# install_packages <package>...: installs those that are missing, and touches nothing if none is.
+# install_packages <package>...: installs missing packages; does nothing if none is missing.
 install_packages()
 {
     local missing=() package

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
-# Writes OUTPUT, what ctest reads to run each suite of the GoogleTest program PROGRAM as one test; called when that is
-# built. NAME_SUFFIX goes behind the suites' names, PROPERTIES to set_tests_properties.
+# Writes OUTPUT, a file by which ctest runs each suite of the GoogleTest program PROGRAM as one test; called after the
+# program is built. NAME_SUFFIX is appended to the suites' names, PROPERTIES are passed to set_tests_properties.
 execute_process(COMMAND ${EMULATOR} "${PROGRAM}" --gtest_list_tests
     OUTPUT_VARIABLE _list TIMEOUT 60 COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "\n[A-Za-z0-9_/]+[.][ \n]" _suites "\n${_list}")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Zlib
 # shellcheck shell=bash
-# Sourced after install_packages.sh by demos/run.sh and tests/run.sh: the surface meshes of a Debian package.
+# Sourced after install_packages.sh by demos/run.sh and tests/run.sh: gets surface meshes from a Debian package.
 
 mesh_package=libcgal-demo
 mesh_archive=usr/share/doc/libcgal-dev/data.tar.gz
 
-# extract_meshes <folder> <path in the archive>...: takes files or folders out of the package. It need not be installed:
-# slim images leave out /usr/share/doc.
+# extract_meshes <folder> <path in the archive>...: extracts files or folders from the package without installing it,
+# because slim images leave out /usr/share/doc.
 extract_meshes()
 {
     local into=$1 download

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
-# Toolchain: Debian's cross compiler for Windows (g++-mingw-w64-x86-64-posix), and Wine to run what it makes. Programs need
-# no library of the compiler. CMAKE_FIND_ROOT_PATH has the other libraries; tools/ci/windows.sh puts them there.
+# Toolchain: Debian's cross compiler for Windows (g++-mingw-w64-x86-64-posix), and Wine to run its programs. The
+# compiler's runtime is linked statically. Other libraries are in CMAKE_FIND_ROOT_PATH, set up by tools/ci/windows.sh.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A surface mesh becomes a finite-element body and falls on a tilted box and a plane, with rigid boxes falling on it.
+// A surface mesh becomes a finite-element body and falls onto a tilted box and a plane; rigid boxes fall onto it.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -54,11 +54,11 @@ DropSize sizeOf(const DropOptions& options)
     const DropSize size = chooseSize(readSurfaceFile(options.m_meshFile), options);
     std::printf("%s: longest side %.4g, times %.4g = %.4g m\n", options.m_meshFile.c_str(), size.m_fileLength,
                 size.m_scale, size.m_length);
-    std::fflush(stdout);  // before what stderr may say
+    std::fflush(stdout);  // keeps stdout and stderr in order
     return size;
 }
 
-/// False if a check of the report failed.
+/// Returns false if a check of the report failed.
 bool run(const DropOptions& options)
 {
     DropScene scene(options, sizeOf(options));

@@ -9,9 +9,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPlaneHalfSide = 2.5;  // of the piece drawn, in units of the body's length
+constexpr double kPlaneHalfSide = 2.5;  // of the square drawn, in units of the body's length
 
-// Corners of a box are numbered by their signs, x + 2 y + 4 z; these triangles face outward.
+// Corners of a box are numbered by their signs, x + 2 y + 4 z; the triangles face outward.
 constexpr int kBoxTriangles[12][3] = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
                                       {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
 
@@ -75,7 +75,7 @@ void DropFrames::writeBody(double time)
     m_bodySeries.writeBodies(time, {m_body});
 }
 
-// The surface's vertices lie in elements of the cage, with barycentric weights of their nodes.
+// Interpolates nodal stress to the vertices of the surface with their barycentric weights in elements of the cage.
 void DropFrames::interpolateStress()
 {
     const btSoftBody& body = m_scene.softBody();

@@ -11,15 +11,15 @@
 namespace bullet_fem
 {
 
-/// The scene as two ParaView series: "body", the file's surface with its displacement [m] from the first frame and the
-/// stress [Pa] of the elements around it, and "rigid", the boxes and a piece of the plane.
+/// The scene as two ParaView series. "body" has the file's surface with its displacement [m] from the first frame and
+/// the stress [Pa] of the elements around it; "rigid" has the boxes and a square of the plane.
 class DropFrames
 {
 public:
     /// Throws std::runtime_error if the folder cannot be made.
     DropFrames(const std::string& folder, const DropScene& scene);
 
-    /// Writes both series' next frame at `time` [s]. Throws std::runtime_error if that fails.
+    /// Writes the next frame of both series at `time` [s]. Throws std::runtime_error on failure.
     void write(double time);
 
     int frameCount() const { return m_bodySeries.frameCount(); }

@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// What the user may choose. Lengths are those of the scene, after scaling.
+/// User options. Lengths are those of the scene, after scaling.
 struct DropOptions
 {
     std::string m_meshFile;  ///< OFF, OBJ, STL or PLY
@@ -20,11 +20,11 @@ struct DropOptions
     double m_density = 1000;        ///< rho [kg/m3], in [1, 1e6]
     double m_seconds = 4;           ///< simulated time [s], in [1e-4, 3600]
     double m_step = 1.0 / 60;       ///< h [s], in [1e-4, 0.1]
-    double m_framesPerSecond = 30;  ///< of the written series [1/s], in [0.01, 1e4]
+    double m_framesPerSecond = 30;  ///< frame rate of the written series [1/s], in [0.01, 1e4]
 };
 
-/// Reads the command line. Of an option given twice the later value counts. Returns the program's exit code if it is to
-/// end now: 0 after --help, 2 after a message on stderr about a bad option.
+/// Reads the command line; the last value of a repeated option applies. Returns an exit code if the program is to end
+/// now: 0 after --help, 2 after a message on stderr about an invalid option.
 std::optional<int> parseOptions(int argc, char** argv, DropOptions& options);
 
 }  // namespace bullet_fem

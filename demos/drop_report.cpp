@@ -13,9 +13,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMomentumTolerance = 1e-4;  // of the weight's impulse; single precision gives about 1e-6
-constexpr double kEnergyTolerance = 1e-4;    // of the start's
-constexpr double kDepthTolerance = 0.02;     // of the longest side
+constexpr double kMomentumTolerance = 1e-4;  // relative to the impulse of the weight; single precision gives about 1e-6
+constexpr double kEnergyTolerance = 1e-4;    // relative to the initial energy
+constexpr double kDepthTolerance = 0.02;     // relative to the longest side
 
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
@@ -65,7 +65,7 @@ void printPhysics(const DropScene& scene, const DropFigures& figures)
     row("contacts", "mean %.1f, most %.0f", figures.m_contacts.mean(), figures.m_contacts.m_largest);
     row("deepest penetration", "%.2e m, %.2e of the longest side", figures.m_penetrationStatic,
         figures.m_penetrationStatic / scene.length());
-    // Bullet moves its bodies before soft contact is solved: a fast box enters by up to one step's way.
+    // Bullet moves its bodies before soft contact is solved, so a fast box penetrates by up to its path in one step.
     row("  with falling boxes", "%.2e m, %.2e of the longest side", figures.m_penetrationFalling,
         figures.m_penetrationFalling / scene.length());
     row("smallest element", "%.2f of its volume at rest%s", figures.m_smallestVolumeRatio,

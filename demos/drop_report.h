@@ -7,8 +7,8 @@
 namespace bullet_fem
 {
 
-/// Prints the table that ends the demo on stdout. False if momentum or energy is wrong, or the plane did not hold the
-/// body.
+/// Prints the final table on stdout. Returns false if the balance of momentum or energy is violated, or the plane did
+/// not hold the body.
 bool printReport(const DropScene& scene, const DropFigures& figures);
 
 }  // namespace bullet_fem

@@ -14,25 +14,26 @@ namespace
 constexpr int kWantedTets = 5000;
 const btVector3 kGravity(0, btScalar(-9.81), 0);  // [m/s2]
 
-// Friction between soft body and rigid one is the product of the two: 0.2 on the ramp, on which it slides as
-// tan 20 deg = 0.36; 0.5 on the plane, on which it stops.
+// The friction of a contact between soft and rigid body is the product of both: 0.2 on the ramp, where the body slides
+// (tan 20 deg = 0.36), and 0.5 on the plane, where it stops.
 constexpr btScalar kSoftFriction = btScalar(0.5), kRampFriction = btScalar(0.4), kPlaneFriction = 1,
                    kBoxFriction = btScalar(0.6);
 
 // In units of the body's length.
 constexpr btScalar kRampTilt = btScalar(20) * SIMD_RADS_PER_DEG;
 const btVector3 kRampHalfExtents(btScalar(0.75), btScalar(0.06), btScalar(0.75));
-constexpr btScalar kStartX = btScalar(-0.25);  // the body's middle: above the upper half of the ramp, whose middle is 0
-constexpr btScalar kStartGap = btScalar(0.2);  // from the ramp up to the body
+// The body's centre: above the upper half of the ramp, whose centre is at 0.
+constexpr btScalar kStartX = btScalar(-0.25);
+constexpr btScalar kStartGap = btScalar(0.2);  // between ramp and body
 
 struct FallingBox
 {
     btVector3 m_halfExtents;  // in units of the body's length
-    btVector3 m_position;     // x and z from the body's middle, y from the body's top, in the same unit
+    btVector3 m_position;     // x and z from the body's centre, y from its top, in units of the body's length
     double m_density;         // [kg/m3]
 };
 
-// Each meets the body a little later and farther down its way.
+// The boxes reach the body one after another, farther along its path.
 const FallingBox kFallingBoxes[] = {
     {btVector3(btScalar(.18), btScalar(.07), btScalar(.18)), btVector3(btScalar(.28), btScalar(.4), btScalar(.12)),
      500},
@@ -44,7 +45,7 @@ const FallingBox kFallingBoxes[] = {
 
 btTransform rampPose(btScalar length)
 {
-    // Its lower edge rests on the plane.
+    // The lower edge of the ramp rests on the plane.
     const btScalar height = kRampHalfExtents.x() * btSin(kRampTilt) + kRampHalfExtents.y() * btCos(kRampTilt);
     return btTransform(btQuaternion(btVector3(0, 0, 1), -kRampTilt), btVector3(0, height, 0) * length);
 }
@@ -58,7 +59,7 @@ btScalar rampHeight(btScalar x, btScalar length)
     return onFace.y() - (x - onFace.x()) * normal.x() / normal.y();
 }
 
-// Of the nodes: btSoftBody::getAabb adds a margin that does not scale with the scene.
+// Bounds of the nodes: btSoftBody::getAabb adds a margin that does not scale with the scene.
 void boundsOf(const btSoftBody& body, btVector3& low, btVector3& high)
 {
     low = high = body.m_nodes[0].m_x;
@@ -69,7 +70,7 @@ void boundsOf(const btSoftBody& body, btVector3& low, btVector3& high)
     }
 }
 
-// Moves the body's middle to kStartX and as low as kStartGap allows.
+// Moves the body's centre to x = kStartX, and down to a gap of kStartGap.
 void placeAboveRamp(btSoftBody& body, btScalar length)
 {
     btVector3 low, high;
@@ -107,12 +108,12 @@ DropScene::~DropScene()
 
 void DropScene::step()
 {
-    m_world.stepSimulation(static_cast<btScalar>(m_step), 0);  // 0: one step of just this size
+    m_world.stepSimulation(static_cast<btScalar>(m_step), 0);  // 0: one step of exactly this size
 }
 
 void DropScene::addPlane()
 {
-    m_configuration.setPlaneConvexMultipointIterations();  // else boxes touch a plane in one point, and sink into it
+    m_configuration.setPlaneConvexMultipointIterations();  // otherwise boxes get one contact point and penetrate
     m_shapes.push_back(std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)));
     m_plane = std::make_unique<btRigidBody>(btScalar(0), nullptr, m_shapes.back().get());
     m_plane->setFriction(kPlaneFriction);

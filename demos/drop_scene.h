@@ -19,13 +19,13 @@ class btSoftBody;
 namespace bullet_fem
 {
 
-/// A soft body above a tilted box on a plane, and rigid boxes above all. y is up. All lengths but the body's own are
-/// multiples of the body's longest side, so the scene looks alike at any scale.
+/// A soft body above a tilted box on a plane, with rigid boxes above it. y is up. Lengths are multiples of the body's
+/// longest side, so that the scene looks alike at all scales.
 class DropScene
 {
 public:
-    /// Builds the world and factors the body for options.m_step.
-    /// Throws std::runtime_error on a bad file, std::invalid_argument on a bad surface, cell or material.
+    /// Builds the world and factors the body for options.m_step. Throws std::runtime_error on an unreadable file,
+    /// std::invalid_argument on an unsuitable surface, cell or material.
     DropScene(const DropOptions& options, const DropSize& size);
     ~DropScene();
     DropScene(const DropScene&) = delete;
@@ -34,14 +34,14 @@ public:
     void step();  ///< by options.m_step
 
     const btSoftBody& softBody() const { return *m_softBody; }
-    const CageReport& cage() const { return m_cage; }  ///< that it was made with
+    const CageReport& cage() const { return m_cage; }  ///< of the body's cage
     const btFemStepReport& report() const { return m_fem.stepReport(m_softBody.get()); }
     const btAlignedObjectArray<btFemContact>& contacts() const { return m_fem.contacts(m_softBody.get()); }
     void getStress(btAlignedObjectArray<btFemStress>& perNode) const  ///< [Pa]
     {
         m_fem.getNodeStress(m_softBody.get(), perNode);
     }
-    /// The tilted box first, which is static; then those that fall.
+    /// The static tilted box first, then the falling boxes.
     const std::vector<std::unique_ptr<btRigidBody>>& boxes() const { return m_boxes; }
     btVector3 gravity() const { return m_world.getGravity(); }  ///< [m/s2]
     double length() const { return m_length; }                  ///< longest side of the body at the start [m]

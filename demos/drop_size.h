@@ -8,17 +8,16 @@
 namespace bullet_fem
 {
 
-/// How large a surface becomes in the scene.
+/// Size of the surface in the scene.
 struct DropSize
 {
-    double m_fileLength = 0;  ///< longest side of the surface's bounding box as the file has it [-]
-    double m_scale = 1;       ///< scene metres a unit of the file [m]
-    double m_length = 0;      ///< longest side in the scene [m]: the scene's unit of length
+    double m_fileLength = 0;  ///< longest side of the surface's bounding box in units of the file [-]
+    double m_scale = 1;       ///< scene metres per unit of the file [m]
+    double m_length = 0;      ///< longest side in the scene [m], the scene's unit of length
 };
 
-/// Takes the scale from the options, or chooses it: 1 m.
-/// Throws std::invalid_argument if the body would be smaller than 1 cm or larger than 100 m, which is beyond what
-/// single precision and Bullet's margins are made for.
+/// Takes the scale from the options, or chooses it for a length of 1 m. Throws std::invalid_argument if the body would
+/// be smaller than 1 cm or larger than 100 m, outside the range of single precision and Bullet's margins.
 DropSize chooseSize(const SurfaceMesh& surface, const DropOptions& options);
 
 }  // namespace bullet_fem

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# gallery.sh [--docs] [demo | scene]...: installs what is missing (Debian 12, as root or with sudo), builds the demos of
-# the gallery, runs all of them and the scenes that show materials, or those that are named, and leaves figures, three
-# pictures and a film of each in out/gallery/.
-# --docs: also puts the small films of docs/gallery.md and docs/materials.md into docs/gallery/.
+# gallery.sh [--docs] [demo | scene]...: installs missing packages (Debian 12, as root or with sudo), builds and runs
+# the demos of the gallery and the scenes on materials, all or the named ones, and writes results, three pictures and a
+# film of each to out/gallery/.
+# --docs: also writes the small films of docs/gallery.md and docs/materials.md to docs/gallery/.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 source "$root/cmake/mesh_package.sh"
 
-most_bytes=1000000         # of a film in docs/gallery
-most_bytes_compare=1500000 # of the one on README's first screen
+most_bytes=1000000         # limit of a film in docs/gallery
+most_bytes_compare=1500000 # limit of the film on README's first screen
 mesh_in_archive=data/meshes/elephant.off
-build=$root/build/gallery # of its own, so that no other script changes its options
+build=$root/build/gallery # separate from other scripts' build folders, because options differ
 into_docs=no
 material_scenes=(bending crush locking plate relax) # demos/scenes/<name>.json, in docs/materials.md
 demos=()
@@ -48,15 +48,15 @@ say "building in $build"
     -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
 cmake --build "$build" --target "${targets[@]}" --parallel "$(nproc)"
 
-# end_of_motion <film>: half a second after the last of its pictures that differs from the one before [s]; nothing where
-# it moves to its end.
+# end_of_motion <film>: half a second after the last picture that differs from the previous one [s]; empty if the motion
+# lasts to the end.
 end_of_motion()
 {
     ffmpeg -hide_banner -nostats -i "$1" -vf freezedetect=noise=0.0006:duration=0.5 -f null - 2>&1 |
         awk '/freeze_start/ { end = $NF + 0.5 } /freeze_end/ { end = "" } END { print end }'
 }
 
-# shrink <film> <GIF> <size> <colours> <loss>: a film for documents, which ends when the motion ends.
+# shrink <film> <GIF> <size> <colours> <loss>: makes a film for documents, which ends with the motion.
 shrink()
 {
     local end
@@ -66,7 +66,7 @@ scale=$3:flags=area,split[a][b];[a]palettegen=max_colors=$4:stats_mode=full[p];[
     gifsicle --batch --optimize=3 --lossy="$5" "$2"
 }
 
-# play <demo or scene>: runs it, and makes a small film for documents of its large one.
+# play <demo or scene>: runs it, and makes a small film for documents from the large one.
 play()
 {
     local demo=$1 out=$root/out/gallery/$1 options=() look=(480:270 64 40)
@@ -86,7 +86,7 @@ play()
 }
 
 failed=()
-for ((k = 0; k < ${#demos[@]}; k += 2)); do # two at a time
+for ((k = 0; k < ${#demos[@]}; k += 2)); do # two in parallel
     running=()
     for demo in "${demos[@]:k:2}"; do
         say "playing $demo"

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs what is missing (Debian 12, as root or with sudo), builds and runs README's first program and the drop demo, on a
-# scanned elephant, and draws it.
-# Further arguments go to the demo: demos/run.sh --young 2e5 --seconds 2
+# Installs missing packages (Debian 12, as root or with sudo), builds README's first program and the drop demo, runs
+# them, the latter with a scanned elephant, and draws pictures.
+# Further arguments are passed to the demo: demos/run.sh --young 2e5 --seconds 2
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 source "$root/cmake/mesh_package.sh"
 
 mesh_in_archive=data/meshes/elephant.off
-build=$root/build/release # as tests/run.sh has, which builds the rest
+build=$root/build/release # shared with tests/run.sh, which builds the other targets
 mesh=$build/$mesh_in_archive
 
 install_packages "${build_packages[@]}" "${picture_packages[@]}"
@@ -20,7 +20,7 @@ if [ ! -s "$mesh" ]; then
 fi
 
 say "building in $build"
-if [ ! -f "$build/build.ninja" ]; then # else with the options that it has
+if [ ! -f "$build/build.ninja" ]; then # otherwise keep the present options
     (cd "$root" && cmake --preset release -DBULLETFEM_UNITY=8 -DBULLETFEM_BUILD_TESTS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF)
 fi
 cmake --build "$build" --target bulletfem_hello bulletfem_drop bulletfem --parallel "$(nproc)"

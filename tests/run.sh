@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs what is missing (Debian 12, as root or with sudo), builds and runs all tests but the slow ones, which take longer:
-# tests/run.sh -L slow. Arguments go to ctest, in place of that, and everything is built: tests/run.sh -R SurfaceFile
+# Installs missing packages (Debian 12, as root or with sudo), builds and runs all tests except the slow ones, which
+# take longer: tests/run.sh -L slow. With arguments it builds all targets and passes them to ctest: tests/run.sh -R
+# SurfaceFile
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 source "$root/cmake/mesh_package.sh"
 
 build=$root/build/release
-meshes=data/meshes # in the package, and in the folder where the tests look
+meshes=data/meshes # path in the package and path expected by the tests
 
-# clang is for the fuzzers of the file readers. Gmsh, if it is installed, adds tests of the files that it writes, and
-# libvalijson-dev one that holds the schema of scenes against their reader; both bring more than a hundred packages.
+# clang is for the fuzzers of the file readers. Two optional packages with more than a hundred dependencies enable
+# further tests: Gmsh (its files) and libvalijson-dev (schema of scenes against the reader).
 install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev \
     xvfb xauth clang libclang-rt-14-dev
 
@@ -27,13 +28,13 @@ say "building in $build"
     -DBULLETFEM_BUILD_SLOW_TESTS="$everything" -DBULLETFEM_BUILD_BENCHMARKS="$everything")
 cmake --build "$build" --parallel "$(nproc)"
 
-# One test asks the Khronos validator, which npm has; it is skipped, and says so, where that cannot be had.
+# One test uses the Khronos validator from npm; it is skipped with a message if that is unavailable.
 if command -v npm >/dev/null && [ ! -d "$build/npm/node_modules/gltf-validator" ]; then
     timeout 120 npm install --silent --no-fund --no-audit --prefix "$build/npm" gltf-validator@2.0.0-dev.3.10 ||
         say "npm could not install gltf-validator: its test will be skipped"
 fi
 
-# Each suite is one test, unless names of tests are asked for, which may be those of cases.
+# Each suite is one test unless tests are selected by name, because names may be those of cases.
 case " $* " in
 *\ -[RE]* | *--tests-regex* | *--exclude-regex*) ;;
 *) export BULLETFEM_TEST_SUITES=1 ;;

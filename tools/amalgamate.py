@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Writes BulletFEM::runtime as one header and one source file, to be compiled as a part of a program. Standard library
-only.
+"""Writes BulletFEM::runtime as one header and one source file, which a program compiles with its own sources. Needs
+Python's standard library only.
 
     tools/amalgamate.py <folder>     writes bullet_fem_runtime.h and bullet_fem_runtime.cpp there
 
 The program includes the header in place of bullet_fem/..., compiles the source with Bullet's, Eigen's, Highway's and
-xxHash's headers, and links Bullet. Kernels are compiled for the instruction set that the compiler is told of
-(HWY_COMPILE_ONLY_SCALAR: for none); BULLETFEM_WITH_TBB shares the work among threads and then links oneTBB.
+xxHash's headers, and links Bullet. Kernels are compiled for the compiler's target instruction set
+(HWY_COMPILE_ONLY_SCALAR: without vectors); BULLETFEM_WITH_TBB enables threads and requires oneTBB.
 
-Names that two source files have for themselves would meet in one file: they get the file's number behind them.
+Local names that two source files share would collide in one file: the file's number is appended to them.
 """
 import argparse
 import itertools
@@ -21,11 +21,11 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FLOORS = ("common", "mesh", "elements", "factor", "body", "solve", "batch", "step", "contact", "cage", "baked")
 FOLDERS = [os.path.join("fem", floor) for floor in FLOORS] + ["bullet_bridge", "plugin"]
-# What BulletFEM::runtime does without: AMD and METIS, and readers of files.
+# Sources left out of BulletFEM::runtime: AMD and METIS, and readers of files.
 LEFT_OUT = {"ordering_libraries.cpp", "btFemFileHelpers.cpp", "btFemUrdf.cpp"}
 HEADERS = ("include/bullet_fem/fem/", "include/bullet_fem/bullet_bridge/", "include/bullet_fem/btFem")
 INCLUDE = re.compile(r'^#include "([^"]+)"')
-# Lines by which Highway includes a file again for other instruction sets.
+# Lines by which Highway includes a file again for each instruction set.
 OF_OTHER_TARGETS = re.compile(r"^#(undef|define) HWY_TARGET_INCLUDE|^#include <hwy/foreach_target.h>")
 DECLARED = [re.compile(pattern) for pattern in (
     r"^(?:class|struct|enum class|enum|union)(?: alignas\(\d+\)| \[\[\w+\]\])? (\w+)",
@@ -55,7 +55,7 @@ def resolve(name):
 
 
 def declared_by(line):
-    """Names of types and constants, and names of functions, that a line of a namespace declares."""
+    """Names of types and constants, and names of functions, declared in a line at namespace scope."""
     for pattern in DECLARED:
         match = pattern.match(line)
         if match:
@@ -66,7 +66,7 @@ def declared_by(line):
 
 
 def own_names(text):
-    """What a source file declares in anonymous namespaces and for its instruction sets alone: as declared_by."""
+    """Local names of a source file (anonymous namespaces, namespaces of instruction sets), as by declared_by."""
     values, functions, depth = set(), set(), 0
     for line in text.split("\n"):
         if re.match(r"^namespace( HWY_NAMESPACE)?\s*\{?$", line):
@@ -81,7 +81,7 @@ def own_names(text):
 
 
 def names_of_headers():
-    """As declared_by, of all headers but those of kernels."""
+    """Names in all headers except those of kernels, as by declared_by."""
     values, functions = set(), set()
     for path in itertools.chain.from_iterable(files_below(folder, ".h") for folder in FOLDERS + ["include/bullet_fem"]):
         if not path.endswith("-inl.h"):
@@ -94,7 +94,7 @@ def names_of_headers():
 
 
 def renamed(text, names, suffix):
-    """The text with the suffix behind these names, but where they are members or qualified."""
+    """Appends the suffix to these names, except for members and qualified names."""
     lines = text.split("\n")
     for name in sorted(names):
         pattern = re.compile(rf'(?<![\w.])(?<!->)(?<!::){name}\b')
@@ -105,8 +105,8 @@ def renamed(text, names, suffix):
 class Amalgam:
     def __init__(self):
         self.m_done = set()
-        # By file, what is its own and meets a name elsewhere. Functions that overload one of a header keep their name.
-        # Kernels share headers within a folder: what these declare is the folder's.
+        # Names of each file that also occur elsewhere. Functions that overload one of a header keep their name. Kernels
+        # of a folder share headers, whose names belong to the folder.
         self.m_of_file, self.m_of_folder = {}, {}
         header_values, header_functions = names_of_headers()
         own, owners = {}, {}
@@ -124,7 +124,7 @@ class Amalgam:
                 self.m_of_file[path] = meets
 
     def expand(self, path, lines, text=None):
-        """Appends the file with the project's headers in their places, each once."""
+        """Appends the file; each of the project's headers is expanded at its first include."""
         self.m_done.add(path)
         text = text or read(path)
         folder = os.path.dirname(path)

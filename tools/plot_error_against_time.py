@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Draws error against time from the curve of bulletfem_bench_beam. Needs python3-matplotlib.
+"""Plots error against time from the curve of bulletfem_bench_beam. Needs python3-matplotlib.
 
     bulletfem_bench_beam --curve --tets 12288 --young 1e6 --json curve.json
     tools/plot_error_against_time.py curve.json docs/error_against_time.png
@@ -20,7 +20,7 @@ STYLES = {  # method: name, colour, marker
     "direct": ("BulletFEM, direct mode", "#7d3c98", "D"),
     "bullet": ("Bullet deformable", "#34618f", "^"),
 }
-SMALLEST = 1e-10  # error that is drawn for one of zero
+SMALLEST = 1e-10  # drawn in place of a zero error
 
 
 def draw(rows, axes):

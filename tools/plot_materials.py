@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Draws the curves that bulletfem_bench_materials measured beside the formulas. Needs python3-matplotlib.
+"""Plots the curves measured by bulletfem_bench_materials and the corresponding formulas. Needs python3-matplotlib.
 
     bulletfem_bench_materials --json materials.json
     tools/plot_materials.py materials.json docs/materials.png
@@ -31,7 +31,7 @@ def draw(curves, figure, axes):
         axes.plot(x, [y_factor * value for value in curve["formula"]], color="black", linewidth=0.9, label=formula)
         axes.plot(x, [y_factor * value for value in curve["measured"]], color=colour, marker="o", markersize=3,
                   linewidth=1 if figure == "tip" else 0, label=curve["name"])
-        formula = None  # once in the legend
+        formula = None  # one entry in the legend
     axes.set_title(title, fontsize=9)
     axes.set_xlabel(x_name, fontsize=8)
     axes.set_ylabel(y_name, fontsize=8)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Draws what bulletfem_bench_motion measured against the step. Needs python3-matplotlib.
+"""Plots the results of bulletfem_bench_motion against the step size. Needs python3-matplotlib.
 
     bulletfem_bench_motion --json motion.json
     tools/plot_motion_against_step.py motion.json docs/motion_against_step.png
@@ -19,15 +19,15 @@ STYLES = {  # method: name, colour, marker
     "second order": ("second order", "#c0392b", "s"),
     "rigid": ("Bullet's rigid sphere", "#7f8c8d", "^"),
 }
-CASES = {  # case: title, what the axis shows, of the reference
+CASES = {  # case: title, axis label, whether relative to the reference
     "tip": ("Tip of a clamped beam, 10 MPa", "largest error / deflection", False),
     "swing": ("Swing of 1.7 Hz, undamped", "half-life of the amplitude [s]", False),
     "drop": ("Ball of 1 MPa dropped from 1 m", "speed after / before", False),
     "roll10": ("Ball rolling down 10 degrees", "speed / reference", True),
     "roll20": ("Ball rolling down 20 degrees", "speed / reference", True),
 }
-LONGEST = 1e4  # half-life that is drawn for a longer one [s]
-CURVE = {"tip", "swing"}  # drawn with logarithms
+LONGEST = 1e4  # upper limit of half-lives drawn [s]
+CURVE = {"tip", "swing"}  # logarithmic
 
 
 def label(rate):

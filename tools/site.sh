@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Makes docs/site/index.html by doxygen: the API reference, the documents and the examples, with search. Fails if doxygen
-# finds a public name without a description, or a link that leads nowhere.
+# Builds docs/site/index.html by doxygen: the API reference, the documents and the examples, with search. Fails if a
+# public name has no description or a link has no target.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/tools/ci/stages.sh"

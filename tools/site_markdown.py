@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Doxygen's filter for documents: prints a Markdown file with a label behind every heading, and links that go to them.
-Doxygen labels headings by their number, GitHub by their words; labels here are the file's name and GitHub's words."""
+"""Doxygen's filter for documents: prints a Markdown file with a label after each heading and links to these labels.
+Doxygen labels headings by their number, GitHub by their words; these labels are the file's name and GitHub's words."""
 import os
 import re
 import sys
@@ -11,7 +11,7 @@ LINK = re.compile(r"\]\(([\w./-]*\.md)?#([\w-]+)\)")
 
 
 def label_of(path, words):
-    """As GitHub makes it, with the file's name before it, because one site has all files."""
+    """GitHub's anchor, prefixed with the file's name because one site has all files."""
     anchor = re.sub(r"[^\w\- ]", "", words.strip().lower()).replace(" ", "-")
     return f"{os.path.splitext(os.path.basename(path))[0].lower()}-{anchor}"
 
@@ -26,7 +26,7 @@ def main():
             heading = None if in_code else re.match(r"#{2,4} (.*)$", line)
             if heading:
                 label = label_of(path, heading[1])
-                if label not in labels:  # of a word that is there twice, GitHub's link goes to the first
+                if label not in labels:  # for repeated headings GitHub's link leads to the first
                     labels.add(label)
                     line += f" {{#{label}}}"
             elif not in_code:

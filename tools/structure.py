@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Prints the structure of the source tree by its includes, and with --check fails where it is not the one that
-docs/architecture.md draws. Standard library only.
+"""Prints the structure of the source tree by its includes; --check fails if it deviates from docs/architecture.md. Needs
+Python's standard library only.
 
     tools/structure.py             rooms, arrows between them, arrows back, mutual rooms, loose files, knots, longest files
                                    and functions, largest classes
-    tools/structure.py --check     exits with 1, too, if a limit is exceeded or a room sees what it must not
+    tools/structure.py --check     also exits with 1 if a limit is exceeded or a room has a forbidden include
 
-A room is a folder; the public headers of a room are part of it. A unit is a header with the source file of its name. A
-knot is a set of units that reach each other by includes. An arrow is back if its room stands above the one that it
-leaves; rooms that FLOORS does not name are not judged by it. Functions of a class are those declared in it, private ones
-included; members are its variables.
+A room is a folder with its public headers. A unit is a header with the source file of its name. A knot is a cycle: a
+set of units that reach each other by includes. An arrow from one room to another means that it includes it; it goes back
+if its target is above its source. Rooms not named in FLOORS are not checked. Functions of a class are those declared in
+it, including private ones; members are its variables.
 """
 import argparse
 import os
@@ -23,12 +23,12 @@ SOURCES = ("fem", "bullet_bridge", "plugin", "io", "tools", "demos", "benchmarks
 
 
 def ladder(top, rooms):
-    """Floors of which each may include from all below it."""
+    """Floors, each with all those below it, which it may include."""
     paths = [f"{top}/{room}" for room in rooms]
     return [(path, paths[:at]) for at, path in enumerate(paths)]
 
 
-# Rooms from the ground up; a room may include from those before it on its line, and from what is named behind the colon.
+# Folders bottom-up. A folder may include those before it on its line, and those named after the colon.
 FLOORS = ladder("fem", ["common", "mesh", "elements", "factor", "body", "solve", "batch", "step", "contact"]) + [
     ("fem/fracture", ["fem/step", "fem/body", "fem/elements", "fem/mesh", "fem/common"]),
     ("fem/cage", ["fem/mesh", "fem/common"]),
@@ -36,7 +36,7 @@ FLOORS = ladder("fem", ["common", "mesh", "elements", "factor", "body", "solve",
 ] + ladder("bullet_bridge", ["geometry", "geometry/surface", "geometry/shapes", "body", "rigid", "joints", "contact",
                              "contact/soft", "contact/rigid", "contact/cloth", "snapshot"]
 ) + ladder("io", ["public", "text", "surface", "frames", "tet"])
-# Layers likewise, by their first folder; `fem` stands for its public headers and fem/common.
+# Layers bottom-up by top folder; `fem` stands for its public headers and fem/common.
 LAYERS = {
     "fem": ["fem"],
     "io": ["io", "fem"],
@@ -50,10 +50,10 @@ MOST_LINES_OF_FILE = 400
 MOST_LINES_OF_FUNCTION = 60
 MOST_UNITS_OF_KNOT = {"fem": 3}
 MOST_UNITS_OF_OTHER_KNOT = 4
-HAVE_NO_LOOSE_SOURCES = ("fem", "bullet_bridge", "io")  # all of theirs stand in rooms
+HAVE_NO_LOOSE_SOURCES = ("fem", "bullet_bridge", "io")  # all their source files are in subfolders
 MOST_FUNCTIONS_OF_CLASS = 20
-MOST_MEMBERS_OF_CLASS = 15  # of one that has functions; tables of values may have as many as there are
-EXCUSED_CLASSES = "docs/architecture.md"  # below "Larger classes" it says why: | `Class` | ... |
+MOST_MEMBERS_OF_CLASS = 15  # of a class with functions; plain structs are not limited
+EXCUSED_CLASSES = "docs/architecture.md"  # the table below "Larger classes" gives reasons: | `Class` | ... |
 
 
 def source_files():
@@ -73,7 +73,7 @@ def is_forwarder(path):
 
 
 def room_of(path):
-    """The folder of a file; public headers stand with what they declare."""
+    """Folder of a file; a public header belongs to the folder of its source file."""
     folder = os.path.dirname(path)
     if folder in ("include/bullet_fem", "include/bullet_fem/io"):
         return {"include/bullet_fem": "plugin", "include/bullet_fem/io": "io"}[folder] + "/public"
@@ -81,7 +81,7 @@ def room_of(path):
 
 
 def unit_of(path):
-    """Path without include/bullet_fem and ending, so that a public header and its source file are one."""
+    """Path without include/bullet_fem and extension, which a public header and its source file share."""
     name = re.sub(r"(-inl)?\.(h|cpp)$", "", path)
     return re.sub(r"^include/bullet_fem/", "", name)
 
@@ -94,7 +94,7 @@ def resolve(name, files):
 
 
 def includes(files):
-    """Pairs of files: who includes whom."""
+    """Pairs of files: (including file, included file)."""
     found = set(files)
     for path in files:
         with open(os.path.join(ROOT, path), encoding="utf-8") as file:
@@ -105,7 +105,7 @@ def includes(files):
 
 
 def unit_graph(pairs):
-    """Of units, by the header's public place where a source file stands elsewhere."""
+    """Includes between units; a source file elsewhere belongs to the unit of its public header."""
     by_name = {}
     graph = {}
     for path, target in pairs:
@@ -120,7 +120,7 @@ def unit_graph(pairs):
 
 
 def merge_public(graph):
-    """A source file whose header is public has another path: plugin/x.cpp and btFemX.h are one unit."""
+    """Joins source files with public headers at other paths: plugin/x.cpp and btFemX.h are one unit."""
     headers = {os.path.basename(unit): unit for unit in graph if "/" not in unit}
     rename = {unit: headers[os.path.basename(unit)] for unit in graph
               if "/" in unit and unit.startswith("plugin/") and os.path.basename(unit) in headers}
@@ -176,7 +176,7 @@ def top_of(unit):
 
 
 def function_lengths(path):
-    """Lines of the functions of a file: bodies that begin with a brace in the first column or after a member's head."""
+    """First line and length of each function: bodies with a brace in the first column or after a member's head."""
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         lines = file.read().split("\n")
     for number, line in enumerate(lines):
@@ -196,7 +196,7 @@ def without_comments(text):
 
 
 def declarations(text, start):
-    """What a class declares whose body begins at start, without the bodies of its functions and of nested classes."""
+    """Declarations of the class whose body begins at `start`, without bodies of functions and nested classes."""
     found, current, depth = [], "", 1
     for c in text[start:]:
         depth += (c == "{") - (c == "}")
@@ -210,7 +210,7 @@ def declarations(text, start):
 
 
 def classes(path):
-    """Name, functions and members of every class of a file."""
+    """Name, number of functions and number of members of each class in a file."""
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         text = without_comments(file.read())
     head = re.compile(r"\b(?:class|struct)\s+(?:BULLETFEM_API\s+|alignas\([^)]*\)\s+)*(\w+)(?:\s+final)?\s*(?::[^;{(]*)?\{")
@@ -231,7 +231,7 @@ def classes(path):
 
 
 def judge_classes(files):
-    """Prints the ten largest, and returns the faults."""
+    """Prints the ten largest classes, and returns the faults."""
     with open(os.path.join(ROOT, EXCUSED_CLASSES), encoding="utf-8") as file:
         excused = set(re.findall(r"^\| `(\w+)` \|", file.read().split("### Larger classes")[-1], re.MULTILINE))
     found = [(max(functions / MOST_FUNCTIONS_OF_CLASS, members / MOST_MEMBERS_OF_CLASS), name, functions, members, path)
@@ -251,7 +251,7 @@ def judge_classes(files):
 
 
 def judge_rooms(arrows):
-    """Arrows that FLOORS and LAYERS do not allow, with the reason."""
+    """Includes that FLOORS and LAYERS forbid, with the reason."""
     floors = dict(FLOORS)
     for (a, b), files in sorted(arrows.items()):
         top_a, top_b = a.split("/")[0], b.split("/")[0]

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# wasm.sh <Bullet's source> [<folder>]: the browser page of demos/browser, as static files in out/browser/ or that folder.
-# Installs what is missing (Debian 12, as root or with sudo): emscripten, which makes WebAssembly of Bullet,
-# BulletFEM::runtime (one thread, scalar kernels, single precision) and the scene; node.js plays the scene. Where Chromium
-# and python3-websockets are installed they play the page, with pictures in <folder>.pictures.
+# wasm.sh <Bullet's source> [<folder>]: builds the browser page of demos/browser as static files in out/browser/ or the
+# folder. Installs missing packages (Debian 12, as root or with sudo): emscripten compiles Bullet, BulletFEM::runtime
+# (one thread, scalar kernels, single precision) and the scene to WebAssembly; node.js runs the scene. If Chromium and
+# python3-websockets are installed they test the page, with pictures in <folder>.pictures.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/tools/ci/stages.sh"
@@ -14,7 +14,7 @@ build=$root/build/wasm
 toolchain=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake
 mesh_in_archive=data/meshes/elephant.off
 tets=2500
-young=316228 # [Pa], 10^5.5; this and what follows as the sliders of the page stand at first
+young=316228 # [Pa], 10^5.5; this and the following are the initial slider values of the page
 poisson=0.4
 damping=0.01 # [s]
 step=1/60 # [s]
@@ -39,7 +39,7 @@ fi
 
 say "building for WebAssembly"
 link_headers
-flags=(-fwasm-exceptions -msimd128) # the second lets the compiler use vectors where it sees that it can
+flags=(-fwasm-exceptions -msimd128) # the second one allows vectorization by the compiler
 export CFLAGS="${flags[*]}" CXXFLAGS="${flags[*]}"
 install_bullet "$1"
 cross_install "$root" libraries "${fem_options[@]}" -DBULLETFEM_BULLET="$cross_root" -DBULLETFEM_VECTORS=scalar \
@@ -59,7 +59,7 @@ for source in "${sources[@]}" demos/browser/drag.cpp; do
 done
 libraries=("-L$cross_root/lib" -lbulletfem_runtime "${bullet[@]/#/-l}" -sALLOW_MEMORY_GROWTH=1)
 em++ -O3 "${flags[@]}" "${objects[@]}" "${libraries[@]}" -sNODERAWFS=1 -o "$build/scene/drag.js"
-unset 'objects[-1]' # what only drag.cpp is for
+unset 'objects[-1]' # drop drag.cpp from the page
 em++ -O3 "${flags[@]}" "${objects[@]}" "${libraries[@]}" --no-entry -sMODULARIZE=1 -sEXPORT_NAME=loadBulletFEM \
     -sENVIRONMENT=web -sFILESYSTEM=0 -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString \
     -o "$out/bulletfem.js"
@@ -67,7 +67,7 @@ cp "$root/demos/browser/index.html" "$root/demos/browser/page.js" "$out"
 
 say "playing the scene: for this machine, then as WebAssembly in node.js $(node --version)"
 "$build/scene/drag" "$out/elephant.bfem"
-node --no-experimental-fetch "$build/scene/drag.js" "$out/elephant.bfem" # else Emscripten 3.1.6 fetches from the disk
+node --no-experimental-fetch "$build/scene/drag.js" "$out/elephant.bfem" # else Emscripten 3.1.6 reads files by fetch
 result="the browser page's scene runs in node.js"
 if command -v chromium >/dev/null && /usr/bin/python3 -c 'import websockets' 2>/dev/null; then
     say "playing the page in $(chromium --version 2>/dev/null | cut -d ' ' -f 1-2)"

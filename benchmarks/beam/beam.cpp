@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The dynamic clamped beam: our step beside that of Bullet's own deformable world, each time with its error.
+// Dynamic clamped beam: BulletFEM's step compared with Bullet's deformable world, each time listed with its error.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -17,24 +17,24 @@ namespace
 using namespace bullet_fem;
 
 const char* const g_legend = R"(
-Times are of the step alone; rivals run on one thread, ours on those told above.
-residual     largest true |b - A dv| / |b| of all steps
-tip error    largest of all steps, against our own solution at 1e-8; Bullet's against that without the tension term,
-             which it has not (and it linearises at x + h v, not at x)
-counts       residual within the tolerance (1e-3 where none is set) and tip error within 0.1 % (or 1e-5 m;
+Times cover the step alone; Bullet's methods run on one thread, BulletFEM on the number of threads above.
+residual     largest true |b - A dv| / |b| over the steps
+tip error    largest over the steps, relative to BulletFEM's solution at 1e-8; for Bullet, relative to that solution
+             without the tension term, which Bullet lacks (and it linearises at x + h v, not at x)
+counts       residual within the tolerance (1e-3 if none is set) and tip error within 0.1 % (or 1e-5 m;
              0.6 % for Bullet)
-setup        all that happens before the first step; ours: mesh, order, factor, packing
-MB           heap held after the last step by model, body and (Bullet's) world, 1e6 bytes
-CPU          median of the processor time that the stepping thread got in a step, which programs beside it add little to; on a quiet machine it
-             is the wall time. The fair measure on a busy one, where long steps are interrupted and short ones are not
-x Bullet     Bullet's deformable world's median over this one's; by CPU: the same of processor times
+setup        time before the first step; for BulletFEM: mesh, order, factor, packing
+MB           heap in use after the last step by model, body and (Bullet's) world, 1e6 bytes
+CPU          median processor time of the stepping thread in a step, nearly independent of other programs; on an idle
+             machine it equals the wall time, on a busy one it is the better measure
+x Bullet     median of Bullet's deformable world over that of the row; by CPU: ratio of the processor times
 mass-spring  Bullet's plain soft body on the same mesh: another model, whose stiffness depends on step and iterations;
-             its times are all that compares
+             only its times are comparable
 )";
 
 const char* const g_curveLegend = R"(
-Error against time. Tip errors are those of each scheme against its own solution at a finer tolerance than all listed:
-ours at 1e-10, Bullet's at 1e-12 of its own measure, r^T M^-1 r / min(1, b^T M^-1 b), in single precision.
+Error against time. Tip errors of each scheme are relative to its own solution at a tighter tolerance than all listed:
+1e-10 for BulletFEM; for Bullet 1e-12 of its own measure, r^T M^-1 r / min(1, b^T M^-1 b), in single precision.
 )";
 
 struct Options
@@ -97,17 +97,16 @@ void addOptions(CLI::App& app, Options& options)
         ->capture_default_str();
     app.add_option("--young", options.m_youngModuli, "Young's moduli [Pa]")->delimiter(',')->capture_default_str();
     app.add_option("--steps", options.m_steps, "steps of 1/60 s")->check(CLI::Range(1, 100000))->capture_default_str();
-    app.add_flag("--curve", options.m_curve, "error against time: many tolerances, ours and Bullet's");
+    app.add_flag("--curve", options.m_curve, "error against time: BulletFEM and Bullet at many tolerances");
     app.add_flag("--no-bullet", options.m_noBullet, "leave Bullet's deformable world and mass-spring solver out");
     app.add_option("--spring-iterations", options.m_springIterations, "position iterations of the mass-spring solver")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    app.add_flag("--reference", options.m_reference,
-                 "tension term off, beside the digits the project verifies itself with");
-    app.add_option("--threads", options.m_threads, "threads that share our steps; 0: all of the machine")
+    app.add_flag("--reference", options.m_reference, "tension term off, compared with the verified tip heights");
+    app.add_option("--threads", options.m_threads, "threads of BulletFEM's steps; 0: all of the machine")
         ->check(CLI::Range(0, Threads::kMax))
         ->capture_default_str();
-    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.add_option("--json", options.m_jsonFile, "write the results to this file");
     app.footer(
         "Example, the table of docs/performance.md:\n  bulletfem_bench_beam --json beam.json\n"
         "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
@@ -118,8 +117,7 @@ void addOptions(CLI::App& app, Options& options)
 int main(int argc, char** argv)
 {
     Options options;
-    CLI::App app("Times the dynamic clamped beam: BulletFEM beside Bullet's own deformable world",
-                 "bulletfem_bench_beam");
+    CLI::App app("Times the dynamic clamped beam: BulletFEM and Bullet's own deformable world", "bulletfem_bench_beam");
     addOptions(app, options);
     CLI11_PARSE(app, argc, argv);
 

@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMaxCells = 32;  // a metre
+constexpr int kMaxCells = 32;  // per metre
 
 }  // namespace
 

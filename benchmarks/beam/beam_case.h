@@ -27,20 +27,20 @@ struct BeamCase
     int m_steps = 60;                 ///< steps to run, >= 1
 };
 
-/// What one method did with a BeamCase; one entry a step in every array.
+/// Results of one method for a BeamCase. Arrays have one entry per step.
 struct BeamRun
 {
     std::string m_method;
-    double m_tolerance = 0;             ///< the method's own setting [-]; 0 where it has none or keeps its default
-    bool m_sameModel = true;            ///< false: another model, so that residual and tip error mean nothing
-    double m_residualBound = 1e-3;      ///< |b - A dv| / |b| [-] up to which the run counts as solved
-    double m_tipBound = 1e-3;           ///< tip error [-] up to which the run counts as the same answer
-    double m_mass = 0;                  ///< mass of the free nodes [kg]
-    double m_setupSeconds = 0;          ///< everything before the first step [s]
-    std::size_t m_heapBytes = 0;        ///< held after the last step by all that the method needs [B]; 0 if unknown
-    std::size_t m_factorBytes = 0;      ///< of the packed factor [B]; 0 where there is none
+    double m_tolerance = 0;         ///< the method's own setting [-]; 0 if it has none or keeps its default
+    bool m_sameModel = true;        ///< false: another physical model; residual and tip error are then not comparable
+    double m_residualBound = 1e-3;  ///< |b - A dv| / |b| [-] up to which the run counts as solved
+    double m_tipBound = 1e-3;       ///< relative tip error [-] up to which the run counts as accurate
+    double m_mass = 0;              ///< mass of the free nodes [kg]
+    double m_setupSeconds = 0;      ///< everything before the first step [s]
+    std::size_t m_heapBytes = 0;    ///< heap in use after the last step by all data of the method [B]; 0 if unknown
+    std::size_t m_factorBytes = 0;  ///< of the packed factor [B]; 0 without a factor
     std::vector<double> m_stepSeconds;  ///< wall time of the step alone [s]
-    std::vector<double> m_cpuSeconds;   ///< of it, what the thread had of a processor [s]
+    std::vector<double> m_cpuSeconds;   ///< processor time of the thread for the step [s]
     std::vector<int> m_iterations;      ///< CG iterations, 1 for the direct mode
     std::vector<double> m_residuals;    ///< true |b - A dv| / |b| after the solve [-]; empty for other models
     std::vector<double> m_tipHeights;   ///< z of the tip node after the step [m]
@@ -50,11 +50,11 @@ struct BeamRun
 /// Throws std::invalid_argument.
 BeamCase makeBeamCase(int cellsPerMetre, const Material& material);
 
-/// The cells a metre, in [1, 32], of a beam of `tets` = 24 n^3 elements. Throws std::invalid_argument if there is no
-/// such n.
+/// Cells per metre, in [1, 32], of a beam of `tets` = 24 n^3 elements. Throws std::invalid_argument if no such n
+/// exists.
 int beamCells(int tets);
 
-/// Lumped node masses, rho V / 4 from each tet at a node [kg]; clamped nodes too.
+/// Lumped node masses [kg], rho V / 4 from each tet at a node, including clamped nodes.
 std::vector<double> lumpedNodeMasses(const BeamCase& beam);
 
 }  // namespace bullet_fem

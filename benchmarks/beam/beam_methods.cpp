@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kExact = 1e-8;  // tolerance of what counts as the scheme's own solution
+constexpr double kExact = 1e-8;  // tolerance of the reference solution of each scheme
 
 StepSettings exactSettings(bool tension, const Threads* threads)
 {
@@ -30,7 +30,7 @@ void addDirect(const BeamCase& beam, StepSettings settings, const BeamRun& exact
     rows.push_back(summarise(beam, runFem(beam, settings), exact));
 }
 
-/// How much faster than Bullet's deformable world, in the last row, every row was.
+/// Ratio of the median time of Bullet's deformable world (last row) to that of each row.
 void compareTimes(std::vector<BeamFigures>& rows)
 {
     const BeamFigures bullet = rows.back();
@@ -69,7 +69,7 @@ std::vector<BeamFigures> compareMethods(const BeamCase& beam, const BeamMethods&
 std::vector<BeamFigures> traceErrorCurve(const BeamCase& beam, const BeamMethods& methods)
 {
     StepSettings settings = exactSettings(methods.m_tension, methods.m_threads);
-    settings.m_tolerance = 1e-2 * kExact;  // finer than the finest of the curve
+    settings.m_tolerance = 1e-2 * kExact;  // tighter than the tightest tolerance of the curve
     const BeamRun exact = runFem(beam, settings);
     std::vector<BeamFigures> rows;
     for (Warp warp : {Warp::nodal, Warp::global})

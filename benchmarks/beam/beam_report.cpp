@@ -24,7 +24,7 @@ std::string toleranceText(const BeamFigures& row)
     return text;
 }
 
-/// What says how near the answer is.
+/// Prints the error columns.
 void printErrors(std::ostream& out, const BeamFigures& row)
 {
     if (row.m_sameModel)
@@ -81,7 +81,7 @@ void printTips(std::ostream& out, const std::vector<BeamFigures>& rows, int step
     }
 }
 
-/// A figure that only runs of the same model have.
+/// JSON null for runs of another model.
 nlohmann::json orNull(double value, const BeamFigures& row)
 {
     return row.m_sameModel && std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
@@ -98,7 +98,7 @@ std::vector<int> listedSteps(int steps)
 
 double tipError(double a, double b)
 {
-    const double smallest = 0.01;  // [m]: 0.1 % of it is the 1e-5 m that small heights are allowed
+    const double smallest = 0.01;  // [m]: 0.1 % of it is the absolute tolerance of 1e-5 m for small heights
     return std::abs(a - b) / std::max(std::abs(b), smallest);
 }
 

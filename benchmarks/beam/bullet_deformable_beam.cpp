@@ -16,8 +16,8 @@ namespace
 
 using VectorArray = btAlignedObjectArray<btVector3>;
 
-/// Bullet's force, which also counts Bullet's CG iterations: one product with the stiffness each, and one before the
-/// first.
+/// Bullet's force with a counter of Bullet's CG iterations: each makes one stiffness product, after one before the
+/// first iteration.
 struct CountingElasticityForce : btDeformableLinearElasticityForce
 {
     int m_products = 0;
@@ -29,7 +29,7 @@ struct CountingElasticityForce : btDeformableLinearElasticityForce
     }
 };
 
-/// Bullet's solver, which also measures the true residual after each solve and how long that measuring took.
+/// Bullet's solver, which also computes the true residual after each solve and the time of that computation.
 struct AuditedDeformableSolver : btDeformableBodySolver
 {
     CountingElasticityForce* m_force = nullptr;
@@ -51,8 +51,8 @@ struct AuditedDeformableSolver : btDeformableBodySolver
     }
 
 private:
-    /// |b - A dv| / |b| over the free nodes, b being Bullet's own right-hand side of this step: the forces at v_n and
-    /// at x_n + h v_n. updateState brings back the rotations that the solve froze, then the solution is restored.
+    /// |b - A dv| / |b| over the free nodes. b is Bullet's right-hand side of this step: the forces at v_n and at x_n +
+    /// h v_n. updateState restores the rotations that were frozen in the solve; then the solution is restored.
     void measureResidual(btScalar step)
     {
         const VectorArray dv = m_dv;
@@ -78,7 +78,7 @@ private:
     }
 };
 
-/// A deformable world with one soft body in it.
+/// A deformable world that contains one soft body.
 class DeformableBeamWorld
 {
 public:
@@ -92,7 +92,7 @@ public:
         for (const Tet& tet : beam.m_tets) m_body->appendTetra(tet[0], tet[1], tet[2], tet[3]);
 
         m_body->getCollisionShape()->setMargin(btScalar(1e-4));
-        m_body->m_cfg.collisions = 0;  // the time is to be that of the finite elements alone
+        m_body->m_cfg.collisions = 0;  // excludes collision detection from the measured time
         m_body->setSelfCollision(false);
         m_world.add(*m_body, m_elasticForce, beam.m_material);
         m_solver.m_force = &m_elasticForce;
@@ -119,7 +119,7 @@ BeamRun runBulletDeformable(const BeamCase& beam, double tolerance)
     BeamRun run;
     run.m_method = "bullet";
     run.m_tolerance = tolerance;
-    run.m_tipBound = 6e-3;  // what its other point of linearisation makes of the same model
+    run.m_tipBound = 6e-3;  // allows for the different point of linearisation
 
     const std::size_t heapBefore = heapBytes();
     const Stopwatch setUp;

@@ -21,8 +21,8 @@ std::string methodName(const StepSettings& settings)
     return settings.m_warp == Warp::nodal ? "nodal" : "global";
 }
 
-/// |b - A dv| / |b| of the step just made, with A and b formed anew in double precision from the state before it:
-/// nothing of what the solver itself computed is trusted.
+/// |b - A dv| / |b| of the last step. A and b are assembled anew in double precision from the state before the step,
+/// independently of the solver.
 class TrueResidual
 {
 public:
@@ -31,14 +31,14 @@ public:
     {
     }
 
-    /// Before the step.
+    /// Call before the step.
     void start()
     {
         m_x = m_body.m_state.m_x;
         m_v = m_body.m_state.m_v;
     }
 
-    /// After it.
+    /// Call after the step.
     double measure()
     {
         const RestShape& shape = m_body.m_model->shape();
@@ -120,7 +120,7 @@ BeamRun runFem(const BeamCase& beam, StepSettings settings, FactorChoice choice)
     }
     run.m_heapBytes = heapBytes() - heapBefore;
 
-    // The same steps once more, bit for bit, so that measuring their errors does not empty the caches of those timed.
+    // Repeats the steps bit for bit for the error measurement, so that it does not evict the caches of the timed steps.
     Body again(body.m_model);
     load(again, beam);
     TrueResidual residual(again, settings);

@@ -11,11 +11,11 @@
 namespace bullet_fem
 {
 
-/// The beam's rest shape and factor, clamped nodes eliminated. Throws std::invalid_argument.
+/// Rest shape and factor of the beam, clamped nodes eliminated. Throws std::invalid_argument.
 std::shared_ptr<const BodyModel> makeBeamModel(const BeamCase& beam, FactorChoice choice = FactorChoice::full);
 
-/// Runs the beam with our own step; the step size is the beam's, whatever `settings` says. The residual is computed
-/// anew after each step, outside the time taken, from the velocities that the step left. Throws std::invalid_argument.
+/// Runs the beam with BulletFEM's step, at the beam's step size; that of `settings` is ignored. The residual is
+/// computed after each step from its velocities, outside the timed section. Throws std::invalid_argument.
 BeamRun runFem(const BeamCase& beam, StepSettings settings, FactorChoice choice = FactorChoice::full);
 
 }  // namespace bullet_fem

@@ -20,7 +20,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Every edge once, lower node first.
+/// Each edge once, as (lower node, higher node).
 std::set<std::pair<int, int>> edgesOf(const std::vector<Tet>& tets)
 {
     std::set<std::pair<int, int>> edges;
@@ -30,7 +30,7 @@ std::set<std::pair<int, int>> edgesOf(const std::vector<Tet>& tets)
     return edges;
 }
 
-/// Bullet's default soft body world with one soft body of links in it.
+/// Bullet's default soft body world with one mass-spring soft body.
 class MassSpringWorld
 {
 public:

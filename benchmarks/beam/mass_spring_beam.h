@@ -7,10 +7,10 @@
 namespace bullet_fem
 {
 
-/// Runs the beam's mesh with the mass-spring solver of Bullet's plain btSoftBody: a link along every edge of a tet, at
-/// Bullet's greatest stiffness (kLST 1), the same node masses and step, no collisions, no sleeping. `iterations` is
-/// Bullet's m_cfg.piterations, >= 1. Another model: how stiff it is depends on step and iterations, so its times are
-/// all that compares.
+/// Runs the beam's mesh with the mass-spring solver of Bullet's btSoftBody: a link on every edge of a tet at Bullet's
+/// maximum stiffness (kLST 1), equal node masses and step, no collisions, no sleeping. `iterations` is Bullet's
+/// m_cfg.piterations, >= 1. The stiffness of this model depends on step and iterations, so only its times are
+/// comparable.
 BeamRun runMassSpring(const BeamCase& beam, int iterations);
 
 }  // namespace bullet_fem

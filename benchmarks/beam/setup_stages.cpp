@@ -26,8 +26,8 @@ std::vector<int> placesOf(const std::vector<int>& nodes, int nodeCount)
     return position;
 }
 
-/// sum over the columns of a supernode of (rows at and below the column)^2: a multiplication and an addition for every
-/// entry of the lower half that the column changes.
+/// Operations of the Cholesky factorization [flop]: sum over the columns of all supernodes of (rows at and below the
+/// column)^2. Each entry of the lower half that a column updates takes one multiplication and one addition.
 double choleskyOperations(const SupernodeTree& tree, NodeEntry entry)
 {
     double sum = 0;

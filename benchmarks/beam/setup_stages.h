@@ -9,10 +9,10 @@
 namespace bullet_fem
 {
 
-/// What the rest factor of a model costs, stage by stage [s], and how large it gets.
+/// Cost of computing the rest factor of a model, by stage [s], and the factor's size.
 struct SetupStages
 {
-    std::string m_ordering;   ///< what found the order: AMD, METIS or Eigen
+    std::string m_ordering;   ///< library that found the order: AMD, METIS or Eigen
     double m_assembly = 0;    ///< A0 and its pattern
     double m_order = 0;       ///< fill-reducing order
     double m_tree = 0;        ///< supernodes
@@ -23,8 +23,8 @@ struct SetupStages
     double total() const { return m_assembly + m_order + m_tree + m_numeric; }
 };
 
-/// Goes through the stages of BodyModel's factor once more, with a watch in hand; the factor is thrown away. Throws as
-/// BodyModel::create does.
+/// Repeats the stages of BodyModel's factorization with timers and discards the factor. Throws as BodyModel::create
+/// does.
 SetupStages measureSetup(const BodyModel& model);
 
 }  // namespace bullet_fem

@@ -15,7 +15,7 @@ namespace
 
 constexpr double kMarginOverCell = 0.2;  // as in Bullet's demos
 
-/// Bullet's solver with a clock on its elastic solve.
+/// Bullet's solver with a timer around its elastic solve.
 struct TimedDeformableSolver : btDeformableBodySolver
 {
     double m_seconds = 0;
@@ -28,7 +28,8 @@ struct TimedDeformableSolver : btDeformableBodySolver
     }
 };
 
-/// Bullet's trees of nodes are built along links, and hang without them; no force is ever on these.
+/// Links the nodes along edges. Bullet builds its node trees along links and loops forever without them; the links
+/// exert no force.
 void linkEdges(btSoftBody& body, const TetMesh& mesh)
 {
     std::set<std::pair<int, int>> edges;
@@ -95,7 +96,7 @@ private:
         m_deformable.add(body, m_elasticity, scene.m_material);
     }
 
-    /// The closing speed is ours: what is left of n . v + max(gap, 0) / h < 0 after the step.
+    /// Closing speed as defined for BulletFEM: violation of n . v + max(gap, 0) / h >= 0 after the step.
     void addContacts(const btSoftBody& body, ContactStep& sum) const
     {
         sum.m_contacts += body.m_nodeRigidContacts.size() + body.m_faceNodeContacts.size();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Contact: time by stage and error against the number of contacts and of elements, beside Bullet's own deformable
+// Contact: time by stage and error against the number of contacts and of elements, compared with Bullet's deformable
 // world.
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -19,26 +19,26 @@ namespace
 using namespace bullet_fem;
 
 const char* const g_legend = R"(
-Times are of steps in contact, on one thread; all bodies factored before the first.
-CPU ms    median of a step's processor time, which other programs add little to
-points    most of a step; Bullet counts two soft bodies' nodes once for every face that they are near
-free      the elastic solve without contact; Bullet's: its only one, after contact
-contact   ours: search, sweeps, corrective solves; Bullet's: all else of the step
-corr. it. conjugate gradient iterations of the corrective solves, a step
-closing   contact residual: largest speed at which a contact point still closes faster than its gap allows
-deepest   worst overlap of the soft surface with the other one, sampled at 15 points of every triangle,
-          in mm and as a share of the soft body's size
-at end    how much closer than the engine's own distance at rest (ours 0, Bullet's its soft margin of a fifth of a
-          cell) the surfaces are after the last step
+Times are of steps in contact, on one thread; all bodies are factored before the first step.
+CPU ms    median processor time of a step, nearly independent of other programs
+points    maximum over the steps; between soft bodies Bullet counts a node once for each nearby face
+free      elastic solve without contact; in Bullet its only elastic solve, after contact
+contact   BulletFEM: search, sweeps, corrective solves; Bullet: the rest of the step
+corr. it. conjugate gradient iterations of the corrective solves per step
+closing   contact residual: largest speed at which a contact point closes beyond what its gap allows
+deepest   largest overlap of the soft surface with the other one, sampled at 15 points of each triangle,
+          in mm and relative to the soft body's size
+at end    overlap after the last step beyond the engine's own rest distance (BulletFEM 0, Bullet its soft margin of a
+          fifth of a cell)
 creep     mean speed of the fastest body's centre over the last 20 steps
-errors    worst |sum p - p0| / sum |p_i| and |sum L - L0| / (sum |p_i| 1 m)
-x Bullet  Bullet's median over this one's; only between runs that held: a run
-          is stopped at the first NaN, or when the overlap is half a cell
-bullet/4  four steps of 1/240 s for each of ours, as Bullet recommends, where it blew up or sank in with ours; times
-          and counts are then of the four together
+errors    largest |sum p - p0| / sum |p_i| and |sum L - L0| / (sum |p_i| 1 m)
+x Bullet  Bullet's median time over that of the row, for completed runs only: a run
+          stops at the first NaN, or when the overlap is half a cell
+bullet/4  four steps of 1/240 s per frame, as Bullet recommends, for runs that failed with one step; times
+          and counts are sums over the four steps
 )";
 
-constexpr int kRecommendedSubSteps = 4;  // of Bullet in 1/60 s
+constexpr int kRecommendedSubSteps = 4;  // recommended by Bullet for 1/60 s
 
 struct Options
 {
@@ -53,7 +53,7 @@ struct Options
     std::string m_jsonFile;
 };
 
-/// A scene, and how its row is called.
+/// A scene and the label of its row.
 struct Job
 {
     std::string m_variant;
@@ -104,8 +104,8 @@ std::vector<Job> makeJobs(const Options& options)
     return jobs;
 }
 
-/// One job in every engine, one after the other: Bullet with our step, and where that does not hold with the one that
-/// it recommends.
+/// Runs one job in every engine, one after another. Bullet runs at the scene's step and, if that fails, with its
+/// recommended sub-steps.
 void run(const Job& job, const Options& options, std::vector<ContactFigures>& rows)
 {
     std::cerr << job.m_scene.m_name << ", " << job.m_scene.tetCount() << " tets, " << job.m_variant << " ..."
@@ -130,11 +130,11 @@ void run(const Job& job, const Options& options, std::vector<ContactFigures>& ro
 void addOptions(CLI::App& app, Options& options)
 {
     app.add_option("--contacts", options.m_contacts,
-                   "touching nodes of blocks and columns, about; what no block has is left out")
+                   "approximate nodes in contact of blocks and columns; impossible blocks are skipped")
         ->delimiter(',')
         ->check(CLI::Range(4, 2000))
         ->capture_default_str();
-    app.add_option("--tets", options.m_tets, "elements of blocks and columns, about")
+    app.add_option("--tets", options.m_tets, "approximate number of elements of blocks and columns")
         ->delimiter(',')
         ->check(CLI::Range(5, 200000))
         ->capture_default_str();
@@ -148,9 +148,9 @@ void addOptions(CLI::App& app, Options& options)
         ->capture_default_str();
     app.add_flag("--quick", options.m_quick, "small scenes: seconds instead of minutes");
     app.add_flag("--coupled", options.m_coupled, "btFemConstraintSolver in place of Bullet's rigid solver");
-    app.add_flag("--low-memory", options.m_lowMemory, "the low-memory path, too");
-    app.add_flag("--no-bullet", options.m_noBullet, "leave Bullet's deformable world out");
-    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.add_flag("--low-memory", options.m_lowMemory, "also run the low-memory path");
+    app.add_flag("--no-bullet", options.m_noBullet, "skip Bullet's deformable world");
+    app.add_option("--json", options.m_jsonFile, "write the results to this file");
     app.footer(
         "Example, one block in both engines: bulletfem_bench_contact --scenes block --contacts 100 --tets 1000\n"
         "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
@@ -161,7 +161,7 @@ void addOptions(CLI::App& app, Options& options)
 int main(int argc, char** argv)
 {
     Options options;
-    CLI::App app("Times contact: BulletFEM beside Bullet's own deformable world", "bulletfem_bench_contact");
+    CLI::App app("Times contact: BulletFEM and Bullet's own deformable world", "bulletfem_bench_contact");
     addOptions(app, options);
     CLI11_PARSE(app, argc, argv);
     if (options.m_quick && app.count("--contacts") == 0) options.m_contacts = {10, 100};

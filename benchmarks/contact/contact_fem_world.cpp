@@ -22,7 +22,7 @@ btFemMaterial publicMaterial(const Material& material)
     btFemMaterial result;
     result.m_youngModulus = btScalar(material.m_youngModulus);
     result.m_poissonRatio = btScalar(material.m_poissonRatio);
-    result.m_density = 0;  // the bodies have their masses
+    result.m_density = 0;  // node masses are set explicitly
     result.m_massDamping = btScalar(material.m_massDamping);
     result.m_stiffnessDamping = btScalar(material.m_stiffnessDamping);
     return result;
@@ -87,7 +87,7 @@ private:
         return std::make_unique<btSequentialImpulseConstraintSolver>();
     }
 
-    /// Contact's time is that of all bodies together; its counts are those of the group that a body is in.
+    /// The contact time covers all bodies; the counts are those of the body's group.
     static void add(const btFemStepReport& report, ContactStep& sum)
     {
         sum.m_freeMilliseconds += report.m_freeMotionMs;

@@ -7,9 +7,8 @@
 namespace bullet_fem
 {
 
-/// The scene in a btSoftRigidDynamicsWorld with btFemSoftBodySolver; `coupled` puts btFemConstraintSolver in place of
-/// Bullet's rigid solver, `lowMemory` gives the bodies the low-memory factor. Everything is factored before the first
-/// step.
+/// The scene in a btSoftRigidDynamicsWorld with btFemSoftBodySolver. `coupled` replaces Bullet's rigid solver by
+/// btFemConstraintSolver; `lowMemory` selects the low-memory factor. All bodies are factored before the first step.
 std::unique_ptr<ContactWorld> makeFemContactWorld(const ContactScene& scene, bool coupled, bool lowMemory);
 
 }  // namespace bullet_fem

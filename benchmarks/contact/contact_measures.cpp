@@ -27,7 +27,7 @@ double upwardArea(const Corners& t)
     return 0.5 * cross(t[1] - t[0], t[2] - t[0]).z;
 }
 
-/// Calls visit(point) for every lattice point of the triangle.
+/// Calls visit(point) for each lattice point of the triangle.
 template <class Visit>
 void forSamples(const Corners& t, Visit visit)
 {
@@ -36,7 +36,7 @@ void forSamples(const Corners& t, Visit visit)
             visit(t[0] + (double(i) / kLattice) * (t[1] - t[0]) + (double(j) / kLattice) * (t[2] - t[0]));
 }
 
-/// NaN, once it is in, stays.
+/// Maximum that keeps NaN.
 void keepLarger(double value, double& largest)
 {
     if (!(value <= largest) && !std::isnan(largest)) largest = value;
@@ -69,7 +69,7 @@ double depthInBox(const btSoftBody& soft, const btRigidBody& rigid, double dista
     return deepest;
 }
 
-/// Height of the triangle's plane at (p.x, p.y), or minus infinity if p is not above or below the triangle.
+/// Height of the triangle's plane at (p.x, p.y); minus infinity if p is not above or below the triangle.
 double heightUnder(const Corners& t, const Vec3& p)
 {
     const double area = upwardArea(t);
@@ -78,7 +78,7 @@ double heightUnder(const Corners& t, const Vec3& p)
     return std::min({w0, w1, w2}) < 0 ? -HUGE_VAL : w0 * t[0].z + w1 * t[1].z + w2 * t[2].z;
 }
 
-/// Faces that look up (sign 1) or down (-1), not sideways.
+/// Faces that point up (sign 1) or down (-1); steep faces are left out.
 std::vector<Corners> facesLooking(const btSoftBody& body, double sign)
 {
     std::vector<Corners> faces;
@@ -90,7 +90,8 @@ std::vector<Corners> facesLooking(const btSoftBody& body, double sign)
     return faces;
 }
 
-/// Of `upper` in `lower`; what is deeper than `thickness` is the other side of the body.
+/// Depth of `upper` in `lower` [m]. Depths beyond half of the lower body's height are ignored: they belong to its
+/// opposite side.
 double depthInSoft(const btSoftBody& upper, const btSoftBody& lower, double distance)
 {
     const std::vector<Corners> undersides = facesLooking(upper, -1), tops = facesLooking(lower, 1);
@@ -104,7 +105,7 @@ double depthInSoft(const btSoftBody& upper, const btSoftBody& lower, double dist
                    {
                        for (const Corners& top : tops)
                        {
-                           // far triangles are most of them
+                           // skip the many triangles far from p
                            if (std::abs(p.x - top[0].x) + std::abs(p.y - top[0].y) > 4 * std::sqrt(upwardArea(top)))
                                continue;
                            const double depth = heightUnder(top, p) + distance - p.z;

@@ -7,16 +7,16 @@
 namespace bullet_fem
 {
 
-// Measured on Bullet's bodies alone, so that both engines answer to the same ruler.
+// Measured on Bullet's bodies alone, equally for both engines.
 
-/// How deep the soft surfaces lie within `distance` [m] of the boxes and of each other [m], >= 0; NaN if a node's
-/// position is not finite. Every surface triangle is sampled at 15 points in a triangular lattice, against the boxes as
-/// Bullet means them (margin included). Between soft bodies, points of lower sides are measured straight down to upper
-/// sides below them: right for slabs, face to face.
+/// Largest penetration [m] of the soft surfaces into the boxes and into each other, where surfaces closer than
+/// `distance` [m], >= 0, count as penetrating; NaN if a node's position is not finite. Each surface triangle is sampled
+/// at 15 lattice points. Boxes include Bullet's collision margin. Between soft bodies, points of downward faces are
+/// measured vertically to upward faces below them, which suits slabs in contact face to face.
 double deepestPenetration(const ContactWorld& world, double distance);
 
-/// Linear [kg m/s] and angular momentum about the origin [kg m2/s] of all that moves, and the sum of the bodies'
-/// |p_i| [kg m/s].
+/// Total linear [kg m/s] and angular momentum about the origin [kg m2/s] of the moving bodies, and the sum of the
+/// bodies' |p_i| [kg m/s].
 struct Momentum
 {
     Vec3 m_linear, m_angular;
@@ -25,7 +25,7 @@ struct Momentum
 
 Momentum momentumOf(const ContactWorld& world);
 
-/// Centres of mass, soft bodies' first [m]; of pinned bodies, of their free nodes.
+/// Centres of mass [m], soft bodies first; for pinned bodies, of their free nodes.
 std::vector<Vec3> centersOf(const ContactWorld& world);
 
 }  // namespace bullet_fem

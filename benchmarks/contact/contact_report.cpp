@@ -48,7 +48,7 @@ void printRow(std::ostream& out, const ContactFigures& row)
     out << '\n';
 }
 
-/// Flags that a reader of the table must know about.
+/// Flags that affect the interpretation of a row.
 std::string flagText(int flags)
 {
     std::string text;
@@ -60,7 +60,7 @@ std::string flagText(int flags)
     return text;
 }
 
-/// JSON has no NaN.
+/// JSON null for NaN.
 nlohmann::json number(double value)
 {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
@@ -80,8 +80,8 @@ void printTables(std::ostream& out, const std::vector<ContactFigures>& rows)
         if (!flags.empty()) out << "           ^" << flags << '\n';
         if (!row.holds())
             print(out, "           ^ stopped in step %d: %s\n", row.m_failedStep,
-                  std::isfinite(row.m_deepest) ? "sank in by half a cell" : "not finite any more");
-        if (row.m_touchingSteps == 0) out << "           ^ never touched; times are of all steps\n";
+                  std::isfinite(row.m_deepest) ? "overlap of half a cell" : "not finite");
+        if (row.m_touchingSteps == 0) out << "           ^ no contact; times are of all steps\n";
     }
 }
 

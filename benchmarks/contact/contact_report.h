@@ -10,10 +10,10 @@
 namespace bullet_fem
 {
 
-/// One table a scene, in the order of the rows: times beside errors.
+/// Prints one table per scene, in the order of the rows.
 void printTables(std::ostream& out, const std::vector<ContactFigures>& rows);
 
-/// The same figures, one object a row.
+/// The results as JSON, one object per row.
 nlohmann::json toJson(const std::vector<ContactFigures>& rows);
 
 }  // namespace bullet_fem

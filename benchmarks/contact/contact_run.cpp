@@ -14,9 +14,9 @@ namespace
 {
 
 constexpr int kCreepSteps = 20;
-constexpr double kFailure = 0.5;  // overlap over the cell size from which on a run is given up
+constexpr double kFailure = 0.5;  // overlap over the cell size at which a run is aborted
 
-/// One entry a step in contact; if there is none, of every step.
+/// One entry per step with contact; if no step has contact, one per step.
 struct Series
 {
     std::vector<double> m_total, m_cpu, m_free, m_contact, m_sweeps, m_iterations, m_closing;

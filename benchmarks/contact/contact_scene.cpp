@@ -14,13 +14,13 @@ namespace
 {
 
 constexpr double kCell = 0.05;   // side of the cells of blocks and slabs [m]
-constexpr double kDrop = 0.005;  // height that they fall through before they touch [m]
+constexpr double kDrop = 0.005;  // height of their fall before contact [m]
 constexpr int kTetsPerCell = 5;
 constexpr double kColumnStiffness = 5e5;  // E [Pa]: foam would buckle under its own weight
-constexpr int kCrushed = 15;              // lower nodes per touching node from which on a cube would be crushed
+constexpr int kCrushed = 15;              // lower nodes per node in contact above which a cube would be crushed
 
-/// Upholstery foam. Bullet's deformable contact does not survive stiffer or heavier matter at these cells and steps:
-/// the effective masses of its contacts grow with the square of the elastic forces.
+/// Upholstery foam. Bullet's deformable contact diverges with stiffer or denser materials at these cells and steps: the
+/// effective masses of its contacts grow with the square of the elastic forces.
 Material sceneMaterial()
 {
     Material material = Material::foam();
@@ -28,7 +28,7 @@ Material sceneMaterial()
     return material;
 }
 
-/// Cells of a block and the rectangle of its lower nodes that touch.
+/// Cells of a block and size of the rectangle of its lower nodes in contact.
 struct BlockPlan
 {
     std::array<int, 3> m_cells;
@@ -47,7 +47,7 @@ BlockPlan planBlock(int contacts, int tets)
     return plan;
 }
 
-/// The nodes with the mesh's lowest z.
+/// Nodes at the mesh's minimum z.
 std::vector<int> lowestNodes(const TetMesh& mesh)
 {
     double lowest = HUGE_VAL;
@@ -114,7 +114,7 @@ ContactScene blockOnBox(int contacts, int tets)
     scene.m_size = std::max({size.x, size.y, size.z});
     scene.m_soft.push_back({makeBox(size, plan.m_cells, {0, 0, kDrop}), {}, {}});
 
-    // the box ends a quarter of a cell outside the nodes that it carries
+    // the box extends a quarter of a cell beyond the nodes that it supports
     BoxPart box;
     const double height = 0.5;
     const Vec3 first = {double((nx + 1 - plan.m_touching[0]) / 2), double((ny + 1 - plan.m_touching[1]) / 2), 0};

@@ -12,15 +12,15 @@
 namespace bullet_fem
 {
 
-/// A soft body as it starts; its mesh is its rest shape, in world coordinates.
+/// Initial state of a soft body; its mesh is the rest shape in world coordinates.
 struct SoftPart
 {
     TetMesh m_mesh;
-    std::vector<int> m_pinned;  ///< nodes that never move
+    std::vector<int> m_pinned;  ///< fixed nodes
     Vec3 m_velocity;            ///< of all nodes [m/s]
 };
 
-/// A rigid box as it starts, axes along the world's.
+/// Initial state of a rigid box aligned with the world's axes.
 struct BoxPart
 {
     Vec3 m_center;       ///< [m]
@@ -29,48 +29,50 @@ struct BoxPart
     Vec3 m_velocity;     ///< [m/s]
 };
 
-/// What both engines run: the same meshes, material, friction and step.
+/// A scene for both engines: equal meshes, material, friction and step.
 struct ContactScene
 {
     std::string m_name;
     Material m_material;             ///< of all soft bodies
     Vec3 m_gravity = {0, 0, -9.81};  ///< [m/s2]
     double m_friction = 0.5;         ///< of every pair [-]
-    double m_size = 1;               ///< of the soft body, what its penetration is compared with [m]
+    double m_size = 1;               ///< length of the soft body to which its penetration is compared [m]
     double m_cellSize = 0;           ///< of the mesh [m]
     double m_step = 1.0 / 60;        ///< h [s]
-    int m_steps = 45;                ///< to run
+    int m_steps = 45;                ///< number of steps
     std::vector<SoftPart> m_soft;
     std::vector<BoxPart> m_boxes;
 
     int tetCount() const;
     int nodeCount() const;
-    /// True if nothing takes momentum away: no gravity, nothing pinned or static.
+    /// True if total momentum is conserved: no gravity, no pinned nodes, no static boxes.
     bool isFree() const;
 };
 
-/// True if there is a block of about `tets` elements of which about `contacts` nodes can touch: no more than a plate of
-/// one layer has, and no fewer than a fifteenth of a cube's lower nodes, which would be crushed.
+/// True if a block of about `tets` elements can rest on about `contacts` nodes: at most the nodes of a plate of one
+/// layer, and at least a fifteenth of a cube's lower nodes, below which it would be crushed.
 bool hasBlock(int contacts, int tets);
 
-/// A block of about `tets` elements, 5 cm cells, dropped by 5 mm onto a static box that about `contacts` nodes of its
-/// lower side touch: a cube on a pedestal, or a slab on a floor if a cube has not so many. Throws
+/// A block of about `tets` elements with 5 cm cells, dropped by 5 mm onto a static box that supports about `contacts`
+/// nodes of its lower side: a cube on a pedestal, or a slab on a floor if a cube has too few nodes. Throws
 /// std::invalid_argument unless hasBlock(contacts, tets).
 ContactScene blockOnBox(int contacts, int tets);
 
-/// What steady contact costs: a column of about `tets` elements, 5 cm cells, a square foot of about `contacts` nodes,
-/// at rest on a static box; or its foot `pinned` and no box: the same body and load without contact.
+/// Cost of steady contact: a column of about `tets` elements with 5 cm cells and a square foot of about `contacts`
+/// nodes, at rest on a static box. `pinned`: the foot is fixed and there is no box, which gives the same body and load
+/// without contact.
 ContactScene columnOnBox(int contacts, int tets, bool pinned);
 
-/// A soft ball of 1 m and `massRatio` times its mass in a rigid cube meet at 1 m/s in zero gravity, off-centre, with
+/// A soft ball of 1 m and a rigid cube of `massRatio` times its mass collide off-centre at 1 m/s in zero gravity, with
 /// friction. `cells` along the ball's diameter, even.
 ContactScene ballAndCube(double massRatio, int cells);
 
-/// Two slabs face to face, about `contacts` nodes each: the lower one pinned at its lower side, the upper one dropped
-/// by 5 mm and shifted by a part of a cell, so that no two nodes meet.
+/// Two slabs face to face with about `contacts` nodes each. The lower one is fixed at its lower side; the upper one is
+/// dropped by 5 mm and shifted by a fraction of a cell, so that no two nodes coincide.
 ContactScene slabOnSlab(int contacts);
 
-/// Floor, soft slab, rigid box of 50 times its mass, and both once more: the lower slab is strained by 8 %.
+/// From below: floor, soft slab, rigid box of 50 times its mass, soft slab, rigid box. The lower slab is compressed by
+/// 8 %.
 ContactScene rigidOnSoftStack(int cells);
 
 }  // namespace bullet_fem

@@ -10,7 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kHelpersDensity = 1000;  // of what btFemHelpers makes [kg/m3]
+constexpr double kHelpersDensity = 1000;  // density of bodies made by btFemHelpers [kg/m3]
 
 std::unique_ptr<btSoftBody> makeSoft(const ContactScene& scene, const SoftPart& part, btSoftBodyWorldInfo& info)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Many soft bodies and rigid balls in a pit: what a step costs while all of it moves, rests, and sleeps.
+// Many soft bodies and rigid balls in a pit: cost of a step while all bodies move, rest or sleep.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <exception>
@@ -18,20 +18,20 @@ namespace
 using namespace bullet_fem;
 
 const char* const g_legend = R"(
-Wall times of stepSimulation; all bodies factored before the first step.
+Wall times of stepSimulation; all bodies are factored before the first step.
 falling    from the first step on: the bodies fall into the pit and pile up
-awake      after that, sleeping disabled
-sleeping   after that, sleeping allowed: the first steps are needed to fall asleep and are not timed
-CPU ms     processor time of the calling thread: of one thread that of the step, whatever runs beside it
-free       elastic solves without contact: of all bodies, over the number of threads
-contact    search of surfaces, sweeps, corrective solves; of all groups of bodies that touch
-rest       Bullet's broadphase and rigid solver, and the exchange with its nodes
-points     contact points, mean; between soft bodies they count for both
+awake      afterwards, sleeping disabled
+sleeping   afterwards, sleeping allowed: the first steps, in which bodies fall asleep, are not timed
+CPU ms     processor time of the calling thread; on one thread that of the step, nearly independent of other programs
+free       elastic solves without contact: sum over the bodies, over the number of threads
+contact    search of surfaces, sweeps, corrective solves; sum over all groups of bodies in contact
+rest       Bullet's broad phase and rigid solver, and the exchange with its nodes
+points     contact points, mean; those between soft bodies count twice
 corr.it    conjugate gradient iterations of the corrective solves, mean
-closing    largest speed at which a contact point still closes; deepest: largest penetration as a step begins
+closing    largest remaining closing speed at a contact point; deepest: largest penetration at the start of a step
 )";
 
-constexpr int kDrowsySteps = 90;  // that a crowd gets beyond its settling time to fall asleep
+constexpr int kDrowsySteps = 90;  // steps beyond the settling time in which a crowd falls asleep
 
 struct Options
 {
@@ -44,7 +44,7 @@ struct Options
     std::string m_jsonFile;
 };
 
-/// Runs `count` steps, and tells now and then how far it is: a large crowd takes minutes.
+/// Runs `count` steps and reports progress: a large crowd takes minutes.
 std::vector<CrowdStep> runSteps(CrowdWorld& world, int count, const char* phase)
 {
     const int told = 20;
@@ -93,17 +93,17 @@ void addOptions(CLI::App& app, Options& options)
     app.add_option("--steps", options.m_steps, "timed steps of 1/60 s, awake and sleeping")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    app.add_flag("--awake-only", options.m_awakeOnly, "leave the steps with sleeping allowed out");
+    app.add_flag("--awake-only", options.m_awakeOnly, "skip the steps with sleeping allowed");
     app.add_flag("--free", options.m_free,
-                 "in place of all that: copies of a cube that wobble in free fall, solved together and one by one");
+                 "instead: copies of a cube that oscillate in free fall, solved together and one by one");
     app.add_flag("--quick", options.m_quick, "10 bodies, 2 balls, 0.5 s and 30 steps, unless given otherwise");
-    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.add_option("--json", options.m_jsonFile, "write the results to this file");
     app.footer(
         "Example: bulletfem_bench_crowd --bodies 400 --balls 80 --coupled\n"
         "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
 }
 
-// Bodies of about 1,000 tets that need one iteration a step, and several; smaller and larger ones.
+// Bodies of about 1,000 tets that need one or several iterations per step, then smaller and larger bodies.
 void runFreeCopies(const Options& options)
 {
     JsonFile json(options.m_jsonFile);
@@ -113,7 +113,8 @@ void runFreeCopies(const Options& options)
     for (const int bodies : {16, 100})
         for (const double stale : {1, 4}) rows.push_back(measureFreeCopies({bodies, 6, 1e6, 1e-3, stale, steps}));
     for (const int cells : {4, 10, 13}) rows.push_back(measureFreeCopies({16, cells, 1e6, 1e-3, 1, steps}));
-    std::cout << toText(machine) << "\nCopies of a cube that wobble in free fall, elastic solves alone, one thread\n\n";
+    std::cout << toText(machine)
+              << "\nCopies of a cube that oscillate in free fall, elastic solves only, one thread\n\n";
     printTable(std::cout, rows);
     std::cout << "\nMedian processor time of a step of all bodies; a kick every third of a second. \"stale\": step "
                  "over\nthe factor's.\n";
@@ -153,9 +154,9 @@ int main(int argc, char** argv)
         std::cout << toText(machine) << '\n'
                   << crowd.m_bodies << (crowd.m_different ? " different" : " identical")
                   << (crowd.m_cubes ? " soft cubes, " : " soft balls, ") << world.tetCount() << " tets in all, and "
-                  << crowd.m_balls << " rigid balls in a pit, " << (crowd.m_coupled ? "coupled" : "swap alone")
-                  << ", contact tolerance " << crowd.m_contactTolerance << "; set up in " << world.setupSeconds()
-                  << " s\n\n";
+                  << crowd.m_balls << " rigid balls in a pit, "
+                  << (crowd.m_coupled ? "coupled (monolithic)" : "swap alone (staggered)") << ", contact tolerance "
+                  << crowd.m_contactTolerance << "; set up in " << world.setupSeconds() << " s\n\n";
         printTable(std::cout, rows);
         std::cout << g_legend;
         json.write(machine, {{"bodies", crowd.m_bodies},

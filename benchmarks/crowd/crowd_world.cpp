@@ -18,14 +18,14 @@ namespace
 
 const btVector3 kGravity(0, 0, btScalar(-9.81));  // [m/s2]
 constexpr btScalar kStep = btScalar(1) / 60;      // [s]
-constexpr double kSide = 0.2;                     // of a soft cube, diameter of a soft ball [m]
-constexpr double kSpacing = 0.27;                 // of the lattice that they fall from [m]
+constexpr double kSide = 0.2;                     // edge of a soft cube, diameter of a soft ball [m]
+constexpr double kSpacing = 0.27;                 // of the initial lattice [m]
 constexpr double kBallRadius = 0.09;              // [m]
-constexpr double kDensity = 1000;                 // of all that moves [kg/m3]
+constexpr double kDensity = 1000;                 // of all moving bodies [kg/m3]
 constexpr int kLayers = 5;
 constexpr double kSoftFriction = 0.5;
 
-/// A value in [-1, 1] that differs from body to body, and is the same on every machine and run.
+/// A reproducible value in [-1, 1] that differs from body to body.
 double variation(int index, int kind)
 {
     const unsigned mixed = (static_cast<unsigned>(index) * 2654435761u + static_cast<unsigned>(kind) * 40503u) >> 8;
@@ -42,14 +42,14 @@ btFemMaterial materialOf(int index, bool different)
     return material;
 }
 
-/// A cube has 1,080 tets, or 900 to 1,260 of cubes that differ.
+/// A cube of 1,080 tets; if `different`, of 900 to 1,260 tets.
 TetMesh cubeOf(int index, double size, bool different)
 {
     static const std::array<std::array<int, 3>, 4> cells = {{{6, 6, 6}, {7, 6, 6}, {6, 5, 6}, {7, 5, 6}}};
     return makeBox({size, size, size}, cells[different ? index % cells.size() : 0]);
 }
 
-/// A ball has 1,080 tets, or 864 to 1,296 as a cylinder, every other one of balls that differ.
+/// A ball of 1,080 tets; if `different`, every other body is a cylinder of 864 to 1,296 tets.
 TetMesh ballOf(int index, double size, bool different)
 {
     if (different && index % 2 == 1) return makeCylinder(0.5 * size, size, 6, 4 + index / 2 % 3);
@@ -134,7 +134,7 @@ CrowdStep CrowdWorld::step()
     m_world.bullet().stepSimulation(kStep, 0);
     const double seconds = watch.seconds(), cpuSeconds = watch.cpuSeconds();
     CrowdStep result{m_world.report(), 1e3 * seconds, 1e3 * cpuSeconds};
-    result.m_freeMilliseconds /= m_threadCount;  // of bodies that were solved at the same time
+    result.m_freeMilliseconds /= m_threadCount;  // bodies are solved in parallel
     return result;
 }
 

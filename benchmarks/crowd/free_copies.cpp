@@ -16,9 +16,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kCopySide = 0.2;  // of a cube [m]
-constexpr double kKick = 10;       // about what a kick gives corners [m/s]
-constexpr int kKickSteps = 20;     // between two kicks, so that no body comes to rest
+constexpr double kCopySide = 0.2;  // edge of a cube [m]
+constexpr double kKick = 10;       // approximate speed of the corners after a kick [m/s]
+constexpr int kKickSteps = 20;     // steps between kicks, which keep the bodies in motion
 
 std::shared_ptr<const BodyModel> makeModel(const FreeCopiesSettings& settings)
 {
@@ -35,7 +35,7 @@ std::shared_ptr<const BodyModel> makeModel(const FreeCopiesSettings& settings)
     return BodyModel::create(shape, input);
 }
 
-/// Bodies that twist, bend and spin, none like another.
+/// Bodies in different twisting, bending and spinning motions.
 class Copies
 {
 public:
@@ -53,7 +53,7 @@ public:
         for (Body& body : m_bodies) m_motions.push_back({&body, m_step, {}});
     }
 
-    // Velocities that twist it about one axis and bend it about another.
+    // Sets velocities that twist the body about one axis and bend it about another.
     void kick()
     {
         const double rate = kKick / (0.25 * kCopySide * kCopySide);  // [1/(m s)]

@@ -9,39 +9,39 @@
 namespace bullet_fem
 {
 
-/// Copies of one cube that wobble in free fall, solved together and one by one.
+/// Copies of one cube that oscillate in free fall, solved together or one by one.
 struct FreeCopiesSettings
 {
     int m_bodies = 16;          ///< >= 1
-    int m_cells = 6;            ///< along every edge of 0.2 m, in [1, 40]; a body has five or six tets a cell
+    int m_cells = 6;            ///< along each edge of 0.2 m, in [1, 40]; five or six tets per cell
     double m_young = 1e6;       ///< E [Pa], > 0
     double m_tolerance = 1e-3;  ///< StepSettings::m_tolerance
-    double m_stale = 1;         ///< step over the factor's, > 0: away from 1 a step needs more iterations
-    int m_steps = 120;          ///< of 1/60 s, timed; >= 1
+    double m_stale = 1;         ///< step over the factor's, > 0; other values than 1 take more iterations
+    int m_steps = 120;          ///< timed steps of 1/60 s, >= 1
 };
 
-/// What they took: processor time of the calling thread for solveFreeMotion and finishStep.
+/// Results: processor time of the calling thread for solveFreeMotion and finishStep.
 struct FreeCopiesFigures
 {
     FreeCopiesSettings m_settings;
-    int m_tets = 0;                     ///< of a body
+    int m_tets = 0;                     ///< per body
     double m_factorMegabytes = 0;       ///< [1e6 B]
-    double m_iterations = 0;            ///< a body and step, mean
-    double m_togetherMilliseconds = 0;  ///< of all bodies, median step [ms]
-    double m_aloneMilliseconds = 0;     ///< likewise
-    bool m_sameBits = false;            ///< positions and velocities after the last step
+    double m_iterations = 0;            ///< mean per body and step
+    double m_togetherMilliseconds = 0;  ///< all bodies solved together, median per step [ms]
+    double m_aloneMilliseconds = 0;     ///< bodies solved one by one, median per step [ms]
+    bool m_sameBits = false;            ///< positions and velocities after the last step are bitwise equal
 
     double ratio() const { return m_aloneMilliseconds / m_togetherMilliseconds; }
 };
 
-/// Steps two sets of copies in turns, one solved together and one body by body, a third of a second each, so that a
-/// disturbance of the machine meets both and neither finds the caches full of the other's numbers.
+/// Steps two sets of copies alternately, one solved together and one body by body, a third of a second each. External
+/// load then affects both, and neither finds its own data in the caches.
 FreeCopiesFigures measureFreeCopies(const FreeCopiesSettings& settings);
 
-/// One table.
+/// Prints one table.
 void printTable(std::ostream& out, const std::vector<FreeCopiesFigures>& rows);
 
-/// The same figures, one object a row.
+/// The results as JSON, one object per row.
 nlohmann::json toJson(const std::vector<FreeCopiesFigures>& rows);
 
 }  // namespace bullet_fem

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The only file that knows CHOLMOD.
+// The only file that uses CHOLMOD.
 #include "benchmarks/factor/cholmod_factor.h"
 
 #include <cholmod.h>
@@ -16,7 +16,7 @@ namespace
 
 constexpr int kLowerHalf = -1;  // cholmod_sparse::stype
 
-/// A function of the BLAS that this program found, which need not have it.
+/// A function of the BLAS that this program is linked to; null if that BLAS does not export it.
 template <class Function>
 Function* blasFunction(const char* name)
 {

@@ -46,7 +46,7 @@ FactorCase cageCase(std::string name, const SurfaceMesh& surface, const CageSett
     return caseOf(std::move(name), std::move(cage.m_mesh), nullptr, materialOf(1e6, 0.3), cage.m_filled);
 }
 
-/// A torus around z in around^2 triangles.
+/// A torus around z with around^2 triangles.
 SurfaceMesh torus(double ring, double tube, int around)
 {
     const double pi = std::acos(-1.0);
@@ -65,7 +65,7 @@ SurfaceMesh torus(double ring, double tube, int around)
     return surface;
 }
 
-/// Both meshes in one, as two pieces, and `loose` nodes that no element uses.
+/// Both meshes as two components of one mesh, plus `loose` nodes without elements.
 TetMesh together(const TetMesh& a, const TetMesh& b, int loose = 0)
 {
     std::vector<Vec3> X = a.restPositions();
@@ -80,7 +80,8 @@ TetMesh together(const TetMesh& a, const TetMesh& b, int loose = 0)
     return TetMesh(std::move(X), std::move(tets), loose > 0 ? LooseNodes::kept : LooseNodes::refused);
 }
 
-/// Every second layer of nodes along z lies close to the one below: elements of a hundredth of their width.
+/// Moves every second layer of nodes along z close to the one below, which gives elements of a hundredth of their
+/// width.
 TetMesh slivers(const TetMesh& box, double cell)
 {
     std::vector<Vec3> X = box.restPositions();

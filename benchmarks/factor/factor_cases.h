@@ -14,7 +14,7 @@
 namespace bullet_fem
 {
 
-/// A body whose matrix A0 is factored: h = 1/60 s, beta = .01 s, E = 1e6 Pa and nu = .3 where nothing else is said.
+/// A body whose matrix A0 is factored; unless stated otherwise h = 1/60 s, beta = 0.01 s, E = 1e6 Pa and nu = 0.3.
 struct FactorCase
 {
     std::string m_name;
@@ -29,20 +29,20 @@ struct FactorSystem
 
     BlockMatrix m_A0;              ///< over all nodes [kg]
     std::vector<int> m_freeNodes;  ///< ascending
-    SparsePattern m_pattern;       ///< of A0 over them
-    double m_lowerEntries = 0;     ///< entries of A0's lower half over them, the diagonal included
+    SparsePattern m_pattern;       ///< of A0 over the free nodes
+    double m_lowerEntries = 0;     ///< entries of A0's lower half over the free nodes, including the diagonal
 };
 
-/// The clamped beam of 4 x 1 x 1 m in 24 n^3 elements; n cells a metre, in [1, 32].
+/// The clamped beam of 4 x 1 x 1 m with 24 n^3 elements, n cells per metre in [1, 32].
 FactorCase beamCase(int cellsPerMetre);
 
-/// A free cube of 6 n^3 elements, n in [1, 100]: the compact body that fills most.
+/// A free cube of 6 n^3 elements, n in [1, 100]: the compact body with the largest fill.
 FactorCase cubeCase(int cells);
 
 using FactorCaseMaker = std::function<FactorCase()>;
 
-/// Thirty bodies of all the kinds that a factorization meets: beams, plates, cubes, balls, cylinders, cages, pins,
-/// several pieces, loose nodes, slivers, stiff and nearly incompressible materials.
+/// Thirty bodies that cover the inputs of a factorization: beams, plates, cubes, balls, cylinders, cages, pins, several
+/// components, loose nodes, slivers, stiff and nearly incompressible materials.
 std::vector<FactorCaseMaker> thirtyFactorCases();
 
 }  // namespace bullet_fem

@@ -48,7 +48,7 @@ double residual(const LowerMatrix& A, const std::vector<double>& x, const std::v
     return std::sqrt(sum / size);
 }
 
-/// One library at work on one matrix.
+/// One library that factors one matrix.
 class Contender
 {
 public:
@@ -56,7 +56,7 @@ public:
     virtual void order() = 0;
     virtual void factorize() = 0;
     virtual void solve(int sides) = 0;
-    /// The last solve's first solution, its matrix in the contender's own order, and figures of the factor.
+    /// Fills in the error of the last solve's first solution and the figures of the factor.
     virtual void report(FactorRow& row) = 0;
 };
 
@@ -221,7 +221,7 @@ std::vector<NamedContender> contendersFor(const FactorSystem& system)
 
 using Stage = std::function<void(Contender&)>;
 
-/// The median time of a stage for each of them, in turns.
+/// The median time of a stage for each contender; contenders run in turns.
 std::vector<double> medians(const std::vector<NamedContender>& contenders, const Stage& stage, double seconds)
 {
     std::vector<TimedWork> work;

@@ -13,14 +13,14 @@
 namespace bullet_fem
 {
 
-/// What one library's factor of one matrix costs, on one thread.
+/// Cost of one library's factor of one matrix on one thread.
 struct FactorRow
 {
     std::string m_case, m_method;
     int m_tets = 0;
-    std::string m_ordering;       ///< what found the order: AMD, METIS or Eigen; empty where the library does not tell
-    double m_orderSeconds = 0;    ///< order and symbolic factorization [s], median; 0 where the order is another row's
-    double m_numericSeconds = 0;  ///< numeric factorization, ours with its packing [s], median
+    std::string m_ordering;       ///< library that found the order: AMD, METIS or Eigen; empty if not known
+    double m_orderSeconds = 0;    ///< order and symbolic factorization [s], median; 0 for an order of another row
+    double m_numericSeconds = 0;  ///< numeric factorization, in BulletFEM including packing [s], median
     double m_solveSeconds = 0;    ///< one right-hand side [s], median
     double m_sixteenSeconds = 0;  ///< sixteen right-hand sides together [s], median
     double m_fill = 0;            ///< entries of L over those of the matrix's lower half [-]
@@ -28,22 +28,22 @@ struct FactorRow
     double m_error = 0;           ///< |b - A x| / |b| of a solve [-]
 };
 
-/// Our factor, CHOLMOD's supernodal and simplicial, CHOLMOD's supernodal in our order, and Eigen's SimplicialLLT, in
-/// turns for `seconds` each; those that this build has.
+/// Factors by BulletFEM, by CHOLMOD (supernodal and simplicial; supernodal in BulletFEM's order), and by Eigen's
+/// SimplicialLLT, as far as this build has them; measured in turns for `seconds` each.
 std::vector<FactorRow> measureFactors(const FactorCase& factorCase, double seconds);
 
-/// What a body costs from positions and elements to the end of its first step [s], median of `repetitions`.
+/// Time from positions and elements to the end of a body's first step [s], median of `repetitions`.
 struct FirstStepRow
 {
     std::string m_case;
     int m_tets = 0;
-    double m_mesh = 0, m_model = 0, m_step = 0;  ///< checked mesh and rest shape; factor; body and first step
+    double m_mesh = 0, m_model = 0, m_step = 0;  ///< checking the mesh and rest shape; factor; body and first step
 };
 
 FirstStepRow measureFirstStep(const FactorCase& factorCase, int repetitions);
 
-/// Fill of the orders of one matrix, entries of L over those of its lower half [-], before supernodes are merged; 0
-/// where a build has no such order.
+/// Fill of several orders of one matrix, before supernodes are merged: entries of L over those of its lower half [-]; 0
+/// if a build lacks an order.
 struct FillRow
 {
     std::string m_case, m_chosen;
@@ -60,7 +60,7 @@ nlohmann::json toJson(const std::vector<FactorRow>& rows);
 nlohmann::json toJson(const std::vector<FirstStepRow>& rows);
 nlohmann::json toJson(const std::vector<FillRow>& rows);
 
-/// The libraries beside ours, with their versions.
+/// Names and versions of the other libraries.
 std::string factorLibraries();
 
 }  // namespace bullet_fem

@@ -18,7 +18,7 @@ LowerMatrix lowerMatrix(const BlockMatrix& A, const std::vector<int>& order)
     std::vector<std::pair<int, const Mat3*>> blocks;
     for (std::size_t k = 0; k < order.size(); ++k)
     {
-        // A is symmetric: the column's blocks are those of the row, turned.
+        // A is symmetric: the blocks of the column are the transposed blocks of the row.
         blocks.clear();
         for (int a = A.m_rowStart[order[k]]; a < A.m_rowStart[order[k] + 1]; ++a)
             if (place[A.m_column[a]] >= static_cast<int>(k)) blocks.push_back({place[A.m_column[a]], &A.m_block[a]});

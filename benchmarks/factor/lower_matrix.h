@@ -18,8 +18,8 @@ struct LowerMatrix
     std::vector<double> m_value;
 };
 
-/// The scalar entries of A's blocks: node order[k] of A has the rows and columns 3 k ... 3 k + 2; nodes that `order`
-/// leaves out are left out.
+/// The scalar entries of A's blocks: node order[k] of A has the rows and columns 3 k ... 3 k + 2. Nodes missing in
+/// `order` are left out.
 LowerMatrix lowerMatrix(const BlockMatrix& A, const std::vector<int>& order);
 
 }  // namespace bullet_fem

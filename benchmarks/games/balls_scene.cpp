@@ -13,8 +13,8 @@ namespace
 {
 
 constexpr double kBall = 0.5;   // radius [m]
-constexpr double kCell = 0.14;  // of the cages [m]
-constexpr int kHalvings = 5;    // 20 * 4^5 triangles
+constexpr double kCell = 0.14;  // cell size of the cages [m]
+constexpr int kHalvings = 5;    // subdivisions: 20 * 4^5 triangles
 
 SurfaceMesh icosahedron()
 {
@@ -28,7 +28,7 @@ SurfaceMesh icosahedron()
     return mesh;
 }
 
-// Every triangle becomes four.
+// Divides each triangle into four.
 void halveEdges(SurfaceMesh& mesh)
 {
     std::map<std::array<int, 2>, int> middles;
@@ -63,7 +63,7 @@ void buildBalls(GameWorld& world, bool drawn)
     CageSettings settings;
     settings.m_cellSize = kCell;
     settings.m_surfaceCollides = drawn;
-    // Cages stand out by up to a cell.
+    // Cages extend beyond their surfaces by up to a cell.
     const double apart = drawn ? 2.01 * kBall : 2.01 * kBall + 2 * kCell, lowest = 0.5 * apart;
     for (const double height : {lowest, lowest + apart})
     {

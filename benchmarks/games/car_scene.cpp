@@ -22,7 +22,7 @@ btVector3 place(double x, double y, double z)
     return {btScalar(x), btScalar(y), btScalar(z)};
 }
 
-// A cylinder around z whose inner nodes are anchored to the hub.
+// A cylinder around z; its inner nodes are anchored to the hub.
 void addTyre(GameWorld& world, btRigidBody& hub)
 {
     const btVector3 centre = hub.getWorldTransform().getOrigin();
@@ -36,7 +36,7 @@ void addTyre(GameWorld& world, btRigidBody& hub)
     world.addSoft(tyre, 4e5, 300, 1);
 }
 
-// A long one under both wheels, then shorter ones, left and right in turn; 8 cm high.
+// A long bump under both wheels, then shorter ones, left and right alternately; 8 cm high.
 void addBumps(GameWorld& world)
 {
     for (int k = 0; k < 6; ++k)

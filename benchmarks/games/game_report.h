@@ -10,17 +10,17 @@
 namespace bullet_fem
 {
 
-/// What a scene cost in one way of stepping, and what came of it.
+/// Cost and result of one scene with one way of stepping.
 struct GameRow
 {
     std::string m_scene, m_coupling;
-    std::string m_outcome;  ///< a sentence; may be empty
+    std::string m_outcome;  ///< the result as a sentence; may be empty
     int m_tets = 0;
-    bool m_isOfBullet = false;  ///< it has no reports: times of whole frames alone
-    // [ms], and means or medians of counts; speeds [m/s] and depths [m]
+    bool m_isOfBullet = false;  ///< run by Bullet alone: there are only times of whole frames
+    // times [ms] (medians), counts (means or medians), speeds [m/s] and depths [m]
     double m_median = 0, m_late = 0, m_worst = 0, m_free = 0, m_contact = 0, m_points = 0;
     double m_sweeps = 0, m_iterations = 0, m_closing = 0, m_deepest = 0,
-           m_force = -1;  // [-]; below 0: there is no law for it
+           m_force = -1;  // [-]; below 0: no reference value is known
     int m_asleep = 0;
 };
 

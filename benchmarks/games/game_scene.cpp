@@ -19,7 +19,7 @@ btVector3 at(double x, double y, double z)
     return {btScalar(x), btScalar(y), btScalar(z)};
 }
 
-// Around the origin.
+// A block centred on the origin.
 btSoftBody* makeBlock(GameWorld& world, const Vec3& size, const std::array<int, 3>& cells)
 {
     return btFemHelpers::createFromTetMesh(world.info(), makeBox(size, cells, -0.5 * size));
@@ -60,7 +60,7 @@ void buildPit(GameWorld& world)
     }
 }
 
-// Spread over the upper face.
+// Spreads the anchors over the upper face.
 void anchorTop(btSoftBody& block, btRigidBody& holder, int anchors)
 {
     std::vector<int> top;
@@ -89,7 +89,7 @@ void buildMat(GameWorld& world, int cells)
     world.addSoft(sheet, 1e6, 1000, 0.5).setVelocity(at(1, 0, 0.3));
 }
 
-// Together by 3 cm each within a second, then up by 0.3 m.
+// Closes both plates by 3 cm each within a second, then lifts them by 0.3 m.
 void drivePinch(GameWorld& world, double time)
 {
     const double in = 0.09 * std::min(time, 1.0), up = 0.3 * std::clamp(time - 1, 0.0, 1.0);

@@ -10,64 +10,64 @@
 namespace bullet_fem
 {
 
-/// How a game steps.
+/// Settings of the time stepping.
 struct GameSettings
 {
     BenchmarkLine m_line = BenchmarkLine::swap;
     double m_contactTolerance = btFemSolverInfo().m_contactTolerance;  ///< [-], in [1e-7, 0.1]
-    int m_subSteps = 1;                                                ///< of a frame of 1/60 s, >= 1
+    int m_subSteps = 1;                                                ///< per frame of 1/60 s, >= 1
 };
 
-/// What one frame took and did: times are sums over its sub-steps, other reports the largest of them.
+/// Results of one frame: times are sums over its sub-steps, other values their maximum.
 struct GameFrame : BenchmarkReport
 {
     double m_milliseconds = 0;  ///< processor time of the whole frame [ms]
-    double m_held = 0;          ///< upward force of all contacts and anchors on soft bodies, mean [N]
+    double m_held = 0;          ///< upward force of all contacts and anchors on soft bodies, mean over the frame [N]
 };
 
-/// A world that is stepped frame by frame, on one thread.
+/// A world that is stepped by frames, on one thread.
 class Game
 {
 public:
     virtual ~Game() = default;
 
-    /// A frame of 1/60 s.
+    /// Makes a frame of 1/60 s.
     virtual GameFrame step() = 0;
-    virtual int tetCount() const = 0;                   ///< of all soft bodies
-    virtual double softWeight() const = 0;              ///< [N]
-    virtual std::string outcome() const { return {}; }  ///< what has become of the scene by now; may be empty
+    virtual int tetCount() const = 0;                   ///< over all soft bodies
+    virtual double softWeight() const = 0;              ///< total weight of the soft bodies [N]
+    virtual std::string outcome() const { return {}; }  ///< the present result as a sentence; may be empty
 };
 
-/// Upward force of contacts and anchors between soft bodies and others in a step of h [s], N.
+/// Upward force of contacts and anchors on soft bodies by other bodies in a step of h [s], in N.
 double heldIn(const btFemSoftBodySolver& fem, const std::vector<std::unique_ptr<btSoftBody>>& bodies, double h);
 
 double massOf(const std::vector<std::unique_ptr<btSoftBody>>& bodies);  ///< [kg]
 
-/// Adds a step's reports to those of its frame.
+/// Adds a step's report to that of its frame.
 void add(const BenchmarkReport& step, GameFrame& frame);
 
-/// A game's btSoftRigidDynamicsWorld; gravity along -y.
+/// A game in a btSoftRigidDynamicsWorld; gravity along -y.
 class GameWorld : public Game
 {
 public:
     explicit GameWorld(const GameSettings& settings, double gravity = 9.81);
 
-    /// A rigid body that takes over its shape; mass 0 [kg] is static.
+    /// Adds a rigid body and takes ownership of its shape; mass 0 [kg]: static.
     btRigidBody& addRigid(btCollisionShape* shape, double mass, const btVector3& position, double friction)
     {
         return m_world.addRigid(shape, mass, position, friction);
     }
-    /// Takes the body over.
+    /// Takes ownership of the body.
     btSoftBody& addSoft(btSoftBody* body, double youngModulus, double density, double friction);
-    /// The same with the material and friction that it has.
+    /// Takes ownership of the body; keeps its material and friction.
     btSoftBody& addSoft(btSoftBody* body);
-    /// Takes the joint over.
+    /// Takes ownership of the joint.
     void addJoint(btTypedConstraint* joint) { m_world.addJoint(joint); }
     void keep(std::shared_ptr<void> object) { m_world.keep(std::move(object)); }
 
-    /// What is done before every frame that begins at this time [s].
+    /// Sets a function that is called before each frame with the time of its start [s].
     void setDrive(std::function<void(GameWorld&, double time)> drive) { m_drive = std::move(drive); }
-    /// What outcome() says.
+    /// Sets the function that gives outcome().
     void setOutcome(std::function<std::string(const GameWorld&)> outcome) { m_outcome = std::move(outcome); }
 
     GameFrame step() override;

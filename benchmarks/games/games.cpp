@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Scenes as games have them: time by stage beside errors, in both couplings.
+// Scenes typical of games: time by stage with errors, for both coupling methods.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -19,14 +19,14 @@ namespace
 using namespace bullet_fem;
 
 const char* const g_legend = R"(
-Processor times of frames of 1/60 s [ms], one thread; all bodies factored before the first
+Processor times of frames of 1/60 s [ms], one thread; all bodies are factored before the first frame
 free      median of the elastic solves without contact, all bodies
 contact   median of search, sweeps and corrective solves, and joints
-points    median contact points; between soft bodies they count for both
-closing   worst speed at which a contact point still closes faster than its gap allows
-deepest   worst penetration
-bullet    Bullet alone: of PinchFriction its own finite elements, of TetraBunny its clusters
-force     |held - weight| / weight, mean over the last second, where all soft bodies rest on what is not soft
+points    median number of contact points; those between soft bodies count twice
+closing   largest speed at which a contact point closes beyond what its gap allows
+deepest   largest penetration
+bullet    Bullet alone: its finite elements in PinchFriction, its clusters in TetraBunny
+force     |held - weight| / weight, mean over the last second, if all soft bodies rest on other bodies
 )";
 
 struct Options
@@ -123,23 +123,23 @@ void runScene(const GameScene& scene, const Options& options, std::vector<GameRo
 int main(int argc, char** argv)
 {
     Options options;
-    CLI::App app("Times scenes as games have them", "bulletfem_bench_games");
+    CLI::App app("Times scenes typical of games", "bulletfem_bench_games");
     std::string names;
     for (const GameScene& scene : gameScenes({})) names += (names.empty() ? "" : ", ") + scene.m_name;
-    app.add_option("--scenes", options.m_scenes, "those whose names begin so; all unless given: " + names)
+    app.add_option("--scenes", options.m_scenes, "scenes whose names begin with these; default all: " + names)
         ->delimiter(',');
     app.add_option("--contact-tolerance", options.m_contactTolerance, "btFemSolverInfo::m_contactTolerance")
         ->check(CLI::Range(1e-7, 0.1))
         ->capture_default_str();
-    app.add_option("--share", options.m_share, "of the frames of every scene")
+    app.add_option("--share", options.m_share, "fraction of each scene's frames to run")
         ->check(CLI::Range(0.01, 1.0))
         ->capture_default_str();
     app.add_option("--bullet-source", options.m_bulletSource,
-                   "a checkout of Bullet: its folder examples has the meshes of PinchFriction and TetraBunny, which "
-                   "are left out without")
+                   "Bullet's source tree, with the meshes of PinchFriction and TetraBunny in examples; these scenes "
+                   "are skipped without it")
         ->envname("BULLETFEM_BULLET_SOURCE")
         ->capture_default_str();
-    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.add_option("--json", options.m_jsonFile, "write the results to this file");
     CLI11_PARSE(app, argc, argv);
     const auto runAll = [&]
     {
@@ -153,7 +153,7 @@ int main(int argc, char** argv)
             isAny = true;
             runScene(scene, options, rows);
         }
-        if (!isAny) throw std::invalid_argument("no scene has such a name; those that there are: " + names);
+        if (!isAny) throw std::invalid_argument("no scene has such a name; the scenes are: " + names);
         std::cout << toText(machine) << "\nContact tolerance " << options.m_contactTolerance << "\n";
         printTable(std::cout, rows);
         std::cout << g_legend;

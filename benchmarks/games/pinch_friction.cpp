@@ -24,11 +24,11 @@ namespace
 {
 
 constexpr btScalar kGravityOfExample = 10;                  // [m/s2]
-constexpr int kStepsOfExample = 4;                          // in a frame of 1/60 s
-constexpr btScalar kPressed = btScalar(0.45), kLifted = 5;  // until when [s]
+constexpr int kStepsOfExample = 4;                          // per frame of 1/60 s
+constexpr btScalar kPressed = btScalar(0.45), kLifted = 5;  // end times of pressing and lifting [s]
 constexpr btScalar kSpeedOfPlates = 2;                      // [m/s]
 
-// Bullet's callback of a step: two plates of 1000 t close, then rise.
+// Bullet's step callback: two plates of 1000 t close, then rise.
 void leadPlates(btScalar time, btDeformableMultiBodyDynamicsWorld* world)
 {
     const btScalar in = std::min(time, kPressed);
@@ -140,7 +140,7 @@ private:
         m_rigid.push_back(std::make_unique<btRigidBody>(info));
         m_world->addRigidBody(m_rigid.back().get());
     }
-    // As the example does, in its order.
+    // Sets the block up as the example does, in its order.
     void addBlock(const TetGenSource& cube, btScalar z)
     {
         m_soft.emplace_back(btSoftBodyHelpers::CreateFromTetGenData(m_world->getWorldInfo(), cube.m_elements.c_str(),

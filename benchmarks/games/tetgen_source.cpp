@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-// The literals between the function's name and the next semicolon, joined; of escapes \n alone is known.
+// Concatenates the string literals between the function's name and the next semicolon; only the escape \n is supported.
 std::string literalsOf(const std::string& text, const std::string& function, const std::string& path)
 {
     std::string joined;

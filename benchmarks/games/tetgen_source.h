@@ -7,13 +7,13 @@
 namespace bullet_fem
 {
 
-/// What TetGen wrote of a mesh, as btSoftBodyHelpers::CreateFromTetGenData takes it.
+/// TetGen's output for a mesh, in the form that btSoftBodyHelpers::CreateFromTetGenData takes.
 struct TetGenSource
 {
     std::string m_nodes, m_elements;
 };
 
-/// From one of the .inl files of Bullet's examples, whose functions getNodes() and getElements() return string
+/// Reads one of the .inl files of Bullet's examples, whose functions getNodes() and getElements() return string
 /// literals. Throws std::runtime_error if the file cannot be read or lacks one of them.
 TetGenSource readTetGenSource(const std::string& path);
 

@@ -16,8 +16,8 @@ namespace
 {
 
 constexpr double kGravityOfSoftDemo = 10;  // [m/s2]
-constexpr int kWaves = 30;                 // vertices along an edge
-constexpr btScalar kSquare = 8;            // edge of their squares [m]
+constexpr int kWaves = 30;                 // vertices along an edge of the ground
+constexpr btScalar kSquare = 8;            // edge of the ground's squares [m]
 
 void addWaves(GameWorld& world)
 {

@@ -94,7 +94,7 @@ void BentBeam::solveLanes()
     factor.solveLanes(factor.allSupernodes(), factor.allSupernodes(), m_lanes.get(), m_lanesScratch.get());
 }
 
-// Solved over and over, a vector would leave the range of single precision.
+// Repeated solves in place would drive the vector out of the range of single precision.
 void BentBeam::resetVector()
 {
     std::fill(m_vector.get(), m_vector.get() + model().factor().lower().size(), 1.f);

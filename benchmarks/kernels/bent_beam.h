@@ -11,8 +11,8 @@
 namespace bullet_fem
 {
 
-/// The clamped beam bent by half a second of its own weight at E = 1e6, as a step finds it: x has moved on, the
-/// rotations are still those of the step before. Holds what its kernels read and write.
+/// The clamped beam after half a second under its own weight at E = 1e6 Pa, in the state at the start of a step: x is
+/// updated, the rotations are those of the previous step. Holds the input and output of the kernels.
 class BentBeam
 {
 public:
@@ -23,20 +23,20 @@ public:
     int tetCount() const { return model().mesh().tetCount(); }
     Body& body() { return m_body; }
 
-    /// F, rotations, forces and the part of A of all elements; nothing else.
+    /// Deformation gradient, rotation, force and contribution to A of all elements, without sums over nodes.
     void passOverElements();
-    /// The same with the sums over nodes and the nodes' rotations: all that a step prepares.
+    /// passOverElements(), the sums over nodes and the nodes' rotations: the whole preparation of a step.
     void prepareSystem();
-    /// Turns the rotations back to those of the last step.
+    /// Resets the rotations to those of the last step.
     void forgetRotations() { m_body.m_state.m_elementRotation = m_lastRotation; }
-    /// Brings back what passOverElements() reads: products leave their own vector where it looks for positions.
+    /// Restores the input of passOverElements(): products overwrite the positions with their own vector.
     void restoreInput();
 
-    void multiply();      ///< A p, as last prepared
+    void multiply();      ///< A p, with A as last prepared
     void precondition();  ///< P r
     void solve();         ///< A0^-1 y in place, one right-hand side
     void solveLanes();    ///< 16 right-hand sides
-    void resetVector();   ///< y as before the first solve
+    void resetVector();   ///< restores y to its value before the first solve
     void resetLanes();
 
 private:

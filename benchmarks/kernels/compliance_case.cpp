@@ -20,7 +20,7 @@ constexpr int kTouched = 64;
 
 std::shared_ptr<const BodyModel> makeBlock(int tets, FactorChoice choice)
 {
-    const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 5.0) - 1.0 / 3)));  // five tets a cell
+    const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 5.0) - 1.0 / 3)));  // five tets per cell
     const auto shape = std::make_shared<const RestShape>(makeBox({1.3, 1.2, 1.2}, {n + 1, n, n}), Material());
     FactorInput input;
     input.m_mass = shape->m_lumpedMass;
@@ -29,7 +29,7 @@ std::shared_ptr<const BodyModel> makeBlock(int tets, FactorChoice choice)
     return BodyModel::create(shape, std::move(input));
 }
 
-/// The surface nodes nearest to a point, as contact would touch them.
+/// The surface nodes nearest to a point, in place of nodes in contact.
 std::vector<int> nearestSurfaceNodes(const TetMesh& mesh, const Vec3& point)
 {
     std::vector<int> nodes = mesh.surfaceNodes();
@@ -40,7 +40,7 @@ std::vector<int> nearestSurfaceNodes(const TetMesh& mesh, const Vec3& point)
     return nodes;
 }
 
-/// R_i C_ij R_j^T summed over all pairs, so that nothing is left out.
+/// R_i C_ij R_j^T summed over all pairs; the sum keeps the compiler from omitting any.
 Mat3 warpedBlocks(const ComplianceCache& cache, const std::vector<int>& nodes, const Mat3& R)
 {
     Mat3 sum{};
@@ -70,7 +70,7 @@ ComplianceFigures measureCompliance(int tets, FactorChoice choice, double second
                                           [&]
                                           {
                                               fresh = std::make_unique<ComplianceCache>(model);
-                                              fresh->request(others);  // grows what the first request of all grows
+                                              fresh->request(others);  // excludes allocations of the first request
                                           }},
                                          {"64 known nodes",
                                           [&]

@@ -17,16 +17,16 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kProductOperations = 180;  // a tet: H 54, stress 72, forces 54; sums over nodes not counted
+constexpr double kProductOperations = 180;  // per tet: H 54, stress 72, forces 54; sums over nodes not counted
 constexpr std::size_t kReadGrain = 512;     // floats
 
-// Bytes of a tet that stand in blocks of kLanes.
+// Bytes per tet of data stored in blocks of kLanes.
 double perTet(std::size_t blockBytes)
 {
     return static_cast<double>(blockBytes) / kLanes;
 }
 
-// What the element pass reads (rest shape, rotation) and writes (rotation, force, its part of A).
+// Bytes that the element pass reads (rest shape, rotation) and writes (rotation, force, contribution to A).
 double passBytes(double tets, double nodes)
 {
     return tets * (perTet(sizeof(ElementBlock<float>) + sizeof(CornerBlock<float>) + sizeof(WarpedBlock<float>)) +
@@ -34,7 +34,7 @@ double passBytes(double tets, double nodes)
            nodes * 2 * sizeof(PaddedVec3);
 }
 
-// The sums over nodes read the corners and where they are; the rotations are gathered once more.
+// The sums over nodes read the corners and their indices; the rotations are gathered a second time.
 double preparationBytes(double tets, double nodes)
 {
     const double sums = perTet(sizeof(CornerBlock<float>)) + 4 * sizeof(int),
@@ -43,7 +43,7 @@ double preparationBytes(double tets, double nodes)
            nodes * (6 * sizeof(Vec3) + 2 * sizeof(PaddedVec3) + sizeof(NodeRotation));
 }
 
-// Corners are written and read again.
+// Corner values are written and read again.
 double productBytes(double tets, double nodes)
 {
     return tets * (perTet(sizeof(WarpedBlock<float>) + 2 * sizeof(CornerBlock<float>)) + 4 * sizeof(std::int32_t) +
@@ -51,7 +51,7 @@ double productBytes(double tets, double nodes)
            nodes * (2 * sizeof(Vec3) + 2 * sizeof(PaddedVec3) + sizeof(double));
 }
 
-// Of one right-hand side: M forward, S, M^T backward.
+// Operations for one right-hand side: M forward, S, M^T backward.
 double solveOperations(const SupernodeTree& tree)
 {
     double sum = 0;
@@ -63,7 +63,7 @@ double solveOperations(const SupernodeTree& tree)
     return sum;
 }
 
-// A buffer as large as the packed factor, to be read in the same turns as it.
+// A buffer of the packed factor's size, which is read in turns with it.
 struct ReadBuffer
 {
     explicit ReadBuffer(std::size_t bytes)
@@ -86,7 +86,7 @@ KernelFigures row(int tets, const TimedWork& work, const Timing& time)
     return figures;
 }
 
-/// Factorization alone; once for large beams.
+/// Times the factorization alone; once for large beams.
 KernelFigures timeFactorization(const BentBeam& beam, double seconds)
 {
     std::vector<double> times;

@@ -13,22 +13,22 @@
 namespace bullet_fem
 {
 
-/// All that the kernels' benchmark measures.
+/// All results of the kernel benchmark.
 struct KernelReport
 {
     double m_peakGigaflops = 0;  ///< of one thread, single precision, measured [GFLOP/s]
     std::vector<KernelRun> m_runs;
     ComplianceFigures m_compliance;
-    std::vector<ComplianceFigures> m_touch;  ///< on both paths of other blocks, where asked for
-    std::vector<FactorRow> m_factors;        ///< beside other libraries, where asked for
-    std::vector<FirstStepRow> m_firstSteps;  ///< of the same bodies
-    std::vector<FillRow> m_fill;             ///< of the thirty meshes, where asked for
+    std::vector<ComplianceFigures> m_touch;  ///< on both paths for other blocks, if requested
+    std::vector<FactorRow> m_factors;        ///< compared with other libraries, if requested
+    std::vector<FirstStepRow> m_firstSteps;  ///< of the bodies in m_factors
+    std::vector<FillRow> m_fill;             ///< of the thirty meshes, if requested
 };
 
-/// Tables: kernels, triangular solves beside reads, compliance; factors and fill where asked for.
+/// Prints tables: kernels, triangular solves compared with reads, compliance; factors and fill if requested.
 void printTables(std::ostream& out, const KernelReport& report);
 
-/// The same figures.
+/// The results as JSON.
 nlohmann::json toJson(const KernelReport& report);
 
 }  // namespace bullet_fem

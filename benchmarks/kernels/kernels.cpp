@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The kernels of one step, each on its own, beside what the machine's memory and arithmetic allow.
+// Times each kernel of a step on its own, compared with the limits of the machine's memory and arithmetic.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -19,27 +19,27 @@ namespace
 using namespace bullet_fem;
 
 const char* const g_legend = R"(
-One thread, the clamped beam bent by half a second of its own weight at E = 1e6; five rounds in which the kernels take
-turns. Rates and ratios are those of the best repetition: other programs only ever add.
-element pass    F, rotation, tensile part, force and the part of A of all elements
-preparation     that, the sums over nodes and the rotations of the nodes: all before the first iteration
+One thread; the clamped beam after half a second under its own weight at E = 1e6 Pa; the kernels run in turns, five
+times. Rates and ratios are those of the best repetition, which other programs disturb least.
+element pass    F, rotation, tensile part, force and contribution to A of all elements
+preparation     element pass, sums over nodes and rotations of the nodes: all work before the first iteration
 product A p     of all elements, with the sums over nodes
 preconditioner  P r: rotations, one solve pair, rotations
-solve pair      forward and backward with the packed factor; GB/s counts the factor twice
-GB/s            bytes that must be read and written once, caches or not
-GFLOP/s         product: 180 a tet; solves: those with the factor's entries; factorization: Cholesky's, in double
-                precision
-pair / 2 reads  one solve pair over reading a buffer as large as the packed factor twice, one after the other again and
-                again, median: in a step nobody finds what it has just read itself
-of the best     the same of the best repetitions when each is repeated for itself; a buffer larger than the caches that
-                is read again and again may stay in them in part
+solve pair      forward and backward solve with the packed factor; GB/s counts the factor twice
+GB/s            minimum memory traffic, in or out of the caches
+GFLOP/s         product: 180 per tet; solves: from the factor's entries; factorization: Cholesky's, in double precision
+pair / 2 reads  one solve pair over two reads of a buffer of the packed factor's size, alternately, median: as in a
+                step, neither finds its own data in the caches
+of the best     ratio of the best times when each is repeated on its own; a buffer larger than the caches may then stay
+                in them in part
 16 / 1          16 right-hand sides together over one
-factors         order and symbolic factorization, numeric factorization (ours in double precision, packed in single),
-                forward and backward solve of one and of 16 right-hand sides (ours in single precision, the others in
-                double, with their copies in and out), entries of L over those of A0, memory, |b - A x| / |b|; medians
+factors         order and symbolic factorization, numeric factorization (BulletFEM: in double precision, packed in
+                single), forward and backward solve of one and of 16 right-hand sides (BulletFEM: single precision;
+                others: double, with their copies in and out), entries of L over those of A0, memory, |b - A x| / |b|;
+                medians
 set-up          from positions and elements to the end of the first step: mesh and rest shape, factor, body and step
 fill            entries of L over those of A0's lower half, before supernodes are merged
-compliance      columns of A0^-1 of 64 neighbouring surface nodes and the 64 x 64 blocks between them, turned
+compliance      columns of A0^-1 of 64 neighbouring surface nodes, and the 64 x 64 blocks between them, rotated
 )";
 
 struct Options
@@ -61,9 +61,9 @@ double measurePeak(double seconds)
     return sink > 0 ? 1e-9 * multiplyAddOperations(rounds) / time.m_best : 0;
 }
 
-constexpr int kFirstSteps = 5;  // repetitions: set-up allocates, so that the first is slower than the others
+constexpr int kFirstSteps = 5;  // repetitions: allocations in set-up make the first one slower
 
-/// A beam and a cube of about that many elements each.
+/// A beam and a cube of about each number of elements.
 std::vector<FactorCase> factorCases(const std::vector<int>& sizes)
 {
     std::vector<FactorCase> cases;
@@ -78,19 +78,20 @@ void addOptions(CLI::App& app, Options& options)
     app.add_option("--tets", options.m_tets, "mesh sizes, each 24 n^3 with n in [1, 32] cells per metre")
         ->delimiter(',')
         ->capture_default_str();
-    app.add_flag("--large", options.m_large, "98,304 tets, too: a factor far larger than the caches");
-    app.add_option("--touch", options.m_touch, "blocks on which 64 nodes are touched on both paths, about so many tets")
+    app.add_flag("--large", options.m_large, "also 98,304 tets: a factor far larger than the caches");
+    app.add_option("--touch", options.m_touch,
+                   "approximate sizes of blocks for the compliance of 64 nodes on both paths")
         ->delimiter(',')
         ->check(CLI::Range(40, 500000));
     app.add_option("--factors", options.m_factors,
-                   "beams and free cubes of about so many tets whose factors are timed beside CHOLMOD's and Eigen's")
+                   "approximate sizes of beams and free cubes; times their factors and those of CHOLMOD and Eigen")
         ->delimiter(',')
         ->check(CLI::Range(6, 200000));
     app.add_flag("--fill", options.m_fill, "the fill of AMD, METIS and Eigen in thirty meshes");
     app.add_option("--seconds", options.m_seconds, "time for each kernel and size [s]")
         ->check(CLI::Range(1e-3, 60.0))
         ->capture_default_str();
-    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.add_option("--json", options.m_jsonFile, "write the results to this file");
     app.footer(
         "Example, a quick look: bulletfem_bench_kernels --tets 1536 --seconds 0.1\n"
         "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
@@ -101,7 +102,8 @@ void addOptions(CLI::App& app, Options& options)
 int main(int argc, char** argv)
 {
     Options options;
-    CLI::App app("Times the kernels of a step, beside what memory and arithmetic allow", "bulletfem_bench_kernels");
+    CLI::App app("Times the kernels of a step, compared with limits of memory and arithmetic",
+                 "bulletfem_bench_kernels");
     addOptions(app, options);
     CLI11_PARSE(app, argc, argv);
     if (options.m_large) options.m_tets.push_back(98304);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Compiled once for every instruction set; the processor chooses when the program runs.
+// Compiled once for each instruction set; the best one is chosen at run time.
 #include "benchmarks/kernels/machine_limits.h"
 
 #include "fem/common/vector_targets.h"
@@ -28,7 +28,7 @@ const char* targetHere()
     return hwy::TargetName(HWY_TARGET);
 }
 
-/// Eight sums at a time, so that no addition waits for the one before.
+/// Uses eight independent sums, so that additions do not wait for each other.
 float readHere(const float* values, std::size_t count)
 {
     const D d;
@@ -48,14 +48,14 @@ float readHere(const float* values, std::size_t count)
     return hn::GetLane(hn::SumOfLanes(d, s0));
 }
 
-/// Eight chains: enough to keep two units of a latency of four busy, and few enough for the sixteen registers of the
-/// narrow sets.
+/// Uses eight chains: enough to keep two units with a latency of four cycles busy, and few enough for the sixteen
+/// registers of the narrow instruction sets.
 float multiplyAddHere(int rounds)
 {
     const D d;
     const V factor = hn::Set(d, 0.999f), term = hn::Set(d, 0.001f);
     V a0 = hn::Set(d, 1.f), a1 = hn::Set(d, 2.f), a2 = hn::Set(d, 3.f), a3 = hn::Set(d, 4.f), a4 = hn::Set(d, 5.f),
-      a5 = hn::Set(d, 6.f), a6 = hn::Set(d, 7.f), a7 = hn::Set(d, 8.f);  // equal ones would be computed once
+      a5 = hn::Set(d, 6.f), a6 = hn::Set(d, 7.f), a7 = hn::Set(d, 8.f);  // equal ones would be merged by the compiler
     for (int k = 0; k < 4 * rounds; ++k)
     {
         a0 = hn::MulAdd(a0, factor, term);

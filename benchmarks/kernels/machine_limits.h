@@ -7,19 +7,19 @@
 namespace bullet_fem
 {
 
-// What the machine can do at most on one thread, for comparison. All run on the widest vectors that the processor has,
-// as the kernels do.
+// Peak performance of one thread, for comparison. All functions use the widest vectors of the processor, as the kernels
+// do.
 
-/// Name of that instruction set, such as "AVX3".
+/// Name of the instruction set in use, such as "AVX3".
 const char* vectorTarget();
 
-/// Sums `count` floats, a multiple of 512, aligned to 64 bytes: the fastest way to read them once.
+/// Sums `count` floats, a multiple of 512, aligned to 64 bytes: the fastest way of reading them once.
 float readOnce(const float* values, std::size_t count);
 
-/// Runs `rounds` of 32 independent vectors' multiply-adds in single precision; returns a value that depends on all.
+/// Makes `rounds` multiply-adds on 32 independent vectors in single precision; the result depends on all of them.
 float multiplyAdd(int rounds);
 
-/// Floating-point operations of that.
+/// Floating-point operations of multiplyAdd(rounds).
 double multiplyAddOperations(int rounds);
 
 }  // namespace bullet_fem

@@ -12,9 +12,9 @@ namespace
 {
 
 constexpr int kRounds = 5;
-constexpr std::size_t kMaxSamples = 1000000;  // a work's, in all rounds
+constexpr std::size_t kMaxSamples = 1000000;  // per work, over all turns
 
-/// The time of one repetition [s].
+/// Time of one repetition [s].
 double timeOf(const TimedWork& work)
 {
     if (work.m_prepare) work.m_prepare();

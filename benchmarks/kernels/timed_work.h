@@ -9,28 +9,28 @@
 namespace bullet_fem
 {
 
-/// A piece of work to be timed again and again.
+/// Work that is timed repeatedly.
 struct TimedWork
 {
     std::string m_name;
     std::function<void()> m_run;
-    std::function<void()> m_prepare;  ///< what every repetition needs before it and is not timed; may be empty
+    std::function<void()> m_prepare;  ///< preparation before each repetition, not timed; may be empty
 };
 
-/// What came out of it.
+/// Result of the repetitions.
 struct Timing
 {
-    double m_best = 0;    ///< shortest repetition [s]: other programs only ever add
+    double m_best = 0;    ///< shortest repetition [s], which other programs disturb least
     double m_median = 0;  ///< [s]
     int m_count = 0;      ///< repetitions
 };
 
-/// Times all of `work` in turns, five rounds of at least `seconds` / 5 and one repetition each, so that a disturbance
-/// of the machine meets all alike. One result for each, in its order.
+/// Times all of `work` in turns, five turns of at least `seconds` / 5 and one repetition each, so that external load
+/// affects all alike. Returns one result for each, in order.
 std::vector<Timing> timeInTurns(const std::vector<TimedWork>& work, double seconds);
 
-/// The median of how many times as long as `other` a piece of work takes, when they alternate, one repetition each, for
-/// `seconds`: neither finds in the caches what it has just left there itself.
+/// Median ratio of the time of `work` to that of `other`, run alternately one repetition each for `seconds`. Neither
+/// then finds its own data in the caches.
 double medianRatio(const TimedWork& work, const TimedWork& other, double seconds);
 
 }  // namespace bullet_fem

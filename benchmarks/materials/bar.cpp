@@ -12,8 +12,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTolerance = 1e-8;  // of the solves
-constexpr double kAtRest = 1e-9;     // of what moves in a step [m]
+constexpr double kTolerance = 1e-8;  // of the linear solves
+constexpr double kAtRest = 1e-9;     // largest displacement in a step that counts as rest [m]
 constexpr int kMaxSteps = 2000;
 
 Body makeBody(const TetMesh& mesh, const Material& material, double step,
@@ -27,7 +27,7 @@ Body makeBody(const TetMesh& mesh, const Material& material, double step,
     return Body(BodyModel::create(shape, std::move(input)));
 }
 
-// A third of the area of the surface's triangles in the plane at x, a node.
+// Area per node in the plane at x: a third of each surface triangle there.
 std::vector<double> areasAt(const TetMesh& mesh, double x)
 {
     const std::vector<Vec3>& X = mesh.restPositions();

@@ -11,27 +11,27 @@
 namespace bullet_fem
 {
 
-/// A bar along x from the origin, whose end faces are loaded.
+/// A bar along x from the origin with loaded end faces.
 class Bar
 {
 public:
-    /// Nodes of which `isFixed(X)` is true do not move; step [s]. Throws std::invalid_argument.
+    /// Fixes the nodes with `isFixed(X)`; step [s]. Throws std::invalid_argument.
     Bar(const TetMesh& mesh, const Material& material, double step,
         const std::function<bool(const Vec3& X)>& isFixed = {});
 
-    /// Loads both ends with a nominal stress [Pa] along the axis that they have now.
+    /// Loads both end faces with a nominal stress [Pa] along the bar's present axis.
     void pull(double stress);
 
     /// Loads the far end with a force [N].
     void load(const Vec3& force);
 
-    /// To equilibrium under the loads, which `renew`, if any, sets before every step: steps that start from rest.
+    /// Steps to static equilibrium; each step starts from rest. `renew`, if given, sets the loads before each step.
     void settle(const std::function<void()>& renew = {});
 
-    /// A step of the motion.
+    /// Makes one dynamic step.
     void step();
 
-    double strain() const;     ///< mean along the axis [-]
+    double strain() const;     ///< mean axial strain [-]
     Vec3 endPosition() const;  ///< mean over the far end [m]
     Body& body() { return m_body; }
 
@@ -40,7 +40,7 @@ private:
 
     Body m_body;
     double m_step;
-    std::vector<double> m_near, m_far;  // areas of the end faces a node [m2]
+    std::vector<double> m_near, m_far;  // area of the end faces per node [m2]
     double m_length = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What bars of the materials do, beside the formulas of docs/materials.md.
+// Response of bars of the material laws, compared with the formulas of docs/materials.md.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -19,10 +19,10 @@ namespace
 {
 using namespace bullet_fem;
 
-constexpr double kYoung = 1e6;                        // of what is slow [Pa]
+constexpr double kYoung = 1e6;                        // of rate-dependent materials [Pa]
 constexpr double kLongStep = 0.05, kStep = 1.0 / 60;  // [s]
 
-// A curve: what was measured and what the formula says, at every place.
+// Measured values and those of the formula, for each abscissa.
 struct Curve
 {
     std::string m_figure, m_name;
@@ -56,7 +56,7 @@ Material elastic(double young, double poisson, double density = 1000)
     return material;
 }
 
-// Pulled beyond what it yields at, let go, pressed beyond it: isotropic hardening.
+// Tension beyond the yield stress, unloading, compression beyond it: isotropic hardening.
 Curve yieldCurve()
 {
     constexpr double kYield = 1e3, kHardening = 0.25 * kYoung;
@@ -85,7 +85,7 @@ Curve yieldCurve()
     return curve;
 }
 
-// Sheared at once and held: what is left of the stress. Three terms.
+// Stress relaxation after a sudden shear strain; Prony series of three terms.
 Curve relaxationCurve()
 {
     Curve curve = {"relaxation", "three terms", {}, {}, {}};
@@ -106,7 +106,7 @@ Curve relaxationCurve()
     return curve;
 }
 
-// Nominal stress of a Neo-Hookean bar that is as wide as nothing beside it presses [Pa].
+// Nominal uniaxial stress of a Neo-Hookean bar with free lateral faces [Pa].
 double neoHookeStress(const Material& material, double stretch)
 {
     const double mu = material.lameMu(), lambda = material.lameLambda();
@@ -121,7 +121,7 @@ double neoHookeStress(const Material& material, double stretch)
     return stress(stretch, stretch * low * low);
 }
 
-// Pulled to twice its length.
+// Tension to twice the length.
 Curve largeStrainCurve(const char* name, ElasticLaw law)
 {
     Curve curve = {"large strain", name, {}, {}, {}};
@@ -140,7 +140,7 @@ Curve largeStrainCurve(const char* name, ElasticLaw law)
     return curve;
 }
 
-// The tip of a clamped bar of 10 x 1 x 1, n cells across, over Timoshenko's.
+// Tip deflection of a clamped bar of 10 x 1 x 1 with n cells across, relative to Timoshenko's beam theory.
 Curve tipCurve(const char* name, int cells, MeanDilatation dilatation, bool isAccurate = false)
 {
     constexpr double kLength = 10, kForce = 1e-3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What bodies do in steps of different sizes, and what a step costs: implicit Euler and the step of second order.
+// Motion of bodies at different step sizes, and cost of a step: implicit Euler and the second-order step.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -17,11 +17,11 @@ using namespace bullet_fem;
 
 const char* const g_legend = R"(
 Euler         btFemSolverInfo::m_numericalDamping and m_contactDamping = 1; second order: 0; rigid: Bullet's sphere
-tip           clamped beam of 4 x 1 x 1 m, 1,536 tets, E 1e7, undamped, falling from rest; compared 30 times in a second
-swing         such a beam of 192 tets with the E that gives it 1.7 Hz, from what ten seconds take from its energy
-drop, roll    balls of .25 m radius, E 1e6; those dropped are undamped, those that roll have beta .005 s and friction .8
-reference     second order in the steps of --reference; theory for the swing and for rigid spheres
-CPU           median of the processor time of a step: of the beam alone, of stepSimulation for the balls
+tip           clamped beam of 4 x 1 x 1 m, 1,536 tets, E 1e7, undamped, falling from rest; compared 30 times per second
+swing         a beam of 192 tets with a first frequency of 1.7 Hz; half-life from the energy loss in ten seconds
+drop, roll    balls of .25 m radius, E 1e6; dropped balls are undamped, rolling ones have beta .005 s and friction .8
+reference     second order at the step of --reference; theory for the swing and for rigid spheres
+CPU           median processor time of a step: of the beam alone, of stepSimulation for the balls
 )";
 
 struct Options
@@ -44,20 +44,20 @@ const CLI::Validator g_multiple(
 
 void addOptions(CLI::App& app, Options& options)
 {
-    app.add_option("--cases", options.m_cases, "of tip, swing, drop, roll10, roll20")
+    app.add_option("--cases", options.m_cases, "a selection of tip, swing, drop, roll10, roll20")
         ->delimiter(',')
         ->capture_default_str();
-    app.add_option("--rates", options.m_rates, "steps a second")
+    app.add_option("--rates", options.m_rates, "steps per second")
         ->delimiter(',')
         ->check(g_multiple)
         ->capture_default_str();
-    app.add_option("--reference", options.m_reference, "steps a second of the reference")
+    app.add_option("--reference", options.m_reference, "steps per second of the reference")
         ->check(g_multiple)
         ->capture_default_str();
-    app.add_option("--cells", options.m_cells, "along a ball; 8 give 3,072 tets")
+    app.add_option("--cells", options.m_cells, "cells along a ball; 8 give 3,072 tets")
         ->check(CLI::Range(2, 32))
         ->capture_default_str();
-    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.add_option("--json", options.m_jsonFile, "write the results to this file");
     app.footer(
         "Example, the picture of docs/accuracy.md:\n  bulletfem_bench_motion --json motion.json\n"
         "  tools/plot_motion_against_step.py motion.json docs/motion_against_step.png\n"

@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-/// What stands in tables and files of a case.
+/// Texts of a case for tables and files.
 struct Description
 {
     MotionCase m_case;
@@ -26,8 +26,7 @@ struct Description
 const Description g_descriptions[] = {
     {MotionCase::tip, "tip", "error", "-", "largest error of the beam's tip in a second / largest deflection"},
     {MotionCase::swing, "swing", "half-life", "s", "half-life of the amplitude of an undamped swing of 1.7 Hz"},
-    {MotionCase::drop, "drop", "returns", "-",
-     "speed that an undamped ball returns with from a metre / that it came with"},
+    {MotionCase::drop, "drop", "returns", "-", "rebound speed of an undamped ball dropped from a metre / impact speed"},
     {MotionCase::roll10, "roll10", "speed", "m/s", "speed of a ball after six seconds down ten degrees"},
     {MotionCase::roll20, "roll20", "speed", "m/s", "speed of a ball after six seconds down twenty degrees"}};
 
@@ -48,7 +47,7 @@ double degreesOf(MotionCase motionCase)
     return motionCase == MotionCase::roll10 ? 10 : 20;
 }
 
-/// One that has no use for a reference of its own size of steps.
+/// Measures cases that need no reference solution at their own step size.
 Measured measure(MotionCase motionCase, MotionMethod method, int rate, int ballCells)
 {
     std::cerr << nameOf(motionCase) << ", " << nameOf(method) << ", 1/" << rate << " s ..." << std::endl;
@@ -96,7 +95,7 @@ std::vector<MotionFigures> measureMotion(MotionCase motionCase, const std::vecto
 {
     if (motionCase == MotionCase::tip) return measureTips(rates, referenceRate);
     const bool rolls = motionCase == MotionCase::roll10 || motionCase == MotionCase::roll20;
-    double reference = std::numeric_limits<double>::infinity();  // nothing damps the swing
+    double reference = std::numeric_limits<double>::infinity();  // the swing is undamped
     if (motionCase != MotionCase::swing)
         reference = measure(motionCase, MotionMethod::secondOrder, referenceRate, ballCells).m_value;
     std::vector<MotionFigures> rows;
@@ -135,7 +134,7 @@ void printTable(std::ostream& out, const std::vector<MotionFigures>& rows)
 nlohmann::json toJson(const std::vector<MotionFigures>& rows)
 {
     nlohmann::json results = nlohmann::json::array();
-    for (const MotionFigures& row : rows)  // infinite values are null
+    for (const MotionFigures& row : rows)  // infinite values become null
         results.push_back({{"case", nameOf(row.m_case)},
                            {"method", nameOf(row.m_method)},
                            {"steps_per_second", row.m_rate},

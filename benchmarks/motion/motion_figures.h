@@ -12,7 +12,7 @@
 namespace bullet_fem
 {
 
-/// What is measured against the step.
+/// Quantity that is measured against the step size.
 enum class MotionCase
 {
     tip,
@@ -22,32 +22,32 @@ enum class MotionCase
     roll20
 };
 
-/// A measure in steps of one size.
+/// Result of one case, method and step size.
 struct MotionFigures
 {
     MotionCase m_case = MotionCase::tip;
     MotionMethod m_method = MotionMethod::euler;
-    int m_rate = 60;            ///< steps a second
-    double m_value = 0;         ///< of the case, in its unit
-    double m_reference = 0;     ///< the same in steps of the reference's size; NaN where there is none
-    double m_milliseconds = 0;  ///< processor time of a step, median [ms]
+    int m_rate = 60;            ///< steps per second
+    double m_value = 0;         ///< in the unit of the case
+    double m_reference = 0;     ///< value at the reference step size; NaN if there is none
+    double m_milliseconds = 0;  ///< processor time per step, median [ms]
 };
 
-/// A name without blanks, for files and options.
+/// Name without blanks, for files and options.
 const char* nameOf(MotionCase motionCase);
 
-/// The case of that name. Throws std::invalid_argument.
+/// The case with that name. Throws std::invalid_argument.
 MotionCase motionCase(const std::string& name);
 
-/// A case in all steps, by both methods and, for those that roll, Bullet's rigid sphere. Rates [1/s] are multiples of
-/// 30. Tells on std::cerr where it is.
+/// Measures a case at all rates, by both methods and, for rolling cases, with Bullet's rigid sphere. Rates [1/s] are
+/// multiples of 30. Reports progress on std::cerr.
 std::vector<MotionFigures> measureMotion(MotionCase motionCase, const std::vector<int>& rates, int referenceRate,
                                          int ballCells);
 
-/// A table a case.
+/// Prints one table per case.
 void printTable(std::ostream& out, const std::vector<MotionFigures>& rows);
 
-/// The same figures, one object a row.
+/// The results as JSON, one object per row.
 nlohmann::json toJson(const std::vector<MotionFigures>& rows);
 
 }  // namespace bullet_fem

@@ -27,10 +27,10 @@ constexpr double kRadius = 0.25;         // of the balls [m]
 constexpr double kBallYoung = 1e6;       // [Pa]
 constexpr double kBallDensity = 1000;    // [kg/m3]
 constexpr double kRollSeconds = 6;       // [s]
-constexpr double kRollDamping = 0.005;   // of the material that rolls [s]
-constexpr double kContactSeconds = 0.4;  // from the touch on, in which a ball has been thrown back [s]
+constexpr double kRollDamping = 0.005;   // stiffness damping of the rolling material [s]
+constexpr double kContactSeconds = 0.4;  // from first contact, long enough for the rebound [s]
 
-/// A ball over the ground z = 0.
+/// A ball above the ground z = 0.
 class MotionWorld
 {
 public:
@@ -114,7 +114,7 @@ private:
     std::vector<double> m_milliseconds;
 };
 
-/// Of the centre of mass [m/s].
+/// Velocity of the centre of mass [m/s].
 double velocityOf(const btSoftBody& body, int axis)
 {
     double momentum = 0, mass = 0;
@@ -154,7 +154,7 @@ Measured fallFrom(double height, MotionMethod method, int rate, int cells)
 Measured dropBall(MotionMethod method, int rate, int cells)
 {
     Measured mean;
-    const double heights[] = {1.01, 1.03, 1.05, 1.07};  // 2 cm are a quarter of the way in 1/60 s [m]
+    const double heights[] = {1.01, 1.03, 1.05, 1.07};  // 2 cm are a quarter of the path in 1/60 s [m]
     for (const double height : heights)
     {
         const Measured one = fallFrom(height, method, rate, cells);

@@ -5,7 +5,7 @@
 namespace bullet_fem
 {
 
-/// What moves the bodies.
+/// Time integrator.
 enum class MotionMethod
 {
     euler,        ///< numerical damping 1
@@ -13,22 +13,23 @@ enum class MotionMethod
     rigid         ///< Bullet's rigid bodies
 };
 
-/// A value and what a step took.
+/// A result and the time of its steps.
 struct Measured
 {
     double m_value = 0;
-    double m_milliseconds = 0;  ///< processor time of stepSimulation, or of the step of the beam alone; median [ms]
+    double m_milliseconds = 0;  ///< processor time of stepSimulation, or of the beam's step alone; median [ms]
 };
 
-/// Largest speed with which an undamped rubber ball of 0.25 m radius and 1 MPa returns from a fall of a metre, over
-/// that with which it meets a static box [-], mean of four falls that meet it in different phases of the step. `rate`
-/// [1/s]; `cells` along the ball, in [2, 1000].
+/// Coefficient of restitution [-] of an undamped rubber ball of 0.25 m radius and 1 MPa on a static box after a fall of
+/// a metre: largest rebound speed over impact speed, mean of four falls whose impacts differ in phase within the step.
+/// `rate` [1/s]; `cells` along the ball, in [2, 1000].
 Measured dropBall(MotionMethod method, int rate, int cells);
 
-/// Speed of a ball of 0.25 m radius, 1 MPa, damping 0.005 s and friction 0.8 after six seconds down a plane [m/s].
+/// Speed [m/s] of a ball of 0.25 m radius, 1 MPa, damping 0.005 s and friction 0.8 after rolling down a plane for six
+/// seconds.
 Measured rollBall(MotionMethod method, int rate, int cells, double degrees);
 
-/// What a rigid sphere has then without slip, 5/7 g t sin(angle) [m/s].
+/// Speed of a rigid sphere that rolls without slip for that time, 5/7 g t sin(angle) [m/s].
 double speedOfRigidSphere(double degrees);
 
 }  // namespace bullet_fem

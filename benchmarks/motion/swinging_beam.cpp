@@ -16,15 +16,15 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kFrames = 30;            // a second, at which tips are compared
-constexpr double kFrequency = 1.7;     // of the swing [Hz]
+constexpr int kFrames = 30;            // per second, at which tip positions are compared
+constexpr double kFrequency = 1.7;     // of the oscillation [Hz]
 constexpr double kSwingSeconds = 10;   // [s]
-constexpr double kFirstSeconds = 0.6;  // of one period, whose largest energy is the start's [s]
-constexpr double kWeight = 0.3;        // that bends the beam before it swings, along y and along z [m/s2]
-constexpr double kTolerance = 1e-6;    // of the solves
+constexpr double kFirstSeconds = 0.6;  // one period, whose maximum energy is the initial one [s]
+constexpr double kWeight = 0.3;        // acceleration that bends the beam initially, along y and along z [m/s2]
+constexpr double kTolerance = 1e-6;    // of the linear solves
 constexpr double kBeamYoung = 1e7;     // [Pa]
 constexpr double kBeamDensity = 1000;  // [kg/m3]
-// The elements' diagonals lie along y = z: along y or z alone two modes would beat.
+// The diagonals of the elements lie along y = z. Bending along y or z alone would excite two modes that beat.
 const Vec3 g_weight = {0, -kWeight, -kWeight};
 
 Material elastic(double youngModulus)
@@ -63,10 +63,10 @@ void load(Body& body, const Vec3& gravity)
         body.m_loads.m_force[i] = body.m_state.m_mass[i] * gravity;
 }
 
-/// How it bends under a small weight: to the first mode but for some percent.
+/// Static deflection under a small weight: the first mode up to some percent.
 std::vector<Vec3> bentShape(const BeamCase& beam)
 {
-    StepSettings settings = settingsOf(1, 1);  // implicit Euler in long steps ends at rest
+    StepSettings settings = settingsOf(1, 1);  // long steps of implicit Euler converge to rest
     settings.m_tolerance = 1e-9;
     Body body = bodyOf(beam, settings);
     load(body, g_weight);
@@ -76,7 +76,7 @@ std::vector<Vec3> bentShape(const BeamCase& beam)
     return bent;
 }
 
-/// What the state has of a shape u: sum m u . d / sum m u . u.
+/// Projection of the state on a shape u: sum m u . d / sum m u . u.
 double shareOf(const std::vector<Vec3>& shape, const std::vector<double>& mass, const std::vector<Vec3>& of,
                const std::vector<Vec3>& from)
 {
@@ -89,7 +89,7 @@ double shareOf(const std::vector<Vec3>& shape, const std::vector<double>& mass, 
     return part / whole;
 }
 
-/// omega^2 of a shape under the weight that bends it, which is Rayleigh's quotient [1/s2].
+/// omega^2 of a shape under the weight that bends it, by Rayleigh's quotient [1/s2].
 double omegaSquare(const BeamCase& beam, const std::vector<Vec3>& bent)
 {
     const std::vector<double> mass = lumpedNodeMasses(beam);
@@ -102,7 +102,7 @@ double omegaSquare(const BeamCase& beam, const std::vector<Vec3>& bent)
     return work / inertia;
 }
 
-/// The beam whose first bending mode has that frequency: its square goes with Young's modulus.
+/// The beam whose first bending mode has that frequency; the frequency squared is proportional to Young's modulus.
 BeamCase beamOfFrequency(double frequency)
 {
     BeamCase beam = makeBeamCase(beamCells(192), elastic(kBeamYoung));
@@ -153,7 +153,7 @@ Measured swingBeam(MotionMethod method, int rate)
     const BodyState& s = body.m_state;
     for (std::size_t i = 0; i < bent.size(); ++i) body.m_state.m_x[i] += bent[i];
     const double omega = std::sqrt(omegaSquare(beam, bent));
-    double first = 0, last = 0;  // largest energies of the first and of the last period
+    double first = 0, last = 0;  // maximum energies of the first and of the last period
     std::vector<double> milliseconds;
     const int steps = static_cast<int>(std::lround(kSwingSeconds * rate));
     const int period = static_cast<int>(std::lround(kFirstSeconds * rate));
@@ -167,7 +167,7 @@ Measured swingBeam(MotionMethod method, int rate)
         if (k < period) first = std::max(first, x * x + v * v);
         if (k >= steps - period) last = std::max(last, x * x + v * v);
     }
-    const double lost = 0.5 * std::log(first / last);  // of the amplitude
+    const double lost = 0.5 * std::log(first / last);  // logarithmic decrease of the amplitude
     const double time = kSwingSeconds - kFirstSeconds;
     return {lost > 0 ? time * std::log(2.0) / lost : std::numeric_limits<double>::infinity(), median(milliseconds)};
 }

@@ -39,7 +39,7 @@ Mat3 hooke(const RestElement& element, const Mat3& E, double dilatation)
              {xz, yz, 2 * mu * E(2, 2) + pressure}}};
 }
 
-// tr of every element's strain, or the mean over its patch.
+// Trace of each element's strain, or its mean over the element's patch.
 template <class StrainOf>
 std::vector<double> dilatations(const RestShape& shape, const StrainOf& strainOf)
 {

@@ -11,19 +11,19 @@
 namespace bullet_fem
 {
 
-/// What a baked body saves. Times are medians of runs that follow each other, so the file is in the system's cache.
+/// Time saved by a baked body. Times are medians of consecutive runs, so that the file is in the system's cache.
 struct BakeTimes
 {
     int m_tets = 0;
     double m_fileMegabytes = 0;  ///< [1e6 B]
     double m_setupSeconds = 0;   ///< from positions and elements to a factored model [s]
-    double m_writeSeconds = 0;   ///< of such a model [s]
-    double m_mappedSeconds = 0;  ///< from the file to the same model, with BakedLoading::mapped [s]
-    double m_copiedSeconds = 0;  ///< likewise with BakedLoading::copied [s]
-    bool m_sameMotion = false;   ///< ten steps of both have the same bits
+    double m_writeSeconds = 0;   ///< to write such a model [s]
+    double m_mappedSeconds = 0;  ///< to load the model from the file with BakedLoading::mapped [s]
+    double m_copiedSeconds = 0;  ///< to load the model from the file with BakedLoading::copied [s]
+    bool m_sameMotion = false;   ///< ten steps of both models are bitwise equal
 };
 
-/// Bakes the beam to a file in the system's temporary folder, which is removed. Throws std::runtime_error if that
+/// Bakes the beam to a file in the system's temporary folder and removes it. Throws std::runtime_error if the file
 /// cannot be written.
 BakeTimes measureBake(const BeamCase& beam);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The clamped beam in many sizes: what set-up, memory and a step cost, and how they grow.
+// The clamped beam in many sizes: set-up, memory and time per step, and their growth.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -19,15 +19,15 @@ namespace
 using namespace bullet_fem;
 
 const char* const g_legend = R"(
-Nodal warp, tension term on. With --low-memory a second table has the low-memory path at the same sizes.
-setup     all that happens before the first step: mesh, A0, order, supernodes, numeric factorization, packing
-order     its fill-reducing order, the one with less fill; numeric: supernodes, factorization and packing (both measured on their own)
+Nodal warp, tension term on. With --low-memory a second table lists the low-memory path at these sizes.
+setup     time before the first step: mesh, A0, order, supernodes, numeric factorization, packing
+order     the fill-reducing order with less fill; numeric: supernodes, factorization, packing (both timed separately)
 factor    the packed factor in single precision, 1e6 bytes; fill: entries of the factor over those of A0's lower half
-all MB    heap held after the last step by model and body
-CPU       median of the processor time that the stepping thread got, which the exponent is fitted to
-residual  largest true |b - A dv| / |b| of all steps
-With --bake another table has what baked bodies save: set-up from positions and elements beside reading the file, mapped
-or copied, which the system has in its cache; medians of 9 runs.
+all MB    heap in use after the last step by model and body
+CPU       median processor time of the stepping thread, to which the exponent is fitted
+residual  largest true |b - A dv| / |b| over the steps
+With --bake another table lists the time saved by baked bodies: set-up from positions and elements compared with reading
+the file, mapped or copied, from the system's cache; medians of 9 runs.
 )";
 
 struct Options
@@ -43,7 +43,7 @@ struct Options
     std::string m_jsonFile;
 };
 
-/// What is the same for all sizes of a table.
+/// Settings shared by all sizes of a table.
 struct Table
 {
     const Options& m_options;
@@ -99,18 +99,18 @@ void addOptions(CLI::App& app, Options& options)
     app.add_option("--tets", options.m_tets, "mesh sizes, each 24 n^3 with n in [1, 32] cells per metre")
         ->delimiter(',')
         ->capture_default_str();
-    app.add_flag("--large", options.m_large, "192,000 tets, too: about a minute and a gigabyte more");
+    app.add_flag("--large", options.m_large, "also 192,000 tets: about a minute and a gigabyte more");
     app.add_option("--young", options.m_youngModulus, "Young's modulus [Pa], in (0, 1e13]")->capture_default_str();
     app.add_option("--steps", options.m_steps, "steps of 1/60 s")->check(CLI::Range(1, 100000))->capture_default_str();
-    app.add_option("--tolerance", options.m_tolerance, "residual to iterate to")
+    app.add_option("--tolerance", options.m_tolerance, "relative residual at which the solve stops")
         ->check(CLI::Range(1e-8, 0.5))
         ->capture_default_str();
     app.add_option("--threads", options.m_threads, "threads that share a step; 0: all of the machine")
         ->check(CLI::Range(0, Threads::kMax))
         ->capture_default_str();
-    app.add_flag("--low-memory", options.m_lowMemory, "the low-memory path, too");
-    app.add_flag("--bake", options.m_bake, "what baked bodies save, too");
-    app.add_option("--json", options.m_jsonFile, "write the same figures to this file");
+    app.add_flag("--low-memory", options.m_lowMemory, "also run the low-memory path");
+    app.add_flag("--bake", options.m_bake, "also measure the time saved by baked bodies");
+    app.add_option("--json", options.m_jsonFile, "write the results to this file");
     app.footer(
         "Example, a quick look: bulletfem_bench_scaling --tets 192,1536,12288 --steps 20\n"
         "Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
@@ -131,7 +131,7 @@ int main(int argc, char** argv)
         JsonFile json(options.m_jsonFile);
         const Threads threads(options.m_threads);
         const MachineInfo machine = readMachineInfo(threads.count());
-        for (int tets : options.m_tets) beamCells(tets);  // a bad size is told before the others have run
+        for (int tets : options.m_tets) beamCells(tets);  // reports an invalid size before the others run
         const std::vector<ScalingFigures> rows = runSizes({options, threads, FactorChoice::full});
         std::vector<ScalingFigures> lowMemory;
         if (options.m_lowMemory) lowMemory = runSizes({options, threads, FactorChoice::lowMemory});

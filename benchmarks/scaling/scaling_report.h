@@ -15,18 +15,18 @@ namespace bullet_fem
 /// One size: one row of the table.
 struct ScalingFigures
 {
-    BeamFigures m_beam;    ///< the steps with their true residual
-    SetupStages m_stages;  ///< of the factor
+    BeamFigures m_beam;    ///< times and true residuals of the steps
+    SetupStages m_stages;  ///< set-up of the factor
 };
 
-/// y = c n^p, fitted through the logarithms by least squares.
+/// y = c n^p, a least-squares fit of the logarithms.
 struct PowerLaw
 {
     double m_exponent = 0;  ///< p [-]
-    int m_points = 0;       ///< sizes that it was fitted to; fewer than 2 give no exponent
+    int m_points = 0;       ///< number of fitted sizes; fewer than 2 give no exponent
 };
 
-/// How the columns of the table grow with the number of elements n, from 1,536 elements on: below, fixed costs rule.
+/// Growth of the table's columns with the number of elements n, from 1,536 elements on; fixed costs dominate below.
 struct ScalingExponents
 {
     PowerLaw m_order, m_numeric, m_setup, m_factorMegabytes, m_step;
@@ -34,10 +34,10 @@ struct ScalingExponents
 
 ScalingExponents fitExponents(const std::vector<ScalingFigures>& rows);
 
-/// The table, and the exponents below it.
+/// Prints the table and the exponents below it.
 void printTable(std::ostream& out, const std::vector<ScalingFigures>& rows);
 
-/// The same figures.
+/// The results as JSON.
 nlohmann::json toJson(const std::vector<ScalingFigures>& rows);
 
 }  // namespace bullet_fem

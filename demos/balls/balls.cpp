@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Balls of three stiffnesses and Bullet's rigid sphere fall onto a slope, bounce and roll down side by side.
+// Balls of three stiffnesses and a rigid sphere of Bullet fall onto a slope, bounce and roll down side by side.
 #include <algorithm>
 #include <cmath>
 
@@ -32,11 +32,11 @@ btFemMaterial materialOf(double young, double damping)
 
 int main(int argc, char** argv)
 {
-    Demo demo("balls", "Balls of three stiffnesses bounce and roll down a slope beside Bullet's rigid sphere.", 4);
+    Demo demo("balls", "Balls of three stiffnesses and Bullet's rigid sphere bounce and roll down a slope.", 4);
     double friction = 0.9, damping = 0.002, restitution = 0.6;
-    demo.option("--friction", friction, 0, 2, "between balls and slope [-]");
-    demo.option("--damping", damping, 0, 1, "of the balls' material [s]");
-    demo.option("--restitution", restitution, 0, 1, "of all four [-]");
+    demo.option("--friction", friction, 0, 2, "friction between balls and slope [-]");
+    demo.option("--damping", damping, 0, 1, "stiffness damping of the balls [s]");
+    demo.option("--restitution", restitution, 0, 1, "restitution of all four bodies [-]");
     const auto scene = [&]
     {
         DemoWorld world;
@@ -59,7 +59,7 @@ int main(int argc, char** argv)
             balls.back()->setRestitution(btScalar(restitution));
         }
 
-        double rebound[3] = {0, 0, 0};  // highest after the first contact, above where the ball touches [m]
+        double rebound[3] = {0, 0, 0};  // maximum height after the first contact, above the height in contact [m]
         bool landed[3] = {false, false, false};
         do
         {
@@ -73,11 +73,12 @@ int main(int argc, char** argv)
             demo.look(down * way + at(2, 1.7, 5.6), down * (way + btScalar(0.4)));
         } while (demo.step(world.bullet()));
 
-        // Angular momentum about the line of contact: whatever rolls in the end has this speed, if it is rigid.
+        // Speed of a rigid sphere that rolls without slip, from the balance of angular momentum about the contact
+        // point.
         const double rolling = 5.0 / 7 * kGravity * std::sin(angle) * demo.time();
         demo.check("rigid sphere: speed / rolling", rigid.getLinearVelocity().dot(down) / rolling, 0.98, 1.02, "", 2);
         const char* names[] = {"soft", "medium", "hard"};
-        const double least[] = {0.5, 0.75, 0.85};  // what rings afterwards gives back less
+        const double least[] = {0.5, 0.75, 0.85};  // minimum; energy of vibrations after the impact is lost
         for (int k = 0; k < 3; ++k)
         {
             const std::string name = names[k] + std::string(" ball: ");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A bridge of rigid planks and soft cushions, anchored to each other and to two piers. Crates fall on it.
+// A bridge of rigid planks and soft cushions that are anchored to each other and to two piers. Crates fall on it.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ constexpr double kDeck = 1.5, kPlankMass = 15, kCrateMass = 12;              // 
 constexpr double kSpan = kPlanks * kPlank + (kPlanks + 1) * kCushion;
 constexpr int kCrates = 3;
 
-/// A cushion between two rigid bodies, with the nodes of its ends anchored to them.
+/// Adds a cushion between two rigid bodies; the nodes at its ends are anchored to them.
 btSoftBody& addCushion(DemoSwapWorld& world, double x, btRigidBody& left, btRigidBody& right, double young)
 {
     btFemMaterial material = btFemMaterial::rubber();
@@ -81,7 +81,7 @@ void play(Demo& demo, double young, double crateMass, double aside)
             }
         samples += demo.time() > 5;
     } while (apart < kCushion && demo.step(world.bullet()));
-    const bool isBroken = apart >= kCushion;  // what is left of it falls, and would for long
+    const bool isBroken = apart >= kCushion;  // the parts of a broken bridge keep falling
     const double from = isBroken ? 0 : 7;
     const double sag = kDeck - supports[kPlanks / 2 + 1]->getCenterOfMassPosition().y();
     double lowestCrate = 10;
@@ -103,6 +103,6 @@ int main(int argc, char** argv)
     double young = 4e5, crateMass = kCrateMass, aside = 0;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus of the cushions [Pa]");
     demo.option("--crate", crateMass, 0.1, 1e4, "mass of a crate [kg]");
-    demo.option("--aside", aside, -10, 10, "how far beside the middle they fall [m]");
+    demo.option("--aside", aside, -10, 10, "lateral offset of the crates [m]");
     return demo.run(argc, argv, [&] { play(demo, young, crateMass, aside); });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The scene of the browser page without a browser, for this machine or for node.js: drops the body, lifts it by the
-// mouse's spring, lets it go, and waits until it rests. Figures, and exit code 1 where a check fails.
+// The scene of the browser page without a browser, for this machine or for node.js: drops the body, lifts it with the
+// mouse's spring, releases it, and waits until it rests. Prints results; exit code 1 if a check fails.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +20,10 @@ namespace
 {
 
 constexpr int kStand = 180, kLift = 120, kSettle = 240, kHold = 240, kMax = 3600;  // steps
-constexpr double kHeight = 1.6;                                                    // that the mouse goes up [m]
+constexpr double kHeight = 1.6;                                                    // vertical path of the mouse [m]
 
 bool failed = false;
-std::vector<double> stepMs;  // processor time of each step since the last figure
+std::vector<double> stepMs;  // processor time of each step since the last printed line
 
 void check(const char* what, double value, double low, double high)
 {
@@ -34,7 +34,7 @@ void check(const char* what, double value, double low, double high)
 
 double processorMs()
 {
-#ifdef __EMSCRIPTEN__  // whose std::clock is wall time
+#ifdef __EMSCRIPTEN__  // its std::clock gives wall time
     return EM_ASM_DOUBLE({
         const used = process.cpuUsage();
         return (used.user + used.system) / 1000;
@@ -54,7 +54,7 @@ void step(int count)
     }
 }
 
-/// The median.
+/// Prints the median.
 void printStepMs(const char* what)
 {
     std::sort(stepMs.begin(), stepMs.end());
@@ -62,7 +62,7 @@ void printStepMs(const char* what)
     stepMs.clear();
 }
 
-/// FNV-1a of the surface's bits: the same wherever arithmetic is the same.
+/// FNV-1a hash of the surface's bits, for tests of bitwise equality.
 std::uint64_t bits()
 {
     std::uint64_t hash = 14695981039346656037ull;
@@ -85,7 +85,7 @@ bool isFinite()
     return true;
 }
 
-/// Lowest and highest point of the surface [m].
+/// Point of the surface [m] with the largest (sign 1) or smallest (sign -1) height.
 std::array<double, 3> extreme(double sign)
 {
     const float* vertices = scene_vertices();
@@ -135,7 +135,7 @@ int main(int argc, char** argv)
         step(1);
     }
     step(kSettle);
-    double sag = 0;  // mean, for it swings
+    double sag = 0;  // mean over its oscillation
     for (int k = 0; k < kHold; ++k)
     {
         step(1);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The page: loads the program and the body, steps the scene in step with the clock, draws it, and gives the mouse to
-// it. loadBulletFEM is what Emscripten made of scene.cpp; scene.h has its functions.
+// The page: loads the program and the body, steps the scene in real time, draws it, and passes mouse input to it.
+// Emscripten generates loadBulletFEM from scene.cpp; scene.h declares its functions.
 'use strict';
 
 const element = id => document.getElementById(id);
 const canvas = element('view');
-const kMostFrame = 0.1;     // longest time between frames that is made up for [s]
-const kMostStepping = 50;   // of a frame spent on steps: then the scene is slower than the clock [ms]
+const kMostFrame = 0.1;     // longest time between frames that steps catch up with [s]
+const kMostStepping = 50;   // limit of the time for steps in a frame; beyond it the scene is slower than real time [ms]
 const kFieldOfView = 0.6;   // [rad]
-const kLight = normalize([0.45, 1, 0.35]);  // towards it
+const kLight = normalize([0.45, 1, 0.35]);  // direction to the light
 const kElephant = [0.56, 0.62, 0.72], kBall = [0.83, 0.36, 0.25], kBox = [0.87, 0.62, 0.27];
 const kHand = [0.15, 0.35, 0.8];
 const camera = {target: [0, 0.5, 0], distance: 3.1, turn: 0.5, height: 0.28};
@@ -25,7 +25,7 @@ function multiply(a, b) {
     return Array.from({length: 16}, (_, k) => entry(k));
 }
 
-/** Where the camera is and its axes: x to the right, y up, z towards it. */
+/** Position and axes of the camera: x to the right, y up, z towards the viewer. */
 function view() {
     const c = Math.cos(camera.height);
     const z = [Math.sin(camera.turn) * c, Math.sin(camera.height), Math.cos(camera.turn) * c];
@@ -33,7 +33,7 @@ function view() {
     return {eye: add(camera.target, z, camera.distance), x, y: cross(z, x), z};
 }
 
-/** From the world to the screen. */
+/** Matrix from world to screen. */
 function projection() {
     const {eye, x, y, z} = view(), near = 0.05, far = 60, f = 1 / Math.tan(kFieldOfView / 2);
     const perspective = [f * canvas.height / canvas.width, 0, 0, 0, 0, f, 0, 0,
@@ -42,7 +42,7 @@ function projection() {
         -dot(x, eye), -dot(y, eye), -dot(z, eye), 1]);
 }
 
-/** The direction in which a point of the page is seen; its part along the view is 1. */
+/** Direction of the view ray through a point of the page; its component along the view axis is 1. */
 function rayThrough(event) {
     const {x, y, z} = view(), box = canvas.getBoundingClientRect();
     const scale = Math.tan(kFieldOfView / 2) / (box.height / 2);
@@ -51,7 +51,7 @@ function rayThrough(event) {
     return add(add(x.map(v => v * right), y, up), z, -1);
 }
 
-// Drawing. All is triangles of positions and normals; a shadow is the same, laid on the ground.
+// Drawing: triangles with positions and normals; a shadow is a projection of these triangles onto the ground.
 const kVertexShader = `#version 300 es
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -160,7 +160,7 @@ class Drawing {
             gl.drawElements(gl.TRIANGLES, mesh.count, gl.UNSIGNED_INT, 0);
         };
         one(this.ground, kHere, kGround, {ground: true});
-        gl.enable(gl.STENCIL_TEST);  // each pixel is shaded once
+        gl.enable(gl.STENCIL_TEST);  // shades each pixel once
         gl.stencilFunc(gl.EQUAL, 0, 1);
         gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
         gl.enable(gl.BLEND);
@@ -174,7 +174,7 @@ class Drawing {
 
 const kHere = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-/** A ball of radius 1 at a place, or a rod of some radius between two places. */
+/** A ball of radius 1 at a point, or a rod between two points. */
 function ballAt(p, r) { return [r, 0, 0, 0, 0, r, 0, 0, 0, 0, r, 0, ...p, 1]; }
 function rod(p, q, r) {
     const along = add(q, p, -1).map(x => x / 2);
@@ -224,11 +224,11 @@ async function start() {
         .map(name => [name.slice('_scene_'.length), program[name]]));
     const errorText = () => program.UTF8ToString(call.error());
     const must = done => { if (!done) throw new Error(errorText()); };
-    // Memory may grow in any call, so views of it are made after the call.
+    // Any call may grow the memory, so views of it must be created after the call.
     const numbers = (address, count, Kind = Float32Array) => new Kind(program.HEAPU8.buffer, address, count);
 
     const drawing = new Drawing();
-    const ms = [];  // of the last steps
+    const ms = [];  // time of each of the last steps
     let mouse = null, late = 0, last = 0, changed = false, steps = 0, time = 0;
 
     const settings = () => ({young: Math.round(10 ** element('young').value), damping: +element('damping').value,
@@ -258,7 +258,7 @@ async function start() {
     open(bytes, body.byteLength);
     program._free(bytes);
 
-    // One function for all errors, so that none goes unseen.
+    // Shows all errors of event handlers on the page.
     const guarded = handler => event => {
         try { handler(event); } catch (error) { element('error').textContent = error.message; throw error; }
     };
@@ -268,7 +268,7 @@ async function start() {
     element('feet').addEventListener('change', guarded(holdFeet));
     element('again').addEventListener('click', guarded(() => open(0, 0)));
 
-    // The mouse: holds the body by a spring whose end stays as far away as the point that was taken; else turns the view.
+    // The mouse drags the body by a spring at the constant depth of the picked point; elsewhere it turns the view.
     canvas.addEventListener('pointerdown', guarded(event => {
         canvas.setPointerCapture(event.pointerId);
         const {eye, z} = view(), end = add(eye, rayThrough(event), 50);
@@ -345,7 +345,7 @@ async function start() {
             finite: numbers(call.vertices(), 6 * call.vertex_count()).every(Number.isFinite),
             held: mouse && mouse.held ? Array.from(numbers(call.held(), 3)) : null,
             target: mouse && mouse.held ? mouse.target : null}),
-        /** Where a point of the world is seen [pixels of the page]. */
+        /** Position of a world point on the page [pixels]. */
         pixelOf: point => {
             const p = multiply(projection(), ballAt(point, 1)).slice(12), box = canvas.getBoundingClientRect();
             return [box.left + box.width * (1 + p[0] / p[3]) / 2, box.top + box.height * (1 - p[1] / p[3]) / 2];

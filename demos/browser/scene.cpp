@@ -20,15 +20,15 @@ namespace
 {
 using namespace bullet_fem;
 
-constexpr double kDrop = 0.02;                    // the body's feet above the ground at first [m]
-constexpr double kFriction = 0.8;                 // of everything
+constexpr double kDrop = 0.02;                    // initial gap under the body's feet [m]
+constexpr double kFriction = 0.8;                 // of all bodies
 constexpr double kRollingFriction = 0.02;         // of ball and box [m]
 constexpr btScalar kBallRadius = btScalar(0.13);  // [m]
 constexpr double kSpringStiffness = 6000;         // of the mouse [N/m]
 constexpr double kSpringDamping = 200;            // [N s/m]
-constexpr double kSpringWeights = 20;             // most force of the mouse, in weights of the body
+constexpr double kSpringWeights = 20;             // maximum force of the mouse, in weights of the body
 
-constexpr double kFeet = 0.12;  // as high as this, in heights of the body
+constexpr double kFeet = 0.12;  // height of the feet, in heights of the body
 
 struct Settings
 {
@@ -41,7 +41,7 @@ struct Scene
     btSoftBody* m_body = nullptr;
     std::vector<btRigidBody*> m_rigid;  // without the ground
     std::vector<int> m_feet;            // nodes
-    int m_spring = 0;                   // its handle, 0: nothing is held
+    int m_spring = 0;                   // handle of the spring; 0: nothing is held
     btFemSpring m_held;
 };
 
@@ -77,7 +77,7 @@ void addRigid(btCollisionShape* shape, double mass, const btVector3& place)
     scene->m_rigid.push_back(&body);
 }
 
-/// Of the world, and of what is in it; wakes all.
+/// Sets the gravity of the world and of the soft body, and wakes all bodies.
 void setGravity()
 {
     btSoftRigidDynamicsWorld& world = scene->m_world.bullet();
@@ -105,7 +105,7 @@ void start()
     setGravity();
 }
 
-/// What went wrong stays in `error`; JavaScript gets 0.
+/// Stores the message of an exception in `error`; JavaScript then gets 0.
 template <class Function>
 int attempt(Function&& function)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A car with soft tyres drives over bumps. Its wheels are rigid hubs on Bullet's hinges; the tyres are anchored to
-// them.
+// A car with soft tyres drives over bumps. Its wheels are rigid hubs on Bullet's hinges; the tyres are anchored to the
+// hubs.
 #include <algorithm>
 #include <cmath>
 
@@ -20,11 +20,11 @@ constexpr double kTyre = 0.4, kHub = 0.16, kWidth = 0.25;  // radii and width of
 constexpr double kChassisMass = 400, kHubMass = 30;        // [kg]
 constexpr double kWantedSpeed = 4;                         // [m/s]
 
-/// A cylinder around z, clamped onto the hub: its inner nodes become anchors.
+/// A cylinder around z whose inner nodes are anchored to the hub.
 btSoftBody& addTyre(DemoWorld& world, btRigidBody& hub, double young)
 {
     btFemMaterial rubber;
-    rubber.m_youngModulus = btScalar(young);  // [Pa], of rubber with the air in it
+    rubber.m_youngModulus = btScalar(young);  // [Pa], of the rubber and its air as one material
     rubber.m_density = 300;
     const btVector3 centre = hub.getWorldTransform().getOrigin();
     btSoftBody* tyre = btFemHelpers::createFromTetMesh(world.info(), makeCylinder(kTyre, kWidth, 8, 2));
@@ -39,7 +39,7 @@ btSoftBody& addTyre(DemoWorld& world, btRigidBody& hub, double young)
 
 void addBumps(DemoWorld& world, double height)
 {
-    for (int k = 0; k < 6; ++k)  // a long one under both wheels, then shorter ones, left and right in turn
+    for (int k = 0; k < 6; ++k)  // a long bump under both wheels, then shorter ones, left and right alternately
     {
         const double radius = 0.5, half = k == 0 ? 1.5 : 0.6, side = k == 0 ? 0 : k % 2 ? 0.75 : -0.75;
         const btTransform pose(btQuaternion(at(1, 0, 0), SIMD_HALF_PI), at(6 + 1.5 * k, height - radius, side));
@@ -54,7 +54,7 @@ int main(int argc, char** argv)
     Demo demo("car", "A car with soft tyres drives over bumps.", 6);
     double young = 4e5, torque = 120, bump = 0.08;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus of the tyres [Pa]");
-    demo.option("--torque", torque, 0, 1e4, "of the motor on each wheel at most [N m]");
+    demo.option("--torque", torque, 0, 1e4, "maximum torque of the motor on each wheel [N m]");
     demo.option("--bump", bump, 0, 0.5, "height of the bumps [m]");
     const auto scene = [&]
     {

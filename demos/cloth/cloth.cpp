@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bullet's cloth falls over a soft body, hangs on it and weighs on it.
+// Bullet's cloth falls over a soft body, hangs on it and loads it with its weight.
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +28,7 @@ btSoftBody& addCloth(DemoWorld& world, double mass, bool touches)
     cloth->setTotalMass(btScalar(mass));
     cloth->getCollisionShape()->setMargin(btScalar(kMargin));
     cloth->m_cfg.piterations = 8;
-    cloth->m_cfg.kDP = btScalar(0.02);  // of the air
+    cloth->m_cfg.kDP = btScalar(0.02);  // air drag
     cloth->m_cfg.kDF = btScalar(0.6);
     if (touches) cloth->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
     return world.addCloth(cloth);
@@ -72,11 +72,11 @@ void play(Demo& demo, double young, double mass, bool touches)
 
 int main(int argc, char** argv)
 {
-    Demo demo("cloth", "Bullet's cloth falls over a soft body, hangs on it and weighs on it.", 5);
+    Demo demo("cloth", "Bullet's cloth falls over a soft body, hangs on it and loads it with its weight.", 5);
     double young = 3e4, mass = 1;
     bool fallsThrough = false;
     demo.option("--young", young, 1e2, 1e9, "Young's modulus of the body [Pa]");
-    demo.option("--mass", mass, 1e-3, 1e3, "of the cloth [kg]");
-    demo.flag("--no-contact", fallsThrough, "the cloth has not the flag VF_SS, and falls through");
+    demo.option("--mass", mass, 1e-3, 1e3, "mass of the cloth [kg]");
+    demo.flag("--no-contact", fallsThrough, "the cloth lacks the flag VF_SS, and falls through");
     return demo.run(argc, argv, [&] { play(demo, young, mass, !fallsThrough); });
 }

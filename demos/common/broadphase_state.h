@@ -11,11 +11,11 @@
 namespace bullet_fem
 {
 
-/// What is Bullet's own in a world of soft and static bodies: the broad phase's boxes, and its pairs in their order.
+/// State of Bullet's own in a world of soft and static bodies: the boxes of its broad phase and its pairs, in order.
 class BroadphaseState
 {
 public:
-    /// Takes it as it is. The world must have a btDbvtBroadphase, and keep its objects.
+    /// Stores the present state. The world must have a btDbvtBroadphase and keep its objects.
     explicit BroadphaseState(btDynamicsWorld& world)
         : m_world(world), m_broadphase(*static_cast<btDbvtBroadphase*>(world.getBroadphase()))
     {
@@ -29,7 +29,8 @@ public:
         m_cleanUpAt = m_broadphase.m_cid;
         m_newPairs = m_broadphase.m_newpairs;
     }
-    /// Puts it back. Bullet's pairs begin anew then: restore it also when it is taken, so that both runs begin alike.
+    /// Restores the state. Bullet's pairs are rebuilt in the process, so call it right after the constructor too: then
+    /// both runs begin alike.
     void restore() const
     {
         for (const Box& box : m_boxes)
@@ -55,7 +56,7 @@ private:
     btDbvtBroadphase& m_broadphase;
     std::vector<Box> m_boxes;
     std::vector<std::pair<btBroadphaseProxy*, btBroadphaseProxy*>> m_pairs;
-    int m_cleanUpAt, m_newPairs;  // old pairs are taken out a few a step, from here on; the order of pairs follows
+    int m_cleanUpAt, m_newPairs;  // Bullet removes a few old pairs per step, from this index on
 };
 
 }  // namespace bullet_fem

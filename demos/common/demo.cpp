@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr int kGood = 0, kFailed = 1;
-constexpr double kRounding = 1e-9;  // [s]; a sum of steps is not quite their number times the step
+constexpr double kRounding = 1e-9;  // [s]; rounding error of a sum of steps
 
 std::string formatted(const char* format, double a, const std::string& unit)
 {
@@ -114,7 +114,7 @@ bool Demo::step(btDynamicsWorld& world, double h)
     m_film->show(world, m_time);
     if (m_time + h > m_seconds + kRounding) return false;
     const std::clock_t start = std::clock();
-    world.stepSimulation(btScalar(h), 0);  // 0: one step of just this size
+    world.stepSimulation(btScalar(h), 0);  // 0: one step of exactly this size
     m_stepSeconds += double(std::clock() - start) / CLOCKS_PER_SEC;
     m_time += h;
     ++m_steps;
@@ -134,7 +134,7 @@ void Demo::check(const std::string& what, double value, double low, double high,
         m_checks.push_back(row(what, formatted("left out: needs --seconds %.4g", from, "")));
         return;
     }
-    const bool good = value >= low && value <= high;  // false of NaN, too
+    const bool good = value >= low && value <= high;  // NaN gives false
     m_failed = m_failed || !good;
     m_checks.push_back(row(what, (good ? "ok: " : "FAILED: ") + formatted("%.4g", value, unit) +
                                      formatted(", in [%.4g, ", low, "") + formatted("%.4g]", high, "")));

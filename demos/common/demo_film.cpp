@@ -50,7 +50,8 @@ void DemoFilm::draw()
         mesh.m_colour = {colour.x, colour.y, colour.z};
         scene.m_meshes.push_back(std::move(mesh));
     }
-    // What the camera looks at is what shadows are made for; it keeps its distance, and they their softness.
+    // Shadows are computed for a box around the camera's target. The camera keeps its distance, so that their softness
+    // is constant.
     const btScalar half = btScalar(0.5) * (m_eye - m_target).length();
     scene.m_bounds = PictureBounds{vec3(m_target - at(half, half, half)), vec3(m_target + at(half, half, half))};
     scene.m_ground.m_shown = m_surfaces.ground() != nullptr;

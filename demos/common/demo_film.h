@@ -13,9 +13,8 @@
 namespace bullet_fem
 {
 
-/// What a demo leaves in its folder: a ParaView series of all surfaces (surfaces.pvd), three pictures (first.png,
-/// middle.png, last.png) and, where ffmpeg is found, a film (film.mp4). A program that was built without the renderer
-/// writes the series alone.
+/// Output files of a demo: a ParaView series of all surfaces (surfaces.pvd), three pictures (first.png, middle.png,
+/// last.png) and, if ffmpeg is found, a film (film.mp4). A program built without the renderer writes the series alone.
 class DemoFilm
 {
 public:
@@ -24,17 +23,16 @@ public:
     DemoFilm(const DemoFilm&) = delete;
     DemoFilm& operator=(const DemoFilm&) = delete;
 
-    /// From now on frames of a run of so many `seconds` are kept. Throws std::runtime_error if the folder cannot be
-    /// written.
+    /// Starts recording frames of a run of `seconds` [s]. Throws std::runtime_error if the folder cannot be written.
     void open(const std::string& folder, double seconds);
 
     void look(const btVector3& eye, const btVector3& target, double fieldOfView);
     void paint(const btCollisionObject& object, const Vec3& colour) { m_colours[&object] = colour; }
 
-    /// Draws the world at `time` [s], if the film is open and its next frame is due. Throws std::runtime_error.
+    /// Draws the world at `time` [s] if recording has started and the next frame is due. Throws std::runtime_error.
     void show(const btDynamicsWorld& world, double time);
 
-    /// Ends the film. Returns what was written.
+    /// Ends the film. Returns the names of the files written.
     std::vector<std::string> finish();
 
 private:

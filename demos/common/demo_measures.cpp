@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Sum over the nodes that are not pinned of mass times a vector.
+/// Sum of mass times a vector over the free nodes.
 btVector3 weighted(const btSoftBody& body, btVector3 btSoftBody::Node::*vector)
 {
     btVector3 sum(0, 0, 0);
@@ -79,7 +79,7 @@ SurfaceMesh lyingDown(SurfaceMesh surface, double length)
     int axes[3] = {0, 1, 2};
     std::sort(axes, axes + 3, [&](int a, int b) { return size[a] > size[b]; });
     std::swap(axes[1], axes[2]);
-    const bool mirrors = (axes[1] - axes[0] + 3) % 3 != 1;  // an odd exchange of axes
+    const bool mirrors = (axes[1] - axes[0] + 3) % 3 != 1;  // an odd permutation of axes
     const double scale = length / size[axes[0]];
     for (Vec3& v : surface.m_vertices)
     {

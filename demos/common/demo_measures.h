@@ -11,13 +11,13 @@
 namespace bullet_fem
 {
 
-/// Of the nodes that are not pinned [kg].
+/// Mass of the free nodes [kg].
 double massOf(const btSoftBody& body);
-/// Of mass [m].
+/// Centre of mass of the free nodes [m].
 btVector3 centreOf(const btSoftBody& body);
-/// Of the centre of mass [m/s].
+/// Velocity of the centre of mass [m/s].
 btVector3 velocityOf(const btSoftBody& body);
-/// Lowest and highest of all nodes' coordinates [m].
+/// Minimum and maximum coordinates over all nodes [m].
 btVector3 lowestOf(const btSoftBody& body);
 btVector3 highestOf(const btSoftBody& body);
 /// Extent along the axes [m].
@@ -26,22 +26,22 @@ inline btVector3 sizeOf(const btSoftBody& body)
     return highestOf(body) - lowestOf(body);
 }
 
-/// Of every tetrahedron [m3]; negative where it is inside out.
+/// Volume of each tetrahedron [m3]; negative if it is inverted.
 std::vector<double> volumesOf(const btSoftBody& body);
 
-/// A surface about the origin, its longest side `length` [m] along x, its shortest along y.
+/// The surface moved to the origin, scaled to `length` [m] along x, its longest side, with its shortest side along y.
 SurfaceMesh lyingDown(SurfaceMesh surface, double length);
 
-/// A box along the axes, by two corners [m].
+/// A box along the axes, given by two corners [m].
 struct Block
 {
     Vec3 m_low, m_high;
 };
-/// Whether a place is in one of them.
+/// Whether a point is in one of the blocks.
 bool isIn(const std::vector<Block>& blocks, const Vec3& place);
-/// A mesh without the elements whose middle is in one of the holes, as scenes have them.
+/// The mesh without the elements whose centre is in one of the holes, as in scene files.
 TetMesh carved(const TetMesh& mesh, const std::vector<Block>& holes);
-/// The elements of a body whose middle is in the block now.
+/// The elements of a body whose centre is in the block now.
 std::vector<int> elementsIn(const btSoftBody& body, const Block& block);
 
 }  // namespace bullet_fem

@@ -12,9 +12,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kSegments = 32, kRings = 8;  // around an axis, and from a pole to the equator
+constexpr int kSegments = 32, kRings = 8;  // segments around an axis, rings from pole to equator
 
-/// Points on a ball about `centre`: those of the upper half, or of the lower one, along y.
+/// Appends points on a hemisphere about `centre`, the upper or the lower one along y.
 void appendHalfBall(const btVector3& centre, btScalar radius, bool upper, std::vector<btVector3>& points)
 {
     for (int ring = 0; ring <= kRings; ++ring)
@@ -27,7 +27,7 @@ void appendHalfBall(const btVector3& centre, btScalar radius, bool upper, std::v
         }
 }
 
-/// Extreme points of a convex shape: its own, or those of circles on what is round.
+/// Extreme points of a convex shape: its vertices, or sample points on curved shapes.
 std::vector<btVector3> pointsOf(const btConvexShape& shape)
 {
     std::vector<btVector3> points;

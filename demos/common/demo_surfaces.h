@@ -12,17 +12,17 @@
 namespace bullet_fem
 {
 
-/// The surfaces of all objects of a Bullet world, as pictures and files take them: of soft bodies their faces, or the
-/// surface that follows them; of rigid ones their shapes. Planes have none: they are endless.
+/// Surfaces of all objects of a Bullet world for pictures and files: faces or the embedded surface of soft bodies,
+/// shapes of rigid bodies. Planes are left out because they are unbounded.
 class DemoSurfaces
 {
 public:
-    /// Takes them as they are now. `frames()[i]` is of `objects()[i]`.
+    /// Updates the surfaces to the present state. `frames()[i]` belongs to `objects()[i]`.
     void update(const btDynamicsWorld& world);
 
     const std::vector<BodyFrame>& frames() const { return m_frames; }
     const std::vector<const btCollisionObject*>& objects() const { return m_objects; }
-    /// Of the world's first plane, the ground [m]; null where there is none.
+    /// The first plane of the world, its ground; null if there is none.
     const btCollisionObject* ground() const { return m_ground; }
 
 private:

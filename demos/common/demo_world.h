@@ -20,7 +20,7 @@
 namespace bullet_fem
 {
 
-/// A Bullet world with BulletFEM in it, which owns what is added. What is BulletFEM's are the two solvers.
+/// A Bullet world that owns its objects. Only its two solvers are BulletFEM's.
 template <class World, class RigidSolver, class SoftSolver = btFemSoftBodySolver>
 class DemoWorldOf
 {
@@ -30,7 +30,7 @@ public:
           m_rigidSolver(&m_fem),
           m_world(&m_dispatcher, &m_broadphase, &m_rigidSolver, &m_configuration, &m_fem)
     {
-        m_configuration.setPlaneConvexMultipointIterations();  // else boxes touch a plane in one point
+        m_configuration.setPlaneConvexMultipointIterations();  // otherwise boxes get one contact point with a plane
         m_world.setGravity(at(0, -kGravity, 0));
         m_world.getWorldInfo().m_gravity = m_world.getGravity();
     }
@@ -52,7 +52,7 @@ public:
     SoftSolver& fem() { return m_fem; }
     btSoftBodyWorldInfo& info() { return m_world.getWorldInfo(); }
 
-    /// A rigid body of that mass [kg], 0 for a static one; it takes over the shape.
+    /// Adds a rigid body of that mass [kg], 0 for a static one; takes ownership of the shape.
     btRigidBody& addRigid(btCollisionShape* shape, double mass, const btTransform& pose, double friction = 1)
     {
         m_shapes.emplace_back(shape);
@@ -76,7 +76,7 @@ public:
         return addRigid(new btStaticPlaneShape(at(0, 1, 0), 0), 0, at(0, 0, 0), friction);
     }
 
-    /// Takes over a soft body, with its material and friction, and factors it for steps of `h` [s].
+    /// Takes ownership of a soft body, sets material and friction, and factors it for steps of `h` [s].
     btSoftBody& addSoft(btSoftBody* body, const btFemMaterial& material, double friction = 0.5, double h = kDemoStep)
     {
         m_soft.emplace_back(body);
@@ -86,7 +86,7 @@ public:
         m_world.addSoftBody(body);
         return *body;
     }
-    /// Cloth, a rope: Bullet's own.
+    /// Adds cloth or a rope that Bullet's own soft body solver simulates.
     btSoftBody& addCloth(btSoftBody* cloth)
     {
         m_soft.emplace_back(cloth);
@@ -94,7 +94,7 @@ public:
         return *cloth;
     }
 
-    /// Something to see that touches nothing; it takes over the shape.
+    /// Adds a visible object without contact; takes ownership of the shape.
     btCollisionObject& addMarker(btCollisionShape* shape, const btVector3& place)
     {
         m_shapes.emplace_back(shape);
@@ -115,7 +115,7 @@ public:
         return added;
     }
 
-    /// Takes over a multibody whose links are set up.
+    /// Takes ownership of a multibody whose links are set up.
     btMultiBody& addMultiBody(btMultiBody* body)
     {
         m_multiBodies.emplace_back(body);
@@ -123,7 +123,7 @@ public:
         m_world.addMultiBody(body);
         return *body;
     }
-    /// Gives a link its shape.
+    /// Gives a link its collision shape.
     btMultiBodyLinkCollider& addLink(btMultiBody& body, int link, btCollisionShape* shape, double friction = 1)
     {
         m_shapes.emplace_back(shape);
@@ -151,7 +151,7 @@ public:
     }
 
 private:
-    // A world without multibodies has none to remove.
+    // Only worlds with multibodies have motors.
     void removeMotor(btMultiBodyConstraint& motor)
     {
         if constexpr (kHasLinks) m_world.removeMultiBodyConstraint(&motor);
@@ -178,12 +178,12 @@ private:
     std::vector<std::unique_ptr<btMultiBodyConstraint>> m_motors;
 };
 
-/// Bullet's own rigid solver: with the soft body solver alone, the swap.
+/// Bullet's rigid solver; with the soft body solver alone, the coupling is staggered.
 struct DemoRigidSolver : btSequentialImpulseConstraintSolver
 {
     explicit DemoRigidSolver(btSoftBodySolver*) {}
 };
-/// Bullet's own soft body solver, to compare with.
+/// Bullet's own soft body solver, for comparison.
 struct DemoSpringSolver : btDefaultSoftBodySolver
 {
     explicit DemoSpringSolver(const btFemSolverInfo&) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The same meshes in the same scenes at the same 60 Hz: Bullet's own soft bodies on the left, BulletFEM on the right.
+// Equal meshes in equal scenes at 60 Hz: Bullet's own soft bodies on the left, BulletFEM on the right.
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -17,24 +17,24 @@ namespace
 using namespace bullet_fem;
 
 constexpr int kCheckFailed = 3;
-constexpr double kStands = 0.8;  // of the height at the start
+constexpr double kStands = 0.8;  // minimum final height over the initial one
 
 struct CompareOptions
 {
     std::string m_meshFile, m_folder;
-    double m_seconds = 0;  // 0: as long as the scene lasts
+    double m_seconds = 0;  // 0: the scene's own duration
     CrateSettings m_crate;
     double m_jelly = 3e4;  // [Pa]
     int m_cells = 4;
-    int m_clusters = -1;  // as the scenes choose
+    int m_clusters = -1;  // -1: the scene's own number
     SpringSettings m_springs;
 };
 
 std::optional<int> parse(int argc, char** argv, CompareOptions& options)
 {
     CLI::App app(
-        "Bullet's own soft bodies (left) beside BulletFEM (right): a box falls on a stack, and a crate on a surface.\n"
-        "Prints processor time a step, and what became of the bodies; --out draws a film.\n"
+        "Bullet's own soft bodies (left) and BulletFEM (right): a box falls on a stack, and a crate on a surface.\n"
+        "Prints processor time per step and the final state of the bodies; --out draws a film.\n"
         "Exit code: 1 on a bad file, 2 on a bad option, 3 if a check of BulletFEM's side failed.");
     app.option_defaults()->take_last()->always_capture_default(true);
     app.add_option("--mesh", options.m_meshFile,
@@ -45,7 +45,7 @@ std::optional<int> parse(int argc, char** argv, CompareOptions& options)
     app.add_option("--young", options.m_crate.m_young, "BulletFEM: Young's modulus of the surface's body [Pa]")
         ->check(inRange(1, 1e9));
     app.add_option("--jelly", options.m_jelly, "BulletFEM: Young's modulus in the stack [Pa]")->check(inRange(1, 1e9));
-    app.add_option("--tets", options.m_crate.m_tets, "elements wanted of the surface's body")
+    app.add_option("--tets", options.m_crate.m_tets, "desired number of elements of the surface's body")
         ->check(CLI::Range(100, 20000));
     app.add_option("--crate", options.m_crate.m_crateMass, "mass of the crate [kg]")->check(inRange(0.1, 1e4));
     app.add_option("--cells", options.m_cells, "cells along a cushion of the stack")->check(CLI::Range(2, 12));
@@ -54,7 +54,7 @@ std::optional<int> parse(int argc, char** argv, CompareOptions& options)
         ->check(CLI::Range(1, 1000));
     app.add_option("--clusters", options.m_clusters,
                    "Bullet: clusters of a body that collide; 0: its nodes collide with distance fields; -1: 16 for the "
-                   "surface's body, 0 in the stack, with which it does best")
+                   "surface's body, 0 in the stack, the best values for Bullet")
         ->check(CLI::Range(-1, 1000));
     try
     {
@@ -79,7 +79,7 @@ void print(const char* what, double left, double right, const char* unit)
     std::printf("  %-34s %12.4g %12.4g  %s\n", what, left, right, unit);
 }
 
-/// False where BulletFEM's side is not as it shall be.
+/// Returns false if BulletFEM's side fails a check.
 bool report(const ComparedScene& scene, const ComparedRun& left, const ComparedRun& right)
 {
     std::printf("%-36s %12s %12s\n", scene.m_name.c_str(), "Bullet", "BulletFEM");

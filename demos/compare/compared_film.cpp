@@ -29,7 +29,7 @@ bool isFinite(const std::vector<Vec3>& positions)
     return std::all_of(positions.begin(), positions.end(), [](const Vec3& x) { return norm(x) < 1e6; });
 }
 
-/// Without bodies that have left all bounds, as Bullet's own may.
+/// The scene without bodies that have left all bounds, as Bullet's own may.
 PictureScene pictureOf(const ComparedScene& scene, const ComparedRun& run, std::size_t frame, const ComparedText& text)
 {
     PictureScene picture;

@@ -11,15 +11,15 @@
 namespace bullet_fem
 {
 
-/// The text in one half of the picture.
+/// Text in one half of the picture.
 struct ComparedText
 {
-    std::string m_title;    ///< whose side it is
-    std::string m_figures;  ///< below it
+    std::string m_title;    ///< name of the side
+    std::string m_figures;  ///< text below the title
 };
 
-/// A film of 800 x 450 pixels whose left half is one side and whose right half the other, scene after scene:
-/// film.mp4 and strip.png, six frames of each scene. A program without the renderer, or without ffmpeg, has none.
+/// A film of 800 x 450 pixels with one side in each half, scene after scene (film.mp4), and six frames of each scene
+/// (strip.png). A program without the renderer or without ffmpeg writes none.
 class ComparedFilm
 {
 public:
@@ -31,7 +31,7 @@ public:
 
     void add(const ComparedScene& scene, const ComparedRun& left, const ComparedText& leftText,
              const ComparedRun& right, const ComparedText& rightText);
-    /// Returns what was written.
+    /// Returns the names of the files written.
     std::vector<std::string> finish();
 
 private:

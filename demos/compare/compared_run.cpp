@@ -18,7 +18,7 @@ namespace
 
 const Vec3 kSoft{0.86, 0.52, 0.30}, kRigid{0.42, 0.55, 0.76}, kStatic{0.70, 0.71, 0.73};
 
-/// How deep the deepest node is in a box [m].
+/// Depth of the deepest node inside a rigid box [m].
 double depthInside(const ComparedBodies& bodies)
 {
     double deepest = 0;
@@ -35,14 +35,14 @@ double depthInside(const ComparedBodies& bodies)
     return deepest;
 }
 
-/// Of the elements of all bodies, those that are inside out [-].
+/// Share of the elements of all bodies that are inverted [-].
 double invertedShare(const ComparedBodies& bodies)
 {
     double inverted = 0, all = 0;
     for (const btSoftBody* body : bodies.m_soft)
         for (const double volume : volumesOf(*body))
         {
-            inverted += !(volume > 0);  // or is not a number
+            inverted += !(volume > 0);  // true for NaN, too
             ++all;
         }
     return inverted / all;
@@ -50,7 +50,8 @@ double invertedShare(const ComparedBodies& bodies)
 
 void keepFrame(ComparedSide& side, const ComparedBodies& bodies, DemoSurfaces& surfaces, ComparedRun& run)
 {
-    for (btSoftBody* body : bodies.m_soft) btFemHelpers::updateEmbeddedSurface(body);  // Bullet's world does not
+    // Bullet's world does not update embedded surfaces.
+    for (btSoftBody* body : bodies.m_soft) btFemHelpers::updateEmbeddedSurface(body);
     surfaces.update(side.world());
     run.m_frames.push_back(surfaces.frames());
     run.m_colours.clear();
@@ -86,7 +87,7 @@ ComparedRun play(const ComparedScene& scene, ComparedSide& side, double seconds)
     for (int k = 1; k <= steps; ++k)
     {
         const std::clock_t before = std::clock();
-        side.world().stepSimulation(btScalar(kDemoStep), 0);  // 0: one step of just this size
+        side.world().stepSimulation(btScalar(kDemoStep), 0);  // 0: one step of exactly this size
         run.m_stepMs.push_back(1e3 * double(std::clock() - before) / CLOCKS_PER_SEC);
         for (const btSoftBody* body : bodies.m_soft)
             run.m_deepest = std::max(run.m_deepest, -double(lowestOf(*body).y()));

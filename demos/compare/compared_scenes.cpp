@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Large and flat: clusters and distance fields know no planes.
+/// A large flat box: Bullet's clusters and distance fields do not support planes.
 void addGround(ComparedSide& side)
 {
     side.addRigid(new btBoxShape(at(10, 0.5, 10)), 0, btTransform(btQuaternion::getIdentity(), at(0, -0.5, 0)), 1);
@@ -28,7 +28,7 @@ ComparedBodies buildCrate(ComparedSide& side, const SurfaceMesh& surface, const 
     addGround(side);
     CageSettings cage;
     cage.m_targetTets = settings.m_tets;
-    cage.m_snap = 1;  // the nodes reach the surface, so that nothing stands on what is not drawn
+    cage.m_snap = 1;  // moves the nodes onto the surface, so that the visible surface is the one in contact
     btFemMaterial rubber;
     rubber.m_youngModulus = btScalar(settings.m_young);
     rubber.m_poissonRatio = btScalar(0.4);

@@ -13,10 +13,10 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMadeOf = 1000;              // density of what btFemHelpers makes [kg/m3]
+constexpr double kMadeOf = 1000;              // density used by btFemHelpers [kg/m3]
 constexpr btScalar kMargin = btScalar(0.01);  // as in SoftDemo [m]
 
-/// The world is the only difference between the sides.
+/// One side of the comparison; the sides differ in their world alone.
 template <class World>
 class SideOf : public ComparedSide
 {
@@ -40,7 +40,7 @@ public:
     }
 };
 
-/// Every edge once, as btSoftBodyHelpers::CreateFromTetGenData links them.
+/// Links each edge once, as btSoftBodyHelpers::CreateFromTetGenData does.
 void linkEdges(btSoftBody& body)
 {
     std::set<std::pair<int, int>> edges;

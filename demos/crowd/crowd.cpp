@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A hundred soft toys fall into a pit. Each is a surface of overlapping balls in a cage of tetrahedra.
+// A hundred soft toys fall into a pit. Each one is a surface of overlapping balls embedded in a cage of tetrahedra.
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,7 @@ void appendBall(const Vec3& centre, double radius, SurfaceMesh& mesh)
         }
 }
 
-/// A bear of a body, a head, two ears, arms and legs, 0.36 m high.
+/// A bear with body, head, two ears, arms and legs, 0.36 m high.
 SurfaceMesh bear()
 {
     SurfaceMesh mesh;
@@ -112,9 +112,9 @@ int main(int argc, char** argv)
 {
     Demo demo("crowd", "A hundred soft toys fall into a pit.", 5);
     double count = 100, young = 5e4, wall = 1.2, drop = 0;
-    demo.option("--toys", count, 1, 400, "how many [-]");
+    demo.option("--toys", count, 1, 400, "number of toys [-]");
     demo.option("--young", young, 1e2, 1e9, "Young's modulus [Pa]");
     demo.option("--wall", wall, 0.02, 10, "height of the pit [m]");
-    demo.option("--drop", drop, 0, 1e3, "how much higher they start [m]");
+    demo.option("--drop", drop, 0, 1e3, "additional initial height [m]");
     return demo.run(argc, argv, [&] { play(demo, count, young, wall, drop); });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Steel balls are let down on a panel of clay and lifted off it: dents stay. Their state is saved. A heavier ball
-// spoils them, the state is restored, and they are as they were.
+// Steel balls are lowered onto a panel of clay and lifted again, which leaves dents. The state is saved. A heavier ball
+// destroys the dents; restoring the state brings them back.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ using namespace bullet_fem;
 
 constexpr double kEdge = 0.6, kThick = 0.15, kCell = 0.0375;             // of the panel and its elements [m]
 constexpr double kSteel = 7850;                                          // [kg/m3]
-constexpr double kLetDown = 0.7, kLift = 1, kGone = 1.7, kSpoilt = 2.6;  // when which part is over [s]
+constexpr double kLetDown = 0.7, kLift = 1, kGone = 1.7, kSpoilt = 2.6;  // end times of the phases [s]
 constexpr int kBalls = 3;
 constexpr double kRadii[kBalls] = {0.08, 0.1, 0.12};                                 // [m]
 constexpr double kPlaces[kBalls][2] = {{-0.16, 0.18}, {0.16, 0.1}, {-0.08, -0.13}};  // x and z [m]
@@ -32,15 +32,15 @@ btRigidBody& addBall(DemoWorld& world, double radius, double height, double x, d
     return ball;
 }
 
-/// How deep a ball sinks, if clay resists with three times its yield stress on the area that the ball has pressed in
-/// [Tabor, The Hardness of Metals, 1951].
+/// Depth of a ball's dent: the mean pressure on the projected contact area is three times the yield stress [Tabor, The
+/// Hardness of Metals, 1951].
 double depthByFormula(double radius, double yield)
 {
     const double area = massOfBall(radius) * kGravity / (3 * yield);
     return radius - std::sqrt(std::max(radius * radius - area / SIMD_PI, 0.0));
 }
 
-/// Of the deepest node of the upper side near the middle of a dent [m].
+/// Depth of the deepest node of the upper side near the centre of a dent [m].
 double depthAt(const btSoftBody& clay, const std::vector<int>& top, double x, double z)
 {
     double depth = 0;
@@ -56,7 +56,7 @@ void play(Demo& demo, double young, double yield, bool restore)
 {
     DemoWorld world;
     world.addGround();
-    btFemMaterial material = btFemMaterial::clay();  // fresh from the bag
+    btFemMaterial material = btFemMaterial::clay();  // undeformed
     material.m_youngModulus = btScalar(young);
     material.m_yieldStress = btScalar(yield);
     btSoftBody* clay = btFemHelpers::createBox(world.info(), at(0, kThick / 2, 0), at(kEdge / 2, kThick / 2, kEdge / 2),
@@ -66,7 +66,7 @@ void play(Demo& demo, double young, double yield, bool restore)
         if (clay->m_nodes[i].m_x.y() > kThick - 1e-3)
             top.push_back(i);
         else if (clay->m_nodes[i].m_x.y() < 1e-3)
-            clay->setMass(i, 0);  // it sticks to the ground
+            clay->setMass(i, 0);  // fixed to the ground
     world.addSoft(clay, material, 0.8);
     demo.paint(*clay, {0.74, 0.58, 0.46});
     demo.look(at(0.6, 0.9, 1.45), at(0, 0.19, 0));
@@ -78,7 +78,7 @@ void play(Demo& demo, double young, double yield, bool restore)
     const auto isAt = [&](double time) { return std::abs(demo.time() - time) < kDemoStep / 2; };
     do
     {
-        const double hangs = 1 - std::min(std::floor(1 + 5 * demo.time() / kLetDown), 5.0) / 5;  // on a crane
+        const double hangs = 1 - std::min(std::floor(1 + 5 * demo.time() / kLetDown), 5.0) / 5;  // the crane's share
         for (btRigidBody* ball : balls)
             ball->setGravity(at(0, demo.time() < kLift ? -kGravity * (1 - hangs) : 0.5 * kGravity, 0));
         if (isAt(kGone))

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A camera flies along a row of soft plants in the wind. Near ones are solved in full, far ones with less detail. Their
-// colours tell: red in full, yellow and green to a residual of 5 %, green with one rotation for the body.
+// A camera flies along a row of soft plants in the wind. Near plants are solved to the full tolerance, distant ones
+// with less detail. Colours show it: red full tolerance, yellow and green a residual of 5 %, green with a single
+// rotation for the whole body.
 #include <algorithm>
 #include <cmath>
 
@@ -17,9 +18,9 @@ using namespace bullet_fem;
 
 constexpr int kPlants = 24;
 constexpr double kHeight = 1.2, kSpacing = 1.2;  // [m]
-constexpr double kNear = 3, kFar = 9;            // where interest begins to fade, and ends [m]
+constexpr double kNear = 3, kFar = 9;            // distances at which interest begins to fade and ends [m]
 
-/// Plants in two rows, rooted in the ground.
+/// Adds plants in two rows, rooted in the ground.
 std::vector<btSoftBody*> plant(DemoWorld& world)
 {
     btFemMaterial material;
@@ -38,7 +39,7 @@ std::vector<btSoftBody*> plant(DemoWorld& world)
     return plants;
 }
 
-/// Gusts that run along the row.
+/// Applies gusts that travel along the row.
 void blow(const std::vector<btSoftBody*>& plants, double strength, double time)
 {
     for (btSoftBody* body : plants)
@@ -52,15 +53,15 @@ void blow(const std::vector<btSoftBody*>& plants, double strength, double time)
 btFemSolverInfo eulerThroughout()
 {
     btFemSolverInfo info;
-    info.m_numericalDamping = 1;  // as in contact: one factor serves both, and details pay
+    info.m_numericalDamping = 1;  // as in contact: one factor serves both, and reduced detail saves time
     return info;
 }
 
 void play(Demo& demo, double gust, double nearDistance, double behind)
 {
-    DemoWorld world(eulerThroughout()), full(eulerThroughout());  // the same without levels of detail, to compare
+    DemoWorld world(eulerThroughout()), full(eulerThroughout());  // `full` has no levels of detail, for comparison
     const std::vector<btSoftBody*> plants = plant(world), fullPlants = plant(full);
-    world.addMarker(new btStaticPlaneShape(at(0, 1, 0), 0), at(0, 0, 0));  // what touches is solved in full
+    world.addMarker(new btStaticPlaneShape(at(0, 1, 0), 0), at(0, 0, 0));  // contact requires full detail
     btFemViewerInterest interest{btScalar(nearDistance), btScalar(nearDistance + kFar - kNear)};
     world.fem().setInterest(&interest);
 
@@ -101,10 +102,10 @@ void play(Demo& demo, double gust, double nearDistance, double behind)
 
 int main(int argc, char** argv)
 {
-    Demo demo("detail", "A camera flies along soft plants; far ones are solved with less detail.", 5);
+    Demo demo("detail", "A camera flies along soft plants; distant ones are solved with less detail.", 5);
     double gust = 8, nearDistance = kNear, behind = 0;
-    demo.option("--gust", gust, 0, 100, "of the wind [m/s2]");
+    demo.option("--gust", gust, 0, 100, "acceleration by the wind [m/s2]");
     demo.option("--near", nearDistance, 0, 1e3, "distance of full interest [m]");
-    demo.option("--behind", behind, 0, 1e3, "how far behind the camera the solver takes the viewer for [m]");
+    demo.option("--behind", behind, 0, 1e3, "distance of the solver's viewer position behind the camera [m]");
     return demo.run(argc, argv, [&] { play(demo, gust, nearDistance, behind); });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Three pneumatic fingers hang from a palm. Air in their bellows bends them around a ball, and the palm lifts it.
+// Three pneumatic fingers hang from a palm. Air pressure in their bellows bends them around a ball; the palm lifts it.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -16,13 +16,13 @@ namespace
 {
 using namespace bullet_fem;
 
-constexpr double kCell = 0.005, kDeep = 0.03, kWide = 0.02;         // of the mesh; of a finger along x and z [m]
-constexpr int kBellows = 5, kPitch = 5;                             // of a finger; in cells
-constexpr double kBall = 0.035, kStand = 0.1, kPalm = 0.205;        // radius, heights [m]
-constexpr double kApart = 0.04, kLift = 0.1;                        // of a finger from the middle; of the palm [m]
-constexpr double kFill = 0.3, kFull = 1.3, kUp = 1.6, kHigh = 2.6;  // pressure rises, and then the palm [s]
+constexpr double kCell = 0.005, kDeep = 0.03, kWide = 0.02;   // of the mesh; of a finger along x and z [m]
+constexpr int kBellows = 5, kPitch = 5;                       // number and pitch (in cells) of the bellows of a finger
+constexpr double kBall = 0.035, kStand = 0.1, kPalm = 0.205;  // radius, heights [m]
+constexpr double kApart = 0.04, kLift = 0.1;  // distance of a finger from the centre, stroke of the palm [m]
+constexpr double kFill = 0.3, kFull = 1.3, kUp = 1.6, kHigh = 2.6;  // times of inflation and of the palm's lift [s]
 
-/// A finger down from the origin, its inner side at x = 0, with one cavity: a channel, and bellows that rise from it.
+/// A finger down from the origin, with its inner side at x = 0 and one cavity: a channel with bellows.
 TetMesh fingerMesh()
 {
     const int cells = 2 + kBellows * kPitch;
@@ -37,7 +37,7 @@ TetMesh fingerMesh()
     return carved(makeBox({kDeep, cells * kCell, kWide}, {6, cells, 4}, {0, -cells * kCell, -kWide / 2}), holes);
 }
 
-using Finger = std::pair<btSoftBody*, int>;  // with the handle of its air
+using Finger = std::pair<btSoftBody*, int>;  // with the handle of its chamber
 
 Finger addFinger(DemoWorld& world, btRigidBody& palm, double angle, double young, double friction)
 {
@@ -112,8 +112,8 @@ int main(int argc, char** argv)
 {
     Demo demo("finger", "Three pneumatic fingers bend around a ball and lift it.", 3.5);
     double pressure = 1.8e5, young = 1e6, friction = 1.2;
-    demo.option("--pressure", pressure, 0, 1e7, "of the air above that outside [Pa]");
+    demo.option("--pressure", pressure, 0, 1e7, "gauge pressure of the air [Pa]");
     demo.option("--young", young, 1e3, 1e9, "Young's modulus of the fingers [Pa]");
-    demo.option("--friction", friction, 0, 2, "between fingers and ball [-]");
+    demo.option("--friction", friction, 0, 2, "friction between fingers and ball [-]");
     return demo.run(argc, argv, [&] { play(demo, pressure, young, friction); });
 }

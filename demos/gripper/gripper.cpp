@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A gripper lifts a soft fruit: a multibody of a palm and two fingers with motors, with soft pads on the fingers.
+// A gripper lifts a soft fruit: a multibody of a palm and two motorised fingers, with soft pads on the fingers.
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,7 @@ btVector3 inertiaOf(double mass, const btVector3& half)
     return inertia;
 }
 
-/// A palm on a vertical slider, and on it two fingers on sliders along x.
+/// A palm on a vertical slider, and two fingers on sliders along x.
 Hand addHand(DemoLinkWorld& world, double grip, double friction)
 {
     const btVector3 none(0, 0, 0), palm = at(0.16, 0.02, 0.05);
@@ -60,7 +60,7 @@ Hand addHand(DemoLinkWorld& world, double grip, double friction)
         const double out = side ? 1 : -1, face = 0.13 - kFinger.x();
         btSoftBody* pad =
             btFemHelpers::createBox(world.info(), at(out * (face - kPad.x()), height, 0), kPad, btScalar(0.015));
-        for (int i = 0; i < pad->m_nodes.size(); ++i)  // glued to the finger
+        for (int i = 0; i < pad->m_nodes.size(); ++i)  // anchors it to the finger
             if (std::abs(pad->m_nodes[i].m_x.x()) > face - 1e-4) pad->appendDeformableAnchor(i, &finger);
         pad->m_collisionDisabledObjects.push_back(&finger);
         hand.m_pads[side] = &world.addSoft(pad, rubber, friction);
@@ -111,6 +111,6 @@ int main(int argc, char** argv)
     Demo demo("gripper", "A gripper of multibody fingers with soft pads lifts a soft fruit.", 4);
     double grip = 15, friction = 0.8;
     demo.option("--grip", grip, 0, 1e4, "force of the fingers' motors [N]");
-    demo.option("--friction", friction, 0, 2, "between pads and fruit [-]");
+    demo.option("--friction", friction, 0, 2, "friction between pads and fruit [-]");
     return demo.run(argc, argv, [&] { play(demo, grip, friction); });
 }

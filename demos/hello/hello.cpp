@@ -14,7 +14,7 @@ int main()
     btCollisionDispatcher dispatcher(&config);
     btDbvtBroadphase broadphase;
     btSequentialImpulseConstraintSolver rigidSolver;
-    btFemSoftBodySolver fem;  // in place of Bullet's solver of soft bodies
+    btFemSoftBodySolver fem;  // replaces Bullet's soft body solver
     btSoftRigidDynamicsWorld world(&dispatcher, &broadphase, &rigidSolver, &config, &fem);
 
     btStaticPlaneShape plane(btVector3(0, 1, 0), 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Soft bodies fall into a heap. Their state is saved on the way, restored at the end, and all happens again, to the
-// bit.
+// Soft bodies fall into a heap. Their state is saved on the way and restored at the end; the second run is bitwise
+// equal.
 #include <cstdint>
 #include <cstdio>
 
@@ -17,7 +17,7 @@ namespace
 {
 using namespace bullet_fem;
 
-/// Of all bytes of the state [FNV-1a].
+/// FNV-1a hash over the bytes of the state.
 std::uint64_t hashOf(const btFemSoftBodySolver& fem, std::vector<unsigned char>& bytes)
 {
     fem.saveState(bytes);
@@ -44,7 +44,8 @@ void play(Demo& demo, double nudge)
     }
     demo.look(at(2.5, 3.2, 8.8), at(0.2, 1.6, 0));
 
-    const int part = static_cast<int>(demo.seconds() / kDemoStep) / 3;  // until it is saved, until the end, and again
+    // Steps per phase: before the save, after it, repetition.
+    const int part = static_cast<int>(demo.seconds() / kDemoStep) / 3;
     std::vector<unsigned char> saved, bytes;
     std::vector<std::uint64_t> hashes;
     std::unique_ptr<BroadphaseState> broadphase;
@@ -55,7 +56,7 @@ void play(Demo& demo, double nudge)
         {
             world.fem().saveState(saved);
             broadphase = std::make_unique<BroadphaseState>(world.bullet());
-            broadphase->restore();  // so that both runs begin alike
+            broadphase->restore();  // gives both runs an equal start
         }
         if (step >= part && step < 2 * part) hashes.push_back(hashOf(world.fem(), bytes));
         if (step == 2 * part)
@@ -80,7 +81,7 @@ void play(Demo& demo, double nudge)
 
 int main(int argc, char** argv)
 {
-    Demo demo("replay", "Soft bodies fall; their state is saved, restored and replayed to the bit.", 4.5);
+    Demo demo("replay", "Soft bodies fall; their state is saved and restored, and the replay is bitwise equal.", 4.5);
     double nudge = 0;
     demo.option("--nudge", nudge, 0, 1, "speed given to a node after the state is restored [m/s]");
     return demo.run(argc, argv, [&] { play(demo, nudge); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A scan, or another closed surface, is drawn between two rollers and comes out as it went in.
+// A scan or another closed surface is drawn between two rollers and recovers its shape behind them.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ using namespace bullet_fem;
 constexpr double kLength = 0.6, kRoller = 0.3, kTable = 0.8;  // of the body, radius, height of the tables [m]
 constexpr double kSpin = 2;                                   // of the rollers [rad/s]
 
-/// A ring of 0.6 m: what is squeezed unless a file is given.
+/// A ring of 0.6 m, the default body.
 SurfaceMesh ring()
 {
     SurfaceMesh mesh;
@@ -60,7 +60,7 @@ void play(Demo& demo, const std::string& file, double young, double gapShare, do
     btFemHelpers::updateEmbeddedSurface(body);
     world.addSoft(body, material, friction);
 
-    // The lower roller is above the tables where they end, too, or what it carries is caught there; the gap is a share
+    // The top of the lower roller is above the tables, whose edges would otherwise stop the body; the gap is a fraction
     // of the body's height.
     const double gap = gapShare * double(size.y()), low = kTable + 0.03;
     btRigidBody* rollers[2];
@@ -73,7 +73,7 @@ void play(Demo& demo, const std::string& file, double young, double gapShare, do
     double thinnest = 10, fastest = 0;
     do
     {
-        for (const int upper : {0, 1})  // where Bullet finds them after the step; their spin is the difference
+        for (const int upper : {0, 1})  // kinematic pose after the step; Bullet derives the spin from the difference
             rollers[upper]->getWorldTransform().setRotation(
                 btQuaternion(at(0, 0, 1), btScalar((upper ? 1 : -1) * kSpin * (demo.time() + kDemoStep))));
         if (std::abs(double(centreOf(*body).x())) > 0.1) continue;
@@ -106,12 +106,12 @@ void play(Demo& demo, const std::string& file, double young, double gapShare, do
 
 int main(int argc, char** argv)
 {
-    Demo demo("squeeze", "A scan, or another closed surface, is drawn between two rollers.", 3);
+    Demo demo("squeeze", "A scan or another closed surface is drawn between two rollers.", 3);
     std::string file;
     double young = 1e5, gap = 0.7, friction = 0.9;
     demo.option("--mesh", file, "closed surface: OFF, OBJ, STL or PLY file; a ring without it");
     demo.option("--young", young, 1e3, 1e9, "Young's modulus [Pa]");
-    demo.option("--gap", gap, 0.05, 2, "between the rollers / height of the body [-]");
-    demo.option("--friction", friction, 0, 2, "of the body [-]");
+    demo.option("--gap", gap, 0.05, 2, "gap of the rollers / height of the body [-]");
+    demo.option("--friction", friction, 0, 2, "friction of the body [-]");
     return demo.run(argc, argv, [&] { play(demo, file, young, gap, friction); });
 }

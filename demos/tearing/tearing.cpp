@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A loaf of bread, cut into cells that welds hold together, is pulled apart by two hands.
+// A loaf of bread, divided into Voronoi cells that are welded together, is pulled apart by two grips.
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -18,11 +18,11 @@ namespace
 {
 using namespace bullet_fem;
 
-constexpr double kLength = 0.36, kWidth = 0.13, kHeight = 0.12, kUp = 0.16;  // of the loaf, and where it is [m]
-constexpr double kHand = 0.02, kDensity = 250;           // half of its thickness [m], of bread [kg/m3]
-constexpr double kRest = 0.4, kPull = 1.6, kLast = 3.5;  // when hands pull and how long, when all is at rest [s]
+constexpr double kLength = 0.36, kWidth = 0.13, kHeight = 0.12, kUp = 0.16;  // size and initial height of the loaf [m]
+constexpr double kHand = 0.02, kDensity = 250;           // half thickness of a grip [m], density of bread [kg/m3]
+constexpr double kRest = 0.4, kPull = 1.6, kLast = 3.5;  // start and duration of pulling, time of final rest [s]
 
-/// A box with a round top.
+/// A box with an arched top.
 TetMesh loaf()
 {
     const TetMesh box = makeBox({kLength, 1, 2}, {12, 4, 4}, {-kLength / 2, 0, -1});
@@ -32,7 +32,7 @@ TetMesh loaf()
     return TetMesh(std::move(X), box.tets());
 }
 
-/// True if welds lead from one body to the other.
+/// True if welds connect both bodies, directly or through others.
 bool hangTogether(const btFemSoftBodySolver& fem, const std::vector<btFemPiece>& pieces, const btSoftBody* const ends[])
 {
     std::set<const btSoftBody*> reached = {ends[0]};
@@ -94,12 +94,12 @@ void play(Demo& demo, double young, double strength, double speed)
             {
                 const btFemAnchorReport& anchor = world.fem().anchors(piece.m_body)[k];
                 if (anchor.m_object == hands[1]) force += double(anchor.m_impulse.x()) / kDemoStep;
-                if (demo.time() > kLast) held += double(anchor.m_impulse.y());  // those of welds cancel
+                if (demo.time() > kLast) held += double(anchor.m_impulse.y());  // impulses of welds cancel in the sum
             }
         pull = std::max(pull, force);
         if (torn < 0 && !hangTogether(world.fem(), pieces, ends)) torn = demo.time() - kRest;
     }
-    const double bears = strength * mass / kDensity / kLength;  // a section of it [N]
+    const double bears = strength * mass / kDensity / kLength;  // strength of a cross-section [N]
     demo.check("torn in two after", torn, 0.1, kPull, "s", kRest + kPull);
     demo.check("largest pull / what a section bears", pull / bears, 0.4, 1.1, "", kRest + kPull);
     demo.check("force of the hands / weight", held / (demo.time() - kLast) / (mass * kGravity), 0.98, 1.02, "", 4);
@@ -109,10 +109,10 @@ void play(Demo& demo, double young, double strength, double speed)
 
 int main(int argc, char** argv)
 {
-    Demo demo("tearing", "A loaf of bread, of cells that are welded to each other, is pulled apart.", 4);
+    Demo demo("tearing", "A loaf of bread, divided into cells that are welded together, is pulled apart.", 4);
     double young = 4e4, strength = 4e3, speed = 0.07;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus of the bread [Pa]");
     demo.option("--strength", strength, 1, 1e9, "stress at which it tears [Pa]");
-    demo.option("--speed", speed, 0, 10, "of each hand [m/s]");
+    demo.option("--speed", speed, 0, 10, "speed of each grip [m/s]");
     return demo.run(argc, argv, [&] { play(demo, young, strength, speed); });
 }

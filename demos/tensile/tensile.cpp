@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A tensile test: two specimens, one of them notched, are pulled until they part. Nothing is cut before.
+// A tensile test: two specimens, one of them notched, are pulled until they break. There are no predefined cracks.
 #include <algorithm>
 #include <cmath>
 
@@ -16,11 +16,11 @@ namespace
 {
 using namespace bullet_fem;
 
-constexpr double kHeight = 0.6, kWidth = 0.2, kThick = 0.05, kWaist = 0.7;  // of a specimen [m], its middle's width [-]
-constexpr double kUp = 0.1, kApart = 0.17, kGrip = 0.05;  // where they stand, and how deep they are held [m]
-constexpr double kRest = 0.3, kPull = 1.8;                // when the head rises, and how long [s]
+constexpr double kHeight = 0.6, kWidth = 0.2, kThick = 0.05, kWaist = 0.7;  // of a specimen [m], waist over width [-]
+constexpr double kUp = 0.1, kApart = 0.17, kGrip = 0.05;  // height and distance of specimens, gripped length [m]
+constexpr double kRest = 0.3, kPull = 1.8;                // start and duration of the pull [s]
 
-/// A strip with wide ends, its middle at x; a notch is a third of its middle deep.
+/// A strip with wide ends, centred at x = `middle`; the notch is a third of the waist's width deep.
 TetMesh specimen(double middle, bool isNotched)
 {
     TetMesh box = makeBox({1, kHeight, kThick}, {9, 24, 2}, {-0.5, 0, -kThick / 2});
@@ -34,7 +34,7 @@ TetMesh specimen(double middle, bool isNotched)
     return TetMesh(std::move(X), box.tets());
 }
 
-/// Moved by the program.
+/// A kinematic clamp.
 btRigidBody* addClamp(DemoWorld& world, double y)
 {
     btRigidBody& clamp = world.addRigid(new btBoxShape(at(kApart + 0.15, kGrip, 0.06)), 0, at(0, y, 0));
@@ -43,7 +43,7 @@ btRigidBody* addClamp(DemoWorld& world, double y)
     return &clamp;
 }
 
-/// Upwards, of what holds a body [N].
+/// Vertical force on a body by its anchors to `clamp` [N].
 double forceOf(DemoWorld& world, const btSoftBody* body, const btCollisionObject* clamp)
 {
     double force = 0;
@@ -65,7 +65,7 @@ void play(Demo& demo, double young, double strength, double speed)
     cork.m_density = 300;  // kg/m3
     btFemTensileStrength brittle;
     brittle.m_tension = btScalar(strength);
-    btSoftBody* bodies[2];  // whole, notched
+    btSoftBody* bodies[2];  // smooth, notched
     double pull[2] = {0, 0}, mass = 0, after = 0;
     for (const int k : {0, 1})
     {
@@ -83,11 +83,11 @@ void play(Demo& demo, double young, double strength, double speed)
     while (demo.step(world.bullet()))
     {
         head->getWorldTransform().setOrigin(at(0, up + speed * std::clamp(demo.time() - kRest, 0.0, kPull), 0));
-        for (const int k : {0, 1})  // in its middle: without half of the weight
+        for (const int k : {0, 1})  // force at mid-height: without half of the weight
             pull[k] = std::max(pull[k], (forceOf(world, bodies[k], head) - forceOf(world, bodies[k], foot)) / 2);
     }
     const auto& splits = btFemFracture::splits(world.fem());
-    const double bears = strength * kWidth * kWaist * kThick;  // the narrowest section [N]
+    const double bears = strength * kWidth * kWaist * kThick;  // strength of the narrowest section [N]
     for (const int k : {0, 1})
     {
         int parts = 1;
@@ -105,10 +105,10 @@ void play(Demo& demo, double young, double strength, double speed)
 
 int main(int argc, char** argv)
 {
-    Demo demo("tensile", "Two specimens, one of them notched, are pulled until they part.", 3);
+    Demo demo("tensile", "Two specimens, one of them notched, are pulled until they break.", 3);
     double young = 1e5, strength = 2e4, speed = 0.09;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus [Pa]");
-    demo.option("--strength", strength, 1, 1e9, "tension at which they split [Pa]");
-    demo.option("--speed", speed, 0, 10, "of the head [m/s]");
+    demo.option("--strength", strength, 1, 1e9, "tensile strength [Pa]");
+    demo.option("--speed", speed, 0, 10, "speed of the upper clamp [m/s]");
     return demo.run(argc, argv, [&] { play(demo, young, strength, speed); });
 }

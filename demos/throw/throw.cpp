@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The mouse's spring picks a soft body up with a ray, holds it, swings it and throws it.
+// The mouse's spring picks up a soft body with a ray, holds, swings and throws it.
 #include <cmath>
 #include <stdexcept>
 
@@ -16,17 +16,17 @@ namespace
 {
 using namespace bullet_fem;
 
-constexpr double kLifted = 1, kHeld = 2.5, kThrown = 3;  // when which part is over [s]
-constexpr double kHeight = 1, kReach = 0.9;              // up, and to the right while it is thrown [m]
+constexpr double kLifted = 1, kHeld = 2.5, kThrown = 3;  // end times of the phases [s]
+constexpr double kHeight = 1, kReach = 0.9;              // height of the lift, horizontal path of the throw [m]
 
-/// Where the mouse is, from where it picked.
+/// Displacement of the mouse since the pick.
 btVector3 mouseAt(double time)
 {
     const double up = std::min(time / kLifted, 1.0), right = std::max((time - kHeld) / (kThrown - kHeld), 0.0);
     return at(kReach * right * right, kHeight * up * up * (3 - 2 * up) + 0.6 * right * right, 0);
 }
 
-/// What a program does on mouse down: the spring of the point under the pointer.
+/// Mouse press: attaches a spring to the point under the pointer.
 btFemSpring pick(DemoWorld& world, const btSoftBody& body)
 {
     btFemClosestRay ray(at(-1.55, 3, 0.1), at(-1.55, -1, 0.1));
@@ -75,7 +75,7 @@ void play(Demo& demo, double young, double stiffness, double drag)
             mouse.setWorldTransform(btTransform(btQuaternion::getIdentity(), target));
             world.fem().setSpringTarget(body, handle, target);
         }
-        else if (handle != 0)  // mouse up
+        else if (handle != 0)  // mouse release
         {
             world.fem().removeSpring(body, handle);
             handle = 0;
@@ -97,7 +97,7 @@ void play(Demo& demo, double young, double stiffness, double drag)
         ++held;
     } while (demo.step(world.bullet()));
 
-    const double t = flown * kDemoStep, lifted = double((after - before).y()) * mass;  // it still swings
+    const double t = flown * kDemoStep, lifted = double((after - before).y()) * mass;  // momentum of the swing
     const btVector3 parabola = place + velocity * btScalar(t) + at(0, -kGravity * t * t / 2, 0);
     demo.figure("weight", weight, "N");
     demo.check("pull while held / weight and swing", double(pull.y()) / (weight * held * kDemoStep + lifted), 0.99,
@@ -114,7 +114,7 @@ int main(int argc, char** argv)
     Demo demo("throw", "The mouse's spring picks a soft body up, holds it, swings it and throws it.", 5);
     double young = 2e5, stiffness = 4000, drag = 0;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus [Pa]");
-    demo.option("--stiffness", stiffness, 0, 1e9, "of the spring [N/m]");
-    demo.option("--drag", drag, 0, 1, "damping of the body, Bullet's kDP [-]");
+    demo.option("--stiffness", stiffness, 0, 1e9, "stiffness of the spring [N/m]");
+    demo.option("--drag", drag, 0, 1, "drag of the body, Bullet's kDP [-]");
     return demo.run(argc, argv, [&] { play(demo, young, stiffness, drag); });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A tower of jelly and rigid boxes stands, and is hit by a ball.
+// A tower of jelly blocks and rigid boards stands, and is then hit by a ball.
 #include <algorithm>
 #include <cmath>
 
@@ -14,9 +14,9 @@ namespace
 {
 using namespace bullet_fem;
 
-constexpr int kFloors = 4;                                   // a jelly and a board each
+constexpr int kFloors = 4;                                   // one jelly block and one board each
 constexpr double kEdge = 0.5, kJelly = 0.25, kBoard = 0.12;  // [m]
-constexpr double kBoardMass = 4, kShot = 2.5;                // [kg], when the ball flies [s]
+constexpr double kBoardMass = 4, kShot = 2.5;                // [kg], launch time of the ball [s]
 constexpr double kHeight = kFloors * (kJelly + kBoard);
 
 struct Tower
@@ -38,7 +38,7 @@ struct Tower
 Tower build(Demo& demo, DemoWorld& world, double young)
 {
     btFemMaterial jelly = btFemMaterial::jelly();
-    jelly.m_law = btFemElasticLaw::hooke;  // none is crushed, and its steps cost less
+    jelly.m_law = btFemElasticLaw::hooke;  // no block is crushed, and Hooke's law costs less per step
     jelly.m_youngModulus = btScalar(young);
     jelly.m_density = 300;
     Tower tower;
@@ -68,7 +68,7 @@ void play(Demo& demo, double young, double ballMass, double friction)
     btRigidBody* ball = nullptr;
     do
     {
-        if (demo.time() > kShot - 1 && !ball)  // it stands: a second of measurements
+        if (demo.time() > kShot - 1 && !ball)  // measures the standing tower for a second
         {
             carried += double(world.fem().contactForce(tower.m_jellies[0], &ground).y());
             ++samples;
@@ -99,6 +99,6 @@ int main(int argc, char** argv)
     double young = 3e4, ballMass = 12, friction = 1;
     demo.option("--young", young, 1e2, 1e9, "Young's modulus of the jelly [Pa]");
     demo.option("--ball", ballMass, 1e-3, 1e3, "mass of the ball [kg]");
-    demo.option("--friction", friction, 0, 2, "of the ground [-]");
+    demo.option("--friction", friction, 0, 2, "friction of the ground [-]");
     return demo.run(argc, argv, [&] { play(demo, young, ballMass, friction); });
 }

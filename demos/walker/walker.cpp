@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A soft dog walks on muscle fibres in its legs. Each leg has a bundle in front and one behind: both together shorten
-// it, one of them swings its foot. Legs that stand across from each other do the same.
+// A soft dog walks by muscle fibres in its legs. Each leg has a front and a rear bundle: both together shorten it, one
+// alone swings its foot. Diagonally opposite legs move in phase.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,9 +18,9 @@ namespace
 {
 using namespace bullet_fem;
 
-constexpr double kCell = 0.02, kLeg = 0.16, kThick = 0.08;  // of the mesh; length and width of a leg [m]
-constexpr double kStart = 0.5;                              // when it begins to walk [s]
-const Vec3 kLow{-0.24, 0, -0.12}, kHigh{0.32, 0.36, 0.12};  // of the block that the dog is carved from [m]
+constexpr double kCell = 0.02, kLeg = 0.16, kThick = 0.08;  // cell size of the mesh; length and width of a leg [m]
+constexpr double kStart = 0.5;                              // start of walking [s]
+const Vec3 kLow{-0.24, 0, -0.12}, kHigh{0.32, 0.36, 0.12};  // corners of the block from which the dog is carved [m]
 const std::vector<Block> kHoles = {
     {{-0.12, 0, -1}, {0.12, kLeg, 1}},     {{-1, 0, -0.04}, {1, kLeg, 0.04}},   {{0.2, 0, -1}, {1, 0.22, 1}},
     {{-1, 0, -1}, {-0.2, 0.22, 1}},        {{-0.16, 0.24, -1}, {0.14, 1, 1}},   {{0.14, 0.24, -1}, {1, 1, -0.06}},
@@ -28,9 +28,9 @@ const std::vector<Block> kHoles = {
     {{-1, 0.34, -1}, {-0.16, 1, 1}},       {{0.2, 0.22, -1}, {1, 0.24, -0.06}}, {{0.2, 0.22, 0.06}, {1, 0.24, 1}},
     {{-1, 0.22, -1}, {-0.2, 0.24, -0.02}}, {{-1, 0.22, 0.02}, {-0.2, 0.24, 1}}};
 
-using Bundle = std::pair<int, double>;  // handle of fibres, phase of a period
+using Bundle = std::pair<int, double>;  // handle of the fibres, phase in the period
 
-/// Straight from 0 to 1 and back within a period.
+/// Triangle wave from 0 to 1 and back within a period.
 double wave(double phase)
 {
     return 1 - std::abs(2 * (phase - std::floor(phase)) - 1);
@@ -65,7 +65,7 @@ void play(Demo& demo, double young, double activation, double period, double fri
         world.info(), carved(makeBox(size, {cells(0), cells(1), cells(2)}, kLow), kHoles));
     world.addSoft(dog, material, friction);
     const std::vector<Bundle> bundles = addBundles(world, *dog);
-    std::vector<std::pair<int, btCollisionObject*>> face;  // eyes and a nose, on nodes
+    std::vector<std::pair<int, btCollisionObject*>> face;  // eyes and nose, attached to nodes
     for (const btVector3& place : {at(0.32, 0.32, -0.04), at(0.32, 0.32, 0.04), at(0.32, 0.26, 0)})
         for (int i = 0; i < dog->m_nodes.size(); ++i)
             if ((dog->m_nodes[i].m_x - place).length() < kCell / 10)
@@ -111,7 +111,7 @@ int main(int argc, char** argv)
     double young = 3e5, activation = 1.8e5, period = 0.5, friction = 0.8;
     demo.option("--young", young, 1e3, 1e9, "Young's modulus [Pa]");
     demo.option("--activation", activation, 0, 1e7, "largest stress of the fibres [Pa]");
-    demo.option("--period", period, 0.05, 10, "of a step of all legs [s]");
-    demo.option("--friction", friction, 0, 2, "between feet and ground [-]");
+    demo.option("--period", period, 0.05, 10, "period of the gait [s]");
+    demo.option("--friction", friction, 0, 2, "friction between feet and ground [-]");
     return demo.run(argc, argv, [&] { play(demo, young, activation, period, friction); });
 }

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Plays the browser page in headless Chromium: takes hold of the elephant with the mouse, drags it, lets it go, and
-waits until it rests; then lifts it, and moves a slider. Needs Debian's chromium and python3-websockets.
+"""Tests the browser page in headless Chromium: drags the elephant with the mouse, releases it, and waits until it rests;
+then lifts it, and moves a slider. Needs Debian's chromium and python3-websockets.
 
     tests/browser/drag_page.py <folder of the page> <folder for pictures>
 
-Exit code 1 where a check fails, 77 where Chromium or websockets is missing. No check asks how long something took; each
-wait ends after WAIT seconds, when the page has stopped.
+Exit code 1 if a check fails, 77 if Chromium or websockets is missing. No check measures time; a wait fails after WAIT
+seconds.
 """
 import argparse
 import asyncio
@@ -31,7 +31,7 @@ except ImportError:
 
 WAIT = 300  # [s]
 SIZE = 960, 640
-BEND, LIFT = [150, 60], [40, -200]  # ways of the mouse [pixels]
+BEND, LIFT = [150, 60], [40, -200]  # paths of the mouse [pixels]
 BROWSER = ["--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
            "--enable-unsafe-swiftshader", "--remote-debugging-port=0", "--no-first-run",
            "--disable-background-networking",
@@ -44,12 +44,12 @@ class QuietHandler(http.server.SimpleHTTPRequestHandler):
 
 
 class Page:
-    """The page by Chrome's DevTools protocol."""
+    """Access to the page by Chrome's DevTools protocol."""
 
     def __init__(self, socket):
         self.socket = socket
         self.number = 0
-        self.problems = []  # exceptions, error messages, and what was asked of another server
+        self.problems = []  # exceptions, error messages, and requests to other servers
 
     async def send(self, method, **parameters):
         self.number += 1
@@ -93,12 +93,12 @@ class Page:
         return False
 
     async def after(self, seconds):
-        """Waits for so much time of the scene."""
+        """Waits for `seconds` of simulated time."""
         began = (await self.state())["time"]
         return await self.until(f"bulletfem.state().time > {began + seconds}")
 
     async def rests(self):
-        """Waits until it sleeps; two steps before, what happened has woken it."""
+        """Waits until the body sleeps, at least two steps from now, so that an action has woken it first."""
         steps = (await self.state())["steps"]
         return await self.until(f"bulletfem.state().steps > {steps + 2} && bulletfem.state().asleep")
 
@@ -127,7 +127,7 @@ def distance(a, b):
 
 
 async def drag(page, check, start, way, picture):
-    """Takes hold at a pixel, drags by `way` [pixels] in 20 moves, waits until it has followed. Gives the state then."""
+    """Drags from a pixel by `way` [pixels] in 20 moves and waits until the body has followed. Returns the states."""
     await page.mouse("mousePressed", start)
     taken = await page.state()
     check("the mouse holds the body", int(taken["held"] is not None), 1, 1)
@@ -157,7 +157,7 @@ async def let_go(page, check, place):
 
 
 async def play(page, check, out):
-    """The checks."""
+    """Runs all checks."""
     check("the page is ready", int(await page.until("Boolean(window.bulletfem)")), 1, 1)
     if check.failed:
         return
@@ -166,10 +166,10 @@ async def play(page, check, out):
     await page.picture(os.path.join(out, "rest.png"))
     check("tetrahedra", rest["tets"], 1000, 5000)
 
-    # With its feet held: the body bends, and swings back.
+    # With fixed feet the body bends and swings back.
     top = await page.value(HIGHEST)
     start = await page.value(f"bulletfem.pixelOf({json.dumps(top)})")
-    start[1] += 6  # into the trunk
+    start[1] += 6  # inside the trunk
     dragged = await drag(page, check, start, BEND, os.path.join(out, "bent.png"))
     if dragged is None:
         return
@@ -177,7 +177,7 @@ async def play(page, check, out):
     back = await let_go(page, check, [x + d for x, d in zip(start, BEND)])
     check("centre from where it stood before [m]", distance(back["centre"], rest["centre"]), 0, 0.02)
 
-    # Free: it is lifted, and falls.
+    # A free body is lifted and falls.
     await page.value("document.getElementById('feet').click()")
     await page.after(1)
     centre = (await page.state())["centre"]
@@ -190,7 +190,7 @@ async def play(page, check, out):
     check("height of the centre [m]", fallen["centre"][1], 0.05, 0.5)
     await page.picture(os.path.join(out, "fallen.png"))
 
-    # A slider: a softer body is flatter.
+    # The slider for Young's modulus: a softer body is flatter.
     await page.value("""{ const young = document.getElementById('young'); young.value = young.min;
                           young.dispatchEvent(new Event('input')); }""")
     check("it comes to rest", int(await page.rests()), 1, 1)
@@ -206,7 +206,7 @@ HIGHEST = """(() => {
     for (let k = 0; k < count; ++k) if (v[6 * k + 1] > v[6 * top + 1]) top = k;
     return Array.from(v.slice(6 * top, 6 * top + 3));
 })()"""
-# Of a fresh scene, its feet held: a ball falls on it, and it trembles.
+# Restarts the scene with fixed feet: a ball falls onto the body, which oscillates.
 MEASURE = """(() => {
     const young = document.getElementById('young'), feet = document.getElementById('feet');
     bulletfem.call.set(3e5, 0.01, 9.81, 1 / 60);
@@ -265,7 +265,7 @@ def main():
 
 
 def port_of(profile, chromium):
-    """The port that Chromium has chosen for its DevTools."""
+    """Port that Chromium has chosen for its DevTools."""
     name = os.path.join(profile, "DevToolsActivePort")
     for _ in range(WAIT * 5):
         if chromium.poll() is not None:

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""check_ports.py <version>: the ports for vcpkg and Conan parse, have the project's version, and name options that its
-CMakeLists.txt has."""
+"""check_ports.py <version>: checks that the ports for vcpkg and Conan parse, have the project's version, and use
+options that its CMakeLists.txt defines."""
 import ast
 import json
 import os

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Zlib
 # cmake -DCASE=<case> -DSOURCE=<BulletFEM's source> -DPREFIX=<installation> -DBINARY=<folder> -DGENERATOR=<generator>
 #   -P configure.cmake
-# subproject: a project around BulletFEM configures; BulletFEM's sources are optimized, the parent's as the parent says.
-# oldBullet: BulletFEM refuses a Bullet that is too old, before anything is compiled. otherBullet: so does an installation
-# another Bullet than that it was built for.
+# subproject: a parent project of BulletFEM configures; BulletFEM's sources are optimized, the parent's by its own
+# options.
+# oldBullet: BulletFEM rejects a Bullet that is too old, before anything is compiled. otherBullet: an installation
+# rejects another Bullet than the one it was built with.
 file(REMOVE_RECURSE "${BINARY}")
 set(configure ${CMAKE_COMMAND} -B "${BINARY}/build" -G "${GENERATOR}")
 
-# bullet_of(<version>): a folder with the headers and libraries of such a Bullet, as far as CMake looks at them.
+# bullet_of(<version>): a folder with dummy headers and libraries of such a Bullet, sufficient for CMake.
 function(bullet_of version)
     file(WRITE "${BINARY}/bullet/include/bullet/btBulletDynamicsCommon.h" "")
     file(WRITE "${BINARY}/bullet/include/bullet/LinearMath/btScalar.h" "#define BT_BULLET_VERSION ${version}\n")
@@ -19,7 +20,7 @@ function(bullet_of version)
     endforeach()
 endfunction()
 
-# refuses(<message> <argument>...): the configuration fails with a message that matches.
+# refuses(<message> <argument>...): the configuration fails with a matching message.
 function(refuses message)
     execute_process(COMMAND ${configure} ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     string(REGEX REPLACE "[ \n]+" " " line "${output}") # CMake wraps its messages

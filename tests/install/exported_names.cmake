@@ -2,7 +2,7 @@
 # Fails if a shared library exports a name that is not one of BulletFEM's, or one that only its own sources call.
 #   NM           binutils
 #   LIBRARIES    the shared libraries
-#   EXPECTED     names that one of them must export, so that the test sees what it looks for
+#   EXPECTED     names that one of them must export, as a check of the test itself
 #   HIDDEN       names that none of them may export
 set(_all "")
 foreach(_library IN LISTS LIBRARIES)

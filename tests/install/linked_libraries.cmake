@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Zlib
-# Fails if anything that `cmake --install` puts down, or a program linked with it, depends on a part of SuiteSparse other
-# than AMD and its configuration, or on what only those parts bring: Debian's CHOLMOD, UMFPACK and SPQR are under the GPL.
+# Fails if installed files, or a program linked with them, depend on a part of SuiteSparse other than AMD and its
+# configuration, or on libraries that only those parts need: Debian's CHOLMOD, UMFPACK and SPQR are under the GPL.
 #   READELF, NM      binutils
 #   PREFIX           the installation
 #   PROGRAMS         programs that were linked with it
-#   EXPECTED         a name that one of the programs must depend on, so that the test sees what it looks for; or empty
+#   EXPECTED         a dependency that one of the programs must have, as a check of the test itself; or empty
 set(_forbidden "lib(cholmod|umfpack|spqr|camd|ccolamd|colamd|klu|blas|lapack|openblas)[^a-z]")
 set(_symbols "(^|[ \n])_?(cholmod_|umfpack_|SuiteSparseQR)[A-Za-z0-9_]*")
 

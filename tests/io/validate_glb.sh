@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# validate_glb.sh <writer> <folder for its files> <folder of node_modules>: the Khronos validator finds no error, warning
-# or hint in the films that the writer writes. 77, which CTest shows as skipped, without node or gltf-validator.
+# validate_glb.sh <writer> <folder for its files> <folder of node_modules>: the Khronos validator reports no error,
+# warning or hint for the writer's films. Exit code 77 (skipped in CTest) without node or gltf-validator.
 set -euo pipefail
 writer=$1 folder=$2 modules=$3
 

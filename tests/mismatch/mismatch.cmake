@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Zlib
 # cmake -DCASE=<case> -DMESSAGE=<regular expression> -DPREFIX=<installation> -DBINARY=<folder> -DGENERATOR=<generator>
 #   -P mismatch.cmake
-# Configures and builds a case of the CMakeLists.txt beside it. Without a message it must work; with one, fail with it.
+# Configures and builds a case of the adjacent CMakeLists.txt. It must work without MESSAGE, and fail with a given one.
 file(REMOVE_RECURSE "${BINARY}")
 execute_process(
     COMMAND ${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}" -B "${BINARY}" -G "${GENERATOR}" -DCASE=${CASE}

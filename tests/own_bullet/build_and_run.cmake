@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Zlib
 # cmake -DHOW=fetch|subdirectory|installed -DSCALAR=float|double -DGENERATOR=<generator> -DBULLET_SOURCE=<folder>
 #   -DFEM_SOURCE=<folder> -DBINARY=<folder> -P build_and_run.cmake
-# Builds a program with a Bullet of its own, and runs it. installed: Bullet is built and installed in a folder, BulletFEM is
+# Builds a program with its own Bullet, and runs it. installed: Bullet is built and installed in a folder, BulletFEM is
 # built against it with BULLETFEM_BULLET, and the program against both installations.
 cmake_minimum_required(VERSION 3.25)
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)

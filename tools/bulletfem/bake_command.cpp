@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A number, or one over another: 1/60.
+/// A number, or a quotient such as 1/60.
 double numberOf(const std::string& text)
 {
     char* end = nullptr;
@@ -33,7 +33,7 @@ struct BakeCommand
     std::string m_mesh, m_output, m_step = "1/60";
     double m_scale = 1;
     bool m_double = false, m_lowMemory = false;
-    std::vector<std::array<double, 6>> m_pinBoxes;  // low corner, high corner [m]
+    std::vector<std::array<double, 6>> m_pinBoxes;  // minimum and maximum corner [m]
     MaterialOptions m_material;
     CageOptions m_cage;
     Figures m_figures;
@@ -98,14 +98,14 @@ void addBakeCommand(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
         "bake",
-        "Makes a body ready: mesh, material, pins and factor in one .bfem file that a game loads in milliseconds.");
+        "Writes mesh, material, pins and factor of a body to one .bfem file, which a game loads in milliseconds.");
     const auto options = std::make_shared<BakeCommand>();
     command
         ->add_option("mesh", options->m_mesh,
                      "tetrahedra (.msh, .vtk, .vtu, .mesh, .node) or a surface (.off, .obj, .stl, .ply)")
         ->required();
     command->add_option("-o,--output", options->m_output, "the .bfem file")->required();
-    command->add_option("--scale", options->m_scale, "times the file's positions (default 1)")
+    command->add_option("--scale", options->m_scale, "factor on the file's positions (default 1)")
         ->check(inRange(1e-9, 1e9));
     command->add_option("--step", options->m_step, "fixed time step of the game [s], as 0.01 or 1/60 (default 1/60)")
         ->check(
@@ -115,19 +115,18 @@ void addBakeCommand(CLI::App& app)
                 return step >= 1e-6 && step <= 1 ? "" : "is " + text + ", must be in [1e-6, 1] s, as 0.01 or 1/60";
             });
     command
-        ->add_option(
-            "--pin", options->m_pinBoxes,
-            "nodes in this box stand still: x y z of its low corner, then of its high one [m]; may be given again")
+        ->add_option("--pin", options->m_pinBoxes,
+                     "fixes the nodes in a box: x y z of its minimum, then of its maximum corner [m]; may be repeated")
         ->type_name("x y z x y z")
         ->allow_extra_args(false)
         ->check(inRange(-1e6, 1e6));
     command->add_flag("--double", options->m_double, "for Bullet in double precision");
     command->add_flag("--low-memory", options->m_lowMemory,
-                      "with the small factor: about a ninth of the memory, slower steps");
+                      "low-memory factor: about a ninth of the memory, slower steps");
     options->m_material.add(*command);
     options->m_cage.add(*command);
     command->add_flag("--surface-collides", options->m_cage.m_surfaceCollides,
-                      "of a surface: it collides itself, and not the cage around it");
+                      "for a surface: the surface collides instead of its cage");
     options->m_figures.addOption(*command);
     command->callback([options] { options->run(); });
 }

@@ -71,12 +71,13 @@ void addCageCommand(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
         "cage",
-        "Fills a surface with tetrahedra: closed, self-intersecting, inside out, of several pieces or slightly "
-        "open.\nThe tetrahedra reach up to a cell beyond it. Prints what was made and what was wrong.");
+        "Fills a surface with tetrahedra; it may be self-intersecting, inside out, of several parts or slightly "
+        "open.\nThe tetrahedra extend up to a cell beyond it. Prints properties of the mesh and defects of the "
+        "surface.");
     const auto options = std::make_shared<CageCommand>();
     command->add_option("surface", options->m_surface, "OFF, OBJ, STL or PLY file")->required();
     command->add_option("-o,--output", options->m_output, "mesh file: .msh, .vtk, .vtu, .mesh, or .node and .ele");
-    command->add_option("--scale", options->m_scale, "times the file's positions (default 1)")
+    command->add_option("--scale", options->m_scale, "factor on the file's positions (default 1)")
         ->check(inRange(1e-9, 1e9));
     options->m_cage.add(*command);
     options->m_figures.addOption(*command);

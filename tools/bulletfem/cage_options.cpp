@@ -9,21 +9,23 @@ namespace bullet_fem
 
 void CageOptions::add(CLI::App& command)
 {
-    CLI::Option* cell = command.add_option("--cell", m_cellSize, "of a surface: edge of the cage's cells [m]")
+    CLI::Option* cell = command.add_option("--cell", m_cellSize, "for a surface: edge of the cage's cells [m]")
                             ->check(inRange(1e-9, 1e6));
-    command.add_option("--tets", m_tets, "of a surface: about so many tetrahedra (default 2000)")
+    command.add_option("--tets", m_tets, "for a surface: approximate number of tetrahedra (default 2000)")
         ->check(inRange(5, 5e6))
         ->excludes(cell);
     command
         .add_option("--snap", m_snap,
-                    "of a surface: move the cage's boundary by this share toward it [0 to 1] (default 0)")
+                    "for a surface: moves the cage's boundary by this fraction toward it [0 to 1] (default 0)")
         ->check(inRange(0, 1));
     CLI::Option* grade =
         command
-            .add_option("--grade", m_cellsAcross,
-                        "of a surface: smaller cells where it is thin, so many across [0.5 to 8], 2 is usual")
+            .add_option(
+                "--grade", m_cellsAcross,
+                "for a surface: number of cells across thin parts, which get smaller cells [0.5 to 8], usually 2")
             ->check(inRange(0.5, 8));
-    command.add_option("--levels", m_mostLevels, "with --grade: cells are halved up to so often [1 to 6] (default 3)")
+    command
+        .add_option("--levels", m_mostLevels, "with --grade: maximum number of halvings of cells [1 to 6] (default 3)")
         ->check(inRange(1, 6))
         ->needs(grade);
 }

@@ -9,7 +9,7 @@
 namespace bullet_fem
 {
 
-/// How a cage is asked for on the command line.
+/// Command-line options of a cage.
 struct CageOptions
 {
     void add(CLI::App& command);

@@ -7,8 +7,8 @@
 namespace bullet_fem
 {
 
-/// Each adds a subcommand, which is run when the command line has been parsed. What it throws is an error of the data:
-/// std::exception with a message for the user.
+/// Each function adds a subcommand, which runs when the command line has been parsed. A subcommand throws
+/// std::exception with a message for the user on invalid data.
 void addCageCommand(CLI::App& app);
 void addBakeCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);

@@ -39,7 +39,7 @@ struct ConvertCommand
     struct Solid
     {
         TetMesh m_mesh;
-        std::vector<int> m_regions;  // labels of the elements, if they have any
+        std::vector<int> m_regions;  // labels of the elements; may be empty
     };
 
     Solid readSolid() const
@@ -98,8 +98,8 @@ void addConvertCommand(CLI::App& app)
                            "or that of tetrahedra, as .obj or .ply.");
     const auto options = std::make_shared<ConvertCommand>();
     command->add_option("input", options->m_input, "tetrahedra, a surface or a .bfem file")->required();
-    command->add_option("output", options->m_output, "the file to write; its ending says how")->required();
-    command->add_option("--scale", options->m_scale, "times the file's positions (default 1)")
+    command->add_option("output", options->m_output, "the file to write; its extension selects the format")->required();
+    command->add_option("--scale", options->m_scale, "factor on the file's positions (default 1)")
         ->check(inRange(1e-9, 1e9));
     command->callback([options] { options->run(); });
 }

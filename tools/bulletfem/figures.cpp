@@ -11,7 +11,7 @@ namespace bullet_fem
 
 void Figures::addOption(CLI::App& command)
 {
-    command.add_flag("--json", m_json, "print the figures as JSON");
+    command.add_flag("--json", m_json, "print the results as JSON");
 }
 
 void Figures::add(const std::string& name, const nlohmann::json& value, const std::string& unit)

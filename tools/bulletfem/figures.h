@@ -10,16 +10,16 @@
 namespace bullet_fem
 {
 
-/// What a command tells at its end: a table for people, or --json for programs, with the same names.
+/// Final results of a command, printed as a table or, with --json, as JSON with these names.
 class Figures
 {
 public:
     /// Adds the option --json.
     void addOption(CLI::App& command);
 
-    /// `name` as a JSON member, with the unit behind for people.
+    /// Adds a value: a JSON member called `name`; the table appends the unit.
     void add(const std::string& name, const nlohmann::json& value, const std::string& unit = "");
-    /// A list as a JSON array; people see its length, and these lines below it.
+    /// Adds a list: a JSON array; the table shows its length and then these lines.
     void addList(const std::string& name, const nlohmann::json& list, const std::vector<std::string>& lines);
     void print() const;
     bool asJson() const { return m_json; }
@@ -29,7 +29,7 @@ private:
     {
         std::string m_name, m_unit;
         nlohmann::json m_value;
-        std::vector<std::string> m_lines;  // of a list, for people
+        std::vector<std::string> m_lines;  // of a list, for the table
     };
     bool m_json = false;
     std::vector<Row> m_rows;

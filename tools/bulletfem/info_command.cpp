@@ -24,7 +24,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kMaxLabels = 20;  // of a surface that are listed: photographs have thousands of colours
+constexpr std::size_t kMaxLabels = 20;  // listed labels of a surface: photographs have thousands of colours
 
 struct InfoCommand
 {
@@ -89,10 +89,10 @@ struct InfoCommand
         m_figures.add("axis 2", {axes(0, 1), axes(1, 1), axes(2, 1)});
     }
 
-    // Of a field of directions every element is a region.
+    // With a field of directions each element is a region.
     static constexpr std::size_t kMaxRegions = 20;
 
-    // Volumes are those that are filled.
+    // Volumes are those that elements fill.
     void tellRegions(const BakedBody& body)
     {
         const RestShape& shape = body.m_model->shape();
@@ -113,7 +113,7 @@ struct InfoCommand
                     ++tets;
                     volume += shape.m_elements[e].m_volume;
                 }
-            const double density = material.m_density > 0 ? material.m_density : 1000;  // as it was baked
+            const double density = material.m_density > 0 ? material.m_density : 1000;  // as baked
             m_figures.add("region " + std::to_string(label),
                           {{"tets", tets},
                            {"volume", volume},
@@ -140,7 +140,7 @@ struct InfoCommand
 
     void tellLabels(const TetMesh& mesh, const std::vector<int>& labels)
     {
-        std::map<int, std::pair<int, double>> regions;  // elements, volume
+        std::map<int, std::pair<int, double>> regions;  // elements and volume by label
         for (int e = 0; e < mesh.tetCount() && !labels.empty(); ++e)
         {
             ++regions[labels[e]].first;
@@ -225,8 +225,8 @@ struct InfoCommand
 
 void addInfoCommand(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand(
-        "info", "Tells what a file holds: tetrahedra, a surface, a baked body (.bfem) or a scene (.json).");
+    CLI::App* command =
+        app.add_subcommand("info", "Describes a file: tetrahedra, a surface, a baked body (.bfem) or a scene (.json).");
     const auto options = std::make_shared<InfoCommand>();
     command->add_option("file", options->m_file, "the file")->required();
     options->m_figures.addOption(*command);

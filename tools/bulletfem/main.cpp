@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// From a mesh to a body, and from a scene to pictures.
+// Command-line tools for meshes, bodies and scenes.
 #include <iostream>
 
 #include "tools/bulletfem/commands.h"
@@ -13,7 +13,7 @@ int main(int argc, char** argv)
     using namespace bullet_fem;
     CLI::App app(
         "Makes finite-element bodies of meshes, and runs scenes of them. All lengths are metres, all values SI.\n"
-        "Each command explains itself: bulletfem cage --help\n\n"
+        "Help on a command: bulletfem cage --help\n\n"
         "  bulletfem cage bunny.off --tets 4000 -o bunny.msh          tetrahedra around a surface\n"
         "  bulletfem bake bunny.off --material rubber -o bunny.bfem   a body that loads in milliseconds\n"
         "  bulletfem simulate scene.json --pvd --film run.mp4         a scene, to ParaView and to a film in "
@@ -36,7 +36,7 @@ int main(int argc, char** argv)
             std::cerr << app.help() << "\nA subcommand is required.\n";
             return kUsageError;
         }
-        catch (const CLI::RuntimeError& error)  // of a command that ran
+        catch (const CLI::RuntimeError& error)  // thrown by a subcommand
         {
             return error.get_exit_code();
         }

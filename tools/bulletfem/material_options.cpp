@@ -32,7 +32,7 @@ double valueOf(const std::string& text)
     return value;
 }
 
-// A preset, or the name of a value and the value.
+// Parses a preset, or the name of a value and the value.
 void take(const std::string& part, Material& material)
 {
     const std::size_t sign = part.find('=');
@@ -40,7 +40,7 @@ void take(const std::string& part, Material& material)
     {
         const auto preset = kPresets.find(part);
         if (preset == kPresets.end()) throw std::runtime_error("'" + part + "' is no material");
-        const Material body = material;  // what it has is not a region's own
+        const Material body = material;  // settings of the body that a region's preset keeps
         material = preset->second;
         material.m_massDamping = body.m_massDamping;
         material.m_stiffnessDamping = body.m_stiffnessDamping;
@@ -57,7 +57,7 @@ void take(const std::string& part, Material& material)
     material.*member = valueOf(part.substr(sign + 1));
 }
 
-// Into a label and a material.
+// Parses a label and a material.
 void takeRegion(const std::string& text, Material material, std::optional<ElasticLaw> law,
                 std::map<int, Material>& regions)
 {
@@ -107,16 +107,16 @@ void MaterialOptions::add(CLI::App& command)
     command.add_option("--stiffness-damping", m_stiffnessDamping, "Rayleigh's beta [s] (default 0.005)")
         ->check(inRange(0, 10));
     command
-        .add_option("--mean-dilatation", m_meanDilatation,
-                    "auto, on or off: neighbouring elements share their volume change (default auto: above nu .4)")
+        .add_option(
+            "--mean-dilatation", m_meanDilatation,
+            "auto, on or off: volume changes are averaged over neighbouring elements (default auto: above nu .4)")
         ->check(CLI::IsMember({"auto", "on", "off"}));
     command.add_flag("--accurate-bending", m_accurateBending,
-                     "strains are averaged around edges, so that thin parts bend as much as they should");
+                     "averages strains around edges, for accurate bending of thin parts");
     command
-        .add_option(
-            "--law", m_law,
-            "hooke, or neoHooke, which stiffens as it is stretched or crushed (default: the material's; that of "
-            "jelly and flesh is neoHooke)")
+        .add_option("--law", m_law,
+                    "hooke, or neoHooke, which stiffens in tension and compression (default: the material's; that of "
+                    "jelly and flesh is neoHooke)")
         ->check(CLI::IsMember({"hooke", "neoHooke"}));
     command
         .add_option("--region", m_regions,
@@ -128,7 +128,7 @@ void MaterialOptions::add(CLI::App& command)
 Material MaterialOptions::material() const
 {
     Material material = m_preset.empty() ? Material() : kPresets.at(m_preset);
-    material.m_stiffnessDamping = m_stiffnessDamping.value_or(0.005);  // as btFemMaterial
+    material.m_stiffnessDamping = m_stiffnessDamping.value_or(0.005);  // as in btFemMaterial
     material.m_youngModulus = m_young.value_or(material.m_youngModulus);
     material.m_poissonRatio = m_poisson.value_or(material.m_poissonRatio);
     material.m_density = m_density.value_or(material.m_density);

@@ -13,17 +13,18 @@
 namespace bullet_fem
 {
 
-/// A material from the command line: a preset, and values in its place.
+/// A material on the command line: a preset and values that replace those of the preset.
 class MaterialOptions
 {
 public:
     void add(CLI::App& command);
     Material material() const;
-    /// Those of regions, by label; what is not given is material()'s. Throws std::runtime_error on a text that is none.
+    /// Materials of regions by label; values that are not given are those of material(). Throws std::runtime_error on a
+    /// text that is no material.
     std::map<int, Material> regions() const;
 
 private:
-    std::optional<ElasticLaw> law() const;  // that is in place of the preset's
+    std::optional<ElasticLaw> law() const;  // replaces the preset's law
 
     std::string m_preset, m_meanDilatation, m_law;
     bool m_accurateBending = false;

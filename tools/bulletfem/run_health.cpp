@@ -11,12 +11,12 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kShownBodies = 10;  // of a flag, to people
+constexpr std::size_t kShownBodies = 10;  // listed per flag in the table
 
-/// The flags in lines, by flag, with the explanation of each once.
+/// Lines of text: for each flag its explanation, then its bodies.
 std::vector<std::string> linesOf(const std::vector<SceneFlag>& flags)
 {
-    std::map<int, std::vector<std::string>> bodies;  // by flag
+    std::map<int, std::vector<std::string>> bodies;  // lines of the bodies by flag
     for (const SceneFlag& flag : flags)
         bodies[flag.m_text->m_flag].push_back("  " + flag.m_body + ": " + flag.when() +
                                               (flag.m_message.empty() ? "" : "; " + flag.m_message));

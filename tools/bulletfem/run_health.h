@@ -11,11 +11,11 @@
 namespace bullet_fem
 {
 
-/// Adds "flags": body, flag, title, first and last [s], steps and explanation of each.
+/// Adds "flags": body, flag, title, first and last time [s], steps and explanation of each.
 void tellFlags(Figures& figures, const std::vector<SceneFlag>& flags);
 
-/// Adds "faults": body, what ("insideOut" or "inside"), elements, or other, depth [m] and share [-], and sentence of
-/// each.
+/// Adds "faults": body, kind ("insideOut" or "inside"), elements, or other body with depth [m] and share [-], and a
+/// sentence for each.
 void tellFaults(Figures& figures, const std::vector<SceneFault>& faults);
 
 }  // namespace bullet_fem

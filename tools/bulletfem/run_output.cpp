@@ -27,7 +27,7 @@ GlbSettings glbSettings(const SceneWorld& world)
 {
     const SceneDescription& scene = world.description();
     GlbSettings settings;
-    settings.m_normals = !SplitFilm::isNeeded(world);  // they would show cracks before they open
+    settings.m_normals = !SplitFilm::isNeeded(world);  // smoothed normals would show cracks before they open
     if (scene.m_pictures.m_stress) settings.m_colours = GlbColours::peakVonMises;
     settings.m_hottest = scene.m_pictures.m_hottest;
     settings.m_maxFrames = 65535;
@@ -64,7 +64,7 @@ RunOutput::RunOutput(const RunOutputSettings& settings, const SceneWorld& world,
 
 RunOutput::~RunOutput() = default;
 
-// All that is written at the run's end, which is no time to find out that it cannot be.
+// Checks before the run that the files of its end can be written.
 void RunOutput::checkFiles() const
 {
     if (m_settings.m_glb) checkWritable(path(kGlbName));
@@ -112,7 +112,7 @@ void RunOutput::drawPictures(std::vector<std::string>& written, const std::funct
     if (const double largest = largestForceOf(m_snapshots); largest > 0) m_painter->setLargestForce(largest);
     std::vector<std::unique_ptr<FilmWriter>> films;
     const SceneDescription& scene = m_world.description();
-    const double perSecond = std::min(scene.m_framesPerSecond, 1 / scene.m_step);  // a step has one frame at most
+    const double perSecond = std::min(scene.m_framesPerSecond, 1 / scene.m_step);  // at most one frame per step
     const int rate = static_cast<int>(std::clamp(std::round(perSecond), 1.0, 100.0));
     for (const std::string& name : m_settings.m_films)
         films.push_back(std::make_unique<FilmWriter>(path(name), size, rate));

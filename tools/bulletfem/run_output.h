@@ -22,29 +22,29 @@ namespace bullet_fem
 class OffscreenRenderer;
 #endif
 
-/// What a run leaves behind.
+/// Output files of a run.
 struct RunOutputSettings
 {
-    std::string m_folder;              ///< of all files, made if missing
+    std::string m_folder;              ///< of all files, created if missing
     bool m_pvd = false;                ///< elements.pvd and surfaces.pvd
     bool m_glb = false;                ///< run.glb
     bool m_png = false;                ///< first.png, last.png and strip.png
-    std::vector<std::string> m_films;  ///< files in the folder, .mp4 or .gif
+    std::vector<std::string> m_films;  ///< file names in the folder, .mp4 or .gif
 };
 
-/// Writes a scene's frames while it runs, and what needs all of them at its end.
+/// Writes a scene's frames during the run, and files that need all frames at its end.
 class RunOutput
 {
 public:
-    /// Both must live longer. Throws std::runtime_error if the folder or a file in it cannot be made, or pictures are
-    /// asked for and cannot be had.
+    /// Both must outlive this object. Throws std::runtime_error if the folder or a file in it cannot be created, or
+    /// pictures are requested but unavailable.
     RunOutput(const RunOutputSettings& settings, const SceneWorld& world, const SceneFrames& frames);
     ~RunOutput();
 
-    /// The frames as they are now.
+    /// Adds the present frames.
     void add();
-    /// Draws pictures, which may take longer than the run, and closes films; `progress` is told the share of them that
-    /// is done. Returns the names of the files that were written.
+    /// Draws pictures, which may take longer than the run, and closes films. `progress` receives the completed
+    /// fraction. Returns the names of the files written.
     std::vector<std::string> finish(const std::function<void(double)>& progress);
     int frameCount() const { return m_frameCount; }
 
@@ -59,7 +59,7 @@ private:
     const SceneFrames& m_frames;
     std::unique_ptr<VtuSeries> m_elements, m_surfaces;
     std::unique_ptr<GlbFilm> m_film;
-    std::unique_ptr<SplitFilm> m_splitFilm;  // before it, if a body may split
+    std::unique_ptr<SplitFilm> m_splitFilm;  // replaces m_film if a body may split
 #ifdef BULLETFEM_HAS_PICTURES
     std::unique_ptr<OffscreenRenderer> m_renderer;
     std::unique_ptr<ScenePainter> m_painter;

@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-// A cell of a table: RFC 4180.
+// Quotes a table cell [RFC 4180].
 std::string quoted(const std::string& text)
 {
     std::string cell = "\"";

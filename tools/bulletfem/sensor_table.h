@@ -13,18 +13,18 @@
 namespace bullet_fem
 {
 
-/// Readings of a scene's sensors in a run: a table with a line a step, and the last and largest values. Nothing is
-/// written where there are no sensors.
+/// Sensor readings of a run: a table with one line per step, and the last and largest values. Writes nothing for scenes
+/// without sensors.
 class SensorTable
 {
 public:
-    /// The world must live longer. Throws std::runtime_error if sensors.csv cannot be made in the folder, which must be
-    /// there.
+    /// The world must outlive this object. Throws std::runtime_error if sensors.csv cannot be created in the folder,
+    /// which must exist.
     SensorTable(const SceneWorld& world, const std::string& folder);
 
-    /// After a step.
+    /// Call after each step.
     void take();
-    /// Gives the file its name, and adds that to the files.
+    /// Closes the file under its final name and appends that name to `files`.
     void finish(std::vector<std::string>& files);
     void tell(Figures& figures) const;
 

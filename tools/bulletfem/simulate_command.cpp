@@ -35,12 +35,12 @@ std::string windowHelp()
 #endif
 }
 
-constexpr std::size_t kMaxFactorBytes = std::size_t(4) << 30u;  // of a mesh that is opened in the window
+constexpr std::size_t kMaxFactorBytes = std::size_t(4) << 30u;  // limit for meshes opened in the window
 
-/// Cost and health of a run.
+/// Cost and final state of a run.
 struct RunFigures
 {
-    std::vector<double> m_milliseconds;  // a step
+    std::vector<double> m_milliseconds;  // per step
     SceneFlags m_flags;
     int m_mostContacts = 0;
 
@@ -60,7 +60,7 @@ struct SimulateCommand
     RunOutputSettings m_output;
     double m_seconds = 0;
     bool m_stress = false, m_window = false, m_quiet = false;
-    std::vector<std::string> m_meshes;  // of the window
+    std::vector<std::string> m_meshes;  // opened in the window at the start
     double m_scale = 1;
     CageOptions m_cage;
     MaterialOptions m_material;
@@ -191,24 +191,24 @@ namespace
 void addWindowOptions(CLI::App& command, SimulateCommand& options)
 {
     CLI::Option* window =
-        command.add_flag("--window", options.m_window, "show it; only films that you make there are written");
+        command.add_flag("--window", options.m_window, "show the scene in a window; writes only films made there");
     const std::size_t others = command.get_options().size();
     CLI::Option* mesh = command.add_option(
         "--mesh", options.m_meshes,
-        "of the window: opens a surface (.off, .obj, .stl, .ply), tetrahedra (.msh, .vtk, .vtu, .mesh, .node) or a "
-        "baked body (.bfem), as if it were dropped there; may be given again");
+        "in the window: opens a surface (.off, .obj, .stl, .ply), tetrahedra (.msh, .vtk, .vtu, .mesh, .node) or a "
+        "baked body (.bfem), as if dropped onto it; may be repeated");
     mesh->take_all()->allow_extra_args(false);
-    command.add_option("--scale", options.m_scale, "of the window: times the positions of meshes (default 1)")
+    command.add_option("--scale", options.m_scale, "in the window: factor on the positions of meshes (default 1)")
         ->check(inRange(1e-9, 1e9));
     options.m_cage.add(command);
     options.m_material.add(command);
     command
         .add_option("--history-steps", options.m_historySteps,
-                    "of the window: steps between the states that it goes back to (default 10)")
+                    "in the window: steps between stored states (default 10)")
         ->check(inRange(1, 100000));
     command
         .add_option("--history-memory", options.m_historyMegabytes,
-                    "of the window: most memory for these states [MiB]; the oldest go first (default 256)")
+                    "in the window: maximum memory for stored states [MiB]; the oldest are dropped (default 256)")
         ->check(inRange(1, 65536));
     const std::vector<CLI::Option*> all = command.get_options();
     for (std::size_t k = others; k < all.size(); ++k) all[k]->needs(window);
@@ -220,13 +220,13 @@ void addSimulateCommand(CLI::App& app)
 {
     CLI::App* command =
         app.add_subcommand("simulate",
-                           "Runs a scene (docs/scenes.md) and writes what you ask for; ParaView files if you ask for "
-                           "nothing. Tells every\n"
-                           "flag that was raised. Or shows it in a window, where meshes can be dropped.");
-    command->footer("Exit code 3 where a body ends inside out or inside another.\n\nThe window:\n\n" + windowHelp());
+                           "Runs a scene (docs/scenes.md) and writes the selected outputs; ParaView files if none is "
+                           "selected. Reports all\n"
+                           "flags that were raised. Or shows the scene in a window, onto which meshes can be dropped.");
+    command->footer("Exit code 3 if a body ends inside out or inside another.\n\nThe window:\n\n" + windowHelp());
     const auto options = std::make_shared<SimulateCommand>();
     RunOutputSettings& output = options->m_output;
-    command->add_option("scene", options->m_scene, "the scene's .json file; the window needs none");
+    command->add_option("scene", options->m_scene, "the scene's .json file; optional with --window");
     command->add_option("-o,--out", output.m_folder, "folder of the files (default out/<scene>)");
     command->add_option("--seconds", options->m_seconds, "time to simulate (default: the scene's)")
         ->check(inRange(1e-6, 1e5));
@@ -234,7 +234,7 @@ void addSimulateCommand(CLI::App& app)
                       "elements.pvd and surfaces.pvd for ParaView, with stress and contact forces");
     command->add_flag("--glb", output.m_glb, "run.glb, animated, for web viewers and Blender");
     command->add_flag("--png", output.m_png, "first.png, last.png and strip.png");
-    command->add_option("--film", output.m_films, "a film of this name: .mp4 or .gif; may be given again")
+    command->add_option("--film", output.m_films, "a film with this name: .mp4 or .gif; may be repeated")
         ->check(
             [](const std::string& name)
             {
@@ -243,8 +243,8 @@ void addSimulateCommand(CLI::App& app)
             })
         ->take_all()
         ->allow_extra_args(false);
-    command->add_flag("--stress", options->m_stress, "colours are von Mises stress");
-    command->add_flag("--quiet", options->m_quiet, "no progress");
+    command->add_flag("--stress", options->m_stress, "colours show von Mises stress");
+    command->add_flag("--quiet", options->m_quiet, "do not show progress");
     addWindowOptions(*command, *options);
     options->m_figures.addOption(*command);
     command->callback([options] { options->run(); });

@@ -14,12 +14,12 @@ void SplitFilm::add()
     {
         if (body.m_id >= m_world.softCount() || !m_world.fractures().find(m_world.soft(body.m_id))) continue;
         const BodyFrame& volume = m_frames.volumes()[body.m_id];
-        body.m_positions = volume.m_positions;  // all nodes: those inside may come to be at a crack
+        body.m_positions = volume.m_positions;  // all nodes: inner nodes may become part of a crack surface
         body.m_nodeStress = volume.m_nodeStress;
     }
 }
 
-// Until a copy of a node comes it is where that is, which may be a copy itself.
+// Nodes added by later splits take the position of the node that they copy, which may be a copy itself.
 void SplitFilm::complete(int body, BodyFrame& frame) const
 {
     const btSoftBody& soft = m_world.soft(body);

@@ -10,21 +10,21 @@
 namespace bullet_fem
 {
 
-/// Keeps a run whose bodies split, for a film whose triangles are the same in all frames: those of the run's end. The
-/// sides of a crack lie on each other until it opens.
+/// Stores a run whose bodies split, for a film with constant triangles: those of the end of the run. The faces of a
+/// crack coincide until it opens.
 class SplitFilm
 {
 public:
-    /// Both must live longer.
+    /// Both must outlive this object.
     SplitFilm(const SceneWorld& world, const SceneFrames& frames) : m_world(world), m_frames(frames) {}
 
     /// True if a body of the scene may split.
     static bool isNeeded(const SceneWorld& world) { return !world.fractures().bodies().empty(); }
 
-    /// The frames as they are now.
+    /// Stores the present frames.
     void add();
 
-    /// At the run's end. Throws what GlbFilm::addFrame throws.
+    /// Call at the end of the run. Throws the exceptions of GlbFilm::addFrame.
     void give(GlbFilm& film);
 
 private:

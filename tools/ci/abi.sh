@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# abi.sh [<commit>]: what shared libraries promise. Builds them, tests what they export and a client that is linked with
-# them; then builds those of the commit (by default the last tag), and lets abidiff compare both. Fails if names that
-# clients may use are gone or have changed, and the soname is the same. Single precision.
+# abi.sh [<commit>]: checks binary compatibility of the shared libraries. Builds them, tests their exports and a client
+# linked with them; then builds those of the commit (default: the last tag) and compares both by abidiff. Fails if
+# public names were removed or changed under an unchanged soname. Single precision.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
@@ -10,7 +10,7 @@ build=$root/build/abi
 install_for_build abigail-tools
 command -v abidiff >/dev/null || fail "there is no abidiff: install abigail-tools"
 
-# shared_libraries <source> <folder> <option>...: builds them there, with what abidiff reads.
+# shared_libraries <source> <folder> <option>...: builds them in the folder, with debug information for abidiff.
 shared_libraries()
 {
     local source=$1 folder=$2
@@ -48,7 +48,7 @@ for library in "$build"/new/*/libbulletfem_*.so; do
         say "$part: $(soname_of "$library") has taken the place of $(soname_of "$build/old/$part")"
         continue
     fi
-    # New names harm nobody. Bits 4 and 8 of the status: names are gone, or they or their types are not what they were.
+    # New names are compatible. Bits 4 and 8 of the status: names were removed, or names or their types have changed.
     status=0
     abidiff --no-default-suppression --no-added-syms --headers-dir1 "$build/source/include" --headers-dir2 "$root/include" \
         "$build/old/$part" "$library" || status=$?

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# arm.sh <Bullet's source>: the libraries for 64-bit Arm by Debian's cross compiler, beside a Bullet of its own. Under QEMU,
-# with NEON: an installed client, and the tests of kernels, factor and steps. Single precision, without oneTBB, AMD and
-# METIS. FILTER in the environment chooses other tests of fem.
+# arm.sh <Bullet's source>: builds the libraries for 64-bit Arm by Debian's cross compiler, with their own build of
+# Bullet. Under QEMU with NEON it runs an installed client and the tests of kernels, factor and steps. Single precision,
+# without oneTBB, AMD and METIS. FILTER in the environment selects other tests of fem.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"

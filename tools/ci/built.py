@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""built.py <compiler> <standard> <Bullet> <precision> <system> <result>: prints the row, and puts it into the table of
-docs/compatibility.md in place of the one that differs in the result alone. Scripts of this folder call it with what they did."""
+"""built.py <compiler> <standard> <Bullet> <precision> <system> <result>: prints the row, and writes it to the table of
+docs/compatibility.md in place of a row that differs in the result alone. Scripts of this folder call it."""
 import os
 import sys
 

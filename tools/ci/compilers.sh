@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# compilers.sh [--quick | --only <compiler> <standard> <build type>]: the libraries compile without a warning with GCC 11 and 12
-# and clang 14 to 16, as C++17, 20 and 23, Debug and Release, and so does a client without exceptions and run-time types, with
-# warnings that the libraries' own sources do not ask for. Prints a table of what was built. With --quick: clang and C++20
-# once each, Release; --only: e.g. clang++-16 20 Debug. clang++-16:libc++ takes the standard library of LLVM (libc++-16-dev,
-# which excludes those of other versions). Compilers that are not there are told and left out.
+# compilers.sh [--quick | --only <compiler> <standard> <build type>]: the libraries compile without warnings with GCC 11
+# and 12 and clang 14 to 16, as C++17, 20 and 23, Debug and Release; so does a client without exceptions and RTTI, under
+# stricter warnings than those of the libraries' own sources. Prints a table of the builds. --quick: clang and C++20
+# once each, Release. --only: e.g. clang++-16 20 Debug. clang++-16:libc++ uses LLVM's standard library (libc++-16-dev,
+# which conflicts with other versions). Missing compilers are reported and skipped.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
@@ -23,7 +23,7 @@ case ${1-} in
 esac
 install_for_build clang-14
 
-# Indices are int, as in Bullet, and arrays are of the standard library: there a change of sign is no news.
+# Indices are int, as in Bullet, and index standard containers: conversions of sign are intended.
 warnings="-Werror -Wpedantic -Wconversion -Wno-sign-conversion"
 client_warnings="-Werror -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -fno-exceptions -fno-rtti"
 rows=()
@@ -57,7 +57,7 @@ compile()
         "$(system_of_build)" "libraries and a client compile without a warning"), in $((SECONDS - began)) s")
 }
 
-# is_there <compiler> [-stdlib=<library>]: whether it finds its standard library, too.
+# is_there <compiler> [-stdlib=<library>]: whether the compiler and its standard library are installed.
 is_there()
 {
     command -v "$1" >/dev/null && echo '#include <vector>' | "$@" -x c++ -fsyntax-only - 2>/dev/null
@@ -72,7 +72,7 @@ name_of()
     esac
 }
 
-# draft_of <compiler> <standard>: its name for it; clang before 17 knows C++23 as 2b.
+# draft_of <compiler> <standard>: the compiler's name of the standard; clang before 17 calls C++23 2b.
 draft_of()
 {
     case $1-$2 in

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Zlib
 # shellcheck shell=bash disable=SC2154,SC2034
-# Sourced by windows.sh and arm.sh, which have set root, build (a folder), toolchain and stages.sh: what both cross builds
-# need, in $build/root. Vectors are those that the compiler is told of, so that nothing of Highway is linked.
+# Sourced by windows.sh and arm.sh, which set root, build (a folder), toolchain and load stages.sh: dependencies of both
+# cross builds, in $build/root. The instruction set is fixed at compile time, so that Highway needs no library.
 cross_root=$build/root
 
-# link_headers: headers of libraries that have nothing to link, apart from this machine's other headers.
+# link_headers: links header-only libraries into a folder apart from this machine's other headers.
 link_headers()
 {
     mkdir -p "$cross_root/include" "$cross_root/lib/cmake/nlohmann_json"
@@ -20,7 +20,8 @@ endif()
 CMAKE
 }
 
-# cross <source> <name> [-t <target>]... [<option>...]: configures in $build/<name>, builds the targets, else everything.
+# cross <source> <name> [-t <target>]... [<option>...]: configures in $build/<name>, and builds the targets or
+# everything.
 cross()
 {
     local source=$1 folder=$build/$2 targets=()
@@ -37,14 +38,14 @@ cross()
         { grep -E 'error|undefined' -A 4 "$folder.log" | head -40; fail "$source: see $folder.log"; }
 }
 
-# cross_install <source> <name> [<option>...]: the same, and installs it in $cross_root.
+# cross_install <source> <name> [<option>...]: as cross, then installs in $cross_root.
 cross_install()
 {
     cross "$@"
     cmake --install "$build/$2" >>"$build/$2.log" 2>&1 || fail "$1: cannot install, see $build/$2.log"
 }
 
-# install_bullet <its source>: single precision, without what it has beside its libraries.
+# install_bullet <its source>: single precision, libraries only.
 install_bullet()
 {
     local off=() option
@@ -56,7 +57,7 @@ install_bullet()
 
 install_googletest() { cross_install /usr/src/googletest googletest; }
 
-# What BulletFEM is configured with in every cross build.
+# Options of BulletFEM in each cross build.
 fem_options=(-DBULLETFEM_PRECISIONS=float -DBULLETFEM_UNITY=8 -DBULLETFEM_WITH_SUITESPARSE=OFF -DBULLETFEM_WITH_METIS=OFF
     -DBULLETFEM_WITH_TBB=OFF -DBULLETFEM_VECTORS=static -DBULLETFEM_PRECOMPILE=OFF -DBULLETFEM_BUILD_TOOLS=OFF
     -DBULLETFEM_BUILD_DEMOS=OFF -DBULLETFEM_BUILD_BENCHMARKS=OFF -DBULLETFEM_BUILD_PICTURES=OFF)

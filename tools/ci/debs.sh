@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# debs.sh [--quick]: Debian packages in build/debs: the libraries, what programs are built with, and the tools. Lintian must
-# find no error. Then installs them in a Debian 12 that has nothing else (mmdebstrap, as root, from the mirror), and there
-# builds and runs the README's program. With --quick in single precision only.
+# debs.sh [--quick]: builds Debian packages in build/debs: libraries, development files and tools; Lintian must find no
+# error. Then installs them in a minimal Debian 12 (mmdebstrap, as root, from the mirror), and builds and runs README's
+# program there. --quick: single precision only.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
@@ -31,7 +31,7 @@ for package in "${packages[@]}"; do
 done
 lintian --allow-root --fail-on error "${packages[@]}"
 
-program=$build/program # README's first one
+program=$build/program # the first program of README
 rm -rf "$program"
 mkdir -p "$program"
 cp "$root"/demos/hello/* "$program"
@@ -47,7 +47,7 @@ chroot_log=$build/chroot.log
 install_inside='chroot "$1" sh -ec "apt-get install --yes --no-install-recommends /program/*.deb"'
 # shellcheck disable=SC2016
 run_inside='chroot "$1" sh -ec "cd /program && cmake -B build . && cmake --build build && build/hello && bulletfem --version"'
-# What runs inside prints a line that is looked for, so that nothing passes by not having run.
+# The commands inside print a line that is required in the output, so that a missing run is detected.
 if ! mmdebstrap --variant=minbase --mode=root --include=g++,cmake,make \
     --customize-hook="mkdir \"\$1/program\" && cp -r '$program/.' \"\$1/program\"" \
     --customize-hook="$install_inside" --customize-hook="$run_inside" \

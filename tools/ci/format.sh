@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# format.sh [--fix]: all .h and .cpp are as clang-format 14 writes them by .clang-format; --fix makes them so.
+# format.sh [--fix]: checks that clang-format 14 leaves all .h and .cpp unchanged; --fix formats them.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# nightly.sh [<hours>]: everything, in some four hours of two cores: what a commit must pass, all slow tests, all compilers,
-# threads under ThreadSanitizer, clang-tidy of all sources, shared libraries, packages, the least runtime, random programs
-# for <hours> in each precision (1 unless given), and ports to Arm and Windows if BULLETFEM_BULLET_SOURCE is a checkout of
-# Bullet. A stage that fails does not end the run.
+# nightly.sh [<hours>]: all checks, in about four hours on two cores: those of each commit, all slow tests, all
+# compilers, ThreadSanitizer, clang-tidy of all sources, shared libraries, packages, the minimal runtime, random
+# programs for <hours> in each precision (default 1), and ports to Arm and Windows if BULLETFEM_BULLET_SOURCE is
+# Bullet's source tree. A failing stage does not end the run.
 #
-# The log, out/nightly/<date>.tsv, has a line a stage: begin (UTC), seconds, passed | failed | left out, name; beside it
-# <date>/<name>.log has what the stage printed. Exit code 0 if none failed.
+# The log out/nightly/<date>.tsv has a line per stage: start (UTC), seconds, passed | failed | left out, name.
+# <date>/<name>.log has the output of the stage. Exit code 0 if no stage failed.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
@@ -18,7 +18,7 @@ mkdir -p "$root/out/nightly/$date"
 printf 'begin\tseconds\tresult\tstage\n' >"$log"
 failures=0
 
-# note <begin> <seconds> <result> <stage>
+# note <start> <seconds> <result> <stage>
 note() { printf '%s\t%s\t%s\t%s\n' "$@" | tee -a "$log"; }
 
 # stage <name> <command>...

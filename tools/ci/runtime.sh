@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# runtime.sh: BulletFEM::runtime of the fewest parts: no oneTBB, no AMD, METIS and Assimp, nothing of Highway but its headers.
-# A tool and a game are linked with it and with Bullet alone, and play. Prints what they need, their size and how long they
-# take to link.
+# runtime.sh: BulletFEM::runtime with minimal dependencies: no oneTBB, AMD, METIS and Assimp, only the headers of
+# Highway. Links a tool and a game with it and with Bullet, and runs them. Prints their dependencies, sizes and link
+# times.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
@@ -18,7 +18,7 @@ cmake -S "$root" -B "$build/libraries" -DCMAKE_BUILD_TYPE=Release -DBULLETFEM_PR
 cmake --build "$build/libraries" --parallel "${JOBS:-$(nproc)}" >>"$build/log" 2>&1 ||
     { grep -E 'error|undefined' -A 4 "$build/log" | head -40; fail "see $build/log"; }
 cmake --install "$build/libraries" --prefix "$build/prefix" >>"$build/log"
-# Packages that must not be looked for are as good as missing.
+# Disabling a package is equivalent to its absence.
 missing=()
 for package in Eigen3 hwy TBB SuiteSparse METIS assimp tinyxml2 ZLIB; do
     missing+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")

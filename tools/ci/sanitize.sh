@@ -4,13 +4,13 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
-build=$root/build/sanitized # of its own, so that no script changes the options of another's
+build=$root/build/sanitized # separate from other scripts' build folders, because options differ
 programs=(bulletfem_fem_test bulletfem_fem_threads_test bulletfem_elasticity_test bulletfem_baked_test
     bulletfem_bridge_test bulletfem_bridge_allocation_test bulletfem_bridge_pair_allocation_test)
 
 install_for_build "${test_packages[@]}"
 
-# LeakSanitizer stops its program with ptrace, which some containers forbid.
+# LeakSanitizer needs ptrace, which some containers forbid.
 probe=$(mktemp -d)
 trap 'rm -r "$probe"' EXIT
 echo 'int main() {}' >"$probe/probe.cpp"
@@ -21,7 +21,7 @@ if ! ASAN_OPTIONS=detect_leaks=1 "$probe/probe" >/dev/null 2>&1; then
     say "LeakSanitizer does not work in this container: leaks are not looked for"
 fi
 
-# Line numbers are all that reports want of -g, and take a third less of the time; -O1 halves what it takes to compile kernels.
+# Reports need only line numbers of -g, which saves a third of the time; -O1 halves the compile time of kernels.
 (cd "$root" && cmake --preset asan -B "$build" -DBULLETFEM_UNITY=8 "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG")
 cmake --build "$build" --parallel "$(nproc)" --target "${programs[@]}"
 export ASAN_OPTIONS=detect_leaks=$leaks:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# shell.sh: all shell scripts parse, and shellcheck finds nothing in them.
+# shell.sh: checks that all shell scripts parse and shellcheck reports no finding.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# slow.sh: the slow tests that cover what has changed since this branch left origin/main, or since the last commit but one,
-# in single precision; at most two programs, those whose rows below match first. tests/run.sh -L slow runs all.
+# slow.sh: runs slow tests of files changed since this branch left origin/main, or since the last commit but one, in
+# single precision; at most two programs, those of the first matching rows below. tests/run.sh -L slow runs all.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
-build=$root/build/release # as tests/run.sh has
+build=$root/build/release # shared with tests/run.sh
 
-# Which program covers which files; each takes one to four minutes.
+# Programs and the files that they cover; each takes one to four minutes.
 covers=(
     "bulletfem_contact_slow_test ^(fem/contact|bullet_bridge/(contact|geometry|rigid)|include/bullet_fem/fem/contact)/"
     "bulletfem_motion_slow_test ^(fem/(body|batch|solve|step)|include/bullet_fem/fem/(body|batch|step))/"

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Zlib
 # shellcheck shell=bash disable=SC2034,SC2154
-# Sourced by .ci/run and the scripts beside this one, which have set root.
+# Sourced by .ci/run and the scripts in this folder, which set root.
 source "$root/cmake/install_packages.sh"
 
-# What the stages need beside build_packages and what tests/run.sh installs itself.
+# Packages for the stages besides build_packages and those that tests/run.sh installs.
 test_packages=(libgtest-dev libgmock-dev)
 check_packages=(git clang-format-14 clang-tidy-14 shellcheck python3)
 
-# is_available <command> <package>: true if there is the command. It is installed if it is missing; where there is no apt
-# for that, a sentence says so.
+# is_available <command> <package>: true if the command exists. A missing one is installed; without apt a message is
+# printed.
 is_available()
 {
     command -v "$1" >/dev/null && return
@@ -20,10 +20,10 @@ is_available()
     command -v "$1" >/dev/null || fail "$2 brings no $1"
 }
 
-# in_git <argument>...: git, in this tree, whoever owns it.
+# in_git <argument>...: runs git in this tree, regardless of its owner.
 in_git() { git -C "$root" -c "safe.directory=$root" "$@"; }
 
-# install_for_build <package>...: what every build needs, and these.
+# install_for_build <package>...: installs the packages of each build, and these.
 install_for_build()
 {
     if command -v apt-get >/dev/null; then
@@ -33,7 +33,7 @@ install_for_build()
     fi
 }
 
-# files_of_project: the paths of all files that git knows, or, outside of git, of all that are there.
+# files_of_project: paths of all files known to git or, outside a git repository, of all files.
 files_of_project()
 {
     if in_git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
@@ -45,8 +45,8 @@ files_of_project()
     fi
 }
 
-# built <compiler> <standard> <Bullet> <precision> <system> <result>: prints it; with RECORD=1 in the environment it goes to
-# docs/compatibility.md, too.
+# built <compiler> <standard> <Bullet> <precision> <system> <result>: prints the result; with RECORD=1 in the
+# environment also writes it to docs/compatibility.md.
 built()
 {
     if [ "${RECORD-}" = 1 ]; then
@@ -68,7 +68,7 @@ system_of_build()
     printf '%s, %s\n' "$(. /etc/os-release && printf '%s %s' "${NAME%% *}" "${VERSION_ID-}")" "$(uname -m | tr _ -)"
 }
 
-# The commit that a change is compared with: where this branch left origin/main, or the last commit but one; nothing in a
+# The commit to which a change is compared: the branch point from origin/main, or the last commit but one; empty in a
 # clone of one commit.
 base_commit()
 {
@@ -79,7 +79,7 @@ base_commit()
     printf '%s' "$base"
 }
 
-# changed_files <commit>: paths that differ from it, new ones too.
+# changed_files <commit>: paths that differ from it, including new files.
 changed_files()
 {
     in_git diff --name-only --diff-filter=d "$1"

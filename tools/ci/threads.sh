@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# threads.sh: what uses threads, under ThreadSanitizer: the tests of it, and a minute of random programs.
+# threads.sh: runs tests of threads and a minute of random programs under ThreadSanitizer.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
-build=$root/build/threads # of its own, so that no script changes the options of another's
+build=$root/build/threads # separate from other scripts' build folders, because options differ
 programs=(fem_threads actuation elasticity threads policy accurate_bending breaking cloth regions skin torsional_friction)
 programs=("${programs[@]/#/bulletfem_}")
 programs=("${programs[@]/%/_test}")
-# Allocations are not counted: threads are made anew for every run of tasks here (fem/common/threads.cpp).
+# Allocations are not counted: here each run of tasks creates its threads (fem/common/threads.cpp).
 filter='*hread*:*Shared*:*BatchMemory*:*Concurrent*:*FactorJobs*:*BackgroundRefactoring*-*llocat*'
 
 install_for_build "${test_packages[@]}"
 
-# Threads do not depend on the kind of vectors that kernels are compiled for, and each further kind takes as long again.
+# Threading does not depend on the kernels' instruction set, and each further set would take as long again.
 (cd "$root" && cmake --preset tsan -B "$build" -DBULLETFEM_UNITY=8 -DBULLETFEM_PRECISIONS=float -DBULLETFEM_VECTORS=static \
     -DBULLETFEM_BUILD_PICTURES=OFF "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG")
 cmake --build "$build" --parallel "$(nproc)" --target "${programs[@]}" bulletfem_soak

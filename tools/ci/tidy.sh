@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# tidy.sh [--changed]: clang-tidy 14 finds nothing, by the rules of .clang-tidy, in the source files of fem, bullet_bridge,
-# plugin and io. With --changed: in those that differ from where this branch left origin/main, or from the last commit but
-# one, and in those of the folders whose headers do. Highway's sources are read as for the instruction set of the compiler
-# command, once for each that Highway compiles them for.
+# tidy.sh [--changed]: clang-tidy 14 reports nothing, by the rules of .clang-tidy, in the source files of fem,
+# bullet_bridge, plugin and io. --changed: only in files changed since this branch left origin/main, or since the last
+# commit but one, and in all files of folders with changed headers. Sources of Highway kernels are read for the
+# instruction set of the compiler command, once for each set that Highway compiles.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
@@ -16,14 +16,14 @@ esac
 
 is_available clang-tidy-14 clang-tidy-14 || exit 0
 install_for_build clang-tidy-14
-# Each source file alone, once: no unity, no precompiled headers, one precision. Nothing is built.
+# Each source file alone and once: no unity build, no precompiled headers, one precision. Nothing is built.
 build=$root/build/tidy
 (cd "$root" && cmake --preset tidy) >/dev/null || fail "cannot configure build/tidy"
 mapfile -t all < <(grep -oP '"file": "\K[^"]+' "$build/compile_commands.json" | sort -u |
     grep -E "^$root/(fem|bullet_bridge|plugin|io)/")
 [ ${#all[@]} -gt 0 ] || fail "build/tidy/compile_commands.json has no source files"
 
-# folder_of <header>: that of its source files.
+# folder_of <header>: folder of its source files.
 folder_of()
 {
     case $1 in
@@ -34,7 +34,7 @@ folder_of()
     esac
 }
 
-# changed_sources <commit>: among all, one a line; paths from the root.
+# changed_sources <commit>: the changed files of `all`, one per line; paths relative to the root.
 changed_sources()
 {
     local path
@@ -59,7 +59,7 @@ if [ "$changed" -eq 1 ]; then
 fi
 [ ${#files[@]} -gt 0 ] || exit 0
 
-# Options that only GCC has are no finding. A header is shown at its place in the source tree.
+# Suppresses messages on options that only GCC has. Shows headers by their paths in the source tree.
 printf '%s\0' "${files[@]}" |
     xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option \
         --extra-arg=-Wno-ignored-optimization-argument 2> >(grep -vE '^[0-9]+ warnings? (generated|treated)' >&2) |

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# windows.sh <Bullet's source> [<tinyxml2's source>]: the libraries for Windows by MinGW-w64 with POSIX threads, beside a
-# Bullet of its own, and the tests of fem and an installed client under Wine; without Wine they are compiled alone. io is
-# built if there is a source of tinyxml2; Assimp is left out. Single precision, without oneTBB, AMD and METIS. Before that
-# clang reads all sources with Microsoft's extensions and its late parsing of templates.
+# windows.sh <Bullet's source> [<tinyxml2's source>]: builds the libraries for Windows by MinGW-w64 with POSIX threads
+# and their own build of Bullet, and runs the tests of fem and an installed client under Wine; without Wine they are
+# only compiled. io is built if tinyxml2's source is given; Assimp is left out. Single precision, without oneTBB, AMD
+# and METIS. First, clang parses all sources with Microsoft's extensions and late template parsing.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/ci/stages.sh"
@@ -54,7 +54,7 @@ if [ -n "$wine" ]; then
     install_googletest
 fi
 
-# 32-byte vectors are not aligned on the stack of 64-bit Windows [GCC 54412]: SSE4 at most.
+# 64-bit Windows does not align 32-byte vectors on the stack [GCC 54412]: SSE4 at most.
 vectors="-msse4.2 -maes -mpclmul"
 options=("${fem_options[@]}" -DBULLETFEM_BULLET="$cross_root" -DBULLETFEM_BUILD_IO="$io" -DBULLETFEM_WITH_ASSIMP=OFF
     -DCMAKE_CXX_FLAGS="$vectors")

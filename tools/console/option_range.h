@@ -7,12 +7,12 @@
 namespace bullet_fem
 {
 
-/// Exit codes of all programs, beside 0.
+/// Exit codes of all programs besides 0.
 constexpr int kDataError = 1, kUsageError = 2;
-/// Of `bulletfem simulate`: a body ended inside out, or inside another.
+/// Exit code of `bulletfem simulate` if a body ends with inverted elements, or inside another.
 constexpr int kFaultyEnd = 3;
 
-/// An option must be a number in [low, high]. CLI::Range lets NaN pass.
+/// Requires an option to be a number in [low, high]; CLI::Range accepts NaN.
 CLI::Validator inRange(double low, double high);
 
 }  // namespace bullet_fem

@@ -22,7 +22,7 @@ extern "C" void endByStopSignal(int number)
     std::raise(number);
 }
 
-// What was ignored when the program began, as by nohup, stays so.
+// Signals that were ignored at program start, as under nohup, stay ignored.
 void endCleanlyBy(int number)
 {
     if (std::signal(number, endByStopSignal) == SIG_IGN) std::signal(number, SIG_IGN);

@@ -7,9 +7,9 @@
 namespace bullet_fem
 {
 
-/// What main() of every program does about errors and signals: returns what `run` returns, or kDataError where it
-/// throws, after "<name>: <why>" on stderr. A limit on the size of files is an error of writing, and a program that is
-/// ended by SIGHUP, SIGINT or SIGTERM leaves no unfinished file.
+/// Error and signal handling of all programs. Returns the result of `run`, or kDataError after an exception, with
+/// "<name>: <message>" on stderr. Exceeding a limit on file size is a write error, and a program that ends by SIGHUP,
+/// SIGINT or SIGTERM leaves no unfinished file.
 int runProgram(const char* name, const std::function<int()>& run);
 
 }  // namespace bullet_fem

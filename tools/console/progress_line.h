@@ -7,13 +7,13 @@
 namespace bullet_fem
 {
 
-/// Says on stdout how far a run is: a line that updates itself on a terminal, a line every tenth of the run elsewhere.
+/// Progress on stdout: a line that updates itself on a terminal, else a line for each tenth of the run.
 class ProgressLine
 {
 public:
     ProgressLine();
 
-    /// `done` [-], in [0, 1], is the share of the run behind us; `text` is shown with it.
+    /// `done` is the completed fraction of the run [-], in [0, 1]; `text` is shown with it.
     void show(double done, const std::string& text);
 
     /// Ends the line.
@@ -21,8 +21,8 @@ public:
 
 private:
     bool m_onTerminal;
-    int m_shown = -1;                    // hundredths or tenths that were last shown
-    std::string::size_type m_width = 0;  // of the longest text, which a shorter one must overwrite
+    int m_shown = -1;                    // last value shown, in hundredths or tenths
+    std::string::size_type m_width = 0;  // of the longest text so far, which shorter ones must overwrite
 };
 
 }  // namespace bullet_fem

@@ -9,9 +9,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSteepest = 1.54;  // elevation [rad]: at pi/2 there is no right and left
+constexpr double kSteepest = 1.54;  // elevation [rad]: at pi/2 left and right are undefined
 
-/// Half the picture's height at distance 1, and its width over its height.
+/// Half the height of the view at distance 1; then its ratio of width to height.
 double slope(const PictureCamera& camera)
 {
     return std::tan(0.5 * camera.m_fieldOfView);
@@ -62,7 +62,7 @@ void OrbitCamera::orbit(double azimuth, double elevation)
     const double distance = norm(m_camera.m_eye - m_camera.m_target);
     const double now = std::asin(std::clamp(dot(a.m_back, m_pole), -1.0, 1.0));
     const double next = std::clamp(now + elevation, -kSteepest, kSteepest);
-    const Vec3 ahead = cross(a.m_right, m_pole);  // level, from the target to the eye
+    const Vec3 ahead = cross(a.m_right, m_pole);  // horizontal, from the target towards the eye
     const Vec3 level = std::cos(azimuth) * ahead + std::sin(azimuth) * a.m_right;
     m_camera.m_eye = m_camera.m_target + distance * (std::cos(next) * level + std::sin(next) * m_pole);
     m_camera.m_up = m_pole;

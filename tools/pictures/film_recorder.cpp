@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-/// The first name that no file has.
+/// The first unused file name.
 std::string freeName(const std::string& folder)
 {
     for (int n = 1;; ++n)

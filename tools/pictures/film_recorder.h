@@ -12,28 +12,28 @@
 namespace bullet_fem
 {
 
-/// Films of what a window shows, in the simulation's time: a pause is not filmed. It never
-/// throws because of a file: `message` tells.
+/// Films of a window's content in simulated time; pauses are not filmed. It does not throw on file errors, but reports
+/// them in `message`.
 class FilmRecorder
 {
 public:
-    /// Films are called film_001.mp4 and so on, in `folder`, which is made when the first one starts.
+    /// Films are called film_001.mp4 and so on in `folder`, which is created for the first one.
     explicit FilmRecorder(std::string folder) : m_folder(std::move(folder)) {}
 
-    /// False if there can be no film.
+    /// Returns false if no film can be made.
     bool start(const PictureSize& size);
     bool recording() const { return m_writer != nullptr; }
-    /// The simulation has gone on by `seconds`, >= 0.
+    /// Adds `seconds`, >= 0, of simulated time.
     void advance(double seconds) { m_time += seconds; }
-    /// How many frames are missing: what is seen is to be appended then.
+    /// Number of frames that are due and should be appended.
     int due() const;
-    /// What is seen, for all frames that are due. Where it has another size now, the film ends.
+    /// Appends the picture for all frames that are due. A change of size ends the film.
     void append(const Image& image);
-    /// Ends the film. The file is finished in the background, and has its name then.
+    /// Ends the film. A background thread finishes the file and gives it its name.
     void stop();
-    /// To be called in every frame: takes what the background has finished.
+    /// Call in each frame: collects films that the background thread has finished.
     void update();
-    /// A sentence on the film, or what went wrong; empty at first.
+    /// Result of the last film or an error message; empty at first.
     const std::string& message() const { return m_message; }
     const std::string& path() const { return m_path; }  ///< of the last film
 
@@ -43,9 +43,9 @@ private:
     std::string m_folder, m_path, m_message;
     std::unique_ptr<FilmWriter> m_writer;
     PictureSize m_size;
-    double m_time = 0;  // since the start [s]
+    double m_time = 0;  // simulated time since the start [s]
     int m_frames = 0;
-    std::future<std::string> m_finishing;  // what to say then
+    std::future<std::string> m_finishing;  // gives the message
 };
 
 }  // namespace bullet_fem

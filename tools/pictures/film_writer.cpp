@@ -32,37 +32,37 @@ bool endsWith(const std::string& text, const std::string& end)
     return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// The program's arguments. No metadata and one thread: equal frames give equal bytes.
+/// Arguments of ffmpeg. No metadata and one thread: equal frames then give equal bytes.
 std::vector<std::string> arguments(const PictureSize& size, int rate, const std::string& path, bool gif)
 {
     std::vector<std::string> a{"ffmpeg",  "-hide_banner", "-loglevel", "error", "-y",
-                               "-xerror",  // or what does not fit onto the disk is a word, and no failure
+                               "-xerror",  // otherwise a full disk is only a warning
                                "-f",      "rawvideo",     "-pix_fmt",  "rgb24"};
     const auto add = [&](std::initializer_list<std::string> more) { a.insert(a.end(), more); };
     add({"-s", message(size.m_width, "x", size.m_height), "-r", std::to_string(rate), "-i", "pipe:0", "-an"});
-    if (gif)  // with the best 256 colours of the whole film
+    if (gif)  // one palette of 256 colours for the whole film
         add({"-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer:bayer_scale=4", "-f",
              "gif"});
-    else  // players know even sizes in 4:2:0 only
+    else  // players support only even sizes in 4:2:0
         add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p", "-c:v", "libx264", "-crf", "18",
              "-threads", "1", "-movflags", "+faststart", "-f", "mp4"});
     add({"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "file:" + path});
     return a;
 }
 
-/// What ffmpeg wrote to its standard error.
+/// ffmpeg's standard error output.
 std::string contents(std::FILE* file)
 {
     std::string text(4096, '\0');
     std::rewind(file);
     text.resize(std::fread(&text[0], 1, text.size(), file));
     while (!text.empty() && text.back() == '\n') text.pop_back();
-    return text.empty() ? "it says nothing" : text;
+    return text.empty() ? "without a message" : text;
 }
 
 }  // namespace
 
-/// The running program, fed through a socket: writing to one whose reader is gone is an error there, not a signal.
+/// The ffmpeg process, fed through a socket: there, writing after the reader has ended is an error, not a signal.
 struct FilmWriter::Child
 {
     OutputFile m_file;
@@ -115,7 +115,7 @@ struct FilmWriter::Child
         m_socket = -1;
     }
 
-    /// Whether it ended well.
+    /// Waits for the process; returns whether it succeeded.
     bool wait()
     {
         int status = 0;

@@ -10,27 +10,27 @@
 namespace bullet_fem
 {
 
-/// Writes frames as a film through the program `ffmpeg`, which is not linked: it must be in PATH. The file gets its
-/// name only in `finish`; a writer that is destroyed before leaves nothing behind.
+/// Writes frames as a film by the program `ffmpeg` in PATH, which is not linked. The file gets its name in `finish`; a
+/// writer destroyed earlier leaves no file.
 class FilmWriter
 {
 public:
     /// Starts a film at `path`, ending in .mp4 (H.264) or .gif, with `framesPerSecond` in [1, 100]. Throws
-    /// std::invalid_argument on another ending or rate or an empty size, std::runtime_error if there is no ffmpeg or
-    /// the path cannot be written.
+    /// std::invalid_argument on another ending or rate or an empty size, std::runtime_error if ffmpeg is missing or the
+    /// path cannot be written.
     FilmWriter(const std::string& path, const PictureSize& size, int framesPerSecond);
     ~FilmWriter();
     FilmWriter(const FilmWriter&) = delete;
     FilmWriter& operator=(const FilmWriter&) = delete;
 
-    /// Throws std::invalid_argument on another size than the film's, std::runtime_error with ffmpeg's words if it has
-    /// ended.
+    /// Throws std::invalid_argument if the frame's size differs from the film's, std::runtime_error with ffmpeg's
+    /// message if ffmpeg has ended.
     void append(const Image& frame);
-    /// Waits for ffmpeg and names the file; nothing can be appended then. Throws std::invalid_argument if there are no
-    /// frames, std::runtime_error with ffmpeg's words if it failed.
+    /// Waits for ffmpeg and names the file; no more frames can be appended. Throws std::invalid_argument without
+    /// frames, std::runtime_error with ffmpeg's message if it failed.
     void finish();
 
-    /// Whether there is an ffmpeg in PATH.
+    /// Whether ffmpeg is in PATH.
     static bool available();
 
 private:

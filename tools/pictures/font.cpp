@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/pictures/font.h"
 
-// The assembler includes the file as it is: as a C++ array it would take the compiler seconds.
+// The assembler includes the file as it is; compiling it as a C++ array would take seconds.
 __asm__(
     ".section .rodata\n"
     ".balign 16\n"

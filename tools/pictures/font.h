@@ -5,8 +5,7 @@
 namespace bullet_fem
 {
 
-/// The bytes of DejaVu Sans, a TrueType font that may be embedded (Bitstream Vera's licence), put into the program when
-/// it is built.
+/// The bytes of DejaVu Sans, a TrueType font that may be embedded (Bitstream Vera's licence), included at build time.
 const unsigned char* embeddedFont();
 int embeddedFontSize();
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-/// OpenGL's objects with an owner. A context must be current wherever they are made, used or destroyed.
+/// Owning wrappers of OpenGL objects. A context must be current when they are created, used or destroyed.
 namespace bullet_fem
 {
 
-/// An OpenGL name that is deleted with its owner.
+/// An OpenGL object name, deleted in the destructor.
 class GlObject
 {
 public:
@@ -43,10 +43,11 @@ GlObject makeGlSampler();
 GlObject makeGlFramebuffer();
 GlObject makeGlRenderbuffer();
 
-/// A program of both shaders, GLSL 3.30 without its #version line. Throws std::runtime_error with the driver's message.
+/// Links a program of both shaders, GLSL 3.30 without the #version line. Throws std::runtime_error with the driver's
+/// message.
 GlObject makeGlProgram(const std::string& vertexShader, const std::string& fragmentShader);
 
-/// Throws std::runtime_error that says `where`, if OpenGL has reported an error since the last call.
+/// Throws std::runtime_error with `where` if OpenGL has reported an error since the last call.
 void checkGl(const char* where);
 
 }  // namespace bullet_fem

@@ -11,14 +11,14 @@
 namespace bullet_fem
 {
 
-/// A picture's pixels.
+/// Pixels of a picture.
 struct Image
 {
     PictureSize m_size{0, 0};
-    std::vector<unsigned char> m_pixels;  ///< red, green, blue; rows from the top, each from the left
+    std::vector<unsigned char> m_pixels;  ///< red, green, blue; rows from the top, each from left to right
 
     Image() = default;
-    /// A black one.
+    /// A black image.
     explicit Image(const PictureSize& size)
         : m_size(size), m_pixels(3 * static_cast<std::size_t>(size.m_width) * size.m_height)
     {
@@ -32,13 +32,13 @@ struct Image
     }
 };
 
-/// Images of the same height beside each other, from the left, `gap` [pixels] of white between them: a strip of a film.
-/// Throws std::invalid_argument if there are none or their heights differ.
+/// Joins images of equal height from left to right with `gap` [pixels] of white between them: a film strip. Throws
+/// std::invalid_argument if there are none or their heights differ.
 Image besideEachOther(const std::vector<Image>& images, int gap);
 
-/// Writes a PNG as one act: the file has its name only when it is whole, and one that was there stays until then. Equal
-/// images give equal bytes. Throws std::invalid_argument on an empty image, std::runtime_error naming the path if it
-/// cannot be written, std::bad_alloc.
+/// Writes a PNG atomically: the file gets its name when complete, and an existing one stays until then. Equal images
+/// give equal bytes. Throws std::invalid_argument on an empty image, std::runtime_error with the path if it cannot be
+/// written, std::bad_alloc.
 void writePng(const Image& image, const std::string& path);
 
 }  // namespace bullet_fem

@@ -14,9 +14,9 @@ namespace
 
 constexpr Colour kInk{0.16, 0.18, 0.22}, kPaper{1, 1, 1};
 constexpr double kBarHeight = 0.42;     // of the picture
-constexpr double kPaperOpacity = 0.72;  // lets what is behind shine through
+constexpr double kPaperOpacity = 0.72;  // lets the background shine through
 
-/// Returns the paper's lower edge.
+/// Returns the lower edge of the paper [pixels].
 double addColourBar(const PictureScene& scene, const PictureSize& size, Overlay& overlay)
 {
     const double h = legendTextHeight(scene, size), pad = std::round(0.7 * h);
@@ -45,7 +45,7 @@ double addColourBar(const PictureScene& scene, const PictureSize& size, Overlay&
     return paper.m_y + paper.m_height;
 }
 
-/// A shaft with a head of thin columns, its tip at the right.
+/// A shaft with a head drawn as thin columns, its tip at the right.
 void addArrow(const PictureRectangle& area, const Colour& colour, Overlay& overlay)
 {
     const double head = std::round(area.m_height), middle = area.m_y + 0.5 * area.m_height;
@@ -58,7 +58,7 @@ void addArrow(const PictureRectangle& area, const Colour& colour, Overlay& overl
     }
 }
 
-/// With letters `h` high. Returns the paper's lower edge, like what is given for the one above.
+/// Adds the legend of the arrows with letters `h` high, below `above`. Returns the lower edge of the paper [pixels].
 double addArrows(const PictureArrows& arrows, const PictureSize& size, double h, double above, Overlay& overlay)
 {
     const double pad = std::round(0.7 * h), arrow = std::round(2.2 * h);
@@ -102,7 +102,7 @@ void addLegend(const PictureScene& scene, const PictureSize& size, Overlay& over
     for (const PictureArrows& arrows : scene.m_arrows)
         if (!arrows.m_title.empty()) lower = addArrows(arrows, size, h, lower, overlay);
     if (!scene.m_title.empty()) overlay.text({1.2 * h, 1.9 * h}, scene.m_title, TextAlignment::left, kInk);
-    double base = size.m_height - 1.2 * h;  // of the caption's last line, and of those before it
+    double base = size.m_height - 1.2 * h;  // base line of the caption's last line, then of the lines above it
     for (std::size_t end = scene.m_caption.size(); end > 0; base -= 1.4 * h)
     {
         const std::size_t found = scene.m_caption.rfind('\n', end - 1);

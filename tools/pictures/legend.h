@@ -7,16 +7,16 @@
 namespace bullet_fem
 {
 
-/// The overlay's text height that suits a picture of `size` [pixels].
+/// Default text height for a picture of `size` [pixels].
 double legendTextHeight(const PictureSize& size);
-/// The same, as large as the scene wants it.
+/// The default text height times the scene's m_textSize [pixels].
 double legendTextHeight(const PictureScene& scene, const PictureSize& size);
 
-/// From the lower edge, up to where the caption reaches [pixels].
+/// Height of the caption's upper edge above the lower border [pixels].
 double captionHeight(const PictureSize& size);
 
-/// Adds the colour bar with title and numbers at the right border, if the scene has scalars, below it what arrows with
-/// a title show, caption and title.
+/// Adds the colour bar with title and numbers at the right border if the scene has scalars, below it the legend of
+/// arrows with a title, then caption and title.
 void addLegend(const PictureScene& scene, const PictureSize& size, Overlay& overlay);
 
 }  // namespace bullet_fem

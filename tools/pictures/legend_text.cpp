@@ -19,7 +19,7 @@ struct Prefix
 constexpr Prefix kPrefixes[] = {{"n", 1e-9}, {"µ", 1e-6}, {"m", 1e-3}, {"", 1},
                                 {"k", 1e3},  {"M", 1e6},  {"G", 1e9},  {"T", 1e12}};
 
-/// The largest prefix that leaves at least 1 before the unit at the larger end of the scale.
+/// The largest prefix in which the larger absolute limit of the scale is at least 1.
 Prefix prefix(const PictureColourScale& scale)
 {
     const auto units = {"Pa", "N", "J", "W", "m", "s"};
@@ -36,7 +36,7 @@ std::string shortNumber(double value)
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", value);
     std::string number = text;
-    std::replace(number.begin(), number.end(), ',', '.');  // whatever the locale
+    std::replace(number.begin(), number.end(), ',', '.');  // independent of the locale
     return number;
 }
 

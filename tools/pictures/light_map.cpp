@@ -12,11 +12,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFarthestShadow = 20;  // below the scene [radii]: low light would need an endless map
-constexpr double kFarthestCaster = 6;   // from the centre [radii], of those that the map is fitted around
-constexpr double kLowestLight = 1e-3;   // sine of its height above the ground
+constexpr double kFarthestShadow = 20;  // below the scene [radii]: light at a low angle would need an unbounded map
+constexpr double kFarthestCaster = 6;   // from the centre [radii]: the map is fitted around nearer casters
+constexpr double kLowestLight = 1e-3;   // minimum sine of its elevation
 
-/// The box of the casters along the light's axes; z grows away from the light.
+/// Bounding box of the casters along the light's axes; z grows away from the light.
 struct LightBox
 {
     Vec3 m_u, m_v, m_w;  // m_w: away from the light
@@ -94,7 +94,7 @@ void LightMap::render(const std::vector<PictureVertex>& casters, const Vec3& tow
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
-    glEnable(GL_DEPTH_CLAMP);  // what is nearer to the light than the box casts shadows into it
+    glEnable(GL_DEPTH_CLAMP);  // geometry nearer to the light than the box casts shadows, too
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.5f, 4);
     draw(matrix4(clip));

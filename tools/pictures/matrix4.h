@@ -12,7 +12,8 @@ namespace bullet_fem
 /// A 4x4 matrix as OpenGL takes it: m[4 j + i] is row i, column j.
 using Matrix4 = std::array<float, 16>;
 
-/// Rows 0 to 3 as vectors of the place and constants: (r0 x + c0, r1 x + c1, r2 x + c2, r3 x + c3).
+/// Builds a matrix from rows 0 to 3, as vectors for the point and constants: (r0 x + c0, r1 x + c1, r2 x + c2, r3 x +
+/// c3).
 struct Matrix4Rows
 {
     Vec3 m_row[4];

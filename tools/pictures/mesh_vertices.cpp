@@ -12,12 +12,12 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kSides = 16;                            // of an arrow
-constexpr double kDefaultThickness = 1. / 75;         // of the scene's radius
+constexpr double kDefaultThickness = 1. / 75;         // of arrows, over the scene's radius
 constexpr double kHeadLength = 4, kHeadRadius = 1.4;  // in units of the thickness; short arrows have smaller heads
-constexpr double kHeadShare = 0.5;                    // of an arrow's length, at most
-constexpr double kShortest = 1e-3;                    // of the longest arrow
+constexpr double kHeadShare = 0.5;                    // maximum, of an arrow's length
+constexpr double kShortest = 1e-3;                    // over the longest arrow
 
-constexpr double kFarOut = 1e6;  // shares of the colour map: keeps them within single precision
+constexpr double kFarOut = 1e6;  // limit in units of the colour map, within single precision
 
 Vec3 upright(const Vec3& a)
 {
@@ -31,7 +31,7 @@ PictureVertex vertex(const Vec3& position, const Vec3& normal, double share)
     return {{f(position.x), f(position.y), f(position.z)}, {f(normal.x), f(normal.y), f(normal.z)}, f(share)};
 }
 
-/// For each position the faces that use it: those of i are m_faces[m_first[i]] to m_faces[m_first[i + 1]].
+/// Faces around each position: those of i are m_faces[m_first[i]] to m_faces[m_first[i + 1]].
 struct FacesAround
 {
     std::vector<int> m_first, m_faces;
@@ -48,7 +48,7 @@ struct FacesAround
     }
 };
 
-/// An arrow's axes and its outline: radii at places along it, with the slope of the normal there.
+/// An arrow as a body of revolution: its axes, and radii along the axis with the slope of the normal.
 struct Lathe
 {
     Vec3 m_start, m_axis, m_u, m_v;
@@ -58,7 +58,7 @@ struct Lathe
         const double angle = 2 * kPi * side / kSides;
         return std::cos(angle) * m_u + std::sin(angle) * m_v;
     }
-    /// A ring of triangles between two radii at two places [m] along the axis.
+    /// Appends a ring of triangles between two radii at two places [m] along the axis.
     void append(double at0, double r0, double at1, double r1, std::vector<PictureVertex>& out) const
     {
         for (int side = 0; side < kSides; ++side)

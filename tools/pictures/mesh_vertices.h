@@ -9,8 +9,8 @@
 namespace bullet_fem
 {
 
-/// Places as the graphics card sees them: from the scene's centre, in units of its radius. In metres, single precision
-/// would lose places far from zero, and scenes that are very small or large.
+/// Positions for the graphics card: relative to the scene's centre, in units of its radius. In metres, single precision
+/// would be insufficient far from the origin and for very small or large scenes.
 struct PictureUnits
 {
     Vec3 m_origin;        ///< [m]
@@ -19,20 +19,20 @@ struct PictureUnits
     Vec3 place(const Vec3& x) const { return (1 / m_length) * (x - m_origin); }
 };
 
-/// A corner of a triangle as it goes to the graphics card. Three in a row are a triangle.
+/// A vertex for the graphics card. Three in a row form a triangle.
 struct PictureVertex
 {
     float m_position[3];  ///< in PictureUnits
     float m_normal[3];
-    float m_share;  ///< of the colour map
+    float m_share;  ///< position in the colour map
 };
 
-/// Appends the mesh's triangles. Normals are the mean of the faces around a corner that do not turn away from its own
-/// face by more than the crease angle, weighted with their areas. The mesh has been checked.
+/// Appends the mesh's triangles. The normal at a corner is the area-weighted mean over adjacent faces that deviate from
+/// its own face by at most the crease angle. The mesh must be valid.
 void appendVertices(const PictureMesh& mesh, const PictureUnits& units, const PictureColourScale& scale,
                     std::vector<PictureVertex>& vertices);
 
-/// Appends shafts and heads.
+/// Appends shafts and heads of the arrows.
 void appendVertices(const PictureArrows& arrows, const PictureUnits& units, std::vector<PictureVertex>& vertices);
 
 }  // namespace bullet_fem

@@ -3,7 +3,7 @@
 #include "tools/pictures/offscreen_renderer.h"
 
 #include <epoxy/gl.h>
-// EGL itself is linked: epoxy would end the program where it is missing.
+// EGL is linked, because epoxy would terminate the program if it is missing.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -30,8 +30,8 @@ bool hasExtension(EGLDisplay display, const char* name)
     return all && std::strstr(all, name);
 }
 
-/// A display that needs neither X nor Wayland; else the default one. It is never terminated: all users of EGL in a
-/// program share it.
+/// A display that needs neither X nor Wayland; else the default one. It is never terminated, because all users of EGL
+/// in a program share it.
 EGLDisplay initializedDisplay()
 {
     const auto initialized = [](EGLDisplay display)
@@ -80,7 +80,7 @@ struct OffscreenRenderer::Parts
 namespace
 {
 
-/// Makes a context current as long as it lives.
+/// Keeps a context current during its lifetime.
 class Current
 {
 public:
@@ -109,7 +109,8 @@ OffscreenRenderer::OffscreenRenderer() : m_context(std::make_unique<Context>())
 
 OffscreenRenderer::~OffscreenRenderer()
 {
-    // The context takes its objects with it; where it cannot be made current they must not be deleted in another one.
+    // Deleting the context deletes its objects; if it cannot be made current, they must not be deleted in another
+    // context.
     if (eglMakeCurrent(m_context->m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context->m_context))
     {
         m_parts.reset();

@@ -10,21 +10,21 @@
 namespace bullet_fem
 {
 
-/// Draws pictures without any display or window, through EGL. Used by one thread at a time, which must have no other
-/// OpenGL context current during the calls; between them none of ours is.
+/// Draws pictures without display or window by EGL. Use it from one thread at a time; that thread must have no other
+/// OpenGL context current during the calls. Between calls this object's context is not current.
 class OffscreenRenderer
 {
 public:
-    /// Throws std::runtime_error, saying what to install, if there is no EGL or no OpenGL 3.3.
+    /// Throws std::runtime_error with installation advice if EGL or OpenGL 3.3 is missing.
     OffscreenRenderer();
     ~OffscreenRenderer();
     OffscreenRenderer(const OffscreenRenderer&) = delete;
     OffscreenRenderer& operator=(const OffscreenRenderer&) = delete;
 
-    /// The scene as its camera sees it. Equal scenes give equal pixels. Throws std::invalid_argument on a scene that is
-    /// not `valid` or a size that the driver cannot draw.
+    /// Draws the scene from its camera. Equal scenes give equal pixels. Throws std::invalid_argument on a scene that is
+    /// not `valid` or a size that the driver does not support.
     Image render(const PictureScene& scene, const PictureSize& size = {});
-    /// What draws: the driver's own name, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// Name of the driver, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
     std::string driver() const;
 
 private:

@@ -18,11 +18,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kAtlas = 1024;                  // side of the texture of glyphs [texels]
-constexpr unsigned kFirst = 32, kLast = 255;  // ASCII and Latin-1, which has the superscripts and the micro sign
-constexpr double kLargestText = 48;           // [pixels]: what the atlas holds
+constexpr int kAtlas = 1024;                  // side of the glyph texture [texels]
+constexpr unsigned kFirst = 32, kLast = 255;  // ASCII and Latin-1, which includes superscripts and the micro sign
+constexpr double kLargestText = 48;           // [pixels], limited by the atlas
 
-/// The next character of `text`, with `i` moved behind it. Broken bytes are '?'.
+/// Decodes the next character of `text` and advances `i`. Invalid bytes give '?'.
 unsigned nextCode(const std::string& text, std::size_t& i)
 {
     const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };

@@ -11,7 +11,7 @@
 namespace bullet_fem
 {
 
-/// Where a text stands relative to its place.
+/// Alignment of a text relative to its position.
 enum class TextAlignment
 {
     left,
@@ -19,28 +19,29 @@ enum class TextAlignment
     centre
 };
 
-/// A rectangle in pixels, from its upper left corner.
+/// A rectangle in pixels; its position is the upper left corner.
 struct PictureRectangle
 {
     double m_x = 0, m_y = 0, m_width = 0, m_height = 0;
 };
 
-/// Flat things over a picture: collected between `begin` and `draw`, which needs the context that the constructor had.
+/// Flat shapes and text over a picture, collected between `begin` and `draw`. `draw` needs the context that was current
+/// in the constructor.
 class Overlay
 {
 public:
     Overlay();
 
-    /// Starts anew for a picture of `size` with letters `textHeight` [pixels] high.
+    /// Starts an overlay for a picture of `size` with letters `textHeight` [pixels] high.
     void begin(const PictureSize& size, double textHeight);
     void rectangle(const PictureRectangle& area, const Colour& colour, double opacity);
-    /// The colour map, from its low end at the bottom to its high end at the top.
+    /// Adds the colour map, with its low end at the bottom.
     void colourBar(const PictureRectangle& area);
-    /// Text with its base line's end or middle at `place`. Characters that the font atlas lacks become '?'.
+    /// Adds text with its base line's start, middle or end at `place`. Characters missing in the font atlas become '?'.
     void text(const PicturePoint& place, const std::string& utf8, TextAlignment alignment, const Colour& colour);
-    /// How wide `utf8` will be [pixels].
+    /// Width of the text [pixels].
     double textWidth(const std::string& utf8) const;
-    /// Draws all into the bound framebuffer, which has the size given to `begin`.
+    /// Draws the overlay into the bound framebuffer, which must have the size given to `begin`.
     void draw(unsigned colourMapTexture);
 
 private:

@@ -14,8 +14,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kSamples = 4;         // a pixel
-constexpr int kLargestSide = 8192;  // [pixels]: 2 GB of samples
+constexpr int kSamples = 4;         // per pixel
+constexpr int kLargestSide = 8192;  // [pixels]; takes 2 GB of samples
 
 void checkSize(const PictureSize& size)
 {
@@ -82,7 +82,7 @@ void PictureFramebuffer::resolve() const
 Image PictureFramebuffer::read() const
 {
     Image image(m_size);
-    std::vector<unsigned char> rows(image.m_pixels.size());  // OpenGL's first row is the lowest
+    std::vector<unsigned char> rows(image.m_pixels.size());  // OpenGL's first row is the bottom row
     glBindFramebuffer(GL_READ_FRAMEBUFFER, m_result.id());
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, m_size.m_width, m_size.m_height, GL_RGB, GL_UNSIGNED_BYTE, rows.data());

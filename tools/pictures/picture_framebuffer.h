@@ -8,21 +8,22 @@
 namespace bullet_fem
 {
 
-/// Where pictures are drawn: a framebuffer with several samples a pixel, which are then averaged.
+/// A multisampled framebuffer for pictures.
 class PictureFramebuffer
 {
 public:
-    /// Throws std::invalid_argument if the driver cannot draw `size`, std::runtime_error if there is no memory.
+    /// Throws std::invalid_argument if the driver does not support `size`, std::runtime_error if memory is
+    /// insufficient.
     explicit PictureFramebuffer(const PictureSize& size);
 
     const PictureSize& size() const { return m_size; }
-    /// Binds the samples for drawing.
+    /// Binds the multisampled framebuffer for drawing.
     void bind() const;
-    /// Averages the samples, and binds the result, onto which more can be drawn.
+    /// Averages the samples and binds the result, so that overlays can be drawn onto it.
     void resolve() const;
-    /// The result of the last `resolve` with what was drawn since.
+    /// Reads the result of the last `resolve` and later drawing.
     Image read() const;
-    /// Copies the result to the framebuffer with the name `target`, of the same size.
+    /// Copies the result to the framebuffer with the name `target`, which must have this size.
     void copyTo(unsigned target) const;
 
 private:

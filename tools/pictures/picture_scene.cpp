@@ -13,10 +13,10 @@ namespace
 {
 
 constexpr double kHalfTurn = 3.14159265358979323846;
-constexpr double kFramingMargin = 1.12;  // around the meshes, of the picture
-constexpr double kLargest = 1e15;        // [m] and units: squares of it are far from the end of single precision
+constexpr double kFramingMargin = 1.12;  // empty border, relative to the picture
+constexpr double kLargest = 1e15;        // [m] and units: squares of it stay within single precision
 
-// Each check gives nothing, or what is wrong.
+// Each check returns an empty text, or the error.
 
 bool usable(const Vec3& v)
 {
@@ -130,7 +130,7 @@ std::string fault(const PictureColourScale& scale)
                    "; it must be finite, and its low end below its high end");
 }
 
-/// What is wrong with the i-th thing of a kind, with that in front.
+/// Error of the i-th item of a kind, with a prefix.
 template <typename Things>
 std::string faultOfAny(const char* kind, const Things& things)
 {

@@ -20,15 +20,15 @@ namespace
 {
 
 constexpr int kKeyMapSide = 2048, kSkyMapSide = 192;  // [texels]
-constexpr double kSkyReach = 0.3;                     // how far the sky's map goes beyond the scene [radii]
-constexpr double kGroundExtent = 14;                  // half the side of the ground's square [radii], at least,
-constexpr double kGroundReach = 6;                    // and in distances of the eye from the scene
-constexpr double kFar = 60;                           // farthest thing drawn, beyond the ground [radii]
+constexpr double kSkyReach = 0.3;                     // extent of the sky's map beyond the scene [radii]
+constexpr double kGroundExtent = 14;                  // half side of the ground's square: minimum [radii],
+constexpr double kGroundReach = 6;                    // and relative to the distance of the eye from the scene
+constexpr double kFar = 60;                           // far clipping distance beyond the ground [radii]
 constexpr double kHiddenArrows = 0.45;                // opacity of arrows behind surfaces
-constexpr double kNear = 0.004;                       // nearest, of the distance to the scene
+constexpr double kNear = 0.004;                       // near clipping distance over the distance to the scene
 constexpr int kMapUnit = 0, kKeyUnit = 1, kKeyShadowUnit = 2, kSkyUnit = 3;  // texture units
 
-/// Triangles of one look.
+/// Triangles with common drawing attributes.
 struct Range
 {
     int m_first = 0, m_count = 0;
@@ -36,7 +36,7 @@ struct Range
     bool m_coloured = false, m_lit = true, m_wires = false, m_arrows = false;
 };
 
-/// Sets uniforms of a program by name; names that the compiler dropped are no error.
+/// Sets uniforms of a program by name; names removed by the compiler are ignored.
 struct Uniforms
 {
     unsigned m_program;
@@ -63,7 +63,7 @@ double groundExtent(const PictureCamera& camera)
     return std::max(kGroundExtent, kGroundReach * norm(camera.m_eye));
 }
 
-/// From PictureUnits to OpenGL's clip space.
+/// Transformation from PictureUnits to OpenGL's clip space.
 Matrix4 clipFromScene(const PictureCamera& camera, const PictureSize& size)
 {
     const CameraAxes a = axes(camera);
@@ -111,14 +111,14 @@ struct SceneRenderer::Parts
 
     bool m_allWires = false;
 
-    // Of the picture being drawn:
+    // State of the present picture:
     PictureUnits m_units;
     PictureCamera m_camera;  // in m_units
     PictureSize m_size;
     GroundPlane m_ground;
     Vec3 m_towardsKey, m_upwards;
     Matrix4 m_clip{};
-    std::vector<PictureVertex> m_vertices;  // kept for its memory
+    std::vector<PictureVertex> m_vertices;  // a member, to reuse its memory
     std::vector<Range> m_ranges;
 
     Parts();
@@ -166,7 +166,7 @@ SceneRenderer::Parts::Parts()
     attribute(2, 1, offsetof(PictureVertex, m_share));
 }
 
-/// Fixes the units and turns camera, ground and light into them.
+/// Sets the units, and converts camera, ground and light to them.
 void SceneRenderer::Parts::place(const PictureScene& scene, const PictureCamera& camera)
 {
     const PictureBounds box = scene.m_bounds ? *scene.m_bounds : bounds(scene);
@@ -182,7 +182,7 @@ void SceneRenderer::Parts::place(const PictureScene& scene, const PictureCamera&
     m_clip = clipFromScene(m_camera, m_size);
 }
 
-/// Meshes first, then arrows, which cast no shadows.
+/// Collects meshes, then arrows, which cast no shadows.
 void SceneRenderer::Parts::collect(const PictureScene& scene)
 {
     m_vertices.clear();
@@ -227,7 +227,7 @@ void SceneRenderer::Parts::drawLightMaps(const PictureScene& scene)
 void SceneRenderer::Parts::setLight(const PictureScene& scene, const Uniforms& uniforms) const
 {
     const CameraAxes a = axes(m_camera);
-    const double side = dot(m_towardsKey, a.m_right) > 0 ? -1 : 1;  // fill light from where the key light is not
+    const double side = dot(m_towardsKey, a.m_right) > 0 ? -1 : 1;  // fill light opposite to the key light
     uniforms.set("clipFromScene", m_clip);
     uniforms.set("eye", m_camera.m_eye);
     uniforms.set("upwards", m_upwards);
@@ -274,7 +274,7 @@ void SceneRenderer::Parts::drawGround(const PictureScene& scene) const
     const Uniforms uniforms{m_groundProgram.id()};
     glUseProgram(uniforms.m_program);
     setLight(scene, uniforms);
-    const Vec3 centre = dot(m_ground.m_point, n) * n;  // below the scene's centre, which is the origin
+    const Vec3 centre = dot(m_ground.m_point, n) * n;  // below the scene's centre, the origin
     const Vec3 side0 = unit(cross(std::abs(n.z) < 0.7 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, n) * -1),
                side1 = cross(side0, n);
     const double spacing = scene.m_ground.m_gridSpacing / m_units.m_length;
@@ -308,13 +308,13 @@ void SceneRenderer::Parts::drawSurfaces(const PictureScene& scene) const
             if (range.m_arrows != arrows) continue;
             uniforms.set("colour", range.m_colour);
             uniforms.set("coloured", range.m_coloured);
-            uniforms.set("lit", range.m_lit && opacity == 1);  // inside a body there is no light
+            uniforms.set("lit", range.m_lit && opacity == 1);  // unlit inside bodies
             uniforms.set("wires", range.m_wires);
             glDrawArrays(GL_TRIANGLES, range.m_first, range.m_count);
         }
     };
     draw(false, 1);
-    // First the arrows behind surfaces: contact forces point into bodies.
+    // First the parts of arrows hidden by surfaces: contact forces point into bodies.
     glEnable(GL_BLEND);
     glEnable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);

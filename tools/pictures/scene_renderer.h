@@ -9,22 +9,22 @@
 namespace bullet_fem
 {
 
-/// Draws scenes with OpenGL 3.3 core. The same scene, camera and size give the same pixels on the same driver.
-/// The context that was current in the constructor must be current in all calls, the destructor among them.
+/// Draws scenes with OpenGL 3.3 core. Equal scene, camera and size give equal pixels on one driver. The context
+/// that was current in the constructor must be current in all calls, including the destructor.
 class SceneRenderer
 {
 public:
-    /// Throws std::runtime_error if the context is older than OpenGL 3.3 or a shader is not compiled.
+    /// Throws std::runtime_error if the context is older than OpenGL 3.3 or a shader does not compile.
     SceneRenderer();
     ~SceneRenderer();
     SceneRenderer(const SceneRenderer&) = delete;
     SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-    /// Draws the scene as seen by `camera` into the framebuffer that is bound for drawing, over all of its `size`. The
-    /// scene's own camera is not used. Throws std::invalid_argument on a scene that is not `valid`.
+    /// Draws the scene from `camera` into the bound framebuffer, over all of its `size`; the scene's own camera is
+    /// ignored. Throws std::invalid_argument on a scene that is not `valid`.
     void draw(const PictureScene& scene, const PictureCamera& camera, const PictureSize& size);
 
-    /// Whether all meshes show their edges from now on, not only those with m_wireframe.
+    /// Shows the edges of all meshes if `all`, else only of those with m_wireframe.
     void setWireframe(bool all);
 
 private:

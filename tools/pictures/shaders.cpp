@@ -7,10 +7,9 @@ namespace bullet_fem
 namespace
 {
 
-/// Light that reaches a point, shared by surfaces and ground.
-/// Shadows get wider with the distance between what casts and what receives them [Fernando 2005, percentage-closer soft
-/// shadows]. The sky's share is taken from a map of heights seen from above: what stands higher nearby takes light
-/// away.
+/// Lighting at a point, shared by surfaces and ground. Shadows widen with the distance between caster and receiver
+/// [Fernando 2005, percentage-closer soft shadows]. Occlusion of the sky comes from a map of heights seen from above:
+/// higher objects nearby reduce the light.
 constexpr const char* kLight = R"(
 uniform mat4 keyFromScene, skyFromScene;        // to [0, 1]^3
 uniform float keyWidth, keyDepth, skyWidth, skyDepth;

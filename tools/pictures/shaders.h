@@ -4,8 +4,7 @@
 
 #include <string>
 
-/// The renderer's shaders, GLSL 3.30 without #version. Lengths are in PictureUnits, colours sRGB where they enter and
-/// leave.
+/// Shaders of the renderer, GLSL 3.30 without #version. Lengths are in PictureUnits; input and output colours are sRGB.
 namespace bullet_fem
 {
 
@@ -15,13 +14,13 @@ std::string surfaceFragmentShader();
 /// Depth seen from a light.
 std::string depthVertexShader();
 std::string depthFragmentShader();
-/// The ground: a square around the scene, fading out.
+/// The ground: a square around the scene that fades out.
 std::string groundVertexShader();
 std::string groundFragmentShader();
-/// The background over the whole picture.
+/// The background of the whole picture.
 std::string backgroundVertexShader();
 std::string backgroundFragmentShader();
-/// Flat things in pixels: legend and text.
+/// Flat shapes in pixels: legend and text.
 std::string overlayVertexShader();
 std::string overlayFragmentShader();
 

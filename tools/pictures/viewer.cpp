@@ -30,7 +30,7 @@ namespace
         "can be drawn off-screen");
 }
 
-/// Opens and closes the library with its owner.
+/// Initialises GLFW, and terminates it in the destructor.
 struct Glfw
 {
     Glfw()
@@ -42,8 +42,8 @@ struct Glfw
     Glfw& operator=(const Glfw&) = delete;
 };
 
-/// Makes a window's context current as long as it lives, and none afterwards: off-screen renderers work between frames
-/// then.
+/// Makes a window's context current during its lifetime, and no context afterwards, so that off-screen renderers work
+/// between frames.
 struct Current
 {
     explicit Current(GLFWwindow* window) { glfwMakeContextCurrent(window); }
@@ -59,7 +59,7 @@ double milliseconds(double seconds)
 
 }  // namespace
 
-/// The window, and what was done in it since the last frame.
+/// The window and the user's input since the last frame.
 struct Viewer::Window
 {
     Glfw m_library;
@@ -100,7 +100,7 @@ struct Viewer::Window
     }
     static void onMove(GLFWwindow* window, double x, double y)
     {
-        int width = 1, height = 1, columns = 1, rows = 1;  // of the window, whose units need not be pixels
+        int width = 1, height = 1, columns = 1, rows = 1;  // of the window, whose units may differ from pixels
         glfwGetWindowSize(window, &width, &height);
         glfwGetFramebufferSize(window, &columns, &rows);
         events(window).push_back(ViewerEvent::move(x * columns / std::max(width, 1), y * rows / std::max(height, 1)));
@@ -124,7 +124,7 @@ struct Viewer::Window
         onMove(window, x, y);
         events(window).push_back(ViewerEvent::drop({paths, paths + count}));
     }
-    /// While the key is held down.
+    /// Whether the key repeats while it is held down.
     static bool repeats(ViewerKey key)
     {
         return key == ViewerKey::step || key == ViewerKey::earlier || key == ViewerKey::later;
@@ -178,7 +178,7 @@ struct Viewer::Parts
         m_lastFrame = end;
     }
 
-    /// Starts and ends films as the control says, and gives them what is seen, without the panel.
+    /// Starts and ends films at the control's request, and appends the picture without the panel.
     void film(const PictureSize& size)
     {
         m_film.update();
@@ -203,7 +203,7 @@ struct Viewer::Parts
             m_renderer.draw(m_simulation.scene(), m_control.camera(), size);
             m_panel.setFault({});
         }
-        catch (const std::invalid_argument& fault)  // the picture stays as it was
+        catch (const std::invalid_argument& fault)  // keeps the previous picture
         {
             m_panel.setFault(fault.what());
             m_control.setPaused(true);
@@ -234,7 +234,7 @@ bool Viewer::frame(int steps, double drawnTime)
     glfwPollEvents();
     Parts& parts = *m_parts;
     const PictureSize size = m_window->pixels();
-    if (size.m_width > 0 && size.m_height > 0)  // else it is minimised
+    if (size.m_width > 0 && size.m_height > 0)  // else the window is minimised
     {
         for (const ViewerEvent& event : m_window->m_events)
             if (!parts.m_panel.handle(event)) parts.m_control.handle(event, size);
@@ -251,7 +251,7 @@ bool Viewer::frame(int steps, double drawnTime)
     return !parts.m_control.closing() && !glfwWindowShouldClose(m_window->m_window);
 }
 
-// Motion is drawn a step late, between the last two states, as Bullet's motion states are.
+// Drawing lags by one step: it interpolates between the last two states, as Bullet's motion states do.
 void Viewer::run()
 {
     double before = glfwGetTime(), due = 0;

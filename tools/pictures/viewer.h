@@ -12,43 +12,43 @@
 namespace bullet_fem
 {
 
-/// A window's beginnings.
+/// Initial settings of a window.
 struct ViewerSettings
 {
     std::string m_title = "BulletFEM";
     PictureSize m_size;  ///< of the window; the user can change it
     bool m_paused = false;
-    int m_largestCatchUp = 4;        ///< steps a frame at most, when the simulation is slower than the clock
-    std::string m_filmFolder = ".";  ///< of films that the user makes
+    int m_largestCatchUp = 4;        ///< maximum steps per frame if the simulation is slower than real time
+    std::string m_filmFolder = ".";  ///< folder of films made by the user
 };
 
-/// A window that shows a simulation and lets the user steer it. One at a time in a program, and from its main thread.
+/// A window that shows a simulation under user control. At most one per program, used from the main thread.
 class Viewer
 {
 public:
-    /// Opens the window. The simulation must outlive it. Throws std::runtime_error, saying why, where no window can be
+    /// Opens the window. The simulation must outlive it. Throws std::runtime_error with the reason if no window can be
     /// opened.
     explicit Viewer(ViewerSimulation& simulation, const ViewerSettings& settings = {});
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
 
-    /// Steps in real time and draws, until the user closes the window.
+    /// Steps in real time and draws until the user closes the window.
     void run();
-    /// Handles what the user did, makes `steps` steps unless paused, and draws. A scene that is not `valid` pauses the
-    /// viewer, which says why. `drawnTime` is that of ViewerSimulation::setDrawnTime; 0 while it is paused. False if
-    /// the window is to be closed.
+    /// Handles user input, makes `steps` steps unless paused, and draws. A scene that is not `valid` pauses the viewer,
+    /// which shows the reason. `drawnTime` is passed to ViewerSimulation::setDrawnTime, 0 while paused. Returns false
+    /// if the window is to be closed.
     bool frame(int steps = 1, double drawnTime = 0);
 
-    /// As if the user had done it; takes effect in the next frame. Sliders and buttons feel one event a frame.
+    /// Injects an event as user input for the next frame. Sliders and buttons process one event per frame.
     void inject(const ViewerEvent& event);
-    /// Where the slider of parameter `index` was in the last frame [pixels]; empty if it was not shown.
+    /// Position of the slider of parameter `index` in the last frame [pixels]; empty if it was not shown.
     PictureRectangle sliderArea(std::size_t index) const;
-    /// What the last frame showed, with the panel.
+    /// The last frame, including the panel.
     Image screenshot() const;
 
     const ViewerControl& control() const;
-    /// Of the picture, in pixels.
+    /// Size of the picture [pixels].
     PictureSize size() const;
 
 private:

@@ -10,7 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kOrbitAngle = 5;  // [rad] over the picture's height
+constexpr double kOrbitAngle = 5;  // rotation [rad] for a mouse movement of the picture's height
 constexpr double kZoomPerClick = 0.9;
 
 }  // namespace
@@ -86,7 +86,7 @@ void ViewerControl::handle(const ViewerEvent& event, const PictureSize& size)
     }
 }
 
-/// Under the mouse, through the whole scene.
+/// The ray through the mouse position, long enough to cross the scene.
 PictureRay ViewerControl::ray(const PictureSize& size)
 {
     const PictureBounds box = bounds(m_simulation.scene());
@@ -95,7 +95,7 @@ PictureRay ViewerControl::ray(const PictureSize& size)
 
 void ViewerControl::press(MouseButton button, const PictureSize& size)
 {
-    if (m_mode != Mode::none) return;  // one thing at a time
+    if (m_mode != Mode::none) return;  // one action at a time
     m_button = button;
     if (button != MouseButton::left)
         m_mode = Mode::pan;
@@ -115,7 +115,7 @@ void ViewerControl::move(const PicturePoint& to, const PictureSize& size)
     m_mouse = to;
     if (m_mode == Mode::drag) m_simulation.moveDrag(ray(size));
     if (m_mode == Mode::orbit) m_orbit.orbit(-kOrbitAngle * right, kOrbitAngle * down);
-    const double height = 2 * std::tan(0.5 * camera().m_fieldOfView);  // of the picture at distance 1
+    const double height = 2 * std::tan(0.5 * camera().m_fieldOfView);  // of the view at distance 1
     if (m_mode == Mode::pan) m_orbit.pan(-height * right, height * down);
 }
 
@@ -148,7 +148,7 @@ void ViewerControl::key(ViewerKey key, const PictureSize& size)
         case ViewerKey::earlier:
         case ViewerKey::later:
             m_paused = true;
-            release(m_button);  // what is held is let go
+            release(m_button);  // releases the held body
             break;
         default:
             break;

@@ -17,7 +17,7 @@ enum class MouseButton
     middle
 };
 
-/// Something that the user did.
+/// A user event.
 struct ViewerEvent
 {
     enum class Kind
@@ -30,11 +30,11 @@ struct ViewerEvent
         drop
     };
     Kind m_kind = Kind::move;
-    PicturePoint m_mouse;                      ///< of a move
-    MouseButton m_button = MouseButton::left;  ///< of a press or release, where the mouse is
+    PicturePoint m_mouse;                      ///< position of a move
+    MouseButton m_button = MouseButton::left;  ///< of a press or release at the mouse position
     double m_scroll = 0;                       ///< clicks of the wheel, > 0 away from the user
     ViewerKey m_key = ViewerKey::pause;
-    std::vector<std::string> m_files;  ///< that were dropped where the mouse is
+    std::vector<std::string> m_files;  ///< dropped at the mouse position
 
     static ViewerEvent move(double x, double y);
     static ViewerEvent press(MouseButton button = MouseButton::left);
@@ -44,7 +44,7 @@ struct ViewerEvent
     static ViewerEvent drop(const std::vector<std::string>& files);
 };
 
-/// What events mean: the left button drags what it hits and orbits elsewhere, the right and the middle one pan, the
+/// Interprets events: the left button drags a body under it and orbits elsewhere, the right and middle buttons pan, the
 /// wheel zooms. Needs no window.
 class ViewerControl
 {
@@ -52,26 +52,26 @@ public:
     /// The simulation must outlive this.
     explicit ViewerControl(ViewerSimulation& simulation);
 
-    /// `size` is the picture's, whose pixels the mouse moves over.
+    /// `size` is that of the picture, in whose pixels mouse positions are given.
     void handle(const ViewerEvent& event, const PictureSize& size);
 
     const PictureCamera& camera() const { return m_orbit.camera(); }
     bool paused() const { return m_paused; }
     void setPaused(bool paused) { m_paused = paused; }
-    /// Pauses, and makes the next takeSteps give one step more.
+    /// Pauses, and makes the next takeSteps return one step.
     void requestStep();
-    /// How many steps to make where `due` would be made without a pause.
+    /// Number of steps to make; `due` is their number without a pause.
     int takeSteps(int due);
     bool wireframe() const { return m_wireframe; }
     void setWireframe(bool wireframe) { m_wireframe = wireframe; }
-    /// Takes the camera of the scene as it is now.
+    /// Resets the camera to that of the present scene.
     void resetView();
-    /// The same, if there is another thing to be seen. To be called in every frame.
+    /// Resets the camera if ViewerSimulation::views has changed. Call in each frame.
     void update();
     bool panelShown() const { return m_panelShown; }
     bool helpShown() const { return m_helpShown; }
     void setHelpShown(bool shown) { m_helpShown = shown; }
-    /// A film is wanted of what is seen.
+    /// Whether the user has requested a film.
     bool filming() const { return m_filming; }
     void setFilming(bool filming) { m_filming = filming; }
     bool closing() const { return m_closing; }
@@ -95,11 +95,11 @@ private:
     OrbitCamera m_orbit;
     PicturePoint m_mouse;
     Mode m_mode = Mode::none;
-    MouseButton m_button = MouseButton::left;  // that m_mode began with
+    MouseButton m_button = MouseButton::left;  // button that started m_mode
     bool m_paused = false, m_wireframe = false, m_panelShown = true, m_closing = false;
     bool m_helpShown = false, m_filming = false;
     int m_requestedSteps = 0;
-    int m_view;  // of the simulation, that the camera was taken at
+    int m_view;  // value of ViewerSimulation::views for the present camera
 };
 
 }  // namespace bullet_fem

@@ -19,7 +19,7 @@ constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                     ImGuiWindowFlags_AlwaysAutoResize;
 
-/// Places the next window with its lower edge `above` the picture's caption.
+/// Places the next window with its lower edge `above` the caption [pixels].
 void placeBelow(const PictureSize& size, double above)
 {
     ImGui::SetNextWindowPos(
@@ -27,7 +27,7 @@ void placeBelow(const PictureSize& size, double above)
         ImGuiCond_Always, {0.5f, 1});
 }
 
-/// As wide as it may be in the picture [pixels].
+/// `width`, limited to the picture [pixels].
 float atMost(float width, const PictureSize& size)
 {
     return std::max(100.f, std::min(width, static_cast<float>(size.m_width) - 4 * kDialogMargin));
@@ -50,7 +50,7 @@ void showLines(const char* title, const std::vector<ViewerHelp>& lines)
     ImGui::EndTable();
 }
 
-/// Cut where it is too long, at the beginning of a letter.
+/// Shortens long text at the start of a character.
 std::string shortened(const std::string& utf8)
 {
     if (utf8.size() <= kLongestSentence) return utf8;
@@ -67,7 +67,7 @@ void showHelp(ViewerControl& control, const PictureSize& size)
     ImGui::SetNextWindowPos({0.5f * static_cast<float>(size.m_width), 0.5f * static_cast<float>(size.m_height)},
                             ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowBgAlpha(0.96f);
-    ImGui::SetNextWindowFocus();  // before the panel and all else
+    ImGui::SetNextWindowFocus();  // in front of the panel and all others
     ImGui::Begin("help", nullptr, kPlain);
     showLines("Keys", viewerKeys());
     ImGui::Spacing();
@@ -90,7 +90,7 @@ double showProgress(const ViewerProgress& progress, const PictureSize& size, boo
     ImGui::ProgressBar(static_cast<float>(progress.m_share), {width - 110, 0});
     ImGui::PopStyleColor();
     ImGui::SameLine();
-    if (ImGui::Button("Give up", {100, 0})) cancelled = true;
+    if (ImGui::Button("Cancel", {100, 0})) cancelled = true;
     const double height = static_cast<double>(ImGui::GetWindowHeight() + kDialogMargin);
     ImGui::End();
     return height;

@@ -10,21 +10,21 @@
 namespace bullet_fem
 {
 
-/// @name What stands over the picture, besides the panel
-/// All between ImGui's NewFrame and Render, for a picture of `size`.
+/// @name Elements over the picture besides the panel
+/// All calls go between ImGui's NewFrame and Render, for a picture of `size`.
 /// @{
 
-/// The keys, in the middle.
+/// Shows the keys in the middle.
 void showHelp(ViewerControl& control, const PictureSize& size);
 
-/// Words and a bar, below, with a button that gives up. Nothing where nothing is done. Returns the height that it takes
-/// above the caption [pixels], and sets `cancelled` when the button is pressed.
+/// Shows text, a bar and a cancel button near the bottom; nothing without work in progress. Returns the height used
+/// above the caption [pixels]; sets `cancelled` when the button is pressed.
 double showProgress(const ViewerProgress& progress, const PictureSize& size, bool& cancelled);
 
-/// Sentences, `above` the caption [pixels]; empty ones are left out.
+/// Shows sentences `above` the caption [pixels]; empty ones are omitted.
 void showSentences(const std::vector<std::string>& sentences, const PictureSize& size, double above);
 
-/// A red dot at the top, while a film is made.
+/// Shows a red dot at the top during recording.
 void showFilming(const PictureSize& size);
 /// @}
 

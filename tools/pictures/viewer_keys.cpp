@@ -18,16 +18,16 @@ const std::vector<ViewerHelp>& viewerKeys()
     static const std::vector<ViewerHelp> keys = {
         {"Space", "pause, run"},
         {"Right arrow", "one step"},
-        {"Left arrow, comma", "back in time, to the state kept before"},
-        {"Full stop", "forward, to the next state kept"},
-        {"B", "drop a box where the mouse is"},
-        {"O", "drop a ball there"},
+        {"Left arrow, comma", "back in time, to the previous stored state"},
+        {"Full stop", "forward, to the next stored state"},
+        {"B", "drop a box at the mouse position"},
+        {"O", "drop a ball at the mouse position"},
         {"C", "contact forces"},
         {"S", "stress"},
         {"F", "start a film, stop it"},
-        {"X", "give up what is being opened"},
+        {"X", "cancel opening a file"},
         {"W", "edges of triangles"},
-        {"R", "see all, from the first side"},
+        {"R", "reset the view"},
         {"H", "hide the panel, show it"},
         {"F1", "these keys"},
         {"Escape", "close"},
@@ -38,7 +38,7 @@ const std::vector<ViewerHelp>& viewerKeys()
 const std::vector<ViewerHelp>& viewerMouse()
 {
     static const std::vector<ViewerHelp> mouse = {
-        {"Left button", "pulls a soft body, turns the view beside it"},
+        {"Left button", "pulls a soft body; elsewhere turns the view"},
         {"Right, middle button", "moves the view"},
         {"Wheel", "nearer, farther"},
         {"A file dropped here", "becomes a soft body: a surface or tetrahedra"},

@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// What keys are for. viewerKeys tells which they are.
+/// Actions of keys; viewerKeys gives the keys.
 enum class ViewerKey
 {
     pause,
@@ -37,10 +37,10 @@ struct ViewerHelp
 /// All keys, in the order of ViewerKey.
 const std::vector<ViewerHelp>& viewerKeys();
 
-/// What mouse and files do.
+/// Help on mouse and files.
 const std::vector<ViewerHelp>& viewerMouse();
 
-/// Both as text, for the command line: a line each.
+/// Both as text for the command line, one line each.
 std::string viewerHelpText();
 
 }  // namespace bullet_fem

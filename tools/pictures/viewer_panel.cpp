@@ -18,7 +18,7 @@ namespace
 {
 
 constexpr float kTextHeight = 17, kMargin = 14, kWidth = 330;  // [pixels]
-constexpr float kFrameSeconds = 1.f / 60;  // that ImGui reckons with: scripts must not depend on the clock
+constexpr float kFrameSeconds = 1.f / 60;  // constant time step of ImGui: scripts must not depend on the clock
 constexpr ImWchar kLetters[] = {0x20, 0xff, 0x370, 0x3ff, 0};  // Latin-1 and Greek
 
 void setStyle()
@@ -80,7 +80,7 @@ ViewerPanel::ViewerPanel()
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // nothing is kept between runs
+    io.IniFilename = nullptr;  // no settings are stored between runs
     ImFontConfig font;
     font.FontDataOwnedByAtlas = false;
     io.Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(embeddedFont()), embeddedFontSize(), kTextHeight, &font,
@@ -102,13 +102,13 @@ bool ViewerPanel::handle(const ViewerEvent& event)
     {
         case ViewerEvent::Kind::move:
             io.MousePos = {static_cast<float>(event.m_mouse.m_x), static_cast<float>(event.m_mouse.m_y)};
-            return false;  // the control must know where the mouse is
+            return false;  // the control needs the mouse position
         case ViewerEvent::Kind::press:
             io.MouseDown[index(event.m_button)] = true;
             return io.WantCaptureMouse || isOverPanel(io.MousePos.x, io.MousePos.y);
         case ViewerEvent::Kind::release:
             io.MouseDown[index(event.m_button)] = false;
-            return false;  // the control ends only what it began
+            return false;  // the control ends only actions that it began
         case ViewerEvent::Kind::scroll:
             io.MouseWheel += static_cast<float>(event.m_scroll);
             return io.WantCaptureMouse || isOverPanel(io.MousePos.x, io.MousePos.y);

@@ -12,20 +12,20 @@
 namespace bullet_fem
 {
 
-/// Times of the last frames that had steps, for the plot.
+/// Times of the last frames with steps, for the plot.
 struct ViewerTimes
 {
     static constexpr int kCount = 180;
-    std::array<float, kCount> m_step{};  ///< a step, the mean of those of a frame [ms]
+    std::array<float, kCount> m_step{};  ///< mean time per step in a frame [ms]
     float m_frame = 0;                   ///< from one frame to the next [ms]
-    int m_next = 0;                      ///< where the next goes
+    int m_next = 0;                      ///< index of the next entry
 
-    /// A frame whose `steps` took `stepsMs` together.
+    /// Adds a frame whose `steps` took `stepsMs` in total.
     void add(double stepsMs, int steps, double frameMs);
 };
 
-/// Sliders, buttons and plot, through Dear ImGui, whose context and OpenGL part it owns. A context of OpenGL must be
-/// current in all calls.
+/// Sliders, buttons and plot by Dear ImGui; owns ImGui's context and OpenGL backend. An OpenGL context must be current
+/// in all calls.
 class ViewerPanel
 {
 public:
@@ -34,17 +34,17 @@ public:
     ViewerPanel(const ViewerPanel&) = delete;
     ViewerPanel& operator=(const ViewerPanel&) = delete;
 
-    /// Tells ImGui of an event. True if it is the panel's alone.
+    /// Passes an event to ImGui. Returns true if only the panel should handle it.
     bool handle(const ViewerEvent& event);
-    /// Lets the user change the simulation's parameters and the control.
+    /// Shows the panel, in which the user changes parameters and the control.
     void update(ViewerSimulation& simulation, ViewerControl& control, const ViewerTimes& times,
                 const PictureSize& size);
-    /// Draws what `update` made into the bound framebuffer.
+    /// Draws the result of `update` into the bound framebuffer.
     void draw() const;
 
-    /// What is to be said of the film.
+    /// Sets the message on the film.
     void setFilm(const std::string& film) { m_film = film; }
-    /// What is wrong with the scene, shown until it is empty.
+    /// Sets the error of the scene; an empty text hides it.
     void setFault(const std::string& fault) { m_fault = fault; }
     const std::vector<PictureRectangle>& sliders() const { return m_sliders; }
 
@@ -54,9 +54,9 @@ private:
     void showDialogs(ViewerSimulation& simulation, ViewerControl& control, const PictureSize& size) const;
     bool isOverPanel(double x, double y) const;
 
-    PictureRectangle m_area;  // in the last update
+    PictureRectangle m_area;  // of the last update
     std::vector<PictureRectangle> m_sliders;
-    std::string m_message;  // of the last setting that was refused
+    std::string m_message;  // error of the last refused setting
     std::string m_fault, m_film;
 };
 

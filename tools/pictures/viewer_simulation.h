@@ -12,7 +12,7 @@
 namespace bullet_fem
 {
 
-/// A value that the viewer offers as a slider.
+/// A value with a slider.
 struct ViewerParameter
 {
     std::string m_name, m_unit;  ///< UTF-8, for example "Young's modulus", "Pa"
@@ -21,14 +21,14 @@ struct ViewerParameter
     bool m_logarithmic = false;  ///< for ranges over several powers of ten; m_low > 0 then
 };
 
-/// Work that goes on beside the simulation, shown as a bar.
+/// Background work, shown as a bar.
 struct ViewerProgress
 {
-    std::string m_text;  ///< what is done; empty: nothing is
-    double m_share = 0;  ///< of it that is done [-], in [0, 1]
+    std::string m_text;  ///< present activity; empty: none
+    double m_share = 0;  ///< completed fraction [-], in [0, 1]
 };
 
-/// What a viewer shows and steers. All calls come from the thread that runs the viewer, none during another.
+/// A simulation in a viewer. All calls come from the viewer's thread and never overlap.
 class ViewerSimulation
 {
 public:
@@ -37,36 +37,37 @@ public:
     /// Advances by `timeStep` [s].
     virtual void step() = 0;
     virtual double timeStep() const = 0;
-    /// Sets the time that `scene` shows from now on: the time in steps from the end of the last one [-], in [-1, 0].
+    /// Sets the time shown by `scene` from now on, in steps relative to the end of the last step [-], in [-1, 0].
     virtual void setDrawnTime(double /*fraction*/) {}
-    /// What is to be seen now; its camera is where the view starts. Used until the next call of anything here.
+    /// The present picture; its camera is the initial view. Used until the next call of any function of this class.
     virtual const PictureScene& scene() = 0;
-    /// A number that changes where another thing is to be seen, at which the viewer takes the scene's camera anew.
+    /// A counter that changes when the view should be reset: the viewer then takes the scene's camera again.
     virtual int views() const { return 0; }
-    /// Called in every frame, before the steps and also where there are none: takes what was done in the background.
+    /// Called in each frame before the steps, even if there are none: collects results of background work.
     virtual void update() {}
 
-    /// The mouse was pressed on what `ray` hits. True if something is held now; false leaves the mouse to the camera.
+    /// The mouse was pressed on an object hit by the ray. Returns true if the simulation holds it; false leaves the
+    /// mouse to the camera.
     virtual bool beginDrag(const PictureRay&) { return false; }
-    /// What is held is wanted on `ray`, at its former distance from the eye.
+    /// Moves the held object to the ray, at its former distance from the eye.
     virtual void moveDrag(const PictureRay&) {}
     virtual void endDrag() {}
 
-    /// Asked for in every frame, so that values which change by themselves are shown as they are.
+    /// Requested in each frame, so that values which change by themselves stay up to date.
     virtual std::vector<ViewerParameter> parameters() const { return {}; }
-    /// Sets `parameters()[index]`. What it throws, if derived from std::exception, is shown to the user.
+    /// Sets `parameters()[index]`. An exception derived from std::exception is shown to the user.
     virtual void setParameter(std::size_t /*index*/, double /*value*/) {}
     /// Lines of text under the sliders.
     virtual std::string status() const { return {}; }
-    /// Lines below them of what has gone wrong since the start.
+    /// Lines below the status: warnings since the start.
     virtual std::string warnings() const { return {}; }
 
-    /// A key of the simulation's own was pressed while the mouse was on `cursor`. Says in `message` what was wrong.
+    /// A key of the simulation was pressed with the mouse on `cursor`. Errors go to `message`.
     virtual void act(ViewerKey /*key*/, const PictureRay& /*cursor*/) {}
-    /// Files were dropped there. Likewise.
+    /// Files were dropped on `cursor`. Errors go to `message`.
     virtual void open(const std::vector<std::string>& /*files*/, const PictureRay& /*cursor*/) {}
     virtual ViewerProgress progress() const { return {}; }
-    /// A sentence for the user, shown while it is not empty.
+    /// A message for the user, shown while it is not empty.
     virtual std::string message() const { return {}; }
 };
 

@@ -17,7 +17,7 @@ namespace
 
 std::string shown(const nlohmann::json& value)
 {
-    // Text that is not UTF-8 is shown with replacements.
+    // Invalid UTF-8 is shown with replacement characters.
     const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return text.size() <= 40 ? text : text.substr(0, 37) + "...";
 }
@@ -42,7 +42,7 @@ std::string listed(std::initializer_list<const char*> names)
 nlohmann::json parseJson(const std::string& text)
 {
     checkJsonSyntax(text);
-    return nlohmann::json::parse(text, nullptr, true, true);  // comments are welcome
+    return nlohmann::json::parse(text, nullptr, true, true);  // comments are allowed
 }
 
 void JsonCursor::fail(const std::string& what) const

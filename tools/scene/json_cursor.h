@@ -13,53 +13,52 @@
 namespace bullet_fem
 {
 
-/// The document that a text is, with comments allowed. Throws what checkJsonSyntax throws.
+/// Parses a JSON document with comments. Throws the exceptions of checkJsonSyntax.
 nlohmann::json parseJson(const std::string& text);
 
-/// What a number must lie in.
+/// Range of a number.
 struct JsonRange
 {
     double m_low, m_high;
-    bool m_openBelow = false;  ///< m_low itself is not allowed
+    bool m_openBelow = false;  ///< excludes m_low
 };
 
-/// A place in a JSON document, which must live longer, with its path ("softBodies[1].mesh") for messages. Everything
-/// that is read is checked; what is wrong throws std::runtime_error that names the path, what is there, and what is
-/// expected.
+/// A value in a JSON document, which must outlive it, with its path ("softBodies[1].mesh") for messages. All reads are
+/// checked; invalid data throws std::runtime_error with the path, the value found and the value expected.
 class JsonCursor
 {
 public:
     JsonCursor(const nlohmann::json& value, std::string path) : m_value(&value), m_path(std::move(path)) {}
 
     [[noreturn]] void fail(const std::string& what) const;
-    /// Fails, saying what is here and that it must be `what`.
+    /// Throws: the value found must be `what`.
     [[noreturn]] void expected(const std::string& what) const;
 
-    /// This must be an object with no other members than these.
+    /// Requires an object without other members than these.
     void onlyMembers(std::initializer_list<const char*> names) const;
     bool isObject() const;
     bool isArray() const;
     bool has(const char* name) const;
-    JsonCursor operator[](const char* name) const;  ///< a member that must be there
+    JsonCursor operator[](const char* name) const;  ///< a required member
 
     double number(const JsonRange& range) const;
     int integer(int low, int high) const;
     bool flag() const;
-    std::string text() const;                                                ///< not empty
-    Vec3 vector(const JsonRange& range) const;                               ///< an array of three numbers
-    Vec3 direction() const;                                                  ///< a vector that is not 0
-    std::size_t choice(std::initializer_list<const char*> texts) const;      ///< which of the texts it is
-    std::vector<JsonCursor> items() const;                                   ///< an array's
-    std::vector<JsonCursor> members(std::vector<std::string>& names) const;  ///< an object's, and what they are called
+    std::string text() const;                                            ///< not empty
+    Vec3 vector(const JsonRange& range) const;                           ///< an array of three numbers
+    Vec3 direction() const;                                              ///< a vector that is not 0
+    std::size_t choice(std::initializer_list<const char*> texts) const;  ///< index of the text that equals the value
+    std::vector<JsonCursor> items() const;                               ///< of an array
+    std::vector<JsonCursor> members(std::vector<std::string>& names) const;  ///< of an object, and their names
 
-    /// Set `value` if the member is there.
+    /// Sets `value` if the member exists.
     void read(const char* name, const JsonRange& range, double& value) const;
     void read(const char* name, int low, int high, int& value) const;
     void read(const char* name, bool& value) const;
     void read(const char* name, std::string& value) const;
     void read(const char* name, const JsonRange& range, Vec3& value) const;
     void readDirection(const char* name, Vec3& value) const;
-    /// Calls `each` for every item of the array, if the member is there.
+    /// Calls `each` for each item of the array, if the member exists.
     void forEach(const char* name, const std::function<void(const JsonCursor&)>& each) const;
 
 private:

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kDeepestLevel = 32;          // scenes need six; messages show what is there by recursion
+constexpr int kDeepestLevel = 32;          // scenes need six; messages print values recursively
 constexpr std::size_t kLongestShown = 40;  // of a name or word in a message [bytes]
 
 std::string quoted(const std::string& name)
@@ -32,7 +32,7 @@ bool isDigit(char c)
     return c >= '0' && c <= '9';
 }
 
-/// Bytes of the UTF-8 character at a place; 0 if it is none.
+/// Length of the UTF-8 character at a position [bytes]; 0 if it is invalid.
 std::size_t utf8Length(const std::string& text, std::size_t at)
 {
     const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
@@ -48,7 +48,7 @@ std::size_t utf8Length(const std::string& text, std::size_t at)
     return isOverlong || isOutside ? 0 : length;
 }
 
-/// Reads a text by recursive descent, and throws at the first fault.
+/// A recursive descent parser that throws at the first error.
 class JsonChecker
 {
 public:
@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    /// Position of the beginning of a token.
+    /// Position of a token's start.
     struct Place
     {
         std::size_t m_at, m_lineStart;
@@ -109,7 +109,7 @@ private:
         fail("expected " + what + ", found " + found() + remedy);
     }
 
-    /// The character or word that is here, as messages show it.
+    /// The character or word at the present position, as shown in messages.
     std::string found() const
     {
         if (isOver()) return "the end of the file";
@@ -159,7 +159,7 @@ private:
         advance();
     }
 
-    /// `whose` is the name of the member that the value is of; empty for the document.
+    /// `whose` is the name of the value's member; empty for the document.
     void readValue(const std::string& whose)
     {
         switch (now())
@@ -188,7 +188,7 @@ private:
     void readObject()
     {
         const int firstLine = m_line;
-        std::map<std::string, int> members;  // and the lines of their names
+        std::map<std::string, int> members;  // lines of the members' names
         advance();
         skipSpace();
         if (take('}')) return;
@@ -236,13 +236,13 @@ private:
         }
     }
 
-    // Behind a file that ends too early.
+    // Names the line of the opening bracket if the text ends too early.
     std::string openedIn(const char* what, int line) const
     {
         return isOver() ? message("; the ", what, " begins in line ", line) : "";
     }
 
-    /// Text in quotes, as it is written.
+    /// Reads a quoted text; escapes stay undecoded.
     std::string readText()
     {
         advance();

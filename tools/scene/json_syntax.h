@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// Text that is not JSON. what() is "line 3, column 7: " and the message.
+/// Invalid JSON. what() is "line 3, column 7: " and the message.
 class JsonSyntaxError : public std::runtime_error
 {
 public:
@@ -16,7 +16,7 @@ public:
 
     int line() const { return m_line; }      ///< from 1
     int column() const { return m_column; }  ///< from 1, in characters of UTF-8
-    /// The expected text, and the text found.
+    /// The expected text and the text found.
     const std::string& message() const { return m_message; }
 
 private:
@@ -24,8 +24,8 @@ private:
     std::string m_message;
 };
 
-/// Throws JsonSyntaxError at the first place where a text is not JSON [RFC 8259] with comments, has a member twice in
-/// one object, or is nested deeper than 32 levels.
+/// Throws JsonSyntaxError at the first position where a text is not JSON [RFC 8259] with comments, repeats a member of
+/// an object, or is nested deeper than 32 levels.
 void checkJsonSyntax(const std::string& text);
 
 }  // namespace bullet_fem

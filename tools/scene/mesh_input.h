@@ -11,19 +11,19 @@
 namespace bullet_fem
 {
 
-/// Elements, from a mesh file, or from a surface file by a cage around it.
+/// A tetrahedral mesh from a mesh file, or from a surface file with a cage around it.
 struct MeshInput
 {
     TetMesh m_mesh;
-    std::vector<int> m_labels;  // of the elements' regions; empty if the file has none
+    std::vector<int> m_labels;  // region labels of the elements; empty if the file has none
     std::optional<Cage> m_cage;
-    SurfaceMesh m_surface;  // what the cage is around
+    SurfaceMesh m_surface;  // embedded in the cage
 
-    /// Throws std::runtime_error or std::invalid_argument that names the file, and CageCancelled.
+    /// Throws std::runtime_error or std::invalid_argument with the file name, and CageCancelled.
     static MeshInput read(const std::string& path, double scale, const CageSettings& settings);
 };
 
-/// By its ending: OFF, OBJ, STL or PLY.
+/// Whether the file extension is OFF, OBJ, STL or PLY.
 bool isSurfaceFile(const std::string& path);
 
 }  // namespace bullet_fem

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kRead = 0.05, kCaged = 0.6;  // ends of stages, as shares of the work
+constexpr double kRead = 0.05, kCaged = 0.6;  // completed fraction after each stage
 
 }  // namespace
 

@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// An item of 'actuators', but for its body's name, which is not looked at. Throws as JsonCursor does.
+/// Reads an item of 'actuators' except for its body's name. Throws as JsonCursor does.
 SceneActuator readActuator(const JsonCursor& at);
 
 }  // namespace bullet_fem

@@ -22,7 +22,7 @@ int nodeNear(const btSoftBody& body, const Vec3& place)
     return nearest;
 }
 
-// The tetrahedra whose middle is in the box; none, which is all, where it says so.
+// The tetrahedra whose centre is in the box; empty if the actuator acts everywhere.
 std::vector<int> tetsIn(const btSoftBody& body, const SceneActuator& from)
 {
     std::vector<int> tets;
@@ -145,7 +145,7 @@ void SceneActuators::apply(btFemSoftBodySolver& fem, double time)
             continue;
         }
         const double value = from.m_value.at(time);
-        if (value == actuator.m_now) continue;  // what sleeps sleeps on
+        if (value == actuator.m_now) continue;  // unchanged values must not wake a sleeping body
         for (const int handle : actuator.m_handles) setValue(fem, actuator.m_body, handle, from, value);
         actuator.m_now = value;
     }

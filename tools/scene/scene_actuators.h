@@ -10,18 +10,18 @@
 namespace bullet_fem
 {
 
-/// The actuators of a scene's bodies, in motion.
+/// The actuators of a scene's bodies and their values over time.
 class SceneActuators
 {
 public:
-    /// Adds one to a body that is FEM. The description must live longer. Throws std::invalid_argument or
-    /// std::runtime_error: a cavity that the body has not, a region without elements.
+    /// Adds an actuator to an FEM body. The description must outlive this object. Throws std::invalid_argument or
+    /// std::runtime_error if the cavity does not exist or the region has no elements.
     void add(btFemSoftBodySolver& fem, btSoftBody& body, const SceneActuator& from);
 
-    /// Sets the values of a time [s].
+    /// Sets the values at a time [s].
     void apply(btFemSoftBodySolver& fem, double time);
-    /// The clock was set, and `time` was when values were set last [s]: all are set anew, and chambers that were sealed
-    /// later are open again.
+    /// Call after the clock was set; `time` is when values were last set [s]. All values are set anew, and chambers
+    /// that were sealed later are opened again.
     void begin(double time);
 
 private:
@@ -29,8 +29,8 @@ private:
     {
         const SceneActuator* m_from;
         btSoftBody* m_body;
-        std::vector<int> m_handles;  // more than one of all cavities
-        double m_now = 0;            // the value that it has
+        std::vector<int> m_handles;  // several if the actuator drives all cavities
+        double m_now = 0;            // present value
         bool m_isSealed = false;
     };
     std::vector<Actuator> m_actuators;

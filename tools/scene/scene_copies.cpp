@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr int kMaxAlongAnAxis = 100, kMaxCopies = 10000;  // of a grid [-]
-constexpr double kFarthest = 1e6;                         // coordinate of a place, as of all bodies [m]
+constexpr double kFarthest = 1e6;                         // largest coordinate of a position, as for all bodies [m]
 
 std::array<int, 3> readCount(const JsonCursor& at)
 {
@@ -26,11 +26,11 @@ std::array<int, 3> readCount(const JsonCursor& at)
     return count;
 }
 
-// One of all rotations, each as likely as another [Shoemake 1992]: their quaternions are on a sphere.
+// A uniformly distributed random rotation by a quaternion [Shoemake 1992].
 void turn(std::mt19937& random, ScenePose& pose)
 {
     constexpr double kTwoPi = 6.283185307179586;
-    const auto share = [&] { return (double(random()) + 0.5) / 4294967296.0; };  // of 2^32, between 0 and 1
+    const auto share = [&] { return (double(random()) + 0.5) / 4294967296.0; };  // uniform in (0, 1), in steps of 2^-32
     const double s = share(), a = kTwoPi * share(), b = kTwoPi * share();
     const Vec3 axis = {std::sqrt(1 - s) * std::sin(a), std::sqrt(1 - s) * std::cos(a), std::sqrt(s) * std::sin(b)};
     if (norm(axis) > 0) pose.m_axis = axis;

@@ -10,8 +10,8 @@
 namespace bullet_fem
 {
 
-/// Where the copies of a body start, of which `first` is the first one: on a grid, x first, then y, then z; turned at
-/// random if they are to be, alike in every run. Throws std::runtime_error as JsonCursor does.
+/// Initial poses of a body's copies on a grid, the first one at `first`; x varies first, then y, then z. Optional
+/// random rotations are equal in all runs. Throws std::runtime_error as JsonCursor does.
 std::vector<ScenePose> readCopies(const JsonCursor& at, const ScenePose& first);
 
 }  // namespace bullet_fem

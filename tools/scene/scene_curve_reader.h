@@ -14,7 +14,7 @@ SceneCurve readCurve(const JsonCursor& at, const JsonRange& range);
 /// A vector, or pairs of a time [s] and a vector, in any order. Each number is in the range.
 SceneVectorCurve readVectorCurve(const JsonCursor& at, const JsonRange& range);
 
-/// Pairs, not one vector.
+/// Whether it is a list of pairs rather than one vector.
 bool isVectorCurve(const JsonCursor& at);
 
 }  // namespace bullet_fem

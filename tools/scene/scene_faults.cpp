@@ -23,7 +23,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kInsideOutShare = 1e-4;  // of an element's volume at the start; single precision turns slivers
+constexpr double kInsideOutShare = 1e-4;  // relative to an element's initial volume; rounding inverts slivers
 
 double squaredNorm(const Vec3& a)
 {
@@ -74,11 +74,11 @@ bool overlap(const SceneBox& a, const SceneBox& b)
     return true;
 }
 
-/// A body that can be asked how deep a point is in it.
+/// A body that gives the penetration depth of points.
 class Solid
 {
 public:
-    /// `points` are those of it that must not be in others.
+    /// `points` are its points that must not be inside other bodies.
     Solid(std::string name, const BodyFrame& surface, std::vector<Vec3> points, double size)
         : m_name(std::move(name)), m_surface(&surface), m_points(std::move(points)), m_size(size)
     {
@@ -96,7 +96,7 @@ public:
     double size() const { return m_size; }
     bool isNear(const Solid& other) const { return !m_surface || !other.m_surface || overlap(m_reach, other.m_reach); }
 
-    /// Distance from the surface of a point inside [m]; 0 outside.
+    /// Penetration depth of a point [m]; 0 outside.
     double depth(const Vec3& p) const
     {
         if (!m_surface) return std::max(0.0, dot(m_normal, m_origin - p));
@@ -110,7 +110,7 @@ public:
         return std::sqrt(least);
     }
 
-    /// Depth of the deepest point of another [m].
+    /// Penetration depth of the other body's deepest point [m].
     double depth(const Solid& other) const
     {
         double most = 0;
@@ -123,12 +123,12 @@ private:
     const BodyFrame* m_surface = nullptr;  // null: a plane
     Vec3 m_origin, m_normal;
     std::vector<Vec3> m_points;
-    SceneBox m_box = kNothing, m_reach;                       // around the surface; around points, too
+    SceneBox m_box = kNothing, m_reach;                       // bounds of the surface; bounds including `points`
     double m_size = std::numeric_limits<double>::infinity();  // cube root of its volume [m]
-    mutable std::unique_ptr<WindingNumber> m_winding;         // made when it is first asked for
+    mutable std::unique_ptr<WindingNumber> m_winding;         // created on first use
 };
 
-/// The search through all bodies of a world.
+/// Checks all bodies of a world.
 class FaultSearch
 {
 public:
@@ -162,7 +162,7 @@ public:
     }
 
 private:
-    // The volume at the start is its size: what is crushed has less.
+    // The initial volume defines the size, because crushed bodies have less.
     void addSoft(int i)
     {
         const BodyFrame& volume = m_frames.volumes()[i];
@@ -182,7 +182,7 @@ private:
         m_objects.push_back(&m_world.soft(i));
     }
 
-    // All nodes of elements, or the surface where it collides in place of the cage.
+    // All nodes of elements, or those of the surface if it collides instead of the cage.
     std::vector<Vec3> pointsOf(int i) const
     {
         if (m_world.soft(i).m_cfg.collisions & BT_FEM_RENDER_SURFACE) return m_frames.surfaces()[i].m_positions;
@@ -215,7 +215,7 @@ private:
                               std::cbrt(signedVolume({surface.m_positions, surface.m_triangles, {}})));
     }
 
-    // Bodies that hang together by welds touch each other only where a body touches itself.
+    // Bodies connected by welds count as one body, whose self-contact is not checked.
     void joinWelded()
     {
         std::map<const btCollisionObject*, int> softBodies;
@@ -229,7 +229,7 @@ private:
         }
     }
 
-    // By anchors, welds, or nodes that are pinned in the other.
+    // Whether both are connected by anchors or welds, or one has nodes pinned inside the other.
     bool isTied(int a, std::size_t b)
     {
         const btSoftBody& soft = m_world.soft(a);
@@ -261,10 +261,10 @@ private:
 
     const SceneWorld& m_world;
     const SceneFrames& m_frames;
-    std::vector<Solid> m_solids;                      // soft ones, then rigid ones
-    std::vector<const btCollisionObject*> m_objects;  // of each
-    std::vector<int> m_insideOut;                     // elements, of a soft body
-    DisjointSets m_welded;                            // of the soft bodies: those that hang together
+    std::vector<Solid> m_solids;                      // soft bodies, then rigid bodies
+    std::vector<const btCollisionObject*> m_objects;  // of each solid
+    std::vector<int> m_insideOut;                     // inverted elements of each soft body
+    DisjointSets m_welded;                            // soft bodies connected by welds
     std::vector<SceneFault> m_faults;
     int m_nextSurface = 0;
 };

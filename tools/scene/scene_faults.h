@@ -10,25 +10,25 @@
 namespace bullet_fem
 {
 
-/// A fault of the state of bodies.
+/// A fault in the state of bodies.
 struct SceneFault
 {
     std::string m_body;   ///< its name
-    std::string m_other;  ///< the body that it is in; empty: it has elements that are inside out
-    int m_elements = 0;   ///< that are inside out
-    double m_depth = 0;   ///< of its deepest point below the other's surface [m]
-    double m_share = 0;   ///< the depth over the size of the smaller of both [-]
+    std::string m_other;  ///< body that contains it; empty: it has inverted elements
+    int m_elements = 0;   ///< number of inverted elements
+    double m_depth = 0;   ///< of its deepest point below the surface of m_other [m]
+    double m_share = 0;   ///< depth over the size of the smaller body [-]
 
-    /// The fault, and its remedy.
+    /// Describes the fault and its remedy.
     std::string sentence() const;
 };
 
-/// How deep one body may be in another: share of the size of the smaller one, the cube root of its volume [-].
+/// Penetration depth above which it is a fault, over the size of the smaller body (cube root of its volume) [-].
 constexpr double kDeepestShare = 0.05;
 
-/// Soft bodies with elements that are inside out, and pairs of bodies, one of them soft at least, that are deeper in
-/// each other than that share. Left out are pairs whose contact an anchor switches off, pairs that hang together by
-/// welds, and those of which one has pinned nodes in the other. The frames must be those of the world as it is.
+/// Finds soft bodies with inverted elements, and pairs of bodies, at least one of them soft, that overlap deeper than
+/// kDeepestShare. Excluded are pairs whose contact an anchor disables, pairs connected by welds, and pairs where one
+/// body has nodes pinned inside the other. The frames must show the world's present state.
 std::vector<SceneFault> findFaults(const SceneWorld& world, const SceneFrames& frames);
 
 }  // namespace bullet_fem

@@ -64,7 +64,7 @@ void SceneFlags::note(const SceneWorld& world, int body, int flag)
     ++noted.m_steps;
 }
 
-// Which steps had a flag is not kept: those that remain are at most all since the first one.
+// The steps with a flag are not stored. After the cut their number is at most that of all steps since the first one.
 void SceneFlags::forgetAfter(double time, double step)
 {
     for (auto at = m_flags.begin(); at != m_flags.end();)

@@ -60,7 +60,7 @@ void SceneForces::follow(const btFemSplit& split)
 
 void SceneForces::apply(double time, double step) const
 {
-    const double now = time + 1e-6 * step;  // steps that begin at a force's end are after it
+    const double now = time + 1e-6 * step;  // a step that begins at m_to is excluded in spite of rounding
     for (const Force& force : m_forces)
     {
         if (now < force.m_from->m_from || now >= force.m_from->m_to) continue;

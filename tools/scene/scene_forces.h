@@ -13,20 +13,20 @@ struct btFemSplit;
 namespace bullet_fem
 {
 
-/// The forces of a scene's world.
+/// The external forces of a scene's world.
 class SceneForces
 {
 public:
-    /// `from` must live as long.
+    /// Adds a force on a rigid body. `from` must outlive this object.
     void add(const SceneForce& from, btRigidBody& body);
-    /// Of a body in one piece or in several, which stand where they start. Throws std::runtime_error, which names the
-    /// body, where the force's box holds no free node.
+    /// Adds a force on a body, or on all fragments of a divided one, at its initial pose. Throws std::runtime_error
+    /// with the body's name if the force's box contains no free node.
     void add(const SceneForce& from, const std::vector<btSoftBody*>& bodies);
 
-    /// A body has split: copies of its nodes have a share of what these bore, by mass.
+    /// After a split, divides the forces of split nodes among their copies by mass.
     void follow(const btFemSplit& split);
 
-    /// In a step of that length [s] that begins at that time [s].
+    /// Applies the forces in a step of the given length [s] that begins at the given time [s].
     void apply(double time, double step) const;
 
 private:
@@ -34,9 +34,9 @@ private:
     {
         btSoftBody* m_soft;
         int m_node;
-        double m_share;  // of the force; sum 1
+        double m_share;  // fraction of the force; the sum is 1
     };
-    /// A force, and what it acts on: a rigid body, or nodes.
+    /// A force on a rigid body or on nodes.
     struct Force
     {
         const SceneForce* m_from;

@@ -13,30 +13,31 @@
 namespace bullet_fem
 {
 
-/// What became of a soft body that may split.
+/// Splits of a soft body so far.
 struct SceneSplits
 {
     const btSoftBody* m_body = nullptr;
-    int m_nodes = 0;            ///< at the start
-    int m_count = 0;            ///< how often it has split, in as many steps
-    int m_parts = 1;            ///< that it hangs together in
-    std::vector<int> m_copyOf;  ///< of every node that came since: the node before it that it was split from
+    int m_nodes = 0;            ///< initial number
+    int m_count = 0;            ///< number of steps in which it split
+    int m_parts = 1;            ///< number of connected parts
+    std::vector<int> m_copyOf;  ///< for each added node, the earlier node that it copies
 };
 
-/// The soft bodies of a scene that may split.
+/// The soft bodies of a scene that can split.
 class SceneFractures
 {
 public:
-    /// Gives a body, which is FEM, its strength; nothing if it has none. Throws what btFemFracture::setStrength throws.
+    /// Sets the strength of an FEM body; does nothing if `from` has none. Throws the exceptions of
+    /// btFemFracture::setStrength.
     void add(btFemSoftBodySolver& fem, btSoftBody& body, const SceneFracture& from);
 
-    /// After a step: takes what has split, and lets forces follow.
+    /// Call after a step: records new splits and redistributes forces.
     void update(btFemSoftBodySolver& fem, SceneForces& forces);
 
     const std::vector<SceneSplits>& bodies() const { return m_bodies; }
-    /// Of a body; null if it does not split.
+    /// Splits of a body; null if it cannot split.
     const SceneSplits* find(const btSoftBody& body) const;
-    /// Of all bodies.
+    /// Number of splits of all bodies.
     int count() const;
 
 private:

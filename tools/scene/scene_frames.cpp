@@ -49,7 +49,7 @@ std::vector<Triangle> surfaceOf(const btSoftBody& body)
     return triangles;
 }
 
-// Without the nodes inside, and vertices of no triangle: nobody sees their stress.
+// Omits inner nodes and unused vertices, whose stress is not visible.
 SurfacePart drawnPart(const btSoftBody& body, int id)
 {
     BodyFrame whole;
@@ -102,7 +102,7 @@ SceneFrames::SceneFrames(const SceneWorld& world) : m_world(world)
         m_surfaces.emplace_back();
         m_surfaces.back().m_id = world.softCount() + i;
         m_surfaces.back().m_triangles = std::move(drawn.m_triangles);
-        m_surfaces.back().m_nodeStress.resize(m_rigidRest.back().size());  // none: films with colours want some of all
+        m_surfaces.back().m_nodeStress.resize(m_rigidRest.back().size());  // zero: films with colours need it
     }
     update();
 }
@@ -113,7 +113,7 @@ void SceneFrames::takeElements(int i)
     m_surfaces[i].m_triangles = m_drawn[i].m_triangles;
 }
 
-// Copies of nodes rest where these did, and a crack has sides.
+// Copies of nodes have the rest position of the original, and the crack adds faces to the surface.
 void SceneFrames::followSplits(int i)
 {
     const btSoftBody& body = m_world.soft(i);
@@ -164,7 +164,7 @@ void SceneFrames::updateVolume(int i, double fraction)
     take(m_perElement, frame.m_tetActivation);
 }
 
-// Of bodies that are held.
+// Only bodies that are held have reactions.
 void SceneFrames::updateReactions(const btSoftBody& body, BodyFrame& frame)
 {
     frame.m_reactionForce.clear();
@@ -195,14 +195,14 @@ void SceneFrames::updateSoftSurface(int i)
             add(v, drawn[v], 1);
             continue;
         }
-        // Bullet moves what is drawn in its steps, so that it is not where the body is before the first.
+        // Bullet updates rendered vertices only in its steps, so they are not valid before the first one.
         const auto& parents = body.m_renderNodesParents[drawn[v]];
         for (int a = 0; a < parents.size(); ++a)
             add(v, indexIn(parents[a], body.m_nodes[0]), double(body.m_renderNodesInterpolationWeights[drawn[v]][a]));
     }
 }
 
-// As Bullet does for motion states, which the scene's bodies have not.
+// Extrapolates as Bullet does for motion states, which these bodies lack.
 void SceneFrames::updateRigidSurface(int surface, double fraction)
 {
     const btRigidBody& body = m_world.rigid(bodyOf(surface) - m_world.softCount());

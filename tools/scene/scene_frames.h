@@ -13,24 +13,23 @@
 namespace bullet_fem
 {
 
-/// What writers and pictures show of a scene: taken anew by `update`, after a step.
+/// Data of a scene for writers and pictures, updated by `update` after a step.
 class SceneFrames
 {
 public:
-    /// The world must live longer.
+    /// The world must outlive this object.
     explicit SceneFrames(const SceneWorld& world);
 
-    /// `fraction`: of pictures between two steps, the time in steps from the end of the last one [-], in [-1, 1]; see
+    /// `fraction`: for pictures between two steps, time in steps from the end of the last step [-], in [-1, 1]; see
     /// btFemHelpers::interpolateNodes(). Forces, stress and velocities are those of the last step.
     void update(double fraction = 0);
 
-    /// The soft bodies' elements, in the scene's order: all fields.
+    /// Elements of the soft bodies with all fields, in the scene's order.
     const std::vector<BodyFrame>& volumes() const { return m_volumes; }
-    /// Surfaces: of the soft bodies, embedded ones where there are, with their stress and without nodes that no
-    /// triangle has; then of the rigid ones that have a shape with an end.
+    /// Surfaces: first those of soft bodies (the embedded one if there is any) with stress and without unused nodes,
+    /// then those of rigid bodies of finite extent.
     const std::vector<BodyFrame>& surfaces() const { return m_surfaces; }
-    /// Which body of the scene a surface is: index of a soft body, or the number of soft bodies plus that of a rigid
-    /// one.
+    /// Body of a surface: index of a soft body, or the number of soft bodies plus the index of a rigid body.
     int bodyOf(int surface) const { return m_surfaces[surface].m_id; }
 
 private:
@@ -43,10 +42,10 @@ private:
 
     const SceneWorld& m_world;
     std::vector<BodyFrame> m_volumes, m_surfaces;
-    std::vector<SurfacePart> m_drawn;            // a soft body: its surface's nodes or embedded vertices
-    std::vector<std::vector<Vec3>> m_rest;       // a soft body: nodes at the start
-    std::vector<int> m_splits;                   // a soft body: how often it had split when its elements were taken
-    std::vector<std::vector<Vec3>> m_rigidRest;  // a surface of a rigid body: in its own frame
+    std::vector<SurfacePart> m_drawn;            // per soft body: nodes of its surface or embedded vertices
+    std::vector<std::vector<Vec3>> m_rest;       // per soft body: initial nodes
+    std::vector<int> m_splits;                   // per soft body: number of splits when its elements were copied
+    std::vector<std::vector<Vec3>> m_rigidRest;  // per surface of a rigid body: in its own frame
     btAlignedObjectArray<btFemStress> m_stress;
     btAlignedObjectArray<btScalar> m_perElement;
     btAlignedObjectArray<btVector3> m_forces, m_places;

@@ -33,7 +33,7 @@ void SceneHistory::step()
 
 bool SceneHistory::earlier()
 {
-    // The present is kept, too, so that `later` leads back to it.
+    // Keeps the present state as well, so that later() can return to it.
     if (!isPast() && (m_states.empty() || m_states.back().m_steps != m_world.steps())) keep();
     return show(m_shown - 1);
 }

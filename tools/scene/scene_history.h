@@ -11,32 +11,32 @@ namespace bullet_fem
 
 struct SceneHistorySettings
 {
-    int m_stepsBetween = 10;               ///< states, >= 1
-    std::size_t m_maxBytes = 256u << 20u;  ///< for all states together [B]: the oldest go first
+    int m_stepsBetween = 10;               ///< steps between stored states, >= 1
+    std::size_t m_maxBytes = 256u << 20u;  ///< limit of all states together [B]; the oldest are dropped
 };
 
-/// States of a scene that it can be put back to. It begins with the present one; memory grows up to the bound.
+/// Stored states of a scene for going back in time. It begins with the present state; memory grows up to the limit.
 class SceneHistory
 {
 public:
-    /// The world must live longer.
+    /// The world must outlive this object.
     explicit SceneHistory(SceneWorld& world, const SceneHistorySettings& settings = {});
 
-    /// Makes a step of the world. If it was put back, what came later is forgotten, and what came before if a body
-    /// splits, which cannot be whole again.
+    /// Makes a step of the world. After going back, later states are dropped; if a body splits, which cannot be undone,
+    /// earlier states are dropped.
     void step();
-    /// Puts the world back to the state before, or to the next one. False, and nothing changes, if there is none.
+    /// Restores the previous or the next state. Returns false without any change if there is none.
     bool earlier();
     bool later();
-    /// Begins anew with the present: bodies or materials are others now.
+    /// Restarts from the present state, after changes of bodies or materials.
     void clear();
 
-    /// Of states.
+    /// Number of states.
     int count() const { return static_cast<int>(m_states.size()); }
-    std::size_t bytes() const { return m_bytes; }          ///< of all states [B]
-    double since() const;                                  ///< when the oldest one was [s]
-    double until() const;                                  ///< when the newest one was, or now if that is later [s]
-    bool isPast() const { return m_shown + 1 < count(); }  ///< it was put back and not stepped since
+    std::size_t bytes() const { return m_bytes; }  ///< of all states [B]
+    double since() const;                          ///< time of the oldest state [s]
+    double until() const;                          ///< time of the newest state or present time, whichever is later [s]
+    bool isPast() const { return m_shown + 1 < count(); }  ///< an earlier state was restored and not stepped since
     const SceneHistorySettings& settings() const { return m_settings; }
 
 private:
@@ -45,9 +45,9 @@ private:
 
     SceneWorld& m_world;
     SceneHistorySettings m_settings;
-    std::deque<SceneState> m_states;  // by time
+    std::deque<SceneState> m_states;  // by ascending time
     std::size_t m_bytes = 0;
-    int m_shown = -1;  // the newest state that is not later than the world
+    int m_shown = -1;  // newest state that is not later than the world
 };
 
 }  // namespace bullet_fem

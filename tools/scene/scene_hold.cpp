@@ -13,8 +13,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPull = 20;       // weights of the body that the mouse pulls with at most
-constexpr double kFollowing = 10;  // [1/s]: it follows the mouse within a tenth of a second
+constexpr double kPull = 20;       // maximum force of the mouse, in weights of the body
+constexpr double kFollowing = 10;  // [1/s]: follows the mouse within a tenth of a second
 
 }  // namespace
 

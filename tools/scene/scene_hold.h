@@ -8,14 +8,14 @@
 namespace bullet_fem
 {
 
-/// The mouse's hold on a soft body: an implicit spring from what it hit to where the mouse is.
+/// Mouse drag of a soft body: an implicit spring from the picked point to the mouse position.
 class SceneHold
 {
 public:
-    /// The world must live longer.
+    /// The world must outlive this object.
     explicit SceneHold(SceneWorld& world) : m_world(world) {}
 
-    /// Takes what the ray hits first; false if that is no soft body.
+    /// Picks the first body on the ray; returns false unless it is a soft body.
     bool begin(const PictureRay& ray);
     void move(const PictureRay& ray);
     void end();

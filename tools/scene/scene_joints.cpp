@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-// A frame at the pivot, whose x axis is the joint's.
+// A frame at the pivot with its x axis along the joint's axis.
 btTransform frameOf(const SceneConstraint& from)
 {
     const btVector3 x = bulletVector(from.m_axis).normalized();
@@ -27,11 +27,11 @@ std::unique_ptr<btTypedConstraint> makeHinge(const SceneConstraint& from, btRigi
     const btVector3 pivot = bulletVector(from.m_pivot), axis = bulletVector(from.m_axis).normalized();
     btVector3 inBody = intoBody.getBasis() * axis, inTo = intoTo.getBasis() * axis;
     auto hinge = std::make_unique<btHingeConstraint>(body, to, intoBody * pivot, intoTo * pivot, inBody, inTo);
-    if (from.m_max > 0) hinge->enableAngularMotor(true, 0, btScalar(from.m_max * step));  // an impulse
+    if (from.m_max > 0) hinge->enableAngularMotor(true, 0, btScalar(from.m_max * step));  // maximum impulse per step
     return hinge;
 }
 
-// Bullet's slider moves its second body along the x axis of the first one's frame.
+// Bullet's slider moves its second body along the x axis of the first body's frame.
 std::unique_ptr<btTypedConstraint> makeSlider(const SceneConstraint& from, btRigidBody& body, btRigidBody& to)
 {
     const btTransform frame = frameOf(from);
@@ -83,7 +83,7 @@ void SceneJoints::apply(double middle)
     for (Joint& joint : m_joints)
     {
         const double speed = joint.m_from->m_speed.at(middle);
-        if (joint.m_from->m_max == 0 || speed == joint.m_speed) continue;  // what sleeps sleeps on
+        if (joint.m_from->m_max == 0 || speed == joint.m_speed) continue;  // bodies may sleep on
         setSpeed(*joint.m_joint, joint.m_from->m_kind, speed);
         joint.m_speed = speed;
     }

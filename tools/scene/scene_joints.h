@@ -11,16 +11,16 @@
 namespace bullet_fem
 {
 
-/// The joints of a scene in a world, with their motors. It owns them.
+/// The joints of a scene's world with their motors; owns the joints.
 class SceneJoints
 {
 public:
-    /// Joins two bodies, which must live longer, or one and btTypedConstraint::getFixedBody(), by what must live longer
-    /// and is no anchor. step: of the world [s].
+    /// Adds a joint between two bodies, which must outlive it, or a body and btTypedConstraint::getFixedBody(). `from`
+    /// must outlive this object and must not be an anchor. step: of the world [s].
     void add(btDynamicsWorld& world, const SceneConstraint& from, btRigidBody& body, btRigidBody& to, double step);
     void removeFrom(btDynamicsWorld& world);
 
-    /// Sets the motors' speeds of a step whose middle is at this time [s].
+    /// Sets the motors' speeds for a step whose midpoint is at this time [s].
     void apply(double middle);
 
 private:
@@ -28,7 +28,7 @@ private:
     {
         std::unique_ptr<btTypedConstraint> m_joint;
         const SceneConstraint* m_from;
-        double m_speed;  // now [rad/s], [m/s]
+        double m_speed;  // present value [rad/s], [m/s]
     };
     std::vector<Joint> m_joints;
 };

@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-// With the plug-in's own damping where a scene has none.
+// Applies the plug-in's default stiffness damping.
 Material damped(Material material)
 {
     material.m_stiffnessDamping = 0.005;
@@ -34,7 +34,7 @@ void readRelaxation(const JsonCursor& at, Material& material)
         at.fail("has shares whose sum is more than 0.99; a solid keeps some");
 }
 
-// Young's modulus of axis 1 is the material's, too: what shows one number shows that.
+// Young's modulus of axis 1 is also that of the material, for displays of a single number.
 void readOrthotropic(const JsonCursor& at, Material& material)
 {
     at.onlyMembers({"young", "poisson", "shear", "axes"});
@@ -45,7 +45,7 @@ void readOrthotropic(const JsonCursor& at, Material& material)
         values = {given.x, given.y, given.z};
     };
     read("young", {0, Orthotropic::kMaxModulus, true}, constants.m_young);
-    read("poisson", {-100, 100}, constants.m_poisson);  // the material knows what goes together
+    read("poisson", {-100, 100}, constants.m_poisson);  // admissible combinations are checked by the material
     read("shear", {0, Orthotropic::kMaxModulus, true}, constants.m_shear);
     constants.m_along = Orthotropic().m_along;
     constants.m_across = Orthotropic().m_across;

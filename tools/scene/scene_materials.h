@@ -11,18 +11,18 @@
 namespace bullet_fem
 {
 
-using SceneMaterials = std::map<std::string, Material>;  ///< by their names
+using SceneMaterials = std::map<std::string, Material>;  ///< by name
 
-/// Those that every scene has.
+/// Presets that every scene knows.
 SceneMaterials presetMaterials();
 
-/// That of bodies that name none.
+/// Material of bodies that name none.
 Material defaultMaterial();
 
-/// The one of that name; fails if there is none.
+/// The material with the name in `at`; throws if it is unknown.
 const Material& materialCalled(const JsonCursor& at, const SceneMaterials& known);
 
-/// One in JSON, which may be like one that is known.
+/// Reads a material, optionally based on a known one.
 Material readMaterial(const JsonCursor& at, const SceneMaterials& known);
 
 }  // namespace bullet_fem

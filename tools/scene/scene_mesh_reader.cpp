@@ -22,7 +22,7 @@ std::string fileIn(const std::string& folder, const JsonCursor& at)
     return path.string();
 }
 
-// Which of the kinds it is, and what that kind has.
+// Reads the kind of the mesh and the members of that kind.
 void readKind(const JsonCursor& at, const std::string& folder, SceneMesh& mesh)
 {
     int kinds = 0;
@@ -48,7 +48,7 @@ void readKind(const JsonCursor& at, const std::string& folder, SceneMesh& mesh)
     }
 }
 
-// Fails where a member has no effect.
+// Throws if a member has no effect for this kind.
 void refuseWhatTheKindHasNot(const JsonCursor& at, SceneMesh::Kind kind)
 {
     if (kind != SceneMesh::Kind::box && at.has("holes"))

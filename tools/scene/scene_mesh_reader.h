@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// The `mesh` of a soft body; its file is looked for in the folder.
+/// Reads the `mesh` of a soft body; its file is relative to the folder.
 SceneMesh readMesh(const JsonCursor& at, const std::string& folder);
 
 }  // namespace bullet_fem

@@ -14,15 +14,15 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMaxCells = 1e6;  // along an edge; more than makeBox takes, which then says so
+constexpr double kMaxCells = 1e6;  // along an edge; beyond the limit of makeBox, whose error message then applies
 
 double cellsAlong(double edge, double cell)
 {
     return std::clamp(std::round(edge / cell), 1.0, kMaxCells);
 }
 
-// The cell [m] that gives a block about `tets` elements, five a cell. By bisection: thin blocks have one cell across
-// however large it is.
+// Cell size [m] for a block of about `tets` elements, five per cell. Found by bisection, because thin blocks keep one
+// cell across for all larger cell sizes.
 double cellFor(const Vec3& size, double tets)
 {
     const auto count = [&](double cell)
@@ -33,10 +33,10 @@ double cellFor(const Vec3& size, double tets)
         const double middle = std::sqrt(low * high);
         (count(middle) < tets ? high : low) = middle;
     }
-    return tets * tets < count(low) * count(high) ? high : low;  // the nearer one, as a ratio
+    return tets * tets < count(low) * count(high) ? high : low;  // the nearer count by ratio
 }
 
-// The elements of a block whose middle is in no hole.
+// The elements of a block whose centre is in no hole.
 TetMesh withoutHoles(const TetMesh& block, const SceneMesh& mesh)
 {
     const std::vector<Vec3>& X = block.restPositions();
@@ -63,7 +63,7 @@ TetMesh withoutHoles(const TetMesh& block, const SceneMesh& mesh)
         }
         tets.push_back(tet);
     }
-    return TetMesh(std::move(kept), std::move(tets));  // which refuses no elements
+    return TetMesh(std::move(kept), std::move(tets));  // throws if no elements remain
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ TetMesh blockOf(const SceneMesh& mesh)
     return mesh.m_holes.empty() ? block : withoutHoles(block, mesh);
 }
 
-// Six elements a cell of the cube that is mapped to the ball.
+// Six elements per cell of the cube that is mapped to the ball.
 TetMesh ballOf(const SceneMesh& mesh)
 {
     const double radius = mesh.m_scale * mesh.m_radius;
@@ -86,11 +86,11 @@ TetMesh ballOf(const SceneMesh& mesh)
     return makeSphere(radius, static_cast<int>(std::clamp(std::round(cells), 2.0, kMaxCells)));
 }
 
-// Six elements a cell of the square that is mapped to the disc. The generator's z becomes y.
+// Six elements per cell of the square that is mapped to the disc. The generator's z axis becomes y.
 TetMesh cylinderOf(const SceneMesh& mesh)
 {
     const double radius = mesh.m_scale * mesh.m_radius, height = mesh.m_scale * mesh.m_height;
-    // Cells as long as wide: 6 (2 r / cell)^2 (h / cell) = tets.
+    // For cubic cells: 6 (2 r / cell)^2 (h / cell) = tets.
     const double cell =
         mesh.m_cellSize > 0 ? mesh.m_cellSize : std::cbrt(24 * radius * radius * height / double(mesh.m_tets));
     const auto halfAcross = static_cast<int>(cellsAlong(radius, cell));

@@ -9,14 +9,14 @@
 namespace bullet_fem
 {
 
-/// The elements of a box, without its holes.
+/// Mesh of a box without its holes.
 TetMesh blockOf(const SceneMesh& mesh);
-/// Those of a sphere.
+/// Mesh of a sphere.
 TetMesh ballOf(const SceneMesh& mesh);
-/// Those of a cylinder.
+/// Mesh of a cylinder.
 TetMesh cylinderOf(const SceneMesh& mesh);
 
-/// How the cage of a surface is made.
+/// Settings for the cage of a surface.
 CageSettings cageOf(const SceneMesh& mesh);
 
 }  // namespace bullet_fem

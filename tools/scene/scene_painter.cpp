@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kCoolShare = 0.98;  // of the vertices that the colour scale shall hold
+constexpr double kCoolShare = 0.98;  // fraction of the vertices within the colour scale
 
 Colour colourOf(const Vec3& c)
 {
@@ -27,7 +27,7 @@ Vec3 upOf(const SceneDescription& scene)
     return g > 0 ? (-1 / g) * scene.m_gravity : Vec3{0, 1, 0};
 }
 
-// The world's first plane is the ground.
+// The ground is the first plane of the world.
 PictureGround groundOf(const SceneWorld& world, double size)
 {
     PictureGround ground;

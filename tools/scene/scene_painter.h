@@ -10,44 +10,44 @@
 namespace bullet_fem
 {
 
-/// What changes from picture to picture, kept so that a film can be drawn when its colour scale is known.
+/// Variable data of a picture, stored so that a film can be drawn after its colour scale is known.
 struct SceneSnapshot
 {
     double m_time = 0;                           ///< [s]
-    std::vector<std::vector<Vec3>> m_positions;  ///< a surface of SceneFrames, a vertex [m]
-    /// Likewise of bodies that may split; empty for others, whose triangles are those of the start.
+    std::vector<std::vector<Vec3>> m_positions;  ///< of each surface of SceneFrames [m]
+    /// Triangles of bodies that can split; empty for others, whose triangles stay constant.
     std::vector<std::vector<Triangle>> m_triangles;
-    std::vector<std::vector<double>> m_vonMises;  ///< likewise [Pa]; empty for rigid bodies, or if not shown
-    std::vector<PictureArrow> m_forces;           ///< of contact [N]; empty if not shown
+    std::vector<std::vector<double>> m_vonMises;  ///< of each surface [Pa]; empty for rigid bodies or if not shown
+    std::vector<PictureArrow> m_forces;           ///< contact forces [N]; empty if not shown
 };
 SceneSnapshot snapshotOf(const SceneWorld& world, const SceneFrames& frames);
 
-/// The von Mises stress that 98 % of the vertices do not exceed, in the snapshot where that is most [Pa]; at least 1
-/// Pa. Single elements at clamps and edges are hotter than all else, and would leave the rest of a picture dark.
+/// The 98 % quantile of von Mises stress over the vertices, of the snapshot with the largest one [Pa]; at least 1 Pa.
+/// Stress peaks of single elements at clamps and edges would otherwise dominate the colour scale.
 double hottestOf(const std::vector<SceneSnapshot>& snapshots);
 
-/// The largest force at a node in all snapshots [N]; 0 if none is shown.
+/// Maximum nodal force over all snapshots [N]; 0 if none is shown.
 double largestForceOf(const std::vector<SceneSnapshot>& snapshots);
 
-/// Draws snapshots of one scene, all with the same camera, colours and scale.
+/// Draws snapshots of one scene with constant camera, colours and scale.
 class ScenePainter
 {
 public:
-    /// `frames` as they are at the start, which the camera is framed by. Both must live longer. Arrows and ground go by
-    /// `size`, a radius [m]; 0: the frames'.
+    /// Frames the camera by the initial `frames`. Both arguments must outlive this object. Arrows and ground scale with
+    /// `size`, a radius [m]; 0: that of the frames.
     ScenePainter(const SceneWorld& world, const SceneFrames& frames, double size = 0);
 
-    /// The stress of the last colour [Pa], > 0.
+    /// Sets the stress of the last colour [Pa], > 0.
     void setHottest(double pascal) { m_picture.m_colourScale.m_high = pascal; }
 
-    /// The force whose arrow is a quarter of the scene long [N], > 0.
+    /// Sets the force whose arrow has a quarter of the scene's length [N], > 0.
     void setLargestForce(double newton);
 
-    /// Moves a camera that is framed, not placed, to so many times its distance, > 0.
+    /// Multiplies the distance of a framed camera by a factor > 0; has no effect on a camera placed by the scene.
     void widenView(double factor);
     const PictureCamera& camera() const { return m_picture.m_camera; }
 
-    /// Valid until the next call.
+    /// The result is valid until the next call.
     const PictureScene& paint(const SceneSnapshot& snapshot);
 
 private:
@@ -55,7 +55,7 @@ private:
 
     const SceneWorld& m_world;
     PictureScene m_picture;
-    double m_size;  // radius of the scene at the start [m]
+    double m_size;  // radius of the initial scene [m]
 };
 
 }  // namespace bullet_fem

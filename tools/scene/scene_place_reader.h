@@ -18,7 +18,7 @@ inline SceneBox readBox(const JsonCursor& at)
     return box;
 }
 
-/// Of a cylinder or capsule, in [m].
+/// Reads radius and height of a cylinder or capsule [m].
 inline void readRound(const JsonCursor& at, double& radius, double& height)
 {
     const JsonRange length = {0, 1e6, true};

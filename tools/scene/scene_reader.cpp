@@ -33,7 +33,7 @@ constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr JsonRange kLength = {0, 1e6, true}, kPlace = {-1e6, 1e6}, kSpeed = {-1e4, 1e4}, kShare = {0, 1},
                     kNotNegative = {0, 1e30}, kAnyForce = {-1e12, 1e12}, kTime = {0, 1e30}, kSpringRange = {0, 1e12};
 
-/// Reads the document that lies in one folder.
+/// Reads a scene document; its files are relative to one folder.
 class SceneReader
 {
 public:
@@ -44,7 +44,7 @@ public:
         at.onlyMembers({"$schema", "title", "gravity", "step", "seconds", "framesPerSecond", "solver", "materials",
                         "softBodies", "rigidBodies", "constraints", "welds", "forces", "springs", "actuators",
                         "sensors", "camera", "pictures"});
-        std::string schema;  // for editors
+        std::string schema;  // used by editors only
         at.read("$schema", schema);
         at.read("title", m_scene.m_title);
         at.read("gravity", {-1e4, 1e4}, m_scene.m_gravity);
@@ -91,7 +91,7 @@ private:
         return at.isObject() ? readMaterial(at, m_materials) : materialCalled(at, m_materials);
     }
 
-    // A name that no other body has.
+    // Reads a name that must be unique among bodies.
     std::string name(const JsonCursor& at) const
     {
         const std::string name = at["name"].text();
@@ -151,7 +151,7 @@ private:
         addBodies(at, body, m_scene.m_softBodies);
     }
 
-    // The body, or its copies, which are called by its name and their number.
+    // Appends the body, or its copies, which are called by its name and a number.
     template <class Body>
     void addBodies(const JsonCursor& at, Body& body, std::vector<Body>& bodies) const
     {

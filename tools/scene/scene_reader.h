@@ -7,13 +7,13 @@
 namespace bullet_fem
 {
 
-/// Reads a scene file, JSON as docs/scene.schema.json says. Files that it names are looked for in its folder, and must
-/// exist. Throws std::runtime_error that names the file, the path in the document, what is there and what is expected:
-/// no such file, not JSON (with line and column), a member that is missing, unknown, of another kind or out of range, a
-/// name that is used twice or that no body has.
+/// Reads a scene file, JSON as defined in docs/scene.schema.json. Files named in it are relative to its folder and must
+/// exist. Throws std::runtime_error with the file, the path in the document, the value found and the value expected:
+/// missing file, invalid JSON (with line and column), a member that is missing, unknown, of the wrong type or out of
+/// range, a duplicate or unknown name of a body.
 SceneDescription readScene(const std::string& path);
 
-/// The same from memory; `folder` is where files are looked for.
+/// Reads a scene from memory; files named in it are relative to `folder`. Throws as readScene does.
 SceneDescription parseScene(const std::string& json, const std::string& folder);
 
 }  // namespace bullet_fem

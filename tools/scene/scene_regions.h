@@ -9,8 +9,8 @@
 namespace bullet_fem
 {
 
-/// The materials of an object whose members are called by the labels of regions, and are materials or the names of
-/// known ones. Throws what JsonCursor throws.
+/// Reads an object whose members are called by region labels; values are materials or names of known ones. Throws as
+/// JsonCursor does.
 std::map<int, Material> readRegionMaterials(const JsonCursor& at, const SceneMaterials& known);
 
 }  // namespace bullet_fem

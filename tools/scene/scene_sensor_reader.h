@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// A sensor, whose name and bodies are checked by who knows the others.
+/// Reads a sensor. The caller checks its name and bodies.
 SceneSensor readSensor(const JsonCursor& at);
 
 }  // namespace bullet_fem

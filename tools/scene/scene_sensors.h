@@ -14,19 +14,19 @@ class btRigidBody;
 namespace bullet_fem
 {
 
-/// Reaction on a soft body, or the sum over its chunks: mean of the last step, on the body (see btFemReaction).
+/// Reaction on a soft body, or the sum over its fragments: mean over the last step (see btFemReaction).
 struct SceneReaction
 {
     Vec3 m_force;   ///< [N]
-    Vec3 m_moment;  ///< about the sensor's place [N m]
+    Vec3 m_moment;  ///< about the sensor's reference point [N m]
 };
 
 /// The sensors of a scene.
 class SceneSensors
 {
 public:
-    /// Adds one on bodies as they are at the start, of the anchors to a rigid body or, if that is null, of pinned
-    /// nodes. Throws std::runtime_error, naming it, if no node is held so. The description must live longer.
+    /// Adds a sensor on bodies in their initial state: for the anchors to a rigid body or, if `to` is null, for pinned
+    /// nodes. Throws std::runtime_error with its name if no node is held so. The description must outlive this object.
     void add(const SceneSensor& from, const std::vector<btSoftBody*>& bodies, const btRigidBody* to);
 
     int count() const { return static_cast<int>(m_sensors.size()); }
@@ -35,7 +35,7 @@ public:
     SceneReaction read(const btFemSoftBodySolver& fem, int k) const;
 
 private:
-    /// A body with those of its nodes that are meant.
+    /// A body and the nodes to which the sensor applies.
     struct Part
     {
         const btSoftBody* m_body;
@@ -44,7 +44,7 @@ private:
     struct Sensor
     {
         const SceneSensor* m_from;
-        const btRigidBody* m_to;  // null: of pinned nodes
+        const btRigidBody* m_to;  // null: pinned nodes
         std::vector<Part> m_parts;
         Vec3 m_about;  // [m]
     };

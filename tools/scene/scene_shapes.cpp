@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kSegments = 32, kRings = 8;  // around y, and of a half ball from pole to equator
+constexpr int kSegments = 32, kRings = 8;  // segments around y, and rings of a hemisphere from pole to equator
 
 SurfaceMesh boxSurface(const Vec3& size)
 {
@@ -32,7 +32,7 @@ struct Ring
     double m_radius, m_y;
 };
 
-/// The surface that rings about y span, closed by flat or pointed ends; from the lowest ring up.
+/// A surface of revolution through rings about y, lowest first, closed by flat or pointed ends.
 SurfaceMesh turned(const std::vector<Ring>& rings)
 {
     SurfaceMesh mesh;
@@ -61,7 +61,7 @@ SurfaceMesh turned(const std::vector<Ring>& rings)
     return mesh;
 }
 
-/// A ball, or one cut at its equator with a cylinder of `height` between its halves.
+/// A ball, or a capsule with a cylinder of `height` between hemispheres.
 SurfaceMesh roundSurface(double radius, double height)
 {
     std::vector<Ring> rings;
@@ -71,7 +71,7 @@ SurfaceMesh roundSurface(double radius, double height)
             const double latitude = 0.5 * kPi * (half ? r : r - kRings + 1) / kRings;
             rings.push_back({radius * std::cos(latitude), radius * std::sin(latitude) + (half ? 0.5 : -0.5) * height});
         }
-    if (height <= 0) rings.erase(rings.begin() + kRings);  // the equator, a second time
+    if (height <= 0) rings.erase(rings.begin() + kRings);  // removes the duplicate equator
     rings.insert(rings.begin(), {radius * 1e-3, -radius - 0.5 * height});
     rings.push_back({radius * 1e-3, radius + 0.5 * height});
     return turned(rings);

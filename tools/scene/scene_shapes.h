@@ -12,10 +12,10 @@ class btCollisionShape;
 namespace bullet_fem
 {
 
-/// Bullet's shape, around the body's origin; of a plane through it.
+/// Bullet's shape in the body's frame; a plane passes through the origin.
 std::unique_ptr<btCollisionShape> makeShape(const SceneShape& shape);
 
-/// What is drawn of it, in the same frame; nothing of a plane, which is endless.
+/// Surface of the shape for pictures, in the body's frame; empty for a plane, which is unbounded.
 SurfaceMesh drawnShape(const SceneShape& shape);
 
 }  // namespace bullet_fem

@@ -18,16 +18,16 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kAddedSize = 0.22;       // edge of a box over the scene's radius
-constexpr double kAddedDensity = 500;     // wood's [kg/m3]
-constexpr double kDropHeight = 1;         // gap under what is added, over its own size
-constexpr double kFirstDropHeight = 0.1;  // of the first body of an empty scene
-constexpr double kRoom = 1.6;             // around the first body, which may fall over, over a tight view's distance
-constexpr double kScaleFading = 2;        // the ranges of legends fall back to what is shown in about this time [s]
-constexpr double kBeforeEye = 0.4;        // of the ray's length, where it hits nothing
-constexpr double kLongest = 20, kShortest = 0.005;  // beyond them a mesh's unit is doubtful [m]
+constexpr double kAddedSize = 0.22;                 // edge of an added box over the scene's radius
+constexpr double kAddedDensity = 500;               // of wood [kg/m3]
+constexpr double kDropHeight = 1;                   // gap below an added body over its own size
+constexpr double kFirstDropHeight = 0.1;            // gap for the first body of an empty scene
+constexpr double kRoom = 1.6;                       // over the distance of a tight view: the first body may fall over
+constexpr double kScaleFading = 2;                  // time constant for the decrease of legend ranges [s]
+constexpr double kBeforeEye = 0.4;                  // fraction of the ray's length if it hits nothing
+constexpr double kLongest = 20, kShortest = 0.005;  // sizes outside these limits suggest another unit than metres [m]
 constexpr double kMebibyte = 1 << 20;
-constexpr std::size_t kShownFlags = 6;  // in the panel
+constexpr std::size_t kShownFlags = 6;  // listed in the panel
 
 constexpr Vec3 kAddedColours[] = {
     {0.85, 0.50, 0.22}, {0.88, 0.72, 0.28}, {0.70, 0.30, 0.26}, {0.36, 0.55, 0.36}, {0.40, 0.48, 0.70}};
@@ -40,7 +40,7 @@ std::string formatted(const char* format, Values... values)
     return text;
 }
 
-/// A box along the axes around a baked body's nodes.
+/// Bounding box of a baked body's nodes.
 PictureBounds boundsOf(const BakedBody& body)
 {
     PictureBounds box{body.m_positions.front(), body.m_positions.front()};
@@ -97,14 +97,14 @@ const PictureScene& SceneSimulation::scene()
     m_frames->update(m_drawnTime);
     const SceneSnapshot snapshot = snapshotOf(m_world, *m_frames);
     const double wanted = m_world.description().m_pictures.m_hottest;
-    m_hottest = std::max(m_hottest, hottestOf({snapshot}));  // which is 1 Pa at least
+    m_hottest = std::max(m_hottest, hottestOf({snapshot}));  // at least 1 Pa
     m_painter->setHottest(wanted > 0 ? wanted : m_hottest);
     m_largestForce = std::max(m_largestForce, largestForceOf({snapshot}));
     if (m_largestForce > 0) m_painter->setLargestForce(m_largestForce);
     return m_painter->paint(snapshot);
 }
 
-/// What is drawn, for the bodies that there are now.
+/// Rebuilds frames and painter for the present bodies.
 void SceneSimulation::rebuild()
 {
     m_frames.emplace(m_world);
@@ -113,7 +113,7 @@ void SceneSimulation::rebuild()
     if (m_views > 0) m_painter->widenView(kRoom);
 }
 
-/// How large what is shown is: of soft bodies, if there are any.
+/// Measures the radius of the visible soft bodies; of all bodies if there are none.
 void SceneSimulation::measure()
 {
     PictureScene soft;
@@ -192,8 +192,8 @@ PictureRay SceneSimulation::middleRay() const
     return {camera.m_eye, camera.m_eye + 4 * (camera.m_target - camera.m_eye)};
 }
 
-/// Where the middle of something goes: above what the ray hits, or, where it hits nothing, at the scene's distance
-/// before the eye.
+/// Position for the centre of a new body: above the ray's hit point, or, without a hit, at the scene's distance in
+/// front of the eye.
 Vec3 SceneSimulation::dropPlace(const PictureRay& cursor, double halfHeight, double gap) const
 {
     const btVector3 from = bulletVector(cursor.m_from), to = bulletVector(cursor.m_to);
@@ -247,7 +247,7 @@ void SceneSimulation::startLoading()
     m_loading = std::make_unique<MeshLoading>(std::move(request));
 }
 
-/// The thread may take a while to notice; nobody waits for it.
+/// Cancels without waiting: the thread may take a while to stop.
 void SceneSimulation::cancelLoading()
 {
     if (!m_loading) return;
@@ -328,7 +328,7 @@ std::string SceneSimulation::status() const
                                      : formatted("Kept since %.2f s: %.1f of %.0f MiB", m_history.since(), used, most));
 }
 
-// The latest come first, where there is no room for all.
+// Newest first, because space is limited.
 std::string SceneSimulation::warnings() const
 {
     std::vector<SceneFlag> flags = m_flags.all();

@@ -17,23 +17,22 @@
 namespace bullet_fem
 {
 
-/// A ground and nothing on it, for meshes that are opened.
+/// A scene with a ground only, for meshes opened by the user.
 SceneDescription emptyScene();
 
 struct SceneSimulationSettings
 {
-    /// How files become bodies; its path is not used, and its step and precision are the world's.
+    /// Settings for opened files; its path is ignored, and its step and precision are those of the world.
     MeshRequest m_meshes;
     SceneHistorySettings m_history;
 };
 
-/// A scene in a window: the mouse pulls soft bodies, sliders change materials and gravity, keys add bodies, show forces
-/// and stress, and lead back in time; files that are opened become bodies. It knows no window: all that can be done in
-/// one is done by its functions.
+/// Interactive simulation of a scene: the mouse pulls soft bodies, sliders change materials and gravity, keys add
+/// bodies, show forces and stress, and go back in time; opened files become bodies. It needs no window.
 class SceneSimulation : public ViewerSimulation
 {
 public:
-    /// The world must live longer.
+    /// The world must outlive this object.
     explicit SceneSimulation(SceneWorld& world, SceneSimulationSettings settings = {});
 
     void step() override;
@@ -54,12 +53,12 @@ public:
     ViewerProgress progress() const override;
     std::string message() const override { return m_message; }
 
-    /// Opens a file above the middle of what is seen at the start.
+    /// Opens a file and places the body above the centre of the initial view.
     void open(const std::string& file);
     const SceneHistory& history() const { return m_history; }
 
 private:
-    /// A file that is waiting, or being loaded, and where it goes.
+    /// A file in the queue, with the position for its body.
     struct Waiting
     {
         std::string m_file;
@@ -83,16 +82,16 @@ private:
     SceneHold m_hold;
     SceneHistory m_history;
     SceneFlags m_flags;
-    std::optional<SceneFrames> m_frames;  // both anew when bodies come
+    std::optional<SceneFrames> m_frames;  // rebuilt when bodies are added
     std::optional<ScenePainter> m_painter;
-    std::deque<Waiting> m_waiting;  // the first is being loaded
+    std::deque<Waiting> m_waiting;  // the first one is being loaded
     std::unique_ptr<MeshLoading> m_loading;
-    std::vector<std::unique_ptr<MeshLoading>> m_givenUp;  // that have not noticed yet
+    std::vector<std::unique_ptr<MeshLoading>> m_givenUp;  // cancelled, threads still running
     std::string m_message;
-    double m_size = 0;          // radius of what the scene is about [m]; 0: to be measured
-    double m_drawnTime = 0;     // of SceneFrames::update
-    double m_hottest = 1;       // of the legend [Pa]
-    double m_largestForce = 0;  // of the legend [N]
+    double m_size = 0;          // radius of the scene [m]; 0: not measured yet
+    double m_drawnTime = 0;     // argument of SceneFrames::update
+    double m_hottest = 1;       // upper limit of the stress legend [Pa]
+    double m_largestForce = 0;  // upper limit of the force legend [N]
     int m_views = 0, m_added = 0;
 };
 

@@ -25,7 +25,7 @@ Vec3 downOf(const Vec3& gravity)
     return length > 0 ? (1 / length) * gravity : Vec3{0, -1, 0};
 }
 
-// Of an orthotropic material, whose Young's modulus stands for that of axis 1.
+// Scales all moduli of an orthotropic material; m_youngModulus equals that of axis 1.
 void scaleStiffness(Material& material, double factor)
 {
     for (auto* constants : {&material.m_orthotropic.m_young, &material.m_orthotropic.m_shear})
@@ -91,7 +91,7 @@ void SceneSliders::setMaterials(double Material::*member, double value)
             changed = keepsRatio ? std::clamp(ratio * changed, 1e-3, 1e13) : value;
             if (member == &Material::m_youngModulus) scaleStiffness(region.m_material, changed / before);
             ofRegion.push_back(materialOf(region.m_material));
-            ofRegion.back().m_density = 0;  // masses stay
+            ofRegion.back().m_density = 0;  // keeps node masses
         }
         if (m_materials[i].isUniform())
             m_world.fem().setMaterial(&m_world.soft(i), ofRegion.front());

@@ -8,26 +8,26 @@
 namespace bullet_fem
 {
 
-/// What sliders show and change: they show the first body's material, and change one value of it for all. Regions keep
-/// the ratios of their Young's moduli.
+/// Sliders for materials and gravity. They show the first body's material and change one of its values for all bodies.
+/// Regions keep the ratios of their Young's moduli.
 class SceneSliders
 {
 public:
-    /// The world must live longer.
+    /// The world must outlive this object.
     explicit SceneSliders(SceneWorld& world);
 
     std::vector<ViewerParameter> parameters() const;
     /// Returns whether materials have changed.
     bool set(std::size_t index, double value);
-    /// Soft bodies have come.
+    /// Call after soft bodies were added.
     void update();
 
 private:
     void setMaterials(double Material::*member, double value);
 
     SceneWorld& m_world;
-    std::vector<ElementMaterials> m_materials;  // of the soft bodies, as they are now
-    const Vec3 m_down;                          // of length 1
+    std::vector<ElementMaterials> m_materials;  // present materials of the soft bodies
+    const Vec3 m_down;                          // unit vector
 };
 
 }  // namespace bullet_fem

@@ -15,10 +15,10 @@ struct NearestPlace
 {
     btSoftBody* m_body = nullptr;
     btScalar m_distance = SIMD_INFINITY;  // squared [m2]
-    btFemSpring m_spring;                 // its nodes and weights
+    btFemSpring m_spring;                 // nodes and weights of the point
 };
 
-// Looks whether a body's surface has a point nearer to `place`.
+// Replaces the nearest point if the body's surface has one nearer to `place`.
 void lookNearer(btSoftBody& body, const btVector3& place, NearestPlace& nearestPlace)
 {
     for (int f = 0; f < body.m_faces.size(); ++f)

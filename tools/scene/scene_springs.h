@@ -10,15 +10,15 @@
 namespace bullet_fem
 {
 
-/// The springs of a scene, which come and go.
+/// The springs of a scene, each active for a limited time.
 class SceneSprings
 {
 public:
-    /// Adds one to a body that is FEM, or, of a body in pieces, to the piece whose surface is nearest to its place. The
-    /// description must live longer.
+    /// Adds a spring to an FEM body or, if the body is divided, to the fragment whose surface is nearest to the
+    /// spring's point. The description must outlive this object.
     void add(const std::vector<btSoftBody*>& bodies, const SceneSpring& from);
 
-    /// Holds, moves and lets go what the step that begins at this time [s] needs.
+    /// Attaches, moves and releases springs for the step that begins at this time [s].
     void apply(btFemSoftBodySolver& fem, double time);
 
 private:
@@ -27,8 +27,8 @@ private:
         const SceneSpring* m_from;
         btSoftBody* m_body;
         btFemSpring m_spring;
-        int m_handle;   // 0: it does not hold
-        Vec3 m_target;  // now [m]
+        int m_handle;   // 0: not attached
+        Vec3 m_target;  // present target [m]
     };
     std::vector<Spring> m_springs;
 };

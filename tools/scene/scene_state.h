@@ -11,29 +11,29 @@
 namespace bullet_fem
 {
 
-/// Where a scene's bodies are and how they move.
+/// Positions and velocities of a scene's bodies.
 struct SceneState
 {
-    /// Of a rigid body.
+    /// State of a rigid body.
     struct Rigid
     {
         btTransform m_pose;
         btVector3 m_velocity, m_spin;
         int m_activation = 0;
-        btScalar m_stillFor = 0;  ///< [s]
+        btScalar m_stillFor = 0;  ///< deactivation time [s]
     };
-    long m_steps = 0;  ///< made until then
+    long m_steps = 0;  ///< steps made before this state
     std::vector<unsigned char> m_soft;
     std::vector<Rigid> m_rigid;
 
-    /// Memory that it takes [B].
+    /// Memory used [B].
     std::size_t bytes() const { return sizeof *this + m_soft.capacity() + m_rigid.capacity() * sizeof(Rigid); }
 };
 
 SceneState stateOf(const SceneWorld& world);
 
-/// Puts the bodies back: soft ones to the bit; contacts between rigid ones begin anew. The world must have the bodies
-/// and materials of then. Throws std::invalid_argument if it has not, and changes nothing then.
+/// Restores the state: soft bodies bitwise; contacts between rigid bodies lose their warm start. The world must have
+/// the bodies and materials of that state. Throws std::invalid_argument, without any change, if it has not.
 void restore(const SceneState& state, SceneWorld& world);
 
 }  // namespace bullet_fem

@@ -8,13 +8,13 @@
 namespace bullet_fem
 {
 
-/// What the scene says of a soft body's pieces, of a mesh of this kind.
+/// Reads the division of a soft body into cells; fails for unsuitable kinds of meshes.
 ScenePieces readPieces(const JsonCursor& at, SceneMesh::Kind mesh);
 
-/// The tension at which a soft body splits, of a mesh of this kind.
+/// Reads the tension at which a soft body splits; fails for unsuitable kinds of meshes.
 SceneFracture readFracture(const JsonCursor& at, SceneMesh::Kind mesh);
 
-/// A weld, whose bodies are checked by who knows their names.
+/// Reads a weld. The caller checks the names of its bodies.
 SceneWeld readWeld(const JsonCursor& at);
 
 }  // namespace bullet_fem

@@ -13,22 +13,22 @@
 namespace bullet_fem
 {
 
-/// A soft body of a scene in pieces.
+/// A soft body of a scene after division into fragments.
 struct CutSceneBody
 {
-    std::vector<btFemPiece> m_pieces;                   ///< as they were cut
-    std::vector<std::unique_ptr<btSoftBody>> m_bodies;  ///< theirs, until the world takes them
+    std::vector<btFemPiece> m_pieces;                   ///< result of the cut
+    std::vector<std::unique_ptr<btSoftBody>> m_bodies;  ///< bodies of m_pieces, until the world takes ownership
 };
 
-/// Cuts a body, which stands where it starts, into its scene's Voronoi cells. Throws std::invalid_argument on more
-/// cells than tetrahedra.
+/// Cuts a body at its initial pose into Voronoi cells. Throws std::invalid_argument if there are more cells than
+/// tetrahedra.
 CutSceneBody cutBody(const btSoftBody& whole, const ScenePieces& pieces);
 
-/// Welds the pieces, which must be FEM, to each other. Throws what btFemWelds::weldPieces throws.
+/// Welds the fragments, which must be FEM, to each other. Throws the exceptions of btFemWelds::weldPieces.
 void weldPieces(btFemSoftBodySolver& fem, const std::vector<btFemPiece>& pieces, const SceneWeldStrength& strength);
 
-/// Welds every body of `a` to every one of `b` with which it has faces in common. Throws std::runtime_error, which
-/// names both, where none has one.
+/// Welds each body of `a` to each body of `b` that shares faces with it. Throws std::runtime_error with both names if
+/// no pair does.
 void addWeld(btFemSoftBodySolver& fem, const std::vector<btSoftBody*>& a, const std::vector<btSoftBody*>& b,
              const SceneWeld& from);
 

@@ -50,7 +50,7 @@ std::vector<int> nodesIn(const btSoftBody& body, const SceneBox& box)
     return nodes;
 }
 
-// Puts it where it starts, with what its scene says of it besides the material.
+// Sets the initial pose and all properties other than the material.
 void place(btSoftBody& body, const SceneSoftBody& from)
 {
     body.transform(transformOf(from.m_pose));
@@ -72,7 +72,7 @@ bool moves(const SceneVectorCurve& velocity)
                        [](const SceneVectorCurve::Point& point) { return norm(point.m_value) > 0; });
 }
 
-// Calls what makes a body; what goes wrong then names it.
+// Calls `make` and adds the body's name to exceptions.
 template <class Make>
 void named(const std::string& name, const Make& make)
 {
@@ -94,7 +94,7 @@ SceneWorld::SceneWorld(const SceneDescription& description)
       m_rigidSolver(rigidSolver(description.m_coupled, m_fem)),
       m_world(&m_dispatcher, &m_broadphase, m_rigidSolver.get(), &m_configuration, &m_fem)
 {
-    m_configuration.setPlaneConvexMultipointIterations();  // else boxes touch a plane in one point, and sink into it
+    m_configuration.setPlaneConvexMultipointIterations();  // otherwise boxes get one contact point and penetrate
     m_world.setGravity(bulletVector(description.m_gravity));
     m_world.getWorldInfo().m_gravity = bulletVector(description.m_gravity);
     for (const SceneRigidBody& body : m_description.m_rigidBodies) addRigid(body);
@@ -138,7 +138,7 @@ void SceneWorld::add(const SceneSoftBody& body, const BakedBody& baked)
     {
         named(added.m_name, [&] { addSoft(added, makeBaked(baked)); });
     }
-    catch (...)  // as if nothing had come
+    catch (...)  // undoes the addition
     {
         m_materials.resize(count);
         m_regionLabels.resize(count);
@@ -151,7 +151,7 @@ void SceneWorld::add(const SceneSoftBody& body, const BakedBody& baked)
 void SceneWorld::setGravity(const Vec3& gravity)
 {
     m_description.m_gravity = gravity;
-    m_world.setGravity(bulletVector(gravity));  // of rigid bodies, too
+    m_world.setGravity(bulletVector(gravity));  // also sets that of rigid bodies
     m_world.getWorldInfo().m_gravity = bulletVector(gravity);
     for (const auto& body : m_softBodies) body->activate();
     for (const auto& body : m_rigidBodies) body->activate();
@@ -167,15 +167,15 @@ void SceneWorld::step()
 {
     m_forces.apply(time(), m_description.m_step);
     m_actuators.apply(m_fem, time());
-    m_springs.apply(m_fem, time() + 1e-6 * m_description.m_step);  // steps that begin at its end are after it
+    m_springs.apply(m_fem, time() + 1e-6 * m_description.m_step);  // a step that begins at a spring's end is excluded
     m_joints.apply(time() + m_description.m_step / 2);
     moveKinematic(time() + m_description.m_step / 2);
-    m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of just this size
+    m_world.stepSimulation(btScalar(m_description.m_step), 0);  // 0: one step of exactly this size
     m_fractures.update(m_fem, m_forces);
     ++m_steps;
 }
 
-// Bullet takes a kinematic body's velocity from where it is put.
+// Bullet derives a kinematic body's velocity from its change of pose.
 void SceneWorld::moveKinematic(double middle)
 {
     for (int i = 0; i < rigidCount(); ++i)

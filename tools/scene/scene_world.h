@@ -26,13 +26,13 @@ namespace bullet_fem
 
 struct BakedBody;
 
-/// A scene as Bullet's world, in motion. It owns all that it makes.
+/// A scene as a running Bullet world. It owns all objects that it creates.
 class SceneWorld
 {
 public:
-    /// Makes bodies, joints, anchors and welds, and factors. A body in pieces becomes as many soft bodies, also in
-    /// description(). Throws std::runtime_error, or std::invalid_argument, that begins
-    /// with the body's name: a file that is bad, a mesh or material that no body can have, a pin, anchor or force that
+    /// Creates and factors bodies, then joints, anchors and welds. A divided body becomes several soft bodies, also in
+    /// description(). Throws std::runtime_error or std::invalid_argument with the body's name: an invalid file, an
+    /// unsuitable mesh or material, a pin, anchor or force without nodes.
     /// holds no node.
     explicit SceneWorld(const SceneDescription& description);
     ~SceneWorld();
@@ -42,19 +42,19 @@ public:
     /// Advances by the description's step.
     void step();
     double time() const { return double(m_steps) * m_description.m_step; }  ///< [s]
-    long steps() const { return m_steps; }                                  ///< that were made
+    long steps() const { return m_steps; }                                  ///< number of steps made
 
-    /// @name Changes of a scene in motion. They are between steps, and the description tells what is there now.
+    /// @name Changes between steps; the description is kept up to date.
     /// @{
 
-    /// Adds a body after the others.
+    /// Appends a rigid body.
     void add(const SceneRigidBody& body);
-    /// The same of a body that was made ready: it has the mesh, material and pins of `baked`. Throws like the
-    /// constructor, and adds nothing then.
+    /// Appends a soft body with mesh, material and pins from `baked`. Throws as the constructor does, without any
+    /// change.
     void add(const SceneSoftBody& body, const BakedBody& baked);
     void setGravity(const Vec3& gravity);  ///< [m/s2]
     void setPictures(const ScenePictures& pictures) { m_description.m_pictures = pictures; }
-    /// Sets the clock, for who restores a state of then: how many steps were made, >= 0.
+    /// Sets the clock for a restored state: number of steps made, >= 0.
     void setSteps(long steps);
     /// @}
 
@@ -64,19 +64,19 @@ public:
     const btFemSoftBodySolver& fem() const { return m_fem; }
     int softCount() const { return static_cast<int>(m_softBodies.size()); }
     int rigidCount() const { return static_cast<int>(m_rigidBodies.size()); }
-    /// In the description's order.
+    /// Soft body by its index in the description.
     btSoftBody& soft(int i) { return *m_softBodies[i]; }
     const btSoftBody& soft(int i) const { return *m_softBodies[i]; }
     btRigidBody& rigid(int i) { return *m_rigidBodies[i]; }
     const btRigidBody& rigid(int i) const { return *m_rigidBodies[i]; }
-    const ElementMaterials& materials(int i) const { return m_materials[i]; }  ///< that a soft body started with
-    /// Of a soft body's tetrahedra, as its file has them; empty if it has none.
+    const ElementMaterials& materials(int i) const { return m_materials[i]; }  ///< initial materials of a soft body
+    /// Region labels of a soft body's tetrahedra from its file; empty if it has none.
     const std::vector<int>& regionLabels(int i) const { return m_regionLabels[i]; }
-    const SceneFractures& fractures() const { return m_fractures; }  ///< what has split
+    const SceneFractures& fractures() const { return m_fractures; }  ///< splits so far
     const SceneSensors& sensors() const { return m_sensors; }
 
 private:
-    /// A body that was cut.
+    /// A divided body.
     struct CutBody
     {
         std::string m_name;
@@ -96,20 +96,20 @@ private:
     void addForce(const SceneForce& from);
     void moveKinematic(double middle);
     btRigidBody& rigidCalled(const std::string& name);
-    /// The soft body that the scene calls so, or its pieces.
+    /// The soft body with that name, or its fragments.
     std::vector<btSoftBody*> softCalled(const std::string& name);
 
-    SceneDescription m_description;  // of what is there now
+    SceneDescription m_description;  // kept up to date
     btSoftBodyRigidBodyCollisionConfiguration m_configuration;
     btCollisionDispatcher m_dispatcher{&m_configuration};
     btDbvtBroadphase m_broadphase;
-    // Before the world, which looks at them when it goes, also where the constructor throws.
+    // Declared before the world, whose destructor accesses the shapes, even after an exception in the constructor.
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<std::unique_ptr<btRigidBody>> m_rigidBodies;
     SceneJoints m_joints;
     std::vector<std::unique_ptr<btSoftBody>> m_softBodies;
     std::vector<ElementMaterials> m_materials;     // of the soft bodies
-    std::vector<std::vector<int>> m_regionLabels;  // likewise
+    std::vector<std::vector<int>> m_regionLabels;  // of the soft bodies
     btFemSoftBodySolver m_fem;
     std::unique_ptr<btConstraintSolver> m_rigidSolver;
     btSoftRigidDynamicsWorld m_world;

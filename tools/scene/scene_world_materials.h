@@ -9,11 +9,11 @@
 namespace bullet_fem
 {
 
-/// A scene's material as the plug-in takes it.
+/// Converts a scene's material to the plug-in's.
 btFemMaterial materialOf(const Material& material);
 
-/// One whose axes turn with a body that is placed: a scene's are those of the mesh, and the plug-in's those of the rest
-/// shape, which is where the body is placed.
+/// Rotates material axes with a body's pose: a scene gives them in the mesh frame, the plug-in expects them in the rest
+/// shape's frame, which is that of the placed body.
 Material turned(Material material, const btMatrix3x3& turn);
 
 }  // namespace bullet_fem

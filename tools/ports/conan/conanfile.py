@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
-"""Conan 2: conan create tools/ports/conan, in the source tree. Bullet's recipe has one precision a package; the option
-double_precision chooses it."""
+"""Conan 2: conan create tools/ports/conan, in the source tree. Bullet's recipe has one precision per package; the option
+double_precision selects it."""
 import os
 
 from conan import ConanFile
@@ -66,6 +66,6 @@ class BulletFemRecipe(ConanFile):
         CMake(self).install()
 
     def package_info(self):
-        # BulletFEM's own configuration has all targets.
+        # BulletFEM's own configuration defines all targets.
         self.cpp_info.builddirs.append(os.path.join("lib", "cmake", "BulletFEM"))
         self.cpp_info.set_property("cmake_find_mode", "none")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Zlib
-# An overlay port: vcpkg install bulletfem --overlay-ports=tools/ports/vcpkg. It builds the tree that it stands in. vcpkg's
-# own Bullet has one precision, float.
+# An overlay port: vcpkg install bulletfem --overlay-ports=tools/ports/vcpkg. It builds the source tree that contains
+# it. vcpkg's own Bullet has single precision only.
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../../.." ABSOLUTE)
 vcpkg_check_linkage(ONLY_STATIC_LIBRARY)
 vcpkg_check_features(OUT_FEATURE_OPTIONS FEATURE_OPTIONS FEATURES
