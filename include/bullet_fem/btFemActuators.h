@@ -25,7 +25,7 @@ struct BULLETFEM_API btFemChamber
     /// Absolute pressure times volume of a sealed chamber [J], in [0, 1e12], constant while the volume changes
     /// (isothermal ideal gas: n R T).
     btScalar m_gas = 0;
-    /// absolute pressure outside [Pa], in [0, 1e8]; default: the standard atmosphere
+    /// Absolute pressure outside [Pa], in [0, 1e8]; default: the standard atmosphere.
     btScalar m_outsidePressure = btScalar(101325);
 
     /// Finds the cavities of a body: its closed inner surfaces, in the order of their first triangle in the boundary,
@@ -49,7 +49,7 @@ struct btFemCablePoint
 /// tension only.
 struct BULLETFEM_API btFemCable
 {
-    /// at least 2, in one connected component of the body; the cable ends are fixed to the first and the last
+    /// At least 2, in one connected component of the body; the cable ends are fixed to the first and the last.
     std::vector<btFemCablePoint> m_points;
     btScalar m_tension = 0;     ///< constant tension [N], in [0, 1e9]; used if m_stiffness is 0
     btScalar m_stiffness = 0;   ///< stiffness of an elastic cable [N/m], in [0, 1e12]; 0: constant m_tension

@@ -19,8 +19,8 @@ struct BULLETFEM_API btFemSpring
     btVector3 m_target{0, 0, 0};        ///< target of the point, in the world [m]
     btScalar m_stiffness = 1000;        ///< k [N/m], in [0, 1e12]; practically rigid beyond some mass / step^2
     btScalar m_damping = 0;             ///< d [N s/m], in [0, 1e12], of the point's velocity in the world
-    /// maximum force [N], in [0, 1e12]; 0: no limit. Some 20 times the weight keeps a jumping target from distorting
-    /// the body violently
+    /// Maximum force [N], in [0, 1e12]; 0: no limit. Some 20 times the weight keeps a jumping target from distorting
+    /// the body violently.
     btScalar m_maxForce = 0;
 
     /// A spring at the point of a ray's hit, with the target there. All other values are defaults.
