@@ -16,10 +16,9 @@ class btFemSoftBodySolver;
 
 /// Bullet's rigid-body solver, with contacts and joints of FEM bodies swept together with those between rigid bodies
 /// (monolithic coupling), so that stacks of rigid on soft on rigid bodies converge within a step, come to rest and
-/// sleep. Give it to the world's constructor in place of btSequentialImpulseConstraintSolver, with the same
-/// btFemSoftBodySolver as soft body solver. Islands without FEM bodies give bitwise equal results. In islands with FEM
-/// bodies Bullet's rigid rows are fully warm-started, with friction in two fixed directions, and get as many sweeps as
-/// the soft rows.
+/// sleep. Give it to the world's constructor in place of btSequentialImpulseConstraintSolver, with the world's
+/// btFemSoftBodySolver. Islands without FEM bodies give bitwise equal results. In islands with FEM bodies Bullet's
+/// rigid rows are fully warm-started, with friction in two fixed directions, and get as many sweeps as the soft rows.
 ///
 /// Without it (staggered coupling) rigid bodies receive the impulses of a step's soft contacts after they have moved.
 /// Momentum is still exact, and so are static reactions, but a rigid body at rest on a soft one reads a velocity of g

@@ -46,10 +46,10 @@ struct BULLETFEM_API btFemHelpers
                                          std::string* why = nullptr);
 
     /// A body from the first `<deformable>` of a URDF file, as pybullet loads soft bodies: tetrahedral mesh, mass,
-    /// friction, margin, gravity factor, and the surface to draw as m_renderNodes. If the file gives moduli, `material`
-    /// gets their Young's modulus and Poisson's ratio, the file's damping, and density 0, which keeps the file's mass:
-    /// pass it to setMaterial. `scale` [-], > 0, multiplies positions. The body stands in the file's coordinates; place
-    /// it with translate and rotate.
+    /// friction, margin, gravity factor, and the surface to draw as m_renderNodes. `material` gets density 0, which
+    /// keeps the file's mass, and, if the file gives moduli, their Young's modulus and Poisson's ratio and the file's
+    /// damping; pass it to setMaterial. `scale` [-], > 0, multiplies positions. The body stands in the file's
+    /// coordinates; place it with translate and rotate.
     static btSoftBody* createFromUrdf(btSoftBodyWorldInfo& worldInfo, const char* path, btFemMaterial& material,
                                       btScalar scale = btScalar(1), std::string* why = nullptr);
 

@@ -43,7 +43,7 @@ struct BULLETFEM_API btFemOrthotropic
     btScalar m_poisson[3] = {btScalar(0.3), btScalar(0.3), btScalar(0.3)};  ///< nu_12, nu_13, nu_23 [-]
     btScalar m_shear[3] = {btScalar(4e5), btScalar(4e5), btScalar(4e5)};    ///< G_12, G_13, G_23 [Pa], in (0, 1e13]
     /// Axis 1, in the axes of the rest shape, that is of the world as the body lies when first stepped or prepared; it
-    /// then rotates with the body. Of any nonzero length.
+    /// then rotates with the body. Any nonzero length.
     btVector3 m_along = btVector3(1, 0, 0);
     /// Its component perpendicular to axis 1 is axis 2; not parallel to m_along. Axis 3 is their cross product.
     btVector3 m_across = btVector3(0, 1, 0);

@@ -17,10 +17,9 @@ class btFemSoftBodySolver;
 /// The counterpart of btFemConstraintSolver for btSoftMultiBodyDynamicsWorld: Bullet's solver of rigid bodies and
 /// multibodies, with contacts and joints of FEM bodies swept together with those between rigid bodies and links and
 /// with motors, limits and loops of multibodies. A gripper made of links presses with the force of its motors within
-/// the step. Give it to the world's constructor in place of btMultiBodyConstraintSolver, with the same
-/// btFemSoftBodySolver as soft body solver. Islands without FEM bodies give bitwise equal results. In islands with FEM
-/// bodies Bullet's rows are fully warm-started, with friction in two fixed directions, and get as many sweeps as the
-/// soft rows.
+/// the step. Give it to the world's constructor in place of btMultiBodyConstraintSolver, with the world's
+/// btFemSoftBodySolver. Islands without FEM bodies give bitwise equal results. In islands with FEM bodies Bullet's rows
+/// are fully warm-started, with friction in two fixed directions, and get as many sweeps as the soft rows.
 class BULLETFEM_API btFemMultiBodyConstraintSolver : public btMultiBodyConstraintSolver
 {
 public:

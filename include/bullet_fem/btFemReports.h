@@ -87,7 +87,7 @@ enum btFemFlags
     /// has .118). They cost iterations, and the solve may miss its tolerance. Take a better mesh, or a cage.
     BT_FEM_SLIVERS = 1 << 24,
     /// btFemConstraintSolver solved the body after Bullet's rigid solver (staggered), as without that solver: a body of
-    /// its group is joined to an object that Bullet did not pass in the same call, because it sleeps or there are more
+    /// its group is joined to an object that Bullet did not pass in that call, because it sleeps or there are more
     /// contacts than btContactSolverInfo::m_minimumSolverBatchSize, or to a multibody's link.
     BT_FEM_SOLVED_AFTER = 1 << 25,
     /// The body should split (see btFemFracture), but could not (see m_message). It lost its strength and stays whole:

@@ -22,7 +22,7 @@ struct btFemPiece
     btSoftBody* m_body = nullptr;  ///< owned by the caller, who adds it to the world and deletes it
     int m_label = 0;               ///< label of its tetrahedra
     std::vector<int> m_tets;       ///< its tetrahedra in the cut body, ascending; the fragment has them in this order
-    std::vector<int> m_nodes;      ///< likewise
+    std::vector<int> m_nodes;      ///< its nodes in the cut body, ascending; the fragment has them in this order
 };
 
 /// Cuts bodies into fragments.

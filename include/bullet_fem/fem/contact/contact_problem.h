@@ -235,18 +235,20 @@ struct TorsionalFriction
 /// reuse. Nothing is checked: indices must be in range, and all numbers finite.
 struct BULLETFEM_API ContactProblem
 {
-    std::vector<ContactBody> m_bodies;          ///< each once
-    std::vector<RigidProxy> m_rigidProxies;     ///< each once
-    std::vector<RigidResponse> m_responses;     ///< of the rigid proxies that have some
-    std::vector<ContactPoint> m_contacts;       ///< between them; their order decides
-    std::vector<Joint> m_joints;                ///< likewise
-    std::vector<RigidContact> m_rigidContacts;  ///< likewise
-    std::vector<TorsionalFriction> m_torsions;  ///< likewise
-    std::vector<int> m_torsionOf;      ///< per contact: the one it presses on, or -1; of those beyond its end: none
-    std::vector<int> m_handleNodes;    ///< nodes of soft ends of joints and patches, one end's after another
-    std::vector<Mat3> m_handleBlocks;  ///< one a handle node [-]
+    std::vector<ContactBody> m_bodies;          ///< each listed once
+    std::vector<RigidProxy> m_rigidProxies;     ///< each listed once
+    std::vector<RigidResponse> m_responses;     ///< responses of articulated rigid proxies
+    std::vector<ContactPoint> m_contacts;       ///< contacts; the result depends on their order
+    std::vector<Joint> m_joints;                ///< joints; the result depends on their order
+    std::vector<RigidContact> m_rigidContacts;  ///< contacts between rigid proxies; the result depends on their order
+    std::vector<TorsionalFriction> m_torsions;  ///< torsional frictions; the result depends on their order
+    /// Per contact: index of the torsional friction that it presses on, or -1; contacts beyond the array's end have
+    /// none.
+    std::vector<int> m_torsionOf;
+    std::vector<int> m_handleNodes;    ///< nodes of soft sides of joints and of patches, concatenated
+    std::vector<Mat3> m_handleBlocks;  ///< one per entry of m_handleNodes [-]
 
-    /// Empties all; nothing is freed.
+    /// Empties all vectors; keeps their memory.
     void clear();
 };
 
