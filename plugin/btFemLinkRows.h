@@ -7,7 +7,7 @@
 
 #include "BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h"
 
-/// The rows of Bullet's solvers of multibodies: those between rigid bodies, then those of links. A view.
+/// View of the rows of Bullet's multibody solvers: those between rigid bodies, then those of links.
 struct btFemLinkRows
 {
     btAlignedObjectArray<btSolverBody>& m_pool;
@@ -15,10 +15,11 @@ struct btFemLinkRows
     std::array<btMultiBodyConstraintArray*, 5> m_links;
     btMultiBodyJacobianData& m_data;
 
-    /// Writes their impulses [N s].
+    /// Copies the impulses of all rows [N s].
     void note(std::vector<btScalar>& noted) const;
 
-    /// Gives them these impulses; the velocities of solver bodies and multibodies follow, as in Bullet's own rows.
+    /// Sets the impulses of all rows [N s]; the velocities of solver bodies and multibodies follow, as in Bullet's own
+    /// rows.
     void restoreBest(const std::vector<btScalar>& noted) const;
 
 private:

@@ -131,9 +131,9 @@ struct btFemStepReport
     bool m_bakedFactor = false;          ///< its factor was read from a file, see btFemSoftBodySolver::useBaked
     btScalar m_freeMotionMs = 0;  ///< wall time of forces, rotations and the free solve [ms]; an equal share of a batch
     btScalar m_contactMs = 0;     ///< wall time of contacts and joints of all bodies of its contact group [ms]
-    /// m_freeMotionMs + m_contactMs exceeded the step in more than half of the recent steps: the body, or its contact
-    /// group, is too large for real time. Use coarser meshes, less detail or more threads. Depends on the clock, and is
-    /// therefore no bit of m_flags, which are deterministic.
+    /// m_freeMotionMs + m_contactMs exceeded the step persistently, in at least ten more of the recent steps than not:
+    /// the body, or its contact group, is too large for real time. Use coarser meshes, less detail or more threads.
+    /// Depends on the clock, and is therefore no bit of m_flags, which are deterministic.
     bool m_tooSlow = false;
 };
 

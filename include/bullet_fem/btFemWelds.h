@@ -30,7 +30,8 @@ struct BULLETFEM_API btFemPieces
 {
     /// Labels for cut(): every tetrahedron gets the index of the nearest of `cells` random points, which are
     /// distributed over the rest shape by `randomSeed`, equally on every machine. `cells` is in [1, number of
-    /// tetrahedra]; if it is large, some points may have no tetrahedron. Throws std::invalid_argument (see
+    /// tetrahedra]; if it is large, some points may have no tetrahedron. Tetrahedra that are not connected to the
+    /// largest component of their label take the label of a neighbour. Throws std::invalid_argument (see
     /// btFemSoftBodySolver about `why`) on a number out of range, or a body without usable tetrahedra. Allocates.
     static bool voronoiLabels(const btSoftBody* body, int cells, unsigned randomSeed, std::vector<int>& labels,
                               std::string* why = nullptr);

@@ -28,7 +28,7 @@ struct VtuArrayEncoding
     std::uint64_t numbersLeft = 0;  ///< numbers that may still be decoded
 };
 
-/// An attribute's value, or `otherwise` if the element does not have it.
+/// An attribute's value, shortened and printable, or `otherwise` if the element does not have it.
 std::string vtuAttribute(const tinyxml2::XMLElement& element, const char* name, const char* otherwise = "");
 
 /// The numbers of a <DataArray>. Throws std::runtime_error with the element's line.

@@ -16,8 +16,8 @@ namespace
 
 using tinyxml2::XMLElement;
 
-// Maximum ratio of decoded numbers to bytes of the file: genuine files have one number per byte or two, and some ten in
-// grids that compress well; small zlib files, or pieces that share arrays, could otherwise exhaust the memory.
+// Limit of decoded numbers, in total and per byte of the file: genuine files have one number per byte or two, and some
+// ten in grids that compress well; small zlib files, or pieces that share arrays, could otherwise exhaust the memory.
 constexpr std::uint64_t kNumbers = 1000000, kNumbersPerByte = 12;
 
 [[noreturn]] void failAt(const XMLElement& element, const std::string& cause)

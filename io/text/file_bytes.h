@@ -19,7 +19,7 @@ BULLETFEM_API void checkIsFile(const std::string& path);
 /// All bytes of a regular file. Throws std::runtime_error with the cause, without the path.
 BULLETFEM_API std::string readBytes(const std::string& path);
 
-/// The first bytes of a file, at most `count`; none if it cannot be read.
+/// The first bytes of a file, at most `most`; none if it cannot be read.
 std::string readHead(const std::string& path, std::size_t most);
 
 }  // namespace bullet_fem
