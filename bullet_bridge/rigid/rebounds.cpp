@@ -101,7 +101,8 @@ int componentOf(const FemSoftBody& fem, const SurfacePoint& point)
 
 }  // namespace
 
-// Collects contact patches by pair of bodies. Of two soft bodies, the one of smaller broadphase id keeps the impact.
+// Collects contact patches by pair of bodies. Between two soft bodies, the one of smaller broadphase id keeps the
+// impact.
 void Rebounds::gather(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies)
 {
     m_patches.clear();

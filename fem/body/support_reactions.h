@@ -97,7 +97,7 @@ private:
                                           // missing to the balance, about m_origin [N s], [N m s]
         double m_mass = 0, m_spread = 0;  // of all nodes [kg], and times their squared distances to m_origin [kg m2]
         double m_fixedMass = 0;           // of the fixed ones [kg]
-        Mat3 m_inertia;                   // likewise about m_origin [kg m2]
+        Mat3 m_inertia;                   // angular momentum about m_origin [kg m2]
         Vec3 m_shift, m_turn;             // rigid motion of these that has what is missing [m/s], [rad/s]
     };
     void makeRoom(const BodyModel& model, std::size_t fixed);

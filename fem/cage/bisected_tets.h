@@ -22,9 +22,9 @@ struct BisectedTet
 };
 
 /// Cubes of a lattice, each split into six tets around the diagonal from its corner with even coordinates to the one
-/// with odd coordinates [Tucker 1945], and bisected on demand and wherever a hanging node would arise. Whatever the
-/// demand, tets have three shapes up to scale, and after three bisections they are those of a lattice of half the size:
-/// mean ratios .7559, .7619 and .7999.
+/// with odd coordinates [Tucker 1945], and bisected on demand and wherever a hanging node would arise. Tets always have
+/// three shapes up to scale, and after three bisections they are those of a lattice of half the size: mean ratios
+/// .7559, .7619 and .7999.
 class BisectedTets
 {
 public:
