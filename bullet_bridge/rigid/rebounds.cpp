@@ -248,7 +248,7 @@ void Rebounds::give(const std::vector<FemSoftBody*>& bodies, WorldObjects& world
     rigid.clear();
 }
 
-// Finds the other side of an impact. Empty if it is gone or asleep.
+// Finds the other side of an impact. Empty if it no longer exists or sleeps.
 Rebounds::Other Rebounds::otherOf(const FemSoftBody& fem, const Impact& impact, const std::vector<FemSoftBody*>& bodies,
                                   WorldObjects& world) const
 {

@@ -70,9 +70,9 @@ struct ElementBlocks
 
     int blockCount() const { return static_cast<int>(m_blocks.size()); }
     bool hasPatches() const { return !m_groups.empty(); }
-    /// Number of pieces that kernels divide into ranges: blocks, or groups of blocks with patches.
+    /// Number of work units that kernels divide into ranges: blocks, or groups of blocks with patches.
     int workUnitCount() const { return hasPatches() ? static_cast<int>(m_groups.size()) : blockCount(); }
-    /// Number of pieces that hold about kBlocksPerChunk blocks, >= 1.
+    /// Number of work units that hold about kBlocksPerChunk blocks, >= 1.
     int workUnitsPerChunk() const;
 
     std::vector<ElementBlock<Real>> m_blocks;

@@ -59,8 +59,8 @@ struct ElementPass
     StressBlock<Real>* m_cofactor = nullptr;
 };
 
-/// Runs the pass over pieces (ElementBlocks::workUnitCount()), on the widest vectors that the processor has. Bitwise
-/// independent of the division into ranges. Never allocates; thread-safe on distinct pieces.
+/// Runs the pass over work units (ElementBlocks::workUnitCount()), on the widest vectors that the processor has.
+/// Bitwise independent of the division into ranges. Never allocates; thread-safe on distinct work units.
 template <class Real>
 void runElementPass(const ElementPass<Real>& pass, Range pieces);
 

@@ -22,8 +22,8 @@ struct ElementProduct
     const StressBlock<Real>* m_cofactor = nullptr;  ///< C', one a block, from an ElementPass; null for none
 };
 
-/// Runs the product over pieces (ElementBlocks::workUnitCount()), on the widest vectors that the processor has. Bitwise
-/// independent of the division into ranges. Never allocates; thread-safe on distinct pieces.
+/// Runs the product over work units (ElementBlocks::workUnitCount()), on the widest vectors that the processor has.
+/// Bitwise independent of the division into ranges. Never allocates; thread-safe on distinct work units.
 template <class Real>
 void runElementProduct(const ElementProduct<Real>& product, Range pieces);
 

@@ -99,13 +99,14 @@ struct SmoothedProduct
     const SmoothedBlock<Real>* m_warped;     ///< output of the pass
 };
 
-// All run over ranges of pieces (ElementBlocks::workUnitCount()), of domains or of blocks, on the widest vectors that
-// the processor has. Bitwise independent of the division into ranges. Never allocate; thread-safe on distinct ranges.
+// All run over ranges of work units (ElementBlocks::workUnitCount()), of domains or of blocks, on the widest vectors
+// that the processor has. Bitwise independent of the division into ranges. Never allocate; thread-safe on distinct
+// ranges.
 
-/// Rotations and strains of a range of pieces.
+/// Rotations and strains of a range of work units.
 template <class Real>
 void findStrains(const SmoothedPass<Real>& pass, Range pieces);
-/// Strains of the vector p, of a range of pieces.
+/// Strains of the vector p, of a range of work units.
 template <class Real>
 void findStrains(const SmoothedProduct<Real>& product, Range pieces);
 /// Means of a range of domains.

@@ -26,7 +26,7 @@ enum class btFemHold
 /// multibody's link leads the node without receiving its reaction.
 struct btFemAnchorReport
 {
-    btFemHold m_kind = btFemHold::anchor;  ///< what it is
+    btFemHold m_kind = btFemHold::anchor;  ///< kind of the constraint
     int m_node = -1;                       ///< node that is held; -1 for a cluster or a point between nodes
     /// handle of an attachment or spring (negative for a mouse picking force); 0 for other kinds
     int m_attachment = 0;

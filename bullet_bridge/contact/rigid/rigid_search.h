@@ -38,7 +38,7 @@ private:
     struct Overlap
     {
         int m_first, m_count;  // range of m_touched
-        bool m_alone;          // a shape must be asked on one thread only
+        bool m_alone;          // a shape must be queried on one thread only
     };
     struct ShapeRange
     {
