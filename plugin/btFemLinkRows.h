@@ -7,7 +7,7 @@
 
 #include "BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h"
 
-/// View of the rows of Bullet's multibody solvers: those between rigid bodies, then those of links.
+/// The rows of Bullet's solvers of multibodies: those between rigid bodies, then those of links. A view.
 struct btFemLinkRows
 {
     btAlignedObjectArray<btSolverBody>& m_pool;
@@ -15,11 +15,10 @@ struct btFemLinkRows
     std::array<btMultiBodyConstraintArray*, 5> m_links;
     btMultiBodyJacobianData& m_data;
 
-    /// Copies the impulses of all rows [N s].
+    /// Writes their impulses [N s].
     void note(std::vector<btScalar>& noted) const;
 
-    /// Sets the impulses of all rows [N s]; the velocities of solver bodies and multibodies follow, as in Bullet's own
-    /// rows.
+    /// Gives them these impulses; the velocities of solver bodies and multibodies follow, as in Bullet's own rows.
     void restoreBest(const std::vector<btScalar>& noted) const;
 
 private:

@@ -10,8 +10,8 @@
 #include "plugin/record/btFemCoupling.h"
 #include "plugin/stages/btFemContactGroup.h"
 
-/// Settings of Bullet's rigid solver for islands with FEM bodies: full warm start, friction included. Load spreads
-/// slowly through soft bodies, so the rigid rows must not start from zero in every step.
+/// Settings of Bullet's rigid solver for islands with FEM bodies. What rests starts from the last step's impulses,
+/// friction included: soft bodies carry far, and the rigid rows must not begin anew every time.
 inline btContactSolverInfo settingsWithFem(const btContactSolverInfo& info)
 {
     btContactSolverInfo settings = info;
@@ -21,9 +21,9 @@ inline btContactSolverInfo settingsWithFem(const btContactSolverInfo& info)
     return settings;
 }
 
-/// Solves a batch of islands by Bullet's own solve(batch, settings). A batch without FEM bodies is solved at once.
-/// Otherwise the islands without FEM bodies are solved separately first, because Bullet combines small islands, then
-/// those with FEM bodies, while `group` holds their contacts. `linksToo`: Bullet's rows include those of multibodies.
+/// Solves a batch as the world hands it over: by solve(batch, settings), Bullet's own, at once where it has no FEM
+/// bodies. Else its islands without them as if they were alone, for Bullet hands small ones over together, and then
+/// those with them, while `group` has their contacts. `linksToo`: Bullet's rows include those of multibodies.
 template <class Solve>
 void solveBatch(btFemSoftBodySolver& fem, btFemIslands& islands, const btFemBatch& all, const btContactSolverInfo& info,
                 bool linksToo, btFemContactGroup*& group, const Solve& solve)
@@ -53,8 +53,8 @@ struct btFemRigidRows
     const RestoreBest& restoreBest;
 };
 
-/// Outer iterations of sweeps over all rows, the rigid ones first, then the soft ones; each ends with the soft bodies'
-/// true response. The group has begun. `rows` are Bullet's:
+/// Rounds of sweeps over all rows, the rigid ones first, then the soft ones; after every round the soft bodies' true
+/// response. The group has begun. `rows` are Bullet's:
 ///     sweep(iteration)   sweeps them once; the square of the largest change of a row's velocity
 ///     note(), restoreBest()   notes their impulses, and returns to those noted last
 template <class Rows>

@@ -51,5 +51,5 @@ private:
     btFemSoftBodySolver* m_fem;
     btFemContactGroup* m_group = nullptr;  // FEM bodies of the islands being solved; null if there are none
     std::unique_ptr<btFemIslands> m_islands;
-    std::vector<btScalar> m_noted;  // impulses of Bullet's rows in the best outer iteration so far [N s]
+    std::vector<btScalar> m_noted;  // impulses of Bullet's rows in the best round so far [N s]
 };
