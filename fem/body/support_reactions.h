@@ -47,7 +47,7 @@ public:
     /// The velocities that those iterations end with, which are v0 then; of any body [m/s].
     void noteSolved(const std::vector<Vec3>& velocity);
 
-    /// Adds impulses to b_p, one a node [N s].
+    /// Adds impulses to b_p, one per node [N s].
     void add(const std::vector<Vec3>& impulses);
 
     /// Impulses of contact and joints on a component of the mesh [N s], about the origin [N m s]. They are in add(),

@@ -53,8 +53,8 @@ struct ElementPass
     CornerBlock<Real>* m_force;   ///< out
     WarpedBlock<Real>* m_warped;  ///< out
     bool m_isRotated = false;     ///< true: m_rotation already belongs to m_x, and stays unchanged
-    const StressBlock<Real>* m_initialStress = nullptr;  ///< one a block; null for none
-    /// Output for nonlinear laws (neo_hooke.h), one a block: the matrices C' of an ElementProduct. Null if
+    const StressBlock<Real>* m_initialStress = nullptr;  ///< one per block; null for none
+    /// Output for nonlinear laws (neo_hooke.h), one per block: the matrices C' of an ElementProduct. Null if
     /// ElementBlocks::m_law is empty.
     StressBlock<Real>* m_cofactor = nullptr;
 };

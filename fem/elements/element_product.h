@@ -19,7 +19,7 @@ struct ElementProduct
     double m_stiffnessFactor;                       ///< coefficient of K' in A, c h^2 + h beta [s2]
     const PaddedVec3* m_p;                          ///< per node; differences are taken in double, then rounded to Real
     CornerBlock<Real>* m_out;                       ///< out: f_a, to be summed by sumCorners()
-    const StressBlock<Real>* m_cofactor = nullptr;  ///< C', one a block, from an ElementPass; null for none
+    const StressBlock<Real>* m_cofactor = nullptr;  ///< C', one per block, from an ElementPass; null for none
 };
 
 /// Runs the product over work units (ElementBlocks::workUnitCount()), on the widest vectors that the processor has.

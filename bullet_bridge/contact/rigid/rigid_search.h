@@ -28,7 +28,7 @@ public:
     /// `step` [s].
     void find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts, RigidProxies& rigidProxies);
 
-    /// Flags of the last find(), one entry a body.
+    /// Flags of the last find(), one entry per body.
     const std::vector<ContactSearchReport>& reports() const { return m_reports; }
 
 private:

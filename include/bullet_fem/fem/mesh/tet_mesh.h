@@ -41,7 +41,7 @@ public:
     static TetMesh withSides(std::vector<Vec3> restPositions, std::vector<Tet> tets,
                              const std::vector<unsigned char>& sides);
 
-    /// Boundary sides, one mask an element: bit a is set if the face opposite its node a is on the surface. Allocates.
+    /// Boundary sides, one mask per element: bit a is set if the face opposite its node a is on the surface. Allocates.
     std::vector<unsigned char> boundarySides() const;
 
     const std::vector<Vec3>& restPositions() const { return m_restPositions; }  ///< X [m], n entries
