@@ -92,8 +92,8 @@ private:
     std::vector<int> m_front;              // nodes at the crack front
 };
 
-/// Node masses after splitting [kg], one per node, copies last: each node's mass is divided between the node and its
-/// copies by the filled volumes of their elements. `filled`: one fraction per element in (0, 1], or empty if all are 1;
+/// Node masses after splitting [kg], one a node, copies last: each node's mass is divided between the node and its
+/// copies by the filled volumes of their elements. `filled`: one fraction an element in (0, 1], or empty if all are 1;
 /// `mass`: one a node of the mesh [kg]. Allocates.
 BULLETFEM_API std::vector<double> splitMasses(const TetMesh& mesh, const SplitMesh& split,
                                               const std::vector<double>& filled, const std::vector<double>& mass);
