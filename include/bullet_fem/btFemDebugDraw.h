@@ -27,8 +27,8 @@ struct BULLETFEM_API btFemDrawSettings
     btScalar m_pointSize = btScalar(0.02);    ///< half the length of a cross [m], >= 0
     btScalar m_normalLength = btScalar(0.1);  ///< length of normals [m], >= 0; 0: no normals
     btScalar m_impulseScale = btScalar(0.1);  ///< arrow length per impulse [m/(N s)], >= 0; 0: no arrows
-    btVector3 m_elementColor =
-        btVector3(btScalar(0.4), btScalar(0.6), 1);  ///< colour of elements: red, green and blue [-], in [0, 1]
+    /// Colour of elements: red, green and blue [-], in [0, 1].
+    btVector3 m_elementColor = btVector3(btScalar(0.4), btScalar(0.6), 1);
     btVector3 m_restColor = btVector3(btScalar(0.2), btScalar(0.8),
                                       /// colour of the stress-free shape: red, green and blue [-], in [0, 1]
                                       btScalar(0.2));

@@ -120,8 +120,8 @@ struct btFemStepReport
     /// Sweeps over the group's contacts and joints, in all outer iterations and for position correction.
     int m_contactSweeps = 0;
     int m_contacts = 0;  ///< contact points
-    btScalar m_contactViolation =
-        0;  ///< largest speed at which a contact point still closes faster than its gap allows [m/s], >= 0
+    /// Largest speed at which a contact point still closes faster than its gap allows [m/s], >= 0.
+    btScalar m_contactViolation = 0;
     btScalar m_deepestPenetration = 0;   ///< deepest penetration at the start of the step [m], >= 0
     long m_factorEntries = 0;            ///< entries of the full factor, fill included
     btScalar m_factorMegabytes = 0;      ///< memory of its factor [MB, 1e6 bytes]

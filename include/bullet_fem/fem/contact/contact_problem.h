@@ -100,9 +100,8 @@ struct ContactPoint
     Vec3 m_point;
     /// Added to m_point for the lever arm of a rigid proxy that is met later in the step: the approach until then [m].
     Vec3 m_approach;
-    Vec3
-        /// Added to m_point for the lever arms of both sides: the offset to the origin of a moving contact patch [m].
-        m_patch;
+    /// Added to m_point for the lever arms of both sides: the offset to the origin of a moving contact patch [m].
+    Vec3 m_patch;
     /// The rigid proxy's arm reaches to m_point + m_patch + m_approach, whatever the soft side's.
     bool m_isMetLater = false;
     Vec3 m_arm;                ///< output: lever arm of the rigid proxy, from its centre [m]
