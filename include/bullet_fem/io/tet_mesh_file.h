@@ -27,8 +27,8 @@ enum class TetMeshFormat
 struct TetMeshFile
 {
     std::vector<Vec3> m_positions;  ///< positions of the nodes that tetrahedra use, in the file's order [m]
-    std::vector<std::uint64_t>
-        m_nodeNumbers;        ///< Identifier of each node in the file: a tag, or a count from 1 (Medit) or 0 (VTK).
+    /// Identifier of each node in the file: a tag, or a count from 1 (Medit) or 0 (VTK).
+    std::vector<std::uint64_t> m_nodeNumbers;
     std::vector<Tet> m_tets;  ///< indices into m_positions, in the file's order and orientation
     /// Region label of every tetrahedron: a Gmsh physical group, a Medit reference, TetGen's first attribute, or the
     /// cell array of a VTK file that docs/files.md names. Empty if all are 0.
